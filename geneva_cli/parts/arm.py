@@ -1,10 +1,10 @@
 """The crank arm: the plate below the wheel's plane that carries the rollers' pins.
 
-Its frame is the crank's, as that of the locking disc, which lies on it. Its outline is the belt
-round a hub about the crank's shaft and an eye about each pin and each bolt of the disc: one arm of
-two eyes for one roller, a plate that joins all for several. The shaft of an internal wheel's crank
-ends in it, below the wheel: the crank is overhung, and its hub is a disc that carries the locking
-sectors.
+Its frame is the crank's, as for the locking disc, which lies on the arm. Its outline is the convex
+hull of a hub about the crank's shaft and an eye about each pin and each bolt of the disc. With one
+roller it is an arm with two eyes, with several a plate that joins all. The shaft of an internal
+wheel's crank ends in the arm, below the wheel. That crank is overhung, and its hub is a disc that
+carries the locking sectors.
 """
 
 from __future__ import annotations
@@ -33,7 +33,7 @@ from geneva_cli.parts.outlines import Outlines
 from geneva_cli.parts.reliefs import keyway_direction, sectors
 
 LAYER, HOLES = "ARM", "BORE"
-RADII = 400  # at which the locking disc is looked at for its bolts
+RADII = 400  # radii of the locking disc among which the best for bolts is selected
 
 
 class CrankArm(NamedTuple):
@@ -45,19 +45,19 @@ class CrankArm(NamedTuple):
     bolts: list[Circle]
     hub: float
     eye: float
-    room: float  # between the arm's end and the wheel's shaft or hub; infinite inside
+    room: float  # between the arm's end and the wheel's shaft or hub; infinite for internal wheels
 
 
 def has_arm(parts: Outlines) -> bool:
-    """Whether there is an arm: rollers on pins in a crank."""
+    """Return True if the machine has an arm: a crank with rollers on pins."""
     return parts.assembly.given.spec.drive.ONE_ARM and parts.sizes.pin > 0.0
 
 
 def crank_arm(parts: Outlines) -> CrankArm:
-    """The arm of a machine.
+    """Return the arm of a machine.
 
-    Raises GenevaError, naming the key, where the rollers are on no crank, or the sizes leave no
-    arm round the holes.
+    Raises GenevaError, naming the key, where the rollers are on no crank, or the sizes leave no arm
+    around the holes.
     """
     spec = parts.assembly.given.spec
     if not spec.drive.ONE_ARM:
@@ -77,8 +77,8 @@ def crank_arm(parts: Outlines) -> CrankArm:
     hub, eye = hub_and_eye(spec.size, wall, hole, radius, passing, standing)
     if reach(spec.size.crank_keyway, radius) + hole >= min(away):
         raise GenevaError(
-            f"arm_bore_mm = {2.0 * radius:g}: the bore runs into the pin's hole; with its keyway "
-            f"it must be below {2.0 * (min(away) - hole):.6g}",
+            f"arm_bore_mm = {2.0 * radius:g}: the bore cuts the pin's hole; with its keyway it "
+            f"must be below {2.0 * (min(away) - hole):.6g}",
             ("size", "arm_bore_mm"),
         )
     pins, screwed = [Circle(HOLES, c, hole) for c in centres], bolts(parts)
@@ -90,15 +90,15 @@ def crank_arm(parts: Outlines) -> CrankArm:
 
 
 def shaft_bore(parts: Outlines) -> float:
-    """The radius of the shaft's bore, through the disc or ending below the wheel."""
+    """Return the radius of the shaft's bore, which goes through the disc or ends in the arm."""
     spec = parts.assembly.given.spec
     hole = parts.sizes.pin - 0.5 * spec.size.allowances.press_fit_mm
-    room = min(math.hypot(*c) for c in roller_centres(parts.assembly)) - hole
-    return arm_bore(spec, parts.sizes.crank_bore, parts.assembly.L, room)
+    space = min(math.hypot(*c) for c in roller_centres(parts.assembly)) - hole
+    return arm_bore(spec, parts.sizes.crank_bore, parts.assembly.L, space)
 
 
 def bolts(parts: Outlines) -> list[Circle]:
-    """The holes of the bolts that fix the locking disc to the arm, evenly in each of its sectors.
+    """Return the holes of bolts that fix the locking disc to the arm, evenly in each sector.
 
     Raises GenevaError where there is no disc to fix.
     """
@@ -106,15 +106,15 @@ def bolts(parts: Outlines) -> list[Circle]:
     spans = sectors(parts.assembly) if parts.crank and size.lock_bolts else []
     widths = [(start, end - start) for start, end in spans]
     r, directions = bolts_between(size, parts.assembly.L, widths)
-    made = []
+    holes = []
     for at in directions:
         far = half_or(size.lock_bolt_circle_mm, 0.0) or _widest(parts, at)
-        made += [Circle(HOLES, (far * math.cos(a), far * math.sin(a)), r) for a in at]
-    return made
+        holes += [Circle(HOLES, (far * math.cos(a), far * math.sin(a)), r) for a in at]
+    return holes
 
 
 def _widest(parts: Outlines, at: list[float]) -> float:
-    """The radius at which bolts in some directions leave the widest walls in the disc."""
+    """Return the radius at which bolts in some directions leave the widest walls in the disc."""
     radii = np.linspace(0.0, parts.sizes.lock, RADII)
     a = np.asarray(at)
     points = [np.outer(radii, f(a)).ravel() for f in (np.cos, np.sin)]
@@ -124,12 +124,12 @@ def _widest(parts: Outlines, at: list[float]) -> float:
     return float(radii[int(walls.min(axis=1).argmax())])
 
 
-def walls(made: CrankArm, parts: Outlines) -> float:
-    """The least wall round the arm's holes, and round bolts and keyway in the locking disc."""
-    in_disc: list[Shape] = [*made.bolts]
+def walls(arm: CrankArm, parts: Outlines) -> float:
+    """Return the least wall around the arm's holes, and around the disc's bolts and keyway."""
+    in_disc: list[Shape] = [*arm.bolts]
     if parts.sizes.crank_bore:
         in_disc += [s for s in crank_circles(parts.assembly, parts.sizes) if s.layer == HOLES]
     return min(
-        least_wall([made.bore, *made.pins, *made.bolts], [made.outline]),
+        least_wall([arm.bore, *arm.pins, *arm.bolts], [arm.outline]),
         least_wall(in_disc, parts.crank),
     )

@@ -1,4 +1,4 @@
-"""The sizes of a crank arm on a plane or on a sphere: radii in millimetres, along the surface."""
+"""The sizes of a crank arm, flat or on a sphere: radii, mm, along the surface."""
 
 from __future__ import annotations
 
@@ -11,25 +11,25 @@ from geneva_cli.parts.keyways import reach
 from geneva_cli.parts.sizes import even
 from geneva_cli.spec.tables import Size
 
-HUB = 1.6  # of the bore: how wide the arm is round it
-EYE = 2.0  # of a hole: how wide the arm is round it, where there is room
+HUB = 1.6  # of the bore: diameter of the arm about its shaft
+EYE = 2.0  # of a hole: diameter of the arm about a pin, where it fits
 
 
 def hub_and_eye(
     size: Size, wall: float, hole: float, bore: float, passing: float, standing: float = 0.0
 ) -> tuple[float, float]:
-    """The radii of an arm about the ``bore`` of its shaft and about the ``hole`` of a pin.
+    """Return the radii of an arm about the ``bore`` of its shaft and about the ``hole`` of a pin.
 
-    ``passing`` is the widest eye that passes the wheel, ``standing`` a disc that the hub carries.
-    Raises GenevaError, naming the key, where hub or eye leave nothing round a hole.
+    ``passing`` is the largest eye that passes the wheel, ``standing`` the radius of a disc on the
+    hub. Raises GenevaError, naming the key, where hub or eye leave nothing around a hole.
     """
     deep = reach(size.crank_keyway, bore)
     hub = half_or(size.arm_hub_mm, max(even(HUB * bore), deep + wall, standing))
     eye = half_or(size.arm_eye_mm, eye_about(hole, wall, passing))
     if hub <= deep:
         raise GenevaError(
-            f"arm_hub_mm = {2.0 * hub:g}: the hub must be above {2.0 * deep:.6g}, its bore and "
-            "keyway",
+            f"arm_hub_mm = {2.0 * hub:g}: the hub must be above {2.0 * deep:.6g}, the diameter "
+            "over its bore and keyway",
             ("size", "arm_hub_mm"),
         )
     if eye <= hole:
@@ -41,7 +41,7 @@ def hub_and_eye(
 
 
 def pin_hole(size: Size, pin: float) -> float:
-    """The radius of the hole that holds a pin. Raises GenevaError where none is left."""
+    """Return the radius of the hole that holds a pin. Raises GenevaError where none is left."""
     fit = size.allowances.press_fit_mm
     hole = pin - 0.5 * fit
     if hole <= 0.0:
@@ -54,26 +54,26 @@ def pin_hole(size: Size, pin: float) -> float:
 
 
 def arm_bore(spec: Spec, disc: float, L: float, room: float) -> float:
-    """The radius of the arm's bore: as given, or as in the ``disc`` on it, or of the shaft.
+    """Return the radius of the arm's bore: of the spec, of the ``disc`` on it, or of the shaft.
 
-    Else it leaves most of the ``room`` up to the nearest pin's hole.
+    By default it leaves most of the space up to the nearest pin's hole, ``room``.
     """
-    given = spec.size.arm_bore_mm or 2.0 * disc or spec.shaft.crank_diameter_mm
-    return half_or(given, even(min(L / 20.0, 0.35 * room)))
+    diameter = spec.size.arm_bore_mm or 2.0 * disc or spec.shaft.crank_diameter_mm
+    return half_or(diameter, even(min(L / 20.0, 0.35 * room)))
 
 
 def eye_about(hole: float, wall: float, most: float = math.inf) -> float:
-    """The radius of the arm round a hole, up to ``most`` where that leaves the least wall."""
+    """Return the radius of the arm around a hole, up to ``most`` if that leaves the least wall."""
     return max(min(EYE * hole, most), hole + wall)
 
 
 def bolts_between(
     size: Size, L: float, sectors: Iterable[tuple[float, float]]
 ) -> tuple[float, list[list[float]]]:
-    """The radius of the bolts that fix locking sectors to the arm, and their directions in each.
+    """Return the radius of the bolts that fix locking sectors to the arm, and their directions.
 
-    Sectors are given by their start and width, radians; their bolts are evenly spaced. Raises
-    GenevaError where there are bolts and no sectors.
+    Each sector is its start and width, radians; its bolts are evenly spaced. Raises GenevaError
+    where there are bolts and no sectors.
     """
     count = size.lock_bolts
     directions = [
@@ -87,5 +87,5 @@ def bolts_between(
 
 
 def half_or(diameter: float | None, default: float) -> float:
-    """The radius of a diameter that may be given, or the default radius."""
+    """Return half of a diameter, or the default radius if that is None."""
     return default if diameter is None else 0.5 * diameter

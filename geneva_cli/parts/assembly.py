@@ -1,9 +1,9 @@
-"""The assembly of a machine: where wheel, crank and rollers stand through a whole turn.
+"""The assembly of a machine: positions of wheel, crank and rollers through a whole turn.
 
-Outlines are drawn in it, and the full turn is proved with it. Lengths are in millimetres, angles in
-radians; the wheel's axis is the origin and the crank's axis is at (L, 0). A drive in front of the
-crank only changes when the crank reaches a position, not the positions that it goes through: such a
-machine is turned by its crank, as a plain one.
+Outlines are drawn in it, and the full turn is checked with it. Lengths are in millimetres, angles
+in radians. The wheel's axis is the origin, and the crank's axis is at (L, 0). A drive in front of
+the crank changes when the crank reaches a position, but not which positions it goes through. So
+such a machine is turned by its crank, like a plain one.
 """
 
 from __future__ import annotations
@@ -29,61 +29,63 @@ if TYPE_CHECKING:
 class Assembly(NamedTuple):
     """Positions of a machine's parts by the input angle of a plain crank, in degrees.
 
-    ``motions`` has for each motion of a turn its engagement and the input angle, degrees, by which
-    its middle follows the first one's; ``rollers`` for each roller the engagement in which it runs
-    through a slot, and the same of it: one a motion, but two where gears drive between them.
-    ``slots`` has for each slot of the wheel, or for each such pair of slots, counterclockwise from
-    the first, its engagement and direction; ``rests`` the directions of the crank's axis while the
-    wheel rests, seen from the wheel, each half-way between two slots.
+    ``motions`` has for each motion of a turn its engagement, and the input angle, degrees, by which
+    its middle follows that of the first one. ``rollers`` has for each roller the engagement in
+    which it runs through a slot, and the same angle. There is one roller for each motion, but two
+    where gears drive between them. ``slots`` has engagement and direction of each slot of the
+    wheel, or of each pair of slots, counterclockwise from the first. ``rests`` are the directions
+    of the crank's axis, seen from the wheel, while the wheel rests. Each lies half-way between two
+    slots.
     """
 
     mechanism: Mechanism
     L: float
     sign: float  # +1 external, -1 internal
     turn_deg: float  # input angle in a whole turn of the crank
-    span_deg: float  # of which so much is looked at: all of it, or as much as repeats itself
+    span_deg: float  # input angle over which the parts are checked: a whole turn, or one motion
     motions: tuple[tuple[Engagement, float], ...]
     rollers: tuple[tuple[Engagement, float], ...]
     slots: tuple[tuple[Engagement, float], ...]
     rests: tuple[float, ...]
-    given: Mechanism  # the machine as the spec has it, with what drives its crank
-    to_input: Callable[[float], float]  # plain crank's input angle -> that of ``given``, degrees
+    given: Mechanism  # the machine of the spec, with the drive of its crank
+    to_input: Callable[[float], float]  # input angle of the plain crank -> of ``given``, degrees
 
     def shown_deg(self, input_deg: float) -> float:
-        """The given machine's input angle as commands show it, for one of the assembly."""
+        """Return the input angle as commands show it, for an input angle of the assembly."""
         return self.given.shown_deg(self.to_input(input_deg))
 
     def place_deg(self, shown_deg: float) -> float:
-        """The inverse of ``shown_deg``, to a hundredth of a degree."""
+        """Return the inverse of ``shown_deg``, to a hundredth of a degree."""
         low, high = self.start_deg, self.start_deg + self.turn_deg
-        whole = 360.0 * self.given.spec.drive.turns
+        period = 360.0 * self.given.spec.drive.turns
         best = low
         for _ in range(3):
             grid = np.linspace(low, high, 361)
-            off = [abs(math.remainder(self.to_input(x) - shown_deg, whole)) for x in grid]
+            off = [abs(math.remainder(self.to_input(x) - shown_deg, period)) for x in grid]
             best = float(grid[int(np.argmin(off))])
             step = (high - low) / 180.0
             low, high = best - step, best + step
         return best
 
     def pin(self, number: int, input_deg: Array) -> Array:
-        """A roller's centre, mm, at input angles in degrees (n,): an array (n, 2)."""
+        """Return a roller's centre, mm, at input angles in degrees (n,): an array (n, 2)."""
         return self._path(*self.rollers[number], input_deg)
 
     def driving(self, number: int, input_deg: Array) -> Array:
-        """The same of the roller that moves the wheel in a motion; while gears do, where it was or
-        will be as they take over.
+        """Return the centre of the roller that drives a motion, mm, (n, 2).
+
+        While gears drive the wheel, it is the roller that drove it before or will drive it after.
         """
         return self._path(*self.motions[number], input_deg)
 
     def geared(self, input_deg: Array) -> Mask:
-        """Where gears drive the wheel, and no roller, (n,)."""
+        """Return a mask (n,) of the input angles at which gears drive the wheel, not a roller."""
         half = 0.5 * self.turn_deg
-        found = np.zeros(len(input_deg), dtype=bool)
+        mask = np.zeros(len(input_deg), dtype=bool)
         for engagement, behind in self.motions:
             at = (input_deg - behind + half) % self.turn_deg - half
-            found |= engagement.slot.touches(at) == 0.0
-        return found
+            mask |= engagement.slot.touches(at) == 0.0
+        return mask
 
     def _path(self, engagement: Engagement, behind: float, input_deg: Array) -> Array:
         at = (input_deg - behind + 0.5 * self.turn_deg) % self.turn_deg - 0.5 * self.turn_deg
@@ -93,9 +95,9 @@ class Assembly(NamedTuple):
         return self.L * np.column_stack((x.c[0], y.c[0]))
 
     def crank(self, input_deg: Array, first: Array | None = None) -> Array:
-        """The crank's direction, radians: that of its first roller at input angle 0.
+        """Return the crank's direction, radians: that of its first roller at input angle 0.
 
-        ``first`` is where that is at these angles, mm (n, 2), if it is at hand.
+        ``first`` has the first roller's centres at these angles, mm (n, 2), if they are known.
         """
         engagement = self.rollers[0][0]
         if engagement.crank_sense:
@@ -106,15 +108,15 @@ class Assembly(NamedTuple):
 
     @property
     def _ahead(self) -> float:
-        """Where the crank points at input 0: at the wheel's axis outside, away from it inside."""
+        """The crank's direction at input 0: to the wheel's axis if external, away if internal."""
         return math.pi if self.sign > 0.0 else 0.0
 
     def lock(self, input_deg: float) -> float:
-        """The direction from the crank's axis to the wheel's, in the crank's frame, radians."""
+        """Return the wheel's direction from the crank's axis, radians, in the crank's frame."""
         return self._ahead - float(self.crank(np.array([input_deg]))[0])
 
     def wheel(self, input_deg: Array) -> Array:
-        """The wheel's angle at input angles (n,), degrees: it adds up over the turns."""
+        """Return the wheel's angle at input angles (n,), degrees; it adds up over the turns."""
         turns = np.floor((input_deg - self.start_deg) / self.turn_deg)
         within = input_deg - turns * self.turn_deg
         out = 2.0 * sum(engagement.half_step for engagement, _ in self.motions) * turns
@@ -124,7 +126,7 @@ class Assembly(NamedTuple):
             after = self.motions[i + 1] if i + 1 < len(self.motions) else None
             ends = after[1] + after[0].entry_deg if after else np.inf
             here = (within >= begins) & (within < ends)
-            if i == 0:  # where rounding puts an angle before the turn
+            if i == 0:  # rounding may put an angle before the turn
                 here |= within < begins
             at = np.clip(within[here] - mid, engagement.entry_deg, engagement.exit_deg)
             out[here] += turned + engagement.motion(at, 0).c[0]
@@ -133,26 +135,26 @@ class Assembly(NamedTuple):
 
     @property
     def kinds(self) -> tuple[Engagement, ...]:
-        """The kinds of slots, each once: most wheels have one."""
+        """The kinds of slots, each once; most wheels have one kind."""
         return tuple(dict.fromkeys(engagement for engagement, _ in self.slots))
 
     @property
     def start_deg(self) -> float:
-        """Input angle of the first engagement's entry, from which a whole turn is counted."""
+        """Input angle of the first engagement's entry, where a whole turn starts."""
         return self.motions[0][0].entry_deg
 
 
 def assembly(mechanism: Mechanism) -> Assembly:
-    """The assembly of a mechanism.
+    """Return the assembly of a mechanism with flat parts.
 
     Raises GenevaError for a machine whose parts are not flat outlines.
     """
     spec = mechanism.spec
     if not spec.wheel.FLAT:
         raise GenevaError(
-            f'gearing = "{spec.wheel.NAME}": its parts are not flat; `--part wheel`, `crank` and '
-            "`assembly` are laid flat as .dxf and .svg, solids as .step; as tables (-o FILE.csv) "
-            "`wheel` is the slots on the sphere, and `slot` one of them laid flat",
+            f'gearing = "{spec.wheel.NAME}": its parts are not flat; write `--part wheel`, `crank` '
+            "and `assembly` laid flat as .dxf or .svg, solids as .step; as tables (-o FILE.csv) "
+            "write `wheel` (slots on the sphere) or `slot` (one of them laid flat)",
             ("wheel", "gearing"),
         )
     if spec.wheel.z > Z_DRAWN:
@@ -163,8 +165,8 @@ def assembly(mechanism: Mechanism) -> Assembly:
 
 
 def assembled(mechanism: Mechanism) -> Assembly:
-    """The same of any machine; on a sphere ``pin`` is seen along the wheel's axis."""
-    given, spec = mechanism, mechanism.spec
+    """Return the assembly of any machine; on a sphere ``pin`` is seen along the wheel's axis."""
+    full, spec = mechanism, mechanism.spec
     to_input: Callable[[float], float] = _same
     if mechanism.law is None and spec.drive.CRANKED:
         to_input = spec.drive.input_deg
@@ -188,7 +190,7 @@ def assembled(mechanism: Mechanism) -> Assembly:
     L = mechanism.center_distance_mm
     sign = spec.wheel.SIGN
     around = _around(mechanism)
-    return Assembly(mechanism, L, sign, turn, turn, motions, rollers, *around, given, to_input)
+    return Assembly(mechanism, L, sign, turn, turn, motions, rollers, *around, full, to_input)
 
 
 def _same(input_deg: float) -> float:
@@ -196,7 +198,7 @@ def _same(input_deg: float) -> float:
 
 
 def _around(mechanism: Mechanism) -> tuple[tuple[tuple[Engagement, float], ...], tuple[float, ...]]:
-    """Slots and rests around the wheel, counterclockwise: those that come later lie behind."""
+    """Return slots and rests around the wheel, counterclockwise; later slots follow clockwise."""
     engagements, z = mechanism.engagements, mechanism.spec.wheel.z
     steps = mechanism.spec.wheel.steps
     kinds_ = [engagements[k % len(engagements)] if steps else engagements[0] for k in range(z)]

@@ -1,9 +1,9 @@
-"""Outlines that no part goes beyond, drawn without tracing the wall of a curved slot.
+"""Outlines that contain the true ones, drawn without tracing the wall of a curved slot.
 
-Where these leave the wheel loose, so do the parts, which have less material: told in a fraction of
-the time. Of a curved slot no more is taken from the wheel here than the roller takes that comes to
-it while the wheel still rests; of the locking sectors no more than the recesses' corners, which no
-slot moves, take from their edges.
+If the wheel is loose in these outlines, it is loose in the true parts, which have less material.
+That is computed in a fraction of the time. A curved slot removes here only what the roller removes
+that comes to it while the wheel still rests. The locking sectors lose only what the recesses'
+corners remove from their edges; no slot moves these corners.
 """
 
 from __future__ import annotations
@@ -41,10 +41,10 @@ from geneva_cli.parts.wheel import LAYER, opening, wheel_contour
 
 
 def at_most(assembly: Assembly, sizes: Sizes) -> Outlines | None:
-    """The outlines; None where there are none to be told so: of external wheels with a law, whose
-    rim goes beyond the crank's axis, so that sectors are what is left of the locking disc.
+    """Return the bounding outlines; None for machines to which they do not apply.
 
-    Raises GenevaError where the sizes leave no parts.
+    They apply to external wheels with a law whose rim extends beyond the crank's axis, so that
+    sectors are left of the locking disc. Raises GenevaError where the sizes leave no parts.
     """
     lawful = assembly.mechanism.law is not None and sizes.lock and sizes.horn > 0.0
     if not lawful or assembly.sign < 0.0 or is_whole(assembly, sizes):
@@ -52,13 +52,15 @@ def at_most(assembly: Assembly, sizes: Sizes) -> Outlines | None:
     walls = {one: _walls(assembly, sizes, one) for one in assembly.kinds}
     wheel, crank = wheel_contour(assembly, sizes, walls), _sectors(assembly, sizes)
     gaps = Gaps(assembly, sizes, wheel, crank)
-    close = EXACT * assembly.L  # which is no more than that of the parts
+    close = EXACT * assembly.L  # no more than that of the true parts
     return Outlines(assembly, sizes, walls, wheel, crank, "sector", gaps, close, close)
 
 
 def _walls(assembly: Assembly, sizes: Sizes, engagement: Engagement) -> Contour:
-    """The walls of what the roller takes from a wheel at rest as it comes to a curved slot, from
-    one corner of the mouth to the other; of a straight slot its own.
+    """Return the walls of a slot, from one corner of its mouth to the other.
+
+    A straight slot has its own. A curved one has those of the area that the roller removes from the
+    resting wheel.
     """
     if not engagement.slot.curved:
         return slot_walls(assembly, sizes, engagement, CURVED * assembly.L)
@@ -66,38 +68,38 @@ def _walls(assembly: Assembly, sizes: Sizes, engagement: Engagement) -> Contour:
     place, axis, w = complex(x, y), complex(*rest(assembly, engagement, -1.0)), sizes.half_width
     radius, start, ahead = abs(place - axis), phase(place - axis), phase(-axis)
     turned = math.remainder(start - ahead, math.tau)
-    out = math.copysign(1.0, turned)  # the way from the slot outwards, about the crank's axis
+    out = math.copysign(1.0, turned)  # sense from the slot outwards, about the crank's axis
     inwards, half = start - out * 0.5 * math.pi, opening(abs(place), w, sizes.rim)
-    ends, ways = [], []
+    ends, arcs = [], []
     for side in (-1.0, 1.0):  # the wall that faces the crank's axis, and the other
         far = radius + side * w
         cosine = (assembly.L**2 + far**2 - sizes.rim**2) / (2.0 * assembly.L * far)
         if -1.0 < cosine < math.cos(turned):  # the roller comes over the rim on its circle
-            ways.append((far, ahead + out * math.acos(cosine)))
+            arcs.append((far, ahead + out * math.acos(cosine)))
             ends.append(side * out * 0.5 * math.pi)
         else:
-            beside = phase(-place) + side * out * half - inwards
-            ways.append((far, start))
-            ends.append(math.remainder(beside, math.tau))
-    (near, begin), (far, end) = ways
+            side_end = phase(-place) + side * out * half - inwards
+            arcs.append((far, start))
+            ends.append(math.remainder(side_end, math.tau))
+    (near, begin), (far, end) = arcs
     coming = about((axis.real, axis.imag), near, begin, start - begin)
     cap = about((x, y), w, inwards + ends[0], ends[1] - ends[0])
     going = about((axis.real, axis.imag), far, start, end - start)
     pieces: list[Segment] = [coming, cap, going]
-    if engagement.mirrored:  # what the roller takes as it leaves mirrors that
+    if engagement.mirrored:  # the roller removes the mirror image as it leaves
         other = _direction(going.end)
         if other * axis.imag > 0.0:
             between = about((0.0, 0.0), sizes.rim, other, -2.0 * other)
             pieces = [*pieces, between, *map(mirrored, reversed(pieces))]
-        elif abs(y) < w:  # up to the slot's axis, on which the two cross
+        elif abs(y) < w:  # up to the slot's axis, where the two cross
             cut = phase(complex(-math.sqrt(w * w - y * y), -y)) - inwards
             cap = about((x, y), w, inwards + ends[0], math.remainder(cut, math.tau) - ends[0])
             pieces = [coming, cap, mirrored(cap), mirrored(coming)]
-    found = Contour(
+    walls = Contour(
         LAYER, joined(piece for piece in pieces if piece.start != piece.end), closed=False
     )
-    rises = _direction(found.segments[0].start) < _direction(found.segments[-1].end)
-    return found if rises else backwards(found)
+    rises = _direction(walls.segments[0].start) < _direction(walls.segments[-1].end)
+    return walls if rises else backwards(walls)
 
 
 def _direction(p: Point) -> float:
@@ -105,7 +107,7 @@ def _direction(p: Point) -> float:
 
 
 def _sectors(assembly: Assembly, sizes: Sizes) -> list[Contour]:
-    """The locking sectors down to the crank's axis, no narrower than ``rings`` makes them.
+    """Return the locking sectors down to the crank's axis, at least as wide as those of ``rings``.
 
     Raises GenevaError where nothing is left of one.
     """
@@ -113,17 +115,17 @@ def _sectors(assembly: Assembly, sizes: Sizes) -> list[Contour]:
     x, y = np.concatenate([corners(assembly, sizes, each) for each in at], axis=1)
     within = CLEARLY * np.hypot(x, y) < sizes.lock
     x, y = x[within], y[within]
-    found = []
+    contours = []
     for one, after in followed(reliefs(assembly)):
         if after - one.end <= SAME:
             continue
         whole, middle = 0.5 * (after - one.end), 0.5 * (after + one.end)
         wheel = seen(x, y, middle)
-        wide = (share * whole for share in SHARES)
+        wide = (fraction * whole for fraction in SHARES)
         half = next((each for each in wide if not beyond(sizes, wheel, each)), None)
         if half is None:
             raise GenevaError("nothing is left of a locking sector", ("size", "lock_radius_mm"))
         outer = about((0.0, 0.0), sizes.lock, middle - half, 2.0 * half)
         edges = Line(outer.end, (0.0, 0.0)), Line((0.0, 0.0), outer.start)
-        found.append(closed(DISC, [outer, *edges]))
-    return found
+        contours.append(closed(DISC, [outer, *edges]))
+    return contours

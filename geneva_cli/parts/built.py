@@ -1,7 +1,7 @@
-"""The machine as it is built: all its parts at input angle 0.
+"""All parts of a machine as they are built, at input angle 0.
 
-One place for its drawing, its sheet, its list of parts and the checks of what passes beside shafts.
-The wheel's axis is the origin, the crank's is on the x axis.
+They are the source of its drawing, its sheet, its list of parts and the check of shafts. The
+wheel's axis is the origin, and the crank's is on the x axis.
 """
 
 from __future__ import annotations
@@ -30,7 +30,7 @@ from geneva_cli.parts.sizes import pin_radius, thicknesses
 
 
 class Built(NamedTuple):
-    """The parts of a machine where they are."""
+    """The parts of a machine at their positions."""
 
     wheel: Member
     crank: Member  # locking disc, arm, rollers on their pins, hub
@@ -43,19 +43,19 @@ class Built(NamedTuple):
 
     @property
     def members(self) -> tuple[Member, ...]:
-        """All of them."""
+        """All parts."""
         links = *self.links.cut, *self.links.joined
         moved = (self.wheel, self.crank, *links, *self.gears, *self.first)
         return (*moved, *self.shafts, *self.standing)
 
 
 def link_gears(bars: Links) -> list[Member]:
-    """The gears among links, as blanks."""
+    """Return the gears among links, as blanks."""
     return [gear.member for gear in bars.gears]
 
 
 def link_members(proof: Proof) -> tuple[Member, ...]:
-    """Links and gears, with their shafts and the frame, of a machine whose wheel is not drawn."""
+    """Return links and gears with shafts and frame, for a machine whose wheel is not drawn."""
     mechanism = proof.mechanism
     bars = drawn_links(mechanism)
     carried = _carried(mechanism, bars)
@@ -67,15 +67,15 @@ def link_members(proof: Proof) -> tuple[Member, ...]:
 
 
 def _carried(mechanism: Mechanism, bars: Links) -> Iterator[Member]:
-    """The rollers on links, with their pins."""
+    """Yield the rollers on links, with their pins."""
     size, L, r = mechanism.spec.size, mechanism.center_distance_mm, mechanism.roller_radius_mm
     if bars.pin_low is None:
         return
     plates = roller_plates(r, pin_radius(size, r), bars.pin_low, thicknesses(size, L).wheel)
     for link in links_at(mechanism, np.zeros(1)):
-        for way, kind in zip(places(link), link.kinds, strict=True):
+        for joint, kind in zip(places(link), link.kinds, strict=True):
             if link.plane == 1 and kind in (Joint.ROLLER, Joint.CARRIED):
-                at = float(way[0].real), float(way[0].imag)
+                at = float(joint[0].real), float(joint[0].imag)
                 yield from (Member(plate, at) for plate in plates)
 
 
@@ -87,21 +87,19 @@ def built(
     pitch: bool = True,
     fitted: bool = True,
 ) -> Built:
-    """All parts of a flat machine; ``contour`` is the wheel's, if it is drawn finer or coarser.
+    """Return all parts of a flat machine; ``contour`` is the wheel's, if drawn finer or coarser.
 
-    Without ``pitch`` noncircular gears are left out, without ``fitted`` a cam's groove plates too:
-    their curves take long to fit.
-
-    Raises GenevaError, naming the key, for sizes that leave no arm, no links, no shafts or no
-    groove plate.
+    Without ``pitch`` noncircular gears are omitted, without ``fitted`` a cam's groove plates too:
+    their curves take long to fit. Raises GenevaError, naming the key, for sizes that leave no arm,
+    links, shafts or groove plate.
     """
     assembly = parts.assembly
-    given, at = assembly.given, np.zeros(1)
-    bars = drawn_links(given, parts)
+    mechanism, at = assembly.given, np.zeros(1)
+    bars = drawn_links(mechanism, parts)
     arm = crank_arm(parts) if has_arm(parts) else None
-    proof = Proof(given, parts)
+    proof = Proof(mechanism, parts)
     fixed = groove_plates(parts, bars, tolerance, curves, fitted)
-    first = tuple(first_members(given, bars))
+    first = tuple(first_members(mechanism, bars))
     frame = framed(proof, fixed, bars, first)
     return Built(
         Member(wheel_part(parts, contour or parts.wheel), turn=float(assembly.wheel(at)[0])),

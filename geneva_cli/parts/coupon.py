@@ -1,8 +1,8 @@
 """A fit coupon: the roller's slot in steps of clearance, and the pin's hole in steps of press fit.
 
-Cut from the wheel's plate on the machine that will cut the wheel, with the roller's disc beside it,
-it shows by hand which ``slot_clearance_mm`` runs and which ``press_fit_mm`` holds. The numbers are
-lines on a layer to engrave, of seven strokes as on a clock.
+Cut it from the wheel's plate on the machine that will cut the wheel; the roller's disc lies next to
+it. It shows by hand which ``slot_clearance_mm`` runs and which ``press_fit_mm`` holds. The numbers
+are lines on a layer to engrave, of seven strokes as on a digital clock.
 """
 
 from __future__ import annotations
@@ -15,14 +15,14 @@ from geneva_cli.curves.shapes import Arc, Circle, Contour, Line, Point, closed
 from geneva_cli.parts.outlines import Outlines
 
 LAYER, HOLES, MARKS = "COUPON", "BORE", "ENGRAVE"
-# mm a side: what a mill does lies among the first, a laser or a printer among the last
+# mm per side: the first suit a mill, the last a laser or a printer
 CLEARANCES = (0.0, 0.02, 0.04, 0.06, 0.1, 0.15, 0.2, 0.3)
-PRESSES = (0.0, 0.01, 0.02, 0.03, 0.05, 0.08, 0.1, 0.15)  # mm of the diameter, the hole less
-WALL, LEAST = 0.6, 2.0  # of material between holes: of the roller's radius, and in mm
-APART = 10.0  # mm between plate and disc: wider than a cut
+PRESSES = (0.0, 0.01, 0.02, 0.03, 0.05, 0.08, 0.1, 0.15)  # mm that a hole's diameter is smaller
+WALL, LEAST = 0.6, 2.0  # of material between holes: of the roller's radius, and at least in mm
+APART = 10.0  # mm between plate and disc: wider than any cut
 LETTER = 0.6  # height of a number, of the roller's radius
-WIDE, NEXT, DOT = 0.5, 0.75, 0.3  # of a number's height: a digit, to the next one, after a point
-# strokes by the corners that they join, (0, 0) the lower left one, (1, 2) the upper right
+WIDE, NEXT, DOT = 0.5, 0.75, 0.3  # of a number's height: width, pitch of digits, of a point
+# strokes by the corners that they join: (0, 0) is the lower left one, (1, 2) the upper right
 STROKES = {
     "a": ((0, 2), (1, 2)),
     "b": ((1, 2), (1, 1)),
@@ -39,10 +39,10 @@ DIGITS = {
 
 
 def coupon(parts: Outlines, tolerance: float, curves: str) -> Drawing:
-    """The coupon, its lower left corner the origin, and the roller's disc to its right."""
+    """Return the coupon, its lower left corner the origin, with the roller's disc to its right."""
     sizes, own = parts.sizes, parts.sizes.half_width - parts.sizes.roller
     r, pin = sizes.roller, sizes.pin
-    # the spec's own clearance is among them, to a micrometre
+    # the spec's own clearance is one of them, to a micrometre
     clearances = sorted({round(own, 3), *CLEARANCES})
     presses = [press for press in PRESSES if press < 2.0 * pin]
     wall, height = max(WALL * r, LEAST), LETTER * r
@@ -83,7 +83,7 @@ def coupon(parts: Outlines, tolerance: float, curves: str) -> Drawing:
 
 
 def _slot(low: Point, half: float, length: float) -> Contour:
-    """A slot upwards from the centre of its lower end, of half a width."""
+    """Return an upright slot of half a width, from the centre of its lower end."""
     (x, y), top = low, low[1] + length
     return closed(
         LAYER,
@@ -97,7 +97,7 @@ def _slot(low: Point, half: float, length: float) -> Contour:
 
 
 def number(text: str, x: float, y: float, height: float) -> Iterator[Contour]:
-    """The strokes of a number above a level y, its middle at x.
+    """Yield the strokes of a number above a level y, with its middle at x.
 
     >>> len(list(number("0.1", 0.0, 0.0, 1.0)))  # six strokes, a point and two
     9

@@ -1,7 +1,7 @@
-"""Drawings of the parts, each in its own frame; ``machine_drawing`` puts them together.
+"""Drawings of the parts, each in its own frame; ``machine_drawing`` assembles them.
 
-Layers: WHEEL, CRANK, ARM, LINK, GROOVE and BORE are cut; ROLLER is a circle; PITCH is where rollers
-run, and where gears roll; CENTER has marks; HUB is where a hub stands, a part of its own.
+Layers WHEEL, CRANK, ARM, LINK, GROOVE and BORE are cut. ROLLER is a circle. PITCH is the path of
+rollers, and the pitch curve of gears. CENTER has marks. HUB shows a hub, which is a separate part.
 """
 
 from __future__ import annotations
@@ -31,29 +31,29 @@ PITCH = "PITCH"
 
 
 def wheel(parts: Outlines, tolerance: float, curves: str) -> Drawing:
-    """The wheel: its axis the origin, the first slot ahead."""
+    """Return the wheel; its axis is the origin, and x is along the first slot."""
     contour, *circles = wheel_shapes(parts, tolerance, curves)
     solid = wheel_part(parts, contour)
     return Drawing(_title(parts, "wheel"), (contour, *circles), solid=solid)
 
 
 def crank(parts: Outlines, tolerance: float, curves: str) -> Drawing:
-    """The crank: its axis the origin, the first roller ahead; what lies in the wheel's plane."""
+    """Return the crank in the wheel's plane; its axis is the origin, x is to the first roller."""
     return Drawing(_title(parts, "crank"), tuple(crank_shapes(parts)), solid=crank_group(parts))
 
 
 def arm(parts: Outlines, tolerance: float, curves: str) -> Drawing:
-    """The crank arm below the wheel's plane: outline, bore, and holes for pins and bolts."""
-    made = crank_arm(parts)
+    """Return the crank arm below the wheel's plane: outline, bore, holes for pins and bolts."""
+    plate = crank_arm(parts)
     return Drawing(
         _title(parts, "arm"),
-        (made.outline, made.bore, *made.pins, *made.bolts),
-        solid=arm_plate(parts, made),
+        (plate.outline, plate.bore, *plate.pins, *plate.bolts),
+        solid=arm_plate(parts, plate),
     )
 
 
 def slot(parts: Outlines, tolerance: float, curves: str) -> Drawing:
-    """The first slot, closed along the rim, and the roller's way in it."""
+    """Return the first slot, closed along the rim, and the roller's path in it."""
     engagement = parts.assembly.slots[0][0]
     walls = _walls(parts, engagement, tolerance, curves)
     start, end = walls.segments[0].start, walls.segments[-1].end
@@ -65,7 +65,7 @@ def slot(parts: Outlines, tolerance: float, curves: str) -> Drawing:
 
 
 def groove(parts: Outlines, tolerance: float, curves: str) -> Drawing:
-    """The fixed groove of a cam-Geneva, both flanks all round, about the crank's axis."""
+    """Return both flanks of a cam-Geneva's fixed groove all round, about the crank's axis."""
     guide = parts.assembly.rollers[0][0].groove
     if guide is None:
         kind = parts.assembly.given.spec.drive.NAME
@@ -94,7 +94,7 @@ def _title(parts: Outlines, part: str) -> str:
 def wheel_shapes(
     parts: Outlines, tolerance: float, curves: str
 ) -> tuple[Contour, *tuple[Shape, ...]]:
-    """The wheel's outline, and its circles."""
+    """Return the wheel's outline, and its circles."""
     assembly, sizes = parts.assembly, parts.sizes
     hub = wheel_hub(assembly, sizes)
     circles = [*wheel_circles(assembly, sizes), *([hub.outline] if hub else [])]
@@ -102,7 +102,7 @@ def wheel_shapes(
 
 
 def _outline(parts: Outlines, tolerance: float, curves: str) -> Contour:
-    """The wheel's outline, with the walls of its slots as they are asked for."""
+    """Return the wheel's outline, with slot walls in the requested tolerance and curves."""
     if _as_turned(parts, tolerance, curves):
         return parts.wheel
     walls = {slot: _walls(parts, slot, tolerance, curves) for slot in parts.slots}
@@ -110,19 +110,19 @@ def _outline(parts: Outlines, tolerance: float, curves: str) -> Contour:
 
 
 def _walls(parts: Outlines, slot: Engagement, tolerance: float, curves: str) -> Contour:
-    """The walls of a slot: those of the full turn, unless other curves, or finer, are asked for."""
+    """Return the walls of a slot: of the full turn, unless other or finer curves are requested."""
     if _as_turned(parts, tolerance, curves):
         return parts.slots[slot]
     return slot_walls(parts.assembly, parts.sizes, slot, tolerance, curves)
 
 
 def _as_turned(parts: Outlines, tolerance: float, curves: str) -> bool:
-    """Whether curved walls are asked for as they were fitted for the full turn."""
+    """Return True if the requested curves are those that the full turn uses."""
     return curves == "arcs" and tolerance == parts.fine
 
 
 def crank_shapes(parts: Outlines) -> list[Shape]:
-    """The locking disc, or its sectors, with their holes, and the rollers."""
+    """Return the locking disc or its sectors, with their holes, and the rollers."""
     hub = crank_hub(parts)
     circles = [*crank_circles(parts.assembly, parts.sizes), *([hub.outline] if hub else [])]
     return [*parts.crank, *circles, *bolts(parts)]
@@ -131,8 +131,9 @@ def crank_shapes(parts: Outlines) -> list[Shape]:
 def pitch_lines(
     assembly: Assembly, engagement: Engagement, tolerance: float, curves: str
 ) -> list[Contour]:
-    """The slot's pitch curve, the first half of the way where the roller comes back on it; or of a
-    pair of slots both.
+    """Return the slot's pitch curve; of a pair of slots, both.
+
+    Where the roller returns on the same path, it is the first half.
     """
     apart, engagement = engagement.apart, engagement.through
     line = _pitch_line(assembly, engagement, tolerance, curves)

@@ -1,7 +1,8 @@
-"""The first of two wheels in series, with its crank: a machine of its own in front of the second.
+"""The first of two wheels in series with its crank, as a machine in front of the second one.
 
-The first wheel is fast on the second's crank shaft, in the plane below the crank arm. Its locking
-disc lies there on the first crank, which is a link. What is not said of it is as in the second.
+The first wheel is fixed on the second's crank shaft, in the plane below the crank arm. Its locking
+disc lies in that plane on the first crank, which is a link. All other sizes are those of the
+second.
 """
 
 from __future__ import annotations
@@ -23,11 +24,11 @@ from geneva_cli.parts.plates import crank_group, wheel_plate
 from geneva_cli.parts.sizes import thicknesses, wall_min
 from geneva_cli.spec.tables import Size
 
-PLANE = 2  # below the wheel's, in which the first wheel lies
+PLANE = 2  # below the wheel's plane: that of the first wheel
 
 
 def first_pair(mechanism: Mechanism, bars: Links | None = None) -> Mechanism:
-    """The first wheel and its crank as a machine; ``bars`` are the second's links, if known.
+    """Return the first wheel and its crank as a machine; ``bars`` are the second's links if known.
 
     Raises GenevaError for a machine without a first wheel.
     """
@@ -43,17 +44,17 @@ def first_pair(mechanism: Mechanism, bars: Links | None = None) -> Mechanism:
         bars = drawn_links(mechanism, outlines(mechanism) if spec.is_flat else None)
     second, own = (L, 0.0), (L + first.distance_mm, 0.0)
     bore = 0.0 if bars.one_piece(own, L) else bars.shaft(own, L)
-    given = spec.size
+    sizes = spec.size
     size = Size(
         center_distance_mm=first.distance_mm,
         roller_radius_mm=mechanism.roller_radius_mm,
-        process=given.process,
-        slot_clearance_mm=given.slot_clearance_mm,
-        lock_clearance_mm=given.lock_clearance_mm,
-        press_fit_mm=given.press_fit_mm,
-        pin_mm=given.pin_mm,
-        wall_min_mm=wall_min(given, L),
-        wheel_thickness_mm=thicknesses(given, L).link,
+        process=sizes.process,
+        slot_clearance_mm=sizes.slot_clearance_mm,
+        lock_clearance_mm=sizes.lock_clearance_mm,
+        press_fit_mm=sizes.press_fit_mm,
+        pin_mm=sizes.pin_mm,
+        wall_min_mm=wall_min(sizes, L),
+        wheel_thickness_mm=thicknesses(sizes, L).link,
         crank_bore_mm=2.0 * bore,
         wheel_bore_mm=2.0 * bars.shaft(second, L),
     )
@@ -63,30 +64,27 @@ def first_pair(mechanism: Mechanism, bars: Links | None = None) -> Mechanism:
 
 
 def first_outlines(mechanism: Mechanism, bars: Links) -> Outlines | None:
-    """The outlines of the first wheel and its crank; None without one."""
+    """Return the outlines of the first wheel and its crank; None without a first wheel."""
     if mechanism.spec.drive.first_wheel(mechanism.center_distance_mm) is None:
         return None
     return outlines(first_pair(mechanism, bars))
 
 
 def first_members(mechanism: Mechanism, bars: Links) -> Iterator[Member]:
-    """The first wheel and its locking disc as plates, named, where they are at input angle 0.
-
-    There are none without a first wheel.
-    """
-    made = first_outlines(mechanism, bars)
-    if made is None:
+    """Yield the first wheel and its locking disc as plates at input angle 0, if there are any."""
+    pair = first_outlines(mechanism, bars)
+    if pair is None:
         return
     assert bars.sizes is not None  # the first crank is a link
     low, high = bars.sizes.span(PLANE)
-    disc = [one.part for one in crank_group(made).members if isinstance(one.part, Plate)]
+    disc = [one.part for one in crank_group(pair).members if isinstance(one.part, Plate)]
 
     def placed(plate: Plate, x: float, turn: float) -> Member:
         own = plate._replace(name=f"first {plate.name}", low=low, high=high)
         return Member(own, (x, 0.0), turn)
 
-    # at mid-motion the slot that is ahead of the first wheel's frame points at the first crank
+    # at mid-motion the first slot of the first wheel's frame points at the first crank
     L = mechanism.center_distance_mm
-    yield placed(wheel_plate(made, made.wheel), L, 0.0)
-    far = L + made.assembly.L
-    yield from (placed(plate, far, math.pi) for plate in disc[: len(made.crank)])
+    yield placed(wheel_plate(pair, pair.wheel), L, 0.0)
+    far = L + pair.assembly.L
+    yield from (placed(plate, far, math.pi) for plate in disc[: len(pair.crank)])

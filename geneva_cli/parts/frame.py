@@ -1,8 +1,8 @@
-"""The frame: one plate with a hole for every shaft that reaches it, and four to mount it by.
+"""The frame: one plate with a hole for every shaft that reaches it, and four mounting holes.
 
-It lies below all that moves. A shaft that ends above it, as an internal wheel's, has its bearing
-elsewhere. In the machine's frame, the wheel's axis is the origin and the crank's is on the x axis.
-Holes have the size of their shafts: what a bush or a bearing needs is for who chooses it.
+It lies below all moving parts. A shaft that ends above it, such as an internal wheel's, has its
+bearing elsewhere. The wheel's axis is the origin, and the crank's is on the x axis. Holes have the
+size of their shafts: allowances for a bush or a bearing are up to the user.
 """
 
 from __future__ import annotations
@@ -35,14 +35,14 @@ NAME, LAYER, HOLES = "frame", "FRAME", "BORE"
 
 
 class Framed(NamedTuple):
-    """The frame, and the shafts at their places, whether they reach it or not."""
+    """The frame, and the shafts at their positions, whether they reach it or not."""
 
     plate: Plate
     shafts: tuple[Member, ...]
 
 
 def frame(proof: Proof, tolerance: float, curves: str) -> Drawing:
-    """The frame as it is drilled, with centre marks."""
+    """Return the frame as it is drilled, with centre marks."""
     plate = framed(proof).plate
     holes = [hole for hole in plate.holes if isinstance(hole, Circle)]
     shapes = (plate.outline, *holes, *centre_marks(holes))
@@ -55,43 +55,44 @@ def framed(
     bars: Links | None = None,
     first: Sequence[Member] = (),
 ) -> Framed:
-    """The frame; ``fixed`` are the plates with a groove that it carries, ``bars`` the links.
+    """Return the frame; ``fixed`` are the plates with a groove that it carries, ``bars`` the links.
 
-    Both are worked out where they are not known. ``first`` are the first wheel and its locking disc
-    of two in series. Raises GenevaError where wheel and crank stand in no one plane, and as
-    ``shaft`` does.
+    Both are computed if not given. ``first`` are the first wheel and its locking disc of two in
+    series. Raises GenevaError where wheel and crank do not stand in one plane, and for the errors
+    of ``shaft``.
     """
     mechanism = proof.mechanism
     if not mechanism.spec.wheel.FLAT:
         raise GenevaError(
-            f'--part frame: the shafts of gearing = "{mechanism.spec.wheel.NAME}" cross, and stand '
-            "in no one plate"
+            f'--part frame: the shafts of gearing = "{mechanism.spec.wheel.NAME}" are not '
+            "parallel, so one plate cannot hold them"
         )
-    found = proof.found if mechanism.spec.is_flat else None
-    bars = bars or drawn_links(mechanism, found)
+    outlines = proof.found if mechanism.spec.is_flat else None
+    bars = bars or drawn_links(mechanism, outlines)
     size, L = mechanism.spec.size, mechanism.center_distance_mm
     if fixed is None:
-        fixed = groove_members(found, bars) if found else []
+        fixed = groove_members(outlines, bars) if outlines else []
     lows = [one.part.low for one in fixed if isinstance(one.part, Plate)]
     if mechanism.spec.drive.gears:
         lows.append(gear_span(proof)[0])
-    top = min([_lowest(mechanism, found, bars), *lows]) - size.washer_mm
+    top = min([_lowest(mechanism, outlines, bars), *lows]) - size.washer_mm
     bottom = top - thicknesses(size, L).arm
-    every, places = list(_shafts(proof, bars, bottom, first)), list(_standing(mechanism, bars))
-    holes = [*_drilled(mechanism, every, places, top), *_fixed(bars), *_mounted(fixed, L)]
+    all_shafts, places = list(_shafts(proof, bars, bottom, first)), list(_standing(mechanism, bars))
+    holes = [*_drilled(mechanism, all_shafts, places, top), *_fixed(bars), *_mounted(fixed, L)]
     wall = wall_min(size, L)
     eye = max(L / 20.0, 3.0 * wall)
-    # It goes as far as every axis, drilled or not.
+    # The frame contains every axis, drilled or not.
     within = [*holes, *(Circle(HOLES, at, 0.0) for at in ((0.0, 0.0), *places))]
     low, high = (
-        [pick(c.centre[k] + way * c.radius for c in within) + 3.0 * way * eye for k in (0, 1)]
-        for way, pick in ((-1.0, min), (1.0, max))
+        [pick(c.centre[k] + sense * c.radius for c in within) + 3.0 * sense * eye for k in (0, 1)]
+        for sense, pick in ((-1.0, min), (1.0, max))
     )
     corners = [(x, y) for x in (low[0], high[0]) for y in (low[1], high[1])]
     outline = belt(LAYER, [Circle(LAYER, corner, eye) for corner in corners])
     holes += [Circle(HOLES, corner, even(0.4 * eye)) for corner in corners]
     return Framed(
-        Plate(NAME, LAYER, outline, tuple(holes), bottom, top), tuple(outside_links(every, bars, L))
+        Plate(NAME, LAYER, outline, tuple(holes), bottom, top),
+        tuple(outside_links(all_shafts, bars, L)),
     )
 
 
@@ -102,22 +103,22 @@ def groove_plates(
     curves: str = "arcs",
     fitted: bool = True,
 ) -> list[Member]:
-    """Return a cam's groove plates at their place; none without ``fitted``.
+    """Return a cam's groove plates at their positions; none without ``fitted``.
 
-    Raises GenevaError where there is no room for them, even if they are left out.
+    Raises GenevaError where they do not fit, even if they are omitted.
     """
     require_groove_plate(parts)
     return groove_members(parts, bars, tolerance, curves) if fitted else []
 
 
 def _shafts(proof: Proof, bars: Links, lowest: float, first: Sequence[Member]) -> Iterator[Member]:
-    """All shafts at their places; ``lowest`` is the frame's lower face."""
+    """Yield all shafts at their positions; ``lowest`` is the frame's lower face."""
     stop, own = None, (False, False)
     if proof.mechanism.spec.is_flat:
-        found = proof.found
-        stop = crank_stop(found, bars)
-        own = crank_shaft_radius(found) > 0.0, wheel_shaft_radius(found) > 0.0
-        yield from shafts(found, lowest, stop)
+        outlines = proof.found
+        stop = crank_stop(outlines, bars)
+        own = crank_shaft_radius(outlines) > 0.0, wheel_shaft_radius(outlines) > 0.0
+        yield from shafts(outlines, lowest, stop)
     ends = Ends(lowest, stop, *own)
     yield from link_shafts(proof.mechanism, bars, ends, first)
     yield from gear_shafts(proof, ends)
@@ -126,12 +127,12 @@ def _shafts(proof: Proof, bars: Links, lowest: float, first: Sequence[Member]) -
 def _drilled(
     mechanism: Mechanism, shafts_: Sequence[Member], places: Sequence[Point], top: float
 ) -> Iterator[Circle]:
-    """The holes of the shafts that reach below the frame's upper face, as wide as those.
+    """Yield the holes of the shafts that reach below the frame's upper face, as wide as these.
 
-    A wheel or a crank without a bore is one piece with its shaft, which is as [shaft] has it.
+    A wheel or a crank without a bore is one piece with its shaft, whose diameter is in [shaft].
     """
     L, shaft = mechanism.center_distance_mm, mechanism.spec.shaft
-    given = {0.0: shaft.wheel_diameter_mm, L: shaft.crank_diameter_mm}
+    diameters = {0.0: shaft.wheel_diameter_mm, L: shaft.crank_diameter_mm}
     for at in places:
         here = [one.part for one in shafts_ if same(one.at, at, L)]
         for one in here:
@@ -139,14 +140,14 @@ def _drilled(
             if one.low < top:
                 yield Circle(HOLES, at, one.outline.radius)
         if not here:
-            diameter = given[at[0]]
+            diameter = diameters[at[0]]
             yield Circle(HOLES, at, even(L / 20.0) if diameter is None else 0.5 * diameter)
 
 
 def _standing(mechanism: Mechanism, bars: Links) -> Iterator[Point]:
-    """Where shafts stand, each once: the wheel's, the crank's, what drives it.
+    """Yield the positions of shafts, each once: the wheel's, the crank's, and those of its drive.
 
-    An internal wheel is open in the middle, where its crank turns below it: it is held from above.
+    An internal wheel is open in the middle, where its crank turns below it. It is held from above.
     """
     L = mechanism.center_distance_mm
     seen = [*([(0.0, 0.0)] if mechanism.spec.wheel.SIGN > 0.0 else []), (L, 0.0)]
@@ -160,7 +161,7 @@ def _standing(mechanism: Mechanism, bars: Links) -> Iterator[Point]:
 
 
 def _fixed(bars: Links) -> Iterator[Circle]:
-    """The holes by which what stands, as a guide or a gear, is screwed to the frame."""
+    """Yield the holes by which fixed parts, such as a guide or a gear, are screwed to the frame."""
     for member in bars.cut:
         if isinstance(member.part, Plate) and member.part.name in bars.standing:
             yield from placed_holes(member)
@@ -171,13 +172,13 @@ def _fixed(bars: Links) -> Iterator[Circle]:
 
 
 def _mounted(members: Sequence[Member], L: float) -> Iterator[Circle]:
-    """The holes that mount plates about the crank's axis, once."""
+    """Yield the holes that mount plates about the crank's axis, each once."""
     holes = dict.fromkeys(hole for one in members for hole in placed_holes(one))
     yield from (hole for hole in holes if not same(hole.centre, (L, 0.0), L))
 
 
 def _lowest(mechanism: Mechanism, parts: Outlines | None, bars: Links) -> float:
-    """The lowest place of what moves, along the axis."""
+    """Return the lowest point of the moving parts, along the axis."""
     size, L = mechanism.spec.size, mechanism.center_distance_mm
     under = [one.part.low for one in (*bars.cut, *bars.joined) if isinstance(one.part, Plate)]
     under += [gear.plate.low for gear in bars.gears]

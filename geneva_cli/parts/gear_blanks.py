@@ -1,8 +1,8 @@
 """Gears as blanks: plates up to the pitch circle, whole or in sectors about a hub.
 
-Teeth are left out: they belong to a module and a cutter that no key of a spec names. They stand out
-of the pitch circle about as much as their gaps go into it, so a blank's mass is a gear's to a few
-percent. A gear that stands is screwed to the frame.
+Teeth are omitted: their module and cutter are in no key of a spec. They stand out of the pitch
+circle about as much as their gaps go into it. So a blank's mass is a gear's within a few percent. A
+gear that stands still is screwed to the frame.
 """
 
 from __future__ import annotations
@@ -21,14 +21,11 @@ from geneva_cli.spec.tables import Size
 
 PITCH, HOLES, RIM = "PITCH", "BORE", "LINK"
 AXIS = (0.0, 0.0)
-FIRST = 0.25 * math.pi  # the first bolt's direction: off the line on which shafts stand
+FIRST = 0.25 * math.pi  # the first bolt's direction: off the line on which the shafts lie
 
 
 class Gear(NamedTuple):
-    """A gear about its axis: its pitch circle, the radius of its bore, 0 for none, and its blank.
-
-    A ring has no bore.
-    """
+    """A gear about its axis: pitch circle, radius of its bore (0 for none or a ring), and blank."""
 
     at: Point
     radius: float
@@ -38,7 +35,7 @@ class Gear(NamedTuple):
 
     @property
     def name(self) -> str:
-        """What it is called."""
+        """The gear's name."""
         return self.plate.name
 
     @property
@@ -48,21 +45,21 @@ class Gear(NamedTuple):
 
     @property
     def bolts(self) -> list[Circle]:
-        """The holes by which it is screwed to the frame."""
-        found = [hole for hole in self.plate.holes if isinstance(hole, Circle)]
-        return [hole for hole in found if hole.layer == HOLES and hole.centre != AXIS]
+        """The holes by which the gear is screwed to the frame."""
+        holes = [hole for hole in self.plate.holes if isinstance(hole, Circle)]
+        return [hole for hole in holes if hole.layer == HOLES and hole.centre != AXIS]
 
     @property
     def outer(self) -> float:
-        """How far it goes from its axis."""
+        """The greatest distance of the outline from its axis."""
         outline = self.plate.outline
         return outline.radius if isinstance(outline, Circle) else self.radius
 
 
 def link_gear(link: Link, at: Point, bore: float, sizes: LinkSizes, size: Size, L: float) -> Gear:
-    """The gear of a link that is a pitch circle, with a bore.
+    """Return the gear of a link that is a pitch circle, with a bore.
 
-    Raises GenevaError, naming the key, where its bore or its bolts leave none of it.
+    Raises GenevaError, naming the key, where its bore or its bolts leave nothing of it.
     """
     radius, teeth = link.radius_mm, link.teeth
     shaft = _bored_by(at, L)
@@ -89,7 +86,7 @@ def link_gear(link: Link, at: Point, bore: float, sizes: LinkSizes, size: Size, 
 
 
 def sectors(radius: float, hub: float, teeth: Teeth) -> Contour:
-    """Sectors of a pitch circle, evenly, joined by the hub between them."""
+    """Return evenly spaced sectors of a pitch circle, joined by the hub between them."""
     wide = math.radians(teeth.each_deg)
     pitch = math.tau / teeth.sectors
     pieces: list[Segment] = []
@@ -103,7 +100,7 @@ def sectors(radius: float, hub: float, teeth: Teeth) -> Contour:
 
 
 def gear_wall(plate: Plate) -> float:
-    """The least wall between a gear's holes, and from them to its pitch circle or rim."""
+    """Return the least wall between a gear's holes, and from them to its pitch circle or rim."""
     outline = plate.outline
     if isinstance(outline, Circle):
         outline = closed(outline.layer, two_arcs(outline))
@@ -111,18 +108,18 @@ def gear_wall(plate: Plate) -> float:
 
 
 def _bolts(size: Size, inner: float, outer: float, L: float) -> Iterator[Circle]:
-    """The holes of the screws that hold a gear to the frame, evenly, amid its bore and teeth."""
-    far, room = 0.5 * (inner + outer), 0.5 * (outer - inner)
+    """Yield the holes of screws that hold a gear to the frame, between its bore and its teeth."""
+    far, width = 0.5 * (inner + outer), 0.5 * (outer - inner)
     if size.gear_bolt_circle_mm is not None:
         far = 0.5 * size.gear_bolt_circle_mm
-    r = min(L / 80.0, 0.5 * room) if size.gear_bolt_mm is None else 0.5 * size.gear_bolt_mm
+    r = min(L / 80.0, 0.5 * width) if size.gear_bolt_mm is None else 0.5 * size.gear_bolt_mm
     for k in range(size.gear_bolts):
         turn = FIRST + math.tau * k / size.gear_bolts
         yield Circle(HOLES, (far * math.cos(turn), far * math.sin(turn)), r)
 
 
 def _bored_by(at: Point, L: float) -> str:
-    """The key that sets the bore of a gear, by the shaft that it is on."""
+    """Return the key that sets the bore of a gear, by the shaft that carries the gear."""
     return {0.0: "wheel_bore_mm", L: "crank_bore_mm"}.get(math.hypot(*at), "link_bore_mm")
 
 

@@ -22,27 +22,28 @@ if TYPE_CHECKING:
     from geneva_cli.numerics.arrays import Array, Mask, Number
 
 NAMES = ("input_deg", "radius_mm", *WALLED)
-LOOKS = 3600  # places all round, between which the greatest pressure angle is sought
-FEW = 360  # in the dwell, where a little less will do
-TOP = 0.99  # of the steepest place of them: another top may be as steep
-EASED_DEG = 30.0  # of the input: over which the groove leaves and finds its arc in the dwell
+LOOKS = 3600  # positions all round, between which the greatest pressure angle is searched
+FEW = 360  # positions in the dwell, where less accuracy suffices
+TOP = 0.99  # of the steepest position: lower local maxima are not refined
+EASED_DEG = 30.0  # of the input: range in which the groove joins its arc in the dwell
 
 
 def distance(groove: Groove, input_deg: Array) -> Array:
-    """The roller's distance from the crank's axis over a whole turn, in units of L."""
+    """Return the roller's distance from the crank's axis over a whole turn, in units of L."""
     return _distances(groove, input_deg, 0)[0]
 
 
 def roller_in_groove(groove: Groove, input_deg: Array) -> Array:
-    """The roller's centre over a whole turn, in units of L from the wheel's axis: (n, 2)."""
+    """Return the roller's centre over a whole turn, in units of L from the wheel's axis: (n, 2)."""
     R, angle = distance(groove, input_deg), np.radians(input_deg)
     return np.column_stack((1.0 - groove.sign * R * np.cos(angle), R * np.sin(angle)))
 
 
 def groove_curve(groove: Groove, L: float, offset: float) -> Callable[[Array], tuple[Array, Array]]:
-    """The groove, or a flank ``offset`` mm to its left, as points in mm and unit tangents.
+    """Return the groove, or a flank ``offset`` mm to its left, as points in mm and unit tangents.
 
-    By the input angle over a whole turn, in the frame of the groove's table.
+    They are functions of the input angle, degrees, over a whole turn, in the frame of the groove's
+    table.
     """
 
     def curve(t: Array) -> tuple[Array, Array]:
@@ -57,12 +58,11 @@ def groove_curve(groove: Groove, L: float, offset: float) -> Callable[[Array], t
 
 
 def _distances(groove: Groove, input_deg: Array, order: int = 2) -> list[Array]:
-    """The roller's distance from the crank's axis, with up to two derivatives by the input in
-    radians.
+    """Return the roller's distance from the crank's axis, with derivatives by the input in radians.
 
-    In the dwell the slope fades over EASED_DEG beyond either end, and the groove is an arc about
-    the crank's axis between; where the two ends lead to different arcs, a 3-4-5 curve joins them.
-    Its second derivative is continuous all round.
+    There are ``order`` derivatives, at most two. In the dwell the slope fades over EASED_DEG beyond
+    either end; between, the groove is an arc about the crank's axis. If the two ends lead to
+    different arcs, a 3-4-5 curve joins them. The second derivative is continuous all round.
     """
     at = (input_deg - groove.motion.entry_deg) % 360.0 + groove.motion.entry_deg
     moving = at <= groove.motion.exit_deg
@@ -75,19 +75,19 @@ def _distances(groove: Groove, input_deg: Array, order: int = 2) -> list[Array]:
 
 
 def _moving(groove: Groove, input_deg: Array, order: int) -> list[Array]:
-    """``_distances`` at input angles in the motion."""
+    """Return distance and derivatives at input angles in the motion; see ``_distances``."""
     return [*groove.distances(input_deg, order)[1].arrays()]
 
 
 def _back(groove: Groove, input_deg: Array, order: int) -> list[Array]:
-    """``_distances`` at input angles in the dwell after the motion."""
+    """Return distance and derivatives at input angles in the dwell; see ``_distances``."""
     span = radians(360.0 - (groove.motion.exit_deg - groove.motion.entry_deg))
     eased = smaller(math.radians(EASED_DEG), span / 3.0)
     t = np.radians(input_deg - groove.motion.exit_deg)
     entry, exit_ = groove.ends
     after = _eased(exit_, eased, t, 1.0)
     before = _eased(entry, eased, span - t, -1.0)
-    # Each is constant where the other begins; the step goes from one level to the other.
+    # Each fades to a constant before the other begins; the step goes from one level to the other.
     length, rise = span - 2.0 * eased, before[3] - after[3]
     u = np.clip((t - eased) / length, 0.0, 1.0)
     step = (
@@ -103,9 +103,10 @@ def _back(groove: Groove, input_deg: Array, order: int) -> list[Array]:
 def _eased(
     end: Sequence[Number], length: float, t: Array, sense: float
 ) -> tuple[Array, Array, Array, Number]:
-    """Distance and two derivatives ``t`` beyond an end, and the distance it fades to.
+    """Return distance and two derivatives ``t`` beyond an end, and the distance it fades to.
 
-    The slope is the cubic that has the end's value and derivative, and none of both at ``length``.
+    The slope is a cubic. At the end it has the end's value and derivative, at ``length`` both are
+    0.
     """
     R, slope, bend = end[0], sense * end[1], end[2]
     u = np.minimum(t / length, 1.0)
@@ -118,8 +119,10 @@ def _eased(
 
 
 class GrooveLook(NamedTuple):
-    """What is seen of the grooves of m designs at places all round, (m,) each: how near the
-    roller comes to the crank's axis, over L, and the greatest pressure angle, degrees.
+    """Extremes of the grooves of m designs over sampled positions, (m,) each.
+
+    ``nearest`` is the roller's least distance from the crank's axis, over L, ``pressure_deg`` the
+    greatest pressure angle.
     """
 
     nearest: Array
@@ -127,8 +130,9 @@ class GrooveLook(NamedTuple):
 
 
 def seen(groove: Groove, input_deg: Array) -> GrooveLook:
-    """A look at the grooves of many designs, or of one, over the motion at ``input_deg`` (m, k)
-    and over the dwell at FEW places.
+    """Return the extremes of a batch of grooves, or of one, over sampled positions.
+
+    The motion is sampled at ``input_deg`` (m, k), the dwell at FEW positions.
     """
     dwell = 360.0 - (groove.motion.exit_deg - groove.motion.entry_deg)
     rest = groove.motion.exit_deg + dwell * (np.arange(FEW) / FEW)
@@ -140,9 +144,9 @@ def seen(groove: Groove, input_deg: Array) -> GrooveLook:
 
 
 def greatest_pressure(groove: Groove) -> tuple[float, float]:
-    """The greatest pressure angle of the groove all round, degrees, and its input angle.
+    """Return the groove's greatest pressure angle, degrees, and its input angle.
 
-    tan = |R'/R|, of which both signs count; it is greatest where R R'' = R'².
+    Its tangent is |R'/R|, for both signs of R'. It is greatest where R R'' = R'².
     """
     grid = groove.motion.entry_deg + 360.0 * np.arange(LOOKS) / LOOKS
     R, slope, _ = _distances(groove, grid)
@@ -150,15 +154,15 @@ def greatest_pressure(groove: Groove) -> tuple[float, float]:
     tops = (steep >= np.roll(steep, 1)) & (steep >= np.roll(steep, -1))
     tops &= steep > TOP * steep.max()
     middle = 0.5 * (groove.motion.entry_deg + groove.motion.exit_deg)
-    # a groove is as steep before the motion as after it: from the middle of the dwell on
+    # a groove is as steep before the motion as after it: start in the middle of the dwell
     places = sorted(math.remainder(x - middle, 360.0) + middle for x in grid[tops])
-    found = [_steepest(groove, x) for x in places]
-    tangent, at_deg = greatest_at(found)
+    candidates = [_steepest(groove, x) for x in places]
+    tangent, at_deg = greatest_at(candidates)
     return math.degrees(math.atan(tangent)), at_deg
 
 
 def _steepest(groove: Groove, about: float) -> tuple[float, float]:
-    """The greatest tangent within a place of the grid of ``about``, and where it is."""
+    """Return the greatest tangent near a position of the grid, and its input angle."""
     step = 360.0 / LOOKS
     sense = math.copysign(1.0, _distances(groove, np.array([about]))[1][0])
 
@@ -166,17 +170,17 @@ def _steepest(groove: Groove, about: float) -> tuple[float, float]:
         r, dr, ddr = _distances(groove, x)
         return sense * (r * ddr - dr * dr) > 0.0
 
-    # a corner of the groove, or a smooth top
+    # a corner of the groove, or a smooth maximum
     at_deg = boundary_by_sections(rises, about - step, about + step)
     r, dr, _ = _distances(groove, np.array([at_deg]))
     return float(abs(dr[0]) / r[0]), at_deg
 
 
 def groove_table(mechanism: Mechanism, tolerance_mm: float, samples: int | None) -> Table:
-    """The groove over the motion: for a chord tolerance, or ``samples`` evenly in the input angle.
+    """Return the groove over the motion: for a chord tolerance, or at ``samples`` even angles.
 
-    The crank's axis is the origin, and x points away from the wheel's. Left and right are the
-    flanks as the roller travels. The pressure angle is the one between the groove's normal and the
+    The crank's axis is the origin, and x points away from the wheel's axis. Left and right are the
+    flanks, seen as the roller travels. The pressure angle is between the groove's normal and the
     crank's arm, atan(R'/R).
     """
     groove = mechanism.engagements[0].groove
@@ -198,7 +202,7 @@ def groove_table(mechanism: Mechanism, tolerance_mm: float, samples: int | None)
     speed = np.hypot(x1, y1)
     turning = x1 * y2 - y1 * x2
     with np.errstate(divide="ignore"):
-        # The roller enters along the slot, while the wheel still stands: a straight line.
+        # The roller enters along the slot, while the wheel still rests: a straight line.
         straight = np.abs(turning) < 1e-12 * speed * speed
         radius = np.where(straight, np.inf, L * speed**3 / turning)
     nx, ny = -y1 / speed * offset, x1 / speed * offset

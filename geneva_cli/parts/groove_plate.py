@@ -1,8 +1,8 @@
-"""The plate with a cam-Geneva's groove, as three that are laid on each other.
+"""The plate with a cam-Geneva's groove, as three plates that are stacked.
 
-A base, and on it a ring and an island with the groove between them, as deep as the roller in it is
-thick; a shop that mills it out of one piece takes the same outlines. The crank's axis is the
-origin. The bore is that of the crank's shaft, and four holes mount it.
+On a base lie a ring and an island with the groove between them, as deep as the roller is thick. A
+shop that mills it out of one piece uses the same outlines. The crank's axis is the origin. The bore
+is that of the crank's shaft, and four holes mount the plate.
 """
 
 from __future__ import annotations
@@ -23,16 +23,16 @@ from geneva_cli.parts.links import Links, drawn_links
 from geneva_cli.parts.outlines import Outlines
 from geneva_cli.parts.sizes import even
 
-HOLES, RIM = "BORE", 1.5  # of the roller's radius: round the groove, where there is room
+HOLES, RIM = "BORE", 1.5  # of the roller's radius: rim around the groove, where it fits
 MOUNTS = 4
-SAMPLES = 3601  # input angles of a turn: the farthest place is known to its square
-TOLERANCE = 1e-3  # mm, of the flanks where nobody asks for another: that of a drawing
+SAMPLES = 3601  # input angles of a turn: the error of the farthest point is quadratic in them
+TOLERANCE = 1e-3  # mm, of the flanks by default: that of a drawing
 
 
 def groove_plate(
     parts: Outlines, tolerance: float, curves: str, bars: Links | None = None
 ) -> Drawing:
-    """The outline, both flanks, the bore and the holes, with centre marks.
+    """Return outline, both flanks, bore and holes, with centre marks.
 
     ``bars`` are the machine's links, if they are known. Raises GenevaError for a machine without a
     groove, and where the plate meets the wheel's shaft.
@@ -40,11 +40,11 @@ def groove_plate(
     title = f"{titled(parts.assembly.mechanism)}: groove plate"
     flanks = groove(parts, tolerance, curves)
     outer, inner, pitch = (shape for shape in flanks.shapes if isinstance(shape, Contour))
-    made = _plates(parts, outer, inner, bars or drawn_links(parts.assembly.mechanism, parts))
-    base, ring, _ = made
+    stack = _plates(parts, outer, inner, bars or drawn_links(parts.assembly.mechanism, parts))
+    base, ring, _ = stack
     holes = [hole for hole in base.holes if isinstance(hole, Circle)]
     shapes = (base.outline, *ring.holes[:1], inner, *holes, pitch, *centre_marks(holes))
-    return Drawing(title, shapes, solid=Group(title, tuple(map(Member, made))))
+    return Drawing(title, shapes, solid=Group(title, tuple(map(Member, stack))))
 
 
 def groove_members(
@@ -53,7 +53,7 @@ def groove_members(
     tolerance: float = TOLERANCE,
     curves: str = "arcs",
 ) -> list[Member]:
-    """The plates where they are in the machine; none without a groove. See ``groove_plate``."""
+    """Return the plates at their positions in the machine; none without a groove."""
     if parts.assembly.rollers[0][0].groove is None:
         return []
     solid = groove_plate(parts, tolerance, curves, bars).solid
@@ -64,7 +64,7 @@ def groove_members(
 def _plates(
     parts: Outlines, one: Contour, other: Contour, bars: Links
 ) -> tuple[Plate, Plate, Plate]:
-    """Base, ring and island of the two flanks."""
+    """Return base, ring and island from the two flanks."""
     L = parts.assembly.L
     inner, outer = sorted((one, other), key=_reach)
     follower = next(
@@ -89,41 +89,41 @@ def _plates(
 
 
 def require_groove_plate(parts: Outlines) -> None:
-    """Raise GenevaError, naming the key, where a groove leaves no room for its plate."""
+    """Raise GenevaError, naming the key, where a groove leaves no space for its plate."""
     if parts.assembly.rollers[0][0].groove is not None:
         _reaches(parts)
 
 
 def _reaches(parts: Outlines) -> tuple[float, float]:
-    """How far the groove reaches from the crank's axis, and the width of the rim round it, mm.
+    """Return the groove's reach from the crank's axis, and the width of the rim around it, mm.
 
-    Raises GenevaError, naming the key, where the wheel's hub leaves no room for the rim.
+    Raises GenevaError, naming the key, where the wheel's hub leaves no space for the rim.
     """
     sizes, far = parts.sizes, _farthest(parts)
     wall = sizes.wall_min
-    room = parts.assembly.L - max(sizes.wheel_bore, sizes.wheel_hub) - wall - far
-    rim = min(max(RIM * sizes.roller, 4.0 * wall), room)
+    space = parts.assembly.L - max(sizes.wheel_bore, sizes.wheel_hub) - wall - far
+    rim = min(max(RIM * sizes.roller, 4.0 * wall), space)
     if rim < 4.0 * wall:
         raise GenevaError(
-            f"--part groove-plate: the groove reaches {far:.4g} mm from the crank's axis, and "
-            f"{room:.4g} mm are left beside the wheel's hub, less than four times wall_min_mm; a "
-            "smaller roller, wheel_hub_mm or wheel_bore_mm leaves more",
+            f"--part groove-plate: the groove reaches {far:.4g} mm from the crank's axis, which "
+            f"leaves {space:.4g} mm up to the wheel's hub, less than four times wall_min_mm; "
+            "reduce the roller, wheel_hub_mm or wheel_bore_mm",
             ("size", "wheel_hub_mm"),
         )
     return far, rim
 
 
 def _farthest(parts: Outlines) -> float:
-    """How far the groove goes from the crank's axis: half its width beyond its farthest middle.
+    """Return the groove's reach from the crank's axis: its farthest middle and half its width.
 
-    There a flank is square to the ray. However coarsely it is drawn, its plate has one size.
+    There a flank is normal to the ray. The result does not depend on the drawing's tolerance.
     """
     guide = parts.assembly.rollers[0][0].groove
-    assert guide is not None  # or there were no plate
+    assert guide is not None  # otherwise there is no plate
     at, _ = groove_curve(guide, parts.assembly.L, 0.0)(np.linspace(0.0, 360.0, SAMPLES))
     return float(np.hypot(*at.T).max()) + parts.sizes.half_width
 
 
 def _reach(flank: Contour) -> float:
-    """The farthest end of a flank's pieces from the crank's axis: which flank is the outer one."""
+    """Return the distance of a flank's farthest end from the crank's axis."""
     return max(math.hypot(*piece.start) for piece in flank.segments)

@@ -1,4 +1,4 @@
-"""Walls of a plate: between its holes, and from them to its outline."""
+"""Walls of a plate: between holes, and from holes to its outline."""
 
 from __future__ import annotations
 
@@ -12,11 +12,11 @@ from geneva_cli.curves.distance import Polyarc
 from geneva_cli.curves.measure import with_material_left
 from geneva_cli.curves.shapes import Circle, Shape
 
-FINE, LONGEST = 1e-4, 0.5  # mm: sagitta and length of the samples of a hole that is no circle
+FINE, LONGEST = 1e-4, 0.5  # mm: sagitta and length of samples of a hole that is not a circle
 
 
 def least_wall(holes: Sequence[Shape], outline: Sequence[Shape] = ()) -> float:
-    """The least wall between holes, and within an outline; negative where they overlap.
+    """Return the least wall between holes, and to an outline; negative where they overlap.
 
     >>> least_wall([Circle("", (0.0, 0.0), 2.0), Circle("", (9.0, 0.0), 3.0)])
     4.0
@@ -29,14 +29,14 @@ def least_wall(holes: Sequence[Shape], outline: Sequence[Shape] = ()) -> float:
 
 
 def beyond(outline: Polyarc, hole: Shape) -> float:
-    """How far a hole's edge reaches past an outline, mm; negative inside."""
+    """Return how far a hole's edge reaches past an outline, mm; negative inside."""
     if isinstance(hole, Circle):
         return float(outline.signed(np.array([hole.centre]))[0]) + hole.radius
     return float(outline.signed(_points(hole)).max())
 
 
 def apart(one: Shape, two: Shape) -> float:
-    """The wall between two holes, mm; negative where they overlap."""
+    """Return the wall between two holes, mm; negative where they overlap."""
     if isinstance(one, Circle) and isinstance(two, Circle):
         return math.dist(one.centre, two.centre) - one.radius - two.radius
     if isinstance(one, Circle):
@@ -54,6 +54,6 @@ def _points(hole: Shape) -> np.ndarray:
 def _boundary(shapes: Iterable[Shape]) -> Polyarc:
     contours = []
     for shape in shapes:
-        assert not isinstance(shape, Circle)  # a circle's distances need no pieces
+        assert not isinstance(shape, Circle)  # distances from a circle need no pieces
         contours.append(with_material_left(shape, True))
     return Polyarc(contours)

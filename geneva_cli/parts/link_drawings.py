@@ -1,4 +1,4 @@
-"""Drawings of the links: all that are cut side by side, and their positions in the machine."""
+"""Drawings of the links: side by side for cutting, and at their positions in the machine."""
 
 from __future__ import annotations
 
@@ -13,15 +13,15 @@ from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.parts.links import LAYER, Links, drawn_links
 from geneva_cli.parts.proof import Proof
 
-BETWEEN = 0.05  # of the centre distance: between links side by side
+BETWEEN = 0.05  # of the centre distance: gap between links side by side
 PITCH = "PITCH"
 
 
 def links(proof: Proof, tolerance: float, curves: str) -> Drawing:
-    """Every link and sliding block once, one above the other, each in its own frame."""
+    """Return every link and sliding block once, one above the other, each in its own frame."""
     mechanism = proof.mechanism
-    made = drawn_links(mechanism, proof.found if mechanism.spec.is_flat else None)
-    if not made.cut:
+    bars = drawn_links(mechanism, proof.found if mechanism.spec.is_flat else None)
+    if not bars.cut:
         raise GenevaError(
             f'--part links: kind = "{mechanism.spec.drive.NAME}" has none: '
             + (
@@ -30,13 +30,13 @@ def links(proof: Proof, tolerance: float, curves: str) -> Drawing:
                 else "--part parts lists what it has"
             )
         )
-    members = list(_side_by_side(made.plates, BETWEEN * mechanism.center_distance_mm))
+    members = list(_side_by_side(bars.plates, BETWEEN * mechanism.center_distance_mm))
     title = f"{titled(mechanism)}: links"
     return Drawing(title, tuple(shapes(members)), solid=Group(title, tuple(members)))
 
 
 def titled(mechanism: Mechanism) -> str:
-    """The title of a machine's drawings."""
+    """Return the title of a machine's drawings."""
     spec = mechanism.spec
     return spec.title or f"Geneva wheel of {spec.wheel.z} slots"
 
@@ -56,7 +56,7 @@ def _side_by_side(plates: Iterable[Plate], between: float) -> Iterator[Member]:
 
 
 def shapes(members: Iterable[Member]) -> Iterator[Shape]:
-    """The outlines and holes of plates at their positions."""
+    """Yield the outlines and holes of plates at their positions."""
     for one in members:
         assert isinstance(one.part, Plate)
         for shape in (one.part.outline, *one.part.holes):
@@ -64,21 +64,21 @@ def shapes(members: Iterable[Member]) -> Iterator[Shape]:
 
 
 def placed(shape: S, at: Point, turn: float) -> S:
-    """A shape turned about its own origin, and then moved."""
+    """Return a shape turned about its own origin, and then moved."""
     return mapped(turned(shape, turn), lambda p: (p[0] + at[0], p[1] + at[1]))
 
 
-def together(made: Links) -> Iterator[Shape]:
-    """The links in the machine, and the gears by their pitch circles, with all holes."""
-    found = [shape._replace(layer=LAYER) for shape in shapes(made.cut)]
-    blanks = list(shapes(gear.member for gear in made.gears))
-    yield from found
+def together(bars: Links) -> Iterator[Shape]:
+    """Yield the links in the machine, and the gears by their pitch circles, with all holes."""
+    cut = [shape._replace(layer=LAYER) for shape in shapes(bars.cut)]
+    blanks = list(shapes(gear.member for gear in bars.gears))
+    yield from cut
     yield from (shape for shape in blanks if shape.layer == PITCH)
     yield from (shape._replace(layer=LAYER) for shape in blanks if shape.layer != PITCH)
 
 
 def once(shapes: Iterable[Shape]) -> Iterator[Shape]:
-    """Shapes, with circles of one layer that coincide only once."""
+    """Yield shapes without repeating circles of one layer that coincide."""
     seen = set()
     for shape in shapes:
         if isinstance(shape, Circle):

@@ -1,6 +1,6 @@
-"""The sizes of links: as the spec gives them, or defaults that leave walls between their holes.
+"""The sizes of links: those of the spec, or defaults that leave walls between their holes.
 
-Radii, in millimetres, where a key is a diameter or a width.
+They are radii, in millimetres, where a key of the spec is a diameter or a width.
 """
 
 from __future__ import annotations
@@ -23,27 +23,27 @@ from geneva_cli.parts.sizes import even, pin_radius, thicknesses, wall_min
 if TYPE_CHECKING:
     from geneva_cli.numerics.jet import Array
 
-NEAR = 0.2  # of the way to the next joint: how large a pin is at most
-BORED = 0.35  # of the room beside other holes: how large a bore is at most
-THIN = 0.01  # of the centre distance: no shaft is thinner by default
-BLOCK = 1.6  # of its pin's hole: how wide a sliding block is
-LONG = 0.5  # of a block's width: how much longer it is
-SPARE = 0.25  # of a pin: from a block to the end of its slot
+NEAR = 0.2  # of the distance to the next joint: greatest radius of a pin
+BORED = 0.35  # of the distance to the nearest hole: greatest radius of a bore
+THIN = 0.01  # of the centre distance: least radius of a shaft by default
+BLOCK = 1.6  # of its pin's hole: width of a sliding block
+LONG = 0.5  # of a block's width: additional length of the block
+SPARE = 0.25  # of a pin: distance from a block to the end of its slot
 
 
 class LinkSizes(NamedTuple):
-    """Radii of holes, and of the plate round them; thicknesses along the axis."""
+    """Radii of holes and of the plate around them; thicknesses along the axis; all mm."""
 
-    wall: float  # the least that `check` lets pass
+    wall: float  # the least wall that `check` lets pass
     pin: float
-    roller_pin: float  # its hole; 0 where the spec has no pin
-    eye: float  # round a pin
+    roller_pin: float  # radius of its hole; 0 if the spec has no pin
+    eye: float  # radius of the plate around a pin
     roller_eye: float
-    shaft: float | None  # as it is given, of shafts that carry links alone
-    crank_shaft: float | None  # as it is given, or of the arm on it
+    shaft: float | None  # of the spec, for shafts that carry only links
+    crank_shaft: float | None  # of the spec, or of the arm on it
     thickness: float
-    arm: float  # of what is in the first plane
-    gap: float  # from the wheel to that
+    arm: float  # thickness of arm or link in the first plane
+    gap: float  # from the wheel to the first plane
     washer: float
 
     @property
@@ -52,28 +52,28 @@ class LinkSizes(NamedTuple):
         return 0.5 * (self.pin + self.eye)
 
     def hole(self, kind: Joint) -> float:
-        """The radius of a pin's hole; ``bore`` has a shaft's."""
+        """Return the radius of a pin's hole; for shafts see ``bore``."""
         own = kind in (Joint.ROLLER, Joint.CARRIED)
         return self.roller_pin if own and self.roller_pin else self.pin
 
     def block(self, hole: float) -> tuple[float, float]:
-        """Half a sliding block's width, and distance of its round ends' centres from its own."""
+        """Return half a sliding block's width, and the offset of its round ends' centres."""
         half = max(BLOCK * hole, hole + self.wall)
         return half, LONG * half
 
     def bore(self, room: float, L: float) -> float:
-        """The radius of a shaft with ``room`` mm to the nearest hole; 0 where it is too thin."""
+        """Return the radius of a shaft ``room`` mm from the nearest hole; 0 if it is too thin."""
         if self.shaft is not None:
             return self.shaft
-        found = even(min(L / 20.0, BORED * room))
-        return found if found >= THIN * L else 0.0
+        radius = even(min(L / 20.0, BORED * room))
+        return radius if radius >= THIN * L else 0.0
 
     def hub(self, bore: float) -> float:
-        """The radius of a link's plate round a bore, or on a shaft's end."""
+        """Return the radius of a link's plate around a bore, or on a shaft's end."""
         return max(even(HUB * bore), bore + self.wall)
 
     def span(self, plane: int) -> tuple[float, float]:
-        """The lower and upper end, along the axis, of the links in a plane below the wheel's."""
+        """Return lower and upper end, along the axis, of links in a plane below the wheel's."""
         high = -self.gap
         if plane > 1:
             high -= self.arm + self.washer + (plane - 2) * (self.thickness + self.washer)
@@ -83,32 +83,32 @@ class LinkSizes(NamedTuple):
 def link_sizes(
     mechanism: Mechanism, links: Iterable[Link], parts: Outlines | None = None
 ) -> LinkSizes:
-    """The sizes of links that are known at many input angles.
+    """Return the sizes of links, whose joints are known at many input angles.
 
-    ``found`` are the machine's outlines, where it has some. Raises GenevaError, naming the key,
-    where there is no hole for the roller's pin, or no plate round a pin.
+    ``parts`` are the machine's outlines, if it has any. Raises GenevaError, naming the key, where
+    no hole is left for the roller's pin, or no plate around a pin.
     """
     spec, L = mechanism.spec, mechanism.center_distance_mm
     size, links = spec.size, [link for link in links if not link.radius_mm]
     wall, thick = wall_min(size, L), thicknesses(size, L)
     stands = pin_radius(size, mechanism.roller_radius_mm)
     roller = pin_hole(size, stands) if stands else 0.0
-    nearest = min((way for link in links for way in _ways(link)), default=L)
+    nearest = min((distance for link in links for distance in _pin_distances(link)), default=L)
     pin = even(min(L / 40.0, NEAR * nearest)) if size.link_pin_mm is None else size.link_pin_mm / 2
     eye = half_or(size.link_width_mm, eye_about(pin, wall))
     if eye <= pin:
         raise GenevaError(
-            f"link_width_mm = {2.0 * eye:g}: it must be above {2.0 * pin:.6g}, the pins in it",
+            f"link_width_mm = {2.0 * eye:g}: it must be above {2.0 * pin:.6g}, the pins' diameter",
             ("size", "link_width_mm"),
         )
-    room = _beside_hub(mechanism, links)
+    limit = _beside_hub(mechanism, links)
     arm = thick.arm if spec.drive.ONE_ARM else thick.link
     return LinkSizes(
         wall=wall,
         pin=pin,
         roller_pin=roller,
         eye=eye,
-        roller_eye=eye_about(roller, wall, room) if roller else eye,
+        roller_eye=eye_about(roller, wall, limit) if roller else eye,
         shaft=None if size.link_bore_mm is None else 0.5 * size.link_bore_mm,
         crank_shaft=_crank_shaft(mechanism, parts),
         thickness=thick.link,
@@ -119,30 +119,30 @@ def link_sizes(
 
 
 def _crank_shaft(mechanism: Mechanism, parts: Outlines | None) -> float | None:
-    """The radius of the crank's shaft: that of arm or locking disc, or the given one."""
+    """Return the radius of the crank's shaft: of arm, locking disc or spec; None for none."""
     if parts and has_arm(parts):
         return shaft_bore(parts)
     if parts and parts.sizes.crank_bore:
         return parts.sizes.crank_bore
-    given = mechanism.spec.shaft.crank_diameter_mm
-    return None if given is None else 0.5 * given
+    diameter = mechanism.spec.shaft.crank_diameter_mm
+    return None if diameter is None else 0.5 * diameter
 
 
 def places(link: Link) -> list[Array]:
-    """The joints of a link as complex numbers x + iy (n,), by the input angle."""
+    """Return the joints of a link as complex numbers x + iy (n,), by the input angle."""
     still = 0.0 * link.joints[0][0]
     return [np.asarray(x + still + 1j * (y + still)) for x, y in link.joints]
 
 
-def _ways(link: Link) -> Iterator[float]:
-    """The least distance of each pin of a link from its other joints."""
+def _pin_distances(link: Link) -> Iterator[float]:
+    """Yield the least distance of each pin of a link from its other joints."""
     for (p, a), (q, b) in combinations(zip(places(link), link.kinds, strict=True), 2):
         if {a, b} & {Joint.PIN, Joint.SLIDE} and Joint.NONE not in (a, b):
             yield float(np.abs(p - q).min())
 
 
 def _beside_hub(mechanism: Mechanism, links: Iterable[Link]) -> float:
-    """The room of a link beyond the roller's pin: to the wheel's hub, where that is nearest."""
+    """Return a link's largest radius about the roller's pin that clears the wheel's hub."""
     size = mechanism.spec.size
     near = [
         float(np.abs(at).min())

@@ -1,6 +1,6 @@
-"""The machine put together at input angle 0: all parts that move, and the plates that stand.
+"""The assembled machine at input angle 0: moving parts, and plates that stand still.
 
-The wheel's axis is the origin, the crank's is on the x axis. Layers are those of the parts.
+The wheel's axis is the origin, and the crank's is on the x axis. Layers are those of the parts.
 """
 
 from __future__ import annotations
@@ -28,16 +28,16 @@ from geneva_cli.parts.link_sizes import places
 from geneva_cli.parts.outlines import Outlines
 from geneva_cli.parts.proof import Proof
 
-BEYOND = 0.04  # of the centre distance: between a part and the arrow that says how it turns
+BEYOND = 0.04  # of the centre distance: from a part to the arrow that shows how it turns
 
 
 def machine(parts: Outlines, tolerance: float, curves: str) -> Drawing:
-    """The machine at input angle 0, from the frame up to the wheel."""
+    """Return the machine at input angle 0, from the frame up to the wheel."""
     return machine_and_parts(parts, tolerance, curves)[0]
 
 
 def machine_and_parts(parts: Outlines, tolerance: float, curves: str) -> tuple[Drawing, Built]:
-    """The same, and its parts."""
+    """Return the drawing of the machine at input angle 0, and its parts."""
     assembly = parts.assembly
     contour, *circles = wheel_shapes(parts, tolerance, curves)
     whole = built(parts, contour, tolerance, curves)
@@ -45,12 +45,12 @@ def machine_and_parts(parts: Outlines, tolerance: float, curves: str) -> tuple[D
     drawn: list[Shape] = [turned(contour, psi), *(turned(s, psi) for s in circles)]
     carried = [*crank_shapes(parts), *_arm(parts, whole.arm)]
     drawn += [mapped(turned(s, angle), lambda p: (p[0] + assembly.L, p[1])) for s in carried]
-    # a first wheel is drawn itself, and not its pitch circle
+    # a first wheel is drawn itself, not as its pitch circle
     drawn += together(whole.links._replace(gears=()) if whole.first else whole.links)
     drawn += gear_shapes(Proof(assembly.given, parts), tolerance, curves)
     drawn += shapes(whole.first)
     drawn += _standing(whole, drawn)
-    drawn += _ways(parts, psi, tolerance, curves)
+    drawn += _roller_lines(parts, psi, tolerance, curves)
     title = titled(assembly.mechanism)
     solid = Group(title, whole.members)
     look = Annotations((LevelDistance((0.0, 0.0), (assembly.L, 0.0), "L"),), tuple(_turns(parts)))
@@ -58,12 +58,12 @@ def machine_and_parts(parts: Outlines, tolerance: float, curves: str) -> tuple[D
 
 
 def _standing(whole: Built, drawn: list[Shape]) -> list[Shape]:
-    """The plates that stand: outlines, grooves, and holes that no bore above them shows."""
+    """Return the plates that stand still: outlines, grooves, and holes hidden by no bore."""
     seen = {_round(shape) for shape in drawn if isinstance(shape, Circle)}
-    found = shapes(whole.standing)
+    standing = shapes(whole.standing)
     return [
         shape._replace(layer=STANDING) if isinstance(shape, Circle) else shape
-        for shape in found
+        for shape in standing
         if not (isinstance(shape, Circle) and _round(shape) in seen)
     ]
 
@@ -73,7 +73,7 @@ def _round(circle: Circle) -> tuple[float, ...]:
 
 
 def _turns(parts: Outlines) -> Iterator[Arc]:
-    """The senses of rotation of wheel and crank, as arcs outside of them."""
+    """Yield the senses of rotation of wheel and crank, as arcs outside of them."""
     assembly, sizes = parts.assembly, parts.sizes
     reach = max(math.hypot(*s.start) for s in parts.wheel.segments)
     beyond = (sizes.outer or reach) + BEYOND * assembly.L
@@ -83,16 +83,16 @@ def _turns(parts: Outlines) -> Iterator[Arc]:
         return
     step = math.remainder(float(np.diff(assembly.crank(np.array([-0.5, 0.5])))[0]), math.tau)
     sense = math.copysign(1.0, step)
-    # inside, the crank turns within the wheel: the arrow is near its shaft
+    # an internal wheel's crank turns within the wheel, so its arrow is near its shaft
     far = max(math.hypot(*c) for c in roller_centres(assembly)) + 2.0 * sizes.roller
     radius = far + BEYOND * assembly.L if assembly.sign > 0.0 else 0.5 * sizes.arm
     yield about((assembly.L, 0.0), radius, -sense * 0.5, sense)
 
 
 def _link_turns(parts: Outlines) -> Iterator[Arc]:
-    """The sense in which the link on the crank's shaft turns, beyond its end or the disc's."""
-    given, L = parts.assembly.given, parts.assembly.L
-    for link in links_at(given, np.array([-0.5, 0.0, 0.5])):
+    """Yield the sense of rotation of the link on the crank's shaft, beyond its end or the disc."""
+    mechanism, L = parts.assembly.given, parts.assembly.L
+    for link in links_at(mechanism, np.array([-0.5, 0.0, 0.5])):
         first, *others = places(link)
         if link.kinds[0] is not Joint.SHAFT or not others or np.abs(first - L).max() > SAME * L:
             continue
@@ -102,16 +102,16 @@ def _link_turns(parts: Outlines) -> Iterator[Arc]:
         yield about((L, 0.0), far, -sense * 0.5, sense)
 
 
-def _arm(parts: Outlines, made: CrankArm | None) -> list[Shape]:
-    """The visible part of the crank arm: its outline, and its bore where the disc has none."""
-    if made is None:
+def _arm(parts: Outlines, arm: CrankArm | None) -> list[Shape]:
+    """Return the visible part of the crank arm: its outline, and its bore unless the disc's."""
+    if arm is None:
         return []
     through = parts.sizes.crank_bore > 0.0
-    return [made.outline] if through else [made.outline, made.bore._replace(layer=ARM)]
+    return [arm.outline] if through else [arm.outline, arm.bore._replace(layer=ARM)]
 
 
-def _ways(parts: Outlines, psi: float, tolerance: float, curves: str) -> list[Shape]:
-    """The line of centres, and the rollers' paths: on their circles and in their slots."""
+def _roller_lines(parts: Outlines, psi: float, tolerance: float, curves: str) -> list[Shape]:
+    """Return the line of centres, and the rollers' paths on their circles and in their slots."""
     assembly = parts.assembly
     shapes: list[Shape] = [Contour(PITCH, (Line((0.0, 0.0), (assembly.L, 0.0)),), closed=False)]
     arms = set()

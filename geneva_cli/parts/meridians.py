@@ -9,9 +9,9 @@ from geneva_cli.table import Table, rows_table
 
 
 def meridians_table(mechanism: Mechanism, tolerance_mm: float, samples: int | None) -> Table:
-    """The slots of a spherical wheel: meridians of its sphere, one row a slot.
+    """Return the slots of a spherical wheel, one row for each: meridians of its sphere.
 
-    Angles are about the wheel's axis (azimuth) and from it (polar); points on the sphere.
+    Azimuths are about the wheel's axis, polar angles from it. Points are on the sphere.
     """
     engagement, spec = mechanism.engagements[0], mechanism.spec
     mouth, bottom = (engagement.slot(x, 0)[0].c[0] for x in (engagement.entry_deg, 0.0))

@@ -1,7 +1,7 @@
-"""Parts for a milling cutter: where it does not enter, and dog bones in the corners.
+"""Parts for a milling cutter: places that it does not reach, and dog bones in the corners.
 
-Dog bones stand in keyways and in the reliefs of the locking disc, never in the walls on which the
-rollers run, nor where the disc locks.
+Dog bones lie in keyways and in the reliefs of the locking disc. They are never in the walls on
+which the rollers run, nor on the locking arcs.
 """
 
 from __future__ import annotations
@@ -19,26 +19,26 @@ from geneva_cli.parts.sizes import wall_min
 from geneva_cli.parts.wheel import LAYER as WHEEL
 from geneva_cli.spec.rules import TOOL_MM, require_mm
 
-SAME = 1e-9  # of the centre distance: radii nearer to each other are one
+SAME = 1e-9  # of the centre distance: radii nearer to each other count as equal
 
 
 def judged(drawing: Drawing, cutter_mm: float) -> tuple[str, list[str]]:
-    """Where a cutter of a diameter does not enter, empty where it does, and what else it leaves.
+    """Return places that a cutter does not reach, "" if none, and notes on what else it leaves.
 
     Raises GenevaError for a diameter outside of TOOL_MM, and for outlines with cubics.
     """
     require_mm("--cutter", cutter_mm, TOOL_MM)
     cut = dict.fromkeys(plates(drawing.solid)) if drawing.solid else {}
-    found = [fault for plate in cut for fault in faults(plate, 0.5 * cutter_mm)]
-    stops = [fault.text for fault in found if fault.stops]
+    all_faults = [fault for plate in cut for fault in faults(plate, 0.5 * cutter_mm)]
+    stops = [fault.text for fault in all_faults if fault.stops]
     refused = f"--cutter {cutter_mm:g}: {'; '.join(stops)}" if stops else ""
-    return refused, [f"--cutter {cutter_mm:g}: {f.text}" for f in found if not f.stops]
+    return refused, [f"--cutter {cutter_mm:g}: {f.text}" for f in all_faults if not f.stops]
 
 
 def with_dog_bones(drawing: Drawing, proof: Proof, cutter_mm: float) -> Drawing:
-    """A drawing with dog bones for a cutter of a diameter in the corners that stand in.
+    """Return a drawing with dog bones for a cutter of a diameter in its inner corners.
 
-    Raises GenevaError where there is no room for one.
+    Raises GenevaError where one does not fit.
     """
     mechanism, solid = proof.mechanism, drawing.solid
     if solid is None:
@@ -49,17 +49,17 @@ def with_dog_bones(drawing: Drawing, proof: Proof, cutter_mm: float) -> Drawing:
     def works(piece: Line | Arc, layer: str) -> bool:
         return layer == WHEEL or (layer == CRANK and _locks(piece, lock, mechanism))
 
-    found: dict[Shape, Contour] = {}
+    boned: dict[Shape, Contour] = {}
     for plate in dict.fromkeys(plates(solid)):
-        found |= freed(plate, 0.5 * cutter_mm, wall, works)
-    shapes = tuple(found.get(shape, shape) for shape in drawing.shapes)
-    if drawing.shells:  # which have none, where they are laid flat
+        boned |= freed(plate, 0.5 * cutter_mm, wall, works)
+    shapes = tuple(boned.get(shape, shape) for shape in drawing.shapes)
+    if drawing.shells:  # laid flat, they have no dog bones
         return drawing._replace(shapes=shapes, solid=None, shells=None)
-    return drawing._replace(shapes=shapes, solid=_replaced(solid, found))
+    return drawing._replace(shapes=shapes, solid=_replaced(solid, boned))
 
 
 def _locks(piece: Line | Arc, lock: float, mechanism: Mechanism) -> bool:
-    """Whether a piece is of the locking disc's circle."""
+    """Return True if a piece lies on the locking disc's circle."""
     near = SAME * mechanism.center_distance_mm
     return (
         isinstance(piece, Arc)

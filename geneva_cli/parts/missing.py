@@ -1,4 +1,4 @@
-"""What a list leaves out because it cannot be built, and why."""
+"""Entries that a list omits because they cannot be built, with the reason."""
 
 from __future__ import annotations
 
@@ -11,14 +11,14 @@ T = TypeVar("T")
 
 
 class Missing(NamedTuple):
-    """Something that is not listed, by name, and the reason."""
+    """An omitted entry of a list: its name and the reason."""
 
     name: str
     why: str
 
 
 def or_missing(name: str, listed: Callable[[], Iterable[T]]) -> Iterator[T | Missing]:
-    """Yield what is listed; where it cannot be built, its name and the reason instead."""
+    """Yield the listed rows; if they cannot be built, the name and the reason instead."""
     try:
         rows = list(listed())
     except GenevaError as error:

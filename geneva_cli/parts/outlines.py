@@ -26,21 +26,21 @@ if TYPE_CHECKING:
     from geneva_cli.numerics.jet import Array
 
 EXACT = 1e-9  # of the centre distance: rounding of outlines that are lines and arcs by nature
-CURVED = 2e-6  # of the centre distance: how nearly curved walls are known
-# Of the centre distance, 0.2 um in 100 mm: parts that overlap by less touch each other. No cutter
-# and no roller is as true as that, and curved walls are known no better.
+CURVED = 2e-6  # of the centre distance: accuracy of curved walls
+# Of the centre distance, 0.2 um in 100 mm: parts that overlap by less count as touching. No cutter
+# and no roller is more accurate, nor are curved walls.
 CONTACT = CURVED
 TRIES = 5
-SPARE = 3.0  # times an overlap that was found, kept more from the wheel
-SWEPT_DEG = 0.2  # of the input, between the places of the wheel that a relief must clear
-SOME = 16  # of which one of so many tells most reliefs that do not
+SPARE = 3.0  # times the overlap that was left: additional distance from the wheel
+SWEPT_DEG = 0.2  # of the input, between the positions of the wheel that a relief must clear
+SOME = 16  # one in so many positions shows most reliefs that collide
 
 
 class Outlines(NamedTuple):
     """The outlines of wheel and crank, for drawings and for the full turn.
 
-    ``slots`` has the walls of each kind of slot; ``close`` is the overlap in mm that is rounding,
-    or the walls' tolerance.
+    ``slots`` has the walls of each kind of slot. ``close`` is the overlap, mm, that counts as
+    rounding or as the walls' tolerance.
     """
 
     assembly: Assembly
@@ -51,7 +51,7 @@ class Outlines(NamedTuple):
     relief: str
     gaps: Gaps
     close: float
-    fine: float  # mm, the tolerance that curved walls are fitted to
+    fine: float  # mm, the tolerance of the curves that are fitted to curved walls
 
     @property
     def contact(self) -> float:
@@ -59,16 +59,19 @@ class Outlines(NamedTuple):
         return CONTACT * self.assembly.L
 
     def over(self, assembly: Assembly) -> Outlines:
-        """The same parts where another assembly has them."""
+        """Return these parts with another assembly."""
         return self._replace(assembly=assembly)
 
     def in_wheel(self, motion: int, at: Array) -> Array:
-        """Where a motion's roller is in the wheel's frame, mm, at input angles (n,): (n, 2)."""
+        """Return the centre of a motion's roller in the wheel's frame, mm, at input angles.
+
+        It is an array (n, 2).
+        """
         return turned_points(self.assembly.driving(motion, at), -self.assembly.wheel(at))
 
     def past_mouth(self, motion: int, at: Array) -> Array:
-        """How far that is in its slot, past the mouth's corners, mm, (n,)."""
-        # these are half a slot's width beside its middle, on the rim
+        """Return how far a motion's roller is in its slot, beyond the mouth's corners, mm, (n,)."""
+        # the corners are half a slot's width beside the slot's middle, on the rim
         level = math.sqrt(max(self.sizes.rim**2 - self.sizes.half_width**2, 0.0))
         far = np.hypot(*self.assembly.driving(motion, at).T)
         past: Array = self.assembly.sign * (level - far)
@@ -81,9 +84,9 @@ class Outlines(NamedTuple):
 
 
 def outlines(mechanism: Mechanism, tolerance: float = 0.0) -> Outlines:
-    """The outlines in lines and arcs, within ``tolerance`` mm: what the full turn is made with.
+    """Return the outlines in lines and arcs, within ``tolerance`` mm, as the full turn needs them.
 
-    A finer tolerance than the walls are known to is taken as that. The crank's is exact.
+    A tolerance finer than the walls' accuracy is raised to that. The crank's outline is exact.
     Raises GenevaError where the machine has no flat parts, or its sizes leave none.
     """
     where = assembly(mechanism)
@@ -91,7 +94,7 @@ def outlines(mechanism: Mechanism, tolerance: float = 0.0) -> Outlines:
 
 
 def drawn(assembly: Assembly, sizes: Sizes, tolerance: float = 0.0) -> Outlines:
-    """The same of an assembly whose sizes are known."""
+    """Return the outlines of an assembly with known sizes, within ``tolerance`` mm."""
     kinds, L = assembly.kinds, assembly.L
     fine = max(0.5 * CURVED * L, tolerance)
     walls = {engagement: slot_walls(assembly, sizes, engagement, fine) for engagement in kinds}
@@ -104,37 +107,37 @@ def drawn(assembly: Assembly, sizes: Sizes, tolerance: float = 0.0) -> Outlines:
 def slot_walls(
     assembly: Assembly, sizes: Sizes, engagement: Engagement, tolerance: float, curves: str = "arcs"
 ) -> Contour:
-    """The walls of one slot, straight or curved; see ``curved_walls`` for ``curves``."""
+    """Return the walls of a slot, straight or curved; ``curves`` is "arcs" or "cubics"."""
     if engagement.slot.curved:
         return curved_walls(assembly, sizes, engagement, tolerance, curves)
     return straight_walls(assembly, sizes, engagement)
 
 
 def _relieved(bare: Gaps, close: float) -> tuple[list[Contour], str, Gaps]:
-    """The crank with the relief that the spec asks for, or else the first that clears the wheel.
+    """Return the crank with the relief of the spec, or else the first kind that clears the wheel.
 
-    The arc leaves the most of the disc and is one cut; where it collides, as at many slots, the
-    whole sector is cut down to where the wheel never comes.
+    An arc leaves the most of the disc and is one cut. If it collides, as with many slots, the whole
+    sector is cut down to where the wheel never comes.
     """
     assembly, sizes = bare.assembly, bare.sizes
     if not sizes.lock:
         return [], "none", bare
-    asked = assembly.mechanism.spec.size.relief
+    requested = assembly.mechanism.spec.size.relief
     whole = is_whole(assembly, sizes)
     swept = cache(lambda i, every: bare.swept(i, SWEPT_DEG, every))
-    if whole and not asked and not without_lock(assembly) and has_arcs(assembly, sizes.lock):
+    if whole and not requested and not without_lock(assembly) and has_arcs(assembly, sizes.lock):
         crank = crank_contours(assembly, sizes, "arc", swept)
         gaps = bare.with_crank(crank)
         if all(_overlap(gaps, close, every) <= close for every in (SOME, 1)):
             return crank, "arc", gaps
-    kind, spare = asked or "sector", 0.0
+    kind, spare = requested or "sector", 0.0
     crank = crank_contours(assembly, sizes, kind, swept)
     gaps = bare.with_crank(crank)
     for _ in range(0 if whole else TRIES):
         overlap = _overlap(gaps, close)
         if overlap <= close:
             break
-        # Between two of the places that were looked at the wheel came nearer still.
+        # Between two of these positions the wheel came nearer still.
         spare += SPARE * overlap + 10.0 * close
         crank = crank_contours(assembly, sizes, kind, swept, spare)
         gaps = bare.with_crank(crank)
@@ -142,8 +145,9 @@ def _relieved(bare: Gaps, close: float) -> tuple[list[Contour], str, Gaps]:
 
 
 def _overlap(gaps: Gaps, close: float, every: int = 1) -> float:
-    """The greatest overlap of crank and wheel in all motions, mm, or at some of the places that are
-    looked at; wider gaps are not told apart than by ``close``.
+    """Return the greatest overlap of crank and wheel in all motions, mm.
+
+    Only each ``every``-th position is computed. Gaps wider than ``close`` count as ``close``.
     """
     least = 0.0
     for engagement, behind in gaps.assembly.motions:
@@ -151,7 +155,7 @@ def _overlap(gaps: Gaps, close: float, every: int = 1) -> float:
         at = (
             behind + np.linspace(engagement.entry_deg, engagement.exit_deg, count) + 0.3 * SWEPT_DEG
         )[::every]
-        # without rollers, which lock nothing
+        # without the rollers, which lock nothing
         pose = Pose(gaps.assembly.wheel(at), gaps.assembly.crank(at), np.empty((len(at), 0, 2)))
         least = min(least, float(gaps.locking(pose, near=close).min()))
     return -least

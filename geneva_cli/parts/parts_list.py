@@ -1,10 +1,11 @@
-"""The list of parts: what is cut and turned, and every pivot and dimension to rebuild it from.
+"""The list of parts: all that is cut and turned, with every pivot and dimension to rebuild it.
 
-Rows are parts, pivots (at input angle 0, the wheel's axis the origin and the crank's on the x
-axis), dimensions, and what cannot be built, with the reason. Mass and moment of inertia are of one,
-in closed form, about the axis that it turns on: the wheel's, the crank's, a roller's own, a link's
-first joint, from where the centroid is given too, in the part's own frame. z is along the axis,
-from the wheel's lower face: the stack; on a sphere from the wheel's outer face inwards.
+Rows are parts, pivots, dimensions, and parts that cannot be built, with the reason. Pivots are at
+input angle 0, with the wheel's axis as origin and the crank's on the x axis. Mass and moment of
+inertia are of one part, in closed form, about the axis that it turns on. That is the wheel's, the
+crank's or a roller's own axis, or a link's first joint. The centroid is from there too, in the
+part's own frame. z is along the axis from the wheel's lower face; on a sphere inwards from the
+wheel's outer face.
 """
 
 from __future__ import annotations
@@ -34,8 +35,8 @@ from geneva_cli.spec.tables import Size
 from geneva_cli.table import Table, rows_table
 
 ROUNDING = 1e-13  # of a part's size: a centroid nearer to its axis is on it
-ACROSS = ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0))  # in which a shell's size is measured
-# what a row of each kind has
+ACROSS = ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0))  # axes along which a shell's size is measured
+# columns of a row of each kind
 KINDS = {
     "part": (
         "name",
@@ -61,21 +62,21 @@ NAMES = ("row", *dict.fromkeys(name for names in KINDS.values() for name in name
 
 
 def parts_table(mechanism: Mechanism, tolerance_mm: float, samples: int | None) -> Table:
-    """One row a part, a pivot, a dimension, or what cannot be built."""
+    """Return a table with a row for each part, pivot, dimension, and part that cannot be built."""
     return parts_list(Proof(mechanism))
 
 
 def parts_list(proof: Proof) -> Table:
-    """The list of parts of a machine whose outlines may be known."""
+    """Return the list of parts of a machine, whose outlines may already be computed."""
     mechanism = proof.mechanism
-    every = [*_parts(proof), *_pivots(mechanism), *_dimensions(proof)]
-    found = [{"row": "missing", **r._asdict()} if isinstance(r, Missing) else r for r in every]
-    rows = [[row.get(name) for name in NAMES] for row in found]
+    entries = [*_parts(proof), *_pivots(mechanism), *_dimensions(proof)]
+    mappings = [{"row": "missing", **r._asdict()} if isinstance(r, Missing) else r for r in entries]
+    rows = [[row.get(name) for name in NAMES] for row in mappings]
     return rows_table(NAMES, rows, mechanism.spec.title, mixed=True)
 
 
 def _parts(proof: Proof) -> Iterator[Row | Missing]:
-    """All parts; where they cannot all be built, wheel and crank alone, and why."""
+    """Yield all parts; if they cannot all be built, wheel and crank alone, and the reason."""
     spec = proof.mechanism.spec
     if spec.is_flat or not spec.wheel.FLAT:
         rows = list(or_missing("all other parts", lambda: _machine_rows(proof)))
@@ -87,7 +88,7 @@ def _parts(proof: Proof) -> Iterator[Row | Missing]:
 
 
 def _machine_rows(proof: Proof) -> Iterator[Row]:
-    """A row for each kind of part of a machine. Raises GenevaError where one cannot be built."""
+    """Yield a row for each kind of part. Raises GenevaError where one cannot be built."""
     if proof.mechanism.spec.wheel.FLAT:
         yield from _rows(proof, built(proof.found).members)
     else:
@@ -95,7 +96,7 @@ def _machine_rows(proof: Proof) -> Iterator[Row]:
 
 
 def _bare_rows(proof: Proof) -> Iterator[Row]:
-    """Rows for wheel and crank without the crank's arm; on a sphere without hub and bolts too."""
+    """Yield rows for wheel and crank without the arm; on a sphere without hub and bolts too."""
     wheel: Part
     if proof.mechanism.spec.wheel.FLAT:
         wheel, crank = wheel_part(proof.found, proof.found.wheel), crank_group(proof.found)
@@ -105,7 +106,7 @@ def _bare_rows(proof: Proof) -> Iterator[Row]:
 
 
 def link_rows(proof: Proof) -> Iterator[Row]:
-    """Links and gears, their shafts and the frame alone: where the wheel is not drawn."""
+    """Yield rows for links, gears, shafts and frame, where the wheel is not drawn."""
     yield from part_rows(proof.mechanism.spec, Group("", link_members(proof)))
 
 
@@ -116,13 +117,13 @@ def _rows(proof: Proof, members: tuple[Member, ...]) -> Iterator[Row]:
 
 
 def part_rows(spec: Spec, group: Group, outside: float | None = None) -> Iterator[Row]:
-    """A row for each kind of solid in a group, with its count.
+    """Yield a row for each kind of solid in a group, with its count.
 
-    On a sphere ``outside`` is the radius of the wheel's outer face, from where z counts inwards.
+    On a sphere ``outside`` is the radius of the wheel's outer face, from which z counts inwards.
     """
     kinds: dict[Plate | tuple[str, str], list[Plate | Shell]] = {}
     for solid in solids(group):
-        # Shells of one kind lie in different places, and may differ by rounding.
+        # Shells of one kind lie at different places, and may differ by rounding.
         kind = solid if isinstance(solid, Plate) else (solid.name, f"{solid.volume:.9g}")
         kinds.setdefault(kind, []).append(solid)
     for alike in kinds.values():
@@ -138,21 +139,21 @@ def part_rows(spec: Spec, group: Group, outside: float | None = None) -> Iterato
             "count": len(alike),
             "material": f"material.{name}",
             "density_kgm3": material.density_kgm3,
-            **_measures(solid, material.density_kgm3, outside),
+            **_properties(solid, material.density_kgm3, outside),
         }
 
 
-def _measures(solid: Plate | Shell, density: float, outside: float | None) -> Row:
-    """Heights, mass, inertia and size of a solid, and in a flat machine its centroid."""
+def _properties(solid: Plate | Shell, density: float, outside: float | None) -> Row:
+    """Return heights, mass, inertia and size of a solid; in a flat machine also its centroid."""
     row: Row = {}
     if isinstance(solid, Plate):
         low, high, box = solid.low, solid.high, bounds(solid.outline)
         wide, deep = box.x1 - box.x0, box.y1 - box.y0
-        made = mass_properties(solid, density)
-        mass, inertia = made.mass_kg, made.inertia_kgm2
+        body = mass_properties(solid, density)
+        mass, inertia = body.mass_kg, body.inertia_kgm2
         if outside is None:
             near = ROUNDING * max(wide, deep)
-            x, y = (at if abs(at) > near else 0.0 for at in made.centroid_mm)
+            x, y = (at if abs(at) > near else 0.0 for at in body.centroid_mm)
             row = {"centroid_x_mm": x, "centroid_y_mm": y}
     else:
         low, high = solid.inner, solid.outer
@@ -175,18 +176,18 @@ def _measures(solid: Plate | Shell, density: float, outside: float | None) -> Ro
 def _pivots(mechanism: Mechanism) -> Iterator[Row]:
     L = mechanism.center_distance_mm
     own = mechanism.spec.drive.layout(mechanism.plan, mechanism.spec.wheel.SIGN)
-    found = [p for p in own if isinstance(p, Pivot)]
+    pivots = [p for p in own if isinstance(p, Pivot)]
     if mechanism.spec.wheel.FLAT:
-        found = [Pivot("wheel axis", 0.0, 0.0), Pivot("crank axis", L, 0.0), *found]
-    for one in found:
-        yield {"row": "pivot", **one._asdict()}
+        pivots = [Pivot("wheel axis", 0.0, 0.0), Pivot("crank axis", L, 0.0), *pivots]
+    for pivot in pivots:
+        yield {"row": "pivot", **pivot._asdict()}
 
 
 def _dimensions(proof: Proof) -> Iterator[Row | Missing]:
     mechanism = proof.mechanism
     spec, L = mechanism.spec, mechanism.center_distance_mm
     r, clear = mechanism.roller_radius_mm, spec.size.allowances.slot_clearance_mm
-    found: list[Dimension | Missing] = [
+    entries: list[Dimension | Missing] = [
         Dimension("wheel", spec.wheel.NAME),
         Dimension("drive", spec.drive.NAME),
         Dimension("slots", spec.wheel.z),
@@ -194,37 +195,37 @@ def _dimensions(proof: Proof) -> Iterator[Row | Missing]:
         Dimension("roller radius", r, "mm"),
         Dimension("slot width", 2.0 * (r + clear), "mm"),
     ]
-    found += [d for d in spec.wheel.layout if isinstance(d, Dimension)]
+    entries += [d for d in spec.wheel.layout if isinstance(d, Dimension)]
     if not spec.wheel.FLAT:
-        found += dimensions(proof)
+        entries += dimensions(proof)
     if mechanism.law is None and spec.drive.CRANKED:
-        found += _straight(mechanism)
+        entries += _straight(mechanism)
     elif spec.drive.CRANKED:
-        found.append(Dimension("crank radius", mechanism.ratio * L, "mm"))
-        found.append(Dimension("rollers, evenly", spec.drive.rollers))
+        entries.append(Dimension("crank radius", mechanism.ratio * L, "mm"))
+        entries.append(Dimension("rollers, evenly", spec.drive.rollers))
     elif spec.drive.rollers > 1:
-        found.append(Dimension("rollers, evenly", spec.drive.rollers))
-    found += _motions(mechanism)
+        entries.append(Dimension("rollers, evenly", spec.drive.rollers))
+    entries += _motions(mechanism)
     own = spec.drive.layout(mechanism.plan, spec.wheel.SIGN)
-    found += [d for d in own if isinstance(d, Dimension)]
-    for one in found:
-        yield one if isinstance(one, Missing) else {"row": "dimension", **one._asdict()}
+    entries += [d for d in own if isinstance(d, Dimension)]
+    for entry in entries:
+        yield entry if isinstance(entry, Missing) else {"row": "dimension", **entry._asdict()}
 
 
 def _straight(mechanism: Mechanism) -> Iterator[Dimension]:
-    """Of straight slots: each roller on the crank, and what the slots are off the centre by."""
+    """Yield crank radius and angle of each roller on the crank, for straight slots."""
     spec, L = mechanism.spec, mechanism.center_distance_mm
-    every = places(spec)
+    stations = places(spec)
     m = spec.drive.rollers
-    for i in range(max(len(every), m)):
-        place = every[i % len(every)]
-        behind = place.crank_deg if len(every) > 1 else 360.0 * i / m
-        yield Dimension(f"roller {i + 1}: crank radius", place.ratio * L, "mm")
+    for i in range(max(len(stations), m)):
+        station = stations[i % len(stations)]
+        behind = station.crank_deg if len(stations) > 1 else 360.0 * i / m
+        yield Dimension(f"roller {i + 1}: crank radius", station.ratio * L, "mm")
         yield Dimension(f"roller {i + 1}: behind the first", behind, "deg")
 
 
 def _motions(mechanism: Mechanism) -> Iterator[Dimension]:
-    """Of each engagement of a period: the wheel's step and the input angles of its motion."""
+    """Yield the wheel's step and the input angles of each engagement of a period."""
     for i, one in enumerate(mechanism.engagements):
         name = f"engagement {i + 1}: " if len(mechanism.engagements) > 1 else ""
         yield Dimension(f"{name}wheel's step", mechanism.index_deg(i), "deg")

@@ -1,4 +1,4 @@
-"""The parts of a machine and their full turn, each worked out once, when it is first used."""
+"""The parts of a machine and their full turn, each computed once, on first use."""
 
 from __future__ import annotations
 
@@ -13,9 +13,9 @@ from geneva_cli.parts.turn.turned import Turned
 
 
 class Proof:
-    """The outlines and the full turn of one machine, shared by all that needs them.
+    """The outlines and the full turn of one machine, shared by all who need them.
 
-    Without ``advice`` a refusal does not say which roller would do, which takes long to find.
+    Without ``advice`` an error does not name the roller that fits, which takes long to find.
     """
 
     def __init__(
@@ -32,24 +32,24 @@ class Proof:
 
     @cached_property
     def shells(self) -> Shells:
-        """The shells of a machine on a sphere; raises GenevaError likewise."""
+        """The shells of a machine on a sphere; raises GenevaError where the sizes leave none."""
         return shells(self.mechanism, self.advice)
 
     @property
     def turned(self) -> Turned:
-        """What is turned: outlines or shells."""
+        """The parts that are turned: outlines or shells."""
         return self.found if self.mechanism.spec.wheel.FLAT else self.shells
 
     @property
     def turn(self) -> FullTurn:
-        """The full turn; raises NotProved where that takes too long."""
+        """The full turn; raises NotProved where it takes too long."""
         if isinstance(self._turned, NotProved):
             raise self._turned
         return self._turned
 
     @cached_property
     def _turned(self) -> FullTurn | NotProved:
-        # That it takes too long is found out once, too.
+        # That it takes too long is remembered too.
         try:
             return full_turn(self.turned)
         except NotProved as error:

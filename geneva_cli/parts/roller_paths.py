@@ -18,29 +18,29 @@ TURN = 720  # input angles at which a path is sampled
 
 
 class RollerPaths(NamedTuple):
-    """How near the rollers' centres come to the axes, mm, whatever the rollers' radius."""
+    """Least distances of the rollers' centres from the axes, mm, whatever the rollers' radius."""
 
     ends: tuple[
         float, ...
-    ]  # of each kind of slot, least distance from the wheel's axis (inside: greatest)
-    arm: float  # least distance of a roller, and of the slots beside it, from the crank's axis
+    ]  # of each kind of slot, least distance from the wheel's axis; greatest for internal wheels
+    arm: float  # least distance of the rollers, and of the adjacent slots, from the crank's axis
 
 
 def roller_paths(assembly: Assembly) -> RollerPaths:
-    """The paths of a machine's rollers."""
+    """Return the paths of a machine's rollers."""
     kinds = [s.through for s in assembly.kinds]
     paths = [_pitch(assembly, s) for s in kinds]
     reach = [np.hypot(*points.T) for points in paths]
     ends = tuple(float(r.min() if assembly.sign > 0.0 else r.max()) for r in reach)
-    beside = [_to_slot(assembly, s, points) for s, points in zip(kinds, paths, strict=True)]
-    return RollerPaths(ends, min(_arm(assembly), *beside))
+    adjacent = [_to_slot(assembly, s, points) for s, points in zip(kinds, paths, strict=True)]
+    return RollerPaths(ends, min(_arm(assembly), *adjacent))
 
 
 def mouth(assembly: Assembly, engagement: Engagement, r: float) -> float:
-    """The rim's radius, at which a roller of radius r enters and leaves a slot.
+    """Return the rim's radius, where a roller of radius r enters and leaves a slot.
 
-    It is where the roller touches the wall that faces the crank's axis, at the foot of the
-    perpendicular from that axis.
+    There the roller touches the wall that faces the crank's axis, at the foot of the perpendicular
+    from that axis.
     """
     if not engagement.slot.offset:
         return math.hypot(assembly.L * scalar(engagement.entry_reach), r)
@@ -48,28 +48,28 @@ def mouth(assembly: Assembly, engagement: Engagement, r: float) -> float:
 
 
 def corner(assembly: Assembly, engagement: Engagement, end: float, r: float) -> tuple[float, float]:
-    """The point of the slot's wall that faces the crank's axis at entry (-1) or exit (1)."""
+    """Return the mouth's corner on the crank axis' side at entry (-1) or exit (1), mm."""
     x, y = engagement.slot(engagement.entry_deg if end < 0.0 else engagement.exit_deg, 0)
     px, py = assembly.L * scalar(x.c[0]), assembly.L * scalar(y.c[0])
     cx, cy = rest(assembly, engagement, end)
-    share = r / math.dist((px, py), (cx, cy))
-    return px + share * (cx - px), py + share * (cy - py)
+    ratio = r / math.dist((px, py), (cx, cy))
+    return px + ratio * (cx - px), py + ratio * (cy - py)
 
 
 def rest(assembly: Assembly, engagement: Engagement, end: float) -> tuple[float, float]:
-    """The crank's axis in the wheel's frame before (-1) and after (1) an engagement's motion."""
+    """Return the crank's axis in the wheel's frame before (-1) and after (1) a motion."""
     b = -end * engagement.half_step
     return assembly.L * math.cos(b), assembly.L * math.sin(b)
 
 
 def _pitch(assembly: Assembly, engagement: Engagement) -> Array:
-    """Points of a slot's pitch curve, (n, 2)."""
+    """Return points of a slot's pitch curve, (n, 2)."""
     x, y = engagement.slot(np.linspace(engagement.entry_deg, engagement.exit_deg, TURN + 1), 0)
     return assembly.L * np.column_stack((x.c[0], y.c[0] + 0.0 * x.c[0]))
 
 
 def _arm(assembly: Assembly) -> float:
-    """Least distance of the rollers from the crank's axis."""
+    """Return the least distance of the rollers from the crank's axis."""
     turn = np.linspace(0.0, assembly.turn_deg, TURN, endpoint=False)
     leaders = {engagement: i for i, (engagement, _) in reversed([*enumerate(assembly.rollers)])}
     # others follow their leaders
@@ -78,7 +78,7 @@ def _arm(assembly: Assembly) -> float:
 
 
 def _to_slot(assembly: Assembly, engagement: Engagement, points: Array) -> float:
-    """Least distance from the crank's axis to the slots on either side, while the wheel rests."""
+    """Return the least distance from the crank's axis to adjacent slots while the wheel rests."""
     return float(
         min(np.hypot(*(points - rest(assembly, engagement, e)).T).min() for e in (-1.0, 1.0))
     )

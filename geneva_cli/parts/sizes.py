@@ -1,7 +1,8 @@
-"""The sizes of the parts, in millimetres: as the spec gives them, or defaults.
+"""The sizes of the parts, in millimetres: those of the spec, or defaults.
 
-The rim is where the roller enters: on a smaller wheel the roller would lose its slot, on a larger
-one it would touch the rim. The locking disc reaches past the rim and leaves a horn beside the slot.
+The rim is where the roller enters. On a smaller wheel the roller would lose its slot, on a larger
+one it would touch the rim. The locking disc reaches past the rim and leaves a horn next to the
+slot.
 """
 
 from __future__ import annotations
@@ -18,12 +19,12 @@ from geneva_cli.parts.reliefs import arc_room, has_arcs
 from geneva_cli.parts.roller_paths import RollerPaths, mouth, roller_paths
 from geneva_cli.spec.tables import Size
 
-PLAIN = 0.4  # of a hub's diameter: the radius of a bore in it
-KEYED = 0.5 / 1.6  # the same of a bore with a keyway, which is up to 0.39 of the radius deep
-BESIDE_HUB = 0.6  # of the room: the widest bore whose default hub, of 1.5 bores, has room
-SAME = 1e-9  # of the centre distance: radii that differ by less are equal
+PLAIN = 0.4  # of a hub's diameter: radius of a bore in it
+KEYED = 0.5 / 1.6  # of a hub's diameter: radius of a bore with keyway, up to 0.39 radii deep
+BESIDE_HUB = 0.6  # of the space: largest bore that fits with its default hub, of 1.5 bores
+SAME = 1e-9  # of the centre distance: radii that differ by less count as equal
 
-# what stands on the axis of a wheel, and has nothing to stand on where that is a ring
+# keys of parts on a wheel's axis, where an internal wheel, a ring, has nothing to carry them
 ON_AXIS = (
     "wheel_bore_mm",
     "wheel_hub_mm",
@@ -34,12 +35,12 @@ ON_AXIS = (
 
 
 class Sizes(NamedTuple):
-    """Lengths and radii, mm; bores and hubs are radii too. 0 where there is none."""
+    """Lengths and radii, mm; bores and hubs are radii too. 0 for parts that do not exist."""
 
     roller: float
     half_width: float  # of the slot: roller and clearance
-    rim: float  # of the wheel, inside: of its opening
-    outer: float  # of an internal wheel; 0 outside
+    rim: float  # of the wheel; of the opening if it is internal
+    outer: float  # of an internal wheel, otherwise 0
     slot_bottom: float  # clearance between the deepest roller and a straight slot's end
     slot_end: float  # distance of the slot's bottom from the wheel's axis
     arm: float  # least distance of a roller's path from the crank's axis
@@ -65,29 +66,29 @@ class Sizes(NamedTuple):
 
 
 def sized(mechanism: Mechanism) -> tuple[Assembly, Sizes] | None:
-    """A machine's assembly and its parts' sizes; None where no flat parts can be cut."""
+    """Return a machine's assembly and sizes; None where no flat parts can be cut."""
     if not mechanism.spec.is_flat:
         return None
     try:
         where = assembly(mechanism)
         return where, sizes(where)
     except GenevaError:
-        return None  # as the check of the parts says
+        return None  # the check of the parts reports the error
 
 
 def sizes(assembly: Assembly, known: RollerPaths | None = None) -> Sizes:
-    """The sizes of a machine's parts; ``known`` are its roller paths, if they are at hand.
+    """Return the sizes of a machine's parts; ``known`` are its roller paths, if computed already.
 
     Raises GenevaError, naming the key, where a size leaves no wheel or no lock.
     """
     spec, L = assembly.mechanism.spec, assembly.L
     path, kinds = known or roller_paths(assembly), assembly.kinds
-    given, r = spec.size, assembly.mechanism.roller_radius_mm
-    allowed = given.allowances
+    size, r = spec.size, assembly.mechanism.roller_radius_mm
+    allowed = size.allowances
     w = r + allowed.slot_clearance_mm
     outside = assembly.sign > 0.0
-    rim = _or(given.wheel_radius_mm, max(mouth(assembly, s, r) for s in kinds))
-    bottom = _or(given.slot_bottom_clearance_mm, max(allowed.slot_clearance_mm, r / 20.0))
+    rim = _or(size.wheel_radius_mm, max(mouth(assembly, s, r) for s in kinds))
+    bottom = _or(size.slot_bottom_clearance_mm, max(allowed.slot_clearance_mm, r / 20.0))
     gaps = [0.0 if s.slot.curved else bottom for s in kinds]
     ends = (
         assembly.sign * _bottom(deepest, L * s.through.slot.offset, assembly.sign * gap)
@@ -97,27 +98,27 @@ def sizes(assembly: Assembly, known: RollerPaths | None = None) -> Sizes:
     arm = path.arm
     lock = _lock(assembly, arm, w, rim)
     depth = abs(L - rim)
-    relief = _or(given.relief_clearance_mm, min(L / 200.0, depth / 4.0))
+    relief = _or(size.relief_clearance_mm, min(L / 200.0, depth / 4.0))
     room = (lock or rim) / arm * (L - math.sqrt(max(rim * rim - r * r, 0.0))) if outside else 0.0
-    if any(s.apart for s in kinds):  # gears widen the relief
+    if any(s.apart for s in kinds):  # gears between rollers widen the relief
         room = min(room, arc_room(assembly, lock)) if has_arcs(assembly, lock) else math.inf
     bore = (
         0.0
         if not spec.drive.LOCKS
         else _crank_bore(assembly.given.spec, min(room, depth - relief), L)
     )
-    wall = wall_min(given, L)
-    wheel_bore = _or(_half(given.wheel_bore_mm), _bore(given, end, wall, L))
-    wheel_bore = wheel_bore if outside or given.wheel_bore_mm else 0.0
-    wheel_reach = _reach(given.wheel_keyway, wheel_bore)
-    crank_reach = _reach(given.crank_keyway, bore)
+    wall = wall_min(size, L)
+    wheel_bore = _or(_half(size.wheel_bore_mm), _bore(size, end, wall, L))
+    wheel_bore = wheel_bore if outside or size.wheel_bore_mm else 0.0
+    wheel_reach = _reach(size.wheel_keyway, wheel_bore)
+    crank_reach = _reach(size.crank_keyway, bore)
     wheel_hub = _around(wheel_reach, wheel_bore, wall, min(1.6 * wheel_bore, 0.75 * end))
-    thick = thicknesses(given, L)
+    thick = thicknesses(size, L)
     out = Sizes(
         roller=r,
         half_width=w,
         rim=rim,
-        outer=0.0 if outside else _or(given.wheel_outer_radius_mm, end + max(r, L / 20.0)),
+        outer=0.0 if outside else _or(size.wheel_outer_radius_mm, end + max(r, L / 20.0)),
         slot_bottom=bottom,
         slot_end=end,
         arm=arm,
@@ -127,17 +128,17 @@ def sizes(assembly: Assembly, known: RollerPaths | None = None) -> Sizes:
         wall_min=wall,
         wheel_bore=wheel_bore,
         wheel_reach=wheel_reach,
-        wheel_hub=_or(_half(given.wheel_hub_mm), wheel_hub),
+        wheel_hub=_or(_half(size.wheel_hub_mm), wheel_hub),
         crank_bore=bore,
         crank_reach=crank_reach,
-        crank_hub=_or(_half(given.crank_hub_mm), _around(crank_reach, bore, wall, 1.5 * bore)),
-        pin=pin_radius(given, r),
+        crank_hub=_or(_half(size.crank_hub_mm), _around(crank_reach, bore, wall, 1.5 * bore)),
+        pin=pin_radius(size, r),
         wheel_thickness=thick.wheel,
         lock_thickness=thick.lock,
         arm_thickness=thick.arm,
     )
     _refuse(assembly, out)
-    _refuse_hubs(given, out)
+    _refuse_hubs(size, out)
     return out
 
 
@@ -151,7 +152,7 @@ class Thicknesses(NamedTuple):
 
 
 def thicknesses(size: Size, L: float) -> Thicknesses:
-    """The thicknesses of a spec; by default the wheel's for all."""
+    """Return the thicknesses of a spec; by default all are the wheel's."""
     wheel = _or(size.wheel_thickness_mm, _or(size.face_width_mm, L / 10.0))
     arm = _or(size.arm_thickness_mm, wheel)
     lock = _or(size.lock_thickness_mm, wheel + size.pin_gap_mm)
@@ -159,17 +160,17 @@ def thicknesses(size: Size, L: float) -> Thicknesses:
 
 
 def pin_radius(size: Size, r: float) -> float:
-    """The radius of a roller's pin, 0 for none."""
+    """Return the radius of a roller's pin, 0 for none."""
     return _or(_half(size.pin_mm), r / 2.0)
 
 
 def wall_min(size: Size, L: float) -> float:
-    """The least wall that ``check`` lets pass, mm."""
+    """Return the least wall that ``check`` lets pass, mm."""
     return _or(size.wall_min_mm, L / 200.0)
 
 
-def _or(given: float | None, default: float) -> float:
-    return default if given is None else given
+def _or(value: float | None, default: float) -> float:
+    return default if value is None else value
 
 
 def _half(diameter: float | None) -> float | None:
@@ -177,48 +178,49 @@ def _half(diameter: float | None) -> float | None:
 
 
 def _bore(size: Size, end: float, wall: float, L: float) -> float:
-    """The wheel's default bore: it leaves a wall to the slots' ends, within a given hub."""
+    """Return the wheel's default bore: it leaves a wall to the slots' ends, and in the hub."""
     room = _within(size.wheel_hub_mm, size.wheel_keyway)
     return even(min(L / 12.0, 0.4 * end, end - wall, room))
 
 
 def _crank_bore(spec: Spec, room: float, L: float) -> float:
-    """The crank's bore: the arm's, which has the same shaft, or by default half the room.
+    """Return the crank's bore: that of the arm, which has the same shaft, or half of ``room``.
 
-    It is 0 where the room inside the relief is too small; then the shaft ends in the arm.
+    It is 0 where ``room``, the radius inside the relief, is too small. Then the shaft ends in the
+    arm.
     """
-    given = spec.size
-    if given.crank_bore_mm is not None:
-        return 0.5 * given.crank_bore_mm
-    own = given.arm_bore_mm if spec.drive.ONE_ARM else None
+    size = spec.size
+    if size.crank_bore_mm is not None:
+        return 0.5 * size.crank_bore_mm
+    own = size.arm_bore_mm if spec.drive.ONE_ARM else None
     if own is None:
         own = spec.shaft.crank_diameter_mm
     if own is not None:
         return 0.5 * own if 0.5 * own <= BESIDE_HUB * room else 0.0
-    within = _within(given.crank_hub_mm, given.crank_keyway)
+    within = _within(size.crank_hub_mm, size.crank_keyway)
     return even(min(0.45 * room, within)) if 0.45 * room >= L / 40.0 else 0.0
 
 
 def _within(hub_mm: float | None, keyway: str | None) -> float:
-    """The largest default bore within a hub of a given diameter, if there is one."""
+    """Return the largest default bore in a hub of a diameter, infinite without a hub."""
     return (KEYED if keyway else PLAIN) * hub_mm if hub_mm else math.inf
 
 
 def _reach(standard: str | None, bore: float) -> float:
-    """How far a bore goes with its keyway; without it where the standard has none so large."""
+    """Return a bore's radius with its keyway; without it if the standard has none so large."""
     try:
         return reach(standard, bore)
-    except GenevaError:  # which the part that is cut says
+    except GenevaError:  # reported where the part is cut
         return bore
 
 
 def _around(bored: float, bore: float, wall: float, usual: float) -> float:
-    """The default hub round a bore: as wide as usual, or with a wall round its keyway."""
+    """Return the default hub around a bore: the usual radius, or a wall around its keyway."""
     return max(even(usual), bored + wall) if bored > bore else even(usual)
 
 
 def even(radius: float) -> float:
-    """A radius rounded down to a diameter of two digits; 0 for no radius."""
+    """Return a radius rounded down to a diameter of two digits; 0 for no radius."""
     if radius <= 0.0:
         return 0.0
     step = 10.0 ** (math.floor(math.log10(2.0 * radius)) - 1)
@@ -226,9 +228,9 @@ def even(radius: float) -> float:
 
 
 def _lock(assembly: Assembly, arm: float, w: float, rim: float) -> float:
-    """The locking disc's radius: a horn as thick as the roller's radius, or a fifth of the room.
+    """Return the locking disc's radius: it leaves a horn as thick as the roller's radius.
 
-    0 for no disc; linkages have none.
+    The horn is at most a fifth of the available radius. 0 for no disc; linkages have none.
     """
     spec, size = assembly.mechanism.spec, assembly.mechanism.spec.size
     if size.lock_radius_mm == 0.0 or not spec.drive.LOCKS:
@@ -237,10 +239,10 @@ def _lock(assembly: Assembly, arm: float, w: float, rim: float) -> float:
     least, r = max(assembly.L - rim, 0.0), assembly.mechanism.roller_radius_mm
     if room <= least:
         raise GenevaError(
-            f"no room for a locking disc: it would have to reach {least:.4g} mm, to the rim, and "
-            f"arm less roller and clearances is {room:.4g} mm; "
-            + (f"a roller below {r + room - least:.4g} mm, or " if r + room > least else "")
-            + "lock_radius_mm = 0, where the wheel is held in another way",
+            f"the locking disc does not fit: it must reach the rim, {least:.4g} mm from the "
+            f"crank's axis, but roller and clearances limit it to {room:.4g} mm; "
+            + (f"use a roller below {r + room - least:.4g} mm, or " if r + room > least else "use ")
+            + "lock_radius_mm = 0, if the wheel is held in another way",
             ("size", "lock_radius_mm"),
         )
     if size.lock_radius_mm is None:
@@ -250,25 +252,25 @@ def _lock(assembly: Assembly, arm: float, w: float, rim: float) -> float:
 
 
 def lock_between(least: float, room: float, roller: float) -> float:
-    """The reach of a lock that is not given: into the rim, and a horn's breadth off the slot."""
+    """Return the default reach of a lock: into the rim, and a horn's thickness off the slot."""
     return max(room - min(roller, room / 5.0), 0.5 * (room + least))
 
 
 def require_lock_between(lock_radius_mm: float, least: float, room: float) -> None:
-    """Raise GenevaError where a lock that is given does not reach the rim, or leaves no horn."""
+    """Raise GenevaError where the spec's lock does not reach the rim, or leaves no horn."""
     if not least < lock_radius_mm < room:
         raise GenevaError(
-            f"lock_radius_mm = {lock_radius_mm:g}: it must be above {least:.6g}, to reach "
-            f"into the rim, and below {room:.6g}, to leave a horn beside the slot; or 0 for none",
+            f"lock_radius_mm = {lock_radius_mm:g}: it must be above {least:.6g} to reach the rim, "
+            f"and below {room:.6g} to leave a horn; 0 means no lock",
             ("size", "lock_radius_mm"),
         )
 
 
 def _bottom(deepest: float, offset: float, gap: float) -> float:
-    """Distance from the wheel's axis of the centre of a slot's round end, mm.
+    """Return the distance of the centre of a slot's round end from the wheel's axis, mm.
 
-    The gap between it and the deepest roller is along the slot, which may miss the wheel's axis;
-    below 0 where it is beyond that.
+    The gap between it and the deepest roller is along the slot, whose axis may be offset from the
+    wheel's. Beyond the wheel's axis the distance is negative.
     """
     along = math.sqrt(max(deepest * deepest - offset * offset, 0.0)) - gap
     return math.copysign(math.hypot(along, offset), along)
@@ -278,14 +280,14 @@ def _refuse(assembly: Assembly, sizes: Sizes) -> None:
     outside = assembly.sign > 0.0
     if sizes.lock and not abs(assembly.L - sizes.rim) < sizes.recess:
         raise GenevaError(
-            f"wheel_radius_mm = {sizes.rim:g}: the rim lies beyond the locking disc, which opens "
-            f"it only where it is below {assembly.L + sizes.recess:.6g}",
+            f"wheel_radius_mm = {sizes.rim:g}: the rim lies beyond the locking disc's reach; it "
+            f"must be below {assembly.L + sizes.recess:.6g}",
             ("size", "wheel_radius_mm"),
         )
     if outside and sizes.slot_end <= 0.0:
         raise GenevaError(
-            "the slots meet in the wheel's centre: roller_radius_mm, slot_clearance_mm and "
-            f"slot_bottom_clearance_mm must together be less by more than {-sizes.slot_end:.4g} mm",
+            "the slots meet in the wheel's centre: reduce roller_radius_mm, slot_clearance_mm and "
+            f"slot_bottom_clearance_mm together by more than {-sizes.slot_end:.4g} mm",
             ("size", "roller_radius_mm"),
         )
     if outside and sizes.wheel_bore >= sizes.slot_end:
@@ -303,9 +305,9 @@ def _refuse(assembly: Assembly, sizes: Sizes) -> None:
         and abs(0.5 * own - sizes.crank_bore) > SAME * assembly.L
     ):
         raise GenevaError(
-            f"arm_bore_mm = {own:g}: the same shaft goes through the locking disc, whose "
-            f"crank_bore_mm is {2.0 * sizes.crank_bore:g}; they must be equal, or crank_bore_mm 0, "
-            "where the shaft ends in the arm",
+            f"arm_bore_mm = {own:g}: one shaft goes through arm and locking disc, whose "
+            f"crank_bore_mm is {2.0 * sizes.crank_bore:g}; make them equal, or crank_bore_mm 0, to "
+            "end the shaft in the arm",
             ("size", "arm_bore_mm"),
         )
     if sizes.lock and sizes.crank_bore >= sizes.lock:
@@ -321,19 +323,19 @@ def _refuse(assembly: Assembly, sizes: Sizes) -> None:
         )
     if not outside and sizes.outer <= max(sizes.slot_end, assembly.L + sizes.recess):
         raise GenevaError(
-            f"wheel_outer_radius_mm = {sizes.outer:g}: the slots reach {sizes.slot_end:.6g} mm; it "
-            "must be larger",
+            f"wheel_outer_radius_mm = {sizes.outer:g}: it must be larger: the slots reach "
+            f"{sizes.slot_end:.6g} mm",
             ("size", "wheel_outer_radius_mm"),
         )
     if outside and assembly.mechanism.spec.size.wheel_outer_radius_mm is not None:
         raise GenevaError(
-            "wheel_outer_radius_mm is for internal wheels; here wheel_radius_mm is the outside",
+            "wheel_outer_radius_mm is for internal wheels only; here set wheel_radius_mm",
             ("size", "wheel_outer_radius_mm"),
         )
 
 
 def _refuse_hubs(size: Size, sizes: Sizes) -> None:
-    """Raise GenevaError, naming the key, for what stands on no wheel, and for a hub cut through."""
+    """Raise GenevaError, naming the key, for parts on an open wheel, and for hubs cut through."""
     on_axis = [key for key in ON_AXIS if vars(size)[key]]
     if sizes.outer and on_axis:
         raise GenevaError(
@@ -345,7 +347,7 @@ def _refuse_hubs(size: Size, sizes: Sizes) -> None:
     for part, (hub, bored, bore) in hubs.items():
         if bore < hub <= bored:
             raise GenevaError(
-                f"{part}_hub_mm = {2.0 * hub:g}: the hub must be above {2.0 * bored:.6g}, its bore "
-                f"and keyway; a smaller {part}_bore_mm leaves more of it",
+                f"{part}_hub_mm = {2.0 * hub:g}: it must be above {2.0 * bored:.6g}, the diameter "
+                f"over bore and keyway; a smaller {part}_bore_mm leaves more of it",
                 ("size", f"{part}_hub_mm"),
             )

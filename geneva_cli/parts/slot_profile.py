@@ -17,16 +17,17 @@ if TYPE_CHECKING:
 
 T = TypeVar("T", Way, Pitch)
 
-# Nearer to mid-motion than this a sample is at it: where the pin stops there, its direction would
-# be rounding, and the curve has turned by less than that rounding since.
+# A sample nearer to mid-motion than this counts as being there. Where the pin stops at mid-motion,
+# its direction nearby would be rounding, and the curve has turned by less than that rounding.
 MIDDLE_DEG = 1e-9
 
 
 class Slot(NamedTuple):
     """The slot at ascending input angles, in millimetres, in the wheel's frame.
 
-    ``left`` and ``right`` are the flanks as the pin travels in, ``radius`` the pitch curve's
-    radius of curvature: positive where its centre lies to the left, infinite on a straight line.
+    ``left`` and ``right`` are the flanks, seen as the pin travels in. ``radius`` is the pitch
+    curve's radius of curvature: positive where its centre lies to the left, infinite on a straight
+    line.
     """
 
     input_deg: Array
@@ -39,7 +40,7 @@ class Slot(NamedTuple):
 
 
 def slot(mechanism: Mechanism, input_deg: Array) -> Slot:
-    """The slot of a mechanism at ascending input angles of its first engagement."""
+    """Return the slot of a mechanism at ascending input angles of its first engagement."""
     engagement, L = mechanism.engagements[0].through, mechanism.center_distance_mm
     back = retraces(engagement)
     input_deg = _snapped(input_deg, back)
@@ -51,30 +52,30 @@ def slot(mechanism: Mechanism, input_deg: Array) -> Slot:
     return Slot(
         input_deg,
         np.degrees(engagement.motion(input_deg, 0).c[0]),
-        *_beside(mechanism, at, side),
+        *_offsets(mechanism, at, side),
         np.degrees(at.pressure),
         np.where(straight | (at.turning == 0.0), np.inf, radius),
     )
 
 
 def flanks(mechanism: Mechanism, input_deg: Array) -> tuple[Array, Array, Array]:
-    """Pitch curve and both flanks, (n, 2) each, as ``slot`` has them and without the rest of it."""
+    """Return the pitch curve and both flanks at input angles, mm, (n, 2) each."""
     engagement = mechanism.engagements[0].through
     back = retraces(engagement)
     input_deg = _snapped(input_deg, back)
     at = way_at(engagement, input_deg, back)
-    return _beside(mechanism, at, _side(engagement, input_deg, at, back))
+    return _offsets(mechanism, at, _side(engagement, input_deg, at, back))
 
 
 def _snapped(input_deg: Array, back: bool) -> Array:
-    """Input angles, those at a retracing mid-motion exactly there."""
+    """Return input angles, with those near a retracing mid-motion set to exactly 0."""
     return np.where(np.abs(input_deg) < MIDDLE_DEG, 0.0, input_deg) if back else input_deg
 
 
 def _side(engagement: Engagement, input_deg: Array, at: Way | Pitch, back: bool) -> Array:
-    """1, or -1 where the pin leaves on the way it came.
+    """Return 1, or -1 where the pin leaves on the path on which it came.
 
-    Its travel is reversed after mid-motion; the flanks keep the sides they had on the way in.
+    Its travel is reversed after mid-motion; the flanks keep the sides that they had on the way in.
     """
     if engagement.slot.axis(engagement.entry_deg) is None:
         return np.where(back & (input_deg > 0.0), -1.0, 1.0)
@@ -83,8 +84,8 @@ def _side(engagement: Engagement, input_deg: Array, at: Way | Pitch, back: bool)
     return np.where(ahead < 0.0, -1.0, 1.0)
 
 
-def _beside(mechanism: Mechanism, at: Way | Pitch, side: Array) -> tuple[Array, Array, Array]:
-    """The pitch curve and its two offsets, mm, by the roller's radius and its clearance."""
+def _offsets(mechanism: Mechanism, at: Way | Pitch, side: Array) -> tuple[Array, Array, Array]:
+    """Return the pitch curve and its two offsets by the roller's radius and clearance, mm."""
     L, size = mechanism.center_distance_mm, mechanism.spec.size
     offset = mechanism.roller_radius_mm + size.allowances.slot_clearance_mm
     normal = np.column_stack((-at.tangent_y * side, at.tangent_x * side))
@@ -93,12 +94,12 @@ def _beside(mechanism: Mechanism, at: Way | Pitch, side: Array) -> tuple[Array, 
 
 
 def pitch_at(engagement: Engagement, input_deg: Array, back: bool) -> Pitch:
-    """The pitch curve, with its limit put in at a retracing mid-motion."""
+    """Return the pitch curve, with its limit at a retracing mid-motion."""
     return _with_limit(pitch, engagement, input_deg, back)
 
 
 def way_at(engagement: Engagement, input_deg: Array, back: bool) -> Way:
-    """The pin's way in the wheel, with its limit put in at a retracing mid-motion."""
+    """Return the pin's path in the wheel, with its limit at a retracing mid-motion."""
     return _with_limit(way, engagement, input_deg, back)
 
 
@@ -110,7 +111,7 @@ def _with_limit(
         return of(engagement, input_deg)
     # any regular place stands in for mid-motion
     at = of(engagement, np.where(middle, 0.5 * engagement.entry_deg, input_deg))
-    limit = pitch_at_retrace(engagement)  # which begins as a way does
+    limit = pitch_at_retrace(engagement)  # its first fields are those of a way
     columns = zip(at, limit, strict=False)
-    made: Callable[..., T] = type(at)
-    return made(*(np.where(middle, value, array(column)) for column, value in columns))
+    build: Callable[..., T] = type(at)
+    return build(*(np.where(middle, value, array(column)) for column, value in columns))

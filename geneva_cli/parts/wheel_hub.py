@@ -1,6 +1,6 @@
-"""The wheel's hub: it stands below the wheel, about its axis.
+"""The wheel's hub, which stands below the wheel, about its axis.
 
-It is drawn where the spec gives a size of its; else only room is kept for it.
+It is drawn if the spec has one of its sizes; otherwise only its space is kept free.
 """
 
 from __future__ import annotations
@@ -19,25 +19,25 @@ AXIS = (0.0, 0.0)
 
 
 def wheel_hub(assembly: Assembly, sizes: Sizes) -> Plate | None:
-    """The wheel's hub below it; None where the spec gives neither its diameter nor its length."""
-    given = assembly.mechanism.spec.size
-    asked = given.wheel_hub_mm is not None or given.wheel_hub_length_mm is not None
-    if not asked or sizes.wheel_hub <= sizes.wheel_bore:
+    """Return the hub below the wheel; None unless the spec has its diameter or its length."""
+    size = assembly.mechanism.spec.size
+    requested = size.wheel_hub_mm is not None or size.wheel_hub_length_mm is not None
+    if not requested or sizes.wheel_hub <= sizes.wheel_bore:
         return None
     bores = about_axis(wheel_circles(assembly, sizes) if sizes.wheel_bore else [])
     outline = Circle(HUB, AXIS, sizes.wheel_hub)
-    return Plate("wheel's hub", HUB, outline, bores, -wheel_hub_length(given, sizes), 0.0)
+    return Plate("wheel's hub", HUB, outline, bores, -wheel_hub_length(size, sizes), 0.0)
 
 
 def wheel_hub_length(size: Size, sizes: Sizes) -> float:
-    """The length of the wheel's hub: by default as far down as the crank arm."""
+    """Return the length of the wheel's hub: by default as far down as the crank arm."""
     if size.wheel_hub_length_mm is not None:
         return size.wheel_hub_length_mm
     return size.pin_gap_mm + sizes.arm_thickness
 
 
 def about_axis(circles: list[Shape]) -> tuple[Shape, ...]:
-    """The bore among some circles: the one about the axis, which may have a keyway."""
+    """Return the bore among some shapes: the one about the axis, which may have a keyway."""
     bores = (shape for shape in circles if shape.layer == "BORE")
     return tuple(
         shape

@@ -693,8 +693,8 @@ def test_wheel_without_an_error_is_silent():
         (size("pin_mm = 12"), 4, ["pin_mm = 12", "below 10, the roller's diameter"]),
         (size("roller_radius_mm = -1"), 4, ["roller_radius_mm = -1", "above 0"]),
         (size('relief = "round"'), 4, ['"arc"', '"sector"']),
-        (size("lock_clearance_mm = 40"), 3, ["no room for a locking disc", "clearances"]),
-        (size("wheel_radius_mm = 20"), 3, ["no room for a locking disc", "rim"]),
+        (size("lock_clearance_mm = 40"), 3, ["the locking disc does not fit", "clearances"]),
+        (size("wheel_radius_mm = 20"), 3, ["the locking disc does not fit", "rim"]),
         (size("lock_radius_mm = 0", "wheel_radius_mm = 40"), 5, ["wheel_radius_mm = 40", "ends"]),
         (size("wheel_outer_radius_mm = 120"), 4, ["wheel_outer_radius_mm", "internal wheels"]),
         (
