@@ -110,7 +110,7 @@ ROLLERS = [
     case("not-from-0", WHEEL + ANGLES + "@", "[10, 150]", 4, "rise from 0"),
     case("whole-turn", WHEEL + ANGLES + "@", "[0, 360]", 4, "below 360"),
     case("empty", WHEEL + ANGLES + "@", "[]", 4, "list of 1"),
-    case("internal", INSIDE + ANGLES + "@", "[0, 180]", 5, "240", "180 between"),
+    case("internal", INSIDE + ANGLES + "@", "[0, 180]", 5, "240", "180 deg apart"),
     case("spherical", BALL + ANGLES + "@", "[0, 180]", 5, "180", "dwell"),
     case("law", WHEEL + ANGLES + "@\n" + LAW, "[0, 150]", 4, "straight", "remove"),
     case(
