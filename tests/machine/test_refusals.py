@@ -113,9 +113,7 @@ ROLLERS = [
     case("internal", INSIDE + ANGLES + "@", "[0, 180]", 5, "240", "180 deg apart"),
     case("spherical", BALL + ANGLES + "@", "[0, 180]", 5, "180", "dwell"),
     case("law", WHEEL + ANGLES + "@\n" + LAW, "[0, 150]", 4, "straight", "remove"),
-    case(
-        "count", WHEEL + ANGLES + "[0, 150]\nrollers = @", "3", 5, "2 angles", "remove rollers"
-    ),
+    case("count", WHEEL + ANGLES + "[0, 150]\nrollers = @", "3", 5, "2 angles", "remove rollers"),
 ]
 
 SPHERICAL = [
