@@ -191,7 +191,7 @@ ANY = {
     "numerics.pieces": {"at", "column", "rows", "look", "_turn"},
     "analysis.loads.summary": {"rows", "_rows", "_cells"},
     "analysis.vibration.answers": {"values"},
-    "machine.registry": {"_found"},
+    "machine.registry": {"_load_kind"},
     "machine.spec": {"replace", "table"},
     "parts.catalogue": {"_made"},
     "parts.sheet.composed": {"on_paper", "_composed", "_items"},

@@ -1,1 +1,1 @@
-"""Lines, arcs and cubics: shapes, their measures, distances and fits."""
+"""Lines, arcs and cubics: shapes, their sizes, distances and fits."""

@@ -1,7 +1,7 @@
-"""Places on curves, as few as serve, whose chords keep a tolerance.
+"""Places on curves, as few as possible, whose chords keep a tolerance.
 
-A table of points promises what a drawing does: no curve is farther from its chords than the
-tolerance. Several curves may share their places, as a slot's pitch curve and flanks do.
+As in a drawing, no curve in a table of points is farther from its chords than the tolerance.
+Several curves may share their places, as a slot's pitch curve and flanks do.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ from geneva_cli.errors import GenevaError
 if TYPE_CHECKING:
     from geneva_cli.numerics.jet import Array
 
-# The curves' points (n, 2), mm, at n places: one array a curve.
+# points (n, 2) of the curves in mm at n places: one array for each curve
 Curves: TypeAlias = "Callable[[Array], Sequence[Array]]"
 
 ROWS_MAX = 200_000  # between two ends
@@ -33,44 +33,45 @@ MIDDLE = np.array([0.25, 0.5, 0.75])  # the same for many short chords, which ar
 
 
 def nodes(curves: Curves, ends: Sequence[float], tolerance_mm: float, fewest: bool = True) -> Array:
-    """Places from the first end to the last, so that no chord misses a curve by more.
+    """Places from the first end to the last, so that no chord misses a curve by more than a
+    tolerance.
 
-    A chord's miss goes with the square of its length. So nodes are spread evenly in the integral
-    of the miss's square root; then the misses are measured and nodes moved, added or taken away.
-    All ends are nodes; cusps belong to them. Without ``fewest`` the first number that serves is
-    taken, some per cent more.
+    A chord's error is proportional to the square of its length. So nodes are spread evenly in the
+    integral of the error's square root. Then the errors are measured, and nodes are moved, added or
+    removed. All ends are nodes, and cusps must be ends. Without ``fewest`` the first sufficient
+    number is used, a few per cent more.
 
-    Raises GenevaError where that takes more rows than are written.
+    Raises GenevaError if that takes more than ``ROWS_MAX`` rows.
     """
     if not tolerance_mm > 0.0:
-        raise GenevaError(f"--tolerance {tolerance_mm:g}: must be above 0 mm")
+        raise GenevaError(f"--tolerance {tolerance_mm:g}: it must be above 0 mm")
     parts = [_smooth(curves, a, b, tolerance_mm, fewest)[:-1] for a, b in pairwise(ends)]
     return np.concatenate((*parts, [ends[-1]]))
 
 
 def _smooth(curves: Curves, a: float, b: float, tolerance_mm: float, fewest: bool) -> Array:
     grid = np.linspace(a, b, SURVEY + 1)
-    share, total = _integrated_density(curves, grid)
+    fraction, total = _integrated_density(curves, grid)
     count = max(1, int(np.ceil(total / np.sqrt(tolerance_mm))))
-    count += count // 50 if count > MANY or not fewest else 0  # to serve at the first attempt
+    count += count // 50 if count > MANY or not fewest else 0  # so that the first attempt is enough
     best, too_few = None, 0
     for _ in range(ATTEMPTS):
         if not count < ROWS_MAX:
             raise GenevaError(
-                f"--tolerance {tolerance_mm:g} mm takes more than {ROWS_MAX} rows; "
-                f"a coarser one would do: {2.0 * (total / ROWS_MAX) ** 2:.1g} mm, say"
+                f"--tolerance {tolerance_mm:g} mm takes more than {ROWS_MAX} rows: "
+                f"use for example {2.0 * (total / ROWS_MAX) ** 2:.1g} mm"
             )
-        found = np.interp(np.linspace(0.0, 1.0, count + 1), share, grid)
+        places = np.interp(np.linspace(0.0, 1.0, count + 1), fraction, grid)
         for _ in range(ROUNDS):
-            found[0], found[-1] = a, b
-            root = np.sqrt(chord_errors(curves, found) / tolerance_mm)
+            places[0], places[-1] = a, b
+            root = np.sqrt(chord_errors(curves, places) / tolerance_mm)
             if root.max() <= 1.0:
                 break
-            found = _respread(found, root)
-        # A chord's miss goes with the square of its length: so many of them should just do.
+            places = _respread(places, root)
+        # A chord's error is proportional to the square of its length: this number should be enough.
         enough = int(np.ceil(root.sum()))
         if root.max() <= 1.0:
-            best, good = found, count
+            best, good = places, count
             count = max(enough, (too_few + good) // 2, 1)
         else:
             too_few = count
@@ -87,16 +88,16 @@ def _smooth(curves: Curves, a: float, b: float, tolerance_mm: float, fewest: boo
     )
 
 
-def _respread(found: Array, root: Array) -> Array:
-    """As many nodes, moved to where the square roots of the misses say they are needed."""
+def _respread(places: Array, root: Array) -> Array:
+    """Move nodes to where the square roots of the errors require them."""
     area = _integrated(root)
-    return np.interp(np.linspace(0.0, area[-1], len(found)), area, found)
+    return np.interp(np.linspace(0.0, area[-1], len(places)), area, places)
 
 
 def _integrated_density(curves: Curves, grid: Array) -> tuple[Array, float]:
-    """The integral of the node density over the grid as a share of one, and its total.
+    """Integral of the node density over the grid as a fraction of its total, and the total.
 
-    The total over the square root of a tolerance is how many chords that takes.
+    The total over the square root of a tolerance is the number of chords.
     """
     area = _integrated(np.sqrt(chord_errors(curves, grid, MIDDLE)))
     total = float(area[-1])
@@ -109,7 +110,7 @@ def _integrated(root: Array) -> Array:
 
 
 def chord_errors(curves: Curves, at: Array, places: Array | None = None) -> Array:
-    """For each chord between neighbouring places, how far the curves stray from it, mm."""
+    """Greatest distance of the curves from each chord between adjacent places, mm."""
     if places is None:
         places = INSIDE if len(at) < MANY else MIDDLE
     blocks = [
@@ -125,10 +126,10 @@ def _chord_errors(curves: Curves, at: Array, places: Array) -> Array:
     worst = np.zeros(len(steps))
     for knots, points in zip(curves(at), curves(inner.ravel()), strict=True):
         chord = np.diff(knots, axis=0)[:, None, :]
-        way = points.reshape(len(steps), len(places), 2) - knots[:-1, None, :]
-        # To the nearest point of the chord itself: an undercut flank folds back beyond its ends.
+        offset = points.reshape(len(steps), len(places), 2) - knots[:-1, None, :]
+        # distance to the chord itself, since an undercut flank folds back beyond its ends
         square = np.maximum((chord * chord).sum(axis=2), 1e-300)
-        share = np.clip((way * chord).sum(axis=2) / square, 0.0, 1.0)
-        off = way - share[..., None] * chord
+        fraction = np.clip((offset * chord).sum(axis=2) / square, 0.0, 1.0)
+        off = offset - fraction[..., None] * chord
         worst = np.maximum(worst, np.hypot(off[..., 0], off[..., 1]).max(axis=1))
     return worst

@@ -1,8 +1,8 @@
-"""Corners that stand in, and dog bones that free them.
+"""Inner corners, and dog bones that free them.
 
 A round cutter leaves its own radius in such a corner. A dog bone is a bite as wide as the cutter: a
-circle through the corner, with its centre on the bisector, so that a sharp edge fills the corner.
-Contours run with the material on their left, and turn right in a corner that stands in.
+circle through the corner, with its centre on the bisector. So a sharp edge fits into the corner.
+Contours run with the material on their left, and turn right in an inner corner.
 """
 
 from __future__ import annotations
@@ -11,7 +11,7 @@ import math
 from collections.abc import Iterable, Iterator
 from typing import NamedTuple
 
-from geneva_cli.curves.measure import directions, share_of
+from geneva_cli.curves.measure import directions, fraction_at
 from geneva_cli.curves.shapes import Arc, Contour, Line, Point, Segment, closed
 from geneva_cli.errors import GenevaError
 
@@ -19,7 +19,9 @@ LEFT = 1e-4  # mm: a corner in which a cutter leaves less is none
 
 
 class Corner(NamedTuple):
-    """Where a contour turns right: at the end of a piece, by an angle in radians above 0."""
+    """A place at which a contour turns right: at the end of a piece, by a positive angle in
+    radians.
+    """
 
     piece: int
     at: Point
@@ -27,7 +29,7 @@ class Corner(NamedTuple):
 
 
 class Bone(NamedTuple):
-    """A dog bone: its centre, and the arc that takes its corner's place."""
+    """A dog bone: its centre, and the arc that replaces its corner."""
 
     corner: Corner
     centre: Point
@@ -36,14 +38,14 @@ class Bone(NamedTuple):
 
 def pieces(contour: Contour) -> list[Line | Arc]:
     """The contour's pieces; raises GenevaError for cubics."""
-    found = [piece for piece in contour.segments if isinstance(piece, Line | Arc)]
-    if len(found) < len(contour.segments):
-        raise GenevaError("--cutter is for lines and arcs; write them with --curves arcs")
-    return found
+    kept = [piece for piece in contour.segments if isinstance(piece, Line | Arc)]
+    if len(kept) < len(contour.segments):
+        raise GenevaError("--cutter works on lines and arcs only: use --curves arcs")
+    return kept
 
 
 def inner_corners(contour: Contour, radius: float) -> Iterator[Corner]:
-    """The corners in which a cutter leaves material: r (1/cos(turn/2) - 1) of it at the most.
+    """The corners in which a cutter leaves material, at most r (1/cos(turn/2) - 1) of it.
 
     >>> square = closed("", [Line((0, 0), (0, 9)), Line((0, 9), (9, 9)), Line((9, 9), (0, 0))])
     >>> [round(math.degrees(corner.turn)) for corner in inner_corners(square, 1.0)]
@@ -69,38 +71,38 @@ def bone(contour: Contour, corner: Corner, radius: float) -> Bone:
 
 
 def with_bones(contour: Contour, bones: Iterable[Bone]) -> Contour:
-    """The contour with dog bones in the place of their corners.
+    """The contour with dog bones in place of its corners.
 
-    Raises GenevaError where a wall is too short for those at its ends.
+    Raises GenevaError if a wall is too short for the bones at its ends.
     """
     at = {one.corner.piece: one for one in bones}
     around = pieces(contour)
-    found: list[Segment] = []
+    segments: list[Segment] = []
     for i, piece in enumerate(around):
         ahead, behind = at.get(i), at.get((i - 1) % len(around))
-        low = share_of(piece, behind.arc.end) if behind else 0.0
-        high = share_of(piece, ahead.arc.start) if ahead else 1.0
+        low = fraction_at(piece, behind.arc.end) if behind else 0.0
+        high = fraction_at(piece, ahead.arc.start) if ahead else 1.0
         if not 0.0 <= low < high <= 1.0:
             x, y = (ahead or behind or at[0]).corner.at
             raise GenevaError(
-                f"the wall of {contour.layer} beside its corner at x = {x:.5g}, y = {y:.5g} is "
-                "shorter than a dog bone; take a narrower cutter"
+                f"the wall of {contour.layer} at its corner x = {x:.5g}, y = {y:.5g} is "
+                "shorter than a dog bone: use a narrower cutter"
             )
         start = behind.arc.end if behind else piece.start
         end = ahead.arc.start if ahead else piece.end
         if isinstance(piece, Line):
-            found.append(Line(start, end))
+            segments.append(Line(start, end))
         else:
-            found.append(Arc(start, end, math.tan(0.25 * (high - low) * piece.sweep)))
-        found += [ahead.arc] if ahead else []
-    return closed(contour.layer, found)
+            segments.append(Arc(start, end, math.tan(0.25 * (high - low) * piece.sweep)))
+        segments += [ahead.arc] if ahead else []
+    return closed(contour.layer, segments)
 
 
 def _again(wall: Line | Arc, centre: Point, corner: Point) -> Point:
-    """Where a circle through the corner meets a wall again.
+    """Second point at which a circle through the corner meets a wall.
 
-    That is the corner's image in the perpendicular from the circle's centre to a straight wall, and
-    in the line of both centres for a round one.
+    For a straight wall it is the corner's mirror image in the perpendicular from the circle's
+    centre. For a round wall it is the mirror image in the line of both centres.
     """
     (cx, cy), (px, py) = centre, corner
     if isinstance(wall, Line):

@@ -1,6 +1,6 @@
-"""Whether a round cutter comes everywhere along an outline, and dog bones where it does not.
+"""Places along an outline that a round cutter cannot reach, and dog bones that free them.
 
-It does where the outline has an offset by its radius that keeps that distance.
+A cutter reaches all of an outline if the offset by its radius keeps that distance.
 """
 
 from __future__ import annotations
@@ -28,26 +28,26 @@ LOOKS = 14  # halvings between a cutter that enters and one that does not
 
 
 class Fault(NamedTuple):
-    """What a cutter cannot cut, and where; ``stops`` where it does not enter at all."""
+    """A place that a cutter cannot cut; ``stops`` if the cutter does not enter at all."""
 
     text: str
     stops: bool
 
 
 def faults(plate: Plate, radius: float) -> Iterator[Fault]:
-    """Where a plate is narrower than a cutter, one fault an outline at the most, and its corners.
+    """Faults of a plate for a cutter: narrow places, at most one per outline, and corners.
 
     >>> bore = Circle("BORE", (1.0, 2.0), 2.0)
     >>> washer = Plate("washer", "CRANK", Circle("CRANK", (0.0, 0.0), 9.0), (bore,), 0.0, 1.0)
     >>> [fault.text for fault in faults(washer, 3.0)]
-    ['hole of 4 mm at x = 1, y = 2 in washer: narrower than the cutter; to be drilled']
+    ['hole of 4 mm at x = 1, y = 2 in washer: narrower than the cutter; drill it']
     """
     for shape, outside in shapes(plate):
         if isinstance(shape, Circle):
             if not outside and shape.radius < radius - NEAR:
                 x, y = shape.centre
                 size = f"hole of {2.0 * shape.radius:.6g} mm at x = {x:.6g}, y = {y:.6g}"
-                text = f"{size} in {plate.name}: narrower than the cutter; to be drilled"
+                text = f"{size} in {plate.name}: narrower than the cutter; drill it"
                 yield Fault(text, False)
             continue
         place = blocked(shape, outside, radius)
@@ -55,7 +55,7 @@ def faults(plate: Plate, radius: float) -> Iterator[Fault]:
             (x, y), hollow = (round(v, DIGITS) + 0.0 for v in place[0]), place[1]
             what = f"an inner radius of {hollow:.5g} mm" if hollow else "a gap"
             most = 2.0 * _widest(shape, outside, radius)
-            instead = f"a cutter up to {most:.6g} mm does" if most else "no cutter does"
+            instead = f"use a cutter up to {most:.6g} mm" if most else "no cutter is small enough"
             yield Fault(
                 f"it does not enter {plate.name}, layer {shape.layer}, at x = {x:.5g}, "
                 f"y = {y:.5g}: {what} is narrower; {instead}",
@@ -66,13 +66,13 @@ def faults(plate: Plate, radius: float) -> Iterator[Fault]:
             x, y = corner.at
             yield Fault(
                 f"it leaves a radius of {radius:.6g} mm in the corner of {plate.name}, layer "
-                f"{shape.layer}, at x = {x:.5g}, y = {y:.5g}; --dog-bones frees it",
+                f"{shape.layer}, at x = {x:.5g}, y = {y:.5g}: add --dog-bones",
                 False,
             )
 
 
 def shapes(plate: Plate) -> Iterator[tuple[Shape, bool]]:
-    """Outline and holes with the material on their left, and whether it is the outline."""
+    """Outline and holes with the material on their left; True marks the outline."""
     for shape, outside in ((plate.outline, True), *((hole, False) for hole in plate.holes)):
         if isinstance(shape, Circle):
             yield shape, outside
@@ -84,42 +84,42 @@ def shapes(plate: Plate) -> Iterator[tuple[Shape, bool]]:
 
 
 def blocked(contour: Contour, outside: bool, radius: float) -> tuple[Point, float] | None:
-    """The place that a cutter does not come to, and the radius of a hollow arc there, or 0.
+    """Place that a cutter cannot reach, and the radius of a hollow arc there, or 0.
 
-    None where it goes along all of the contour, as an offset by its radius does.
+    None if the cutter can follow the whole contour, as the offset by its radius does.
     """
     hollow = [p for p in pieces(contour) if isinstance(p, Arc) and p.bulge < 0.0]
     tightest = min(hollow, key=lambda arc: arc.radius, default=None)
     if tightest and tightest.radius < radius - 0.5 * NEAR:
         return at(tightest, 0.5), tightest.radius
     try:
-        offset(contour, outside, radius - NEAR)  # of such an arc half of NEAR is left
+        offset(contour, outside, radius - NEAR)  # leaves half of NEAR of an arc that just fits
     except Closed as error:
         return error.at, 0.0
     return None
 
 
 def _widest(contour: Contour, outside: bool, radius: float) -> float:
-    """The largest cutter that enters, about to three digits; 0 for none. Its radius."""
-    goes = boundary(lambda r: blocked(contour, outside, r) is None, 0.0, radius, LOOKS)
-    if not goes:
+    """Largest cutter that enters, as a radius to about three digits; 0 for none."""
+    largest = boundary(lambda r: blocked(contour, outside, r) is None, 0.0, radius, LOOKS)
+    if not largest:
         return 0.0
-    unit = 10.0 ** (math.floor(math.log10(2.0 * goes)) - 2)
-    near = 0.5 * unit * round(2.0 * goes / unit)
+    unit = 10.0 ** (math.floor(math.log10(2.0 * largest)) - 2)
+    near = 0.5 * unit * round(2.0 * largest / unit)
     return near if blocked(contour, outside, near) is None else near - 0.5 * unit
 
 
 def freed(
     plate: Plate, radius: float, wall: float, works: Callable[[Line | Arc, str], bool]
 ) -> dict[Shape, Contour]:
-    """The outlines of a plate that have corners, with dog bones in them.
+    """Outlines of a plate that have corners, with dog bones in them.
 
-    ``works`` says of which pieces the machine needs as they are. Raises GenevaError where a bone
-    would cut one of those, or leave less than ``wall`` mm to another outline.
+    ``works(piece, layer)`` is True for pieces that the machine needs as they are. Raises
+    GenevaError if a bone would cut one of those, or leave less than ``wall`` mm to another outline.
     """
-    found: dict[Shape, Contour] = {}
+    outlines: dict[Shape, Contour] = {}
     around = list(shapes(plate))
-    for given, (shape, _) in zip((plate.outline, *plate.holes), around, strict=True):
+    for original, (shape, _) in zip((plate.outline, *plate.holes), around, strict=True):
         if isinstance(shape, Circle):
             continue
         bones = [bone(shape, corner, radius) for corner in inner_corners(shape, radius)]
@@ -129,29 +129,28 @@ def freed(
             for other in others:
                 _require_wall(plate, one, radius + wall, other)
         if bones:
-            found[given] = with_bones(shape, bones)
-    return found
+            outlines[original] = with_bones(shape, bones)
+    return outlines
 
 
 def _require_free(
     shape: Contour, one: Bone, radius: float, works: Callable[[Line | Arc, str], bool]
 ) -> None:
-    """Raise where a bone touches another wall than its corner's, or one that works."""
+    """Raise if a bone touches a wall that is not at its corner, or a working wall."""
     around, i = pieces(shape), one.corner.piece
-    beside = {i, (i + 1) % len(around)}
-    rest = np.array([k for k in range(len(around)) if k not in beside], dtype=np.intp)
+    adjacent = {i, (i + 1) % len(around)}
+    rest = np.array([k for k in range(len(around)) if k not in adjacent], dtype=np.intp)
     away = abs(float(Polyarc([shape]).subset(rest).signed(np.array([one.centre]))[0]))
     x, y = one.corner.at
     corner = f"--dog-bones: the corner at x = {x:.5g}, y = {y:.5g} on {shape.layer}"
-    if any(works(around[k], shape.layer) for k in beside):
+    if any(works(around[k], shape.layer) for k in adjacent):
         raise GenevaError(
-            f"{corner} stands at a wall that runs on roller or lock; without --dog-bones it stays "
-            "round"
+            f"{corner} is at a wall that guides roller or lock: omit --dog-bones to keep it round"
         )
     if away < radius - NEAR:
         raise GenevaError(
             f"{corner} is so near to another wall that its bite, {2.0 * radius:.6g} mm wide, would "
-            "cut into that; a narrower cutter may do, or leave out --dog-bones"
+            "cut into it: use a narrower cutter, or omit --dog-bones"
         )
 
 
@@ -163,6 +162,6 @@ def _require_wall(plate: Plate, one: Bone, reach: float, other: Shape) -> None:
     if away < reach:
         x, y = one.corner.at
         raise GenevaError(
-            f"--dog-bones: the one at x = {x:.5g}, y = {y:.5g} in {plate.name} leaves less than "
-            "wall_min_mm to another outline; take a narrower cutter"
+            f"--dog-bones: the bone at x = {x:.5g}, y = {y:.5g} in {plate.name} leaves less than "
+            "wall_min_mm to another outline: use a narrower cutter"
         )

@@ -1,7 +1,7 @@
-"""Exact distances to outlines of lines and arcs, many points at once.
+"""Exact distances of many points from outlines of lines and arcs.
 
-Polygons are not enough here: a wheel 0.2 mm too large is fouled by less than a micrometre, and the
-locking disc lies in its recess without any play at all.
+Polygons are not accurate enough here. A wheel that is 0.2 mm too large collides by less than a
+micrometre, and the locking disc lies in its recess without any play.
 """
 
 from __future__ import annotations
@@ -31,8 +31,10 @@ FLAT = 1e-9  # a corner that turns by less is none
 
 
 class _Seen(NamedTuple):
-    """Pieces from points: the distance, and the side on which the point is of the whole line or
-    circle; whether the piece faces the point; the squares of the distances from its ends.
+    """Distances and sides of points relative to pieces.
+
+    ``side`` is the signed distance from the whole line or circle. ``facing`` is True if the nearest
+    point is inside the piece. ``start`` and ``end`` are squared distances from its ends.
     """
 
     distance: Array
@@ -55,8 +57,8 @@ class Polyarc:
             pieces = [s for s in contour.segments if isinstance(s, Line | Arc)]
             assert len(pieces) == len(contour.segments), "cubics have no exact distance here"
             rows += [_row(piece) for piece in pieces]
-            ways = [directions(piece) for piece in pieces]
-            turns += [_corner(ways[i - 1][1], ways[i][0]) for i in range(len(ways))]
+            headings = [directions(piece) for piece in pieces]
+            turns += [_corner(headings[i - 1][1], headings[i][0]) for i in range(len(headings))]
         x0, y0, x1, y1, *rest = np.array(rows).T
         radius, sense, cos_half = rest[2], rest[3], rest[6]
         dx, dy = x1 - x0, y1 - y0
@@ -74,31 +76,31 @@ class Polyarc:
         self._name(np.array((*ends, 0.5 * (x0 + x1), 0.5 * (y0 + y1), size, turn, turn[after])))
 
     def _name(self, columns: Array) -> None:
-        """Take the pieces' numbers, a row of ``columns`` each."""
+        """Set the numbers of the pieces, one row of ``columns`` each."""
         self._columns = columns
         self.x0, self.y0, self.x1, self.y1, *rest = columns
-        # of arcs the centre, the radius, left (1) or right (-1), the direction of the middle and
-        # the cosine of half the sweep; 0 of lines
+        # For arcs: centre, radius, left (1) or right (-1), the direction of the middle and the
+        # cosine of half the sweep. All are 0 for lines.
         self.cx, self.cy, self.radius, self.sense, self.mx, self.my, self.cos_half, *rest = rest
         self.arc = self.sense != 0.0
         self.dx, self.dy, self.square, self.length, *rest = rest  # of the chord
-        # A circle about the middle of each piece's ends that holds it, and how the outline turns at
-        # each piece's start and end: left (1) or right (-1) or not (0).
+        # A circle about the middle of each piece's chord that holds the piece. Then the turn of the
+        # outline at each piece's start and end: left (1), right (-1) or none (0).
         self.ox, self.oy, self.size, self.turn_start, self.turn_end = rest
 
     def __len__(self) -> int:
         return len(self.x0)
 
     def subset(self, keep: NDArray[np.intp]) -> Polyarc:
-        """The boundary's pieces at some indices, for points that are near no other."""
+        """The boundary's pieces at some indices, for points that are near no other pieces."""
         out = object.__new__(Polyarc)
         out._name(self._columns[:, keep])
         return out
 
     def near(self, points: Array, reach: float) -> Polyarc:
-        """The pieces that may lie within ``reach`` of one of the points; all where none does.
+        """The pieces that may lie within ``reach`` of one of the points; all pieces if none do.
 
-        Of points farther away they tell that, but not on which side of the outline they are.
+        For points farther away the result has no valid side of the outline.
         """
         grid = points[:: max(1, len(points) // COARSE)]
         dx, dy = grid[:, :1] - self.ox, grid[:, 1:] - self.oy
@@ -118,37 +120,40 @@ class Polyarc:
     def _signed(self, points: Array) -> Array:
         x, y = points.T
         if len(self) < MANY:
-            seen = self._upright._seen(x, y)
-            piece = np.argmin(seen.distance, axis=0)
-            return self._signs(seen.at((piece, np.arange(len(points)))), piece)
+            views = self._upright._seen(x, y)
+            piece = np.argmin(views.distance, axis=0)
+            return self._signs(views.at((piece, np.arange(len(points)))), piece)
         row, pieces = self._nearby(points)
         some = self.subset(pieces)
-        seen = some._seen(x[row], y[row])
+        views = some._seen(x[row], y[row])
         # the first of the nearest pieces of each point
-        least = np.minimum.reduceat(seen.distance, np.flatnonzero(_changes(row)))
-        equal = np.flatnonzero(seen.distance == least[row])
+        least = np.minimum.reduceat(views.distance, np.flatnonzero(_changes(row)))
+        equal = np.flatnonzero(views.distance == least[row])
         first = equal[_changes(row[equal])]
-        return some._signs(seen.at(first), first)
+        return some._signs(views.at(first), first)
 
     @cached_property
     def _upright(self) -> Polyarc:
-        """The pieces one below the other: rows are as long as there are points, and not as short as
-        there are pieces, which takes twice as long and more."""
+        """The pieces in a column, so that array rows run along the points.
+
+        There are more points than pieces; rows along the pieces take at least twice as long.
+        """
         out = object.__new__(Polyarc)
         out._name(self._columns[:, :, None])
         return out
 
     def _seen(self, x: Array, y: Array) -> _Seen:
-        """The pieces from points; shapes as x, y and the pieces give together."""
+        """Distances and sides of points relative to pieces; x and y broadcast with the pieces."""
         ax, ay = x - self.x0, y - self.y0
-        # Lines: the share of the way along them. Arcs: whether they are seen from the centre.
-        share = (ax * self.dx + ay * self.dy) / self.square
+        # Lines: the fraction along them. Arcs: True if the point is in the sector seen from the
+        # centre.
+        fraction = (ax * self.dx + ay * self.dy) / self.square
         vx, vy = x - self.cx, y - self.cy
-        far = np.sqrt(vx * vx + vy * vy)  # in a tenth of hypot's time; nothing here overflows
+        far = np.sqrt(vx * vx + vy * vy)  # takes a tenth of hypot's time; nothing here overflows
         facing = np.where(
             self.arc,
             vx * self.mx + vy * self.my >= far * self.cos_half,
-            (share >= 0.0) & (share <= 1.0),
+            (fraction >= 0.0) & (fraction <= 1.0),
         )
         side = np.where(
             self.arc,
@@ -160,20 +165,20 @@ class Polyarc:
         distance = np.where(facing, np.abs(side), np.sqrt(np.minimum(start, end)))
         return _Seen(distance, side, facing, start, end)
 
-    def _signs(self, seen: _Seen, piece: NDArray[np.intp]) -> Array:
-        """The distances of points from their nearest pieces, signed."""
-        # Outside a convex corner, inside a hollow one; on a smooth joint the piece's side decides.
-        turn = np.where(seen.start < seen.end, self.turn_start[piece], self.turn_end[piece])
-        corner = ~seen.facing & (turn != 0.0)
-        inside = np.where(corner, turn < 0.0, seen.side > 0.0)
-        out: Array = np.where(inside, -1.0, 1.0) * seen.distance
+    def _signs(self, view: _Seen, piece: NDArray[np.intp]) -> Array:
+        """Signed distances of points from their nearest pieces."""
+        # Outside at a convex corner, inside at a hollow one; at a smooth joint the side decides.
+        turn = np.where(view.start < view.end, self.turn_start[piece], self.turn_end[piece])
+        corner = ~view.facing & (turn != 0.0)
+        inside = np.where(corner, turn < 0.0, view.side > 0.0)
+        out: Array = np.where(inside, -1.0, 1.0) * view.distance
         return out
 
     def _nearby(self, points: Array) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
-        """Each point with the pieces of which one is its nearest, both in order.
+        """Each point with the pieces among which its nearest one is, both in order.
 
-        A piece's ends are half its chord from the middle of its circle, and no point of it is
-        farther from there than its size.
+        A piece's ends are half its chord from the middle of its circle. No point of it is farther
+        from there than its size.
         """
         dx, dy = points[:, :1] - self.ox, points[:, 1:] - self.oy
         away = np.sqrt(dx * dx + dy * dy)
@@ -182,7 +187,9 @@ class Polyarc:
         return row, piece
 
     def samples(self, sagitta: float, longest: float) -> Array:
-        """Points of the boundary, (n, 2): all corners, and between them as close as asked."""
+        """Points of the boundary, (n, 2): all corners, and points between them at the requested
+        spacing.
+        """
         arc, radius = self.arc, np.where(self.arc, self.radius, 1.0)
         sweep = 2.0 * np.arccos(np.clip(self.cos_half, -1.0, 1.0))
         step = 4.0 * np.arcsin(np.sqrt(0.5 * np.minimum(sagitta / radius, 1.0)))
@@ -190,19 +197,19 @@ class Polyarc:
         count = np.maximum(np.ceil(np.where(arc, bent, self.length / longest)), 1.0).astype(int)
         first = np.cumsum(count) - count
         which = np.repeat(np.arange(len(self)), count)
-        share = (np.arange(len(which)) - first[which]) / count[which]
+        fraction = (np.arange(len(which)) - first[which]) / count[which]
         start = np.arctan2(self.y0 - self.cy, self.x0 - self.cx)
-        turn = start[which] + (self.sense * sweep)[which] * share
+        turn = start[which] + (self.sense * sweep)[which] * fraction
         x = self.cx[which] + radius[which] * np.cos(turn)
         y = self.cy[which] + radius[which] * np.sin(turn)
-        flat = ~arc[which] | (share == 0.0)
-        along, i = share[flat], which[flat]
+        flat = ~arc[which] | (fraction == 0.0)
+        along, i = fraction[flat], which[flat]
         x[flat], y[flat] = self.x0[i] + along * self.dx[i], self.y0[i] + along * self.dy[i]
         return np.column_stack((x, y))
 
 
 def _changes(numbers: NDArray[np.intp]) -> NDArray[np.bool_]:
-    """Whether each number is another than the one before; of the first it is so."""
+    """True where a number differs from the one before; the first is True."""
     out = np.ones(len(numbers), dtype=bool)
     out[1:] = numbers[1:] != numbers[:-1]
     return out

@@ -1,4 +1,4 @@
-"""The drawing: what every command that makes a shape hands to the output, in millimetres."""
+"""The drawing: the shapes that a command passes to the output, in millimetres."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ if TYPE_CHECKING:
 
 
 class LevelDistance(NamedTuple):
-    """A level distance between two points, and the name that it goes by."""
+    """A horizontal distance between two points, and its name."""
 
     start: Point
     end: Point
@@ -21,9 +21,9 @@ class LevelDistance(NamedTuple):
 
 
 class Annotations(NamedTuple):
-    """What a drawing that is to be looked at has besides its shapes: distances, and what turns.
+    """Annotations of a drawing for people: distances and rotations.
 
-    Turns are arcs, with an arrow at their end.
+    Rotations are arcs, with an arrow at their end.
     """
 
     spans: tuple[LevelDistance, ...] = ()
@@ -33,9 +33,9 @@ class Annotations(NamedTuple):
 class Drawing(NamedTuple):
     """Shapes and a title.
 
-    ``look`` is for drawings to look at, where the format has such, and None for those to cut.
-    ``solid`` is what is drawn as the solid that it is, for formats of solids; ``shells`` are
-    what it becomes where it is laid flat here, and go before it.
+    ``look`` holds the annotations of a drawing for people; it is None for a drawing to cut from.
+    ``solid`` is the drawing as a solid, for formats of solids. ``shells`` replaces it if the
+    drawing is a flattened shell.
     """
 
     title: str
@@ -46,12 +46,12 @@ class Drawing(NamedTuple):
 
     @property
     def layers(self) -> tuple[str, ...]:
-        """The layers in use, in the order of their first shape."""
+        """Layers in use, in the order of their first shape."""
         return tuple(dict.fromkeys(shape.layer for shape in self.shapes))
 
 
 def extent(drawing: Drawing) -> Box:
-    """The smallest box around all shapes; raises GenevaError where there are none."""
+    """Smallest box around all shapes; raises GenevaError if there are none."""
     boxes = [bounds(shape) for shape in drawing.shapes]
     if not boxes:
         raise GenevaError("nothing to draw: a drawing must have a shape")

@@ -1,6 +1,6 @@
-"""How wide a text in Helvetica, or its bold, is: that every PDF reader has by itself.
+"""Widths of text in Helvetica and its bold, which every PDF reader has.
 
-Arial and Liberation Sans, which stand for it elsewhere, have the same widths. Source: Adobe's font
+Arial and Liberation Sans, which replace it elsewhere, have equal widths. Source: Adobe's font
 metrics, Core 14 AFM, Helvetica and Helvetica-Bold, in thousandths of the font's size.
 """
 
@@ -27,7 +27,7 @@ _BOLD = (
     *(278, 556, 278, 889, 611, 611, 611, 611, 389, 556, 333, 611, 556, 778, 556, 556),
     *(500, 389, 280, 389, 584),
 )
-# the same in both; the first is the space at which no line is broken
+# equal in both; the first is the non-breaking space
 _OTHERS = {
     **{"\u00a0": 278, "·": 278, "²": 333, "³": 333, "°": 400},
     **{"–": 556, "±": 584, "×": 584, "Ø": 778},
@@ -37,7 +37,7 @@ WIDEST = 1000  # of letters beyond these
 
 @lru_cache(maxsize=256)  # a text is tried at many places
 def width(text: str, bold: bool = False) -> float:
-    """A text's width over the height of its capitals; of letters not listed, the widest there are.
+    """Width of a text over the height of its capitals; unlisted letters count as the widest.
 
     >>> round(width("20 H7"), 3)
     3.716

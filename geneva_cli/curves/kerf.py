@@ -1,8 +1,8 @@
-"""The path of a cutter beside an outline: its true offset, of lines and arcs as the outline is.
+"""The path of a cutter along an outline: its true offset, of lines and arcs as the outline is.
 
-A laser's beam takes away half its kerf on either side of its path, which therefore runs that far
-outside outlines and inside holes. Round a corner that stands out the path is an arc about it; in
-one that stands in, neighbours are cut off where they meet, and the beam leaves its own radius.
+A laser's beam removes half its kerf on either side of its path. So the path runs that far outside
+outlines and inside holes. Round an outer corner the path is an arc about it. In an inner corner
+adjacent pieces end where they meet, and the beam leaves its own radius.
 """
 
 from __future__ import annotations
@@ -29,7 +29,7 @@ LOOKS = 12  # halvings between a kerf that goes and one that does not
 
 
 class Closed(GenevaError):
-    """An offset for which there is no path; ``at`` is where."""
+    """An offset that has no path; ``at`` is the place."""
 
     def __init__(self, text: str, at: Point) -> None:
         super().__init__(text)
@@ -37,16 +37,16 @@ class Closed(GenevaError):
 
 
 def paths(drawing: Drawing, kerf: float) -> Drawing:
-    """A drawing of which what is solid are paths for a cut of a width in mm, and no solid any more.
+    """Drawing with the solid shapes replaced by paths for a cut of a width in mm, and no solid.
 
-    Raises GenevaError for a width outside of TOOL_MM, for cubics, and where no path leaves the
-    part as it is, with a kerf that does.
+    Raises GenevaError for a width outside of TOOL_MM, and for cubics. If no path keeps the part as
+    it is, the error names a kerf that does.
 
     >>> from geneva_cli.curves.plates import Plate
     >>> bore = Circle("BORE", (0.0, 0.0), 5.0)
     >>> washer = Plate("washer", "CRANK", Circle("CRANK", (0.0, 0.0), 9.0), (bore,), 0.0, 1.0)
-    >>> found = paths(Drawing("washer", (washer.outline, bore), solid=washer), 0.2)
-    >>> [circle.radius for circle in found.shapes]
+    >>> cut = paths(Drawing("washer", (washer.outline, bore), solid=washer), 0.2)
+    >>> [circle.radius for circle in cut.shapes]
     [9.1, 4.9]
     """
     require_mm("--kerf", kerf, TOOL_MM)
@@ -63,7 +63,7 @@ def paths(drawing: Drawing, kerf: float) -> Drawing:
 
 
 def _path(shape: Contour | Circle, outside: bool, kerf: float) -> Contour | Circle:
-    """The path about an outline or in a hole."""
+    """Path about an outline or in a hole."""
     try:
         return offset(shape, outside, 0.5 * kerf)
     except Closed as error:
@@ -71,7 +71,7 @@ def _path(shape: Contour | Circle, outside: bool, kerf: float) -> Contour | Circ
 
 
 def _widest(shape: Contour | Circle, outside: bool, kerf: float) -> str:
-    """What to do instead: the widest kerf that goes, to three digits."""
+    """Advice for the user: the widest kerf that has a path, to three digits."""
 
     def leaves_a_path(width: float) -> bool:
         try:
@@ -80,17 +80,17 @@ def _widest(shape: Contour | Circle, outside: bool, kerf: float) -> str:
             return False
         return True
 
-    goes = boundary(leaves_a_path, 0.0, kerf, LOOKS)
-    if not goes:
-        return f"nor would one of {kerf * 0.5**LOOKS:.2g}"
-    unit = 10.0 ** (math.floor(math.log10(goes)) - 2)
-    return f"a kerf up to {math.floor(goes / unit) * unit:.6g} would still do"
+    widest = boundary(leaves_a_path, 0.0, kerf, LOOKS)
+    if not widest:
+        return f"even {kerf * 0.5**LOOKS:.2g} mm is too wide"
+    unit = 10.0 ** (math.floor(math.log10(widest)) - 2)
+    return f"use a kerf up to {math.floor(widest / unit) * unit:.6g} mm"
 
 
 def offset(shape: Contour | Circle, outside: bool, distance: float) -> Contour | Circle:
-    """An outline moved outwards, or a hole moved inwards, by a distance above 0.
+    """Move an outline outwards, or a hole inwards, by a distance above 0.
 
-    Raises GenevaError where the beam does not fit in, and for cubics.
+    Raises GenevaError if the beam does not fit in, and for cubics.
     """
     if isinstance(shape, Circle):
         radius = shape.radius + (distance if outside else -distance)
@@ -101,25 +101,25 @@ def offset(shape: Contour | Circle, outside: bool, distance: float) -> Contour |
     (cleaned,) = prepared(Drawing("", (shape,))).shapes
     assert isinstance(cleaned, Contour)
     contour = with_material_left(cleaned, outside)
-    pieces = [_beside(segment, contour.layer, distance) for segment in contour.segments]
-    found = _joined(contour, pieces, distance)
-    _require_away(contour, found, distance)
-    return found
+    pieces = [_moved_piece(segment, contour.layer, distance) for segment in contour.segments]
+    path = _joined(contour, pieces, distance)
+    _require_away(contour, path, distance)
+    return path
 
 
-def _beside(segment: Segment, layer: str, distance: float) -> Line | Arc:
-    """A piece moved to the right of its way."""
+def _moved_piece(segment: Segment, layer: str, distance: float) -> Line | Arc:
+    """Move a piece to the right of its direction of travel."""
     if isinstance(segment, Line):
         (x0, y0), (x1, y1) = segment
-        share = distance / math.dist(segment.start, segment.end)
-        x, y = share * (y1 - y0), share * (x0 - x1)
+        scale = distance / math.dist(segment.start, segment.end)
+        x, y = scale * (y1 - y0), scale * (x0 - x1)
         return Line((x0 + x, y0 + y), (x1 + x, y1 + y))
     if not isinstance(segment, Arc):
-        raise GenevaError("--kerf moves lines and arcs; leave out --curves spline")
-    # A flat arc's centre is far off: its ends are moved along their own normals instead.
+        raise GenevaError("--kerf works on lines and arcs only: omit --curves spline")
+    # A flat arc's centre is far away: its ends are moved along their own normals instead.
     ends = [
-        _moved(point, way, distance)
-        for point, way in zip((segment.start, segment.end), directions(segment), strict=True)
+        _moved(point, direction, distance)
+        for point, direction in zip((segment.start, segment.end), directions(segment), strict=True)
     ]
     if segment.bulge < 0.0 and segment.radius - distance <= STEP:
         text = f"a hollow of radius {segment.radius:.6g} mm on {layer} is narrower than the cut"
@@ -127,12 +127,12 @@ def _beside(segment: Segment, layer: str, distance: float) -> Line | Arc:
     return Arc(ends[0], ends[1], segment.bulge)
 
 
-def _moved(point: Point, way: float, distance: float) -> Point:
-    return point[0] + distance * math.sin(way), point[1] - distance * math.cos(way)
+def _moved(point: Point, direction: float, distance: float) -> Point:
+    return point[0] + distance * math.sin(direction), point[1] - distance * math.cos(direction)
 
 
 def _joined(contour: Contour, pieces: list[Line | Arc], distance: float) -> Contour:
-    """The moved pieces with arcs round the corners, and cut off in those that stand in."""
+    """Join the moved pieces with arcs round outer corners, and cut them off in inner ones."""
     count = len(pieces)
     low, high = [0.0] * count, [1.0] * count
     around: list[Arc | None] = [None] * count
@@ -146,18 +146,20 @@ def _joined(contour: Contour, pieces: list[Line | Arc], distance: float) -> Cont
             around[i] = Arc(piece.end, pieces[k].start, math.tan(0.25 * turn))
         else:
             high[i], low[k] = _meeting(contour, piece, pieces[k])
-    found: list[Segment] = []
+    segments: list[Segment] = []
     for piece, start, end, arc in zip(pieces, low, high, around, strict=True):
         if start >= end:
-            raise Closed(f"a piece of {contour.layer} is shorter than the cut is wide", piece.start)
-        found += [_part(piece, start, end), *([arc] if arc else [])]
-    return closed(contour.layer, found)
+            raise Closed(
+                f"a piece of {contour.layer} is shorter than the width of the cut", piece.start
+            )
+        segments += [_part(piece, start, end), *([arc] if arc else [])]
+    return closed(contour.layer, segments)
 
 
 def _meeting(contour: Contour, first: Line | Arc, second: Line | Arc) -> tuple[float, float]:
-    """Where two pieces cross whose ends overlap, as shares of their ways.
+    """Crossing of two pieces whose ends overlap, as fractions of their lengths.
 
-    Newton's method in both at once, from the corner, which is near: no root of one variable.
+    Newton's method in both unknowns at once, from the corner, which is near.
     """
     s, t = 1.0, 0.0
     for _ in range(STEPS):
@@ -172,20 +174,20 @@ def _meeting(contour: Contour, first: Line | Arc, second: Line | Arc) -> tuple[f
             break
     apart = math.dist(at(first, s), at(second, t))
     if not (apart < STEP and 0.0 < s <= 1.0 and 0.0 <= t < 1.0):
-        text = f"a corner that stands in on {contour.layer} is narrower than the cut"
+        text = f"an inner corner of {contour.layer} is narrower than the cut"
         raise Closed(text, first.end)
     return s, t
 
 
 def _speed(piece: Line | Arc, t: float) -> Point:
-    """The derivative of the point by the share of the way."""
+    """Derivative of the point by the fraction of the length."""
     first, last = directions(piece)
-    way, length = first + t * (last - first), segment_length(piece)
-    return length * math.cos(way), length * math.sin(way)
+    direction, length = first + t * (last - first), segment_length(piece)
+    return length * math.cos(direction), length * math.sin(direction)
 
 
 def _part(piece: Line | Arc, start: float, end: float) -> Line | Arc:
-    """The piece from one share of its way to another."""
+    """Part of a piece between two fractions of its length."""
     if (start, end) == (0.0, 1.0):
         return piece
     ends = at(piece, start), at(piece, end)
@@ -195,8 +197,10 @@ def _part(piece: Line | Arc, start: float, end: float) -> Line | Arc:
 
 
 def _require_away(contour: Contour, path: Contour, distance: float) -> None:
-    """Raise where the path comes nearer to the part than the beam's radius, as it does wherever it
-    crosses itself or turns inside out."""
+    """Raise if the path comes nearer to the part than the beam's radius.
+
+    It does so wherever it crosses itself or turns inside out.
+    """
     boundary = Polyarc([contour])
     around = math.fsum(map(segment_length, path.segments))
     longest = max(distance / SAMPLES, around / MOST)

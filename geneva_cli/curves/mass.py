@@ -32,14 +32,14 @@ def mass_properties(plate: Plate, density_kgm3: float) -> MassProperties:
     return face_properties(face(plate), plate.thickness, density_kgm3)
 
 
-def face_properties(seen: Moments, thickness_mm: float, density_kgm3: float) -> MassProperties:
-    """The same from the moments of a plate's face."""
+def face_properties(section: Moments, thickness_mm: float, density_kgm3: float) -> MassProperties:
+    """Mass, centroid and inertia of a plate from the moments of its face."""
     per = density_kgm3 * thickness_mm * MM
-    return MassProperties(per * seen.area * MM**2, seen.centroid, per * seen.polar * MM**4)
+    return MassProperties(per * section.area * MM**2, section.centroid, per * section.polar * MM**4)
 
 
 def added(one: MassProperties, other: MassProperties) -> MassProperties:
-    """Of two bodies with one origin."""
+    """Mass, centroid and inertia of two bodies with one origin."""
     mass = one.mass_kg + other.mass_kg
     x, y = (
         (one.mass_kg * a + other.mass_kg * b) / mass
@@ -49,7 +49,7 @@ def added(one: MassProperties, other: MassProperties) -> MassProperties:
 
 
 def face(plate: Plate) -> Moments:
-    """Of a plate's face: area, first moments and polar moment about the origin.
+    """Area, first moments and polar moment of a plate's face about the origin.
 
     >>> from geneva_cli.curves.shapes import Circle
     >>> washer = Plate(

@@ -1,7 +1,7 @@
-"""Measures of shapes: bounds, areas, lengths; and shapes moved and turned.
+"""Bounds, areas and lengths of shapes, and shapes moved and rotated.
 
-Lengths are in the unit of the coordinates, areas in its square. An arc is taken by its ends and
-its bulge throughout: its centre is far off and badly known where it is nearly straight.
+Lengths are in the unit of the coordinates, areas in its square. Arcs are computed from their ends
+and bulge. The centre of a nearly straight arc is far away and inaccurate.
 """
 
 from __future__ import annotations
@@ -37,7 +37,7 @@ S = TypeVar("S", Contour, Circle, Shape)
 
 
 class Box(NamedTuple):
-    """The least and the greatest coordinates."""
+    """Least and greatest coordinates."""
 
     x0: float
     y0: float
@@ -46,7 +46,7 @@ class Box(NamedTuple):
 
 
 def bounds(shape: Shape) -> Box:
-    """The smallest box around a shape: the extremes of its arcs and cubics are taken exactly."""
+    """Smallest box around a shape, with the exact extremes of its arcs and cubics."""
     if isinstance(shape, Circle):
         (x, y), r = shape.centre, shape.radius
         return Box(x - r, y - r, x + r, y + r)
@@ -54,9 +54,9 @@ def bounds(shape: Shape) -> Box:
 
 
 def area(shape: Shape) -> float:
-    """The area inside, positive where the contour runs counterclockwise; in closed form.
+    """Area inside, positive if the contour runs counterclockwise; in closed form.
 
-    An open contour is closed by the chord from its end to its start. Green's theorem is taken
+    An open contour is closed by the chord from its end to its start. Green's theorem is applied
     about the first point, so that a shape far from the origin loses no digits.
     """
     if isinstance(shape, Circle):
@@ -68,12 +68,12 @@ def area(shape: Shape) -> float:
 
 
 def with_material_left(shape: Contour, outside: bool) -> Contour:
-    """A contour that runs counterclockwise as an outline, and clockwise as a hole."""
+    """Contour that runs counterclockwise as an outline, and clockwise as a hole."""
     return shape if (area(shape) > 0.0) is outside else backwards(shape)
 
 
 def segment_length(segment: Segment) -> float:
-    """The length of one segment."""
+    """Length of one segment."""
     if isinstance(segment, Cubic):
         scale = _polygon(segment)
         return _refined(segment, _gauss(segment), LENGTH_ERROR * scale, DEPTH)
@@ -85,7 +85,7 @@ def segment_length(segment: Segment) -> float:
 
 
 def directions(piece: Line | Arc) -> tuple[float, float]:
-    """The directions of travel at both ends, radians."""
+    """Directions of travel at both ends, radians."""
     (x0, y0), (x1, y1) = piece.start, piece.end
     chord = math.atan2(y1 - y0, x1 - x0)
     half = 0.5 * piece.sweep if isinstance(piece, Arc) else 0.0
@@ -93,16 +93,16 @@ def directions(piece: Line | Arc) -> tuple[float, float]:
 
 
 def legs(arc: Arc) -> tuple[float, float]:
-    """The directions of an arc's ends from its centre, counterclockwise."""
+    """Directions of an arc's ends from its centre, counterclockwise."""
     x, y = arc.centre
     first = math.atan2(arc.start[1] - y, arc.start[0] - x)
     return (first, first + arc.sweep) if arc.sweep > 0.0 else (first + arc.sweep, first)
 
 
-def share_of(piece: Line | Arc, point: Point) -> float:
-    """The share of the way at which a point of the piece, or of its whole line or circle, is.
+def fraction_at(piece: Line | Arc, point: Point) -> float:
+    """Fraction of the length at a point of the piece, or of its whole line or circle.
 
-    >>> share_of(Line((0.0, 0.0), (4.0, 0.0)), (1.0, 0.0))
+    >>> fraction_at(Line((0.0, 0.0), (4.0, 0.0)), (1.0, 0.0))
     0.25
     """
     (x, y), (x0, y0), (x1, y1) = point, piece.start, piece.end
@@ -115,7 +115,7 @@ def share_of(piece: Line | Arc, point: Point) -> float:
 
 
 def at(segment: Segment, t: float) -> Point:
-    """The point at the parameter 0..1, which is a share of the way on lines and arcs."""
+    """Point at the parameter 0..1, which is a fraction of the length for lines and arcs."""
     if t in (0.0, 1.0):
         return segment.end if t else segment.start
     if isinstance(segment, Cubic):
@@ -123,10 +123,10 @@ def at(segment: Segment, t: float) -> Point:
     (x0, y0), (x1, y1) = segment.start, segment.end
     if isinstance(segment, Line) or abs(segment.bulge) < STRAIGHT:
         return x0 + t * (x1 - x0), y0 + t * (y1 - y0)
-    # the chord to the point is the whole chord, turned and shortened
+    # the chord to the point is the whole chord, rotated and shortened
     half = 0.5 * segment.sweep
-    turn, share = (t - 1.0) * half, math.sin(t * half) / math.sin(half)
-    c, s = share * math.cos(turn), share * math.sin(turn)
+    turn, scale = (t - 1.0) * half, math.sin(t * half) / math.sin(half)
+    c, s = scale * math.cos(turn), scale * math.sin(turn)
     return x0 + c * (x1 - x0) - s * (y1 - y0), y0 + s * (x1 - x0) + c * (y1 - y0)
 
 
@@ -146,7 +146,7 @@ def mapped(
     point: Callable[[Point], Point],
     radius: Callable[[float], float] = lambda r: r,
 ) -> S:
-    """A shape moved by a similarity that keeps the sense of turning.
+    """Move a shape by a similarity that keeps the sense of rotation.
 
     ``point`` maps its points, and ``radius`` a circle's radius.
     """
@@ -156,7 +156,7 @@ def mapped(
 
 
 def turned(shape: S, radians: float, centre: Point = (0.0, 0.0)) -> S:
-    """The shape turned about a point, counterclockwise."""
+    """Rotate a shape about a point, counterclockwise."""
     (x, y), c, s = centre, math.cos(radians), math.sin(radians)
 
     def point(p: Point) -> Point:
@@ -179,7 +179,7 @@ def _box(points: Iterable[Point]) -> Box:
 
 
 def _extremes(segment: Segment) -> Iterator[Point]:
-    """The ends, and where the segment runs along an axis."""
+    """The ends, and the points at which the segment runs along an axis."""
     yield segment.start
     yield segment.end
     if isinstance(segment, Cubic):
@@ -196,20 +196,20 @@ def _extremes(segment: Segment) -> Iterator[Point]:
 
 
 def _level(a: float, b: float, c: float, d: float) -> list[float]:
-    """Where a cubic's coordinate stands still, inside 0..1."""
+    """Parameters inside 0..1 at which a cubic's coordinate is stationary."""
     e, f, g = b - a, c - b, d - c  # the derivative's Bernstein coefficients, by 3
     square, half = e - 2.0 * f + g, f - e  # square t^2 + 2 half t + e = 0
     under = half * half - square * e
     if under < 0.0:
         return []
     root = -(half + math.copysign(math.sqrt(under), half))  # no cancellation
-    found = [root / square] if square else []
-    found += [e / root] if root else []
-    return [t for t in found if 0.0 < t < 1.0]
+    roots = [root / square] if square else []
+    roots += [e / root] if root else []
+    return [t for t in roots if 0.0 < t < 1.0]
 
 
 def _swept(segment: Segment, origin: Point) -> float:
-    """The area that the ray from the origin to the segment's point sweeps."""
+    """Area that the ray from the origin to the segment's point sweeps."""
     points = [(x - origin[0], y - origin[1]) for x, y in _points(segment)]
     if isinstance(segment, Cubic):
         p, q, r, s = points
@@ -222,7 +222,7 @@ def _swept(segment: Segment, origin: Point) -> float:
 
 
 def _cap(chord: float, sweep: float) -> float:
-    """The area between an arc and its chord: chord^2 (sweep - sin sweep) / (8 sin^2(sweep/2))."""
+    """Area between an arc and its chord: chord^2 (sweep - sin sweep) / (8 sin^2(sweep/2))."""
     if abs(sweep) < SERIES:
         square = sweep * sweep
         rest = 1.0
@@ -247,7 +247,7 @@ def _polygon(cubic: Cubic) -> float:
 
 
 def _gauss(cubic: Cubic) -> float:
-    """The length by eight points."""
+    """Length by Gauss's eight points."""
     sides = [
         (3.0 * (q[0] - p[0]), 3.0 * (q[1] - p[1]))
         for p, q in zip(cubic[:-1], cubic[1:], strict=True)

@@ -1,6 +1,6 @@
-"""Area, first moments and polar moment of what outlines enclose, by Green's theorem.
+"""Area, first moments and polar moment of the inside of outlines, by Green's theorem.
 
-Of lines in closed form. Of arcs and cubics by Gauss's eight points, which are exact for a cubic's
+Lines are in closed form. Arcs and cubics use Gauss's eight points. These are exact for a cubic's
 polynomials of degree eleven, and to rounding for the sines of an arc of a radian or less.
 """
 
@@ -17,10 +17,10 @@ SMALL = 1.0  # radians that an arc may turn for its sines to be exact
 
 
 class Moments(NamedTuple):
-    """Integrals of 1, x, y and x² + y² over what is inside, about the origin.
+    """Integrals of 1, x, y and x² + y² over the inside, about the origin.
 
-    In the coordinates' unit to the second, third, third and fourth power; negative where the
-    outline runs clockwise.
+    Units are those of the coordinates to the second, third, third and fourth power. Values are
+    negative if the outline runs clockwise.
     """
 
     area: float
@@ -30,27 +30,27 @@ class Moments(NamedTuple):
 
     @property
     def centroid(self) -> Point:
-        """Where the mass of an even plate stands."""
+        """Centre of mass of a uniform plate."""
         return self.x / self.area, self.y / self.area
 
     def turned(self, angle: float) -> Moments:
-        """The moments after a turn about the origin, radians counterclockwise."""
+        """Moments after a rotation about the origin, radians counterclockwise."""
         c, s = math.cos(angle), math.sin(angle)
         return Moments(self.area, c * self.x - s * self.y, s * self.x + c * self.y, self.polar)
 
     def times(self, factor: float) -> Moments:
-        """So many times all of it."""
+        """Moments multiplied by a factor."""
         return Moments(*[factor * part for part in self])
 
     def less(self, other: Moments) -> Moments:
-        """What is left of a plate when another is cut out of it."""
+        """Moments of a plate after another is cut out of it."""
         return Moments(*[a - b for a, b in zip(self, other, strict=True)])
 
 
 def moments(shape: Shape) -> Moments:
-    """The moments of a closed contour, or of a circle.
+    """Moments of a closed contour, or of a circle.
 
-    >>> moments(Circle("BORE", (3.0, 0.0), 1.0)).polar / math.pi  # 1/2 and, of Steiner, 3²
+    >>> moments(Circle("BORE", (3.0, 0.0), 1.0)).polar / math.pi  # 1/2 and, by Steiner, 3²
     9.5
     """
     if isinstance(shape, Circle):
@@ -62,13 +62,13 @@ def moments(shape: Shape) -> Moments:
 
 
 def total(parts: Iterable[Moments]) -> Moments:
-    """The moments of several shapes together."""
+    """Sum of the moments of several shapes."""
     rows = list(parts) or [Moments(0.0, 0.0, 0.0, 0.0)]
     return Moments(*map(math.fsum, zip(*rows, strict=True)))
 
 
 def _small(segment: Segment) -> Iterator[Segment]:
-    """The segment in pieces that are exact."""
+    """The segment in pieces that are integrated exactly."""
     if isinstance(segment, Arc) and abs(segment.sweep) > SMALL:
         for half in halves(segment):
             yield from _small(half)
@@ -77,7 +77,7 @@ def _small(segment: Segment) -> Iterator[Segment]:
 
 
 def _swept(segment: Segment) -> Moments:
-    """What the ray from the origin to the segment's point sweeps."""
+    """Moments of the area that the ray from the origin to the segment's point sweeps."""
     if isinstance(segment, Cubic):
         return _of_cubic(segment)
     whole = _triangle(segment.start, segment.end)
@@ -96,23 +96,23 @@ def _triangle(p: Point, q: Point) -> Moments:
 
 
 def _cap(arc: Arc) -> Moments:
-    """Between an arc and its chord, in the chord's frame: x along it, y the arc's height.
+    """Moments between an arc and its chord, in the chord's frame: x along it, y the arc's height.
 
-    y = 2 r sin((h + t)/2) sin((h - t)/2) at t = -h..h of half the sweep h, which does not cancel.
+    y = 2 r sin((h + t)/2) sin((h - t)/2) at t = -h..h, with half the sweep h, does not cancel.
     """
     (x0, y0), (x1, y1) = arc.start, arc.end
     chord, half = math.dist(arc.start, arc.end), 0.5 * abs(arc.sweep)
     r = 0.5 * chord / math.sin(half)
     area = first = own = 0.0
-    for node, weight in GAUSS:  # the cap is alike on both sides
+    for node, weight in GAUSS:  # the cap is symmetric
         t = node * half
         x, y = r * math.sin(t), 2.0 * r * math.sin(0.5 * (half + t)) * math.sin(0.5 * (half - t))
-        share = 2.0 * weight * half * r * math.cos(t)  # dx
-        area += share * y
-        first += share * y * y / 2.0
-        own += share * (x * x * y + y * y * y / 3.0)
+        part = 2.0 * weight * half * r * math.cos(t)  # dx
+        area += part * y
+        first += part * y * y / 2.0
+        own += part * (x * x * y + y * y * y / 3.0)
     sign = math.copysign(1.0, arc.bulge)
-    # the middle of the chord, and the way from it to the arc: right of a counterclockwise one
+    # the middle of the chord, and the direction from it to the arc: right if counterclockwise
     m, n = (0.5 * (x0 + x1), 0.5 * (y0 + y1)), (sign * (y1 - y0) / chord, sign * (x0 - x1) / chord)
     polar = own + area * (m[0] * m[0] + m[1] * m[1]) + 2.0 * first * (m[0] * n[0] + m[1] * n[1])
     moved = area * m[0] + first * n[0], area * m[1] + first * n[1]

@@ -1,4 +1,4 @@
-"""A drawing's pieces, as they are written: in the file's unit, none doubled, none of no length."""
+"""A drawing's pieces as a file shows them: in its unit, without duplicates or empty pieces."""
 
 from __future__ import annotations
 
@@ -42,11 +42,10 @@ LENGTHS = (
 
 
 def pieces_table(drawing: Drawing, units: str = "mm") -> Table:
-    """One row a segment or circle, contours and their pieces counted from 1.
+    """Table with one row per segment or circle; contours and their pieces are counted from 1.
 
-    The columns of control points are there where there are cubics.
-
-    ``units`` is mm or inch, and names the columns. Raises GenevaError as ``prepared`` does.
+    It has columns for control points only if there are cubics. ``units`` is mm or inch, and names
+    the columns. Raises GenevaError as ``prepared`` does.
     """
     rows = []
     for number, shape in enumerate(prepared(drawing, units).shapes, 1):
@@ -64,21 +63,21 @@ def pieces_table(drawing: Drawing, units: str = "mm") -> Table:
 
 
 def prepared(drawing: Drawing, units: str = "mm") -> Drawing:
-    """The drawing in a unit, without doubled shapes and pieces shorter than ``STEP``.
+    """Drawing in a unit, without duplicate shapes and pieces shorter than ``STEP``.
 
-    Pieces that are left stay end to end. Raises GenevaError for another unit, and where a
-    coordinate is not finite.
+    The other pieces stay end to end. Raises GenevaError for another unit, and for a coordinate that
+    is not finite.
     """
     if units not in UNITS:
         raise GenevaError(f"--units {cut(units)}: it must be one of {', '.join(UNITS)}")
-    shapes = [shape for given in drawing.shapes for shape in _cleaned(given)]
+    shapes = [shape for original in drawing.shapes for shape in _cleaned(original)]
     return drawing._replace(
         shapes=tuple(_divided(shape, UNITS[units]) for shape in dict.fromkeys(shapes))
     )
 
 
 def _divided(shape: Shape, unit: float) -> Shape:
-    """By a division, which is rounded once: 25.4 mm are 1 inch and nothing besides."""
+    """Shape divided by a unit, with a single rounding, so that 25.4 mm are exactly 1 inch."""
 
     def point(p: Point) -> Point:
         return p[0] / unit, p[1] / unit
@@ -102,7 +101,7 @@ def _cleaned(shape: Shape) -> Iterator[Shape]:
 
 
 def _straightened(segment: Segment) -> Segment:
-    """A line for an arc so flat that its centre would only be noise."""
+    """Replace an arc by a line if it is so flat that its centre would only be noise."""
     flat = isinstance(segment, Arc) and (
         0.5 * math.dist(segment.start, segment.end) * abs(segment.bulge) < STEP
     )
@@ -116,7 +115,7 @@ def _require_finite(shape: Shape) -> None:
             if not all(math.isfinite(n) for n in numbers if not isinstance(n, str)):
                 kind = type(piece).__name__.lower()
                 raise GenevaError(
-                    f"layer {shape.layer}: a {kind} at {value}; coordinates must be finite"
+                    f"layer {shape.layer}: a {kind} at {value}: coordinates must be finite"
                 )
 
 

@@ -1,7 +1,7 @@
-"""Solids that are drawn out of outlines along the axis, or of a sphere; parts put together of them.
+"""Solids extruded from outlines along the axis, or cut out of a sphere, and groups of them.
 
-The wheel's plane is z = 0..thickness, or its sphere's centre the origin; lengths in millimetres,
-angles in radians.
+The wheel's plane is z = 0..thickness, or its sphere's centre is the origin. Lengths are in
+millimetres, angles in radians.
 """
 
 from __future__ import annotations
@@ -20,7 +20,9 @@ if TYPE_CHECKING:
 
 
 class Plate(NamedTuple):
-    """What is inside an outline and in no hole, from ``low`` to ``high`` along the axis."""
+    """A flat part: the inside of an outline without its holes, from ``low`` to ``high`` on the
+    axis.
+    """
 
     name: str
     layer: str
@@ -31,14 +33,14 @@ class Plate(NamedTuple):
 
     @property
     def thickness(self) -> float:
-        """Along the axis."""
+        """Thickness along the axis."""
         return self.high - self.low
 
 
 class Shell(NamedTuple):
-    """What lies between two spheres about the origin, over regions that touch along whole arcs.
+    """A solid between two spheres about the origin, over regions that touch along whole arcs.
 
-    Round holes are all within the last of the regions, and apart from each other.
+    Round holes are all within the last of the regions, and separate from each other.
     """
 
     name: str
@@ -50,26 +52,26 @@ class Shell(NamedTuple):
 
     @property
     def volume(self) -> float:
-        """Solid angle times a third of the difference of the cubes, less the holes, mm³."""
-        seen = math.fsum(r.area for r in self.regions)
+        """Solid angle times a third of the difference of the cubes, minus the holes, mm³."""
+        covered = math.fsum(r.area for r in self.regions)
         bored = math.fsum(hole.volume(self.inner, self.outer) for hole in self.holes)
-        return seen * (self.outer**3 - self.inner**3) / 3.0 - bored
+        return covered * (self.outer**3 - self.inner**3) / 3.0 - bored
 
     @property
     def centroid(self) -> Vector:
-        """Where the mass of an even shell stands, mm."""
-        seen = np.sum([r.moments[0] for r in self.regions], axis=0)
-        first = seen * (self.outer**4 - self.inner**4) / 4.0
+        """Centre of mass of a uniform shell, mm."""
+        covered = np.sum([r.moments[0] for r in self.regions], axis=0)
+        first = covered * (self.outer**4 - self.inner**4) / 4.0
         for hole in self.holes:
             first = first - hole.first(self.inner, self.outer) * np.array(hole.axis)
         x, y, z = (first / self.volume).tolist()
         return x, y, z
 
-    def reach(self, way: Vector) -> float:
-        """How far it comes in a direction, mm from the centre."""
-        if any(Arcs(r.boundary).signed(np.array([way]))[0][0] < 0.0 for r in self.regions):
+    def reach(self, direction: Vector) -> float:
+        """Greatest coordinate of the shell along a direction, mm from the centre."""
+        if any(Arcs(r.boundary).signed(np.array([direction]))[0][0] < 0.0 for r in self.regions):
             return self.outer
-        most = max(arc.reach(way) for region in self.regions for arc in region.boundary)
+        most = max(arc.reach(direction) for region in self.regions for arc in region.boundary)
         return most * (self.outer if most > 0.0 else self.inner)
 
     def inertia(self, axis: Vector) -> float:
@@ -82,25 +84,25 @@ class Shell(NamedTuple):
         >>> round(ball.inertia((0.0, 0.0, 1.0)) / ball.volume, 12)  # 2/5 r²
         40.0
         """
-        seen = math.fsum(r.area - float(r.moments[1] @ axis @ axis) for r in self.regions)
+        covered = math.fsum(r.area - float(r.moments[1] @ axis @ axis) for r in self.regions)
         bored = math.fsum(hole.inertia(self.inner, self.outer, axis) for hole in self.holes)
-        return seen * (self.outer**5 - self.inner**5) / 5.0 - bored
+        return covered * (self.outer**5 - self.inner**5) / 5.0 - bored
 
 
 class Group(NamedTuple):
-    """Parts put together: each turned about its own origin, and then moved."""
+    """An assembly of parts, each turned about its own origin and then moved."""
 
     name: str
     members: tuple[Member, ...]
 
 
 class Member(NamedTuple):
-    """One of a group's parts and where it is."""
+    """One of a group's parts, and its position."""
 
     part: Part
     at: Point = (0.0, 0.0)
     turn: float = 0.0  # counterclockwise
-    frame: Rotation | None = None  # in place of a turn: where its x, y and z point
+    frame: Rotation | None = None  # in place of a turn: the directions of its x, y and z
 
 
 Part: TypeAlias = Plate | Shell | Group
@@ -114,5 +116,5 @@ def solids(part: Part) -> list[Plate | Shell]:
 
 
 def plates(part: Part) -> list[Plate]:
-    """Those of them that are flat."""
+    """The flat solids of a part."""
     return [one for one in solids(part) if isinstance(one, Plate)]

@@ -11,10 +11,11 @@ from geneva_cli.curves.sphere import Vector, dot
 class RoundHole(NamedTuple):
     """A cylinder about a direction from the centre; radius in mm, less than the spheres'.
 
-    What it takes of a shell is in closed form, of c = sqrt(1 - (q/R)²), where it meets a sphere.
+    The volume that it removes from a shell is in closed form, by c = sqrt(1 - (q/R)²), where it
+    meets a sphere.
 
     >>> hole = RoundHole((0.0, 0.0, 1.0), 3.0)
-    >>> half_rings = 2.0 / 3.0 * math.pi * 4.0**3  # what it leaves of half a ball: h³, no matter R
+    >>> half_rings = 2.0 / 3.0 * math.pi * 4.0**3  # the rest of half a ball: h³ for any R
     >>> halves = 2.0 / 3.0 * math.pi * (5.0**3 - 3.0**3)
     >>> round((halves - hole.volume(3.0, 5.0)) / half_rings, 12)
     1.0
@@ -24,30 +25,30 @@ class RoundHole(NamedTuple):
     radius: float
 
     def angle(self, sphere: float) -> float:
-        """Half the angle under which it is seen where it meets a sphere, radians."""
+        """Half the angle of the hole, seen from the centre, where it meets a sphere, radians."""
         return math.asin(min(1.0, self.radius / sphere))
 
     def volume(self, inner: float, outer: float) -> float:
-        """What it takes between two spheres, mm³."""
+        """Volume between two spheres, mm³."""
         return self._volume(outer) - self._volume(inner)
 
     def first(self, inner: float, outer: float) -> float:
-        """The integral of the height along its axis, mm⁴."""
+        """Integral of the height along its axis, mm⁴."""
         return 0.5 * math.pi * self.radius**2 * (outer - inner) * (outer + inner)
 
     def inertia(self, inner: float, outer: float, about: Vector) -> float:
         """The volume's moment of inertia about an axis through the centre, mm⁵."""
         (far, up), (less, below) = self._squares(outer), self._squares(inner)
         own, along = far - less, up - below
-        share = dot(self.axis, about) ** 2
-        return own * share + (0.5 * own + along) * (1.0 - share)
+        square = dot(self.axis, about) ** 2
+        return own * square + (0.5 * own + along) * (1.0 - square)
 
     def _volume(self, R: float) -> float:
         c, left = self._cosine(R)
         return math.tau / 3.0 * R**3 * left * (1.0 + c + c * c)
 
     def _squares(self, R: float) -> tuple[float, float]:
-        """The integrals of the squares of the distance from the axis and of the height."""
+        """Integrals of the squares of the distance from the axis and of the height."""
         c, left = self._cosine(R)
         off = left * left * (((3.0 * c + 6.0) * c + 4.0) * c + 2.0)
         up = left * ((((c + 1.0) * c + 1.0) * c + 1.0) * c + 1.0)

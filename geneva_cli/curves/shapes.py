@@ -28,17 +28,17 @@ class Arc(NamedTuple):
 
     @property
     def sweep(self) -> float:
-        """The angle it turns through, radians; positive counterclockwise."""
+        """Angle of the arc, radians; positive counterclockwise."""
         return 4.0 * math.atan(self.bulge)
 
     @property
     def radius(self) -> float:
-        """Its radius: half the chord over the sine of half the sweep."""
+        """Radius: half the chord over the sine of half the sweep."""
         return 0.5 * math.dist(self.start, self.end) / abs(math.sin(0.5 * self.sweep))
 
     @property
     def centre(self) -> Point:
-        """Its centre, on the chord's perpendicular at half the chord over tan(sweep / 2)."""
+        """Centre, on the chord's perpendicular at half the chord over tan(sweep / 2)."""
         (x0, y0), (x1, y1) = self.start, self.end
         away = 0.25 * (1.0 - self.bulge * self.bulge) / self.bulge
         return 0.5 * (x0 + x1) - away * (y1 - y0), 0.5 * (y0 + y1) + away * (x1 - x0)
@@ -57,7 +57,7 @@ Segment: TypeAlias = Line | Arc | Cubic
 
 
 class Contour(NamedTuple):
-    """Segments end to end; where ``closed``, the last ends exactly where the first starts."""
+    """Segments end to end; if ``closed``, the last ends exactly where the first starts."""
 
     layer: str
     segments: tuple[Segment, ...]
@@ -76,7 +76,7 @@ Shape: TypeAlias = Contour | Circle
 
 
 def about(centre: Point, radius: float, start: float, sweep: float) -> Arc:
-    """The arc about a centre from the direction ``start`` on, both angles in radians."""
+    """Arc about a centre from the direction ``start`` on, both angles in radians."""
     (x, y), end = centre, start + sweep
     return Arc(
         (x + radius * math.cos(start), y + radius * math.sin(start)),
@@ -86,13 +86,13 @@ def about(centre: Point, radius: float, start: float, sweep: float) -> Arc:
 
 
 def two_arcs(circle: Circle, start: float = 0.0) -> tuple[Arc, Arc]:
-    """A circle's halves, counterclockwise from a direction on, radians."""
+    """Both halves of a circle, counterclockwise from a direction in radians."""
     centre, radius = circle.centre, circle.radius
     return about(centre, radius, start, math.pi), about(centre, radius, start + math.pi, math.pi)
 
 
 def joined(segments: Iterable[Segment]) -> tuple[Segment, ...]:
-    """Segments end to end, each made to start exactly where the one before it ends."""
+    """Segments end to end, each changed to start exactly at the end of the one before."""
     out: list[Segment] = []
     for segment in segments:
         out.append(_from(out[-1].end, segment) if out else segment)
@@ -100,26 +100,26 @@ def joined(segments: Iterable[Segment]) -> tuple[Segment, ...]:
 
 
 def _from(start: Point, segment: Segment) -> Segment:
-    """The segment with another start; most are arcs."""
+    """The segment with another start; most segments are arcs."""
     if isinstance(segment, Arc):
         return Arc(start, segment.end, segment.bulge)
     return segment._replace(start=start)
 
 
 def closed(layer: str, segments: Iterable[Segment]) -> Contour:
-    """A closed contour: ends that differ by rounding are made the same point."""
-    found = joined(segments)
-    return Contour(layer, (*found[:-1], found[-1]._replace(end=found[0].start)))
+    """A closed contour: ends that differ by rounding become one point."""
+    pieces = joined(segments)
+    return Contour(layer, (*pieces[:-1], pieces[-1]._replace(end=pieces[0].start)))
 
 
 def backwards(contour: Contour) -> Contour:
     """The contour with the opposite sense of travel."""
-    found: list[Segment] = []
+    pieces: list[Segment] = []
     for piece in reversed(contour.segments):
         if isinstance(piece, Cubic):
-            found.append(Cubic(piece.end, piece.second, piece.first, piece.start))
+            pieces.append(Cubic(piece.end, piece.second, piece.first, piece.start))
         elif isinstance(piece, Arc):
-            found.append(Arc(piece.end, piece.start, -piece.bulge))
+            pieces.append(Arc(piece.end, piece.start, -piece.bulge))
         else:
-            found.append(Line(piece.end, piece.start))
-    return contour._replace(segments=tuple(found))
+            pieces.append(Line(piece.end, piece.start))
+    return contour._replace(segments=tuple(pieces))

@@ -1,6 +1,7 @@
 """A drawing sheet: shapes, texts and dimensions on layers, in millimetres on paper.
 
-What the formats of sheets write, whatever it shows. The origin is the paper's lower left corner.
+The formats of sheets write it without knowing the part. The origin is the paper's lower left
+corner.
 """
 
 from __future__ import annotations
@@ -37,12 +38,12 @@ class Label(NamedTuple):
 
     @property
     def width(self) -> float:
-        """Along its base line, mm."""
+        """Length along its base line, mm."""
         return width(self.text) * self.height
 
     @property
     def corners(self) -> tuple[Point, Point, Point, Point]:
-        """The corners of the box that its letters fill, counterclockwise from the lower left."""
+        """Corners of the box around its letters, counterclockwise from the lower left."""
         low, high = -BELOW * self.height, ABOVE * self.height
         box = ((0.0, low), (self.width, low), (self.width, high), (0.0, high))
         a, b, c, d = (_turned(p, self.turn, self.at) for p in box)
@@ -50,12 +51,12 @@ class Label(NamedTuple):
 
     @property
     def middle(self) -> Point:
-        """The middle of its capitals."""
+        """Middle of its capitals."""
         return _turned((0.5 * self.width, 0.5 * self.height), self.turn, self.at)
 
 
 class Arrow(NamedTuple):
-    """An arrow's head: where its tip is, and where it points, radians."""
+    """An arrow's head: the position of its tip, and its direction in radians."""
 
     tip: Point
     turn: float
@@ -70,11 +71,11 @@ class Arrow(NamedTuple):
 
 
 class Measure(NamedTuple):
-    """A dimension as it is drawn: lines, its own before its extension lines, arrows and its text.
+    """A dimension as drawn: lines (its own before its extension lines), arrows and text.
 
-    ``kind`` says what ``points`` are: ``linear``: both ends and a place on the dimension's line,
-    all in the direction ``turn``; ``angular``: the apex, a point on each leg and one on the arc;
-    ``radius``: the centre and the point on the arc; ``diameter``: both points on the circle.
+    ``kind`` names the meaning of ``points``. ``linear``: both ends and a place on the dimension
+    line, all in the direction ``turn``. ``angular``: the apex, a point on each leg and one on the
+    arc. ``radius``: the centre and the point on the arc. ``diameter``: both points on the circle.
     """
 
     kind: str
@@ -87,19 +88,19 @@ class Measure(NamedTuple):
 
 
 class Sheet(NamedTuple):
-    """A sheet of paper, and all that is on it."""
+    """A sheet of paper with its contents."""
 
     title: str
     width: float
     height: float
-    scale: float  # of the views: millimetres on paper in one of the part
+    scale: float  # scale of the views: mm on paper per mm of the part
     shapes: tuple[Shape, ...]
     labels: tuple[Label, ...]
     measures: tuple[Measure, ...]
 
     @property
     def texts(self) -> list[Label]:
-        """All texts, those of dimensions too."""
+        """All texts, including those of dimensions."""
         return [*self.labels, *(m.label for m in self.measures)]
 
 
@@ -110,14 +111,14 @@ def line(layer: str, *points: Point) -> Contour:
 
 
 def rectangle(layer: str, x0: float, y0: float, x1: float, y1: float) -> Contour:
-    """A frame."""
+    """A rectangular frame."""
     corners = ((x0, y0), (x1, y0), (x1, y1), (x0, y1))
     ends = zip(corners, (*corners[1:], corners[0]), strict=True)
     return Contour(layer, tuple(Line(a, b) for a, b in ends))
 
 
 def polar(centre: Point, radius: float, turn: float) -> Point:
-    """The point in a direction, radians, at a distance from another."""
+    """Point in a direction, radians, at a distance from another point."""
     return centre[0] + radius * math.cos(turn), centre[1] + radius * math.sin(turn)
 
 

@@ -1,4 +1,4 @@
-"""Regions of a unit sphere that are bounded by arcs of its circles, great and small.
+"""Regions of a unit sphere that are bounded by arcs of its great and small circles.
 
 Points are unit vectors (x, y, z). A region lies to the left of its boundary, seen from outside.
 """
@@ -20,10 +20,10 @@ GAUSS = 24  # points on an arc: its integrands are of the second degree in sine 
 
 
 class SphereArc(NamedTuple):
-    """An arc counterclockwise about an axis, ``angle`` from it, radians; what is left is nearer.
+    """An arc counterclockwise about an axis, ``angle`` radians from it; the axis is on its left.
 
-    Clockwise about an axis is counterclockwise about its opposite. From a point to itself it is
-    the whole circle.
+    An arc clockwise about an axis is counterclockwise about the opposite axis. An arc from a point
+    to itself is the whole circle.
     """
 
     axis: Vector
@@ -33,7 +33,7 @@ class SphereArc(NamedTuple):
 
     @property
     def sweep(self) -> float:
-        """How far it turns about its axis, radians, above 0 and at most a whole turn."""
+        """Angle about its axis, radians, above 0 and at most a whole turn."""
         if self.start == self.end:
             return math.tau
         x, y = self._frame()
@@ -48,14 +48,14 @@ class SphereArc(NamedTuple):
         points = math.cos(self.angle) * np.array(self.axis) + flat * (c * x + s * y)
         return points, flat * (c * y - s * x)
 
-    def reach(self, way: Vector) -> float:
-        """How far along a direction it comes, of 1."""
+    def reach(self, direction: Vector) -> float:
+        """Greatest coordinate of the arc along a direction, on the unit sphere."""
         x, y = self._frame()
         flat = math.sin(self.angle)
-        along, aside = flat * dot(x, way), flat * dot(y, way)
-        if math.atan2(aside, along) % math.tau <= self.sweep:
-            return math.cos(self.angle) * dot(self.axis, way) + math.hypot(along, aside)
-        return max(dot(self.start, way), dot(self.end, way))
+        along, sideways = flat * dot(x, direction), flat * dot(y, direction)
+        if math.atan2(sideways, along) % math.tau <= self.sweep:
+            return math.cos(self.angle) * dot(self.axis, direction) + math.hypot(along, sideways)
+        return max(dot(self.start, direction), dot(self.end, direction))
 
     def crossings(self, azimuth: float) -> list[float]:
         """Angles from z at which it crosses the half-plane of an azimuth about z."""
@@ -66,42 +66,42 @@ class SphereArc(NamedTuple):
         if abs(reach) > 1.0:
             return []
         middle, off = math.atan2(ahead, c), math.acos(reach)
-        found = []
+        angles = []
         for polar in {(middle - off) % math.tau, (middle + off) % math.tau}:
             at = place(polar, azimuth)
             turn = math.atan2(dot(at, y), dot(at, x)) % math.tau
             if 0.0 < polar < math.pi and turn <= self.sweep:
-                found.append(polar)
-        return found
+                angles.append(polar)
+        return angles
 
     def way(self, point: Vector) -> Vector:
-        """The direction in which it passes one of its points."""
+        """Direction of travel at one of its points."""
         return unit(cross(self.axis, point))
 
     def turned(self, turn: Rotation) -> SphereArc:
-        """The same, moved with the sphere."""
+        """The arc rotated with the sphere."""
         return SphereArc(turn(self.axis), self.angle, turn(self.start), turn(self.end))
 
     @property
     def ahead(self) -> Vector:
-        """From the axis to the start, square to the axis."""
+        """Unit vector from the axis towards the start, perpendicular to the axis."""
         return self._frame()[0]
 
     def _frame(self) -> tuple[Vector, Vector]:
-        """That, and a quarter of a turn on."""
+        """``ahead``, and the vector a quarter of a turn further."""
         y = unit(cross(self.axis, self.start))
         return cross(y, self.axis), y
 
 
 class Rotation(NamedTuple):
-    """A rotation of the sphere: where its x, y and z go."""
+    """A rotation of the sphere: the images of x, y and z."""
 
     x: Vector
     y: Vector
     z: Vector
 
     def __call__(self, v: Vector) -> Vector:
-        """Where a vector goes."""
+        """Image of a vector."""
         a, b, c = v
         return (
             a * self.x[0] + b * self.y[0] + c * self.z[0],
@@ -111,15 +111,17 @@ class Rotation(NamedTuple):
 
 
 class Region(NamedTuple):
-    """What is left of one closed boundary, in one piece; ``middle`` is a point within a quarter of
-    the sphere from all of it."""
+    """The region to the left of one closed boundary, in one piece.
+
+    ``middle`` is a point within a quarter of the sphere from all of it.
+    """
 
     boundary: tuple[SphereArc, ...]
     middle: Vector
 
     @property
     def area(self) -> float:
-        """Its solid angle, by Gauss and Bonnet: 2 pi less what its boundary turns.
+        """Solid angle, by Gauss and Bonnet: 2 pi minus the turning of the boundary.
 
         >>> pole, rim = (0.0, 0.0, 1.0), place(0.5, 0.0)
         >>> cap = Region((SphereArc(pole, 0.5, rim, rim),), pole)
@@ -131,10 +133,10 @@ class Region(NamedTuple):
 
     @property
     def moments(self) -> tuple[Array, Array]:
-        """The integrals of u and of u u' over it, (3,) and (3, 3), from its boundary alone.
+        """Integrals of u and of u u' over the region, (3,) and (3, 3), from its boundary only.
 
-        Of u: half that of u x du. Of u u', whose parts but for a third of the area are harmonics
-        of degree 2: minus a sixth of what flows out of it.
+        The integral of u is half that of u x du. For u u' it is a third of the area minus a sixth
+        of the flow out of the region, since the other parts are harmonics of degree 2.
         """
         nodes, weights = np.polynomial.legendre.leggauss(GAUSS)
         first, second = np.zeros(3), np.eye(3) * self.area / 3.0
@@ -149,11 +151,11 @@ class Region(NamedTuple):
         return first, second
 
     def turned(self, turn: Rotation) -> Region:
-        """The same, moved with the sphere."""
+        """The region rotated with the sphere."""
         return Region(tuple(arc.turned(turn) for arc in self.boundary), turn(self.middle))
 
     def _corners(self) -> Iterator[float]:
-        """How far the boundary turns to the left at each corner."""
+        """Angle by which the boundary turns to the left at each corner."""
         for arc, after in zip(self.boundary, (*self.boundary[1:], self.boundary[0]), strict=True):
             if arc.start == arc.end:
                 continue
@@ -162,18 +164,18 @@ class Region(NamedTuple):
 
 
 def place(polar: float, azimuth: float) -> Vector:
-    """A point by its angle from z and that about z from x, radians."""
+    """Point at a polar angle from z and an azimuth about z from x, radians."""
     s = math.sin(polar)
     return s * math.cos(azimuth), s * math.sin(azimuth), math.cos(polar)
 
 
 def dot(a: Vector, b: Vector) -> float:
-    """The scalar product."""
+    """Scalar product."""
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 
 
 def cross(a: Vector, b: Vector) -> Vector:
-    """The vector product."""
+    """Vector product."""
     return (
         a[1] * b[2] - a[2] * b[1],
         a[2] * b[0] - a[0] * b[2],
@@ -182,13 +184,13 @@ def cross(a: Vector, b: Vector) -> Vector:
 
 
 def unit(v: Vector) -> Vector:
-    """A vector's direction."""
+    """Unit vector in the direction of a vector."""
     length = math.hypot(*v)
     return v[0] / length, v[1] / length, v[2] / length
 
 
 def square_to(v: Vector) -> Vector:
-    """A unit vector square to another."""
+    """A unit vector perpendicular to another."""
     least = min(range(3), key=lambda k: abs(v[k]))
     return unit(cross(v, (float(least == 0), float(least == 1), float(least == 2))))
 
@@ -200,5 +202,5 @@ def axis_frame(axis: Vector) -> Rotation:
 
 
 def opposite(v: Vector) -> Vector:
-    """The other way."""
+    """The opposite vector."""
     return -v[0], -v[1], -v[2]

@@ -1,7 +1,7 @@
-"""Arcs of circles on a unit sphere, all together: how far points are from them, what faces them.
+"""Arcs of circles on a unit sphere as arrays: distances of points, and the points facing them.
 
-The distance of two points is the angle between them; where two boundaries of such arcs are nearest
-to each other, one has a corner, or both circles' axes and the place lie on one great circle.
+The distance of two points is the angle between them. At the nearest points of two boundaries,
+either one has a corner, or the place and the axes of both circles are on one great circle.
 """
 
 from __future__ import annotations
@@ -22,9 +22,9 @@ FLAT = 1e-9  # radians: a corner that turns by less is none
 
 
 class Arcs:
-    """A boundary of arcs, each from where the one before it ends; what it bounds is to its left.
+    """A boundary of arcs, each from the end of the one before; its region is to its left.
 
-    One that is not closed is a stretch of a boundary: it goes on smoothly at its ends.
+    If it is not closed, it is a part of a boundary and continues smoothly at its ends.
 
     >>> import math
     >>> from geneva_cli.curves.sphere import place
@@ -43,18 +43,20 @@ class Arcs:
         self.start = np.array([arc.start for arc in arcs])
         self.middle = self.at(np.arange(len(arcs)), 0.5 * self.sweep)
         half = np.sin(self.angle) * np.sin(0.25 * self.sweep)
-        self.size = 2.0 * np.arcsin(np.minimum(half, 1.0))  # from its middle to its ends
-        self.first = self._turns(arcs)  # how far it turns to the left before each arc,
+        self.size = 2.0 * np.arcsin(np.minimum(half, 1.0))  # angle from its middle to its ends
+        self.first = self._turns(arcs)  # left turn of the boundary before each arc,
         if not closed:
             self.first[0] = 0.0
         self.last = np.roll(self.first, -1)  # and after it
 
     def _turns(self, arcs: Sequence[SphereArc]) -> Array:
-        """How far the boundary turns to the left from one arc to the next, which comes first."""
+        """Left turn of the boundary from one arc to the next; that before the first arc comes
+        first.
+        """
         back = np.roll([arc.way(arc.end) for arc in arcs], 1, axis=0)
         on = np.array([arc.way(arc.start) for arc in arcs])
-        aside = (np.cross(back, on) * self.start).sum(axis=1)
-        out: Array = np.arctan2(aside, (back * on).sum(axis=1))
+        sideways = (np.cross(back, on) * self.start).sum(axis=1)
+        out: Array = np.arctan2(sideways, (back * on).sum(axis=1))
         return out
 
     def __len__(self) -> int:
@@ -69,15 +71,17 @@ class Arcs:
         return out
 
     def signed(self, points: Array) -> tuple[Array, Array]:
-        """The distance of points (n, 3) from the boundary, radians, negative inside; and the
-        nearest points of it, (n, 3)."""
-        along, aside = points @ self.x.T, points @ self.y.T
-        across = np.hypot(along, aside)
+        """Distances of points (n, 3) from the boundary, and the nearest points of it (n, 3).
+
+        Distances are in radians, negative inside.
+        """
+        along, sideways = points @ self.x.T, points @ self.y.T
+        across = np.hypot(along, sideways)
         off = np.arctan2(across, points @ self.axis.T) - self.angle
-        turn = np.remainder(np.arctan2(aside, along), 2.0 * np.pi)
+        turn = np.remainder(np.arctan2(sideways, along), 2.0 * np.pi)
         past, short = turn - self.sweep, 2.0 * np.pi - turn
         beyond = np.where(past <= 0.0, 0.0, np.minimum(past, short))
-        # of the triangle of axis, point and the arc's end, without cancellation
+        # in the triangle of axis, point and the arc's end, without cancellation
         square = np.sin(0.5 * off) ** 2
         square = square + np.sin(self.angle) * across * np.sin(0.5 * beyond) ** 2
         near = np.argmin(square, axis=1)
@@ -92,10 +96,10 @@ class Arcs:
         return np.where(outside, away, -away), self.at(near, foot)
 
     def facing(self, which: NDArray[np.intp], towards: Array) -> tuple[NDArray[np.intp], Array]:
-        """Points of some of the arcs that face directions (n, 3), or are turned away from them.
+        """Points of some of the arcs that face directions (n, 3), or face away from them.
 
-        On the great circle through the arc's axis and the direction; which of the n each is for
-        comes first.
+        They are on the great circle through the arc's axis and the direction. The result is the
+        index of the direction for each point, and the points.
         """
         along = (towards * self.x[which]).sum(axis=1)
         turn = np.arctan2((towards * self.y[which]).sum(axis=1), along)

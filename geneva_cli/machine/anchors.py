@@ -1,4 +1,4 @@
-"""The anchors of a pin's path, each of which serves the input angles that are nearest to it."""
+"""The anchors of a pin's path, each of which serves the input angles nearest to it."""
 
 from __future__ import annotations
 
@@ -23,10 +23,10 @@ NEAR_END = 0.75
 
 
 class Anchors(ABC):
-    """Anchors from entry to exit, mid-motion in the middle.
+    """Anchors from entry to exit, with mid-motion in the middle.
 
-    Those of the ends serve only where the motion goes to zero. At the input angles ``cuts`` one
-    hands over to the next.
+    Those of the ends serve only where the motion goes to zero. ``cuts`` are the input angles at
+    which one hands over to the next.
     """
 
     cuts: Sequence[float]
@@ -34,29 +34,29 @@ class Anchors(ABC):
     @property
     @abstractmethod
     def alike(self) -> bool:
-        """Whether they differ in numbers alone, so that one call can serve them all.
+        """True if the anchors differ in numbers only, so that one call can serve them all.
 
-        Those of one design need not, as of gears given by points.
+        The anchors of a single design may differ in more, such as those of gears with a ratio file.
         """
 
     @abstractmethod
     def __len__(self) -> int:
-        """How many."""
+        """Number of anchors."""
 
     @abstractmethod
     def __getitem__(self, i: int) -> Anchor:
-        """One of them."""
+        """Anchor number i."""
 
     @abstractmethod
     def solved(self, input_deg: Number, solve: Solve) -> Jet:
-        """``solve(anchor, angles)`` with the anchor that serves each angle, in degrees."""
+        """Jet of ``solve(anchor, angles)``, with the anchor that serves each angle in degrees."""
 
     def __iter__(self) -> Iterator[Anchor]:
         return (self[i] for i in range(len(self)))
 
 
 class EachAnchor(Anchors):
-    """Anchors one by one."""
+    """Anchors held one by one."""
 
     def __init__(self, each: tuple[Anchor, ...]) -> None:
         self.each = each
@@ -70,18 +70,18 @@ class EachAnchor(Anchors):
 
     @cached_property
     def alike(self) -> bool:
-        """True of many designs, whose numbers are arrays."""
+        """True for a batch, and for anchors that differ in numbers only."""
         one = isinstance(self.cuts[0], float) and isinstance(self.cuts[-1], float)
         return not one or are_alike(self.each)
 
     def solved(self, input_deg: Number, solve: Solve) -> Jet:
-        """``solve(anchor, angles)`` with the anchor that serves each angle, in degrees."""
+        """Jet of ``solve(anchor, angles)``, with the anchor that serves each angle in degrees."""
         if are_designs(input_deg, self.cuts[0], self.cuts[-1]) and self.alike:
             return solve(chosen(input_deg, self.cuts, self.each), input_deg)
         if not isinstance(input_deg, float) and input_deg.size and self.alike:
             import numpy as np
 
-            # one call for all anchors, and for those alone that serve an angle
+            # one call for the anchors that serve an angle
             index = np.searchsorted(self.cuts, input_deg)
             low, high = int(index.min()), int(index.max())
             return solve(picked(index - low, self.each[low : high + 1]), input_deg)
@@ -93,9 +93,9 @@ class EachAnchor(Anchors):
 
 
 class StackedAnchors(Anchors):
-    """Anchors that differ in numbers alone; ``rows`` are the numbers of the designs, (n, 1).
+    """Anchors that differ in numbers only; ``rows`` are the numbers of the designs, (n, 1).
 
-    Who takes some of the designs takes some of the rows, and leaves the stack as it is.
+    A selection of designs selects rows and shares the stack.
     """
 
     def __init__(self, each: tuple[Anchor, ...]) -> None:
@@ -105,7 +105,7 @@ class StackedAnchors(Anchors):
 
     @property
     def alike(self) -> bool:
-        """True of all."""
+        """Always True."""
         return True
 
     def __len__(self) -> int:
@@ -115,25 +115,25 @@ class StackedAnchors(Anchors):
         return self.stack.one(i, self.rows)
 
     def solved(self, input_deg: Number, solve: Solve) -> Jet:
-        """``solve(anchor, angles)`` with the anchor that serves each angle, in degrees."""
+        """Jet of ``solve(anchor, angles)``, with the anchor that serves each angle in degrees."""
         import numpy as np
 
         x = array(input_deg)
         index: Whole = np.add.reduce([x > cut for cut in self.cuts], dtype=int)
         low, high = int(index.min(initial=len(self) - 1)), int(index.max(initial=0))
-        # of no angles any will do
+        # any anchor will do for no angles
         anchor = self[high] if low >= high else self.stack.picked(index, self.rows)
         return solve(anchor, x)
 
 
 def anchors_of(each: tuple[Anchor, ...]) -> Anchors:
-    """The anchors of one design, or of many."""
+    """Anchors of one design, or of a batch."""
     one = all(isinstance(anchor.input_deg, float) for anchor in each)
     return EachAnchor(each) if one or not can_stack(each) else StackedAnchors(each)
 
 
 def cuts(degrees: Sequence[float]) -> list[float]:
-    """Half-way between two anchors, and nearer to the ends."""
+    """Input angles half-way between two anchors, and nearer to the ends beside those."""
     first, *inner, last = degrees
     return [
         inner[0] + NEAR_END * (first - inner[0]),

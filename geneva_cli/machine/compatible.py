@@ -1,4 +1,4 @@
-"""Which wheels, drives and motions go together, decided by the properties that each declares."""
+"""Rules for combining wheels, drives and motions, from the properties that each declares."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 class Conflict(NamedTuple):
     """A combination that makes no machine: its condition, the key to blame, and the message.
 
-    For arrays of designs the condition may be an array of truth values.
+    For a batch of designs the condition may be an array of truth values.
     """
 
     when: Callable[[Spec], object]
@@ -34,7 +34,7 @@ CONFLICTS = (
     Conflict(
         lambda s: s.drive.RADIAL and (s.drive.roller_angles_deg or s.wheel.skewed),
         ("drive", "kind"),
-        'kind = "{drive}" has one roller and radial slots: remove offset_mm, steps_deg and '
+        'kind = "{drive}" needs one roller and radial slots: remove offset_mm, steps_deg and '
         "roller_angles_deg",
     ),
     Conflict(
@@ -50,48 +50,47 @@ CONFLICTS = (
     Conflict(
         lambda s: s.drive.LAW is Needs.NO_LAW and s.motion is not None,
         ("motion", "law"),
-        'kind = "{drive}" gives the roller its path, and the slots are straight; a law would be '
-        "one too many",
+        'kind = "{drive}" sets the path of the roller, and the slots are straight: remove law',
     ),
     Conflict(
         lambda s: s.motion is not None and s.wheel.steps,
         ("wheel", "steps_deg"),
-        "steps_deg shapes straight slots; with a law the slots are solved for (remove one)",
+        "steps_deg is for straight slots, and a law makes curved slots: remove one of them",
     ),
     Conflict(
         lambda s: s.motion is not None and s.wheel.skewed,
         ("wheel", "offset_mm"),
-        "offset_mm shapes straight slots; with a law the slots are solved for (remove one)",
+        "offset_mm is for straight slots, and a law makes curved slots: remove one of them",
     ),
     Conflict(
         lambda s: s.motion is not None and not s.wheel.FLAT,
         ("motion", "law"),
-        "curved slots are flat; a {gearing} wheel has straight ones (remove law)",
+        "a {gearing} wheel has straight slots only: remove law",
     ),
     Conflict(
         lambda s: s.drive.ONE_ROLLER and s.drive.rollers > 1,
         ("drive", "rollers"),
-        'kind = "{drive}" carries one roller',
+        'kind = "{drive}" carries one roller only',
     ),
     Conflict(
         lambda s: s.drive.ONE_ROLLER and _several(s),
         ("drive", "kind"),
-        'kind = "{drive}" carries one roller',
+        'kind = "{drive}" carries one roller only',
     ),
     Conflict(
         lambda s: s.wheel.steps and s.drive.roller_angles_deg,
         ("wheel", "steps_deg"),
-        "steps_deg places the rollers itself; remove roller_angles_deg",
+        "steps_deg already places the rollers: remove roller_angles_deg",
     ),
     Conflict(
         lambda s: _several(s) and s.drive.rollers not in (1, _several(s)),
         ("drive", "rollers"),
-        "rollers = {rollers}, but there are {several} {places} for them; leave rollers out",
+        "rollers = {rollers}, but there are {several} {places}: remove rollers",
     ),
     Conflict(
         lambda s: s.motion is not None and s.drive.roller_angles_deg,
         ("drive", "roller_angles_deg"),
-        "roller_angles_deg is for straight slots; remove the law or the angles",
+        "roller_angles_deg is for straight slots: remove law or roller_angles_deg",
     ),
     Conflict(
         lambda s: s.motion is not None and s.drive.rollers > 1 and not s.drive.ALIKE,
@@ -103,7 +102,7 @@ CONFLICTS = (
 
 
 def refuse_conflicts(spec: Spec) -> None:
-    """Raise GenevaError for things that make no machine together, saying why."""
+    """Raise GenevaError if the spec combines kinds that make no machine together."""
     for conflict in CONFLICTS:
         when = conflict.when(spec)
         if is_array(when) or when:

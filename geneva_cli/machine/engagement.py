@@ -1,8 +1,8 @@
-"""One index of the wheel: pin path, slot and motion, of which two are known and give the third.
+"""One index of the wheel: pin path, slot and motion; any two determine the third.
 
-An engagement is one roller's passage through one slot. Input angles are degrees from its own
-mid-motion, wheel angles radians from half-way through the step, lengths in units of the centre
-distance L. The wheel's axis is the origin, the crank's axis at (1, 0).
+An engagement is one roller's passage through one slot. Input angles are in degrees from its own
+mid-motion. Wheel angles are in radians from the middle of the step. Lengths are in units of the
+centre distance L. The wheel's axis is the origin, the crank's axis is at (1, 0).
 """
 
 from __future__ import annotations
@@ -22,15 +22,16 @@ if TYPE_CHECKING:
 
 
 class Path(Protocol):
-    """Where the roller's centre is, in the fixed frame, as the input turns."""
+    """The roller centre's position in the fixed frame, as the input turns."""
 
     def __call__(self, input_deg: Number, order: int = 3) -> tuple[Jet, Jet]:
-        """The pin (x, y) with its derivatives by the input angle in radians."""
+        """Pin (x, y) with its derivatives by the input angle in radians."""
 
 
 class SlotAxis(NamedTuple):
-    """A straight slot as the loads see it: its normal's lever about the wheel's axis, and the
-    pin's speed along it, both over L.
+    """Lever of a straight slot's normal about the wheel's axis, and the pin's speed along the slot.
+
+    Both are over L.
     """
 
     lever: Jet
@@ -42,28 +43,33 @@ class Groove(Protocol):
 
     @property
     def sign(self) -> float:
-        """1.0 outside, -1.0 inside."""
+        """1.0 for an external wheel, -1.0 for an internal one."""
 
     @property
     def motion(self) -> Motion:
-        """The wheel's, of which the groove follows."""
+        """Motion of the wheel, from which the groove follows."""
 
     def distances(self, input_deg: Number, order: int = 3) -> tuple[Jet, Jet]:
-        """The roller's distance from the wheel's axis and from the crank's, in units of L."""
+        """Roller distances from the wheel's axis and from the crank's, in units of L."""
 
     def groove(self, input_deg: Number, order: int = 3) -> tuple[Jet, Jet]:
-        """The groove's pitch curve, the crank's axis being the origin."""
+        """Pitch curve (x, y) of the groove about the crank's axis."""
 
     @property
     def ends(self) -> tuple[Sequence[Number], Sequence[Number]]:
-        """The second distance with two derivatives by the input in radians, at entry and exit."""
+        """Roller distance from the crank's axis with two derivatives, at entry and exit.
+
+        Derivatives are by the input angle in radians.
+        """
 
 
 class CarrierVelocity(Protocol):
-    """Angular velocity of the body that carries the roller, where that is not the crank's arm."""
+    """Angular velocity of the body that carries the roller, if that is not the crank's arm."""
 
     def __call__(self, tau: Number, order: int) -> Jet:
-        """Radians an input radian, positive with the wheel, ``tau`` radians after mid-motion."""
+        """Rate in radians per input radian, positive with the wheel, ``tau`` radians after
+        mid-motion.
+        """
 
 
 Vector: TypeAlias = tuple[Jet, Jet]
@@ -75,67 +81,67 @@ class Reactions(Protocol):
     def __call__(
         self, input_deg: Number, path: Vector, loads: Sequence[tuple[Vector, Jet]]
     ) -> list[tuple[Vector, Vector]]:
-        """Two reactions to each load: on the crank's shaft, and on what guides the body besides.
+        """Two reactions to each load: on the crank's shaft, and on the body's other guide.
 
-        A load is a force at the pin's centre and a couple, both on the roller's body; ``path`` is
-        the pin's, one order higher than the loads. The guide is a rocker, slider, groove or fixed
-        gear. Forces are in any unit, couples in that unit times L; the axes are any, since only
-        the sizes of the reactions are used. Meshing gears push along the common tangent of their
-        pitch circles.
+        A load is a force at the pin's centre and a couple, both on the roller's body. ``path`` is
+        the pin's path, one order higher than the loads. The guide is a rocker, slider, groove or
+        fixed gear. Forces are in any unit, couples in that unit times L. The axes are arbitrary,
+        since callers use only the sizes of the reactions. Meshing gears push along the common
+        tangent of their pitch circles.
         """
 
 
 def cross(a: Vector, b: Vector) -> Jet:
-    """The third component of a vector product."""
+    """Third component of the vector product of two plane vectors."""
     return a[0] * b[1] - a[1] * b[0]
 
 
 class Turning(NamedTuple):
-    """A body that turns at one rate, radians per input radian, positive with the wheel."""
+    """A body that turns at a constant rate, radians per input radian, positive with the wheel."""
 
     rate: float
 
     def __call__(self, tau: Number, order: int) -> Jet:
-        """The rate."""
+        """Constant rate as a jet."""
         return Jet((tau * 0.0 + self.rate, *[0.0] * order))
 
 
 class Level(Protocol):
-    """A pin's place along the wheel's axis, as the input turns."""
+    """A pin's position along the wheel's axis, as the input turns."""
 
     @property
     def hub(self) -> float:
-        """The middle of the pin's circle."""
+        """Position of the centre of the pin's circle."""
 
     def __call__(self, tau: Number, order: int) -> Jet:
-        """``tau`` input radians after mid-motion."""
+        """Position ``tau`` input radians after mid-motion."""
 
 
 class Slot(ABC):
     """The curve in the wheel's own frame along which the pin runs: the slot's pitch curve."""
 
-    # whether it is a curve that was solved for: it has two branches and walls of its own
+    # True for a curve that was solved for: it has two branches and its own walls.
     curved = False
-    # whether its two branches are mirror images, where the motion is symmetric
+    # True if its two branches are mirror images when the motion is symmetric.
     mirrored = True
-    # whether something else than the roller drives the wheel for a while
+    # True if something other than the roller drives the wheel for part of the motion.
     relieved = False
-    # e: by how much a straight slot's axis misses the wheel's centre
+    # e: distance between a straight slot's axis and the wheel's centre, over L.
     offset: float = 0.0
-    # on a sphere, whose path is a projection: the pin's place along the wheel's axis
+    # The pin's position along the wheel's axis on a sphere, where the path is a projection.
     height: Level | None = None
 
     @property
     def walls_flat(self) -> bool:
-        """Whether the roller presses on a straight wall throughout."""
+        """True if the roller presses on a straight wall throughout."""
         return not (self.curved or self.relieved)
 
     @abstractmethod
     def __call__(self, input_deg: Number, order: int = 3) -> tuple[Jet, Jet]:
-        """The pin in the wheel's frame; on a sphere its polar angle in the flat development."""
+        """Pin (x, y) in the wheel's frame; on a sphere its polar angle in the flat development."""
 
     def axis(self, input_deg: Number, order: int = 0) -> SlotAxis | None:
-        """A straight slot's lever and speed at input angles; None for a curved slot."""
+        """Lever and speed of a straight slot at input angles; None for a curved slot."""
         return None
 
     def upright(self, input_deg: Number, order: int = 0) -> Jet | float:
@@ -148,91 +154,91 @@ class Slot(ABC):
 
 
 class PeakValue(NamedTuple):
-    """The greatest size of a quantity, and its signed input angle in degrees."""
+    """Greatest size of a quantity, and its signed input angle in degrees."""
 
     size: float
     at_deg: float
 
 
 class ClosedPeaks(Protocol):
-    """Peaks in closed form, or by a search that is quicker than the general one."""
+    """Peaks in closed form, or by a search that is faster than the general one."""
 
     def __call__(self, quantity: str) -> PeakValue | None:
-        """The peak of a quantity; None where only the general search finds it."""
+        """Peak of a quantity, or None if it needs the general search."""
 
 
 class Motion(ABC):
     """The wheel's angle as the input turns, from rest to rest."""
 
-    # the motion law, where the motion is given by one
+    # motion law, if a law gives the motion
     law: Law | None = None
-    # share of a greatest rate by which ``rough_rates`` may be wrong; 0 where they are as the rest
+    # Greatest error of ``rough_rates``, as a fraction of the greatest rate; 0 for exact ones.
     ROUGH_TO: ClassVar[float] = 0.0
 
     def __init__(self, entry_deg: float, exit_deg: float, half_step: float) -> None:
         self.entry_deg = entry_deg  # from mid-motion, negative
         self.exit_deg = exit_deg
-        self.half_step = half_step  # b: the wheel goes from -b to b
+        self.half_step = half_step  # b: the wheel turns from -b to b
 
     @abstractmethod
     def __call__(self, input_deg: Number, order: int = 3) -> Jet:
         """Wheel angle with its derivatives by the input angle in radians."""
 
     def rate(self, input_deg: Number, order: int = 2) -> Jet:
-        """The wheel's speed over the input's, for whoever does not need the angle itself."""
+        """Wheel speed over input speed, with derivatives, computed without the angle itself."""
         return self(input_deg, order + 1).derivative()
 
     def rough_rates(self, input_deg: Number, order: int = 2) -> tuple[Array, ...]:
-        """The speed and its derivatives at arrays of angles, for who looks where to look closely.
+        """Approximate speed and its derivatives at arrays of angles, for a first search.
 
-        To ``ROUGH_TO`` of the greatest of each.
+        The error is at most ``ROUGH_TO`` times the greatest value of each.
         """
         return self(input_deg, order + 1).arrays()[1:]
 
     @property
     def entry(self) -> Anchor | None:
-        """The pin at entry, about which its path is written where the slot follows it."""
+        """Pin at entry, about which its path is written if the slot follows the pin; else None."""
         return None
 
     @property
     def symmetric(self) -> bool:
-        """Whether the second half mirrors the first."""
+        """True if the second half mirrors the first."""
         return all_true(self.entry_deg == -self.exit_deg)
 
     @property
     def breaks_deg(self) -> tuple[float, ...]:
-        """Entry, the places where a derivative may jump, mid-motion, and exit."""
+        """Entry, places where a derivative may jump, mid-motion, and exit, in degrees."""
         return (self.entry_deg, 0.0, self.exit_deg)
 
     def closed_peak(self, quantity: str) -> PeakValue | None:
-        """The peak of a quantity in closed form, or by a quicker search than the general one.
+        """Peak of a quantity in closed form, or by a search that is faster than the general one.
 
-        None where there is neither; for arrays of designs NaN at those that have neither.
+        None if there is neither; in a batch NaN for each design that has neither.
         """
         return None
 
     def derivatives(self, input_deg: Array, orders: Sequence[int] = (0, 1, 2, 3)) -> list[Array]:
-        """The wheel's angle and its derivatives at many ascending input angles (k,).
+        """Wheel angle and its derivatives at many ascending input angles (k,).
 
-        A symmetric motion at symmetric angles is computed once and mirrored. Of many designs the
+        A symmetric motion at symmetric angles is computed once and mirrored. For n designs the
         values are (n, k).
         """
         mirrored = self.symmetric and is_mirrored(input_deg)
         first = input_deg[: (len(input_deg) + 1) // 2] if mirrored else input_deg
         values = self(first, max(orders)).derivatives()
-        asked = [array(values[k]) for k in orders]
+        requested = [array(values[k]) for k in orders]
         if not mirrored:
-            return asked
-        return [mirror(half, len(input_deg), k) for half, k in zip(asked, orders, strict=True)]
+            return requested
+        return [mirror(half, len(input_deg), k) for half, k in zip(requested, orders, strict=True)]
 
 
 def is_mirrored(input_deg: Array) -> bool:
-    """Whether ascending angles (k,) lie symmetrically about mid-motion."""
+    """True if ascending angles (k,) lie symmetrically about mid-motion."""
     return bool((input_deg == -input_deg[::-1]).all())
 
 
 def mirror(first: Array, count: int, order: int) -> Array:
-    """``count`` values of a derivative from their first half; even orders change sign."""
+    """Complete ``count`` values of a derivative from their first half; even orders change sign."""
     import numpy
 
     rest = first[..., : count - first.shape[-1]][..., ::-1]
@@ -242,12 +248,14 @@ def mirror(first: Array, count: int, order: int) -> Array:
 class Engagement:
     """Pin path, slot and motion of one roller in one slot.
 
-    ``mid_deg`` is the machine's input angle at its mid-motion. ``crank_sense`` says which way the
-    crank turns where the roller is not on its arm: with the wheel (-1) or against it (1); 0 where
-    it is, and the pin's direction is the crank's. ``groove`` is the path where a fixed groove
-    guides the roller along the crank; ``body`` carries the roller where the crank's arm does not,
-    and ``reactions`` hold that body. ``hub`` is where the crank's arm turns about, on the line of
-    centres: 1 but on a sphere.
+    ``mid_deg`` is the machine's input angle at its mid-motion. ``groove`` is the path if a fixed
+    groove guides the roller along the crank.
+
+    If the roller is not on the crank's arm, ``body`` is the body that carries it and ``reactions``
+    hold that body. ``crank_sense`` is then the crank's direction: -1 with the wheel, 1 against it.
+    It is 0 if the roller is on the arm, and the crank turns as the pin does.
+
+    ``hub`` is the arm's centre of rotation on the line of centres: 1, except on a sphere.
     """
 
     def __init__(
@@ -270,12 +278,12 @@ class Engagement:
 
     @property
     def entry_deg(self) -> float:
-        """Where the motion begins."""
+        """Input angle at which the motion begins, degrees from mid-motion."""
         return self.motion.entry_deg
 
     @property
     def exit_deg(self) -> float:
-        """Where the motion ends."""
+        """Input angle at which the motion ends, degrees from mid-motion."""
         return self.motion.exit_deg
 
     @property
@@ -285,17 +293,17 @@ class Engagement:
 
     @property
     def motion_deg(self) -> float:
-        """Input angle of the motion."""
+        """Input angle of the motion, degrees."""
         return self.exit_deg - self.entry_deg
 
     @property
     def mirrored(self) -> bool:
-        """Whether the way out is the mirror image of the way in: in the motion and in the slot."""
+        """True if motion and slot are symmetric about mid-motion."""
         return self.motion.symmetric and self.slot.mirrored
 
     @cached_property
     def entry_reach(self) -> Number:
-        """The pin's distance from the wheel's axis at entry, in units of L."""
+        """Pin distance from the wheel's axis at entry, in units of L."""
         x, y = self.slot(self.entry_deg, 0)
         return library(x.c[0], y.c[0]).hypot(x.c[0], y.c[0])
 
@@ -311,20 +319,20 @@ class Engagement:
 
     @property
     def through(self) -> Engagement:
-        """The engagement whose roller runs through the whole slot: itself, but for gear sectors."""
+        """Engagement whose roller runs through the whole slot: itself, except for gear sectors."""
         return self
 
     @property
     def ahead_deg(self) -> tuple[float, ...]:
-        """How far each roller that it takes is ahead of the input, in ``through``: one, not at all.
+        """Angles by which each of its rollers leads the input in ``through``; (0,) for one roller.
 
-        Where gears drive between them, one roller starts the wheel and another stops it.
+        If gears drive between them, one roller starts the wheel and another stops it.
         """
         return (0.0,)
 
     @property
     def paired(self) -> bool:
-        """Whether one roller starts the wheel and another stops it, each in a slot of its own."""
+        """True if one roller starts the wheel and another stops it, each in its own slot."""
         return len(self.ahead_deg) > 1
 
     @property
@@ -334,7 +342,7 @@ class Engagement:
 
     @property
     def overtaking(self) -> float:
-        """By how much a roller would run ahead of its slot while something else drives, radians."""
+        """Angle by which a roller would lead its slot while something else drives, radians."""
         return 0.0
 
 
@@ -343,15 +351,15 @@ class Anchor(NamedTuple):
 
     input_deg: float
     wheel: float  # direction of the ray from the wheel's axis to the pin there, radians
-    along: float  # distance of the pin from the wheel's axis there
+    along: float  # distance from the wheel's axis to the pin there
     displacement: Displacement
 
     def displacement_at(self, input_deg: Number, order: int) -> tuple[Jet, Jet]:
-        """The pin's displacement (along the ray, across it) at an input angle in degrees."""
+        """Pin displacement (along the ray, across it) at an input angle in degrees."""
         return self.displacement(radians(input_deg - self.input_deg), order)
 
     def place(self, input_deg: Number, order: int) -> tuple[Jet, Jet]:
-        """The pin (along the anchor's ray, across it) at an input angle in degrees."""
+        """Pin position (along the anchor's ray, across it) at an input angle in degrees."""
         along, across = self.displacement_at(input_deg, order)
         return along + self.along, across
 
@@ -360,11 +368,13 @@ class Displacement(Protocol):
     """The pin's displacement since an anchor."""
 
     def __call__(self, tau: Number, order: int) -> tuple[Jet, Jet]:
-        """Along the anchor's ray and across it, ``tau`` input radians after the anchor."""
+        """Displacement along the anchor's ray and across it, ``tau`` input radians after the
+        anchor.
+        """
 
 
 def in_wheel(path: tuple[Jet, Jet], wheel: Jet) -> tuple[Jet, Jet]:
-    """A vector of the fixed frame in the frame of a wheel at the angle ``wheel``, radians."""
+    """Transform a vector from the fixed frame to that of a wheel at angle ``wheel``, radians."""
     x, y = path
     s, c = sin_cos(wheel)
     return x * c + y * s, y * c - x * s

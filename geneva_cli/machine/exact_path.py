@@ -14,7 +14,7 @@ Exact: TypeAlias = tuple[Decimal, Decimal]  # a vector in the plane
 
 
 class ExactPoint(NamedTuple):
-    """A point of the path in 50 digits: crank's angle, place, velocity, and its unit vector."""
+    """A point of the path in 50 digits: crank angle, position, velocity, and unit tangent."""
 
     phi: Decimal
     sine: Decimal
@@ -25,7 +25,7 @@ class ExactPoint(NamedTuple):
 
     @staticmethod
     def of(path: RollerPath, phi: Decimal) -> ExactPoint:
-        """The point at a crank angle in radians."""
+        """Point at a crank angle in radians."""
         s, c = digits.sin_cos(phi)
         sine, cosine = exactly(s), exactly(c)
         x, y = path.place(Jet((sine, cosine)), Jet((cosine, -sine)), exact=True)
@@ -34,21 +34,21 @@ class ExactPoint(NamedTuple):
 
 
 def length(a: Exact) -> Decimal:
-    """A vector's length."""
+    """Length of a vector."""
     return (a[0] * a[0] + a[1] * a[1]).sqrt()
 
 
 def unit(a: Exact) -> Exact:
-    """The vector of length 1."""
+    """Unit vector in the direction of a vector."""
     size = length(a)
     return a[0] / size, a[1] / size
 
 
 def cross(a: Exact, b: Exact) -> Decimal:
-    """The vector product's component across the plane."""
+    """Third component of the vector product of two plane vectors."""
     return a[0] * b[1] - a[1] * b[0]
 
 
 def angle(a: Exact, b: Exact) -> float:
-    """The angle from a to b, rounded once."""
+    """Angle from a to b in radians, rounded once to a double."""
     return math.atan2(cross(a, b), a[0] * b[0] + a[1] * b[1])

@@ -1,4 +1,4 @@
-"""The example spec that each kind of drive and wheel brings, for ``geneva new``."""
+"""The example spec of each kind of drive and wheel, for ``geneva new``."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ from typing import NamedTuple
 
 
 class Example(NamedTuple):
-    """An example: its title, and the keys that it sets, table by table."""
+    """An example spec: its title, and its keys by table."""
 
     about: str
     tables: dict[str, dict[str, object]]

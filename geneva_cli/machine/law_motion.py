@@ -1,4 +1,4 @@
-"""The wheel's motion by a law, from which curved slots and the groove of a cam are solved."""
+"""Wheel motion from a law, for curved slots and for the groove of a cam."""
 
 from __future__ import annotations
 
@@ -31,12 +31,12 @@ class LawMotion(Motion):
 
     @property
     def symmetric(self) -> bool:
-        """Whether the law is symmetric, and lies evenly about mid-motion."""
+        """True if the law is symmetric and the motion is centred on mid-motion."""
         return all_true(self.law.symmetric) and super().symmetric
 
     @property
     def breaks_deg(self) -> tuple[float, ...]:
-        """Entry, the law's own breaks and its middle, the crossing of the centres, and exit."""
+        """Entry, the law's own breaks and its middle, the line of centres, and exit, in degrees."""
         whole = self.exit_deg - self.entry_deg
         places = (0.5, *self.law.breaks)
         inner = [0.0, *[self.entry_deg + u * whole for u in places]]
@@ -45,7 +45,9 @@ class LawMotion(Motion):
         return (self.entry_deg, *ascending(inner), self.exit_deg)
 
     def __call__(self, input_deg: Number, order: int = 3) -> Jet:
-        """The wheel's angle; each half of the law is evaluated from its own end, exactly."""
+        """Wheel angle with its derivatives; each half of the law is computed exactly from its own
+        end.
+        """
         return self._latest(self._halves, input_deg, order)[0]
 
     def _halves(self, input_deg: Number, order: int) -> tuple[Jet]:
@@ -53,8 +55,8 @@ class LawMotion(Motion):
         middle = 0.5 * (self.entry_deg + self.exit_deg)
 
         def first(x: Number) -> Jet:
-            share = (x - self.entry_deg) / whole
-            return self.law.near_start(share, order) * step - self.half_step
+            fraction = (x - self.entry_deg) / whole
+            return self.law.near_start(fraction, order) * step - self.half_step
 
         def second(x: Number) -> Jet:
             rest = self.law.near_end((self.exit_deg - x) / whole, order)
@@ -69,25 +71,25 @@ class LawMotion(Motion):
 
     @cached_property
     def _halves_alike(self) -> bool:
-        """Whether both halves of its law are one formula, and it is not of many designs."""
+        """True if one formula serves both halves of the law, for a single design."""
         varies = self.law.varies or not isinstance(self.exit_deg * self.half_step, float)
         return self.law.halves_alike and not varies
 
     def _at_once(self, x: Array, middle: float, order: int) -> Jet:
-        """Both halves, each from its own end, of a law of which they are one formula."""
+        """Both halves at once, each from its own end, for a law with one formula for both."""
         import numpy as np
 
         before = x <= middle
-        share = np.where(before, x - self.entry_deg, self.exit_deg - x)
-        share /= self.exit_deg - self.entry_deg
-        s = self.law.first(share, order) * (2.0 * self.half_step)
+        fraction = np.where(before, x - self.entry_deg, self.exit_deg - x)
+        fraction /= self.exit_deg - self.entry_deg
+        s = self.law.first(fraction, order) * (2.0 * self.half_step)
         after = remaining(s, self.half_step)
         pairs = zip((s - self.half_step).c, after.c, strict=True)
         return Jet([np.where(before, one, other) for one, other in pairs])
 
 
 def refuse_alpha0(alpha0_deg: float, natural_deg: float) -> None:
-    """Raise GenevaError where an extra dwell leaves the motion no angle, or a whole turn."""
+    """Raise GenevaError if the extra dwell leaves no motion angle, or no dwell at all."""
     low, high = natural_deg - 360.0 + MOTION_MIN, natural_deg - MOTION_MIN
     refuse(
         (alpha0_deg <= low) | (alpha0_deg >= high),

@@ -1,6 +1,6 @@
-"""The pivots and dimensions from which a machine can be rebuilt.
+"""Pivots and dimensions from which a machine can be rebuilt.
 
-The wheel's axis is the origin and the crank's lies on the x axis, as in the assembly's drawing.
+The wheel's axis is the origin, and the crank's axis is on the x axis, as in the assembly drawing.
 """
 
 from __future__ import annotations
@@ -13,7 +13,7 @@ if TYPE_CHECKING:
 
 
 class Pivot(NamedTuple):
-    """Where a shaft, or a joint, stands at input angle 0, in mm."""
+    """Position of a shaft or a joint at input angle 0, in mm."""
 
     name: str
     x_mm: float
@@ -29,32 +29,32 @@ class Dimension(NamedTuple):
 
 
 class Joint(Enum):
-    """What is in a joint of a link."""
+    """The part that sits in a joint of a link."""
 
-    SHAFT = "shaft"  # a shaft, fast in the link or turning in it
-    PIN = "pin"  # a pin on which it turns against another link or the frame
+    SHAFT = "shaft"  # a shaft, fixed to the link or turning in it
+    PIN = "pin"  # a pin on which the link turns against another link or the frame
     ROLLER = "roller"  # the roller's pin
-    SLIDE = "slide"  # a pin in a block that slides along the link, from its first joint outwards
-    CARRIED = "carried"  # the roller's pin, in such a block
-    NONE = "none"  # nothing: a point of the link
+    SLIDE = "slide"  # a pin in a block that slides along the link, outwards from its first joint
+    CARRIED = "carried"  # the roller's pin, in a block that slides along the link
+    NONE = "none"  # no part: only a point of the link
 
 
 class Teeth(NamedTuple):
-    """Where a gear has its teeth: all round, outside, unless something else is said."""
+    """Places of a gear's teeth; by default all round and outside."""
 
-    sectors: int = 1  # evenly round it
-    each_deg: float = 360.0  # how wide one is
-    middle_deg: float = 0.0  # the direction of the first one's middle at input angle 0
-    inside: bool = False  # of a ring
-    fixed: bool = False  # to the frame
+    sectors: int = 1  # toothed sectors, evenly spaced
+    each_deg: float = 360.0  # angle of one sector
+    middle_deg: float = 0.0  # direction of the first sector's middle at input angle 0
+    inside: bool = False  # True for a ring gear
+    fixed: bool = False  # True if the gear is fixed to the frame
 
 
 class Link(NamedTuple):
-    """A body between joints, in mm at input angles: a bar, or a plate of three joints.
+    """A body between joints, in mm at input angles: a bar, or a plate with three joints.
 
-    ``joints`` are the x and y of each joint, arrays (n,) by the input angle, and ``kinds`` says
-    what is in each. With a radius the link is the pitch circle of a gear about its one joint.
-    ``plane`` is the number of the plane in which it lies: 1 is the first below the wheel's.
+    ``joints`` are the x and y of each joint, arrays (n,) by the input angle. ``kinds`` names the
+    part in each joint. A link with a radius is the pitch circle of a gear about its one joint.
+    ``plane`` is the number of its plane: 1 is the first plane below the wheel's.
     """
 
     name: str

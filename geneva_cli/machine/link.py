@@ -1,4 +1,4 @@
-"""The link that carries a linkage's roller: how fast it turns, and the reactions at its joints."""
+"""Angular velocity and joint reactions of the link that carries a linkage's roller."""
 
 from __future__ import annotations
 
@@ -12,20 +12,22 @@ from geneva_cli.numerics.jet import Jet, Number, sin_cos, turning
 
 
 class LinkTurning(NamedTuple):
-    """The angular velocity of the link that carries the roller."""
+    """Angular velocity of the link that carries the roller."""
 
     path: RollerPath
     middle: float  # the crank's angle at mid-motion
     sense: float
 
     def __call__(self, tau: Number, order: int) -> Jet:
-        """Radians an input radian, positive with the wheel, ``tau`` radians after mid-motion."""
+        """Rate in radians per input radian, positive with the wheel, ``tau`` radians from
+        mid-motion.
+        """
         x, y = self.path.link(*sin_cos(Jet.variable(tau + self.middle, order + 1)))
         return turning(x, y) * self.sense
 
 
 class LinkReactions(NamedTuple):
-    """The link's equilibrium: held by the crank's pin at A, and at B along a known line."""
+    """Equilibrium of the link, held by the crank's pin at A, and at B along a known line."""
 
     path: RollerPath
     middle: float  # the crank's angle at mid-motion
@@ -37,7 +39,7 @@ class LinkReactions(NamedTuple):
     def __call__(
         self, input_deg: Number, path: Vector, loads: Sequence[tuple[Vector, Jet]]
     ) -> list[tuple[Vector, Vector]]:
-        """Reactions of the crank's shaft, which are those at A, and of the third body."""
+        """Reactions of the crank's shaft, equal to those at A, and of the third body."""
         tau = Jet.variable(radians(input_deg) + self.middle, path[0].order - 1)
         sine, cosine = sin_cos(tau)
         ex, ey = self.path.link(sine, cosine)

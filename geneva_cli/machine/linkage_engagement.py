@@ -1,4 +1,4 @@
-"""The engagement of a wheel that a linkage's path can drive, of one design or of many."""
+"""The engagement of a wheel that a linkage's path can drive, for one design or a batch."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ ANCHORS = 4  # on either side of the middle: near the wheel the path bends much
 
 
 class LinkFollowed(Followed):
-    """The motion of a wheel on a linkage: ``centre`` is the wheel's, in the path's frame."""
+    """Motion of a wheel on a linkage; ``centre`` is the wheel's centre in the path's frame."""
 
     def __init__(
         self,
@@ -41,16 +41,16 @@ class LinkFollowed(Followed):
         self.body, self.centre = body, centre
 
     def rough_rates(self, input_deg: Number, order: int = 2) -> tuple[Array, ...]:
-        """The same, from the path itself and from no anchor."""
+        """Speed and its derivatives at arrays of angles, computed from the path without anchors."""
         x, y = self.body.path.at(radians(input_deg) + self.body.middle, order + 1)
         rate = turning(x - self.centre[0], y - self.centre[1]) * self.body.sense
         return rate.arrays()
 
 
 def engagement_of(path: RollerPath, fit: Fit, step: HalfStep) -> tuple[Engagement, float]:
-    """The engagement of a wheel for a path, and the centre distance, mm.
+    """Engagement of a wheel for a path, and the centre distance in mm.
 
-    Everything is worked out in 50 digits and rounded once.
+    The computation uses 50 digits and rounds once.
     """
     with localcontext(digits.FIFTY):
         ox, oy = fit.centre
@@ -95,9 +95,9 @@ def engagement_of(path: RollerPath, fit: Fit, step: HalfStep) -> tuple[Engagemen
 
 
 def engagement_many(path: RollerPath, found: Fits, step: HalfStep) -> tuple[Engagement, float]:
-    """The engagements of wheels for the paths of n designs, and their centre distances, (n, 1).
+    """Engagements of wheels for the paths of n designs, and their centre distances (n, 1).
 
-    Everything is worked out in long doubles, where the computer has them, and rounded once.
+    The computation uses long doubles, if the computer has them, and rounds once.
     """
     path, found, step = _alike(path, found, step)
     b, sense = step.b, parameter(found.sense)
@@ -142,9 +142,10 @@ def engagement_many(path: RollerPath, found: Fits, step: HalfStep) -> tuple[Enga
 
 
 def _alike(path: RollerPath, found: Fits, step: HalfStep) -> tuple[RollerPath, Fits, HalfStep]:
-    """The designs, with the first that has a wheel in place of those that have none.
+    """Designs of a batch, with the first that has a wheel in place of those that have none.
 
-    Those are refused already, and NaN in long doubles takes a hundred times as long.
+    Designs without a wheel are refused already, and NaN in long doubles takes a hundred times as
+    long.
     """
     fits = found.entry[:, 0] == found.entry[:, 0]
     if fits.all() or not fits.any():
@@ -165,7 +166,7 @@ class AlongRay(NamedTuple):
     sense: float
 
     def __call__(self, tau: Number, order: int) -> tuple[Jet, Jet]:
-        """The displacement ``tau`` radians of the crank later."""
+        """Displacement after ``tau`` radians of crank rotation."""
         x, y = self.displacement(*sine_versine(Jet.variable(tau, order)))
         along = (x * self.x + y * self.y) * self.scale
         across = (y * self.x - x * self.y) * (self.sense * self.scale)
@@ -175,7 +176,7 @@ class AlongRay(NamedTuple):
 def along_ray(
     displacement: PointDisplacement, ray: tuple[float, float], sense: float, L: float, end: float
 ) -> AlongRay:
-    """A displacement along and across a ray; at an end (-1, 1) the ray is the pin's own direction.
+    """Displacement along and across a ray; at an end (-1, 1) the ray is the pin's own direction.
 
     There the ray is the velocity of ``displacement`` itself, so that the velocity across it is
     exactly 0.

@@ -1,23 +1,24 @@
-"""Many designs at once: one machine whose numbers are arrays along a design axis.
+"""A batch of designs as one machine, whose numbers are arrays along a design axis.
 
     >>> import numpy as np
     >>> from geneva_cli import External, SideCrank
     >>> from geneva_cli.machine.many import many
     >>> from geneva_cli.machine.spec import Spec
     >>> spec = Spec(External(6), SideCrank(A=0.0))
-    >>> found = many(spec, {"drive.A": np.array([0.0, 0.6, 2.0])})
-    >>> found.refused
+    >>> batch = many(spec, {"drive.A": np.array([0.0, 0.6, 2.0])})
+    >>> batch.refused
     array([False, False,  True])
-    >>> found.spread(found.machine.ratio)
+    >>> batch.spread(batch.machine.ratio)
     array([0.5, 0.5, nan])
 
-``found.machine`` is a machine like any other, of the designs that can be built, in their order. The
-numbers that vary in it are arrays (m, 1); what follows from them is (m, 1) too, and at k input
-angles (k,) or (m, k) it is (m, k). ``found.spread`` puts (m, 1) back among the n designs as (n,).
-Why a design is refused is told by building it alone.
+``batch.machine`` is an ordinary machine of the designs that can be built, in their order. The
+numbers that vary are arrays (m, 1), and so are the results. At k input angles, (k,) or (m, k),
+results are (m, k). ``batch.spread`` returns (m, 1) values to their places among the n designs as
+(n,). Build a refused design by itself to get the reason.
 
-Keys that are no numbers (words, lists), and the number of rollers, have one value in all designs of
-a machine: designs that differ in them must be built apart. ``may_vary`` says which keys may vary.
+Keys that are not numbers (words, lists), and the number of rollers, have one value in all designs
+of a machine. Designs that differ in them must be built as separate batches. ``may_vary`` tells
+which keys may vary.
 """
 
 from __future__ import annotations
@@ -40,27 +41,27 @@ if TYPE_CHECKING:
 T = TypeVar("T")
 Change: TypeAlias = "Callable[[Array], object]"
 
-# whose numbers may vary
+# tables whose numbers may vary
 TABLES = (
     *("wheel", "drive", "motion", "size", "load", "support", "motor", "shaft", "tolerance"),
     *("material.wheel", "material.roller"),
 )
-ONE_BY_ONE = {"rollers"}  # numbers that count what a machine is made of
+ONE_BY_ONE = {"rollers"}  # numbers that count the parts of a machine
 
 
 class Many(NamedTuple):
-    """What ``many`` built of n designs."""
+    """A batch of n designs as ``many`` built it."""
 
-    machine: Mechanism | None  # of those that can be built; None where there is none
+    machine: Mechanism | None  # of the designs that can be built; None if there are none
     refused: Mask  # (n,)
 
     @property
     def which(self) -> Whole:
-        """The numbers of the designs in ``machine``."""
+        """Numbers of the designs in ``machine``."""
         return np.flatnonzero(~self.refused)
 
     def spread(self, values: Number) -> Array:
-        """The values (m, 1) of the designs in ``machine`` as (n,): NaN for those refused."""
+        """Values (m, 1) of the designs in ``machine`` as (n,), with NaN for refused designs."""
         which = self.which
         out = np.full(len(self.refused), np.nan)
         out[which] = np.broadcast_to(np.reshape(values, -1), which.shape)
@@ -68,11 +69,11 @@ class Many(NamedTuple):
 
 
 def many(spec: Spec, varied: Mapping[str, object]) -> Many:
-    """The machine of a spec with some of its keys varied.
+    """Build the machine of a spec with some of its keys varied.
 
-    ``varied`` has keys as in the file (``drive.A``, ``wheel.z``, ``motion.lambda``) with arrays
-    (n,) of numbers, or with one value for all designs. Raises GenevaError for a key that the spec
-    does not have, and ValueError for arrays of unlike lengths or keys that cannot be arrays.
+    ``varied`` has keys as in the file (``drive.A``, ``wheel.z``, ``motion.lambda``), with arrays
+    (n,) of numbers or with one value for all designs. Raises GenevaError for a key that the spec
+    does not have. Raises ValueError for arrays of different lengths or keys that cannot be arrays.
     """
     arrays = {key: np.asarray(v) for key, v in varied.items() if _is_array(v)}
     lengths = {len(values) for values in arrays.values()}
@@ -82,11 +83,11 @@ def many(spec: Spec, varied: Mapping[str, object]) -> Many:
     if wrong:
         raise ValueError(f"{', '.join(wrong)}: cannot vary within a machine")
     (n,) = lengths
-    given = {**varied, **{key: values[:, None] for key, values in arrays.items()}}
+    columns = {**varied, **{key: values[:, None] for key, values in arrays.items()}}
     with np.errstate(all="ignore"), marking() as marks:
         try:
-            machine = build(changed(spec, given))._replace(design=_numbers(n)) if n else None
-        except GenevaError:  # what holds for all of them
+            machine = build(changed(spec, columns))._replace(design=_numbers(n)) if n else None
+        except GenevaError:  # the error is the same for all designs
             machine = None
     refused = np.full(n, machine is None)
     for mark in marks:
@@ -97,12 +98,12 @@ def many(spec: Spec, varied: Mapping[str, object]) -> Many:
 
 
 def _numbers(n: int) -> int:
-    """The numbers of n designs, (n, 1): how many there are, whatever varies in them."""
+    """Numbers of n designs, (n, 1), so that the batch keeps its size if nothing else varies."""
     return cast("int", np.arange(n)[:, None])
 
 
 def may_vary(spec: Spec, key: str) -> bool:
-    """Whether a key of this spec may be an array: a number, of a kind that takes arrays of it.
+    """True if a key of this spec may be an array: a number whose kind takes arrays.
 
     Raises GenevaError for a key that the spec does not have.
     """
@@ -115,7 +116,7 @@ def may_vary(spec: Spec, key: str) -> bool:
 
 
 def changed(spec: Spec, values: Mapping[str, object]) -> Spec:
-    """The spec with several keys changed at once; only the result must be valid."""
+    """Return the spec with several keys changed at once; only the result must be valid."""
     tables: dict[str, dict[str, object]] = {}
     for key, value in values.items():
         tables.setdefault(key.rpartition(".")[0], {})[_field(spec, key).attribute] = value
@@ -145,17 +146,17 @@ def _field(spec: Spec, key: str) -> Field:
 
 
 def taken(thing: T, which: Which) -> T:
-    """An object of many designs reduced to some: ``which`` is a mask or their numbers."""
+    """Reduce an object of a batch to some designs; ``which`` is a mask or their numbers."""
     return cast("T", _changed(thing, lambda array: array[which], {}))
 
 
 def alone(thing: T, i: int) -> T:
-    """The i-th design of an object of many: with numbers for its arrays."""
+    """The i-th design of an object of a batch, with numbers in place of arrays."""
     return cast("T", _changed(thing, lambda array: array[i, 0].item(), {}))
 
 
 def designs_in(thing: object) -> int:
-    """How many designs an object is of: 1 without an array along a design axis."""
+    """Number of designs in an object; 1 without an array along a design axis."""
     lengths = {1}
 
     def note(array: Array) -> Array:
@@ -171,7 +172,7 @@ def _is_array(value: object) -> bool:
 
 
 def _changed(thing: object, change: Change, done: dict[int, object]) -> object:
-    """A copy with every array (n, 1) in it changed; an object without any is returned itself."""
+    """Copy an object and change every array (n, 1) in it; return it unchanged if it has none."""
     if isinstance(thing, np.ndarray):
         return change(thing) if thing.ndim == 2 and thing.shape[1] == 1 else thing
     kind: type = type(thing)
@@ -194,14 +195,14 @@ def _anew(thing: object, change: Change, done: dict[int, object]) -> object:
     if all(values[name] is value for name, value in held.items()):
         return thing
     new: object = object.__new__(kind)
-    for name, value in values.items():  # what is kept was worked out of other designs
+    for name, value in values.items():  # a stored result belongs to the old set of designs
         vars(new)[name] = Latest() if isinstance(value, Latest) else value
     return new
 
 
 @cache
 def _may_hold(kind: type) -> bool:
-    """Whether it is a kind of object of the machine or of its spec, whose numbers may be arrays."""
+    """True for types of a machine or of its spec, whose numbers may be arrays."""
     if issubclass(kind, Points):
         return False
     ours = kind.__module__.startswith(("geneva_cli.machine.", "geneva_cli.spec."))

@@ -1,4 +1,4 @@
-"""A design as a machine: its engagements over a full period, built from a spec."""
+"""The machine of a design: its engagements over a full period, built from a spec."""
 
 from __future__ import annotations
 
@@ -20,43 +20,44 @@ ROUNDING_DEG = 1e-9  # input angles nearer to each other are one
 class Mechanism(NamedTuple):
     """A Geneva mechanism.
 
-    ``engagements`` holds one for each kind of motion in a period; rollers that all move alike
-    share one, and the period is then one index.
+    ``engagements`` holds one for each kind of motion in a period. Rollers that all move the wheel
+    alike share one engagement, and the period is then one index.
     """
 
     spec: Spec
     engagements: tuple[Engagement, ...]
-    period_deg: float  # input angle after which the engagements come round again
+    period_deg: float  # input angle after which the sequence of engagements repeats
     ratio: float  # l = R/L
     rollers_max: int  # most evenly spaced rollers that do not jam
-    center_distance_mm: float  # L, as given or as solved for
+    center_distance_mm: float  # L, from the spec or solved for
     design: int = 0  # the design's number in its batch: (m, 1) of a batch of m designs
 
     @property
     def designs(self) -> int:
-        """How many designs it is a batch of; 1 of a single design."""
+        """Number of designs in the batch; 1 for a single design."""
         return designs_of(self.design)
 
     @property
     def plan(self) -> Plan:
-        """What its drive made of the spec."""
+        """Engagements, period, R/L, roller limit and centre distance, as the drive planned them."""
         return Plan(*self[1:-1])
 
     @property
     def law(self) -> Law | None:
-        """The motion law, where the motion is given."""
+        """Motion law, or None if the motion follows from path and slot."""
         return self.engagements[0].motion.law
 
     @property
     def roller_radius_mm(self) -> float:
-        """The roller's radius r, by default L/20."""
+        """Roller radius r in millimetres, by default L/20."""
         return self.spec.roller_radius_mm(self.center_distance_mm)
 
     @property
     def matched_ratio(self) -> float | None:
-        """The R/L at which this machine's curved slots have a finite pressure angle at mid-motion.
+        """R/L at which the pressure angle of curved slots stays finite at mid-motion.
 
-        Whatever its own; None where no R/L below 1 has, or the slots are straight. Of one design.
+        It does not depend on the machine's own R/L. None for straight slots, or if no R/L below 1
+        has this property. For a single design only.
         """
         law = self.law
         if law is None:
@@ -66,43 +67,43 @@ class Mechanism(NamedTuple):
         return None if math.isnan(matched) else float(matched)
 
     def shown_deg(self, input_deg: float) -> float:
-        """An input angle as it is shown: between -180 and 180 from the machine's mid-motion.
+        """Input angle for display: between -180 and 180 degrees from mid-motion.
 
         Over a period of several turns it is counted from the first engagement's entry.
         """
         whole = 360.0 * self.spec.drive.turns
         m = library(input_deg, whole)
         entry = self.engagements[0].mid_deg + self.engagements[0].entry_deg
-        # What rounding put before the entry is at it.
+        # Rounding may put an angle just before the entry: count it as the entry.
         periods = m.floor((input_deg - entry + ROUNDING_DEG) / whole)
         counted = larger(input_deg - periods * whole, entry)
         if isinstance(input_deg, (float, int)) and isinstance(whole, float):
             return math.remainder(input_deg, whole) if whole == 360.0 else counted
-        # as math.remainder does, exactly for angles of some turns
+        # as math.remainder, and exact for angles of a few turns
         shown: float = choose(
             whole == 360.0, input_deg - 360.0 * m.rint(input_deg / 360.0), counted
         )
         return shown
 
     def index_deg(self, i: int) -> float:
-        """The wheel's step at an engagement."""
+        """Wheel step of engagement i, in degrees."""
         return self.spec.wheel.index_deg(i)
 
     def dwell_deg(self, i: int) -> float:
-        """Input angle from engagement i's exit to the next entry."""
+        """Input angle in degrees from the exit of engagement i to the next entry."""
         here = self.engagements[i]
         after = self.engagements[(i + 1) % len(self.engagements)]
         turns = self.period_deg if i + 1 == len(self.engagements) else 0.0
         dwell = turns + (after.mid_deg + after.entry_deg) - (here.mid_deg + here.exit_deg)
-        # Rollers may follow each other without a pause; what is left then is rounding.
+        # Rollers may follow each other without a dwell; then only rounding is left.
         out: float = choose(abs(dwell) > 1e-9, dwell, 0.0)
         return out
 
 
 def build(spec: Spec) -> Mechanism:
-    """The mechanism of a spec.
+    """Build the mechanism of a spec.
 
-    Raises GenevaError, naming the key, where the values do not make a machine together.
+    Raises GenevaError, naming the key, if the values do not make a machine together.
     """
     compatible.refuse_conflicts(spec)
     plan = spec.drive.plan(spec)

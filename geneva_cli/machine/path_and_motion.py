@@ -1,4 +1,4 @@
-"""Engagements whose path and motion are given: the slot, a curved one, is solved for."""
+"""Engagements with a known pin path and motion, whose curved slot is solved for."""
 
 from __future__ import annotations
 
@@ -19,19 +19,19 @@ from geneva_cli.numerics.jet import Jet, Number
 class MiddlePath:
     """The pin's path, written about mid-motion.
 
-    ``mirrored`` says whether its second half is the mirror image of its first.
+    ``mirrored`` is True if its second half is the mirror image of its first.
     """
 
     def __init__(self, middle: Anchor, mirrored: bool = True) -> None:
         self.middle, self.mirrored = middle, mirrored
 
     def __call__(self, input_deg: Number, order: int = 3) -> tuple[Jet, Jet]:
-        """The pin on its circle."""
+        """Pin (x, y) on its circle at input angles in degrees."""
         return self.middle.place(input_deg, order)
 
 
 class SolvedSlot(Slot):
-    """The slot as the pin's path seen from the turning wheel."""
+    """Slot along the pin's path as seen from the turning wheel."""
 
     curved = True
 
@@ -40,7 +40,7 @@ class SolvedSlot(Slot):
         self.mirrored = path.mirrored
 
     def __call__(self, input_deg: Number, order: int = 3) -> tuple[Jet, Jet]:
-        """The pin in the wheel's frame."""
+        """Pin (x, y) in the wheel's frame."""
         return in_wheel(self.path(input_deg, order), self.motion(input_deg, order))
 
 
@@ -53,7 +53,7 @@ def engagement(
     reactions: Reactions | None = None,
     body: CarrierVelocity | None = None,
 ) -> Engagement:
-    """The engagement of a curved slot whose motion lies evenly about the line of centres."""
+    """Build the engagement of a curved slot whose motion is centred on the line of centres."""
     half = 0.5 * motion_deg
     motion = LawMotion(-half, half, half_step, law)
     return Engagement(

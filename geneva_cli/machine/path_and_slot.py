@@ -1,4 +1,4 @@
-"""Engagements whose path and straight slot are given: the motion is solved for."""
+"""Engagements with a known pin path and straight slot, whose motion is solved for."""
 
 from __future__ import annotations
 
@@ -32,11 +32,10 @@ END_DEG = 0.05  # nearer than this to entry or exit, angle and velocity keep the
 
 
 class AnchoredPath:
-    """A pin's path written about several anchors: entry, mid-motion, exit, and others between.
+    """A pin path written about several anchors: entry, mid-motion, exit, and others between.
 
-    Each input angle uses the nearest.
-
-    ``ahead`` is the direction of the middle anchor's ray from the line of centres.
+    Each input angle uses the nearest anchor. ``ahead`` is the angle from the line of centres to the
+    middle anchor's ray, in radians.
     """
 
     def __init__(self, anchors: tuple[Anchor, ...], ahead: float = 0.0) -> None:
@@ -45,21 +44,21 @@ class AnchoredPath:
 
     @property
     def middle(self) -> Anchor:
-        """The anchor of mid-motion."""
+        """Anchor of mid-motion."""
         return self.anchors[len(self.anchors) // 2]
 
     def __call__(self, input_deg: Number, order: int = 3) -> tuple[Jet, Jet]:
-        """The pin on its path, from mid-motion."""
+        """Pin (x, y) on its path at input angles in degrees from mid-motion."""
         along, across = self.from_middle(input_deg, order)
         return turned(along, across, self.ahead)
 
     def from_middle(self, input_deg: Number, order: int) -> tuple[Jet, Jet]:
-        """The pin along the middle anchor's ray and across it."""
+        """Pin along the middle anchor's ray and across it."""
         along, across = self._latest(self.middle.place, input_deg, order)
         return along, across
 
     def from_nearest(self, input_deg: Number, order: int) -> tuple[Jet, Jet]:
-        """The pin along the nearest anchor's ray and across it: its distance, and how it turns."""
+        """Pin along the nearest anchor's ray and across it."""
         along, across = self._latest_nearest(self._from_nearest, input_deg, order)
         return along, across
 
@@ -79,7 +78,7 @@ class RadialSlot(Slot):
         self.path = path
 
     def __call__(self, input_deg: Number, order: int = 3) -> tuple[Jet, Jet]:
-        """The pin runs along the slot's straight axis."""
+        """Pin (x, y) in the wheel, on the slot's straight axis."""
         depth = _length(self.path.from_middle(input_deg, order))
         return turned(depth, depth * 0.0, self.path.ahead - self.path.middle.wheel)
 
@@ -90,10 +89,11 @@ class RadialSlot(Slot):
 
 
 class MeridianSlot(Slot):
-    """A spherical wheel's slot, a meridian; the path is the pin's projection along that axis.
+    """A spherical wheel's slot, a meridian; the path is the pin's projection along the wheel's
+    axis.
 
-    Its pitch curve is given in the flat development, along which lengths on the sphere are kept,
-    from the wheel's pole.
+    Its pitch curve is given in the flat development from the wheel's pole, which keeps lengths
+    along a meridian.
     """
 
     def __init__(self, path: AnchoredPath, height: Level) -> None:
@@ -101,26 +101,26 @@ class MeridianSlot(Slot):
         self.level = self.height = height
 
     def __call__(self, input_deg: Number, order: int = 3) -> tuple[Jet, Jet]:
-        """The pin's polar angle on the wheel, in radians: arc length over the sphere's radius."""
+        """Pin's polar angle on the wheel in radians: arc length over the sphere's radius."""
         x, y = self.path(input_deg, order)
         polar = atan2(sqrt(x * x + y * y), self.level(radians(input_deg), order))
         return polar, polar * 0.0
 
     def axis(self, input_deg: Number, order: int = 0) -> SlotAxis:
-        """The lever is the pin's distance from the wheel's axis."""
+        """Lever (the pin's distance from the wheel's axis) and the pin's speed along the slot."""
         polar = self(input_deg, order + 1)[0]
         return SlotAxis(sin_cos(Jet(polar.c[:-1]))[0], polar.derivative())
 
     def upright(self, input_deg: Number, order: int = 0) -> Jet:
-        """The roller's axis passes the sphere's centre, at the polar angle of the pin."""
+        """Cosine of the pin's polar angle: the roller's axis passes through the sphere's centre."""
         return sin_cos(self(input_deg, order)[0])[1]
 
 
 class Followed(Motion):
-    """The motion of a wheel whose straight slot follows the pin.
+    """Motion of a wheel whose straight slot follows the pin.
 
-    ``mirrored`` is False where the path's two halves differ; ``closed_peaks`` gives peaks for which
-    no general search is needed.
+    ``mirrored`` is False if the two halves of the path differ. ``closed_peaks`` gives peaks that
+    need no general search.
     """
 
     closed_peaks: ClosedPeaks | None = None
@@ -132,20 +132,20 @@ class Followed(Motion):
 
     @property
     def entry(self) -> Anchor:
-        """The anchor of the entry."""
+        """Anchor of the entry."""
         return self.path.anchors[0]
 
     def closed_peak(self, quantity: str) -> PeakValue | None:
-        """The peak of a quantity from ``closed_peaks``, if there is one."""
+        """Peak of a quantity from ``closed_peaks``, or None if it has none."""
         return self.closed_peaks(quantity) if self.closed_peaks else None
 
     @property
     def symmetric(self) -> bool:
-        """Whether path and slot have a mirror image about mid-motion."""
+        """True if path and slot are symmetric about mid-motion."""
         return self.mirrored and super().symmetric
 
     def __call__(self, input_deg: Number, order: int = 3) -> Jet:
-        """The wheel's angle: the pin's direction, from the nearest anchor; at rest at both ends."""
+        """Wheel angle from the direction of the pin at the nearest anchor; at rest at both ends."""
 
         def solve(anchor: Anchor, x: Number) -> Jet:
             along, across = anchor.place(x, order)
@@ -154,18 +154,18 @@ class Followed(Motion):
         return self.path.anchors.solved(input_deg, solve)
 
     def rate(self, input_deg: Number, order: int = 2) -> Jet:
-        """How fast the pin's direction turns: without an arc tangent."""
+        """Rate at which the pin's direction turns, computed without an arc tangent."""
         return turning(*self.path.from_nearest(input_deg, order + 1))
 
     def rough_rates(self, input_deg: Number, order: int = 2) -> tuple[Array, ...]:
-        """The same, from the middle anchor alone."""
+        """Speed and its derivatives at arrays of angles, computed from the middle anchor only."""
         return turning(*self.path.from_middle(input_deg, order + 1)).arrays()
 
 
 class Classic(Followed):
-    """The motion of a straight radial slot on a plain crank, with its closed forms.
+    """Motion of a straight radial slot on a plain crank, with its closed forms.
 
-    ``sign`` is +1 outside, -1 inside, l = sin b and ``rest`` = 1 - l.
+    ``sign`` is +1 for an external wheel and -1 for an internal one; l = sin b and ``rest`` = 1 - l.
     """
 
     def __init__(
@@ -180,7 +180,7 @@ class Classic(Followed):
         self.sign, self.l, self.rest = sign, l, rest
 
     def closed_peak(self, quantity: str) -> PeakValue | None:
-        """The peaks of velocity and acceleration in closed form."""
+        """Peak of velocity or acceleration in closed form; None for other quantities."""
         outside = self.sign > 0.0
         if quantity == "velocity":
             return PeakValue(
@@ -188,16 +188,17 @@ class Classic(Followed):
             )
         if quantity != "acceleration":
             return None
-        if not outside:  # the jump at entry
+        if not outside:  # the greatest acceleration is the jump at entry
             jump = parameter(self(self.entry_deg, 2).derivatives()[2])
             return PeakValue(abs(jump), self.entry_deg)
         size, at_deg = classic.acceleration_peak(self.l, self.rest)
         return PeakValue(size, -at_deg)
 
     def derivatives(self, input_deg: Array, orders: Sequence[int] = (0, 1, 2, 3)) -> list[Array]:
-        """The wheel's angle and its derivatives in closed form, shapes as of ``Motion``.
+        """Wheel angle and its derivatives in closed form, with the shapes of
+        ``Motion.derivatives``.
 
-        Near the ends angle and velocity are written from the end, to keep their relative accuracy.
+        Near the ends, angle and velocity are computed from the end to keep their relative accuracy.
         """
         if not (isinstance(self.l, float) and input_deg.ndim == 1):
             return super().derivatives(input_deg, orders)
@@ -214,7 +215,7 @@ class Classic(Followed):
         return out
 
     def _near_end(self, input_deg: Array, side: float, order: int) -> Array:
-        """Angle or velocity near exit (side 1) or entry (-1), written from that end."""
+        """Angle or velocity near exit (side 1) or entry (-1), computed from that end."""
         import numpy as np
 
         tau = radians(self.exit_deg - side * input_deg)
@@ -237,7 +238,7 @@ def engagement(
     body: CarrierVelocity | None = None,
     reactions: Reactions | None = None,
 ) -> Engagement:
-    """The engagement of a radial slot in a plane."""
+    """Build the engagement of a radial slot in a plane."""
     slot = RadialSlot(path)
     return Engagement(mid_deg, path, slot, motion, crank_sense, body=body, reactions=reactions)
 
@@ -248,7 +249,7 @@ def _length(vector: tuple[Jet, Jet]) -> Jet:
 
 
 def turned(x: Jet, y: Jet, angle: float) -> tuple[Jet, Jet]:
-    """A vector turned by a fixed angle in radians."""
+    """Turn a vector by a fixed angle in radians."""
     if isinstance(angle, float) and angle == 0.0:
         return x, y
     m = library(angle)

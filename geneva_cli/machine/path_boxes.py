@@ -1,6 +1,7 @@
-"""Boxes: an interval of a path for the entry and one for the exit, in which a pair may be.
+"""Boxes: an interval of a path for the entry and one for the exit that may contain a pair.
 
-What a box may hold is told by cubics through values and slopes at its corners; see ``path_pairs``.
+Cubics through values and slopes at the corners of a box show if it can contain a pair; see
+``path_pairs``.
 """
 
 from __future__ import annotations
@@ -25,34 +26,34 @@ BESIDE = 0.5  # of a box's width, by which its pair may lie beside it
 
 
 class Side(NamedTuple):
-    """An interval of crank angles: the places at both ends, and the turn between them."""
+    """An interval of crank angles: the points at both ends, and the turn between them."""
 
     first: PathPoints
     last: PathPoints
     turn: Array
 
     def taken(self, where: Which) -> Side:
-        """Some of the intervals."""
+        """Select some of the intervals."""
         return Side(self.first.taken(where), self.last.taken(where), self.turn[where])
 
 
 class Boxes(NamedTuple):
-    """Intervals for entry and exit; ``turn`` is that from the first entry to the first exit."""
+    """Intervals for entry and exit; ``turn`` is the turn from the first entry to the first exit."""
 
     which: Whole
-    sense: Array  # of the wheel
+    sense: Array  # sense of rotation of the wheel
     entry: Side
     exit: Side
     turn: Array
 
     def taken(self, where: Which) -> Boxes:
-        """Some of the boxes."""
+        """Select some of the boxes."""
         entry, exit_ = (side.taken(where) for side in (self.entry, self.exit))
         return Boxes(self.which[where], self.sense[where], entry, exit_, self.turn[where])
 
 
 def _span(width: Array, turn: Array, first: Array, last: Array) -> tuple[Array, Array]:
-    """The least and the greatest of a cubic's coefficients (Bernstein) that turns by ``turn``."""
+    """Least and greatest Bernstein coefficient of an angle's cubic that changes by ``turn``."""
     a, c = THIRD * width * first, turn - THIRD * width * last
     low = np.minimum(np.minimum(a, c), np.minimum(turn, 0.0))
     high = np.maximum(np.maximum(a, c), np.maximum(turn, 0.0))
@@ -61,13 +62,13 @@ def _span(width: Array, turn: Array, first: Array, last: Array) -> tuple[Array, 
 
 
 def _against(width: Array, turn: Array, first: Array, last: Array, sense: Number) -> Mask:
-    """Whether the tangent turns against the wheel anywhere in an interval."""
+    """True if the tangent turns against the wheel anywhere in an interval."""
     middle = 1.5 * turn / width - 0.25 * (first + last)
     return np.minimum(np.minimum(first * sense, last * sense), middle * sense) <= 0.0
 
 
 def boxes_of(samples: PathSamples, wanted: Array) -> Boxes:
-    """Boxes of neighbouring samples in which there may be a pair."""
+    """Boxes between adjacent samples that may contain a pair."""
     at, angle = samples.at, samples.angle
     count = angle.shape[1] - 1
     first, last = slice(None, -1), slice(1, None)
@@ -75,14 +76,14 @@ def boxes_of(samples: PathSamples, wanted: Array) -> Boxes:
     width = at.phi[:, last] - at.phi[:, first]
     rates = at.turn[:, first], at.turn[:, last]
     low, high = (x + angle[:, first] for x in _span(width, turn, *rates))
-    whole = angle[:, -1:]  # a turn later; no number where the linkage does not close all round
+    whole = angle[:, -1:]  # a turn later; NaN if the linkage does not close for a full turn
     possible = (width > 0.0) & (whole == whole)
-    found = []
+    per_sense = []
     for sense in (1.0, -1.0):
         use = possible & _against(width, turn, *rates, sense)
         least, most = np.where(use, low, np.inf), np.where(use, high, -np.inf)
         target = -sense * wanted[:, None]
-        # exits from the entry's own interval on, a turn round
+        # exits from the entry's own interval onwards, over a full turn
         first_exit, last_exit = (
             sliding_window_view(np.concatenate((x, x + whole), axis=1), count, axis=1)[:, :count]
             for x in (least, most)
@@ -94,8 +95,8 @@ def boxes_of(samples: PathSamples, wanted: Array) -> Boxes:
         row, entry = np.divmod(cell, count)
         exit_ = (entry + ahead) % count
         may = _may_meet_of(at, width, row, entry, exit_)
-        found.append((row[may], entry[may], exit_[may], np.full(int(may.sum()), sense)))
-    row, entry, exit_, way = joined(found)
+        per_sense.append((row[may], entry[may], exit_[may], np.full(int(may.sum()), sense)))
+    row, entry, exit_, way = joined(per_sense)
     round_ = np.where(exit_ < entry, 1.0, 0.0)
     start = angle[row, exit_] + whole[row, 0] * round_ - angle[row, entry]
     one, two = (
@@ -109,7 +110,7 @@ def boxes_of(samples: PathSamples, wanted: Array) -> Boxes:
 
 
 def _may_meet_of(at: PathPoints, width: Array, row: Whole, entry: Whole, exit_: Whole) -> Mask:
-    """``_may_meet`` of boxes between samples."""
+    """Mask of the boxes between samples whose chord may be parallel to the sum of the tangents."""
     count = at.phi.shape[1]
     numbers = np.stack([x.ravel() for x in _numbers(at)])
     corners = [
@@ -119,12 +120,12 @@ def _may_meet_of(at: PathPoints, width: Array, row: Whole, entry: Whole, exit_: 
 
 
 def _numbers(at: PathPoints) -> tuple[Array, ...]:
-    """Place, unit tangent, speed and turn."""
+    """Position, unit tangent, speed and turn rate of points."""
     return at.p.real, at.p.imag, at.t.real, at.t.imag, at.speed, at.turn
 
 
 def _may_turn(boxes: Boxes, wanted: Array) -> Mask:
-    """Whether both ends may turn against the wheel, and the tangent by what is wanted."""
+    """True if both ends may turn against the wheel, and the tangent by the wanted angle."""
     spans = []
     good = np.ones(len(boxes.which), dtype=bool)
     for side in (boxes.entry, boxes.exit):
@@ -138,7 +139,7 @@ def _may_turn(boxes: Boxes, wanted: Array) -> Mask:
 
 
 def _may_meet(boxes: Boxes) -> Mask:
-    """Whether the chord may be parallel to the tangents' sum."""
+    """True if the chord may be parallel to the sum of the tangents."""
     entry, exit_ = boxes.entry, boxes.exit
     corners = [[_numbers(side.first), _numbers(side.last)] for side in (entry, exit_)]
     return _may_be_zero(corners[0], corners[1], _width(entry), _width(exit_))
@@ -150,7 +151,7 @@ def _width(side: Side) -> Array:
 
 
 def _across(one: Sequence[Array], two: Sequence[Array]) -> tuple[Array, Array, Array]:
-    """The chord's part across the tangents' sum, and its slopes by entry and by exit."""
+    """Component of the chord across the sum of tangents, and its slopes by entry and by exit."""
     px, py, tx, ty, v, w = one
     qx, qy, ux, uy, v_out, w_out = two
     cx, cy, q = qx - px, qy - py, ux * ty - uy * tx
@@ -162,7 +163,7 @@ def _across(one: Sequence[Array], two: Sequence[Array]) -> tuple[Array, Array, A
 def _may_be_zero(
     entries: Sequence[Sequence[Array]], exits: Sequence[Sequence[Array]], wide: Array, high: Array
 ) -> Mask:
-    """Whether the chord's part across may vanish in boxes so wide and so high."""
+    """True if the chord's component across may vanish in boxes of this width and height."""
     least, most = np.full(wide.shape, np.inf), np.full(wide.shape, -np.inf)
     for i, one in enumerate(entries):
         for j, two in enumerate(exits):
@@ -177,15 +178,15 @@ def _may_be_zero(
 
 
 class NewtonSteps(NamedTuple):
-    """Whether all corners of a box tell the same of the pair that is nearest, and what."""
+    """Newton steps from the corners of a box: agreement, nearness, and the pair they lead to."""
 
     alike: Mask
-    near: Mask  # whether it is in the box or beside it
+    near: Mask  # True if the pair is in the box or near it
     phi: Array
 
 
 def newton_steps(boxes: Boxes, wanted: Array) -> NewtonSteps:
-    """Where a step of Newton leads from each corner: if to one place, the box has one pair."""
+    """Newton step from each corner of a box; if all lead to one place, the box has one pair."""
     entry, exit_ = boxes.entry, boxes.exit
     wide, high = _width(entry), _width(exit_)
     over = boxes.turn + boxes.sense * wanted[boxes.which]
@@ -199,7 +200,7 @@ def newton_steps(boxes: Boxes, wanted: Array) -> NewtonSteps:
             e = (rest * by_exit - away * turn_out) / det
             x = -(rest * by_entry + away * turn) / det
             steps.append((i + e / wide, j + x / high))
-    places = np.array(steps)  # corner, side, box; in widths of the box
+    places = np.array(steps)  # indices: corner, side, box; in widths of the box
     middle = places.mean(axis=0)
     apart = np.abs(places - middle).max(axis=(0, 1))
     beside = np.abs(middle - 0.5).max(axis=0) - 0.5
@@ -208,7 +209,7 @@ def newton_steps(boxes: Boxes, wanted: Array) -> NewtonSteps:
 
 
 def halved(path: RollerPath, boxes: Boxes, wanted: Array) -> Boxes:
-    """Of four boxes of each those in which there may be a pair."""
+    """Cut each box into four and keep those that may contain a pair."""
     halves = []
     for side in (boxes.entry, boxes.exit):
         phi = 0.5 * (side.first.phi + side.last.phi)

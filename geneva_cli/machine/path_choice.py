@@ -1,6 +1,6 @@
-"""Of the wheels that a roller path can drive that which is taken: the gentlest, or the one asked.
+"""Choice among the wheels that a roller path can drive: the gentlest, or the requested one.
 
-The gentlest has the least peak velocity, of which a few places of each wheel tell bounds.
+The gentlest has the least peak velocity. A few points of each wheel give bounds of its peak.
 """
 
 from __future__ import annotations
@@ -25,11 +25,11 @@ TIE = 1e-8  # share by which two wheels' peak velocities may differ and be the s
 
 
 def chosen(path: RollerPath, found: Wheels, wanted: Number | None = None) -> Whole:
-    """The numbers of the wheels that are taken, one of each design that has any, in their order.
+    """Numbers of the chosen wheels, one for each design that has any, in the order of the designs.
 
-    The gentlest, which has the least peak velocity, or the one entered nearest to ``wanted``
-    (radians, of all designs (n, 1)). Of equal ones, as those of a path that is its own mirror
-    image, the one entered first.
+    The chosen wheel is the gentlest, with the least peak velocity, or the one whose entry is
+    nearest to ``wanted`` (radians, (n, 1) for all designs). If several are equal, as on a symmetric
+    path, it is the one with the first entry.
     """
     which = found.which
     cost = np.zeros(len(which))
@@ -51,10 +51,10 @@ def chosen(path: RollerPath, found: Wheels, wanted: Number | None = None) -> Who
 
 
 def _peaks(path: RollerPath, found: Wheels) -> Array:
-    """The peak velocities of several wheels a design, as near as it takes to know the least.
+    """Peak velocities of several wheels per design, accurate enough to know the least.
 
-    Each is looked at at a few places, which bound its peak. Wheels whose bounds leave open which
-    of a design's is the least are looked at nearer.
+    A few points of each wheel bound its peak. If the bounds do not decide which wheel of a design
+    has the least peak, those wheels are sampled more closely.
     """
     known = _velocities(path, found)
     open_ = _open_peaks(found.which, known)
@@ -70,7 +70,7 @@ def _peaks(path: RollerPath, found: Wheels) -> Array:
 
 
 def _open_peaks(which: Whole, known: _Velocities) -> Whole:
-    """The wheels that may be the least of their design's, where another may be so too."""
+    """Wheels that may have the least peak of their design, if another wheel may have it too."""
     bar = np.full(int(which.max()) + 1, np.inf)
     np.minimum.at(bar, which, known.most)
     may = known.least <= bar[which] * (1.0 + TIE)
@@ -79,7 +79,7 @@ def _open_peaks(which: Whole, known: _Velocities) -> Whole:
 
 
 class _Velocities(NamedTuple):
-    """Bounds of peak velocities, and the crank's angles between which the peaks are."""
+    """Bounds of peak velocities, and the crank angles between which the peaks are."""
 
     least: Array
     most: Array
@@ -87,18 +87,18 @@ class _Velocities(NamedTuple):
 
 
 def _velocities(path: RollerPath, found: Wheels, between: Array | None = None) -> _Velocities:
-    """Peak velocities between crank angles, (n, 2), from entry to exit without."""
+    """Peak velocities between crank angles (n, 2), by default from entry to exit."""
     between = found.phi if between is None else between
-    looked: _Velocities = joined(
+    bounds: _Velocities = joined(
         [
-            _looked(path.roughly(found.which[i]), found.phi[i], between[i])
+            _block_velocities(path.roughly(found.which[i]), found.phi[i], between[i])
             for i in blocks(len(between), BLOCK)
         ]
     )
-    return looked
+    return bounds
 
 
-def _looked(path: RollerPath, phi: Array, between: Array) -> _Velocities:
+def _block_velocities(path: RollerPath, phi: Array, between: Array) -> _Velocities:
     """Peak velocities of a block of wheels, each with its path."""
     ends = points(path, phi)
     (p, q), (t, u) = ends.p.T, ends.t.T
@@ -109,7 +109,7 @@ def _looked(path: RollerPath, phi: Array, between: Array) -> _Velocities:
     x, y = path.at(phi, 1)
     ray = x.c[0] + 1j * y.c[0] - centre
     velocity = np.abs(((x.c[1] + 1j * y.c[1]) / ray).imag)
-    # what the wheel turns between two places, over the crank's turn, is no more than the peak
+    # The mean velocity between two points is at most the peak.
     mean = np.abs(np.angle(ray[:, 1:] * ray[:, :-1].conj())) / np.diff(phi, axis=1)
     steepest = np.maximum(mean, np.maximum(velocity[:, :-1], velocity[:, 1:]))
     i = steepest.argmax(axis=1)[:, None]

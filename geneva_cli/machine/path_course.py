@@ -1,9 +1,9 @@
-"""Whether a roller on its path keeps to its slot in a wheel, from entry to exit and back.
+"""Check that a roller on its path stays in its slot from entry to exit, and outside it otherwise.
 
-From entry to exit the roller turns the wheel one way and is nearer to its centre than at both; on
-the way back it is farther. Both are quantities of which samples of the path have values and
-slopes, and hold all along where the cubics through these have no coefficient (Bernstein) of the
-other sign; elsewhere it is looked at more closely.
+From entry to exit the roller turns the wheel one way and is nearer to its centre than at both ends.
+On the way back it is farther away. Samples of the path give both quantities with their slopes. A
+condition holds between two samples if no Bernstein coefficient of the cubic through them has the
+wrong sign. Otherwise the interval is sampled more closely.
 """
 
 from __future__ import annotations
@@ -26,8 +26,10 @@ LOOKS = 4  # times that it is
 
 
 class PinCourse(NamedTuple):
-    """What must be above zero, with its slope: the pin's moment about the wheel's centre, and the
-    square of its distance from the centre, short of that at entry.
+    """Two quantities that must be positive, each with its slope.
+
+    ``moment`` is that of the pin's velocity about the wheel's centre. ``short`` is the squared
+    distance from the centre at entry, less the pin's own.
     """
 
     moment: Array
@@ -40,18 +42,18 @@ class PlacedWheel(NamedTuple):
     """Wheels by their centres and senses, in a column."""
 
     centre: Complex
-    square: Array  # of the distance of entry and exit
+    square: Array  # squared distance from the centre to entry and exit
     sense: Array
 
     def course(self, at: PathPoints) -> PinCourse:
-        """At places of the path, a row a wheel."""
+        """Both quantities at points of the path, one row per wheel."""
         ray = (at.p - self.centre).conj()
         moment, slope = (self.sense * (ray * x).imag for x in (at.v, at.a))
         short = self.square - (ray.real**2 + ray.imag**2)
         return PinCourse(moment, slope, short, -2.0 * (ray * at.v).real)
 
     def taken(self, where: Which) -> PlacedWheel:
-        """Some of the wheels."""
+        """Select some of the wheels."""
         return PlacedWheel._make(part[where] for part in self)
 
 
@@ -63,7 +65,7 @@ def leaves_slot(
     course: PinCourse,
     motion: Array,
 ) -> Mask:
-    """Whether the roller leaves its slot between samples ``nodes`` since entry, a row a wheel."""
+    """True for each wheel whose roller leaves its slot between samples ``nodes`` since entry."""
     bar = [ROUNDING * np.abs(x).max(axis=1) for x in (course.moment, course.short)]
     fails = np.zeros(len(nodes), dtype=bool)
     inside = nodes[:, :-1] < motion
@@ -72,8 +74,8 @@ def leaves_slot(
     for _ in range(LOOKS):
         if not len(row):
             break
-        share = np.arange(CLOSER + 1) / CLOSER
-        places = left[:, None] + (right - left)[:, None] * share
+        fraction = np.arange(CLOSER + 1) / CLOSER
+        places = left[:, None] + (right - left)[:, None] * fraction
         phi = places + ends.at.phi[row, :1]
         some = wheel.taken(row).course(points(path.roughly(ends.which[row]), phi))
         low, far = (x[row, None] for x in bar)
@@ -87,7 +89,7 @@ def leaves_slot(
 
 
 def _open(places: Array, course: PinCourse, inside: Mask, low: Array, far: Array) -> Mask:
-    """Intervals in which cubics do not show that all is well."""
+    """Intervals in which the cubics do not prove the conditions."""
     width = np.diff(places, axis=1)
     sign = np.where(inside, 1.0, -1.0)
     short = _least(width, course.short, course.short_slope, sign) < -far
@@ -95,7 +97,7 @@ def _open(places: Array, course: PinCourse, inside: Mask, low: Array, far: Array
 
 
 def _least(width: Array, value: Array, slope: Array, sign: Number) -> Array:
-    """The least coefficient of a cubic between neighbours."""
+    """Least Bernstein coefficient of a cubic between adjacent samples."""
     a, c = value[:, :-1], value[:, 1:]
     b, d = a + THIRD * width * slope[:, :-1], c - THIRD * width * slope[:, 1:]
     least: Array = np.minimum.reduce([sign * x for x in (a, b, c, d)])

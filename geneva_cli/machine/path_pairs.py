@@ -1,20 +1,21 @@
-"""Entry and exit on a roller's closed path: the pairs of places that a wheel's slots could take.
+"""Entry and exit on a roller's closed path: the pairs of points that a wheel's slots can use.
 
-A wheel with straight radial slots takes a roller without shock where the roller's path enters along
-one slot and leaves along the next, equally far from the wheel's centre O: with the unit tangents t1
+A wheel with straight radial slots takes a roller without shock if the roller's path enters along
+one slot and leaves along the next, equally far from the wheel's centre O. With the unit tangents t1
 and t2 there,
 
     O = P1 + rho t1 = P2 - rho t2 ,    the angle from -t1 to t2 = the index angle 2b ,
 
-so that the chord P2 - P1 is parallel to t1 + t2. All the way between them the pin goes round the
-wheel's centre one way. So the tangent, seen from its ray, turns from -t1 to t2 without passing the
-ray again, and from entry to exit it turns by pi - 2b in all, against the wheel; at either end
-it turns that way too, or not at all.
+so that the chord P2 - P1 is parallel to t1 + t2. Between the two points the pin goes round the
+wheel's centre in one direction. So the tangent, seen from its ray, turns from -t1 to t2 without
+passing the ray again. From entry to exit it turns by pi - 2b in all, against the wheel. At each end
+it turns in that direction too, or not at all.
 
-That makes the search one of boxes: an interval of crank angles between two samples for the entry,
-and one for the exit. A box is laid aside where the turn, or the chord's part across t1 + t2, has
-one sign in all of it, as the cubics through the samples' values and slopes have it. What is left
-is halved, until both change so evenly over the box that Newton finds its only pair.
+The search uses boxes: an interval of crank angles between two samples for the entry, and one for
+the exit. The cubics through the samples' values and slopes bound two quantities in a box: the turn,
+and the chord's component across t1 + t2. A box in which either has only one sign is discarded. The
+others are halved, until both quantities change so evenly that Newton's method finds the only pair
+of the box.
 """
 
 from __future__ import annotations
@@ -47,28 +48,29 @@ DOUBTFUL = 1e-5  # radians of the index angle: nearer than that without a root, 
 
 
 class Pairs(NamedTuple):
-    """Pairs of places of designs, entry first, in two columns."""
+    """Pairs of points of designs, entry first, in two columns."""
 
     which: Whole
     at: PathPoints
 
     def taken(self, where: Which) -> Pairs:
-        """Some of the pairs."""
+        """Select some of the pairs."""
         return Pairs(self.which[where], self.at.taken(where))
 
 
 class FoundPairs(NamedTuple):
-    """Pairs; and places where there is none, or where a double root may be."""
+    """Pairs, and places that have no pair or may have a double root."""
 
     pairs: Pairs
     doubtful: Pairs
 
 
 class Residual(NamedTuple):
-    """What is left of both conditions, and their slopes.
+    """Residuals of both conditions, and their slopes.
 
-    ``away``: the chord's part across the sum of the tangents, with slopes by entry and by exit;
-    ``excess`` of the index angle, which turns with the tangents. ``det`` is of both.
+    ``away`` is the chord's component across the sum of the tangents, with its slopes by entry and
+    by exit. ``excess`` is the error of the index angle, which turns with the tangents. ``det`` is
+    the determinant of both.
     """
 
     away: Array
@@ -80,32 +82,32 @@ class Residual(NamedTuple):
 
 
 def pairs(path: RollerPath, samples: Iterable[PathSamples], b: Array) -> FoundPairs:
-    """All pairs of designs of half an index angle b, (n, 1), from samples of their paths."""
+    """All pairs for designs with half index angles b, (n, 1), from samples of their paths."""
     wanted = math.pi - 2.0 * b[:, 0]
     boxes = joined([boxes_of(some, wanted[some.which]) for some in samples])
-    found = []
+    solved = []
     for depth in range(HALVINGS + 1):
         steps = newton_steps(boxes, wanted)
         last = depth == HALVINGS
         tried = np.arange(len(steps.near)) if last else np.flatnonzero(steps.alike & steps.near)
         ends, close = _solved(path, boxes.taken(tried), steps.phi[tried], b)
-        found.append(ends.taken(close))
+        solved.append(ends.taken(close))
         rest = np.concatenate((np.flatnonzero(~steps.alike), tried[~close]))
         if last or not len(rest):
             break
         boxes = halved(path, boxes.taken(rest), wanted)
     ends = ends.taken(np.flatnonzero(~close))
     near = np.flatnonzero(np.abs(residual(ends, b).excess) < DOUBTFUL)
-    return FoundPairs(joined(found), ends.taken(near))
+    return FoundPairs(joined(solved), ends.taken(near))
 
 
 def ends_at(path: RollerPath, which: Whole, phi: Array) -> Pairs:
-    """Places of designs at entry and exit angles, in two columns."""
+    """Points of designs at entry and exit angles, in two columns."""
     return Pairs(which, points(path.roughly(which), phi))
 
 
 def residual(ends: Pairs, b: Array) -> Residual:
-    """Of pairs of places, and of all designs' half index angles (m, 1)."""
+    """Residuals of pairs; ``b`` holds the half index angles of all designs, (m, 1)."""
     at = ends.at
     (p, q), (t, u), (v, w) = at.p.T, at.t.T, at.v.T
     chord, both = q - p, (t + u).conj()
@@ -120,7 +122,7 @@ def residual(ends: Pairs, b: Array) -> Residual:
 
 
 def newton(ends: Pairs, rest: Residual) -> Array:
-    """The step of Newton from places, in two columns."""
+    """Newton step from pairs, in two columns."""
     turn, turn_out = ends.at.turn.T
     excess = rest.sense * rest.excess
     by_entry = excess * rest.by_exit - rest.away * turn_out
@@ -130,7 +132,7 @@ def newton(ends: Pairs, rest: Residual) -> Array:
 
 
 def _solved(path: RollerPath, boxes: Boxes, phi: Array, b: Array) -> tuple[Pairs, Mask]:
-    """Newton from places in boxes: where it ends, and whether that is a pair in the box."""
+    """Newton's method from places in boxes: its end points, and a mask of those in their box."""
     low = np.stack((boxes.entry.first.phi, boxes.exit.first.phi), axis=1)
     high = np.stack((boxes.entry.last.phi, boxes.exit.last.phi), axis=1)
     width = high - low

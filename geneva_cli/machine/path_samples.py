@@ -1,8 +1,8 @@
-"""A closed path in samples so near each other that its direction is known between them.
+"""Samples of a closed path, close enough that its direction is known between them.
 
-The direction of the path between two samples is taken for the cubic of their directions and of the
-rates at which they turn. Where that does not foretell the turn from one sample to the next, as
-where the path all but comes to a cusp, it is sampled again midway.
+Between two samples the direction is the cubic of their directions and of the rates at which they
+turn. If that does not predict the turn to the next sample, the path is sampled again midway. This
+happens near a cusp.
 """
 
 from __future__ import annotations
@@ -30,8 +30,10 @@ CELLS = 1 << 19  # pairs of samples looked at together: of more they leave the p
 
 
 class PathPoints(NamedTuple):
-    """Places of a path at crank angles ``phi``: place, velocity and acceleration as complex
-    numbers, unit tangent, speed and the rate at which the tangent turns.
+    """Points of a path at crank angles ``phi``.
+
+    Position, velocity and acceleration are complex numbers, as is the unit tangent ``t``. ``turn``
+    is the rate at which the tangent turns.
     """
 
     phi: Array
@@ -43,30 +45,30 @@ class PathPoints(NamedTuple):
     turn: Array
 
     def taken(self, where: Where) -> PathPoints:
-        """Some of the points."""
+        """Select some of the points."""
         return PathPoints._make(part[where] for part in self)
 
 
 class PathSamples(NamedTuple):
-    """A turn of some designs, a row each: the last column is the first, one turn later.
+    """Samples of a full turn, one row per design: the last column is the first, one turn later.
 
-    ``angle`` is the tangent's, without jumps. Rows with fewer samples repeat their last one.
+    ``angle`` is the tangent's angle, without jumps. Rows with fewer samples repeat their last one.
     """
 
-    which: Whole  # the designs' numbers
+    which: Whole  # numbers of the designs
     at: PathPoints
     angle: Array
 
 
 def points(path: RollerPath, phi: Array) -> PathPoints:
-    """Places of the path; a design's angles are a row."""
+    """Points of the path; a row holds the angles of one design."""
     x, y = path.at(phi, 2)
     shape = np.broadcast_shapes(*(np.shape(c) for c in (*x.c, *y.c)))
     (px, vx, ax), (py, vy, ay) = x.arrays(), y.arrays()
     square = vx * vx + vy * vy
     turn = (vx * ay - vy * ax) / square
     speed = np.broadcast_to(np.sqrt(square), shape)
-    over = np.where(speed == 0.0, 0.0, 1.0 / speed)  # no direction where the point rests
+    over = np.where(speed == 0.0, 0.0, 1.0 / speed)  # no direction where the point is at rest
     places = ((px, py), (vx, vy), (ax, ay), (vx * over, vy * over))
     p, v, a, t = (_complex(*place, shape) for place in places)
     return PathPoints(np.broadcast_to(phi, shape), p, v, a, t, speed, turn)
@@ -79,7 +81,7 @@ def _complex(x: Array, y: Array, shape: tuple[int, ...]) -> Complex:
 
 
 def sampled(path: RollerPath, count: int) -> Iterator[PathSamples]:
-    """All ``count`` designs, in blocks of as many as have about as many samples."""
+    """Samples of all ``count`` designs, in blocks with similar numbers of samples."""
     phi = np.array([(i + FIRST) * (math.tau / COUNT) for i in range(COUNT + 1)])
     every = np.arange(count)
     base = joined([_rows(path.roughly(every[i]), phi, len(every[i])) for i in blocks(count, ROWS)])
@@ -101,7 +103,7 @@ def sampled(path: RollerPath, count: int) -> Iterator[PathSamples]:
 
 
 def _rows(path: RollerPath, phi: Array, count: int) -> PathPoints:
-    """The same angles of so many designs."""
+    """Points at the same angles for ``count`` designs."""
     at = points(path, phi[None])
     return PathPoints._make(np.broadcast_to(part, (count, len(phi))) for part in at)
 
@@ -111,14 +113,14 @@ def _neighbours(at: PathPoints) -> tuple[PathPoints, PathPoints]:
 
 
 def _turned(left: PathPoints, right: PathPoints) -> Array:
-    """The turn from one sample to the other, less than half a turn."""
+    """Turn of the tangent from one sample to the next, less than half a turn."""
     (a, b), (c, d) = ((one.t.real, one.t.imag) for one in (left, right))
     turn: Array = np.arctan2(a * d - b * c, a * c + b * d)
     return turn
 
 
 def _missed(left: PathPoints, right: PathPoints, turned: Array) -> Mask:
-    """Whether the rates at two samples do not foretell the turn from one to the other."""
+    """True where the rates at two samples do not predict the turn between them."""
     half = 0.5 * (right.phi - left.phi) * (left.turn + right.turn)
     return np.abs(turned - half) > FORETOLD
 
@@ -126,14 +128,14 @@ def _missed(left: PathPoints, right: PathPoints, turned: Array) -> Mask:
 def _between(
     path: RollerPath, which: Whole, left: PathPoints, right: PathPoints
 ) -> tuple[Whole, PathPoints] | None:
-    """What is added between samples of designs, until all is foretold."""
-    found = []
+    """Extra samples between samples of designs, until every turn is predicted."""
+    added = []
     for _ in range(DEEPEST):
         if not len(which):
             break
         phi = 0.5 * (left.phi + right.phi)
         middle = points(path.roughly(which), phi[:, None]).taken((slice(None), 0))
-        found.append((which, middle))
+        added.append((which, middle))
         halves = ((left, middle), (middle, right))
         missed = [_missed(*half, _turned(*half)) for half in halves]
         left, right = (
@@ -141,11 +143,11 @@ def _between(
             for side in (0, 1)
         )
         which = np.concatenate([which[m] for m in missed])
-    return joined(found) if found else None
+    return joined(added) if added else None
 
 
 def _blocks(counts: Whole) -> Iterator[slice]:
-    """Runs of rows whose pairs of samples are no more than ``CELLS``."""
+    """Slices of rows with at most ``CELLS`` pairs of samples."""
     start = 0
     while start < len(counts):
         rows = max(1, CELLS // int(counts[start]) ** 2)
@@ -157,7 +159,7 @@ def _blocks(counts: Whole) -> Iterator[slice]:
 
 
 def _padded(rows: Whole, base: PathPoints, whose: Whole, added: PathPoints) -> PathPoints:
-    """The samples of some designs with those added, in order."""
+    """Samples of some designs merged with the added ones, in order."""
     number = np.full(int(whose.max(initial=0)) + 1, -1)
     number[rows] = np.arange(len(rows))
     mine = number[whose] >= 0
@@ -169,7 +171,7 @@ def _padded(rows: Whole, base: PathPoints, whose: Whole, added: PathPoints) -> P
     counts = np.bincount(row)
     starts = np.cumsum(counts) - counts
     width = int(counts.max())
-    # beyond its own count a row stays at its last sample
+    # After its own last sample a row repeats it.
     place = order[starts[:, None] + np.minimum(np.arange(width), counts[:, None] - 1)]
     return PathPoints._make(part[place] for part in parts)
 
@@ -182,20 +184,20 @@ def _samples(which: Whole, at: PathPoints, turned: Array) -> PathSamples:
 
 
 def joined(parts: Sequence[Record]) -> Record:
-    """Records of arrays, one after the other."""
+    """Concatenate records of arrays."""
     fields = [_joined(field) for field in zip(*parts, strict=True)]
     make: Callable[..., object] = type(parts[0])
     return cast("Record", tuple(fields) if make is tuple else make(*fields))
 
 
 def _joined(parts: Sequence[object]) -> object:
-    """Members of records: arrays, or records in them."""
+    """Concatenate members of records: arrays, or nested records."""
     if isinstance(parts[0], tuple):
         return joined(cast("Sequence[tuple[object, ...]]", parts))
     return np.concatenate(cast("Sequence[Array]", parts))
 
 
 def blocks(count: int, size: int) -> Iterator[slice]:
-    """All of so many rows, in blocks; one where there is none."""
+    """Slices of ``size`` rows that cover all ``count`` rows; one empty slice if there are none."""
     for start in range(0, max(count, 1), size):
         yield slice(start, min(start + size, count))

@@ -1,7 +1,7 @@
-"""The wheels that roller paths can drive: of pairs of places those whose roller keeps to its slot.
+"""Wheels that roller paths can drive: the pairs of points whose roller stays in its slot.
 
-A pair of places gives the wheel's centre; ``path_course`` tells whether the roller enters at one,
-leaves at the other and stays out of the way in between.
+A pair of points gives the wheel's centre. ``path_course`` checks that the roller enters at one
+point, leaves at the other and stays outside the slot otherwise.
 """
 
 from __future__ import annotations
@@ -24,8 +24,10 @@ BESIDE = 1e-4  # radians: places in doubt that are nearer to each other lead to 
 
 
 class Wheels(NamedTuple):
-    """Wheels of designs ``which``: the crank's angles at entry and exit in two columns, and the
-    sense in which they turn on the path's own axes.
+    """Wheels of the designs numbered in ``which``.
+
+    ``phi`` holds the crank angles at entry and exit in two columns. ``sense`` is the direction in
+    which the wheel turns on the path's own axes.
     """
 
     which: Whole
@@ -33,18 +35,18 @@ class Wheels(NamedTuple):
     sense: Array
 
     def taken(self, where: Which) -> Wheels:
-        """Some of the wheels."""
+        """Select some of the wheels."""
         return Wheels._make(part[where] for part in self)
 
 
 class Search(NamedTuple):
-    """The wheels of designs; and pairs where a double root, or all but one, may be."""
+    """Wheels of designs, and pairs at which there may be a double or nearly double root."""
 
     wheels: Wheels
     doubtful: Pairs
 
     def of(self, i: int) -> Search:
-        """What was found of one of the designs, as of a path searched alone."""
+        """Result for design ``i``, numbered as a single path."""
         parts = []
         for part in self:
             mine = part.taken(np.flatnonzero(part.which == i))
@@ -53,8 +55,8 @@ class Search(NamedTuple):
 
 
 def wheels(path: RollerPath, b: Array) -> Search:
-    """All wheels of designs of half an index angle b, (n, 1)."""
-    found = []
+    """All wheels of designs with half index angles b, (n, 1)."""
+    kept = []
     with np.errstate(all="ignore"):
         every = list(sampled(path, len(b)))
         ends, doubtful = pairs(path, every, b)
@@ -62,7 +64,7 @@ def wheels(path: RollerPath, b: Array) -> Search:
         rest = residual(ends, b)
         steep = np.abs(rest.det) >= FLAT * np.abs(rest.by_exit)
         doubtful = joined([doubtful, ends.taken(~steep)])
-        # A path that stops has no direction there; boxes about it are of no place at all.
+        # A path that stops has no direction there; boxes around such a point hold no pair.
         doubtful = doubtful.taken(np.flatnonzero(np.isfinite(doubtful.at.phi).all(axis=1)))
         doubtful = doubtful.taken(_firsts(doubtful, BESIDE))
         ends, sense = ends.taken(steep), rest.sense[steep]
@@ -71,19 +73,19 @@ def wheels(path: RollerPath, b: Array) -> Search:
             block[samples.which] = i
         for i, samples in enumerate(every):
             mine = block[ends.which] == i
-            found.append(_followed(path, samples, ends.taken(mine), sense[mine]))
-    return Search(joined(found), doubtful)
+            kept.append(_followed(path, samples, ends.taken(mine), sense[mine]))
+    return Search(joined(kept), doubtful)
 
 
 def followed(path: RollerPath, phi: Array, sense: Array) -> Wheels:
-    """Of wheels of one path, entered and left at ``phi``, (n, 2), those that it can drive."""
+    """Wheels that a path can drive, among those with entry and exit angles ``phi`` (n, 2)."""
     with np.errstate(all="ignore"):
         ends = Pairs(np.zeros(len(phi), dtype=int), points(path, phi))
         return _followed(path, next(sampled(path, 1)), ends, sense)
 
 
 def _firsts(ends: Pairs, same: float = SAME) -> Whole:
-    """Of pairs that are one, the first."""
+    """First of each group of equal pairs."""
     place = ends.at.phi[:, 0] % math.tau
     order = np.lexsort((place, ends.which))
     new = np.ones(len(order), dtype=bool)
@@ -92,7 +94,7 @@ def _firsts(ends: Pairs, same: float = SAME) -> Whole:
 
 
 def _followed(path: RollerPath, samples: PathSamples, ends: Pairs, sense: Array) -> Wheels:
-    """The wheels of those pairs between which the roller keeps to its slot."""
+    """Wheels of the pairs between which the roller stays in its slot."""
     (p, q), (t, u) = ends.at.p.T, ends.at.t.T
     rho = np.abs(q - p) / np.abs(t + u)
     centre = 0.5 * ((p + rho * t) + (q - rho * u))
@@ -107,7 +109,7 @@ def _followed(path: RollerPath, samples: PathSamples, ends: Pairs, sense: Array)
     good = np.where(inside, (course.moment > 0.0) & (course.short > 0.0), course.short < 0.0)
     good |= (np.abs(since - motion) < SAME) | (since < SAME) | (since > math.tau - SAME)
     kept = np.flatnonzero(good.all(axis=1))
-    # the ends among the samples, and the entry again a turn later
+    # add the ends to the samples, and the entry again a turn later
     wheel, ends, since, motion = wheel.taken(kept), ends.taken(kept), since[kept], motion[kept]
     limits = wheel.course(ends.at)
     limits = limits._replace(moment=0.0 * limits.moment, short=0.0 * limits.short)

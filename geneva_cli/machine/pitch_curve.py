@@ -1,6 +1,6 @@
-"""The slot at one input angle: tangent, curvature and pressure angle of its pitch curve.
+"""Tangent, curvature and pressure angle of a slot's pitch curve at input angles.
 
-Written for jets of floats and of arrays alike. Lengths are in units of the centre distance L.
+The formulas hold for jets of floats and of arrays. Lengths are in units of the centre distance L.
 """
 
 from __future__ import annotations
@@ -11,7 +11,7 @@ from geneva_cli.machine.engagement import Engagement
 from geneva_cli.numerics.arrays import library, size
 from geneva_cli.numerics.jet import Number
 
-# the columns of a table of a pitch curve with a wall on either side
+# table columns for a pitch curve with a wall on either side
 WALLED = (
     "x_mm",
     "y_mm",
@@ -29,7 +29,7 @@ EPSILON = 2.0**-52  # of a matched ratio near 1, rounding leaves this much of th
 
 
 class Way(NamedTuple):
-    """Where the pin is in the wheel, over L, and its direction of travel there."""
+    """Pin position in the wheel, over L, and its direction of travel there."""
 
     x: Number
     y: Number
@@ -38,10 +38,10 @@ class Way(NamedTuple):
 
 
 class Pitch(NamedTuple):
-    """The pitch curve M at one or many input angles.
+    """The pitch curve M at one input angle or at an array of them.
 
-    ``tangent`` is the direction of travel of the pin in the wheel; ``turning`` the rate at which
-    it turns left, radians per input radian; ``speed`` is |M'|. The curvature is turning / speed.
+    ``tangent`` is the direction of travel of the pin in the wheel. ``turning`` is the rate at which
+    it turns left, in radians per input radian. ``speed`` is |M'|. The curvature is turning / speed.
     """
 
     x: Number
@@ -54,13 +54,14 @@ class Pitch(NamedTuple):
 
 
 def retraces(engagement: Engagement) -> bool:
-    """Whether the pin stops in the wheel at mid-motion and leaves on the way it came.
+    """True if the pin stops in the wheel at mid-motion and leaves along its way in.
 
-    True for straight slots and at the mid condition; otherwise the pin passes mid-motion across
-    the slot's radius, and the pressure angle is 90 degrees there. Of many designs an array.
+    This holds for straight slots and at the mid condition. Otherwise the pin passes mid-motion
+    across the slot's radius, and the pressure angle is 90 degrees there. For a batch the result is
+    an array.
 
-    M' is what is left of the pin's own motion p' and of psi' |p|, by which the wheel turns below
-    it. Both are small where gears are slow and the pin passes near the wheel's centre.
+    M' is the difference between the pin's own motion p' and psi' |p|, the motion of the wheel below
+    it. Both are small if gears are slow and the pin passes near the wheel's centre.
     """
     x, y = engagement.slot(0.0, 1)
     m = library(x.c[0])
@@ -72,7 +73,7 @@ def retraces(engagement: Engagement) -> bool:
 
 
 def pitch(engagement: Engagement, input_deg: Number) -> Pitch:
-    """Everything about the pitch curve at input angles other than a retracing mid-motion."""
+    """Compute the pitch curve at input angles other than a retracing mid-motion."""
     x, y = engagement.slot(input_deg, 2)
     m = library(x.c[0])
     (x0, x1, x2), (y0, y1, y2) = x.derivatives(), y.derivatives()
@@ -89,7 +90,7 @@ def pitch(engagement: Engagement, input_deg: Number) -> Pitch:
 
 
 def way(engagement: Engagement, input_deg: Number) -> Way:
-    """What ``pitch`` begins with, without the second derivatives that the rest of it takes."""
+    """Pin position and direction of travel, without the second derivatives that ``pitch`` needs."""
     x, y = engagement.slot(input_deg, 1)
     (x0, x1), (y0, y1) = x.derivatives(), y.derivatives()
     speed = library(x0).hypot(x1, y1)
@@ -97,10 +98,10 @@ def way(engagement: Engagement, input_deg: Number) -> Way:
 
 
 def pitch_at_retrace(engagement: Engagement) -> Pitch:
-    """The limit at mid-motion of a pin that retraces, seen from the way in.
+    """Limit of the pitch curve at mid-motion for a pin that retraces, approached from the entry.
 
-    There M' = 0 and M moves as M'' t²/2 + M''' t³/6: it stops along M'', and turns at
-    M'' x M''' / (2 |M''|²) on both sides.
+    There M' = 0 and M moves as M'' t²/2 + M''' t³/6. The pin stops along M'', and its direction
+    turns at M'' x M''' / (2 |M''|²) on both sides.
     """
     x, y = engagement.slot(0.0, 3)
     m = library(x.c[0])

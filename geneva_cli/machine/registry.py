@@ -1,4 +1,4 @@
-"""The kinds that a spec may name: wheels, drives and laws, each imported when it is used.
+"""Names of the kinds of wheels, drives and laws; each kind is imported when it is first used.
 
 A new kind is one file and one line here.
 """
@@ -43,32 +43,32 @@ LAWS = {
     "tuned": "laws.tuned:Tuned",
     "table": "laws.table:TableLaw",
 }
-# those that are laws without more being said: no user's own
+# laws that need no key or file of the user
 STANDARD_LAWS = tuple(name for name, path in LAWS.items() if path.startswith("laws.standard:"))
 
 
 def gearing(name: str) -> type[Gearing]:
-    """The class of a wheel. Raises GenevaError, naming the key, for one that is not known."""
-    found: type[Gearing] = _found(GEARINGS, name, ("wheel", "gearing"))
-    return found
+    """Class of a wheel. Raises GenevaError, naming the key, for an unknown name."""
+    kind: type[Gearing] = _load_kind(GEARINGS, name, ("wheel", "gearing"))
+    return kind
 
 
 def drive(name: str) -> type[Drive]:
-    """The class of a drive. Raises GenevaError, naming the key, for one that is not known."""
-    found: type[Drive] = _found(DRIVES, name, ("drive", "kind"))
-    return found
+    """Class of a drive. Raises GenevaError, naming the key, for an unknown name."""
+    kind: type[Drive] = _load_kind(DRIVES, name, ("drive", "kind"))
+    return kind
 
 
 def law(name: str) -> type[Law]:
-    """The class of a motion law. Raises GenevaError, naming the key, for one that is not known."""
-    found: type[Law] = _found(LAWS, name, ("motion", "law"))
-    return found
+    """Class of a motion law. Raises GenevaError, naming the key, for an unknown name."""
+    kind: type[Law] = _load_kind(LAWS, name, ("motion", "law"))
+    return kind
 
 
-def _found(kinds: dict[str, str], name: str, key: tuple[str, str]) -> Any:
+def _load_kind(kinds: dict[str, str], name: str, key: tuple[str, str]) -> Any:
     if not isinstance(name, str) or name not in kinds:
-        said = f'"{cut(name)}"' if isinstance(name, str) else cut(name)
+        quoted = f'"{cut(name)}"' if isinstance(name, str) else cut(name)
         known = ", ".join(f'"{kind}"' for kind in kinds)
         hint = nearest(name, kinds) if isinstance(name, str) else ""
-        raise GenevaError(f"{key[1]} must be one of {known}, not {said}{hint}", key)
+        raise GenevaError(f"{key[1]} must be one of {known}, not {quoted}{hint}", key)
     return load_named(f"machine.{kinds[name]}")

@@ -1,4 +1,4 @@
-"""The rollers on the crank: where each stands, and which step of the wheel it makes."""
+"""The rollers on the crank: the place of each, and the step of the wheel that it drives."""
 
 from __future__ import annotations
 
@@ -19,10 +19,9 @@ ANGLES = ("drive", "roller_angles_deg")
 
 
 def places(spec: Spec) -> list[RollerPlace]:
-    """The rollers of a machine with straight slots, in the order in which they move the wheel.
+    """Rollers of a machine with straight slots, in the order in which they move the wheel.
 
-    Of rollers that move the wheel alike only the first is returned. Raises GenevaError where they
-    would jam.
+    Rollers that move the wheel alike are returned as one. Raises GenevaError if rollers would jam.
     """
     wheel, drive = spec.wheel, spec.drive
     L, m = spec.given_distance_mm, drive.rollers
@@ -36,7 +35,7 @@ def places(spec: Spec) -> list[RollerPlace]:
 
 
 def _at_angles(angles: tuple[float, ...], one: RollerPlace) -> list[RollerPlace]:
-    """Rollers at given angles: each gap must leave room for half of both motions beside it."""
+    """Rollers at the angles of the spec, each gap wide enough for half of both adjacent motions."""
     if list(angles) != sorted(set(angles)) or angles[0] != 0.0 or angles[-1] >= 360.0:
         raise GenevaError("roller_angles_deg must rise from 0 to below 360", ANGLES)
     motion = 2.0 * one.half_motion_deg
@@ -45,7 +44,7 @@ def _at_angles(angles: tuple[float, ...], one: RollerPlace) -> list[RollerPlace]
     refuse(
         motion * len(angles) >= 360.0,
         lambda: GenevaError(
-            f"{len(angles)} motions of {motion:.6g} deg leave no dwell at all", ANGLES
+            f"{len(angles)} motions of {motion:.6g} deg each leave no dwell in a turn", ANGLES
         ),
     )
     return [one._replace(crank_deg=a) for a in angles]
@@ -53,29 +52,29 @@ def _at_angles(angles: tuple[float, ...], one: RollerPlace) -> list[RollerPlace]
 
 def _too_near(a: float, b: float, motion: float) -> GenevaError:
     return GenevaError(
-        f"the rollers at {a:g} and {b % 360.0:g} deg jam: their motions take "
-        f"{motion:.6g} deg, and there are {b - a:.6g} between them",
+        f"the rollers at {a:g} and {b % 360.0:g} deg jam: each motion takes "
+        f"{motion:.6g} deg, and they are {b - a:.6g} deg apart",
         ANGLES,
     )
 
 
 def _unequal(spec: Spec, steps: tuple[float, ...]) -> list[RollerPlace]:
-    """Rollers of different arms, R_i = L sin b_i, with equal dwells between their motions."""
-    found = []
+    """Rollers on different arms, R_i = L sin b_i, with equal dwells between their motions."""
+    rollers = []
     for degrees in steps:
         p, q = degrees.as_integer_ratio()
-        found.append(spec.wheel.place(HalfStep(p, 360 * q), spec.given_distance_mm))
-    total = math.fsum(2.0 * f.half_motion_deg for f in found)
+        rollers.append(spec.wheel.place(HalfStep(p, 360 * q), spec.given_distance_mm))
+    total = math.fsum(2.0 * f.half_motion_deg for f in rollers)
     if not total < 360.0:
         raise GenevaError(
-            f"the {len(steps)} motions take {total:.6g} deg of a turn together and leave no dwell; "
-            "fewer rollers (a shorter pattern), or fewer slots, are needed",
+            f"the {len(steps)} motions together take {total:.6g} deg of a turn and leave no dwell: "
+            "use a shorter pattern or fewer slots",
             ("wheel", "steps_deg"),
         )
     dwell = (360.0 - total) / len(steps)
     out, at = [], 0.0
-    for i, place in enumerate(found):
+    for i, place in enumerate(rollers):
         if i:
-            at += found[i - 1].half_motion_deg + dwell + place.half_motion_deg
+            at += rollers[i - 1].half_motion_deg + dwell + place.half_motion_deg
         out.append(place._replace(crank_deg=at))
     return out

@@ -1,8 +1,8 @@
-"""Sizes that make no machine: refused when it is built, for every command.
+"""Sizes that make no machine: every command refuses them when it builds the machine.
 
-Only what no choice of the other sizes could mend is refused here, such as a roller as large as
-its crank or a hub inside its bore. Whether the remaining parts are well made, ``sizes`` and the
-checks decide.
+A size is refused here only if no choice of the other sizes can mend it. Examples are a roller as
+large as its crank, or a hub inside its bore. ``sizes`` and the checks decide if the other parts are
+well made.
 """
 
 from __future__ import annotations
@@ -39,46 +39,46 @@ def _too_large(key: str, value: float, below: float, what: str) -> GenevaError:
 
 def _thin(size: Size) -> GenevaError:
     return GenevaError(
-        f"wheel_thickness_mm = {size.wheel_thickness_mm:g}: no line of contact is longer than the "
-        f"wheel is thick; it must be at least face_width_mm = {size.face_width_mm:g}",
+        f"wheel_thickness_mm = {size.wheel_thickness_mm:g}: the contact line cannot be longer than "
+        f"the wheel is thick; use at least face_width_mm = {size.face_width_mm:g}",
         ("size", "wheel_thickness_mm"),
     )
 
 
 def _hub_in_bore(part: str, hub: float, bore: float) -> GenevaError:
     return GenevaError(
-        f"{part}_hub_mm = {hub:g}: a hub is larger than its bore; it must be at least "
+        f"{part}_hub_mm = {hub:g}: a hub must be larger than its bore: at least "
         f"{part}_bore_mm = {bore:g}, or 0 for none",
         ("size", f"{part}_hub_mm"),
     )
 
 
 def _bounds(spec: Spec, L: float, ratio: float) -> Iterator[tuple[str, float, float, str]]:
-    """Keys of sizes that are set, their values, what these must be below, and what that is."""
+    """Each size that is set: its key, its value, an upper limit, and the meaning of the limit."""
     size, r = spec.size, spec.roller_radius_mm(L)
     ratios = [math.sin(math.radians(0.5 * step)) for step in spec.wheel.steps] or [ratio]
     short, long = L * min(ratios), L * max(ratios)
     narrow, what = short, "the crank's arm"
     if not spec.drive.ONE_ARM:
-        short = long = narrow = L  # a roller whose arm changes has no one length
+        short = long = narrow = L  # a roller whose arm changes has no fixed arm length
         what = "the centre distance"
     elif spec.wheel.FLAT and spec.wheel.SIGN > 0.0:
-        narrow, what = smaller(short, L - long), "the crank's arm and what it leaves of the wheel"
-    given = [
+        narrow, what = smaller(short, L - long), "the crank's arm and the wheel radius inside it"
+    bounds = [
         ("roller_radius_mm", narrow, what),
         ("slot_clearance_mm", narrow, what),
-        ("lock_radius_mm", short, "the roller's way"),
-        ("lock_clearance_mm", short, "the roller's way"),
+        ("lock_radius_mm", short, "the crank's arm"),
+        ("lock_clearance_mm", short, "the crank's arm"),
         ("slot_bottom_clearance_mm", L, "the centre distance"),
         ("relief_clearance_mm", L, "the centre distance"),
-        ("wheel_radius_mm", L + long, "where a roller is farthest from the wheel's axis"),
+        ("wheel_radius_mm", L + long, "the roller's greatest distance from the wheel's axis"),
         ("wheel_bore_mm", 2.0 * L, "twice the centre distance"),
         ("wheel_hub_mm", 2.0 * L, "twice the centre distance"),
-        ("crank_bore_mm", 2.0 * short, "twice the roller's way"),
-        ("crank_hub_mm", 2.0 * short, "twice the roller's way"),
+        ("crank_bore_mm", 2.0 * short, "twice the crank's arm"),
+        ("crank_hub_mm", 2.0 * short, "twice the crank's arm"),
         ("pin_mm", 2.0 * r, "the roller's diameter"),
         ("press_fit_mm", 2.0 * r, "the roller's diameter"),
-        ("arm_bore_mm", 2.0 * short, "twice the roller's way"),
+        ("arm_bore_mm", 2.0 * short, "twice the crank's arm"),
         ("arm_hub_mm", 2.0 * L, "twice the centre distance"),
         ("arm_eye_mm", 2.0 * L, "twice the centre distance"),
         ("dial_bolt_mm", 2.0 * L, "twice the centre distance"),
@@ -88,13 +88,13 @@ def _bounds(spec: Spec, L: float, ratio: float) -> Iterator[tuple[str, float, fl
         ("link_pin_mm", 2.0 * L, "twice the centre distance"),
         ("link_bore_mm", 2.0 * L, "twice the centre distance"),
         ("link_width_mm", 2.0 * L, "twice the centre distance"),
-        ("lock_bolt_mm", 2.0 * short, "twice the roller's way"),
-        ("lock_bolt_circle_mm", 2.0 * short, "twice the roller's way"),
+        ("lock_bolt_mm", 2.0 * short, "twice the crank's arm"),
+        ("lock_bolt_circle_mm", 2.0 * short, "twice the crank's arm"),
     ]
-    allowed = size.allowances._asdict()  # of the process, where a key is left out
-    for key, below, what in given:
+    allowed = size.allowances._asdict()  # from the process, where a key is left out
+    for key, below, what in bounds:
         value = allowed.get(key, getattr(size, key))
         if value is not None and getattr(size, key) is None:
-            what += f'; it is the one of process = "{size.process}"'
+            what += f'; the value comes from process = "{size.process}"'
         if value is not None:
             yield key, value, below, what

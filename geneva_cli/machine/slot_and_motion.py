@@ -1,10 +1,9 @@
-"""Engagements whose straight slot and motion are given: the roller's path is solved for.
+"""Engagements with a known straight slot and motion, whose roller path is solved for.
 
-The roller slides along the crank.
-
-A fixed groove guides it. With the wheel at psi and the crank at phi the law of sines gives the
-roller's distance from the crank's axis, R = L sin psi / sin(phi + psi), and from the wheel's,
-rho = L sin phi / sin(phi + psi) (an internal wheel: phi - psi).
+The roller slides along the crank, and a fixed groove guides it. With the wheel at psi and the crank
+at phi, the law of sines gives the roller's distances. From the crank's axis it is R = L sin psi /
+sin(phi + psi), from the wheel's axis rho = L sin phi / sin(phi + psi). For an internal wheel phi +
+psi becomes phi - psi.
 """
 
 from __future__ import annotations
@@ -34,7 +33,7 @@ class SolvedPath:
         self._latest = Latest()
 
     def distances(self, input_deg: Number, order: int = 3) -> tuple[Jet, Jet]:
-        """The roller's distance from the wheel's axis and from the crank's, in units of L."""
+        """Roller distances from the wheel's axis and from the crank's, in units of L."""
         rho, R = self._latest(self._distances, input_deg, order)
         return rho, R
 
@@ -59,11 +58,11 @@ class SolvedPath:
 
     @cached_property
     def _series(self) -> Sequence[Number]:
-        """The series of psi in powers of phi, about mid-motion."""
+        """Coefficients of psi in powers of phi, about mid-motion."""
         return self.motion(0.0, TERMS if self.motion.law.ANALYTIC else SPLINE_TERMS).c
 
     def _by_series(self, x: Number, order: int) -> tuple[Jet, Jet]:
-        """Near mid-motion both sines vanish: each is divided by phi first, as a series of it."""
+        """Both distances near mid-motion, where both sines vanish: each is first divided by phi."""
         t, c = Jet.variable(radians(x), order), self._series[1:]
         # psi / phi, each coefficient of its jet a polynomial of the angle
         slope = Jet(
@@ -79,16 +78,17 @@ class SolvedPath:
 
     @property
     def crossing(self) -> Number:
-        """The roller's distance from the crank's axis at mid-motion, on the line of centres.
+        """Roller distance from the crank's axis at mid-motion, on the line of centres.
 
-        There psi and phi vanish together: it is the limit of the quotient of their sines.
+        There psi and phi vanish together, and the distance is the limit of the quotient of their
+        sines.
         """
         slope = self.motion(0.0, 1).c[1]
         return slope / (slope * self.sign + 1.0)
 
     @cached_property
     def ends(self) -> tuple[Sequence[Number], Sequence[Number]]:
-        """The roller's distance from the crank's axis with two derivatives, at entry and exit."""
+        """Roller distance from the crank's axis with two derivatives, at entry and exit."""
         entry, exit_ = (
             self.distances(end, 2)[1].derivatives()
             for end in (self.motion.entry_deg, self.motion.exit_deg)
@@ -96,32 +96,33 @@ class SolvedPath:
         return entry, exit_
 
     def __call__(self, input_deg: Number, order: int = 3) -> tuple[Jet, Jet]:
-        """The roller in its straight slot, which stands at the wheel's angle."""
+        """Roller (x, y) in its straight slot, which stands at the wheel's angle."""
         rho, _ = self.distances(input_deg, order)
         s, c = sin_cos(self.motion(input_deg, order))
         return rho * c, rho * s
 
     def groove(self, input_deg: Number, order: int = 3) -> tuple[Jet, Jet]:
-        """The fixed groove's pitch curve, the crank's axis being the origin."""
+        """Pitch curve (x, y) of the fixed groove about the crank's axis."""
         _, R = self.distances(input_deg, order)
         s, c = sin_cos(Jet.variable(radians(input_deg), order))
-        # The crank points at the wheel's axis at mid-motion (outside), or away from it (inside).
+        # At mid-motion the crank points towards the wheel's axis (outside) or away from it
+        # (inside).
         return R * c * -self.sign, R * s
 
 
 class RadialSlot(Slot):
-    """The straight radial slot in which the path is solved for."""
+    """The straight radial slot of a solved path."""
 
     def __init__(self, path: SolvedPath) -> None:
         self.path = path
 
     def __call__(self, input_deg: Number, order: int = 3) -> tuple[Jet, Jet]:
-        """The pin runs along the slot's straight axis."""
+        """Pin (x, y) in the wheel, on the slot's straight axis."""
         rho, _ = self.path.distances(input_deg, order)
         return rho, rho * 0.0
 
     def axis(self, input_deg: Number, order: int = 0) -> SlotAxis:
-        """The lever is the pin's distance from the wheel's axis."""
+        """Lever (the pin's distance from the wheel's axis) and the pin's speed along the slot."""
         rho, _ = self.path.distances(input_deg, order + 1)
         return SlotAxis(Jet(rho.c[:-1]), rho.derivative())
 
@@ -138,17 +139,17 @@ def _polynomial(c: Sequence[Number], x: Number) -> Number:
 
 
 def _sinc(x: Jet) -> Jet:
-    """sin x / x for small x, by the series of it and of its derivatives about the value of x.
+    """Jet of sin x / x for small x, from its series about the value of x.
 
-    Of each so many terms that all are exact to a double up to 1/2.
+    Each derivative has enough terms to be exact to a double up to x = 1/2.
     """
     at, order = x.c[0], x.order
     square = at * at
     step = Jet((at * 0.0, *x.c[1:]))
     total = step * 0.0
     for k in range(order, -1, -1):
-        first = (k + 1) // 2  # the first power, of the square, that k derivatives leave
-        # of (-1)^j x^2j / (2j + 1)!, the k-th derivative over k!
+        first = (k + 1) // 2  # the lowest power of the square that is left after k derivatives
+        # k-th derivative of (-1)^j x^2j / (2j + 1)!, over k!
         term = _polynomial(
             [
                 (-1.0) ** j * math.comb(2 * j, k) / math.factorial(2 * j + 1)

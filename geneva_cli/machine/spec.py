@@ -38,7 +38,7 @@ from geneva_cli.spec.tables import (
     WheelMaterial,
 )
 
-# Limits on loads, and keys without which some limit nothing: the key, its table, what it is.
+# Limits that need a load. Below: limits that need another key, with its table and its meaning.
 LOADED = (
     "pin_force_max_N",
     "input_torque_max_Nm",
@@ -59,11 +59,11 @@ NEEDED = {
 
 
 class Motion(SpecTable):
-    """``[motion]``: present when the motion is given and the slots are solved for.
+    """``[motion]``: the wheel's motion law; the slots (or a cam drive's pin path) are solved for.
 
-    ``law`` is the wheel's motion over its step; ``alpha0_deg`` lengthens the dwell, degrees, at the
-    motion's cost; ``ratio`` is R/L of curved slots, "matched" the one at which the pressure angle
-    stays below 90 degrees at mid-motion.
+    ``law`` is the wheel's motion over its step. ``alpha0_deg`` is an extra dwell angle of the crank
+    in degrees, which shortens the motion. ``ratio`` is R/L of curved slots; "matched" is the R/L at
+    which the pressure angle stays below 90 degrees at mid-motion.
 
     >>> Design(External(6), motion=Motion(Cycloidal(), ratio="matched")).peaks.acceleration.max
     1.5
@@ -75,7 +75,7 @@ class Motion(SpecTable):
     ratio: Annotated[
         float | str | None,
         Words(Range(0.0, 1.0, "()"), ("matched",)),
-        'R/L of curved slots, or "matched"',
+        'ratio R/L of curved slots, or "matched" for a finite pressure angle',
     ] = None
 
     def __post_init__(self) -> None:
@@ -83,7 +83,7 @@ class Motion(SpecTable):
         _refuse_other(self, "law", Law, "Cycloidal()")
 
     def with_key(self, key: str, value: object) -> Self:
-        """A copy with one key of the motion or of its law changed; None: its default.
+        """Return a copy with one key of the motion or of its law changed; None sets the default.
 
         >>> Motion(SineGroup(0.1)).with_key("lambda", 0.05).law
         SineGroup(lambda_=0.05)
@@ -97,18 +97,18 @@ class Motion(SpecTable):
 
 
 def attribute(table: str) -> str:
-    """The field of ``Spec`` that holds a table of the file."""
+    """Name of the ``Spec`` field that holds a table of the file."""
     return table.replace(".", "_")
 
 
 def _refuse_other(of: SpecTable | Spec, name: str, kind: type, example: str) -> None:
-    """A Python user may give the word of a file, or a class, for the object that it stands for."""
-    given = getattr(of, name)
-    if not isinstance(given, kind):
-        raise GenevaError(f"{name} must be an object like {example}, not {cut(repr(given))}")
+    """Refuse the name of a kind, or its class, where a Python user must pass an object of it."""
+    value = getattr(of, name)
+    if not isinstance(value, kind):
+        raise GenevaError(f"{name} must be an object like {example}, not {cut(repr(value))}")
 
 
-# The fields of ``Spec`` that hold a table, its kind, and what makes one.
+# Fields of ``Spec`` that hold a table, their type, and an example for the error message.
 _HELD: tuple[tuple[str, type, str], ...] = (
     ("wheel", Gearing, "External(6)"),
     ("drive", Drive, "Crank(n_rpm=60)"),
@@ -130,9 +130,10 @@ def _no_load(key: str) -> GenevaError:
 
 @dataclass(frozen=True)
 class Spec:
-    """All that a machine is built from, as it was given.
+    """All values that a machine is built from, as the user gave them.
 
-    ``path`` is the spec's file, for messages; ``files`` those that its points were read from.
+    ``path`` is the spec's file, for messages; ``files`` are the CSV files that points were read
+    from.
 
     >>> Spec(External(6)).drive.n_rpm
     60.0
@@ -181,7 +182,7 @@ class Spec:
         return without_hash(self)
 
     def replace(self, **changes: Any) -> Self:
-        """A copy with some tables changed.
+        """Return a copy with some tables changed.
 
         >>> Spec(External(6)).replace(wheel=Internal(6)).wheel.NAME
         'internal'
@@ -189,7 +190,7 @@ class Spec:
         return copied(self, changes)
 
     def table(self, name: str) -> dict[str, Any]:
-        """The values of a table by their keys; of ``motion`` its law's too.
+        """Values of a table by key; those of ``motion`` include the keys of its law.
 
         >>> Spec(External(6)).table("drive")
         {'n_rpm': 60.0, 'rollers': 1, 'roller_angles_deg': None}
@@ -201,10 +202,10 @@ class Spec:
         return part.as_dict()
 
     def _part(self, name: str) -> SpecTable | None:
-        """A table by its name in the file, ``mass.0`` being the first of a list; None: no such."""
+        """Table by its name in the file (``mass.0`` is the first of a list), or None if absent."""
         if name in ("wheel", "drive", "motion"):
-            found: SpecTable | None = vars(self)[name]
-            return found
+            part: SpecTable | None = vars(self)[name]
+            return part
         if name in PLAIN and name not in LISTS:
             plain: SpecTable = vars(self)[attribute(name)]
             return plain
@@ -213,7 +214,8 @@ class Spec:
         return several[int(number)] if number.isdecimal() and int(number) < len(several) else None
 
     def with_(self, key: str, value: object) -> Self:
-        """A copy with one key changed, written ``table.key`` as in the file; None: its default.
+        """Return a copy with one key changed, written ``table.key`` as in the file; None: its
+        default.
 
         Raises GenevaError for a key that this spec's kinds do not have, or a value out of range.
 
@@ -234,7 +236,7 @@ class Spec:
 
     @property
     def is_loaded(self) -> bool:
-        """Whether anything is known that resists the wheel: an inertia, a mass, torque or friction.
+        """True if the spec has a load: an inertia, a mass, a torque or friction.
 
         >>> Spec(External(6)).is_loaded, Spec(External(6), load=Load(torque_Nm=2.0)).is_loaded
         (False, True)
@@ -248,7 +250,7 @@ class Spec:
 
     @property
     def is_flat(self) -> bool:
-        """Whether wheel and crank are flat outlines, of a wheel that can be cut.
+        """True if wheel and crank are flat outlines and the wheel has few enough slots to be drawn.
 
         >>> Spec(External(6)).is_flat, Spec(Spherical(6)).is_flat
         (True, False)
@@ -257,7 +259,7 @@ class Spec:
 
     @property
     def has_parts(self) -> bool:
-        """Whether wheel and crank are outlines, of plates or of a sphere's shells.
+        """True if wheel and crank have outlines, on flat plates or on the shells of a sphere.
 
         >>> Spec(Spherical(6)).has_parts, Spec(External(400)).has_parts
         (True, False)
@@ -266,20 +268,21 @@ class Spec:
         return drawn and self.wheel.z <= Z_DRAWN
 
     def roller_radius_mm(self, center_distance_mm: float) -> float:
-        """The roller's radius r, by default L/20.
+        """Roller radius r in millimetres, by default L/20.
 
         >>> Spec(External(6)).roller_radius_mm(160.0)
         8.0
         """
-        given = self.size.roller_radius_mm
-        return center_distance_mm / 20.0 if given is None else given
+        radius = self.size.roller_radius_mm
+        return center_distance_mm / 20.0 if radius is None else radius
 
     @property
     def given_distance_mm(self) -> float:
-        """The centre distance L, where the machine does not solve for it.
+        """Centre distance L in millimetres from the spec, or its default; some drives solve for
+        another.
 
         >>> Spec(External(6)).given_distance_mm
         100.0
         """
-        given = self.size.center_distance_mm
-        return DISTANCE_MM if given is None else given
+        distance = self.size.center_distance_mm
+        return DISTANCE_MM if distance is None else distance

@@ -14,11 +14,11 @@ LOCK = ("lock_radius_mm", "recess_radius_mm")
 
 
 def refuse_tolerances(spec: Spec, L: float, ratio: float) -> None:
-    """Raise GenevaError, naming the key, for a tolerance as large as its dimension, or of none."""
-    given, lock = spec.tolerance.as_dict(), spec.size.lock_radius_mm
+    """Raise GenevaError, naming the key, for a tolerance that is too large or has no dimension."""
+    values, lock = spec.tolerance.as_dict(), spec.size.lock_radius_mm
     unlocked = (not spec.drive.LOCKS) | (lock == 0.0)
     for key in LOCK:
-        refuse(unlocked & (given[key] != 0.0), partial(_no_lock, key, given[key]))
+        refuse(unlocked & (values[key] != 0.0), partial(_no_lock, key, values[key]))
     steps = spec.wheel.steps
     arm = L * (math.sin(math.radians(0.5 * min(steps))) if steps else ratio)
     step = min(steps) if steps else 360.0 / spec.wheel.z
@@ -34,7 +34,7 @@ def refuse_tolerances(spec: Spec, L: float, ratio: float) -> None:
         ("lock_radius_mm", disc, "the locking disc's radius, or the crank's"),
         ("recess_radius_mm", disc, "the locking disc's radius, or the crank's"),
     ):
-        refuse(given[key] >= below, partial(_too_large, key, given[key], below, what))
+        refuse(values[key] >= below, partial(_too_large, key, values[key], below, what))
 
 
 def _no_lock(key: str, value: float) -> GenevaError:
@@ -45,7 +45,7 @@ def _no_lock(key: str, value: float) -> GenevaError:
 
 def _too_large(key: str, value: float, below: float, what: str) -> GenevaError:
     return GenevaError(
-        f"{key} = +-{value:g} is as large as what it is a tolerance of; it must be below "
+        f"{key} = +-{value:g} is as large as the dimension itself: it must be below "
         f"{below:.6g}, {what}",
         (TABLE, key),
     )

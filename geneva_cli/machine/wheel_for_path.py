@@ -1,8 +1,8 @@
-"""The wheels for one roller's path, in 50 digits.
+"""Wheels for one roller's path, in 50 digits.
 
-Pairs of entry and exit are a family of one parameter; a wheel's index angle picks the pair.
-Where the path has inflections at both ends the index angle is stationary along the family, the
-root is double, and the acceleration starts from zero.
+Pairs of entry and exit form a family of one parameter; a wheel's index angle selects the pair. If
+the path has inflections at both ends, the index angle is stationary along the family and the root
+is double. The acceleration then starts from zero.
 """
 
 from __future__ import annotations
@@ -33,7 +33,7 @@ POLISHED = 1e-20  # radians: the last of them
 
 
 class Pair(NamedTuple):
-    """Entry and exit on the family of pairs, with the index angle's excess and its slope."""
+    """Entry and exit on the family of pairs, with the error of the index angle and its slope."""
 
     entry: float
     exit: float
@@ -42,16 +42,16 @@ class Pair(NamedTuple):
 
 
 class Fit(NamedTuple):
-    """A wheel that fits: input angles at entry and exit, its centre, and how fast it turns."""
+    """A wheel that fits: input angles at entry and exit, its centre, and its sense of rotation."""
 
     entry: Decimal
     exit: Decimal
     centre: Exact
-    sense: float  # +1 where the wheel turns counterclockwise on the path's own axes
+    sense: float  # +1 if the wheel turns counterclockwise on the path's own axes
 
 
 class _Place(NamedTuple):
-    """A point of the path: place, velocity, unit tangent and the rate at which that turns."""
+    """A point of the path: position, velocity, unit tangent and the rate at which it turns."""
 
     p: complex
     v: complex
@@ -62,20 +62,20 @@ class _Place(NamedTuple):
 def fit(
     path: RollerPath, step: HalfStep, wanted: float | None = None, search: Search | None = None
 ) -> Fit | None:
-    """The wheel of an index angle that the path can drive, if there is one.
+    """Wheel that the path can drive with this index angle, or None.
 
-    Of several the gentlest, or the one entered nearest to ``wanted`` (radians). ``search`` is that
-    of the path, where it was done with those of other designs.
+    If there are several, it is the gentlest, or the one whose entry is nearest to ``wanted``
+    (radians). ``search`` is a search of this path that was already made in a batch.
     """
-    found, doubtful = search or wheels(path, np.array([[step.b]]))
+    candidates, doubtful = search or wheels(path, np.array([[step.b]]))
     for entry, exit_ in doubtful.at.phi.tolist():
         root = _double(path, step, entry, exit_)
         if root:
-            found = joined([found, root])
-    if not len(found.which):
+            candidates = joined([candidates, root])
+    if not len(candidates.which):
         return None
-    best = chosen(path, found, wanted)[0]
-    (entry, exit_), sense = found.phi[best].tolist(), float(found.sense[best])
+    best = chosen(path, candidates, wanted)[0]
+    (entry, exit_), sense = candidates.phi[best].tolist(), float(candidates.sense[best])
     with localcontext(digits.FIFTY):
         pair = _polished(path, step, entry, exit_, sense)
         if pair is None:
@@ -88,17 +88,17 @@ def fit(
 
 
 def _double(path: RollerPath, step: HalfStep, entry: float, exit_: float) -> Wheels | None:
-    """The wheel of a double root, or of two roots so near that Newton does not part them."""
+    """Wheel of a double root, or of two roots too close for Newton's method to separate."""
     pair = _on_family(path, step.b, entry, exit_)
     root = _refined(path, step.b, pair) if pair else None
     if root is None:
         return None
     one, two = (_place(path, phi) for phi in root)
     sense = math.copysign(1.0, cmath.phase(-two.t * one.t.conjugate()))
-    found = followed(path, np.array([root]), np.array([sense]))
+    drivable = followed(path, np.array([root]), np.array([sense]))
     with localcontext(digits.FIFTY):
-        holds = len(found.which) and _polished(path, step, *root, sense)
-    return found if holds else None
+        holds = len(drivable.which) and _polished(path, step, *root, sense)
+    return drivable if holds else None
 
 
 def _place(path: RollerPath, phi: float) -> _Place:
@@ -109,7 +109,7 @@ def _place(path: RollerPath, phi: float) -> _Place:
 
 
 def _on_family(path: RollerPath, b: float, entry: float, exit_: float) -> Pair | None:
-    """The exit near ``exit_`` that is as far from the meeting point as ``entry``: Newton."""
+    """Pair of ``entry`` and the exit near ``exit_`` equally far from the meeting point: Newton."""
     one = _place(path, entry)
     for _ in range(40):
         two = _place(path, exit_)
@@ -131,7 +131,7 @@ def _on_family(path: RollerPath, b: float, entry: float, exit_: float) -> Pair |
 
 
 def _refined(path: RollerPath, b: float, pair: Pair) -> tuple[float, float] | None:
-    """From a pair of the family to one with the index angle: a root, or a double root."""
+    """Pair with the index angle, from a pair of the family: a root, or a double root."""
     here, step = pair, STRIDE
     for _ in range(60):
         if here.slope == 0.0:
@@ -151,7 +151,7 @@ def _refined(path: RollerPath, b: float, pair: Pair) -> tuple[float, float] | No
 
 
 def _stationary(path: RollerPath, b: float, pair: Pair) -> Pair | None:
-    """Where the index angle is stationary along the family: secant on its slope."""
+    """Pair at which the index angle is stationary along the family: secant on its slope."""
     before, here = pair, _on_family(path, b, pair.entry + 1e-4, pair.exit - 1e-4)
     for _ in range(40):
         if here is None or here.slope == before.slope:
@@ -168,10 +168,10 @@ def _stationary(path: RollerPath, b: float, pair: Pair) -> Pair | None:
 def _polished(
     path: RollerPath, step: HalfStep, entry: float, exit_: float, sense: float
 ) -> tuple[Decimal, Decimal] | None:
-    """A pair in 50 digits: Newton on what is left of both conditions, its slopes in doubles.
+    """A pair in 50 digits: Newton on both conditions, with slopes in doubles.
 
-    Where the root is double no slope is left, and only the equal distances are mended.
-    None where there turns out to be no such pair.
+    At a double root the slope vanishes, and only the equal distances are corrected. None if there
+    is no such pair after all.
     """
     first, last = Decimal(entry), Decimal(exit_)
     sin_2b, cos_2b = (Decimal(n) / Decimal(1 << 128) for n in scaled_sin_cos(2 * step.p, step.q))
@@ -190,7 +190,7 @@ def _polished(
             move = away / by_exit
             last -= Decimal(move)
             continue
-        # sine of the index angle's excess, the angle being that from -t1 to t2
+        # sine of the error of the index angle, which is the angle from -t1 to t2
         sine, cosine = -cross(p.t, q.t), -(p.t[0] * q.t[0] + p.t[1] * q.t[1])
         excess = float(sine * cos_2b - Decimal(sense) * cosine * sin_2b)
         # by_entry de + by_exit dx = -away,  -turn1 de + turn2 dx = -excess

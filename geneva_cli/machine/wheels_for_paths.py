@@ -1,7 +1,7 @@
-"""The wheels for the paths of many designs at once: the search of ``wheel_for_path``, in doubles.
+"""Wheels for the paths of a batch of designs, in doubles.
 
-Where a root is double or nearly so, doubles know it to half their digits only, and the design is
-left to be solved alone, in 50 digits.
+A double or nearly double root is known only to half the digits of a double. Such a design is left
+to ``wheel_for_path``, which solves it alone in 50 digits.
 """
 
 from __future__ import annotations
@@ -31,27 +31,26 @@ if TYPE_CHECKING:
 POLISHINGS = 3  # steps of Newton: each leaves some millionth of the error
 GROUP = 2048  # designs at a time
 
-# By a path's kind and numbers what was found of it, and its number there; None: nothing is kept.
+# Search results by the kind and numbers of a path, with its number there; None: none are kept.
 _KNOWN: ContextVar[dict[tuple[object, ...], tuple[Search, int]] | None] = ContextVar(
     "known", default=None
 )
 
 
 class Fits(NamedTuple):
-    """One wheel a design, of n designs: the angles are radians, (n, 1); NaN where none fits.
+    """One wheel for each of n designs: angles in radians, (n, 1); NaN if none fits.
 
-    ``alone`` are the numbers of designs that are to be solved one by one, with what was found of
-    each.
+    ``alone`` has the numbers of designs that must be solved one by one, with the search of each.
     """
 
     entry: Array
     exit: Array
-    sense: Array  # +1 where the wheel turns counterclockwise on the path's own axes
+    sense: Array  # +1 if the wheel turns counterclockwise on the path's own axes
     alone: dict[int, Search]
 
 
 def fits_many(path: RollerPath, b: float, wanted: float | None = None) -> Fits:
-    """The gentlest wheel of each path, or the one entered nearest to ``wanted`` (radians).
+    """The gentlest wheel of each path, or the one whose entry is nearest to ``wanted`` (radians).
 
     ``path``, half the index angle b and ``wanted`` hold numbers (n, 1), or one for all.
     """
@@ -66,9 +65,9 @@ def fits_many(path: RollerPath, b: float, wanted: float | None = None) -> Fits:
         some = path.of(part)
         search = wheels(some, half[part])
         _keep(some, half[part], search)
-        found = search.wheels
-        best = chosen(some, found, goal if goal is None else goal[part])
-        out[:, part[found.which[best]]] = *found.phi[best].T, found.sense[best]
+        candidates = search.wheels
+        best = chosen(some, candidates, goal if goal is None else goal[part])
+        out[:, part[candidates.which[best]]] = *candidates.phi[best].T, candidates.sense[best]
         for i in rising(search.doubtful.which).tolist():
             alone[start + i] = search.of(i)
     entry, exit_, sense = out[:, :, None]
@@ -77,7 +76,7 @@ def fits_many(path: RollerPath, b: float, wanted: float | None = None) -> Fits:
 
 @contextmanager
 def searches_kept() -> Iterator[None]:
-    """Within, what is found of designs together is known of each that is built alone after it."""
+    """Keep batch searches within the block, so that designs built alone after it can use them."""
     token = _KNOWN.set({})
     try:
         yield
@@ -94,26 +93,26 @@ def _keep(path: RollerPath, half: Array, search: Search) -> None:
 
 
 def known(path: RollerPath, b: float) -> Search | None:
-    """What was found of a path of one design when it was searched with others, if it was."""
+    """Search result of one design's path from an earlier batch, or None."""
     kept = _KNOWN.get()
-    found = kept.get((type(path), *path.rough, b)) if kept else None
-    return found[0].of(found[1]) if found else None
+    entry = kept.get((type(path), *path.rough, b)) if kept else None
+    return entry[0].of(entry[1]) if entry else None
 
 
 def long_point(path: RollerPath, phi: Long) -> tuple[LongComplex, LongComplex]:
-    """Place and unit tangent at an angle in long doubles, as complex numbers."""
+    """Position and unit tangent at angles in long doubles, as complex numbers."""
     s, c = exactly(np.sin(phi)), exactly(np.cos(phi))
-    found = path.place(Jet((s, c)), Jet((c, -s)), exact=True)
-    (x, vx), (y, vy) = cast("list[tuple[Long, Long]]", [jet.c for jet in found])
+    pin = path.place(Jet((s, c)), Jet((c, -s)), exact=True)
+    (x, vx), (y, vy) = cast("list[tuple[Long, Long]]", [jet.c for jet in pin])
     v: LongComplex = vx + 1j * vy
     unit: LongComplex = v / np.abs(v)
     return x + 1j * y, unit
 
 
 def polished(path: RollerPath, found: Fits, step: HalfStep) -> tuple[Long, Long]:
-    """Entry and exit in long doubles, as ``wheel_for_path`` polishes: its slopes in doubles.
+    """Entry and exit in long doubles: Newton's method in two unknowns, with slopes in doubles.
 
-    Newton's method in two unknowns, from roots that are known to a double's last digits.
+    It starts from roots that are known to the last digits of a double.
     """
     every = np.arange(len(found.entry))
     ends = ends_at(path, every, np.hstack((found.entry, found.exit)))

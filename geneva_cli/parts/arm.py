@@ -14,8 +14,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from geneva_cli.curves.belt import belt
 from geneva_cli.curves.distance import Polyarc
+from geneva_cli.curves.hull import convex_hull
 from geneva_cli.curves.shapes import Circle, Contour, Shape
 from geneva_cli.errors import GenevaError
 from geneva_cli.parts.arm_sizes import (
@@ -86,7 +86,7 @@ def crank_arm(parts: Outlines) -> CrankArm:
     about += [Circle(LAYER, c.centre, eye_about(c.radius, wall)) for c in screwed]
     fitted = key(spec.size.crank_keyway, radius)
     bored = bore(HOLES, radius, fitted, keyway_direction(assembly))
-    return CrankArm(belt(LAYER, about), bored, pins, screwed, hub, eye, passing - eye)
+    return CrankArm(convex_hull(LAYER, about), bored, pins, screwed, hub, eye, passing - eye)
 
 
 def shaft_bore(parts: Outlines) -> float:

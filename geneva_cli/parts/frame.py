@@ -10,8 +10,8 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from typing import NamedTuple
 
-from geneva_cli.curves.belt import belt
 from geneva_cli.curves.drawing import Drawing
+from geneva_cli.curves.hull import convex_hull
 from geneva_cli.curves.plates import Member, Plate
 from geneva_cli.curves.shapes import Circle, Point
 from geneva_cli.errors import GenevaError
@@ -88,7 +88,7 @@ def framed(
         for sense, pick in ((-1.0, min), (1.0, max))
     )
     corners = [(x, y) for x in (low[0], high[0]) for y in (low[1], high[1])]
-    outline = belt(LAYER, [Circle(LAYER, corner, eye) for corner in corners])
+    outline = convex_hull(LAYER, [Circle(LAYER, corner, eye) for corner in corners])
     holes += [Circle(HOLES, corner, even(0.4 * eye)) for corner in corners]
     return Framed(
         Plate(NAME, LAYER, outline, tuple(holes), bottom, top),

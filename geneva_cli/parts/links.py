@@ -14,7 +14,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from geneva_cli.curves.belt import belt
+from geneva_cli.curves.hull import convex_hull
 from geneva_cli.curves.plates import Member, Plate
 from geneva_cli.curves.shapes import Circle, Contour, Point, Shape
 from geneva_cli.errors import GenevaError
@@ -209,7 +209,7 @@ def _bar(link: Link, sizes: LinkSizes, L: float) -> _Bar:
             block = Plate(
                 f"{link.name}'s block",
                 LAYER,
-                belt(LAYER, [Circle(LAYER, (x, 0.0), half) for x in (-long, long)]),
+                convex_hull(LAYER, [Circle(LAYER, (x, 0.0), half) for x in (-long, long)]),
                 (Circle(HOLES, (0.0, 0.0), hole),),
                 low,
                 high,
@@ -228,7 +228,7 @@ def _members(bar: _Bar, turning: list[Axis], sizes: LinkSizes, L: float) -> Iter
             eyes.append(_circle(LAYER, z, sizes.hub(axis.radius)))
             holes += [] if name in axis.one_piece else [_circle(HOLES, z, axis.radius)]
     low, high = sizes.span(bar.link.plane)
-    plate = Plate(name, LAYER, belt(LAYER, eyes), tuple(holes), low, high)
+    plate = Plate(name, LAYER, convex_hull(LAYER, eyes), tuple(holes), low, high)
     _refuse(plate)
     yield _placed(plate, bar.at, bar.unit)
     yield from bar.blocks
@@ -254,7 +254,7 @@ def _circle(layer: str, at: complex, radius: float) -> Circle:
 
 def _slot(along: complex, ends: tuple[float, float], half: float) -> Contour:
     """A slot of round ends about two places in a direction from the origin."""
-    return belt(LAYER, [_circle(LAYER, r * along, half) for r in ends])
+    return convex_hull(LAYER, [_circle(LAYER, r * along, half) for r in ends])
 
 
 def _refuse(plate: Plate) -> None:

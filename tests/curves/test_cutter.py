@@ -110,12 +110,12 @@ def test_a_keyway_lets_in_what_is_no_wider(width):
     assert not any(fault.stops for fault in faults(keyed(width), 0.5 * width))
     (fault,) = faults(keyed(width), 0.505 * width)
     assert fault.stops
-    assert fault.text.endswith(f"a cutter up to {width:g} mm does")
+    assert fault.text.endswith(f"use a cutter up to {width:g} mm")
 
 
 def test_a_bone_never_cuts_a_wall_that_works():
     corner = notched(90.0)
-    with pytest.raises(GenevaError, match="a wall that runs on roller or lock"):
+    with pytest.raises(GenevaError, match="a wall that guides roller or lock"):
         boned(corner, 1.0, lambda piece, layer: layer == "ARM")
     floor = corner.outline.segments[4]
     with pytest.raises(GenevaError, match=r"at x = 30, y = 12 on ARM"):
@@ -175,7 +175,7 @@ def test_the_verdict_on_a_part(two_pins):
     )
     refused, _ = design.cutter("wheel", 30.0, of=proof)
     width = 2.0 * proof.found.sizes.half_width
-    assert refused.endswith(f"is narrower; a cutter up to {width:g} mm does")
+    assert refused.endswith(f"is narrower; use a cutter up to {width:g} mm")
 
 
 def test_the_command(tmp_path):

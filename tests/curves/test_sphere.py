@@ -9,7 +9,7 @@ from geneva_cli.curves.plates import Shell
 from geneva_cli.curves.round_holes import RoundHole
 from geneva_cli.curves.sphere import Region, Rotation, SphereArc, cross, place, unit
 from geneva_cli.curves.sphere_arcs import Arcs
-from geneva_cli.curves.sphere_belt import Cap, belt
+from geneva_cli.curves.sphere_hull import Cap, convex_hull
 
 POLE = (0.0, 0.0, 1.0)
 CLOSE = 1e-14  # sums of some numbers up to 2 pi
@@ -165,7 +165,7 @@ BELTS = {
 def test_a_belt_holds_its_caps_and_no_more(name):
     """All rims are within; it never turns to the right, nor at a corner; its arcs are of rims, and
     its great circles touch two. There is one such boundary: the hull."""
-    caps, found = BELTS[name], belt(BELTS[name])
+    caps, found = BELTS[name], convex_hull(BELTS[name])
     edge = Arcs(found.boundary)
     for one in caps:
         rim = one.region.boundary[0].at(np.linspace(0.0, math.tau, 100))[0]

@@ -81,8 +81,8 @@ OFFSET = [
 ]
 
 STEP = [
-    case("sum", WHEEL + "steps_deg = @", "[70, 60]", 3, "390", "must be 360", "120"),
-    case("sum-short", WHEEL + "steps_deg = @", "[20]", 3, "120", "must be 360", "60"),
+    case("sum", WHEEL + "steps_deg = @", "[70, 60]", 3, "390", "not 360", "120"),
+    case("sum-short", WHEEL + "steps_deg = @", "[20]", 3, "120", "not 360", "60"),
     case("sum-hardly", WHEEL + "steps_deg = @", "[70, 50.001]", 3, "360.003", "120"),
     case("no-multiple", WHEEL + "steps_deg = @", "[20, 25, 35, 10]", 3, "z = 6", "multiple", "4"),
     case("out-of-reach", "[wheel]\nz = 3\nsteps_deg = @", "[80, 90, 190]", 3, "190", "below 180"),
@@ -97,25 +97,23 @@ STEP = [
     case("internal", INSIDE + "steps_deg = @", "[70, 50]", 4, "external"),
     case("spherical", BALL + "steps_deg = @", "[70, 50]", 4, "external"),
     case("law", WHEEL + "steps_deg = @\n" + LAW, "[70, 50]", 3, "law", "remove"),
-    case("rollers", WHEEL + STEPS + "[drive]\nrollers = @", "3", 5, "2 steps", "leave rollers out"),
+    case("rollers", WHEEL + STEPS + "[drive]\nrollers = @", "3", 5, "2 steps", "remove rollers"),
     case("angles", WHEEL + "steps_deg = @\n" + ANGLES + "[0, 180]", "[50, 70]", 3, "remove roller"),
 ]
 
 ROLLERS = [
-    case("close", WHEEL + ANGLES + "@", "[0, 90]", 4, "0 and 90", "120", "90 between"),
-    case("close-behind", WHEEL + ANGLES + "@", "[0, 241]", 4, "241 and 0", "120", "119 between"),
+    case("close", WHEEL + ANGLES + "@", "[0, 90]", 4, "0 and 90", "120", "90 deg apart"),
+    case("close-behind", WHEEL + ANGLES + "@", "[0, 241]", 4, "241 and 0", "120", "119 deg apart"),
     case("no-dwell", WHEEL + ANGLES + "@", "[0, 120, 240]", 4, "3 motions of 120", "dwell"),
     case("unsorted", WHEEL + ANGLES + "@", "[0, 150, 140]", 4, "rise from 0"),
     case("twice", WHEEL + ANGLES + "@", "[0, 0]", 4, "rise from 0"),
     case("not-from-0", WHEEL + ANGLES + "@", "[10, 150]", 4, "rise from 0"),
     case("whole-turn", WHEEL + ANGLES + "@", "[0, 360]", 4, "below 360"),
     case("empty", WHEEL + ANGLES + "@", "[]", 4, "list of 1"),
-    case("internal", INSIDE + ANGLES + "@", "[0, 180]", 5, "240", "180 between"),
+    case("internal", INSIDE + ANGLES + "@", "[0, 180]", 5, "240", "180 deg apart"),
     case("spherical", BALL + ANGLES + "@", "[0, 180]", 5, "180", "dwell"),
     case("law", WHEEL + ANGLES + "@\n" + LAW, "[0, 150]", 4, "straight", "remove"),
-    case(
-        "count", WHEEL + ANGLES + "[0, 150]\nrollers = @", "3", 5, "2 angles", "leave rollers out"
-    ),
+    case("count", WHEEL + ANGLES + "[0, 150]\nrollers = @", "3", 5, "2 angles", "remove rollers"),
 ]
 
 SPHERICAL = [
@@ -165,8 +163,10 @@ CAMS = [
     case("matched", WHEEL + CAM + LAW + "ratio = @", '"matched"', 7, "ratio has no meaning"),
     case("alpha0", WHEEL + CAM + LAW + "alpha0_deg = @", "120", 7, "above -240", "below 120"),
     case("alpha0-low", WHEEL + CAM + LAW + "alpha0_deg = @", "-240", 7, "above -240", "below 120"),
-    case("parallel", WHEEL + CAM + LAW + "alpha0_deg = @", "-180", 7, "300", "parallel", "larger"),
-    case("fast-inside", INSIDE + CAM + LAW + "alpha0_deg = @", "130", 7, "1.091", "less than 1"),
+    case(
+        "parallel", WHEEL + CAM + LAW + "alpha0_deg = @", "-180", 7, "300", "parallel", "increase"
+    ),
+    case("fast-inside", INSIDE + CAM + LAW + "alpha0_deg = @", "130", 7, "1.091", "below 1"),
     case("rollers", WHEEL + CAM + "rollers = @\n" + LAW, "3", 5, "120", "at most 2"),
     case("law", WHEEL + CAM + "[motion]\nlaw = @", '"cycloid"', 6, '"cycloidal"'),
 ]
@@ -255,17 +255,17 @@ BOUNDS = [
     bound("planet-high", WHEEL + OWN_ARM, "0.3", r"at most (\S+)", -1),
     bound("ring-low", RING, "-0.39", ABOVE, 1),
     bound("ring-high", RING, "0.39", r"at most (\S+)", -1),
-    bound("slider", WHEEL + SLIDER.replace("40", "@"), "115", r"crank below (\S+)", -1),
+    bound("slider", WHEEL + SLIDER.replace("40", "@"), "115", r"it must be below (\S+)", -1),
 ]
-TAKE = r"motions take (\S+) deg"
+TAKE = r"motion takes (\S+) deg"
 # Values that messages name, and how they are put into the gap.
 NAMED = [
     (WHEEL + GEARS + "rollers = @", "3", r"at most (\d+)", str),
     (BALL + "axes_deg = 60\n[drive]\nrollers = @", "3", r"at most (\d+)", str),
     (BALL + "[drive]\nrollers = @", "2", r"at most (\d+)", str),
     (WHEEL + CAM + "rollers = @\n" + LAW, "3", r"at most (\d+)", str),
-    (WHEEL + "steps_deg = @", "[20]", r"its steps (\S+)", lambda v: f"[{v}]"),
-    (WHEEL + "steps_deg = @", "[70, 60]", r"its steps (\S+)", lambda v: f"[70, {float(v) - 70}]"),
+    (WHEEL + "steps_deg = @", "[20]", r"add up to (\S+)", lambda v: f"[{v}]"),
+    (WHEEL + "steps_deg = @", "[70, 60]", r"add up to (\S+)", lambda v: f"[70, {float(v) - 70}]"),
     (WHEEL + ANGLES + "@", "[0, 90]", TAKE, lambda v: f"[0, {v}]"),
     # rounded to six digits: a little more is surely enough
     (BALL + "axes_deg = 70\n" + ANGLES + "@", "[0, 90]", TAKE, lambda v: f"[0, {float(v) + 1e-3}]"),

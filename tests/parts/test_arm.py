@@ -12,7 +12,7 @@ from typer.testing import CliRunner
 from words import Drive, Motion, Spec, Wheel
 
 from geneva_cli.app import app
-from geneva_cli.curves.belt import belt
+from geneva_cli.curves.hull import convex_hull
 from geneva_cli.curves.measure import segment_length
 from geneva_cli.curves.shapes import Arc, Circle, Contour, Line
 from geneva_cli.design import Design, load
@@ -59,7 +59,7 @@ CIRCLE = st.builds(
 @given(st.lists(CIRCLE, min_size=1, max_size=7, unique=True))
 def test_the_belt_is_the_convex_hull(circles):
     """Its length is the mean of its width times pi (Cauchy), the width from the circles alone."""
-    found = belt("ARM", circles)
+    found = convex_hull("ARM", circles)
     turn = np.arange(20000) * (math.tau / 20000)
     reach = [c.centre[0] * np.cos(turn) + c.centre[1] * np.sin(turn) + c.radius for c in circles]
     length = math.tau * np.max(reach, axis=0).mean()

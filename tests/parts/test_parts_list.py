@@ -217,7 +217,7 @@ def angle(p, d, i, one, folder):
         )
     if "sector's angle" in d:
         return in_gear(d)
-    place, e = roller(p, d, i), d.get("slots' axes beside the wheel's", 0.0)
+    place, e = roller(p, d, i), d.get("slots' axes offset from the wheel's", 0.0)
 
     def found(x):
         pin = place(one["mid"] + x)

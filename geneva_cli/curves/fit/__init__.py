@@ -1,9 +1,9 @@
 """A smooth parametric curve in as few pieces as a tolerance allows: arcs or cubics.
 
-A curve is a function of an array of n parameters: its points (n, 2) in millimetres and its unit
-tangents (n, 2) in the direction of rising parameters. It is smooth from a to b > a, inflections
-and all; callers split it at corners and cusps. Its speed may go to zero at an end, where the
-tangent is given as the limit.
+A curve is a function of an array of n parameters. It returns its points (n, 2) in millimetres, and
+its unit tangents (n, 2) in the direction of rising parameters. It is smooth from a to b > a, and
+may have inflections; callers split it at corners and cusps. Its speed may go to zero at an end,
+where the tangent is the limit.
 """
 
 from __future__ import annotations
@@ -21,9 +21,9 @@ if TYPE_CHECKING:
 
 
 def arcs(curve: Curve, a: float, b: float, tolerance: float) -> list[Arc | Line]:
-    """Arcs that stray from the curve by at most ``tolerance`` mm, and lines where it is straight.
+    """Arcs within ``tolerance`` mm of the curve, and lines where it is straight.
 
-    Neighbours share their tangent, and the first and the last one have the curve's own.
+    Adjacent pieces share their tangent, and the first and last have the curve's own.
 
     Raises GenevaError for a tolerance that double precision cannot show.
     """
@@ -31,7 +31,7 @@ def arcs(curve: Curve, a: float, b: float, tolerance: float) -> list[Arc | Line]
 
 
 def cubics(curve: Curve, a: float, b: float, tolerance: float) -> list[Cubic]:
-    """Cubic Béziers that stray from the curve by at most ``tolerance`` mm.
+    """Cubic Béziers within ``tolerance`` mm of the curve.
 
     They meet on the curve and have its tangents there.
 
@@ -40,6 +40,6 @@ def cubics(curve: Curve, a: float, b: float, tolerance: float) -> list[Cubic]:
     return fitted_cubics(CurvePath(curve, a, b, tolerance))
 
 
-# what curves may become
+# the kinds of pieces that a curve can be written in
 KINDS: dict[str, Callable[[Curve, float, float, float], Sequence[Segment]]]
 KINDS = {"arcs": arcs, "cubics": cubics}

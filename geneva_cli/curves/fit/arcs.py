@@ -1,9 +1,9 @@
 """A curve as arcs with common tangents, in few pieces.
 
-Between two points and tangents lies a biarc: two arcs that touch. Biarcs along the curve's own
-tangents miss it by k' h³ / 40 with arcs of length h, k' being the rate of the curvature. The best
-spline of arcs meets the curve at all its joints, with tangents off by k' h² / 12, and misses by the
-third Bernoulli polynomial, k' h³ / 125: with a third fewer arcs. Those tangents lie half-way
+A biarc joins two points with tangents: two arcs that touch. Biarcs along the curve's own tangents
+have an error of k' h³ / 40 with arcs of length h, where k' is the rate of the curvature. The best
+spline of arcs meets the curve at all its joints, with tangents off by k' h² / 12. Its error is the
+third Bernoulli polynomial, k' h³ / 125, which takes a third fewer arcs. Its tangents lie half-way
 between the curve's own and the mean of the chords on both sides.
 """
 
@@ -33,50 +33,49 @@ class Arcs(NamedTuple):
 
 
 def fitted_arcs(path: CurvePath) -> list[Arc | Line]:
-    """Arcs with common tangents along a path, the ends' tangents being the curve's."""
+    """Arcs with common tangents along a path; the end tangents are the curve's."""
     return _joined(fewest(path, _biarcs, ORDER, PAIR), path.rounding)
 
 
 @np.errstate(divide="ignore", invalid="ignore")  # where a biarc's ends are one point
 def _biarcs(path: CurvePath, places: Array) -> tuple[Arcs, Array]:
-    """Biarcs that meet the curve at places, and how far each of them strays from it, mm."""
+    """Biarcs that meet the curve at places, and the error of each in mm."""
     z, tangents = path.inside(places, SAMPLES)
-    joints, way = np.append(z[:, 0], z[-1, -1]), np.append(tangents[::2, 0], tangents[-1, -1])
+    joints, heading = np.append(z[:, 0], z[-1, -1]), np.append(tangents[::2, 0], tangents[-1, -1])
     knot, middle = joints[::2], joints[1::2]
     before, after = knot[1:-1] - middle[:-1], middle[1:] - knot[1:-1]
-    angles = [np.angle(chord / way[1:-1]) for chord in (before, after)]
+    angles = [np.angle(chord / heading[1:-1]) for chord in (before, after)]
     first, second = np.abs(before), np.abs(after)
     tilt = -0.5 * (angles[0] * second + angles[1] * first) / (first + second)
-    way[1:-1] *= np.exp(1j * tilt)
-    # The joints of all biarcs between two points and tangents lie on a circle through the points;
-    # the one is taken that divides the distances to them as the curve's own point does.
+    heading[1:-1] *= np.exp(1j * tilt)
+    # The joints of all biarcs between two points and tangents lie on a circle through the points.
+    # The chosen one divides the distances to them as the curve's own point does.
     chord = np.diff(knot)
-    bow = np.exp(0.5j * (np.angle(way[:-1] / chord) - np.angle(way[1:] / chord)))
+    bow = np.exp(0.5j * (np.angle(heading[:-1] / chord) - np.angle(heading[1:] / chord)))
     bow *= np.abs(middle - knot[:-1]) / np.abs(knot[1:] - middle)
     joint = knot[:-1] + chord * bow / (1.0 + bow)
     start, end = np.repeat(knot[:-1], 2), np.repeat(knot[1:], 2)
     start[1::2] = end[::2] = joint
     half = np.empty(len(start))
-    half[::2] = np.angle((joint - knot[:-1]) / way[:-1])
-    half[1::2] = np.angle(way[1:] / (knot[1:] - joint))
+    half[::2] = np.angle((joint - knot[:-1]) / heading[:-1])
+    half[1::2] = np.angle(heading[1:] / (knot[1:] - joint))
     arcs = Arcs(start, end, half)
     return arcs, _errors(arcs, z, tangents)
 
 
 def _errors(arcs: Arcs, points: Array, tangents: Array) -> Array:
-    """The greatest distance from samples of the curve (n, samples + 1) to each arc, mm.
+    """Greatest distance from samples of the curve (n, samples + 1) to each arc, mm.
 
-    The curve's length, where it runs against the arc. Where it does not, the samples' feet run
-    along the arc from end to end, and no place on it is farther from the curve.
+    If the curve runs against the arc, it is the curve's length. Otherwise the nearest points of the
+    samples run along the arc from end to end, and no place on it is farther from the curve.
     """
     chord = arcs.end - arcs.start
     size = np.abs(chord)
     curvature = (2.0 * np.sin(arcs.half) / size)[:, None]
     ahead = chord / size * np.exp(-1j * arcs.half)
-    # As seen from the arc's start along its tangent: nothing is measured from a centre, which may
-    # be at infinity.
+    # As seen from the arc's start along its tangent: an arc's centre may be at infinity.
     seen = (points - arcs.start[:, None]) * ahead.conj()[:, None]
-    # A point (x, y) lies off the arc by the root of k d² / 2 - d + y - k (x² + y²) / 2 = 0.
+    # A point (x, y) is off the arc by the root of k d² / 2 - d + y - k (x² + y²) / 2 = 0.
     off = seen.imag - 0.5 * curvature * np.abs(seen) ** 2
     miss = 2.0 * np.abs(off) / (1.0 + np.sqrt(np.maximum(1.0 - 2.0 * curvature * off, 0.0)))
     past = points - arcs.end[:, None]
@@ -90,10 +89,10 @@ def _errors(arcs: Arcs, points: Array, tangents: Array) -> Array:
 
 
 def _joined(arcs: Arcs, rounding: float) -> list[Arc | Line]:
-    """The pieces; neighbours on the same circle, up to half of it, or on the same line made one."""
+    """The pieces, with neighbours on one line or one circle (up to half of it) merged."""
     chord, half = np.abs(arcs.end - arcs.start), arcs.half
     bend = np.abs(np.diff(2.0 * np.sin(half) / chord))
-    # How far from their joint one arc in place of two would pass
+    # distance at which one arc would pass the joint of two
     same = bend * chord[1:] * chord[:-1] <= 4.0 * rounding
     runs: list[list[int]] = [[0]]
     for i in range(1, len(half)):

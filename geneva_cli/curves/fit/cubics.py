@@ -1,8 +1,8 @@
 """A curve as cubic Béziers with common tangents, in few pieces.
 
-Each starts and ends on the curve, along its tangents. Hermite's handles, thirds of the length,
-miss by the fourth power of the length; the handles of least squares by the sixth, as the error
-is measured along the normal: where along the cubic a point lies does not matter.
+Each starts and ends on the curve, along its tangents. With Hermite's handles, thirds of the length,
+the error is of the fourth power of the length. With handles by least squares it is of the sixth
+power. The error is measured along the normal, so that a point may slide along the cubic.
 """
 
 from __future__ import annotations
@@ -27,23 +27,23 @@ ORDER = 6.0
 
 
 class FitTargets(NamedTuple):
-    """What cubics are to go through, moved to their start and scaled by the curve's length."""
+    """Targets of the cubics: samples moved to each start and scaled by the curve's length."""
 
     length: Array  # (n,) mm
     points: Array  # (n, samples + 1) complex
-    ahead: Array  # (n, 1) complex: the tangents at the start, and the end
+    ahead: Array  # complex: tangents at the start; ``behind`` at the end
     behind: Array
 
 
 class FitState(NamedTuple):
-    """Handles in lengths of the piece, the samples' places on the cubics, what is left, squared."""
+    """Handles in lengths of the piece, the samples' places on the cubics, and the squared error."""
 
     handles: Array  # (n, 2)
     v: Array  # (n, samples + 1)
-    left: Array  # (n,)
+    left: Array  # (n,) squared error
 
     def better(self, other: FitState) -> FitState:
-        """In each row the one with less left."""
+        """Select in each row the state with the smaller error."""
         mine = (self.left < other.left)[:, None]
         return FitState(
             np.where(mine, self.handles, other.handles),
@@ -53,13 +53,13 @@ class FitState(NamedTuple):
 
 
 def fitted_cubics(path: CurvePath) -> list[Cubic]:
-    """Cubics with common tangents along a path, the ends' tangents being the curve's."""
+    """Cubics with common tangents along a path; the end tangents are the curve's."""
     corners = fewest(path, _cubics, ORDER)
     return [Cubic(*row) for row in zip(*map(points_of, corners), strict=True)]
 
 
 def _cubics(path: CurvePath, places: Array) -> tuple[tuple[Array, Array, Array, Array], Array]:
-    """The control points of cubics between places, and how far each strays from the curve, mm."""
+    """Control points of cubics between places, and the error of each in mm."""
     z, tangent = path.inside(places, SAMPLES)
     length = np.abs(np.diff(z, axis=1)).sum(axis=1)
     points = (z - z[:, :1]) / length[:, None]
@@ -72,29 +72,29 @@ def _cubics(path: CurvePath, places: Array) -> tuple[tuple[Array, Array, Array, 
 
 
 def _handles(wanted: FitTargets) -> Array:
-    """The handles of the nearest cubics.
+    """Handles of the nearest cubics.
 
-    Least squares in two unknowns a piece (Levenberg and Marquardt's), no root of one variable.
+    Least squares in two unknowns per piece (Levenberg and Marquardt).
     """
-    # At a cusp the place w goes as the cubic's own parameter does, and elsewhere too.
+    # At a cusp, and elsewhere, the place w is nearly proportional to the cubic's own parameter.
     even = np.broadcast_to(np.linspace(0.0, 1.0, wanted.points.shape[1]), wanted.points.shape)
-    state = _seen(wanted, _first_handles(wanted, even), even)
+    state = _state(wanted, _first_handles(wanted, even), even)
     damping = np.full(len(even), DAMPING)
     for _ in range(STEPS):
-        trial = _seen(wanted, _improved(wanted, state, damping), state.v)
-        trial = _seen(wanted, _improved(wanted, trial, STIFF), trial.v)
+        trial = _state(wanted, _improved(wanted, state, damping), state.v)
+        trial = _state(wanted, _improved(wanted, trial, STIFF), trial.v)
         damping *= np.where(trial.left < state.left, 0.02, 10.0)
         state = trial.better(state)
     return state.handles
 
 
 def _misses(wanted: FitTargets, handles: Array) -> Array:
-    """How far the samples lie from the cubics, mm; the length, where that proves nothing."""
+    """Distances of the samples from the cubics, mm; the piece's length if they prove nothing."""
     v = np.broadcast_to(np.linspace(0.0, 1.0, wanted.points.shape[1]), wanted.points.shape)
     for _ in range(FEET):
         v = _projected(wanted, handles, v)
     miss = np.abs(wanted.points - _bezier(wanted, handles, v)[0]).max(axis=1)
-    # Feet that run back and forth are no proof that the whole cubic is near.
+    # Nearest points that run back and forth do not prove that the whole cubic is near.
     miss[(np.diff(v, axis=1) < 0.0).any(axis=1)] = 1.0
     out: Array = wanted.length * miss
     return out
@@ -114,7 +114,7 @@ def _bezier(wanted: FitTargets, handles: Array, v: Array) -> tuple[Array, Array,
 
 
 def _first_handles(wanted: FitTargets, v: Array) -> Array:
-    """The handles with which the cubics are nearest to the samples at given parameters."""
+    """Handles of the cubics that are nearest to the samples at fixed parameters."""
     u = 1.0 - v
     fixed = wanted.points - v * v * (3.0 - 2.0 * v) * wanted.points[:, -1:]
     first, second = 3.0 * v * u * u * wanted.ahead, -3.0 * v * v * u * wanted.behind
@@ -122,9 +122,9 @@ def _first_handles(wanted: FitTargets, v: Array) -> Array:
 
 
 def _least_squares(first: Array, second: Array, wanted: Array, damping: Array | float) -> Array:
-    """The real factors of two columns that are nearest to what is wanted, in each row.
+    """Real factors of two columns that come nearest to the target, in each row.
 
-    The second one is held back by the damping.
+    The damping restrains the second one.
     """
     a, d = (np.abs(first) ** 2).sum(axis=1), (np.abs(second) ** 2).sum(axis=1)
     b = (first * second.conj()).real.sum(axis=1)
@@ -135,22 +135,22 @@ def _least_squares(first: Array, second: Array, wanted: Array, damping: Array | 
 
 
 def _projected(wanted: FitTargets, handles: Array, v: Array) -> Array:
-    """The places on the cubics nearest to the samples, one step of Newton's closer.
+    """Places on the cubics nearest to the samples, after one more step of Newton's method.
 
-    Not to the last bit and in no bracket, as ``numerics.roots_many`` would: a few steps serve, with
-    the handles still moving, and each must lead to a lesser distance from wherever it starts.
+    ``numerics.roots_many`` would be slower: a few steps are enough while the handles still move.
+    Each step must reduce the distance from any start.
     """
     point, rate, bend = _bezier(wanted, handles, v)
     off = wanted.points - point
     slope = np.abs(rate) ** 2
-    # Half the slope at least: a step towards less, wherever the start
+    # at least half the slope, so that a step reduces the distance from any start
     steep = np.maximum(slope - (off * bend.conj()).real, 0.5 * slope)
     out: Array = np.clip(v + (off * rate.conj()).real / np.maximum(steep, 1e-300), 0.0, 1.0)
     return out
 
 
-def _seen(wanted: FitTargets, handles: Array, v: Array) -> FitState:
-    """The samples' places on these cubics, from places on others, and what is left."""
+def _state(wanted: FitTargets, handles: Array, v: Array) -> FitState:
+    """State of cubics with these handles; the samples' places start from those on other cubics."""
     for _ in range(2):
         v = _projected(wanted, handles, v)
     off = wanted.points - _bezier(wanted, handles, v)[0]
@@ -158,10 +158,10 @@ def _seen(wanted: FitTargets, handles: Array, v: Array) -> FitState:
 
 
 def _improved(wanted: FitTargets, state: FitState, damping: Array | float) -> Array:
-    """Handles with smaller squares of the distances along the normals.
+    """Handles with smaller squared distances along the normals.
 
-    On a short piece both handles bow it in the same way, and their difference matters much less:
-    the valley is narrow and bent. Only the difference is damped.
+    On a short piece both handles bow it in the same direction, and their difference matters much
+    less. The valley of the error is narrow and bent. So only the difference is damped.
     """
     v, u = state.v, 1.0 - state.v
     point, rate, _ = _bezier(wanted, state.handles, v)

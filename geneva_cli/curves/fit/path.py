@@ -1,6 +1,6 @@
 """A smooth curve to be fitted, and the fewest pieces that stay within its tolerance.
 
-Points and tangents are complex numbers here: a product turns one.
+Points and tangents are complex numbers here, so that a product rotates one.
 """
 
 from __future__ import annotations
@@ -39,18 +39,18 @@ Pieces = TypeVar("Pieces")
 class CurvePath:
     """A curve between two parameters; a place on it is a number w from 0 to 1.
 
-    Equal steps of w are equal parts of the length and of the turning alike: the parameter's own
-    speed may go to zero at an end, and at a cusp the curvature may go to infinity.
+    Equal steps of w are equal fractions of length plus turning. So the speed of the curve's own
+    parameter may go to zero at an end, and the curvature may go to infinity at a cusp.
     """
 
     def __init__(self, curve: Curve, a: float, b: float, tolerance: float) -> None:
-        """Raises GenevaError for a tolerance that double precision cannot show at this size, and
-        for a curve that leaps farther.
+        """Raises GenevaError if double precision cannot show the tolerance, or the curve leaps
+        farther.
         """
         self.curve, self.tolerance = curve, tolerance
         self.t = np.linspace(a, b, CELLS + 1)
         points, tangents = self._complex(self.t)
-        # One by one, as a caller would ask: sums over an array may round otherwise.
+        # evaluated one by one as a caller would, since sums over an array may round differently
         self.ends = [self._complex(np.array([t])) for t in (a, b)]
         spacing = float(np.spacing(np.abs(points).max()))
         if not tolerance > FINEST * spacing:
@@ -59,17 +59,17 @@ class CurvePath:
         step = np.abs(np.diff(points))
         if self._leaps(points, step):
             raise GenevaError(
-                f"no smooth curve within {tolerance:g} mm: it leaps, as the walls of a slot or "
-                "groove do where roller and slot overlap"
+                f"no smooth curve within {tolerance:g} mm: it leaps, as walls of a slot or "
+                "groove do if roller and slot overlap"
             )
         turn = np.abs(np.angle(tangents[1:] / tangents[:-1]))
         w = np.cumsum(step / step.sum() + turn / max(float(turn.sum()), LEAST_TURN))
         self.w = np.concatenate(([0.0], w)) / w[-1]
 
     def _leaps(self, points: Array, step: Array) -> bool:
-        """Whether the ends of a cell stay more than a tolerance apart however often it is halved.
+        """True if the ends of a cell stay more than a tolerance apart after any number of halvings.
 
-        Only a cell is halved that is much longer than both of its neighbours.
+        Only a cell that is much longer than both of its neighbours is halved.
         """
         beside = np.pad(step, 1)
         i = np.flatnonzero(step > LEAP * np.maximum(beside[:-2], beside[2:]) + self.tolerance)
@@ -83,7 +83,7 @@ class CurvePath:
         return bool((np.abs(p1 - p0) > self.tolerance).any())
 
     def too_fine(self) -> GenevaError:
-        """The refusal of a tolerance."""
+        """Error for a tolerance that double precision cannot show."""
         return GenevaError(
             f"a tolerance of {self.tolerance:g} mm is finer than double precision can show "
             "at this size"
@@ -114,12 +114,13 @@ def fewest(
 ) -> Pieces:
     """Return the fewest pieces that stay within the path's tolerance, or nearly the fewest.
 
-    ``fit`` returns the pieces between places on the path, and the error of each, mm. Their number
-    is a multiple of ``unit``. An error goes with the length of the piece to the power of ``order``:
-    its root over that of the tolerance is the piece's weight, and the sum of the weights predicts
-    how many pieces there must be. That is a whole number: no root that ``numerics.roots`` has.
+    ``fit`` returns the pieces between places on the path, and the error of each in mm. The number
+    of pieces is a multiple of ``unit``. An error is proportional to the length of the piece to the
+    power of ``order``. Its root over that of the tolerance is the piece's weight, and the sum of
+    the weights predicts the number of pieces. As this is a whole number, no root finder of
+    ``numerics.roots`` applies.
 
-    Raises GenevaError where no number of pieces serves.
+    Raises GenevaError if no number of pieces is enough.
     """
     best, count, too_few, enough = None, unit, 0, PIECES_MAX
     places, weights = np.array([0.0, 1.0]), np.ones(1)
@@ -144,7 +145,7 @@ def fewest(
 
 
 def _respread(places: Array, weights: Array, count: int) -> Array:
-    """Places of ``count`` pieces with equal parts of the weights of the pieces so far."""
+    """Places of ``count`` pieces, each with an equal part of the weights of the present pieces."""
     weights = np.maximum(weights, FLOOR * max(weights.mean(), 1.0)) ** HASTE
     area = np.concatenate(([0.0], np.cumsum(weights)))
     out: Array = np.interp(np.linspace(0.0, area[-1], count + 1), area, places)
@@ -152,5 +153,5 @@ def _respread(places: Array, weights: Array, count: int) -> Array:
 
 
 def points_of(z: Array) -> list[tuple[float, float]]:
-    """Complex numbers as points."""
+    """Convert complex numbers to points."""
     return list(zip(z.real.tolist(), z.imag.tolist(), strict=True))

@@ -1,7 +1,7 @@
-"""Cam-Geneva: the roller slides along the crank, guided by a fixed groove; the slots stay straight.
+"""Cam-Geneva: a fixed groove guides the roller along the crank, and the slots stay straight.
 
-Every law whose velocity at mid-motion is above 0 can be made so, with straight slots that drive
-the wheel positively.
+Every law whose velocity at mid-motion is positive can be made in this way. Straight slots then
+drive the wheel positively.
 """
 
 from __future__ import annotations
@@ -28,7 +28,8 @@ if TYPE_CHECKING:
 class Cam(PinPath, kw_only=True):
     """A fixed groove guides the roller along the crank.
 
-    Needs a ``Motion``: its law is what the groove is cut to. The slots stay straight and radial.
+    It needs a ``Motion``, whose law gives the shape of the groove. The slots stay straight and
+    radial.
 
     >>> Design(External(6), Cam(), Motion(Cycloidal())).peaks.acceleration.max
     1.5
@@ -37,7 +38,7 @@ class Cam(PinPath, kw_only=True):
     NAME: ClassVar[str] = "cam"
     WORDS: ClassVar[str] = "a crank whose roller runs in a cam"
     EXAMPLE: ClassVar[Example] = Example(
-        "a cam-Geneva: straight slots, and a law that a fixed cam makes",
+        "a cam-Geneva: straight slots, and a motion law from a fixed cam",
         {
             "wheel": {"z": 6},
             "motion": {"law": "cycloidal"},
@@ -48,24 +49,23 @@ class Cam(PinPath, kw_only=True):
     ONE_ROLLER: ClassVar[bool] = False
 
     def plan(self, spec: Spec) -> Plan:
-        """The one engagement of each roller."""
+        """The engagement of each roller. Raises GenevaError for an impossible law or ratio."""
         motion, wheel = spec.motion, spec.wheel
-        assert motion is not None  # it needs a law, and what goes together was looked at
+        assert motion is not None  # ``compatible`` refuses a cam without a law
         if motion.ratio is not None:
             raise GenevaError(
-                "ratio has no meaning with a cam: the roller's distance from the crank's axis "
-                "changes",
+                "ratio has no meaning with a cam, since the crank's length changes: remove ratio",
                 ("motion", "ratio"),
             )
         natural = 2.0 * wheel.half_motion_deg(wheel.step)
         motion_deg = natural - motion.alpha0_deg
         refuse_alpha0(motion.alpha0_deg, natural)
-        # Input 0 is where the roller crosses the line of centres: where the wheel is half-way.
+        # At input 0 the roller crosses the line of centres, and the wheel is half-way.
         early = motion.law.half_way * motion_deg
         turned = LawMotion(-early, motion_deg - early, wheel.step.b, motion.law)
         path = SolvedPath(turned, wheel.SIGN)
         _refuse_unreachable(turned, wheel.SIGN)
-        body = Turning(-wheel.SIGN)  # the roller slides along the crank, and turns with it
+        body = Turning(-wheel.SIGN)  # the roller slides along the crank and turns with it
         slot, reactions = RadialSlot(path), Slide()
         engagement = Engagement(
             0.0, path, slot, turned, groove=path, body=body, reactions=reactions
@@ -75,9 +75,9 @@ class Cam(PinPath, kw_only=True):
 
 
 class Slide:
-    """The roller's slide cut free: the groove's wall holds it, and the crank across its arm.
+    """Equilibrium of the roller's slide: forces from the groove's wall and across the crank's arm.
 
-    What the crank holds besides is a couple.
+    The crank also holds a couple.
     """
 
     def __call__(
@@ -98,13 +98,13 @@ class Slide:
 
 
 def _refuse_unreachable(motion: LawMotion, sign: float) -> None:
-    """Raise GenevaError where slot and crank become parallel, or the wheel stands at mid-motion."""
+    """Raise GenevaError if slot and crank become parallel, or the wheel stands at mid-motion."""
     V = motion(0.0, 1).c[1]
     refuse(
         (V <= 0.0) | ((V >= 1.0) & (sign < 0.0)),
         lambda: GenevaError(
-            f"the law moves the wheel {V:.4g} times as fast as the crank at mid-motion; the "
-            "groove needs more than 0" + (" and less than 1 inside" if sign < 0 else ""),
+            f"at mid-motion the law moves the wheel {V:.4g} times as fast as the crank: the "
+            "factor must be above 0" + (" and below 1" if sign < 0 else ""),
             ("motion", "law"),
         ),
     )
@@ -114,8 +114,8 @@ def _refuse_unreachable(motion: LawMotion, sign: float) -> None:
     refuse(
         (wide <= 0.0) | (wide >= math.pi),
         lambda: GenevaError(
-            f"with {motion.exit_deg - motion.entry_deg:.6g} deg of motion crank and slot become "
-            "parallel before the end; a larger alpha0_deg shortens it",
+            f"in {motion.exit_deg - motion.entry_deg:.6g} deg of motion crank and slot become "
+            "parallel before the end: increase alpha0_deg to shorten it",
             ("motion", "alpha0_deg"),
         ),
     )

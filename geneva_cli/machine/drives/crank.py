@@ -1,4 +1,4 @@
-"""The input shaft carries the crank itself."""
+"""A crank directly on the input shaft."""
 
 from __future__ import annotations
 
@@ -8,9 +8,9 @@ from geneva_cli.machine.drives.transmission import About, Transmission, same
 
 
 class Crank(Transmission, kw_only=True):
-    """The plain crank: crank angle and input angle are one.
+    """The plain crank: crank angle and input angle are equal.
 
-    ``n_rpm`` is its constant speed, ``rollers`` how many it carries, evenly unless
+    ``n_rpm`` is its constant speed. ``rollers`` is the number of rollers, evenly spaced unless
     ``roller_angles_deg`` places them.
 
     >>> Design(External(6), Crank(n_rpm=30, rollers=2)).timing.cycle_s  # a roller's passage
@@ -23,9 +23,9 @@ class Crank(Transmission, kw_only=True):
 
     @property
     def direct(self) -> bool:
-        """The classic closed forms hold."""
+        """Always True: the classic closed forms hold."""
         return True
 
     def about(self, crank_deg: float) -> About:
-        """The crank's angle, which is the input's."""
+        """Transmission about a crank angle in degrees, which is the input angle."""
         return About(crank_deg, same)

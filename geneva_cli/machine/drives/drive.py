@@ -1,4 +1,4 @@
-"""The base of the drives: what turns the crank, or moves the roller."""
+"""The base of the drives, which turn the crank or move the roller."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 
 
 class Needs(Enum):
-    """Whether a drive takes a motion law."""
+    """Need of a drive for a motion law: none allowed, optional, or required."""
 
     NO_LAW = "no law"
     MAY = "may"
@@ -35,12 +35,12 @@ class Plan(NamedTuple):
     engagements: tuple[Engagement, ...]
     period_deg: float  # input angle after which the engagements repeat
     ratio: float  # l = R/L at mid-motion
-    rollers_max: int  # most evenly spaced rollers that do not jam
+    rollers_max: int  # greatest number of evenly spaced rollers that do not jam
     center_distance_mm: float
 
 
 class Gears(NamedTuple):
-    """A pair of gears: the distance of their axes, and the crank's turning from input angle 0."""
+    """A pair of gears: the distance of their axes, and the crank's rotation from input angle 0."""
 
     distance_mm: float
     advance: Displacement
@@ -58,37 +58,39 @@ class Drive(SpecTable, kw_only=True):
 
     TABLE: ClassVar[str] = "drive"
     NAME: ClassVar[str]
-    # what drives the wheel, in a sentence
+    # name of the drive in a sentence
     WORDS: ClassVar[str]
-    # a spec to start from, its kind left out
+    # example spec, without its kind
     EXAMPLE: ClassVar[Example]
-    # the only gearings that it drives; empty: any
+    # the only gearings that it drives; empty for any
     GEARINGS: ClassVar[tuple[str, ...]] = ()
     LAW: ClassVar[Needs]
-    # how many rollers: any number, placed as one likes, or one; several only with like motions
+    # True if it carries one roller only; else any number, also unevenly spaced
     ONE_ROLLER: ClassVar[bool] = False
-    # whether the roller stays as far from the crank's axis as it is at mid-motion
+    # True if the roller stays as far from the crank's axis as at mid-motion
     ONE_ARM: ClassVar[bool] = True
-    # whether its slots must be radial and its steps equal
+    # True if its slots must be radial and its steps equal
     RADIAL: ClassVar[bool] = False
-    # whether all rollers on its crank move the wheel alike
+    # True if all rollers on its crank move the wheel alike
     ALIKE: ClassVar[bool] = False
-    # whether its crank can carry a locking disc about the line of centres
+    # True if its crank can carry a locking disc about the line of centres
     LOCKS: ClassVar[bool] = True
-    # whether its roller is carried on a crank, which a plain drive could turn as well
+    # True if a crank carries the roller, so that a plain crank drive could replace it
     CRANKED: ClassVar[bool] = False
-    # whether it is a pair of noncircular gears, which have pitch curves
+    # True for a pair of noncircular gears, which have pitch curves
     GEARED: ClassVar[bool] = False
-    # whether it has other gears, of pitch circles
+    # True if it has other gears, with pitch circles
     TOOTHED: ClassVar[bool] = False
-    # whether its crank is turned by a Geneva wheel of its own
+    # True if a first Geneva wheel turns its crank
     IN_SERIES: ClassVar[bool] = False
-    # the key of [drive] that the reactions of its links need; empty where they need none
+    # key of [drive] that its link reactions need; empty if none
     LENGTH: ClassVar[str] = ""
-    n_rpm: Annotated[float, SPEED, "speed of the input shaft, constant"] = 60.0
-    rollers: Annotated[int, Range(1, Z_MAX), "rollers on the crank, m"] = 1
+    n_rpm: Annotated[float, SPEED, "constant speed of the input shaft"] = 60.0
+    rollers: Annotated[int, Range(1, Z_MAX), "number of rollers on the crank, m"] = 1
     roller_angles_deg: Annotated[
-        tuple[float, ...] | None, Range(0.0, 360.0, "[)"), "where they stand, if not evenly"
+        tuple[float, ...] | None,
+        Range(0.0, 360.0, "[)"),
+        "angles of the rollers on the crank, if not evenly spaced",
     ] = None
 
     @property
@@ -98,11 +100,11 @@ class Drive(SpecTable, kw_only=True):
 
     @property
     def gears(self) -> Gears | None:
-        """The noncircular gears between input and crank; None for a drive that has none."""
+        """Noncircular gears between input and crank; None for a drive without."""
         return None
 
     def first_wheel(self, L: float) -> FirstWheel | None:
-        """The external wheel that turns the crank, L the second's centre distance; None: none."""
+        """External wheel that turns the crank, or None; L is the second wheel's centre distance."""
         return None
 
     def matched_ratio(self, wheel: Gearing, law: Law, motion_deg: float) -> float:
@@ -110,19 +112,19 @@ class Drive(SpecTable, kw_only=True):
         return math.nan
 
     def may_vary(self, table: str, key: str) -> bool:
-        """Whether a number of a table may be an array along a design axis with this drive."""
+        """True if a number of a table may be an array along a design axis with this drive."""
         return True
 
     def doubt(self, input_deg: float) -> Doubt | None:
-        """How far the decimals of a ratio given by points leave the crank's jerk unknown.
+        """Uncertainty of the crank's jerk from the decimals of a ratio file.
 
-        Their number, and by what share of the ratio at an input angle their rounding moves its
-        second derivative; None for a ratio that is not given by points.
+        It holds the number of decimals, and the change of the ratio's second derivative by
+        rounding, as a fraction of the ratio at an input angle. None without a ratio file.
         """
         return None
 
     def input_deg(self, crank_deg: float) -> float:
-        """The input angle from mid-motion at a crank angle from there, degrees."""
+        """Input angle from mid-motion at a crank angle from mid-motion, degrees."""
         return crank_deg
 
     def layout(self, plan: Plan, sign: float) -> Layout:
@@ -134,7 +136,7 @@ class Drive(SpecTable, kw_only=True):
         return ()
 
     def links(self, plan: Plan, sign: float, input_deg: Array) -> tuple[Link, ...]:
-        """The links that turn the crank or carry the roller, at input angles from mid-motion.
+        """Links that turn the crank or carry the roller, at input angles from mid-motion.
 
         >>> from numpy import array
         >>> drive, plan = SideCrank(A=0.6), Design(External(6)).mechanism.plan
@@ -145,4 +147,4 @@ class Drive(SpecTable, kw_only=True):
 
     @abstractmethod
     def plan(self, spec: Spec) -> Plan:
-        """The engagements of a machine. Raises GenevaError for values that make none."""
+        """Engagements and proportions of a machine. Raises GenevaError for impossible values."""

@@ -1,10 +1,10 @@
 """Two equal elliptical gears, each turning about a focus, in front of the crank.
 
-With the driver at phi the driven gear, which carries the crank, is at f:
-tan(f/2) = (1-e)/(1+e) tan(phi/2), slowest at 0. The half angles' directions are
-(cos phi/2, sin phi/2) and ((1+e) cos phi/2, (1-e) sin phi/2).
+With the driver at phi, the driven gear with the crank is at f: tan(f/2) = (1-e)/(1+e) tan(phi/2),
+slowest at 0. The directions of the half angles are (cos phi/2, sin phi/2) and ((1+e) cos phi/2,
+(1-e) sin phi/2).
 
-Source: the focal property of the ellipse; the same law is Kepler's true anomaly.
+Source: the focal property of the ellipse; Kepler's true anomaly follows this law too.
 """
 
 from __future__ import annotations
@@ -28,7 +28,7 @@ MOST = 1.0 - 0.999e-12
 
 
 class EllipticalGears(Transmission, kw_only=True):
-    """Two equal ellipses: the index in their slow phase, or in their quick one.
+    """Two equal elliptical gears, with the index in their slow phase or in their quick one.
 
     ``eccentricity`` is that of the pitch ellipses, 0 or more and below 1; they turn about a focus.
 
@@ -46,16 +46,18 @@ class EllipticalGears(Transmission, kw_only=True):
         },
     )
     GEARED: ClassVar[bool] = True
-    eccentricity: Annotated[float, Range(0.0, 1.0, "[)"), "of the gears' pitch ellipses"]
-    phase: Annotated[str, OneOf(("slow", "quick")), "which index is at mid-motion"] = "slow"
-    gear_distance_mm: Annotated[float, POSITIVE, "distance of the two gears' axes, C"] = 100.0
+    eccentricity: Annotated[
+        float, Range(0.0, 1.0, "[)"), "eccentricity of the gears' pitch ellipses"
+    ]
+    phase: Annotated[str, OneOf(("slow", "quick")), "phase of the gears at mid-motion"] = "slow"
+    gear_distance_mm: Annotated[float, POSITIVE, "distance between the two gears' axes, C"] = 100.0
 
     def __post_init__(self) -> None:
         super().__post_init__()
         refuse(
             self.eccentricity > MOST,
             lambda: GenevaError(
-                f"eccentricity = {self.eccentricity!r}: so near to 1 the motion is rounding; it "
+                f"eccentricity = {self.eccentricity!r}: too close to 1 to be computed; it "
                 "must be at most 1 - 1e-12",
                 ("drive", "eccentricity"),
             ),
@@ -63,11 +65,11 @@ class EllipticalGears(Transmission, kw_only=True):
 
     @property
     def gears(self) -> Gears:
-        """The pair."""
+        """The pair of gears."""
         return Gears(self.gear_distance_mm, self.about(0.0).advance)
 
     def layout(self, plan: Plan, sign: float) -> Layout:
-        """Both ellipses turn about a focus; the driven one is fast on the crank."""
+        """Pivots and dimensions: each gear turns about a focus, the driven one with the crank."""
         a = 0.5 * self.gear_distance_mm
         far = plan.center_distance_mm + self.gear_distance_mm
         return (
@@ -79,11 +81,11 @@ class EllipticalGears(Transmission, kw_only=True):
         )
 
     def reactions(self, wheel: Gearing, path: Path, mid_deg: float, L: float) -> Reactions | None:
-        """The driver's teeth push the driven gear, which is fast on the crank."""
+        """Reactions of the crank, whose gear is pushed by the driver's teeth."""
         return Mesh(path, self.gear_distance_mm / L)
 
     def about(self, crank_deg: float) -> About:
-        """About the driven gear's angle f in degrees."""
+        """Transmission about an angle f of the driven gear in degrees."""
         slow = self.phase == "slow"
         return _about(self.eccentricity if slow else -self.eccentricity, crank_deg)
 
@@ -91,8 +93,8 @@ class EllipticalGears(Transmission, kw_only=True):
 class Focal(NamedTuple):
     """The gears about one angle f of the driven one.
 
-    Half angles: the driven gear's direction, the driver's, and W = 1 + e² + 2 e cos phi = size²
-    there, a sum of positive terms.
+    It holds half angles: the direction of the driven gear, then that of the driver. ``size``² is W
+    = 1 + e² + 2 e cos phi there, a sum of positive terms.
     """
 
     e: float
@@ -103,12 +105,12 @@ class Focal(NamedTuple):
     size: float
 
     def __call__(self, tau: Number, order: int) -> tuple[Jet, Jet]:
-        """sin d and 1 - cos d of the driven gear's angle d since, ``tau`` input radians later."""
+        """sin d and 1 - cos d of the driven gear's rotation d, ``tau`` input radians later."""
         e = self.e
         m = library(tau, e, self.size)
         least = (1.0 - e) * (1.0 + e)
         s, c = m.sin(0.5 * tau), m.cos(0.5 * tau)
-        # Half angles: the driver's direction, and the driven gear's against its own at f.
+        # Half angles: the driver's direction, and the driven gear's from its own at f.
         sine, cosine = self.sin_p * c + self.cos_p * s, self.cos_p * c - self.sin_p * s
         across = self.size * self.size * s
         along = least * c - 4.0 * e * self.sin_h * self.cos_h * s
@@ -126,6 +128,6 @@ def _about(e: float, crank_deg: float) -> About:
     a, b = (1.0 + e) * sin_h, (1.0 - e) * cos_h
     size = m.hypot(a, b)
     phi = 2.0 * m.degrees(m.atan2(a, b))
-    turns = (crank_deg - phi) / 720.0  # half angles come round every two turns
+    turns = (crank_deg - phi) / 720.0  # half angles repeat after two turns
     phi = phi + 720.0 * (round(turns) if isinstance(turns, float) else m.rint(turns))
     return About(phi, Focal(e, sin_h, cos_h, a / size, b / size, size))

@@ -1,9 +1,10 @@
 """Gear-Geneva: the roller sits on a planet that rolls on a fixed sun, or in a fixed ring.
 
-With the carrier R0 at phi the roller is at R0 e^(i phi) + rp e^(i c phi), c = 1 + u on a sun and
-1 - u in a ring, u = fixed teeth / planet teeth. It enters its slot without shock at an extreme of
-this trochoid, where both arms are in line: u = 2z/(z-2), R0 - rp = L sin b. The jump at entry is
-(R0 - c² rp)/(L cos b), zero for rp = L sin b/(c² - 1); rp < 0 lowers the peak instead.
+With the carrier R0 at phi the roller is at R0 e^(i phi) + rp e^(i c phi). The rate c is 1 + u on a
+sun and 1 - u in a ring, with u = fixed teeth / planet teeth. The roller enters its slot without
+shock at an extreme of this trochoid, where both arms are in line: u = 2z/(z-2), R0 - rp = L sin b.
+The jump at entry is (R0 - c² rp)/(L cos b), which is zero for rp = L sin b/(c² - 1). A negative rp
+lowers the peak instead.
 """
 
 from __future__ import annotations
@@ -31,10 +32,10 @@ if TYPE_CHECKING:
 
 
 class Epicyclic(PinPath, kw_only=True):
-    """A planet carries the roller.
+    """A planet gear carries the roller.
 
-    ``planet_ratio`` is the planet's crank over the centre distance, or "shockless" for the one
-    whose acceleration does not jump at entry; ``fixed`` is the gear that the planet rolls on.
+    ``planet_ratio`` is the planet's crank over the centre distance; with "shockless" the
+    acceleration does not jump at entry. ``fixed`` is the gear that the planet rolls on.
 
     >>> soft = Design(External(4), Epicyclic(planet_ratio="shockless"))
     >>> abs(soft.peaks.ends.acceleration_entry) < 1e-9
@@ -60,12 +61,12 @@ class Epicyclic(PinPath, kw_only=True):
     fixed: Annotated[str, OneOf(("sun", "ring")), "fixed gear that the planet rolls on"] = "sun"
 
     def plan(self, spec: Spec) -> Plan:
-        """The one engagement, the planet's arm pointing outwards at mid-motion."""
+        """The engagement, with the planet's arm pointing outwards at mid-motion."""
         wheel = spec.wheel
         refuse(
             (wheel.z != 3) & (wheel.z != 4) & (wheel.z != 6),
             lambda: GenevaError(
-                f"z = {wheel.z}: the planet comes round once a turn only where 2z/(z-2) is whole; "
+                f"z = {wheel.z}: the planet's path closes only if 2z/(z-2) is a whole number: "
                 "z must be 3, 4 or 6",
                 ("wheel", "z"),
             ),
@@ -96,7 +97,9 @@ class Epicyclic(PinPath, kw_only=True):
         return self.planned(engagement, R0 + rp, spec.given_distance_mm)
 
     def layout(self, plan: Plan, sign: float) -> Layout:
-        """Carrier, planet crank and gears; at input 0 both arms point at the wheel."""
+        """Pivots and dimensions of carrier, planet crank and gears; at input 0 both arms point at
+        the wheel.
+        """
         reactions = cast(PlanetReactions, plan.engagements[0].reactions)
         L = plan.center_distance_mm
         R0, rp, teeth = L * reactions.R0, L * reactions.rp, abs(reactions.c - 1.0)
@@ -112,7 +115,7 @@ class Epicyclic(PinPath, kw_only=True):
         )
 
     def links(self, plan: Plan, sign: float, input_deg: Array) -> tuple[Link, ...]:
-        """Carrier, the planet's arm, and the pitch circles of planet and fixed gear."""
+        """Carrier, planet arm, and the pitch circles of planet and fixed gear, at input angles."""
         reactions = cast(PlanetReactions, plan.engagements[0].reactions)
         L, still, turn = plan.center_distance_mm, 0.0 * input_deg, radians(input_deg)
         R0, rp, c = L * reactions.R0, L * reactions.rp, reactions.c
@@ -136,7 +139,7 @@ class Epicyclic(PinPath, kw_only=True):
 
 
 class PlanetReactions(NamedTuple):
-    """The planet cut free: the carrier's pin holds it, and the fixed gear where they mesh.
+    """Equilibrium of the planet, held by the carrier's pin and by the fixed gear at the mesh.
 
     The mesh is -R0/c farther out than the planet's axis: nearer on a sun, farther in a ring.
     """
@@ -161,9 +164,9 @@ class PlanetReactions(NamedTuple):
 
 
 class Arms(NamedTuple):
-    """Carrier and planet about a pose: their slopes and bends, the planet's rate c.
+    """Carrier and planet about a pose: their slopes and bends, and the planet's rate c.
 
-    ``radial`` is the sense of their speed along the ray, ``level`` 1 where it is across.
+    ``radial`` is the sense of their speed along the ray; ``level`` is 1 if the speed is across it.
     """
 
     radial: float
@@ -172,12 +175,12 @@ class Arms(NamedTuple):
     c: float
 
     def __call__(self, tau: Number, order: int) -> tuple[Jet, Jet]:
-        """The pin's displacement since then, along the ray and across it."""
+        """The pin's displacement since the pose, along the ray and across it."""
         u: Jet | None = None
         v: Jet | None = None
         for (slope, bend), rate in zip(self.arms, (1.0, self.c), strict=True):
             sine, versine = sine_versine(Jet.variable(tau, order) * rate)
-            # On the ray's own axes: at the ends the speed is along it, at mid-motion across.
+            # In the ray's frame the speed is along it at the ends, and across it at mid-motion.
             du = sine * (slope * self.radial) + versine * (bend * self.level)
             dv = sine * (slope * self.level) + versine * (bend * (1.0 - self.level))
             u, v = (du, dv) if u is None or v is None else (u + du, v + dv)
@@ -186,17 +189,17 @@ class Arms(NamedTuple):
 
 
 def _refuse_reach(l: float, rp: float, teeth: int, c: float) -> None:
-    """Raise GenevaError where the wheel would start backwards or the roller leave its slot.
+    """Raise GenevaError if the wheel would start backwards or the roller would leave its slot.
 
-    Forward from rest: R0 >= c² rp. Into the slot at entry: R0 > c rp. Forward at mid-motion:
-    R0 + c rp > 0, where R0 = l + rp.
+    Forward from rest: R0 >= c² rp. Into the slot at entry: R0 > c rp. Forward at mid-motion: R0 + c
+    rp > 0, where R0 = l + rp.
     """
     most = l / (c * c - 1.0)
     least = -l / choose(c > 0.0, 1.0 + c, teeth)
     refuse(
         (rp <= least) | (rp > most),
         lambda: GenevaError(
-            f"planet_ratio = {rp:.6g}: the wheel would turn back, or the roller leave its slot; it "
+            f"planet_ratio = {rp:.6g}: the wheel would turn back, or the roller leave its slot: it "
             f"must be above {least:.6g} and at most {most:.6g} (shockless)",
             ("drive", "planet_ratio"),
         ),

@@ -1,8 +1,8 @@
 """A four-bar linkage in front of the wheel: the roller is a point of its coupler.
 
-Crank a from the input's axis to the pin A, coupler b from A to B, rocker c from B to its own pivot
-at the distance g; the roller C stands k from A, at an angle from the line AB. The wheel's centre is
-not given but solved for.
+Crank a runs from the input's axis to the pin A, coupler b from A to B, and rocker c from B to its
+own pivot at the distance g. The roller C is at the distance k from A, at an angle from the line AB.
+The wheel's centre is solved for.
 """
 
 from __future__ import annotations
@@ -24,9 +24,9 @@ from geneva_cli.spec.rules import POSITIVE, OneOf, Range
 class FourBar(Linkage, kw_only=True):
     """A point of a four-bar's coupler carries the roller.
 
-    Links in mm, ``point_deg`` from the coupler's line to the roller's; the wheel that the path can
-    drive is solved for. Raises GenevaError, when the machine is built, where the links do not close
-    or their path drives no wheel.
+    Links are in mm; ``point_deg`` is the angle from the coupler's line to the roller's. The wheel
+    that the path can drive is solved for. Building the machine raises GenevaError if the links do
+    not close or their path drives no wheel.
 
     >>> coupler = FourBar(
     ...     crank_mm=40, ground_mm=90, coupler_mm=100, rocker_mm=100,
@@ -55,11 +55,11 @@ class FourBar(Linkage, kw_only=True):
             "size": {"roller_radius_mm": 2.0, "wheel_hub_mm": 0.0},
         },
     )
-    crank_mm: Annotated[float, POSITIVE, "crank a"]
-    ground_mm: Annotated[float, POSITIVE, "distance g of the fixed pivots"]
-    coupler_mm: Annotated[float, POSITIVE, "coupler b, from crank pin A to rocker pin B"]
-    rocker_mm: Annotated[float, POSITIVE, "rocker c"]
-    point_mm: Annotated[float, POSITIVE, "roller C from the crank pin A"]
+    crank_mm: Annotated[float, POSITIVE, "length of crank a"]
+    ground_mm: Annotated[float, POSITIVE, "distance g between the fixed pivots"]
+    coupler_mm: Annotated[float, POSITIVE, "length of coupler b, from crank pin A to rocker pin B"]
+    rocker_mm: Annotated[float, POSITIVE, "length of rocker c"]
+    point_mm: Annotated[float, POSITIVE, "distance of roller C from crank pin A"]
     point_deg: Annotated[float, Range(-360.0, 360.0), "angle BAC, from AB to AC"]
     branch: Annotated[str, OneOf(("+", "-")), "side of the crank's line the coupler is on"] = "+"
 
@@ -72,7 +72,7 @@ class FourBar(Linkage, kw_only=True):
             rocker_mm=self.rocker_mm,
             point_mm=self.point_mm,
         )
-        # Grashof: the crank turns all round.
+        # Grashof's condition: the crank can make a full turn.
         others = [self.ground_mm, self.coupler_mm, self.rocker_mm]
         limit = smaller(reduce(smaller, others), sum(others) - 2.0 * reduce(larger, others))
 
@@ -80,8 +80,8 @@ class FourBar(Linkage, kw_only=True):
             below = f"it must be below {limit:.6g}"
             helps = below if limit > 0.0 else "change the other links first"
             return GenevaError(
-                f"crank_mm = {self.crank_mm:g}: the crank cannot turn all round (Grashof: it is "
-                "the shortest link, and with the longest shorter than the other two together); "
+                f"crank_mm = {self.crank_mm:g}: the crank cannot make a full turn (Grashof: it "
+                "must be the shortest link, and with the longest below the sum of the other two); "
                 f"{helps}",
                 ("drive", "crank_mm"),
             )
@@ -89,7 +89,7 @@ class FourBar(Linkage, kw_only=True):
         refuse(self.crank_mm >= limit, error)
 
     def layout(self, plan: Plan, sign: float) -> Layout:
-        """Links, and the joints at input 0."""
+        """Joints at input 0, and lengths of the links."""
         return (
             self.placed(plan, "rocker axis", self.ground_mm, 0.0),
             *self.linked(plan),
@@ -109,7 +109,7 @@ class FourBar(Linkage, kw_only=True):
 
     @property
     def roller_path(self) -> CouplerPath:
-        """The path of its point."""
+        """Path of the coupler point that carries the roller."""
         return CouplerPath(self)
 
 
@@ -121,8 +121,8 @@ class CouplerPath(RodPath):
 
         1/2 (1 + (a² - g²) / D) - a g sin phi (1 - (b² - c²) / D) / N
 
-    a radian of the crank, the turn of d and that of k. Its numbers are crank, ground, coupler,
-    rocker, and the point's place on the coupler: a, g, b, c, p, q.
+    per radian of the crank, which is the sum of the rotations of d and k. Its numbers are crank,
+    ground, coupler, rocker, and the point's coordinates on the coupler: a, g, b, c, p, q.
     """
 
     def __init__(self, keys: FourBar) -> None:
@@ -133,12 +133,12 @@ class CouplerPath(RodPath):
     def carried(
         self, p: float, q: float, sine: Jet, cosine: Jet, exact: bool = False
     ) -> tuple[Jet, Jet]:
-        """A vector p along the coupler, from A towards B, and q across it."""
+        """Vector in the frame with p along the coupler, from A towards B, and q across it."""
         a, g, b, c, _, _ = self.exact if exact else self.rough
         order = sine.order
         sine, cosine = (Jet(x.c[: max(order, 1)]) for x in (sine, cosine))
         dx, dy = g - cosine.c[0] * a, sine.c[0] * -a
-        D = Jet((dx * dx + dy * dy, *(cosine * (-2 * g * a)).c[1:]))  # as a² is constant
+        D = Jet((dx * dx + dy * dy, *(cosine * (-2 * g * a)).c[1:]))  # a² is constant
         m, u = (b - c) * (b + c), 1 / D
         # N² as a product (Heron)
         N = sqrt(((b + c) ** 2 - D) * (D - (b - c) ** 2)) * self.side
@@ -148,13 +148,15 @@ class CouplerPath(RodPath):
         return turned_at(rate, ex * p - ey * q, ex * q + ey * p, order)
 
     def hold(self, sine: Jet, cosine: Jet) -> tuple[float, tuple[Jet, Jet]]:
-        """The rocker pulls or pushes along itself."""
+        """Coupler length from A to B, and the rocker's direction, in which it pushes or pulls."""
         a, g, b, c, _, _ = self.rough
         ex, ey = self.link(sine, cosine)
         return b, ((cosine * a + ex * b - g) / c, (sine * a + ey * b) / c)
 
     def about(self, sine: float, cosine: float) -> PointDisplacement:
-        """The change of each of A, D, 1/D, N, k and e, from the one before it."""
+        """Displacement since a crank direction: A, D, 1/D, N, k and e change each by the one
+        before.
+        """
         a, g, b, c, p, q = self.exact
         D0 = g * g + a * a - 2 * g * a * cosine
         above, below = (b + c) ** 2 - D0, D0 - (b - c) ** 2
@@ -168,7 +170,7 @@ class CouplerPath(RodPath):
 
 
 class CouplerDisplacement(NamedTuple):
-    """What the coupler's point moves by, from the numbers of one crank angle."""
+    """Displacement of the coupler's point, from the numbers of one crank angle."""
 
     s: float
     t: float
@@ -188,7 +190,7 @@ class CouplerDisplacement(NamedTuple):
     Q: float
 
     def __call__(self, sine: Jet, versine: Jet) -> tuple[Jet, Jet]:
-        """The point's displacement, from sin d and 1 - cos d of the crank's angle d since then."""
+        """Displacement from sin d and 1 - cos d of the crank's rotation d since then."""
         x, y = sine * -self.s - versine * self.t, sine * self.t - versine * self.s
         D = x * -self.span
         u = 1.0 / (D + 1.0 / self.inverse)

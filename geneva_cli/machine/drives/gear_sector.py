@@ -1,11 +1,12 @@
-"""Gear sectors that take over from the slot at a constant ratio, for steps that a slot cannot make.
+"""Gear sectors that replace the slot at a constant ratio, for steps that a slot cannot make.
 
-The roller starts the wheel in a straight slot of half angle b. Where the wheel has reached u times
-the crank's speed, toothed sectors take over at that ratio for a crank angle D, and the next roller
-stops the wheel in its own slot. The speeds agree at the crank angle a_t with
-sin²(a_t/2) = w (1-w) / (2l (1+u) (1 + 2u)), w = 1 - (1-l)(1+u); the acceleration jumps there, but
-not for w = 0, u = l/(1-l), where a_t = 0 and the pitch circles are R and L - R. The step is
-2 (b - psi_t) + u D.
+The roller starts the wheel in a straight slot of half angle b. When the wheel reaches u times the
+crank's speed, toothed sectors drive it at that ratio for a crank angle D. Then the next roller
+stops the wheel in its own slot.
+
+The speeds agree at the crank angle a_t with sin²(a_t/2) = w (1-w) / (2l (1+u) (1 + 2u)), w = 1 -
+(1-l)(1+u). The acceleration jumps there, except for w = 0, u = l/(1-l): then a_t = 0 and the pitch
+circles are R and L - R. The step is 2 (b - psi_t) + u D.
 """
 
 from __future__ import annotations
@@ -36,8 +37,8 @@ if TYPE_CHECKING:
 class GearSector(PinPath, kw_only=True):
     """Slot, gears at constant ratio, slot.
 
-    ``sector_deg`` is the crank's angle in gear; ``gear_ratio`` the wheel's speed over the crank's
-    there, or "shockless" for the one at which the speed does not jump.
+    ``sector_deg`` is the crank's angle in gear. ``gear_ratio`` is the wheel's speed over the
+    crank's in gear, or "shockless" for the ratio without a jump in acceleration at the handover.
 
     >>> Design(External(3), GearSector(sector_deg=60)).timing.motion_deg
     180.0
@@ -54,11 +55,11 @@ class GearSector(PinPath, kw_only=True):
     )
     TOOTHED: ClassVar[bool] = True
     ONE_ARM: ClassVar[bool] = True  # both rollers are on the crank
-    sector_deg: Annotated[float, Range(0.0, 330.0, "(]"), "crank angle that the gears drive, D"]
+    sector_deg: Annotated[float, Range(0.0, 330.0, "(]"), "crank angle in gear, D"]
     gear_ratio: Annotated[
         float | str,
         Words(POSITIVE, ("shockless",)),
-        'wheel speed / crank speed in the gears; "shockless" for no jump',
+        'wheel speed / crank speed in gear; "shockless" for no jump',
     ] = "shockless"
 
     def plan(self, spec: Spec) -> Plan:
@@ -68,7 +69,7 @@ class GearSector(PinPath, kw_only=True):
         return self.planned(engagement, library(b).sin(b), spec.given_distance_mm)
 
     def layout(self, plan: Plan, sign: float) -> Layout:
-        """The slot, rollers and slots apart, and where and at what ratio the gears drive."""
+        """Dimensions of slot, gears and handover, and angles between rollers and between slots"""
         L, (engagement, *_) = plan.center_distance_mm, plan.engagements
         b, u, handover, _ = self._solved(engagement.half_step)
         first, last = engagement.ahead_deg
@@ -109,20 +110,20 @@ class GearSector(PinPath, kw_only=True):
         )
 
     def _solved(self, half_step: float) -> Handover:
-        """The slot and its handover that together with the gears give the step."""
+        """The slot and its handover that give the step together with the gears."""
         D, u = radians(self.sector_deg), self.gear_ratio
         if isinstance(u, str):  # the step grows with b
             b = boundary(lambda b: _shockless(b).turned(D) >= half_step, half_step, 1e-9)
             return _shockless(b)
-        # A slot with u > l/(1-l) never reaches the speed u; of the others, the sooner one
-        # reaches it, the less it turns the wheel.
+        # A slot with u > l/(1-l) never reaches the speed u. Among the others, the wheel turns less
+        # the sooner the slot reaches it.
         ends = (math.pi / 2.0 - 1e-6, 0.0)
         least, most = (2.0 * (half_step - _handover(u, x).turned(0.0)) / u for x in reversed(ends))
         refuse(
             (least > D) | (most < D),
             lambda: GenevaError(
-                f"sector_deg = {self.sector_deg:g}: a slot that comes up to {u:g} times the "
-                f"crank's speed leaves no such step of {math.degrees(2.0 * half_step):.6g} deg; it "
+                f"sector_deg = {self.sector_deg:g}: with a slot that reaches {u:g} times the "
+                f"crank's speed it gives no step of {math.degrees(2.0 * half_step):.6g} deg: it "
                 f"must be at least {math.degrees(least):.6g}, at most {math.degrees(most):.6g}",
                 ("drive", "sector_deg"),
             ),
@@ -131,7 +132,7 @@ class GearSector(PinPath, kw_only=True):
 
 
 class Handover(NamedTuple):
-    """Half angle b of a slot, and where gears of a ratio u take over: a_t and psi_t, radians."""
+    """Half angle b of a slot, and the handover to gears of ratio u: a_t and psi_t, radians."""
 
     half_angle: float
     ratio: float
@@ -139,19 +140,19 @@ class Handover(NamedTuple):
     wheel: float
 
     def turned(self, sector: float) -> float:
-        """Half the step, for gears that drive over a crank angle."""
+        """Half the step, for gears that drive over a crank angle ``sector`` in radians."""
         return self.half_angle - self.wheel + 0.5 * self.ratio * sector
 
 
 def _shockless(b: float) -> Handover:
-    """At mid-motion: u = l/(1-l)."""
+    """Handover at mid-motion: u = l/(1-l)."""
     m = library(b)
     short = 2.0 * m.sin(0.5 * (0.5 * math.pi - b)) ** 2  # 1 - l
     return Handover(b, m.sin(b) / short, 0.0, 0.0)
 
 
 def _handover(u: float, x: float) -> Handover:
-    """Of the slot with w = sin² x: in x, b is smooth up to 90 degrees, and a_t down to 0."""
+    """Handover of the slot with w = sin² x, so that b is smooth up to 90° and a_t down to 0."""
     m = library(u, x)
     s, c = m.sin(x), m.cos(x)
     l, short = (u + s * s) / (1.0 + u), c * c / (1.0 + u)
@@ -162,7 +163,7 @@ def _handover(u: float, x: float) -> Handover:
 
 
 class SectorMotion(Motion):
-    """The slot's motion at both ends, and the gears' between them."""
+    """The slot's motion at both ends, and the gears' motion between them."""
 
     def __init__(self, inner: Motion, handover: float, sector_deg: float, u: float) -> None:
         self.inner, self.u = inner, u
@@ -175,16 +176,16 @@ class SectorMotion(Motion):
 
     @property
     def breaks_deg(self) -> tuple[float, ...]:
-        """Entry, both handovers with mid-motion between them, and exit."""
+        """Entry, both handovers with mid-motion between them, and exit, in degrees."""
         return (self.entry_deg, -self.half_sector, 0.0, self.half_sector, self.exit_deg)
 
     def slot_deg(self, input_deg: Number) -> Number:
-        """The crank angle in the slot's own motion; while the gears drive, the one at handover."""
+        """Crank angle in the slot's own motion; while the gears drive, that of the handover."""
         out = larger(size(input_deg) - self.half_sector, 0.0) + self.handover_deg
         return library(out, input_deg).copysign(out, input_deg)
 
     def __call__(self, input_deg: Number, order: int = 3) -> Jet:
-        """The wheel's angle: the slot's motion, with the gears' inserted at the handover."""
+        """Wheel angle: the slot's motion, with the gears' motion inserted at the handover."""
 
         def before(x: Number) -> Jet:
             at = self.inner.entry_deg + (x - self.entry_deg)
@@ -207,7 +208,7 @@ class SectorPath(NamedTuple):
     motion: SectorMotion
 
     def __call__(self, input_deg: Number, order: int = 3) -> tuple[Jet, Jet]:
-        """The roller's centre."""
+        """Roller centre (x, y) at input angles in degrees."""
         return self.inner(self.motion.slot_deg(input_deg), order)
 
 
@@ -220,11 +221,11 @@ class SectorSlot(Slot):
         self.inner, self.motion = inner, motion
 
     def __call__(self, input_deg: Number, order: int = 3) -> tuple[Jet, Jet]:
-        """The pin runs along the slot's straight axis."""
+        """Pin (x, y) in the wheel, on the slot's straight axis."""
         return self.inner(self.motion.slot_deg(input_deg), order)
 
     def axis(self, input_deg: Number, order: int = 0) -> SlotAxis:
-        """The slot's lever and speed; in the gears the pitch radius L/(1+u), and no sliding."""
+        """The slot's lever and speed; in gear the pitch radius L/(1+u), and no sliding."""
         lever, along = self.inner.axis(self.motion.slot_deg(input_deg), order)
         slot = self.touches(input_deg)
         return SlotAxis(lever * slot + (1.0 - slot) / (1.0 + self.motion.u), along * slot)
@@ -236,7 +237,7 @@ class SectorSlot(Slot):
 
 
 class SectorEngagement(Engagement):
-    """The engagement of slot, gears and slot: two rollers' passages as one."""
+    """The engagement of slot, gears and slot: the passages of two rollers as one."""
 
     def __init__(
         self, inner: Engagement, slot: RadialSlot, handover: float, sector_deg: float, u: float
@@ -247,7 +248,7 @@ class SectorEngagement(Engagement):
         self._inner, self._sector = inner, motion
 
     def carrier(self, input_deg: Number, order: int = 0) -> Jet:
-        """As of the plain wheel: the roller sits on the crank."""
+        """Rate of the plain wheel's crank, on which the roller sits."""
         return self._inner.carrier(self._sector.slot_deg(input_deg), order)
 
     @property
@@ -257,13 +258,13 @@ class SectorEngagement(Engagement):
 
     @property
     def ahead_deg(self) -> tuple[float, ...]:
-        """The roller that starts the wheel leads, the other follows: D - 2 a_t apart."""
+        """Lead of the starting roller, and of the stopping one: D - 2 a_t apart."""
         half = self._sector.half_sector - self._sector.handover_deg
         return (half, -half)
 
     @property
     def overtaking(self) -> float:
-        """2 (psi_t - u a_t): the slot would turn the wheel by 2 psi_t from -a_t to a_t."""
+        """Angle 2 (psi_t - u a_t): the slot would turn the wheel by 2 psi_t from -a_t to a_t."""
         a = self._sector.handover_deg
         turn = parameter(self._inner.motion(a, 0).c[0])
         return 2.0 * (turn - self._sector.u * radians(a))

@@ -1,8 +1,8 @@
 """Two Geneva wheels in series: the first wheel carries the crank of the second.
 
-The second wheel moves while the first makes one of its steps, once in a turn of the first wheel. It
-starts from a crank that is itself just starting or running, so its jump is the first one's speed
-squared times tan b: none where both motions begin together (as with four slots on four).
+The second wheel moves during one step of the first, once in a turn of the first wheel. It starts
+from a crank that is itself starting or running. So its jump is the first wheel's speed squared
+times tan b. There is none if both motions begin together, as with four slots on four.
 """
 
 from __future__ import annotations
@@ -30,7 +30,7 @@ if TYPE_CHECKING:
 class GenevaPair(Transmission, kw_only=True):
     """An external wheel in front of the crank: one index in many turns of the input.
 
-    ``first_z`` is the number of its slots: so many turns of the input are one index.
+    ``first_z`` is its number of slots, and the number of input turns for one index.
 
     >>> Design(External(4), GenevaPair(first_z=4)).timing.cycle_s  # at 60 rpm
     4.0
@@ -48,23 +48,25 @@ class GenevaPair(Transmission, kw_only=True):
     ONE_ROLLER: ClassVar[bool] = True
     IN_SERIES: ClassVar[bool] = True
     LENGTH: ClassVar[str] = "first_distance_mm"
-    first_z: Annotated[int, Range(3, Z_MAX), "slots of the first wheel, external"]
+    first_z: Annotated[int, Range(3, Z_MAX), "number of slots of the first, external wheel"]
     first_distance_mm: Annotated[
-        float | None, POSITIVE, "first centre distance, for the forces in it (parts: as L)"
+        float | None, POSITIVE, "first centre distance, for its forces (parts use L by default)"
     ] = None
 
     @property
     def turns(self) -> int:
-        """Input turns in a turn of the second crank."""
+        """Number of input turns in one turn of the second crank."""
         return self.first_z
 
     @property
     def reach_deg(self) -> float:
-        """Farthest the second crank may be from mid-step while it moves its wheel."""
+        """Greatest angle of the second crank from mid-step while it moves its wheel, degrees."""
         return 180.0 / self.first_z
 
     def layout(self, plan: Plan, sign: float) -> Layout:
-        """The first wheel is fast on the second crank; its pair is drawn as large as the second."""
+        """Pivots and dimensions of the first pair; by default its centre distance equals the
+        second's.
+        """
         L = plan.center_distance_mm
         first = self._distance_mm(L)
         return (
@@ -77,7 +79,7 @@ class GenevaPair(Transmission, kw_only=True):
         )
 
     def links(self, plan: Plan, sign: float, input_deg: Array) -> tuple[Link, ...]:
-        """The first crank, and the first wheel's rim."""
+        """The first crank, and the rim of the first wheel, at input angles."""
         L, step = plan.center_distance_mm, poses.HalfStep(1, self.first_z)
         turn, still, first = radians(input_deg), 0.0 * input_deg, self._distance_mm(L)
         m, R, far = library(turn), first * step.sin_cos[0], L + first
@@ -89,21 +91,21 @@ class GenevaPair(Transmission, kw_only=True):
         )
 
     def first_wheel(self, L: float) -> FirstWheel:
-        """The first of the pair."""
+        """Slots of the first wheel, and its centre distance."""
         return FirstWheel(self.first_z, self._distance_mm(L))
 
     def _distance_mm(self, L: float) -> float:
         return L if self.first_distance_mm is None else self.first_distance_mm
 
     def reactions(self, wheel: Gearing, path: Path, mid_deg: float, L: float) -> Reactions | None:
-        """The first crank's roller pushes across the first wheel's slot."""
+        """Reactions to the first crank's roller, which pushes across the first wheel's slot."""
         if self.first_distance_mm is None:
             return None
         l = poses.HalfStep(1, self.first_z).sin_cos[0]
         return FirstRoller(l, self.first_distance_mm / L, wheel.SIGN, radians(mid_deg))
 
     def about(self, crank_deg: float) -> About:
-        """About an angle of the second crank within the first wheel's step, degrees."""
+        """Transmission about an angle of the second crank (degrees) within the first step."""
         entry, middle, exit_ = poses.radial(1.0, poses.HalfStep(1, self.first_z))
         reach = self.reach_deg
         inside = choose(abs(crank_deg) < reach, crank_deg, 0.0)
@@ -114,16 +116,17 @@ class GenevaPair(Transmission, kw_only=True):
 
 
 class FirstRoller(Pushed):
-    """The first crank's roller in the first wheel's slot: radius l over ``distance``, that over L.
+    """The first crank's roller in the first wheel's slot.
 
-    The first crank turns against the first wheel, and that with the second crank.
+    ``l`` is its radius over its centre distance, and ``distance`` is that distance over L. The
+    first crank turns against the first wheel, which turns with the second crank.
     """
 
     def __init__(self, l: float, distance: float, sign: float, mid: float) -> None:
         self.l, self.distance, self.sign, self.mid = l, distance, sign, mid
 
     def line(self, input_deg: Number, order: int) -> tuple[Vector, Vector]:
-        """The roller as seen from the first wheel's axis, and across its slot."""
+        """Roller position from the first wheel's axis, and the direction across its slot."""
         s, c = sin_cos(Jet.variable(radians(input_deg) + self.mid, order))
         x, y = (1.0 - c * self.l) * self.distance, s * (-self.sign * self.l * self.distance)
         return (x, y), (y * -1.0, x)
@@ -135,7 +138,7 @@ class FirstTurning(NamedTuple):
     pose: poses.PinPose
 
     def __call__(self, tau: Number, order: int) -> tuple[Jet, Jet]:
-        """sin d and 1 - cos d of its angle d since then, ``tau`` input radians later."""
+        """sin d and 1 - cos d of its rotation d since then, ``tau`` input radians later."""
         sine, versine = sine_versine(Jet.variable(tau, max(order, 1)))
         along, across = self.pose.displacement(sine, versine)
         along = along + self.pose.along
@@ -144,10 +147,10 @@ class FirstTurning(NamedTuple):
 
 
 def _crank_at(first_z: int, wheel_deg: float) -> float:
-    """The first crank's angle a, radians, where its wheel is at psi: sin(a + psi) = sin psi / l.
+    """Angle a of the first crank, radians, with its wheel at psi: sin(a + psi) = sin psi / l.
 
-    With k = l cos(a + psi) = sqrt(sin(b - psi) sin(b + psi)) nothing cancels in
-    l sin a = sin psi cos² b / (cos psi + k) and l cos a = k cos psi + sin² psi.
+    With k = l cos(a + psi) = sqrt(sin(b - psi) sin(b + psi)) the angle is that of l sin a = sin psi
+    cos² b / (cos psi + k) and l cos a = k cos psi + sin² psi, in which nothing cancels.
     """
     if not (isinstance(first_z, int) and isinstance(wheel_deg, float)):
         each: float = of_each(lambda z, deg: (_crank_at(z, deg),), first_z, wheel_deg)[0]
@@ -155,14 +158,14 @@ def _crank_at(first_z: int, wheel_deg: float) -> float:
     step = poses.HalfStep(1, first_z)
     n, d = wheel_deg.as_integer_ratio()
     whole = 180 * d * step.q
-    here, less = 180 * d * step.p, n * step.q  # b and psi, in parts of pi
+    here, less = 180 * d * step.p, n * step.q  # b and psi, in fractions of pi
     s, c = sin_cos_pi(less, whole)
     k = math.sqrt(sin_cos_pi(here - less, whole)[0] * sin_cos_pi(here + less, whole)[0])
     return math.atan2(s * step.sin_cos[1] ** 2 / (c + k), k * c + s * s)
 
 
 def _running(middle: poses.PinPose, a: float) -> poses.PinPose:
-    """The first crank's pin at an angle a (radians) from mid-motion, in its own ray's frame."""
+    """Pose of the first crank's pin at an angle a (radians) from mid-motion."""
     m = library(a, middle.along)
     l, s, c = middle.bend[0], m.sin(a), m.cos(a)
     x, y = middle.along + 2.0 * l * m.sin(0.5 * a) ** 2, l * s

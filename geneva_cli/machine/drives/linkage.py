@@ -50,13 +50,13 @@ LENGTHS = 1e4  # greatest ratio of two links: beyond it the path is a point, or 
 class Linkage(PinPath, kw_only=True):
     """A linkage; the position of the wheel's centre is solved for.
 
-    Its crank does not carry the roller, and so no locking disc.
+    Its crank does not carry the roller, and so it has no locking disc.
     """
 
     LOCKS: ClassVar[bool] = False
-    CARRIER: ClassVar[str]  # the link that carries the roller
+    CARRIER: ClassVar[str]  # link that carries the roller
     entry_deg: Annotated[
-        float | None, Range(-360.0, 360.0), "crank angle near entry, where several wheels fit"
+        float | None, Range(-360.0, 360.0), "crank angle near entry, to choose among several wheels"
     ] = None
 
     @property
@@ -67,28 +67,28 @@ class Linkage(PinPath, kw_only=True):
     def plan(self, spec: Spec) -> Plan:
         """The engagement of the wheel that the path can drive.
 
-        Of several wheels it is the one with the least peak velocity, or the one entered nearest to
-        ``entry_deg``. Raises GenevaError where there is none, or where the spec sets the centre
-        distance, which follows from the linkage.
+        If there are several wheels, it is the one with the least peak velocity, or the one whose
+        entry is nearest to ``entry_deg``. Raises GenevaError if there is none, or if the spec sets
+        the centre distance, which follows from the linkage.
         """
         if spec.size.center_distance_mm not in (None, DISTANCE_MM):
             raise GenevaError(
-                f'center_distance_mm follows from the linkage of kind = "{self.NAME}"; remove it',
+                f'center_distance_mm follows from the linkage of kind = "{self.NAME}": remove it',
                 ("size", "center_distance_mm"),
             )
         step, path = spec.wheel.step, self.roller_path
         if self.varies or is_array(step.b):
             engagement, L = self._of_many(step)
         else:
-            found = fit(path, step, self._wanted, known(path, step.b))
-            if found is None:
+            wheel_fit = fit(path, step, self._wanted, known(path, step.b))
+            if wheel_fit is None:
                 raise _none_fits(spec.wheel.z)
-            engagement, L = engagement_of(path, found, step)
+            engagement, L = engagement_of(path, wheel_fit, step)
         x, y = engagement.path(0.0, 0)
         return self.planned(engagement, parameter(library(L).hypot(1.0 - x.c[0], y.c[0])), L)
 
     def placed(self, plan: Plan, name: str, x: float, y: float) -> Pivot:
-        """A pivot at a point (mm) of the linkage's own frame, whose origin is the crank's axis."""
+        """Pivot at a point (mm) of the linkage's own frame, whose origin is the crank's axis."""
         return Pivot(name, *self._placed(plan, x, y))
 
     def linked(self, plan: Plan) -> Layout:
@@ -125,10 +125,10 @@ class Linkage(PinPath, kw_only=True):
         )
 
     def _placed(self, plan: Plan, x: Place, y: Place) -> tuple[Place, Place]:
-        """Points of the linkage's own frame in the machine's frame."""
+        """Transform points from the linkage's own frame to the machine's."""
         at = cast(LinkReactions, plan.engagements[0].reactions)
-        ahead, aside = x * at.x + y * at.y, at.sense * (y * at.x - x * at.y)
-        return plan.center_distance_mm + ahead, aside
+        ahead, sideways = x * at.x + y * at.y, at.sense * (y * at.x - x * at.y)
+        return plan.center_distance_mm + ahead, sideways
 
     @abstractmethod
     def holder(self, end: Moving) -> Link:
@@ -136,7 +136,7 @@ class Linkage(PinPath, kw_only=True):
 
     @property
     def varies(self) -> bool:
-        """Whether a length or angle is an array of designs."""
+        """True if a length or angle is an array of designs."""
         return any(is_array(value) for key, value in vars(self).items() if key != "n_rpm")
 
     @property
@@ -145,7 +145,7 @@ class Linkage(PinPath, kw_only=True):
         return None if self.entry_deg is None else radians(self.entry_deg)
 
     def _one(self, i: int) -> Self:
-        """The linkage of the i-th design. Raises GenevaError for one that is marked as refused."""
+        """The linkage of the i-th design. Raises GenevaError for a refused one."""
         one = copy.copy(self)
         for key, value in vars(self).items():
             if is_array(value):
@@ -154,11 +154,11 @@ class Linkage(PinPath, kw_only=True):
         return one
 
     def _of_many(self, step: HalfStep) -> tuple[Engagement, float]:
-        """Engagements and centre distances of many designs; those without a wheel are refused."""
+        """Engagements and centre distances of a batch; designs without a wheel are refused."""
         path = self.roller_path.in_long_doubles()
-        found = fits_many(path, step.b, self._wanted)
-        for i, search in found.alone.items():
-            p, q = (int(np.broadcast_to(x, found.entry.shape)[i, 0]) for x in step)
+        fits = fits_many(path, step.b, self._wanted)
+        for i, search in fits.alone.items():
+            p, q = (int(np.broadcast_to(x, fits.entry.shape)[i, 0]) for x in step)
             try:
                 one = self._one(i)
                 fit_i = fit(one.roller_path, HalfStep(p, q), one._wanted, search)
@@ -167,29 +167,29 @@ class Linkage(PinPath, kw_only=True):
             values = (
                 (float(fit_i.entry), float(fit_i.exit), fit_i.sense) if fit_i else (math.nan,) * 3
             )
-            for column, value in zip(found[:3], values, strict=True):
+            for column, value in zip(fits[:3], values, strict=True):
                 column[i, 0] = value
-        refuse(found.entry != found.entry, lambda: _none_fits(step.q))
-        return engagement_many(path, found, step)
+        refuse(fits.entry != fits.entry, lambda: _none_fits(step.q))
+        return engagement_many(path, fits, step)
 
 
 def _none_fits(z: int) -> GenevaError:
     return GenevaError(
-        f"no wheel of z = {z} slots fits this path: no two of its tangents meet at "
-        f"{360.0 / z:.6g} deg, equally far away, with the roller nearer than that all the way "
-        "between and farther on the way back; change the linkage, or z",
+        f"no wheel of z = {z} slots fits this path: it needs two tangents that meet at "
+        f"{360.0 / z:.6g} deg, equally far away, with the roller nearer than that "
+        "between them and farther otherwise: change the linkage, or z",
         ("drive", "kind"),
     )
 
 
 def refuse_proportions(**lengths: float) -> None:
-    """Raise GenevaError for lengths so unlike that no wheel can be solved for."""
+    """Raise GenevaError for lengths too different for a wheel to be solved for."""
     limit = LENGTHS * reduce(smaller, lengths.values())
 
     def error() -> GenevaError:
         name = max(lengths, key=lengths.__getitem__)
         return GenevaError(
-            f"{name} = {lengths[name]:g}: links differ by more than {LENGTHS:g} times; it must be "
+            f"{name} = {lengths[name]:g}: links differ by more than {LENGTHS:g} times: it must be "
             f"at most {limit:g}",
             ("drive", name),
         )
@@ -198,10 +198,10 @@ def refuse_proportions(**lengths: float) -> None:
 
 
 class RodPath(RollerPath):
-    """The path of a point of the link that the crank's pin A carries: a coupler, a connecting rod.
+    """The path of a point on the link that crank pin A carries: a coupler, or a connecting rod.
 
-    Its numbers are the lengths, the crank's a first, and last the point's coordinates along the
-    link, p, and across it, q.
+    Its numbers are the lengths, with the crank's a first. Last are the point's coordinates p along
+    the link and q across it.
     """
 
     def __init__(self, *lengths: float, reach_mm: float, angle_deg: float) -> None:
@@ -211,25 +211,25 @@ class RodPath(RollerPath):
         self.rough = tuple(rounded(x) for x in numbers)
 
     def joint(self, sine: Jet, cosine: Jet) -> tuple[Jet, Jet]:
-        """The crank's pin A."""
+        """Crank pin A (x, y)."""
         a, *_ = self.rough
         return cosine * a, sine * a
 
     def place(self, sine: Jet, cosine: Jet, exact: bool = False) -> tuple[Jet, Jet]:
-        """Crank, and the point's place on the link."""
+        """Point (x, y) on the link: crank pin plus the vector on the link."""
         a, *_, p, q = self.exact if exact else self.rough
         x, y = self.carried(p, q, sine, cosine, exact)
         return x + cosine * a, y + sine * a
 
     def link(self, sine: Jet, cosine: Jet, exact: bool = False) -> tuple[Jet, Jet]:
-        """The link's unit vector, from A towards B."""
+        """Unit vector along the link, from A towards B."""
         return self.carried(1, 0, sine, cosine, exact)
 
     @abstractmethod
     def carried(
         self, p: float, q: float, sine: Jet, cosine: Jet, exact: bool = False
     ) -> tuple[Jet, Jet]:
-        """A vector that the link carries, p along it and q across it, on the frame's axes."""
+        """Vector in the frame that is p along the link and q across it."""
 
 
 def _exactly(*lengths: float, reach_mm: float, angle_deg: float) -> tuple[Decimal, ...]:
@@ -241,7 +241,7 @@ def _exactly(*lengths: float, reach_mm: float, angle_deg: float) -> tuple[Decima
 
 
 def _long(*lengths: float, reach_mm: float, angle_deg: float) -> tuple[Long, ...]:
-    """The same for arrays of designs, in long doubles."""
+    """Lengths, and a point's coordinates from its distance and angle, in long doubles."""
     turned = np.asarray(angle_deg, dtype=np.longdouble) * (LONG_PI / 180)
     point = reach_mm * np.cos(turned), reach_mm * np.sin(turned)
     return tuple(np.asarray(x, dtype=np.longdouble) for x in (*lengths, *point))

@@ -1,8 +1,9 @@
-"""Noncircular gears in front of the crank, for a wanted ratio i = crank speed / input speed.
+"""Noncircular gears in front of the crank, for a chosen ratio i = crank speed / input speed.
 
 The ratio is the side-crank's (``A``), or comes from a CSV of input_deg,ratio points over a turn
-(``ratio_file``): a periodic quintic spline through them, four times continuously differentiable.
-The gears close where the ratio's mean over a turn is 1, and cannot be made where it reaches 0.
+(``ratio_file``). A periodic quintic spline passes through the points, four times continuously
+differentiable. The gears close if the mean of the ratio over a turn is 1. They cannot be made if
+the ratio reaches 0.
 """
 
 from __future__ import annotations
@@ -36,8 +37,8 @@ MEAN = 1e-6  # by which the mean ratio may miss 1; the rest is scaled away
 class NoncircularGears(Transmission, kw_only=True):
     """Gears of any ratio that closes over a turn.
 
-    Either the side-crank's ``A``, or the points of a ratio, output speed over input speed, over a
-    turn of the input in degrees: pairs, or a CSV file's.
+    The ratio is the side-crank's ``A``, or is given by points: output speed over input speed, over
+    a turn of the input in degrees. Points are pairs, or the name of a CSV file.
 
     >>> round(Design(External(6), NoncircularGears(A=0.6)).peaks.velocity.max, 12)
     0.625
@@ -53,14 +54,16 @@ class NoncircularGears(Transmission, kw_only=True):
         },
     )
     GEARED: ClassVar[bool] = True
-    A: Annotated[float | None, Range(-1.0, 1.0, "()"), "the side-crank's ratio, as gears"] = None
+    A: Annotated[
+        float | None, Range(-1.0, 1.0, "()"), "the gears have the ratio of a side-crank with this A"
+    ] = None
     ratio: Annotated[
         Points | None,
-        # of 18,001 points a second derivative is known to 1e-9, as of doubles
+        # from 18,001 points a second derivative is known to 1e-9, as from doubles
         Csv("ratio_file", "input_deg", "ratio", 0.0199, 1e3, 7),
-        "CSV of input_deg,ratio points over a turn",
+        "CSV file of input_deg,ratio points over a turn",
     ] = None
-    gear_distance_mm: Annotated[float, POSITIVE, "distance of the two gears' axes, C"] = 100.0
+    gear_distance_mm: Annotated[float, POSITIVE, "distance between the two gears' axes, C"] = 100.0
 
     def __post_init__(self) -> None:
         super().__post_init__()
@@ -73,17 +76,17 @@ class NoncircularGears(Transmission, kw_only=True):
             whitworth.refuse_rounding(self.A)
 
     def may_vary(self, table: str, key: str) -> bool:
-        """Points are interpolated for one wheel and one law's angles."""
+        """False for numbers that change the angles at which the points are interpolated."""
         at = table in ("wheel", "drive", "motion") and key != "n_rpm"
         return self.ratio is None or not (at or (table, key) == ("size", "center_distance_mm"))
 
     @property
     def gears(self) -> Gears:
-        """The pair."""
+        """The pair of gears."""
         return Gears(self.gear_distance_mm, self.about(0.0).advance)
 
     def layout(self, plan: Plan, sign: float) -> Layout:
-        """The gears' axes and what their pitch curves follow: A of a side-crank, or a file."""
+        """The gears' axes, and the source of their pitch curves: A of a side-crank, or a file."""
         law: Dimension = (
             Dimension("gears' ratio", self.ratio.file)
             if self.ratio is not None
@@ -96,64 +99,64 @@ class NoncircularGears(Transmission, kw_only=True):
         )
 
     def reactions(self, wheel: Gearing, path: Path, mid_deg: float, L: float) -> Reactions | None:
-        """The driver's teeth push the driven gear, which is fast on the crank."""
+        """Reactions of the crank, whose gear is pushed by the driver's teeth."""
         return Mesh(path, self.gear_distance_mm / L)
 
     def about(self, crank_deg: float) -> About:
-        """About a crank angle in degrees. Raises GenevaError for a ratio that no gears have."""
+        """Transmission about a crank angle (degrees). GenevaError for an impossible ratio."""
         if self.A is not None:
             return whitworth.about(self.A, crank_deg)
-        assert self.ratio is not None  # one of the two is
+        assert self.ratio is not None  # ``__post_init__`` requires one of the two
         return _through(_turned(self.ratio.pairs), crank_deg)
 
     def turning(self, crank_deg: float, sense: float) -> CarrierVelocity | None:
-        """That of the side-crank that has this ratio; None for a ratio by points."""
+        """Crank's rate from the side-crank with this ratio; None for a ratio file."""
         return None if self.A is None else whitworth.turning(self.A, crank_deg, sense)
 
     def closed_peaks(self, wheel: Gearing, place: RollerPlace) -> ClosedPeaks | None:
-        """The peaks of the side-crank that has this ratio; None for a ratio by points."""
+        """Peaks of the side-crank with this ratio; None for a ratio file."""
         return None if self.A is None else whitworth.closed_peaks(self.A, wheel, place)
 
     def doubt(self, input_deg: float) -> Doubt | None:
-        """What the rounding of the ratio's points leaves unknown of the crank's jerk."""
+        """Uncertainty of the crank's jerk from the decimals of a ratio file; None without one."""
         if self.ratio is None:
             return None
         x, i = zip(*self.ratio.pairs, strict=True)
-        found = doubt([math.radians(v) for v in x], i, True, 2)
-        return found._replace(move=found.move / i[bisect_right(x, input_deg % 360.0) - 1])
+        rounding = doubt([math.radians(v) for v in x], i, True, 2)
+        return rounding._replace(move=rounding.move / i[bisect_right(x, input_deg % 360.0) - 1])
 
 
 @lru_cache(4)  # advice builds one machine many times
 def _turned(points: tuple[tuple[float, float], ...]) -> Pieces:
-    """The crank's angle over a turn, scaled to close. Raises GenevaError where no gears have it."""
+    """Crank angle over a turn, scaled to close. GenevaError for an impossible ratio."""
     key = ("drive", "ratio_file")
     x, i = zip(*points, strict=True)
     if x[0] != 0.0 or x[-1] != 360.0 or i[0] != i[-1]:
         raise GenevaError(
-            "the ratio runs over a turn: from 0 to 360 deg, and ends as it began", key
+            "the ratio must run from 0 to 360 deg, and end at the value it began with", key
         )
     if min(i) <= 0.0:
         raise GenevaError(
-            f"not realisable as gears: the ratio falls to {min(i):g}, not above 0", key
+            f"not realisable as gears: the ratio falls to {min(i):g}, and must stay above 0", key
         )
     whole = periodic([math.radians(v) for v in x], i).integral()
     mean = whole(math.tau, 0)[0] / math.tau
     if abs(mean - 1.0) > MEAN:
         raise GenevaError(
-            f"the gears do not close: the ratio's mean over a turn is {mean:.9g}, and must "
-            f"be 1; divide it by {mean:.9g}",
+            f"the gears do not close: the mean ratio over a turn is {mean:.9g}, and must "
+            f"be 1; divide all ratios by {mean:.9g}",
             key,
         )
     return Pieces(whole.cuts, whole.origins, whole.rows / mean)
 
 
 class Since(NamedTuple):
-    """The crank's angle since a moment, by the input's since then."""
+    """The crank's rotation since a moment, by the input's since then."""
 
     since: Pieces
 
     def __call__(self, tau: Number, order: int) -> tuple[Jet, Jet]:
-        """sin d and 1 - cos d of the crank's angle d, ``tau`` input radians later."""
+        """sin d and 1 - cos d of the crank's rotation d, ``tau`` input radians later."""
         m = library(tau)
         turns = m.floor(tau / math.tau + 0.5)
         turn, *rate = self.since(tau - turns * math.tau, max(order, 1))
@@ -168,10 +171,10 @@ def _through(crank: Pieces, crank_deg: float) -> About:
 
 
 def _since(crank: Pieces, phi: float) -> Pieces:
-    """The crank's angle since the input angle phi, by the input's since then, over three turns.
+    """The crank's rotation since the input angle phi, by the input's since then, over three turns.
 
-    The piece about phi is written in powers of the input's angle since then, so that the least
-    angle has all its digits.
+    The piece about phi is in powers of the input's rotation since then, so that the smallest angle
+    has all its digits.
     """
     here = crank(phi, DEGREE + 1)
     turns = math.tau * np.arange(-1.0, 2.0)

@@ -1,4 +1,4 @@
-"""Drives that carry the roller on a path of its own: straight radial slots follow it."""
+"""Drives that move the roller along a path of their own, with straight radial slots."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from geneva_cli.machine.wheels.classic import refuse_jam, rollers_max
 
 
 class PinPath(Drive, kw_only=True):
-    """A drive whose roller is not carried on the crank's circle."""
+    """A drive whose roller does not run on the crank's circle."""
 
     GEARINGS: ClassVar[tuple[str, ...]] = ("external",)
     LAW: ClassVar[Needs] = Needs.NO_LAW
@@ -26,7 +26,7 @@ class PinPath(Drive, kw_only=True):
         center_distance_mm: float,
         inside: bool = False,
     ) -> Plan:
-        """The plan with the one engagement of each roller."""
+        """The plan with one engagement for each roller."""
         motion = engagement.motion_deg
         refuse_jam(self.rollers, motion, inside)
         period = 360.0 / self.rollers

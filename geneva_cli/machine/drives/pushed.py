@@ -15,18 +15,20 @@ class Pushed(ABC):
 
     @abstractmethod
     def line(self, input_deg: Number, order: int) -> tuple[Vector, Vector]:
-        """The point of the push from the crank's axis, over L, and its direction as any vector."""
+        """Point of the push from the crank's axis, over L, and its direction as a vector of any
+        size.
+        """
 
     def __call__(
         self, input_deg: Number, path: Vector, loads: Sequence[tuple[Vector, Jet]]
     ) -> list[tuple[Vector, Vector]]:
-        """Reactions of the crank's shaft, and of what pushes the crank, to each load."""
+        """Reactions of the crank's shaft, and of the body that pushes the crank, to each load."""
         x, y = (Jet(jet.c[:-1]) for jet in path)
-        at, way = self.line(input_deg, x.order)
-        lever, out = cross(at, way), []
+        at, direction = self.line(input_deg, x.order)
+        lever, out = cross(at, direction), []
         for force, moment in loads:
             push = (cross((x - 1.0, y), force) + moment) / lever * -1.0
-            third = way[0] * push, way[1] * push
+            third = direction[0] * push, direction[1] * push
             out.append(((force[0] + third[0], force[1] + third[1]), third))
         return out
 
@@ -34,22 +36,26 @@ class Pushed(ABC):
 class Mesh(Pushed):
     """Gears whose axes are ``distance`` over L apart, the driver's on the line of centres.
 
-    They touch where the distance is divided as i : 1, i being the crank's speed over the input's,
-    and push along the common tangent of their pitch curves: the angle of real teeth is left out.
+    The point of contact divides the distance as i : 1, where i is the crank's speed over the
+    input's. The gears push along the common tangent of their pitch curves. The pressure angle of
+    real teeth is neglected.
     """
 
     def __init__(self, path: Path, distance: float) -> None:
         self.path, self.distance = path, distance  # the roller turns as the crank does
 
     def line(self, input_deg: Number, order: int) -> tuple[Vector, Vector]:
-        """The radius of the driven gear, C/(1 + i), changes by -C i'/(1 + i)² a radian of input."""
+        """Point of contact and direction of the push, from the pitch radius C/(1 + i).
+
+        The radius of the driven gear changes by -C i'/(1 + i)² per radian of input.
+        """
         x, y = self.path(input_deg, order + 2)
         rate = turning(x - 1.0, y)
         i, slope = Jet(rate.c[: order + 1]), rate.derivative()
-        # in which the crank turns: a ratio is a size
+        # sense of the crank's rotation; the ratio itself is a size
         sense = library(i.c[0]).copysign(1.0, i.c[0])
         size, grows = i * sense, slope * sense
         none = i * 0.0
-        # the tangent of the driven gear's curve, (dr, r df) as it turns by df
+        # tangent of the driven gear's curve, (dr, r df), as it turns by df
         across = none - sense
         return (self.distance / (size + 1.0), none), (grows / ((size + 1.0) * size) * -1.0, across)

@@ -24,10 +24,10 @@ if TYPE_CHECKING:
 
 
 class SideCrank(Transmission, kw_only=True):
-    """A crank and a rotating coulisse: A > 0 slows the index down, A < 0 quickens it.
+    """A crank and a rotating coulisse: A > 0 slows the index down, A < 0 makes it faster.
 
-    ``A`` is the distance of the two axes over the input crank's length, between -1 and 1.
-    Raises GenevaError for one beyond.
+    ``A`` is the distance of the two axes over the input crank's length, between -1 and 1. Raises
+    GenevaError outside this range.
 
     >>> Design(External(6), SideCrank(A=0.6)).peaks.velocity.max  # 1 / (1 + A) of the plain crank's
     0.625
@@ -44,10 +44,10 @@ class SideCrank(Transmission, kw_only=True):
     )
     LENGTH: ClassVar[str] = "input_crank_mm"
     A: Annotated[
-        float, Range(-1.0, 1.0, "()"), "side-crank: base offset / crank length; > 0 is slower"
+        float, Range(-1.0, 1.0, "()"), "side-crank: base offset / input crank length; > 0 is slower"
     ]
     input_crank_mm: Annotated[
-        float | None, POSITIVE, "its input crank r, for the forces on it (parts: as the crank's)"
+        float | None, POSITIVE, "input crank length r, for its forces (parts use R by default)"
     ] = None
 
     def __post_init__(self) -> None:
@@ -55,15 +55,15 @@ class SideCrank(Transmission, kw_only=True):
         whitworth.refuse_rounding(self.A)
 
     def about(self, crank_deg: float) -> About:
-        """About a coulisse angle f in degrees."""
+        """Transmission about a coulisse angle f in degrees."""
         return whitworth.about(self.A, crank_deg)
 
     def turning(self, crank_deg: float, sense: float) -> CarrierVelocity:
-        """The crank is the coulisse."""
+        """Rate of the crank, which is the coulisse."""
         return whitworth.turning(self.A, crank_deg, sense)
 
     def layout(self, plan: Plan, sign: float) -> Layout:
-        """Its input crank; without a length as long as the Geneva crank, which is the coulisse."""
+        """Pivot and dimensions of the input crank, by default as long as the Geneva crank."""
         r = self._crank_mm(plan)
         return (
             Pivot("input crank axis", plan.center_distance_mm - sign * self.A * r, 0.0),
@@ -72,7 +72,7 @@ class SideCrank(Transmission, kw_only=True):
         )
 
     def links(self, plan: Plan, sign: float, input_deg: Array) -> tuple[Link, ...]:
-        """The input crank, whose pin slides in the coulisse, which is the Geneva crank."""
+        """The input crank, and the coulisse (the Geneva crank) in which its pin slides."""
         L, r = plan.center_distance_mm, self._crank_mm(plan)
         turn, still = radians(input_deg), 0.0 * input_deg
         m = library(turn)
@@ -89,7 +89,9 @@ class SideCrank(Transmission, kw_only=True):
         return own if self.input_crank_mm is None else self.input_crank_mm
 
     def reactions(self, wheel: Gearing, path: Path, mid_deg: float, L: float) -> Reactions | None:
-        """The block on the input crank pushes across the coulisse."""
+        """Reactions to the block on the input crank, which pushes across the coulisse. Peak
+        acceleration of plain wheels; None for others.
+        """
         if self.input_crank_mm is None:
             return None
         return whitworth.SlidingBlock(self.A, self.input_crank_mm / L, wheel.SIGN, radians(mid_deg))

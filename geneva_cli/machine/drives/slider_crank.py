@@ -1,8 +1,8 @@
 """A slider-crank in front of the wheel: the roller is a point of its connecting rod.
 
-Crank a from the input's axis to the pin A, rod b from A to the slider B, which runs at the height h
-beside the crank's axis; the roller C stands k from A, at an angle from the line AB. The wheel's
-centre is not given but solved for.
+Crank a runs from the input's axis to the pin A, and rod b from A to the slider B. The slider's line
+passes the crank's axis at the height h. The roller C is at the distance k from A, at an angle from
+the line AB. The wheel's centre is solved for.
 """
 
 from __future__ import annotations
@@ -22,9 +22,9 @@ from geneva_cli.spec.rules import LENGTH, POSITIVE, Range
 class SliderCrank(Linkage, kw_only=True):
     """A point of a connecting rod carries the roller.
 
-    Links in mm, ``point_deg`` from the rod's line to the roller's; the wheel that the path can
-    drive is solved for. Raises GenevaError, when the machine is built, where the rod is too short
-    or the path drives no wheel.
+    Links are in mm; ``point_deg`` is the angle from the rod's line to the roller's. The wheel that
+    the path can drive is solved for. Building the machine raises GenevaError if the rod is too
+    short or the path drives no wheel.
 
     >>> rod = SliderCrank(crank_mm=40, rod_mm=100, point_mm=80, point_deg=90)
     >>> round(Design(External(8), rod).mechanism.center_distance_mm, 2)
@@ -42,11 +42,13 @@ class SliderCrank(Linkage, kw_only=True):
             "size": {"roller_radius_mm": 6.0},
         },
     )
-    crank_mm: Annotated[float, POSITIVE, "crank a"]
-    rod_mm: Annotated[float, POSITIVE, "connecting rod b, from crank pin A to slider B"]
-    point_mm: Annotated[float, POSITIVE, "roller C from the crank pin A"]
+    crank_mm: Annotated[float, POSITIVE, "length of crank a"]
+    rod_mm: Annotated[float, POSITIVE, "length of connecting rod b, from crank pin A to slider B"]
+    point_mm: Annotated[float, POSITIVE, "distance of roller C from crank pin A"]
     point_deg: Annotated[float, Range(-360.0, 360.0), "angle BAC, from AB to AC"]
-    height_mm: Annotated[float, LENGTH, "slider's line beside the crank's axis, h"] = 0.0
+    height_mm: Annotated[
+        float, LENGTH, "distance of the slider's line from the crank's axis, h"
+    ] = 0.0
 
     def __post_init__(self) -> None:
         super().__post_init__()
@@ -55,14 +57,14 @@ class SliderCrank(Linkage, kw_only=True):
         refuse(
             a + abs(h) >= b,
             lambda: GenevaError(
-                f"crank_mm = {a:g}: the crank cannot turn all round; crank and height together "
-                f"must be shorter than the rod, so the crank below {b - abs(h):.6g}",
+                f"crank_mm = {a:g}: the crank cannot make a full turn: crank and height together "
+                f"must be shorter than the rod, so it must be below {b - abs(h):.6g}",
                 ("drive", "crank_mm"),
             ),
         )
 
     def layout(self, plan: Plan, sign: float) -> Layout:
-        """Links, the joints at input 0, and two points of the slider's line."""
+        """Joints at input 0, two points of the slider's line, and lengths of the links."""
         return (
             self.placed(plan, "slider's line, foot", 0.0, self.height_mm),
             self.placed(plan, "slider's line, ahead", self.rod_mm, self.height_mm),
@@ -75,7 +77,7 @@ class SliderCrank(Linkage, kw_only=True):
         )
 
     def holder(self, end: Moving) -> Link:
-        """The slider's guide, which stands: along its line, as far as it can get."""
+        """The slider's fixed guide: its line as far as the slider can reach."""
         still = 0.0 * end[0]
         foot, ahead = still, still + (self.crank_mm + self.rod_mm)
         line = still + self.height_mm
@@ -84,7 +86,7 @@ class SliderCrank(Linkage, kw_only=True):
 
     @property
     def roller_path(self) -> SlidingRod:
-        """The path of its point."""
+        """Path of the rod's point that carries the roller."""
         lengths = (self.crank_mm, self.rod_mm, self.height_mm)
         return SlidingRod(*lengths, reach_mm=self.point_mm, angle_deg=self.point_deg)
 
@@ -92,25 +94,28 @@ class SliderCrank(Linkage, kw_only=True):
 class SlidingRod(RodPath):
     """The path of a point of the connecting rod.
 
-    Its numbers are crank, rod, height, and the point's place on the rod: a, b, h, p, q.
+    Its numbers are crank, rod, height, and the point's coordinates on the rod: a, b, h, p, q.
     """
 
     def carried(
         self, p: float, q: float, sine: Jet, cosine: Jet, exact: bool = False
     ) -> tuple[Jet, Jet]:
-        """A vector p along the rod, from A towards B, and q across it."""
+        """Vector in the frame with p along the rod, from A towards B, and q across it."""
         a, b, h, _, _ = self.exact if exact else self.rough
         ey = (h - sine * a) / b
         ex = sqrt((1 - ey) * (ey + 1))
         return ex * p - ey * q, ex * q + ey * p
 
     def hold(self, sine: Jet, cosine: Jet) -> tuple[float, tuple[Jet, Jet]]:
-        """The slider's guide pushes across itself."""
+        """Rod length from A to B, and the direction of the guide's push, across its line."""
         _, b, *_ = self.rough
         return b, (sine * 0.0, cosine * 0.0 + 1.0)
 
     def about(self, sine: float, cosine: float) -> PointDisplacement:
-        """The rod's vector changes by (-dy (2 ey + dy) / (ex + ex'), dy)."""
+        """Displacement since a crank direction.
+
+        The rod's vector changes by (-dy (2 ey + dy) / (ex + ex'), dy).
+        """
         a, b, h, _, _ = self.exact
         level = (h - sine * a) / b
         less, more = 1 - level, 1 + level
@@ -121,7 +126,7 @@ class SlidingRod(RodPath):
 
 
 class RodDisplacement(NamedTuple):
-    """What the rod's point moves by, from the numbers of one crank angle."""
+    """Displacement of the rod's point, from the numbers of one crank angle."""
 
     s: float
     c: float
@@ -135,7 +140,7 @@ class RodDisplacement(NamedTuple):
     q: float
 
     def __call__(self, sine: Jet, versine: Jet) -> tuple[Jet, Jet]:
-        """The point's displacement, from sin d and 1 - cos d of the crank's angle d since then."""
+        """Displacement from sin d and 1 - cos d of the crank's rotation d since then."""
         a, s, c = self.a, self.s, self.c
         x, y = sine * (-a * s) - versine * (a * c), sine * (a * c) - versine * (a * s)
         dy = y / -self.b

@@ -38,31 +38,31 @@ class About(NamedTuple):
     """A transmission written about one crank angle, so that nothing cancels near it."""
 
     input_deg: float  # input angle there
-    # input angle since then, radians, and order -> sin d and 1 - cos d of the crank's angle d
-    # since then, with their derivatives by the input angle
+    # A function of the input rotation since then (radians) and the order. It returns sin d and 1 -
+    # cos d of the crank's rotation d since then, with their derivatives by the input angle.
     advance: Displacement
-    # whether the crank may run the same before and after: not where its ratio is anyone's
+    # True if the crank may turn alike before and after; False for an arbitrary ratio
     even: bool = True
 
 
 def same(tau: Number, order: int) -> tuple[Jet, Jet]:
-    """Sine and versine of a crank that turns as the input does."""
+    """sin d and 1 - cos d of a crank that turns as the input does."""
     return sine_versine(Jet.variable(tau, order))
 
 
 class PinTravel(NamedTuple):
-    """The displacement of a crank's pin from a pose, by the input angle."""
+    """Displacement of a crank's pin from a pose, by the input angle."""
 
     pose: PinPose
     advance: Displacement
 
     def __call__(self, tau: Number, order: int) -> tuple[Jet, Jet]:
-        """The displacement along the pose's ray and across it, ``tau`` input radians later."""
+        """Displacement along the pose's ray and across it, ``tau`` input radians later."""
         return self.pose.displacement(*self.advance(tau, order))
 
 
 class Transmission(Drive, kw_only=True):
-    """A drive in front of the crank; a kind defines ``about``, and no more if it needs no more."""
+    """A drive in front of the crank; a kind defines ``about``, and more only if it needs more."""
 
     LAW: ClassVar[Needs] = Needs.MAY
     CRANKED: ClassVar[bool] = True
@@ -73,17 +73,17 @@ class Transmission(Drive, kw_only=True):
 
     @property
     def reach_deg(self) -> float:
-        """The greatest crank angle from mid-motion at which the crank may move the wheel."""
+        """Greatest crank angle from mid-motion at which the crank may move the wheel, degrees."""
         return 180.0
 
     def closed_peaks(self, wheel: Gearing, place: RollerPlace) -> ClosedPeaks | None:
-        """Peaks behind this transmission for which no general search is needed; None if none."""
+        """Peaks behind this transmission that need no general search; None if there are none."""
         return None
 
     def input_deg(self, crank_deg: float) -> float:
-        """The input angle from mid-motion at a crank angle from there, degrees.
+        """Input angle from mid-motion at a crank angle from mid-motion, degrees.
 
-        ``about`` covers one turn of the crank (of a first wheel one step) about mid-motion; the
+        ``about`` covers one turn of the crank about mid-motion (one step, for a first wheel). The
         rest repeats it.
         """
         whole = 2.0 * self.reach_deg
@@ -91,21 +91,21 @@ class Transmission(Drive, kw_only=True):
         return 360.0 * turns + float(self.about(crank_deg - whole * turns).input_deg)
 
     def plan(self, spec: Spec) -> Plan:
-        """Straight slots give the motion; a law gives the slots."""
+        """The plan of straight slots, which give the motion; or of curved slots, from a law."""
         return self._straight(spec) if spec.motion is None else self._curved(spec, spec.motion)
 
     def _straight(self, spec: Spec) -> Plan:
-        found = places(spec)
-        self._refuse_reach(spec.wheel, found[0].reach_deg)
+        rollers = places(spec)
+        self._refuse_reach(spec.wheel, rollers[0].reach_deg)
         L = spec.given_distance_mm
-        engagements = tuple(self._follows(spec.wheel, place, L) for place in found)
+        engagements = tuple(self._follows(spec.wheel, place, L) for place in rollers)
         turn = 360.0 * self.turns
-        period = turn / self.rollers if len(found) == 1 else turn
-        most = rollers_max(2.0 * found[0].half_motion_deg)
-        return Plan(engagements, period, found[0].ratio, most, spec.given_distance_mm)
+        period = turn / self.rollers if len(rollers) == 1 else turn
+        most = rollers_max(2.0 * rollers[0].half_motion_deg)
+        return Plan(engagements, period, rollers[0].ratio, most, spec.given_distance_mm)
 
     def reactions(self, wheel: Gearing, path: Path, mid_deg: float, L: float) -> Reactions | None:
-        """The reactions on crank and transmission; None where a length is not known.
+        """Reactions on crank and transmission; None if a length is not known.
 
         ``mid_deg`` is the input angle at which the roller crosses the line of centres.
         """
@@ -131,15 +131,15 @@ class Transmission(Drive, kw_only=True):
         return Engagement(mid, path, slot, motion, body=body, hub=hub, reactions=reactions)
 
     def turning(self, crank_deg: float, sense: float) -> CarrierVelocity | None:
-        """How the crank turns after a crank angle, where that is known without its pin's path.
+        """Rate of the crank from a crank angle on; None if only its pin's path gives it.
 
-        ``sense`` is 1 where it turns with the wheel, else -1.
+        ``sense`` is 1 if it turns with the wheel, else -1.
         """
         return Turning(sense) if self.direct else None
 
     @property
     def direct(self) -> bool:
-        """Whether crank angle and input angle are equal: then the classic closed forms hold."""
+        """True if crank angle and input angle are equal, so that the classic closed forms hold."""
         return False
 
     def _anchor(self, pose: PinPose, crank_deg: float) -> Anchor:
@@ -149,7 +149,7 @@ class Transmission(Drive, kw_only=True):
         return Anchor(from_mid, pose.wheel, pose.along, PinTravel(pose, here.advance))
 
     def _curved(self, spec: Spec, motion: Motion) -> Plan:
-        """Curved slots, solved for from a law and the crank's circle."""
+        """The plan of curved slots, solved for from a law and the crank's circle."""
         wheel, law = spec.wheel, motion.law
         half = wheel.half_motion_deg(wheel.step)
         self._refuse_reach(wheel, half)
@@ -171,7 +171,7 @@ class Transmission(Drive, kw_only=True):
         return Plan((engagement,), period, ratio, most, spec.given_distance_mm)
 
     def _ratio(self, wheel: Gearing, motion: Motion, motion_deg: float) -> float:
-        """R/L of a curved slot: given, sin b, or matched to the law's velocity at mid-motion."""
+        """R/L of a curved slot: the spec's, sin b, or matched to the law at mid-motion."""
         if motion.ratio is None:
             return wheel.step.sin_cos[0]
         if not isinstance(motion.ratio, str):
@@ -180,9 +180,9 @@ class Transmission(Drive, kw_only=True):
         refuse(
             matched != matched,
             lambda: GenevaError(
-                "no R/L between 0 and 1 matches this motion: at mid-motion the wheel would have to "
-                "turn too fast (inside, more than half as fast as the crank) or back; give ratio "
-                "as a number, or change alpha0_deg or the law",
+                "no R/L between 0 and 1 matches this motion, since at mid-motion the wheel would "
+                "turn back or too fast (inside: more than half as fast as the crank): set ratio "
+                "to a number, or change alpha0_deg or the law",
                 ("motion", "ratio"),
             ),
         )
@@ -191,21 +191,21 @@ class Transmission(Drive, kw_only=True):
     def matched_ratio(self, wheel: Gearing, law: Law, motion_deg: float) -> float:
         """R/L at which the pin crosses the line of centres as fast as the wheel's slot does.
 
-        At any other R/L the pressure angle at mid-motion is 90 degrees. NaN where there is none
-        below 1.
+        At any other R/L the pressure angle at mid-motion is 90 degrees. NaN if no R/L below 1 has
+        this property.
         """
         crank = self.about(0.0).advance(0.0, 1)[0].c[1]
         turned = law(0.5, 1).c[1] * 2.0 * wheel.step.b / radians(motion_deg)
         return wheel.matched_ratio(parameter(turned / crank))
 
     def _refuse_reach(self, wheel: Gearing, farthest_deg: float) -> None:
-        """Raise GenevaError where the transmission does not cover the whole motion."""
+        """Raise GenevaError if the transmission does not cover the whole motion."""
         refuse(
             farthest_deg > self.reach_deg * (1.0 + 1e-12),
             lambda: GenevaError(
-                f"z = {wheel.z}: the crank moves the wheel from up to {farthest_deg:.6g} deg "
-                f'beside the line of centres, and kind = "{self.NAME}" turns it by '
-                f"{self.reach_deg:.6g} on either side; fewer slots here, or fewer on the first "
+                f"z = {wheel.z}: the crank must turn {farthest_deg:.6g} deg to either side "
+                f'of the line of centres, but kind = "{self.NAME}" turns it only '
+                f"{self.reach_deg:.6g}: use fewer slots here, or fewer on the first "
                 "wheel",
                 ("wheel", "z"),
             ),

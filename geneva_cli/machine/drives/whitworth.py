@@ -1,8 +1,8 @@
 """Crank and rotating coulisse (Whitworth): the transmission of the side-crank drive.
 
-An input crank of length r turns about an axis that stands the base offset a away from the
-coulisse's. A = a/r. With the input at phi the coulisse points along the vector
-(A + cos phi, sin phi), whose angle is f.
+An input crank of length r turns about an axis at the base offset a from the coulisse's axis; A =
+a/r. With the input at phi the coulisse points along the vector (A + cos phi, sin phi), whose angle
+is f.
 """
 
 from __future__ import annotations
@@ -29,25 +29,25 @@ A_SURE = 0.999  # up to it the quicker searches miss no peak
 
 
 def refuse_rounding(A: float) -> None:
-    """Raise GenevaError for |A| so near to 1 that the motion is rounding."""
+    """Raise GenevaError for |A| too close to 1 to be computed."""
     refuse(
         abs(A) > A_MAX,
         lambda: GenevaError(
-            f"A = {A!r}: so near to 1 the motion is rounding; its size must be at most 1 - 1e-12",
+            f"A = {A!r}: too close to 1 to be computed; its size must be at most 1 - 1e-12",
             ("drive", "A"),
         ),
     )
 
 
 class SideCrankPeak(NamedTuple):
-    """The peak acceleration of a plain wheel behind a side-crank, without the general search."""
+    """Peak acceleration of a plain wheel behind a side-crank, without the general search."""
 
     A: float
     z: int
     sign: float
 
     def __call__(self, quantity: str) -> PeakValue | None:
-        """The peak of the acceleration; for arrays of designs that of the velocity too."""
+        """Peak of the acceleration, in a batch also of the velocity; None for other quantities."""
         if isinstance(self.A, float) and isinstance(self.z, int):
             if quantity != "acceleration" or abs(self.A) > A_SURE:
                 return None
@@ -56,12 +56,14 @@ class SideCrankPeak(NamedTuple):
         if peaks is None:
             return None
         size, at_deg = peaks(self.z, self.sign < 0.0, self.A)
-        sure = abs(self.A) + 0.0 * size <= A_SURE  # of every design, where z alone differs too
+        sure = (
+            abs(self.A) + 0.0 * size <= A_SURE
+        )  # an array over all designs, even if only z differs
         return PeakValue(choose(sure, size, math.nan), choose(sure, at_deg, math.nan))
 
 
 def closed_peaks(A: float, wheel: Gearing, place: RollerPlace) -> SideCrankPeak | None:
-    """The peak of a wheel with closed forms and equal steps, at its first roller; else None."""
+    """Peaks of a wheel with closed forms and equal steps, at its first roller; else None."""
     closed = wheel.closed_form(place)
     plain = isinstance(place.crank_deg, float) and place.crank_deg == 0.0
     if closed is None or wheel.steps or not plain:
@@ -70,11 +72,11 @@ def closed_peaks(A: float, wheel: Gearing, place: RollerPlace) -> SideCrankPeak 
 
 
 class Coulisse(NamedTuple):
-    """The coulisse's turning from one of its angles f.
+    """The coulisse's rotation from one of its angles f.
 
-    h = asin(A sin f) is the angle between input crank and coulisse; ``length`` is the coulisse's,
-    cos h + A cos f, ``rest`` = cos h - A cos f. ``grows`` is true on the line of centres for the
-    sign of A with which W = x² + y² is a sum of positive terms another way.
+    h = asin(A sin f) is the angle between input crank and coulisse. ``length`` is the coulisse's,
+    cos h + A cos f, and ``rest`` is cos h - A cos f. ``grows`` selects the form of W = x² + y² on
+    the line of centres that is a sum of positive terms for this sign of A.
     """
 
     A: float
@@ -84,15 +86,15 @@ class Coulisse(NamedTuple):
     cos_h: float
     length: float
     rest: float
-    grows: bool  # of many designs an array of them
+    grows: bool  # an array for a batch
 
     def __call__(self, tau: Number, order: int) -> tuple[Jet, Jet]:
-        """sin d and 1 - cos d of the coulisse's turn d, ``tau`` input radians later."""
+        """sin d and 1 - cos d of the coulisse's rotation d, ``tau`` input radians later."""
         y, x, rate = self._turned(tau, order - 1)
         return sine_versine_of(rate, y, x, order)
 
     def rate(self, tau: Number, order: int) -> Jet:
-        """How fast the coulisse turns, radians an input radian."""
+        """Rate at which the coulisse turns, radians per input radian."""
         return self._turned(tau, order)[2]
 
     def _turned(self, tau: Number, order: int) -> tuple[Number, Number, Jet]:
@@ -102,7 +104,7 @@ class Coulisse(NamedTuple):
         sin_t, cos_t = m.sin(0.5 * tau), m.cos(0.5 * tau)
         x = cos_t * cos_t * length - 2.0 * sin_t * cos_t * self.sin_h - sin_t * sin_t * self.rest
         y = 2.0 * sin_t * (cos_t * self.cos_h - sin_t * self.sin_h)
-        # df/dphi = (1 + (1 - A²)/W)/2 with W = x² + y² = 1 + A² + 2 A cos phi: as A nears 1 the
+        # df/dphi = (1 + (1 - A²)/W)/2 with W = x² + y² = 1 + A² + 2 A cos phi. As A nears 1 the
         # coulisse turns at half speed, and nothing cancels.
         sine, cosine = x * s + y * c, x * c - y * s - A
         turns = (cosine, -sine, -0.5 * cosine, sine / 6.0, cosine / 24.0)[: max(order, 0) + 1]
@@ -112,13 +114,13 @@ class Coulisse(NamedTuple):
 
 
 class CoulisseTurning(NamedTuple):
-    """The turning of the coulisse as the roller's crank: with the wheel where ``sense`` is 1."""
+    """Rate of the coulisse as the roller's crank; it turns with the wheel if ``sense`` is 1."""
 
     coulisse: Coulisse
     sense: float
 
     def __call__(self, tau: Number, order: int) -> Jet:
-        """Radians an input radian."""
+        """Rate in radians per input radian."""
         return self.coulisse.rate(tau, order) * self.sense
 
 
@@ -130,7 +132,10 @@ class SlidingBlock(Pushed):
         self.mid = mid  # input angle of the engagement's mid-motion, radians
 
     def line(self, input_deg: Number, order: int) -> tuple[Vector, Vector]:
-        """Along the coulisse, which points at the wheel at input angle 0, and across it."""
+        """Block position on the coulisse, and the direction across it.
+
+        The coulisse points at the wheel at input angle 0.
+        """
         s, c = sin_cos(Jet.variable(radians(input_deg) + self.mid, order))
         x, y = (c + self.A) * (-self.sign * self.r), s * self.r
         return (x, y), (y * -1.0, x)
@@ -142,23 +147,23 @@ def about(A: float, crank_deg: float) -> About:
 
 
 def turning(A: float, crank_deg: float, sense: float) -> CoulisseTurning:
-    """How the coulisse turns after its angle f in degrees."""
+    """Rate of the coulisse from its angle f in degrees on."""
     return CoulisseTurning(_about(A, crank_deg)[1], sense)
 
 
 def _about(A: float, crank_deg: float) -> tuple[float, Coulisse]:
     m = library(A, crank_deg)
     s, c = sin_cos_deg(crank_deg)
-    # cos h and the coulisse's length are written as sums of positive terms for A near +-1.
+    # cos h and the coulisse's length are sums of positive terms for A near +-1.
     sin_h = A * s
     cos_h = m.hypot(c, s * m.sqrt((1.0 - A) * (1.0 + A)))
-    level = s == 0.0  # on the line of centres, which is where most peaks are
+    level = s == 0.0  # on the line of centres, where most peaks are
     long = cos_h + abs(A * c)
     short = (1.0 - A) * (1.0 + A) / long
     ahead = A * c > 0.0
     length = choose(level, 1.0 + A * c, choose(ahead, long, short))
     rest = choose(level, 1.0 - A * c, choose(ahead, short, long))
-    # phi = f + h, but where the two nearly cancel, the angle of the input crank itself.
+    # phi = f + h, or the angle of the input crank itself if the two nearly cancel
     added = crank_deg + m.degrees(m.atan2(sin_h, cos_h))
     turns = crank_deg / 360.0
     whole = 360.0 * (round(turns) if isinstance(turns, float) else m.rint(turns))

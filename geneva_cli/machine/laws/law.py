@@ -1,8 +1,7 @@
-"""The base of the motion laws s(u): the share of the step by the share of the motion's time.
+"""The base of the motion laws s(u): fraction of the step by fraction of the motion's time.
 
-Both run from 0 to 1. A law is written on its first half as s by u, and on its second half as the
-remainder 1 - s by the remaining time w = 1 - u: so both ends are exact, and a symmetric law is
-written once.
+Both run from 0 to 1. The first half of a law is s by u. The second half is the remainder 1 - s by
+the remaining time w = 1 - u. So both ends are exact, and a symmetric law is written once.
 """
 
 from __future__ import annotations
@@ -29,14 +28,14 @@ class Law(SpecTable):
     TABLE: ClassVar[str] = "motion"
     NAME: ClassVar[str]
     ABOUT: ClassVar[str]
-    # said where the law turns the wheel back
+    # reason in the warning that the law turns the wheel back
     TURNS_BACK: ClassVar[str] = "the law's points must not fall"
-    # analytic between the breaks; a spline is not
+    # True if analytic between the breaks; a spline is not
     ANALYTIC: ClassVar[bool] = True
 
     @property
     def breaks(self) -> tuple[float, ...]:
-        """Where a derivative up to the fourth jumps, inside 0..1, in order.
+        """Values of u inside 0..1 at which a derivative up to the fourth jumps, in order.
 
         >>> ModifiedSine().breaks
         (0.125, 0.875)
@@ -45,7 +44,7 @@ class Law(SpecTable):
 
     @property
     def symmetric(self) -> Truth:
-        """Whether the second half mirrors the first; of a batch the answer of each design.
+        """True if the second half mirrors the first; an array for a batch.
 
         >>> Cycloidal().symmetric, SineGroup(0.1).symmetric
         (True, False)
@@ -54,7 +53,7 @@ class Law(SpecTable):
 
     @property
     def knots(self) -> tuple[float, ...]:
-        """Where any derivative jumps, inside 0..1: between them the law is analytic.
+        """Values of u inside 0..1 at which any derivative jumps; between them the law is analytic.
 
         >>> ModifiedSine().knots
         (0.125, 0.875)
@@ -62,7 +61,7 @@ class Law(SpecTable):
         return self.breaks
 
     def may_vary(self, table: str, key: str) -> bool:
-        """Whether a number of a table may be an array along a design axis with this law.
+        """True if a number of a table may be an array along a design axis with this law.
 
         >>> Cycloidal().may_vary("motion", "alpha0_deg")
         True
@@ -71,7 +70,7 @@ class Law(SpecTable):
 
     @property
     def tuned_to(self) -> float | None:
-        """The period ratio of the load that it leaves at rest; None for a law not tuned to one.
+        """Period ratio at which the law leaves a load at rest; None for a law that is not tuned.
 
         >>> Cycloidal().tuned_to is None
         True
@@ -79,7 +78,7 @@ class Law(SpecTable):
         return None
 
     def doubt(self) -> Doubt | None:
-        """For a law of points their decimals, and how far their rounding moves d³s/du³; else None.
+        """Decimals of a law of points, and the effect of their rounding on d³s/du³; else None.
 
         >>> Cycloidal().doubt() is None
         True
@@ -88,14 +87,14 @@ class Law(SpecTable):
 
     @abstractmethod
     def first(self, u: Number, order: int) -> Jet:
-        """The share s on 0 <= u <= 1/2, with its derivatives by u.
+        """Fraction s on 0 <= u <= 1/2, with its derivatives by u.
 
         >>> Polynomial345().first(0.5, 3).derivatives()  # s, ds/du and so on
         (0.5, 1.875, 0.0, -30.0)
         """
 
     def second(self, w: Number, order: int) -> Jet:
-        """The remainder 1 - s on 0 <= w = 1 - u <= 1/2, with its derivatives by w.
+        """Remainder 1 - s on 0 <= w = 1 - u <= 1/2, with its derivatives by w.
 
         >>> law = SineGroup(0.1)
         >>> round(law.first(0.5, 0).c[0] + law.second(0.5, 0).c[0], 12)
@@ -105,7 +104,7 @@ class Law(SpecTable):
 
     @property
     def halves_alike(self) -> bool:
-        """Whether the second half is worked out as the first.
+        """True if one formula gives both halves.
 
         >>> Cycloidal().halves_alike, SineGroup(0.1).halves_alike
         (True, False)
@@ -113,7 +112,7 @@ class Law(SpecTable):
         return type(self).second is Law.second
 
     def near_start(self, u: Number, order: int) -> Jet:
-        """``first``; at 0 and 1/2, which every machine of the law asks for, it is kept.
+        """Jet of ``first``; its values at 0 and 1/2, which every machine needs, are stored.
 
         >>> Cycloidal().near_start(0.5, 1).derivatives()
         (0.5, 2.0)
@@ -121,7 +120,7 @@ class Law(SpecTable):
         return self._kept(self.first, False, u, order)
 
     def near_end(self, w: Number, order: int) -> Jet:
-        """The same of ``second``.
+        """Jet of ``second``; its values at 0 and 1/2, which every machine needs, are stored.
 
         >>> Cycloidal().near_end(0.0, 1).derivatives()
         (0.0, 0.0)
@@ -138,7 +137,7 @@ class Law(SpecTable):
 
     @cached_property
     def varies(self) -> bool:
-        """Whether it is of many designs, with arrays.
+        """True if its numbers are arrays of a batch.
 
         >>> Cycloidal().varies
         False
@@ -151,9 +150,9 @@ class Law(SpecTable):
 
     @cached_property
     def half_way(self) -> float:
-        """The share of the motion time after which the wheel is half-way.
+        """Fraction of the motion time after which the wheel is half-way.
 
-        1/2 of a symmetric law by definition: its value there may be rounded to beside 1/2.
+        It is 1/2 for a symmetric law by definition, since rounding may move the computed value.
 
         >>> Cycloidal().half_way
         0.5
@@ -165,7 +164,7 @@ class Law(SpecTable):
         return boundary(lambda u: self(u, 0).c[0] <= 0.5, first, last)
 
     def __call__(self, u: Number, order: int = 3) -> Jet:
-        """The law at a number or an array of u in 0..1, with its derivatives by u."""
+        """Fraction s at a number or an array of u in 0..1, with its derivatives by u."""
         return piecewise(
             u,
             (0.5,),
@@ -177,7 +176,7 @@ class Law(SpecTable):
 
 
 def remaining(rest: Jet, end: float = 1.0) -> Jet:
-    """The jet by u of ``end`` less a remainder, from its jet by w, which runs backwards."""
+    """Jet by u of ``end`` minus a remainder, from the remainder's jet by w, which runs backward."""
     return Jet([end - rest.c[0], *[c if k % 2 else 0.0 - c for k, c in enumerate(rest.c) if k]])
 
 
@@ -187,7 +186,7 @@ def from_velocity(
     position: Callable[[Number], Number],
     velocity: Callable[[Jet], Jet],
 ) -> Jet:
-    """The jet of s(u) from a closed form of s and from the jet of ds/du.
+    """Jet of s(u) from a closed form of s and from the jet of ds/du.
 
     The velocity is written as a product wherever it vanishes, so that nothing cancels there.
     """

@@ -1,4 +1,4 @@
-"""The law ``scca``: sine, constant, cosine, in shares of the time that the user gives."""
+"""The law ``scca``: sine, constant, cosine, in fractions of the time that the user chooses."""
 
 from __future__ import annotations
 
@@ -15,51 +15,59 @@ ROUNDED = 2e-6  # by which b + c + d may miss 1: thirds are written with six dig
 
 
 class SineConstantCosine(Law):
-    """SCCA(b, c, d): harmonic (0, 0, 1), cycloidal (1/2, 0, 1/2), modified sine (1/4, 0, 3/4),
-    modified trapezoid (1/4, 1/2, 1/4), constant acceleration (0, 1, 0) and what lies between.
+    """Sine, constant and cosine acceleration in fractions b, c and d of the time.
+
+    Special cases are harmonic (0, 0, 1), cycloidal (1/2, 0, 1/2), modified sine (1/4, 0, 3/4),
+    modified trapezoid (1/4, 1/2, 1/4) and constant acceleration (0, 1, 0).
 
     >>> SineConstantCosine(b=0.25, c=0.5, d=0.25)(0.125, 2).derivatives()[2]  # 8 pi / (2 + pi)
     4.88812...
     """
 
     NAME: ClassVar[str] = "scca"
-    ABOUT: ClassVar[str] = "your own: shares b of sine, c of constant, d of cosine acceleration"
-    b: Annotated[float, Range(0.0, 1.0), "scca: share of the sine, in which acceleration rises"]
-    c: Annotated[float, Range(0.0, 1.0), "scca: share of constant acceleration; b + c + d = 1"]
-    d: Annotated[float, Range(0.0, 1.0), "scca: share of the cosine, in which acceleration falls"]
+    ABOUT: ClassVar[str] = "your own: fractions b of sine, c of constant, d of cosine acceleration"
+    b: Annotated[
+        float, Range(0.0, 1.0), "scca: time fraction of the sine, in which acceleration rises"
+    ]
+    c: Annotated[
+        float, Range(0.0, 1.0), "scca: time fraction of constant acceleration; b + c + d = 1"
+    ]
+    d: Annotated[
+        float, Range(0.0, 1.0), "scca: time fraction of the cosine, in which acceleration falls"
+    ]
 
     def __post_init__(self) -> None:
         super().__post_init__()
         whole = self.b + self.c + self.d
         if abs(whole - 1.0) > ROUNDED:
             raise GenevaError(
-                f"b + c + d = {whole:.9g} must be 1: shares of the time, such as b = 0.25, "
-                "c = 0.5, d = 0.25 of a modified trapezoid",
+                f"b + c + d = {whole:.9g} must be 1, the whole time: for example b = 0.25, "
+                "c = 0.5, d = 0.25 for a modified trapezoid",
                 (self.TABLE, "d"),
             )
-        for key, share in self.as_dict().items():
-            if 0.0 < share < LEAST:
+        for key, fraction in self.as_dict().items():
+            if 0.0 < fraction < LEAST:
                 raise GenevaError(
-                    f"{key} = {share:g} must be 0, for none, or at least {LEAST:g}",
+                    f"{key} = {fraction:g} must be 0, for none, or at least {LEAST:g}",
                     (self.TABLE, key),
                 )
 
     def may_vary(self, table: str, key: str) -> bool:
-        """The shares say which pieces there are, and so they are numbers."""
+        """False for the fractions, which decide the pieces and so must be numbers."""
         return table != "motion" or key not in self.as_dict()
 
     @property
     def _shares(self) -> tuple[float, float]:
-        """The shares b and d of exactly the whole; without c, b is what d leaves to the bit."""
+        """Fractions b and d of exactly the whole; without c, b is exactly 1 - d."""
         whole = self.b + self.c + self.d
         d = self.d / whole
         return (self.b / whole if self.c else 1.0 - d), d
 
     @property
     def breaks(self) -> tuple[float, ...]:
-        """Where the pieces meet."""
+        """Values of u at which the pieces meet."""
         return breaks(*self._shares, 0.0)
 
     def first(self, u: Number, order: int) -> Jet:
-        """The half in which the wheel gains speed."""
+        """First half of s, in which the wheel gains speed."""
         return first_half(u, order, *self._shares)

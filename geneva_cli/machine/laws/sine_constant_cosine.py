@@ -1,9 +1,9 @@
 """One family of laws: the acceleration rises as a sine, is constant, and falls as a cosine.
 
-R. L. Norton, Cam Design and Manufacturing Handbook, "The SCCA family": of the time in which a law
-accelerates, b goes to the quarter sine, c to the constant and d to the quarter cosine, b + c + d =
-1; the other half of the motion mirrors it. Modified constant velocity adds a middle share v of the
-whole motion without acceleration.
+R. L. Norton, Cam Design and Manufacturing Handbook, "The SCCA family". Of the time in which a law
+accelerates, the quarter sine takes the fraction b, the constant c and the quarter cosine d, with b
++ c + d = 1. The other half of the motion mirrors it. Modified constant velocity adds a middle
+fraction v of the whole motion without acceleration.
 """
 
 from __future__ import annotations
@@ -16,7 +16,7 @@ from geneva_cli.numerics.jet import Jet, Number, piecewise, sin_cos
 
 
 def peak(b: float, d: float) -> float:
-    """Greatest acceleration without a middle at constant velocity; c is what is left of 1.
+    """Greatest acceleration without a middle at constant velocity; c is 1 - b - d.
 
     Ca = 4 pi² / ((pi² - 8)(b² - d²) - 2 pi (pi - 2) b + pi²), Norton's closed form.
     """
@@ -26,7 +26,7 @@ def peak(b: float, d: float) -> float:
 
 
 def breaks(b: float, d: float, v: float = 0.0) -> tuple[float, ...]:
-    """Where a derivative up to the fourth jumps inside the motion."""
+    """Values of u inside the motion at which a derivative up to the fourth jumps."""
     sine, constant, rise = _ends(b, d, v)
     flat = sine < constant
     joints = set()
@@ -40,16 +40,16 @@ def breaks(b: float, d: float, v: float = 0.0) -> tuple[float, ...]:
 
 
 def _ends(b: float, d: float, v: float) -> tuple[float, float, float]:
-    """The times at which sine, constant and cosine end; constant velocity until the middle."""
+    """Times at which sine, constant and cosine end; then constant velocity until the middle."""
     rise = 0.5 * (1.0 - v)
     return rise * b, max(rise * (1.0 - d), rise * b), rise
 
 
 def first_half(u: Number, order: int, b: float, d: float, v: float = 0.0) -> Jet:
-    """The share s on 0 <= u <= 1/2, with its derivatives; c is what b and d leave of 1."""
+    """Fraction s on 0 <= u <= 1/2, with its derivatives; c is 1 - b - d."""
     ends = _ends(b, d, v)
     sine, constant, cosine = ends[0], ends[1] - ends[0], ends[2] - ends[1]
-    # v stretches nothing but the time: top speed V of the rise alone, in 1 - v of its time
+    # v only stretches the time: top speed V of the rise alone, in 1 - v of its time
     alone = peak(b, d) * ((b + d) / math.pi + 0.5 * (1.0 - b - d))
     top = alone / (1.0 - v + v * alone)
     a = peak(b, d) * top / alone / (1.0 - v)

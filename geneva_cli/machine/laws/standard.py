@@ -29,7 +29,7 @@ class Harmonic(Law):
     ABOUT: ClassVar[str] = "simple sine line; its acceleration jumps at both ends"
 
     def first(self, u: Number, order: int) -> Jet:
-        """The share s = sin²(pi u / 2)."""
+        """Fraction s = sin²(pi u / 2)."""
         return from_velocity(
             u,
             order,
@@ -51,7 +51,7 @@ class Cycloidal(Law):
     ABOUT: ClassVar[str] = "inclined sine line; no jump in acceleration"
 
     def first(self, u: Number, order: int) -> Jet:
-        """The share s = u - sin(2 pi u) / (2 pi)."""
+        """Fraction s = u - sin(2 pi u) / (2 pi)."""
 
         def velocity(u: Jet) -> Jet:
             s = _sine(u * math.pi)
@@ -62,26 +62,26 @@ class Cycloidal(Law):
         )
 
 
-class _InShares(Law):
-    """A law whose acceleration is a sine, constant and a cosine in fixed shares of the time."""
+class _ScaledLaw(Law):
+    """A law whose acceleration is a sine, a constant and a cosine in fixed time fractions."""
 
-    # of the sine and the cosine, and of constant velocity in the middle
-    SHARES: ClassVar[tuple[float, float, float]]
+    # fractions of the sine and the cosine, and of constant velocity in the middle
+    FRACTIONS: ClassVar[tuple[float, float, float]]
 
     @property
     def breaks(self) -> tuple[float, ...]:
-        """Where the pieces meet."""
-        return breaks(*self.SHARES)
+        """Values of u at which the pieces meet."""
+        return breaks(*self.FRACTIONS)
 
     def first(self, u: Number, order: int) -> Jet:
-        """The half in which the wheel gains speed."""
-        return first_half(u, order, *self.SHARES)
+        """First half of s, in which the wheel gains speed."""
+        return first_half(u, order, *self.FRACTIONS)
 
 
-class ModifiedTrapezoid(_InShares):
+class ModifiedTrapezoid(_ScaledLaw):
     """Modified acceleration trapezoid: constant acceleration, joined by quarter sines.
 
-    The least peak of acceleration of those here, 4.888.
+    It has the lowest acceleration peak of the laws here, 4.888.
 
     >>> round(ModifiedTrapezoid()(0.5).c[1], 6)  # ds/du at its greatest
     2.0
@@ -90,13 +90,13 @@ class ModifiedTrapezoid(_InShares):
     NAME: ClassVar[str] = "modified-trapezoid"
     ABOUT: ClassVar[str] = "constant acceleration joined by sines; the lowest peak without a jump"
     # a sine to u = 1/8, constant acceleration to 3/8, a cosine to the middle
-    SHARES: ClassVar[tuple[float, float, float]] = (0.25, 0.25, 0.0)
+    FRACTIONS: ClassVar[tuple[float, float, float]] = (0.25, 0.25, 0.0)
 
 
-class ModifiedSine(_InShares):
-    """Modified sine line: sine acceleration of period 1/2 for u < 1/8, of period 3/2 between.
+class ModifiedSine(_ScaledLaw):
+    """Modified sine line: sine acceleration of period 1/2 for u < 1/8, then of period 3/2.
 
-    The least peak of velocity, 1.760, of those here without a jump in acceleration.
+    It has the lowest velocity peak, 1.760, of the laws here without a jump in acceleration.
 
     >>> round(ModifiedSine()(0.5).c[1], 6)  # ds/du at its greatest
     1.759603
@@ -104,23 +104,23 @@ class ModifiedSine(_InShares):
 
     NAME: ClassVar[str] = "modified-sine"
     ABOUT: ClassVar[str] = "sines of two periods; a low peak of velocity and of torque"
-    # the quick sine to u = 1/8, the slow one to the middle
-    SHARES: ClassVar[tuple[float, float, float]] = (0.25, 0.75, 0.0)
+    # the fast sine to u = 1/8, the slow one to the middle
+    FRACTIONS: ClassVar[tuple[float, float, float]] = (0.25, 0.75, 0.0)
 
 
-class ModifiedConstantVelocity(_InShares):
+class ModifiedConstantVelocity(_ScaledLaw):
     """MCV50: the modified sine's acceleration in half the time, constant velocity between.
 
-    The lowest top speed of the laws here, and the greatest jerk.
+    It has the lowest velocity peak of the laws here, and the greatest jerk.
 
     >>> [round(c, 5) for c in ModifiedConstantVelocity()(0.5, 2).derivatives()]
     [0.5, 1.27526, 0.0]
     """
 
     NAME: ClassVar[str] = "mcv50"
-    ABOUT: ClassVar[str] = "modified sine, at constant velocity for half the time between"
-    # the quick sine to u = 1/16, the slow one to 1/4, constant velocity to the middle
-    SHARES: ClassVar[tuple[float, float, float]] = (0.25, 0.75, 0.5)
+    ABOUT: ClassVar[str] = "modified sine with constant velocity for half the time"
+    # the fast sine to u = 1/16, the slow one to 1/4, constant velocity to the middle
+    FRACTIONS: ClassVar[tuple[float, float, float]] = (0.25, 0.75, 0.5)
 
 
 class Polynomial345(Law):
@@ -136,7 +136,7 @@ class Polynomial345(Law):
     ABOUT: ClassVar[str] = "polynomial of degree 5; no jump in acceleration"
 
     def first(self, u: Number, order: int) -> Jet:
-        """The share s = 10 u³ - 15 u⁴ + 6 u⁵."""
+        """Fraction s = 10 u³ - 15 u⁴ + 6 u⁵."""
 
         def velocity(u: Jet) -> Jet:
             w = u * (1.0 - u)
@@ -158,7 +158,7 @@ class Polynomial4567(Law):
     ABOUT: ClassVar[str] = "polynomial of degree 7; no jump in jerk"
 
     def first(self, u: Number, order: int) -> Jet:
-        """The share s = 35 u⁴ - 84 u⁵ + 70 u⁶ - 20 u⁷."""
+        """Fraction s = 35 u⁴ - 84 u⁵ + 70 u⁶ - 20 u⁷."""
 
         def position(u: Number) -> Number:
             return u**4 * (35.0 - u * (84.0 - u * (70.0 - 20.0 * u)))
@@ -173,7 +173,8 @@ class Polynomial4567(Law):
 class SineGroup(Law):
     """Krasniqi's law: ds/du = (8/3) sin⁴ x (1 - 8 lambda cos x), x = pi u.
 
-    Velocity to snap vanish at both ends. Beyond |lambda| = 1/8 the wheel turns back.
+    All derivatives from velocity to snap vanish at both ends. The wheel turns back if |lambda| >
+    1/8.
 
     >>> round(SineGroup(0.1)(0.5).c[1], 6)
     2.666667
@@ -181,20 +182,20 @@ class SineGroup(Law):
 
     NAME: ClassVar[str] = "sine-group"
     ABOUT: ClassVar[str] = "four sines; no jump up to snap; lambda tilts it, |lambda| <= 1/8"
-    TURNS_BACK: ClassVar[str] = "the sine group does so for |lambda| > 1/8"
-    lambda_: Annotated[float, Range(-10.0, 10.0), "shape of the sine-group law"] = 0.0
+    TURNS_BACK: ClassVar[str] = "the sine group turns back for |lambda| > 1/8"
+    lambda_: Annotated[float, Range(-10.0, 10.0), "shape parameter of the sine-group law"] = 0.0
 
     @property
     def symmetric(self) -> Truth:
-        """Only without a tilt."""
+        """True without a tilt."""
         return self.lambda_ == 0.0
 
     def first(self, u: Number, order: int) -> Jet:
-        """The share s in closed form, from its velocity."""
+        """Fraction s in closed form, from its velocity."""
         return _tilted(u, order, self.lambda_)
 
     def second(self, w: Number, order: int) -> Jet:
-        """Seen from the end, the tilt is the other way."""
+        """Remainder 1 - s: the formula of ``first`` with the opposite tilt."""
         return _tilted(w, order, -self.lambda_)
 
 

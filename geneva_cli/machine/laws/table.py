@@ -1,7 +1,7 @@
-"""The law ``table``: a motion law that a user gives as points u,s.
+"""The law ``table``: a motion law from the user's points u,s.
 
-A quintic spline through every point, four times continuously differentiable; its four free
-conditions put velocity and acceleration to zero at both ends.
+It is a quintic spline through every point, four times continuously differentiable. Its four free
+conditions set velocity and acceleration to zero at both ends.
 """
 
 from __future__ import annotations
@@ -22,8 +22,8 @@ if TYPE_CHECKING:
 class TableLaw(Law):
     """A spline through the points of a CSV file.
 
-    ``file`` are pairs u,s from 0,0 to 1,1 in ascending order, or a CSV file's. Raises GenevaError
-    for pairs that are not.
+    ``points`` are pairs u,s from 0,0 to 1,1 in ascending order, or the name of a CSV file with
+    them. Raises GenevaError for any other points.
 
     >>> law = TableLaw([(u / 10, (u / 10) ** 2 * (3 - u / 5)) for u in range(11)])
     >>> round(law(0.5).c[0], 12)
@@ -33,9 +33,9 @@ class TableLaw(Law):
     NAME: ClassVar[str] = "table"
     ABOUT: ClassVar[str] = "your own: a CSV of u,s points, file = ..."
     ANALYTIC: ClassVar[bool] = False
-    # The points of s are rounded by 1e-16, which moves a third derivative by some 1e-16 / step³: at
-    # this step, 10,001 points in all, by 1e-4 of a usual law's; ten times closer the jerk is
-    # nothing else, with a peak at every point. Past ten times its rise a law is a mistake.
+    # The points of s are rounded by 1e-16, which moves a third derivative by about 1e-16 / step³.
+    # At this step, 10,001 points in all, that is 1e-4 of a usual law's. Ten times closer the jerk
+    # is only noise, with a peak at every point. A law that passes ten times its rise is a mistake.
     points: Annotated[Points, Csv("file", "u", "s", 0.9e-4, 10.0, 6), "points of the law `table`"]
 
     def __post_init__(self) -> None:
@@ -43,7 +43,7 @@ class TableLaw(Law):
         pairs, file = self.points
         if pairs[0] != (0.0, 0.0) or pairs[-1] != (1.0, 1.0):
             raise GenevaError(
-                f"{file or 'points'}: a law runs from 0,0 to 1,1; the first or last point does not",
+                f"{file or 'points'}: a law runs from 0,0 to 1,1: change the first or last point",
                 ("motion", "file"),
             )
 
@@ -54,24 +54,24 @@ class TableLaw(Law):
 
     @property
     def symmetric(self) -> bool:
-        """Points need not be."""
+        """Always False: points need not be symmetric."""
         return False
 
     @property
     def knots(self) -> tuple[float, ...]:
-        """The points: a spline's fifth derivative jumps there."""
+        """Values of u at the points, where the fifth derivative of a spline jumps."""
         return tuple(u for u, _ in self.points.pairs[1:-1])
 
     def first(self, u: Number, order: int) -> Jet:
-        """The spline."""
+        """Fraction s from the spline."""
         return Jet(self._halves[0](u, order))
 
     def second(self, w: Number, order: int) -> Jet:
-        """What is left, from the other end."""
+        """Remainder 1 - s from the spline's other end."""
         return Jet(self._halves[1](w, order))
 
     def doubt(self) -> Doubt:
-        """What the rounding of the points leaves unknown of the third derivative."""
+        """Decimals of the points, and the effect of their rounding on the third derivative."""
         return _doubt(self.points.pairs)
 
 

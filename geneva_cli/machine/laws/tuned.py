@@ -1,12 +1,13 @@
 """The law ``tuned``: a command that leaves no vibration of a load on an elastic shaft.
 
-With r the load's angle less the wheel's, r'' + 2 zeta wn r' + wn² r = -psi''. For any law y,
+With r the load's angle minus the wheel's, r'' + 2 zeta wn r' + wn² r = -psi''. For any law y,
 
     psi = y + 2 zeta y'/wn + y''/wn²
 
 moves the load along y + 2 zeta y'/wn, from rest to rest: y is the flat output of the oscillator.
-Without damping the load follows y itself. In shares of the step and of the motion's time wn is
-Omega = 2 pi lambda, lambda the period ratio: so the law is a pure shape, and its own key is lambda.
+Without damping the load follows y itself. In fractions of the step and of the motion's time wn is
+Omega = 2 pi lambda, with the period ratio lambda. So the law is a pure shape, and its own key is
+lambda.
 """
 
 from __future__ import annotations
@@ -27,7 +28,7 @@ ROUNDING = 1e-9  # of a derivative that vanishes
 
 
 class Tuned(Law):
-    """A law of the load's flat output, turned into the wheel's.
+    """A law of the load's flat output, converted to the wheel's motion.
 
     >>> from geneva_cli import Cycloidal
     >>> law = Tuned(period_ratio=2.0)
@@ -36,29 +37,28 @@ class Tuned(Law):
     """
 
     NAME: ClassVar[str] = "tuned"
-    ABOUT: ClassVar[str] = "leaves an elastic load no vibration at its period_ratio; of = a law"
-    TURNS_BACK: ClassVar[str] = "a tuned law does so at period ratios below about 0.8"
+    ABOUT: ClassVar[str] = "leaves an elastic load at rest at its period_ratio; of = a law"
+    TURNS_BACK: ClassVar[str] = "a tuned law turns back at period ratios below about 0.8"
     period_ratio: Annotated[
-        float, Range(0.05, 1e5), "motion time over the load's natural period, of the law `tuned`"
+        float, Range(0.05, 1e5), "tuned: motion time over the load's natural period"
     ]
     of: Annotated[
         str,
         OneOf(registry.STANDARD_LAWS),
-        "law that `tuned` is made of: 4-5-6-7, or sine-group for no jump",
+        "tuned: the law of the load, 4-5-6-7 or (for no jump) sine-group",
     ] = "4-5-6-7"
     damping_ratio: Annotated[
-        float, Range(0.0, 1.0, "[)"), "of the load on its shaft, of the law `tuned`"
+        float, Range(0.0, 1.0, "[)"), "tuned: damping ratio of the load on its shaft"
     ] = 0.0
 
     def __post_init__(self) -> None:
         super().__post_init__()
         if not _serves(self._y):
             serve = [n for n in registry.STANDARD_LAWS if _serves(registry.law(n)())]
-            said = " or ".join(f'"{name}"' for name in serve)
+            usable = " or ".join(f'"{name}"' for name in serve)
             raise GenevaError(
-                f'of = "{self.of}": one of its first three derivatives jumps, and the wheel, which '
-                f"moves by its second too, would have to jump in position or velocity; {said} "
-                "will do",
+                f'of = "{self.of}": one of its first three derivatives jumps, so the wheel would '
+                f"jump in position or velocity; use {usable}",
                 ("motion", "of"),
             )
 
@@ -69,34 +69,34 @@ class Tuned(Law):
 
     @property
     def symmetric(self) -> Truth:
-        """Without damping, as its law."""
+        """True without damping, if its law is symmetric."""
         return self._y.symmetric & (self.damping_ratio == 0.0)
 
     @property
     def tuned_to(self) -> float:
-        """Its period ratio."""
+        """Period ratio at which it leaves the load at rest."""
         return self.period_ratio
 
     @property
     def knots(self) -> tuple[float, ...]:
-        """Those of its law."""
+        """Knots of its law."""
         return self._y.knots
 
     def first(self, u: Number, order: int) -> Jet:
-        """The share s = y + 2 zeta y'/Omega + y''/Omega²."""
+        """Fraction s = y + 2 zeta y'/Omega + y''/Omega²."""
         return self._with_rates(self._y.first(u, order + 2), 1.0)
 
     def second(self, w: Number, order: int) -> Jet:
-        """What is left; the first derivative has the other sign by what is left of the time."""
+        """Remainder 1 - s; the first derivative changes sign, since the time runs backwards."""
         return self._with_rates(self._y.second(w, order + 2), -1.0)
 
-    def _with_rates(self, y: Jet, way: float) -> Jet:
+    def _with_rates(self, y: Jet, sign: float) -> Jet:
         omega = 2.0 * math.pi * self.period_ratio
-        rate = Jet(y.derivative().c[:-1]) * (way * 2.0 * self.damping_ratio / omega)
+        rate = Jet(y.derivative().c[:-1]) * (sign * 2.0 * self.damping_ratio / omega)
         return Jet(y.c[:-2]) + rate + y.derivative().derivative() * (1.0 / (omega * omega))
 
 
 def _serves(y: Law) -> bool:
-    """Whether the law's derivatives to the third vanish at both ends, and jump nowhere."""
+    """True if the law's derivatives up to the third vanish at both ends and do not jump."""
     ends = [c for x in (0.0, 1.0) for c in y(x, SMOOTH).c[1:]]
     return not y.breaks and all(abs(scalar(c)) < ROUNDING for c in ends)

@@ -15,7 +15,7 @@ STEPS = 8  # of Newton, from any l of three slots or more to the last digit
 
 
 def half_motion_deg(sign: float, p: int, q: int) -> float:
-    """Crank angle from entry to the line of centres: 90° - b outside, 90° + b inside."""
+    """Crank angle in degrees from entry to the line of centres: 90° - b outside, 90° + b inside."""
     return 90.0 * (q - 2 * int(sign) * p) / q
 
 
@@ -26,15 +26,15 @@ def gap(sign: float, p: int, q: int) -> float:
 
 
 def rollers_max(motion_deg: float) -> int:
-    """The most evenly spaced rollers that leave some dwell: m * motion < 360 degrees.
+    """Greatest number of evenly spaced rollers that leave some dwell: m * motion < 360 degrees.
 
-    A whole number, which of an array is a float.
+    A whole number; floats for an array.
     """
     return cast(int, library(motion_deg).ceil(360.0 / motion_deg)) - 1
 
 
 def refuse_jam(rollers: int, motion_deg: float, inside: bool) -> None:
-    """Raise GenevaError where so many rollers would leave no dwell."""
+    """Raise GenevaError if the rollers would leave no dwell."""
     most = rollers_max(motion_deg)
 
     def error() -> GenevaError:
@@ -51,15 +51,15 @@ def refuse_jam(rollers: int, motion_deg: float, inside: bool) -> None:
 
 
 def velocity_peak(l: float, gap: float) -> float:
-    """At mid-motion: l/(1 - l) outside, l/(1 + l) inside."""
+    """Peak velocity, at mid-motion: l/(1 - l) outside, l/(1 + l) inside."""
     return l / gap
 
 
 def acceleration_peak(l: float, gap: float) -> tuple[float, float]:
     """Peak acceleration of an external wheel and its angle from mid-motion, degrees.
 
-    psi3 = 0 is a quadratic in cos a; with s = 1 - cos a and B = 1 + 4 l + l² its root is
-    s = 2 (1-l)² / (B + sqrt(B² - 8 l (1-l)²)), free of cancellation up to l = 1. (An internal
+    psi3 = 0 is a quadratic in cos a. With s = 1 - cos a and B = 1 + 4 l + l² its root is s = 2
+    (1-l)² / (B + sqrt(B² - 8 l (1-l)²)), which is free of cancellation up to l = 1. (An internal
     wheel's peak is its jump at entry, tan b.)
     """
     m = library(l, gap)
@@ -73,10 +73,10 @@ def acceleration_peak(l: float, gap: float) -> tuple[float, float]:
 def power_peak(l: float, gap: float) -> tuple[float, float]:
     """Peak of velocity times acceleration and its angle from mid-motion, degrees.
 
-    With k = 1 - gap (l outside, -l inside) its slope vanishes where c = cos a is the root of
-    2 k c³ + 2 (1 - k²) c² - k (5 + k²) c + 5 k² - 1 between entry (c = k), where that is
-    -(1 - k²)², and mid-motion (c = 1), where it is (1 - k)³. Between the root and the tangent of
-    its course at k = 0, c = sqrt(1/2) + k, the cubic rises and is convex: Newton's steps go down.
+    k is 1 - gap: l outside, -l inside. The slope vanishes where c = cos a is a root of 2 k c³ + 2
+    (1 - k²) c² - k (5 + k²) c + 5 k² - 1. At entry (c = k) this cubic is -(1 - k²)², at mid-motion
+    (c = 1) it is (1 - k)³. Newton's method starts at c = sqrt(1/2) + k, the tangent of the root's
+    course at k = 0. From there to the root the cubic rises and is convex, so the steps go down.
     """
     k = 1.0 - gap
     square, slope, rest = 2.0 * (1.0 - k * k), k * (5.0 + k * k), 5.0 * k * k - 1.0
@@ -85,7 +85,7 @@ def power_peak(l: float, gap: float) -> tuple[float, float]:
         value = ((2.0 * k * c + square) * c - slope) * c + rest
         c = c - value / ((6.0 * k * c + 2.0 * square) * c - slope)
     m = library(l, gap)
-    s = 1.0 - c  # the peak is flat: a rounding of c counts by its square
+    s = 1.0 - c  # the peak is flat: a rounding error of c counts by its square
     d = gap * gap + 2.0 * k * s
     size = l * l * gap * (1.0 + k) * (gap - s) * m.sqrt(s * (2.0 - s)) / d**3
     return size, m.degrees(2.0 * m.asin(m.sqrt(0.5 * s)))

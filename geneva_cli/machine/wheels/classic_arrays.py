@@ -1,4 +1,4 @@
-"""The classic wheels over whole arrays: closed forms in tan(a/2), in place, a block at a time.
+"""The classic wheels over whole arrays: closed forms in tan(a/2), in place, block by block.
 
 With t = tan(a/2), T = t², and (p, q) = (1-l, 1+l) outside, (1+l, 1-l) inside, both gearings are
 
@@ -8,9 +8,9 @@ With t = tan(a/2), T = t², and (p, q) = (1-l, 1+l) outside, (1+l, 1-l) inside, 
     psi2 = - 2 l (1-l²) t (1+T) / P²
     psi3 = l (1-l²) (1+T) (q² T² +- 12 l T - p²) / P³
 
-in which nothing cancels as l nears 1, and one tangent is all the trigonometry there is. A block
-stays in the processor's cache between the steps; on whole arrays the same steps take half as long
-again (`geneva bench motion` reprints it).
+Nothing cancels here as l nears 1, and one tangent is the only trigonometric function. A block stays
+in the processor's cache between the steps. On whole arrays the steps take 1.5 times as long
+(`geneva bench motion` measures it).
 """
 
 from __future__ import annotations
@@ -38,10 +38,11 @@ class ClassicArrays(NamedTuple):
     def derivatives(
         self, input_deg: Array, orders: Sequence[int], mirrored: bool = False
     ) -> list[Array]:
-        """The wheel's angle (order 0) and its derivatives (1 to 3) at input angles in degrees.
+        """Wheel angle (order 0) and its derivatives (1 to 3) at input angles in degrees.
 
-        Each within a few units in the last place of its peak. Only what is asked for is computed;
-        where the angles lie symmetrically about mid-motion (``mirrored``), only half of it.
+        Each is accurate to a few units in the last place of its peak. Only the requested orders are
+        computed. If the angles lie symmetrically about mid-motion (``mirrored``), only half of them
+        is computed.
         """
         n = len(input_deg)
         count = (n + 1) // 2 if mirrored else n

@@ -1,4 +1,4 @@
-"""External wheels: radial slots, slots beside the wheel's centre, unequal steps."""
+"""External wheels: radial slots, offset slots, unequal steps."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from geneva_cli.machine.wheels import classic, poses
 from geneva_cli.machine.wheels.gearing import Gearing, RollerPlace
 from geneva_cli.machine.wheels.offset_slot import OffsetFollowed, OffsetSlot
 from geneva_cli.machine.wheels.poses import HalfStep
-from geneva_cli.machine.wheels.skew import room, skew
+from geneva_cli.machine.wheels.skew import margin, skew
 from geneva_cli.numerics.arrays import choose
 from geneva_cli.spec.rules import LENGTH, Range
 
@@ -24,8 +24,8 @@ if TYPE_CHECKING:
 class External(Gearing):
     """The crank turns outside the wheel: less motion than dwell.
 
-    ``z`` slots, 3 or more; ``offset_mm`` is the distance at which their axes miss the wheel's;
-    ``steps_deg`` are unequal steps, a pattern that repeats over a turn.
+    ``z`` is the number of slots, 3 or more. ``offset_mm`` is the distance by which the slots' axes
+    miss the wheel's axis. ``steps_deg`` are unequal steps, a pattern that repeats over a turn.
 
     >>> Design(External(6)).timing.motion_deg
     120.0
@@ -36,10 +36,10 @@ class External(Gearing):
     NAME: ClassVar[str] = "external"
     EXAMPLE: ClassVar[Example] = Example("an external wheel, straight slots", {"wheel": {"z": 6}})
     offset_mm: Annotated[
-        float, LENGTH, "how far the slots' axes miss the wheel's centre; > 0 enters gently"
+        float, LENGTH, "distance from the slots' axes to the wheel's; > 0 enters gently"
     ] = 0.0
     steps_deg: Annotated[
-        tuple[float, ...] | None, Range(0.0, 360.0, "()"), "unequal steps, a repeating pattern"
+        tuple[float, ...] | None, Range(0.0, 360.0, "()"), "unequal steps, as a repeating pattern"
     ] = None
 
     def __post_init__(self) -> None:
@@ -48,19 +48,20 @@ class External(Gearing):
             refuse(
                 self.offset_mm != 0.0,
                 lambda: GenevaError(
-                    "offset_mm with steps_deg: choose one of them", ("wheel", "offset_mm")
+                    "offset_mm and steps_deg cannot be combined: remove one of them",
+                    ("wheel", "offset_mm"),
                 ),
             )
             self._refuse_steps(self.steps_deg)
 
     def _refuse_steps(self, steps: tuple[float, ...]) -> None:
-        """The pattern must close over the wheel."""
+        """Raise GenevaError if the pattern does not close over the wheel."""
         z, key = self.z, ("wheel", "steps_deg")
         refuse(
             z % len(steps) != 0,
             lambda: GenevaError(
-                f"z = {z} is no multiple of the pattern's {len(steps)} steps; "
-                f"{_multiples(z, len(steps))} would be",
+                f"z = {z} is not a multiple of the {len(steps)} steps in the pattern: "
+                f"use {_multiples(z, len(steps))}",
                 key,
             ),
         )
@@ -68,35 +69,37 @@ class External(Gearing):
         refuse(
             abs(turn - 360.0) > 1e-9,
             lambda: GenevaError(
-                f"the pattern, {z // len(steps)} times over the wheel, adds up to {turn:.12g} deg; "
-                f"it must be 360, so its steps {360.0 * len(steps) / z:.12g}",
+                f"{z // len(steps)} times the pattern is {turn:.12g} deg, not 360: "
+                f"its steps must add up to {360.0 * len(steps) / z:.12g}",
                 key,
             ),
         )
         if max(steps) >= 180.0:
-            raise GenevaError(f"a step of {max(steps):g} deg is out of reach; below 180", key)
+            raise GenevaError(
+                f"a step of {max(steps):g} deg is too large: it must be below 180", key
+            )
 
     @property
     def steps(self) -> tuple[float, ...]:
-        """The repeating pattern of unequal steps, degrees; empty where all are equal."""
+        """Repeating pattern of unequal steps in degrees; empty if all are equal."""
         return self.steps_deg or ()
 
     @property
     def skewed(self) -> bool:
-        """Whether slots are not radial or not alike."""
+        """True if slots are not radial or not all alike."""
         return True if self.steps_deg else self.offset_mm != 0.0
 
     def half_motion_deg(self, step: HalfStep) -> float:
-        """Crank angle from entry to the line of centres: 90° - b."""
+        """Crank angle in degrees from entry to the line of centres: 90° - b."""
         return classic.half_motion_deg(self.SIGN, *step)
 
     @property
     def layout(self) -> Layout:
-        """How far its slots miss the wheel's axis."""
-        return (Dimension("slots' axes beside the wheel's", self.offset_mm, "mm"),)
+        """Distance by which the slots' axes miss the wheel's axis."""
+        return (Dimension("slots' axes offset from the wheel's", self.offset_mm, "mm"),)
 
     def place(self, step: HalfStep, center_distance_mm: float) -> RollerPlace:
-        """A roller's passage; GenevaError where an offset slot cannot be entered without shock."""
+        """Place of a roller; GenevaError if an offset slot cannot be entered without shock."""
         half = self.half_motion_deg(step)
         e = self.offset_mm / center_distance_mm
         if isinstance(e, float) and not e:
@@ -106,12 +109,12 @@ class External(Gearing):
             # b + |d| < 90 degrees means |e| < 1 - l; at the limit e = cos b sin d, d = 90 deg - b
             limit = step.sin_cos[1] ** 2 * center_distance_mm
             return GenevaError(
-                f"offset_mm = {self.offset_mm:g}: the roller cannot enter such a slot without "
-                f"shock; its size must be below {limit:.6g}",
+                f"offset_mm = {self.offset_mm:g}: the roller cannot enter this slot without "
+                f"shock: its size must be below {limit:.6g}",
                 ("wheel", "offset_mm"),
             )
 
-        spare = room(step, e)
+        spare = margin(step, e)
         refuse(spare <= 0.0, error)
         slot = skew(step, e, spare)
         return RollerPlace(step, half, slot.poses, slot.poses[2].slope[0], slot)
@@ -119,26 +122,26 @@ class External(Gearing):
     def follow(
         self, path: AnchoredPath, place: RollerPlace, turn: Displacement
     ) -> tuple[Slot, Followed]:
-        """A radial slot, or one beside the wheel's centre."""
+        """Radial or offset slot for a roller's path, and the motion that follows."""
         if place.skew is None:
             return super().follow(path, place, turn)
         slot = OffsetSlot(path, place.skew)
         return slot, OffsetFollowed(path, place.step.b, place.skew)
 
     def closed_form(self, place: RollerPlace) -> tuple[float, float, float] | None:
-        """The closed forms of radial slots; None for others."""
+        """Sign, l = sin b and 1 - l for the closed forms of radial slots; None for others."""
         if place.skew is not None:
             return None
         return self.SIGN, place.step.sin_cos[0], classic.gap(1.0, *place.step)
 
     def matched_ratio(self, v: float) -> float:
-        """psi1(0) = l/(1-l) f1(0), with f1 the transmission's ratio."""
+        """R/L of the mid condition psi1(0) = l/(1-l) f1(0), with the transmission's ratio f1."""
         able = v > 0.0
         ratio: float = choose(able, v, math.nan) / (1.0 + choose(able, v, 0.0))
         return ratio
 
 
 def _multiples(z: int, n: int) -> str:
-    """The multiples of n on both sides of z that are numbers of slots."""
+    """Nearest multiples of n below and above z, if they are possible numbers of slots."""
     near = [m for m in (z // n * n, (z // n + 1) * n) if m >= 3]
     return " or ".join(str(m) for m in near)

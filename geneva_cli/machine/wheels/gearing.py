@@ -23,11 +23,12 @@ if TYPE_CHECKING:
 class RollerPlace(NamedTuple):
     """A roller on the crank, and its passage through a straight slot.
 
-    ``crank_deg`` is the crank angle at which it crosses the line of centres; ``poses`` are entry,
-    middle and exit on its circle, their crank angles counted from there; ``ratio`` is its arm over
-    the centre distance. ``skew`` is an offset slot's; on a sphere
-    ``height`` is the pin's place along the wheel's axis: (top, fall) for top - fall (1 - cos a),
-    and ``cone`` the cosine of the pin's cone.
+    ``crank_deg`` is the crank angle at which it crosses the line of centres. ``poses`` are entry,
+    middle and exit on its circle, with crank angles counted from there. ``ratio`` is its arm over
+    the centre distance. ``skew`` describes an offset slot.
+
+    On a sphere ``height`` is the pin's position along the wheel's axis: (top, fall) for top - fall
+    (1 - cos a). ``cone`` is the cosine of the pin's cone.
     """
 
     step: HalfStep
@@ -41,7 +42,7 @@ class RollerPlace(NamedTuple):
 
     @property
     def reach_deg(self) -> float:
-        """The greatest crank angle from the line of centres at which it moves the wheel."""
+        """Greatest crank angle from the line of centres at which it moves the wheel, degrees."""
         farthest: float = larger(-self.poses[0].crank_deg, self.poses[2].crank_deg)
         return farthest
 
@@ -51,51 +52,51 @@ class Gearing(SpecTable):
 
     TABLE: ClassVar[str] = "wheel"
     NAME: ClassVar[str]
-    # a spec to start from, its gearing left out
+    # example spec, without its gearing
     EXAMPLE: ClassVar[Example]
-    # +1 where the crank's axis is outside the wheel's reach, -1 inside
+    # +1 if the crank's axis is outside the wheel, -1 if inside
     SIGN: ClassVar[float] = 1.0
-    # whether wheel and crank are flat parts, on parallel shafts
+    # True if wheel and crank are flat parts on parallel shafts
     FLAT: ClassVar[bool] = True
-    # whether they are shells of a sphere, on shafts that meet at its centre
+    # True if they are shells of a sphere, on shafts that meet at its centre
     SHELLS: ClassVar[bool] = False
     z: Annotated[int, Range(3, Z_MAX), "number of slots"]
     held_by: Annotated[
         str | None,
         OneOf(("brake", "detent", "pin")),
-        "what holds the wheel at rest, where no locking disc does",
+        "device that holds the wheel at rest, if no locking disc does",
     ] = field(default=None, kw_only=True)
 
     @property
     def step(self) -> HalfStep:
-        """Half the wheel's step where all are equal, as an exact fraction."""
+        """Half the wheel's step as an exact fraction, for equal steps."""
         return HalfStep(1, self.z)
 
     @property
     def steps(self) -> tuple[float, ...]:
-        """The repeating pattern of unequal steps, degrees; empty where all are equal."""
+        """Repeating pattern of unequal steps in degrees; empty if all are equal."""
         return ()
 
     @property
     def skewed(self) -> bool:
-        """Whether slots are not radial, or not all alike: some drives and laws cannot have that.
+        """True if slots are not radial or not all alike, which some drives and laws cannot use.
 
-        A truth value; for arrays of designs an array of them.
+        An array of truth values for a batch.
         """
         return False
 
     @property
     def layout(self) -> Layout:
-        """The dimensions of this kind of wheel, besides its number of slots.
+        """Dimensions of this kind of wheel, in addition to its number of slots.
 
         >>> External(6, offset_mm=12.0).layout
-        (Dimension(name="slots' axes beside the wheel's", value=12.0, unit='mm'),)
+        (Dimension(name="slots' axes offset from the wheel's", value=12.0, unit='mm'),)
         """
         return ()
 
     @property
     def own_sizes(self) -> dict[str, float]:
-        """Values by name that a report shows of this kind of wheel alone."""
+        """Values by name that a report shows for this kind of wheel only."""
         return {}
 
     def index_deg(self, i: int) -> float:
@@ -104,11 +105,11 @@ class Gearing(SpecTable):
 
     @abstractmethod
     def half_motion_deg(self, step: HalfStep) -> float:
-        """Crank angle from entry to the line of centres, for a slot entered without shock."""
+        """Crank angle in degrees from entry to the line of centres, for an entry without shock."""
 
     @abstractmethod
     def place(self, step: HalfStep, center_distance_mm: float) -> RollerPlace:
-        """A roller's passage through a straight slot. Raises GenevaError where there is none."""
+        """Place of a roller in a straight slot. Raises GenevaError if it is impossible."""
 
     def rest(self, ratio: float) -> float:
         """Least distance of a pin on any circle from the wheel's axis: 1 - l, inside 1 + l."""
@@ -117,27 +118,27 @@ class Gearing(SpecTable):
     def follow(
         self, path: AnchoredPath, place: RollerPlace, turn: Displacement
     ) -> tuple[Slot, Followed]:
-        """The straight slot for a roller's path, and the motion that the two give.
+        """Straight slot for a roller's path, and the motion that follows.
 
-        ``turn`` is the crank's angle from mid-motion, as its sine and versine.
+        ``turn`` is the crank's rotation from mid-motion, as its sine and versine.
         """
         return RadialSlot(path), Followed(path, place.step.b)
 
     def body(self, place: RollerPlace, turn: Displacement) -> CarrierVelocity | None:
-        """The body that carries the roller; None for the crank's arm in the wheel's plane."""
+        """Angular velocity of the roller's carrier; None for a crank arm in the plane."""
         return None
 
     def hub(self, place: RollerPlace) -> float:
-        """Distance from the wheel's axis to the point about which the crank's arm turns, over L."""
+        """Distance over L from the wheel's axis to the point about which the crank's arm turns."""
         return 1.0
 
     def closed_form(self, place: RollerPlace) -> tuple[float, float, float] | None:
-        """Sign, l and 1 - l of the closed forms of a plain crank; None where there are none."""
+        """Sign, l and 1 - l for the closed forms of a plain crank; None if there are none."""
         return None
 
     def matched_ratio(self, v: float) -> float:
         """R/L at which the pin crosses the line of centres as fast as the wheel's slot does there.
 
-        ``v`` is the wheel's speed over the crank's. NaN where no R/L below 1 does.
+        ``v`` is the wheel's speed over the crank's. NaN if no R/L below 1 has this property.
         """
         return math.nan

@@ -1,4 +1,4 @@
-"""Slots of offset e, and the motion that they give (see ``skew`` for their proportions)."""
+"""Slots of offset e, and the motion that they give; ``skew`` has their proportions."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ class OffsetSlot(Slot):
         self.path, self.skew, self.offset = path, skew, skew.e
 
     def __call__(self, input_deg: Number, order: int = 3) -> tuple[Jet, Jet]:
-        """The pin runs along the slot's straight axis."""
+        """Pin (x, y) in the wheel, on the slot's straight axis."""
         depth = self._depth(input_deg, order)
         return turned(depth, depth * 0.0 - self.offset, self.skew.tilt)
 
@@ -36,26 +36,26 @@ class OffsetSlot(Slot):
 
 
 class OffsetFollowed(Followed):
-    """The motion of a wheel whose offset slot follows the pin."""
+    """Motion of a wheel whose offset slot follows the pin."""
 
     def __init__(self, path: AnchoredPath, half_step: float, skew: Skew) -> None:
         super().__init__(path, half_step)
         self.skew = skew
 
     def __call__(self, input_deg: Number, order: int = 3) -> Jet:
-        """The wheel's angle: the slot's direction, from the nearest anchor; at rest at the ends."""
-        return self._told(input_deg, order, angle=True)
+        """Wheel angle from the slot's direction at the nearest anchor; at rest at both ends."""
+        return self._angle_or_rate(input_deg, order, angle=True)
 
     def rate(self, input_deg: Number, order: int = 2) -> Jet:
-        """How fast the slot's direction turns: without an arc tangent."""
-        return self._told(input_deg, order + 1, angle=False)
+        """Rate at which the slot's direction turns, computed without an arc tangent."""
+        return self._angle_or_rate(input_deg, order + 1, angle=False)
 
     def rough_rates(self, input_deg: Number, order: int = 2) -> tuple[Array, ...]:
-        """The same, from mid-motion alone."""
+        """Speed and its derivatives at arrays of angles, computed from mid-motion only."""
         return self._inside(input_deg, order + 1, angle=False).arrays()
 
-    def _told(self, input_deg: Number, order: int, *, angle: bool) -> Jet:
-        """The wheel's angle, or its rate, one order lower."""
+    def _angle_or_rate(self, input_deg: Number, order: int, *, angle: bool) -> Jet:
+        """Wheel angle, or its rate, which is one order lower."""
         anchors = self.path.anchors
         (entry, mid, exit_), cuts = anchors, anchors.cuts
         first, last = (self._from_end(end, order, angle) for end in (entry, exit_))
@@ -68,10 +68,12 @@ class OffsetFollowed(Followed):
         return piecewise(input_deg, cuts, [first, lambda x: self._inside(x, order, angle), last])
 
     def _from_end(self, anchor: Anchor, order: int, angle: bool) -> Callable[[Number], Jet]:
-        """About entry or exit, where the pin is at (along, -e) in the slot's frame.
+        """Wheel angle or rate near entry or exit, where the pin is at (along, -e) in the slot's
+        frame.
 
-        The slot's axis passes the pin at (s, -e) with s² = rho² - e². What s gains on ``along`` is
-        written so that it vanishes with ``across``, and the wheel's angle and speed with both.
+        The slot's axis passes the pin at (s, -e) with s² = rho² - e². The excess of s over
+        ``along`` is written so that it vanishes with ``across``. The wheel's angle and speed then
+        vanish too.
         """
         e = self.skew.e
 
@@ -91,7 +93,7 @@ class OffsetFollowed(Followed):
         return solve
 
     def _inside(self, x: Number, order: int, angle: bool) -> Jet:
-        """About mid-motion: the pin's direction, and less what the slot's gains on it."""
+        """Wheel angle or rate near mid-motion: the pin's direction minus the slot's angle to it."""
         e, deepest, mid = self.skew.e, self.skew.deepest, self.path.middle
         toward, across = mid.displacement_at(x, order)
         s, rho2 = _depth(self.skew, toward)
@@ -109,15 +111,15 @@ class OffsetFollowed(Followed):
 def _depth(skew: Skew, toward: Jet) -> tuple[Jet, Jet]:
     """Coordinate s of the pin along its slot's axis, and rho² = s² + e².
 
-    From mid-motion the pin goes by u = l (1 - cos a) along the line of centres, and there
-    s² = deepest² + 2 u, a sum of positive terms.
+    From mid-motion the pin moves by u = l (1 - cos a) along the line of centres, and s² = deepest²
+    + 2 u is a sum of positive terms.
     """
     square = toward * 2.0 + skew.deepest**2
     return sqrt(square), square + skew.e**2
 
 
 def _turning(x: Jet, y: Jet, lever: Jet, rho2: Jet) -> Jet:
-    """A wheel's rate, (x y' - y x' - e s') / rho², for ``lever`` = e s; one order lower."""
+    """Rate of a wheel, (x y' - y x' - e s') / rho², for ``lever`` = e s; one order lower."""
     if not x.order:
         return Jet(())
     return (moment(x, y) - lever.derivative()) / Jet(rho2.c[:-1])

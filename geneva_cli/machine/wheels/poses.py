@@ -1,15 +1,15 @@
-"""The pin's circle as the wheel sees it, for external and internal wheels.
+"""The pin's circle as seen from the wheel, for external and internal wheels.
 
 The wheel's axis is the origin, the crank's axis at (1, 0): lengths are in units of the centre
 distance L. b = pi/z is half the index angle, l = R/L the crank radius.
 
-A pose is one moment of the motion, described in the frame whose x axis is the ray from the
-wheel's centre to the pin at that moment. About it the pin moves by
+A pose is one moment of the motion. Its x axis is the ray from the wheel's centre to the pin at that
+moment. From there the pin moves by
 
     sin(d) * slope + (1 - cos(d)) * bend        (d: crank angle since the pose)
 
-without cancellation: at entry and exit the pin moves along the ray only, so the part of the
-slope across it is exactly zero, and so are the wheel's angle and velocity there.
+without cancellation. At entry and exit the pin moves only along the ray, so the slope across it is
+exactly zero. So are the wheel's angle and velocity there.
 """
 
 from __future__ import annotations
@@ -23,16 +23,18 @@ from geneva_cli.numerics.jet import Jet
 
 
 class PinPose(NamedTuple):
-    """One moment of the pin's turn on its circle; vectors are (along the ray, across it)."""
+    """One moment of the pin's motion on its circle; vectors are (along the ray, across it)."""
 
     crank_deg: float
     wheel: float  # wheel angle, radians
-    along: float  # distance of the pin from the wheel's centre
+    along: float  # distance from the wheel's centre to the pin
     slope: tuple[float, float]  # d(position)/d(crank angle)
     bend: tuple[float, float]  # second derivative
 
     def displacement(self, sine: Jet, versine: Jet) -> tuple[Jet, Jet]:
-        """The pin's displacement since the pose, from sin d and 1 - cos d of the crank's turn d."""
+        """The pin's displacement since the pose, from sin d and 1 - cos d of the crank's rotation
+        d.
+        """
         u = sine * self.slope[0] + versine * self.bend[0]
         v = sine * self.slope[1] + versine * self.bend[1]
         return u, v
@@ -41,7 +43,7 @@ class PinPose(NamedTuple):
 class HalfStep(NamedTuple):
     """Half an index angle as the exact fraction b = pi p / q; equal steps have p/q = 1/z.
 
-    Of an array of designs p or q is an array; p may then be degrees, and q 180.
+    In a batch p or q is an array; p may then be in degrees, with q = 180.
     """
 
     p: int
@@ -59,7 +61,9 @@ class HalfStep(NamedTuple):
 
 
 def middle(sign: float, l: float, gap: float) -> PinPose:
-    """The pin on the line of centres, ``gap`` from the wheel's, for a crank of any radius l."""
+    """Pose of the pin on the line of centres, ``gap`` from the wheel's axis, for any crank radius
+    l.
+    """
     return PinPose(0.0, 0.0, gap, (0.0, l), (sign * l, 0.0))
 
 

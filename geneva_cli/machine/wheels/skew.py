@@ -1,10 +1,12 @@
 """Straight slots whose axes miss the wheel's centre by e, in units of the centre distance L.
 
-Shockless at both ends where the slot's axis is tangent to the crank's circle: l = sin b cos d with
-d = asin(e / cos b). The crank's angle of motion stays 180° - 2b and the two ends trade their jumps:
-entry l / cos(b - d), exit l / cos(b + d). At |e| = cos² b, where b + |d| = 90°, the gentler of the
-slot's ends would meet the wheel's centre line: all that is small there is written as a product with
-the distance to that limit, which is taken once, exactly.
+They are shockless at both ends if the slot's axis is tangent to the crank's circle: l = sin b cos d
+with d = asin(e / cos b). The crank's angle of motion stays 180° - 2b. The two ends exchange their
+jumps: entry l / cos(b - d), exit l / cos(b + d).
+
+At the limit |e| = cos² b, where b + |d| = 90°, the gentler of the slot's ends would meet the
+wheel's centre line. All that is small there is a product with the distance to that limit, which is
+computed once, exactly.
 """
 
 from __future__ import annotations
@@ -24,18 +26,18 @@ class Skew(NamedTuple):
     tilt: float  # d, radians: the slot against the line of centres, half-way through the step
     deepest: float  # least coordinate of the pin along the slot's axis: at mid-motion
     poses: tuple[PinPose, PinPose, PinPose]
-    # at both ends in the slot's own frame, whose axis runs at -e beside the ray from the wheel's
-    # centre; in the middle in that of the line of centres
+    # The poses at both ends are in the slot's own frame, whose axis is offset by -e from the ray
+    # from the wheel's centre. The pose in the middle is in the frame of the line of centres.
 
 
-def room(step: HalfStep, e: float) -> float:
-    """cos² b - |e|: above 0 where there is a slot of offset e for half an index angle b."""
-    spare: float = cos_squared_less(*step, abs(e))
-    return spare
+def margin(step: HalfStep, e: float) -> float:
+    """cos² b - |e|: positive if a slot of offset e exists for half an index angle b."""
+    limit: float = cos_squared_less(*step, abs(e))
+    return limit
 
 
 def skew(step: HalfStep, e: float, spare: float) -> Skew:
-    """The slot of offset e for half an index angle b; ``spare`` is its ``room``, above 0."""
+    """The slot of offset e for half an index angle b; ``spare`` is its ``margin``, above 0."""
     m = library(e, step.p, step.q)
     sin_b, cos_b = step.sin_cos
     less = 2.0 * sin_cos_pi(step.p, 2 * step.q)[0] ** 2  # 1 - cos b

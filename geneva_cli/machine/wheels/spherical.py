@@ -24,7 +24,7 @@ AXES_MIN = 1e-6  # degrees
 class Spherical(Gearing):
     """Wheel and crank on shafts that meet; at 90 degrees motion and dwell are equal.
 
-    ``z`` slots, 3 or more; ``axes_deg`` is the angle between the two shafts.
+    ``z`` is the number of slots, 3 or more; ``axes_deg`` is the angle between the two shafts.
 
     >>> Design(Spherical(6)).timing.k
     1.0
@@ -47,8 +47,8 @@ class Spherical(Gearing):
         refuse(
             (self.axes_deg < AXES_MIN) | (self.axes_deg > 180.0 - AXES_MIN),
             lambda: GenevaError(
-                f"axes_deg = {self.axes_deg:g}: the shafts are parallel but for rounding; it must "
-                f"be at least {AXES_MIN:g} away from 0 and 180, or the gearing "
+                f"axes_deg = {self.axes_deg:g}: the shafts are practically parallel: it must "
+                f"be at least {AXES_MIN:g} away from 0 and 180, or choose gearing "
                 '"external" or "internal"',
                 ("wheel", "axes_deg"),
             ),
@@ -56,20 +56,22 @@ class Spherical(Gearing):
 
     @property
     def own_sizes(self) -> dict[str, float]:
-        """The angle of the shafts."""
+        """Angle between the shafts, for the report."""
         return {"axes_deg": self.axes_deg}
 
     @property
     def layout(self) -> Layout:
-        """The angle of the shafts."""
+        """Angle between the shafts, as a dimension."""
         return (Dimension("angle of the shafts", self.axes_deg, "deg"),)
 
     def half_motion_deg(self, step: HalfStep) -> float:
-        """Crank angle from entry to mid-motion."""
+        """Crank angle in degrees from entry to mid-motion."""
         return sphere(step, self.axes_deg).half_motion_deg
 
     def place(self, step: HalfStep, center_distance_mm: float) -> RollerPlace:
-        """A roller's passage through a meridian slot; its arm is over the sphere's radius."""
+        """Place of a roller that passes through a meridian slot; its arm is over the sphere's
+        radius.
+        """
         ball = sphere(step, self.axes_deg)
         top = ball.cos_S * ball.cos_th + ball.sin_S * ball.sin_th  # cos(S - th)
         fall = ball.sin_S * ball.sin_th
@@ -85,74 +87,78 @@ class Spherical(Gearing):
     def follow(
         self, path: AnchoredPath, place: RollerPlace, turn: Displacement
     ) -> tuple[Slot, Followed]:
-        """The meridian slot, with the pin's coordinate along the wheel's axis."""
+        """Meridian slot with the pin's coordinate along the wheel's axis, and the motion."""
         assert place.height is not None  # it is a place on a sphere
         return MeridianSlot(path, Height(*place.height, turn)), Followed(path, place.step.b)
 
     def body(self, place: RollerPlace, turn: Displacement) -> CrankCone:
-        """The crank, whose axis is not the roller's."""
+        """Angular velocity of the crank, whose axis differs from the roller's."""
         return CrankCone(turn, place.cone)
 
     def hub(self, place: RollerPlace) -> float:
-        """The arm turns in a plane square to the crank's axis, cos th from the sphere's centre."""
+        """Distance from the wheel's axis to the crank's axis in the arm's plane, over L.
+
+        That plane is perpendicular to the crank's axis, cos th from the sphere's centre.
+        """
         return sin_cos_deg(self.axes_deg)[0] * place.cone
 
 
 class CrankCone(NamedTuple):
-    """The crank of a sphere, which carries its roller on a cone: its turning about the roller."""
+    """Rotation of a spherical crank about the axis of its roller, which it carries on a cone."""
 
     turn: Displacement
     cos_th: float
 
     def __call__(self, tau: Number, order: int) -> Jet:
-        """Positive with the wheel, ``tau`` input radians after mid-motion."""
+        """Rate, positive with the wheel, ``tau`` input radians after mid-motion."""
         sine, versine = self.turn(tau, order + 1)
         out: Jet = turning(1.0 - versine, sine) * -self.cos_th
         return out
 
 
 class Height(NamedTuple):
-    """The pin's place along the wheel's axis: top - fall (1 - cos a)."""
+    """The pin's position along the wheel's axis: top - fall (1 - cos a)."""
 
     top: float
     fall: float
     turn: Displacement
 
     def __call__(self, tau: Number, order: int) -> Jet:
-        """``tau`` input radians after mid-motion."""
+        """Position ``tau`` input radians after mid-motion."""
         out: Jet = self.top - self.turn(tau, order)[1] * self.fall
         return out
 
     @property
     def hub(self) -> float:
-        """The middle of the pin's circle."""
+        """Position of the centre of the pin's circle."""
         return self.top - self.fall
 
 
 class Sphere(NamedTuple):
     """A spherical wheel: shafts at the angle S, the pin on a cone of half angle th.
 
-    sin th = sin S sin b, so that the pin enters its meridian slot along it. Seen along the wheel's
-    axis the pin runs on an ellipse, (sin S - tan th cos S cos a, tan th sin a) times cos th.
+    sin th = sin S sin b, so that the pin enters its meridian slot along it. Projected along the
+    wheel's axis, the pin's path is an ellipse, (sin S - tan th cos S cos a, tan th sin a) times cos
+    th.
     """
 
     sin_S: float
     cos_S: float
     sin_th: float
     cos_th: float
-    cos_a: float  # of the half motion angle: tan th / tan S
+    cos_a: float  # cosine of the half motion angle: tan th / tan S
     sin_a: float
 
     @property
     def half_motion_deg(self) -> float:
-        """Crank angle from entry to mid-motion."""
+        """Crank angle in degrees from entry to mid-motion."""
         m = library(self.sin_a)
         half: float = m.degrees(m.atan2(self.sin_a, self.cos_a))
         return half
 
 
 def sphere(step: HalfStep, axes_deg: float) -> Sphere:
-    """The proportions of a spherical wheel with shafts at ``axes_deg``."""
+    """Proportions of a spherical wheel with shafts at ``axes_deg``."""
     sin_b, cos_b = step.sin_cos
     sin_S, cos_S = sin_cos_deg(axes_deg)
     sin_th = sin_S * sin_b
@@ -162,24 +168,24 @@ def sphere(step: HalfStep, axes_deg: float) -> Sphere:
 
 
 def poses(step: HalfStep, ball: Sphere) -> tuple[PinPose, PinPose, PinPose]:
-    """Entry, middle and exit of a spherical wheel's pin, in its projection along the wheel's axis.
+    """Entry, middle and exit of a spherical wheel's pin, projected along the wheel's axis.
 
     Lengths are in units of the sphere's radius.
     """
     sin_b, cos_b = step.sin_cos
     half = ball.half_motion_deg
-    # derivatives of the pin's place at the crank angle a, by it
+    # derivatives of the pin's position by the crank angle a
     across, along = ball.sin_th * ball.cos_S, ball.sin_th
     mouth = library(along).hypot(ball.sin_S * ball.cos_th - across * ball.cos_a, along * ball.sin_a)
     slope = across * ball.sin_a * cos_b + along * ball.cos_a * sin_b
     inward = across * ball.cos_a * cos_b - along * ball.sin_a * sin_b
-    aside = across * ball.cos_a * sin_b + along * ball.sin_a * cos_b
-    # sin(S - th), where both are positive as sin² S cos² b / sin(S + th)
+    sideways = across * ball.cos_a * sin_b + along * ball.sin_a * cos_b
+    # sin(S - th); if both terms are positive, as sin² S cos² b / sin(S + th)
     far = ball.sin_S * ball.cos_th
     positive = (ball.sin_S * cos_b) ** 2 / (far + abs(across))
     middle_ = choose(across > 0.0, positive, far - across)
     return (
-        PinPose(-half, -step.b, mouth, (-slope, 0.0), (inward, aside)),
+        PinPose(-half, -step.b, mouth, (-slope, 0.0), (inward, sideways)),
         PinPose(0.0, 0.0, middle_, (0.0, along), (across, 0.0)),
-        PinPose(half, step.b, mouth, (slope, 0.0), (inward, -aside)),
+        PinPose(half, step.b, mouth, (slope, 0.0), (inward, -sideways)),
     )

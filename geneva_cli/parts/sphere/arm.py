@@ -18,7 +18,7 @@ import numpy as np
 from geneva_cli.curves.round_holes import RoundHole
 from geneva_cli.curves.sphere import Region, dot, place
 from geneva_cli.curves.sphere_arcs import Arcs
-from geneva_cli.curves.sphere_belt import Cap, belt
+from geneva_cli.curves.sphere_hull import Cap, convex_hull
 from geneva_cli.errors import GenevaError
 from geneva_cli.parts.arm_sizes import arm_bore, bolts_between, eye_about, hub_and_eye, pin_hole
 from geneva_cli.parts.keyways import ParallelKey, key, reach
@@ -85,7 +85,7 @@ def crank_arm(parts: Shells) -> CapArm:
     caps += [Cap(b.axis, eye_about(b.radius, wall) / under) for b in screwed]
     middle = next((0.5 * (a + b) for a, b in locked(ball)), 0.5 * ball.rollers[-1] + math.pi)
     arm = CapArm(
-        boundary=belt(caps),
+        boundary=convex_hull(caps),
         bore=radius,
         fitted=key(spec.size.crank_keyway, radius),
         keyway=middle,

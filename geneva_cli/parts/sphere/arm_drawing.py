@@ -8,7 +8,7 @@ from geneva_cli.curves.drawing import Drawing
 from geneva_cli.curves.plates import Group, Member, Plate
 from geneva_cli.curves.shapes import Contour, Line, Segment, closed
 from geneva_cli.curves.sphere import Region, SphereArc, place
-from geneva_cli.curves.sphere_belt import Cap
+from geneva_cli.curves.sphere_hull import Cap
 from geneva_cli.parts.link_drawings import titled
 from geneva_cli.parts.proof import Proof
 from geneva_cli.parts.sphere.arm import CapArm, crank_arm

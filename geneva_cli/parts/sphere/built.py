@@ -12,7 +12,7 @@ from geneva_cli.curves.plates import Group, Member, Plate, Shell
 from geneva_cli.curves.round_holes import RoundHole
 from geneva_cli.curves.shapes import Circle, Shape
 from geneva_cli.curves.sphere import axis_frame, place
-from geneva_cli.curves.sphere_belt import Cap
+from geneva_cli.curves.sphere_hull import Cap
 from geneva_cli.errors import GenevaError
 from geneva_cli.parts.keyways import bore, key
 from geneva_cli.parts.shafts import SHAFT

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from geneva_cli.curves.sphere import Region, Rotation, SphereArc, cross, opposite, place
-from geneva_cli.curves.sphere_belt import Cap
+from geneva_cli.curves.sphere_hull import Cap
 from geneva_cli.parts.locking_rings import SHARES
 from geneva_cli.parts.reliefs import SAME
 from geneva_cli.parts.sphere.sizes import Ball, PartDoesNotFit

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 from geneva_cli.curves.round_holes import RoundHole
 from geneva_cli.curves.sphere import place
-from geneva_cli.curves.sphere_belt import Cap
+from geneva_cli.curves.sphere_hull import Cap
 from geneva_cli.errors import GenevaError
 from geneva_cli.parts.sphere.arm import least_wall
 from geneva_cli.parts.sphere.sizes import Ball

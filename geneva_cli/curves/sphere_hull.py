@@ -1,6 +1,6 @@
-"""The belt round some caps of a sphere: the shortest boundary that holds them all.
+"""The convex hull of caps of a sphere: their shortest common boundary.
 
-As on a plane (``belt``): arcs of the caps' rims, and great circles that touch two of them.
+As on a plane (``hull``), it has arcs of the caps' rims, and great circles that touch two caps.
 """
 
 from __future__ import annotations
@@ -15,16 +15,16 @@ SAME = 1e-9  # of a cap's rim: two that reach as far
 
 
 class Cap(NamedTuple):
-    """What is within an angle of a point."""
+    """All points within an angle of a point."""
 
     middle: Vector
     angle: float
 
     @property
     def region(self) -> Region:
-        """The same as a region."""
-        aside = square_to(self.middle)
-        rim = _sum(self.middle, math.cos(self.angle), aside, math.sin(self.angle))
+        """The cap as a region."""
+        sideways = square_to(self.middle)
+        rim = _sum(self.middle, math.cos(self.angle), sideways, math.sin(self.angle))
         return Region((SphereArc(self.middle, self.angle, rim, rim),), self.middle)
 
 
@@ -37,17 +37,17 @@ class Tangent(NamedTuple):
     end: Vector
 
 
-def belt(caps: Sequence[Cap]) -> Region:
-    """The convex hull of caps that lie within a quarter of the sphere of the first one's middle.
+def convex_hull(caps: Sequence[Cap]) -> Region:
+    """Convex hull of caps that lie within a quarter of the sphere from the first one's middle.
 
     >>> from geneva_cli.curves.sphere import place
-    >>> two = belt([Cap((0.0, 0.0, 1.0), 0.2), Cap(place(0.6, 0.0), 0.1)])
+    >>> two = convex_hull([Cap((0.0, 0.0, 1.0), 0.2), Cap(place(0.6, 0.0), 0.1)])
     >>> [round(arc.angle, 3) for arc in two.boundary]
     [1.571, 0.1, 1.571, 0.2]
     """
     leaving = [list(_tangents(i, caps)) for i in range(len(caps))]
-    first = next((found[0] for found in leaving if found), None)
-    if first is None:  # one holds all others
+    first = next((tangents[0] for tangents in leaving if tangents), None)
+    if first is None:  # one cap holds all others
         return max(caps, key=lambda cap: cap.angle).region
     boundary: list[SphereArc] = []
     here = first
@@ -62,23 +62,23 @@ def belt(caps: Sequence[Cap]) -> Region:
 
 
 def _tangents(i: int, caps: Sequence[Cap]) -> Iterator[Tangent]:
-    """Those that leave a cap; of some on one great circle the one to the farthest cap."""
-    found: list[tuple[float, Tangent]] = []
+    """Tangents that leave a cap; of several on one great circle, the one to the farthest cap."""
+    candidates: list[tuple[float, Tangent]] = []
     for j in range(len(caps)):
         pole = _pole(caps[i], caps[j]) if j != i else None
         if pole is None or any(dot(pole, c.middle) < math.sin(c.angle) - SAME for c in caps):
             continue
         ends = [unit(_sum(caps[k].middle, 1.0, pole, -math.sin(caps[k].angle))) for k in (i, j)]
-        found.append((dot(*ends), Tangent(pole, j, *ends)))
-    for near, one in found:
-        if not any(far < near and _same(one.pole, other.pole) for far, other in found):
+        candidates.append((dot(*ends), Tangent(pole, j, *ends)))
+    for near, one in candidates:
+        if not any(far < near and _same(one.pole, other.pole) for far, other in candidates):
             yield one
 
 
 def _pole(one: Cap, other: Cap) -> Vector | None:
-    """The pole of the great circle from one cap to another that has both on its left, or None.
+    """Pole of the great circle from one cap to another that has both on its left, or None.
 
-    It is as far from each middle as a quarter of the sphere less the cap's angle.
+    Its distance from each middle is a quarter of the sphere minus the cap's angle.
     """
     g = dot(one.middle, other.middle)
     square = 1.0 - g * g
@@ -88,13 +88,13 @@ def _pole(one: Cap, other: Cap) -> Vector | None:
     a, b = (s - g * t) / square, (t - g * s) / square
     left = (1.0 - (a * s + b * t)) / square
     if left <= SAME * SAME:
-        return None  # one holds the other
+        return None  # one cap holds the other
     both = _sum(one.middle, a, other.middle, b)
     return unit(_sum(both, 1.0, cross(one.middle, other.middle), math.sqrt(left)))
 
 
 def _turn(middle: Vector, start: Vector, end: Vector) -> float:
-    """How far it is about a middle from one point of a rim to another, counterclockwise."""
+    """Angle about a middle from one point of a rim to another, counterclockwise."""
     return SphereArc(middle, 0.0, start, end).sweep
 
 

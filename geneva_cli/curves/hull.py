@@ -1,4 +1,4 @@
-"""The belt round some circles: the shortest outline that holds them all, of tangents and arcs."""
+"""The convex hull of circles: their shortest common outline, of tangents and arcs."""
 
 from __future__ import annotations
 
@@ -10,13 +10,14 @@ from geneva_cli.curves.shapes import Circle, Contour, Line, Segment, about, clos
 SAME = 1e-12  # radians: directions nearer to each other are one
 
 
-def belt(layer: str, circles: Sequence[Circle]) -> Contour:
-    """The convex hull of circles, counterclockwise: an arc on each that it touches, lines between.
+def convex_hull(layer: str, circles: Sequence[Circle]) -> Contour:
+    """Convex hull of circles, counterclockwise: an arc on each circle that it touches, lines
+    between.
 
-    A circle touches it in the directions in which it reaches farther than any other: going round,
-    the next one takes over where both reach equally far, on their common tangent.
+    It touches a circle in the directions in which this circle reaches farthest. Going round, the
+    next circle takes over where both reach equally far, on their common tangent.
 
-    >>> two = belt("ARM", [Circle("ARM", (0.0, 0.0), 1.0), Circle("ARM", (4.0, 0.0), 1.0)])
+    >>> two = convex_hull("ARM", [Circle("ARM", (0.0, 0.0), 1.0), Circle("ARM", (4.0, 0.0), 1.0)])
     >>> [type(piece).__name__ for piece in two.segments]
     ['Arc', 'Line', 'Arc', 'Line']
     """
@@ -28,33 +29,33 @@ def belt(layer: str, circles: Sequence[Circle]) -> Contour:
         step = min(step, math.tau - turned)
         if arcs and turned + step == math.tau and arcs[0][0] == here:
             first, _, sweep = arcs[0]
-            arcs[0] = first, turned - math.tau, step + sweep  # it began amid this arc
+            arcs[0] = first, turned - math.tau, step + sweep  # the hull starts within this arc
         else:
             arcs.append((here, turned, step))
         turned += step
         here = after
-    found: list[Segment] = []
+    pieces: list[Segment] = []
     for circle, start, sweep in arcs:
         arc = about(circle.centre, circle.radius, start, sweep)
-        if found and math.dist(found[-1].end, arc.start) > SAME:
-            found.append(Line(found[-1].end, arc.start))
+        if pieces and math.dist(pieces[-1].end, arc.start) > SAME:
+            pieces.append(Line(pieces[-1].end, arc.start))
         if len(arcs) == 1:
-            found += two_arcs(circle, start)
+            pieces += two_arcs(circle, start)
         elif sweep > SAME:
-            found.append(arc)
-    if len(arcs) > 1 and math.dist(found[-1].end, found[0].start) > SAME:
-        found.append(Line(found[-1].end, found[0].start))
-    return closed(layer, found)
+            pieces.append(arc)
+    if len(arcs) > 1 and math.dist(pieces[-1].end, pieces[0].start) > SAME:
+        pieces.append(Line(pieces[-1].end, pieces[0].start))
+    return closed(layer, pieces)
 
 
 def _next(here: Circle, turned: float, circles: Sequence[Circle]) -> tuple[float, Circle]:
-    """How far on the next circle takes over, radians, and which; a whole turn where none does."""
+    """Angle in radians to the next circle, and that circle; a whole turn if there is none."""
     best = (math.tau, 0.0, here)
     for other in circles:
         x, y = other.centre[0] - here.centre[0], other.centre[1] - here.centre[1]
         apart, less = math.hypot(x, y), here.radius - other.radius
         if apart <= abs(less) * (1.0 + SAME) or other == here:
-            continue  # one holds the other
+            continue  # one circle holds the other
         at = math.atan2(y, x) - math.acos(less / apart)
         step = max((at - turned + SAME) % math.tau - SAME, 0.0)
         if step < best[0] - SAME or (step < best[0] + SAME and apart > best[1]):
