@@ -1,4 +1,7 @@
-"""Peaks of many designs at once: those of ``peaks``, by one scan and one Newton for all of them.
+"""The search for peaks: one scan and one Newton for a batch of designs, or for a batch of one.
+
+A peak is a root of the next derivative, refined to the last bit, or an end of the motion, or a
+place where the law's derivative jumps; never the largest of a grid.
 
 >>> import numpy as np
 >>> from geneva_cli import External, SideCrank
@@ -12,31 +15,26 @@ array([1.   , 0.625,   nan])
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 
 import numpy as np
 
-from geneva_cli.machine.engagement import Motion
+from geneva_cli.machine.engagement import Motion, Peak
 from geneva_cli.machine.many import designs_in, taken
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.numerics.angles import DEGREE
-from geneva_cli.numerics.arrays import parameter
+from geneva_cli.numerics.arrays import Array, parameter
 from geneva_cli.numerics.extrema_many import GROUP, Rough, Stationary, extrema_many, peaks_many
 from geneva_cli.numerics.roots import TIE
 
 if TYPE_CHECKING:
     from geneva_cli.numerics.extrema_many import Which
-    from geneva_cli.numerics.jet import Array
 
 ABOVE = {"velocity": 1, "acceleration": 2, "jerk": 3, "power": 2}  # derivatives in the quantity
 QUANTITIES = tuple(ABOVE)
 
 
-class PeakOfMany(NamedTuple):
-    """The greatest size of a quantity in each design, and its first signed input angle: (m,)."""
-
-    max: Array
-    at_deg: Array
+PeakOfMany: TypeAlias = Peak[Array]  # the peaks of m designs: (m,)
 
 
 class _Samples:
@@ -107,7 +105,7 @@ def _by_degrees(rates: Sequence[Array], x: Array, order: int) -> list[Array]:
 
 
 def peaks_of_many(motion: Motion, quantities: Sequence[str] = QUANTITIES) -> dict[str, PeakOfMany]:
-    """The greatest sizes over the motions of m designs, ends included, at their input angles."""
+    """Greatest sizes over the motions of m designs, ends included, and their input angles."""
     found: dict[str, PeakOfMany] = {}
     for name in quantities:
         known = motion.closed_peak(name)
@@ -115,11 +113,11 @@ def peaks_of_many(motion: Motion, quantities: Sequence[str] = QUANTITIES) -> dic
             found[name] = PeakOfMany(*(np.ravel(v) for v in np.broadcast_arrays(*known)))
     sought = [name for name in quantities if name not in found]
     if sought:
-        found |= _sought(motion, sought)
+        found |= searched(motion, sought)
     for name, peak in found.items():
         open_ = np.flatnonzero(np.isnan(peak.max))
         if len(open_):
-            rest = _sought(taken(motion, open_), [name])[name]
+            rest = searched(taken(motion, open_), [name])[name]
             peak.max[open_], peak.at_deg[open_] = rest
     return found
 
@@ -147,7 +145,8 @@ def landmarks(motion: Motion, quantity: str, m: int) -> Stationary:
     return Stationary(which[order], x[order], value[order])
 
 
-def _sought(motion: Motion, quantities: Sequence[str]) -> dict[str, PeakOfMany]:
+def searched(motion: Motion, quantities: Sequence[str]) -> dict[str, PeakOfMany]:
+    """Return peaks as ``peaks_of_many``, without closed forms and other quicker ways."""
     # mid-motion, where wheels have their narrowest peaks, is among them
     breaks = [x for x in motion.breaks_deg if not motion.symmetric or np.all(x <= 0.0)]
     m = designs_in(motion)

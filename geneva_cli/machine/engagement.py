@@ -10,7 +10,7 @@ from __future__ import annotations
 from abc import ABC, abstractmethod
 from collections.abc import Sequence
 from functools import cached_property
-from typing import TYPE_CHECKING, ClassVar, NamedTuple, Protocol, TypeAlias
+from typing import TYPE_CHECKING, ClassVar, Generic, NamedTuple, Protocol, TypeAlias, TypeVar
 
 from geneva_cli.numerics.angles import radians
 from geneva_cli.numerics.arrays import all_true, array, library
@@ -19,6 +19,8 @@ from geneva_cli.numerics.jet import Jet, Number, sin_cos, turning
 if TYPE_CHECKING:
     from geneva_cli.machine.laws.law import Law
     from geneva_cli.numerics.jet import Array
+
+K = TypeVar("K", float, "Array")
 
 
 class Path(Protocol):
@@ -153,17 +155,20 @@ class Slot(ABC):
         return 1.0
 
 
-class PeakValue(NamedTuple):
-    """Greatest size of a quantity, and its signed input angle in degrees."""
+class Peak(NamedTuple, Generic[K]):
+    """Greatest size of a quantity, and the signed input angle of its first occurrence, degrees.
 
-    size: float
-    at_deg: float
+    Floats of one design, arrays of a batch.
+    """
+
+    max: K
+    at_deg: K
 
 
 class ClosedPeaks(Protocol):
     """Peaks in closed form, or by a search that is faster than the general one."""
 
-    def __call__(self, quantity: str) -> PeakValue | None:
+    def __call__(self, quantity: str) -> Peak[float] | None:
         """Peak of a quantity, or None if it needs the general search."""
 
 
@@ -210,7 +215,7 @@ class Motion(ABC):
         """Entry, places where a derivative may jump, mid-motion, and exit, in degrees."""
         return (self.entry_deg, 0.0, self.exit_deg)
 
-    def closed_peak(self, quantity: str) -> PeakValue | None:
+    def closed_peak(self, quantity: str) -> Peak[float] | None:
         """Peak of a quantity in closed form, or by a search that is faster than the general one.
 
         None if there is neither; in a batch NaN for each design that has neither.

@@ -13,7 +13,7 @@ from geneva_cli.machine.engagement import (
     Engagement,
     Level,
     Motion,
-    PeakValue,
+    Peak,
     Reactions,
     Slot,
     SlotAxis,
@@ -135,7 +135,7 @@ class Followed(Motion):
         """Anchor of the entry."""
         return self.path.anchors[0]
 
-    def closed_peak(self, quantity: str) -> PeakValue | None:
+    def closed_peak(self, quantity: str) -> Peak[float] | None:
         """Peak of a quantity from ``closed_peaks``, or None if it has none."""
         return self.closed_peaks(quantity) if self.closed_peaks else None
 
@@ -179,20 +179,22 @@ class Classic(Followed):
         super().__init__(path, half_step)
         self.sign, self.l, self.rest = sign, l, rest
 
-    def closed_peak(self, quantity: str) -> PeakValue | None:
-        """Peak of velocity or acceleration in closed form; None for other quantities."""
+    def closed_peak(self, quantity: str) -> Peak[float] | None:
+        """Peak of velocity, acceleration, jerk or power in closed form."""
         outside = self.sign > 0.0
+        gap = self.rest if outside else 1.0 + self.l
         if quantity == "velocity":
-            return PeakValue(
-                classic.velocity_peak(self.l, self.rest if outside else 1.0 + self.l), 0.0
-            )
-        if quantity != "acceleration":
-            return None
-        if not outside:  # the greatest acceleration is the jump at entry
+            return Peak(classic.velocity_peak(self.l, gap), 0.0)
+        if quantity == "acceleration" and not outside:  # the jump at entry
             jump = parameter(self(self.entry_deg, 2).derivatives()[2])
-            return PeakValue(abs(jump), self.entry_deg)
-        size, at_deg = classic.acceleration_peak(self.l, self.rest)
-        return PeakValue(size, -at_deg)
+            return Peak(abs(jump), self.entry_deg)
+        if quantity == "acceleration":
+            size, at_deg = classic.acceleration_peak(self.l, gap)
+        elif quantity == "jerk":
+            size, at_deg = classic.jerk_peak(self.l, gap, self.exit_deg)
+        else:
+            size, at_deg = classic.power_peak(self.l, gap)
+        return Peak(size, 0.0 - at_deg)
 
     def derivatives(self, input_deg: Array, orders: Sequence[int] = (0, 1, 2, 3)) -> list[Array]:
         """Wheel angle and its derivatives in closed form, with the shapes of

@@ -1,4 +1,4 @@
-"""``roots.extrema`` for many designs at once: one function of one variable for each design.
+"""Stationary points and greatest sizes of a batch of functions of one variable.
 
 Designs go through in blocks that stay in the processor's cache. All are scanned over their own
 spans; where a cubic through two neighbours' values and slopes does not predict the value midway,
@@ -29,6 +29,9 @@ SCAN = 12  # intervals of the first scan, an even number
 BLOCK = 1024  # designs scanned at a time: 13 places of each are 110 kB a number of a formula
 GROUP = 16 * BLOCK  # designs refined together
 CLOSE = 1e-8  # of a bracket in which a cubic holds: after so short a step, the last bit
+ROUNDED = 1e-15  # of the span: places so near are one, as 0 and 1e-47
+BESIDE = 1e-12  # of the span: a summit so near an end of the same height may be rounding
+FLAT_TOP = 1e-6  # of the span, some root of TIE: as far a summit is as high as its top
 ROUNDING = 1e-13  # share of a value that no sampling makes any surer
 _UNIT = np.arange(SCAN + 1) / SCAN
 
@@ -52,15 +55,8 @@ class Stationary(NamedTuple):
     value: Array
 
 
-class Greatest(NamedTuple):
-    """The greatest size of each design's function, and the first place that has it."""
-
-    size: Array
-    x: Array
-
-
 def extrema_many(f: Curves, a: Array, b: Array) -> Stationary:
-    """All stationary points between a and b, of the shape (n, 1), as ``roots.extrema``."""
+    """All stationary points between a and b, of the shape (n, 1), in order of design and place."""
     found = []
     with np.errstate(all="ignore"):
         for part in _blocks(0, len(a), GROUP):
@@ -77,8 +73,8 @@ class Rough(NamedTuple):
     wrong: float
 
 
-def peaks_many(f: Curves, *places: Array, rough: Rough | None = None) -> Greatest:
-    """The greatest size between the first and the last of some places (n, 1): shapes (n,).
+def peaks_many(f: Curves, *places: Array, rough: Rough | None = None) -> tuple[Array, Array]:
+    """Greatest sizes between the first and the last of some places (n, 1), and where: (n,) both.
 
     From one place to the next the functions are smooth; a place itself belongs to what is before
     it. The ends are included. Of places whose sizes differ by less than a share of 1e-13, the first
@@ -90,17 +86,20 @@ def peaks_many(f: Curves, *places: Array, rough: Rough | None = None) -> Greates
     ...     sine, cosine = np.sin(A[which] * x), np.cos(A[which] * x)
     ...     return [sine, A[which] * cosine, -(A[which] ** 2) * sine][: order + 1]
     >>> peaks_many(waves, 0.0 * A, 0.0 * A + 1.0)
-    Greatest(size=array([0.84147098, 1.        ]), x=array([1.        , 0.78539816]))
+    (array([0.84147098, 1.        ]), array([1.        , 0.78539816]))
     """
     with np.errstate(all="ignore"):
         found = [
             _greatest(f, rough, [place[part] for place in places], part.start)
             for part in _blocks(0, len(places[0]), GROUP)
         ]
-    return Greatest(*(np.concatenate(parts) for parts in zip(*found, strict=True)))
+    size, x = (np.concatenate(parts) for parts in zip(*found, strict=True))
+    return size, x
 
 
-def _greatest(f: Curves, rough: Rough | None, places: Sequence[Array], start: int) -> Greatest:
+def _greatest(
+    f: Curves, rough: Rough | None, places: Sequence[Array], start: int
+) -> tuple[Array, Array]:
     """Of a group of designs, the first of which has the number ``start``."""
     pieces = _pieces(places)
     scans = [_scanned(rough.f if rough else f, a, b, start) for a, b in pieces]
@@ -108,7 +107,8 @@ def _greatest(f: Curves, rough: Rough | None, places: Sequence[Array], start: in
     at = np.hstack([end for piece in pieces for end in piece])
     sampled = np.maximum.reduce([np.abs(x) for scan in scans for x in (scan.low, scan.high)])
     tops = _tops(f, _joined([_high_turns(scan, sampled, start) for scan in scans]), rough)
-    which, x, value = tops.which - start, tops.x, np.abs(tops.value)
+    which, value = tops.which - start, np.abs(tops.value)
+    x = _at_ends(tops.x, at[which])
     if rough and rough.wrong:
         # samples that may be the greatest, as they are
         bar = (1.0 - rough.wrong) * _most(size, which, value)
@@ -121,10 +121,20 @@ def _greatest(f: Curves, rough: Rough | None, places: Sequence[Array], start: in
         size[row, column] = np.abs(f(at[row, column, None], row + start, 0)[0][:, 0])
     most = _most(size, which, value)
     bar = most / (1.0 + TIE)
-    first = np.fmin.reduce(np.where(size >= bar[:, None], at, np.nan), axis=1)
-    near = value >= bar[which]
-    np.fmin.at(first, which[near], x[near])
-    return Greatest(most, first)
+    ends = np.fmin.reduce(np.where(size >= bar[:, None], at, np.nan), axis=1)
+    high, tops_first = value >= bar[which], np.full(len(most), np.nan)
+    np.fmin.at(tops_first, which[high], x[high])
+    # As high as its neighbour, an end so near before a summit is on its flat top.
+    apart = (tops_first - ends) / (at[:, -1] - at[:, 0])
+    flat = (apart > BESIDE) & (apart < FLAT_TOP)
+    return most, np.where(flat, tops_first, np.fmin(ends, tops_first))
+
+
+def _at_ends(x: Array, ends: Array) -> Array:
+    """Places (k,), those that are ends (k, j) but for rounding replaced by them."""
+    nearest = ends[np.arange(len(x)), np.abs(ends - x[:, None]).argmin(axis=1)]
+    close = np.abs(nearest - x) < ROUNDED * (ends[:, -1] - ends[:, 0])
+    return np.where(close, nearest, x)
 
 
 def _most(size: Array, which: Whole, value: Array) -> Array:

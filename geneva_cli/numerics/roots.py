@@ -1,13 +1,13 @@
-"""Roots, extrema and boundaries in one variable: scan, bracket, refine to the last bit.
+"""Roots, minima and boundaries in one variable, to the last bit.
 
-``roots_many`` and ``extrema_many`` have the same for the functions of many designs.
+``roots_many`` finds roots and ``extrema_many`` stationary points of a batch of functions.
 """
 
 from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
-from typing import TYPE_CHECKING, TypeAlias, TypeVar
+from typing import TYPE_CHECKING, TypeVar
 
 from geneva_cli.numerics.arrays import all_true, choose
 
@@ -15,10 +15,6 @@ if TYPE_CHECKING:
     from decimal import Decimal
 
     from geneva_cli.numerics.arrays import Array, Mask, Truth
-
-# x -> value, first derivative, second derivative
-Curve: TypeAlias = Callable[[float], tuple[float, float, float]]
-_Sample: TypeAlias = tuple[float, float, float]
 
 Real = TypeVar("Real", float, "Decimal")
 
@@ -161,58 +157,3 @@ def least(f: Callable[[float], float], a: float, b: float) -> tuple[float, float
             right = a + GOLDEN * (b - a)
             at_right = f(right)
     return (left, at_left) if at_left < at_right else (right, at_right)
-
-
-def extrema(f: Curve, a: float, b: float) -> list[float]:
-    """All stationary points of f inside [a, b], in order.
-
-    The scan is refined wherever the cubic through two neighbours' values and slopes does not
-    predict the value midway, level by level, so that a narrow peak is not stepped over and the
-    measure of what counts grows with the peaks that come to light.
-    """
-    knots = [a + (b - a) * i / SCAN for i in range(SCAN)] + [b]
-    samples: list[_Sample] = [(x, *f(x)[:2]) for x in knots]
-    low = min(v for _, v, _ in samples)
-    high = max(v for _, v, _ in samples)
-    open_ = list(zip(samples, samples[1:], strict=False))
-    settled: list[tuple[_Sample, _Sample]] = []
-    for _ in range(DEEPEST):
-        halves = []
-        for left, right in open_:
-            x = 0.5 * (left[0] + right[0])
-            middle = (x, *f(x)[:2])
-            low, high = min(low, middle[1]), max(high, middle[1])
-            halves.append((left, middle, right))
-        open_ = []
-        for left, middle, right in halves:
-            width = right[0] - left[0]
-            predicted = 0.5 * (left[1] + right[1]) + width * (left[2] - right[2]) / 8.0
-            missed = abs(middle[1] - predicted) > PREDICTED * (high - low)
-            (open_ if missed else settled).extend(((left, middle), (middle, right)))
-    found = []
-    for (p, _, d_p), (q, _, d_q) in sorted(settled + open_):
-        # A stationary neighbour may hide another: the slope beside it has its bend's sign.
-        before, after = d_p or f(p)[2], d_q or -f(q)[2]
-        if before * after < 0.0:
-            found.append(root(_without(f, p, d_p, q, d_q), p, q, before))
-        if d_q == 0.0:
-            found.append(q)
-    return found
-
-
-def _without(
-    f: Curve, p: float, d_p: float, q: float, d_q: float
-) -> Callable[[float], tuple[float, float]]:
-    """The slope of f; where it is zero at p or q, as if that root had been divided out of it."""
-    if d_p and d_q:
-        return lambda x: f(x)[1:]
-
-    def slope(x: float) -> tuple[float, float]:
-        _, s, bend = f(x)
-        if not d_p and x > p:  # between neighbouring doubles the middle is one of them
-            bend -= s / (x - p)
-        if not d_q and x < q:
-            bend += s / (q - x)
-        return s, bend
-
-    return slope

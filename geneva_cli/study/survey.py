@@ -91,7 +91,7 @@ def _classic(z: int, gearing: str, sign: float, n_rpm: float, rollers: int) -> t
 
 def _general(z: int, gearing: str, n_rpm: float, rollers: int, A: float) -> tuple[object, ...]:
     """A row by the machinery of motions."""
-    from geneva_cli.analysis.peaks import acceleration_peak, ends, peak, velocity_peak
+    from geneva_cli.analysis.peaks import peaks
     from geneva_cli.analysis.timing import timings
     from geneva_cli.machine import registry
     from geneva_cli.machine.drives.crank import Crank
@@ -102,22 +102,20 @@ def _general(z: int, gearing: str, n_rpm: float, rollers: int, A: float) -> tupl
     drive = SideCrank(A=A, n_rpm=n_rpm) if A else Crank(n_rpm=n_rpm, rollers=rollers)
     mechanism = build(Spec(registry.gearing(gearing)(z), drive))
     engagement = mechanism.engagements[0]
-    acceleration = acceleration_peak(engagement)
-    velocity = velocity_peak(engagement).max
-    jumps, times = ends(engagement), timings(mechanism)[0]
-    power = peak(engagement.motion, "power").max
+    velocity, acceleration, _, power, jumps = peaks(engagement)
+    times = timings(mechanism)[0]
     return (
         z,
         gearing,
         rollers,
         *times,
-        velocity,
+        velocity.max,
         acceleration.max,
         acceleration.at_deg,
         jumps.acceleration_entry,
         jumps.jerk_entry,
         mechanism.rollers_max,
-        *cam_factors(velocity, acceleration.max, power, times.motion_deg, times.index_deg),
+        *cam_factors(velocity.max, acceleration.max, power.max, times.motion_deg, times.index_deg),
     )
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from functools import lru_cache
 
-from geneva_cli.analysis.peaks import QUANTITIES, peak
+from geneva_cli.analysis.peaks import peak
 from geneva_cli.errors import Caution
 from geneva_cli.machine.engagement import Motion
 from geneva_cli.machine.law_motion import LawMotion
@@ -14,7 +14,6 @@ from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.machine.pitch_curve import retraces
 from geneva_cli.numerics.angles import DEGREE
 from geneva_cli.numerics.keeps import keeps
-from geneva_cli.numerics.roots import extrema
 from geneva_cli.parts.fits import loosest_mm
 from geneva_cli.spec.processes import PROCESSES
 from geneva_cli.spec.tables import Z_USUAL
@@ -170,22 +169,14 @@ def _law_turns_back(law: Law) -> bool:
 
 
 def _least_velocity(motion: Motion) -> tuple[float, float] | None:
-    """The least velocity of an engagement where it is below 0, and its place; else None."""
-    pick = QUANTITIES["velocity"]
+    """Return the least velocity of a motion where it is below 0, and its place; else None."""
+    from geneva_cli.analysis.peaks_many import landmarks
 
-    def curve(x: float) -> tuple[float, float, float]:
-        v, a, j = pick(motion(x, 3).scalars())
-        return v, a * DEGREE, j * DEGREE * DEGREE
-
-    breaks = motion.breaks_deg
-    places = [
-        x for a, b in zip(breaks, breaks[1:], strict=False) for x in (*extrema(curve, a, b), b)
-    ]
-    least = min(places, key=lambda x: curve(x)[0])
+    _, x, velocity = landmarks(motion, "velocity", 1)
+    least = velocity.argmin()
     # Where a law stands still, rounding leaves a few units in the last place on either side of 0.
-    noise = 1e-12 * max(abs(curve(x)[0]) for x in places)
-    value = curve(least)[0]
-    return (value, least) if value < -noise else None
+    noise = 1e-12 * abs(velocity).max()
+    return (velocity[least].item(), x[least].item()) if velocity[least] < -noise else None
 
 
 def _off_the_mid_condition(mechanism: Mechanism) -> Caution:

@@ -11,7 +11,8 @@ import pytest
 from witness import QUANTITIES, Geneva, mp, near
 from words import Drive, Keys, Spec, Wheel
 
-from geneva_cli.analysis.peaks import ends, peaks, worst, worst_of
+from geneva_cli.analysis.peaks import ends, peaks, peaks_of, worst, worst_of
+from geneva_cli.analysis.peaks_many import searched
 from geneva_cli.machine.mechanism import build
 
 OFFSETS = (-0.9, -0.5, 0.0, 0.3, 0.6, 0.9, 0.99)
@@ -186,6 +187,27 @@ def test_table_power(machine, z):
     assert found.at_deg == pytest.approx(at_deg, abs=1e-8)  # as printed: ten digits
 
 
+@pytest.mark.parametrize("gearing", ["external", "internal"])
+@pytest.mark.parametrize("z", [3, 4, 7, 10, 16, 60, 1000, 999_999])
+def test_closed_forms_against_the_search(machine, gearing, z):
+    """Both within 8 ulp of a peak; a place to the root of that, 1e-7 radians."""
+    check_closed_forms(machine(z, gearing).engagements[0].motion, 4e-15)
+
+
+@pytest.mark.parametrize("step", [90.0, 150.0, 179.0, 179.9])
+def test_closed_forms_of_long_steps_against_the_search(step):
+    """Near 180 degrees the crank all but meets the wheel's axis; the search's pin then cancels."""
+    spec = Spec(Wheel(4, steps_deg=(step, 180.0 - step)))
+    check_closed_forms(build(spec).engagements[0].motion, 1e-12)
+
+
+def check_closed_forms(motion, close):
+    found = searched(motion, NAMES)
+    for name, known in zip(NAMES, peaks_of(motion, NAMES), strict=True):
+        assert known.max == near(found[name].max.item(), close), name
+        assert known.at_deg == pytest.approx(found[name].at_deg.item(), abs=1e-5), name
+
+
 def test_of_two_equal_peaks_the_earlier(machine):
     for gearing in ("external", "internal"):
         for A in OFFSETS:
@@ -197,13 +219,12 @@ def test_of_two_equal_peaks_the_earlier(machine):
 
 def test_a_peak_beside_mid_motion(machine):
     """1e-14 of the motion beside it, on either side: at -/+1.223534258378942246e-12 degrees (root
-    of the acceleration in 120 digits); that was taken for rounding after mid-motion, not before.
+    of the acceleration in 120 digits). Mid-motion is as high: the first of the two is told.
     To a unit in the last place of half the motion, 60 degrees."""
     m = machine(3, A=-1.0 + 1e-12, rollers=5)
     before, after = (peaks(s).velocity.at_deg for s in m.engagements[2:4])
-    bar = 60.0 * 2.0**-52
-    assert before == pytest.approx(-1.223534258378942246e-12, rel=0.0, abs=bar)
-    assert after == pytest.approx(1.223534258378942246e-12, rel=0.0, abs=bar)
+    assert before == pytest.approx(-1.223534258378942246e-12, rel=0.0, abs=60.0 * 2.0**-52)
+    assert after == 0.0
 
 
 def test_worst_engagement_of_a_side_crank_with_two_rollers(machine):

@@ -1,4 +1,4 @@
-"""Peaks of many designs: against the search for one, and against 50 digits."""
+"""Peaks of a batch of designs: against each design alone, and against 50 digits."""
 
 import numpy as np
 import pytest
@@ -27,7 +27,7 @@ def rough_is_near(motion, count):
 
 @pytest.mark.parametrize("name", MACHINES)
 def test_as_one_by_one(name):
-    """The search for one shares the motion with that for many, and no step of the search.
+    """A design has the peaks in a batch that it has alone, built with floats for its arrays.
 
     Every other design is searched so; in `make stress` a scan is held against thousands of each.
     """

@@ -68,11 +68,11 @@ ROWS = [
     Row("table --z 3..40 --format csv"),
     Row("table --z 6 --format md"),
     Row("table --z 6 --format json", "json"),
-    Row("table --z 6 --A 0.6"),
+    Row("table --z 6 --A 0.6", "numpy"),  # its peaks are searched for
     Row("table --z 2"),
     Row("peaks press-straight.toml", "tomli"),
     Row("peaks internal-z6.toml", "tomli"),
-    Row("peaks side-crank-z6.toml", "tomli"),
+    Row("peaks side-crank-z6.toml", "tomli numpy"),
     Row("peaks press-straight.toml --format json", "tomli json"),
     Row("peaks press-curved.toml", "tomli numpy"),
     Row("peaks table-law.toml", "tomli numpy scipy json"),  # its spline; json: SciPy's
@@ -109,7 +109,7 @@ ROWS = [
     Row("keys", "tomli numpy"),
     Row("explain", "tomli numpy"),
     Row("explain horn_mm", "tomli numpy"),
-    Row("laws"),
+    Row("laws", "numpy"),
     # NumPy: each row of synth says whether its parts can be built, for which they are laid out
     Row("synth --tau 1/3 --z 6 --checked 1", "numpy"),
     Row("synth --acceleration-max 0.5 --z 6 --checked 1", "numpy"),

@@ -129,21 +129,19 @@ def test_a_jet_carries_no_more_than_it_must(engagement):
             assert len(s.motion(np.array([-1.0, 0.0]), order).c) == order + 1
 
 
-@pytest.mark.parametrize("quantity", ["velocity", "acceleration", "jerk", "power"])
-def test_a_symmetric_peak_is_looked_for_in_one_half(engagement, jets, quantity):
-    s = engagement(6, A=0.6)
-    peaks_module.peak(s.motion, quantity)
-    assert 0 < counted(jets) < 300
+def test_a_symmetric_peak_is_looked_for_in_one_half(engagement, jets):
+    s = engagement(6, law="cycloidal")
+    peaks_module.peaks_of(s.motion, peaks_module.QUANTITIES)
+    assert 0 < counted(jets) < 100
     assert all(c.below_zero for c in jets)
-    assert {o for c in jets for o in c.orders} == {peaks_module._ORDER[quantity]}
 
 
 def test_the_classic_peaks_need_no_search(engagement, jets):
-    """Velocity and acceleration of a plain crank: closed forms."""
-    s = engagement(6)
-    peaks_module.velocity_peak(s)
-    peaks_module.acceleration_peak(s)
+    """Every peak of a plain crank: closed forms, but for an internal wheel's jump at entry."""
+    peaks_module.peaks_of(engagement(6).motion, peaks_module.QUANTITIES)
     assert counted(jets) == 0
+    peaks_module.peaks_of(engagement(6, "internal").motion, peaks_module.QUANTITIES)
+    assert counted(jets) == 1
 
 
 def loaded(*arguments):

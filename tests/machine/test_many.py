@@ -6,7 +6,6 @@ import numpy as np
 import pytest
 from witness import SIGN, Geneva
 
-from geneva_cli.analysis.peaks import acceleration_peak as acceleration_search
 from geneva_cli.analysis.peaks import peak
 from geneva_cli.errors import GenevaError
 from geneva_cli.machine.wheels.side_crank_formulas import (
@@ -99,7 +98,7 @@ def test_a_finer_scan_finds_no_more_velocity(monkeypatch):
 def test_beyond_what_the_quick_way_is_sure_of(engagement, z):
     """Near |A| = 1 a peak is a sliver that 16 intervals step over: it is searched for."""
     passage = engagement(z, "external", 0.9999988390361856)
-    found = acceleration_search(passage)
+    found = peak(passage.motion, "acceleration")
     assert found.max == pytest.approx(peak(passage.motion, "acceleration").max, rel=1e-15)
     exact, _ = Geneva(z, "external", 0.9999988390361856).peak("acceleration")
     assert found.max == pytest.approx(float(exact), rel=1e-12)  # A is so near to 1

@@ -1,4 +1,4 @@
-"""Roots to the last bit, and no stationary point stepped over."""
+"""Roots, minima and boundaries to the last bit."""
 
 import math
 from decimal import Context, Decimal, localcontext
@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from witness import near
 
-from geneva_cli.numerics.roots import Falsi, boundary, extrema, least, root
+from geneva_cli.numerics.roots import Falsi, boundary, least, root
 
 
 def calls(f):
@@ -60,74 +60,6 @@ def test_triple_root_at_zero_ends():
     g, seen = calls(lambda x: (x**3, 3.0 * x * x))
     assert abs(root(g, -1.0, 1.5)) < 1e-30
     assert len(seen) <= 201
-
-
-def lorentzian(middle, width):
-    def f(x):
-        t = (x - middle) / width
-        d = 1.0 + t * t
-        return 1.0 / d, -2.0 * t / (d * d) / width, (6.0 * t * t - 2.0) / d**3 / width**2
-
-    return f
-
-
-@pytest.mark.parametrize("width", [1e-2, 1e-4, 1e-6, 1e-9])
-@pytest.mark.parametrize("middle", [0.3, 0.71828, -0.999])
-def test_narrow_peak(width, middle):
-    """A peak a billionth of the interval wide, by its tails alone."""
-    found = extrema(lorentzian(middle, width), -1.0, 1.0)
-    assert len(found) == 1
-    assert found[0] == pytest.approx(middle, rel=0.0, abs=2.3e-16)  # one unit of 1
-
-
-def test_narrow_peak_beside_a_broad_one():
-    """What a scan can see: tails above a hundredth of the range, from half an interval away."""
-    narrow, broad = lorentzian(0.4321, 0.005), lorentzian(-0.5, 0.1)
-
-    def f(x):
-        a, b = narrow(x), broad(x)
-        return tuple(p + q for p, q in zip(a, b, strict=True))
-
-    found = extrema(f, -1.0, 1.0)
-    assert len(found) == 3  # two peaks and the valley between
-    assert found == sorted(found)
-    # each moves the other's top by the slope of its tail times width^2/2
-    assert found[0] == pytest.approx(-0.5, abs=1e-6)
-    assert found[2] == pytest.approx(0.4321, abs=1e-5)
-
-
-def sine(n):
-    def f(x):
-        return math.sin(n * x), n * math.cos(n * x), -n * n * math.sin(n * x)
-
-    return f
-
-
-@pytest.mark.parametrize("n", [1, 3, 7, 40])
-def test_every_wave(n):
-    found = extrema(sine(n), 0.0, math.pi)
-    assert found == pytest.approx([(k + 0.5) * math.pi / n for k in range(n)], abs=1e-15)
-
-
-def test_stationary_points_on_scan_points_are_found_once():
-    def f(x):
-        return x**4 - 2.0 * x * x, 4.0 * x**3 - 4.0 * x, 12.0 * x * x - 4.0
-
-    # -1, 0 and 1 are knots of the scan of [-2, 2]
-    assert extrema(f, -2.0, 2.0) == [-1.0, 0.0, 1.0]
-
-
-def test_stationary_points_in_an_interval_without_a_middle():
-    """As of a motion over the least double there is: halves of it are its ends."""
-    least = math.ulp(0.0)
-    for a, b in ((0.0, least), (1.0, 1.0 + math.ulp(1.0))):
-        found = extrema(lambda x, a=a, b=b: (0.0, (x - a) * (b - x), 1.0), a, b)
-        assert all(x in (a, b) for x in found)
-
-
-def test_monotone_and_constant():
-    assert extrema(lambda x: (x, 1.0, 0.0), 0.0, 1.0) == []
-    assert extrema(lambda x: (math.exp(x), math.exp(x), math.exp(x)), -3.0, 3.0) == []
 
 
 def test_boundary():

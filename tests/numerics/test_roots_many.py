@@ -1,4 +1,4 @@
-"""Roots and extrema of many functions at once: those of each alone, none stepped over."""
+"""Roots and stationary points of batches of functions: to the last bit, none stepped over."""
 
 import math
 
@@ -9,7 +9,7 @@ from numpy.polynomial import polynomial
 from geneva_cli.numerics import extrema_many as extrema_module
 from geneva_cli.numerics import roots_many as many
 from geneva_cli.numerics.extrema_many import Rough, extrema_many, peaks_many
-from geneva_cli.numerics.roots import extrema, root
+from geneva_cli.numerics.roots import root
 
 pytestmark = pytest.mark.filterwarnings("error")  # nothing is said of designs that are no numbers
 
@@ -44,13 +44,13 @@ def lorentzians(middle, width):
     return f
 
 
-def one(f, i):
-    """The function of one design, as the scalar solvers take it."""
+def extrema(f, a, b):
+    """The stationary points of one function: f(x) is its value, slope and bend."""
 
-    def alone(x):
-        return tuple(float(v[0, 0]) for v in f(np.array([[x]]), np.array([i]), 2))
+    def curves(x, which, order):
+        return [v + 0.0 * x for v in f(x)[: order + 1]]
 
-    return alone
+    return extrema_many(curves, column([a]), column([b])).x.tolist()
 
 
 @pytest.fixture(scope="module")
@@ -109,18 +109,62 @@ def test_greatest_size_by_a_rough_scan(random_polynomials):
     pieces = column([-1.5] * n), column([0.1] * n), column([1.5] * n)
     # the terms of one add up to a hundred times its greatest size at most
     size, x = peaks_many(f, *pieces, rough=Rough(wrong, 1e-8))
-    assert size == pytest.approx(peaks_many(f, pieces[0], pieces[2]).size, rel=2e-14)
+    assert size == pytest.approx(peaks_many(f, pieces[0], pieces[2])[0], rel=2e-14)
     own = abs(f(x[:, None], np.arange(n), 0)[0][:, 0])
     assert size == pytest.approx(own, rel=2e-14)
 
 
-def test_one_by_one(random_polynomials):
-    """The scalar solver on each finds the same points, but for the last bits of the slope."""
-    f = polynomials(random_polynomials[:200])
-    found = extrema_many(f, column([-1.5] * 200), column([1.5] * 200))
-    for i in range(200):
-        alone = extrema(one(f, i), -1.5, 1.5)
-        assert found.x[found.which == i] == pytest.approx(alone, rel=0.0, abs=1e-12)
+@pytest.mark.parametrize("width", [1e-2, 1e-4, 1e-6, 1e-9])
+@pytest.mark.parametrize("middle", [0.3, 0.71828, -0.999])
+def test_narrow_peak(width, middle):
+    """A peak a billionth of the interval wide, by its tails alone."""
+    found = extrema_many(lorentzians(column([middle]), column([width])), column([-1]), column([1]))
+    assert found.x == pytest.approx([middle], rel=0.0, abs=2.3e-16)  # one unit of 1
+
+
+def test_narrow_peak_beside_a_broad_one():
+    """What a scan can see: tails above a hundredth of the range, from half an interval away."""
+    peaks = lorentzians(column([0.4321, -0.5]), column([0.005, 0.1]))
+
+    def f(x, which, order):
+        both = (peaks(x, np.full(len(x), i), order) for i in (0, 1))
+        return [p + q for p, q in zip(*both, strict=True)]
+
+    found = extrema_many(f, column([-1.0]), column([1.0])).x
+    assert len(found) == 3  # two peaks and the valley between
+    # each moves the other's top by the slope of its tail times width^2/2
+    assert found[0] == pytest.approx(-0.5, abs=1e-6)
+    assert found[2] == pytest.approx(0.4321, abs=1e-5)
+
+
+@pytest.mark.parametrize("n", [1, 3, 7, 31])  # two and a half half-waves an interval of the scan
+def test_every_wave(n):
+    found = extrema(
+        lambda x: (np.sin(n * x), n * np.cos(n * x), -n * n * np.sin(n * x)), 0.0, math.pi
+    )
+    assert found == pytest.approx([(k + 0.5) * math.pi / n for k in range(n)], abs=1e-15)
+
+
+def test_stationary_points_on_scan_points_are_found_once():
+    def f(x):
+        return x**4 - 2.0 * x * x, 4.0 * x**3 - 4.0 * x, 12.0 * x * x - 4.0
+
+    # -1, 0 and 1 are places of the scan of [-3, 3]
+    assert extrema(f, -3.0, 3.0) == [-1.0, 0.0, 1.0]
+
+
+def test_stationary_points_in_an_interval_without_a_middle():
+    """As of a motion over the least double there is: halves of it are its ends."""
+    least = math.ulp(0.0)
+    for a, b in ((0.0, least), (1.0, 1.0 + math.ulp(1.0))):
+        found = extrema(lambda x, a=a, b=b: (0.0, (x - a) * (b - x), 1.0), a, b)
+        assert all(x in (a, b) for x in found)
+
+
+def test_monotone_and_constant():
+    assert extrema(lambda x: (x, 1.0, 0.0), 0.0, 1.0) == []
+    assert extrema(lambda x: (np.exp(x), np.exp(x), np.exp(x)), -3.0, 3.0) == []
+    assert extrema(lambda x: (2.0, 0.0, 0.0), 0.0, 1.0) == []
 
 
 @pytest.mark.parametrize("solver", [extrema_many, peaks_many])
@@ -163,7 +207,7 @@ def test_designs_that_are_not_numbers():
     assert size[[0, 2, 4]].tolist() == [math.sin(1.0), 1.0, 1.0]
     assert x[[0, 2, 4]] == pytest.approx([1.0, math.pi / 6.0, math.pi / 4.0], rel=2.3e-16)
     assert extrema_many(f, a, b).which.tolist() == [2, 4]
-    assert peaks_many(f, a[:0], b[:0]).size.shape == (0,)
+    assert [found.shape for found in peaks_many(f, a[:0], b[:0])] == [(0,), (0,)]
     assert extrema_many(f, a[:0], b[:0]).x.shape == (0,)
 
 
@@ -178,13 +222,24 @@ def test_the_first_of_equals():
     assert x == pytest.approx([math.pi / 2, math.pi / 2, -math.pi / 2, -1.0], rel=2.3e-16)
 
 
+def test_a_summit_beside_a_break_that_is_as_high():
+    """The summit has the place where it is more than rounding away; and 0 that of 1e-47."""
+    top = column([1e-8, -1e-8, 0.01, 1e-14, 1e-47, -1e-47])
+
+    def f(x, which, order):
+        return [2.0 - (x - top[which]) ** 2, -2.0 * (x - top[which]), 0.0 * x - 2.0][: order + 1]
+
+    ends = [column([end] * len(top)) for end in (-1.0, 0.0, 1.0)]
+    size, x = peaks_many(f, *ends)
+    assert size == pytest.approx(2.0, rel=2.3e-16)
+    assert x.tolist() == [pytest.approx(1e-8), pytest.approx(-1e-8), 0.01, 0.0, 0.0, 0.0]
+
+
 @pytest.mark.parametrize("c", [0.3, 0.01, 1e-3])
 def test_a_stationary_end_hides_nothing(c):
     """Top at -c, valley at 0 where the span ends: the slope's sign beside 0 is the bend's."""
     curve = polynomials(np.array([[0.0, 0.0, 2.0 * c * c, 0.0, -1.0]]))
     # c exact, but for the two roundings of the slope's coefficients
-    assert extrema(one(curve, 0), -1.0, 0.0) == pytest.approx([-c, 0.0], rel=1e-15)
-    assert extrema(one(curve, 0), 0.0, 1.0) == pytest.approx([c], rel=1e-15)
     found = extrema_many(curve, column([-1.0]), column([0.0]))
     assert found.x == pytest.approx([-c, 0.0], rel=1e-15)
     found = extrema_many(curve, column([0.0]), column([1.0]))

@@ -13,7 +13,7 @@ from typer.testing import CliRunner
 from words import LAWS, Drive, Motion, Spec, Wheel, load
 from words import Keys as _keys
 
-from geneva_cli.analysis.peaks import acceleration_peak, worst
+from geneva_cli.analysis.peaks import peak, worst
 from geneva_cli.analysis.timing import timings
 from geneva_cli.app import app
 from geneva_cli.errors import GenevaError
@@ -233,7 +233,7 @@ def test_every_machine_stays_below_the_limit_and_none_by_more_than_needed(limit,
         (z, g)
         for z in (3, 6, 12)
         for g in (*GEARINGS, "spherical")
-        if acceleration_peak(build(Spec(Wheel(z, g))).engagements[0]).max <= float(limit)
+        if peak(build(Spec(Wheel(z, g))).engagements[0].motion, "acceleration").max <= float(limit)
     }
 
 
@@ -246,7 +246,7 @@ def test_the_quick_peak_is_the_built_machine_s(z, gearing, x):
         Wheel(z, gearing), Drive("elliptical-gears"), _keys("elliptical-gears", *closed.phased(x))
     )
     for spec, ratio in ((side, limits.side_crank), (gears, limits.elliptical_gears)):
-        wanted = acceleration_peak(build(spec).engagements[0]).max
+        wanted = peak(build(spec).engagements[0].motion, "acceleration").max
         assert limits.peak_of(Wheel(z, gearing), ratio)(x) == pytest.approx(wanted, rel=1e-11)
 
 

@@ -84,7 +84,7 @@ def _form(cycle: Cycle) -> Sizing:
     for number, engagement in enumerate(cycle.mechanism.engagements):
         closed_peak = engagement.motion.closed_peak
         velocity, acceleration, power = (
-            found.size
+            found.max
             if (found := closed_peak(invariant))
             else _greatest(cycle, quantity, number) / unit
             for invariant, quantity, unit in (

@@ -7,7 +7,7 @@ from collections.abc import Callable
 from functools import partial
 from typing import Any
 
-from geneva_cli.analysis.peaks import acceleration_peak as program
+from geneva_cli.analysis.peaks import peak as program
 from geneva_cli.bench.formulas import Proportions, acceleration
 from geneva_cli.bench.method import Method, Subject, Task, missing
 from geneva_cli.bench.numeric import NUMERIC, by_chebpy, closed
@@ -59,7 +59,12 @@ def _task(z: int, gearing: str, A: float, quick: bool) -> Task:
         one = partial(many.acceleration_peak, z, wheel.SIGN, A)
         methods.append(Method("ours", None, lambda: one()[0], True))
     methods.append(
-        Method("ours, as geneva peaks does", None, lambda: program(engagement).max, True)
+        Method(
+            "ours, as geneva peaks does",
+            None,
+            lambda: program(engagement.motion, "acceleration").max,
+            True,
+        )
     )
     name = f"{gearing}, z = {z}" + (f", A = {A:g}" if A else "")
     x = 0.3 * d.half

@@ -13,13 +13,9 @@ from typing import NamedTuple
 from geneva_cli.errors import GenevaError, refuse
 from geneva_cli.machine.drives.pushed import Pushed
 from geneva_cli.machine.drives.transmission import About
-from geneva_cli.machine.engagement import PeakValue, Vector
+from geneva_cli.machine.engagement import Peak, Vector
 from geneva_cli.machine.wheels.gearing import Gearing, RollerPlace
-from geneva_cli.machine.wheels.side_crank_peaks import (
-    acceleration_peak,
-    acceleration_peaks,
-    velocity_peaks,
-)
+from geneva_cli.machine.wheels.side_crank_peaks import acceleration_peaks, velocity_peaks
 from geneva_cli.numerics.angles import radians, sin_cos_deg
 from geneva_cli.numerics.arrays import choose, library
 from geneva_cli.numerics.jet import Jet, Number, sin_cos, sine_versine_of
@@ -40,26 +36,20 @@ def refuse_rounding(A: float) -> None:
 
 
 class SideCrankPeak(NamedTuple):
-    """Peak acceleration of a plain wheel behind a side-crank, without the general search."""
+    """Peaks of a batch of plain wheels behind side-cranks, faster than by a general search."""
 
     A: float
     z: int
     sign: float
 
-    def __call__(self, quantity: str) -> PeakValue | None:
-        """Peak of the acceleration, in a batch also of the velocity; None for other quantities."""
-        if isinstance(self.A, float) and isinstance(self.z, int):
-            if quantity != "acceleration" or abs(self.A) > A_SURE:
-                return None
-            return PeakValue(*acceleration_peak(self.z, self.sign, self.A))
+    def __call__(self, quantity: str) -> Peak[float] | None:
+        """Peak velocity or acceleration of a batch; None for a single design."""
         peaks = {"velocity": velocity_peaks, "acceleration": acceleration_peaks}.get(quantity)
-        if peaks is None:
+        if peaks is None or (isinstance(self.A, float) and isinstance(self.z, int)):
             return None
         size, at_deg = peaks(self.z, self.sign < 0.0, self.A)
-        sure = (
-            abs(self.A) + 0.0 * size <= A_SURE
-        )  # an array over all designs, even if only z differs
-        return PeakValue(choose(sure, size, math.nan), choose(sure, at_deg, math.nan))
+        sure = abs(self.A) + 0.0 * size <= A_SURE  # an array over all designs, even if only z differs
+        return Peak(choose(sure, size, math.nan), choose(sure, at_deg, math.nan))
 
 
 def closed_peaks(A: float, wheel: Gearing, place: RollerPlace) -> SideCrankPeak | None:

@@ -9,9 +9,9 @@ from typing import cast
 
 from geneva_cli.errors import GenevaError, cut, refuse
 from geneva_cli.numerics.angles import one_minus_sin_pi, sin_cos_pi
-from geneva_cli.numerics.arrays import library
+from geneva_cli.numerics.arrays import choose, larger, library, smaller
 
-STEPS = 8  # of Newton, from any l of three slots or more to the last digit
+STEPS = 5  # of Newton: four come to the last digit from l = 0.9 inside to l = 1 outside
 
 
 def half_motion_deg(sign: float, p: int, q: int) -> float:
@@ -73,19 +73,40 @@ def acceleration_peak(l: float, gap: float) -> tuple[float, float]:
 def power_peak(l: float, gap: float) -> tuple[float, float]:
     """Peak of velocity times acceleration and its angle from mid-motion, degrees.
 
-    k is 1 - gap: l outside, -l inside. The slope vanishes where c = cos a is a root of 2 k c³ + 2
-    (1 - k²) c² - k (5 + k²) c + 5 k² - 1. At entry (c = k) this cubic is -(1 - k²)², at mid-motion
-    (c = 1) it is (1 - k)³. Newton's method starts at c = sqrt(1/2) + k, the tangent of the root's
-    course at k = 0. From there to the root the cubic rises and is convex, so the steps go down.
+    With g = ``gap`` and 1 - cos a = g² t, its slope vanishes at the least root t of
+    1 - (10 - 7 g + g²) t + (6 - 2 g - 2 g²) g t² - 2 (1 - g) g³ t³, which is nearly
+    (1 + 2 g) / 10 from g = 0 (l = 1 outside) to 2 (l = 1 inside).
     """
     k = 1.0 - gap
-    square, slope, rest = 2.0 * (1.0 - k * k), k * (5.0 + k * k), 5.0 * k * k - 1.0
-    c = 0.5**0.5 + k
+    first, second = 10.0 - (7.0 - gap) * gap, (6.0 - 2.0 * gap * (1.0 + gap)) * gap
+    third = 2.0 * k * gap**3
+    t = 0.1 + 0.2 * gap
     for _ in range(STEPS):
-        value = ((2.0 * k * c + square) * c - slope) * c + rest
-        c = c - value / ((6.0 * k * c + 2.0 * square) * c - slope)
+        value = 1.0 - t * (first - t * (second - t * third))
+        t = t + value / (first - t * (2.0 * second - 3.0 * t * third))
     m = library(l, gap)
-    s = 1.0 - c  # the peak is flat: a rounding error of c counts by its square
+    s = gap * gap * t  # the peak is flat: a rounding error of s counts by its square
     d = gap * gap + 2.0 * k * s
     size = l * l * gap * (1.0 + k) * (gap - s) * m.sqrt(s * (2.0 - s)) / d**3
     return size, m.degrees(2.0 * m.asin(m.sqrt(0.5 * s)))
+
+
+def jerk_peak(l: float, gap: float, half_deg: float) -> tuple[float, float]:
+    """Peak jerk and its angle from mid-motion, degrees; ``half_deg`` is half the motion.
+
+    With k = 1 - gap (l outside, -l inside), c = cos a and D = 1 - 2 k c + k² the jerk is
+    -l (1 - k²) N / D³, N = 2 k c² + (1 + k²) c - 4 k. Outside it is greatest at mid-motion. Inside
+    its slope by c vanishes once for c <= 1, where w = 2 k c is a root of
+    w² + 4 (1 + k²) w + (1 + k²)² - 24 k²: below c = k (exit) the jerk is greatest at the ends,
+    and above c = 1 at mid-motion.
+    """
+    k = 1.0 - gap
+    m = library(l, gap)
+    both = 1.0 + k * k
+    w = (24.0 * k * k - both * both) / (m.sqrt(3.0 * both * both + 24.0 * k * k) + 2.0 * both)
+    turn = choose(k > 0.0, 1.0 + 0.0 * k, smaller(0.5 * w / k, 1.0 + 0.0 * k))
+    s = 1.0 - larger(turn, k)
+    d = gap * gap + 2.0 * k * s
+    n = gap * gap - s * (1.0 + 4.0 * k + k * k - 2.0 * k * s)
+    at_deg = choose(turn > k, m.degrees(2.0 * m.asin(m.sqrt(0.5 * s))), half_deg)
+    return l * gap * (1.0 + k) * abs(n) / d**3, at_deg

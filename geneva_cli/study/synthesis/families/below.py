@@ -10,7 +10,7 @@ import math
 from collections.abc import Callable, Iterator, Sequence
 from functools import partial
 
-from geneva_cli.analysis.peaks import acceleration_peak
+from geneva_cli.analysis.peaks import peak
 from geneva_cli.machine.mechanism import build
 from geneva_cli.machine.spec import Spec
 from geneva_cli.machine.wheels.gearing import Gearing
@@ -54,12 +54,12 @@ def _specs(wish: Wish, wheel: Gearing, reached: list[float]) -> Iterator[Spec]:
     assert wish.acceleration_max is not None
     natural = natural_deg(wheel)
     every = rollers(wish, natural)
-    peak = acceleration_peak(build(plain(wish, wheel, 1)).engagements[0]).max
-    gentle = peak <= wish.acceleration_max
+    natural_peak = peak(build(plain(wish, wheel, 1)).engagements[0].motion, "acceleration").max
+    gentle = natural_peak <= wish.acceleration_max
     if gentle:
         yield from (plain(wish, wheel, m) for m in every)
     elif not wish.rollers or natural * wish.rollers < 360.0:
-        reached.append(peak)
+        reached.append(natural_peak)
     if not wheel.FLAT:
         return
     limit = wish.acceleration_max * (1.0 - MARGIN)
