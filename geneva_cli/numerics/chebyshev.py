@@ -24,6 +24,7 @@ if TYPE_CHECKING:
 DEGREE = 16  # of the series: most loads between their cuts have ended by then
 CELLS = 32  # of the grid on which signs are compared: two for each point
 LAST = 3  # terms taken together: of an even or odd function every other one is 0
+FEW = 128  # rows, whose products with a matrix lie in the processor's cache
 STEPS = 5  # of Newton's, on a series from a secant of the grid: then the function itself is asked
 MIDDLE = DEGREE // 2
 
@@ -61,16 +62,27 @@ def _to_slopes() -> Array:
 
 
 def _product(values: Array, matrix: Array) -> Array:
-    """Return values (..., k) times a matrix (k, n), summed in order.
+    """Return values (..., k) times a matrix (k, n), n > 1, summed in order.
 
     BLAS sums in an order that depends on the number of rows and on the processor, so that a design
     alone would differ from one among others.
     """
-    first, *others = np.moveaxis(values, -1, 0)
-    out = np.multiply.outer(matrix[0], first)
-    for row, value in zip(matrix[1:], others, strict=True):
-        out += np.multiply.outer(row, value)
+    rows = np.moveaxis(values, -1, 0)
+    if rows[0].size <= FEW:
+        shape = *matrix.shape, *[1] * (rows.ndim - 1)
+        out = _sum(matrix.reshape(shape) * rows[:, None])
+    else:
+        out = np.multiply.outer(matrix[0], rows[0])
+        for row, value in zip(matrix[1:], rows[1:], strict=True):
+            out += np.multiply.outer(row, value)
     return np.moveaxis(out, 0, -1)
+
+
+def _sum(terms: Array) -> Array:
+    """The sum over the first axis, in order."""
+    if terms[0].size == 1:  # of these alone NumPy would add pairs
+        return np.asarray(np.add.accumulate(terms)[-1])
+    return np.asarray(np.add.reduce(terms))
 
 
 POINTS = _even_spread(DEGREE)
@@ -88,7 +100,7 @@ def series(values: Array) -> Array:
 
 def slopes(terms: Array) -> Array:
     """The terms of the derivatives of series (terms, m)."""
-    return np.moveaxis(_product(np.moveaxis(terms, 0, -1), _SLOPES), -1, 0)
+    return _product(terms.T, _SLOPES).T
 
 
 def remainder(values: Array) -> Array:
@@ -103,20 +115,17 @@ def on_grid(values: Array) -> tuple[Array, Array]:
 
 
 def at(terms: Array, t: Array) -> Array:
-    """Series (terms, m) at a place each: (m,)."""
-    out = np.zeros(t.shape)
-    for term, polynomial in zip(terms, _terms(t), strict=True):
-        out += term * polynomial
-    return out
+    """Series (terms, ..., m) at a place each: (..., m)."""
+    return _sum(terms * _terms(t).reshape(len(terms), *[1] * (terms.ndim - 2), -1))
 
 
 def root(terms: Array, low: Array, high: Array, start: Array) -> Array:
     """The zero of each series (terms, m) between ``low`` and ``high``, where its signs differ."""
-    rate, rises, t = slopes(terms), at(terms, high) > 0.0, start
+    both, rises, t = np.stack((terms, slopes(terms)), axis=1), at(terms, high) > 0.0, start
     for _ in range(STEPS):
-        value = at(terms, t)
+        value, rate = at(both, t)
         below = (value < 0.0) == rises
         low, high = np.where(below, t, low), np.where(below, high, t)
-        new = t - value / at(rate, t)
+        new = t - value / rate
         t = np.where((low <= new) & (new <= high), new, 0.5 * (low + high))
     return t

@@ -103,7 +103,8 @@ def search(
         found = _Search(f, n, sized, w)
         for number, x, value in known:
             design = np.flatnonzero(~np.isnan(value))
-            found.greatest.add(number, design, x[design], value[design])
+            of = np.full(len(design), number)
+            found.greatest.add(of, design, x[design], value[design])
         found.sample(spans)
         found.refine()
         most, x = found.greatest.most, found.greatest.places()
@@ -235,9 +236,7 @@ class _Search:
         return Curves(curves.number, rows, curves.sign, part, value, chebyshev.remainder(value))
 
     def _add(self, curves: Curves, x: Array, value: Array) -> None:
-        for number in range(self.f.wanted):
-            of = curves.number == number
-            self.greatest.add(number, curves.rows.design[of], x[of], value[of])
+        self.greatest.add(curves.number, curves.rows.design, x, value)
 
     def _turns(self, curves: Curves, way: float) -> tuple[Whole, Array, Array]:
         """Maxima of ``way`` times functions: the numbers of the curves, places from -1 to 1, and
@@ -291,12 +290,14 @@ class _Search:
     def _jets(self, x: Array, curves: Curves, order: int) -> Array:
         """Value and derivatives by degrees of each curve's function at places (m, k)."""
         out = np.empty((order + 1, *x.shape))
-        for number in range(self.f.wanted):
-            of = np.flatnonzero(curves.number == number)
-            if len(of):
-                at = self.f.at(x[of], curves.rows.design[of], order)
-                c = self.f.look(at, curves.sign[:, of, None], (number,))[1]
-                out[:, of] = [one[-1] for one in c]
+        # places of several functions together: what they are made of costs most
+        in_order = np.argsort(curves.number, kind="stable")
+        for i in range(0, len(x), BLOCK):
+            of = in_order[i : i + BLOCK]
+            asked, own = np.unique(curves.number[of], return_inverse=True)
+            at = self.f.at(x[of], curves.rows.design[of], order)
+            c = self.f.look(at, curves.sign[:, of, None], asked.tolist())[1]
+            out[:, of] = [one[self.f.signs + own, np.arange(len(of))] for one in c]
         scale = np.array([1.0, DEGREE, 2.0 * DEGREE * DEGREE])[: order + 1]
         out *= scale[:, None, None]
         return out
