@@ -11,7 +11,7 @@ import sys
 from typing import Annotated, Any
 
 import typer
-from typer.core import TyperCommand, TyperGroup
+from typer.core import TyperCommand, TyperGroup, TyperOption
 from typer.main import get_command
 
 from geneva_cli import __version__
@@ -58,6 +58,12 @@ COMMANDS = {name: line for group in GROUPS.values() for name, line in group.item
 
 WIDEST = max(map(len, COMMANDS))
 MESSAGE_MAX = 1000  # characters
+# What every command has that prints a table; beside them stand those that print none.
+COLUMNS: dict[str, Any] = {
+    "--columns": {"metavar": "NAME,...", "help": "Only these columns, named as in csv."},
+    "--wide": {"is_flag": True, "help": "All columns on a terminal, however wide."},
+}
+NO_TABLE = {"animate", "view", "schema"}
 HELP = {"help_option_names": ["-h", "--help"]}
 
 
@@ -84,6 +90,17 @@ class Command(TyperCommand):
             if order.count(option) > 1 and not option.multiple:
                 raise GenevaError(f"{option.opts[0]}: given twice; only one of both would count")
         return rest
+
+    def invoke(self, ctx: Any) -> Any:
+        """Run the command; the tables that it shows have the columns of --columns and --wide."""
+        columns, wide = ctx.params.pop("columns", None), ctx.params.pop("wide", False)
+        if not (columns or wide):
+            return super().invoke(ctx)
+        from geneva_cli.output import Choice, choosing
+
+        names = [name.strip() for name in (columns or "").split(",")]
+        with choosing(Choice(tuple(filter(None, names)), wide)):
+            return super().invoke(ctx)
 
     def format_epilog(self, ctx: Any, formatter: Any) -> None:
         """The examples, a line each as they are typed."""
@@ -119,6 +136,8 @@ class LazyGroup(TyperGroup):
         one.command(name, cls=Command, context_settings=HELP)(module.run)
         command: Any = get_command(one)
         command.examples = module.EXAMPLES
+        if name not in NO_TABLE:
+            command.params += [TyperOption(param_decls=[n], **own) for n, own in COLUMNS.items()]
         return name, command, rest
 
     def invoke(self, ctx: Any) -> Any:

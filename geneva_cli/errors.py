@@ -102,15 +102,21 @@ def cut(value: str | int, most: int = 60) -> str:
 
 
 def nearest(word: str, known: Iterable[str]) -> str:
-    """`` (did you mean "..."?)`` for the known word that is most like it, or nothing.
+    """`` (did you mean "..."?)`` for the known word that is most like it, or nothing."""
+    like = closest(word, known, 1)
+    return f' (did you mean "{like[0]}"?)' if like else ""
+
+
+def closest(word: str, known: Iterable[str], most: int = 5) -> list[str]:
+    """The known words that are most like a word, the nearest first.
 
     Capitals make no difference; of three letters or more also a beginning or a part will do.
     """
     import difflib
 
     word, by_word = cut(word).casefold(), {k.casefold(): k for k in known}
-    close = difflib.get_close_matches(word, by_word, n=1, cutoff=0.6)
-    if not close and len(word) >= 3:
-        parts = [k for k in by_word if word in k]
-        close = sorted(parts, key=lambda k: not k.startswith(word))
-    return f' (did you mean "{by_word[close[0]]}"?)' if close else ""
+    close = difflib.get_close_matches(word, by_word, n=most, cutoff=0.6)
+    if len(close) < most and len(word) >= 3:
+        parts = [k for k in by_word if word in k and k not in close]
+        close += sorted(parts, key=lambda k: not k.startswith(word))[: most - len(close)]
+    return [by_word[k] for k in close]

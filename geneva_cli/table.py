@@ -7,9 +7,26 @@ from collections.abc import Callable, Iterator, Sequence
 from itertools import islice
 from typing import Any, NamedTuple
 
+from geneva_cli.errors import GenevaError, closest, cut
+
 PIECE = 65536  # rows of a long table that are made at once; blocks divide it
 HTML_ROWS = 60  # that a notebook shows
+NEAREST = 5  # names that a message about a wrong one has
 NO_BOUND = "no bound"  # an infinity, where a person reads it
+
+
+class Reading(NamedTuple):
+    """How a person at a terminal reads a table whose columns do not all fit.
+
+    ``first`` are its columns from the most important one; others follow in their order. ``title``
+    stands above it, and says what is in the columns ``said``: where they are constant, it stands
+    for them. Of ``designs`` the names are those of designs, not of quantities.
+    """
+
+    first: tuple[str, ...] = ()
+    title: str = ""
+    said: tuple[str, ...] = ()
+    designs: bool = False
 
 
 class Table(NamedTuple):
@@ -28,6 +45,7 @@ class Table(NamedTuple):
     title: str = ""
     prose: str = ""
     mixed: bool = False
+    reading: Reading = Reading()
 
     def __len__(self) -> int:
         return len(self.columns[0]) if self.columns else 0
@@ -43,6 +61,32 @@ class Table(NamedTuple):
         """Rows one by one."""
         for block in self.blocks():
             yield from block
+
+    def replaced(self, **fields: Any) -> Table:
+        """The table with some of its fields replaced; _replace counts fields by the rows."""
+        own: dict[str, Any] = dict(zip(self._fields, self, strict=True))
+        return Table(**own | fields)
+
+    def only(self, names: Sequence[str]) -> Table:
+        """The columns of these names, in their order; of a record its values and its tables'
+        columns. Raises GenevaError for a name that is not there.
+        """
+        inner = [v for v in next(self.rows(), ()) if isinstance(v, Table)] if self.record else []
+        known = dict.fromkeys([*self.names, *(name for table in inner for name in table.names)])
+        for name in names:
+            if name not in known:
+                some = ", ".join(closest(name, known) or list(known)[:NEAREST])
+                raise GenevaError(f"--columns {cut(name)}: no such column; there are {some}")
+        if not self.record:
+            at = [self.names.index(name) for name in names]
+            return self.replaced(names=tuple(names), columns=[self.columns[i] for i in at])
+        values: dict[str, Any] = {}
+        for name, value in zip(self.names, next(self.rows()), strict=True):
+            if name in names:
+                values[name] = value
+            elif isinstance(value, Table) and set(names) & set(value.names):
+                values[name] = value.only([n for n in names if n in value.names])
+        return self.replaced(names=tuple(values), columns=[(v,) for v in values.values()])
 
     def to_dict(self) -> dict[str, Any]:
         """Columns by name, numbers as arrays; a record's values by name, tables in it as rows.

@@ -285,7 +285,7 @@ def test_a_group_of_the_report(
     assert list(shown).index("slots") < list(shown).index("inputs")
 
 
-def chunks(table: Table, terminal: bool) -> Iterator[str]:
+def chunks(table: Table) -> Iterator[str]:
     """A format: the names and how many rows."""
     yield f"{'|'.join(table.names)}: {len(table)}"
 

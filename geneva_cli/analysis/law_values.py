@@ -15,9 +15,10 @@ from geneva_cli.machine import registry
 from geneva_cli.machine.law_motion import LawMotion
 from geneva_cli.machine.laws.law import Law
 from geneva_cli.spec.schema import REQUIRED, fields
-from geneva_cli.table import Table, rows_table
+from geneva_cli.table import Reading, Table, rows_table
 
 NAMES = ("law", "C_v", "C_a", "C_j", "C_p", *CamFactors._fields, "about")
+FIRST = ("law", "about")  # what a narrow window keeps; then the columns in their order
 
 
 class Characteristic(NamedTuple):
@@ -56,4 +57,4 @@ def laws_table(shape: float) -> Table:
         given = {key.attribute: shape for key in keys if key.key == "lambda"}
         found = characteristic(kind(**given))
         rows.append((name, *found, *found.factors, kind.ABOUT))
-    return rows_table(NAMES, rows)
+    return rows_table(NAMES, rows).replaced(reading=Reading(FIRST))

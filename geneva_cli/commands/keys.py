@@ -28,6 +28,7 @@ def run(
     """Every key of a spec: its unit, what it may be, its default, and the machines it goes with."""
     from geneva_cli.output import show
     from geneva_cli.specfile.keys import Key, about
-    from geneva_cli.table import rows_table
+    from geneva_cli.table import Reading, rows_table
 
-    show(rows_table(Key._fields, about(word)), output, format)
+    reading = Reading(("key", "meaning", "unit", "default", "range", "goes_with"))
+    show(rows_table(Key._fields, about(word)).replaced(reading=reading), output, format)

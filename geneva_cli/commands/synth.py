@@ -172,16 +172,20 @@ def _inputs(wish: "Wish") -> Sequence[str]:
 
 
 def _show(wish: "Wish", checked: int, buildable: bool, output: str, format: str) -> None:
-    from geneva_cli.output import show
+    from geneva_cli.output import is_seen, show
     from geneva_cli.output.formats import format_of
-    from geneva_cli.study.synthesis.shown import for_people
+    from geneva_cli.study.synthesis.shown import for_people, for_terminal
     from geneva_cli.study.synthesis.table import synthesis_table
 
     if output.endswith(".toml") and not format:
         raise GenevaError(f"-o {cut(output, 300)}: a spec is one row of the table; add --write N")
     name = format or format_of(output)
     table = synthesis_table(wish, checked, buildable)
-    show(for_people(table) if name in ("table", "md") else table, output, format, _inputs(wish))
+    if name == "table" and is_seen(output):
+        table = for_terminal(table)
+    elif name in ("table", "md"):
+        table = for_people(table)
+    show(table, output, format, _inputs(wish))
 
 
 def _write(wish: "Wish", number: int, buildable: bool, output: str, format: str) -> None:

@@ -6,7 +6,8 @@ import importlib
 import os
 import sys
 from collections.abc import Iterable, Iterator
-from typing import TYPE_CHECKING, Any, Protocol, cast
+from contextlib import contextmanager
+from typing import TYPE_CHECKING, Any, NamedTuple, Protocol, cast
 
 from geneva_cli.errors import GenevaError, cut
 from geneva_cli.output.formats import (
@@ -32,11 +33,38 @@ if TYPE_CHECKING:
     from geneva_cli.scene import Scene
 
 
+class Choice(NamedTuple):
+    """The columns of its tables that a run shows: some by name, or all in whatever width."""
+
+    columns: tuple[str, ...] = ()
+    wide: bool = False
+
+
+chosen = Choice()  # what --columns and --wide say in this run
+
+
+@contextmanager
+def choosing(choice: Choice) -> Iterator[None]:
+    """Show tables by this choice meanwhile."""
+    global chosen
+    before, chosen = chosen, choice
+    try:
+        yield
+    finally:
+        chosen = before
+
+
+def refuse_columns() -> None:
+    """Raise GenevaError where columns were chosen by name and no table is shown."""
+    if chosen.columns:
+        raise GenevaError("--columns is for tables, and this run prints none; leave it out")
+
+
 class Format(Protocol):
     """What a format's module offers."""
 
-    def chunks(self, table: Table, terminal: bool) -> Iterator[str]:
-        """The text, in pieces; ``terminal`` is true where a person looks."""
+    def chunks(self, table: Table) -> Iterator[str]:
+        """The text, in pieces."""
 
 
 class DrawnFormat(Protocol):
@@ -69,8 +97,21 @@ def show(table: Table, output: str = "-", format: str = "", inputs: Iterable[str
     from geneva_cli.output.finite import checked
 
     table = checked(table, _progress)
+    if chosen.columns:
+        table = table.only(chosen.columns)
+    if name == "table" and is_seen(output):
+        from geneva_cli.output import terminal
+
+        window = terminal.window(bool(chosen.columns), chosen.wide)
+        _put(terminal.chunks(table, window), output, inputs)
+        return
     module = cast(Format, importlib.import_module(f"geneva_cli.output.{FORMATS[name]}"))
-    _put(module.chunks(table, output == "-" and sys.stdout.isatty()), output, inputs)
+    _put(module.chunks(table), output, inputs)
+
+
+def is_seen(output: str) -> bool:
+    """Whether what is written there is seen on a terminal."""
+    return output == "-" and sys.stdout.isatty()
 
 
 def draw(
@@ -94,6 +135,7 @@ def draw(
 
         show(pieces_table(drawing, units), output, name, inputs)
         return
+    refuse_columns()
     module = cast(DrawnFormat, importlib.import_module(f"geneva_cli.output.{DRAWN[name]}"))
     _put(module.chunks(drawing, units, **own), output, inputs)
 
@@ -108,6 +150,7 @@ def draw_sheet(
     """
     name = sheet_as(output, format)
     require_own(own, name)
+    refuse_columns()
     module = cast(SheetFormat, importlib.import_module(f"geneva_cli.output.sheets.{name}"))
     _put(module.chunks(sheet, **own), output, inputs)
 
@@ -123,6 +166,7 @@ def plot(figure: Figure, output: str = "-", format: str = "", inputs: Iterable[s
     if name not in PLOTTED:
         show(figure.table(), output, name, inputs)
         return
+    refuse_columns()
     if name == "svg":
         from geneva_cli.output import plot_svg
 
@@ -178,6 +222,7 @@ def hand_over(
     name = format or format_of(output, DOCUMENTS)
     if name not in DOCUMENTS:
         raise GenevaError(f"--format {cut(name)}: it must be one of {', '.join(DOCUMENTS)}")
+    refuse_columns()
     path = f"geneva_cli.output.document.{DOCUMENTS[name]}"
     module = cast(DocumentFormat, importlib.import_module(path))
     _put(module.chunks(document), output, inputs)
@@ -185,7 +230,7 @@ def hand_over(
 
 def _terminal(output: str) -> tuple[int, bool]:
     """Columns of a chart, and whether it may have letters beyond ASCII: only where one looks."""
-    if output != "-" or not sys.stdout.isatty():
+    if not is_seen(output):
         return 80, False
     import shutil
 
@@ -194,6 +239,7 @@ def _terminal(output: str) -> tuple[int, bool]:
 
 def show_text(text: str, output: str = "-", inputs: Iterable[str] = ()) -> None:
     """Print a text as it is, or write it to the file ``output``; ``inputs`` are not overwritten."""
+    refuse_columns()
     _put([text], output, inputs)
 
 

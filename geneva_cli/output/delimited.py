@@ -11,7 +11,7 @@ from geneva_cli.table import Table, flat, is_floats
 BLOCK = 1024  # rows at a time
 
 
-def chunks(table: Table, terminal: bool) -> Iterator[str]:
+def chunks(table: Table) -> Iterator[str]:
     """The header, then blocks of rows."""
     if table.record:
         table = flat(table)

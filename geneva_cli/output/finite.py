@@ -33,7 +33,7 @@ def checked(table: Table, progress: Callable[[int, int], None]) -> Table:
         return found
 
     columns = pieces(source.length, len(table.columns), make, first.dtype)
-    return Table(table.names, columns, False, table.title, table.prose)
+    return table.replaced(columns=columns)
 
 
 def refuse_nonsense(names: Iterable[str], columns: Iterable[Any]) -> None:

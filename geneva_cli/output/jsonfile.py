@@ -10,7 +10,7 @@ from typing import Any
 from geneva_cli.table import Table
 
 
-def chunks(table: Table, terminal: bool) -> Iterator[str]:
+def chunks(table: Table) -> Iterator[str]:
     """The document, a block of rows at a time."""
     if table.record:
         yield json.dumps(_nested(table.names, next(table.rows())), indent=2) + "\n"

@@ -11,7 +11,7 @@ from geneva_cli.table import Table, flat
 ESCAPES = {"&": "&amp;", "<": "&lt;", ">": "&gt;", **{c: f"\\{c}" for c in "\\`*[]|"}}
 
 
-def chunks(table: Table, terminal: bool) -> Iterator[str]:
+def chunks(table: Table) -> Iterator[str]:
     """The table, line by line."""
     if table.title:
         yield f"# {_escaped(table.title)}\n\n"

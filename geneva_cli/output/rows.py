@@ -8,6 +8,7 @@ from functools import partial
 from typing import Any
 
 from geneva_cli.errors import GenevaError, cut
+from geneva_cli.output import refuse_columns
 from geneva_cli.output.delimited import one_line
 from geneva_cli.output.finite import refuse_nonsense
 from geneva_cli.output.growing import Closing, Growing
@@ -32,6 +33,7 @@ class Growth(Closing):
         inputs: Iterable[str] = (),
         texts: Collection[str] = (),
     ) -> None:
+        refuse_columns()
         self.names, self.texts, self.output, self.done = names, texts, output, 0
         self.is_whole, self.found = False, ""
         self.file: Growing | None = None

@@ -1,4 +1,4 @@
-"""Tables for people: plain columns on a pipe, Rich on a terminal."""
+"""Tables as plain text, on a pipe or in a file: every column, whatever the width."""
 
 from __future__ import annotations
 
@@ -8,19 +8,15 @@ from collections.abc import Iterator
 from typing import Any
 
 from geneva_cli.errors import clean
-from geneva_cli.table import Table, flat, in_digits
+from geneva_cli.table import Table, flat, in_digits, record_table
 
 WIDTH = 90
-HELD = 10_000  # rows that a terminal gets with frames: they are laid out as a whole
 NOISE = 1e-13
 DIGITS = 7  # significant digits for people; csv and json carry all
 
 
-def chunks(table: Table, terminal: bool) -> Iterator[str]:
+def chunks(table: Table) -> Iterator[str]:
     """The table as text, line by line."""
-    if terminal and not table.record and len(table) <= HELD:
-        yield from _rich(table)
-        return
     if table.title:
         yield "\n".join(paragraphs(table.title)) + "\n\n"
     if table.prose:
@@ -40,7 +36,7 @@ def cell(value: Any) -> str:
 
 
 def paragraphs(text: str) -> list[str]:
-    """A text of one or more paragraphs, broken into lines that fit a terminal."""
+    """A text of one or more paragraphs, broken into lines of ``WIDTH`` letters."""
     lines = []
     for paragraph in text.split("\n"):
         lines += textwrap.wrap(clean(paragraph), WIDTH) or [""]
@@ -60,7 +56,7 @@ def _plain(table: Table) -> Iterator[str]:
         return
     heads = _headings(table.names)
     for block in table.blocks():
-        rows = block if table.mixed else _without_noise(block)
+        rows = block if table.mixed else without_noise(block)
         lines = [[cell(v) for v in row] for row in rows]
         widths = [
             max(len(text) for text in (*head, *(line[i] for line in lines)))
@@ -76,7 +72,7 @@ def _plain(table: Table) -> Iterator[str]:
             yield _line(line, widths, left)
 
 
-def _without_noise(block: list[tuple[Any, ...]]) -> Iterator[list[Any]]:
+def without_noise(block: list[tuple[Any, ...]]) -> Iterator[list[Any]]:
     """Rows in which a number that is only rounding beside its column's largest is shown as 0."""
     scales = [
         max((abs(v) for v in column if isinstance(v, float) and v == v), default=0.0)
@@ -97,25 +93,37 @@ def _line(texts: list[str], widths: list[int], left: list[bool]) -> str:
     return "  ".join(cells).rstrip() + "\n"
 
 
-def _record(table: Table) -> Iterator[str]:
-    """One line a value, a heading where the first part of the dotted name changes.
+def apart(record: Table, plain_names: bool = False) -> Iterator[tuple[str, Table]]:
+    """A record in its order, piece by piece: each table in it by its name, between records.
 
-    Tables in it whose names are plain stand as tables, after what is before them.
+    With ``plain_names`` a table whose names are dotted stays in its record.
     """
-    every = next(table.rows(), ())
-    for i, value in enumerate(every):
-        if isinstance(value, Table) and not any("." in name for name in value.names):
-            before, after = (
-                Table(table.names[part], [(v,) for v in every[part]], True)
-                for part in (slice(i), slice(i + 1, None))
-            )
-            yield from _record(before)
+    values: dict[str, Any] = {}
+    for name, value in zip(record.names, next(record.rows(), ()), strict=True):
+        dotted = isinstance(value, Table) and any("." in n for n in value.names)
+        if isinstance(value, Table) and not (plain_names and dotted):
+            yield "", record_table(values)
+            yield name, value
+            values = {}
+        else:
+            values[name] = value
+    yield "", record_table(values)
+
+
+def _record(table: Table) -> Iterator[str]:
+    """A line a value, and tables between them."""
+    for _, piece in apart(table, plain_names=True):
+        if piece.record:
+            yield from _lines(piece)
+        else:
             yield "\n"
-            yield from _plain(value)
+            yield from _plain(piece)
             yield "\n"
-            yield from _record(after)
-            return
-    if not every:
+
+
+def _lines(table: Table) -> Iterator[str]:
+    """One line a value, a heading where the first part of the dotted name changes."""
+    if not table.names:
         return
     table = flat(table)
     # What does not apply is no line for a person.
@@ -134,30 +142,3 @@ def _record(table: Table) -> Iterator[str]:
 
 def _is(value: Any) -> bool:
     return value is not None and value != ""
-
-
-def _rich(table: Table) -> Iterator[str]:
-    import io
-
-    from rich.box import SIMPLE_HEAD
-    from rich.console import Console
-    from rich.table import Table as RichTable
-    from rich.text import Text
-
-    out = RichTable(
-        box=SIMPLE_HEAD, title=Text(clean(table.title)) if table.title else None, padding=(0, 1)
-    )
-    rows = list(table.rows())
-    for i, head in enumerate(_headings(table.names)):
-        is_text = bool(rows) and isinstance(rows[0][i], str)
-        out.add_column(Text("\n".join(head)), justify="left" if is_text else "right", no_wrap=True)
-    for row in rows:
-        out.add_row(*[Text(cell(v)) for v in row])
-    console = Console(file=io.StringIO(), force_terminal=True)
-    # A table wider than the window is shown whole: a number cut short is a wrong number.
-    needed = console.measure(out, options=console.options.update(width=10_000)).maximum
-    console.width = max(needed, 40)
-    console.print(out)
-    file = console.file
-    assert isinstance(file, io.StringIO)
-    yield file.getvalue()

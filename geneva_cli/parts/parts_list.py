@@ -32,7 +32,7 @@ from geneva_cli.parts.sphere.dimensions import dimensions
 from geneva_cli.parts.sphere.wheel import POLE
 from geneva_cli.spec.schema import Points, fields
 from geneva_cli.spec.tables import Size
-from geneva_cli.table import Table, rows_table
+from geneva_cli.table import Reading, Table, rows_table
 
 ROUNDING = 1e-13  # of a part's size: a centroid nearer to its axis is on it
 ACROSS = ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0))  # axes along which a shell's size is measured
@@ -58,6 +58,8 @@ KINDS = {
     "missing": ("name", "why"),
 }
 Row: TypeAlias = dict[str, object]
+# The columns from the most important one, for a window that has not room for all.
+FIRST = ("row", "name", "value", "unit", "why", "count", "mass_kg", "size_x_mm", "size_y_mm")
 NAMES = ("row", *dict.fromkeys(name for names in KINDS.values() for name in names))
 
 
@@ -72,7 +74,8 @@ def parts_list(proof: Proof) -> Table:
     entries = [*_parts(proof), *_pivots(mechanism), *_dimensions(proof)]
     mappings = [{"row": "missing", **r._asdict()} if isinstance(r, Missing) else r for r in entries]
     rows = [[row.get(name) for name in NAMES] for row in mappings]
-    return rows_table(NAMES, rows, mechanism.spec.title, mixed=True)
+    table = rows_table(NAMES, rows, mechanism.spec.title, mixed=True)
+    return table.replaced(reading=Reading(FIRST))
 
 
 def _parts(proof: Proof) -> Iterator[Row | Missing]:

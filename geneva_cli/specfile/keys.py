@@ -8,41 +8,12 @@ from typing import Any, NamedTuple
 from geneva_cli.errors import GenevaError, cut, nearest
 from geneva_cli.machine import registry
 from geneva_cli.machine.spec import Motion
+from geneva_cli.names import unit_of
 from geneva_cli.spec.rules import Csv, OneOf, Words
 from geneva_cli.spec.schema import LIST, REQUIRED, Field, SpecTable, fields
 from geneva_cli.spec.tables import LISTS, PLAIN
 from geneva_cli.specfile.writer import GEARING, KIND, LAW, quoted
 
-# What a key's ending says of its unit.
-UNITS = {
-    "_kgm2": "kg m²",
-    "_kgm3": "kg/m³",
-    "_Nm_rad": "N m/rad",
-    "_mm3_Nm": "mm³/(N m)",
-    "_W_m2": "W/m²",
-    "_rad_s": "rad/s",
-    "_rad_s2": "rad/s²",
-    "_rad_s3": "rad/s³",
-    "_rad2_s3": "rad²/s³",
-    "_m_s": "m/s",
-    "_Nms": "N m s",
-    "_Hz": "Hz",
-    "_W": "W",
-    "_J": "J",
-    "_m": "m",
-    "_um": "µm",
-    "_arcsec": "arc seconds",
-    "_mm": "mm",
-    "_deg": "deg",
-    "_rpm": "1/min",
-    "_Nm": "N m",
-    "_MPa": "MPa",
-    "_GPa": "GPa",
-    "_kg": "kg",
-    "_N": "N",
-    "_h": "h",
-    "_s": "s",
-}
 TYPES = {int: "whole number", float: "number", str: "word", bool: "true or false", LIST: "list"}
 
 
@@ -122,16 +93,6 @@ def words_of(name: str) -> tuple[str, ...]:
 
 def _lists(rules: list[Any]) -> list[OneOf]:
     return [rule for rule in rules if isinstance(rule, OneOf)]
-
-
-def unit_of(name: str) -> str | None:
-    """The unit that the ending of a key's or a quantity's name says; None where it says none.
-
-    >>> unit_of("loads.omega_rad_s"), unit_of("tau")
-    ('rad/s', None)
-    """
-    last = "_" + name.rpartition(".")[2]  # a column may be its unit alone, as rpm
-    return next((unit for end, unit in UNITS.items() if last.endswith(end)), None)
 
 
 def _bare(key: Key) -> str:

@@ -10,7 +10,8 @@ from typing import NamedTuple
 from geneva_cli.errors import GenevaError, cut, nearest
 from geneva_cli.machine import registry
 from geneva_cli.manual.explained import Entry, entries
-from geneva_cli.specfile.keys import Key, every, unit_of
+from geneva_cli.names import unit_of
+from geneva_cli.specfile.keys import Key, every
 
 WIDTH = 90  # of a page of text
 CHECKS, INPUTS = "checks.", "inputs."  # what a report's names of checks and of keys begin with

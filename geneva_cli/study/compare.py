@@ -11,7 +11,7 @@ from geneva_cli.parts.proof import Proof
 from geneva_cli.study.beside import beside
 from geneva_cli.study.fields import Cell, pick, values
 from geneva_cli.study.sweep.constraints import is_number
-from geneva_cli.table import Table, rows_table
+from geneva_cli.table import Reading, Table, rows_table
 
 OWN = ("quantity", "differs")  # columns of the table itself: no design's name
 LEFT_OUT = "inputs."  # a spec's keys are not shown: they are in the spec, or in the columns' names
@@ -48,7 +48,8 @@ def compare(
         differs = not all(_same(c, cells[0]) for c in cells[1:])
         if any(c is not None for c in cells) and (differs or alike):
             rows.append((quantity, *(_ratios(cells) if ratio else cells), differs))
-    return rows_table(("quantity", *names, "differs"), rows, mixed=True)
+    table = rows_table(("quantity", *names, "differs"), rows, mixed=True)
+    return table.replaced(reading=Reading(designs=True))
 
 
 def _same(cell: Cell, first: Cell) -> bool:

@@ -8,7 +8,7 @@ from geneva_cli.errors import GenevaError, cut
 from geneva_cli.machine.wheels import classic
 from geneva_cli.numerics.angles import sin_cos_pi
 from geneva_cli.spec.rules import SPEED, Z_MAX
-from geneva_cli.table import Table, rows_table
+from geneva_cli.table import Reading, Table, rows_table
 
 NAMES = (
     "z",
@@ -22,6 +22,11 @@ NAMES = (
     "jerk_entry",
     "rollers_max",
     *CamFactors._fields,
+)
+# The columns from the most important one, for a window that has not room for all.
+FIRST = (
+    *("z", "motion_deg", "dwell_deg", "acceleration_max", "velocity_max", "motion_s", "dwell_s"),
+    *("index_deg", "acceleration_max_deg", "rollers_max", "acceleration_entry", "jerk_entry"),
 )
 SIGNS = {"external": 1.0, "internal": -1.0}  # the wheels with closed forms
 ROWS_MAX = 10_000
@@ -59,7 +64,16 @@ def survey(z: str, gearing: str, n_rpm: float, rollers: int, A: float) -> Table:
                 rows.append(_classic(slots, gearing, SIGNS[gearing], n_rpm, rollers))
         except GenevaError as error:
             raise GenevaError(f"--z {slots}: {error}") from None
-    return rows_table(NAMES, rows)
+    reading = Reading(FIRST, _title(gearing, n_rpm, rollers, A), ("gearing", "rollers", "cycle_s"))
+    return rows_table(NAMES, rows).replaced(reading=reading)
+
+
+def _title(gearing: str, n_rpm: float, rollers: int, A: float) -> str:
+    """What all wheels of the table have in common."""
+    drive = f"side-crank A = {A:g}" if A else "one roller" if rollers == 1 else f"{rollers} rollers"
+    indexes = "one index" if rollers == 1 else f"{rollers} indexes"
+    cycle = f"cycle {60.0 / n_rpm / rollers:.5g} s"
+    return f"{gearing.capitalize()} wheels, {drive}, {n_rpm:g} rpm: {indexes} a turn, {cycle}."
 
 
 def _classic(z: int, gearing: str, sign: float, n_rpm: float, rollers: int) -> tuple[object, ...]:

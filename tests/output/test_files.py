@@ -494,6 +494,6 @@ def test_hostile_title_on_a_terminal():
     assert "[red]c[/red]" in seen  # nor is what Rich would read
 
 
-def test_a_terminal_gets_more_than_a_pipe():
-    assert "─" in on_a_terminal(GENEVA, "table", "--z", "6")
-    assert "─" not in geneva("table", "--z", "6").stdout
+def test_a_terminal_gets_spoken_names_and_a_pipe_those_of_csv():
+    assert "most rollers" in on_a_terminal(GENEVA, "table", "--z", "6")
+    assert "most" not in geneva("table", "--z", "6").stdout

@@ -4,9 +4,10 @@ import pytest
 
 from geneva_cli import GenevaError, load
 from geneva_cli.machine import registry
+from geneva_cli.names import UNITS
 from geneva_cli.spec.schema import REQUIRED, fields
 from geneva_cli.spec.tables import PLAIN
-from geneva_cli.specfile.keys import UNITS, about, every
+from geneva_cli.specfile.keys import about, every
 
 KINDS = [
     *[("wheel", registry.gearing(name)) for name in registry.GEARINGS],

@@ -81,7 +81,7 @@ def with_orjson(table: Table, out: Sink) -> None:
 
 def ours(table: Table, out: Sink) -> None:
     """The program's own csv."""
-    out.writelines(delimited.chunks(table, False))
+    out.writelines(delimited.chunks(table))
 
 
 SAVETXT = "np.savetxt, %.17g"

@@ -48,7 +48,7 @@ class SideCrankPeak(NamedTuple):
         if peaks is None or (isinstance(self.A, float) and isinstance(self.z, int)):
             return None
         size, at_deg = peaks(self.z, self.sign < 0.0, self.A)
-        sure = abs(self.A) + 0.0 * size <= A_SURE  # an array over all designs, even if only z differs
+        sure = abs(self.A) + 0.0 * size <= A_SURE  # of every design, even if only z differs
         return Peak(choose(sure, size, math.nan), choose(sure, at_deg, math.nan))
 
 

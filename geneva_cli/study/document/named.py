@@ -9,30 +9,11 @@ from collections.abc import Mapping
 from typing import Any
 
 from geneva_cli.document import Fact, Facts
-from geneva_cli.specfile.keys import UNITS as OF_KEYS
+from geneva_cli.names import UNITS as OF_NAMES
 
 # What the ending of a name says of the unit, the longest first.
-UNITS = dict(
-    sorted(
-        {
-            **OF_KEYS,
-            "_deg": "°",
-            "_rpm": "rpm",
-            "_rad_s": "rad/s",
-            "_rad_s2": "rad/s²",
-            "_rad_s3": "rad/s³",
-            "_rad2_s3": "rad²/s³",
-            "_mm_per_million": "mm per million motions",
-            "_Nms": "N m s",
-            "_m_s": "m/s",
-            "_Hz": "Hz",
-            "_J": "J",
-            "_W": "W",
-            "_m": "m",
-        }.items(),
-        key=lambda item: -len(item[0]),
-    )
-)
+OWN = {"_deg": "°", "_rpm": "rpm", "_mm_per_million": "mm per million motions"}
+UNITS = dict(sorted((OF_NAMES | OWN).items(), key=lambda item: -len(item[0])))
 # Names that do not speak for themselves.
 WORDS = {
     "max": "greatest",

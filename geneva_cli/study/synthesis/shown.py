@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from typing import Any, NamedTuple
 
 from geneva_cli.output.text import cell
-from geneva_cli.table import Table
+from geneva_cli.table import Reading, Table
 
 WIDTH = 100
 BETWEEN = 3  # columns a frame puts between two others; plain text 2
@@ -64,6 +64,18 @@ class ShownColumn(NamedTuple):
     def width(self) -> int:
         """How wide it is, its head broken at underscores."""
         return max(len(text) for text in (*self.head.split("_"), *map(cell, self.cells)))
+
+
+def for_terminal(table: Table) -> Table:
+    """What each machine is in words, and all its numbers; the first of HEADS matter the most."""
+    rows = table.to_rows()
+    laws = {row["law"] for row in rows if row["law"]}
+    columns = [*_columns(rows, table.names, len(laws) > 1)]
+    names = [c.head if c.source == "asked" else c.source for c in columns]
+    rank = _ranks(columns)
+    first = sorted(range(len(columns)), key=lambda i: rank[columns[i].source])
+    reading = Reading(tuple(names[i] for i in first))
+    return Table(tuple(names), [c.cells for c in columns], title=table.title, reading=reading)
 
 
 def for_people(table: Table) -> Table:
@@ -131,14 +143,20 @@ def _links(row: dict[str, Any]) -> str:
 
 def _fitting(columns: list[ShownColumn]) -> list[ShownColumn]:
     """As many columns as stand side by side, the dearest dropped first."""
-    rank = {source: i for i, source in enumerate(HEADS)}
-    if RATE in {c.source for c in columns}:  # rows are in its order
-        rank[PEAK], rank[RATE] = rank[RATE], rank[PEAK]
+    rank = _ranks(columns)
     wide = [c.width + BETWEEN for c in columns]
     kept = [*range(len(columns))]
     while sum(wide[i] for i in kept) + 1 > WIDTH:
         kept.remove(max(kept, key=lambda i: rank[columns[i].source]))
     return [columns[i] for i in kept]
+
+
+def _ranks(columns: list[ShownColumn]) -> dict[str, int]:
+    """The place of each column by how much it matters."""
+    rank = {source: i for i, source in enumerate(HEADS)}
+    if RATE in {c.source for c in columns}:  # rows are in its order
+        rank[PEAK], rank[RATE] = rank[RATE], rank[PEAK]
+    return rank
 
 
 def _short(value: Any) -> Any:

@@ -1,0 +1,89 @@
+"""Names of keys, columns and quantities: the unit at their end, and how a person reads them."""
+
+from __future__ import annotations
+
+# What the ending of a name says of its unit; an ending stands before a shorter one of its own end.
+UNITS = {
+    "_kgm2": "kg m²",
+    "_kgm3": "kg/m³",
+    "_Nm_rad": "N m/rad",
+    "_mm3_Nm": "mm³/(N m)",
+    "_W_m2": "W/m²",
+    "_rad_s": "rad/s",
+    "_rad_s2": "rad/s²",
+    "_rad_s3": "rad/s³",
+    "_rad2_s3": "rad²/s³",
+    "_m_s": "m/s",
+    "_Nms": "N m s",
+    "_Hz": "Hz",
+    "_W": "W",
+    "_J": "J",
+    "_m": "m",
+    "_um": "µm",
+    "_arcsec": "arc seconds",
+    "_mm": "mm",
+    "_deg": "deg",
+    "_rpm": "1/min",
+    "_Nm": "N m",
+    "_MPa": "MPa",
+    "_GPa": "GPa",
+    "_kg": "kg",
+    "_N": "N",
+    "_h": "h",
+    "_s": "s",
+}
+# Units that a person at a terminal reads in fewer letters.
+SHORT_UNITS = {"1/min": "rpm", "arc seconds": "arcsec"}
+# Names that do not speak for themselves, with or without their units.
+WORDS = {
+    "z": "slots",
+    "velocity_max": "peak velocity",
+    "acceleration_max": "peak acceleration",
+    "jerk_max": "peak jerk",
+    "power_max": "peak power",
+    "acceleration_max_deg": "peak at",  # in the survey of wheels, beside that peak
+    "rollers_max": "most rollers",
+    "omega": "velocity",
+    "alpha": "acceleration",
+    "pv": "pressure times sliding",
+    "center_distance": "centre distance",
+    "p997": "99.7 % of machines",
+    "rss": "root of squares",
+}
+SYMBOL = "C_v"  # a name of no more letters is a symbol with its index
+
+
+def unit_of(name: str) -> str | None:
+    """The unit that the ending of a key's or a quantity's name says; None where it says none.
+
+    >>> unit_of("loads.omega_rad_s"), unit_of("tau")
+    ('rad/s', None)
+    """
+    last = "_" + name.rpartition(".")[2]  # a column may be its unit alone, as rpm
+    return next((unit for end, unit in UNITS.items() if last.endswith(end)), None)
+
+
+def spoken(name: str) -> tuple[str, str]:
+    """A name as words and a unit, for people; no unit is an empty text.
+
+    >>> spoken("wheel_bore_mm"), spoken("loads.pin_force_N.max")
+    (('wheel bore', 'mm'), ('loads pin force max', 'N'))
+    """
+    words, unit = [], ""
+    for part in name.split("."):
+        end = next((end for end in UNITS if part.endswith(end)), "")
+        bare = part.removesuffix(end)
+        plain = bare if len(bare) <= len(SYMBOL) else bare.replace("_", " ")
+        words.append(WORDS.get(part) or WORDS.get(bare, plain))
+        unit = UNITS.get(end) or unit
+    return " ".join(words), SHORT_UNITS.get(unit, unit)
+
+
+def heading(name: str) -> str:
+    """A name in one line, its unit behind a comma.
+
+    >>> heading("wheel_bore_mm"), heading("tau")
+    ('wheel bore, mm', 'tau')
+    """
+    words, unit = spoken(name)
+    return f"{words}, {unit}" if unit else words

@@ -1,0 +1,144 @@
+"""Columns side by side in a window: what is narrowed, what is left out, and the lines of the rest.
+
+Nothing is cut: a number is as wide as it is, and text is broken between its words alone.
+"""
+
+from __future__ import annotations
+
+import textwrap
+import unicodedata
+from collections.abc import Iterator, Sequence
+from typing import NamedTuple
+
+GAP = "  "  # between two columns
+PROSE = 24  # letters to which a column of prose is narrowed before another column is left out
+BOLD, DIM, PLAIN = "\x1b[1m", "\x1b[2m", "\x1b[0m"
+
+
+class ShownColumn(NamedTuple):
+    """A column as a person reads it: heading, unit below it, and cells as text."""
+
+    name: str
+    words: str
+    unit: str
+    cells: Sequence[str]
+    is_text: bool
+
+    def least(self) -> int:
+        """Width in letters to which it can be narrowed."""
+        least = max((wide(word) for text in self._words() for word in text.split(" ")), default=0)
+        return max(least, min(self.natural(), PROSE)) if self.is_prose() else self.natural()
+
+    def natural(self) -> int:
+        """Width in letters of its longest cell, and of its heading broken between words."""
+        return max([wide(text) for text in (*self._words(), *self.cells)], default=0)
+
+    def is_prose(self) -> bool:
+        """Whether its cells may be broken into several lines."""
+        return self.is_text and any(" " in text for text in self.cells)
+
+    def _words(self) -> list[str]:
+        cells = [word for text in self.cells for word in text.split()] if self.is_text else []
+        return [*self.words.split(), self.unit, *cells]
+
+
+def wide(text: str) -> int:
+    """Columns that a text takes on a terminal."""
+    if text.isascii():
+        return len(text)
+    return sum(
+        0 if unicodedata.combining(c) else 2 if unicodedata.east_asian_width(c) in "WF" else 1
+        for c in text
+    )
+
+
+def wrapped(text: str, width: int) -> list[str]:
+    """A text in lines of at most ``width`` letters, broken between words; a word is never broken.
+
+    >>> wrapped("a long text", 6)
+    ['a long', 'text']
+    """
+    if wide(text) <= width:
+        return [text]
+    lines = textwrap.wrap(text, width, break_long_words=False, break_on_hyphens=False)
+    if any(wide(line) > width for line in lines) and width > 1 and not text.isascii():
+        return wrapped(text, width - 1)  # letters that take two columns
+    return lines or [""]
+
+
+def widths(columns: Sequence[ShownColumn], room: int) -> list[int] | None:
+    """The columns' widths, the widest prose narrowed first; None where ``room`` has not enough."""
+    found = [column.natural() for column in columns]
+    spare = room - len(GAP) * (len(columns) - 1) - sum(found)
+    if spare >= 0:
+        return found
+    least = [column.least() for column in columns]
+    if sum(least) - sum(found) > spare:
+        return None
+    while spare < 0:
+        widest = max((i for i, w in enumerate(found) if w > least[i]), key=lambda i: found[i])
+        found[widest] -= 1
+        spare += 1
+    return found
+
+
+def fitting(
+    columns: Sequence[ShownColumn], order: Sequence[str], room: int
+) -> tuple[list[ShownColumn], list[int]]:
+    """The columns that fit, the first of ``order`` kept the longest, and their widths."""
+    rank = {name: i for i, name in enumerate(order)}
+    kept = list(columns)
+    while True:
+        found = widths(kept, room)
+        if found is not None or len(kept) == 1:
+            return kept, found or [column.least() for column in kept]
+        kept.remove(max(kept, key=lambda column: rank[column.name]))
+
+
+def heads(columns: Sequence[ShownColumn], sizes: Sequence[int], styled: bool) -> Iterator[str]:
+    """The lines of the headings, which stand on the units below them."""
+    texts = [wrapped(column.words, size) for column, size in zip(columns, sizes, strict=True)]
+    high = max(map(len, texts))
+    is_text = [column.is_text for column in columns]
+    for line in zip(*([""] * (high - len(text)) + text for text in texts), strict=True):
+        yield _styled(_line(line, sizes, is_text), BOLD, styled)
+    if any(column.unit for column in columns):
+        yield _styled(_line([column.unit for column in columns], sizes, is_text), DIM, styled)
+
+
+def row(texts: Sequence[str], sizes: Sequence[int], is_text: Sequence[bool]) -> Iterator[str]:
+    """The lines of a row, one but for its prose."""
+    cells = [wrapped(text, size) for text, size in zip(texts, sizes, strict=True)]
+    for level in range(max(map(len, cells))):
+        yield _line([cell[level] if level < len(cell) else "" for cell in cells], sizes, is_text)
+
+
+def turned(columns: Sequence[ShownColumn], room: int) -> list[str] | None:
+    """Columns as lines, a row beside the other; None where they do not fit so either."""
+    labels = [f"{c.words}, {c.unit}" if c.unit else c.words for c in columns]
+    rows = list(zip(*(column.cells for column in columns), strict=True))
+    sides = [
+        ShownColumn("", "", "", labels, True),
+        *(ShownColumn("", "", "", [*map(str.strip, cells)], True) for cells in rows),
+    ]
+    sizes = widths(sides, room)
+    if sizes is None:
+        return None
+    texts = zip(*(side.cells for side in sides), strict=True)
+    return [
+        line
+        for column, cells in zip(columns, texts, strict=True)
+        for line in row(cells, sizes, [True, *[column.is_text or len(rows) == 1] * len(rows)])
+    ]
+
+
+def _line(texts: Sequence[str], sizes: Sequence[int], is_text: Sequence[bool]) -> str:
+    cells = []
+    for text, size, left in zip(texts, sizes, is_text, strict=True):
+        space = " " * (size - wide(text))
+        cells.append(text + space if left else space + text)
+    return GAP.join(cells).rstrip()
+
+
+def _styled(line: str, style: str, styled: bool) -> str:
+    return f"{style}{line}{PLAIN}" if styled else line
