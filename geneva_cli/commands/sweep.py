@@ -18,7 +18,7 @@ Rows: TypeAlias = list[list[Any]]
 
 EXAMPLES = (
     "geneva sweep spec.toml --vary wheel.z=4..12 --pick dwell_s,acceleration.max",
-    "geneva sweep spec.toml --vary size.roller_radius_mm=8:16:1 --pick smallest_gap_mm -o all.csv",
+    "geneva sweep spec.toml --vary size.roller_radius_mm=8..16:1 --pick smallest_gap_mm -o all.csv",
 )
 
 
@@ -28,7 +28,7 @@ def run(
         list[str] | None,
         typer.Option(
             metavar="KEY=VALUES",
-            help="drive.A=0:0.9:0.1, wheel.z=3..12, motion.law=a,b; repeat.",
+            help="drive.A=0..0.9:0.1, wheel.z=3..12, motion.law=a,b; repeat.",
             autocompletion=completion.keys,
         ),
     ] = None,
@@ -81,7 +81,7 @@ def run(
     A design that cannot be built is a row that says why. Stopped, a sweep into a file goes on with
     --resume, which begins where there is nothing to go on with. The rows of all shares, one after
     the other, are those of one run: the first alone has the header. With --random and --best a key
-    may vary between LOW:HIGH; the spec's own design is then tried for --best too. Of --best, what
+    may vary between LOW..HIGH; the spec's own design is then tried for --best too. Of --best, what
     --pick and --check ask for is told of the design that is chosen.
     """
     from geneva_cli.output.formats import FORMATS

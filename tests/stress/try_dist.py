@@ -28,7 +28,7 @@ COMMANDS = (
     "check limits.toml turret.toml",
     "report press-straight.toml",
     "compare press-straight.toml press-curved.toml",
-    "sweep side-crank-z6.toml --vary drive.A=0:0.6:0.1 --pick velocity.max",
+    "sweep side-crank-z6.toml --vary drive.A=0..0.6:0.1 --pick velocity.max",
     "synth --motion-deg 180 --z 6 --checked 0",
     "plot press-straight.toml -o motion.svg",
     "profile press-curved.toml -o slot.csv",

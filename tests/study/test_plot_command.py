@@ -55,7 +55,7 @@ def test_a_curve_for_each_combination_of_the_other_keys():
 
 
 def test_rows_drawn_at_random_are_points():
-    vary = ["--vary", "drive.A=0:0.9", "--vary", "drive.n_rpm=20:90"]
+    vary = ["--vary", "drive.A=0..0.9", "--vary", "drive.n_rpm=20..90"]
     file = sweep(*vary, "--random", "40", "--pick", "acceleration.max_rad_s2")
     (curve,) = of_table(file, "drive.A", ["acceleration.max_rad_s2"]).panels[0].curves
     assert curve.style == POINTS
@@ -63,7 +63,7 @@ def test_rows_drawn_at_random_are_points():
 
 
 def test_a_front_is_joined():
-    vary = ["--vary", "drive.A=0:0.9", "--vary", "wheel.z=5..8", "--random", "60"]
+    vary = ["--vary", "drive.A=0..0.9", "--vary", "wheel.z=5..8", "--random", "60"]
     file = sweep(*vary, "--pareto", "min:acceleration.max,max:dwell_s")
     (curve,) = of_table(file, "acceleration.max", ["dwell_s"]).panels[0].curves
     assert curve.style == JOINED

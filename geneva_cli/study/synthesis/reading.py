@@ -9,6 +9,7 @@ from geneva_cli.errors import GenevaError, cut, nearest
 from geneva_cli.machine.registry import STANDARD_LAWS as LAWS
 from geneva_cli.machine.spec import Spec
 from geneva_cli.spec.rules import POSITIVE, Z_MAX, Range
+from geneva_cli.study.ranges import range_text
 from geneva_cli.study.survey import parse_z
 from geneva_cli.study.sweep.constraints import constraint, refuse_contradictions
 from geneva_cli.study.synthesis.spans import Interval
@@ -157,15 +158,16 @@ def span(option: str, text: str, rule: Range) -> Interval:
     >>> span("--dwell-s", "0.8..", Range(0.0))
     Interval(low=0.8, high=inf)
     """
-    low, dots, high = text.partition("..")
-    if not dots:
+    ends = range_text(text, f"{option} {cut(text)}")
+    if not ends:
         x = number(option, text, rule)
         return Interval(x, x)
-    if not (low.strip() or high.strip()):
+    low, high, step = ends
+    if step or not (low or high):
         raise GenevaError(f"{option} {cut(text)}: a range is LOW..HIGH, LOW.. or ..HIGH")
     found = Interval(
-        number(option, low, rule) if low.strip() else -math.inf,
-        number(option, high, rule) if high.strip() else math.inf,
+        number(option, low, rule) if low else -math.inf,
+        number(option, high, rule) if high else math.inf,
     )
     if found.empty:
         raise GenevaError(f"{option} {cut(text)}: the first number must not be above the second")
