@@ -41,8 +41,7 @@ GROUPS = {
     "Draw": {
         "profile": "Slots, parts and whole machines as csv, dxf, svg, step.",
         "plot": "Curves over the cycle, or of a sweep's csv.",
-        "animate": "A page on which the machine turns.",
-        "view": "That page, opened in the browser.",
+        "animate": "A page on which the machine turns; --open shows it.",
     },
     "Learn": {
         "help": "The manual: a page a topic.",

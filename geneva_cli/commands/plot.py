@@ -9,9 +9,9 @@ from geneva_cli.commands.options import Given, Output, say, warn
 from geneva_cli.errors import GenevaError, cut
 
 EXAMPLES = (
-    "geneva plot spec.toml --show velocity",
+    "geneva plot spec.toml --pick velocity",
     "geneva plot spec.toml -o motion.svg",
-    "geneva plot spec.toml --vary wheel.z=6,8,10 --show acceleration -o several.svg",
+    "geneva plot spec.toml --vary wheel.z=6,8,10 --pick acceleration -o several.svg",
 )
 
 
@@ -20,7 +20,7 @@ def run(
         list[str],
         typer.Argument(metavar="SPEC...", help="Specs, TOML files; or one .csv, as of a sweep."),
     ],
-    show: Annotated[
+    pick: Annotated[
         str,
         typer.Option(
             metavar="QUANTITY,...",
@@ -64,12 +64,12 @@ def run(
     plotted_as(output, format)  # what cannot be written is not worked out
     tables = [path for path in specs if path.lower().endswith(".csv")]
     if tables:
-        _refuse_beside(tables[0], specs, {"--show": show, "--set": given, "--vary": vary})
+        _refuse_beside(tables[0], specs, {"--pick": pick, "--set": given, "--vary": vary})
         plot(of_table(tables[0], x, _names(y)), output, format, tables)
         return
     if x or y:
-        raise GenevaError(f"--x and --y are for a .csv; of {cut(specs[0], 300)} give --show")
-    found, designs, left_out = of_specs(specs, given or (), _names(show), vary or ())
+        raise GenevaError(f"--x and --y are for a .csv; of {cut(specs[0], 300)} give --pick")
+    found, designs, left_out = of_specs(specs, given or (), _names(pick), vary or ())
     plot(found, output, format, [file for d in designs for file in d.spec.files])
     for design in designs:
         warn(design)

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from geneva_cli.commands import completion
-from geneva_cli.commands.options import Given, Output, Process, SpecPath, one_of, settings, warn
+from geneva_cli.commands.options import Given, Output, SpecPath, one_of, warn
 from geneva_cli.errors import GenevaError, clean, cut
 from geneva_cli.output import draw, draw_sheet, show
 from geneva_cli.output.formats import (
@@ -94,7 +94,6 @@ def run(
         ),
     ] = None,
     force: Annotated[bool, typer.Option("--force", help="Draw even a machine that jams.")] = False,
-    process: Process = None,
     given: Given = None,
     output: Output = "-",
     format: Annotated[
@@ -123,7 +122,7 @@ def run(
         raise GenevaError("--dog-bones needs the cutter's diameter: --cutter MM")
     sheet = is_sheet(part)
     drawn = bool(sheet_as(output, format)) if sheet else is_drawn(output, format)
-    design = load(spec, settings(given, process))
+    design = load(spec, given or ())
     asked = {"version": dxf_version, "fill": fill}
     own = {key: value for key, value in asked.items() if value is not None}
     files = design.spec.files

@@ -60,7 +60,8 @@ def run(
         typer.Option(metavar="min:FIELD,...", help="Only rows that no other beats in all these."),
     ] = "",
     best: Annotated[
-        str, typer.Option(metavar="min:FIELD", help="The best design, refined, as a spec.")
+        str,
+        typer.Option(metavar="min:FIELD", help="The best design, refined, as a spec; or max:."),
     ] = "",
     shard: Annotated[
         str, typer.Option(metavar="I/N", help="Only the I-th of N shares, as 3/16.")

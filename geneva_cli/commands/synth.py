@@ -15,14 +15,13 @@ if TYPE_CHECKING:
     from geneva_cli.study.synthesis.wish import Wish
 
 EXAMPLES = (
-    "geneva synth --motion-deg 180 --z 6 --checked 0",
-    "geneva synth --dwell-s 0.8.. --cycle 1.5 --z 8 --sort jerk.max --checked 0",
+    "geneva synth --motion-deg 180 --z 6 --check 0",
+    "geneva synth --dwell-s 0.8.. --cycle 1.5 --z 8 --sort min:jerk.max --check 0",
 )
 
 
 def run(
     tau: Annotated[str, typer.Option(metavar="X", help="Wish: motion / cycle.")] = "",
-    k: Annotated[str, typer.Option("--k", metavar="X", help="Wish: motion / dwell.")] = "",
     motion_deg: Annotated[
         str, typer.Option(metavar="DEG", help="Wish: input angle of one motion.")
     ] = "",
@@ -32,10 +31,6 @@ def run(
     motion_s: Annotated[str, typer.Option(metavar="S", help="Wish: seconds of motion.")] = "",
     dwell_s: Annotated[str, typer.Option(metavar="S", help="Wish: seconds of dwell.")] = "",
     cycle: Annotated[str, typer.Option(metavar="S", help="Wish: seconds from step to step.")] = "",
-    step: Annotated[str, typer.Option(metavar="DEG", help="Wish: the wheel's step.")] = "",
-    acceleration_max: Annotated[
-        str, typer.Option(metavar="X", help="Wish: greatest acceleration, an invariant.")
-    ] = "",
     subject_to: Annotated[
         list[str] | None,
         typer.Option(
@@ -75,16 +70,17 @@ def run(
     sort: Annotated[
         str,
         typer.Option(
-            metavar="FIELD",
-            help="Least of it first; -FIELD: the greatest.",
+            metavar="min:FIELD",
+            help="The least of it first; max:FIELD the greatest.",
             autocompletion=completion.words(completion.fields),
         ),
     ] = "",
-    checked: Annotated[
-        int, typer.Option(metavar="N", help="Turn the parts of so many rows; 0 for none.")
+    check: Annotated[
+        int,
+        typer.Option(metavar="N", help="Turn the parts of so many rows; 0 for none."),
     ] = 20,
     buildable: Annotated[
-        bool, typer.Option("--buildable", help="Only rows that pass, --checked many: see above.")
+        bool, typer.Option("--buildable", help="Only rows that pass, --check many: see above.")
     ] = False,
     write: Annotated[
         int | None, typer.Option(metavar="N", help="Write row N as a spec instead.")
@@ -120,7 +116,7 @@ def run(
     hold its wheel at rest: "detent".
 
     Column parts: yes for parts that were turned and pass every check, with sizes chosen so that
-    they do; no, with the reason; maybe for those below the first twenty (--checked). --write turns
+    they do; no, with the reason; maybe for those below the first twenty (--check). --write turns
     the parts of its row. Where one of the first twenty says no without being turned, the best of
     its range that is found to pass is a row too; --buildable shows rows that pass, and for any
     that fails in its turn the best of its range that is found to, under its number.
@@ -129,20 +125,17 @@ def run(
 
     if given and not from_:
         raise GenevaError("--set goes with --from: it changes a key of that spec")
-    if checked < 0 or (buildable and not checked):
-        raise GenevaError(f"--checked {cut(checked)}: it must be at least {int(buildable)}")
+    if check < 0 or (buildable and not check):
+        raise GenevaError(f"--check {cut(check)}: it must be at least {int(buildable)}")
     if write is not None and write < 1:
         raise GenevaError(f"--write {cut(write)}: rows are numbered from 1")
     wish = read_wish(
         tau=tau,
-        k=k,
         motion_deg=motion_deg,
         dwell_deg=dwell_deg,
         motion_s=motion_s,
         dwell_s=dwell_s,
         cycle=cycle,
-        step=step,
-        acceleration_max=acceleration_max,
         z=z,
         internal=internal,
         external=external,
@@ -155,7 +148,7 @@ def run(
         space=space,
     )
     if write is None:
-        _show(wish, checked, buildable, output, format)
+        _show(wish, check, buildable, output, format)
     else:
         _write(wish, write, buildable, output, format)
 
@@ -171,7 +164,7 @@ def _inputs(wish: "Wish") -> Sequence[str]:
     return wish.frame.files if wish.frame else ()
 
 
-def _show(wish: "Wish", checked: int, buildable: bool, output: str, format: str) -> None:
+def _show(wish: "Wish", check: int, buildable: bool, output: str, format: str) -> None:
     from geneva_cli.output import show
     from geneva_cli.output.formats import format_of
     from geneva_cli.study.synthesis.shown import for_people
@@ -180,7 +173,7 @@ def _show(wish: "Wish", checked: int, buildable: bool, output: str, format: str)
     if output.endswith(".toml") and not format:
         raise GenevaError(f"-o {cut(output, 300)}: a spec is one row of the table; add --write N")
     name = format or format_of(output)
-    table = synthesis_table(wish, checked, buildable)
+    table = synthesis_table(wish, check, buildable)
     show(for_people(table) if name in ("table", "md") else table, output, format, _inputs(wish))
 
 

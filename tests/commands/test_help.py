@@ -84,7 +84,7 @@ def offered(line):
         ("geneva keys drive.ph", ["drive.phase"]),
         ("geneva help square", ["square-root"]),
         ("geneva explain branches_a", ["branches_apart_mm"]),
-        ("geneva plot spec.toml --show jerk,veloc", ["jerk,velocity"]),
+        ("geneva plot spec.toml --pick jerk,veloc", ["jerk,velocity"]),
         ("geneva compare spec.toml --pick acceleration.en", None),
         ("geneva loads sp", []),  # files: the shell's own
     ],

@@ -29,7 +29,7 @@ COMMANDS = (
     "report press-straight.toml",
     "compare press-straight.toml press-curved.toml",
     "sweep side-crank-z6.toml --vary drive.A=0..0.6:0.1 --pick velocity.max",
-    "synth --motion-deg 180 --z 6 --checked 0",
+    "synth --motion-deg 180 --z 6 --check 0",
     "plot press-straight.toml -o motion.svg",
     "profile press-curved.toml -o slot.csv",
     "profile press-straight.toml --part wheel -o wheel.dxf",

@@ -33,7 +33,7 @@ def test_the_bound_that_binds_is_met_exactly(tmp_path):
     The witness solves the dwell's own equation: half the motion is phi + asin(A sin phi) with phi
     = 60 deg, and the dwell is what is left of a turn in a second."""
     lines, design = best(
-        tmp_path, "drive.A=-0.5..0.9", best="acceleration.max", subject_to=["dwell_s >= 0.55"]
+        tmp_path, "drive.A=-0.5..0.9", best="min:acceleration.max", subject_to=["dwell_s >= 0.55"]
     )
     half = np.radians(60.0)
     A = brentq(lambda A: 1.0 - (half + np.arcsin(A * np.sin(half))) / np.pi - 0.55, 0.0, 0.9)
@@ -49,7 +49,7 @@ def test_a_bound_that_rounding_breaks_is_said_to_be_met_to_rounding(tmp_path):
     lines, _ = best(
         tmp_path,
         "drive.A=0",
-        best="acceleration.max",
+        best="min:acceleration.max",
         random=None,
         subject_to=[f"dwell_s >= {bound!r}"],
     )
@@ -73,7 +73,7 @@ def test_of_the_best_alone_is_told_what_is_asked_for_beside(tmp_path, monkeypatc
 def test_where_designs_are_worked_out_one_by_one_no_clouds_are():
     """A dwell of unequal steps is: 18,000 designs about the best ones would take minutes."""
     spec = os.path.join(os.path.dirname(SPEC), "unequal-steps.toml")
-    asked = request(spec, ["drive.n_rpm=10..60"], random=2, jobs=1, best="timing.dwell_s")
+    asked = request(spec, ["drive.n_rpm=10..60"], random=2, jobs=1, best="min:timing.dwell_s")
     rows = [row for block in asked.blocks() for row in block]
     search = SweepSearch(asked.sweep, asked.objectives[0], asked.constraints)
     assert asked.sweep.together and closer(search, rows) == rows
@@ -99,7 +99,7 @@ def test_the_number_of_slots_is_not_left_to_luck(tmp_path):
     """
     bounds = ["cycle_s <= 1.5", "motion_deg <= 140"]
     spans = ["drive.A=-0.9..0.95", "wheel.z=3..24", "drive.n_rpm=10..100"]
-    asked = {"best": "acceleration.max_rad_s2", "subject_to": bounds, "random": 64}
+    asked = {"best": "min:acceleration.max_rad_s2", "subject_to": bounds, "random": 64}
     _, design = best(tmp_path, *spans, **asked)
     A = np.sin(np.radians((140 - 165) / 2)) / np.sin(np.radians(165 / 2))
     assert (design.spec.wheel.z, design.spec.drive.A) == (24, pytest.approx(A, abs=1e-6))
@@ -118,7 +118,7 @@ def test_the_greatest_and_the_words(tmp_path):
 
 
 def test_a_title_with_quotation_marks_survives(tmp_path):
-    found = request(SPEC, ["wheel.z=4,5"], ['title=a "b" c'], best="jerk.max", jobs=1)
+    found = request(SPEC, ["wheel.z=4,5"], ['title=a "b" c'], best="min:jerk.max", jobs=1)
     assert tomli.loads("\n".join(found.best(found.blocks())))["title"] == (
         'Least jerk.max, varied from: a "b" c'
     )
@@ -153,7 +153,7 @@ def test_bounds_that_contradict_each_other_are_told_with_what_comes_nearest(tmp_
     """A motion of 200 deg and a velocity of 0.8, which is at most 0.575 there."""
     bounds = ["motion_deg >= 200", "velocity.max >= 0.8"]
     with pytest.raises(GenevaError) as error:
-        best(tmp_path, "drive.A=-0.5..0.9", best="jerk.max", subject_to=bounds)
+        best(tmp_path, "drive.A=-0.5..0.9", best="min:jerk.max", subject_to=bounds)
     said = str(error.value)
     assert re.search(r"motion_deg >= 200 is kept by [\d,]+; velocity.max >= 0.8 is kept by", said)
     near = re.search(r"nearest to all has timing.motion_deg (\S+), velocity.max (\S+)$", said)
@@ -169,11 +169,14 @@ def test_bounds_that_contradict_each_other_are_told_with_what_comes_nearest(tmp_
 @pytest.mark.parametrize(
     ("asked", "said"),
     [
-        ({"best": "jerk.max", "subject_to": ["dwell_s >= 5"]}, "is kept by 0, the nearest being"),
-        ({"best": "jerk.mx"}, "did you mean"),
-        ({"best": "jerk.max", "pareto": "min:jerk.max"}, "choose one of them"),
         (
-            {"best": "jerk.max", "subject_to": ["dwell_s >= 2", "timing.dwell_s <= 1"]},
+            {"best": "min:jerk.max", "subject_to": ["dwell_s >= 5"]},
+            "is kept by 0, the nearest being",
+        ),
+        ({"best": "min:jerk.mx"}, "did you mean"),
+        ({"best": "min:jerk.max", "pareto": "min:jerk.max"}, "choose one of them"),
+        (
+            {"best": "min:jerk.max", "subject_to": ["dwell_s >= 2", "timing.dwell_s <= 1"]},
             "nothing is both",
         ),
         ({"pareto": "jerk.max"}, "min:FIELD or max:FIELD"),

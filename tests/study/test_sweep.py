@@ -163,7 +163,7 @@ LAW = "".join(f"{i / 20},{(i / 20) ** 2 * (3 - i / 10)}\n" for i in range(21))
 @pytest.mark.parametrize(
     "arguments",
     [
-        ["sweep", "spec.toml", "--vary", "drive.n_rpm=60,70", "--best", "k", "-o", "spec.toml"],
+        ["sweep", "spec.toml", "--vary", "drive.n_rpm=60,70", "--best", "min:k", "-o", "spec.toml"],
         ["sweep", "spec.toml", "--vary", "motion.file=a.csv,b.csv", "-o", "b.csv"],
         [
             "sweep",
@@ -242,7 +242,7 @@ def test_a_wrong_range_of_a_key_that_the_spec_lacks_is_what_is_said(tmp_path):
 
 def test_the_best_of_some_says_what_was_left_out():
     """A word that is none would else be passed over without one."""
-    words = ("sweep", SPEC, "--vary", "wheel.gearing=external,intrenal", "--best", "jerk.max")
+    words = ("sweep", SPEC, "--vary", "wheel.gearing=external,intrenal", "--best", "min:jerk.max")
     found = geneva(*words)
     assert found.exit_code == 0 and "# The least jerk.max" in found.stdout
     assert "1 of 2 designs cannot be built: the first: wheel.gearing=intrenal" in found.stderr
@@ -331,7 +331,7 @@ def test_the_spec_may_come_from_a_pipe():
         (["--vary", "drive.A=0..1:0"], "a step of 0 never comes"),
         (["--vary", "drive.B=1,2"], "drive.B=1: unknown key B in [drive]"),
         (["--vary", "drive.A=0.1", "--pick", "acceleration.mx"], "did you mean"),
-        (["--vary", "drive.A=0.1", "--best", "jerk.mx"], "--best jerk.mx: no quantity"),
+        (["--vary", "drive.A=0.1", "--best", "min:jerk.mx"], "--best jerk.mx: no quantity"),
         (["--vary", "drive.A=0.1", "--pareto", "min:jerk.mx"], "--pareto jerk.mx: no quantity"),
         (["--vary", "drive.A=0.1", "--subject-to", "jerk.mx <= 1"], "--subject-to jerk.mx: no"),
         (["--vary", "drive.A=0.1", "-o", "rows.xlsx"], "it must end in .csv or .parquet"),
@@ -348,9 +348,9 @@ def test_the_spec_may_come_from_a_pipe():
         (["--vary", "drive.A=0.1", "--set", "drive.A=foo"], "--set drive.A=foo: --vary drive.A"),
         (["--vary", "drive.A=0.1", "--pick", "peaks.velocity.max"], 'mean "velocity.max"?'),
         (["--vary", "drive.A=0.1", "--pick", "dwell"], '(did you mean "dwell_s"?)'),
-        (["--vary", "drive.A=0.1", "--best", "k", "-o", "all.csv"], "--best writes a spec"),
-        (["--vary", "drive.A=0.1", "--best", "k", "--format", "json"], "--best writes a spec"),
-        (["--vary", "drive.A=0.1", "--best", "k", "--resume"], "--best has none to go on with"),
+        (["--vary", "drive.A=0.1", "--best", "min:k", "-o", "all.csv"], "--best writes a spec"),
+        (["--vary", "drive.A=0.1", "--best", "min:k", "--format", "json"], "--best writes a spec"),
+        (["--vary", "drive.A=0.1", "--best", "min:k", "--resume"], "--best has none to go on with"),
         (["--vary", "drive.A=2,3"], "none of the 2 designs can be built: drive.A=2"),
         ([], "--vary is missing"),
     ],
