@@ -10,6 +10,7 @@ if TYPE_CHECKING:
     from contextvars import ContextVar
 
 DECIMAL_BITS = 10_000  # of the whole numbers that are shown as decimal ones
+SUGGESTED_MAX = 5  # words in a message: more are not read
 
 
 class GenevaError(Exception):
@@ -114,3 +115,24 @@ def nearest(word: str, known: Iterable[str]) -> str:
         parts = [k for k in by_word if word in k]
         close = sorted(parts, key=lambda k: not k.startswith(word))
     return f' (did you mean "{by_word[close[0]]}"?)' if close else ""
+
+
+def few(word: Any, known: Iterable[str]) -> str:
+    """The known words, for a message: of more than five those that are most like ``word``.
+
+    >>> few("cirle", ["arc", "line", "circle", "spline", "point", "ellipse", "text"])
+    'circle, line, spline, arc, text and 2 more'
+    """
+    words = list(known)
+    if len(words) > SUGGESTED_MAX:
+        from difflib import SequenceMatcher
+
+        matcher = SequenceMatcher(b=cut(word).casefold())
+
+        def unlike(one: str) -> float:
+            matcher.set_seq1(one.casefold())
+            return -matcher.ratio()
+
+        more = len(words) - SUGGESTED_MAX
+        return f"{', '.join(sorted(words, key=unlike)[:SUGGESTED_MAX])} and {more} more"
+    return ", ".join(words)

@@ -19,7 +19,7 @@ from geneva_cli.analysis.loads.cycle import Cycle, Extremes
 from geneva_cli.analysis.loads.quantities import known_quantities
 from geneva_cli.analysis.motion import first_entry_deg
 from geneva_cli.analysis.stages import MOTION, WHEEL, Stage, load_stages, motion_stages, pieces
-from geneva_cli.errors import Caution, GenevaError, cut, nearest
+from geneva_cli.errors import Caution, GenevaError, cut, few, nearest
 from geneva_cli.figure import Axis, Curve, Figure, Mark, Panel, Piece
 from geneva_cli.machine.mechanism import Mechanism
 
@@ -84,7 +84,7 @@ def figure(cycles: Mapping[str, Cycle], pick: Sequence[str] = ()) -> tuple[Figur
         if name not in OF_NAME:
             raise GenevaError(
                 f"--pick {cut(name)}: no quantity of a cycle{nearest(name, OF_NAME)}; it must be "
-                f"one of {', '.join(OF_NAME)}"
+                f"one of {few(name, OF_NAME)}"
             )
     has = {design: _known(cycle) for design, cycle in cycles.items()}
     shown = [name for name in asked if any(name in known for known in has.values())]

@@ -36,7 +36,13 @@ Given: TypeAlias = Annotated[
 ]
 Output: TypeAlias = Annotated[
     str,
-    typer.Option("-o", "--output", metavar="FILE", help="Write to this file; - prints."),
+    typer.Option(
+        "-o",
+        "--output",
+        metavar="FILE",
+        help="Write to this file; - prints.",
+        show_default=False,
+    ),
 ]
 Format: TypeAlias = Annotated[
     str,

@@ -28,8 +28,8 @@ def run(
             autocompletion=completion.listed(completion.quantities),
         ),
     ] = "",
-    x: Annotated[str, typer.Option("--x", metavar="COLUMN", help="Of a csv: along.")] = "",
-    y: Annotated[str, typer.Option("--y", metavar="COLUMN,...", help="Of a csv: up.")] = "",
+    x: Annotated[str, typer.Option("--x", metavar="COLUMN", help="Column along, of a csv.")] = "",
+    y: Annotated[str, typer.Option("--y", metavar="COLUMN,...", help="Columns up, of a csv.")] = "",
     vary: Annotated[
         list[str] | None,
         typer.Option(
@@ -43,19 +43,14 @@ def run(
     format: Annotated[
         str,
         typer.Option(
-            metavar="FORMAT", help="table (a chart in text), svg, png, pdf; csv, json, md: points."
+            metavar="FORMAT", help="table (a chart in text), svg, png, pdf, csv, json or md."
         ),
     ] = "",
 ) -> None:
-    """Curves over a cycle: the wheel's angle, velocity, acceleration, jerk, force, torque, power.
+    """Curves over a cycle, exact at peaks and jumps; or columns of a csv, as of a sweep.
 
-    Dwells are shaded, jumps drawn as jumps, and peaks exact: their values and places stand beside
-    the curves. With several specs, or one with a key varied, where all of them rest is shaded.
-    Quantities are those of `geneva motion` and `geneva loads`, by their names there. Without -o a
-    chart in text. png and pdf need the extra geneva-cli[plot].
-
-    Of a csv, --y by --x: over a varied key of `geneva sweep` a curve for each combination of the
-    others; the rows of a --pareto as points, joined; the spectrum of `geneva vibration`.
+    Without -o a chart in text; png and pdf need the extra geneva-cli[plot]. More: `geneva help
+    plots`.
     """
     from geneva_cli.output import plot
     from geneva_cli.output.formats import plotted_as

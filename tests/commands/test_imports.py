@@ -126,8 +126,8 @@ OWN = {
     "--version": "app errors streams",
     # no spec, no registry of kinds, no record of either: of the wheels their closed forms alone
     "table --z 6": "app errors streams table commands commands.completion commands.options "
-    "commands.table output output.finite output.formats output.text study study.survey analysis "
-    "analysis.cam_factors analysis.timing "
+    "commands.table output output.finite output.formats output.text study study.ranges "
+    "study.survey analysis analysis.cam_factors analysis.timing "
     "machine machine.wheels machine.wheels.classic numerics numerics.angles numerics.arrays spec "
     "spec.rules",
 }

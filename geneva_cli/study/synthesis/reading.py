@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 
-from geneva_cli.errors import GenevaError, cut, nearest
+from geneva_cli.errors import GenevaError, cut, few, nearest
 from geneva_cli.machine.registry import STANDARD_LAWS as LAWS
 from geneva_cli.machine.spec import Spec
 from geneva_cli.spec.rules import POSITIVE, Z_MAX, Range
@@ -117,7 +117,7 @@ def _laws(name: str) -> tuple[str, ...]:
     if name not in LAWS:
         hint = nearest(name, (*LAWS, "all"))
         raise GenevaError(
-            f'--law "{cut(name)}": unknown{hint}; it must be all or {", ".join(LAWS)}'
+            f'--law "{cut(name)}": unknown{hint}; it must be all or {few(name, LAWS)}'
         )
     return (name,)
 
