@@ -8,6 +8,7 @@ what it shows. Annotations are objects here and in the commands, as Typer reads 
 import importlib
 import os
 import sys
+import textwrap
 from typing import Annotated, Any
 
 import typer
@@ -41,8 +42,7 @@ GROUPS = {
     "Draw": {
         "profile": "Slots, parts and whole machines as csv, dxf, svg, step.",
         "plot": "Curves over the cycle, or of a sweep's csv.",
-        "animate": "A page on which the machine turns.",
-        "view": "That page, opened in the browser.",
+        "animate": "A page on which the machine turns; --open shows it.",
     },
     "Learn": {
         "help": "The manual: a page a topic.",
@@ -63,8 +63,9 @@ COLUMNS: dict[str, Any] = {
     "--columns": {"metavar": "NAME,...", "help": "Only these columns, named as in csv."},
     "--wide": {"is_flag": True, "help": "All columns on a terminal, however wide."},
 }
-NO_TABLE = {"animate", "view", "schema"}
+NO_TABLE = {"animate", "schema"}
 HELP = {"help_option_names": ["-h", "--help"]}
+PANEL = "rich_help_panel"  # the attribute in which Typer keeps an option's heading
 
 
 class Command(TyperCommand):
@@ -102,6 +103,21 @@ class Command(TyperCommand):
         with choosing(Choice(tuple(filter(None, names)), wide)):
             return super().invoke(ctx)
 
+    def format_options(self, ctx: Any, formatter: Any) -> None:
+        """Arguments, then options under the headings that they name; those of all commands last."""
+        groups: dict[str, list[tuple[str, str]]] = {"Arguments": []}
+        shared: list[tuple[str, str]] = []
+        for param in self.get_params(ctx):
+            record = param.get_help_record(ctx)
+            is_argument = param.param_type_name == "argument"
+            heading = "Arguments" if is_argument else getattr(param, PANEL, None)
+            if record:
+                (groups.setdefault(heading, []) if heading else shared).append(record)
+        for heading, records in (groups | {"Options": shared}).items():
+            if records:
+                with formatter.section(heading):
+                    formatter.write_dl(records)
+
     def format_epilog(self, ctx: Any, formatter: Any) -> None:
         """The examples, a line each as they are typed."""
         if self.examples:
@@ -125,6 +141,11 @@ class LazyGroup(TyperGroup):
         for name, group in GROUPS.items():
             with formatter.section(name):
                 formatter.write_dl([(name.ljust(WIDEST), line) for name, line in group.items()])
+        from geneva_cli.manual import TOPICS
+
+        with formatter.section("Manual, geneva help TOPIC or WORD"):
+            lines = textwrap.wrap(", ".join(TOPICS), formatter.width - 2, break_on_hyphens=False)
+            formatter.write("".join(f"  {line}\n" for line in lines))
 
     def resolve_command(self, ctx: Any, args: list[str]) -> Any:
         """The real command behind a stub."""

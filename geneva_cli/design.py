@@ -225,10 +225,10 @@ class Design:
 
         return self._located(lambda: motion_table(self.mechanism, samples))
 
-    def figure(self, show: Sequence[str] = ()) -> Figure:
+    def figure(self, pick: Sequence[str] = ()) -> Figure:
         """Curves of motion and loads over a cycle, a panel a quantity; as ``geneva plot`` draws.
 
-        ``show`` are names of quantities, as ``jerk`` or ``pin_force_N``; without, the usual ones
+        ``pick`` are names of quantities, as ``jerk`` or ``pin_force_N``; without, the usual ones
         that are known. ``geneva_cli.output.plot`` writes it. Raises GenevaError for another name.
 
         >>> panels = Design(External(6)).figure(["velocity", "jerk"]).panels
@@ -237,7 +237,7 @@ class Design:
         """
         from geneva_cli.analysis.figures import figure
 
-        return self._located(lambda: figure({self.spec.title: self.cycle}, show)[0])
+        return self._located(lambda: figure({self.spec.title: self.cycle}, pick)[0])
 
     @answer
     def cycle(self) -> Cycle:

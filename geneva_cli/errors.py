@@ -10,6 +10,7 @@ if TYPE_CHECKING:
     from contextvars import ContextVar
 
 DECIMAL_BITS = 10_000  # of the whole numbers that are shown as decimal ones
+SUGGESTED_MAX = 5  # words in a message: more are not read
 
 
 class GenevaError(Exception):
@@ -102,21 +103,36 @@ def cut(value: str | int, most: int = 60) -> str:
 
 
 def nearest(word: str, known: Iterable[str]) -> str:
-    """`` (did you mean "..."?)`` for the known word that is most like it, or nothing."""
-    like = closest(word, known, 1)
-    return f' (did you mean "{like[0]}"?)' if like else ""
-
-
-def closest(word: str, known: Iterable[str], most: int = 5) -> list[str]:
-    """The known words that are most like a word, the nearest first.
+    """`` (did you mean "..."?)`` for the known word that is most like it, or nothing.
 
     Capitals make no difference; of three letters or more also a beginning or a part will do.
     """
     import difflib
 
     word, by_word = cut(word).casefold(), {k.casefold(): k for k in known}
-    close = difflib.get_close_matches(word, by_word, n=most, cutoff=0.6)
-    if len(close) < most and len(word) >= 3:
-        parts = [k for k in by_word if word in k and k not in close]
-        close += sorted(parts, key=lambda k: not k.startswith(word))[: most - len(close)]
-    return [by_word[k] for k in close]
+    close = difflib.get_close_matches(word, by_word, n=1, cutoff=0.6)
+    if not close and len(word) >= 3:
+        parts = [k for k in by_word if word in k]
+        close = sorted(parts, key=lambda k: not k.startswith(word))
+    return f' (did you mean "{by_word[close[0]]}"?)' if close else ""
+
+
+def few(word: Any, known: Iterable[str]) -> str:
+    """The known words, for a message: of more than five those that are most like ``word``.
+
+    >>> few("cirle", ["arc", "line", "circle", "spline", "point", "ellipse", "text"])
+    'circle, line, spline, arc, text and 2 more'
+    """
+    words = list(known)
+    if len(words) > SUGGESTED_MAX:
+        from difflib import SequenceMatcher
+
+        matcher = SequenceMatcher(b=cut(word).casefold())
+
+        def unlike(one: str) -> float:
+            matcher.set_seq1(one.casefold())
+            return -matcher.ratio()
+
+        more = len(words) - SUGGESTED_MAX
+        return f"{', '.join(sorted(words, key=unlike)[:SUGGESTED_MAX])} and {more} more"
+    return ", ".join(words)

@@ -7,11 +7,10 @@ from collections.abc import Callable, Iterator, Sequence
 from itertools import islice
 from typing import Any, NamedTuple
 
-from geneva_cli.errors import GenevaError, closest, cut
+from geneva_cli.errors import GenevaError, cut, few
 
 PIECE = 65536  # rows of a long table that are made at once; blocks divide it
 HTML_ROWS = 60  # that a notebook shows
-NEAREST = 5  # names that a message about a wrong one has
 NO_BOUND = "no bound"  # an infinity, where a person reads it
 
 
@@ -75,8 +74,9 @@ class Table(NamedTuple):
         known = dict.fromkeys([*self.names, *(name for table in inner for name in table.names)])
         for name in names:
             if name not in known:
-                some = ", ".join(closest(name, known) or list(known)[:NEAREST])
-                raise GenevaError(f"--columns {cut(name)}: no such column; there are {some}")
+                raise GenevaError(
+                    f"--columns {cut(name)}: no such column; there are {few(name, known)}"
+                )
         if not self.record:
             at = [self.names.index(name) for name in names]
             return self.replaced(names=tuple(names), columns=[self.columns[i] for i in at])

@@ -73,7 +73,7 @@ def run(tmp_path: Path) -> Callable[..., Any]:
 
 def new(kind: str) -> str:
     """What ``geneva new`` prints."""
-    shown = CliRunner().invoke(app, ["new", kind])
+    shown = CliRunner().invoke(app, ["new", kind, "--all"])
     assert shown.exit_code == 0, shown.stderr
     return shown.stdout
 

@@ -19,7 +19,7 @@ from geneva_cli.analysis.loads.cycle import Cycle, Extremes
 from geneva_cli.analysis.loads.quantities import known_quantities
 from geneva_cli.analysis.motion import first_entry_deg
 from geneva_cli.analysis.stages import MOTION, WHEEL, Stage, load_stages, motion_stages, pieces
-from geneva_cli.errors import Caution, GenevaError, cut, nearest
+from geneva_cli.errors import Caution, GenevaError, cut, few, nearest
 from geneva_cli.figure import Axis, Curve, Figure, Mark, Panel, Piece
 from geneva_cli.machine.mechanism import Mechanism
 
@@ -66,10 +66,10 @@ class MachineCurves(NamedTuple):
     bounds: dict[str, tuple[float, float]]
 
 
-def figure(cycles: Mapping[str, Cycle], show: Sequence[str] = ()) -> tuple[Figure, list[LeftOut]]:
+def figure(cycles: Mapping[str, Cycle], pick: Sequence[str] = ()) -> tuple[Figure, list[LeftOut]]:
     """The figure of machines by their names, and what it lacks of which machine, and why.
 
-    ``show`` are names of quantities; without, those of ``USUAL`` that are known. Raises
+    ``pick`` are names of quantities; without, those of ``USUAL`` that are known. Raises
     GenevaError for a name that is none, and for a quantity asked for that no machine has.
 
     >>> from geneva_cli import Design, External
@@ -79,18 +79,18 @@ def figure(cycles: Mapping[str, Cycle], show: Sequence[str] = ()) -> tuple[Figur
     """
     if len(cycles) > MOST:
         raise GenevaError(f"{len(cycles)} designs in one figure; at most {MOST} can be told apart")
-    asked = tuple(dict.fromkeys(show)) or USUAL
+    asked = tuple(dict.fromkeys(pick)) or USUAL
     for name in asked:
         if name not in OF_NAME:
             raise GenevaError(
-                f"--show {cut(name)}: no quantity of a cycle{nearest(name, OF_NAME)}; it must be "
-                f"one of {', '.join(OF_NAME)}"
+                f"--pick {cut(name)}: no quantity of a cycle{nearest(name, OF_NAME)}; it must be "
+                f"one of {few(name, OF_NAME)}"
             )
     has = {design: _known(cycle) for design, cycle in cycles.items()}
     shown = [name for name in asked if any(name in known for known in has.values())]
     missing = [name for name in asked if name not in shown]
-    if missing and show:
-        raise GenevaError(f"--show {missing[0]}: {_why(next(iter(cycles.values())), missing[0])}")
+    if missing and pick:
+        raise GenevaError(f"--pick {missing[0]}: {_why(next(iter(cycles.values())), missing[0])}")
     machines = [cycle.mechanism for cycle in cycles.values()]
     start = min(first_entry_deg(m) for m in machines)
     window = start, start + max(m.period_deg for m in machines)

@@ -13,7 +13,7 @@ from typing import cast
 
 from geneva_cli.bench.method import Row, Subject, Task, with_frontier
 from geneva_cli.bench.timing_pairs import ratios
-from geneva_cli.errors import GenevaError, cut, nearest
+from geneva_cli.errors import GenevaError, cut, few, nearest
 from geneva_cli.table import Table, rows_table
 
 # The registry: a subject is a module ``bench_<name>`` with ``subject(quick)``.
@@ -40,7 +40,7 @@ def names(asked: str) -> tuple[str, ...]:
     if asked == "all":
         return SUBJECTS
     if asked not in SUBJECTS:
-        known = ", ".join((*SUBJECTS, "all"))
+        known = few(asked, ("all", *SUBJECTS))
         raise GenevaError(
             f'SUBJECT "{cut(asked)}": unknown{nearest(asked, SUBJECTS)}; it must be one of {known}'
         )

@@ -5,13 +5,21 @@ from typing import Annotated
 import typer
 
 from geneva_cli.commands.options import Given, SpecPath, warn
+from geneva_cli.errors import GenevaError
 
-EXAMPLES = ("geneva animate spec.toml -o machine.html",)
+EXAMPLES = (
+    "geneva animate spec.toml -o machine.html",
+    "geneva animate spec.toml -o machine.svg",
+    "geneva animate spec.toml --open",
+)
 
 
 def run(
     spec: SpecPath,
     given: Given = None,
+    open_: Annotated[
+        bool, typer.Option("--open", help="Open the page in the desktop's browser.")
+    ] = False,
     output: Annotated[
         str,
         typer.Option(
@@ -24,14 +32,47 @@ def run(
 ) -> None:
     """A page that needs no network, on which the machine turns.
 
-    Its parts and links as they are cut, gears, the contact's force, what holds the wheel, and the
-    curves with a cursor; played, or moved by a slider over the input's angle. A .gif needs the
-    extra plot; an .svg stands still.
+    With its parts, gears, contact force and curves; played, or moved by a slider. A .gif needs the
+    extra plot; an .svg stands still. --open says where the page is if there is no browser.
     """
+    import os
+
     from geneva_cli.design import load
     from geneva_cli.output import animate
     from geneva_cli.study.animation.scene import scene
 
+    if open_ and output != "-" and not output.endswith(".html"):
+        raise GenevaError(f'-o "{output}": --open opens a page: it must end in .html')
     design = load(spec, given or ())
-    animate(scene(design), output, design.spec.files)
+    made = scene(design)
+    place = os.path.join(_folder(), "machine.html") if open_ and output == "-" else output
+    animate(made, place, design.spec.files)
     warn(design)
+    if open_:
+        _open(os.path.abspath(place))
+
+
+def _open(place: str) -> None:
+    """Open a page in the browser of the desktop, and say where it is."""
+    import os
+    import webbrowser
+
+    seen = "DISPLAY" in os.environ or "WAYLAND_DISPLAY" in os.environ or os.name != "posix"
+    opened = (seen or os.uname().sysname == "Darwin") and webbrowser.open(f"file://{place}")
+    print(place if opened else f"{place}\nno browser was opened: open this page in one")
+
+
+def _folder() -> str:
+    """The user's own folder for the page: the next run replaces it, so that none pile up."""
+    import os
+    import stat
+    import tempfile
+    from contextlib import suppress
+
+    folder = os.path.join(tempfile.gettempdir(), f"geneva-{os.getuid()}")
+    with suppress(FileExistsError):
+        os.mkdir(folder, 0o700)
+    status = os.lstat(folder)
+    if stat.S_ISDIR(status.st_mode) and status.st_uid == os.getuid():
+        return folder
+    return tempfile.mkdtemp(prefix="geneva-")  # somebody else took the name in a shared folder

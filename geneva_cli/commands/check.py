@@ -5,7 +5,7 @@ from typing import Annotated
 
 import typer
 
-from geneva_cli.commands.options import Format, Given, Output, Process, settings, with_name
+from geneva_cli.commands.options import Format, Given, Output, with_name
 from geneva_cli.errors import clean
 
 EXAMPLES = (
@@ -16,7 +16,6 @@ EXAMPLES = (
 
 def run(
     specs: Annotated[list[str], typer.Argument(metavar="SPEC...", help="Specs, TOML files.")],
-    process: Process = None,
     given: Given = None,
     output: Output = "-",
     format: Format = "",
@@ -29,7 +28,7 @@ def run(
     from geneva_cli.output import show
     from geneva_cli.study.batch import checks_table, verdicts
 
-    found = list(verdicts(specs, settings(given, process)))
+    found = list(verdicts(specs, given or ()))
     judged = [v for v in found if not v.error]
     if judged:
         show(checks_table(judged), output, format, [file for v in judged for file in v.files])

@@ -55,13 +55,6 @@ def laws() -> Iterable[str]:
     return words_of("motion.law")
 
 
-def processes() -> Iterable[str]:
-    """How parts are made."""
-    from geneva_cli.specfile.keys import words_of
-
-    return words_of("size.process")
-
-
 def kinds() -> Iterable[str]:
     """What ``geneva new`` writes."""
     from geneva_cli.specfile.template import KINDS

@@ -5,11 +5,12 @@ from typing import Annotated, Any
 import typer
 
 from geneva_cli.commands import completion
+from geneva_cli.errors import GenevaError, cut, nearest
 
 EXAMPLES = (
     "geneva help",
     "geneva help cycle",
-    "geneva help peaks",
+    "geneva help friction",
 )
 
 
@@ -18,14 +19,14 @@ def run(
     topic: Annotated[
         str,
         typer.Argument(
-            metavar="[TOPIC]",
-            help="A page or a command; all pages without.",
+            metavar="[WORD]",
+            help="A page, a command, or a word to search for; all pages without.",
             autocompletion=completion.words(completion.topics),
         ),
     ] = "",
 ) -> None:
-    """The manual: a page a topic. Of a command it shows the options."""
-    from geneva_cli.manual import TOPICS, page
+    """The manual: a page, the options of a command, or where a word stands in all pages."""
+    from geneva_cli.manual import TOPICS, Hit, page, search
     from geneva_cli.output import show, show_markdown, show_text
     from geneva_cli.table import rows_table
 
@@ -36,5 +37,9 @@ def run(
         _, command, _ = commands.resolve_command(context, [topic])
         info = typer.Context(command, parent=context.find_root(), info_name=topic)
         show_text(command.get_help(info) + "\n")
-    else:
+    elif topic in TOPICS:
         show_markdown(page(topic))
+    elif hits := search(topic):
+        show(rows_table(Hit._fields, hits, f"{topic}: `geneva help TOPIC` shows a page."))
+    else:
+        raise GenevaError(f'"{cut(topic)}" is no page and stands in none{nearest(topic, TOPICS)}')

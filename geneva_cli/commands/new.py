@@ -10,7 +10,7 @@ from geneva_cli.commands.options import Output
 from geneva_cli.errors import GenevaError
 
 EXAMPLES = (
-    "geneva new curved -o curved.toml",
+    "geneva new external -o wheel.toml",
     "geneva new --list",
     "geneva new --from-design turret -o turret.toml",
 )
@@ -36,13 +36,15 @@ def run(
     list_: Annotated[
         bool, typer.Option("--list", help="All kinds and designs, and what they are.")
     ] = False,
+    all_: Annotated[
+        bool, typer.Option("--all", help="Every key that the kind can have, with its default.")
+    ] = False,
     force: Annotated[bool, typer.Option("--force", help="Replace files that exist.")] = False,
     output: Output = "-",
 ) -> None:
-    """Write a commented spec to start from; a file that exists stays, unless --force is given.
+    """Write a short commented spec to start from; --all for every key.
 
-    Beside geneva.schema.json, which `geneva schema -o` writes, its first line names that: with it
-    editors complete and check the keys.
+    A file that exists stays, unless --force is given. For editors: `geneva help spec`.
     """
     from geneva_cli.output import show
     from geneva_cli.specfile.template import KINDS, example
@@ -50,6 +52,8 @@ def run(
 
     if bool(kind) + bool(from_design) + list_ != 1:
         raise GenevaError("KIND, --from-design NAME or --list: give one of them")
+    if all_ and not kind:
+        raise GenevaError("--all goes with KIND")
     if list_:
         from geneva_cli.specfile.designs import titles
 
@@ -57,12 +61,12 @@ def run(
         designs = [(name, "new --from-design", title) for name, title in titles().items()]
         show(rows_table(("name", "command", "about"), kinds + designs), output)
     elif kind:
-        _new(kind, output, force)
+        _new(kind, output, all_, force)
     else:
         _copy(from_design, output, force)
 
 
-def _new(kind: str, output: str, force: bool) -> None:
+def _new(kind: str, output: str, whole: bool, force: bool) -> None:
     """Write a kind's spec, which names the JSON Schema only where that stands beside it."""
     from geneva_cli.output import refuse_existing, show_text
     from geneva_cli.specfile.json_schema import FILE
@@ -71,7 +75,7 @@ def _new(kind: str, output: str, force: bool) -> None:
     if not force:
         refuse_existing(output)
     is_beside = output != "-" and os.path.isfile(os.path.join(os.path.dirname(output), FILE))
-    show_text(template(kind, is_beside), output)
+    show_text(template(kind, is_beside, whole), output)
 
 
 def _copy(name: str, output: str, force: bool) -> None:

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Annotated, TypeAlias
 import typer
 
 from geneva_cli.commands import completion
-from geneva_cli.errors import Caution, GenevaError, clean, cut, nearest
+from geneva_cli.errors import Caution, clean
 from geneva_cli.output.formats import FORMATS
 
 if TYPE_CHECKING:
@@ -34,18 +34,15 @@ Given: TypeAlias = Annotated[
         autocompletion=completion.keys,
     ),
 ]
-Process: TypeAlias = Annotated[
-    str | None,
-    typer.Option(
-        metavar="NAME",
-        help="How the parts are made: laser, mill or print; sets the clearances that the spec "
-        "leaves out (size.process).",
-        autocompletion=completion.words(completion.processes),
-    ),
-]
 Output: TypeAlias = Annotated[
     str,
-    typer.Option("-o", "--output", metavar="FILE", help="Write to this file; - prints."),
+    typer.Option(
+        "-o",
+        "--output",
+        metavar="FILE",
+        help="Write to this file; - prints.",
+        show_default=False,
+    ),
 ]
 Format: TypeAlias = Annotated[
     str,
@@ -56,21 +53,6 @@ Format: TypeAlias = Annotated[
         autocompletion=completion.words(lambda: FORMATS),
     ),
 ]
-
-
-def settings(given: Iterable[str] | None, process: str | None) -> list[str]:
-    """The keys that are set beside the spec, the process among them.
-
-    Raises GenevaError for a process that is not known.
-    """
-    if process is None:
-        return list(given or ())
-    known = tuple(completion.processes())
-    if process not in known:
-        raise GenevaError(
-            f"--process {cut(process)}: it must be {one_of(known)[:-1]}{nearest(process, known)}"
-        )
-    return [f"size.process={process}", *(given or ())]
 
 
 def warn(design: Design) -> None:

@@ -9,9 +9,9 @@ from geneva_cli.commands.options import Given, Output, say, warn
 from geneva_cli.errors import GenevaError, cut
 
 EXAMPLES = (
-    "geneva plot spec.toml --show velocity",
+    "geneva plot spec.toml --pick velocity",
     "geneva plot spec.toml -o motion.svg",
-    "geneva plot spec.toml --vary wheel.z=6,8,10 --show acceleration -o several.svg",
+    "geneva plot spec.toml --vary wheel.z=6,8,10 --pick acceleration -o several.svg",
 )
 
 
@@ -20,7 +20,7 @@ def run(
         list[str],
         typer.Argument(metavar="SPEC...", help="Specs, TOML files; or one .csv, as of a sweep."),
     ],
-    show: Annotated[
+    pick: Annotated[
         str,
         typer.Option(
             metavar="QUANTITY,...",
@@ -28,8 +28,8 @@ def run(
             autocompletion=completion.listed(completion.quantities),
         ),
     ] = "",
-    x: Annotated[str, typer.Option("--x", metavar="COLUMN", help="Of a csv: along.")] = "",
-    y: Annotated[str, typer.Option("--y", metavar="COLUMN,...", help="Of a csv: up.")] = "",
+    x: Annotated[str, typer.Option("--x", metavar="COLUMN", help="Column along, of a csv.")] = "",
+    y: Annotated[str, typer.Option("--y", metavar="COLUMN,...", help="Columns up, of a csv.")] = "",
     vary: Annotated[
         list[str] | None,
         typer.Option(
@@ -43,19 +43,14 @@ def run(
     format: Annotated[
         str,
         typer.Option(
-            metavar="FORMAT", help="table (a chart in text), svg, png, pdf; csv, json, md: points."
+            metavar="FORMAT", help="table (a chart in text), svg, png, pdf, csv, json or md."
         ),
     ] = "",
 ) -> None:
-    """Curves over a cycle: the wheel's angle, velocity, acceleration, jerk, force, torque, power.
+    """Curves over a cycle, exact at peaks and jumps; or columns of a csv, as of a sweep.
 
-    Dwells are shaded, jumps drawn as jumps, and peaks exact: their values and places stand beside
-    the curves. With several specs, or one with a key varied, where all of them rest is shaded.
-    Quantities are those of `geneva motion` and `geneva loads`, by their names there. Without -o a
-    chart in text. png and pdf need the extra geneva-cli[plot].
-
-    Of a csv, --y by --x: over a varied key of `geneva sweep` a curve for each combination of the
-    others; the rows of a --pareto as points, joined; the spectrum of `geneva vibration`.
+    Without -o a chart in text; png and pdf need the extra geneva-cli[plot]. More: `geneva help
+    plots`.
     """
     from geneva_cli.output import plot
     from geneva_cli.output.formats import plotted_as
@@ -64,12 +59,12 @@ def run(
     plotted_as(output, format)  # what cannot be written is not worked out
     tables = [path for path in specs if path.lower().endswith(".csv")]
     if tables:
-        _refuse_beside(tables[0], specs, {"--show": show, "--set": given, "--vary": vary})
+        _refuse_beside(tables[0], specs, {"--pick": pick, "--set": given, "--vary": vary})
         plot(of_table(tables[0], x, _names(y)), output, format, tables)
         return
     if x or y:
-        raise GenevaError(f"--x and --y are for a .csv; of {cut(specs[0], 300)} give --show")
-    found, designs, left_out = of_specs(specs, given or (), _names(show), vary or ())
+        raise GenevaError(f"--x and --y are for a .csv; of {cut(specs[0], 300)} give --pick")
+    found, designs, left_out = of_specs(specs, given or (), _names(pick), vary or ())
     plot(found, output, format, [file for d in designs for file in d.spec.files])
     for design in designs:
         warn(design)

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from geneva_cli.commands import completion
-from geneva_cli.commands.options import Given, Output, Process, SpecPath, one_of, settings, warn
+from geneva_cli.commands.options import Given, Output, SpecPath, one_of, warn
 from geneva_cli.errors import GenevaError, clean, cut
 from geneva_cli.output import draw, draw_sheet, show
 from geneva_cli.output.formats import (
@@ -26,10 +26,11 @@ if TYPE_CHECKING:
 EXAMPLES = (
     "geneva profile spec.toml --samples 9",
     "geneva profile spec.toml --part wheel -o wheel.dxf",
-    "geneva profile spec.toml --part assembly -o machine.svg",
-    "geneva profile spec.toml --part parts",
     "geneva profile spec.toml --part sheet -o machine.pdf",
 )
+
+CUT = "To cut"
+DRAWING = "The drawing"
 
 
 def run(
@@ -37,7 +38,9 @@ def run(
     part: Annotated[
         str,
         typer.Option(
-            metavar="PART", help=one_of(PARTS), autocompletion=completion.words(lambda: PARTS)
+            metavar="PART",
+            help="slot, wheel, crank, arm, assembly, parts, sheet or another.",
+            autocompletion=completion.words(lambda: PARTS),
         ),
     ] = "slot",
     tolerance: Annotated[
@@ -50,23 +53,42 @@ def run(
         str | None,
         typer.Option(
             metavar="KIND",
-            help="Curved walls as arcs, or as spline for CAD (of .step; else arcs).",
+            help="Curved walls as arcs or spline; .step has spline.",
             autocompletion=completion.words(lambda: ("arcs", "spline")),
+            rich_help_panel=DRAWING,
         ),
     ] = None,
     kerf: Annotated[
         float | None,
-        typer.Option(metavar="MM", help="Paths for a cut so wide: half of it beside the part."),
+        typer.Option(
+            metavar="MM",
+            help="Paths for a cut of this width.",
+            rich_help_panel=CUT,
+        ),
     ] = None,
     cutter: Annotated[
         float | None,
-        typer.Option(metavar="MM", help="Diameter of a milling cutter that must enter everywhere."),
+        typer.Option(
+            metavar="MM",
+            help="Diameter of a milling cutter that must fit.",
+            rich_help_panel=CUT,
+        ),
     ] = None,
     dog_bones: Annotated[
-        bool, typer.Option("--dog-bones", help="Free the corners that this cutter leaves round.")
+        bool,
+        typer.Option(
+            "--dog-bones",
+            help="Free the corners that this cutter leaves round.",
+            rich_help_panel=CUT,
+        ),
     ] = False,
     center_marks: Annotated[
-        bool, typer.Option("--center-marks", help="A cross in every circle, on layer CENTER.")
+        bool,
+        typer.Option(
+            "--center-marks",
+            help="A cross in every circle, on layer CENTER.",
+            rich_help_panel=DRAWING,
+        ),
     ] = False,
     units: Annotated[
         str,
@@ -74,27 +96,28 @@ def run(
             metavar="UNIT",
             help="Of drawings: mm or inch.",
             autocompletion=completion.words(lambda: ("mm", "inch")),
+            rich_help_panel=DRAWING,
         ),
     ] = "mm",
     dxf_version: Annotated[
         str | None,
         typer.Option(
             metavar="VERSION",
-            help=f"Of .dxf: {one_of(DXF_VERSIONS)[:-1]} (R2000).",
+            help="Of .dxf, R12 to R2018.  [default: R2000]",
             autocompletion=completion.words(lambda: DXF_VERSIONS),
+            rich_help_panel=DRAWING,
         ),
     ] = None,
     fill: Annotated[
         str | None,
         typer.Option(
             metavar="LOOK",
-            help=f"Of .svg, how plates look: {one_of(FILLS)[:-1]}. An assembly has tint, parts to "
-            "cut have none: hairlines alone, which cutters' programs follow.",
+            help="Of .svg, how plates look: none, tint or hatch.",
             autocompletion=completion.words(lambda: FILLS),
+            rich_help_panel=DRAWING,
         ),
     ] = None,
     force: Annotated[bool, typer.Option("--force", help="Draw even a machine that jams.")] = False,
-    process: Process = None,
     given: Given = None,
     output: Output = "-",
     format: Annotated[
@@ -107,13 +130,10 @@ def run(
         ),
     ] = "",
 ) -> None:
-    """A part as points, or as a drawing to cut: the slot, the wheel, the crank, or all together.
+    """A part as a table of points, or as a drawing to cut: csv, dxf, svg, step or pdf.
 
-    Drawings are dxf and svg, sheets with dimensions pdf too; a slot is a table of its pitch curve
-    and flanks elsewhere. The slot is
-    in the wheel's frame, x towards the crank's axis at mid-motion; left and right are the flanks as
-    the pin travels in. Before a drawing is written its machine is turned through a whole turn;
-    parts of a spherical wheel are laid flat, or solids as step.
+    A drawing is written only of a machine that turns a whole turn. All parts, frames of reference
+    and layers: `geneva help parts`.
     """
     from geneva_cli.design import load
 
@@ -123,7 +143,7 @@ def run(
         raise GenevaError("--dog-bones needs the cutter's diameter: --cutter MM")
     sheet = is_sheet(part)
     drawn = bool(sheet_as(output, format)) if sheet else is_drawn(output, format)
-    design = load(spec, settings(given, process))
+    design = load(spec, given or ())
     asked = {"version": dxf_version, "fill": fill}
     own = {key: value for key, value in asked.items() if value is not None}
     files = design.spec.files

@@ -5,7 +5,7 @@ from typing import Annotated
 import typer
 
 from geneva_cli.commands import completion
-from geneva_cli.commands.options import Given, Output, Process, SpecPath, one_of, say, settings
+from geneva_cli.commands.options import Given, Output, SpecPath, one_of, say
 from geneva_cli.output.formats import DOCUMENTS, FORMATS
 
 EXAMPLES = (
@@ -19,7 +19,6 @@ WRITTEN = tuple(dict.fromkeys((*FORMATS, *DOCUMENTS)))
 
 def run(
     spec: SpecPath,
-    process: Process = None,
     given: Given = None,
     output: Output = "-",
     format: Annotated[
@@ -44,7 +43,7 @@ def run(
     from geneva_cli.output.formats import is_document
 
     is_whole = is_document(output, format)
-    design = load(spec, settings(given, process))
+    design = load(spec, given or ())
     found = design.report
     if is_whole:
         from geneva_cli.study.document import document

@@ -18,8 +18,13 @@ Rows: TypeAlias = list[list[Any]]
 
 EXAMPLES = (
     "geneva sweep spec.toml --vary wheel.z=4..12 --pick dwell_s,acceleration.max",
-    "geneva sweep spec.toml --vary size.roller_radius_mm=8:16:1 --pick smallest_gap_mm -o all.csv",
+    "geneva sweep spec.toml --vary size.roller_radius_mm=8..16:1 -o all.csv",
+    "geneva sweep spec.toml --vary drive.n_rpm=20..60 --best min:velocity.max_rad_s",
 )
+
+DESIGNS = "Designs"
+CHOICE = "Choice"
+LONG = "Long runs"
 
 
 def run(
@@ -28,8 +33,9 @@ def run(
         list[str] | None,
         typer.Option(
             metavar="KEY=VALUES",
-            help="drive.A=0:0.9:0.1, wheel.z=3..12, motion.law=a,b; repeat.",
+            help="As drive.A=0..0.9:0.1 or motion.law=a,b; repeat.",
             autocompletion=completion.keys,
+            rich_help_panel=DESIGNS,
         ),
     ] = None,
     pick: Annotated[
@@ -38,51 +44,99 @@ def run(
             metavar="FIELD,...",
             help="Quantities, as acceleration.max,dwell_s.",
             autocompletion=completion.listed(completion.fields),
+            rich_help_panel=DESIGNS,
         ),
     ] = "",
     random: Annotated[
-        int | None, typer.Option(metavar="N", help="N designs drawn from the box, not the grid.")
+        int | None,
+        typer.Option(
+            metavar="N",
+            help="N designs drawn from the box, not the grid.",
+            rich_help_panel=DESIGNS,
+        ),
     ] = None,
     seed: Annotated[
-        int | None, typer.Option(metavar="S", help="What they are drawn with; 0 without.")
+        int | None,
+        typer.Option(
+            metavar="S",
+            help="What they are drawn with; 0 without.",
+            rich_help_panel=DESIGNS,
+        ),
     ] = None,
-    check: Annotated[bool, typer.Option("--check", help="Add whether all checks pass.")] = False,
+    check: Annotated[
+        bool,
+        typer.Option(
+            "--check",
+            help="Add whether all checks pass.",
+            rich_help_panel=DESIGNS,
+        ),
+    ] = False,
     subject_to: Annotated[
         list[str] | None,
         typer.Option(
             metavar="BOUND",
             help='Only rows that keep it: "dwell_s >= 0.8"; repeat.',
             autocompletion=completion.words(completion.fields),
+            rich_help_panel=CHOICE,
         ),
     ] = None,
     pareto: Annotated[
         str,
-        typer.Option(metavar="min:FIELD,...", help="Only rows that no other beats in all these."),
+        typer.Option(
+            metavar="min:FIELD,...",
+            help="Only rows that no other beats in all these.",
+            rich_help_panel=CHOICE,
+        ),
     ] = "",
     best: Annotated[
-        str, typer.Option(metavar="min:FIELD", help="The best design, refined, as a spec.")
+        str,
+        typer.Option(
+            metavar="min:FIELD",
+            help="The best design, refined, as a spec; or max:.",
+            rich_help_panel=CHOICE,
+        ),
     ] = "",
     shard: Annotated[
-        str, typer.Option(metavar="I/N", help="Only the I-th of N shares, as 3/16.")
+        str,
+        typer.Option(
+            metavar="I/N",
+            help="Only the I-th of N shares, as 3/16.",
+            rich_help_panel=LONG,
+        ),
     ] = "",
-    resume: Annotated[bool, typer.Option("--resume", help="Go on where it was stopped.")] = False,
+    resume: Annotated[
+        bool,
+        typer.Option(
+            "--resume",
+            help="Go on where it was stopped.",
+            rich_help_panel=LONG,
+        ),
+    ] = False,
     jobs: Annotated[
-        int | None, typer.Option(metavar="N", help="Processes; all cores without.")
+        int | None,
+        typer.Option(
+            metavar="N",
+            help="Processes; all cores without.",
+            rich_help_panel=LONG,
+        ),
     ] = None,
     given: Given = None,
     output: Annotated[
         str,
-        typer.Option("-o", "--output", metavar="FILE", help="A .csv or .parquet; - prints csv."),
+        typer.Option(
+            "-o",
+            "--output",
+            metavar="FILE",
+            help="A .csv or .parquet; - prints csv.",
+            show_default=False,
+        ),
     ] = "-",
     format: Format = "",
 ) -> None:
-    """One row a design: the varied keys, then the quantities; the last key runs fastest.
+    """One row a design: the varied keys, then the quantities.
 
-    A design that cannot be built is a row that says why. Stopped, a sweep into a file goes on with
-    --resume, which begins where there is nothing to go on with. The rows of all shares, one after
-    the other, are those of one run: the first alone has the header. With --random and --best a key
-    may vary between LOW:HIGH; the spec's own design is then tried for --best too. Of --best, what
-    --pick and --check ask for is told of the design that is chosen.
+    VALUES are 4,6,8, 3..12, 0..0.9:0.1 or words; with --random and --best LOW..HIGH, all between.
+    Long runs, shards and the best of many: `geneva help choosing`.
     """
     from geneva_cli.output.formats import FORMATS
     from geneva_cli.study.sweep.outcome import Outcome

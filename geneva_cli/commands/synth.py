@@ -15,41 +15,64 @@ if TYPE_CHECKING:
     from geneva_cli.study.synthesis.wish import Wish
 
 EXAMPLES = (
-    "geneva synth --motion-deg 180 --z 6 --checked 0",
-    "geneva synth --dwell-s 0.8.. --cycle 1.5 --z 8 --sort jerk.max --checked 0",
+    "geneva synth --motion-deg 180 --z 6 --check 0",
+    "geneva synth --dwell-s 0.8.. --cycle 1.5 --z 8 --sort min:jerk.max --check 0",
+    "geneva synth --motion-deg 180 --z 6 --external --write 1 -o machine.toml",
 )
 
 
+WANTED = "Wanted, a number or a range (0.2..0.3, 0.8.., ..180, 1/3)"
+MACHINES = "Machines that are tried"
+ROWS = "Rows"
+
+
 def run(
-    tau: Annotated[str, typer.Option(metavar="X", help="Wish: motion / cycle.")] = "",
-    k: Annotated[str, typer.Option("--k", metavar="X", help="Wish: motion / dwell.")] = "",
+    tau: Annotated[
+        str, typer.Option(metavar="X", help="Motion / cycle.", rich_help_panel=WANTED)
+    ] = "",
     motion_deg: Annotated[
-        str, typer.Option(metavar="DEG", help="Wish: input angle of one motion.")
+        str,
+        typer.Option(metavar="DEG", help="Input angle of one motion.", rich_help_panel=WANTED),
     ] = "",
     dwell_deg: Annotated[
-        str, typer.Option(metavar="DEG", help="Wish: input angle of a dwell.")
+        str, typer.Option(metavar="DEG", help="Input angle of a dwell.", rich_help_panel=WANTED)
     ] = "",
-    motion_s: Annotated[str, typer.Option(metavar="S", help="Wish: seconds of motion.")] = "",
-    dwell_s: Annotated[str, typer.Option(metavar="S", help="Wish: seconds of dwell.")] = "",
-    cycle: Annotated[str, typer.Option(metavar="S", help="Wish: seconds from step to step.")] = "",
-    step: Annotated[str, typer.Option(metavar="DEG", help="Wish: the wheel's step.")] = "",
-    acceleration_max: Annotated[
-        str, typer.Option(metavar="X", help="Wish: greatest acceleration, an invariant.")
+    motion_s: Annotated[
+        str, typer.Option(metavar="S", help="Seconds of motion.", rich_help_panel=WANTED)
+    ] = "",
+    dwell_s: Annotated[
+        str, typer.Option(metavar="S", help="Seconds of dwell.", rich_help_panel=WANTED)
+    ] = "",
+    cycle: Annotated[
+        str, typer.Option(metavar="S", help="Seconds from step to step.", rich_help_panel=WANTED)
     ] = "",
     subject_to: Annotated[
         list[str] | None,
         typer.Option(
             metavar="BOUND",
-            help='Wish: "jerk.max <= 5", any quantity; repeat.',
+            help='Of any quantity, as "jerk.max <= 5"; repeat.',
             autocompletion=completion.words(completion.fields),
+            rich_help_panel=WANTED,
         ),
     ] = None,
-    z: Annotated[str, typer.Option(help="Slots: 6, 3..12 or 3,4,6.", show_default="3..24")] = "",
-    internal: Annotated[bool, typer.Option("--internal", help="Internal wheels.")] = False,
-    external: Annotated[bool, typer.Option("--external", help="External wheels.")] = False,
-    spherical: Annotated[bool, typer.Option("--spherical", help="Spherical wheels.")] = False,
+    z: Annotated[
+        str,
+        typer.Option(
+            help="Slots: 6, 3..12 or 3,4,6.", show_default="3..24", rich_help_panel=MACHINES
+        ),
+    ] = "",
+    internal: Annotated[
+        bool, typer.Option("--internal", help="Internal wheels.", rich_help_panel=MACHINES)
+    ] = False,
+    external: Annotated[
+        bool, typer.Option("--external", help="External wheels.", rich_help_panel=MACHINES)
+    ] = False,
+    spherical: Annotated[
+        bool, typer.Option("--spherical", help="Spherical wheels.", rich_help_panel=MACHINES)
+    ] = False,
     rollers: Annotated[
-        int | None, typer.Option(metavar="M", help="Rollers; without: see above.")
+        int | None,
+        typer.Option(metavar="M", help="Rollers; any without.", rich_help_panel=MACHINES),
     ] = None,
     law: Annotated[
         str,
@@ -57,92 +80,70 @@ def run(
             metavar="NAME",
             help="Law of curved slots and cams, or all.",
             autocompletion=completion.words(completion.laws),
+            rich_help_panel=MACHINES,
         ),
     ] = "modified-sine",
-    from_: Annotated[
-        str,
-        typer.Option("--from", metavar="SPEC", help="Its z, speed, sizes, loads, limits for all."),
-    ] = "",
-    given: Given = None,
     space: Annotated[
         str,
         typer.Option(
             metavar="X",
-            help="Four-bars: joints at most X centre distances from the crank.",
+            help="Largest four-bar, in centre distances.",
             show_default="3",
+            rich_help_panel=MACHINES,
         ),
     ] = "",
+    from_: Annotated[
+        str,
+        typer.Option(
+            "--from",
+            metavar="SPEC",
+            help="Take z, speed, sizes, loads and limits from it.",
+            rich_help_panel=MACHINES,
+        ),
+    ] = "",
+    given: Given = None,
     sort: Annotated[
         str,
         typer.Option(
-            metavar="FIELD",
-            help="Least of it first; -FIELD: the greatest.",
+            metavar="min:FIELD",
+            help="The least first; max:FIELD: the greatest.",
             autocompletion=completion.words(completion.fields),
+            rich_help_panel=ROWS,
         ),
     ] = "",
-    checked: Annotated[
-        int, typer.Option(metavar="N", help="Turn the parts of so many rows; 0 for none.")
+    check: Annotated[
+        int,
+        typer.Option(metavar="N", help="Turn and check the parts of N rows.", rich_help_panel=ROWS),
     ] = 20,
     buildable: Annotated[
-        bool, typer.Option("--buildable", help="Only rows that pass, --checked many: see above.")
+        bool, typer.Option("--buildable", help="Only rows that pass.", rich_help_panel=ROWS)
     ] = False,
     write: Annotated[
-        int | None, typer.Option(metavar="N", help="Write row N as a spec instead.")
+        int | None,
+        typer.Option(metavar="N", help="Write row N as a spec instead.", rich_help_panel=ROWS),
     ] = None,
     output: Output = "-",
     format: Format = "",
 ) -> None:
-    """From wishes to machines that grant them all, the lowest peak acceleration first.
+    """From wishes to the machines that grant them all, the lowest peak first.
 
-    Where seconds are asked for, or --from gives a speed, peaks are compared in rad/s2.
-
-    Numbers may be fractions, and where there is an angle, a time, tau or k also ranges: 0.2..0.3,
-    0.8.. or ..180. In a range the machine of each kind is the one with the lowest peak, or with
-    the least of --sort; with bounds, no wish for a motion and no --sort, the one that keeps them
-    nearest to the plain crank (a four-bar: the gentlest, of the plain crank's motion if it can). A
-    bound on tau, k, motion_deg or dwell_deg is a wish for a motion; with --cycle or --from, one on
-    seconds of motion or dwell too.
-
-    Tried for each wheel: the plain crank (it may miss the motion by a millionth), also with slots a
-    tenth of the centre distance aside, or as far as a bound or --sort has them; a side-crank; equal
-    elliptical gears; a planet gear (z 3, 4, 6); a four-bar's coupler; curved slots and a cam, with
-    an extra dwell. Side-crank, gears, planet and four-bar carry one roller, straight slots as many
-    as leave a dwell, curved slots and cams also more while their parts can be built. Where a range
-    has no other end, a hundredth of the cycle is left to motion and to dwell. --law all takes
-    seconds more. Spherical wheels stand at 90 deg, or with a plain crank at the angle that makes
-    the motion; with a side-crank also at the best angle, where both are a hundredth better than
-    either alone.
-
-    The four-bar is the best found among proportions whose crank turns all round, whose joints keep
-    to --space and whose roller passes the wheel on its way back; where --sort or a bound is not on
-    times, peaks or entries, the best of its gentlest seven. A machine is named by its crank,
-    ground, coupler, rocker and the roller's distance on the coupler, in mm. Something else must
-    hold its wheel at rest: "detent".
-
-    Column parts: yes for parts that were turned and pass every check, with sizes chosen so that
-    they do; no, with the reason; maybe for those below the first twenty (--checked). --write turns
-    the parts of its row. Where one of the first twenty says no without being turned, the best of
-    its range that is found to pass is a row too; --buildable shows rows that pass, and for any
-    that fails in its turn the best of its range that is found to, under its number.
+    What is tried, and what the columns mean: `geneva help choosing`.
     """
     from geneva_cli.study.synthesis.reading import read_wish
 
     if given and not from_:
         raise GenevaError("--set goes with --from: it changes a key of that spec")
-    if checked < 0 or (buildable and not checked):
-        raise GenevaError(f"--checked {cut(checked)}: it must be at least {int(buildable)}")
+    if check < 0 or (buildable and not check):
+        raise GenevaError(f"--check {cut(check)}: it must be at least {int(buildable)}")
     if write is not None and write < 1:
         raise GenevaError(f"--write {cut(write)}: rows are numbered from 1")
     wish = read_wish(
         tau=tau,
-        k=k,
         motion_deg=motion_deg,
         dwell_deg=dwell_deg,
         motion_s=motion_s,
         dwell_s=dwell_s,
         cycle=cycle,
-        step=step,
-        acceleration_max=acceleration_max,
         z=z,
         internal=internal,
         external=external,
@@ -155,7 +156,7 @@ def run(
         space=space,
     )
     if write is None:
-        _show(wish, checked, buildable, output, format)
+        _show(wish, check, buildable, output, format)
     else:
         _write(wish, write, buildable, output, format)
 
@@ -171,7 +172,7 @@ def _inputs(wish: "Wish") -> Sequence[str]:
     return wish.frame.files if wish.frame else ()
 
 
-def _show(wish: "Wish", checked: int, buildable: bool, output: str, format: str) -> None:
+def _show(wish: "Wish", check: int, buildable: bool, output: str, format: str) -> None:
     from geneva_cli.output import is_seen, show
     from geneva_cli.output.formats import format_of
     from geneva_cli.study.synthesis.shown import for_people, for_terminal
@@ -180,7 +181,7 @@ def _show(wish: "Wish", checked: int, buildable: bool, output: str, format: str)
     if output.endswith(".toml") and not format:
         raise GenevaError(f"-o {cut(output, 300)}: a spec is one row of the table; add --write N")
     name = format or format_of(output)
-    table = synthesis_table(wish, checked, buildable)
+    table = synthesis_table(wish, check, buildable)
     if name == "table" and is_seen(output):
         table = for_terminal(table)
     elif name in ("table", "md"):

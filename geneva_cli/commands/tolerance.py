@@ -6,9 +6,7 @@ import typer
 
 from geneva_cli.commands.options import Format, Given, Output, SpecPath, say, warn
 
-EXAMPLES = (
-    "geneva tolerance spec.toml --samples 4096 --radius 150 --set tolerance.slot_angle_deg=0.01",
-)
+EXAMPLES = ("geneva tolerance spec.toml --set tolerance.slot_angle_deg=0.01",)
 
 
 def run(

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from geneva_cli.errors import GenevaError, cut, nearest
+from geneva_cli.errors import GenevaError, cut, few, nearest
 from geneva_cli.machine.drives.drive import Drive
 from geneva_cli.machine.laws.law import Law
 from geneva_cli.machine.wheels.gearing import Gearing
@@ -68,7 +68,7 @@ def law(name: str) -> type[Law]:
 def _load_kind(kinds: dict[str, str], name: str, key: tuple[str, str]) -> Any:
     if not isinstance(name, str) or name not in kinds:
         quoted = f'"{cut(name)}"' if isinstance(name, str) else cut(name)
-        known = ", ".join(f'"{kind}"' for kind in kinds)
+        known = few(name, [f'"{kind}"' for kind in kinds])
         hint = nearest(name, kinds) if isinstance(name, str) else ""
         raise GenevaError(f"{key[1]} must be one of {known}, not {quoted}{hint}", key)
     return load_named(f"machine.{kinds[name]}")

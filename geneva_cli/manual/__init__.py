@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import os
 import re
+from typing import NamedTuple
 
 from geneva_cli.errors import GenevaError, cut, nearest
 
@@ -33,8 +34,51 @@ TOPICS = {
     "house": "how the program is built, for who changes it",
 }
 
+AROUND = 24  # characters of a line on each side of a word that was searched for
 _COMMENT = re.compile(r"<!--.*?-->\n*", re.DOTALL)
 _PICTURE = re.compile(r"<img [^>]*>(<br>|\n)?")
+
+
+class Hit(NamedTuple):
+    """A section of a page in which a word stands, and the first line with it."""
+
+    topic: str  # as ``geneva help`` takes it, or "explain" for what ``geneva explain`` explains
+    section: str
+    line: str
+
+
+def search(word: str) -> list[Hit]:
+    """The sections of all pages in which a word stands, capitals or not; a hit a section.
+
+    >>> {hit.topic for hit in search("Freudenstein")}
+    set()
+    """
+    from geneva_cli.manual.explained import GROUPS as EXPLAINED
+
+    folder = os.path.dirname(__file__)
+    texts = [(topic, page(topic)) for topic in TOPICS]
+    for group in EXPLAINED:
+        with open(os.path.join(folder, "explained", f"{group}.md"), encoding="utf-8") as file:
+            texts.append(("explain", file.read()))
+    wanted = word.casefold()
+    hits: dict[tuple[str, str], Hit] = {}
+    for topic, text in texts:
+        section = ""
+        for line in text.splitlines():
+            if line.startswith("#"):
+                section = line.lstrip("# ")
+            if wanted in line.casefold():
+                hits.setdefault((topic, section), Hit(topic, section, _around(line, wanted)))
+    return list(hits.values())
+
+
+def _around(line: str, wanted: str) -> str:
+    """The part of a line that has a word in it."""
+    plain = " ".join(line.replace("`", "").replace("*", "").lstrip("# ").split())
+    at = max(plain.casefold().find(wanted), 0)
+    start = max(0, plain.rfind(" ", 0, max(0, at - AROUND)) + 1) if at > AROUND else 0
+    end = plain.find(" ", at + len(wanted) + AROUND)
+    return plain[start : end if end > 0 else len(plain)]
 
 
 def page(topic: str) -> str:

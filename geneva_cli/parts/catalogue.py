@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-from geneva_cli.errors import GenevaError, cut, nearest
+from geneva_cli.errors import GenevaError, cut, few, nearest
 from geneva_cli.spec.load_named import load_named
 from geneva_cli.spec.rules import Range, require_mm
 from geneva_cli.table import Table
@@ -174,7 +174,7 @@ def _in_plane(mechanism: Mechanism) -> bool:
 def _require_known(part: str) -> None:
     if part not in PARTS:
         raise GenevaError(
-            f"--part {cut(part)}: it must be one of {', '.join(PARTS)}{nearest(part, PARTS)}"
+            f"--part {cut(part)}: it must be one of {few(part, PARTS)}{nearest(part, PARTS)}"
         )
 
 

@@ -26,7 +26,7 @@ from typing import (
     get_type_hints,
 )
 
-from geneva_cli.errors import GenevaError, cut, nearest, refuse
+from geneva_cli.errors import GenevaError, cut, few, nearest, refuse
 from geneva_cli.spec.rules import Csv, OneOf, Words, is_array
 
 LIST: TypeAlias = tuple[float, ...]
@@ -296,7 +296,7 @@ def _pairs(place: tuple[str, ...], field: Field, value: Any) -> tuple[tuple[floa
 def unknown(key: str, table: str, known: Sequence[str]) -> GenevaError:
     """What is said of a key that a table does not have."""
     return GenevaError(
-        f"unknown key {cut(key)} in [{table}]{nearest(key, known)}; known: {', '.join(known)}",
+        f"unknown key {cut(key)} in [{table}]{nearest(key, known)}; known: {few(key, known)}",
         (*table.split("."), key),
     )
 

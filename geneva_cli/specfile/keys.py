@@ -91,6 +91,16 @@ def words_of(name: str) -> tuple[str, ...]:
     return tuple(dict.fromkeys(word for rule in (*some, *_lists(rules)) for word in rule))
 
 
+def is_whole(name: str) -> bool:
+    """Whether a key, as ``table.key``, takes whole numbers alone.
+
+    >>> is_whole("wheel.z"), is_whole("drive.A")
+    (True, False)
+    """
+    types = {k.type for k in every() if f"{_bare(k)}.{k.key}" == name}
+    return types == {TYPES[int]}
+
+
 def _lists(rules: list[Any]) -> list[OneOf]:
     return [rule for rule in rules if isinstance(rule, OneOf)]
 

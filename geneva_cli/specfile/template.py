@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from geneva_cli.errors import GenevaError, cut, nearest
+from geneva_cli.errors import GenevaError, cut, few, nearest
 from geneva_cli.machine import registry
 from geneva_cli.machine.drives.crank import Crank
 from geneva_cli.machine.example import Example
@@ -59,28 +59,38 @@ EXAMPLES = {
         },
     ),
 }
+# Keys that most people set, and usual values of them.
+USUAL: dict[str, dict[str, float]] = {
+    "drive": {"n_rpm": 60, "rollers": 1},
+    "size": {"center_distance_mm": 160, "roller_radius_mm": 9, "face_width_mm": 16},
+    "load": {"inertia_kgm2": 0.05, "torque_Nm": 2},
+    "limits": {"acceleration_max": 1.5, "pin_force_max_N": 600},
+}
 # the plain crank is in all of them
 DRIVES = tuple(name for name in registry.DRIVES if name != Crank.NAME)
 KINDS = (*registry.GEARINGS, *EXAMPLES, *DRIVES)
 
 
-def template(kind: str, schema: bool = True) -> str:
-    """The text of a valid spec; every key that it can have is there, its default and its meaning.
+def template(kind: str, schema: bool = True, whole: bool = True) -> str:
+    """The text of a valid spec: ``whole`` with every key that it can have, its default and its
+    meaning; otherwise with the keys that most people set.
 
     With ``schema`` its first line names the JSON Schema in the same folder, for editors.
     Raises GenevaError for a kind that is not known.
     """
     if kind not in KINDS:
-        known = ", ".join(KINDS)
         raise GenevaError(
-            f'unknown KIND "{cut(kind)}"{nearest(kind, KINDS)}; it must be one of {known}'
+            f'unknown KIND "{cut(kind)}"{nearest(kind, KINDS)}; it must be one of '
+            f"{few(kind, KINDS)}; `geneva new --list` has all"
         )
     about, given = example(kind)
     drive = registry.drive(str(given.get("drive", {}).get("kind", Crank.NAME)))
+    behind = "have the default shown, or none" if whole else "show usual values"
     lines = [
         *([f"#:schema ./{FILE}"] if schema else []),
         f"# A Geneva mechanism: {about}.",
-        "# Keys behind a # have the default shown, or none; remove the # to set them.",
+        f"# Keys behind a # {behind}; remove the # to set them.",
+        *([] if whole else [f"# All keys: geneva new {kind} --all"]),
         f"title = {quoted(about[0].upper() + about[1:])}",
     ]
     gearing = registry.gearing(str(given["wheel"].get("gearing", External.NAME)))
@@ -88,10 +98,27 @@ def template(kind: str, schema: bool = True) -> str:
     law_keys = [key for name in registry.LAWS for key in fields(registry.law(name))]
     keys = keys_of(gearing, drive, law_keys)
     for name, table in keys.items():
+        values = given.get(name, {})
         # an empty table of a list would be one more body, without any of its keys
         head = f"# [[{name}]]" if name in LISTS else f"[{name}]"
-        lines += ["", head, *[_line(field, given.get(name, {})) for field in table]]
+        block = [_line(f, values) for f in table] if whole else _usual(name, table, values)
+        lines += ["", head, *block] if block else []
     return "\n".join(lines) + "\n"
+
+
+def _usual(name: str, table: list[Field], values: dict[str, Any]) -> list[str]:
+    """The lines of the keys that an example sets, or that most people do."""
+    usual = USUAL.get(name, {})
+    shown = [field for field in table if field.key in values or field.key in usual]
+    settings = [
+        f"{field.key} = {quoted(values[field.key])}"
+        if field.key in values
+        else f"# {field.key} = {quoted(usual[field.key])}"
+        for field in shown
+    ]
+    width = max(map(len, settings), default=0)
+    notes = [field.meaning.partition("; ")[0] for field in shown]
+    return [f"{s.ljust(width)}  # {note}" for s, note in zip(settings, notes, strict=True)]
 
 
 def example(kind: str) -> Example:

@@ -6,7 +6,7 @@ import os
 from collections.abc import Callable, Iterator
 from typing import Any
 
-from geneva_cli.errors import GenevaError, clean, cut, nearest
+from geneva_cli.errors import GenevaError, clean, cut, few, nearest
 from geneva_cli.machine import registry
 from geneva_cli.machine.spec import Motion, Spec, attribute
 from geneva_cli.spec.rules import Csv
@@ -47,7 +47,7 @@ def spec_of(tree: dict[str, Any], name: str) -> Spec:
             what = f"[{cut(table)}]" if isinstance(value, dict) else cut(table)
             raise GenevaError(
                 f"unknown {'table' if isinstance(value, dict) else 'key'} {what}{hint}; "
-                f"known: title, {', '.join(f'[{t}]' for t in TABLES)}",
+                f"known: title, {few(table, [f'[{t}]' for t in TABLES])}",
                 (table,),
             )
         if table in LISTS:

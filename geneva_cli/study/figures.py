@@ -26,7 +26,7 @@ TABLES = {field.name.partition("_")[0] for field in dataclasses.fields(Spec)}
 def of_specs(
     paths: Sequence[str],
     given: Iterable[str] = (),
-    show: Sequence[str] = (),
+    pick: Sequence[str] = (),
     vary: Sequence[str] = (),
 ) -> tuple[Figure, list[Design], list[LeftOut]]:
     """The cycles of some specs in one figure, the designs, and what the figure lacks of which.
@@ -41,7 +41,7 @@ def of_specs(
     """
     texts = beside(paths, tuple(given), vary)
     designs = {name: Design.of(text.spec(), text) for name, text in texts.items()}
-    made, left_out = figure({name: design.cycle for name, design in designs.items()}, show)
+    made, left_out = figure({name: design.cycle for name, design in designs.items()}, pick)
     return made, list(designs.values()), [(texts[name].name, text) for name, text in left_out]
 
 

@@ -8,6 +8,7 @@ from geneva_cli.errors import GenevaError, cut
 from geneva_cli.machine.wheels import classic
 from geneva_cli.numerics.angles import sin_cos_pi
 from geneva_cli.spec.rules import SPEED, Z_MAX
+from geneva_cli.study.ranges import RangeText, range_text
 from geneva_cli.table import Reading, Table, rows_table
 
 NAMES = (
@@ -29,6 +30,7 @@ FIRST = (
     *("index_deg", "acceleration_max_deg", "rollers_max", "acceleration_entry", "jerk_entry"),
 )
 SIGNS = {"external": 1.0, "internal": -1.0}  # the wheels with closed forms
+Z_MIN = 3  # slots
 ROWS_MAX = 10_000
 SOLVED_MAX = 1_000  # of wheels without a closed form, whose peak is searched for: milliseconds each
 
@@ -134,28 +136,30 @@ def _general(z: int, gearing: str, n_rpm: float, rollers: int, A: float) -> tupl
 
 
 def parse_z(text: str) -> list[int]:
-    """The numbers of slots in ``6``, ``3..12``, ``3,4,6`` or a mixture."""
+    """The numbers of slots in ``6``, ``3..12``, ``4..12:2``, ``3,4,6`` or a mixture."""
     out: list[int] = []
+    said = f"--z {cut(text)}"
     for part in text.split(","):
-        first, dots, last = part.partition("..")
-        low, high = _slots(first, text), _slots(last if dots else first, text)
+        ends = range_text(part, said) or RangeText(part, part, "")
+        low, high = _slots(ends.low, text), _slots(ends.high, text)
+        step = _slots(ends.step, text, 1) if ends.step else 1
         if high < low:
-            raise GenevaError(f"--z {cut(text)}: {low}..{high} runs backwards; write {high}..{low}")
-        if len(out) + high - low >= ROWS_MAX:
-            raise GenevaError(f"--z {cut(text)}: that is more than {ROWS_MAX} rows; ask for fewer")
-        out.extend(range(low, high + 1))
+            raise GenevaError(f"{said}: {low}..{high} runs backwards; write {high}..{low}")
+        if len(out) + (high - low) // step >= ROWS_MAX:
+            raise GenevaError(f"{said}: that is more than {ROWS_MAX} rows; ask for fewer")
+        out.extend(range(low, high + 1, step))
     return out
 
 
-def _slots(text: str, whole: str) -> int:
+def _slots(text: str, whole: str, least: int = Z_MIN) -> int:
     number = text.strip()
     if not (number.isascii() and number.isdigit()):
         raise GenevaError(
             f'--z {cut(whole)}: "{cut(number)}" is not a whole number; write 6, 3..12 or 3,4,6'
         )
     z = int(number) if len(number) < 12 else Z_MAX + 1
-    if not 3 <= z <= Z_MAX:
+    if not least <= z <= Z_MAX:
         raise GenevaError(
-            f"--z {cut(whole)}: z = {cut(number)} must be at least 3, at most {Z_MAX}"
+            f"--z {cut(whole)}: {cut(number)} must be at least {least}, at most {Z_MAX}"
         )
     return z

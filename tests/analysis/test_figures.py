@@ -160,7 +160,7 @@ def test_what_cannot_be_shown():
     bare = Design(External(6))
     with pytest.raises(GenevaError, match="nothing resists the wheel"):
         bare.figure(["pin_force_N"])
-    with pytest.raises(GenevaError, match=r'--show jrk.*did you mean "jerk"'):
+    with pytest.raises(GenevaError, match=r'--pick jrk.*did you mean "jerk"'):
         bare.figure(["jrk"])
     with pytest.raises(GenevaError, match="face_width_mm"):
         Design(External(6), load=LOADED).figure(["contact_stress_MPa"])

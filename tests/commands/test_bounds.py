@@ -182,7 +182,7 @@ def test_a_sweep_holds_no_rows(file, how, more):
     """Its file grows block by block."""
     used = []
     for rows in (4_000, 40_000):
-        points = f"drive.A=0:0.9:{0.9 / (rows - 1)!r}" if how == "grid" else "drive.A=0:0.9"
+        points = f"drive.A=0..0.9:{0.9 / (rows - 1)!r}" if how == "grid" else "drive.A=0..0.9"
         vary = ["--vary", points, *(() if how == "grid" else ("--random", str(rows)))]
         picked = ["--pick", "velocity.max,acceleration.max", "--jobs", "1", "-o", file]
         status, said, megabytes, _ = run(

@@ -19,7 +19,7 @@ COMMANDS = {
     "motion": ["--samples", "73"],
     "profile": ["--tolerance", "0.05"],
     "loads": [],
-    "plot": ["--show", "wheel_deg,velocity,acceleration,jerk,power"],
+    "plot": ["--pick", "wheel_deg,velocity,acceleration,jerk,power"],
     "vibration": ["--period-ratio", "4.2", "--samples", "9"],
     "report": [],
     "check": [],

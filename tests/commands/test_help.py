@@ -84,7 +84,7 @@ def offered(line):
         ("geneva keys drive.ph", ["drive.phase"]),
         ("geneva help square", ["square-root"]),
         ("geneva explain branches_a", ["branches_apart_mm"]),
-        ("geneva plot spec.toml --show jerk,veloc", ["jerk,velocity"]),
+        ("geneva plot spec.toml --pick jerk,veloc", ["jerk,velocity"]),
         ("geneva compare spec.toml --pick acceleration.en", None),
         ("geneva loads sp", []),  # files: the shell's own
     ],
@@ -99,3 +99,18 @@ def test_a_shell_completes_words(line, words):
 
 def test_every_topic_is_offered():
     assert offered("geneva help ") == list(TOPICS)
+
+
+@pytest.mark.parametrize("name", COMMANDS)
+def test_the_help_of_a_command_fits_a_screen(name, monkeypatch):
+    """80 columns, some 45 lines, three examples: what is longer is in the manual."""
+    monkeypatch.setenv("COLUMNS", "80")
+    lines = geneva(name, "-h").splitlines()
+    assert len(lines) <= 45
+    assert max(map(len, lines)) <= 80
+    assert 1 <= len([e for n, e in EXAMPLES if n == name]) <= 4
+
+
+def test_help_names_the_pages_of_the_manual():
+    block = geneva("--help").partition("\nManual, ")[2]
+    assert all(topic in block.replace(",", "").split() for topic in TOPICS)

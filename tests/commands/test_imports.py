@@ -111,8 +111,8 @@ ROWS = [
     Row("explain horn_mm", "tomli numpy"),
     Row("laws", "numpy"),
     # NumPy: each row of synth says whether its parts can be built, for which they are laid out
-    Row("synth --tau 1/3 --z 6 --checked 1", "numpy"),
-    Row("synth --acceleration-max 0.5 --z 6 --checked 1", "numpy"),
+    Row("synth --tau 1/3 --z 6 --check 1", "numpy"),
+    Row("synth --subject-to acceleration_max<=0.5 --z 6 --check 1", "numpy"),
     Row("synth --motion-deg 180 --z 6 --write 1", "tomli numpy"),
     Row("synth --motion-deg 180 --z 6 --write 4", "tomli numpy"),
     Row("new external", "tomli"),
@@ -126,8 +126,8 @@ OWN = {
     "--version": "app errors streams",
     # no spec, no registry of kinds, no record of either: of the wheels their closed forms alone
     "table --z 6": "app errors streams table commands commands.completion commands.options "
-    "commands.table output output.finite output.formats output.text study study.survey analysis "
-    "analysis.cam_factors analysis.timing "
+    "commands.table output output.finite output.formats output.text study study.ranges "
+    "study.survey analysis analysis.cam_factors analysis.timing "
     "machine machine.wheels machine.wheels.classic numerics numerics.angles numerics.arrays spec "
     "spec.rules",
 }
@@ -249,10 +249,10 @@ def test_a_terminal_costs_no_more_than_a_pipe():
     assert not modules & HEAVY
 
 
-@pytest.mark.parametrize("sort", ["", "--sort loads.pin_force_N.rms"])
+@pytest.mark.parametrize("sort", ["", "--sort min:loads.pin_force_N.rms"])
 def test_loads_are_imported_where_they_are_asked_for(forks, sort):
     """No report is; nor is numpy.ma, of which some functions of NumPy take a moment."""
-    wish = "synth --motion-deg 180 --z 6 --external --rollers 1 --checked 0 " + sort
+    wish = "synth --motion-deg 180 --z 6 --external --rollers 1 --check 0 " + sort
     found = loaded_in(forks[1], wish.split())
     assert any(name.startswith("analysis.loads") for name in own(found)) == bool(sort)
     assert not any(name.startswith("verdict.report") for name in own(found))

@@ -148,5 +148,13 @@ def test_help_prints_the_page_the_list_or_the_options_of_a_command() -> None:
     assert invoke(["help", "symbols"]) == page("symbols")
     assert all(f"\n{topic} " in invoke(["help"]) for topic in TOPICS)
     assert invoke(["help", "keys"]) == invoke(["keys", "--help"])
-    result = CliRunner().invoke(app, ["help", "symbol"])
+    result = CliRunner().invoke(app, ["help", "symblos"])
     assert result.exit_code == 2 and 'did you mean "symbols"?' in result.output
+
+
+def test_help_searches_all_pages_for_another_word() -> None:
+    """Each section in which the word stands is named once, with the words around it."""
+    shown = invoke(["help", "Taplo"])
+    pages = [topic for topic in TOPICS if "taplo" in page(topic).casefold()]
+    assert pages and all(f"\n{topic} " in shown for topic in pages)
+    assert "\nexplain " in invoke(["help", "undercut"])

@@ -440,7 +440,7 @@ crank_radius_mm = 0.01
 # in every format; the rows of a sweep are csv, whoever reads them
 PRINTED = dict.fromkeys(titled(), ("table", "csv", "json", "md")) | {"sweep": ("",)}
 # what is made of a title there is in tests of the page
-del PRINTED["animate"], PRINTED["view"]
+del PRINTED["animate"]
 
 
 def once(read):

@@ -237,13 +237,13 @@ def test_a_title_with_the_name_of_a_part_of_the_page_stays_as_it_is():
     assert text.count('<script id="scene"') == text.count("// Where things are") == 1
 
 
-def test_view_leaves_one_page_that_nobody_else_can_place(tmp_path, monkeypatch):
+def test_an_opened_page_leaves_one_page_that_nobody_else_can_place(tmp_path, monkeypatch):
     """Two runs leave the last one's page; where a link has the folder's name, another is made."""
     monkeypatch.setattr(tempfile, "tempdir", str(tmp_path))
     for name in ("DISPLAY", "WAYLAND_DISPLAY"):
         monkeypatch.delenv(name, raising=False)
     for design in ("turret", "three-slots"):
-        shown = CliRunner().invoke(app, ["view", str(repo.DESIGNS / f"{design}.toml")])
+        shown = CliRunner().invoke(app, ["animate", str(repo.DESIGNS / f"{design}.toml"), "--open"])
         assert shown.exit_code == 0
     (folder,) = tmp_path.iterdir()
     assert folder.stat().st_mode & 0o777 == 0o700
@@ -255,7 +255,7 @@ def test_view_leaves_one_page_that_nobody_else_can_place(tmp_path, monkeypatch):
     theirs = tmp_path / "theirs"
     theirs.mkdir()
     folder.symlink_to(theirs)
-    shown = CliRunner().invoke(app, ["view", str(repo.DESIGNS / "turret.toml")])
+    shown = CliRunner().invoke(app, ["animate", str(repo.DESIGNS / "turret.toml"), "--open"])
     assert shown.exit_code == 0 and not list(theirs.iterdir())
 
 

@@ -74,3 +74,27 @@ def test_the_defaults_shown_are_the_defaults() -> None:
                 seen.add((table.TABLE, field.key))
     assert len(seen) > 10
     assert (tree["wheel"]["gearing"], tree["drive"]["kind"]) == ("external", "crank")
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_a_short_spec_is_the_whole_one_without_what_it_leaves_out(
+    kind: str, tmp_path: Path
+) -> None:
+    """Both describe the same machine."""
+    text, file = template(kind, whole=False), tmp_path / "spec.toml"
+    specs = []
+    for written in (text, template(kind)):
+        file.write_text(written, encoding="utf-8")
+        specs.append(load(str(file)).spec)
+    assert specs[0] == specs[1]
+    assert len([line for line in text.splitlines() if line and not line.startswith("[")]) <= 30
+
+
+def test_the_usual_values_of_a_short_spec_make_a_design_that_passes(tmp_path: Path) -> None:
+    lines = template("external", schema=False, whole=False).splitlines()
+    assert len(lines) <= 26
+    file = tmp_path / "spec.toml"
+    file.write_text("\n".join(x.removeprefix("# ") if " = " in x else x for x in lines))
+    design = load(str(file))
+    assert design.spec.load.torque_Nm == 2.0
+    assert design.passes

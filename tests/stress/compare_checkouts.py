@@ -72,10 +72,10 @@ def lines_of_no_design() -> list[str]:
     best = "--best min:loads.pin_force_N.max"
     calls += [
         "synth --motion-deg 180 --z 6 --format json",
-        "synth --motion-deg 100..200 --z 6,8 --checked 0 --format json",
+        "synth --motion-deg 100..200 --z 6,8 --check 0 --format json",
         "synth --dwell-s 0.8 --cycle 1.5 --z 8 --motion-deg ..180 --format json",
-        f"{turret} --vary drive.n_rpm=20:60:10 {front}",
-        f"{turret} --vary size.center_distance_mm=200:300 {best}",
+        f"{turret} --vary drive.n_rpm=20..60:10 {front}",
+        f"{turret} --vary size.center_distance_mm=200..300 {best}",
         f"compare {several} --format csv",
         "compare designs/press-straight.toml designs/press-345.toml --ratio --format json",
     ]

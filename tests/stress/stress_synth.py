@@ -22,12 +22,12 @@ ROWS = 105  # as many as the trial in which an older synth's specs failed 27 tim
 WISHES = (
     {"tau": "1/3"},
     {"tau": "0.6"},
-    {"k": "1/4"},
+    {"tau": "1/5"},
     {"motion_deg": "100"},
     {"motion_deg": "180"},
     {"motion_deg": "240"},
-    {"acceleration_max": "0.5"},
-    {"acceleration_max": "1.5"},
+    {"subject_to": ["acceleration.max <= 0.5"]},
+    {"subject_to": ["acceleration.max <= 1.5"]},
     {"dwell_s": "0.8..", "cycle": "1.5", "motion_deg": "..180"},
     {"tau": "0.2..0.4", "subject_to": ["jerk.max <= 20"]},
 )

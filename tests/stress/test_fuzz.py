@@ -139,7 +139,7 @@ def test_a_finding_is_a_finding():
 
 # Command lines
 
-DRAWN = {"plot", "animate", "view", "profile"}  # whose formats depend on what is drawn
+DRAWN = {"plot", "animate", "profile"}  # whose formats depend on what is drawn
 PRINTED = {"sweep": ("csv",), "report": ("table", "json", "md", "html", "csv")}
 TEMPORARY = "temporary"
 HELP = {"-h", "--help"}  # prints text, whatever the format
@@ -189,15 +189,15 @@ SOUND_SPECS = [
 ]
 # Values that an option may have, where the command has it; of others only nonsense is tried.
 SOUND_VALUES = {
-    "--A": ["0.5"], "--best": ["min:acceleration.max"], "--checked": ["0"], "--cutter": ["2"],
+    "--A": ["0.5"], "--best": ["min:acceleration.max"], "--check": ["0"], "--cutter": ["2"],
     "--curves": ["arcs", "spline"], "--cycle": ["1"], "--damping": ["0.05"],
     "--dxf-version": ["R12", "R2018"], "--fill": ["tint", "hatch"], "--jobs": ["1"],
     "--kerf": ["0.2"], "--lambda": ["0.1"], "--n": ["90"], "--pareto": ["min:jerk.max,max:dwell_s"],
     "--part": ["slot", "wheel", "crank", "arm", "parts", "assembly", "frame", "coupon"],
     "--period-ratio": ["5.5"], "--pick": ["dwell_s", "jerk.max,velocity.max"],
-    "--process": ["laser", "mill"], "--radius": ["100"], "--rollers": ["1"], "--samples": ["9"],
+    "--radius": ["100"], "--rollers": ["1"], "--samples": ["9"],
     "--seed": ["7"], "--set": ["drive.n_rpm=90", "wheel.z=7"], "--shard": ["1/2"],
-    "--show": ["velocity", "acceleration,jerk"], "--sort": ["jerk.max"],
+    "--sort": ["min:jerk.max"],
     "--subject-to": ["dwell_s >= 0.1"], "--tau": ["1/3"], "--tolerance": ["0.01"],
     "--units": ["inch"], "--vary": ["drive.n_rpm=30,60"], "--z": ["6", "3..5"],
 }  # fmt: skip

@@ -33,7 +33,7 @@ def test_the_bound_that_binds_is_met_exactly(tmp_path):
     The witness solves the dwell's own equation: half the motion is phi + asin(A sin phi) with phi
     = 60 deg, and the dwell is what is left of a turn in a second."""
     lines, design = best(
-        tmp_path, "drive.A=-0.5:0.9", best="acceleration.max", subject_to=["dwell_s >= 0.55"]
+        tmp_path, "drive.A=-0.5..0.9", best="min:acceleration.max", subject_to=["dwell_s >= 0.55"]
     )
     half = np.radians(60.0)
     A = brentq(lambda A: 1.0 - (half + np.arcsin(A * np.sin(half))) / np.pi - 0.55, 0.0, 0.9)
@@ -49,7 +49,7 @@ def test_a_bound_that_rounding_breaks_is_said_to_be_met_to_rounding(tmp_path):
     lines, _ = best(
         tmp_path,
         "drive.A=0",
-        best="acceleration.max",
+        best="min:acceleration.max",
         random=None,
         subject_to=[f"dwell_s >= {bound!r}"],
     )
@@ -62,7 +62,7 @@ def test_of_the_best_alone_is_told_what_is_asked_for_beside(tmp_path, monkeypatc
     plain = Proof.turn.fget
     monkeypatch.setattr(Proof, "turn", property(lambda proof: turned.append(proof) or plain(proof)))
     asked = {"pick": "smallest_gap_mm,drive.kind", "check": True, "best": "max:dwell_s"}
-    lines, design = best(tmp_path, "drive.A=-0.2:0.5", **asked)
+    lines, design = best(tmp_path, "drive.A=-0.2..0.5", **asked)
     assert len({*map(id, turned)}) == 1
     said = dict(line[2:].split(": ") for line in lines if line.startswith("# ") and ": " in line)
     (gap,) = (check.value for check in design.checks if check.name == "gap_mm")
@@ -73,7 +73,7 @@ def test_of_the_best_alone_is_told_what_is_asked_for_beside(tmp_path, monkeypatc
 def test_where_designs_are_worked_out_one_by_one_no_clouds_are():
     """A dwell of unequal steps is: 18,000 designs about the best ones would take minutes."""
     spec = os.path.join(os.path.dirname(SPEC), "unequal-steps.toml")
-    asked = request(spec, ["drive.n_rpm=10:60"], random=2, jobs=1, best="timing.dwell_s")
+    asked = request(spec, ["drive.n_rpm=10..60"], random=2, jobs=1, best="min:timing.dwell_s")
     rows = [row for block in asked.blocks() for row in block]
     search = SweepSearch(asked.sweep, asked.objectives[0], asked.constraints)
     assert asked.sweep.together and closer(search, rows) == rows
@@ -82,8 +82,8 @@ def test_where_designs_are_worked_out_one_by_one_no_clouds_are():
 def test_it_is_no_worse_than_any_of_a_fine_grid(tmp_path):
     """Two bounds at once, of which one binds."""
     bounds = ["motion_deg <= 150", "velocity.max <= 0.8"]
-    _, design = best(tmp_path, "drive.A=-0.5:0.9", best="min:jerk.max", subject_to=bounds)
-    grid = request(SPEC, ["drive.A=-0.5:0.9:0.01"], pick="jerk.max", subject_to=bounds, jobs=1)
+    _, design = best(tmp_path, "drive.A=-0.5..0.9", best="min:jerk.max", subject_to=bounds)
+    grid = request(SPEC, ["drive.A=-0.5..0.9:0.01"], pick="jerk.max", subject_to=bounds, jobs=1)
     rows = [row for block in grid.chosen(grid.blocks()) for row in block]
     at = grid.sweep.names.index("jerk.max")
     assert design.peaks.jerk.max <= min(row[at] for row in rows)
@@ -98,8 +98,8 @@ def test_the_number_of_slots_is_not_left_to_luck(tmp_path):
     with 24: 40 rpm, and A = sin((140 - 165)/2)/sin(165/2) by the law of sines (theory.md, 1.8).
     """
     bounds = ["cycle_s <= 1.5", "motion_deg <= 140"]
-    spans = ["drive.A=-0.9:0.95", "wheel.z=3..24", "drive.n_rpm=10:100"]
-    asked = {"best": "acceleration.max_rad_s2", "subject_to": bounds, "random": 64}
+    spans = ["drive.A=-0.9..0.95", "wheel.z=3..24", "drive.n_rpm=10..100"]
+    asked = {"best": "min:acceleration.max_rad_s2", "subject_to": bounds, "random": 64}
     _, design = best(tmp_path, *spans, **asked)
     A = np.sin(np.radians((140 - 165) / 2)) / np.sin(np.radians(165 / 2))
     assert (design.spec.wheel.z, design.spec.drive.A) == (24, pytest.approx(A, abs=1e-6))
@@ -118,7 +118,7 @@ def test_the_greatest_and_the_words(tmp_path):
 
 
 def test_a_title_with_quotation_marks_survives(tmp_path):
-    found = request(SPEC, ["wheel.z=4,5"], ['title=a "b" c'], best="jerk.max", jobs=1)
+    found = request(SPEC, ["wheel.z=4,5"], ['title=a "b" c'], best="min:jerk.max", jobs=1)
     assert tomli.loads("\n".join(found.best(found.blocks())))["title"] == (
         'Least jerk.max, varied from: a "b" c'
     )
@@ -127,7 +127,7 @@ def test_a_title_with_quotation_marks_survives(tmp_path):
 def test_a_front_within_bounds():
     asked = request(
         SPEC,
-        ["drive.A=-0.4:0.8:0.1", "wheel.z=5,6"],
+        ["drive.A=-0.4..0.8:0.1", "wheel.z=5,6"],
         pareto="min:acceleration.max,max:dwell_s",
         subject_to=["motion_deg <= 150"],
         jobs=1,
@@ -153,7 +153,7 @@ def test_bounds_that_contradict_each_other_are_told_with_what_comes_nearest(tmp_
     """A motion of 200 deg and a velocity of 0.8, which is at most 0.575 there."""
     bounds = ["motion_deg >= 200", "velocity.max >= 0.8"]
     with pytest.raises(GenevaError) as error:
-        best(tmp_path, "drive.A=-0.5:0.9", best="jerk.max", subject_to=bounds)
+        best(tmp_path, "drive.A=-0.5..0.9", best="min:jerk.max", subject_to=bounds)
     said = str(error.value)
     assert re.search(r"motion_deg >= 200 is kept by [\d,]+; velocity.max >= 0.8 is kept by", said)
     near = re.search(r"nearest to all has timing.motion_deg (\S+), velocity.max (\S+)$", said)
@@ -169,11 +169,14 @@ def test_bounds_that_contradict_each_other_are_told_with_what_comes_nearest(tmp_
 @pytest.mark.parametrize(
     ("asked", "said"),
     [
-        ({"best": "jerk.max", "subject_to": ["dwell_s >= 5"]}, "is kept by 0, the nearest being"),
-        ({"best": "jerk.mx"}, "did you mean"),
-        ({"best": "jerk.max", "pareto": "min:jerk.max"}, "choose one of them"),
         (
-            {"best": "jerk.max", "subject_to": ["dwell_s >= 2", "timing.dwell_s <= 1"]},
+            {"best": "min:jerk.max", "subject_to": ["dwell_s >= 5"]},
+            "is kept by 0, the nearest being",
+        ),
+        ({"best": "min:jerk.mx"}, "did you mean"),
+        ({"best": "min:jerk.max", "pareto": "min:jerk.max"}, "choose one of them"),
+        (
+            {"best": "min:jerk.max", "subject_to": ["dwell_s >= 2", "timing.dwell_s <= 1"]},
             "nothing is both",
         ),
         ({"pareto": "jerk.max"}, "min:FIELD or max:FIELD"),

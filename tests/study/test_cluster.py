@@ -31,7 +31,7 @@ def test_the_dask_example_makes_the_bytes_of_one_run(tmp_path):
         timeout=120,
         check=True,
     )
-    asked = request(str(tmp_path / "wish.toml"), ["drive.A=0:0.9:0.05"], jobs=1)
+    asked = request(str(tmp_path / "wish.toml"), ["drive.A=0..0.9:0.05"], jobs=1)
     lines = (tmp_path / "all.csv").read_text().splitlines()
     assert lines[0] == ",".join(asked.sweep.names)
     rows = [row for block in asked.blocks() for row in block]

@@ -6,7 +6,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from geneva_cli.errors import GenevaError
-from geneva_cli.study.sweep.front import Objective, best, front, objective
+from geneva_cli.study.goals import Objective, objective
+from geneva_cli.study.sweep.front import best, front
 
 
 def dominates(a, b):
@@ -29,14 +30,14 @@ def test_rows_without_a_number_are_none_of_them():
 
 
 def test_objectives():
-    assert objective("min:acceleration.max") == Objective(1.0, "acceleration.max")
-    assert objective(" max:dwell_s").sign == -1.0
+    assert objective("min:acceleration.max", "--best") == Objective(1.0, "acceleration.max")
+    assert objective(" max:dwell_s", "--best").sign == -1.0
 
 
 @pytest.mark.parametrize("text", ["acceleration.max", "least:a", "min:", ""])
 def test_no_objective(text):
-    with pytest.raises(GenevaError, match="min:FIELD or max:FIELD"):
-        objective(text)
+    with pytest.raises(GenevaError, match=r"--best .*min:FIELD or max:FIELD"):
+        objective(text, "--best")
 
 
 def test_of_blocks_the_same_front_is_left():

@@ -55,7 +55,7 @@ def test_a_curve_for_each_combination_of_the_other_keys():
 
 
 def test_rows_drawn_at_random_are_points():
-    vary = ["--vary", "drive.A=0:0.9", "--vary", "drive.n_rpm=20:90"]
+    vary = ["--vary", "drive.A=0..0.9", "--vary", "drive.n_rpm=20..90"]
     file = sweep(*vary, "--random", "40", "--pick", "acceleration.max_rad_s2")
     (curve,) = of_table(file, "drive.A", ["acceleration.max_rad_s2"]).panels[0].curves
     assert curve.style == POINTS
@@ -63,7 +63,7 @@ def test_rows_drawn_at_random_are_points():
 
 
 def test_a_front_is_joined():
-    vary = ["--vary", "drive.A=0:0.9", "--vary", "wheel.z=5..8", "--random", "60"]
+    vary = ["--vary", "drive.A=0..0.9", "--vary", "wheel.z=5..8", "--random", "60"]
     file = sweep(*vary, "--pareto", "min:acceleration.max,max:dwell_s")
     (curve,) = of_table(file, "acceleration.max", ["dwell_s"]).panels[0].curves
     assert curve.style == JOINED
@@ -151,8 +151,8 @@ def test_one_point_and_a_constant():
 @pytest.mark.parametrize(
     ("arguments", "wants"),
     [
-        ([SPEC, "--show", "velocty"], 'velocty: no quantity of a cycle (did you mean "velocity"?)'),
-        ([SPEC, "--show", "pin_force_N"], "nothing resists the wheel"),
+        ([SPEC, "--pick", "velocty"], 'velocty: no quantity of a cycle (did you mean "velocity"?)'),
+        ([SPEC, "--pick", "pin_force_N"], "nothing resists the wheel"),
         ([SPEC, "--x", "a"], "--x and --y are for a .csv"),
         ([SPEC, SPEC], "given twice"),
         ([SPEC, "-o", "no/such/folder.svg"], "cannot write: No such file or directory"),
@@ -160,7 +160,7 @@ def test_one_point_and_a_constant():
         ([SPEC, "--format", "png"], "not for standard output"),
         ([SPEC, "rows.csv"], "a csv is plotted by itself"),
         (["none.csv", "--x", "a", "--y", "b"], "none.csv: cannot read: No such file"),
-        (["rows.csv", "--show", "jerk"], "--show is for specs"),
+        (["rows.csv", "--pick", "jerk"], "--pick is for specs"),
         (["rows.csv", "--x", "a", "--y", "b", "-o", "rows.csv"], "is an input"),
     ],
 )
@@ -175,7 +175,7 @@ def test_refused(arguments, wants):
 
 def test_a_quantity_that_one_design_lacks_is_left_out_with_a_word():
     loaded = str(repo.DESIGNS / "turret.toml")
-    found = run("plot", SPEC, loaded, "--show", "pin_force_N", "-o", "a.svg")
+    found = run("plot", SPEC, loaded, "--pick", "pin_force_N", "-o", "a.svg")
     assert found.exit_code == 0
     assert f"{SPEC}: warning: no curve of pin_force_N: nothing resists" in found.stderr
     with open("a.svg", encoding="utf-8") as file:
@@ -183,7 +183,7 @@ def test_a_quantity_that_one_design_lacks_is_left_out_with_a_word():
 
 
 def test_a_key_over_the_file_s_reaches_the_curves():
-    found = run("plot", SPEC, "--set", "drive.A=0", "--show", "velocity")
+    found = run("plot", SPEC, "--set", "drive.A=0", "--pick", "velocity")
     assert "velocity: peak 1 at 0.00 deg" in found.stdout  # of a plain crank and six slots
 
 
@@ -201,9 +201,9 @@ def test_starts_quickly():
 
 def test_one_spec_through_values_is_a_curve_for_each():
     """The same curves as of the key set over the file; several files have none to vary."""
-    found = run("plot", SPEC, "--vary", "drive.A=0,0.6", "--show", "velocity", "--format", "json")
+    found = run("plot", SPEC, "--vary", "drive.A=0,0.6", "--pick", "velocity", "--format", "json")
     assert found.exit_code == 0, found.output
-    alone = run("plot", SPEC, "--set", "drive.A=0", "--show", "velocity", "--format", "json")
+    alone = run("plot", SPEC, "--set", "drive.A=0", "--pick", "velocity", "--format", "json")
     rows, own = (json.loads(one.stdout)["rows"] for one in (found, alone))
     assert {row["curve"] for row in rows} == {"drive.A=0", "drive.A=0.6"}
     first = {(row["input_deg"], row["value"]) for row in rows if row["curve"] == "drive.A=0"}

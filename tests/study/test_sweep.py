@@ -79,7 +79,7 @@ def test_words_and_kinds_vary_too():
 
 
 def test_the_same_rows_whatever_the_processes_and_shares():
-    some = grid("drive.A=-0.9:0.9:0.05", "wheel.z=4,6")
+    some = grid("drive.A=-0.9..0.9:0.05", "wheel.z=4,6")
     alone = rows(sweep(read(SPEC), some), workers=1)
     assert rows(sweep(read(SPEC), some), workers=2) == alone
     shares = [sweep(read(SPEC), some, shard=Shard(i, 3)) for i in (1, 2, 3)]
@@ -163,7 +163,7 @@ LAW = "".join(f"{i / 20},{(i / 20) ** 2 * (3 - i / 10)}\n" for i in range(21))
 @pytest.mark.parametrize(
     "arguments",
     [
-        ["sweep", "spec.toml", "--vary", "drive.n_rpm=60,70", "--best", "k", "-o", "spec.toml"],
+        ["sweep", "spec.toml", "--vary", "drive.n_rpm=60,70", "--best", "min:k", "-o", "spec.toml"],
         ["sweep", "spec.toml", "--vary", "motion.file=a.csv,b.csv", "-o", "b.csv"],
         [
             "sweep",
@@ -202,7 +202,7 @@ def rows_of(state):
 def test_ctrl_c_leaves_what_was_done(tmp_path):
     """One design after the other, so slowly that the run is stopped among them."""
     file, part = tmp_path / "rows.csv", tmp_path / "rows.csv.geneva"
-    slow = ["--vary", "drive.A=0:0.5:0.0025", "--pick", "sizes.ratio,jerk.max", "--jobs", "2"]
+    slow = ["--vary", "drive.A=0..0.5:0.0025", "--pick", "sizes.ratio,jerk.max", "--jobs", "2"]
     command = [sys.executable, "-m", "geneva_cli", "sweep", SPEC, *slow, "-o", str(file)]
     run = subprocess.Popen(command, preexec_fn=heed_signals)
     try:
@@ -226,7 +226,7 @@ def test_ctrl_c_leaves_what_was_done(tmp_path):
 @pytest.mark.parametrize("options", [{"picks": ["smallest_gap_mm"]}, {"check": True}])
 def test_what_takes_long_is_there_soon(options):
     """A process that turns parts hands over few rows at a time: what is stopped loses no more."""
-    found = sweep(read(SPEC), plan([axis("drive.A=0:0.2:0.01")], None, 0), **options)
+    found = sweep(read(SPEC), plan([axis("drive.A=0..0.2:0.01")], None, 0), **options)
     assert 0 < len(next(blocks(found, workers=1))) <= 8
 
 
@@ -234,15 +234,15 @@ def test_a_wrong_range_of_a_key_that_the_spec_lacks_is_what_is_said(tmp_path):
     """Not that the key is missing, which --vary gives."""
     spec = tmp_path / "spec.toml"
     spec.write_text('[wheel]\nz = 6\n[drive]\nkind = "side-crank"\n')
-    found = geneva("sweep", str(spec), "--vary", "drive.A=0:1:0")
+    found = geneva("sweep", str(spec), "--vary", "drive.A=0..1:0")
     assert found.exit_code == 2
-    assert found.stderr.startswith("--vary drive.A=0:1:0: a step of 0 never comes from 0 to 1")
-    assert geneva("sweep", str(spec), "--vary", "drive.A=0:0.5:0.1").exit_code == 0
+    assert found.stderr.startswith("--vary drive.A=0..1:0: a step of 0 never comes from 0 to 1")
+    assert geneva("sweep", str(spec), "--vary", "drive.A=0..0.5:0.1").exit_code == 0
 
 
 def test_the_best_of_some_says_what_was_left_out():
     """A word that is none would else be passed over without one."""
-    words = ("sweep", SPEC, "--vary", "wheel.gearing=external,intrenal", "--best", "jerk.max")
+    words = ("sweep", SPEC, "--vary", "wheel.gearing=external,intrenal", "--best", "min:jerk.max")
     found = geneva(*words)
     assert found.exit_code == 0 and "# The least jerk.max" in found.stdout
     assert "1 of 2 designs cannot be built: the first: wheel.gearing=intrenal" in found.stderr
@@ -328,10 +328,10 @@ def test_the_spec_may_come_from_a_pipe():
 @pytest.mark.parametrize(
     ("arguments", "said"),
     [
-        (["--vary", "drive.A=0:1:0"], "a step of 0 never comes"),
+        (["--vary", "drive.A=0..1:0"], "a step of 0 never comes"),
         (["--vary", "drive.B=1,2"], "drive.B=1: unknown key B in [drive]"),
         (["--vary", "drive.A=0.1", "--pick", "acceleration.mx"], "did you mean"),
-        (["--vary", "drive.A=0.1", "--best", "jerk.mx"], "--best jerk.mx: no quantity"),
+        (["--vary", "drive.A=0.1", "--best", "min:jerk.mx"], "--best jerk.mx: no quantity"),
         (["--vary", "drive.A=0.1", "--pareto", "min:jerk.mx"], "--pareto jerk.mx: no quantity"),
         (["--vary", "drive.A=0.1", "--subject-to", "jerk.mx <= 1"], "--subject-to jerk.mx: no"),
         (["--vary", "drive.A=0.1", "-o", "rows.xlsx"], "it must end in .csv or .parquet"),
@@ -348,9 +348,9 @@ def test_the_spec_may_come_from_a_pipe():
         (["--vary", "drive.A=0.1", "--set", "drive.A=foo"], "--set drive.A=foo: --vary drive.A"),
         (["--vary", "drive.A=0.1", "--pick", "peaks.velocity.max"], 'mean "velocity.max"?'),
         (["--vary", "drive.A=0.1", "--pick", "dwell"], '(did you mean "dwell_s"?)'),
-        (["--vary", "drive.A=0.1", "--best", "k", "-o", "all.csv"], "--best writes a spec"),
-        (["--vary", "drive.A=0.1", "--best", "k", "--format", "json"], "--best writes a spec"),
-        (["--vary", "drive.A=0.1", "--best", "k", "--resume"], "--best has none to go on with"),
+        (["--vary", "drive.A=0.1", "--best", "min:k", "-o", "all.csv"], "--best writes a spec"),
+        (["--vary", "drive.A=0.1", "--best", "min:k", "--format", "json"], "--best writes a spec"),
+        (["--vary", "drive.A=0.1", "--best", "min:k", "--resume"], "--best has none to go on with"),
         (["--vary", "drive.A=2,3"], "none of the 2 designs can be built: drive.A=2"),
         ([], "--vary is missing"),
     ],
@@ -378,10 +378,10 @@ def test_where_no_row_is_left_it_says_why():
 
 def test_one_design_anywhere_tells_what_there_is():
     """The first 1000 cannot be built, nor the one in the middle; a later one can."""
-    found = sweep(read(SPEC), grid("drive.A=-5:0.9:0.001"), picks=["velocity.max"])
+    found = sweep(read(SPEC), grid("drive.A=-5..0.9:0.001"), picks=["velocity.max"])
     assert found.rows(5900, 5901)[0][1] == pytest.approx(1.0 / 1.9, rel=1e-15)
     with pytest.raises(GenevaError, match=r"none of 1000 designs all over can be built: drive.A=2"):
-        sweep(read(SPEC), grid("drive.A=2:3:0.001"), picks=["velocity.max"])
+        sweep(read(SPEC), grid("drive.A=2..3:0.001"), picks=["velocity.max"])
 
 
 def test_a_key_that_the_spec_lacks_may_be_the_one_that_is_varied(tmp_path):

@@ -39,19 +39,19 @@ def rows(spec, vary, picks, random=None):
 @pytest.mark.parametrize(
     ("spec", "vary", "some"),
     [
-        ("side-crank-z6.toml", ["drive.A=-0.9:1.1:0.1", "wheel.z=2..8"], True),
-        ("side-crank-z6.toml", ["drive.A=-0.5:0.5:0.25", "wheel.gearing=external,internal"], True),
-        ("spherical-z6.toml", ["wheel.axes_deg=0:180:20", "wheel.z=3..5"], True),
-        ("offset-slots.toml", ["wheel.offset_mm=-80:80:8"], True),
+        ("side-crank-z6.toml", ["drive.A=-0.9..1.1:0.1", "wheel.z=2..8"], True),
+        ("side-crank-z6.toml", ["drive.A=-0.5..0.5:0.25", "wheel.gearing=external,internal"], True),
+        ("spherical-z6.toml", ["wheel.axes_deg=0..180:20", "wheel.z=3..5"], True),
+        ("offset-slots.toml", ["wheel.offset_mm=-80..80:8"], True),
         ("internal-z6.toml", ["drive.kind=crank,side-crank", "drive.A=0.1,0.3"], True),
-        ("modified-sine-matched.toml", ["motion.alpha0_deg=-100:100:25", "wheel.z=3..6"], True),
+        ("modified-sine-matched.toml", ["motion.alpha0_deg=-100..100:25", "wheel.z=3..6"], True),
         (
             "modified-sine-matched.toml",
-            ["motion.law=cycloidal,3-4-5", "drive.n_rpm=10:30:10"],
+            ["motion.law=cycloidal,3-4-5", "drive.n_rpm=10..30:10"],
             True,
         ),
         ("three-rollers-z4.toml", ["drive.rollers=1..3", "wheel.z=3..5"], True),
-        ("unequal-steps.toml", ["drive.n_rpm=10:30:10"], False),
+        ("unequal-steps.toml", ["drive.n_rpm=10..30:10"], False),
     ],
 )
 def test_together_as_alone(spec, vary, some):
@@ -71,7 +71,7 @@ def test_together_as_alone(spec, vary, some):
 def test_what_no_design_has_is_had_at_once():
     """Without a face width there is no contact stress: no design need be asked for it alone."""
     _, alone, found = rows(
-        "internal-z6.toml", ["drive.n_rpm=10:50:10"], ["loads.contact_stress_MPa.max"]
+        "internal-z6.toml", ["drive.n_rpm=10..50:10"], ["loads.contact_stress_MPa.max"]
     )
     every = found.plan.rows(0, len(alone))
     known = batch.table(every, ["drive.n_rpm"], found.pick.names, found._spec)
@@ -81,8 +81,8 @@ def test_what_no_design_has_is_had_at_once():
 @pytest.mark.parametrize(
     ("spec", "vary"),
     [
-        ("side-crank-z6.toml", ["drive.A=-0.9:0.9:0.3", "wheel.gearing=external,internal"]),
-        ("spherical-z6.toml", ["wheel.axes_deg=30:150:30"]),
+        ("side-crank-z6.toml", ["drive.A=-0.9..0.9:0.3", "wheel.gearing=external,internal"]),
+        ("spherical-z6.toml", ["wheel.axes_deg=30..150:30"]),
         ("modified-sine-matched.toml", ["motion.law=cycloidal,3-4-5", "wheel.z=4..6"]),
         ("two-rollers-side-crank.toml", ["drive.A=0.1,0.2"]),
         ("unequal-steps.toml", ["drive.n_rpm=10,30"]),
@@ -113,7 +113,7 @@ LOADS = [
 @pytest.mark.parametrize(
     ("spec", "vary", "some"),
     [
-        ("side-crank-z6.toml", ["drive.A=-0.6:0.6:0.6", "load.friction=0,0.1"], 6),
+        ("side-crank-z6.toml", ["drive.A=-0.6..0.6:0.6", "load.friction=0,0.1"], 6),
         # nothing bounds the loads of a curved slot that the pin crosses
         ("modified-sine-matched.toml", ["motion.alpha0_deg=-30,10", "load.friction=0,0.1"], 4),
         ("unequal-steps.toml", ["load.inertia_kgm2=1,2"], 2),
@@ -238,4 +238,4 @@ def test_a_row_is_the_same_alone_and_among_thousands(tmp_path, monkeypatch):
         call = ["sweep", "spec.toml", "--vary", f"drive.A={values}", "--pick", picked]
         return CliRunner().invoke(app, [*call, "--format", "csv"]).stdout.splitlines()[-1]
 
-    assert last("0:0.8:0.0001") == last("0:0.8:0.002")
+    assert last("0..0.8:0.0001") == last("0..0.8:0.002")

@@ -69,7 +69,7 @@ def test_the_input_crank_alone_reaches_the_shaft(tmp_path):
 def test_the_best_of_a_ratio_that_has_a_bound_at_one_number():
     """A cloud comes near the 1/2 of the spec, and never to it: its own design is tried too."""
     path = os.path.join(DESIGNS, "sine-group.toml")
-    asked = request(path, ["motion.ratio=0.4:0.7"], best="min:loads.pin_force_N.max", random=64)
+    asked = request(path, ["motion.ratio=0.4..0.7"], best="min:loads.pin_force_N.max", random=64)
     lines = asked.best(asked.blocks())
     assert "of 65 designs, 1 of them within the bounds: 4202.7525." in lines[0]
     single = load(path).loads["pin_force_N"]

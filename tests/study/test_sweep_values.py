@@ -13,8 +13,12 @@ from geneva_cli.study.sweep.values import VariedKey, axis
     [
         ("wheel.z=4,6,8", (4, 6, 8)),
         ("wheel.z=3..7", (3, 4, 5, 6, 7)),
-        ("drive.A=0:0.9:0.3", (0.0, 0.3, 0.6, 0.9)),
-        ("drive.A=0.9:0:-0.45", (0.9, 0.45, 0.0)),
+        ("wheel.z=4..9:2", (4, 6, 8)),
+        ("wheel.z=9..4:-2", (9, 7, 5)),
+        ("wheel.z=3..5,8", (3, 4, 5, 8)),
+        ("drive.A=0..0.2:0.1,0.5", (0.0, 0.1, 0.2, 0.5)),
+        ("drive.A=0..0.9:0.3", (0.0, 0.3, 0.6, 0.9)),
+        ("drive.A=0.9..0:-0.45", (0.9, 0.45, 0.0)),
         ("drive.A=-.5,0", (-0.5, 0)),
         ('motion.law="cycloidal,3-4-5"', ("cycloidal", "3-4-5")),
         ("motion.law=cycloidal", ("cycloidal",)),
@@ -32,14 +36,20 @@ def test_values(text, values):
 def test_a_range_is_its_decimals(low, count, digits):
     """Each value is the double that its decimal numeral reads as, whatever sums would give."""
     unit = 10**digits
-    text = f"size.x={low / unit}:{(low + count) / unit}:{1 / unit}"
+    text = f"size.x={low / unit}..{(low + count) / unit}:{1 / unit}"
     assert tuple(axis(text).values) == tuple((low + i) / unit for i in range(count + 1))
 
 
 def test_a_span_is_for_random_draws_only():
-    assert axis("drive.A=0:0.9", random=True) == VariedKey("drive.A", (0.0, 0.9), span=True)
-    with pytest.raises(GenevaError, match="a range is LOW:HIGH:STEP"):
-        axis("drive.A=0:0.9")
+    assert axis("drive.A=0..0.9", random=True) == VariedKey("drive.A", (0.0, 0.9), span=True)
+    with pytest.raises(GenevaError, match=r"a range of fractions needs its step: LOW\.\.HIGH:STEP"):
+        axis("drive.A=0..0.9")
+
+
+def test_what_is_between_follows_from_the_key():
+    """A key that takes whole numbers alone has whole numbers drawn, another all between."""
+    assert tuple(axis("wheel.z=5..7", random=True).values) == (5, 6, 7)
+    assert axis("drive.n_rpm=5..7", random=True) == VariedKey("drive.n_rpm", (5.0, 7.0), span=True)
 
 
 @pytest.mark.parametrize(
@@ -48,17 +58,19 @@ def test_a_span_is_for_random_draws_only():
         ("drive.A", "it must be TABLE.KEY=VALUES"),
         ("A=1,2", "it must be TABLE.KEY=VALUES"),
         ("drive.A=", "it must be TABLE.KEY=VALUES"),
-        ("drive.A=0:1:0", "a step of 0 never comes from 0 to 1"),
-        ("drive.A=0:1:-0.1", "a step of -0.1 never comes"),
-        ("drive.A=0:1:1e-12", "1e+12 values; at most 100,000,000"),
+        ("drive.A=0..1:0", "a step of 0 never comes from 0 to 1"),
+        ("drive.A=0..1:-0.1", "a step of -0.1 never comes"),
+        ("drive.A=0..1:1e-12", "1e+12 values; at most 100,000,000"),
         ("wheel.z=1..10000000000", "1e+10 values; at most"),
-        ("drive.A=0..0.9", "LOW..HIGH is of whole numbers; other ranges are LOW:HIGH:STEP"),
-        ("wheel.z=7..3", "no value at all"),
+        ("drive.A=0..0.9", "a range of fractions needs its step: LOW..HIGH:STEP"),
+        ("wheel.z=7..3", "a step of 1 never comes from 7 to 3"),
         ("drive.A=1,,2", "neither a number nor a word"),
         ("drive.A=nan,1", "no finite number"),
-        ("drive.A=inf:1:2", "no finite number"),
-        ("drive.A=0:x:2", "'x' is no number"),
-        ("drive.A=0:1:2:3", "a range is LOW:HIGH:STEP"),
+        ("drive.A=inf..1:2", "no finite number"),
+        ("drive.A=0:1:0.1", "a range is LOW..HIGH or LOW..HIGH:STEP"),
+        ("drive.A=..1:0.1", "'' is no number"),
+        ("drive.A=0..x:2", "'x' is no number"),
+        ("drive.A=0..1:2:3", "'2:3' is no number"),
     ],
 )
 def test_what_is_none_is_refused(text, said):

@@ -135,10 +135,10 @@ def test_it_keeps_bounds(bounds, name, low, high):
 
 def test_a_peak_alone_is_kept_in_the_plain_crank_s_motion_or_any():
     """The plain crank of z = 6 has 1.35 in 120 degrees, which four-bars do better."""
-    (row,) = four_bars(acceleration_max="1.2", z="6", external=True)
+    (row,) = four_bars(subject_to=("acceleration.max <= 1.2",), z="6", external=True)
     assert row.candidate.acceleration_max <= 1.2
     assert row.candidate.motion_deg == pytest.approx(120.0, rel=1e-12)
-    (row,) = four_bars(acceleration_max="0.5", z="6", external=True)
+    (row,) = four_bars(subject_to=("acceleration.max <= 0.5",), z="6", external=True)
     assert row.candidate.acceleration_max <= 0.5
     assert row.candidate.motion_deg > 120.0
 
@@ -146,7 +146,7 @@ def test_a_peak_alone_is_kept_in_the_plain_crank_s_motion_or_any():
 def test_what_it_sorts_by_is_the_least():
     wish = {"motion_deg": "100..180", "z": "6", "external": True}
     (gentle,) = four_bars(**wish)
-    (slow,) = four_bars(**wish, sort="velocity.max")
+    (slow,) = four_bars(**wish, sort="min:velocity.max")
     assert slow.candidate.velocity_max < gentle.candidate.velocity_max
     assert slow.candidate.acceleration_max >= gentle.candidate.acceleration_max
 

@@ -94,7 +94,11 @@ def test_what_nothing_bounds_is_told_last():
     """The wall of a matched slot is undercut, and ends in an edge: the loads say no stress."""
     frame = Spec(External(8), size=Size(face_width_mm=15.0), load=Load(inertia_kgm2=0.3))
     wish = read_wish(
-        motion_deg="150", rollers=2, external=True, frame=frame, sort="loads.contact_stress_MPa.max"
+        motion_deg="150",
+        rollers=2,
+        external=True,
+        frame=frame,
+        sort="min:loads.contact_stress_MPa.max",
     )
     found = search(wish)
     told = [row.asked[0] for row in found.rows]
@@ -124,7 +128,7 @@ def test_side_cranks_that_differ_in_the_wheel_alone():
 def test_bounds_hold_where_no_plain_crank_carries_the_rollers():
     """Three rollers of a plain crank jam on nine slots; curved slots rest for 50 degrees here."""
     wish = {"motion_deg": "70", "z": "9", "rollers": 3, "external": True}
-    found = search(read_wish(**wish, subject_to=["dwell_deg >= 49"], sort="jerk.max"))
+    found = search(read_wish(**wish, subject_to=["dwell_deg >= 49"], sort="min:jerk.max"))
     assert found.asked.names == ("jerk.max", "timing.dwell_deg")
     row = found.rows[0]
     assert row.asked == (pytest.approx(row.candidate.jerk_max), pytest.approx(50.0))
@@ -137,7 +141,7 @@ def test_cams_inside_are_as_quick_as_the_limit_lets_them():
 
     The modified sine's C_a is 4 pi²/(4 + pi) = 5.5280, and its C_v 4 pi/(4 + pi) = 1.7596.
     """
-    rows = search(read_wish(acceleration_max="1", z="6", internal=True)).rows
+    rows = search(read_wish(subject_to=["acceleration.max <= 1"], z="6", internal=True)).rows
     quick = math.sqrt(4.0 * math.pi**2 / (4.0 + math.pi) * math.pi / 3.0)
     assert 4.0 * math.pi / (4.0 + math.pi) * math.pi / 3.0 / quick > 0.5
     cams = [row.candidate for row in rows if row.candidate.drive == "cam"]

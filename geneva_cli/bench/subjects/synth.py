@@ -12,12 +12,12 @@ WISHES = (
     "--motion-deg 100..170 --rollers 2",
     "--motion-deg 150..200 --spherical",
     "--motion-deg 100..200 --law all",
-    "--motion-deg 120.. --sort jerk.max",
+    "--motion-deg 120.. --sort min:jerk.max",
     "--tau 1/3 --buildable",
     "--dwell-s 0.8.. --cycle 1.5 --motion-deg ..180",
     "--cycle 1.5 --subject-to dwell_s>=0.8",
     "--subject-to timing.tau<=0.3 --subject-to velocity.max<=2",
-    "--acceleration-max 0.5",
+    "--subject-to acceleration.max<=0.5",
 )
 QUICK = "--motion-deg 180 --z 6 --external --rollers 1"
 WAYS = {"search": "0", "search, twenty turned": "20"}  # rows whose parts are turned
@@ -30,7 +30,7 @@ def subject(quick: bool) -> Subject:
         task(
             f"geneva synth {wish}",
             {
-                way: ("synth", *wish.split(), "--checked", count)
+                way: ("synth", *wish.split(), "--check", count)
                 for way, count in ways.items()
                 if count != "0" or "--buildable" not in wish
             },

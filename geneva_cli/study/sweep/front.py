@@ -3,43 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from geneva_cli.errors import GenevaError, cut
 from geneva_cli.study.sweep.constraints import is_number
 
 if TYPE_CHECKING:
     from geneva_cli.numerics.jet import Array
-
-SENSES = {"min": 1.0, "max": -1.0}
-
-
-class Objective(NamedTuple):
-    """A quantity that should be small (sign 1) or large (-1)."""
-
-    sign: float
-    name: str
-
-
-def objective(text: str, option: str = "--pareto") -> Objective:
-    """The objective that ``min:acceleration.max`` means. Raises GenevaError for another text."""
-    sense, _, name = text.strip().partition(":")
-    if sense not in SENSES or not name:
-        raise GenevaError(
-            f"{option} {cut(text.strip())}: it must be min:FIELD or max:FIELD, as "
-            "min:acceleration.max"
-        )
-    return Objective(SENSES[sense], name)
-
-
-def refuse_opposites(given: Sequence[Objective]) -> None:
-    """Raise GenevaError for a quantity that should be small and large, which every row is."""
-    names = [o.name for o in dict.fromkeys(given)]
-    twice = next((name for name in names if names.count(name) > 1), None)
-    if twice:
-        raise GenevaError(f"--pareto {twice}: it cannot be both min and max; keep one of them")
 
 
 def front(

@@ -87,7 +87,7 @@ def _sobol(dimensions: int, seed: int, start: int, stop: int) -> Array:
 def plan(axes: Sequence[VariedKey], random: int | None, seed: int) -> SweepPlan:
     """The plan of a sweep. Raises GenevaError, naming the option, where there is none."""
     if not axes:
-        raise GenevaError("--vary is missing: what is to be varied, as in --vary drive.A=0:0.9:0.1")
+        raise GenevaError("--vary is missing; say what varies, as --vary drive.A=0..0.9:0.1")
     if random is not None and not 1 <= random <= POINTS_MAX:
         raise GenevaError(f"--random {cut(random)}: it must be at least 1, at most {POINTS_MAX:,}")
     if random and len(axes) > DIMENSIONS_MAX:

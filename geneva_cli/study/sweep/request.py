@@ -10,13 +10,13 @@ from geneva_cli.errors import GenevaError, cut
 from geneva_cli.specfile.points import digest
 from geneva_cli.specfile.reader import Text, read
 from geneva_cli.study.fields import Cell
+from geneva_cli.study.goals import Objective, objective, refuse_opposites
 from geneva_cli.study.sweep.constraints import (
     Constraint,
     constraint,
     refuse_contradictions,
     refuse_words,
 )
-from geneva_cli.study.sweep.front import Objective, objective, refuse_opposites
 from geneva_cli.study.sweep.plan import WHOLE, plan
 from geneva_cli.study.sweep.plan import shard as share
 from geneva_cli.study.sweep.run import DEFAULT, Sweep, blocks, sweep, with_values
@@ -150,5 +150,5 @@ def _objectives(pareto: str, best: str) -> list[Objective]:
     if pareto and best:
         raise GenevaError("--pareto with --best: a front, or one design; choose one of them")
     if best:
-        return [objective(best if ":" in best else f"min:{best}", "--best")]
-    return [objective(text) for text in pareto.split(",")] if pareto else []
+        return [objective(best, "--best")]
+    return [objective(text, "--pareto") for text in pareto.split(",")] if pareto else []

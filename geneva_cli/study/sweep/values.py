@@ -1,20 +1,22 @@
-"""The values that a key is varied through: ``4,6,8``, ``3..12``, ``0:0.9:0.01``, words, a span."""
+"""The values that a key is varied through: ``4,6,8``, ``3..12``, ``0..0.9:0.01``, words, a span."""
 
 from __future__ import annotations
 
 import math
 import re
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from decimal import Decimal, InvalidOperation
 from typing import NamedTuple, TypeAlias, overload
 
 from geneva_cli.errors import GenevaError, cut
+from geneva_cli.specfile.keys import is_whole
 from geneva_cli.specfile.settings import Setting, read_value
+from geneva_cli.study.ranges import RangeText, range_text
 
 Value: TypeAlias = float | int | str
 POINTS_MAX = 100_000_000  # rows of a sweep: some hours, some gigabytes
-_WHOLE = r"\s*([+-]?\d{1,99})\s*"
-_RANGE = re.compile(rf"{_WHOLE}\.\.{_WHOLE}")
+MIXED_MAX = 1_000_000  # values of a list with ranges in it, all of which are in memory
+_WHOLE = re.compile(r"[+-]?\d{1,99}")
 
 
 class VariedKey(NamedTuple):
@@ -33,17 +35,18 @@ class VariedKey(NamedTuple):
 
 
 def axis(text: str, random: bool = False) -> VariedKey:
-    """What ``KEY=VALUES`` varies; ``random`` where values are drawn, and LOW:HIGH is a span.
+    """What ``KEY=VALUES`` varies; ``random`` where values are drawn, and LOW..HIGH of a key
+    that takes fractions is a span.
 
     Raises GenevaError, naming the option, for what is none.
 
-    >>> list(axis("drive.A=0:0.9:0.3").values)
+    >>> list(axis("drive.A=0..0.9:0.3").values)
     [0.0, 0.3, 0.6, 0.9]
     """
     key, sign, values = text.partition("=")
     said = f"--vary {cut(text.strip())}"
     if not sign or not values.strip() or "." not in key.strip().strip("."):
-        raise GenevaError(f"{said}: it must be TABLE.KEY=VALUES, as in --vary drive.A=0:0.9:0.1")
+        raise GenevaError(f"{said}: it must be TABLE.KEY=VALUES, as in --vary drive.A=0..0.9:0.1")
     return _axis(key.strip(), values.strip().strip('"'), said, random)
 
 
@@ -62,27 +65,45 @@ def refuse_twice(axes: Sequence[VariedKey], given: Sequence[Setting]) -> None:
 
 
 def _axis(key: str, text: str, said: str, random: bool) -> VariedKey:
-    whole = _RANGE.fullmatch(text)
-    if whole:
-        low, high = int(whole[1]), int(whole[2])
-        _refuse_many(said, high - low + 1)
-        return VariedKey(key, _some(said, range(low, high + 1)))
-    if ":" in text:
-        ends = [_decimal(part, said) for part in text.split(":")]
-        if len(ends) == 3:
-            first, last, step = ends
-            return VariedKey(key, _steps(first, last, step, said))
-        if len(ends) == 2 and random and ends[0] < ends[1]:
-            return VariedKey(key, tuple(map(float, ends)), span=True)
-        raise GenevaError(
-            f"{said}: a range is LOW:HIGH:STEP" + (", or LOW:HIGH with LOW below" if random else "")
-        )
-    if ".." in text:
-        raise GenevaError(
-            f"{said}: LOW..HIGH is of whole numbers; other ranges are LOW:HIGH:STEP"
-            + (" or LOW:HIGH" if random else "")
-        )
-    return VariedKey(key, tuple(_one(part, said) for part in text.split(",")))
+    parts = text.split(",")
+    if len(parts) == 1 and (ends := range_text(text, said)):
+        if random and not ends.step and not (_whole(ends[:2]) and is_whole(key)):
+            return VariedKey(key, _span(ends, said), span=True)
+        return VariedKey(key, _range(ends, said))
+    values: list[Value] = []
+    for part in parts:
+        some = range_text(part, said)
+        more = _range(some, said) if some else (_one(part, said),)
+        _refuse_many(said, len(values) + len(more), MIXED_MAX)
+        values += more
+    return VariedKey(key, tuple(values))
+
+
+def _whole(parts: Iterable[str]) -> bool:
+    """Whether all these are whole numbers."""
+    return all(_WHOLE.fullmatch(part) for part in parts)
+
+
+def _span(ends: RangeText, said: str) -> tuple[float, float]:
+    """The ends of all that is between two numbers."""
+    low, high = float(_decimal(ends.low, said)), float(_decimal(ends.high, said))
+    if low >= high:
+        raise GenevaError(f"{said}: the first number must be below the second")
+    return low, high
+
+
+def _range(ends: RangeText, said: str) -> Sequence[float]:
+    """The values from LOW to HIGH by STEP; whole numbers need no step."""
+    if _whole(filter(None, ends)) and ends.low and ends.high:
+        first, last, step = int(ends.low), int(ends.high), int(ends.step or 1)
+        if step:
+            _refuse_many(said, abs((last - first) / step) + 1)
+        if step and (some := range(first, last + (1 if step > 0 else -1), step)):
+            return some
+    low, high = _decimal(ends.low, said), _decimal(ends.high, said)
+    if not ends.step and not _whole(ends[:2]):
+        raise GenevaError(f"{said}: a range of fractions needs its step: LOW..HIGH:STEP")
+    return _steps(low, high, _decimal(ends.step or "1", said), said)
 
 
 def _one(text: str, said: str) -> Value:
@@ -105,7 +126,7 @@ def _decimal(text: str, said: str) -> Decimal:
 
 
 class Steps(Sequence[float]):
-    """LOW, LOW + STEP, ... in decimals: 0:0.9:0.1 holds 0.3 and ends with 0.9.
+    """LOW, LOW + STEP, ... in decimals: 0..0.9:0.1 holds 0.3 and ends with 0.9.
 
     Ten million of them take no memory.
     """
@@ -135,19 +156,13 @@ def _steps(low: Decimal, high: Decimal, step: Decimal, said: str) -> Steps:
     """The values from LOW up to HIGH. Raises GenevaError where there are none, or too many."""
     if not step or (high - low) / step < 0:
         raise GenevaError(
-            f"{said}: a step of {step:g} never comes from {low:g} to {high:g}; give LOW:HIGH:STEP"
+            f"{said}: a step of {step:g} never comes from {low:g} to {high:g}; give LOW..HIGH:STEP"
         )
     count = (high - low) / step
     _refuse_many(said, count + 1)
     return Steps(low, step, math.floor(count) + 1)
 
 
-def _some(said: str, values: range) -> range:
-    if not values:
-        raise GenevaError(f"{said}: no value at all; give LOW..HIGH with LOW below HIGH")
-    return values
-
-
-def _refuse_many(said: str, count: float | Decimal) -> None:
-    if not count <= POINTS_MAX:
-        raise GenevaError(f"{said}: {float(count):.3g} values; at most {POINTS_MAX:,}")
+def _refuse_many(said: str, count: float | Decimal, most: int = POINTS_MAX) -> None:
+    if not count <= most:
+        raise GenevaError(f"{said}: {float(count):.3g} values; at most {most:,}")

@@ -15,6 +15,7 @@ from collections.abc import Sequence
 from typing import NamedTuple
 
 from geneva_cli.machine.spec import Spec
+from geneva_cli.study.goals import Objective
 from geneva_cli.study.quantities import in_batch
 from geneva_cli.study.synthesis.bounds import known_bounds, of_motion
 from geneva_cli.study.synthesis.families.family import Family
@@ -109,17 +110,17 @@ class Tried(NamedTuple):
 class Places:
     """The best place so far of each family, by its number.
 
-    Bounds, and what is to be the least (after a minus sign the greatest), are those of the wish
-    that ``together`` knows.
+    Bounds, and what is to be the least or the greatest, are those of the wish that ``together``
+    knows.
     """
 
     def __init__(self, families: Sequence[Family], wish: Wish, patient: bool = False) -> None:
         self.families, self.bounds = families, known_bounds(wish)
         self.patient = patient  # also about places that no step nearby makes keep the bounds
-        least = wish.sort if wish.sort and in_batch([wish.sort.lstrip("-")]) else ""
+        least = wish.sort if wish.sort and in_batch([wish.sort.name]) else None
         self.nearest = wish.any_motion and not least
         self.peak = wish.peak
-        self.least, self.sign = least.lstrip("-") or self.peak, -1.0 if least[:1] == "-" else 1.0
+        self.sign, self.least = least or Objective(1.0, self.peak)
         self.found: dict[int, Candidate] = {}
         # of each family all places looked at, in order
         self.tried: list[list[Tried]] = [[] for _ in families]

@@ -22,4 +22,4 @@ def of_motion(wish: Wish) -> Wish | None:
     moved = tuple(b for b in wish.bounds if is_motion(b.name))
     if not (wish.strict and moved) or all(map(is_motion, wish.named)):
         return None
-    return wish._replace(bounds=moved, sort="")
+    return wish._replace(bounds=moved, sort=None)

@@ -11,6 +11,7 @@ from geneva_cli.errors import GenevaError
 from geneva_cli.machine.mechanism import build
 from geneva_cli.machine.spec import Spec
 from geneva_cli.spec.load_named import load_named
+from geneva_cli.study.goals import Objective
 from geneva_cli.study.pool import cores, mapped
 from geneva_cli.study.quantities import in_batch
 from geneva_cli.study.sweep.constraints import (
@@ -34,8 +35,7 @@ class Asked(NamedTuple):
 
     pick: Pick | None
     bounds: tuple[Constraint, ...]
-    sort: str
-    bound_by: str = "--subject-to"  # the option that sets the bounds
+    sort: Objective | None
 
     @property
     def names(self) -> tuple[str, ...]:
@@ -48,11 +48,10 @@ def asked(wish: Wish, spec: Spec) -> Asked:
 
     Raises GenevaError, with the nearest name, for one that there is not.
     """
-    sort = wish.sort.lstrip("-")
     wanted = [b.name for b in wish.bounds]
     machine = build(spec)
     pick = load_named("study.fields:pick")  # with all that a report has: most wishes name nothing
-    of_sort = pick([sort], "--sort").names if sort else ()
+    of_sort: tuple[str, ...] = pick([wish.sort.name], "--sort").names if wish.sort else ()
     of_bounds = pick(wanted, "--subject-to").asked if wanted else ()
     found = pick([*of_sort, *of_bounds])
     bounds = tuple(b._replace(name=n) for b, n in zip(wish.bounds, of_bounds, strict=True))
@@ -65,7 +64,7 @@ def asked(wish: Wish, spec: Spec) -> Asked:
             f"{loads[0]}: nothing resists the wheel, so it is known of none; --from SPEC says what "
             "does, its [load]"
         )
-    return Asked(found, bounds, of_sort[0] if of_sort else "", wish.bound_by)
+    return Asked(found, bounds, wish.sort and wish.sort._replace(name=of_sort[0]))
 
 
 def asked_together(names: Sequence[str], found: Sequence[Row]) -> list[Cells | None]:
@@ -98,7 +97,7 @@ def bounded(wanted: Asked, found: Sequence[Row], together: Sequence[Cells | None
         if all(b.kept(by_name[b.name]) for b in wanted.bounds):
             out.append(row._replace(asked=tuple(cells)))
     if not out:
-        raise GenevaError(f"{wanted.bound_by}: {_how_near(wanted, nearest, len(found))}")
+        raise GenevaError(f"--subject-to: {_how_near(wanted, nearest, len(found))}")
     return out
 
 

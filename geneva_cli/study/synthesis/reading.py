@@ -5,24 +5,25 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 
-from geneva_cli.errors import GenevaError, cut, nearest
+from geneva_cli.errors import GenevaError, cut, few, nearest
 from geneva_cli.machine.registry import STANDARD_LAWS as LAWS
 from geneva_cli.machine.spec import Spec
 from geneva_cli.spec.rules import POSITIVE, Z_MAX, Range
+from geneva_cli.study.goals import objective
+from geneva_cli.study.quantities import whole_name
+from geneva_cli.study.ranges import range_text
 from geneva_cli.study.survey import parse_z
-from geneva_cli.study.sweep.constraints import constraint, refuse_contradictions
+from geneva_cli.study.sweep.constraints import Constraint, constraint, refuse_contradictions
 from geneva_cli.study.synthesis.spans import Interval
-from geneva_cli.study.synthesis.wish import GEARINGS, SPACE, Wish
+from geneva_cli.study.synthesis.wish import GEARINGS, PEAK, SPACE, Wish
 
 WHEELS_MAX = 200  # numbers of slots in one call: each costs some hundredths of a second
 CYCLE = Range(1e-6, 1e6)
-STEP = Range(360.0 / Z_MAX, 120.0)
 SPACES = Range(0.1, 100.0)
 
 # The wishes for a number or a range of it, each with what it may be, its name and unit in words.
 SPANS = {
     "tau": (Range(0.0, 1.0, "()"), "tau", ""),
-    "k": (Range(0.0, 1e6, "()"), "k", ""),
     "motion_deg": (Range(0.0, 360.0, "()"), "a motion of", " deg"),
     "dwell_deg": (POSITIVE, "a dwell of", " deg"),
     "motion_s": (POSITIVE, "a motion of", " s"),
@@ -34,14 +35,11 @@ SPANS = {
 def read_wish(
     *,
     tau: str = "",
-    k: str = "",
     motion_deg: str = "",
     dwell_deg: str = "",
     motion_s: str = "",
     dwell_s: str = "",
     cycle: str = "",
-    step: str = "",
-    acceleration_max: str = "",
     z: str = "",
     internal: bool = False,
     external: bool = False,
@@ -61,7 +59,6 @@ def read_wish(
     """
     texts = {
         "tau": tau,
-        "k": k,
         "motion_deg": motion_deg,
         "dwell_deg": dwell_deg,
         "motion_s": motion_s,
@@ -73,44 +70,32 @@ def read_wish(
         for name, text in texts.items()
         if text
     }
-    if not (spans or step or acceleration_max or subject_to or frame):
+    if not (spans or subject_to or frame):
         raise GenevaError(
-            "no wish; ask for --tau, --k, --motion-deg, --dwell-deg, --motion-s, --dwell-s, "
-            "--cycle, --step, --acceleration-max or --subject-to, alone or together"
+            "no wish; ask for --tau, --motion-deg, --dwell-deg, --motion-s, --dwell-s, --cycle or "
+            "--subject-to, alone or together"
         )
     if rollers is not None and not 1 <= rollers <= Z_MAX:
         raise GenevaError(f"--rollers {cut(rollers)}: it must be at least 1, at most {Z_MAX}")
     said = [spans[name].words(*SPANS[name][1:]) for name in spans]
     said = [w if w[:2] == "a " else " = ".join(w.split(" ", 1)) for w in said]
-    slots = _slots(z, frame)
-    if step:
-        degrees = number("--step", step, STEP)
-        if not spans and frame is None:
-            raise GenevaError(
-                f"--step {cut(step)}: needs --cycle, the seconds from one step to the next, or "
-                "another wish"
-            )
-        slots = _stepped(step, degrees, slots, bool(z))
-        said = [f"a step of {degrees:.7g} deg", *said]
-    most = number("--acceleration-max", acceleration_max, POSITIVE) if acceleration_max else None
-    if most is not None:
-        said.append(f"peak acceleration at most {most:.7g}")
     bounds = tuple(constraint(text) for text in subject_to)
     refuse_contradictions(bounds)
     said += [str(bound) for bound in bounds]
+    peaks = [bound for bound in bounds if _is_peak(bound)]
     words = ", ".join(said) or "the spec alone"
     chosen = dict(zip(GEARINGS, (external, internal, spherical), strict=True))
     wish = Wish(
         words if words.startswith(("tau", "k ")) else words[:1].upper() + words[1:],
-        slots,
+        _slots(z, frame),
         tuple(g for g, asked in chosen.items() if asked) or GEARINGS,
         rollers,
         _laws(law),
         spans,
-        most,
+        min((bound.bound for bound in peaks), default=None),
         frame,
-        sort,
-        bounds,
+        objective(sort, "--sort") if sort else None,
+        tuple(bound for bound in bounds if bound not in peaks),
         number("--space", space, SPACES) if space else SPACE,
     )
     wish.refuse_contradictions()
@@ -132,23 +117,15 @@ def _laws(name: str) -> tuple[str, ...]:
     if name not in LAWS:
         hint = nearest(name, (*LAWS, "all"))
         raise GenevaError(
-            f'--law "{cut(name)}": unknown{hint}; it must be all or {", ".join(LAWS)}'
+            f'--law "{cut(name)}": unknown{hint}; it must be all or {few(name, LAWS)}'
         )
     return (name,)
 
 
-def _stepped(step: str, degrees: float, slots: tuple[int, ...], z_given: bool) -> tuple[int, ...]:
-    """The number of slots of a step: z = 360/step."""
-    z = round(360.0 / degrees)
-    if abs(z * degrees - 360.0) > 360.0 * 1e-6:
-        low, high = int(360.0 / degrees), int(360.0 / degrees) + 1
-        raise GenevaError(
-            f"--step {cut(step)}: 360 degrees are no whole number of such steps; near are "
-            f"{360.0 / high:.7g} (z = {high}) and {360.0 / low:.7g} (z = {low})"
-        )
-    if z_given and z not in slots:
-        raise GenevaError(f"--z: a step of {degrees:.7g} deg takes z = {z}; leave --z out")
-    return (z,)
+def _is_peak(bound: Constraint) -> bool:
+    """Whether a bound is a limit of the peak acceleration, which families keep in closed form."""
+    is_limit = bound.sign == "<=" and bound.bound > 0.0
+    return is_limit and whole_name(bound.name, "--subject-to") == PEAK
 
 
 def span(option: str, text: str, rule: Range) -> Interval:
@@ -157,15 +134,16 @@ def span(option: str, text: str, rule: Range) -> Interval:
     >>> span("--dwell-s", "0.8..", Range(0.0))
     Interval(low=0.8, high=inf)
     """
-    low, dots, high = text.partition("..")
-    if not dots:
+    ends = range_text(text, f"{option} {cut(text)}")
+    if not ends:
         x = number(option, text, rule)
         return Interval(x, x)
-    if not (low.strip() or high.strip()):
+    low, high, step = ends
+    if step or not (low or high):
         raise GenevaError(f"{option} {cut(text)}: a range is LOW..HIGH, LOW.. or ..HIGH")
     found = Interval(
-        number(option, low, rule) if low.strip() else -math.inf,
-        number(option, high, rule) if high.strip() else math.inf,
+        number(option, low, rule) if low else -math.inf,
+        number(option, high, rule) if high else math.inf,
     )
     if found.empty:
         raise GenevaError(f"{option} {cut(text)}: the first number must not be above the second")

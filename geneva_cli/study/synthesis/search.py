@@ -79,8 +79,7 @@ def search(wish: Wish, meanwhile: Callable[[], None] | None = None) -> FoundRows
     Raises GenevaError, saying what is within reach, where there is none.
     """
     wanted = _asked(wish)
-    sign = "-" if wish.sort.startswith("-") and wanted.sort else ""
-    wish = wish._replace(bounds=wanted.bounds, sort=sign + wanted.sort)
+    wish = wish._replace(bounds=wanted.bounds, sort=wanted.sort)
     narrowed = wish.with_times()
     narrowed.refuse_contradictions()
     parts = _parts(narrowed, wanted.names, meanwhile=meanwhile)
@@ -179,7 +178,7 @@ def _asked(wish: Wish) -> Asked:
     them; where the frame's sizes let none be, as the frame itself.
     """
     if not (wish.sort or wish.bounds):
-        return Asked(None, (), "")
+        return Asked(None, (), None)
     for gearing in wish.gearings:
         for z in wish.z:
             try:
@@ -213,10 +212,10 @@ def _rank(wish: Wish, wanted: Asked, row: Row) -> tuple[object, ...]:
     candidate = row.candidate
     first: list[object] = []
     if wanted.sort:
-        value = row.asked[wanted.names.index(wanted.sort)]
+        value = row.asked[wanted.names.index(wanted.sort.name)]
         first = [
             not is_number(value),
-            float(f"{_first(wish, wanted, row):.12g}") if is_number(value) else 0.0,
+            float(f"{_first(wanted, row):.12g}") if is_number(value) else 0.0,
             "" if is_number(value) else str(value),
         ]
     peaks = (candidate.peak, candidate.jerk_max)
@@ -237,9 +236,9 @@ def _worth(wish: Wish, wanted: Asked, found: list[Row]) -> list[Row]:
     one = [row for row in found if not row.candidate.of_two_numbers]
 
     def beaten(row: Row) -> bool:
-        own, value = row.candidate, _first(wish, wanted, row)
+        own, value = row.candidate, _first(wanted, row)
         return any(
-            (nearest or not value < _first(wish, wanted, other) - WORTH * abs(value))
+            (nearest or not value < _first(wanted, other) - WORTH * abs(value))
             for other in one
             if (own.z, own.rollers, own.law) == (other.candidate.z, other.candidate.rollers, None)
             and (
@@ -252,16 +251,12 @@ def _worth(wish: Wish, wanted: Asked, found: list[Row]) -> list[Row]:
     return [row for row in found if not (row.candidate.of_two_numbers and beaten(row))]
 
 
-def _first(wish: Wish, wanted: Asked, row: Row) -> float:
+def _first(wanted: Asked, row: Row) -> float:
     """What rows are put in order by first, the least being the first; NaN is none."""
     if not wanted.sort:
         return row.candidate.peak
-    value = row.asked[wanted.names.index(wanted.sort)]
-    return (
-        float(value) * (-1.0 if wish.sort.startswith("-") else 1.0)
-        if is_number(value)
-        else math.nan
-    )
+    value = row.asked[wanted.names.index(wanted.sort.name)]
+    return wanted.sort.sign * float(value) if is_number(value) else math.nan
 
 
 def synthesis(wish: Wish) -> list[tuple[Spec, Candidate]]:
@@ -277,8 +272,9 @@ def _out_of_reach(wish: Wish, reached: list[float], errors: list[str]) -> str:
     counts = wish.counts
     m = wish.rollers or next((int(m) for m in counts if m >= 1.0), 1)
     if wish.only_acceleration and reached:
+        (limit,) = wish.limits
         return (
-            f"--acceleration-max {wish.acceleration_max:.7g}: out of reach; with these wheels it "
+            f"--subject-to {limit}: out of reach; with these wheels it "
             f"must be above {min(reached):.6g}, and more slots come lower"
         )
     motion = wish.motion_for(m)

@@ -29,7 +29,7 @@ def synthesis_table(
     found = found or search(wish, import_checks if count else None)
     rows = [(one.no, *one.row.candidate, *one.row.asked) for one in turned(found, count, buildable)]
     what = "1 machine" if len(rows) == 1 else f"{len(rows)} machines"
-    first = wish.sort or f"lowest peak acceleration{' in rad/s2' * wish.timed}"
+    first = str(wish.sort or "") or f"lowest peak acceleration{' in rad/s2' * wish.timed}"
     title = f"{what}, {first} first" if len(rows) > 1 else what
     if buildable:
         title = f"{title}{',' * (len(rows) > 1)} of {len(found.rows)}"

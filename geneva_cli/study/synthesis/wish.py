@@ -18,6 +18,7 @@ from typing import NamedTuple
 from geneva_cli.errors import GenevaError
 from geneva_cli.machine.law_motion import MOTION_MIN
 from geneva_cli.machine.spec import Spec
+from geneva_cli.study.goals import Objective
 from geneva_cli.study.sweep.constraints import Constraint
 from geneva_cli.study.synthesis.spans import Interval
 
@@ -47,11 +48,10 @@ class Wish(NamedTuple):
     spans: dict[str, Interval] = {}  # noqa: RUF012 - a NamedTuple's default, never changed
     acceleration_max: float | None = None
     frame: Spec | None = None
-    sort: str = ""  # a quantity of a design; with a minus sign the greatest first
+    sort: Objective | None = None  # what the first row has the least, or the greatest, of
     bounds: tuple[Constraint, ...] = ()
     space: float = SPACE  # of a linkage: its joints' distance from the crank's axis, over L
     bounded: frozenset[str] = frozenset()  # the spans that bounds have narrowed
-    bound_by: str = "--subject-to"  # the option that is named where nothing keeps the bounds
     strict: bool = False  # whether its bounds are the frame's limits too: many families keep none
 
     @property
@@ -81,13 +81,12 @@ class Wish(NamedTuple):
     @property
     def by_bounds(self) -> Wish:
         """The same with the bound on the acceleration as any other bound."""
-        said = f"--acceleration-max {self.acceleration_max:.7g}"
-        return self._replace(acceleration_max=None, bounds=self.limits, bound_by=said)
+        return self._replace(acceleration_max=None, bounds=self.limits)
 
     @property
     def named(self) -> list[str]:
         """The quantities that it sorts by and bounds."""
-        return [*filter(None, [self.sort.lstrip("-")]), *(b.name for b in self.limits)]
+        return [*([self.sort.name] if self.sort else []), *(b.name for b in self.limits)]
 
     @property
     def only_acceleration(self) -> bool:

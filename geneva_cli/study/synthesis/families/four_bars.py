@@ -59,7 +59,7 @@ def four_bars(wish: Wish, wheels: Sequence[Gearing]) -> Iterator[Family]:
     if wish.rollers not in (None, 1):
         return
     tasks = [task for wheel in wheels if (task := _task(wish, wheel))]
-    names = [wish.sort.lstrip("-") or wish.peak, *(b.name for b in wish.limits)]
+    names = [wish.sort.name if wish.sort else wish.peak, *(b.name for b in wish.limits)]
     count = 1 if all(map(is_known, names)) else 1 + OTHERS
     for task, found in zip(tasks, _found(wish, tuple(tasks)), strict=True):
         if found and (n := len(found.cost)):
@@ -91,9 +91,8 @@ def _found(wish: Wish, tasks: tuple[WheelGoal, ...]) -> Sequence[Pool | None]:
         return []
     bounds = tuple(b for b in wish.limits if is_known(b.name))
     goal = Goal(wish, tasks, bounds, wish.peak)
-    least = wish.sort.lstrip("-")
-    if least:
-        sign = -1.0 if wish.sort.startswith("-") else 1.0
+    if wish.sort:
+        sign, least = wish.sort
         return searched(goal._replace(least=least, sign=sign) if is_known(least) else goal)
     if not wish.any_motion:
         return searched(goal)

@@ -26,6 +26,7 @@ from geneva_cli.machine.many import many
 from geneva_cli.machine.spec import Spec
 from geneva_cli.machine.wheels.gearing import Gearing
 from geneva_cli.numerics.arrays import Array, Whole
+from geneva_cli.study.goals import Objective
 from geneva_cli.study.quantities import in_batch, is_motion
 from geneva_cli.study.sweep.columns import columns
 from geneva_cli.study.synthesis.bounds import known_bounds, of_motion
@@ -94,10 +95,9 @@ class _Search:
         self.wheels = [w for w, span in zip(wheels, spans, strict=True) if span]
         self.motions = [span for span in spans if span]
         self.bounds = known_bounds(wish)
-        least = wish.sort.lstrip("-")
-        self.least = least if least and in_batch([least]) else wish.peak
-        self.sign = -1.0 if self.least == least and wish.sort.startswith("-") else 1.0
-        self.nearest = wish.any_motion and not least
+        known = wish.sort if wish.sort and in_batch([wish.sort.name]) else None
+        self.sign, self.least = known or Objective(1.0, wish.peak)
+        self.nearest = wish.any_motion and not wish.sort
 
     def found(self) -> Iterator[Spec]:
         """The best machine of each wheel that has one."""

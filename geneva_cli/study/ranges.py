@@ -1,0 +1,32 @@
+"""The one syntax of ranges: ``LOW..HIGH`` and ``LOW..HIGH:STEP``, and lists with commas between."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+from geneva_cli.errors import GenevaError
+
+FORM = "LOW..HIGH or LOW..HIGH:STEP, as 3..12 or 0..0.9:0.1"
+
+
+class RangeText(NamedTuple):
+    """The ends and the step of a range as they are typed; empty where they are left out."""
+
+    low: str
+    high: str
+    step: str
+
+
+def range_text(text: str, said: str) -> RangeText | None:
+    """Return the parts of a range; None for a text without ``..``.
+
+    Raises GenevaError, which begins with ``said``, for a step without its range, or an empty one.
+
+    >>> range_text("0..0.9:0.01", "--vary drive.A")
+    RangeText(low='0', high='0.9', step='0.01')
+    """
+    ends, colon, step = text.partition(":")
+    low, dots, high = ends.partition("..")
+    if colon and not (dots and step.strip()):
+        raise GenevaError(f"{said}: a range is {FORM}")
+    return RangeText(low.strip(), high.strip(), step.strip()) if dots else None
