@@ -152,9 +152,9 @@ def assembly(mechanism: Mechanism) -> Assembly:
     spec = mechanism.spec
     if not spec.wheel.FLAT:
         raise GenevaError(
-            f'gearing = "{spec.wheel.NAME}": its parts are not flat; write `--part wheel`, `crank` '
-            "and `assembly` laid flat as .dxf or .svg, solids as .step; as tables (-o FILE.csv) "
-            "write `wheel` (slots on the sphere) or `slot` (one of them laid flat)",
+            f'gearing = "{spec.wheel.NAME}": its parts are not flat: write `--part wheel`, `crank` '
+            "or `assembly` laid flat (.dxf, .svg) or as solids (.step), or `wheel` or `slot` as "
+            "tables (-o FILE.csv)",
             ("wheel", "gearing"),
         )
     if spec.wheel.z > Z_DRAWN:

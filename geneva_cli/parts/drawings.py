@@ -70,7 +70,7 @@ def groove(parts: Outlines, tolerance: float, curves: str) -> Drawing:
     if guide is None:
         kind = parts.assembly.given.spec.drive.NAME
         raise GenevaError(
-            f'--part groove, groove-plate: kind = "{kind}" has none; kind = "cam" has'
+            f'--part groove, groove-plate: kind = "{kind}" has no groove; "cam" has one'
         )
     from geneva_cli.parts.groove import groove_curve
 

@@ -23,7 +23,7 @@ def links(proof: Proof, tolerance: float, curves: str) -> Drawing:
     bars = drawn_links(mechanism, proof.found if mechanism.spec.is_flat else None)
     if not bars.cut:
         raise GenevaError(
-            f'--part links: kind = "{mechanism.spec.drive.NAME}" has none: '
+            f'--part links: kind = "{mechanism.spec.drive.NAME}" has no links: '
             + (
                 "its crank is --part arm"
                 if mechanism.spec.drive.ONE_ARM

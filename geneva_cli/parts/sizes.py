@@ -240,9 +240,9 @@ def _lock(assembly: Assembly, arm: float, w: float, rim: float) -> float:
     if room <= least:
         raise GenevaError(
             f"the locking disc does not fit: it must reach the rim, {least:.4g} mm from the "
-            f"crank's axis, but roller and clearances limit it to {room:.4g} mm; "
-            + (f"use a roller below {r + room - least:.4g} mm, or " if r + room > least else "use ")
-            + "lock_radius_mm = 0, if the wheel is held in another way",
+            f"crank's axis, but roller and clearances limit it to {room:.4g} mm; use "
+            + (f"a roller below {r + room - least:.4g} mm, or " if r + room > least else "")
+            + "lock_radius_mm = 0",
             ("size", "lock_radius_mm"),
         )
     if size.lock_radius_mm is None:

@@ -201,7 +201,9 @@ def test_the_command(tmp_path):
 
 def test_what_is_no_part_to_cut(two_pins):
     design, proof, _ = two_pins
-    with pytest.raises(GenevaError, match="--cutter is for parts that are cut out of a plate"):
+    with pytest.raises(
+        GenevaError, match="--cutter applies only to parts that are cut out of a plate"
+    ):
         design.cutter("assembly", 3.0, of=proof)
     with pytest.raises(GenevaError, match="--cutter 0: must be above 0, at most 1000 mm"):
         design.cutter("crank", 0.0, of=proof)

@@ -127,7 +127,7 @@ def test_shafts_have_the_size_of_what_they_carry():
 
 
 def test_the_shafts_of_a_sphere_stand_in_no_plate():
-    with pytest.raises(GenevaError, match=r"--part frame: the shafts of gearing = .* cross"):
+    with pytest.raises(GenevaError, match=r"--part frame: the shafts of gearing = .* not parallel"):
         Design(Spherical(6)).drawing("frame")
 
 

@@ -63,7 +63,7 @@ def test_machines_without_such_a_plate(cam):
     wide = proof.found.sizes._replace(wheel_hub=200.0)
     with pytest.raises(GenevaError, match="up to the wheel's hub, less than four times wall_min"):
         groove_plate(proof.found._replace(sizes=wide), 0.01, "arcs")
-    with pytest.raises(GenevaError, match='kind = "crank" has none; kind = "cam" has'):
+    with pytest.raises(GenevaError, match='kind = "crank" has no groove; "cam" has one'):
         Design(External(6)).drawing("groove-plate")
 
 
