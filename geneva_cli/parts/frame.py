@@ -77,8 +77,8 @@ def framed(
         lows.append(gear_span(proof)[0])
     top = min([_lowest(mechanism, outlines, bars), *lows]) - size.washer_mm
     bottom = top - thicknesses(size, L).arm
-    all_shafts, places = list(_shafts(proof, bars, bottom, first)), list(_standing(mechanism, bars))
-    holes = [*_drilled(mechanism, all_shafts, places, top), *_fixed(bars), *_mounted(fixed, L)]
+    axles, places = list(_shafts(proof, bars, bottom, first)), list(_standing(mechanism, bars))
+    holes = [*_drilled(mechanism, axles, places, top), *_fixed(bars), *_mounted(fixed, L)]
     wall = wall_min(size, L)
     eye = max(L / 20.0, 3.0 * wall)
     # The frame contains every axis, drilled or not.
@@ -91,8 +91,7 @@ def framed(
     outline = belt(LAYER, [Circle(LAYER, corner, eye) for corner in corners])
     holes += [Circle(HOLES, corner, even(0.4 * eye)) for corner in corners]
     return Framed(
-        Plate(NAME, LAYER, outline, tuple(holes), bottom, top),
-        tuple(outside_links(all_shafts, bars, L)),
+        Plate(NAME, LAYER, outline, tuple(holes), bottom, top), tuple(outside_links(axles, bars, L))
     )
 
 

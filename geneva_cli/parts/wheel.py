@@ -61,14 +61,10 @@ def dial_bolts(assembly: Assembly, sizes: Sizes) -> list[Circle]:
         low, high = max(sizes.slot_end, assembly.L + sizes.recess), sizes.outer
     else:
         low, high = sizes.wheel_reach, sizes.slot_end
-    far, width = 0.5 * (low + high), 0.5 * (high - low)
+    far, half = 0.5 * (low + high), 0.5 * (high - low)
     if size.dial_bolt_circle_mm is not None:
         far = 0.5 * size.dial_bolt_circle_mm
-    r = (
-        min(assembly.L / 80.0, 0.5 * width)
-        if size.dial_bolt_mm is None
-        else 0.5 * size.dial_bolt_mm
-    )
+    r = min(assembly.L / 80.0, 0.5 * half) if size.dial_bolt_mm is None else 0.5 * size.dial_bolt_mm
     turns = [assembly.rests[0] + math.tau * k / count for k in range(count)]
     return [Circle("BORE", _on(far, turn), r) for turn in turns]
 

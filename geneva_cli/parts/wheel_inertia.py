@@ -29,9 +29,7 @@ def wheel_body(mechanism: Mechanism) -> MassProperties | None:
     if spec.size.wheel_thickness_mm is None and spec.size.face_width_mm is None:
         return None
     if spec.wheel.SHELLS:
-        from geneva_cli.parts.sphere.body import (
-            wheel_body as of_shell,
-        )  # not needed for flat wheels
+        from geneva_cli.parts.sphere.body import wheel_body as of_shell  # only on a sphere
 
         return of_shell(mechanism)
     where = assembly(mechanism)

@@ -113,7 +113,7 @@ def _crank(shown: Shown, begin: Begin) -> Iterator[View]:
 def _links(shown: Shown, begin: Begin) -> Iterator[View]:
     """Yield the views of links, and of gears by their pitch curves."""
     bars, mechanism = shown.parts.links, shown.found.assembly.given
-    yield from linked(begin, bars, mechanism, in_series=bool(shown.first))
+    yield from linked(begin, bars, mechanism, series=bool(shown.first))
     yield from geared(begin, shown.gears, mechanism)
 
 
