@@ -17,7 +17,7 @@ from geneva_cli.parts.crank import is_whole
 from geneva_cli.parts.locking_rings import seen
 from geneva_cli.parts.reliefs import Relief, followed, reliefs
 from geneva_cli.parts.sizes import Sizes
-from geneva_cli.parts.turn.around import half_seen
+from geneva_cli.parts.turn.angular_index import half_angle
 from geneva_cli.parts.wheel import opening
 
 if TYPE_CHECKING:
@@ -64,7 +64,7 @@ def corners(assembly: Assembly, sizes: Sizes, at: Array) -> tuple[Array, Array]:
     turn = corner + assembly.wheel(at)[:, None]
     # only in directions near that of the crank's axis can a corner be inside the disc
     off = np.abs(np.remainder(turn + math.pi, math.tau) - math.pi)
-    place, which = np.nonzero(off <= half_seen(sizes.lock, assembly.L))
+    place, which = np.nonzero(off <= half_angle(sizes.lock, assembly.L))
     turn, pose = turn[place, which], assembly.crank(at)[place]
     x, y = sizes.rim * np.cos(turn) - assembly.L, sizes.rim * np.sin(turn)
     c, s = np.cos(pose), np.sin(pose)

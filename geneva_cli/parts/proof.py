@@ -9,7 +9,7 @@ from geneva_cli.parts.outlines import Outlines, outlines
 from geneva_cli.parts.sphere.shells import Shells, shells
 from geneva_cli.parts.turn.full_turn import FullTurn, full_turn
 from geneva_cli.parts.turn.gaps import NotProved
-from geneva_cli.parts.turn.turned import Turned
+from geneva_cli.parts.turn.machine_parts import MachineParts
 
 
 class Proof:
@@ -36,7 +36,7 @@ class Proof:
         return shells(self.mechanism, self.advice)
 
     @property
-    def turned(self) -> Turned:
+    def turned(self) -> MachineParts:
         """The parts that are turned: outlines or shells."""
         return self.found if self.mechanism.spec.wheel.FLAT else self.shells
 

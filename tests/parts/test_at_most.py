@@ -22,7 +22,7 @@ from geneva_cli.parts.assembly import assembly
 from geneva_cli.parts.at_most import at_most
 from geneva_cli.parts.outlines import outlines
 from geneva_cli.parts.sizes import sizes
-from geneva_cli.parts.turn.freedom import free_angles
+from geneva_cli.parts.turn.free_angles import free_angles
 from geneva_cli.parts.turn.play import windows
 from geneva_cli.spec.tables import Size
 

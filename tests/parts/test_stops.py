@@ -9,7 +9,7 @@ from words import load
 
 from geneva_cli.machine.mechanism import build
 from geneva_cli.parts.proof import Proof
-from geneva_cli.parts.turn.freedom import free_angles, search_deg
+from geneva_cli.parts.turn.free_angles import free_angles, search_deg
 from geneva_cli.parts.turn.play import windows
 
 BARE = ("turret", "internal-z6", "four-bar-z4", "press-curved", "three-rollers-z4", "spherical-z6")

@@ -15,7 +15,7 @@ from geneva_cli.machine.wheels.external import External
 from geneva_cli.machine.wheels.internal import Internal
 from geneva_cli.machine.wheels.spherical import Spherical
 from geneva_cli.parts.proof import Proof
-from geneva_cli.parts.turn.glance import gap_about, loose_about
+from geneva_cli.parts.turn.glance import gap_about, play_about
 from geneva_cli.study.synthesis import turns
 from geneva_cli.study.synthesis.built import built, built_together
 from geneva_cli.study.synthesis.looks import gap_at_rest, look
@@ -86,7 +86,7 @@ def test_a_play_that_fails_is_found_where_it_failed_before():
     whole = Proof(build(same_turn(spec)))
     largest = whole.turn.hand_over
     assert largest.deg > finds_slot(whole.turned)
-    assert 0.9 < loose_about(whole.turned, largest.at_deg) / largest.deg <= 1.0 + 1e-6
+    assert 0.9 < play_about(whole.turned, largest.at_deg) / largest.deg <= 1.0 + 1e-6
     seen = [Failing("hand_over_play_deg", largest.at_deg)]
     assert Turns().some_failing(build(with_roller(spec, 4.0)), seen) == seen
 

@@ -93,7 +93,7 @@ def planes(parts: Outlines) -> Planes:
 def _gears(parts: Outlines, bars: Links, links: tuple[Link, ...], turn: Array) -> Iterator[Meeting]:
     """Yield the gaps of gears to the wheel's hub and shaft, which pass through their plane.
 
-    A first wheel is no gear: ``beside_shafts`` computes its gap.
+    A first wheel is no gear: ``shaft_gap`` computes its gap.
     """
     assert bars.sizes is not None
     if parts.assembly.given.spec.drive.IN_SERIES:

@@ -61,7 +61,7 @@ def ring_gap(apart: float, inner: float, outer: Measure, radius: Measure) -> Mea
     return gap - radius
 
 
-def beside_shafts(parts: Outlines) -> ShaftGap | None:
+def shaft_gap(parts: Outlines) -> ShaftGap | None:
     """Return the least gap of all parts; None where nothing passes a hub or shaft.
 
     Raises GenevaError for sizes that leave no parts.
@@ -72,7 +72,7 @@ def beside_shafts(parts: Outlines) -> ShaftGap | None:
     return _least(parts, whole, turning, [*turning, *others])
 
 
-def beside_gears(parts: Outlines) -> ShaftGap | None:
+def gear_gap(parts: Outlines) -> ShaftGap | None:
     """Return the least gap of noncircular gears to hubs and shafts; None without such gears.
 
     Raises GenevaError for sizes that leave no parts.
