@@ -133,7 +133,7 @@ def part_drawing(proof: Proof, part: str, tolerance_mm: float, curves: str) -> D
     is_table(proof.mechanism, part, drawn=True)
     own, in_plane = PARTS[part], _in_plane(proof.mechanism)
     by = own.drawing if in_plane else own.flat or own.drawing
-    of = proof if is_alone(proof.mechanism, part) else proof.found
+    of = proof if is_alone(proof.mechanism, part) else proof.outlines
     drawing: Drawing = _loaded(by)(of, tolerance_mm, curves)
     return drawing
 
@@ -147,7 +147,7 @@ def part_sheet(proof: Proof, part: str, tolerance_mm: float, curves: str) -> She
         raise GenevaError(f"--part {part} is no drawing sheet; use {', '.join(SHEETS)}")
     own = PARTS[part]
     if not is_alone(proof.mechanism, part):
-        sheet: Sheet = _loaded(own.sheet)(proof.found, tolerance_mm, curves)
+        sheet: Sheet = _loaded(own.sheet)(proof.outlines, tolerance_mm, curves)
         return sheet
     alone: Sheet = _loaded(own.flat)(proof, tolerance_mm, curves)
     return alone

@@ -67,7 +67,7 @@ def framed(
             f'--part frame: the shafts of gearing = "{mechanism.spec.wheel.NAME}" are not '
             "parallel, so one plate cannot hold them"
         )
-    outlines = proof.found if mechanism.spec.is_flat else None
+    outlines = proof.outlines if mechanism.spec.is_flat else None
     bars = bars or drawn_links(mechanism, outlines)
     size, L = mechanism.spec.size, mechanism.center_distance_mm
     if fixed is None:
@@ -114,7 +114,7 @@ def _shafts(proof: Proof, bars: Links, lowest: float, first: Sequence[Member]) -
     """Yield all shafts at their positions; ``lowest`` is the frame's lower face."""
     stop, own = None, (False, False)
     if proof.mechanism.spec.is_flat:
-        outlines = proof.found
+        outlines = proof.outlines
         stop = crank_stop(outlines, bars)
         own = crank_shaft_radius(outlines) > 0.0, wheel_shaft_radius(outlines) > 0.0
         yield from shafts(outlines, lowest, stop)

@@ -62,7 +62,7 @@ def gears(proof: Proof, tolerance: float, curves: str) -> Drawing:
 def _round_gears(proof: Proof) -> Drawing:
     """Return the blanks of gears with pitch circles, at their positions from the crank's axis."""
     mechanism, L = proof.mechanism, proof.mechanism.center_distance_mm
-    bars = drawn_links(mechanism, proof.found if mechanism.spec.is_flat else None)
+    bars = drawn_links(mechanism, proof.outlines if mechanism.spec.is_flat else None)
     about = ((mapped(s, lambda p: (p[0] - L, p[1]))) for s in shapes(g.member for g in bars.gears))
     drawn = list(once(about))
     holes = [s for s in drawn if isinstance(s, Circle) and s.layer == BORE]
@@ -187,7 +187,7 @@ def _driver_bore(proof: Proof) -> float:
 
 def _sizes(proof: Proof) -> LinkSizes:
     mechanism = proof.mechanism
-    return link_sizes(mechanism, [], proof.found if mechanism.spec.is_flat else None)
+    return link_sizes(mechanism, [], proof.outlines if mechanism.spec.is_flat else None)
 
 
 def gear_bores(proof: Proof) -> list[tuple[Point, float]]:

@@ -45,7 +45,7 @@ def _lock_directions(assembly: Assembly, middle: float, ends: list[float]) -> li
     return [centre + math.remainder(assembly.lock(end) - centre, math.tau) for end in ends]
 
 
-def arc_room(assembly: Assembly, lock: float) -> float:
+def arc_floor(assembly: Assembly, lock: float) -> float:
     """Return the least distance from the axis of an arc that meets the disc at right angles.
 
     It is that of the widest relief, or 0 where there is no such arc, from half a turn on.
@@ -58,8 +58,8 @@ def arc_room(assembly: Assembly, lock: float) -> float:
 def has_arcs(assembly: Assembly, lock: float) -> bool:
     """Return True if arcs relieve the disc and, between gears' motions, leave room for a bore."""
     paired = any(engagement.apart for engagement in assembly.kinds)
-    room = arc_room(assembly, lock)
-    return room >= BORED * assembly.L if paired else room > 0.0
+    floor = arc_floor(assembly, lock)
+    return floor >= BORED * assembly.L if paired else floor > 0.0
 
 
 def without_lock(assembly: Assembly) -> bool:

@@ -87,7 +87,7 @@ def _has_gear(parts: Outlines) -> bool:
     near = SAME * parts.assembly.L
     return any(
         link.radius_mm and math.hypot(float(x[0]), float(y[0])) < near
-        for link in links_at(parts.assembly.given, np.zeros(1))
+        for link in links_at(parts.assembly.full, np.zeros(1))
         for x, y in link.joints
     )
 

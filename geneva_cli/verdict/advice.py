@@ -243,7 +243,7 @@ def _left(machine: Mechanism, check: Check) -> float:
             from geneva_cli.parts.turn.glance import gap_about, play_about
             from geneva_cli.verdict.checks.play import finds_slot
 
-            parts = Proof(machine, advice=False).turned
+            parts = Proof(machine, advice=False).parts
             if check.name in GAPS:
                 return gap_about(parts, check.at_deg) + parts.contact
             return finds_slot(parts) - play_about(parts, check.at_deg)

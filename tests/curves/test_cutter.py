@@ -143,7 +143,7 @@ def two_pins():
 def test_the_disc_locks_where_it_did(two_pins):
     """The arcs of the locking circle are the very same, and the solid is what is drawn."""
     design, proof, freed_drawing = two_pins
-    lock = proof.found.sizes.lock
+    lock = proof.outlines.sizes.lock
 
     def locking(drawing):
         (disc,) = (s for s in drawing.shapes if s.layer == "CRANK")
@@ -174,7 +174,7 @@ def test_the_verdict_on_a_part(two_pins):
         [text for text in left if text not in corners],
     )
     refused, _ = design.cutter("wheel", 30.0, of=proof)
-    width = 2.0 * proof.found.sizes.half_width
+    width = 2.0 * proof.outlines.sizes.half_width
     assert refused.endswith(f"is narrower; a cutter up to {width:g} mm does")
 
 

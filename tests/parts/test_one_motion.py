@@ -36,7 +36,7 @@ SPECS = {
 @pytest.mark.parametrize("name", SPECS)
 def test_one_motion_stands_for_all(name):
     """The same gaps and plays, of a part of the turn; gaps to what their search leaves."""
-    parts = Proof(build(SPECS[name]), advice=False).turned
+    parts = Proof(build(SPECS[name]), advice=False).parts
     once = one_motion(parts)
     rollers = SPECS[name].drive.rollers
     assert once.assembly.span_deg * rollers == pytest.approx(parts.assembly.turn_deg)
@@ -60,13 +60,13 @@ UNLIKE = {
 
 @pytest.mark.parametrize("name", UNLIKE)
 def test_rollers_that_do_not_move_alike_are_all_looked_at(name):
-    parts = Proof(build(UNLIKE[name]), advice=False).turned
+    parts = Proof(build(UNLIKE[name]), advice=False).parts
     assert one_motion(parts) is parts
 
 
 def test_a_crank_or_wheel_that_is_not_alike_all_round_is_looked_at_all_round():
     """A disc with its relief turned by a degree on one side, and a slot askew."""
-    parts = Proof(build(SPECS["external"])).found
+    parts = Proof(build(SPECS["external"])).outlines
     assert one_motion(parts) is not parts
     (disc,) = parts.crank
     half = len(disc.segments) // 2

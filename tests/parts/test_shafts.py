@@ -96,7 +96,7 @@ def test_a_hub_is_a_ring():
 def test_an_arm_beside_the_wheels_hub():
     """With a hub as wide as that it is the arm that comes nearest, not the wheel to the crank."""
     design = with_(wheel_hub_mm=82.0)
-    room = crank_arm(design.parts).room
+    room = crank_arm(design.parts).hub_gap
     found = row(design, "beside_shafts_mm")
     assert found.value == pytest.approx(room, abs=1e-9) and found.value > 0.0
     wide = with_(wheel_hub_mm=88.0, arm_eye_mm=16.0)

@@ -31,7 +31,7 @@ def parts_of(name):
     if name in LOOSE:
         spec = machine.spec.with_("size.slot_clearance_mm", 0.05)
         machine = build(spec.with_("size.lock_clearance_mm", 0.04))
-    return Proof(machine).turned
+    return Proof(machine).parts
 
 
 def places(parts):

@@ -77,7 +77,7 @@ def gear_gap(parts: Outlines) -> ShaftGap | None:
 
     Raises GenevaError for sizes that leave no parts.
     """
-    if parts.assembly.given.spec.drive.gears is None:
+    if parts.assembly.full.spec.drive.gears is None:
         return None
     whole = built(parts, pitch=False)
     turning = _rings_of((whole.wheel, whole.crank))
@@ -106,7 +106,7 @@ def _least(
 
 def _noncircular(parts: Outlines) -> Iterator[Ring]:
     """Yield the rings of noncircular gears, out to the farthest points of their pitch curves."""
-    mechanism = parts.assembly.given
+    mechanism = parts.assembly.full
     pair, L = mechanism.spec.drive.gears, mechanism.center_distance_mm
     if pair is None:
         return

@@ -66,11 +66,11 @@ class Stops:
         by more. Where nothing stops it, it turns by ``most`` radians, which is less than the pitch.
         """
         count = pose.pins.shape[1]
-        beside = self._nearby(pose)
+        others = self._nearby(pose)
         rolling: list[Touch] = []
         locking: list[Touch] = []
         for at in (self._at_rounds, self._at_lines):
-            for touch, which in at(beside, pose, most, close):
+            for touch, which in at(others, pose, most, close):
                 rolling.append(touch.at(which < count))
                 locking.append(touch.at(which >= count))
         if self.edges is not None:

@@ -113,7 +113,7 @@ class _Turn:
     def _made(self) -> MachineParts | Failing:
         """The parts, or the key in their way."""
         try:
-            return drawn(*self._sized) if self._sized else Proof(self._machine, advice=False).turned
+            return drawn(*self._sized) if self._sized else Proof(self._machine, advice=False).parts
         except GenevaError as error:
             return _in_the_way(error)
 

@@ -16,7 +16,7 @@ MOTION_PLAY_MAX = 0.05
 
 def dwell_hold(name: str, found: MachineParts, turn: FullTurn) -> Check:
     """Whether something holds the wheel: its lock, or what the spec says."""
-    holds = found.assembly.given.spec.wheel.held_by is not None or turn.holds
+    holds = found.assembly.full.spec.wheel.held_by is not None or turn.holds
     return Check(name, float(holds), "at least", 1.0, holds)
 
 

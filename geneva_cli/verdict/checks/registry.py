@@ -120,7 +120,7 @@ def standing(mechanism: Mechanism) -> Checks:
 
 def standing_checks(found: MachineParts) -> Iterator[Check]:
     """The checks of parts at rest: walls, shafts, branches of a slot."""
-    yield from _made(standing(found.assembly.given), found)
+    yield from _made(standing(found.assembly.full), found)
 
 
 def turn_checks(found: MachineParts, turn: FullTurn) -> Iterator[Check]:

@@ -53,7 +53,7 @@ def beside(name: str, found: Outlines) -> Check | None:
 
     By default they have their room, but for a first wheel's.
     """
-    given, drive = vars(found.assembly.mechanism.spec.size), found.assembly.given.spec.drive
+    given, drive = vars(found.assembly.mechanism.spec.size), found.assembly.full.spec.drive
     if not (drive.IN_SERIES or any(given[key] is not None for key in KEYS)):
         return None
     return gap(name, lambda: shaft_gap(found), found.assembly.L)

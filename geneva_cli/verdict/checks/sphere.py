@@ -35,7 +35,7 @@ def wheel_bore(name: str, found: Shells) -> Check:
 
 def dial(name: str, found: Shells) -> Check | None:
     """The least wall round the holes for a dial."""
-    size = found.assembly.given.spec.size
+    size = found.assembly.full.spec.size
     if not size.dial_bolts:
         return None
     return at_least(name, lambda: dial_wall(size, found.ball), found.sizes.wall_min)
