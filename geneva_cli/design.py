@@ -455,7 +455,7 @@ class Design:
         >>> Design(External(6)).parts.relief
         'arc'
         """
-        return self.proof.found
+        return self.proof.outlines
 
     def drawn(self, tolerance_mm: float, part: str = "wheel") -> Proof:
         """The parts as they are written for a tolerance in mm, and their full turn.
@@ -463,7 +463,7 @@ class Design:
         Raises GenevaError for another tolerance, or where there are no flat parts, unless ``part``
         is one that is drawn without.
 
-        >>> Design(External(6)).drawn(0.01).found.relief
+        >>> Design(External(6)).drawn(0.01).outlines.relief
         'arc'
         """
         from geneva_cli.parts.catalogue import is_alone, machine_of, require_tolerance

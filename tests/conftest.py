@@ -77,7 +77,7 @@ def kept(function, key):
 
 
 def of_outlines(found):
-    return found.assembly.given.spec, getattr(found, "fine", 0.0)  # shells have no tolerance
+    return found.assembly.full.spec, getattr(found, "fine", 0.0)  # shells have no tolerance
 
 
 def of_mechanism(mechanism, tolerance=0.0):

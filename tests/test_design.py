@@ -235,11 +235,11 @@ def test_another_object_is_refused_where_it_is_given(make):
     ("ask", "said"),
     [
         (lambda d: d.drawing("whel"), '--part whel: .*did you mean "wheel"'),
-        (lambda d: d.drawing("gears"), "--part gears: .*crank.* has none"),
+        (lambda d: d.drawing("gears"), "--part gears: .*crank.* has no gears"),
         (lambda d: d.drawing("wheel", curves="spine"), "--curves spine: it must be arcs or spline"),
         (lambda d: d.drawing("wheel", math.nan), "--tolerance nan: must be above 0, at most 5 mm"),
         (lambda d: d.part_table("whel"), '--part whel: .*did you mean "wheel"'),
-        (lambda d: d.part_table("crank"), "--part crank is drawn"),
+        (lambda d: d.part_table("crank"), "--part crank is a drawing"),
         (lambda d: d.slot(-1.0), "--tolerance -1: must be above 0, at most 5 mm"),
         (lambda d: d.drawing("wheel", math.inf), "inf: must be .* at most 5 mm, the roller's radi"),
         (lambda d: d.slot(5.1), "--tolerance 5.1: must be above 0, at most 5 mm"),

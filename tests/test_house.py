@@ -194,7 +194,7 @@ ANY = {
     "analysis.vibration.answers": {"values"},
     "machine.registry": {"_load_kind"},
     "machine.spec": {"replace", "table"},
-    "parts.catalogue": {"_made"},
+    "parts.catalogue": {"_loaded"},
     "parts.sheet.composed": {"on_paper", "_composed", "_items"},
     "parts.sheet.views": {"rows"},
 }

@@ -1,8 +1,8 @@
-"""Reliefs that go all the way round the locking disc, told before any wall is drawn.
+"""A test for reliefs that go all round the locking disc, before any wall is drawn.
 
-The wheel's horns turn past the edges of a relief, which is widened by that; the more so the larger
-the roller, and the deeper the recess. The corners of the recesses, which no slot moves, tell most
-of it.
+The wheel's horns turn past the edges of a relief, which is widened by that. The larger the roller
+and the deeper the recess, the wider it becomes. The corners of the recesses, which no slot moves,
+decide most cases.
 """
 
 from __future__ import annotations
@@ -17,32 +17,32 @@ from geneva_cli.parts.crank import is_whole
 from geneva_cli.parts.locking_rings import seen
 from geneva_cli.parts.reliefs import Relief, followed, reliefs
 from geneva_cli.parts.sizes import Sizes
-from geneva_cli.parts.turn.around import half_seen
+from geneva_cli.parts.turn.angular_index import half_angle
 from geneva_cli.parts.wheel import opening
 
 if TYPE_CHECKING:
     from geneva_cli.numerics.jet import Array
 
 PLACES = 91  # of a motion
-CLEARLY = 0.01  # radians, and of the disc's radius: what is beyond by more is so by any places
+CLEARLY = 0.01  # radians, and of the disc's radius: margin beyond which sampling does not matter
 
 
 def leave_no_disc(assembly: Assembly, sizes: Sizes) -> bool:
-    """Whether reliefs that clear the recesses' corners overlap all round the disc.
+    """Return True if reliefs that clear the recesses' corners overlap all round the disc.
 
-    Told of machines with a law. What else a relief clears makes it no narrower.
+    It is computed for machines with a law. Whatever else a relief clears makes it no narrower.
     """
-    # the corners are where the rim is the same at every mouth, and where there is a horn
+    # the corners are at the rim if that is equal at every mouth and there is a horn
     lawful = assembly.mechanism.law is not None and sizes.lock and sizes.horn > 0.0
-    given = assembly.mechanism.spec.size.relief
-    if not lawful or given == "arc" or not is_whole(assembly, sizes):
+    relief = assembly.mechanism.spec.size.relief
+    if not lawful or relief == "arc" or not is_whole(assembly, sizes):
         return False
     wide = [_widened(assembly, sizes, one) for one in reliefs(assembly)]
     return all(one.end - after > CLEARLY for one, after in followed(wide))
 
 
 def _widened(assembly: Assembly, sizes: Sizes, relief: Relief) -> Relief:
-    """A relief as wide as the corners need it, of those that come well within the disc."""
+    """Return a relief as wide as those corners need that come well inside the disc."""
     middle = 0.5 * (relief.start + relief.end)
     engagement, behind = assembly.motions[relief.motion]
     at = behind + np.linspace(engagement.entry_deg, engagement.exit_deg, PLACES)
@@ -55,17 +55,16 @@ def _widened(assembly: Assembly, sizes: Sizes, relief: Relief) -> Relief:
 
 
 def corners(assembly: Assembly, sizes: Sizes, at: Array) -> tuple[Array, Array]:
-    """Where on the crank the recesses' corners come within the locking disc at input angles, in
-    degrees: x and y, mm.
+    """Return the recesses' corners that are inside the locking disc at input angles, x and y, mm.
 
-    Raises GenevaError where the rim does not meet the recesses.
+    They are in the crank's frame. Raises GenevaError where the rim does not meet the recesses.
     """
     half = opening(assembly.L, sizes.rim, sizes.recess)
     corner: Array = np.array([rest + side * half for rest in assembly.rests for side in (-1, 1)])
     turn = corner + assembly.wheel(at)[:, None]
-    # only in directions near to that of the crank's axis is anything within the disc
-    beside = np.abs(np.remainder(turn + math.pi, math.tau) - math.pi)
-    place, which = np.nonzero(beside <= half_seen(sizes.lock, assembly.L))
+    # only in directions near that of the crank's axis can a corner be inside the disc
+    off = np.abs(np.remainder(turn + math.pi, math.tau) - math.pi)
+    place, which = np.nonzero(off <= half_angle(sizes.lock, assembly.L))
     turn, pose = turn[place, which], assembly.crank(at)[place]
     x, y = sizes.rim * np.cos(turn) - assembly.L, sizes.rim * np.sin(turn)
     c, s = np.cos(pose), np.sin(pose)

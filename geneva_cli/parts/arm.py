@@ -45,12 +45,12 @@ class CrankArm(NamedTuple):
     bolts: list[Circle]
     hub: float
     eye: float
-    room: float  # between the arm's end and the wheel's shaft or hub; infinite for internal wheels
+    hub_gap: float  # from the arm's end to the wheel's shaft or hub; infinite if internal
 
 
 def has_arm(parts: Outlines) -> bool:
     """Return True if the machine has an arm: a crank with rollers on pins."""
-    return parts.assembly.given.spec.drive.ONE_ARM and parts.sizes.pin > 0.0
+    return parts.assembly.full.spec.drive.ONE_ARM and parts.sizes.pin > 0.0
 
 
 def crank_arm(parts: Outlines) -> CrankArm:
@@ -59,7 +59,7 @@ def crank_arm(parts: Outlines) -> CrankArm:
     Raises GenevaError, naming the key, where the rollers are on no crank, or the sizes leave no arm
     around the holes.
     """
-    spec = parts.assembly.given.spec
+    spec = parts.assembly.full.spec
     if not spec.drive.ONE_ARM:
         raise GenevaError(
             f'--part arm: kind = "{spec.drive.NAME}" carries its roller on no crank arm; '
@@ -91,7 +91,7 @@ def crank_arm(parts: Outlines) -> CrankArm:
 
 def shaft_bore(parts: Outlines) -> float:
     """Return the radius of the shaft's bore, which goes through the disc or ends in the arm."""
-    spec = parts.assembly.given.spec
+    spec = parts.assembly.full.spec
     hole = parts.sizes.pin - 0.5 * spec.size.allowances.press_fit_mm
     space = min(math.hypot(*c) for c in roller_centres(parts.assembly)) - hole
     return arm_bore(spec, parts.sizes.crank_bore, parts.assembly.L, space)

@@ -53,13 +53,13 @@ def pin_hole(size: Size, pin: float) -> float:
     return hole
 
 
-def arm_bore(spec: Spec, disc: float, L: float, room: float) -> float:
+def arm_bore(spec: Spec, disc: float, L: float, space: float) -> float:
     """Return the radius of the arm's bore: of the spec, of the ``disc`` on it, or of the shaft.
 
-    By default it leaves most of the space up to the nearest pin's hole, ``room``.
+    By default it leaves most of the space up to the nearest pin's hole, ``space``.
     """
     diameter = spec.size.arm_bore_mm or 2.0 * disc or spec.shaft.crank_diameter_mm
-    return half_or(diameter, even(min(L / 20.0, 0.35 * room)))
+    return half_or(diameter, even(min(L / 20.0, 0.35 * space)))
 
 
 def eye_about(hole: float, wall: float, most: float = math.inf) -> float:

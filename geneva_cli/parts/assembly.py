@@ -47,17 +47,17 @@ class Assembly(NamedTuple):
     rollers: tuple[tuple[Engagement, float], ...]
     slots: tuple[tuple[Engagement, float], ...]
     rests: tuple[float, ...]
-    given: Mechanism  # the machine of the spec, with the drive of its crank
-    to_input: Callable[[float], float]  # input angle of the plain crank -> of ``given``, degrees
+    full: Mechanism  # the machine of the spec, with the drive of its crank
+    to_input: Callable[[float], float]  # input angle of the plain crank -> of ``full``, degrees
 
     def shown_deg(self, input_deg: float) -> float:
         """Return the input angle as commands show it, for an input angle of the assembly."""
-        return self.given.shown_deg(self.to_input(input_deg))
+        return self.full.shown_deg(self.to_input(input_deg))
 
     def place_deg(self, shown_deg: float) -> float:
         """Return the inverse of ``shown_deg``, to a hundredth of a degree."""
         low, high = self.start_deg, self.start_deg + self.turn_deg
-        period = 360.0 * self.given.spec.drive.turns
+        period = 360.0 * self.full.spec.drive.turns
         best = low
         for _ in range(3):
             grid = np.linspace(low, high, 361)
@@ -152,9 +152,9 @@ def assembly(mechanism: Mechanism) -> Assembly:
     spec = mechanism.spec
     if not spec.wheel.FLAT:
         raise GenevaError(
-            f'gearing = "{spec.wheel.NAME}": its parts are not flat; write `--part wheel`, `crank` '
-            "and `assembly` laid flat as .dxf or .svg, solids as .step; as tables (-o FILE.csv) "
-            "write `wheel` (slots on the sphere) or `slot` (one of them laid flat)",
+            f'gearing = "{spec.wheel.NAME}": its parts are not flat: write `--part wheel`, `crank` '
+            "or `assembly` laid flat (.dxf, .svg) or as solids (.step), or `wheel` or `slot` as "
+            "tables (-o FILE.csv)",
             ("wheel", "gearing"),
         )
     if spec.wheel.z > Z_DRAWN:

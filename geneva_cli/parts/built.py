@@ -94,7 +94,7 @@ def built(
     links, shafts or groove plate.
     """
     assembly = parts.assembly
-    mechanism, at = assembly.given, np.zeros(1)
+    mechanism, at = assembly.full, np.zeros(1)
     bars = drawn_links(mechanism, parts)
     arm = crank_arm(parts) if has_arm(parts) else None
     proof = Proof(mechanism, parts)

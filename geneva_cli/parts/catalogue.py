@@ -1,6 +1,6 @@
 """The parts that ``geneva profile`` writes: as tables of points, and as drawings to cut.
 
-A new part is one function and one line here.
+A new part is one function, and one line here.
 """
 
 from __future__ import annotations
@@ -20,16 +20,16 @@ if TYPE_CHECKING:
 
 
 class Part(NamedTuple):
-    """Who makes a part, as ``module:function``."""
+    """The functions that make a part, each as ``module:function``."""
 
-    table: str | None = None  # its points, where no drawing is asked for
+    table: str | None = None  # its points, if no drawing is requested
     drawing: str | None = None
-    sphere: str | None = None  # its points where the wheel is a sphere's
-    cut: bool = False  # whether it is cut out of a plate
+    sphere: str | None = None  # its points for a spherical wheel
+    cut: bool = False  # True if it is cut out of a plate
     sheet: str | None = None  # as a drawing sheet with dimensions
-    alone: bool = False  # whether it is drawn without the outlines of wheel and crank
-    in_front: bool = False  # whether it is of a first wheel, in front of the crank
-    flat: str | None = None  # its drawing, or sheet, laid flat where the wheel is a sphere's
+    alone: bool = False  # True if it is drawn without the outlines of wheel and crank
+    in_front: bool = False  # True if it belongs to a first wheel, in front of the crank
+    flat: str | None = None  # its drawing or sheet, laid flat, for a spherical wheel
 
 
 PARTS = {
@@ -61,50 +61,50 @@ SAMPLES_MAX = 1_000_000
 
 
 def is_sheet(part: str) -> bool:
-    """Whether a part is drawn as a sheet of paper. Raises GenevaError for one that is not known."""
+    """Return True if a part is drawn as a sheet. Raises GenevaError for an unknown part."""
     _require_known(part)
     return part in SHEETS
 
 
 def is_table(mechanism: Mechanism, part: str, drawn: bool) -> bool:
-    """Whether a part is written as a table; ``drawn`` where the format is a drawing's.
+    """Return True if a part is written as a table; ``drawn`` is True for a drawing's format.
 
-    Raises GenevaError for a part that is not known, or is no drawing.
+    Raises GenevaError for a part that is unknown, or has no drawing.
     """
     _require_known(part)
     if drawn and part not in DRAWINGS:
         raise GenevaError(
-            f"--part {part} is a table of points; write it as .csv or .json, and "
-            f"{', '.join(DRAWINGS)} as drawings"
+            f"--part {part} is a table of points: write it as .csv or .json; these are drawings: "
+            f"{', '.join(DRAWINGS)}"
         )
     return not drawn and _table(mechanism, part) is not None
 
 
 def part_table(mechanism: Mechanism, part: str, tolerance_mm: float, samples: int | None) -> Table:
-    """A part's points: for a chord tolerance, or ``samples`` evenly in the input angle.
+    """Return a part's points: for a chord tolerance, or at ``samples`` even input angles.
 
     Raises GenevaError for a part that the machine does not have.
     """
     if samples is not None and not 2 <= samples <= SAMPLES_MAX:
         raise GenevaError(f"--samples {cut(samples)}: must be at least 2, at most {SAMPLES_MAX}")
     if part in SHEETS or not is_table(mechanism, part, drawn=False):
-        raise GenevaError(f"--part {part} is drawn; write it as .dxf or .svg")
+        raise GenevaError(f"--part {part} is a drawing: write it as .dxf or .svg")
     require_tolerance(mechanism, tolerance_mm)
-    made: Table = _made(_table(mechanism, part))(mechanism, tolerance_mm, samples)
-    return made
+    table: Table = _loaded(_table(mechanism, part))(mechanism, tolerance_mm, samples)
+    return table
 
 
 def require_tolerance(mechanism: Mechanism, tolerance_mm: float) -> None:
     """Raise GenevaError for a tolerance that is not above 0, or wider than half a slot.
 
-    A slot that may miss its curve by its own half width is none.
+    A slot may not miss its curve by its own half width.
     """
     allowed = Range(0.0, mechanism.roller_radius_mm, "(]")
     require_mm("--tolerance", tolerance_mm, allowed, "the roller's radius")
 
 
 def is_alone(mechanism: Mechanism, part: str) -> bool:
-    """Whether a part is drawn without the outlines of wheel and crank."""
+    """Return True if a part is drawn without the outlines of wheel and crank."""
     own = PARTS.get(part)
     if own is None:
         return False
@@ -112,44 +112,44 @@ def is_alone(mechanism: Mechanism, part: str) -> bool:
 
 
 def machine_of(mechanism: Mechanism, part: str) -> Mechanism:
-    """The machine that a part is of: itself, or the first of two wheels in series.
+    """Return the machine that a part belongs to: itself, or the first of two wheels in series.
 
-    Raises GenevaError for a part of a first wheel where there is none.
+    Raises GenevaError for a part of a first wheel if there is none.
     """
     if part not in PARTS or not PARTS[part].in_front:
         return mechanism
-    made: Mechanism = _made("first_pair:first_pair")(mechanism)
-    return made
+    first: Mechanism = _loaded("first_pair:first_pair")(mechanism)
+    return first
 
 
 def part_drawing(proof: Proof, part: str, tolerance_mm: float, curves: str) -> Drawing:
-    """A part as contours of lines and arcs, or ("cubics") of lines, arcs and cubics.
+    """Return a part's drawing: lines and arcs, or with ``curves`` = "cubics" also cubics.
 
     Raises GenevaError for a part that is not drawn, or that the machine does not have.
     """
     _require_known(part)
     if part in SHEETS:
-        raise GenevaError(f"--part {part} is a drawing sheet, and no drawing to cut")
+        raise GenevaError(f"--part {part} is a drawing sheet, not a drawing to cut")
     is_table(proof.mechanism, part, drawn=True)
     own, in_plane = PARTS[part], _in_plane(proof.mechanism)
     by = own.drawing if in_plane else own.flat or own.drawing
-    of = proof if is_alone(proof.mechanism, part) else proof.found
-    made: Drawing = _made(by)(of, tolerance_mm, curves)
-    return made
+    of = proof if is_alone(proof.mechanism, part) else proof.outlines
+    drawing: Drawing = _loaded(by)(of, tolerance_mm, curves)
+    return drawing
 
 
 def part_sheet(proof: Proof, part: str, tolerance_mm: float, curves: str) -> Sheet:
-    """A part, or all of them, as a drawing sheet with dimensions.
+    """Return a part, or all of them, as a drawing sheet with dimensions.
 
-    Raises GenevaError for a part that is no sheet, or that does not go on one.
+    Raises GenevaError for a part without a sheet, or that does not fit on one.
     """
     if not is_sheet(part):
-        raise GenevaError(f"--part {part} is no drawing sheet; {', '.join(SHEETS)} is")
+        raise GenevaError(f"--part {part} is no drawing sheet; use {', '.join(SHEETS)}")
     own = PARTS[part]
     if not is_alone(proof.mechanism, part):
-        made: Sheet = _made(own.sheet)(proof.found, tolerance_mm, curves)
-        return made
-    alone: Sheet = _made(own.flat)(proof, tolerance_mm, curves)
+        sheet: Sheet = _loaded(own.sheet)(proof.outlines, tolerance_mm, curves)
+        return sheet
+    alone: Sheet = _loaded(own.flat)(proof, tolerance_mm, curves)
     return alone
 
 
@@ -157,8 +157,8 @@ def require_cut(part: str, option: str = "--kerf") -> None:
     """Raise GenevaError, naming an option, for a part that is not cut out of a plate."""
     if part not in CUT:
         raise GenevaError(
-            f"{option} is for parts that are cut out of a plate: {', '.join(CUT)}; not for "
-            f"{cut(part)}"
+            f"{option} applies only to parts that are cut out of a plate ({', '.join(CUT)}), not "
+            f"to {cut(part)}"
         )
 
 
@@ -178,6 +178,6 @@ def _require_known(part: str) -> None:
         )
 
 
-def _made(by: str | None) -> Any:
-    assert by is not None  # is_table says which parts are tables, and which are drawn
+def _loaded(by: str | None) -> Any:
+    assert by is not None  # is_table tells tables and drawings apart
     return load_named(f"parts.{by}")

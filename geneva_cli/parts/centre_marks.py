@@ -1,4 +1,4 @@
-"""Centre marks: a cross at the centre of every hole, on a layer of its own, for drill and punch."""
+"""Centre marks: a cross on its own layer at the centre of every hole, for drill and punch."""
 
 from __future__ import annotations
 
@@ -8,12 +8,12 @@ from geneva_cli.curves.drawing import Drawing
 from geneva_cli.curves.shapes import Arc, Circle, Contour, Line, Shape
 
 LAYER = "CENTER"
-LINES = "PITCH"  # a layer of lines on which nothing is cut
-BEYOND = 1.25  # of the hole's radius: how far a cross reaches
+LINES = "PITCH"  # a layer of lines that are not cut
+BEYOND = 1.25  # of the hole's radius: half the length of a cross
 
 
 def with_centre_marks(drawing: Drawing) -> Drawing:
-    """A drawing with marks in its circles and keyed bores, one where they are concentric.
+    """Return a drawing with marks in circles and keyed bores, one for concentric ones.
 
     >>> bore, roller = Circle("BORE", (0.0, 0.0), 4.0), Circle("ROLLER", (0.0, 0.0), 8.0)
     >>> marked = with_centre_marks(Drawing("disc", (roller, bore)))
@@ -30,7 +30,7 @@ def with_centre_marks(drawing: Drawing) -> Drawing:
 
 
 def _circles(shapes: Iterable[Shape]) -> Iterator[Circle]:
-    """Circles, and round holes with a keyway as circles."""
+    """Yield circles, and round holes with a keyway as circles."""
     for shape in shapes:
         if shape.layer == LINES:
             continue
@@ -39,12 +39,12 @@ def _circles(shapes: Iterable[Shape]) -> Iterator[Circle]:
         elif shape.layer == "BORE":
             arcs = [piece for piece in shape.segments if isinstance(piece, Arc)]
             for arc in sorted(arcs, key=lambda one: -one.radius)[:1]:  # dog bones are smaller
-                x, y = (round(v, 9) + 0.0 for v in arc.centre)  # mm; of rounding otherwise
+                x, y = (round(v, 9) + 0.0 for v in arc.centre)  # mm; removes rounding errors
                 yield Circle(shape.layer, (x, y), arc.radius)
 
 
 def centre_marks(holes: Iterable[Circle]) -> Iterator[Contour]:
-    """Two lines across each hole, level and upright.
+    """Yield two lines across each hole, horizontal and vertical.
 
     >>> [mark.segments[0].end for mark in centre_marks([Circle("BORE", (10.0, 0.0), 4.0)])]
     [(15.0, 0.0), (10.0, 5.0)]

@@ -77,7 +77,7 @@ def coupon(parts: Outlines, tolerance: float, curves: str) -> Drawing:
             Member(Plate("roller", "ROLLER", disc, bore, 0.0, thick)),
         ),
     )
-    spec = parts.assembly.given.spec
+    spec = parts.assembly.full.spec
     title = spec.title or f"Geneva wheel of {spec.wheel.z} slots"
     return Drawing(f"{title}: fit coupon", (outline, *holes, disc, *bore, *marks), solid=solid)
 

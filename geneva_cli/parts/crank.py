@@ -1,7 +1,7 @@
 """The crank's outline in the wheel's plane: the locking disc and its relief.
 
-In the crank's frame: its axis the origin, x through the first roller at mid-motion. The disc is
-whole where it locks, and relieved where a roller moves the wheel.
+They are in the crank's frame: its axis is the origin, and x is through the first roller at
+mid-motion. The disc is whole where it locks, and relieved where a roller moves the wheel.
 """
 
 from __future__ import annotations
@@ -36,11 +36,12 @@ if TYPE_CHECKING:
 def crank_contours(
     assembly: Assembly, sizes: Sizes, relief: str, swept: Swept, spare: float = 0.0
 ) -> list[Contour]:
-    """The locking disc with one kind of relief: ``"arc"`` or ``"sector"``.
+    """Return the locking disc with one kind of relief: ``"arc"`` or ``"sector"``.
 
-    ``swept(i, every)`` is where the wheel comes within the disc in the i-th motion. Where the
-    wheel sweeps over the crank's axis, as inside it does, what is left are the locking sectors,
-    carried by the crank beside the wheel's plane; they keep ``spare`` mm more from it.
+    ``swept(i, every)`` are points where the wheel enters the disc in the i-th motion. Where the
+    wheel sweeps over the crank's axis, as an internal wheel does, only locking sectors are left.
+    The crank carries them next to the wheel's plane. They keep ``spare`` mm more distance from the
+    wheel.
     """
     around = reliefs(assembly)
     if not is_whole(assembly, sizes):
@@ -50,25 +51,25 @@ def crank_contours(
     cut = _arc if relief == "arc" else _sector
     if sum(one.end - one.start for one in around) > math.tau - SAME:
         raise GenevaError(
-            "nothing is left of the locking disc: its reliefs go all the way round; a smaller "
-            f"roller than {sizes.roller:g} mm, or fewer, leave some",
+            "nothing is left of the locking disc: its reliefs go all the way round; use fewer "
+            f"rollers, or a smaller one than {sizes.roller:g} mm",
             ("size", "roller_radius_mm"),
         )
-    found: list[Segment] = []
+    segments: list[Segment] = []
     for one, after in followed(around):
-        found += cut(assembly, sizes, one)
+        segments += cut(assembly, sizes, one)
         if after - one.end > SAME:
-            found.append(about((0.0, 0.0), sizes.lock, one.end, after - one.end))
-    return [closed(LAYER, found)]
+            segments.append(about((0.0, 0.0), sizes.lock, one.end, after - one.end))
+    return [closed(LAYER, segments)]
 
 
 def is_whole(assembly: Assembly, sizes: Sizes) -> bool:
-    """Whether something of the disc is left at the crank's axis."""
+    """Return True if some of the disc is left at the crank's axis."""
     return assembly.sign > 0.0 and assembly.L - sizes.rim > sizes.relief
 
 
 def _widened(sizes: Sizes, one: Relief, swept: Swept) -> Relief:
-    """A relief as wide as the wheel needs it: offset slots turn their horns past its edge."""
+    """Return a relief as wide as the wheel needs: offset slots turn horns past its edges."""
     middle = 0.5 * (one.start + one.end)
     beyond = towards(*swept(one.motion, 1), middle + math.pi, math.pi - one.half)
     off = seen(*beyond, middle).direction
@@ -80,32 +81,33 @@ def _widened(sizes: Sizes, one: Relief, swept: Swept) -> Relief:
 
 
 def crank_circles(assembly: Assembly, sizes: Sizes) -> list[Shape]:
-    """Rollers, pins and bore, which may have a keyway."""
-    found: list[Shape] = []
+    """Return rollers, pins and bore, which may have a keyway."""
+    shapes: list[Shape] = []
     for centre in roller_centres(assembly):
-        found += [Circle("ROLLER", centre, sizes.roller)]
-        found += [Circle("ROLLER", centre, sizes.pin)] if sizes.pin else []
+        shapes += [Circle("ROLLER", centre, sizes.roller)]
+        shapes += [Circle("ROLLER", centre, sizes.pin)] if sizes.pin else []
     if sizes.crank_bore:
         fitted = key(assembly.mechanism.spec.size.crank_keyway, sizes.crank_bore)
-        found.append(bore("BORE", sizes.crank_bore, fitted, keyway_direction(assembly)))
-    return found
+        shapes.append(bore("BORE", sizes.crank_bore, fitted, keyway_direction(assembly)))
+    return shapes
 
 
 def roller_centres(assembly: Assembly) -> list[Point]:
-    """The rollers on the crank at the mid-motion of each."""
-    found = []
+    """Return the centres of the rollers on the crank, each at its mid-motion."""
+    centres = []
     for number, (_, behind) in enumerate(assembly.rollers):
         at = np.array([behind])
         x, y = (assembly.pin(number, at) - (assembly.L, 0.0))[0]
         angle = math.atan2(y, x) - float(assembly.crank(at)[0])
         reach = math.hypot(x, y)
-        found.append((reach * math.cos(angle), reach * math.sin(angle)))
-    return found
+        centres.append((reach * math.cos(angle), reach * math.sin(angle)))
+    return centres
 
 
 def rollers_gap(assembly: Assembly, sizes: Sizes) -> float | None:
-    """Between the roller that starts the wheel and the one that stops it, mm, negative where they
-    overlap; None where each roller does both.
+    """Return the gap between the roller that starts the wheel and that which stops it, mm.
+
+    It is negative where they overlap, and None if each roller does both.
     """
     if len(assembly.rollers) == len(assembly.motions):
         return None
@@ -114,16 +116,16 @@ def rollers_gap(assembly: Assembly, sizes: Sizes) -> float | None:
 
 
 def _arc(assembly: Assembly, sizes: Sizes, relief: Relief) -> list[Segment]:
-    """One arc that meets the disc at right angles at both ends.
+    """Return one arc that meets the disc at right angles at both ends.
 
-    For a radial slot entered without shock it is the triangle of wheel, crank and roller at
-    entry, scaled down to the disc: centre L rk/R from the axis, radius L cos b rk/R. Raises
+    For a radial slot entered without shock it is the triangle of wheel, crank and roller at entry,
+    scaled down to the disc. Its centre is L rk/R from the axis, its radius is L cos b rk/R. Raises
     GenevaError where the wheel moves over half a turn of the crank or more.
     """
     if relief.half > 0.5 * math.pi - SAME:
         raise GenevaError(
             f'relief = "arc": the wheel moves over {math.degrees(2.0 * relief.half):.6g} deg of '
-            'the crank, and an arc relieves less than 180; "sector" does',
+            'the crank, but an arc relieves less than 180 deg; set relief = "sector"',
             ("size", "relief"),
         )
     middle = 0.5 * (relief.start + relief.end)
@@ -134,7 +136,7 @@ def _arc(assembly: Assembly, sizes: Sizes, relief: Relief) -> list[Segment]:
 
 
 def _sector(assembly: Assembly, sizes: Sizes, relief: Relief) -> list[Segment]:
-    """The whole sector, down to where the wheel never comes: L - rim less a clearance."""
+    """Return the whole sector, down to where the wheel never comes: L - rim less a clearance."""
     floor = assembly.L - sizes.rim - sizes.relief
     width = relief.end - relief.start
     bottom = about((0.0, 0.0), floor, relief.start, width)

@@ -68,9 +68,9 @@ def groove(parts: Outlines, tolerance: float, curves: str) -> Drawing:
     """Return both flanks of a cam-Geneva's fixed groove all round, about the crank's axis."""
     guide = parts.assembly.rollers[0][0].groove
     if guide is None:
-        kind = parts.assembly.given.spec.drive.NAME
+        kind = parts.assembly.full.spec.drive.NAME
         raise GenevaError(
-            f'--part groove, groove-plate: kind = "{kind}" has none; kind = "cam" has'
+            f'--part groove, groove-plate: kind = "{kind}" has no groove; "cam" has one'
         )
     from geneva_cli.parts.groove import groove_curve
 

@@ -1,7 +1,8 @@
-"""ISO 286: limits of the fits that the drawings name.
+"""Limits of the fits (ISO 286) that the drawings use.
 
-H7 for holes, g6 and h6 for shafts in them; a pin is h6 all along, what is pressed on it P7, and
-what turns on it F7 (fits of the basis of shafts, ISO 286-1). And the loosest of its running fits.
+H7 is for holes, g6 and h6 for shafts in them. A pin is h6 all along: parts pressed on it are P7,
+parts that turn on it are F7 (shaft-basis fits, ISO 286-1). The loosest preferred running fit is
+here too.
 """
 
 from __future__ import annotations
@@ -10,16 +11,16 @@ from typing import NamedTuple
 
 
 class SizeRange(NamedTuple):
-    """Nominal sizes up to one, in mm, and what belongs to them, in micrometres."""
+    """A range of nominal sizes, mm, with its grades and deviations in micrometres."""
 
     up_to: float
     it6: int
     it7: int
-    g: int  # how far the upper limit of a shaft g is below the nominal size
-    f: int  # that of a shaft f, and how far the lower limit of a hole F is above it
-    p: int  # how far the lower limit of a shaft p is above it
+    g: int  # from the upper limit of a shaft g up to the nominal size
+    f: int  # the same for a shaft f; and from there up to the lower limit of a hole F
+    p: int  # from the nominal size to the lower limit of a shaft p
     it11: int | None = None
-    c: int | None = None  # that of a shaft c, of the larger sizes; the standard has none above 500
+    c: int | None = None  # to a shaft c, of the range's larger sizes; the standard ends at 500
 
 
 # ISO 286-1:2010: grades IT6, IT7 and IT11 by its table 1, the fundamental deviations g, f, p and c
@@ -53,7 +54,7 @@ ISO_286 = [
 
 
 def limits(nominal_mm: float, fit: str) -> tuple[int, int] | None:
-    """Upper and lower deviation in micrometres; None beyond the standard's 3150 mm.
+    """Return upper and lower deviation in micrometres; None beyond the standard's 3150 mm.
 
     >>> limits(20.0, "H7"), limits(20.0, "g6"), limits(20.0, "h6")
     ((21, 0), (-7, -20), (0, -13))
@@ -61,7 +62,7 @@ def limits(nominal_mm: float, fit: str) -> tuple[int, int] | None:
     row = next((row for row in ISO_286 if 0.0 < nominal_mm <= row.up_to), None)
     if row is None:
         return None
-    # up to 500 mm a hole P7 is pressed as much as a shaft p6 (ISO 286-1, 4.3.2.5)
+    # up to 500 mm a hole P7 has as much interference as a shaft p6 (ISO 286-1, 4.3.2.5)
     top = -row.p + (row.it7 - row.it6 if 3.0 < nominal_mm <= 500.0 else 0)
     return {
         "H7": (row.it7, 0),
@@ -73,9 +74,10 @@ def limits(nominal_mm: float, fit: str) -> tuple[int, int] | None:
 
 
 def loosest_mm(nominal_mm: float) -> float | None:
-    """The greatest clearance, mm of the diameter, of H11/c11: ISO 286's loosest preferred fit.
+    """Return the greatest clearance of H11/c11, mm of the diameter; None beyond 500 mm.
 
-    Both limits add up: the hole wide by IT11, the shaft narrow by c and IT11. None beyond 500 mm.
+    It is ISO 286's loosest preferred fit. Both limits add up: the hole is wider by IT11, the shaft
+    narrower by c and IT11.
 
     >>> loosest_mm(24.0)
     0.37
@@ -87,13 +89,13 @@ def loosest_mm(nominal_mm: float) -> float | None:
 
 
 def toleranced(nominal_mm: float, shown: str, fit: str) -> str:
-    """A size with its fit and the limits in mm.
+    """Return a size with its fit and the limits in mm.
 
     >>> toleranced(20.0, "Ø 20", "g6")
     'Ø 20 g6 (-0.007/-0.02)'
     """
-    found = limits(nominal_mm, fit)
-    if found is None:
+    deviations = limits(nominal_mm, fit)
+    if deviations is None:
         return shown
-    upper, lower = (f"{1e-3 * deviation:+g}" if deviation else "0" for deviation in found)
+    upper, lower = (f"{1e-3 * deviation:+g}" if deviation else "0" for deviation in deviations)
     return f"{shown} {fit} ({upper}/{lower})"

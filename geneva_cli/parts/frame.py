@@ -67,7 +67,7 @@ def framed(
             f'--part frame: the shafts of gearing = "{mechanism.spec.wheel.NAME}" are not '
             "parallel, so one plate cannot hold them"
         )
-    outlines = proof.found if mechanism.spec.is_flat else None
+    outlines = proof.outlines if mechanism.spec.is_flat else None
     bars = bars or drawn_links(mechanism, outlines)
     size, L = mechanism.spec.size, mechanism.center_distance_mm
     if fixed is None:
@@ -77,8 +77,8 @@ def framed(
         lows.append(gear_span(proof)[0])
     top = min([_lowest(mechanism, outlines, bars), *lows]) - size.washer_mm
     bottom = top - thicknesses(size, L).arm
-    all_shafts, places = list(_shafts(proof, bars, bottom, first)), list(_standing(mechanism, bars))
-    holes = [*_drilled(mechanism, all_shafts, places, top), *_fixed(bars), *_mounted(fixed, L)]
+    axles, places = list(_shafts(proof, bars, bottom, first)), list(_standing(mechanism, bars))
+    holes = [*_drilled(mechanism, axles, places, top), *_fixed(bars), *_mounted(fixed, L)]
     wall = wall_min(size, L)
     eye = max(L / 20.0, 3.0 * wall)
     # The frame contains every axis, drilled or not.
@@ -91,8 +91,7 @@ def framed(
     outline = convex_hull(LAYER, [Circle(LAYER, corner, eye) for corner in corners])
     holes += [Circle(HOLES, corner, even(0.4 * eye)) for corner in corners]
     return Framed(
-        Plate(NAME, LAYER, outline, tuple(holes), bottom, top),
-        tuple(outside_links(all_shafts, bars, L)),
+        Plate(NAME, LAYER, outline, tuple(holes), bottom, top), tuple(outside_links(axles, bars, L))
     )
 
 
@@ -115,7 +114,7 @@ def _shafts(proof: Proof, bars: Links, lowest: float, first: Sequence[Member]) -
     """Yield all shafts at their positions; ``lowest`` is the frame's lower face."""
     stop, own = None, (False, False)
     if proof.mechanism.spec.is_flat:
-        outlines = proof.found
+        outlines = proof.outlines
         stop = crank_stop(outlines, bars)
         own = crank_shaft_radius(outlines) > 0.0, wheel_shaft_radius(outlines) > 0.0
         yield from shafts(outlines, lowest, stop)

@@ -1,9 +1,9 @@
-"""Pitch curves of the gears in front of a crank, and whether they can be cut.
+"""Pitch curves of the gears in front of a crank, and a test whether they can be cut.
 
-With the ratio i = crank speed / input speed and the axes C apart, the pitch curves meet on the line
-of centres at r1 = C i/(1+i) from the driver and r2 = C/(1+i) from the driven gear. They are convex,
-and so can be hobbed, where 1 + 1/i + (1/i)'' > 0 on the driver and 1 + i + (i i'' - i'²)/i³ > 0 on
-the driven gear, derivatives by the driver's angle.
+The ratio is i = crank speed / input speed, and the axes are C apart. The pitch curves meet on the
+line of centres, at r1 = C i/(1+i) from the driver and r2 = C/(1+i) from the driven gear. Convex
+curves can be hobbed. The driver is convex where 1 + 1/i + (1/i)'' > 0, the driven gear where 1 + i
++ (i i'' - i'²)/i³ > 0, with derivatives by the driver's angle.
 """
 
 from __future__ import annotations
@@ -35,21 +35,21 @@ NAMES = (
     "driven_convexity",
 )
 SAMPLES = 721
-ENDS = (-np.pi, 0.0, np.pi)  # of the input: a turn, and where the curves' frames stand
+ENDS = (-np.pi, 0.0, np.pi)  # of the input: one turn, and the angle of the curves' frames
 
 
 class Convexity(NamedTuple):
-    """The least of both convexity conditions over a turn; not above 0 where a gear is hollow."""
+    """The least value of both convexity conditions in a turn; not above 0 for a hollow gear."""
 
     driver: float
     driven: float
 
 
 def gears_table(mechanism: Mechanism, tolerance_mm: float, samples: int | None) -> Table:
-    """Both pitch curves: for a chord tolerance, or ``samples`` evenly in the input angle.
+    """Return both pitch curves: for a chord tolerance, or at ``samples`` even input angles.
 
-    Each is in its own gear's frame, x along the line of centres at input 0.
-    The driver is given as it is cut, so its angle runs against the input; likewise the driven.
+    Each is in its own gear's frame, with x along the line of centres at input angle 0. Each is
+    given as it is cut, so its angle runs against the gear's rotation.
     """
     gears = required_gears(mechanism)
     if samples is None:
@@ -79,31 +79,31 @@ def gears_table(mechanism: Mechanism, tolerance_mm: float, samples: int | None) 
 
 
 def required_gears(mechanism: Mechanism) -> Gears:
-    """The noncircular gears of a machine; raises GenevaError where it has none."""
+    """Return the noncircular gears of a machine; raises GenevaError if it has none."""
     drive = mechanism.spec.drive
     if drive.gears is None:
         geared = [kind for kind in registry.DRIVES if registry.drive(kind).GEARED]
         if drive.TOOTHED:
             raise GenevaError(
-                f'--part gears: the pitch curves of kind = "{drive.NAME}" are circles, which are '
+                f'--part gears: the pitch curves of kind = "{drive.NAME}" are circles, so there is '
                 "no table: write them as .dxf or .svg; --part parts has their radii"
             )
         geared += [kind for kind in registry.DRIVES if registry.drive(kind).TOOTHED]
         raise GenevaError(
-            f'--part gears: kind = "{drive.NAME}" has none; {", ".join(geared)} have some'
+            f'--part gears: kind = "{drive.NAME}" has no gears; {", ".join(geared)} have some'
         )
     return drive.gears
 
 
 def convexity(gears: Gears) -> Convexity:
-    """The least convexity of both gears over a turn."""
+    """Return the least convexity of both gears over a turn."""
     _, ratio = _ratio(gears, np.linspace(-np.pi, np.pi, SAMPLES))
     driver, driven = _convexities(ratio)
     return Convexity(float(driver.min()), float(driven.min()))
 
 
 def _radii(gears: Gears, ratio: Jet) -> tuple[np.ndarray, np.ndarray]:
-    """The radii of driver and driven gear where they touch, mm."""
+    """Return the radii of driver and driven gear where they touch, mm."""
     C, i = gears.distance_mm, array(ratio.c[0])
     return C * i / (1.0 + i), C / (1.0 + i)
 
@@ -111,7 +111,7 @@ def _radii(gears: Gears, ratio: Jet) -> tuple[np.ndarray, np.ndarray]:
 def _pitch_points(
     gears: Gears, turn: np.ndarray, ratio: Jet, phi: np.ndarray
 ) -> tuple[np.ndarray, np.ndarray]:
-    """The points (n, 2) of driver and driven gear that touch at input angles, each in its frame."""
+    """Return the points (n, 2) at which driver and driven gear touch, each in its gear's frame."""
     driver, driven = _radii(gears, ratio)
     return (
         np.column_stack((driver * np.cos(phi), -driver * np.sin(phi))),
@@ -120,17 +120,18 @@ def _pitch_points(
 
 
 def _ratio(gears: Gears, phi: np.ndarray) -> tuple[np.ndarray, Jet]:
-    """The crank's angle and the ratio with two derivatives, over a turn of the input."""
+    """Return the crank's angle and the ratio with two derivatives, over a turn of the input."""
     ratio, turned = ratio_and_turn(gears, phi)
-    # How far the crank is ahead of the input, which is nothing at input 0.
+    # Angle of the crank ahead of the input, which is 0 at input angle 0.
     ahead = np.unwrap(np.angle(turned * np.exp(-1j * phi)))
     middle = float(ahead[np.argmin(np.abs(phi))])
     return phi + ahead - np.round(middle / (2.0 * np.pi)) * 2.0 * np.pi, ratio
 
 
 def ratio_and_turn(gears: Gears, phi: np.ndarray) -> tuple[Jet, np.ndarray]:
-    """The ratio with two derivatives by the input's angle in radians, and the driven gear's turning
-    since input 0 as a unit complex number.
+    """Return the ratio with two derivatives by the input's angle, and the driven gear's turn.
+
+    The turn is a unit complex number, counted from input angle 0. Angles are in radians.
     """
     sine, versine = gears.advance(phi, 3)
     cosine = 1.0 - versine

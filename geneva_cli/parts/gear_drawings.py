@@ -1,7 +1,7 @@
-"""The pitch curves of the gears in front of a crank as a drawing: both, as they mesh at input 0.
+"""Drawings of the pitch curves of the gears in front of a crank, in mesh at input angle 0.
 
-The driven gear's axis, which is the crank's, is the origin, the driver's at (C, 0). Teeth are not
-drawn: they belong to a module and a cutter that no key of a spec names.
+The axis of the driven gear, which is the crank's, is the origin; the driver's is at (C, 0). Teeth
+are not drawn: their module and cutter are in no key of a spec.
 """
 
 from __future__ import annotations
@@ -37,14 +37,14 @@ if TYPE_CHECKING:
 
 PITCH, BORE = "PITCH", "BORE"
 NAMES = "driven gear", "driver gear"
-THIN = 1e-6  # of the axes' distance: a pitch curve nearer to its axis goes round no shaft
-# Of the axes' distance: what the curves are fitted to at the coarsest. Teeth are spaced along both
-# of them, and so their lengths must agree, better than to 1e-9.
+THIN = 1e-6  # of the axes' distance: a pitch curve nearer to its axis encloses no shaft
+# Of the axes' distance: coarsest tolerance of the fitted curves. Teeth are spaced along both
+# curves, so their lengths must agree to better than 1e-9.
 FINE = {"arcs": 8e-9, "cubics": 2e-9}
 
 
 def gears(proof: Proof, tolerance: float, curves: str) -> Drawing:
-    """All pitch curves with bores and bolts as the gears mesh, and the line of their centres.
+    """Return all pitch curves with bores and bolts, in mesh, and the line of their centres.
 
     Raises GenevaError for a machine without gears.
     """
@@ -60,9 +60,9 @@ def gears(proof: Proof, tolerance: float, curves: str) -> Drawing:
 
 
 def _round_gears(proof: Proof) -> Drawing:
-    """The blanks of gears with pitch circles, at their places from the crank's axis."""
+    """Return the blanks of gears with pitch circles, at their positions from the crank's axis."""
     mechanism, L = proof.mechanism, proof.mechanism.center_distance_mm
-    bars = drawn_links(mechanism, proof.found if mechanism.spec.is_flat else None)
+    bars = drawn_links(mechanism, proof.outlines if mechanism.spec.is_flat else None)
     about = ((mapped(s, lambda p: (p[0] - L, p[1]))) for s in shapes(g.member for g in bars.gears))
     drawn = list(once(about))
     holes = [s for s in drawn if isinstance(s, Circle) and s.layer == BORE]
@@ -74,9 +74,9 @@ def _round_gears(proof: Proof) -> Drawing:
 
 
 def pitch_curves(mechanism: Mechanism, tolerance: float, curves: str) -> tuple[Contour, Contour]:
-    """Those of driven gear and driver as they mesh at input angle 0, to a tolerance in mm."""
+    """Return the pitch curves of driven gear and driver in mesh at input angle 0, mm."""
     pair = required_gears(mechanism)
-    pitch_radii(pair)  # or there are no gears
+    pitch_radii(pair)  # raises if a curve is no gear
     sense = crank_sense(mechanism)
     driven, driver = (
         closed(PITCH, fit.KINDS[curves](curve, -np.pi, np.pi, tolerance))
@@ -86,12 +86,12 @@ def pitch_curves(mechanism: Mechanism, tolerance: float, curves: str) -> tuple[C
 
 
 def crank_sense(mechanism: Mechanism) -> float:
-    """1 where the crank turns counterclockwise: against the wheel outside, with it inside."""
+    """Return 1 if the crank turns counterclockwise (internal wheel), -1 if not (external)."""
     return -mechanism.spec.wheel.SIGN
 
 
 def gear_shapes(proof: Proof, tolerance: float, curves: str) -> list[Shape]:
-    """Pitch curves and bores in the machine; none without such gears."""
+    """Return pitch curves and bores in the machine; none without noncircular gears."""
     mechanism = proof.mechanism
     if mechanism.spec.drive.gears is None:
         return []
@@ -102,14 +102,14 @@ def gear_shapes(proof: Proof, tolerance: float, curves: str) -> list[Shape]:
 
 
 def gear_span(proof: Proof) -> tuple[float, float]:
-    """The lower and upper end of the gears along the axis: the plane below the arm is theirs."""
+    """Return lower and upper end of the gears along the axis: the plane below the arm is theirs."""
     return _sizes(proof).span(2)
 
 
 def gear_members(proof: Proof) -> tuple[Member, ...]:
-    """Both gears as blanks up to their pitch curves, in the machine; none without such gears.
+    """Return both gears as blanks up to their pitch curves; none without noncircular gears.
 
-    Raises GenevaError as ``gear_bores`` does.
+    Raises GenevaError for a bore larger than its gear.
     """
     mechanism = proof.mechanism
     pair = mechanism.spec.drive.gears
@@ -117,19 +117,19 @@ def gear_members(proof: Proof) -> tuple[Member, ...]:
         return ()
     low, high = gear_span(proof)
     sense, tolerance = crank_sense(mechanism), FINE["cubics"] * pair.distance_mm
-    found = []
+    members = []
     both = (driven_curve(pair, sense), driver_curve(pair, sense))
     for name, curve, (at, bore) in zip(NAMES, both, gear_bores(proof), strict=True):
         outline = closed(PITCH, fit.KINDS["cubics"](curve, -np.pi, np.pi, tolerance))
         holes = (Circle(BORE, (0.0, 0.0), bore),) if bore else ()
-        found.append(Member(Plate(name, PITCH, outline, holes, low, high), at))
-    return tuple(found)
+        members.append(Member(Plate(name, PITCH, outline, holes, low, high), at))
+    return tuple(members)
 
 
 def pitch_radii(pair: Gears) -> tuple[tuple[float, float], tuple[float, float]]:
-    """The least and the greatest radius of the pitch curves of driven gear and driver, mm.
+    """Return least and greatest radius of the pitch curves of driven gear and driver, mm.
 
-    Raises GenevaError where one comes as near to its axis as no gear can.
+    Raises GenevaError where one is so near to its axis that it is no gear.
     """
     ratio = array(ratio_and_turn(pair, np.linspace(-np.pi, np.pi, SAMPLES))[0].c[0])
     C = pair.distance_mm
@@ -138,7 +138,7 @@ def pitch_radii(pair: Gears) -> tuple[tuple[float, float], tuple[float, float]]:
         if r.min() < THIN * C:
             raise GenevaError(
                 f"the pitch curve of the {name} comes within {r.min():.3g} mm of its axis: that is "
-                f"no gear; a ratio that changes less keeps it {THIN * C:.3g} mm from there",
+                f"no gear; a smaller change of the ratio keeps it at {THIN * C:.3g} mm",
                 ("drive", "kind"),
             )
     return (
@@ -148,10 +148,10 @@ def pitch_radii(pair: Gears) -> tuple[tuple[float, float], tuple[float, float]]:
 
 
 def gear_shafts(proof: Proof, ends: Ends) -> Iterator[Member]:
-    """The shafts that carry gears alone, from the frame's lower face up; none without such gears.
+    """Yield the shafts that carry only gears, from the frame's lower face up; none without gears.
 
-    The driver's goes through it, or ends below one that has no room for a bore. The crank's is one
-    where neither arm nor locking disc has it.
+    The driver's shaft goes through it, or ends below one that is too small for a bore. The crank's
+    is included if neither arm nor locking disc has one.
     """
     mechanism = proof.mechanism
     if mechanism.spec.drive.gears is None:
@@ -166,9 +166,9 @@ def gear_shafts(proof: Proof, ends: Ends) -> Iterator[Member]:
 
 
 def _shafts(proof: Proof) -> list[tuple[Point, float]]:
-    """Place in the machine and radius of the shafts of driven gear and driver.
+    """Return position and radius of the shafts of driven gear and driver.
 
-    The first is the crank's. Raises GenevaError as ``gears`` does.
+    The first is the crank's. Raises GenevaError where a pitch curve is no gear.
     """
     mechanism = proof.mechanism
     pair, L = required_gears(mechanism), mechanism.center_distance_mm
@@ -180,20 +180,21 @@ def _shafts(proof: Proof) -> list[tuple[Point, float]]:
 
 
 def _driver_bore(proof: Proof) -> float:
-    """The radius of the driver's bore; 0 where driver and shaft are one piece."""
+    """Return the radius of the driver's bore; 0 where driver and shaft are one piece."""
     pair = required_gears(proof.mechanism)
     return _sizes(proof).bore(pitch_radii(pair)[1][0], proof.mechanism.center_distance_mm)
 
 
 def _sizes(proof: Proof) -> LinkSizes:
     mechanism = proof.mechanism
-    return link_sizes(mechanism, [], proof.found if mechanism.spec.is_flat else None)
+    return link_sizes(mechanism, [], proof.outlines if mechanism.spec.is_flat else None)
 
 
 def gear_bores(proof: Proof) -> list[tuple[Point, float]]:
-    """Place in the machine and radius of the bores of driven gear and driver; 0 for none.
+    """Return position and radius of the bores of driven gear and driver; 0 for none.
 
-    Raises GenevaError as ``gears`` does, and, naming the key, for a bore larger than its gear.
+    Raises GenevaError, naming the key, for a bore larger than its gear, and where a pitch curve is
+    no gear.
     """
     (driven, _), (driver, _) = pitch_radii(required_gears(proof.mechanism))
     (axis, on_crank), (other, _) = _shafts(proof)
@@ -203,18 +204,18 @@ def gear_bores(proof: Proof) -> list[tuple[Point, float]]:
     ):
         if bore >= least:
             raise GenevaError(
-                f"no blank of the {name} is left: its bore, of {2.0 * bore:.6g} as its shaft, must "
-                f"be below {2.0 * least:.6g}, where its pitch curve is nearest to its axis; a "
-                f"smaller {key} leaves some",
+                f"no blank of the {name} is left: its bore, {2.0 * bore:.6g} as its shaft, must be "
+                f"below {2.0 * least:.6g}, twice its pitch curve's least radius; reduce {key}",
                 ("size", key),
             )
     return [(axis, bores[0]), (other, bores[1])]
 
 
 def driven_curve(gears: Gears, sense: float) -> Callable[[Array], tuple[Array, Array]]:
-    """The pitch curve of the gear on the crank about its axis, mm, and its unit tangents.
+    """Return the pitch curve of the gear on the crank about its axis, mm, and its unit tangents.
 
-    By the input's angle in radians; ``sense`` is the crank's, 1 where it turns counterclockwise.
+    It is a function of the input's angle in radians. ``sense`` is the crank's, 1 for
+    counterclockwise.
     """
 
     def curve(phi: Array) -> tuple[Array, Array]:
@@ -222,22 +223,22 @@ def driven_curve(gears: Gears, sense: float) -> Callable[[Array], tuple[Array, A
         i, slope = (array(c) for c in ratio.derivatives()[:2])
         C = gears.distance_mm
         r, change = C / (1.0 + i), -C * slope / (1.0 + i) ** 2
-        way = turned.real - 1j * sense * turned.imag
-        return _points(r * way, (change - 1j * sense * i * r) * way)
+        direction = turned.real - 1j * sense * turned.imag
+        return _points(r * direction, (change - 1j * sense * i * r) * direction)
 
     return curve
 
 
 def driver_curve(gears: Gears, sense: float) -> Callable[[Array], tuple[Array, Array]]:
-    """The same of the driver, on the input shaft, which turns against the crank."""
+    """Return the pitch curve of the driver, which turns against the crank, and its tangents."""
 
     def curve(phi: Array) -> tuple[Array, Array]:
         ratio, _ = ratio_and_turn(gears, phi)
         i, slope = (array(c) for c in ratio.derivatives()[:2])
         C = gears.distance_mm
         r, change = C * i / (1.0 + i), C * slope / (1.0 + i) ** 2
-        way: NDArray[np.complex128] = -np.exp(1j * sense * phi)
-        return _points(r * way, (change + 1j * sense * r) * way)
+        direction: NDArray[np.complex128] = -np.exp(1j * sense * phi)
+        return _points(r * direction, (change + 1j * sense * r) * direction)
 
     return curve
 

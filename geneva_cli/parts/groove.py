@@ -186,7 +186,7 @@ def groove_table(mechanism: Mechanism, tolerance_mm: float, samples: int | None)
     groove = mechanism.engagements[0].groove
     if groove is None:
         raise GenevaError(
-            f'--part groove: kind = "{mechanism.spec.drive.NAME}" has none; kind = "cam" has'
+            f'--part groove: kind = "{mechanism.spec.drive.NAME}" has no groove; "cam" has one'
         )
     clearance = mechanism.spec.size.allowances.slot_clearance_mm
     L, offset = mechanism.center_distance_mm, mechanism.roller_radius_mm + clearance

@@ -10,14 +10,14 @@ from geneva_cli.errors import GenevaError
 
 
 class ParallelKey(NamedTuple):
-    """A parallel key for shafts above one diameter and up to another, all in mm."""
+    """A parallel key for a range of shaft diameters, all in mm."""
 
     above: float
     up_to: float
     width: float  # b
     height: float  # h
     in_shaft: float  # t1, the keyway's depth below the shaft's circle
-    in_hub: float  # t2, above it
+    in_hub: float  # t2, the keyway's height above the shaft's circle
 
 
 # DIN 6885-1 (ISO/R 773 has the same): parallel keys, deep pattern.
@@ -51,7 +51,7 @@ TABLES = {"DIN 6885-1": DIN_6885_1}
 
 
 def key(standard: str | None, radius: float, part: str = "crank") -> ParallelKey | None:
-    """The key of a part's bore by a standard's name; None for no standard.
+    """Return the key of a part's bore by a standard's name; None for no standard.
 
     Raises GenevaError for a bore that the table does not have.
 
@@ -66,16 +66,16 @@ def key(standard: str | None, radius: float, part: str = "crank") -> ParallelKey
             return row
     raise GenevaError(
         f'{part}_keyway = "{standard}": its table has shafts above {table[0].above:g} mm and up '
-        f"to {table[-1].up_to:g}, and the {part}'s bore is {diameter:g}; give {BORES[part]} there, "
-        f"or remove {part}_keyway",
+        f"to {table[-1].up_to:g}, but the {part}'s bore is {diameter:g}; set {BORES[part]} in that "
+        f"range, or remove {part}_keyway",
         ("size", f"{part}_keyway"),
     )
 
 
 def reach(standard: str | None, radius: float, part: str = "crank") -> float:
-    """How far a part's bore goes from its axis: its radius, or to the top of its keyway.
+    """Return the radius of a part's bore, or the distance to the top of its keyway.
 
-    Raises GenevaError as ``key`` does.
+    Raises GenevaError for a bore that the standard's table does not have.
 
     >>> reach("DIN 6885-1", 10.0)
     12.8
@@ -85,7 +85,7 @@ def reach(standard: str | None, radius: float, part: str = "crank") -> float:
 
 
 def bore(layer: str, radius: float, fitted: ParallelKey | None, direction: float) -> Shape:
-    """A bore about the origin, with its keyway in a direction, radians, where it has one."""
+    """Return a bore about the origin, with its keyway, if any, in a direction, radians."""
     if fitted is None:
         return Circle(layer, (0.0, 0.0), radius)
     c, s = math.cos(direction), math.sin(direction)

@@ -1,8 +1,8 @@
-"""The axes that links turn about, and the one shaft of each.
+"""The axes that links turn about, with one shaft for each.
 
-All that turns about an axis is bored for the same shaft. A shaft of wheel or crank is as wide as
-their own bores say; another is as wide as the link with the least room beside its bore allows. A
-link without room for the shaft is one piece with it, and the shaft ends at its faces.
+All that turns about an axis is bored for the same shaft. The shafts of wheel and crank are as wide
+as their own bores. Another shaft is as wide as the tightest link on it allows. A link that is too
+small for the bore is one piece with the shaft, which ends at the link's faces.
 """
 
 from __future__ import annotations
@@ -23,18 +23,18 @@ ON_SHAFTS = (Joint.SHAFT, Joint.PIN)
 
 
 class Axis(NamedTuple):
-    """An axis that links turn about: their names, where it is at input angle 0, if it stands."""
+    """An axis that links turn about: their names and joints, and its position at input angle 0."""
 
     names: tuple[str, ...]
     kinds: tuple[Joint, ...]
     at: Point
-    stands: bool
-    radius: float = 0.0  # of its shaft or pivot; 0 before that is known
+    stands: bool  # it does not move with the input angle
+    radius: float = 0.0  # of its shaft or pivot; 0 until that is known
     one_piece: frozenset[str] = frozenset()  # names of the links that have no bore for it
 
 
 def axes(links: Iterable[Link], near: float) -> Iterator[Axis]:
-    """Yield each axis once; ``near`` is the distance in mm within which two axes are one."""
+    """Yield each axis once; ``near`` is the distance, mm, below which two axes are one."""
     left: list[tuple[str, Joint, Array]] = [
         (link.name, kind, at)
         for link in links
@@ -42,9 +42,9 @@ def axes(links: Iterable[Link], near: float) -> Iterator[Axis]:
         if kind in ON_SHAFTS
     ]
     while left:
-        way = left[0][2]
-        here = [one for one in left if bool(np.abs(one[2] - way).max() < near)]
-        left = [one for one in left if not bool(np.abs(one[2] - way).max() < near)]
-        z = complex(way[len(way) // 2])
+        path = left[0][2]
+        here = [one for one in left if bool(np.abs(one[2] - path).max() < near)]
+        left = [one for one in left if not bool(np.abs(one[2] - path).max() < near)]
+        z = complex(path[len(path) // 2])
         names, kinds, _ = zip(*here, strict=True)
-        yield Axis(names, kinds, (z.real, z.imag), bool(np.abs(way - z).max() < near))
+        yield Axis(names, kinds, (z.real, z.imag), bool(np.abs(path - z).max() < near))

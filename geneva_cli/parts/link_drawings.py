@@ -20,10 +20,10 @@ PITCH = "PITCH"
 def links(proof: Proof, tolerance: float, curves: str) -> Drawing:
     """Return every link and sliding block once, one above the other, each in its own frame."""
     mechanism = proof.mechanism
-    bars = drawn_links(mechanism, proof.found if mechanism.spec.is_flat else None)
+    bars = drawn_links(mechanism, proof.outlines if mechanism.spec.is_flat else None)
     if not bars.cut:
         raise GenevaError(
-            f'--part links: kind = "{mechanism.spec.drive.NAME}" has none: '
+            f'--part links: kind = "{mechanism.spec.drive.NAME}" has no links: '
             + (
                 "its crank is --part arm"
                 if mechanism.spec.drive.ONE_ARM

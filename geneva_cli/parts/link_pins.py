@@ -1,6 +1,6 @@
 """The pins, washers, spacers and rollers between links.
 
-Pins that stand in the frame belong to it, as shafts do, and are left out.
+Pins that stand in the frame belong to the frame, like shafts, and are omitted here.
 """
 
 from __future__ import annotations
@@ -24,31 +24,31 @@ LAYER, ROLLER = "LINK", "ROLLER"
 class Joined(NamedTuple):
     """Links that share a joint at all input angles: the joint's path, their names and planes."""
 
-    way: Array  # complex
+    way: Array  # complex points
     names: tuple[str, ...]
     planes: tuple[int, ...]
 
 
 def joined(links: Iterable[Link], near: float) -> list[Joined]:
-    """The pin joints of several links: those nearer than ``near`` mm at all input angles."""
-    every = [
+    """Return the pin joints of several links: those nearer than ``near`` mm at all angles."""
+    all_pins = [
         (link, at)
         for link in links
         for at, kind in zip(places(link), link.kinds, strict=True)
         if kind in (Joint.PIN, Joint.SLIDE)
     ]
-    found: list[Joined] = []
-    for i, (link, at) in enumerate(every):
-        others = [other for other, there in every[i + 1 :] if np.abs(at - there).max() < near]
+    shared: list[Joined] = []
+    for i, (link, at) in enumerate(all_pins):
+        others = [other for other, there in all_pins[i + 1 :] if np.abs(at - there).max() < near]
         if others:
             both = sorted((link, *others), key=lambda one: one.plane)
             names, planes = zip(*((one.name, one.plane) for one in both), strict=True)
-            found.append(Joined(at, names, planes))
-    return found
+            shared.append(Joined(at, names, planes))
+    return shared
 
 
 def pins(links: Iterable[Link], sizes: LinkSizes, near: float) -> Iterator[Member]:
-    """Each pin that joins links, with the washers and spacers on it."""
+    """Yield each pin that joins links, with the washers and spacers on it."""
     for one in joined(links, near):
         z = complex(one.way[len(one.way) // 2])  # at input angle 0
         where = z.real, z.imag
@@ -65,7 +65,7 @@ def pins(links: Iterable[Link], sizes: LinkSizes, near: float) -> Iterator[Membe
 
 
 def rollers(links: Iterable[Link], sizes: LinkSizes, roller: float, pin: float) -> Iterator[Member]:
-    """Rollers below the wheel's plane: a first wheel's, with its pin, and those in a groove."""
+    """Yield rollers below the wheel's plane: a first wheel's, with its pin, and a groove's."""
     if not pin:
         return
     hole, whole = (Circle(ROLLER, (0.0, 0.0), radius) for radius in (pin, roller))

@@ -1,4 +1,4 @@
-"""Where the links of a machine are at input angles."""
+"""Positions of a machine's links at input angles."""
 
 from __future__ import annotations
 
@@ -12,14 +12,14 @@ from geneva_cli.parts.groove import roller_in_groove
 if TYPE_CHECKING:
     from geneva_cli.numerics.jet import Array
 
-SAME = 1e-9  # of the centre distance: places nearer to each other are one
+SAME = 1e-9  # of the centre distance: points nearer to each other count as one
 
 
 def links_at(mechanism: Mechanism, input_deg: Array) -> tuple[Link, ...]:
-    """A machine's links at input angles (n,), in degrees within half a period of mid-motion.
+    """Return a machine's links at input angles (n,), in degrees within half a period of mid-motion.
 
-    They are the drive's own links and, of a cam-Geneva, the crank along which its rollers slide. A
-    drive cannot state that crank: in the dwell the rollers follow the groove as it is cut.
+    They are the drive's own links and, for a cam-Geneva, the crank along which its rollers slide.
+    The drive cannot describe that crank: in the dwell the rollers follow the groove as it is cut.
     """
     own = mechanism.spec.drive.links(mechanism.plan, mechanism.spec.wheel.SIGN, input_deg)
     groove = mechanism.engagements[0].groove
@@ -34,5 +34,5 @@ def links_at(mechanism: Mechanism, input_deg: Array) -> tuple[Link, ...]:
 
 
 def same(p: Point, q: Point, L: float) -> bool:
-    """Whether two places are one, with the centre distance L."""
+    """Return True if two points coincide, with the centre distance L."""
     return abs(complex(*p) - complex(*q)) < SAME * L

@@ -1,9 +1,9 @@
-"""Shafts and pivots that carry links alone: an input crank's, a rocker's, a planet's.
+"""Shafts and pivots that carry only links: of an input crank, a rocker, a planet.
 
-Those that stand end in the frame's lower face, as the wheel's and the crank's do. A link on one
-that is not the crank's lies in the lowest plane, so that nothing passes below it. A planet's shaft
-moves, and joins what is on it. Each is as wide as the bores on its axis (``link_axes``). A link
-without a bore is one piece with its shaft, which ends at its faces.
+Fixed shafts end in the frame's lower face, like those of wheel and crank. A link on a shaft other
+than the crank's lies in the lowest plane, so that nothing passes below it. A planet's shaft moves,
+and joins the parts on it. Each shaft is as wide as the bores on its axis (``link_axes``). A link
+without a bore is one piece with its shaft, which ends at the link's faces.
 """
 
 from __future__ import annotations
@@ -22,21 +22,21 @@ from geneva_cli.parts.sizes import thicknesses
 
 
 class Ends(NamedTuple):
-    """What the shafts of wheel and crank are besides those of links."""
+    """Ends of the shafts of wheel and crank, as far as links share them."""
 
     lowest: float  # the frame's lower face
-    stop: float | None = None  # where the crank's shaft ends above it
-    crank_has_one: bool = False  # it carries more than links, and is not one of these
+    stop: float | None = None  # height at which the crank's shaft ends above that face
+    crank_has_one: bool = False  # the crank's shaft carries more than links, and is made elsewhere
     wheel_has_one: bool = False
 
 
 def link_shafts(
     mechanism: Mechanism, bars: Links, ends: Ends, others: Iterable[Member] = ()
 ) -> Iterator[Member]:
-    """Yield the shafts at their places at input angle 0.
+    """Yield the shafts at their positions at input angle 0.
 
     ``others`` are plates that turn with a link: the locking disc on a first crank. Raises
-    GenevaError as ``shaft`` does.
+    GenevaError where a shaft's lower end is not below its upper one.
     """
     size, L, carried = mechanism.spec.size, mechanism.center_distance_mm, list(others)
     for axis in bars.axes:
@@ -53,7 +53,7 @@ def link_shafts(
             high = thicknesses(size, L).wheel if on_wheel else high
             low, high = shaft_ends(size, whose, low, high)
             yield Member(shaft(whose, axis.radius, (low, high), what), axis.at)
-        elif len(axis.names) > 1 and Joint.PIN not in axis.kinds:  # those have their pin
+        elif len(axis.names) > 1 and Joint.PIN not in axis.kinds:  # pins are made elsewhere
             plate = shaft(axis.names[0], axis.radius, (low, high))
             yield Member(plate._replace(name=f"shaft of {', '.join(axis.names)}"), axis.at)
 
@@ -61,7 +61,7 @@ def link_shafts(
 def _heights(
     bars: Links, axis: Axis, others: Iterable[Member], L: float
 ) -> Iterator[tuple[float, float]]:
-    """The spans along the axis of what is on it, with or without a bore."""
+    """Yield the heights, from and to, of the parts on an axis, with or without a bore."""
     for member in bars.cut:
         if isinstance(member.part, Plate) and member.part.name in axis.names:
             yield member.part.low, member.part.high
@@ -75,7 +75,7 @@ def _heights(
 
 
 def outside_links(shafts: Iterable[Member], bars: Links, L: float) -> Iterator[Member]:
-    """Yield the shafts without what lies in links that are one piece with them."""
+    """Yield the shafts without the lengths that lie in links of one piece with them."""
     for member in shafts:
         assert isinstance(member.part, Plate)
         spans = [(member.part.low, member.part.high)]

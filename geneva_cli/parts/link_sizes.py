@@ -61,11 +61,11 @@ class LinkSizes(NamedTuple):
         half = max(BLOCK * hole, hole + self.wall)
         return half, LONG * half
 
-    def bore(self, room: float, L: float) -> float:
-        """Return the radius of a shaft ``room`` mm from the nearest hole; 0 if it is too thin."""
+    def bore(self, space: float, L: float) -> float:
+        """Return the radius of a shaft ``space`` mm from the nearest hole; 0 if it is too thin."""
         if self.shaft is not None:
             return self.shaft
-        radius = even(min(L / 20.0, BORED * room))
+        radius = even(min(L / 20.0, BORED * space))
         return radius if radius >= THIN * L else 0.0
 
     def hub(self, bore: float) -> float:

@@ -1,8 +1,8 @@
 """The links of a machine, cut out of plates: bars, couplers, slotted links and their blocks.
 
-A link's own frame has its first joint as origin, and x through its second. Its outline is the belt
-round an eye about each hole; a pin that slides along a link has a block, and the link a slot as
-long as its path. Links on one axis have one shaft (``link_axes``). Gears are blanks
+A link's own frame has its first joint as origin, and x through its second. Its outline is the
+convex hull of an eye about each hole. A pin that slides along a link has a block, and the link has
+a slot as long as the pin's path. Links on one axis have one shaft (``link_axes``). Gears are blanks
 (``gear_blanks``), drawn by their pitch circles.
 """
 
@@ -30,24 +30,24 @@ from geneva_cli.parts.outlines import Outlines
 from geneva_cli.parts.sizes import even, pin_radius
 
 LAYER, HOLES, SHAFT = "LINK", "BORE", Joint.SHAFT
-ANGLES = 1440  # input angles in a whole turn at which links are looked at; 0 is one of them
+ANGLES = 1440  # input angles of a whole turn at which links are computed; 0 is one of them
 
 
 class Links(NamedTuple):
     """The links of a machine at input angle 0.
 
-    ``cut`` are the links and blocks as plates, ``joined`` the pins, washers and rollers between
-    them; ``gears`` are blanks about their places.
+    ``cut`` are links and blocks as plates, ``joined`` the pins, washers and rollers between them,
+    ``gears`` the gears as blanks.
     """
 
-    sizes: LinkSizes | None  # None where there are none
+    sizes: LinkSizes | None  # None without links
     cut: tuple[Member, ...]
     joined: tuple[Member, ...]
     gears: tuple[Gear, ...]
-    pin_low: float | None = None  # lower end of the pin, on a link, that carries the wheel's roller
-    standing: frozenset[str] = frozenset()  # names of those that are fixed to the frame
-    blocks: frozenset[str] = frozenset()  # and of those that slide in another
-    axes: tuple[Axis, ...] = ()  # that links and gears turn about
+    pin_low: float | None = None  # lower end of the pin on a link that carries the wheel's roller
+    standing: frozenset[str] = frozenset()  # names of the links that are fixed to the frame
+    blocks: frozenset[str] = frozenset()  # names of the blocks that slide in a link
+    axes: tuple[Axis, ...] = ()  # axes that links and gears turn about
 
     @property
     def plates(self) -> list[Plate]:
@@ -55,37 +55,37 @@ class Links(NamedTuple):
         return [one.part for one in self.cut if isinstance(one.part, Plate)]
 
     def shaft(self, at: Point, L: float) -> float:
-        """The radius of the shaft that carries links at a place; 0 where there is none."""
+        """Return the radius of the shaft that carries links at a point; 0 where there is none."""
         return next((axis.radius for axis in self.axes if same(axis.at, at, L)), 0.0)
 
     def one_piece(self, at: Point, L: float) -> list[Plate]:
-        """The links that are one piece with the shaft at a place."""
+        """Return the links that are one piece with the shaft at a point."""
         names = {name for axis in self.axes if same(axis.at, at, L) for name in axis.one_piece}
         return [plate for plate in self.plates if plate.name in names]
 
 
 class _Bar(NamedTuple):
-    """A link before it is bored for its shafts: complex places in its own frame."""
+    """A link before it is bored for its shafts; complex points in its own frame."""
 
     link: Link
-    at: complex  # its origin in the machine, at input angle 0
+    at: complex  # position of its origin in the machine, at input angle 0
     unit: complex  # its direction
     own: tuple[complex, ...]  # its joints
     eyes: tuple[Circle, ...]
     holes: tuple[Shape, ...]
     blocks: tuple[Member, ...]
 
-    def room(self, z: complex) -> float:
-        """The distance from a place to the nearest hole, or half-way to another shaft."""
+    def clearance(self, z: complex) -> float:
+        """Return the distance from a point to the nearest hole, or half-way to another shaft."""
         away = [apart(_circle(HOLES, z, 0.0), hole) for hole in self.holes]
         others = (o for o, kind in zip(self.own, self.link.kinds, strict=True) if kind is SHAFT)
         return max(0.0, min([*away, *(0.5 * abs(o - z) for o in others if o != z)]))
 
 
 def drawn_links(mechanism: Mechanism, parts: Outlines | None = None) -> Links:
-    """The links of a machine as plates; ``found`` are its outlines, if it has any.
+    """Return the links of a machine as plates; ``parts`` are its outlines, if it has any.
 
-    Raises GenevaError, naming the key, for sizes that leave no plate round a hole.
+    Raises GenevaError, naming the key, for sizes that leave no plate around a hole.
     """
     turns = mechanism.spec.drive.turns
     turn = np.linspace(-180.0 * turns, 180.0 * turns, ANGLES * turns + 1)
@@ -95,10 +95,10 @@ def drawn_links(mechanism: Mechanism, parts: Outlines | None = None) -> Links:
     sizes = link_sizes(mechanism, links, parts)
     L = mechanism.center_distance_mm
     bars = [link for link in links if not link.radius_mm]
-    whole = [_bar(link, sizes, L) for link in bars]
-    turning = [_with_shaft(axis, whole, links, sizes, parts, L) for axis in axes(links, SAME * L)]
+    unbored = [_bar(link, sizes, L) for link in bars]
+    turning = [_with_shaft(axis, unbored, links, sizes, parts, L) for axis in axes(links, SAME * L)]
     _refuse_unused(mechanism, turning, sizes, parts)
-    cut = [member for bar in whole for member in _members(bar, turning, sizes, L)]
+    cut = [member for bar in unbored for member in _members(bar, turning, sizes, L)]
     r = mechanism.roller_radius_mm
     between = [
         *pins(bars, sizes, SAME * L),
@@ -110,14 +110,14 @@ def drawn_links(mechanism: Mechanism, parts: Outlines | None = None) -> Links:
     if kinds & {Joint.ROLLER, Joint.CARRIED}:
         pin_low = sizes.span(2 if Joint.CARRIED in kinds else 1)[0]
     standing = frozenset(link.name for link in bars if link.kinds[0] is Joint.NONE)
-    blocks = frozenset(block.part.name for bar in whole for block in bar.blocks)
+    blocks = frozenset(block.part.name for bar in unbored for block in bar.blocks)
     return Links(
         sizes, tuple(cut), tuple(between), tuple(gears), pin_low, standing, blocks, tuple(turning)
     )
 
 
 def _known(axis: Axis, sizes: LinkSizes, parts: Outlines | None, L: float) -> float:
-    """The radius of the shaft of wheel or crank, as their own bores are; 0 of another."""
+    """Return the radius of the shaft of wheel or crank, from their own bores; 0 for another."""
     if same(axis.at, (L, 0.0), L):
         return sizes.crank_shaft or 0.0
     return parts.sizes.wheel_bore if parts and same(axis.at, (0.0, 0.0), L) else 0.0
@@ -131,52 +131,52 @@ def _with_shaft(
     parts: Outlines | None,
     L: float,
 ) -> Axis:
-    """An axis with the radius of its shaft, and with the links that have no room for it."""
+    """Return an axis with its shaft's radius, and the links that are too small to be bored."""
     if SHAFT not in axis.kinds:
         return axis._replace(radius=sizes.pin)
     z = complex(*axis.at)
-    beside = {
-        bar.link.name: bar.room((z - bar.at) / bar.unit)
+    distances = {
+        bar.link.name: bar.clearance((z - bar.at) / bar.unit)
         for bar in bars
         if bar.link.name in axis.names
     }
-    rooms = [*beside.values()]
-    rooms += [g.radius_mm for g in links if g.radius_mm and g.name in axis.names]
+    limits = [*distances.values()]
+    limits += [g.radius_mm for g in links if g.radius_mm and g.name in axis.names]
     known = _known(axis, sizes, parts, L)
-    own = [radius for room in rooms if (radius := sizes.bore(room, L)) > 0.0]
+    own = [radius for limit in limits if (radius := sizes.bore(limit, L)) > 0.0]
     radius = known or min(own, default=even(L / 20.0))
-    if not known and sizes.shaft is not None:  # as it is given: a check says what wall is left
+    if not known and sizes.shaft is not None:  # of the spec: a check reports the wall that is left
         return axis._replace(radius=radius)
-    tight = frozenset(name for name, room in beside.items() if radius + sizes.wall > room)
+    tight = frozenset(name for name, limit in distances.items() if radius + sizes.wall > limit)
     return axis._replace(radius=radius, one_piece=tight)
 
 
 def _refuse_unused(
     mechanism: Mechanism, turning: list[Axis], sizes: LinkSizes, parts: Outlines | None
 ) -> None:
-    """Raise GenevaError for a bore that is given where no link has a shaft of its own."""
+    """Raise GenevaError for a bore in the spec if no link has a shaft of its own."""
     L = mechanism.center_distance_mm
     own = (axis for axis in turning if SHAFT in axis.kinds and not _known(axis, sizes, parts, L))
     if sizes.shaft is not None and not any(True for _ in own):
         raise GenevaError(
-            f"link_bore_mm = {2.0 * sizes.shaft:g}: what it would bore is on the shaft of wheel or "
-            "crank, and as wide as that; remove it (crank_bore_mm, arm_bore_mm and wheel_bore_mm "
+            f"link_bore_mm = {2.0 * sizes.shaft:g}: it applies to no link, because all are on the "
+            "shafts of wheel and crank; remove it (crank_bore_mm, arm_bore_mm and wheel_bore_mm "
             "set those shafts)",
             ("size", "link_bore_mm"),
         )
 
 
 def _gear(link: Link, turning: list[Axis], sizes: LinkSizes, mechanism: Mechanism) -> Gear:
-    """A gear, bored for the shaft of its axis."""
-    (way,), L = places(link), mechanism.center_distance_mm
-    z = complex(way[len(way) // 2])
+    """Return a gear, bored for the shaft of its axis."""
+    (path,), L = places(link), mechanism.center_distance_mm
+    z = complex(path[len(path) // 2])
     at = z.real, z.imag
     bore = next(axis.radius for axis in turning if same(axis.at, at, L))
     return link_gear(link, at, bore, sizes, mechanism.spec.size, L)
 
 
 def _bar(link: Link, sizes: LinkSizes, L: float) -> _Bar:
-    """A link without bores for shafts, and the blocks that slide along it."""
+    """Return a link without bores for shafts, and the blocks that slide along it."""
     middle = len(link.joints[0][0]) // 2  # input angle 0
     joints = places(link)
     at = [complex(joint[middle]) for joint in joints]
@@ -195,13 +195,13 @@ def _bar(link: Link, sizes: LinkSizes, L: float) -> _Bar:
         elif kind in (Joint.SLIDE, Joint.CARRIED):
             hole = sizes.hole(kind)
             along = z / abs(z)
-            way = np.abs(joint - joints[0])
+            distances = np.abs(joint - joints[0])
             half, long = sizes.block(hole)
             spare = long + SPARE * hole
-            ends = float(way.min()) - spare, float(way.max()) + spare
+            ends = float(distances.min()) - spare, float(distances.max()) + spare
             holes.append(_slot(along, ends, half))
             eyes += [_circle(LAYER, r * along, half + hole) for r in ends]
-            if link.kinds[0] is Joint.NONE:  # it stands, and is fixed beyond both ends
+            if link.kinds[0] is Joint.NONE:  # it is fixed to the frame beyond both ends
                 beyond = half + 2.0 * sizes.pin
                 fixed = [(ends[0] - beyond) * along, (ends[1] + beyond) * along]
                 holes += [_circle(HOLES, f, sizes.pin) for f in fixed]
@@ -219,7 +219,7 @@ def _bar(link: Link, sizes: LinkSizes, L: float) -> _Bar:
 
 
 def _members(bar: _Bar, turning: list[Axis], sizes: LinkSizes, L: float) -> Iterator[Member]:
-    """A link as a plate with the bores for its shafts, and its blocks."""
+    """Yield a link as a plate with the bores for its shafts, and its blocks."""
     eyes, holes, name = list(bar.eyes), list(bar.holes), bar.link.name
     for z, kind in zip(bar.own, bar.link.kinds, strict=True):
         if kind is SHAFT:
@@ -239,7 +239,7 @@ def _placed(plate: Plate, where: complex, direction: complex) -> Member:
 
 
 def placed_holes(member: Member) -> Iterator[Circle]:
-    """The round holes of a plate, where they are at input angle 0."""
+    """Yield the round holes of a plate at their positions at input angle 0."""
     assert isinstance(member.part, Plate)
     turn, (x, y) = cmath.rect(1.0, member.turn), member.at
     for hole in member.part.holes:
@@ -253,22 +253,21 @@ def _circle(layer: str, at: complex, radius: float) -> Circle:
 
 
 def _slot(along: complex, ends: tuple[float, float], half: float) -> Contour:
-    """A slot of round ends about two places in a direction from the origin."""
+    """Return a slot with round ends about two points in a direction from the origin."""
     return convex_hull(LAYER, [_circle(LAYER, r * along, half) for r in ends])
 
 
 def _refuse(plate: Plate) -> None:
-    """Raise GenevaError where holes leave no plate between or round them."""
+    """Raise GenevaError where holes leave no plate between or around them."""
     wall = link_wall(plate)
     if wall <= 0.0:
         raise GenevaError(
-            f"--part links: no plate is left round the holes of the {plate.name}, which are "
-            f"{-wall:.4g} mm too large, or its joints too near; a smaller link_pin_mm, "
-            "link_bore_mm or pin_mm leaves some",
+            f"--part links: no plate is left around the holes of the {plate.name}: it lacks "
+            f"{-wall:.4g} mm; reduce link_pin_mm, link_bore_mm or pin_mm, or move its joints apart",
             ("size", "link_pin_mm"),
         )
 
 
 def link_wall(plate: Plate) -> float:
-    """The least wall between the holes of a link, and round them."""
+    """Return the least wall between the holes of a link, and around them."""
     return least_wall(plate.holes, [plate.outline])

@@ -1,6 +1,7 @@
-"""Locking sectors without a middle: of a disc what the wheel leaves free in all its motions.
+"""Locking sectors without a middle: the parts of a disc that the wheel leaves free.
 
-Inside a wheel, and outside where it reaches beyond the crank's axis, nothing is left there.
+If the wheel reaches beyond the crank's axis, nothing is left about the axis. That holds for
+internal wheels, and for some external ones.
 """
 
 from __future__ import annotations
@@ -21,24 +22,25 @@ from geneva_cli.parts.sizes import Sizes
 if TYPE_CHECKING:
     from geneva_cli.numerics.jet import Array
 
-    # Where the wheel comes within the disc in one motion, at every so many of the places
-    # that are looked at: x and y in the crank's frame.
+    # Points of the wheel inside the disc in one motion, at each so many of its positions: x and y
+    # in the crank's frame.
     Swept: TypeAlias = Callable[[int, int], tuple[Array, Array]]
 
 LAYER = "CRANK"
-EDGE = 0.035  # radians, two degrees: how far a sector's edge reaches
+EDGE = 0.035  # radians, two degrees: width of the range that counts as a sector's edge
 TINY = 1e-9
-CLEARLY = 1.0 + 1e-6  # times a distance: what is farther is so whatever the rounding
+CLEARLY = 1.0 + 1e-6  # times a distance: farther in spite of rounding
 BESIDE = 1e-9  # of a cosine: more than its rounding
-THIN = 0.1  # of the disc's radius: a locking sector is no thinner
-POINTED = 0.01  # of the disc's radius: nearer to the axis no sector is brought to a point
-SHARES = [1.0 - 0.02 * k for k in range(40)]  # of the locking angle, where not all of it clears
-SOME = 16  # places of a motion, of which the first tells most of what does not clear
+THIN = 0.1  # of the disc's radius: least thickness of a locking sector
+POINTED = 0.01  # of the disc's radius: no sector comes nearer to the axis with its point
+SHARES = [1.0 - 0.02 * k for k in range(40)]  # of the locking angle, tried until one clears
+SOME = 16  # the first of so many positions of a motion shows most collisions
 
 
-class Reached(NamedTuple):
-    """Where the wheel comes: distances from the crank's axis, and directions from -pi to pi about
-    one of them.
+class PolarPoints(NamedTuple):
+    """Points that the wheel reaches: distances from the crank's axis, and directions.
+
+    Directions are from -pi to pi about a reference direction.
     """
 
     radius: Array
@@ -46,75 +48,76 @@ class Reached(NamedTuple):
 
 
 def towards(x: Array, y: Array, middle: float, half: float) -> tuple[Array, Array]:
-    """Of places on the crank those within ``half`` of a direction, up to pi on either side, and a
-    few beside them: told in less time than their directions."""
+    """Return the points on the crank within ``half`` of a direction, and a few next to them.
+
+    ``half`` is at most pi. This takes less time than their directions.
+    """
     along, away = x * math.cos(middle) + y * math.sin(middle), np.sqrt(x * x + y * y)
     near = np.flatnonzero(along >= (math.cos(half) - BESIDE) * away)
     return x[near], y[near]
 
 
-def seen(x: Array, y: Array, middle: float) -> Reached:
-    """Places on the crank as they are from a direction."""
+def seen(x: Array, y: Array, middle: float) -> PolarPoints:
+    """Return points on the crank in polar coordinates about a direction."""
     off = np.remainder(np.arctan2(y, x) - middle + math.pi, math.tau) - math.pi
-    return Reached(np.hypot(x, y), off)
+    return PolarPoints(np.hypot(x, y), off)
 
 
 def rings(
     assembly: Assembly, sizes: Sizes, around: list[Relief], swept: Swept, spare: float
 ) -> list[Contour]:
-    """The sectors between reliefs, each as wide as it clears the wheel.
+    """Return the sectors between reliefs, each as wide as the wheel leaves it clear.
 
     Raises GenevaError where nothing is left of one.
     """
 
-    def reached(every: int) -> tuple[Array, Array]:
-        x, y = zip(*(swept(i, every) for i in range(len(assembly.motions))), strict=True)
+    def reached(all_points: int) -> tuple[Array, Array]:
+        x, y = zip(*(swept(i, all_points) for i in range(len(assembly.motions))), strict=True)
         return np.concatenate(x), np.concatenate(y)
 
     some, all_ = reached(SOME), cache(reached)
     limit = (1.0 - THIN) * sizes.lock
-    found = []
+    contours = []
     for one, after in followed(around):
         if after - one.end <= SAME:
             continue
         whole, middle = 0.5 * (after - one.end), 0.5 * (after + one.end)
         few = seen(*towards(*some, middle, whole), middle)
-        every = cache(lambda at=middle, half=whole: seen(*towards(*all_(1), at, half), at))
-        for half in (share * whole for share in SHARES):
-            if beyond(sizes, few, half) or beyond(sizes, every(), half):
+        all_points = cache(lambda at=middle, half=whole: seen(*towards(*all_(1), at, half), at))
+        for half in (fraction * whole for fraction in SHARES):
+            if beyond(sizes, few, half) or beyond(sizes, all_points(), half):
                 continue
-            edge, floor = inner_arc(sizes, half, every(), spare)
+            edge, floor = inner_arc(sizes, half, all_points(), spare)
             if max(edge, floor) < limit:
-                found.append(_ring(sizes, middle, half, edge, floor))
+                contours.append(_ring(sizes, middle, half, edge, floor))
                 break
         else:
             raise GenevaError(
-                "the wheel sweeps over the whole locking sector: another lock_radius_mm than "
-                f"{sizes.lock:.6g}, or a smaller roller, may leave room for one; 0 leaves it out, "
-                "where the wheel is held in another way",
+                "the wheel sweeps over the whole locking sector: a smaller roller, or another "
+                f"lock_radius_mm than {sizes.lock:.6g}, may leave part of it; 0 omits it",
                 ("size", "lock_radius_mm"),
             )
-    return found
+    return contours
 
 
-def beyond(sizes: Sizes, wheel: Reached, half: float) -> bool:
-    """Whether no inner arc of a sector clears some places of the wheel within its limit; nor does
-    any that clears more of them.
+def beyond(sizes: Sizes, wheel: PolarPoints, half: float) -> bool:
+    """Return True if no inner arc of a sector can clear some points of the wheel within its limit.
 
-    On a circle about a place ahead distances from the axis rise with the way ahead: an arc that
-    meets both edges within the limit, and passes beyond a place ahead that lies beyond the limit,
-    has its middle beyond it too. And the edges are farther out than places near to them.
+    Then no arc clears all of them either. On a circle about a point ahead, distances from the axis
+    increase towards that direction. Suppose that an arc meets both edges within the limit, and
+    passes beyond a point ahead that lies beyond the limit. Then its middle lies beyond the limit
+    too. The edges are farther out than the points near them.
     """
-    limit, aside = CLEARLY * (1.0 - THIN) * sizes.lock, np.abs(wheel.direction)
-    inside = CLEARLY * aside < half
-    if (wheel.radius[inside & (aside <= 0.5 * math.pi)] >= limit).any():
+    limit, offset = CLEARLY * (1.0 - THIN) * sizes.lock, np.abs(wheel.direction)
+    inside = CLEARLY * offset < half
+    if (wheel.radius[inside & (offset <= 0.5 * math.pi)] >= limit).any():
         return True
-    beside = wheel.radius[inside & (aside > half - EDGE / CLEARLY)]
-    return bool((beside + _spare(sizes, beside) >= limit).any())
+    at_edge = wheel.radius[inside & (offset > half - EDGE / CLEARLY)]
+    return bool((at_edge + _spare(sizes, at_edge) >= limit).any())
 
 
 def _spare(sizes: Sizes, at_edge: Array) -> Array:
-    """By how much the edges are farther out than the farthest place near to them."""
+    """Return the distance of the edges beyond the farthest point near them."""
     out: Array = np.minimum(sizes.relief, (sizes.lock - at_edge) / 3.0)
     return out
 
@@ -130,11 +133,11 @@ def _ring(sizes: Sizes, middle: float, half: float, edge: float, floor: float) -
     )
 
 
-def inner_arc(sizes: Sizes, half: float, wheel: Reached, more: float) -> tuple[float, float]:
-    """The inner arc of a locking sector: its distance at the edges and in the middle.
+def inner_arc(sizes: Sizes, half: float, wheel: PolarPoints, more: float) -> tuple[float, float]:
+    """Return the inner arc of a locking sector: its distance at the edges and in the middle.
 
-    Directions are from the sector's middle. Through each place goes one circle that meets both
-    edges where this arc does; the farthest in the middle clears.
+    Directions are from the sector's middle. Through each point there is one circle that meets both
+    edges where this arc does. The circle that is farthest out in the middle clears all points.
     """
     inside = np.abs(wheel.direction) < half
     radius, off = wheel.radius[inside], wheel.direction[inside]
@@ -143,8 +146,8 @@ def inner_arc(sizes: Sizes, half: float, wheel: Reached, more: float) -> tuple[f
     edge = max(at_edge + spare, POINTED * sizes.lock)
     ex, ey = edge * math.cos(half), edge * math.sin(half)
     x, y = radius * np.cos(off), radius * np.sin(off)
-    aside = np.abs(x - ex) > TINY * edge
-    x, y = x[aside], y[aside]
+    off_edge = np.abs(x - ex) > TINY * edge
+    x, y = x[off_edge], y[off_edge]
     centre = (x * x + y * y - edge * edge) / (2.0 * (x - ex))
     reach = np.copysign(np.hypot(ex - centre, ey), x - ex)
     return edge, float((centre + reach).max(initial=0.0)) + spare

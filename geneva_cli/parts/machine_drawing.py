@@ -47,7 +47,7 @@ def machine_and_parts(parts: Outlines, tolerance: float, curves: str) -> tuple[D
     drawn += [mapped(turned(s, angle), lambda p: (p[0] + assembly.L, p[1])) for s in carried]
     # a first wheel is drawn itself, not as its pitch circle
     drawn += together(whole.links._replace(gears=()) if whole.first else whole.links)
-    drawn += gear_shapes(Proof(assembly.given, parts), tolerance, curves)
+    drawn += gear_shapes(Proof(assembly.full, parts), tolerance, curves)
     drawn += shapes(whole.first)
     drawn += _standing(whole, drawn)
     drawn += _roller_lines(parts, psi, tolerance, curves)
@@ -78,7 +78,7 @@ def _turns(parts: Outlines) -> Iterator[Arc]:
     reach = max(math.hypot(*s.start) for s in parts.wheel.segments)
     beyond = (sizes.outer or reach) + BEYOND * assembly.L
     yield about((0.0, 0.0), beyond, math.radians(115.0), math.radians(50.0))
-    if not assembly.given.spec.drive.ONE_ARM:
+    if not assembly.full.spec.drive.ONE_ARM:
         yield from _link_turns(parts)
         return
     step = math.remainder(float(np.diff(assembly.crank(np.array([-0.5, 0.5])))[0]), math.tau)
@@ -91,7 +91,7 @@ def _turns(parts: Outlines) -> Iterator[Arc]:
 
 def _link_turns(parts: Outlines) -> Iterator[Arc]:
     """Yield the sense of rotation of the link on the crank's shaft, beyond its end or the disc."""
-    mechanism, L = parts.assembly.given, parts.assembly.L
+    mechanism, L = parts.assembly.full, parts.assembly.L
     for link in links_at(mechanism, np.array([-0.5, 0.0, 0.5])):
         first, *others = places(link)
         if link.kinds[0] is not Joint.SHAFT or not others or np.abs(first - L).max() > SAME * L:

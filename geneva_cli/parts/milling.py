@@ -44,7 +44,7 @@ def with_dog_bones(drawing: Drawing, proof: Proof, cutter_mm: float) -> Drawing:
     if solid is None:
         return drawing
     wall = wall_min(mechanism.spec.size, mechanism.center_distance_mm)
-    lock = proof.found.sizes.lock if mechanism.spec.is_flat else 0.0
+    lock = proof.outlines.sizes.lock if mechanism.spec.is_flat else 0.0
 
     def works(piece: Line | Arc, layer: str) -> bool:
         return layer == WHEEL or (layer == CRANK and _locks(piece, lock, mechanism))

@@ -17,7 +17,7 @@ from geneva_cli.parts.crank import crank_contours, is_whole
 from geneva_cli.parts.reliefs import has_arcs, without_lock
 from geneva_cli.parts.sizes import Sizes, sizes
 from geneva_cli.parts.turn.gaps import Gaps, turned_points
-from geneva_cli.parts.turn.turned import Pose
+from geneva_cli.parts.turn.machine_parts import Pose
 from geneva_cli.parts.walls.curved import curved_walls
 from geneva_cli.parts.walls.straight import straight_walls
 from geneva_cli.parts.wheel import wheel_contour

@@ -93,7 +93,7 @@ def _parts(proof: Proof) -> Iterator[Row | Missing]:
 def _machine_rows(proof: Proof) -> Iterator[Row]:
     """Yield a row for each kind of part. Raises GenevaError where one cannot be built."""
     if proof.mechanism.spec.wheel.FLAT:
-        yield from _rows(proof, built(proof.found).members)
+        yield from _rows(proof, built(proof.outlines).members)
     else:
         yield from _rows(proof, built_ball(proof.shells).members)
 
@@ -102,7 +102,7 @@ def _bare_rows(proof: Proof) -> Iterator[Row]:
     """Yield rows for wheel and crank without the arm; on a sphere without hub and bolts too."""
     wheel: Part
     if proof.mechanism.spec.wheel.FLAT:
-        wheel, crank = wheel_part(proof.found, proof.found.wheel), crank_group(proof.found)
+        wheel, crank = wheel_part(proof.outlines, proof.outlines.wheel), crank_group(proof.outlines)
     else:
         wheel, crank = wheel_shell(Size(), proof.shells.ball), ball_crank(proof.shells, None)
     yield from _rows(proof, (Member(wheel), Member(crank)))

@@ -16,7 +16,7 @@ from geneva_cli.parts.wheel_hub import wheel_hub
 
 
 def wheel_plate(parts: Outlines, contour: Contour) -> Plate:
-    """The wheel as a plate; an internal wheel's contour is the opening in its disc."""
+    """Return the wheel as a plate; an internal wheel's contour is the opening in its disc."""
     circles = wheel_circles(parts.assembly, parts.sizes)
     bores = [circle for circle in circles if circle.layer == "BORE"]
     outside = [circle for circle in circles if circle.layer != "BORE"]
@@ -26,13 +26,13 @@ def wheel_plate(parts: Outlines, contour: Contour) -> Plate:
 
 
 def wheel_part(parts: Outlines, contour: Contour) -> Plate | Group:
-    """The wheel, with its hub below it where the spec gives one."""
+    """Return the wheel, with its hub below it if the spec has one."""
     plate, hub = wheel_plate(parts, contour), wheel_hub(parts.assembly, parts.sizes)
     return Group(plate.name, (Member(plate), Member(hub))) if hub else plate
 
 
 def arm_plate(parts: Outlines, arm: CrankArm) -> Plate:
-    """The crank arm below the wheel, ``pin_gap_mm`` from it."""
+    """Return the crank arm below the wheel, at a distance of ``pin_gap_mm``."""
     high = -parts.assembly.mechanism.spec.size.pin_gap_mm
     holes = (arm.bore, *arm.pins, *arm.bolts)
     low = high - parts.sizes.arm_thickness
@@ -42,10 +42,10 @@ def arm_plate(parts: Outlines, arm: CrankArm) -> Plate:
 def crank_group(
     parts: Outlines, arm: CrankArm | None = None, pin_low: float | None = None
 ) -> Group:
-    """What the crank carries: locking disc or sectors, rollers, pins, hub; and the arm, if given.
+    """Return the crank's locking disc or sectors, rollers, pins and hub, and its arm if given.
 
-    ``pin_low`` is down to where pins go that stand in a link. A bore is a hole in the disc, and
-    nothing where none is left about the axis.
+    ``pin_low`` is the lower end of pins that stand in a link. A bore is a hole in the disc; it is
+    omitted where the disc has nothing left about the axis.
     """
     assembly, sizes = parts.assembly, parts.sizes
     low = -assembly.mechanism.spec.size.pin_gap_mm  # the disc stands on the arm
@@ -76,7 +76,7 @@ def crank_group(
 
 
 def roller_plates(radius: float, pin_radius: float, low: float, high: float) -> list[Plate]:
-    """A roller in the wheel's plane, up to ``high``, and its pin from ``low`` up to there."""
+    """Return a roller in the wheel's plane, up to ``high``, and its pin from ``low`` to there."""
     layer, at = "ROLLER", (0.0, 0.0)
     outline = Circle(layer, at, radius)
     if not pin_radius:

@@ -9,7 +9,7 @@ from geneva_cli.parts.outlines import Outlines, outlines
 from geneva_cli.parts.sphere.shells import Shells, shells
 from geneva_cli.parts.turn.full_turn import FullTurn, full_turn
 from geneva_cli.parts.turn.gaps import NotProved
-from geneva_cli.parts.turn.turned import Turned
+from geneva_cli.parts.turn.machine_parts import MachineParts
 
 
 class Proof:
@@ -19,16 +19,16 @@ class Proof:
     """
 
     def __init__(
-        self, mechanism: Mechanism, made: Outlines | None = None, advice: bool = True
+        self, mechanism: Mechanism, known: Outlines | None = None, advice: bool = True
     ) -> None:
         self.mechanism = mechanism
-        self.made = made
+        self.known = known
         self.advice = advice
 
     @cached_property
-    def found(self) -> Outlines:
+    def outlines(self) -> Outlines:
         """The outlines; raises GenevaError where the sizes leave none."""
-        return self.made or outlines(self.mechanism)
+        return self.known or outlines(self.mechanism)
 
     @cached_property
     def shells(self) -> Shells:
@@ -36,21 +36,21 @@ class Proof:
         return shells(self.mechanism, self.advice)
 
     @property
-    def turned(self) -> Turned:
+    def parts(self) -> MachineParts:
         """The parts that are turned: outlines or shells."""
-        return self.found if self.mechanism.spec.wheel.FLAT else self.shells
+        return self.outlines if self.mechanism.spec.wheel.FLAT else self.shells
 
     @property
     def turn(self) -> FullTurn:
         """The full turn; raises NotProved where it takes too long."""
-        if isinstance(self._turned, NotProved):
-            raise self._turned
-        return self._turned
+        if isinstance(self._turn, NotProved):
+            raise self._turn
+        return self._turn
 
     @cached_property
-    def _turned(self) -> FullTurn | NotProved:
+    def _turn(self) -> FullTurn | NotProved:
         # That it takes too long is remembered too.
         try:
-            return full_turn(self.turned)
+            return full_turn(self.parts)
         except NotProved as error:
             return error

@@ -7,8 +7,8 @@ from typing import NamedTuple
 
 from geneva_cli.parts.assembly import Assembly
 
-SAME = 1e-9  # radians: directions nearer to each other are one
-BORED = 1.0 / 18.0  # of the centre distance: what an arc must leave about the axis for a bore
+SAME = 1e-9  # radians: directions nearer to each other count as equal
+BORED = 1.0 / 18.0  # of the centre distance: radius that an arc must leave about the axis
 
 
 class Relief(NamedTuple):
@@ -16,7 +16,7 @@ class Relief(NamedTuple):
 
     start: float
     end: float
-    motion: int  # which it is for
+    motion: int  # number of the motion that needs it
 
     @property
     def half(self) -> float:
@@ -25,29 +25,30 @@ class Relief(NamedTuple):
 
 
 def reliefs(assembly: Assembly) -> list[Relief]:
-    """The reliefs around the crank: the directions of the line of centres while the wheel moves."""
-    found = []
+    """Return the reliefs around the crank: directions of the line of centres in motions."""
+    unordered = []
     for i, (engagement, behind) in enumerate(assembly.motions):
         ends = [behind + engagement.entry_deg, behind + engagement.exit_deg]
         start, end = sorted(_lock_directions(assembly, behind, ends))
-        found.append(Relief(start, end, i))
-    first = found[0].start
+        unordered.append(Relief(start, end, i))
+    first = unordered[0].start
     out = []
-    for one in found:
+    for one in unordered:
         start = first + (one.start - first + SAME) % math.tau - SAME
         out.append(one._replace(start=start, end=start + one.end - one.start))
     return sorted(out)
 
 
 def _lock_directions(assembly: Assembly, middle: float, ends: list[float]) -> list[float]:
-    """The directions at the input angles ``ends``, within half a turn of that at ``middle``."""
+    """Return the directions at the input angles ``ends``, within half a turn of ``middle``'s."""
     centre = assembly.lock(middle)
     return [centre + math.remainder(assembly.lock(end) - centre, math.tau) for end in ends]
 
 
-def arc_room(assembly: Assembly, lock: float) -> float:
-    """How near an arc that meets a disc at right angles comes to the axis, where a relief is
-    widest; 0 where there is no such arc, over half a turn and more.
+def arc_floor(assembly: Assembly, lock: float) -> float:
+    """Return the least distance from the axis of an arc that meets the disc at right angles.
+
+    It is that of the widest relief, or 0 where there is no such arc, from half a turn on.
     """
     half = max(one.half for one in reliefs(assembly))
     wide = half > 0.5 * math.pi - SAME
@@ -55,43 +56,43 @@ def arc_room(assembly: Assembly, lock: float) -> float:
 
 
 def has_arcs(assembly: Assembly, lock: float) -> bool:
-    """Whether arcs relieve the disc: not where gears widen its reliefs until they leave no bore."""
+    """Return True if arcs relieve the disc and, between gears' motions, leave room for a bore."""
     paired = any(engagement.apart for engagement in assembly.kinds)
-    room = arc_room(assembly, lock)
-    return room >= BORED * assembly.L if paired else room > 0.0
+    floor = arc_floor(assembly, lock)
+    return floor >= BORED * assembly.L if paired else floor > 0.0
 
 
 def without_lock(assembly: Assembly) -> bool:
-    """Whether two motions follow each other without a dwell, and no disc is left between them."""
+    """Return True if two motions follow without a dwell, so that no disc is left between them."""
     return any(after - one.end <= SAME for one, after in followed(reliefs(assembly)))
 
 
 def followed(around: list[Relief]) -> list[tuple[Relief, float]]:
-    """Each relief, and where the next one starts; between the two the disc locks."""
+    """Return each relief, and where the next one starts; between the two the disc locks."""
     starts = [one.start for one in around[1:]] + [around[0].start + math.tau]
     return list(zip(around, starts, strict=True))
 
 
 def merged(around: list[Relief]) -> list[Relief]:
-    """The reliefs, with those that touch joined into one."""
-    found = around[:1]
+    """Return the reliefs, with those that touch joined into one."""
+    joined = around[:1]
     for one in around[1:]:
-        if one.start - found[-1].end > SAME:
-            found.append(one)
+        if one.start - joined[-1].end > SAME:
+            joined.append(one)
         else:
-            found[-1] = found[-1]._replace(end=max(one.end, found[-1].end))
-    if len(found) > 1 and found[0].start + math.tau - found[-1].end <= SAME:
-        found = [found[0]._replace(start=found[-1].start - math.tau), *found[1:-1]]
-    return found
+            joined[-1] = joined[-1]._replace(end=max(one.end, joined[-1].end))
+    if len(joined) > 1 and joined[0].start + math.tau - joined[-1].end <= SAME:
+        joined = [joined[0]._replace(start=joined[-1].start - math.tau), *joined[1:-1]]
+    return joined
 
 
 def sectors(assembly: Assembly) -> list[tuple[float, float]]:
-    """The sectors in which the disc locks: directions on the crank, radians, from and to."""
+    """Return the sectors in which the disc locks: directions on the crank, radians, from and to."""
     return [
         (one.end, after) for one, after in followed(reliefs(assembly)) if after - one.end > SAME
     ]
 
 
 def keyway_direction(assembly: Assembly) -> float:
-    """The direction of the crank's keyway: the middle of a locking sector, away from reliefs."""
+    """Return the keyway's direction: the middle of a locking sector, away from reliefs."""
     return next((0.5 * (start + end) for start, end in sectors(assembly)), math.pi)

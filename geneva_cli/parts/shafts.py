@@ -1,9 +1,9 @@
-"""The crank's hub, and the shafts of wheel and crank: where they end along the axis.
+"""The crank's hub, and the shafts of wheel and crank with their ends along the axis.
 
-The crank's hub stands on the locking disc, or on the arm where there is no disc. It is drawn where
-the spec gives a size of its; else only room is kept for it. Shafts are as wide as the bores that
-they are in. They end in the frame's lower face, and above where what they carry does; a wheel with
-``wheel_hub_mm = 0`` has its shaft above it alone, unless that carries a gear below.
+The crank's hub stands on the locking disc, or on the arm if there is no disc. It is drawn if the
+spec has one of its sizes; otherwise only its space is kept free. Shafts are as wide as the bores
+that they are in. They end in the frame's lower face, and above with the part that they carry. A
+wheel with ``wheel_hub_mm = 0`` has its shaft only above it, unless that carries a gear below.
 """
 
 from __future__ import annotations
@@ -24,31 +24,31 @@ from geneva_cli.parts.wheel_hub import AXIS, HUB, about_axis
 from geneva_cli.spec.tables import Size
 
 SHAFT = "SHAFT"
-SAME = 1e-9  # of the centre distance: what is nearer to an axis is on it
+SAME = 1e-9  # of the centre distance: a part nearer to an axis is on it
 
 
 def crank_hub(parts: Outlines) -> Plate | None:
-    """The crank's hub above the locking disc, or the arm; None where it is not given, or lower.
+    """Return the crank's hub above the locking disc or the arm; None if omitted or not higher.
 
-    Raises GenevaError, naming the key, where there is neither disc nor arm for it to stand on.
+    Raises GenevaError, naming the key, if there is neither disc nor arm to carry it.
     """
-    given, sizes = parts.assembly.mechanism.spec.size, parts.sizes
-    asked = given.crank_hub_mm is not None or given.crank_hub_length_mm is not None
-    if not asked or sizes.crank_hub <= sizes.crank_bore:
+    size, sizes = parts.assembly.mechanism.spec.size, parts.sizes
+    requested = size.crank_hub_mm is not None or size.crank_hub_length_mm is not None
+    if not requested or sizes.crank_hub <= sizes.crank_bore:
         return None
-    on_arm = 0.0 - given.pin_gap_mm  # no -0.0
+    on_arm = 0.0 - size.pin_gap_mm  # no -0.0
     disc = bool(parts.crank) and is_whole(parts.assembly, sizes)
     if not (disc or has_arm(parts)):
-        key = "crank_hub_length_mm" if given.crank_hub_mm is None else "crank_hub_mm"
+        key = "crank_hub_length_mm" if size.crank_hub_mm is None else "crank_hub_mm"
         raise GenevaError(
-            f"{key}: a hub stands on the locking disc or on the crank arm, and there is neither; "
-            "remove it",
+            f"{key}: a hub needs the locking disc or the crank arm to stand on, and there is "
+            "neither; remove it",
             ("size", key),
         )
     low = on_arm + (sizes.lock_thickness if disc else 0.0)
     high = sizes.wheel_thickness
-    if given.crank_hub_length_mm is not None:
-        high = on_arm + given.crank_hub_length_mm
+    if size.crank_hub_length_mm is not None:
+        high = on_arm + size.crank_hub_length_mm
     if high <= low:
         return None
     bores = about_axis(crank_circles(parts.assembly, sizes) if sizes.crank_bore else [])
@@ -56,10 +56,10 @@ def crank_hub(parts: Outlines) -> Plate | None:
 
 
 def shafts(parts: Outlines, lowest: float, stop: float | None = None) -> Iterator[Member]:
-    """The shafts of wheel and crank at their places.
+    """Yield the shafts of wheel and crank at their positions.
 
-    ``lowest`` is the frame's lower face; the crank's ends at ``stop`` where links are in the way of
-    it (``turn.planes``). Raises GenevaError as ``shaft`` does.
+    ``lowest`` is the frame's lower face. The crank's shaft ends at ``stop`` if links block it
+    (``turn.planes``). Raises GenevaError where a shaft's lower end is not below its upper one.
     """
     radius = wheel_shaft_radius(parts)
     if radius:
@@ -71,51 +71,51 @@ def shafts(parts: Outlines, lowest: float, stop: float | None = None) -> Iterato
 
 
 def wheel_shaft_radius(parts: Outlines) -> float:
-    """The radius of the wheel's shaft, which is that of its bore; 0 without one."""
+    """Return the radius of the wheel's shaft, which is that of its bore; 0 without one."""
     return parts.sizes.wheel_bore
 
 
 def wheel_shaft_ends(parts: Outlines, lowest: float) -> tuple[float, float]:
-    """Where the wheel's shaft ends along the axis."""
+    """Return the ends of the wheel's shaft along the axis."""
     sizes = parts.sizes
     low = lowest if sizes.wheel_hub or _has_gear(parts) else 0.0
     return shaft_ends(parts.assembly.mechanism.spec.size, "wheel", low, sizes.wheel_thickness)
 
 
 def _has_gear(parts: Outlines) -> bool:
-    """Whether the wheel's shaft carries a gear below the wheel."""
+    """Return True if the wheel's shaft carries a gear below the wheel."""
     near = SAME * parts.assembly.L
     return any(
         link.radius_mm and math.hypot(float(x[0]), float(y[0])) < near
-        for link in links_at(parts.assembly.given, np.zeros(1))
+        for link in links_at(parts.assembly.full, np.zeros(1))
         for x, y in link.joints
     )
 
 
 def crank_shaft_radius(parts: Outlines) -> float:
-    """The radius of the shaft that carries arm and locking disc; 0 where it carries links alone."""
+    """Return the radius of the shaft of arm and locking disc; 0 if it carries only links."""
     return shaft_bore(parts) if has_arm(parts) else parts.sizes.crank_bore
 
 
 def crank_shaft_ends(parts: Outlines, lowest: float) -> tuple[float, float]:
-    """Where that shaft ends: above, in the arm, or through the locking disc where that is bored."""
-    given, sizes = parts.assembly.mechanism.spec.size, parts.sizes
-    high = 0.0 - given.pin_gap_mm
+    """Return the ends of the crank's shaft: upper end in the arm, or in a bored locking disc."""
+    size, sizes = parts.assembly.mechanism.spec.size, parts.sizes
+    high = 0.0 - size.pin_gap_mm
     if sizes.crank_bore:
         hub = crank_hub(parts)
         high = hub.high if hub else high + sizes.lock_thickness
-    return shaft_ends(given, "crank", lowest, high)
+    return shaft_ends(size, "crank", lowest, high)
 
 
 def shaft_ends(size: Size, part: str, low: float, high: float) -> tuple[float, float]:
-    """Where the shaft of a part ends: as the spec says of wheel or crank, or at these heights."""
-    given = vars(size)
-    ends = given.get(f"{part}_shaft_low_mm"), given.get(f"{part}_shaft_high_mm")
+    """Return the ends of a part's shaft: those of the spec, or the given heights."""
+    values = vars(size)
+    ends = values.get(f"{part}_shaft_low_mm"), values.get(f"{part}_shaft_high_mm")
     return low if ends[0] is None else ends[0], high if ends[1] is None else ends[1]
 
 
 def shaft(part: str, radius: float, ends: tuple[float, float], what: str = "shaft") -> Plate:
-    """The shaft of a part about the origin; ``what`` is its last word.
+    """Return the shaft of a part about the origin; ``what`` is the last word of its name.
 
     Raises GenevaError, naming the key, where its lower end is not below its upper one.
     """
@@ -123,8 +123,8 @@ def shaft(part: str, radius: float, ends: tuple[float, float], what: str = "shaf
     if not low < high:
         raise GenevaError(
             f"{part}_shaft_low_mm: the {part}'s shaft would reach from {low:g} up to {high:g} mm "
-            f"(0 is the wheel's lower face); its lower end must be below, or {part}_shaft_high_mm "
-            "above",
+            f"(0 is the wheel's lower face); lower {part}_shaft_low_mm or raise "
+            f"{part}_shaft_high_mm",
             ("size", f"{part}_shaft_low_mm"),
         )
     return Plate(f"{part}'s {what}", SHAFT, Circle(SHAFT, AXIS, radius), (), low, high)

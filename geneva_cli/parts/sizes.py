@@ -15,7 +15,7 @@ from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.machine.spec import Spec
 from geneva_cli.parts.assembly import Assembly, assembly
 from geneva_cli.parts.keyways import reach
-from geneva_cli.parts.reliefs import arc_room, has_arcs
+from geneva_cli.parts.reliefs import arc_floor, has_arcs
 from geneva_cli.parts.roller_paths import RollerPaths, mouth, roller_paths
 from geneva_cli.spec.tables import Size
 
@@ -99,13 +99,13 @@ def sizes(assembly: Assembly, known: RollerPaths | None = None) -> Sizes:
     lock = _lock(assembly, arm, w, rim)
     depth = abs(L - rim)
     relief = _or(size.relief_clearance_mm, min(L / 200.0, depth / 4.0))
-    room = (lock or rim) / arm * (L - math.sqrt(max(rim * rim - r * r, 0.0))) if outside else 0.0
+    space = (lock or rim) / arm * (L - math.sqrt(max(rim * rim - r * r, 0.0))) if outside else 0.0
     if any(s.apart for s in kinds):  # gears between rollers widen the relief
-        room = min(room, arc_room(assembly, lock)) if has_arcs(assembly, lock) else math.inf
+        space = min(space, arc_floor(assembly, lock)) if has_arcs(assembly, lock) else math.inf
     bore = (
         0.0
         if not spec.drive.LOCKS
-        else _crank_bore(assembly.given.spec, min(room, depth - relief), L)
+        else _crank_bore(assembly.full.spec, min(space, depth - relief), L)
     )
     wall = wall_min(size, L)
     wheel_bore = _or(_half(size.wheel_bore_mm), _bore(size, end, wall, L))
@@ -179,14 +179,14 @@ def _half(diameter: float | None) -> float | None:
 
 def _bore(size: Size, end: float, wall: float, L: float) -> float:
     """Return the wheel's default bore: it leaves a wall to the slots' ends, and in the hub."""
-    room = _within(size.wheel_hub_mm, size.wheel_keyway)
-    return even(min(L / 12.0, 0.4 * end, end - wall, room))
+    limit = _within(size.wheel_hub_mm, size.wheel_keyway)
+    return even(min(L / 12.0, 0.4 * end, end - wall, limit))
 
 
-def _crank_bore(spec: Spec, room: float, L: float) -> float:
-    """Return the crank's bore: that of the arm, which has the same shaft, or half of ``room``.
+def _crank_bore(spec: Spec, space: float, L: float) -> float:
+    """Return the crank's bore: that of the arm, which has the same shaft, or half of ``space``.
 
-    It is 0 where ``room``, the radius inside the relief, is too small. Then the shaft ends in the
+    It is 0 where ``space``, the radius inside the relief, is too small. Then the shaft ends in the
     arm.
     """
     size = spec.size
@@ -196,9 +196,9 @@ def _crank_bore(spec: Spec, room: float, L: float) -> float:
     if own is None:
         own = spec.shaft.crank_diameter_mm
     if own is not None:
-        return 0.5 * own if 0.5 * own <= BESIDE_HUB * room else 0.0
+        return 0.5 * own if 0.5 * own <= BESIDE_HUB * space else 0.0
     within = _within(size.crank_hub_mm, size.crank_keyway)
-    return even(min(0.45 * room, within)) if 0.45 * room >= L / 40.0 else 0.0
+    return even(min(0.45 * space, within)) if 0.45 * space >= L / 40.0 else 0.0
 
 
 def _within(hub_mm: float | None, keyway: str | None) -> float:
@@ -235,33 +235,33 @@ def _lock(assembly: Assembly, arm: float, w: float, rim: float) -> float:
     spec, size = assembly.mechanism.spec, assembly.mechanism.spec.size
     if size.lock_radius_mm == 0.0 or not spec.drive.LOCKS:
         return 0.0
-    room = arm - w - size.allowances.lock_clearance_mm
+    limit = arm - w - size.allowances.lock_clearance_mm
     least, r = max(assembly.L - rim, 0.0), assembly.mechanism.roller_radius_mm
-    if room <= least:
+    if limit <= least:
         raise GenevaError(
             f"the locking disc does not fit: it must reach the rim, {least:.4g} mm from the "
-            f"crank's axis, but roller and clearances limit it to {room:.4g} mm; "
-            + (f"use a roller below {r + room - least:.4g} mm, or " if r + room > least else "use ")
-            + "lock_radius_mm = 0, if the wheel is held in another way",
+            f"crank's axis, but roller and clearances limit it to {limit:.4g} mm; use "
+            + (f"a roller below {r + limit - least:.4g} mm, or " if r + limit > least else "")
+            + "lock_radius_mm = 0",
             ("size", "lock_radius_mm"),
         )
     if size.lock_radius_mm is None:
-        return lock_between(least, room, r)
-    require_lock_between(size.lock_radius_mm, least, room)
+        return lock_between(least, limit, r)
+    require_lock_between(size.lock_radius_mm, least, limit)
     return size.lock_radius_mm
 
 
-def lock_between(least: float, room: float, roller: float) -> float:
+def lock_between(least: float, limit: float, roller: float) -> float:
     """Return the default reach of a lock: into the rim, and a horn's thickness off the slot."""
-    return max(room - min(roller, room / 5.0), 0.5 * (room + least))
+    return max(limit - min(roller, limit / 5.0), 0.5 * (limit + least))
 
 
-def require_lock_between(lock_radius_mm: float, least: float, room: float) -> None:
+def require_lock_between(lock_radius_mm: float, least: float, limit: float) -> None:
     """Raise GenevaError where the spec's lock does not reach the rim, or leaves no horn."""
-    if not least < lock_radius_mm < room:
+    if not least < lock_radius_mm < limit:
         raise GenevaError(
             f"lock_radius_mm = {lock_radius_mm:g}: it must be above {least:.6g} to reach the rim, "
-            f"and below {room:.6g} to leave a horn; 0 means no lock",
+            f"and below {limit:.6g} to leave a horn; 0 means no lock",
             ("size", "lock_radius_mm"),
         )
 
@@ -297,7 +297,7 @@ def _refuse(assembly: Assembly, sizes: Sizes) -> None:
             ("size", "wheel_bore_mm"),
         )
     own = assembly.mechanism.spec.size.arm_bore_mm
-    one_arm = assembly.given.spec.drive.ONE_ARM
+    one_arm = assembly.full.spec.drive.ONE_ARM
     if (
         one_arm
         and own

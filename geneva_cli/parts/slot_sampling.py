@@ -19,31 +19,29 @@ if TYPE_CHECKING:
     from geneva_cli.numerics.jet import Array
 
 NAMES = ("input_deg", "wheel_deg", *WALLED)
-SURVEY = 2048  # intervals of a motion in which a cusp is sought
+SURVEY = 2048  # intervals of a motion in which a cusp is searched
 
 
 def nodes(mechanism: Mechanism, tolerance_mm: float, fewest: bool = True) -> Array:
-    """Input angles at which to sample the slot, so that no chord misses a curve by more.
+    """Return input angles to sample the slot at, so that no chord misses a curve by more.
 
-    Cusps are nodes: mid-motion, where the pitch curve can have one, and the places where an
-    undercut flank turns back. Without ``fewest`` the first number that serves is taken, some per
-    cent more.
-
-    Raises GenevaError where that takes more rows than are written.
+    Cusps are among them: mid-motion, where the pitch curve can have one, and the points where an
+    undercut flank turns back. Without ``fewest`` the first sufficient number is used, some percent
+    more. Raises GenevaError where that takes more rows than are written.
     """
     engagement = mechanism.engagements[0].through
     cusps = _flank_cusps(mechanism)
     ends = [engagement.entry_deg, *[x for x in cusps if x < 0.0], 0.0]
     if not engagement.mirrored:
         ends += [*[x for x in cusps if x > 0.0], engagement.exit_deg]
-    found = chords.nodes(partial(flanks, mechanism), ends, tolerance_mm, fewest)
-    return np.concatenate((found[:-1], -found[::-1])) if engagement.mirrored else found
+    angles = chords.nodes(partial(flanks, mechanism), ends, tolerance_mm, fewest)
+    return np.concatenate((angles[:-1], -angles[::-1])) if engagement.mirrored else angles
 
 
 def _flank_cusps(mechanism: Mechanism) -> list[float]:
-    """Where a flank stops and turns back, the roller being as large as the curve is sharp.
+    """Return where a flank stops and turns back, because the roller is as large as the curvature.
 
-    Of a slot with two equal branches the first one's.
+    For a slot with two equal branches only those of the first are returned.
     """
     engagement, size = mechanism.engagements[0].through, mechanism.spec.size
     offset = mechanism.roller_radius_mm + size.allowances.slot_clearance_mm
@@ -55,28 +53,28 @@ def _flank_cusps(mechanism: Mechanism) -> list[float]:
 
     # Half a step off the grid's ends: mid-motion may be a cusp of the pitch curve itself.
     step, mirrored = engagement.motion_deg / SURVEY, engagement.mirrored
-    count = (SURVEY + 1) // 2 if mirrored else SURVEY  # of a half that mirrors, one is enough
+    count = (SURVEY + 1) // 2 if mirrored else SURVEY  # one of two mirrored halves is enough
     grid = engagement.entry_deg + step * (np.arange(count, dtype=np.float64) + 0.5)
     at = pitch(engagement, grid)
-    found = []
+    cusps = []
     for side in (-1.0, 1.0):
         sign = np.sign(at.speed - side * offset * at.turning)
         for i in np.flatnonzero(sign[1:] * sign[:-1] < 0.0):
             a, b = float(grid[i]), float(grid[i + 1])
             if a < 0.0 < b:
                 continue
-            runs = sign[i]  # as the flank does before it stops
-            found.append(boundary_by_sections(lambda x: excess(x, side) * runs > 0.0, a, b))  # noqa: B023
-    return sorted(found)
+            runs = sign[i]  # sign before the flank stops
+            cusps.append(boundary_by_sections(lambda x: excess(x, side) * runs > 0.0, a, b))  # noqa: B023
+    return sorted(cusps)
 
 
 def chord_errors(mechanism: Mechanism, input_deg: Array) -> Array:
-    """For each chord between samples, how far pitch curve or flanks stray from it, mm."""
+    """Return the deviation of pitch curve or flanks from each chord between samples, mm."""
     return chords.chord_errors(partial(flanks, mechanism), input_deg)
 
 
 def profile_table(mechanism: Mechanism, tolerance_mm: float, samples: int | None) -> Table:
-    """The slot as ``geneva profile`` writes it: for a chord tolerance, or ``samples`` evenly."""
+    """Return the slot's table: for a chord tolerance, or at ``samples`` even input angles."""
     engagement = mechanism.engagements[0].through
     if samples is None:
         input_deg = nodes(mechanism, tolerance_mm)

@@ -18,18 +18,18 @@ from geneva_cli.parts.wheel_hub import wheel_hub
 
 
 def wheel_body(mechanism: Mechanism) -> MassProperties | None:
-    """Mass and inertia of the wheel, and of a hub that is given; None without a thickness.
+    """Return mass and inertia of the wheel and its hub, if it has one; None without a thickness.
 
-    J = rho h Ip, the polar moment of what is inside the outline and no bore, by Green's theorem:
-    exact for lines and arcs; what a curved slot takes is right to some millionths of it. Of a
-    sphere its shell and the hub in it. Raises GenevaError where the machine has no parts, or its
-    sizes leave none.
+    J = rho h Ip, where Ip is the polar moment of the area inside the outline without its bores, by
+    Green's theorem. It is exact for lines and arcs, and accurate to some millionths for curved
+    slots. On a sphere it is that of the shell and its hub. Raises GenevaError where the machine has
+    no parts, or its sizes leave none.
     """
     spec = mechanism.spec
     if spec.size.wheel_thickness_mm is None and spec.size.face_width_mm is None:
         return None
     if spec.wheel.SHELLS:
-        from geneva_cli.parts.sphere.body import wheel_body as of_shell  # flat wheels do without
+        from geneva_cli.parts.sphere.body import wheel_body as of_shell  # only on a sphere
 
         return of_shell(mechanism)
     where = assembly(mechanism)
@@ -38,7 +38,7 @@ def wheel_body(mechanism: Mechanism) -> MassProperties | None:
     outer = total(moments(c) for c in circles if c.layer == LAYER)
     bores = total(moments(c) for c in circles if c.layer != LAYER)
     contour = _contour(where, size)
-    # an internal wheel's contour is its opening, within its outside
+    # an internal wheel's contour is its opening, inside its outline
     face = outer.less(contour) if outer.area else contour
     density = spec.material_wheel.density_kgm3
     wheel = face_properties(face.less(bores), size.wheel_thickness, density)
@@ -48,7 +48,7 @@ def wheel_body(mechanism: Mechanism) -> MassProperties | None:
 
 @lru_cache(maxsize=16)
 def known_wheel_body(mechanism: Mechanism) -> MassProperties | None:
-    """The same, kept while the machine is asked about; None too where there are no parts."""
+    """Return the cached ``wheel_body`` of a machine; None too where its sizes leave no parts."""
     try:
         return wheel_body(mechanism)
     except GenevaError:
@@ -56,10 +56,10 @@ def known_wheel_body(mechanism: Mechanism) -> MassProperties | None:
 
 
 def _contour(where: Assembly, size: Sizes) -> Moments:
-    """What is inside the wheel's contour; each kind of slot is worked out once.
+    """Return the area inside the wheel's contour; each kind of slot is computed once.
 
-    The contour is that of a wheel whose slots are closed at their mouths, and what the slots take
-    from it, turned to each slot's place; the opening of an internal wheel gains what they take.
+    It is the area of a wheel with closed mouths, less what the slots remove, turned to each slot's
+    position. The opening of an internal wheel gains that instead.
     """
     slots = {engagement: _slot(where, size, engagement) for engagement in where.kinds}
     mouths = {engagement: mouth for engagement, (mouth, _) in slots.items()}
@@ -68,13 +68,13 @@ def _contour(where: Assembly, size: Sizes) -> Moments:
 
 
 def _slot(where: Assembly, size: Sizes, engagement: Engagement) -> tuple[Contour, Moments]:
-    """A line that closes a slot's mouth, and what its walls sweep beyond that line."""
+    """Return a line that closes a slot's mouth, and the area of the slot beyond that line."""
     if engagement.slot.curved:
-        from geneva_cli.parts.walls.rings import taken  # which straight slots do without
+        from geneva_cli.parts.walls.rings import taken  # not needed for straight slots
 
-        found = taken(where, size, engagement)
-        rim = about((0.0, 0.0), size.rim, found.low, found.high - found.low)
-        return Contour(LAYER, (rim,), closed=False), found.face.times(-where.sign)
+        slot_face = taken(where, size, engagement)
+        rim = about((0.0, 0.0), size.rim, slot_face.low, slot_face.high - slot_face.low)
+        return Contour(LAYER, (rim,), closed=False), slot_face.face.times(-where.sign)
     contour = straight_walls(where, size, engagement)
     chord = Contour(
         LAYER, (Line(contour.segments[0].start, contour.segments[-1].end),), closed=False

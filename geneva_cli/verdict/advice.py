@@ -240,13 +240,13 @@ def _left(machine: Mechanism, check: Check) -> float:
     try:
         if check.at_deg is not None and check.name in (*GAPS, LOOSE):
             from geneva_cli.parts.proof import Proof
-            from geneva_cli.parts.turn.glance import gap_about, loose_about
+            from geneva_cli.parts.turn.glance import gap_about, play_about
             from geneva_cli.verdict.checks.play import finds_slot
 
-            parts = Proof(machine, advice=False).turned
+            parts = Proof(machine, advice=False).parts
             if check.name in GAPS:
                 return gap_about(parts, check.at_deg) + parts.contact
-            return finds_slot(parts) - loose_about(parts, check.at_deg)
+            return finds_slot(parts) - play_about(parts, check.at_deg)
         row = None if check.name in TURNED else single_check(machine, check.name)
         return _spare(row) if row else math.inf
     except GenevaError:

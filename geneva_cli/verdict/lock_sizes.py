@@ -30,7 +30,7 @@ class LockSizes(NamedTuple):
 def lock_of(where: Assembly, found: Sizes) -> Lock:
     """The lock of parts of these sizes, in its narrowest sector."""
     half = min((0.5 * (end - start) for start, end in sectors(where)), default=math.nan)
-    edge = where.given.spec.size.lock_edge_mm or 0.0
+    edge = where.full.spec.size.lock_edge_mm or 0.0
     return Lock(where.L, where.sign, found.lock, found.recess, found.rim, half, edge)
 
 

@@ -13,7 +13,7 @@ def turn_cautions(proof: Proof) -> list[Caution]:
     if not proof.mechanism.spec.has_parts:
         return []
     try:
-        ahead, behind, limit = proof.turn.ahead, proof.turn.behind, motion_play_max(proof.turned)
+        ahead, behind, limit = proof.turn.ahead, proof.turn.behind, motion_play_max(proof.parts)
     except GenevaError:
         return []
     # Freedom both ways is play, which has a limit of its own.
@@ -22,7 +22,7 @@ def turn_cautions(proof: Proof) -> list[Caution]:
         return []
     first = ahead.deg >= behind.deg * (1.0 - SAME)
     way, at_deg = ("ahead", ahead.at_deg) if first else ("behind", behind.at_deg)
-    if len(proof.turned.assembly.rollers) > len(proof.turned.assembly.motions):
+    if len(proof.parts.assembly.rollers) > len(proof.parts.assembly.motions):
         return [
             Caution(
                 "driven-by-one-wall",

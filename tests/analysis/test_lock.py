@@ -22,7 +22,7 @@ SPEC = Spec(Wheel(8), size=SIZES, load=Load(torque_Nm=20.0))
 
 def answer(spec):
     mechanism = build(spec)
-    s = Proof(mechanism).found.sizes
+    s = Proof(mechanism).outlines.sizes
     return lock(mechanism, s.half_width, by(s, mechanism.spec)), s, mechanism
 
 

@@ -143,7 +143,7 @@ def two_pins():
 def test_the_disc_locks_where_it_did(two_pins):
     """The arcs of the locking circle are the very same, and the solid is what is drawn."""
     design, proof, freed_drawing = two_pins
-    lock = proof.found.sizes.lock
+    lock = proof.outlines.sizes.lock
 
     def locking(drawing):
         (disc,) = (s for s in drawing.shapes if s.layer == "CRANK")
@@ -174,7 +174,7 @@ def test_the_verdict_on_a_part(two_pins):
         [text for text in left if text not in corners],
     )
     refused, _ = design.cutter("wheel", 30.0, of=proof)
-    width = 2.0 * proof.found.sizes.half_width
+    width = 2.0 * proof.outlines.sizes.half_width
     assert refused.endswith(f"is narrower; use a cutter up to {width:g} mm")
 
 
@@ -201,7 +201,9 @@ def test_the_command(tmp_path):
 
 def test_what_is_no_part_to_cut(two_pins):
     design, proof, _ = two_pins
-    with pytest.raises(GenevaError, match="--cutter is for parts that are cut out of a plate"):
+    with pytest.raises(
+        GenevaError, match="--cutter applies only to parts that are cut out of a plate"
+    ):
         design.cutter("assembly", 3.0, of=proof)
     with pytest.raises(GenevaError, match="--cutter 0: must be above 0, at most 1000 mm"):
         design.cutter("crank", 0.0, of=proof)

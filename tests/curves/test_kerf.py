@@ -203,7 +203,7 @@ def test_cubics_are_refused():
         (["--part", "arm", "--kerf", "1e300"], "--kerf 1e+300: must be above 0, at most 1000"),
         (["--part", "arm", "--cutter", "1e300"], "--cutter 1e+300: must be above 0, at most 1000"),
         (["--part", "wheel", "--kerf", "9"], "a kerf up to"),
-        (["--part", "assembly", "--kerf", "0.2"], "; not for assembly"),
+        (["--part", "assembly", "--kerf", "0.2"], ", not to assembly"),
         (["--part", "wheel", "--kerf", "0.2", "--format", "step"], "no solid"),
         (["--part", "slot", "--kerf", "0.2", "--format", "csv"], "this one is a table"),
     ],

@@ -26,7 +26,7 @@ def told(spec):
     where = assembly(build(spec))
     try:
         early = leave_no_disc(where, sizes(where))
-        outlines(where.given)
+        outlines(where.full)
     except GenevaError as error:
         return early, str(error)
     return early, ""

@@ -99,8 +99,8 @@ def test_defaults_work(z, gearing, rollers):
     if gearing == "external":
         axis = Point(-found.assembly.L, 0.0)  # of the wheel, seen from the crank, in any position
         reach = max(math.hypot(*c.centre) for c in made.pins) + made.eye
-        assert found.assembly.L - reach - found.sizes.wheel_hub == pytest.approx(made.room)
-        assert made.room > -1e-9
+        assert found.assembly.L - reach - found.sizes.wheel_hub == pytest.approx(made.hub_gap)
+        assert made.hub_gap > -1e-9
         assert outline.distance(axis) > found.sizes.wheel_hub - 1e-9
 
 

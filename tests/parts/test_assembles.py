@@ -342,7 +342,7 @@ def test_links_on_the_cranks_shaft_have_its_bore(tmp_path):
     assert bores(design, "coulisse") == bores(design, "arm")[:1] == [2.0 * radius]
     assert 4.0 in bores(design, "input crank")
     cam = of(tmp_path, template("cam"), "size.link_bore_mm=4")
-    with pytest.raises(GenevaError, match="link_bore_mm = 4: what it would bore is on the shaft"):
+    with pytest.raises(GenevaError, match="link_bore_mm = 4: it applies to no link"):
         cam.drawing("links")
     (row,) = [check for check in cam.checks if check.name == "link_wall_mm"]
     assert row.passes is False

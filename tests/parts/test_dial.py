@@ -83,8 +83,8 @@ def test_the_mass_is_without_them():
 @pytest.mark.parametrize(
     ("gearing", "size", "said"),
     [
-        ("external", {"wheel_bore_mm": 5.0, "wheel_keyway": DIN}, "the wheel's bore is 5; give w"),
-        ("internal", {"wheel_keyway": DIN}, "the wheel's bore is 0; give wheel_bore_mm there, or"),
+        ("external", {"wheel_bore_mm": 5.0, "wheel_keyway": DIN}, "the wheel's bore is 5; set w"),
+        ("internal", {"wheel_keyway": DIN}, "the wheel's bore is 0; set wheel_bore_mm in"),
     ],
 )
 def test_keyways_that_are_refused(gearing, size, said):

@@ -29,7 +29,7 @@ def test_it_is_a_plain_wheel_and_turns(pair):
     L = first.first_distance_mm or design.mechanism.center_distance_mm
     plain = Design(
         External(first.first_z),
-        size=Size(L, design.mechanism.roller_radius_mm, lock_radius_mm=proof.found.sizes.lock),
+        size=Size(L, design.mechanism.roller_radius_mm, lock_radius_mm=proof.outlines.sizes.lock),
     )
     assert design.drawing("first-wheel", of=proof).shapes[0] == plain.drawing("wheel").shapes[0]
     assert design.judge(proof) == ("", [])

@@ -120,14 +120,14 @@ def test_a_guide_is_screwed_on_where_its_own_holes_are():
 def test_shafts_have_the_size_of_what_they_carry():
     _, proof, drawing = made("turret")
     wheel, crank = [s.radius for s in drawing.shapes if isinstance(s, Circle)][:2]
-    assert wheel == proof.found.sizes.wheel_bore
-    assert crank == proof.found.sizes.crank_bore
+    assert wheel == proof.outlines.sizes.wheel_bore
+    assert crank == proof.outlines.sizes.crank_bore
     thick = Design(External(6)).with_("shaft.crank_diameter_mm", 30.0).drawing("frame")
     assert [s.radius for s in thick.shapes if isinstance(s, Circle)][1] == 15.0
 
 
 def test_the_shafts_of_a_sphere_stand_in_no_plate():
-    with pytest.raises(GenevaError, match=r"--part frame: the shafts of gearing = .* cross"):
+    with pytest.raises(GenevaError, match=r"--part frame: the shafts of gearing = .* not parallel"):
         Design(Spherical(6)).drawing("frame")
 
 

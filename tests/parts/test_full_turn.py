@@ -129,10 +129,10 @@ FLAT = [path for path in DESIGNS if load(str(path)).spec.is_flat]
 def test_every_flat_design_turns(path: Path) -> None:
     """As all commands have its parts and their turn."""
     parts = proof.Proof(load(str(path)))
-    found, turn = parts.found, parts.turn
+    found, turn = parts.outlines, parts.turn
     assert passes(found, turn)
     assert not list(overlaps(found, 20))
-    mechanism = found.assembly.given
+    mechanism = found.assembly.full
     one = len(mechanism.engagements) == 1 and mechanism.spec.drive.turns == 1
     if one and mechanism.engagements[0].motion.symmetric:
         # what is as small or as great on the way out is told of the way in

@@ -177,7 +177,7 @@ def test_a_planet_that_would_meet_the_wheels_shaft_fails_its_check():
             {"arm_bore_mm": 70.0},
             "crank gear.*hub reaches .*smaller crank_bore_mm or arm_bore_mm",
         ),
-        (3, GearSector(sector_deg=60.0), {"link_bore_mm": 7.0}, "what it would bore is on"),
+        (3, GearSector(sector_deg=60.0), {"link_bore_mm": 7.0}, "it applies to no link"),
     ],
 )
 def test_refusals(z, drive, keys, said):

@@ -32,7 +32,7 @@ def test_the_roller_fills_the_groove_all_round(cam):
     groove = Polygon(vertices(outer, SAGITTA)).difference(
         Polygon(vertices(island.outline, SAGITTA))
     )
-    swept = LineString(vertices(pitch, SAGITTA)).buffer(proof.found.sizes.half_width, 64)
+    swept = LineString(vertices(pitch, SAGITTA)).buffer(proof.outlines.sizes.half_width, 64)
     assert groove.buffer(OFF).contains(swept)
     assert swept.buffer(OFF).contains(groove)
     assert base.outline == ring.outline
@@ -60,10 +60,10 @@ def test_it_lies_about_its_roller_and_below_the_crank(cam):
 
 def test_machines_without_such_a_plate(cam):
     _, proof, _ = cam
-    wide = proof.found.sizes._replace(wheel_hub=200.0)
+    wide = proof.outlines.sizes._replace(wheel_hub=200.0)
     with pytest.raises(GenevaError, match="up to the wheel's hub, less than four times wall_min"):
-        groove_plate(proof.found._replace(sizes=wide), 0.01, "arcs")
-    with pytest.raises(GenevaError, match='kind = "crank" has none; kind = "cam" has'):
+        groove_plate(proof.outlines._replace(sizes=wide), 0.01, "arcs")
+    with pytest.raises(GenevaError, match='kind = "crank" has no groove; "cam" has one'):
         Design(External(6)).drawing("groove-plate")
 
 

@@ -223,7 +223,7 @@ def test_the_crank_is_bored_for_its_shaft():
     [
         (
             {"link_pin_mm": 44.0, "link_bore_mm": 40.0},
-            "no plate is left round the holes of the crank, which are",
+            "no plate is left around the holes of the crank: it lacks",
         ),
         ({"link_pin_mm": 6.0, "link_width_mm": 6.0}, "link_width_mm = 6: it must be above 6"),
         ({"link_pin_mm": 900.0}, "link_pin_mm = 900: it must be below"),
@@ -240,7 +240,7 @@ def test_what_leaves_no_link_is_refused(size, said):
 
 
 def test_machines_without_links():
-    with pytest.raises(GenevaError, match='kind = "crank" has none: its crank is --part arm'):
+    with pytest.raises(GenevaError, match='kind = "crank" has no links: its crank is --part arm'):
         Design.of(Spec(Wheel(6))).drawing("links")
 
 

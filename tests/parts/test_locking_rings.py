@@ -11,7 +11,7 @@ from geneva_cli.machine.spec import Motion, Spec
 from geneva_cli.machine.wheels.internal import Internal
 from geneva_cli.parts import locking_rings, outlines
 from geneva_cli.parts.assembly import assembly
-from geneva_cli.parts.locking_rings import Reached, beyond, inner_arc, seen, towards
+from geneva_cli.parts.locking_rings import PolarPoints, beyond, inner_arc, seen, towards
 from geneva_cli.parts.sizes import sizes
 
 
@@ -23,7 +23,7 @@ def test_what_is_beyond_is_so_by_the_whole_arc_too():
     for _ in range(2000):
         half = some.uniform(0.2, 3.0)
         radius = size.lock * (1.0 - some.exponential(0.3, 12)) ** 2
-        places = Reached(radius, some.uniform(-math.pi, math.pi, 12))
+        places = PolarPoints(radius, some.uniform(-math.pi, math.pi, 12))
         told.append((beyond(size, places, half), max(inner_arc(size, half, places, 0.0)) < limit))
     assert {(True, False), (False, True)} <= set(told)
     assert (True, True) not in told

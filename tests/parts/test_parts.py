@@ -528,7 +528,7 @@ def test_spherical_wheel_is_a_table_of_meridians(name, axes):
         ("spherical-z6", "slot", ["spherical-z6.toml:11: ", "not flat", ".csv"]),
         ("spherical-60deg", "groove", ["spherical-60deg.toml:11: ", "spherical"]),
         ("press-straight", "parts", ["--part parts", "table of points", ".csv"]),
-        ("press-straight", "gears", ["--part gears", 'kind = "crank" has none']),
+        ("press-straight", "gears", ["--part gears", 'kind = "crank" has no gears']),
     ],
 )
 def test_no_drawing_of_it(name, part, said, extension):

@@ -214,7 +214,7 @@ def test_small_machines_are_enlarged_and_large_ones_fill_their_paper(sheets):
 def test_points_of_a_curved_slot_are_on_it():
     """The table as it is printed: chords within what it says, of the points that `slot` gives."""
     design = load(str(repo.DESIGNS / "press-curved.toml"))
-    (block,) = tables(design.drawn(TOLERANCE).found, 0.01)
+    (block,) = tables(design.drawn(TOLERANCE).outlines, 0.01)
     downwards = sorted(block.labels, key=lambda label: (-label.at[1], label.at[0]))
     texts = [label.text for label in downwards]
     numbers = [float(text) for text in texts if re.fullmatch(r"-?\d+\.\d{3}", text)]

@@ -58,7 +58,7 @@ def one(text):
                 tried(part_table, found, part, tolerance, samples)
         drawn = Proof(found)
         try:
-            drawn.turned  # noqa: B018 - made here, once for all parts
+            drawn.parts  # noqa: B018 - made here, once for all parts
         except GenevaError as error:
             assert error.key, f"no place: {error}"
             return "parts refused"

@@ -16,7 +16,7 @@ from test_outline import made
 
 from geneva_cli.errors import GenevaError
 from geneva_cli.parts.outlines import slot_walls
-from geneva_cli.parts.turn.freedom import EXACT, free_angles
+from geneva_cli.parts.turn.free_angles import EXACT, free_angles
 from geneva_cli.parts.turn.gaps import Gaps
 from geneva_cli.parts.wheel import wheel_contour
 

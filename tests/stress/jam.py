@@ -67,7 +67,7 @@ class Machine:
 
     def __init__(self, design, folder, larger=0.0):
         proof = design.drawn(0.001)
-        self.found = found = proof.found
+        self.found = found = proof.outlines
         self.assembly, self.L = found.assembly, found.assembly.L
         for part in ("wheel", "crank"):
             draw(design.drawing(part, of=proof), str(folder / f"{part}.dxf"))

@@ -211,7 +211,7 @@ def main():
             print(f"{name:24} {str(error).partition(': ')[2][:70]}")
             continue
         for part in PARTS:
-            if part == "arm" and not carries(proof.turned):
+            if part == "arm" and not carries(proof.parts):
                 continue
             for curves in ("arcs", "spline"):
                 bad += not one(design, proof, name, part, curves, given.pictures)

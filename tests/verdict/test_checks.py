@@ -211,7 +211,7 @@ def test_a_roller_that_meets_the_rim_is_not_written(tmp_path: Path) -> None:
 def test_a_lock_that_lets_the_wheel_turn_holds_nothing() -> None:
     """What counts is what the turn shows, not that a lock is drawn: see test_full_turn."""
     proof = Proof(build(Spec(Wheel(6))))
-    proof.__dict__["_turned"] = proof.turn._replace(dwell=Most(30.0, 180.0))
+    proof.__dict__["_turn"] = proof.turn._replace(dwell=Most(30.0, 180.0))
     found = {c.name: c.passes for c in checks(proof.mechanism, proof)}
     assert found["dwell_hold"] is False
 

@@ -50,7 +50,7 @@ def proof(name, tmp_path):
 
 @pytest.mark.parametrize("name", [*FLAT, *GIVEN])
 def test_printed_sizes_are_those_of_the_outlines(proof):
-    found, size, part = proof.found, sizes(proof), cut_sizes(proof)
+    found, size, part = proof.outlines, sizes(proof), cut_sizes(proof)
     low, high = min(far(found.wheel)), max(far(found.wheel))
     inside = found.assembly.sign < 0.0
     rim, end = (low, high) if inside else (high, low)
@@ -67,7 +67,7 @@ def test_printed_sizes_are_those_of_the_outlines(proof):
 
 @pytest.mark.parametrize("name", [*FLAT, *GIVEN])
 def test_printed_bores_and_rollers_are_those_drawn(proof):
-    found, size, part = proof.found, sizes(proof), cut_sizes(proof)
+    found, size, part = proof.outlines, sizes(proof), cut_sizes(proof)
     circles, shapes = wheel_circles(found.assembly, found.sizes), crank_shapes(found)
     assert part["parts.wheel_bore_mm"] == about_axis(circles, "BORE")
     assert part["parts.crank_bore_mm"] == about_axis(shapes, "BORE")

@@ -34,15 +34,13 @@ def titled(rows: Sequence[Mapping[str, object]], scale: float) -> Begin:
     return begin
 
 
-def linked(
-    begin: Begin, bars: Links, mechanism: Mechanism, in_series: bool = False
-) -> Iterator[View]:
+def linked(begin: Begin, bars: Links, mechanism: Mechanism, series: bool = False) -> Iterator[View]:
     """Yield views of links and gears, each once; two wheels in series have no gears."""
     for one in {member.part: member for member in bars.cut}.values():
         view = begin(one.part.name)
         draw_link(view, one, bars, mechanism)
         yield view
-    for gear in () if in_series else bars.gears:
+    for gear in () if series else bars.gears:
         view = begin(gear.name)
         draw_gear(view, gear)
         yield view

@@ -71,9 +71,9 @@ def _linear(
         low = start - CLEAR
     lines = [Line(_at(u, n, low, level), _at(u, n, high, level))]
     for along, across in (a, b):
-        way = math.copysign(1.0, level - across)
+        side = math.copysign(1.0, level - across)
         if abs(level - across) > CLEAR + PAST:
-            begin, end = across + way * CLEAR, level + way * PAST
+            begin, end = across + side * CLEAR, level + side * PAST
             lines.append(Line(_at(u, n, along, begin), _at(u, n, along, end)))
     turns = (turn + math.pi, turn) if inside else (turn, turn + math.pi)
     arrows = tuple(
@@ -131,11 +131,11 @@ def angular(
             yield Measure("angular", points, value, label, tuple(lines), arrows)
 
 
-def _clear_of(p: Point, way: float, text: str, h: float) -> Label:
+def _clear_of(p: Point, angle: float, text: str, h: float) -> Label:
     """Return an upright text whose box keeps clear of a point, in a direction from it."""
     half = 0.5 * width(text) * h, 0.7 * h
-    away = half[0] * abs(math.cos(way)) + half[1] * abs(math.sin(way)) + 2.0 * CLEAR
-    x, y = polar(p, away, way)
+    away = half[0] * abs(math.cos(angle)) + half[1] * abs(math.sin(angle)) + 2.0 * CLEAR
+    x, y = polar(p, away, angle)
     return Label(text, (x - half[0], y - 0.4 * h), h)
 
 

@@ -116,8 +116,8 @@ def projection(at: Point) -> list[Shape]:
     centre = (x + 6.0, y)
     shapes += [Circle(OUTLINE, centre, small), Circle(OUTLINE, centre, large)]
     shapes.append(line(TEXT, (x - 11.5, y), (x - 1.5, y)))
-    for way in (0.0, 0.5 * math.pi):
-        shapes.append(line(TEXT, polar(centre, -5.0, way), polar(centre, 5.0, way)))
+    for angle in (0.0, 0.5 * math.pi):
+        shapes.append(line(TEXT, polar(centre, -5.0, angle), polar(centre, 5.0, angle)))
     return shapes
 
 

@@ -24,12 +24,12 @@ LAYOUT = (60.0, 36.0, 20.0)  # mm: columns of the table of pivots and links
 def sheet(parts: Outlines, tolerance: float, curves: str) -> Sheet:
     """Return the drawing sheet of a machine. Raises GenevaError where no scale fits on one."""
     shown = shown_on_sheet(parts, tolerance, curves)
-    mechanism, bars = parts.assembly.mechanism, shown.parts.links
+    mechanism, bars = parts.assembly.mechanism, shown.built.links
     fixed = [
         *points.tables(parts, tolerance),
-        *points.gear_tables(parts.assembly.given, tolerance),
+        *points.gear_tables(parts.assembly.full, tolerance),
         *links.round_parts(bars.joined, mechanism),
-        *layout(parts.assembly.given),
+        *layout(parts.assembly.full),
     ]
 
     def blocks(scale: float) -> Iterator[list[Block]]:
@@ -37,7 +37,7 @@ def sheet(parts: Outlines, tolerance: float, curves: str) -> Sheet:
         for times in ASSEMBLED:
             yield [*apart, together(shown, smaller(scale, times)).block(), *fixed]
 
-    return on_paper(parts.assembly.given.spec, shown.rows, shown.largest, blocks, shown.area)
+    return on_paper(parts.assembly.full.spec, shown.rows, shown.largest, blocks, shown.area)
 
 
 def layout(mechanism: Mechanism) -> list[Block]:

@@ -96,15 +96,15 @@ class View:
     def cross(self, centre: Point, reach: float, turn: float = 0.0) -> None:
         """Draw both centre lines of a circle."""
         over = self._long(reach) + OVER
-        for way in (turn, turn + 0.5 * math.pi):
-            ends = (polar(self._at(centre), side * over, way) for side in (-1.0, 1.0))
+        for angle in (turn, turn + 0.5 * math.pi):
+            ends = (polar(self._at(centre), side * over, angle) for side in (-1.0, 1.0))
             self._draw(line(CENTRE, *ends))
 
     def centre_line(self, start: Point, end: Point) -> None:
         """Draw a centre line from one point to another, and a little beyond both."""
-        way = math.atan2(end[1] - start[1], end[0] - start[0])
+        angle = math.atan2(end[1] - start[1], end[0] - start[0])
         a, b = self._at(start), self._at(end)
-        self._draw(line(CENTRE, polar(a, -OVER, way), polar(b, OVER, way)))
+        self._draw(line(CENTRE, polar(a, -OVER, angle), polar(b, OVER, angle)))
 
     def linear(self, p: Point, q: Point, turn: float, text: str, near: bool = False) -> None:
         """Draw a distance in a direction; ``near`` allows a line inside the part's outline."""

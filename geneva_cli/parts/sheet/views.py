@@ -38,10 +38,10 @@ APART = {"WHEEL", "ARM"}  # layers of which each plate has a view
 class Shown(NamedTuple):
     """The content of a sheet, independent of its scale."""
 
-    found: Outlines
+    outlines: Outlines
     together: tuple[Shape, ...]
     rows: list[dict[str, Any]]  # the list of parts
-    parts: Built
+    built: Built
     first: Outlines | None
     groove: tuple[Shape, ...]  # flanks and pitch curve, of a cam
     gears: list[Shape]  # pitch curves and bores, of noncircular ones
@@ -51,24 +51,24 @@ class Shown(NamedTuple):
     curves: str
 
 
-def shown_on_sheet(found: Outlines, tolerance: float, curves: str) -> Shown:
+def shown_on_sheet(parts: Outlines, tolerance: float, curves: str) -> Shown:
     """Return the content of the views, computed once for all scales."""
-    given, cam = found.assembly.given, found.assembly.rollers[0][0].groove is not None
-    whole, parts = machine_and_parts(found, tolerance, curves)
+    mechanism, cam = parts.assembly.full, parts.assembly.rollers[0][0].groove is not None
+    whole, built = machine_and_parts(parts, tolerance, curves)
     assert isinstance(whole.solid, Group)
-    rows: list[dict[str, Any]] = list(part_rows(given.spec, whole.solid))
+    rows: list[dict[str, Any]] = list(part_rows(mechanism.spec, whole.solid))
     sizes = [row[f"size_{axis}_mm"] for row in rows for axis in "xy"]
-    *_, lowest = flat_plates(parts.standing)
+    *_, lowest = flat_plates(built.standing)
     apart = [bounds(plate.outline) for plate in plates(whole.solid) if plate.layer in APART]
     boxes = [*apart, bounds(lowest.outline)]
     return Shown(
-        found,
+        parts,
         whole.shapes,
         rows,
-        parts,
-        first_outlines(given, parts.links),
-        drawings.groove(found, tolerance, curves).shapes if cam else (),
-        gear_shapes(Proof(given, found), tolerance, curves),
+        built,
+        first_outlines(mechanism, built.links),
+        drawings.groove(parts, tolerance, curves).shapes if cam else (),
+        gear_shapes(Proof(mechanism, parts), tolerance, curves),
         max(sizes),
         sum((box.x1 - box.x0) * (box.y1 - box.y0) for box in boxes),
         tolerance,
@@ -87,7 +87,7 @@ def views(shown: Shown, scale: float) -> Iterator[View]:
 
 def _wheels(shown: Shown, begin: Begin) -> Iterator[View]:
     """Yield the views of wheels and locking discs; of two wheels in series, of both."""
-    for front, of in (("", shown.found), ("first ", shown.first)):
+    for front, of in (("", shown.outlines), ("first ", shown.first)):
         if of is None:
             continue
         view = begin(f"{front}wheel", f"{front}wheel's hub")
@@ -103,28 +103,28 @@ def _wheels(shown: Shown, begin: Begin) -> Iterator[View]:
 
 def _crank(shown: Shown, begin: Begin) -> Iterator[View]:
     """Yield the views of the arm and of the roller with its pin."""
-    if shown.parts.arm:
+    if shown.built.arm:
         view = begin("arm")
-        draw_arm(view, shown.found, shown.parts.arm)
+        draw_arm(view, shown.outlines, shown.built.arm)
         yield view
-    yield from rolling(begin, shown.found.assembly.mechanism)
+    yield from rolling(begin, shown.outlines.assembly.mechanism)
 
 
 def _links(shown: Shown, begin: Begin) -> Iterator[View]:
     """Yield the views of links, and of gears by their pitch curves."""
-    bars, mechanism = shown.parts.links, shown.found.assembly.given
-    yield from linked(begin, bars, mechanism, in_series=bool(shown.first))
+    bars, mechanism = shown.built.links, shown.outlines.assembly.full
+    yield from linked(begin, bars, mechanism, series=bool(shown.first))
     yield from geared(begin, shown.gears, mechanism)
 
 
 def _standing(shown: Shown, begin: Begin) -> Iterator[View]:
     """Yield the views of shafts, and of the plates that stand still."""
-    yield from shafted(begin, shown.parts.shafts)
-    *grooved, lowest = flat_plates(shown.parts.standing)
+    yield from shafted(begin, shown.built.shafts)
+    *grooved, lowest = flat_plates(shown.built.standing)
     if shown.groove:
         view = begin(*(plate.name for plate in grooved), "groove")
         draw_groove(
-            view, shown.groove, shown.found.sizes.half_width, grooved[0] if grooved else None
+            view, shown.groove, shown.outlines.sizes.half_width, grooved[0] if grooved else None
         )
         yield view
     view = begin(lowest.name)
@@ -135,5 +135,5 @@ def _standing(shown: Shown, begin: Begin) -> Iterator[View]:
 def together(shown: Shown, scale: float) -> View:
     """Return the view of the assembled machine."""
     view = View(f"assembly ({scale_name(scale)})", scale)
-    draw_assembly(view, shown.found, shown.together)
+    draw_assembly(view, shown.outlines, shown.together)
     return view

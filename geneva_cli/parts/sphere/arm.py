@@ -58,7 +58,7 @@ class CapArm(NamedTuple):
 
 def has_arm(parts: Shells) -> bool:
     """Return True if the machine has an arm: a crank with rollers on pins."""
-    return parts.assembly.given.spec.drive.CRANKED and parts.ball.pin_mm > 0.0
+    return parts.assembly.full.spec.drive.CRANKED and parts.ball.pin_mm > 0.0
 
 
 def crank_arm(parts: Shells) -> CapArm:
@@ -66,7 +66,7 @@ def crank_arm(parts: Shells) -> CapArm:
 
     Raises GenevaError, naming the key, where the sizes leave no arm around the holes.
     """
-    spec, ball = parts.assembly.given.spec, parts.ball
+    spec, ball = parts.assembly.full.spec, parts.ball
     if not has_arm(parts):
         raise GenevaError("pin_mm = 0: there is no pin for an arm to carry", ("size", "pin_mm"))
     wall, under = parts.sizes.wall_min, ball.arm_span_mm[0]
@@ -112,7 +112,7 @@ def bolts(parts: Shells) -> tuple[RoundHole, ...]:
 
     Raises GenevaError where there are no sectors to fix.
     """
-    size, ball = parts.assembly.given.spec.size, parts.ball
+    size, ball = parts.assembly.full.spec.size, parts.ball
     rims = [sector.boundary[0] for sector in parts.crank]
     widths = [(math.atan2(rim.start[1], rim.start[0]), rim.sweep) for rim in rims]
     r, directions = bolts_between(size, ball.radius_mm, widths)
@@ -139,7 +139,7 @@ def _refuse(parts: Shells, hub: float, hole: float, eye: float) -> None:
         )
     limit = under * math.sin(ball.arm - RoundHole(POLE, hole).angle(under))
     if hub >= limit:
-        name = "arm_hub_mm" if parts.assembly.given.spec.size.arm_hub_mm else "arm_bore_mm"
+        name = "arm_hub_mm" if parts.assembly.full.spec.size.arm_hub_mm else "arm_bore_mm"
         raise GenevaError(
             f"arm_bore_mm, arm_hub_mm: the hub, {2.0 * hub:.6g} mm in diameter, cuts the pin's "
             f"hole; it must be below {2.0 * limit:.6g}",

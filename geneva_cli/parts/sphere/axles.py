@@ -19,8 +19,8 @@ HUB = 1.6  # of the bore: diameter of a hub
 def wheel_axle(size: Size, L: float, inside: float, slot_end: float) -> tuple[float, float]:
     """Return the radii of the wheel's bore and its hub, mm, 0 for none.
 
-    ``inside`` is the radius of the wheel's inner sphere, ``room`` the angle from its axis to the
-    ends of its slots. Raises GenevaError, naming the key, where one of them cuts the slots.
+    ``inside`` is the radius of the wheel's inner sphere, ``slot_end`` the angle from its axis to
+    the ends of its slots. Raises GenevaError, naming the key, where one of them cuts the slots.
     """
     end = inside * math.sin(min(slot_end, 0.5 * math.pi))
     if size.wheel_bore_mm is not None:

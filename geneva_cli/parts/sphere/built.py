@@ -51,7 +51,7 @@ def built(parts: Shells) -> BuiltBall:
     Raises GenevaError, naming the key, for sizes that leave no arm, hub or shaft.
     """
     arm = crank_arm(parts) if has_arm(parts) else None
-    size, ball = parts.assembly.given.spec.size, parts.ball
+    size, ball = parts.assembly.full.spec.size, parts.ball
     return BuiltBall(
         Member(wheel_group(size, ball)),
         Member(crank_group(parts, arm), frame=at_mid_motion(ball)),
@@ -112,7 +112,7 @@ def wheel_hub(size: Size, ball: Ball) -> Plate | None:
 
 def crank_group(parts: Shells, arm: CapArm | None) -> Group:
     """Return the parts that the crank carries, in its frame, and its arm, if there is one."""
-    ball, size = parts.ball, parts.assembly.given.spec.size
+    ball, size = parts.ball, parts.assembly.full.spec.size
     members = []
     for k, region in enumerate(parts.crank):
         screwed = arm.bolts_of(k, len(parts.crank)) if arm else ()
@@ -158,7 +158,7 @@ def _shafts(parts: Shells, arm: CapArm | None) -> Iterator[Member]:
 
     There is no frame, so the shafts end the arm's thickness beyond the parts that they carry.
     """
-    ball, size = parts.ball, parts.assembly.given.spec.size
+    ball, size = parts.ball, parts.assembly.full.spec.size
     under, over = ball.arm_span_mm
     length = size.wheel_hub_length_mm
     hubs = max(over, ball.span_mm[1] + (length or 0.0) if ball.hub_mm else 0.0)

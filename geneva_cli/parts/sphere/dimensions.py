@@ -33,7 +33,7 @@ def _dimensions(shells: Shells) -> Iterator[Dimension | Missing]:
     yield Dimension("rim, from the wheel's axis", math.degrees(ball.rim), "deg")
     yield Dimension("slotted ring's inner edge, from its axis", math.degrees(ball.inner), "deg")
     yield from _axle("wheel", ball.bore_mm, ball.hub_mm)
-    size = shells.assembly.given.spec.size
+    size = shells.assembly.full.spec.size
     yield from or_missing("dial's bolts", lambda: _bolts("dial's bolt", dial_holes(size, ball)))
     if ball.lock:
         yield Dimension("lock, from the crank's axis", math.degrees(ball.lock), "deg")

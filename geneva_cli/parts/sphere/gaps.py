@@ -17,8 +17,8 @@ from geneva_cli.parts.sphere.crank import at_mid_motion
 from geneva_cli.parts.sphere.sizes import Ball
 from geneva_cli.parts.sphere.stops import WheelCaps, about, caps, polar, round_cap
 from geneva_cli.parts.sphere.wheel import edge
-from geneva_cli.parts.turn.touch import stopped
-from geneva_cli.parts.turn.turned import Pose, Stopped
+from geneva_cli.parts.turn.machine_parts import Pose, Stop
+from geneva_cli.parts.turn.touch import first_stops
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -96,8 +96,8 @@ class BallGaps:
             for k, sector in enumerate(self.sectors)
         )
 
-    def stops(self, pose: Pose, most: float, close: float) -> tuple[Stopped, Stopped]:
-        """Return the stops of the wheel, turned back and on, as ``Gapped`` describes."""
+    def stops(self, pose: Pose, most: float, close: float) -> tuple[Stop, Stop]:
+        """Return the stops of the wheel, turned back and on, as ``Clearances`` describes."""
         deep, wheel, rolling, locking = close / self.ball.radius_mm, pose.wheel, [], []
         for i in range(pose.pins.shape[1]):
             one, axis = self._roller, pose.pins[:, i : i + 1]
@@ -110,7 +110,7 @@ class BallGaps:
 
             axis = np.stack(axes, axis=1)
             locking.append(self._turning.touches(self._sides, axis, on_crank, wheel, most, deep))
-        return stopped(rolling, locking, len(wheel), most)
+        return first_stops(rolling, locking, len(wheel), most)
 
     def locking(self, pose: Pose, lead: Array | float = 0.0, near: float | None = None) -> Array:
         """Return the gap between the locking sectors and the wheel, mm (n,); see ``rollers``."""

@@ -83,8 +83,8 @@ class Cone(NamedTuple):
             azimuth = about + np.remainder(np.arctan2(y, x) - about + math.pi, math.tau) - math.pi
             d_polar = z * (x * dx + y * dy) / across - across * dz
             d_azimuth = (x * dy - y * dx) / (across * across)
-            points, ways = self._flat(np.arctan2(across, z), azimuth, d_polar, d_azimuth)
-            return points, ways / np.hypot(*ways.T)[:, None]
+            points, rates = self._flat(np.arctan2(across, z), azimuth, d_polar, d_azimuth)
+            return points, rates / np.hypot(*rates.T)[:, None]
 
         return [*fit.KINDS[curves](curve, 0.0, arc.sweep, tolerance_mm)]
 

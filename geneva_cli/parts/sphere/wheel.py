@@ -118,7 +118,7 @@ def _recess(ball: Ball, azimuth: float, start: Vector, end: Vector) -> SphereArc
 
 
 def _offset(at: Vector, across: Vector, angle: float) -> Vector:
-    """Return the point at an angle from ``at`` along the great circle towards ``aside``."""
+    """Return the point at an angle from ``at`` along the great circle towards ``across``."""
     c, s = math.cos(angle), math.sin(angle)
     x, y, z = (c * p + s * q for p, q in zip(at, across, strict=True))
     return x, y, z

@@ -14,10 +14,10 @@ from typing import TYPE_CHECKING, NamedTuple, TypeVar
 
 import numpy as np
 
-from geneva_cli.parts.turn.freedom import EXACT, free_angles, search_deg
+from geneva_cli.parts.turn.free_angles import EXACT, free_angles, search_deg
+from geneva_cli.parts.turn.machine_parts import MachineParts
 from geneva_cli.parts.turn.play import Play, no_play, plays, push_deg, windows
 from geneva_cli.parts.turn.smallest import Earlier, Gap, SmallestGaps, smallest_gaps
-from geneva_cli.parts.turn.turned import Turned
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -72,7 +72,7 @@ class FullTurn(NamedTuple):
         return self.dwell.deg < self.free_deg * (1.0 - SAME)
 
 
-def full_turn(parts: Turned) -> FullTurn:
+def full_turn(parts: MachineParts) -> FullTurn:
     """Return the results of turning the parts through a whole turn of the crank.
 
     Raises NotProved where that takes more work than ``gaps.WORK``.
@@ -81,7 +81,7 @@ def full_turn(parts: Turned) -> FullTurn:
     return result
 
 
-def turning(parts: Turned) -> Iterator[FullTurn]:
+def turning(parts: MachineParts) -> Iterator[FullTurn]:
     """Yield the results of a full turn in stages: gaps, plays at some positions, then all.
 
     From stage to stage gaps only become smaller and plays larger. Only the last stage has ``push``.
@@ -104,7 +104,9 @@ def turning(parts: Turned) -> Iterator[FullTurn]:
     yield result._replace(push=_shown(parts, push))
 
 
-def _turn(parts: Turned, gaps: SmallestGaps, dwell: Most, play: Play, earlier: Earlier) -> FullTurn:
+def _turn(
+    parts: MachineParts, gaps: SmallestGaps, dwell: Most, play: Play, earlier: Earlier
+) -> FullTurn:
     """Return the results of a full turn from its gaps and plays."""
 
     def most_of(values: Array, where: NDArray[np.bool_]) -> Most:
@@ -126,18 +128,18 @@ def _turn(parts: Turned, gaps: SmallestGaps, dwell: Most, play: Play, earlier: E
     )
 
 
-def _shown(parts: Turned, place: Place) -> Place:
+def _shown(parts: MachineParts, place: Place) -> Place:
     return place._replace(at_deg=parts.assembly.shown_deg(place.at_deg))
 
 
-def _earlier(parts: Turned) -> Earlier:
+def _earlier(parts: MachineParts) -> Earlier:
     """Return a sort key of input angles: the order in which they are shown.
 
     One turn of the input is shown from half a turn before mid-motion, so that the second half of
     the last dwell comes first. A period of several turns is shown from the first entry.
     """
     *_, last = windows(parts)
-    turn, several = parts.assembly.turn_deg, parts.assembly.given.spec.drive.turns > 1
+    turn, several = parts.assembly.turn_deg, parts.assembly.full.spec.drive.turns > 1
     middle = 0.5 * (last.start + last.end) if last.rests and not several else last.end
     return lambda input_deg: input_deg - turn if input_deg > middle else input_deg
 

@@ -14,10 +14,10 @@ from geneva_cli.curves.shapes import Contour, backwards
 from geneva_cli.errors import GenevaError
 from geneva_cli.parts.assembly import Assembly
 from geneva_cli.parts.sizes import Sizes
-from geneva_cli.parts.turn.around import Around, half_seen
+from geneva_cli.parts.turn.angular_index import AngularIndex, half_angle
 from geneva_cli.parts.turn.contacts import candidates
+from geneva_cli.parts.turn.machine_parts import Pose, Stop
 from geneva_cli.parts.turn.stops import Stops
-from geneva_cli.parts.turn.turned import Pose, Stopped
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -137,7 +137,7 @@ class Gaps:
             out[close] = np.minimum(self._to_wheel(centres[close], r + near) - r, near)
         return out
 
-    def stops(self, pose: Pose, most: float, close: float) -> tuple[Stopped, Stopped]:
+    def stops(self, pose: Pose, most: float, close: float) -> tuple[Stop, Stop]:
         """Return the stops of the wheel, turned back and on; see ``Stops.first``."""
         self._work(2 * len(pose.wheel) * self._stops.pairs)
         return self._stops.first(pose, most, close)
@@ -158,7 +158,7 @@ class Gaps:
         axis = self._axis(turn)
         self._work(len(axis) * len(self.wheel))
         reach, (places, size) = self.sizes.lock + near, self._pieces
-        nearby = places.within(-turn, half_seen(reach + size, self.assembly.L))
+        nearby = places.within(-turn, half_angle(reach + size, self.assembly.L))
         owner, points = candidates(self.wheel, nearby, self.crank, axis, pose.crank - turn, reach)
         seen = turned_points(points - axis[owner], (turn - pose.crank)[owner])
         self._work(len(seen) * len(self.crank))
@@ -197,7 +197,7 @@ class Gaps:
         reach = self.sizes.lock * (1.0 - TOUCH)
         # Only points near the direction of the crank's axis can be within reach of it.
         points, places = self._wheel_points
-        owner, which = places.within(-turn, half_seen(reach, self.assembly.L))
+        owner, which = places.within(-turn, half_angle(reach, self.assembly.L))
         px, py = points.T
         ax, ay = self._axis(turn).T
         x, y = px[which] - ax[owner], py[which] - ay[owner]
@@ -207,17 +207,17 @@ class Gaps:
         return x * c - y * s, x * s + y * c
 
     @cached_property
-    def _wheel_points(self) -> tuple[Array, Around]:
+    def _wheel_points(self) -> tuple[Array, AngularIndex]:
         """Points along the wheel's outline that come near the locking disc, (n, 2)."""
         L = self.assembly.L
         points = self.wheel.samples(SAGITTA * L, LONGEST * L)
         points = points[np.hypot(*points.T) >= L - self.sizes.lock]
-        return points, Around(np.arctan2(points[:, 1], points[:, 0]))
+        return points, AngularIndex(np.arctan2(points[:, 1], points[:, 0]))
 
     @cached_property
-    def _pieces(self) -> tuple[Around, float]:
+    def _pieces(self) -> tuple[AngularIndex, float]:
         """Directions of the pieces of the wheel's outline, and the size of the largest."""
-        return Around(np.arctan2(self.wheel.oy, self.wheel.ox)), float(self.wheel.size.max())
+        return AngularIndex(np.arctan2(self.wheel.oy, self.wheel.ox)), float(self.wheel.size.max())
 
     def _axis(self, turn: Array) -> Array:
         """Return the crank's axis in the wheel's frame, (n, 2)."""

@@ -7,9 +7,9 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from geneva_cli.parts.turn.freedom import free_angles
+from geneva_cli.parts.turn.free_angles import free_angles
+from geneva_cli.parts.turn.machine_parts import MachineParts
 from geneva_cli.parts.turn.play import NEAR, windows
-from geneva_cli.parts.turn.turned import Turned
 
 if TYPE_CHECKING:
     from geneva_cli.numerics.jet import Array
@@ -18,7 +18,7 @@ BESIDE = np.geomspace(0.01, 6.0, 14)  # degrees of the input on either side of a
 BEFORE = np.arange(1.0, 26.0)  # degrees before an entry: large rollers have their play early
 
 
-def gap_about(parts: Turned, shown_deg: float) -> float:
+def gap_about(parts: MachineParts, shown_deg: float) -> float:
     """Return the smallest gap of any two parts, mm, at positions around one input angle.
 
     A few positions take the place of a whole turn, in a search for a size that clears the parts.
@@ -28,18 +28,18 @@ def gap_about(parts: Turned, shown_deg: float) -> float:
     return min(gap, float(parts.gaps.locking(pose).min())) if parts.crank else gap
 
 
-def loose_about(parts: Turned, shown_deg: float) -> float:
+def play_about(parts: MachineParts, shown_deg: float) -> float:
     """Return the largest play, degrees, around an input angle while no roller is in its slot."""
     return _loose(parts, _about(parts, shown_deg))
 
 
-def loose_before(parts: Turned) -> float:
+def play_before_entry(parts: MachineParts) -> float:
     """Return the largest play, degrees, before an entry, where the lock releases the wheel."""
     start, turn = parts.assembly.start_deg, parts.assembly.turn_deg
     return _loose(parts, start + (-BEFORE) % turn)
 
 
-def _loose(parts: Turned, at: Array) -> float:
+def _loose(parts: MachineParts, at: Array) -> float:
     free = np.ones(len(at), dtype=bool)
     for start, end, motion, rests in windows(parts):
         here = np.flatnonzero((at >= start - NEAR) & (at <= end + NEAR))
@@ -50,7 +50,7 @@ def _loose(parts: Turned, at: Array) -> float:
     return math.degrees(float(np.maximum(*free_angles(parts, at[free])).max()))
 
 
-def _about(parts: Turned, shown_deg: float) -> Array:
+def _about(parts: MachineParts, shown_deg: float) -> Array:
     """Return input angles around one, within the turn that starts at the first entry."""
     start, turn = parts.assembly.start_deg, parts.assembly.turn_deg
     place = parts.assembly.place_deg(shown_deg)

@@ -63,7 +63,7 @@ def planes(parts: Outlines) -> Planes:
 
     Raises GenevaError where the sizes leave no links.
     """
-    mechanism = parts.assembly.given
+    mechanism = parts.assembly.full
     turns = mechanism.spec.drive.turns
     turn = np.linspace(-180.0 * turns, 180.0 * turns, LOOKS * turns + 1)
     links_and_gears = links_at(mechanism, turn)
@@ -93,10 +93,10 @@ def planes(parts: Outlines) -> Planes:
 def _gears(parts: Outlines, bars: Links, links: tuple[Link, ...], turn: Array) -> Iterator[Meeting]:
     """Yield the gaps of gears to the wheel's hub and shaft, which pass through their plane.
 
-    A first wheel is no gear: ``beside_shafts`` computes its gap.
+    A first wheel is no gear: ``shaft_gap`` computes its gap.
     """
     assert bars.sizes is not None
-    if parts.assembly.given.spec.drive.IN_SERIES:
+    if parts.assembly.full.spec.drive.IN_SERIES:
         return
     gears = [link for link in links if link.radius_mm]
     for gear, link in zip(bars.gears, gears, strict=True):
@@ -116,7 +116,7 @@ def _gears(parts: Outlines, bars: Links, links: tuple[Link, ...], turn: Array) -
 
 def crank_stop(parts: Outlines, bars: Links) -> float | None:
     """Return the height at which a link stops the crank's shaft downwards; None if none does."""
-    mechanism = parts.assembly.given
+    mechanism = parts.assembly.full
     turn = np.linspace(-180.0, 180.0, LOOKS + 1) * mechanism.spec.drive.turns
     links = [link for link in links_at(mechanism, turn) if not link.radius_mm]
     if not links or bars.sizes is None:
@@ -183,7 +183,7 @@ class _Shaft:
         if self.through:
             self.carries.add(0)
         self.radius = sizes.crank_shaft or bars.shaft((L, 0.0), L)
-        low = parts.assembly.given.spec.size.crank_shaft_low_mm
+        low = parts.assembly.full.spec.size.crank_shaft_low_mm
         ends = math.inf if low is None else low + SAME * L
         self.reached = {link.plane for link in links if sizes.span(link.plane)[1] > ends}
 

@@ -17,8 +17,8 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from geneva_cli.numerics.arrays import rising
-from geneva_cli.parts.turn.freedom import search_deg, stopped, touching
-from geneva_cli.parts.turn.turned import Turned
+from geneva_cli.parts.turn.free_angles import search_deg, touching, wheel_stops
+from geneva_cli.parts.turn.machine_parts import MachineParts
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -79,7 +79,7 @@ class Window(NamedTuple):
     rests: bool
 
 
-def windows(parts: Turned) -> Iterator[Window]:
+def windows(parts: MachineParts) -> Iterator[Window]:
     """Yield the motions and dwells of a turn."""
     assembly, motions = parts.assembly, parts.assembly.motions
     for i, (engagement, behind) in enumerate(motions):
@@ -98,7 +98,7 @@ def no_play() -> Play:
     return Play(none, none, none, never, never, none, none, none)
 
 
-def plays(parts: Turned, fits: bool) -> Iterator[Play]:
+def plays(parts: MachineParts, fits: bool) -> Iterator[Play]:
     """Yield the play at a grid of positions, then refined where it is greatest or closes fastest.
 
     ``fits`` says that no parts overlap in the positions of the ideal motion.
@@ -113,7 +113,7 @@ def plays(parts: Turned, fits: bool) -> Iterator[Play]:
     yield play
 
 
-def push_deg(parts: Turned, play: Play) -> Array:
+def push_deg(parts: MachineParts, play: Play) -> Array:
     """Return the pressure angle, degrees, at which the wheel is pushed into line; 0 if it is not.
 
     It belongs to the intervals between positions. Where the play shrinks as the crank turns,
@@ -133,7 +133,7 @@ def push_deg(parts: Turned, play: Play) -> Array:
     return pushes
 
 
-def _places(parts: Turned) -> Array:
+def _places(parts: MachineParts) -> Array:
     """Return input angles of a turn, dense where lock and roller change over."""
     close = np.concatenate(([0.0], np.geomspace(0.01, 1.0, ENDS)))
     places = []
@@ -143,9 +143,9 @@ def _places(parts: Turned) -> Array:
     return rising(np.concatenate(places))
 
 
-def _play_at(parts: Turned, at: Array, fits: bool) -> Play:
+def _play_at(parts: MachineParts, at: Array, fits: bool) -> Play:
     assembly = parts.assembly
-    back, on = stopped(parts, at, fits)
+    back, on = wheel_stops(parts, at, fits)
     resting, guided = np.zeros(len(at), dtype=bool), np.zeros(len(at), dtype=bool)
     speed = np.zeros(len(at))
     last = assembly.start_deg + assembly.span_deg
@@ -194,7 +194,7 @@ def _cut(play: Play, intervals: NDArray[np.intp]) -> Array:
     return cuts
 
 
-def _peaks(parts: Turned, play: Play) -> Iterator[Array]:
+def _peaks(parts: MachineParts, play: Play) -> Iterator[Array]:
     """Yield positions next to the greatest plays, in slots and elsewhere."""
     least, most = math.degrees(touching(parts)), search_deg(parts)
     for edge in (play.back, play.on, play.both):
@@ -211,7 +211,7 @@ def _peaks(parts: Turned, play: Play) -> Iterator[Array]:
             yield _cut(play, np.concatenate((top - 1, top)))
 
 
-def _closing(parts: Turned, play: Play) -> Iterator[Array]:
+def _closing(parts: MachineParts, play: Play) -> Iterator[Array]:
     """Yield positions where the wheel's play closes fastest."""
     angle = push_deg(parts, play)
     if angle.max() > 0.0:

@@ -11,8 +11,8 @@ from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 import numpy as np
 
 from geneva_cli.numerics.arrays import rising
+from geneva_cli.parts.turn.machine_parts import MachineParts
 from geneva_cli.parts.turn.play import NEAR
-from geneva_cli.parts.turn.turned import Turned
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -53,7 +53,7 @@ class SmallestGaps(NamedTuple):
         return min(gap.mm for gap in self if gap)
 
 
-def smallest_gaps(parts: Turned, earlier: Earlier) -> Iterator[SmallestGaps]:
+def smallest_gaps(parts: MachineParts, earlier: Earlier) -> Iterator[SmallestGaps]:
     """Yield the smallest gaps at the grid of positions, then the refined ones."""
     gaps, at = parts.gaps, positions(parts)
     pose = gaps.pose(at)
@@ -79,7 +79,7 @@ def smallest_gaps(parts: Turned, earlier: Earlier) -> Iterator[SmallestGaps]:
     yield from map(SmallestGaps, own, others if several else repeat(None), lock)
 
 
-def positions(parts: Turned) -> Array:
+def positions(parts: MachineParts) -> Array:
     """Return input angles of one turn, so dense that parts move less than the thinnest feature."""
     assembly, sizes = parts.assembly, parts.sizes
     grid = np.linspace(assembly.start_deg, assembly.start_deg + assembly.span_deg, 721)
@@ -97,7 +97,7 @@ def positions(parts: Turned) -> Array:
     return rising(np.concatenate((grid_deg, near)))
 
 
-def _drives(parts: Turned, x: Array) -> NDArray[np.bool_]:
+def _drives(parts: MachineParts, x: Array) -> NDArray[np.bool_]:
     """Return a mask of the rollers that move the wheel at input angles, (n, m)."""
     assembly = parts.assembly
     half = 0.5 * assembly.turn_deg

@@ -17,9 +17,9 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from geneva_cli.curves.distance import Polyarc
+from geneva_cli.parts.turn.machine_parts import Pose, Stop
 from geneva_cli.parts.turn.pieces import Lines, Rounds, lines, reach, rounds
-from geneva_cli.parts.turn.touch import WAYS, Touch, stopped, triangles, within
-from geneva_cli.parts.turn.turned import Pose, Stopped
+from geneva_cli.parts.turn.touch import WAYS, Touch, first_stops, triangles, within
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -59,23 +59,23 @@ class Stops:
         self.edges = lines(crank) if crank else None
         self.pairs = (len(self.far) + len(self.lines.off)) * (1 + len(crank or ()))
 
-    def first(self, pose: Pose, most: float, close: float) -> tuple[Stopped, Stopped]:
+    def first(self, pose: Pose, most: float, close: float) -> tuple[Stop, Stop]:
         """Return the stops of the wheel, turned back and turned on from n poses.
 
         The parts overlap by at most ``close`` mm at first, and the wheel turns until some overlap
         by more. Where nothing stops it, it turns by ``most`` radians, which is less than the pitch.
         """
         count = pose.pins.shape[1]
-        beside = self._nearby(pose)
+        others = self._nearby(pose)
         rolling: list[Touch] = []
         locking: list[Touch] = []
         for at in (self._at_rounds, self._at_lines):
-            for touch, which in at(beside, pose, most, close):
+            for touch, which in at(others, pose, most, close):
                 rolling.append(touch.at(which < count))
                 locking.append(touch.at(which >= count))
         if self.edges is not None:
             locking += self._at_edges(self.edges, pose, most, close)
-        return stopped(rolling, locking, len(pose.wheel), most)
+        return first_stops(rolling, locking, len(pose.wheel), most)
 
     def _nearby(self, pose: Pose) -> NearbyArcs:
         x, y = pose.pins[..., 0], pose.pins[..., 1]

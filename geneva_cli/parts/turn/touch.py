@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from geneva_cli.parts.turn.turned import Stopped
+from geneva_cli.parts.turn.machine_parts import Stop
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -65,9 +65,9 @@ def within(
     return row, column, lead[row, column]
 
 
-def stopped(
+def first_stops(
     rolling: list[Touch], locking: list[Touch], count: int, most: float
-) -> tuple[Stopped, Stopped]:
+) -> tuple[Stop, Stop]:
     """Return the first stop in each of ``count`` poses, with the wheel turning back and on.
 
     It is a contact with a roller or with the crank; where there is none, ``most`` is returned.
@@ -79,7 +79,7 @@ def stopped(
     rolls = (by_roller < most) & (by_roller <= by_crank)
     pressure = np.where(rolls, np.arccos(np.minimum(cosine, 1.0)), 0.0)
     lead = np.minimum(by_roller, by_crank)
-    return Stopped(lead[:count], pressure[:count]), Stopped(lead[count:], pressure[count:])
+    return Stop(lead[:count], pressure[:count]), Stop(lead[count:], pressure[count:])
 
 
 def _first(touches: list[Touch]) -> tuple[Array, Array]:

@@ -24,9 +24,9 @@ from geneva_cli.parts.proof import Proof
 from geneva_cli.parts.sizes import Sizes, sizes
 from geneva_cli.parts.turn.full_turn import turning
 from geneva_cli.parts.turn.gaps import NotProved
-from geneva_cli.parts.turn.glance import gap_about, loose_about, loose_before
-from geneva_cli.parts.turn.once import looked_at_once
-from geneva_cli.parts.turn.turned import Turned
+from geneva_cli.parts.turn.glance import gap_about, play_about, play_before_entry
+from geneva_cli.parts.turn.machine_parts import MachineParts
+from geneva_cli.parts.turn.one_motion import one_motion
 from geneva_cli.study.synthesis.wish import USUAL_RPM
 from geneva_cli.verdict.checks.check import Check
 from geneva_cli.verdict.checks.play import finds_slot
@@ -110,10 +110,10 @@ class _Turn:
         self._begun = False
 
     @cached_property
-    def _made(self) -> Turned | Failing:
+    def _made(self) -> MachineParts | Failing:
         """The parts, or the key in their way."""
         try:
-            return drawn(*self._sized) if self._sized else Proof(self._machine, advice=False).turned
+            return drawn(*self._sized) if self._sized else Proof(self._machine, advice=False).parts
         except GenevaError as error:
             return _in_the_way(error)
 
@@ -153,7 +153,7 @@ class _Turn:
         except GenevaError as error:
             return [_in_the_way(error)]
         (name,) = LOOSE
-        found = Failing(name, share=loose_before(more) / finds_slot(more) if more else 0.0)
+        found = Failing(name, share=play_before_entry(more) / finds_slot(more) if more else 0.0)
         return [found] if found.share > CLEARLY and not found.looser(NEARLY) else []
 
     def standing(self, machine: Mechanism) -> list[Failing]:
@@ -203,10 +203,10 @@ def _in_the_way(error: GenevaError) -> Failing:
     return Failing(str(error.key[-1]) if error.key else "outline")
 
 
-def _looks(parts: Turned) -> Iterator[list[Failing]]:
+def _looks(parts: MachineParts) -> Iterator[list[Failing]]:
     """The checks of a turn that are found to fail, as it is looked at ever closer."""
     try:
-        for turn in turning(looked_at_once(parts)):
+        for turn in turning(one_motion(parts)):
             yield _failing(turn_checks(parts, turn))
     except NotProved:
         yield [Failing("full_turn")]
@@ -220,7 +220,7 @@ def _failing(checks: Iterable[Check]) -> list[Failing]:
     ]
 
 
-def _fails_there(parts: Turned, one: Failing) -> bool:
+def _fails_there(parts: MachineParts, one: Failing) -> bool:
     """Whether a check that fails with other sizes does so with these at the same place."""
     if one.at_deg is None:
         return False
@@ -228,7 +228,7 @@ def _fails_there(parts: Turned, one: Failing) -> bool:
         if one.name in GAPS:
             return gap_about(parts, one.at_deg) < -CLEARLY * parts.contact
         if one.name in LOOSE:
-            return loose_about(parts, one.at_deg) > CLEARLY * finds_slot(parts)
+            return play_about(parts, one.at_deg) > CLEARLY * finds_slot(parts)
     except NotProved:
         return False
     return False

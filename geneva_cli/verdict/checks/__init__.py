@@ -43,7 +43,7 @@ def checks_at_rest(mechanism: Mechanism, proof: Proof | None) -> Iterator[Check]
     yield from motion_checks(MOTION, mechanism)
     yield from motion_checks(LIMITS, mechanism)
     if proof is not None:
-        yield from standing_checks(proof.turned)
+        yield from standing_checks(proof.parts)
 
 
 def checks_turning(proof: Proof) -> Iterator[Check]:
@@ -53,8 +53,8 @@ def checks_turning(proof: Proof) -> Iterator[Check]:
     """
     from geneva_cli.parts.turn.full_turn import turning
 
-    for closer in turning(proof.turned):
-        yield from turn_checks(proof.turned, closer)
+    for closer in turning(proof.parts):
+        yield from turn_checks(proof.parts, closer)
 
 
 def single_check(mechanism: Mechanism, name: str) -> Check | None:
@@ -69,7 +69,7 @@ def single_check(mechanism: Mechanism, name: str) -> Check | None:
     among = standing(mechanism)
     if not mechanism.spec.has_parts or name not in among:
         return None
-    return check_named(among, name, _proof(mechanism).turned)
+    return check_named(among, name, _proof(mechanism).parts)
 
 
 def _proof(mechanism: Mechanism) -> Proof:
@@ -91,7 +91,7 @@ def _parts(mechanism: Mechanism, proof: Proof | None = None) -> Iterator[Check]:
 
     proof = proof or _proof(mechanism)
     try:
-        rows = list(standing_checks(proof.turned))
+        rows = list(standing_checks(proof.parts))
     except GenevaError as error:
         yield refused("parts", error)
         return
@@ -101,4 +101,4 @@ def _parts(mechanism: Mechanism, proof: Proof | None = None) -> Iterator[Check]:
     except NotProved as error:
         yield refused("full_turn", error)
         return
-    yield from turn_checks(proof.turned, turn)
+    yield from turn_checks(proof.parts, turn)

@@ -26,7 +26,7 @@ def arm_wall(name: str, found: Outlines) -> Check | None:
 def arm_to_hub(name: str, found: Outlines) -> Check | None:
     """Between the arm's end, as it passes below the wheel, and the wheel's shaft or hub."""
     inside = found.assembly.sign < 0.0  # where the wheel is open in the middle
-    return None if inside else _asked(name, found, lambda made: made.room, 0.0)
+    return None if inside else _asked(name, found, lambda made: made.hub_gap, 0.0)
 
 
 def _asked(

@@ -34,5 +34,5 @@ def _greatest(name: str, found: Outlines, side: float) -> Check | None:
     )
     gap = 2.0 * found.assembly.L * np.hypot(x.c[0], y.c[0]) * np.sin(0.5 * (turn - np.pi)) * side
     i = int(np.argmax(gap))
-    at_deg = found.assembly.given.shown_deg(engagement.mid_deg + float(t[i]))
+    at_deg = found.assembly.full.shown_deg(engagement.mid_deg + float(t[i]))
     return compared(name, max(float(gap[i]), 0.0), "at most", 2.0 * found.sizes.half_width, at_deg)

@@ -9,7 +9,7 @@ from geneva_cli.errors import GenevaError
 from geneva_cli.numerics.keeps import keeps
 
 if TYPE_CHECKING:
-    from geneva_cli.parts.turn.beside_shafts import ShaftGap
+    from geneva_cli.parts.turn.shaft_gap import ShaftGap
 
 # Why a failing check has no advice.
 NONE = "no change of one value that was tried passes all checks"

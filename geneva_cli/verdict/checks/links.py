@@ -17,7 +17,7 @@ def wall(name: str, found: Outlines) -> Check | None:
     if not any(given[key] for key in KEYS):
         return None
     try:
-        made = drawn_links(found.assembly.given, found)
+        made = drawn_links(found.assembly.full, found)
     except GenevaError as error:
         return Check(name, None, "at least", found.sizes.wall_min, False, str(error))
     least = min(map(link_wall, made.plates), default=None)
@@ -30,7 +30,7 @@ def gap(name: str, found: Outlines) -> Check | None:
         seen = planes(found)
     except GenevaError as error:
         return Check(name, None, "at least", 0.0, False, str(error))
-    given = found.assembly.given
+    given = found.assembly.full
     if seen.way_out is not None:
         one = seen.way_out
         return Check(

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 
 from geneva_cli.parts.turn.full_turn import FullTurn, Most
-from geneva_cli.parts.turn.turned import Turned
+from geneva_cli.parts.turn.machine_parts import MachineParts
 from geneva_cli.verdict.checks.check import Check, compared
 
 PUSH_MAX_DEG = 60.0  # pressure angle at which a roller still pushes the wheel into line
@@ -14,33 +14,33 @@ PUSH_MAX_DEG = 60.0  # pressure angle at which a roller still pushes the wheel i
 MOTION_PLAY_MAX = 0.05
 
 
-def dwell_hold(name: str, found: Turned, turn: FullTurn) -> Check:
+def dwell_hold(name: str, found: MachineParts, turn: FullTurn) -> Check:
     """Whether something holds the wheel: its lock, or what the spec says."""
-    holds = found.assembly.given.spec.wheel.held_by is not None or turn.holds
+    holds = found.assembly.full.spec.wheel.held_by is not None or turn.holds
     return Check(name, float(holds), "at least", 1.0, holds)
 
 
-def dwell(name: str, found: Turned, turn: FullTurn) -> Check | None:
+def dwell(name: str, found: MachineParts, turn: FullTurn) -> Check | None:
     """The play in the dwell: the next roller must still find its slot."""
     return _at_most(name, turn.dwell, finds_slot(found)) if found.crank else None
 
 
-def hand_over(name: str, found: Turned, turn: FullTurn) -> Check | None:
+def hand_over(name: str, found: MachineParts, turn: FullTurn) -> Check | None:
     """The play between lock and slot."""
     return _at_most(name, turn.hand_over, finds_slot(found)) if found.crank else None
 
 
-def hand_over_pressure(name: str, found: Turned, turn: FullTurn) -> Check | None:
+def hand_over_pressure(name: str, found: MachineParts, turn: FullTurn) -> Check | None:
     """The pressure angle at which the roller meets a wheel that has turned by that play."""
     return _at_most(name, turn.push, PUSH_MAX_DEG) if found.crank else None
 
 
-def motion(name: str, found: Turned, turn: FullTurn) -> Check:
+def motion(name: str, found: MachineParts, turn: FullTurn) -> Check:
     """The play of the roller in its slot."""
     return _at_most(name, turn.motion, motion_play_max(found))
 
 
-def motion_play_max(found: Turned) -> float:
+def motion_play_max(found: MachineParts) -> float:
     """The play, degrees either way, up to which a slot sets the wheel's motion."""
     step = min(2.0 * math.degrees(engagement.half_step) for engagement in found.assembly.kinds)
     return MOTION_PLAY_MAX * step
@@ -50,6 +50,6 @@ def _at_most(name: str, found: Most, limit: float) -> Check:
     return compared(name, found.deg, "at most", limit, found.at_deg if found.deg else None)
 
 
-def finds_slot(found: Turned) -> float:
+def finds_slot(found: MachineParts) -> float:
     """The play, degrees, at which the roller would still meet the mouth of its slot."""
     return math.degrees(math.asin(min(1.0, found.sizes.half_width / found.sizes.rim)))

@@ -15,7 +15,7 @@ from geneva_cli.verdict.checks.check import Check
 if TYPE_CHECKING:
     from geneva_cli.machine.mechanism import Mechanism
     from geneva_cli.parts.turn.full_turn import FullTurn
-    from geneva_cli.parts.turn.turned import Turned
+    from geneva_cli.parts.turn.machine_parts import MachineParts
 
 Checks: TypeAlias = dict[str, str]  # name -> module:function in this folder
 
@@ -118,12 +118,12 @@ def standing(mechanism: Mechanism) -> Checks:
     return STATIC if mechanism.spec.wheel.FLAT else SPHERE
 
 
-def standing_checks(found: Turned) -> Iterator[Check]:
+def standing_checks(found: MachineParts) -> Iterator[Check]:
     """The checks of parts at rest: walls, shafts, branches of a slot."""
-    yield from _made(standing(found.assembly.given), found)
+    yield from _made(standing(found.assembly.full), found)
 
 
-def turn_checks(found: Turned, turn: FullTurn) -> Iterator[Check]:
+def turn_checks(found: MachineParts, turn: FullTurn) -> Iterator[Check]:
     """The checks of a whole turn: no parts overlap; the wheel is held and led."""
     yield from _made(TURNING, found, turn)
 

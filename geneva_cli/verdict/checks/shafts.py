@@ -5,7 +5,7 @@ from __future__ import annotations
 from geneva_cli.parts.crank import is_whole
 from geneva_cli.parts.outlines import Outlines
 from geneva_cli.parts.sizes import Sizes
-from geneva_cli.parts.turn.beside_shafts import beside_gears, beside_shafts
+from geneva_cli.parts.turn.shaft_gap import gear_gap, shaft_gap
 from geneva_cli.verdict.checks.check import Check, compared, gap
 
 KEYS = (
@@ -53,15 +53,15 @@ def beside(name: str, found: Outlines) -> Check | None:
 
     By default they have their room, but for a first wheel's.
     """
-    given, drive = vars(found.assembly.mechanism.spec.size), found.assembly.given.spec.drive
+    given, drive = vars(found.assembly.mechanism.spec.size), found.assembly.full.spec.drive
     if not (drive.IN_SERIES or any(given[key] is not None for key in KEYS)):
         return None
-    return gap(name, lambda: beside_shafts(found), found.assembly.L)
+    return gap(name, lambda: shaft_gap(found), found.assembly.L)
 
 
 def beside_noncircular(name: str, found: Outlines) -> Check | None:
     """Between noncircular gears, by the farthest places of their pitch curves, and shafts."""
-    return gap(name, lambda: beside_gears(found), found.assembly.L)
+    return gap(name, lambda: gear_gap(found), found.assembly.L)
 
 
 def _shaft(size: Sizes) -> float:

@@ -6,9 +6,9 @@ import math
 
 from geneva_cli.curves.round_holes import RoundHole
 from geneva_cli.parts.sphere.arm import crank_arm, has_arm
-from geneva_cli.parts.sphere.beside import beside_shafts
 from geneva_cli.parts.sphere.built import built
 from geneva_cli.parts.sphere.dial import dial_wall
+from geneva_cli.parts.sphere.shaft_gap import shaft_gap
 from geneva_cli.parts.sphere.shells import Shells
 from geneva_cli.parts.sphere.wheel import POLE
 from geneva_cli.verdict.checks.check import Check, at_least, compared, gap
@@ -35,7 +35,7 @@ def wheel_bore(name: str, found: Shells) -> Check:
 
 def dial(name: str, found: Shells) -> Check | None:
     """The least wall round the holes for a dial."""
-    size = found.assembly.given.spec.size
+    size = found.assembly.full.spec.size
     if not size.dial_bolts:
         return None
     return at_least(name, lambda: dial_wall(size, found.ball), found.sizes.wall_min)
@@ -68,7 +68,7 @@ def beside(name: str, found: Shells) -> Check | None:
     if any(row and row.value is None for row in walls):
         return None
     L = found.ball.radius_mm
-    return gap(name, lambda: beside_shafts(found, built(found)), L)
+    return gap(name, lambda: shaft_gap(found, built(found)), L)
 
 
 def _wall(name: str, angle: float, found: Shells) -> Check:

@@ -23,7 +23,7 @@ def parts(proof: Proof) -> Values:
 
 
 def _turned(proof: Proof) -> Values:
-    found, turn = proof.turned, proof.turn
+    found, turn = proof.parts, proof.turn
     gap, locked = turn.smallest, bool(found.crank)
     return {
         "parts.horn_mm": found.sizes.horn if locked else None,
@@ -35,7 +35,7 @@ def _turned(proof: Proof) -> Values:
 
 def cut_sizes(proof: Proof) -> Values:
     """Sizes of flat parts as they are cut."""
-    found, size = proof.found, proof.found.sizes
+    found, size = proof.outlines, proof.outlines.sizes
     locked = bool(found.crank)
     return {
         "parts.rim_radius_mm": size.rim,

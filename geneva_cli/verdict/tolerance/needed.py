@@ -59,7 +59,7 @@ def needed(
         return Needed(slot, None, None, "no parts are drawn, which could be turned")
     try:
         lock, corner = (
-            _flat(spec, proof.found, sizes, slot)
+            _flat(spec, proof.outlines, sizes, slot)
             if spec.wheel.FLAT
             else _on_sphere(spec, proof.shells.ball, sizes, slot)
         )
@@ -174,7 +174,7 @@ def _fails(spec: Spec) -> tuple[bool | None, str] | None:
     """Which check of a whole turn fails; None where all pass."""
     try:
         proof = Proof(build(spec))
-        rows = list(turn_checks(proof.turned, proof.turn))
+        rows = list(turn_checks(proof.parts, proof.turn))
     except GenevaError as error:
         return None, f"not proved: {error}"
     for row in rows:

@@ -170,7 +170,7 @@ def _locks(
     if not mechanism.spec.has_parts:
         return []
     try:
-        return locks(proof.found) if mechanism.spec.wheel.FLAT else sphere_locks(proof.shells)
+        return locks(proof.outlines) if mechanism.spec.wheel.FLAT else sphere_locks(proof.shells)
     except GenevaError as error:
         warnings.append(Caution("not-known", f"no parts: {error}"))
         return []

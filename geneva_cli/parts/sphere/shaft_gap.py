@@ -17,7 +17,7 @@ from geneva_cli.curves.plates import Plate, plates
 from geneva_cli.curves.shapes import Circle
 from geneva_cli.parts.sphere.built import ROLLER, BuiltBall
 from geneva_cli.parts.sphere.sizes import Ball
-from geneva_cli.parts.turn.beside_shafts import ShaftGap, ring_gap
+from geneva_cli.parts.turn.shaft_gap import ShaftGap, ring_gap
 
 if TYPE_CHECKING:
     from geneva_cli.numerics.jet import Array
@@ -57,7 +57,7 @@ class Sweep(NamedTuple):
         return math.hypot(self.inner, self.wide) if self.wide else 0.0
 
 
-def beside_shafts(parts: Shells, whole: BuiltBall) -> ShaftGap | None:
+def shaft_gap(parts: Shells, whole: BuiltBall) -> ShaftGap | None:
     """Return the least gap of hubs and shafts to parts about the other axis, mm along a sphere.
 
     None where no two of them share a distance from the centre.

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from geneva_cli.parts.turn.turned import Stopped, Turned
+from geneva_cli.parts.turn.machine_parts import MachineParts, Stop
 
 if TYPE_CHECKING:
     from geneva_cli.numerics.jet import Array
@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 EXACT = 1e-10  # radians: smaller angles are rounding
 
 
-def search_deg(parts: Turned) -> float:
+def search_deg(parts: MachineParts) -> float:
     """Return the largest play that is searched for: half a step, in degrees.
 
     Beyond it the wheel's position is lost.
@@ -23,13 +23,13 @@ def search_deg(parts: Turned) -> float:
     return math.degrees(min(engagement.half_step for engagement, _ in parts.assembly.motions))
 
 
-def free_angles(parts: Turned, at: Array, fits: bool = False) -> tuple[Array, Array]:
+def free_angles(parts: MachineParts, at: Array, fits: bool = False) -> tuple[Array, Array]:
     """Return the angles that the wheel can be turned back and on at input angles (n,), radians."""
-    back, on = stopped(parts, at, fits)
+    back, on = wheel_stops(parts, at, fits)
     return back.lead, on.lead
 
 
-def stopped(parts: Turned, at: Array, fits: bool = False) -> tuple[Stopped, Stopped]:
+def wheel_stops(parts: MachineParts, at: Array, fits: bool = False) -> tuple[Stop, Stop]:
     """Return the stops of the wheel, turned back and turned on at input angles (n,).
 
     ``fits`` says that no parts overlap there; otherwise that is tested. Where gears drive the wheel
@@ -45,7 +45,7 @@ def stopped(parts: Turned, at: Array, fits: bool = False) -> tuple[Stopped, Stop
     return back, on
 
 
-def touching(parts: Turned) -> float:
+def touching(parts: MachineParts) -> float:
     """Return the largest play, radians, that may be rounding: tangent parts separate slowly.
 
     It is the angle at which two circles of the rim's radius overlap by ``close``.

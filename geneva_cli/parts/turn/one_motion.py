@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from geneva_cli.parts.turn.turned import Turned
+from geneva_cli.parts.turn.machine_parts import MachineParts
 
 
-def looked_at_once(parts: Turned) -> Turned:
+def one_motion(parts: MachineParts) -> MachineParts:
     """Return the parts, checked over one motion and its dwell if all rollers move alike.
 
     Otherwise the parts are returned unchanged. This is for pass or fail: input angles refer to the

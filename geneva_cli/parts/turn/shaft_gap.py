@@ -61,7 +61,7 @@ def ring_gap(apart: float, inner: float, outer: Measure, radius: Measure) -> Mea
     return gap - radius
 
 
-def beside_shafts(parts: Outlines) -> ShaftGap | None:
+def shaft_gap(parts: Outlines) -> ShaftGap | None:
     """Return the least gap of all parts; None where nothing passes a hub or shaft.
 
     Raises GenevaError for sizes that leave no parts.
@@ -72,12 +72,12 @@ def beside_shafts(parts: Outlines) -> ShaftGap | None:
     return _least(parts, whole, turning, [*turning, *others])
 
 
-def beside_gears(parts: Outlines) -> ShaftGap | None:
+def gear_gap(parts: Outlines) -> ShaftGap | None:
     """Return the least gap of noncircular gears to hubs and shafts; None without such gears.
 
     Raises GenevaError for sizes that leave no parts.
     """
-    if parts.assembly.given.spec.drive.gears is None:
+    if parts.assembly.full.spec.drive.gears is None:
         return None
     whole = built(parts, pitch=False)
     turning = _rings_of((whole.wheel, whole.crank))
@@ -106,7 +106,7 @@ def _least(
 
 def _noncircular(parts: Outlines) -> Iterator[Ring]:
     """Yield the rings of noncircular gears, out to the farthest points of their pitch curves."""
-    mechanism = parts.assembly.given
+    mechanism = parts.assembly.full
     pair, L = mechanism.spec.drive.gears, mechanism.center_distance_mm
     if pair is None:
         return

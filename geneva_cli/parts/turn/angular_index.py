@@ -13,10 +13,10 @@ if TYPE_CHECKING:
     from geneva_cli.numerics.jet import Array
 
 
-class Around:
+class AngularIndex:
     """Directions (n,), radians from -pi to pi, sorted for quick lookup.
 
-    >>> places = Around(np.array([0.0, 3.1, -3.1]))
+    >>> places = AngularIndex(np.array([0.0, 3.1, -3.1]))
     >>> owner, which = places.within(np.array([0.1, math.pi]), 0.2)
     >>> owner.tolist(), which.tolist()
     ([0, 1, 1], [0, 1, 2])
@@ -42,6 +42,6 @@ class Around:
         return owner, self._order[place]
 
 
-def half_seen(reach: float, away: float) -> float:
+def half_angle(reach: float, away: float) -> float:
     """Return half the angle, radians, that a disc of radius ``reach`` spans from ``away``."""
     return math.asin(reach / away) if reach < away else math.pi

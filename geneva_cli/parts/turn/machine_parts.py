@@ -18,14 +18,14 @@ class Pose(NamedTuple):
     pins: Array  # (n, m, 2) of the m rollers, mm, or (n, m, 3), directions from a sphere's centre
 
 
-class Stopped(NamedTuple):
+class Stop(NamedTuple):
     """The stop of the wheel in one direction, from n poses."""
 
     lead: Array  # (n,) radians: angle that the wheel turns until it stops
     pressure: Array  # (n,) radians: pressure angle of a roller that stops it, 0 for anything else
 
 
-class Gapped(Protocol):
+class Clearances(Protocol):
     """The clearances between wheel, crank and rollers, mm, negative where they overlap.
 
     All are computed in n poses, with the wheel turned on by ``lead`` radians. Clearances wider than
@@ -54,7 +54,7 @@ class Gapped(Protocol):
     def repeats(self, count: int) -> bool:
         """Return True if the parts coincide with themselves after one slot and 1/``count`` turn."""
 
-    def stops(self, pose: Pose, most: float, close: float) -> tuple[Stopped, Stopped]:
+    def stops(self, pose: Pose, most: float, close: float) -> tuple[Stop, Stop]:
         """Return the stops of the wheel, turned back and turned on from n poses.
 
         The parts overlap nowhere by ``close`` mm at first. The wheel turns until some do, or by
@@ -90,7 +90,7 @@ class Lengths(Protocol):
         """Thickness of the horn between slot and recess."""
 
 
-class Turned(Protocol):
+class MachineParts(Protocol):
     """The parts of a machine, with what a full turn needs of them."""
 
     @property
@@ -102,7 +102,7 @@ class Turned(Protocol):
         """Lengths of the parts."""
 
     @property
-    def gaps(self) -> Gapped:
+    def gaps(self) -> Clearances:
         """Clearances between the parts."""
 
     @property
@@ -117,7 +117,7 @@ class Turned(Protocol):
     def contact(self) -> float:
         """The overlap, mm, up to which parts count as touching."""
 
-    def over(self, assembly: Assembly) -> Turned:
+    def over(self, assembly: Assembly) -> MachineParts:
         """Return these parts with another assembly."""
 
     def in_wheel(self, motion: int, at: Array) -> Array:

@@ -17,7 +17,7 @@ from geneva_cli.machine.wheels.internal import Internal
 from geneva_cli.machine.wheels.spherical import Spherical
 from geneva_cli.parts.proof import Proof
 from geneva_cli.parts.turn.full_turn import full_turn
-from geneva_cli.parts.turn.once import looked_at_once
+from geneva_cli.parts.turn.one_motion import one_motion
 from geneva_cli.spec.tables import Size
 
 SMALL = Size(roller_radius_mm=3.0, slot_clearance_mm=0.02, lock_clearance_mm=0.01)
@@ -36,8 +36,8 @@ SPECS = {
 @pytest.mark.parametrize("name", SPECS)
 def test_one_motion_stands_for_all(name):
     """The same gaps and plays, of a part of the turn; gaps to what their search leaves."""
-    parts = Proof(build(SPECS[name]), advice=False).turned
-    once = looked_at_once(parts)
+    parts = Proof(build(SPECS[name]), advice=False).parts
+    once = one_motion(parts)
     rollers = SPECS[name].drive.rollers
     assert once.assembly.span_deg * rollers == pytest.approx(parts.assembly.turn_deg)
     found, whole = full_turn(once), full_turn(parts)
@@ -60,24 +60,24 @@ UNLIKE = {
 
 @pytest.mark.parametrize("name", UNLIKE)
 def test_rollers_that_do_not_move_alike_are_all_looked_at(name):
-    parts = Proof(build(UNLIKE[name]), advice=False).turned
-    assert looked_at_once(parts) is parts
+    parts = Proof(build(UNLIKE[name]), advice=False).parts
+    assert one_motion(parts) is parts
 
 
 def test_a_crank_or_wheel_that_is_not_alike_all_round_is_looked_at_all_round():
     """A disc with its relief turned by a degree on one side, and a slot askew."""
-    parts = Proof(build(SPECS["external"])).found
-    assert looked_at_once(parts) is not parts
+    parts = Proof(build(SPECS["external"])).outlines
+    assert one_motion(parts) is not parts
     (disc,) = parts.crank
     half = len(disc.segments) // 2
     off = turned(disc, math.radians(1.0)).segments[half:]
     crank = spoilt(parts, crank=[closed("CRANK", [*disc.segments[:half], *off])])
-    assert looked_at_once(crank) is crank
+    assert one_motion(crank) is crank
     pieces = list(parts.wheel.segments)
     first = len(pieces) // 8
     pieces[:first] = turned(closed("WHEEL", pieces[:first]), 0.01).segments
     wheel = spoilt(parts, closed("WHEEL", pieces))
-    assert looked_at_once(wheel) is wheel
+    assert one_motion(wheel) is wheel
 
 
 def test_sectors_that_are_not_alike_are_all_looked_at():
@@ -87,4 +87,4 @@ def test_sectors_that_are_not_alike_are_all_looked_at():
     assert not parts.gaps.repeats(3)
     narrow = Proof(build(SPECS["spherical"].with_("size.lock_clearance_mm", 0.3))).shells
     parts.gaps.sectors[1] = narrow.gaps.sectors[1]
-    assert looked_at_once(parts) is parts
+    assert one_motion(parts) is parts
