@@ -1,1 +1,1 @@
-"""The words of a spec: tables, keys, rules."""
+"""The vocabulary of a spec: tables, keys, rules."""

@@ -1,4 +1,4 @@
-"""Importing by name, so that a list of names can stand without importing what it lists."""
+"""Import by name, so that a list of names does not import what it lists."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from typing import Any
 
 
 def load_named(path: str) -> Any:
-    """The class or function that ``module:name`` means in this package.
+    """Class or function that ``module:name`` names in this package.
 
     >>> load_named("machine.drives.cam:Cam").NAME
     'cam'

@@ -1,7 +1,7 @@
-"""Clearances for the way in which parts are made: what ``[size] process`` stands for.
+"""Clearances for ways to make the parts, selected by ``[size] process``.
 
-Each is what two parts need that come off the machine as true as its source says, and no more; the
-fit coupon shows what a machine at hand does better.
+Each is the least that two parts need if they are as accurate as the source says. The fit coupon
+shows if a particular machine does better.
 """
 
 from __future__ import annotations
@@ -10,18 +10,21 @@ from typing import NamedTuple
 
 
 class Allowances(NamedTuple):
-    """How much larger than its mate a part is made, mm, by the keys of ``[size]``; and by whom."""
+    """Clearances by the keys of ``[size]``, mm, and their source.
 
-    slot_clearance_mm: float = 0.0  # a side
-    lock_clearance_mm: float = 0.0  # a side
-    press_fit_mm: float = 0.0  # of the diameter, the hole less
+    Each is the amount by which a part is larger than its mate.
+    """
+
+    slot_clearance_mm: float = 0.0  # per side
+    lock_clearance_mm: float = 0.0  # per side
+    press_fit_mm: float = 0.0  # difference of diameters, pin minus hole
     source: str | None = None
 
 
 PROCESSES = {
-    # Both parts off by the standard's deviation, the slot narrow and the roller wide: half of
-    # 0.2 + 0.2 mm a side; of the locking disc half of 0.25 + 0.25. A hole wider by 0.15 mm still
-    # holds its pin.
+    # Both parts are off by the standard's deviation, the slot narrow and the roller wide. That is
+    # half of 0.2 + 0.2 mm per side, and for the locking disc half of 0.25 + 0.25. A hole wider by
+    # 0.15 mm still holds its pin.
     "laser": Allowances(
         0.2,
         0.25,
@@ -29,8 +32,8 @@ PROCESSES = {
         "ISO 9013:2017, class 1, plates up to 3.15 mm: ±0.2 mm for 10 to 35 mm, ±0.25 for 35 to "
         "125, holes of 3 to 10 ±0.15",
     ),
-    # H8/f7 leaves 16 to 61 um at 10 to 18 mm and 30 to 106 um at 50 to 80 mm, half of the middle a
-    # side; H7/p6 is 0 to 24 um tight at 6 to 10 mm.
+    # H8/f7 leaves 16 to 61 um at 10 to 18 mm and 30 to 106 um at 50 to 80 mm: half of the middle
+    # per side. H7/p6 is 0 to 24 um tight at 6 to 10 mm.
     "mill": Allowances(
         0.02,
         0.035,
@@ -38,7 +41,7 @@ PROCESSES = {
         "ISO 286: the middle of running fit H8/f7, roller 10 to 18 mm, disc 50 to 80, and of press "
         "fit H7/p6, pin 6 to 10",
     ),
-    # A hole is printed a little too narrow, and holds its pin as it is.
+    # A hole is printed slightly too narrow, and holds its pin without a press fit.
     "print": Allowances(
         0.25,
         0.25,

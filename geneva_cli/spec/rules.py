@@ -1,4 +1,4 @@
-"""What a value in the spec may be, stated once beside its key."""
+"""Rules for values in the spec, each written once next to its key."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from geneva_cli.errors import GenevaError
 
 
 class Range(NamedTuple):
-    """Numbers from ``low`` to ``high``; a round bracket in ``ends`` leaves that end out."""
+    """Numbers from ``low`` to ``high``; a round bracket in ``ends`` excludes that end."""
 
     low: float
     high: float = math.inf
@@ -21,14 +21,14 @@ class Range(NamedTuple):
         return isinstance(x, (int, float)) and bool(self.holds(x))
 
     def holds(self, x: Any) -> Any:
-        """Whether a number is in it; of an array each of its numbers."""
+        """True if a number is in the range; for an array, a truth value for each number."""
         above = self.low < x if self.ends[0] == "(" else self.low <= x
         return above & (x < self.high if self.ends[1] == ")" else x <= self.high)
 
     def __str__(self) -> str:
         if math.isinf(self.low) and math.isinf(self.high):
             return "a finite number"
-        if 0.0 < self.low < 1e-6:  # a bound that is there only to keep the arithmetic finite
+        if 0.0 < self.low < 1e-6:  # a bound that only keeps the arithmetic finite
             return f"above 0 ({self.low:g} to {self.high:g})"
         low = f"{'above' if self.ends[0] == '(' else 'at least'} {self.low:.12g}"
         high = f"{'below' if self.ends[1] == ')' else 'at most'} {self.high:.12g}"
@@ -45,7 +45,7 @@ class OneOf(tuple[str, ...]):
 
 
 class Words(NamedTuple):
-    """A number in a range, or one of some words that stand for a number to be worked out."""
+    """A number in a range, or a word that stands for a computed number."""
 
     range: Range
     words: tuple[str, ...]
@@ -54,7 +54,7 @@ class Words(NamedTuple):
         return x in self.range
 
     def holds(self, x: Any) -> Any:
-        """Whether a number is in the range; of an array each of its numbers."""
+        """True if a number is in the range; for an array, a truth value for each number."""
         return self.range.holds(x)
 
     def __str__(self) -> str:
@@ -67,15 +67,15 @@ class Csv(NamedTuple):
     key: str
     x: str
     y: str
-    step_min: float  # the least step of x: closer points make a spline of rounding errors
-    y_max: float  # the largest size of y
+    step_min: float  # least step of x: closer points make a spline of rounding errors
+    y_max: float  # greatest size of y
     points_min: int
 
     def __str__(self) -> str:
         return 'such as "points.csv"'
 
     def fault(self, pairs: Sequence[tuple[float, float]], i: int) -> str:
-        """What is wrong with the i-th pair, seen from the one before it; nothing if it is sound."""
+        """Fault of the i-th pair, compared with the one before it; empty if it is valid."""
         x, y = pairs[i]
         if not (math.isfinite(x) and abs(y) <= self.y_max):
             return (
@@ -84,8 +84,8 @@ class Csv(NamedTuple):
             )
         if i and x < pairs[i - 1][0] + self.step_min:
             return (
-                f"{self.x} = {x:.12g} must be above the one before it, by {self.step_min:g} or "
-                "more: of closer points the derivatives are rounding; thin them out"
+                f"{self.x} = {x:.12g} must exceed the one before it by at least {self.step_min:g}: "
+                "use fewer points, since derivatives of closer ones are rounding"
             )
         return ""
 
@@ -100,7 +100,7 @@ class Csv(NamedTuple):
                 raise GenevaError(f"{name}, point {i + 1}: {fault}", place)
         if len(pairs) < self.points_min:
             raise GenevaError(
-                f"{name}: {len(pairs)} points; at least {self.points_min} are needed", place
+                f"{name}: {len(pairs)} points, but at least {self.points_min} are needed", place
             )
 
 
@@ -128,7 +128,7 @@ def require_mm(option: str, value: float, allowed: Range, of: str = "") -> None:
 
 
 def is_array(x: object) -> bool:
-    """Whether it is a NumPy array, of designs; NumPy is not imported for the question.
+    """True if it is a NumPy array; NumPy is not imported for this check.
 
     Another thread may be importing NumPy now. Before its module has the class, no array exists.
     """

@@ -1,7 +1,7 @@
-"""Tables of a spec: frozen records whose fields are their keys, checked where they are made.
+"""Tables of a spec: frozen records whose fields are their keys, checked when they are made.
 
-A field is annotated with its type, its rule and its meaning, so that the reader, the writer, the
-template and a Python user all go by the same line:
+A field is annotated with its type, its rule and its meaning. The reader, the writer, the template
+and Python users all use that line:
 
     A: Annotated[float, Range(-1.0, 1.0, "()"), "base offset / crank length"]
 """
@@ -42,33 +42,33 @@ _NAMES: dict[Any, str] = {
 
 
 class Points(NamedTuple):
-    """Pairs that a spec gives in a CSV file: the file as the spec names it, and what is in it."""
+    """Pairs from a CSV file, and the file's name as in the spec."""
 
     pairs: tuple[tuple[float, float], ...]
     file: str = ""
 
 
 class Field(NamedTuple):
-    """One key of a table: where its value is, and how it is checked."""
+    """One key of a table: its names, types, rule, default and meaning."""
 
     key: str  # in the file
     attribute: str  # in Python
     types: tuple[Any, ...]
     rule: Any
-    default: Any  # REQUIRED where there is none
+    default: Any  # REQUIRED if there is none
     meaning: str
 
 
-HASH = "_hash"  # where a record keeps its own, once it was asked for
+HASH = "_hash"  # name under which a record stores its own hash
 
 
 @dataclass_transform(frozen_default=True, field_specifiers=(dataclasses.field,))
 @dataclasses.dataclass(frozen=True, eq=False, repr=False)
 class SpecTable:
-    """A table of the spec. Raises GenevaError, naming table and key, for a value it cannot have.
+    """A table of the spec. Raises GenevaError, naming table and key, for an invalid value.
 
-    Each class of tables is a frozen dataclass of its annotated fields, without a decorator. What
-    all of them do alike is written here, and not generated for each, which takes a run longer.
+    Each class of tables is a frozen dataclass of its annotated fields, without a decorator. Their
+    common methods are written here, as generating them for each class slows the start of a run.
     """
 
     TABLE: ClassVar[str] = ""  # its name in the file
@@ -84,9 +84,9 @@ class SpecTable:
                 object.__setattr__(self, field.attribute, value)
 
     def _values(self) -> dict[str, Any]:
-        """The values by their fields."""
-        held = vars(self)
-        return {name: held[name] for name in _names(type(self))}
+        """Values by field name."""
+        own = vars(self)
+        return {name: own[name] for name in _names(type(self))}
 
     def __eq__(self, other: object) -> bool:
         if not (isinstance(other, SpecTable) and type(other) is type(self)):
@@ -104,7 +104,7 @@ class SpecTable:
         return f"{type(self).__qualname__}({values})"
 
     def as_dict(self) -> dict[str, Any]:
-        """The values by their keys.
+        """Values by key.
 
         >>> External(6).as_dict()
         {'z': 6, 'held_by': None, 'offset_mm': 0.0, 'steps_deg': None}
@@ -112,7 +112,7 @@ class SpecTable:
         return {field.key: getattr(self, field.attribute) for field in fields(type(self))}
 
     def with_key(self, key: str, value: Any) -> Self:
-        """A copy with one key changed, as it is written in the file; None: its default.
+        """Return a copy with one key changed, written as in the file; None sets its default.
 
         Raises GenevaError for a key that the table does not have, or a value out of its range.
 
@@ -129,7 +129,7 @@ class SpecTable:
         return self.replace(**{field.attribute: value})
 
     def replace(self, **changes: Any) -> Self:
-        """A copy with some fields changed, checked as every table is.
+        """Return a copy with some fields changed and checked.
 
         >>> SideCrank(A=0.6).replace(n_rpm=30.0)
         SideCrank(n_rpm=30.0, rollers=1, roller_angles_deg=None, A=0.6, input_crank_mm=None)
@@ -141,38 +141,38 @@ T = TypeVar("T")
 
 
 def copied(record: T, changes: dict[str, Any]) -> T:
-    """A copy of a frozen record with some fields changed, checked as one that is made anew.
+    """Return a copy of a frozen record with some fields changed, checked like a new one.
 
-    It is ``dataclasses.replace`` for records that set no field's value aside, in half the time.
+    It is ``dataclasses.replace`` for records without init-only fields, in half the time.
     """
-    kind, held = type(record), vars(record)
+    kind, own = type(record), vars(record)
     names = _names(kind)
     for name in changes:
         if name not in names:
             raise TypeError(f"{kind.__name__} has no field {name}")
     new = object.__new__(kind)
-    vars(new).update({name: held[name] for name in names} | changes)
+    vars(new).update({name: own[name] for name in names} | changes)
     new.__post_init__()  # type: ignore[attr-defined]
     return new
 
 
 def hash_once(record: object) -> int:
-    """The hash of a frozen record, which keeps it."""
-    held = vars(record)
-    if HASH not in held:
-        # with the kind: many laws, and many drives, have the same values
-        held[HASH] = hash((type(record), *[held[name] for name in _names(type(record))]))
-    found: int = held[HASH]
-    return found
+    """Hash of a frozen record, which stores it."""
+    own = vars(record)
+    if HASH not in own:
+        # includes the type, since many laws and drives have equal values
+        own[HASH] = hash((type(record), *[own[name] for name in _names(type(record))]))
+    value: int = own[HASH]
+    return value
 
 
 def without_hash(record: object) -> dict[str, object]:
-    """What a record is sent to another process with, which hashes words otherwise."""
+    """State of a record for another process, in which strings hash differently."""
     return {name: value for name, value in vars(record).items() if name != HASH}
 
 
 def _names(kind: type) -> tuple[str, ...]:
-    """The fields of a dataclass."""
+    """Names of a dataclass's fields."""
     if kind not in _NAMES_OF:
         _NAMES_OF[kind] = tuple(one.name for one in dataclasses.fields(kind))
     return _NAMES_OF[kind]
@@ -182,7 +182,7 @@ _NAMES_OF: dict[type, tuple[str, ...]] = {}
 
 
 def fields(table: type[SpecTable]) -> tuple[Field, ...]:
-    """The keys of a table, in their order."""
+    """Keys of a table, in their order."""
     if table not in _FIELDS:
         _FIELDS[table] = _fields(table)
     return _FIELDS[table]
@@ -196,7 +196,7 @@ def _fields(table: type[SpecTable]) -> tuple[Field, ...]:
     out = []
     for one in dataclasses.fields(table):
         if get_origin(hints[one.name]) is not Annotated:
-            continue  # not a key: an object that has keys of its own, as a motion has its law
+            continue  # not a key: an object with its own keys, such as a motion's law
         annotated, rule, meaning = get_args(hints[one.name])
         # an alternative (a | b) by its parts, anything else as it is; tuple[...] stays whole
         types = get_args(annotated) if isinstance(annotated, UnionType) else (annotated,)
@@ -209,7 +209,7 @@ def checked(table: str, field: Field, value: Any) -> Any:
     """A value of the field's type and in its range, as the table holds it."""
     kind = type(value)
     if (kind is float or kind is int) and kind in field.types and value in field.rule:
-        return value  # as nearly all are
+        return value  # the usual case
     place = (*table.split("."), field.key)
     if value is None and NoneType in field.types:
         return None
@@ -227,8 +227,8 @@ def checked(table: str, field: Field, value: Any) -> Any:
         return tuple(checked(table, one, v) for v in value)
     if isinstance(value, str) and str in field.types:
         return _word(place, field, value, numeric=bool(numeric))
-    wanted = " or ".join(_NAMES[t] for t in field.types if t in _NAMES)
-    raise GenevaError(f"{field.key} must be {wanted}, not {shown(value)}", place)
+    expected = " or ".join(_NAMES[t] for t in field.types if t in _NAMES)
+    raise GenevaError(f"{field.key} must be {expected}, not {shown(value)}", place)
 
 
 def _number(place: tuple[str, ...], field: Field, value: float, whole: bool) -> float:
@@ -250,7 +250,7 @@ def _number(place: tuple[str, ...], field: Field, value: float, whole: bool) -> 
 
 
 def _numbers(place: tuple[str, ...], field: Field, values: Any, whole: bool) -> Any:
-    """The numbers of many designs. Those that cannot be are marked, and become NaN.
+    """Numbers of a batch of designs. Invalid ones are marked, and become NaN.
 
     A whole number, which cannot be NaN, becomes the least that the rule allows.
     """
@@ -272,13 +272,15 @@ def _word(place: tuple[str, ...], field: Field, value: str, numeric: bool) -> st
             f"{field.key} = {shown(value)} must be {field.rule}{nearest(value, field.rule)}", place
         )
     if numeric and value not in words:
-        said = " or ".join(f'"{w}"' for w in words)
-        raise GenevaError(f"{field.key} must be a number or {said}, not {shown(value)}", place)
+        alternatives = " or ".join(f'"{w}"' for w in words)
+        raise GenevaError(
+            f"{field.key} must be a number or {alternatives}, not {shown(value)}", place
+        )
     return value
 
 
 def _points(place: tuple[str, ...], field: Field, value: Any) -> Points:
-    """Pairs in ascending order within the rule's bounds; a Python user may give a list of them."""
+    """Pairs in ascending order within the rule's bounds; a Python user may pass a list of them."""
     points = value if isinstance(value, Points) else Points(_pairs(place, field, value))
     field.rule.check(points.pairs, points.file, place)
     return points
@@ -289,22 +291,22 @@ def _pairs(place: tuple[str, ...], field: Field, value: Any) -> tuple[tuple[floa
         return tuple((float(x), float(y)) for x, y in value)
     except (TypeError, ValueError):
         raise GenevaError(
-            f"{field.key}: points are pairs of numbers {field.rule.x},{field.rule.y}", place
+            f"{field.key}: points must be pairs of numbers {field.rule.x},{field.rule.y}", place
         ) from None
 
 
 def unknown(key: str, table: str, known: Sequence[str]) -> GenevaError:
-    """What is said of a key that a table does not have."""
+    """Error for a key that a table does not have."""
     return GenevaError(
         f"unknown key {cut(key)} in [{table}]{nearest(key, known)}; known: {few(key, known)}",
         (*table.split("."), key),
     )
 
 
-def require(table: type[SpecTable], given: Sequence[str], why: str = "") -> None:
-    """Raise GenevaError where a key without a default is not given."""
+def require(table: type[SpecTable], keys: Sequence[str], why: str = "") -> None:
+    """Raise GenevaError if a key without a default is missing."""
     for field in fields(table):
-        if field.default is REQUIRED and field.key not in given:
+        if field.default is REQUIRED and field.key not in keys:
             raise GenevaError(
                 f"[{table.TABLE}] needs {field.key}{why}: {field.meaning}, {field.rule}",
                 tuple(table.TABLE.split(".")),
@@ -325,7 +327,7 @@ def shown(value: Any) -> str:
 
 
 def _whole(value: float) -> str:
-    """The whole numbers beside one that is not, as it must be written."""
+    """Hint for a number that is not whole: the adjacent whole numbers, or how to write it."""
     if not abs(value) < EXACT:
         return ""
     if value == math.floor(value):

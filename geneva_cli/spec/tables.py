@@ -1,7 +1,7 @@
 """The spec's tables and keys: type, default, range and meaning, one line each.
 
-A key that is a Python keyword ends in an underscore here. ``None`` means: derived from the rest.
-The annotations are objects, not text that would have to be evaluated when they are read.
+The attribute of a key that is a Python keyword ends in an underscore. ``None`` means: derived from
+other keys. The annotations are objects, since evaluating text on import would take longer.
 """
 
 from functools import cached_property
@@ -18,9 +18,9 @@ Z_USUAL = 24  # above it the slots leave little of a wheel: a warning
 
 
 class Size(SpecTable):
-    """``[size]``.
+    """``[size]``: sizes of the parts.
 
-    Lengths in mm, diameters where a key says so. What is left out follows from the rest.
+    Lengths in mm; diameters where a key says so. Keys that are not set follow from the others.
 
     >>> Design(External(6), size=Size(center_distance_mm=200.0)).mechanism.roller_radius_mm
     10.0
@@ -31,63 +31,77 @@ class Size(SpecTable):
     center_distance_mm: Annotated[
         float | None,
         POSITIVE,
-        "centre distance L (spherical: the sphere's radius), 100; linkages solve for it",
+        "centre distance L; spherical: sphere radius; default 100; linkages solve for it",
     ] = None
-    roller_radius_mm: Annotated[float | None, POSITIVE, "roller radius r; L/20 if not given"] = None
+    roller_radius_mm: Annotated[float | None, POSITIVE, "roller radius r; default L/20"] = None
     process: Annotated[
-        str | None, OneOf(PROCESSES), "how the parts are made; sets clearances and press fit"
+        str | None, OneOf(PROCESSES), "manufacturing process; sets default clearances and press fit"
     ] = None
     slot_clearance_mm: Annotated[
-        float | None, NOT_NEGATIVE, "per side, roller to slot; 0, or the process's"
+        float | None, NOT_NEGATIVE, "clearance per side, roller to slot; default 0, or by process"
     ] = None
     lock_clearance_mm: Annotated[
-        float | None, NOT_NEGATIVE, "per side, locking disc to wheel; 0, or the process's"
+        float | None,
+        NOT_NEGATIVE,
+        "clearance per side, locking disc to wheel; default 0, or by process",
     ] = None
-    face_width_mm: Annotated[float | None, POSITIVE, "length of the roller's line of contact"] = (
-        None
-    )
+    face_width_mm: Annotated[
+        float | None, POSITIVE, "length of the contact line between roller and slot"
+    ] = None
     wheel_radius_mm: Annotated[
-        float | None, POSITIVE, "rim of the wheel (inside: of its opening); where a roller enters"
+        float | None,
+        POSITIVE,
+        "radius of the wheel's rim (internal: of its opening); default: roller at entry",
     ] = None
     wheel_outer_radius_mm: Annotated[
         float | None,
         POSITIVE,
-        "internal: the outside of the wheel; a roller's width past the slots",
+        "internal: outer radius of the wheel; default: slots plus a roller's width",
     ] = None
     slot_bottom_clearance_mm: Annotated[
-        float | None, NOT_NEGATIVE, "straight slots: deepest roller to the slot's end; r/20"
+        float | None,
+        NOT_NEGATIVE,
+        "straight slots: clearance from the deepest roller to the slot's end; default r/20",
     ] = None
     lock_radius_mm: Annotated[
         float | None,
         NOT_NEGATIVE,
-        "locking disc, 0 for none; leaves a horn as thick as r if it can",
+        "radius of the locking disc, 0 for none; default: horns as thick as r, if possible",
     ] = None
     relief: Annotated[
-        str | None, OneOf(("arc", "sector")), "cut of the locking disc; what clears"
+        str | None,
+        OneOf(("arc", "sector")),
+        "shape of the locking disc's relief; default: the one that clears the wheel",
     ] = None
     relief_clearance_mm: Annotated[
-        float | None, NOT_NEGATIVE, "wheel to the bottom of the relief; L/200"
+        float | None, NOT_NEGATIVE, "clearance from wheel to bottom of the relief; default L/200"
     ] = None
     wall_min_mm: Annotated[
-        float | None, NOT_NEGATIVE, "least wall that `check` lets pass; L/200"
+        float | None, NOT_NEGATIVE, "least wall thickness that passes `check`; default L/200"
     ] = None
     wheel_bore_mm: Annotated[float | None, NOT_NEGATIVE, "diameter of the wheel's bore"] = None
     wheel_hub_mm: Annotated[
-        float | None, NOT_NEGATIVE, "diameter of the wheel's hub on the roller's side"
+        float | None, NOT_NEGATIVE, "diameter of the wheel's hub, on the side of the crank arm"
     ] = None
     wheel_hub_length_mm: Annotated[
-        float | None, POSITIVE, "length of that hub below the wheel; down to below the crank arm"
+        float | None,
+        POSITIVE,
+        "length of the wheel's hub below the wheel; default: to below the crank arm",
     ] = None
     wheel_shaft_low_mm: Annotated[
-        float | None, LENGTH, "lower end of the wheel's shaft, from the wheel's lower face; frame's"
+        float | None,
+        LENGTH,
+        "lower end of the wheel's shaft, from the wheel's lower face; default: the frame's",
     ] = None
     wheel_shaft_high_mm: Annotated[
-        float | None, LENGTH, "upper end of the wheel's shaft, from there; the wheel's upper face"
+        float | None,
+        LENGTH,
+        "upper end of the wheel's shaft, from the wheel's lower face; default: upper face",
     ] = None
     crank_bore_mm: Annotated[
         float | None,
         NOT_NEGATIVE,
-        "diameter of the crank's bore; arm_bore_mm if that is given; 0: the shaft ends below",
+        "diameter of the crank's bore; default arm_bore_mm; 0: the shaft ends below",
     ] = None
     crank_hub_mm: Annotated[
         float | None, NOT_NEGATIVE, "diameter of the crank's hub in the wheel's plane"
@@ -95,102 +109,126 @@ class Size(SpecTable):
     crank_hub_length_mm: Annotated[
         float | None,
         POSITIVE,
-        "length of that hub, from the arm up; to the wheel's upper face",
+        "length of the crank's hub, from the arm up; default: to the wheel's upper face",
     ] = None
     crank_shaft_low_mm: Annotated[
-        float | None, LENGTH, "lower end of the crank's shaft, from the wheel's lower face; frame's"
+        float | None,
+        LENGTH,
+        "lower end of the crank's shaft, from the wheel's lower face; default: the frame's",
     ] = None
     crank_shaft_high_mm: Annotated[
-        float | None, LENGTH, "upper end of the crank's shaft, from there; that of arm, disc or hub"
+        float | None,
+        LENGTH,
+        "upper end of the crank's shaft, from the wheel's lower face; default: of arm, disc or hub",
     ] = None
-    pin_mm: Annotated[float | None, NOT_NEGATIVE, "diameter of the roller's pin; r"] = None
+    pin_mm: Annotated[float | None, NOT_NEGATIVE, "diameter of the roller's pin; default r"] = None
     press_fit_mm: Annotated[
         float | None,
         NOT_NEGATIVE,
-        "pin's diameter less that of its hole in the crank arm; 0, or the process's",
+        "diameter of the pin minus that of its hole in the crank arm; default 0, or by process",
     ] = None
     arm_bore_mm: Annotated[
-        float | None, POSITIVE, "diameter of the crank arm's bore; crank_bore_mm if there is one"
+        float | None, POSITIVE, "diameter of the crank arm's bore; default crank_bore_mm"
     ] = None
     arm_hub_mm: Annotated[
-        float | None, POSITIVE, "width of the crank arm round its bore; 1.6 bores"
+        float | None, POSITIVE, "width of the crank arm round its bore; default 1.6 bores"
     ] = None
     arm_eye_mm: Annotated[
-        float | None, POSITIVE, "width of the crank arm round a pin; 2 pins where the hub lets it"
+        float | None,
+        POSITIVE,
+        "width of the crank arm round a pin; default 2 pin diameters, if the hub allows",
     ] = None
     crank_keyway: Annotated[
         str | None, OneOf(("DIN 6885-1",)), "keyway in the bores of crank arm and locking disc"
     ] = None
     wheel_keyway: Annotated[str | None, OneOf(("DIN 6885-1",)), "keyway in the wheel's bore"] = None
-    dial_bolts: Annotated[int, Range(0, 100), "bolts that fix the dial on the wheel, evenly"] = 0
-    dial_bolt_mm: Annotated[float | None, POSITIVE, "diameter of their holes; L/40 at most"] = None
+    dial_bolts: Annotated[
+        int, Range(0, 100), "number of bolts between dial and wheel, evenly spaced"
+    ] = 0
+    dial_bolt_mm: Annotated[
+        float | None, POSITIVE, "diameter of the dial's bolt holes; default up to L/40"
+    ] = None
     dial_bolt_circle_mm: Annotated[
-        float | None, POSITIVE, "diameter of the circle they stand on; amid bore and slots"
+        float | None,
+        POSITIVE,
+        "diameter of the dial's bolt circle; default: midway between bore and slots",
     ] = None
     gear_bolts: Annotated[
-        int, Range(0, 100), "screws that hold a gear that stands to the frame, evenly"
+        int, Range(0, 100), "number of screws between a fixed gear and the frame, evenly spaced"
     ] = 4
-    gear_bolt_mm: Annotated[float | None, POSITIVE, "diameter of their holes; L/40 at most"] = None
+    gear_bolt_mm: Annotated[
+        float | None, POSITIVE, "diameter of the fixed gear's screw holes; default up to L/40"
+    ] = None
     gear_bolt_circle_mm: Annotated[
-        float | None, POSITIVE, "diameter of the circle they stand on; amid bore and pitch circle"
+        float | None,
+        POSITIVE,
+        "diameter of the fixed gear's screw circle; default: midway from bore to pitch circle",
     ] = None
     lock_bolts: Annotated[
-        int, Range(0, 100), "bolts or dowels through each sector of the locking disc and the arm"
+        int,
+        Range(0, 100),
+        "number of bolts or dowels through each sector of the locking disc and the arm",
     ] = 0
-    lock_bolt_mm: Annotated[float | None, POSITIVE, "diameter of their holes; L/40"] = None
+    lock_bolt_mm: Annotated[
+        float | None, POSITIVE, "diameter of the locking disc's bolt holes; default L/40"
+    ] = None
     lock_bolt_circle_mm: Annotated[
-        float | None, POSITIVE, "diameter of the circle they stand on; where the disc is widest"
+        float | None,
+        POSITIVE,
+        "diameter of the locking disc's bolt circle; default: where the disc is widest",
     ] = None
     pin_held: Annotated[
         str,
         OneOf(("cantilever", "supported", "fixed")),
-        "pin fast in one plate, loose in two, or fast in two",
+        "support of the roller's pin: fixed in one plate, loose in two, or fixed in two",
     ] = "cantilever"
-    pin_gap_mm: Annotated[float, NOT_NEGATIVE, "from a pin's plate to the line of contact"] = 0.0
+    pin_gap_mm: Annotated[float, NOT_NEGATIVE, "gap from a pin's plate to the contact line"] = 0.0
     lock_edge_mm: Annotated[
-        float | None, POSITIVE, "radius to which the ends of the wheel's recesses are rounded"
+        float | None, POSITIVE, "rounding radius at the ends of the wheel's recesses"
     ] = None
     wheel_thickness_mm: Annotated[
-        float | None, POSITIVE, "of wheel and rollers along the axis; face_width_mm, or L/10"
+        float | None, POSITIVE, "thickness of wheel and rollers; default face_width_mm, or L/10"
     ] = None
     lock_thickness_mm: Annotated[
-        float | None, POSITIVE, "of the locking disc along the axis; the wheel's and pin_gap_mm"
+        float | None,
+        POSITIVE,
+        "thickness of the locking disc; default: the wheel's plus pin_gap_mm",
     ] = None
     arm_thickness_mm: Annotated[
-        float | None, POSITIVE, "of the crank arm along the axis; the wheel's"
+        float | None, POSITIVE, "thickness of the crank arm; default: the wheel's"
     ] = None
     link_pin_mm: Annotated[
-        float | None, POSITIVE, "diameter of the pins on which links turn; L/20 where there is room"
+        float | None, POSITIVE, "diameter of the pins between links; default up to L/20"
     ] = None
     link_bore_mm: Annotated[
         float | None,
         POSITIVE,
-        "diameter of shafts of links alone; L/10 where there is room",
+        "diameter of shafts that carry links only; default up to L/10",
     ] = None
     link_width_mm: Annotated[
-        float | None, POSITIVE, "width of the links round those pins; 2 pins"
+        float | None, POSITIVE, "width of the links round their pins; default 2 pin diameters"
     ] = None
     link_thickness_mm: Annotated[
-        float | None, POSITIVE, "of the links along the axis; the crank arm's"
+        float | None, POSITIVE, "thickness of the links; default: the crank arm's"
     ] = None
-    washer_mm: Annotated[
-        float, NOT_NEGATIVE, "thickness of the washers between links one below the other"
-    ] = 0.0
+    washer_mm: Annotated[float, NOT_NEGATIVE, "thickness of the washers between stacked links"] = (
+        0.0
+    )
 
     @cached_property
     def allowances(self) -> Allowances:
-        """Clearances and press fit as they are given, or else the process's.
+        """Clearances and press fit from the spec, or else from the process.
 
         >>> Size(process="laser", lock_clearance_mm=0.1).allowances[:3]
         (0.2, 0.1, 0.15)
         """
         usual = Allowances() if self.process is None else PROCESSES[self.process]
-        given = {key: vars(self).get(key) for key in usual._fields}
-        return usual._replace(**{key: v for key, v in given.items() if v is not None})
+        own = {key: vars(self).get(key) for key in usual._fields}
+        return usual._replace(**{key: v for key, v in own.items() if v is not None})
 
 
 class Load(SpecTable):
-    """``[load]``.
+    """``[load]``: inertia, torque and friction at the wheel.
 
     >>> Design(External(6), load=Load(torque_Nm=15.0)).loads["input_torque_Nm"].max
     15.0
@@ -198,27 +236,29 @@ class Load(SpecTable):
 
     TABLE: ClassVar[str] = "load"
 
-    inertia_kgm2: Annotated[float, NOT_NEGATIVE, "of everything the wheel turns"] = 0.0
-    torque_Nm: Annotated[float, NOT_NEGATIVE, "torque that resists motion"] = 0.0
+    inertia_kgm2: Annotated[
+        float, NOT_NEGATIVE, "moment of inertia of everything that the wheel turns"
+    ] = 0.0
+    torque_Nm: Annotated[float, NOT_NEGATIVE, "torque that resists the wheel's motion"] = 0.0
     dwell_torque_Nm: Annotated[
-        float | None, NOT_NEGATIVE, "torque that the lock holds in the dwell; torque_Nm"
+        float | None, NOT_NEGATIVE, "torque that the lock holds during the dwell; default torque_Nm"
     ] = None
-    efficiency: Annotated[float, Range(0.0, 1.0, "(]"), "eta of the wheel"] = 1.0
-    friction: Annotated[float, NOT_NEGATIVE, "roller against slot, coefficient"] = 0.0
+    efficiency: Annotated[float, Range(0.0, 1.0, "(]"), "efficiency eta of the wheel"] = 1.0
+    friction: Annotated[float, NOT_NEGATIVE, "friction coefficient between roller and slot"] = 0.0
     friction_at: Annotated[
         str,
         OneOf(("slot", "pin")),
-        "where it rubs: in the slot, fast on its pin; or on the pin, and rolls in the slot",
+        "place of sliding: in the slot (roller fixed to its pin), or on the pin",
     ] = "slot"
 
     @property
     def rubs_in_slot(self) -> bool:
-        """Whether the roller is fast on its pin."""
+        """True if the roller is fixed to its pin."""
         return self.friction_at == "slot"
 
 
 class Mass(SpecTable):
-    """One ``[[mass]]``: a body that the wheel carries, or several alike.
+    """One ``[[mass]]``: a body on the wheel, or several equal ones.
 
     >>> Mass("disc", mass_kg=2.0, diameter_mm=300.0).count
     1
@@ -227,18 +267,26 @@ class Mass(SpecTable):
     TABLE: ClassVar[str] = "mass"
 
     shape: Annotated[str, OneOf(("disc", "ring", "block", "point")), "shape of the body"]
-    mass_kg: Annotated[float | None, POSITIVE, "of one; or density_kgm3 and its sizes"] = None
-    density_kgm3: Annotated[float | None, POSITIVE, "with all sizes, instead of mass_kg"] = None
+    mass_kg: Annotated[
+        float | None, POSITIVE, "mass of one body; or set density_kgm3 and all sizes"
+    ] = None
+    density_kgm3: Annotated[
+        float | None, POSITIVE, "density, in place of mass_kg, with all sizes"
+    ] = None
     diameter_mm: Annotated[float | None, POSITIVE, "disc and ring: outer diameter D"] = None
     bore_mm: Annotated[float | None, POSITIVE, "ring: inner diameter d"] = None
-    length_mm: Annotated[float | None, POSITIVE, "block: side a, square to the axis"] = None
-    width_mm: Annotated[float | None, POSITIVE, "block: side c, square to the axis"] = None
-    thickness_mm: Annotated[float | None, POSITIVE, "along the axis; needed with a density"] = None
-    count: Annotated[int, Range(1, 1000), "how many alike"] = 1
-    radius_mm: Annotated[float, NOT_NEGATIVE, "from the wheel's axis to the body's own"] = 0.0
-    name: Annotated[str, None, "what it is"] = ""
+    length_mm: Annotated[float | None, POSITIVE, "block: side a, perpendicular to the axis"] = None
+    width_mm: Annotated[float | None, POSITIVE, "block: side c, perpendicular to the axis"] = None
+    thickness_mm: Annotated[
+        float | None, POSITIVE, "thickness along the axis; required with a density"
+    ] = None
+    count: Annotated[int, Range(1, 1000), "number of equal bodies"] = 1
+    radius_mm: Annotated[
+        float, NOT_NEGATIVE, "distance from the wheel's axis to the body's own"
+    ] = 0.0
+    name: Annotated[str, None, "name of the body"] = ""
 
-    # the sizes that each shape has, of which its mass or inertia follow
+    # sizes of each shape, from which its mass or inertia follows
     SIZES: ClassVar[dict[str, tuple[str, ...]]] = {
         "disc": ("diameter_mm",),
         "ring": ("diameter_mm", "bore_mm"),
@@ -250,14 +298,14 @@ class Mass(SpecTable):
         super().__post_init__()
         needed = self.SIZES[self.shape]
         for key in ("diameter_mm", "bore_mm", "length_mm", "width_mm"):
-            given = getattr(self, key) is not None
-            if given and key not in needed:
-                raise GenevaError(f"a {self.shape} has no {key}; remove it", (self.TABLE, key))
-            if not given and key in needed:
+            has_key = getattr(self, key) is not None
+            if has_key and key not in needed:
+                raise GenevaError(f"a {self.shape} has no {key}: remove it", (self.TABLE, key))
+            if not has_key and key in needed:
                 raise GenevaError(f"a {self.shape} needs {' and '.join(needed)}", (self.TABLE,))
         if self.shape == "point" and not self.radius_mm:
             raise GenevaError(
-                "a point on the wheel's axis has no inertia: give its radius_mm, or its weight as "
+                "a point on the wheel's axis has no inertia: set radius_mm, or set its weight as "
                 "force_N in [support]",
                 (self.TABLE,),
             )
@@ -269,14 +317,17 @@ class Mass(SpecTable):
             )
 
     def _refuse_weight(self) -> None:
-        """A mass is given, or follows from a density, one of the two."""
+        """Raise GenevaError unless exactly one of mass and density is set, with its sizes."""
         if (self.mass_kg is None) == (self.density_kgm3 is None):
-            raise GenevaError("give mass_kg, or density_kgm3 with all sizes: one", (self.TABLE,))
+            raise GenevaError("set either mass_kg, or density_kgm3 with all sizes", (self.TABLE,))
         if self.density_kgm3 is not None and self.shape == "point":
-            raise GenevaError("a point has no sizes: give mass_kg", (self.TABLE, "density_kgm3"))
+            raise GenevaError(
+                "a point has no sizes: set mass_kg instead", (self.TABLE, "density_kgm3")
+            )
         if self.density_kgm3 is not None and self.thickness_mm is None:
             raise GenevaError(
-                "density_kgm3 needs thickness_mm, or give mass_kg", (self.TABLE, "density_kgm3")
+                "density_kgm3 needs thickness_mm; or set mass_kg instead",
+                (self.TABLE, "density_kgm3"),
             )
 
 
@@ -289,17 +340,19 @@ class Support(SpecTable):
 
     TABLE: ClassVar[str] = "support"
 
-    friction: Annotated[float, NOT_NEGATIVE, "coefficient"] = 0.0
-    radius_mm: Annotated[float, NOT_NEGATIVE, "at which it acts"] = 0.0
-    force_N: Annotated[float, NOT_NEGATIVE, "besides the weight of the masses"] = 0.0
-    axis: Annotated[str, OneOf(("vertical", "horizontal")), "how the wheel's shaft stands"] = (
+    friction: Annotated[float, NOT_NEGATIVE, "friction coefficient of the table's bearing"] = 0.0
+    radius_mm: Annotated[float, NOT_NEGATIVE, "radius at which that friction acts"] = 0.0
+    force_N: Annotated[
+        float, NOT_NEGATIVE, "force on the bearing, in addition to the weight of the masses"
+    ] = 0.0
+    axis: Annotated[str, OneOf(("vertical", "horizontal")), "direction of the wheel's shaft"] = (
         "vertical"
     )
     gear_ratio: Annotated[float, POSITIVE, "turns of table and masses per turn of the wheel"] = 1.0
 
     @property
     def own_torque_Nm(self) -> float:
-        """The friction of ``force_N`` alone, at the table.
+        """Friction torque of ``force_N`` only, at the table, N m.
 
         >>> Support(friction=0.15, radius_mm=100.0, force_N=1000.0).own_torque_Nm
         15.0
@@ -308,7 +361,7 @@ class Support(SpecTable):
 
 
 class Motor(SpecTable):
-    """``[motor]``: what is behind the input shaft.
+    """``[motor]``: the motor, its reducer and a flywheel.
 
     >>> Motor(gear_ratio=20.0, gear_efficiency=0.9).service_factor
     1.0
@@ -316,19 +369,23 @@ class Motor(SpecTable):
 
     TABLE: ClassVar[str] = "motor"
 
-    service_factor: Annotated[float, Range(1.0, 100.0), "on the load, of the makers' form"] = 1.0
+    service_factor: Annotated[
+        float, Range(1.0, 100.0), "service factor on the load, in the makers' formula"
+    ] = 1.0
     gear_ratio: Annotated[float, POSITIVE, "turns of the motor per turn of the input shaft"] = 1.0
-    gear_efficiency: Annotated[float, Range(0.0, 1.0, "(]"), "of the reducer"] = 1.0
-    inertia_kgm2: Annotated[float, NOT_NEGATIVE, "of rotor and reducer, at the motor"] = 0.0
+    gear_efficiency: Annotated[float, Range(0.0, 1.0, "(]"), "efficiency of the reducer"] = 1.0
+    inertia_kgm2: Annotated[
+        float, NOT_NEGATIVE, "moment of inertia of rotor and reducer, at the motor"
+    ] = 0.0
     speed_variation: Annotated[
         float | None,
         Range(0.0, 2.0, "()"),
-        "greatest minus least speed over mean, of a flywheel",
+        "allowed speed variation, (greatest - least) / mean; sizes a flywheel",
     ] = None
 
 
 class Shaft(SpecTable):
-    """``[shaft]``: the shafts of wheel and crank, and what is elastic between wheel and load.
+    """``[shaft]``: the shafts of wheel and crank, and the elastic shaft between wheel and load.
 
     >>> Shaft(wheel_diameter_mm=25.0, wheel_overhang_mm=30.0).damping_ratio
     0.0
@@ -336,28 +393,46 @@ class Shaft(SpecTable):
 
     TABLE: ClassVar[str] = "shaft"
 
-    stiffness_Nm_rad: Annotated[float | None, POSITIVE, "between wheel and load"] = None
-    damping_ratio: Annotated[float, Range(0.0, 1.0, "[)"), "of that spring, over critical"] = 0.0
-    wheel_diameter_mm: Annotated[float | None, POSITIVE, "wheel shaft"] = None
-    crank_diameter_mm: Annotated[float | None, POSITIVE, "crank shaft"] = None
+    stiffness_Nm_rad: Annotated[
+        float | None, POSITIVE, "torsional stiffness between wheel and load"
+    ] = None
+    damping_ratio: Annotated[
+        float, Range(0.0, 1.0, "[)"), "damping of that spring, as a fraction of critical damping"
+    ] = 0.0
+    wheel_diameter_mm: Annotated[float | None, POSITIVE, "diameter of the wheel's shaft"] = None
+    crank_diameter_mm: Annotated[float | None, POSITIVE, "diameter of the crank's shaft"] = None
     wheel_overhang_mm: Annotated[
-        float | None, NOT_NEGATIVE, "slot's mid-plane to the nearer bearing"
+        float | None,
+        NOT_NEGATIVE,
+        "wheel's shaft: distance from the slots' mid-plane to the nearer bearing",
     ] = None
-    wheel_span_mm: Annotated[float | None, POSITIVE, "between its two bearings"] = None
+    wheel_span_mm: Annotated[float | None, POSITIVE, "wheel's shaft: distance between bearings"] = (
+        None
+    )
     crank_overhang_mm: Annotated[
-        float | None, NOT_NEGATIVE, "roller's mid-plane to the nearer bearing"
+        float | None,
+        NOT_NEGATIVE,
+        "crank's shaft: distance from the roller's mid-plane to the nearer bearing",
     ] = None
-    crank_span_mm: Annotated[float | None, POSITIVE, "between its two bearings"] = None
+    crank_span_mm: Annotated[float | None, POSITIVE, "crank's shaft: distance between bearings"] = (
+        None
+    )
     shear_stress_max_MPa: Annotated[
-        float | None, POSITIVE, "allowable; ASME B17c: 0.3 yield or 0.18 tensile strength, the less"
+        float | None,
+        POSITIVE,
+        "allowable; ASME B17c: the lower of 0.3 yield and 0.18 tensile strength",
     ] = None
-    bending_factor: Annotated[float, Range(1.0, 10.0), "ASME B17c: shock and fatigue"] = 1.5
-    torsion_factor: Annotated[float, Range(1.0, 10.0), "ASME B17c: shock and fatigue"] = 1.0
+    bending_factor: Annotated[float, Range(1.0, 10.0), "ASME B17c: bending, shock and fatigue"] = (
+        1.5
+    )
+    torsion_factor: Annotated[float, Range(1.0, 10.0), "ASME B17c: torsion, shock and fatigue"] = (
+        1.0
+    )
     shear_modulus_GPa: Annotated[float, POSITIVE, "shear modulus G"] = 80.8
 
 
 class Material(SpecTable):
-    """What a part is made of; steel where nothing is said."""
+    """Material of a part, by default steel."""
 
     youngs_modulus_GPa: Annotated[float, POSITIVE, "Young's modulus E"] = 210.0
     poisson_ratio: Annotated[float, Range(0.0, 0.5), "Poisson's ratio nu"] = 0.3
@@ -366,7 +441,7 @@ class Material(SpecTable):
 
 
 class WheelMaterial(Material):
-    """``[material.wheel]``.
+    """``[material.wheel]``: material of the wheel.
 
     >>> WheelMaterial().youngs_modulus_GPa  # steel
     210.0
@@ -375,12 +450,14 @@ class WheelMaterial(Material):
     TABLE: ClassVar[str] = "material.wheel"
 
     wear_mm3_Nm: Annotated[
-        float | None, POSITIVE, "Archard: volume worn per force and way, against the roller"
+        float | None,
+        POSITIVE,
+        "Archard's wear volume per force and sliding distance, against the roller",
     ] = None
 
 
 class RollerMaterial(Material):
-    """``[material.roller]``: of the roller and its pin.
+    """``[material.roller]``: material of the roller and its pin.
 
     >>> RollerMaterial(stress_max_MPa=1500.0).density_kgm3
     7850.0
@@ -394,7 +471,7 @@ class RollerMaterial(Material):
 
 
 class Tolerance(SpecTable):
-    """``[tolerance]``: the dimensions' deviations, each plus or minus.
+    """``[tolerance]``: deviations of the dimensions, each plus or minus.
 
     >>> Tolerance(center_distance_mm=0.02).distribution
     'uniform'
@@ -402,20 +479,28 @@ class Tolerance(SpecTable):
 
     TABLE: ClassVar[str] = "tolerance"
 
-    center_distance_mm: Annotated[float, NOT_NEGATIVE, "+- on the centre distance L"] = 0.0
-    crank_radius_mm: Annotated[float, NOT_NEGATIVE, "+- on the crank's radius R"] = 0.0
-    roller_diameter_mm: Annotated[float, NOT_NEGATIVE, "+- on the roller's diameter"] = 0.0
-    slot_width_mm: Annotated[float, NOT_NEGATIVE, "+- on the slot's width"] = 0.0
-    slot_angle_deg: Annotated[float, NOT_NEGATIVE, "+- on each slot's direction"] = 0.0
-    lock_radius_mm: Annotated[float, NOT_NEGATIVE, "+- on the locking disc's radius"] = 0.0
-    recess_radius_mm: Annotated[float, NOT_NEGATIVE, "+- on the radius of the wheel's recess"] = 0.0
+    center_distance_mm: Annotated[float, NOT_NEGATIVE, "deviation +- of the centre distance L"] = (
+        0.0
+    )
+    crank_radius_mm: Annotated[float, NOT_NEGATIVE, "deviation +- of the crank radius R"] = 0.0
+    roller_diameter_mm: Annotated[float, NOT_NEGATIVE, "deviation +- of the roller diameter"] = 0.0
+    slot_width_mm: Annotated[float, NOT_NEGATIVE, "deviation +- of the slot width"] = 0.0
+    slot_angle_deg: Annotated[float, NOT_NEGATIVE, "deviation +- of each slot's direction"] = 0.0
+    lock_radius_mm: Annotated[float, NOT_NEGATIVE, "deviation +- of the locking disc's radius"] = (
+        0.0
+    )
+    recess_radius_mm: Annotated[
+        float, NOT_NEGATIVE, "deviation +- of the radius of the wheel's recesses"
+    ] = 0.0
     distribution: Annotated[
-        str, OneOf(("uniform", "normal")), "within +-; normal: +- is three standard deviations"
+        str,
+        OneOf(("uniform", "normal")),
+        "distribution within +-; normal: +- is three standard deviations",
     ] = "uniform"
 
 
 class Limits(SpecTable):
-    """``[limits]``: what ``geneva check`` holds the design against.
+    """``[limits]``: limits that ``geneva check`` compares the design with.
 
     >>> strict = Design(External(6), limits=Limits(velocity_max=0.8))
     >>> [check.name for check in strict.checks if not check.passes]
@@ -424,27 +509,43 @@ class Limits(SpecTable):
 
     TABLE: ClassVar[str] = "limits"
 
-    velocity_max: Annotated[float | None, POSITIVE, "invariant"] = None
-    acceleration_max: Annotated[float | None, POSITIVE, "invariant"] = None
-    acceleration_entry_max: Annotated[float | None, POSITIVE, "invariant"] = None
-    jerk_max: Annotated[float | None, POSITIVE, "invariant"] = None
-    pin_force_max_N: Annotated[float | None, POSITIVE, "roller on slot"] = None
-    input_torque_max_Nm: Annotated[float | None, POSITIVE, "on the input shaft"] = None
-    pressure_angle_max_deg: Annotated[float | None, Range(0.0, 90.0, "(]"), "of the slot"] = None
-    contact_stress_max_MPa: Annotated[float | None, POSITIVE, "Hertz, line contact"] = None
-    pv_max_W_m2: Annotated[float | None, POSITIVE, "contact stress times sliding speed"] = None
-    roller_life_min_h: Annotated[float | None, POSITIVE, "L10 of the roller"] = None
+    velocity_max: Annotated[float | None, POSITIVE, "greatest velocity dpsi/dtheta"] = None
+    acceleration_max: Annotated[float | None, POSITIVE, "greatest acceleration d2psi/dtheta2"] = (
+        None
+    )
+    acceleration_entry_max: Annotated[float | None, POSITIVE, "greatest acceleration at entry"] = (
+        None
+    )
+    jerk_max: Annotated[float | None, POSITIVE, "greatest jerk d3psi/dtheta3"] = None
+    pin_force_max_N: Annotated[float | None, POSITIVE, "greatest force between roller and slot"] = (
+        None
+    )
+    input_torque_max_Nm: Annotated[float | None, POSITIVE, "greatest torque on the input shaft"] = (
+        None
+    )
+    pressure_angle_max_deg: Annotated[
+        float | None, Range(0.0, 90.0, "(]"), "greatest pressure angle of the slot"
+    ] = None
+    contact_stress_max_MPa: Annotated[
+        float | None, POSITIVE, "greatest Hertz stress between roller and slot"
+    ] = None
+    pv_max_W_m2: Annotated[
+        float | None, POSITIVE, "greatest contact stress times sliding speed"
+    ] = None
+    roller_life_min_h: Annotated[float | None, POSITIVE, "least L10 life of the roller"] = None
     slot_wear_max_mm_per_million: Annotated[
-        float | None, POSITIVE, "depth worn off a slot's walls in a million passages"
+        float | None, POSITIVE, "greatest wear depth of a slot's walls in a million passages"
     ] = None
-    lock_stress_max_MPa: Annotated[float | None, POSITIVE, "Hertz, locking disc on wheel"] = None
+    lock_stress_max_MPa: Annotated[
+        float | None, POSITIVE, "greatest Hertz stress between locking disc and wheel"
+    ] = None
     lock_deflection_max_deg: Annotated[
-        float | None, POSITIVE, "how far the wheel gives in its lock under dwell_torque_Nm"
+        float | None, POSITIVE, "greatest deflection of the locked wheel under dwell_torque_Nm"
     ] = None
 
 
-# The tables that every spec may have, whatever its machine, in the order of a file; each is a field
-# of ``Spec``, a dot being an underscore there. Of those in LISTS there may be several.
+# The tables of every kind of machine, in the order of a file. Each is a field of ``Spec``, with an
+# underscore for a dot. The tables in LISTS may be repeated.
 PLAIN: dict[str, type[SpecTable]] = {
     "size": Size,
     "load": Load,

@@ -1,4 +1,4 @@
-"""The designs that come with the program: whole specs to begin with."""
+"""The designs that come with the program: whole specs to start from."""
 
 from __future__ import annotations
 
@@ -8,13 +8,13 @@ import tomli
 
 from geneva_cli.errors import GenevaError, cut, nearest
 
-# beside the package in its source tree, in it where it is installed
+# in the source tree next to the package, in an installation inside it
 _PACKAGE = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
 _PLACES = (os.path.join(_PACKAGE, "designs"), os.path.join(os.path.dirname(_PACKAGE), "designs"))
 
 
 def titles() -> dict[str, str]:
-    """The designs' names, and what each is.
+    """Names of the designs, with their titles.
 
     >>> from geneva_cli.specfile.designs import titles
     >>> titles()["side-crank-z6"]
@@ -25,9 +25,9 @@ def titles() -> dict[str, str]:
 
 
 def design(name: str) -> tuple[str, dict[str, str]]:
-    """The text of a design's spec, and of the files that it names, by their names.
+    """Text of a design's spec, and the texts of the files that it names, by name.
 
-    Raises GenevaError, with the nearest name, for what is no design.
+    Raises GenevaError, with the nearest name, for an unknown design.
     """
     known = titles()
     if name not in known:

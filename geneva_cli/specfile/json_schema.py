@@ -1,8 +1,7 @@
-"""A spec's tables and keys as JSON Schema, for editors: made from what the reader goes by.
+"""A spec's tables and keys as JSON Schema, for editors, from the reader's own definitions.
 
-What a value may be depends on the kind of machine that its table names, and is said so. What keys
-must be together (a limit on force needs a load) is left to `geneva check`, and so are a whole
-number that is written 6.0, and nan.
+The schema describes the values that depend on the kind of machine. Some rules are left to `geneva
+check`: keys that need others (a limit on force needs a load), whole numbers written 6.0, and nan.
 """
 
 from __future__ import annotations
@@ -57,17 +56,17 @@ def _closed(properties: Schema) -> Schema:
 def _table(keys: tuple[Field, ...]) -> Schema:
     required = [key.key for key in keys if key.default is REQUIRED]
     more = {"required": required} if required else {}
-    return {**_closed({key.key: {**_told(key), **_value(key)} for key in keys}), **more}
+    return {**_closed({key.key: {**_described(key), **_value(key)} for key in keys}), **more}
 
 
 def _of_kinds(word: Field, kinds: Mapping[str, type[SpecTable]]) -> Schema:
-    """A table whose keys depend on a word in it; without the word it is of the default kind."""
+    """A table whose keys depend on a word in it; without the word it has the default kind."""
     keys = {name: fields(kind) for name, kind in kinds.items()}
     return _cases(word, keys, (), keys[word.default], has_default=True)
 
 
 def _motion() -> Schema:
-    """The keys of the motion with those of its law; without a law none is free."""
+    """Keys of the motion with those of its law; without a law none may be set."""
     own = fields(Motion)
     keys = {name: (*fields(registry.law(name)), *own) for name in registry.LAWS}
     return _cases(LAW, keys, own, (), has_default=False)
@@ -80,28 +79,28 @@ def _cases(
     lone: tuple[Field, ...],
     has_default: bool,
 ) -> Schema:
-    """A table with the keys of each kind under the word that names it; foreign ones as read.
+    """A table with the keys of each kind under the word that names it.
 
-    ``lone`` are the keys where the word is not given.
+    ``lone`` are the keys allowed without the word. Other kinds' keys are treated as by the reader.
     """
     every: dict[str, Field] = {}
     for fields_ in (shared, *keys.values()):
         for key in fields_:
             every.setdefault(key.key, key)
-    is_word = {**_told(word), "type": "string", "enum": list(keys)}
+    is_word = {**_described(word), "type": "string", "enum": list(keys)}
     named = {"properties": {word.key: {"const": None}}, "required": [word.key]}
     cases = [{"if": {"not": {"required": [word.key]}}, "then": _case(lone, every)}]
     for name, own in keys.items():
         condition = {**named, "properties": {word.key: {"const": name}}}
         cases.append({"if": condition, "then": _case(own, every)})
-    properties = {word.key: is_word, **{name: _told(key) for name, key in every.items()}}
+    properties = {word.key: is_word, **{name: _described(key) for name, key in every.items()}}
     if not has_default:
         is_word.pop("default", None)
     return {**_closed(properties), "allOf": cases}
 
 
 def _case(own: tuple[Field, ...], every: Mapping[str, Field]) -> Schema:
-    """The values of a kind's own keys; another kind's key may stand there at its default."""
+    """Values of a kind's own keys; another kind's key may stand there at its default."""
     values: Schema = {name: _foreign(key) for name, key in every.items()}
     values |= {key.key: _value(key) for key in own}
     required = [key.key for key in own if key.default is REQUIRED]
@@ -112,8 +111,8 @@ def _foreign(key: Field) -> Schema | bool:
     return False if key.default in (None, REQUIRED) else {"const": _plain(key.default)}
 
 
-def _told(key: Field) -> Schema:
-    """What an editor shows of a key."""
+def _described(key: Field) -> Schema:
+    """Description and default of a key, for the editor."""
     if key.default in (None, REQUIRED):
         return {"description": key.meaning}
     return {"description": key.meaning, "default": _plain(key.default)}
@@ -124,7 +123,7 @@ def _plain(value: Any) -> Any:
 
 
 def _value(key: Field) -> Schema:
-    """What a key's value may be."""
+    """Allowed values of a key."""
     if isinstance(key.rule, Csv):
         return {"type": "string"}
     kinds = []
@@ -144,13 +143,13 @@ def _value(key: Field) -> Schema:
 def _number(rule: Range | Words | OneOf, whole: bool) -> Schema:
     bounds = rule.range if isinstance(rule, Words) else rule
     assert isinstance(bounds, Range)
-    said: Schema = {"type": "integer" if whole else "number"}
+    bounded: Schema = {"type": "integer" if whole else "number"}
     for word, bound, bracket in (
         ("inimum", bounds.low, bounds.ends[0]),
         ("aximum", bounds.high, bounds.ends[1]),
     ):
-        if math.isinf(bound):  # inf itself is refused, and is no number of JSON
-            said["m" + word] = math.copysign(sys.float_info.max, bound)
+        if math.isinf(bound):  # inf is refused, and JSON has no such number
+            bounded["m" + word] = math.copysign(sys.float_info.max, bound)
         else:
-            said[("exclusiveM" if bracket in "()" else "m") + word] = bound
-    return said
+            bounded[("exclusiveM" if bracket in "()" else "m") + word] = bound
+    return bounded

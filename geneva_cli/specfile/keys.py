@@ -1,4 +1,4 @@
-"""Every key that a spec may have: its unit, what it may be, its default, and what it goes with."""
+"""Every key of a spec: its unit, type, range, default, and the kinds that have it."""
 
 from __future__ import annotations
 
@@ -18,55 +18,55 @@ TYPES = {int: "whole number", float: "number", str: "word", bool: "true or false
 
 
 class Key(NamedTuple):
-    """One key, as a person reads of it; ``goes_with`` names the kinds that have it."""
+    """One key as listed for users; ``goes_with`` names the kinds that have it."""
 
     table: str
     key: str
     unit: str | None
     type: str
     range: str | None
-    default: str | None  # None: it follows from the rest; or it must be given
+    default: str | None  # None: it follows from other keys, or is required
     required: bool
     goes_with: str | None  # None: any machine
     meaning: str
 
 
 def every() -> list[Key]:
-    """All keys, table by table in the order of a file."""
+    """All keys, by table, in the order of a file."""
     title = Key("", "title", None, "word", None, None, False, None, "free text")
     return [title, *_wheel(), *_drive(), *_motion(), *_plain()]
 
 
 def about(word: str) -> list[Key]:
-    """The keys of a table (``drive``), or of a name (``drive.A``, ``A``); all for no word.
+    """Keys of a table (``drive``), or with a name (``drive.A``, ``A``); all for an empty word.
 
-    Raises GenevaError, with the nearest name, for what is neither.
+    Raises GenevaError, with the nearest name, for an unknown word.
 
     >>> [(k.table, k.key, k.range) for k in about("drive.A")]
     [('drive', 'A', 'above -1, below 1'), ('drive', 'A', 'above -1, below 1')]
     """
-    found = every()
+    keys = every()
     if not word:
-        return found
-    some = [k for k in found if word in (_bare(k), _bare(k).partition(".")[0])]
-    some = some or [k for k in found if word in (k.key, f"{_bare(k)}.{k.key}")]
+        return keys
+    some = [k for k in keys if word in (_bare(k), _bare(k).partition(".")[0])]
+    some = some or [k for k in keys if word in (k.key, f"{_bare(k)}.{k.key}")]
     if not some:
-        known = {_bare(k) for k in found} | {k.key for k in found}
-        whole = {f"{_bare(k)}.{k.key}" for k in found}
+        known = {_bare(k) for k in keys} | {k.key for k in keys}
+        whole = {f"{_bare(k)}.{k.key}" for k in keys}
         raise GenevaError(
-            f'"{cut(word)}" is no table or key of a spec{nearest(word, sorted(known | whole))}; '
+            f'"{cut(word)}" is not a table or key of a spec{nearest(word, sorted(known | whole))}; '
             "`geneva keys` lists all"
         )
     return some
 
 
 def full_names() -> dict[str, str]:
-    """Every key as ``table.key``, and its meaning."""
+    """Every key as ``table.key``, with its meaning."""
     return {f"{_bare(k)}.{k.key}": k.meaning for k in every() if k.table}
 
 
 def words_of(name: str) -> tuple[str, ...]:
-    """The words that a key may be, of every kind that has it; none for other keys.
+    """Words that a key may have, in any kind that has it; none for other keys.
 
     >>> words_of("load.friction_at")
     ('slot', 'pin')
@@ -136,7 +136,7 @@ def _plain() -> Iterator[Key]:
 
 
 def _of_kinds(table: str, word: str, kinds: Mapping[str, type[SpecTable]]) -> Iterator[Key]:
-    """The keys of several kinds: one that all have is of any, others say of which."""
+    """Keys of several kinds; a key that not all kinds have names its kinds."""
     having: dict[Field, list[str]] = {}
     for name, kind in kinds.items():
         for field in fields(kind):
@@ -148,14 +148,14 @@ def _of_kinds(table: str, word: str, kinds: Mapping[str, type[SpecTable]]) -> It
 
 def _key(table: str, field: Field, of: str | None = None) -> Key:
     types = " or ".join(TYPES[t] for t in field.types if t in TYPES)
-    given = field.default not in (None, REQUIRED)
+    has_default = field.default not in (None, REQUIRED)
     return Key(
         f"[{table}]" if table in LISTS else table,
         field.key,
         unit_of(field.key),
         "a file" if isinstance(field.rule, Csv) else types,
         None if field.rule is None else str(field.rule),
-        quoted(field.default) if given else None,
+        quoted(field.default) if has_default else None,
         field.default is REQUIRED,
         of,
         field.meaning,

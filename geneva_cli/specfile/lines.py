@@ -1,4 +1,4 @@
-"""Where in a spec's text a key is set: asked of the TOML reader itself."""
+"""Line numbers of keys in a spec's text, determined by the TOML reader itself."""
 
 from __future__ import annotations
 
@@ -12,11 +12,10 @@ TRIES = 10  # lines that look like setting a key, before its table is named inst
 
 
 def line_of(text: str, path: tuple[str | int, ...]) -> int:
-    """The line where a key (or, failing that, its table) is set; 0 if it is nowhere.
+    """Line on which a key (or else its table) is set; 0 if it is not set.
 
-    Asks the TOML reader itself: the key's line is the first after which the text so far parses
-    and holds the key. Only lines that look like setting it are tried. A number in the path counts
-    the tables of a list, from 0.
+    The key's line is the first after which the text so far parses and contains the key. Only lines
+    that look like setting it are tried. A number in the path counts the tables of a list, from 0.
     """
     lines = text.split("\n")
     while path:
@@ -34,7 +33,7 @@ def line_of(text: str, path: tuple[str | int, ...]) -> int:
 
 
 def _holds(lines: list[str], end: int, path: tuple[str | int, ...]) -> bool:
-    """Whether the first lines, up to the end of the value that line ``end`` begins, set the key."""
+    """True if the lines up to the end of the value that starts on line ``end`` set the key."""
     more = 0
     while True:
         try:

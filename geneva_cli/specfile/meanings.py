@@ -1,4 +1,4 @@
-"""What a word means: a check, a quantity, a kind, a law, a warning, a part, or a key of a spec."""
+"""Meanings of words: a check, a quantity, a kind, a law, a warning, a part, or a key of a spec."""
 
 from __future__ import annotations
 
@@ -13,12 +13,12 @@ from geneva_cli.manual.explained import Entry, entries
 from geneva_cli.names import unit_of
 from geneva_cli.specfile.keys import Key, every
 
-WIDTH = 90  # of a page of text
+WIDTH = 90  # width of a page of text
 CHECKS, INPUTS = "checks.", "inputs."  # what a report's names of checks and of keys begin with
 
 
 class Meaning(NamedTuple):
-    """What one word means; None for what is not said of it."""
+    """Meaning of one word; None for what does not apply to it."""
 
     group: str
     name: str
@@ -31,25 +31,25 @@ class Meaning(NamedTuple):
 
 
 def meanings(word: str) -> list[Meaning]:
-    """All that a word means, whole (``timing.dwell_s``) or by its end (``dwell_s``).
+    """All meanings of a word, full (``timing.dwell_s``) or shortened (``dwell_s``).
 
-    Raises GenevaError, with the nearest name, for one that is not known.
+    Raises GenevaError, with the nearest name, for an unknown word.
 
     >>> [(m.group, m.unit) for m in meanings("loads.pin_force_N.rms")]
     [('quantity', 'N')]
     >>> [m.group for m in meanings("jerk_max")]
     ['check', 'quantity', 'key']
     """
-    found = _found(word)
-    if not found:
+    known_meanings = _lookup(word)
+    if not known_meanings:
         known = [*names(), *(CHECKS + n for e in entries() if e.group == "check" for n in e.names)]
         among = dict.fromkeys([*known, *(name.rpartition(".")[2] for name in known)])
         hint = nearest(word, among)
         raise GenevaError(
-            f'"{cut(word)}" is no check, quantity, kind, law, warning, part or key{hint}; '
+            f'"{cut(word)}" is not a check, quantity, kind, law, warning, part or key{hint}; '
             "`geneva explain` lists them"
         )
-    return found
+    return known_meanings
 
 
 def listed() -> list[tuple[str, str, str]]:
@@ -62,13 +62,13 @@ def listed() -> list[tuple[str, str, str]]:
 
 
 def names() -> list[str]:
-    """The names of everything that is explained, and of the keys."""
+    """Names of everything that is explained, and of the keys."""
     return [name for e in entries() for name in e.names] + [_name(key) for key in _keys()]
 
 
-def as_markdown(found: list[Meaning]) -> str:
-    """Meanings as a page, for a person."""
-    return "\n".join(_page(one) for one in found)
+def as_markdown(known_meanings: list[Meaning]) -> str:
+    """Meanings as a Markdown page."""
+    return "\n".join(_page(one) for one in known_meanings)
 
 
 def _page(one: Meaning) -> str:
@@ -91,7 +91,7 @@ def _keys() -> tuple[Key, ...]:
     return tuple(every())
 
 
-def _found(word: str) -> list[Meaning]:
+def _lookup(word: str) -> list[Meaning]:
     some = entries()
     if word.startswith(CHECKS):
         bare = word.removeprefix(CHECKS)
@@ -108,7 +108,7 @@ def _found(word: str) -> list[Meaning]:
     base, dot, end = word.rpartition(".")
     ending = next((e for e in some if dot and f".{end}" in e.names), None)
     if ending:
-        of = [m for m in _found(base) if m.group == "quantity"]
+        of = [m for m in _lookup(base) if m.group == "quantity"]
         if of:
             return [_ended(ending, one, word) for one in of]
     by_end = {e: [name for name in e.names if name.endswith(f".{word}")] for e in some}
@@ -116,12 +116,12 @@ def _found(word: str) -> list[Meaning]:
 
 
 def _of_entry(entry: Entry, name: str) -> Meaning:
-    """An entry as it stands; of a kind, what its class says of itself comes first."""
-    said = (about(entry, name), entry.meaning)
+    """Meaning of an entry; for a kind or law, its class's own summary comes first."""
+    texts = (about(entry, name), entry.meaning)
     return Meaning(
         entry.group,
         name,
-        " ".join(text for text in said if text),
+        " ".join(text for text in texts if text),
         entry.unit or next((u for n in (name, *entry.names) if (u := unit_of(n))), None),
         entry.formula or None,
         entry.source or None,
@@ -131,7 +131,7 @@ def _of_entry(entry: Entry, name: str) -> Meaning:
 
 
 def about(entry: Entry, name: str) -> str:
-    """What a class of machine says of itself in a line; nothing for what has none."""
+    """Summary line of a class of machine or law; empty for other entries."""
     if entry.group == "law":
         return _sentenced(registry.law(name).ABOUT)
     kinds = ((registry.GEARINGS, registry.gearing), (registry.DRIVES, registry.drive))
@@ -142,7 +142,7 @@ def about(entry: Entry, name: str) -> str:
 
 
 def _ended(ending: Entry, of: Meaning, word: str) -> Meaning:
-    """A quantity with an ending: what the ending says, and what it is said of."""
+    """Meaning of a quantity with an ending such as ``.rms``: the ending's, then the quantity's."""
     return of._replace(
         name=word,
         meaning=f"{ending.meaning} The quantity: {of.meaning}",
@@ -152,8 +152,8 @@ def _ended(ending: Entry, of: Meaning, word: str) -> Meaning:
 
 
 def _of_key(key: Key) -> Meaning:
-    """A key of a spec, in the words of ``geneva keys``."""
-    said = [
+    """Meaning of a key of a spec, as in ``geneva keys``."""
+    texts = [
         key.meaning,
         key.type,
         key.range,
@@ -163,7 +163,7 @@ def _of_key(key: Key) -> Meaning:
     return Meaning(
         "key",
         _name(key),
-        f"A key of the spec's [{key.table}]: " + "; ".join(text for text in said if text) + ".",
+        f"A key of the spec's [{key.table}]: " + "; ".join(text for text in texts if text) + ".",
         key.unit,
         *[None] * 4,
     )
@@ -174,7 +174,7 @@ def _name(key: Key) -> str:
 
 
 def _sentence(text: str) -> str:
-    """The first sentence of a text."""
+    """First sentence of a text."""
     return text.partition(". ")[0].rstrip(".") + "."
 
 

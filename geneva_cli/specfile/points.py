@@ -1,4 +1,4 @@
-"""Reading a CSV of number pairs that a spec names; complaints name its file and line."""
+"""Reader of CSV files of number pairs that a spec names; errors name the file and line."""
 
 from __future__ import annotations
 
@@ -13,9 +13,9 @@ BYTES_MAX = 1 << 24
 
 
 def read_pairs(path: str, rule: Csv, key: tuple[str, ...]) -> list[tuple[float, float]]:
-    """The pairs in a file, the first of each ascending; a header and ``#`` lines are passed over.
+    """Pairs in a file, the first number of each ascending; a header and ``#`` lines are skipped.
 
-    Raises GenevaError naming the file's line or, where the file cannot be read, the spec's key.
+    Raises GenevaError naming the file's line or, if the file cannot be read, the spec's key.
     """
     points: list[tuple[float, float]] = []
     for number, line in enumerate(_text(path, key).split("\n"), 1):
@@ -33,20 +33,22 @@ def read_pairs(path: str, rule: Csv, key: tuple[str, ...]) -> list[tuple[float, 
         if fault:
             raise GenevaError(f"{where}: {fault}")
     if len(points) < rule.points_min:
-        raise GenevaError(f"{path}: {len(points)} points; at least {rule.points_min} are needed")
+        raise GenevaError(
+            f"{path}: {len(points)} points, but at least {rule.points_min} are needed"
+        )
     return points
 
 
 def digest(paths: Iterable[str]) -> str:
-    """One word that changes with the bytes of any of these files; some may not be there."""
-    found = hashlib.sha256()
+    """Hash of the bytes of some files, which need not exist."""
+    total = hashlib.sha256()
     for path in paths:
         try:
             with open(path, "rb") as file:
-                found.update(hashlib.file_digest(file, "sha256").digest())
+                total.update(hashlib.file_digest(file, "sha256").digest())
         except (OSError, ValueError) as error:  # ValueError: a NUL in the name
-            found.update(type(error).__name__.encode())
-    return found.hexdigest()
+            total.update(type(error).__name__.encode())
+    return total.hexdigest()
 
 
 def _text(path: str, key: tuple[str, ...]) -> str:
@@ -60,7 +62,7 @@ def _text(path: str, key: tuple[str, ...]) -> str:
     except ValueError as error:  # a NUL in the name
         raise GenevaError(f"cannot read the points in {cut(path, 300)}: {error}", key) from None
     if len(data) > BYTES_MAX:
-        raise GenevaError(f"{path}: larger than {BYTES_MAX} bytes; thin the points out")
+        raise GenevaError(f"{path}: larger than {BYTES_MAX} bytes: use fewer points")
     try:
         return data.decode("utf-8-sig")
     except UnicodeDecodeError:

@@ -1,4 +1,4 @@
-"""Reading a spec file; errors name the file and, where it is known, the line."""
+"""Reader of spec files; errors name the file and, if known, the line."""
 
 from __future__ import annotations
 
@@ -21,21 +21,21 @@ BYTES_MAX = 1 << 20  # a spec is a page; a megabyte of it is a mistake
 
 
 class Text(NamedTuple):
-    """A spec's text, the name that messages call its file by, and keys given beside it."""
+    """A spec's text, the name of its file for messages, and settings from the command line."""
 
     name: str
     text: str
-    given: tuple[Setting, ...] = ()
+    set_keys: tuple[Setting, ...] = ()
 
     @contextmanager
     def located(self) -> Iterator[None]:
-        """A context in which errors that name a key get the file and line where that is set."""
+        """Context in which errors that name a key get the file and line on which it is set."""
         try:
             yield
         except GenevaError as error:
             if not error.key:
                 raise
-            where = said_of(self.given, error.key)
+            where = said_of(self.set_keys, error.key)
             if not where:
                 line = line_of(self.text, error.key)
                 where = f"{self.name}:{line}" if line else self.name
@@ -46,31 +46,31 @@ class Text(NamedTuple):
         try:
             tree = _parsed(self.text)
         except tomli.TOMLDecodeError as error:
-            said = error.msg[:1].lower() + error.msg[1:]
-            raise GenevaError(f"{self.name}:{error.lineno}: not TOML: {cut(said, 200)}") from None
+            reason = error.msg[:1].lower() + error.msg[1:]
+            raise GenevaError(f"{self.name}:{error.lineno}: not TOML: {cut(reason, 200)}") from None
         except RecursionError:
             raise GenevaError(f"{self.name}: not a spec: brackets are nested too deeply") from None
         except ValueError as error:  # a whole number of thousands of digits
             raise GenevaError(f"{self.name}: not a spec: {error}") from None
         with self.located():
-            return spec_of(applied(tree, self.given), self.name)
+            return spec_of(applied(tree, self.set_keys), self.name)
 
 
-# A sweep reads one text many times with other keys; nothing changes a parsed tree.
+# A sweep reads one text many times with other settings; nothing changes a parsed tree.
 _parsed = lru_cache(maxsize=8)(tomli.loads)
 
 
-def read(path: str, given: Iterable[str] = ()) -> Text:
-    """The text of a spec file; ``-`` is standard input. ``given`` are ``KEY=VALUE`` beside it.
+def read(path: str, set_keys: Iterable[str] = ()) -> Text:
+    """Text of a spec file; ``-`` is standard input. ``set_keys`` are ``KEY=VALUE`` texts.
 
-    Raises GenevaError, with the message ready to print, where it cannot be read.
+    Raises GenevaError, with the message ready to print, if it cannot be read.
     """
     name = shown_name(path)
-    return Text(name, _read(path, name), settings(given))
+    return Text(name, _read(path, name), settings(set_keys))
 
 
 def shown_name(path: str) -> str:
-    """What a spec file is called in messages."""
+    """Name of a spec file in messages."""
     return "<stdin>" if path == "-" else path if path.strip() else repr(path)
 
 
@@ -82,16 +82,16 @@ def _read(path: str, name: str) -> str:
             with open(path, "rb") as file:
                 data = file.read(BYTES_MAX + 1)
     except OSError as error:
-        advice = "; `geneva new external -o spec.toml` writes one to start from"
-        what = "this is a folder; give a file" if os.path.isdir(path) else str(error.strerror)
+        advice = "; `geneva new external -o spec.toml` writes an example"
+        what = "this is a folder, not a file" if os.path.isdir(path) else str(error.strerror)
         missing = isinstance(error, FileNotFoundError)
         raise GenevaError(f"{name}: cannot read: {what}{advice if missing else ''}") from None
     except ValueError as error:  # a NUL in the name
         raise GenevaError(f"{name!r}: cannot read: {error}") from None
     if len(data) > BYTES_MAX:
-        raise GenevaError(f"{name}: larger than {BYTES_MAX} bytes; a spec is a page of TOML")
+        raise GenevaError(f"{name}: larger than {BYTES_MAX} bytes, too large for a spec")
     try:
-        # A byte order mark, as some editors put it, is no part of the text.
+        # Some editors put a byte order mark before the text.
         return data.decode("utf-8-sig").replace("\r\n", "\n")
     except UnicodeDecodeError as error:
         line = data[: error.start].count(b"\n") + 1

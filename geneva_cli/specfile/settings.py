@@ -1,4 +1,4 @@
-"""``--set KEY=VALUE``: keys of a spec that are given beside its file."""
+"""``--set KEY=VALUE``: keys of a spec that the command line sets in addition to its file."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from geneva_cli.errors import GenevaError, cut
 
 
 class Setting(NamedTuple):
-    """One key that is given beside the file: as it was typed, where it stands, and its value."""
+    """One key that an option sets: the option as typed, the key's path, and its value."""
 
     said: str
     path: tuple[str | int, ...]
@@ -19,12 +19,13 @@ class Setting(NamedTuple):
 
 
 def settings(texts: Iterable[str]) -> tuple[Setting, ...]:
-    """What ``KEY=VALUE`` texts set. Raises GenevaError for a text that is not one."""
+    """Settings of ``KEY=VALUE`` texts. Raises GenevaError for an invalid text."""
     return tuple(setting(text) for text in texts)
 
 
 def setting(text: str, option: str = "--set") -> Setting:
-    """One ``table.key=value``; the value as in the file, a word's quotation marks left out or not.
+    """One ``table.key=value``, with the value as in the file; a word's quotation marks are
+    optional.
 
     >>> setting("drive.A=0.6")
     Setting(said='--set drive.A=0.6', path=('drive', 'A'), value=0.6)
@@ -41,21 +42,21 @@ def setting(text: str, option: str = "--set") -> Setting:
 
 
 def read_value(text: str, said: str) -> Any:
-    """Return the value as TOML has it; anything else is a word.
+    """Return the value as TOML reads it; anything else is a word.
 
-    Raises GenevaError, which begins with ``said``, where other keys follow the value.
+    Raises GenevaError, which begins with ``said``, if other keys follow the value.
     """
     try:
         tree = tomli.loads(f"x = {text.strip()}")
     except (tomli.TOMLDecodeError, RecursionError, ValueError):
         return _number(text.strip())
     if len(tree) > 1:
-        raise GenevaError(f"{said}: one value, and a line with another key; give each its own")
+        raise GenevaError(f"{said}: it sets more than one key; use one option for each")
     return tree["x"]
 
 
 def _number(text: str) -> float | str:
-    """A number that TOML would write otherwise, as .5 is, or a word."""
+    """A number in a form that TOML does not accept, such as .5, or a word."""
     try:
         return float(text)
     except ValueError:
@@ -63,9 +64,9 @@ def _number(text: str) -> float | str:
 
 
 def applied(tree: dict[str, Any], given: Sequence[Setting]) -> dict[str, Any]:
-    """A spec's tree with these keys set, the later ones over the earlier.
+    """A spec's tree with these keys set, later settings over earlier ones.
 
-    Raises GenevaError for a table of a list that is not there.
+    Raises GenevaError for a missing table of a list.
     """
     for one in given:
         tree = _with(tree, one.path, one)
@@ -80,7 +81,9 @@ def _with(node: Any, path: tuple[str | int, ...], one: Setting) -> Any:
         several = list(node) if isinstance(node, list) else []
         if not head < len(several):
             name = ".".join(map(str, one.path[: one.path.index(head)]))
-            raise GenevaError(f"{one.said}: the spec has {len(several)} [[{name}]], counted from 0")
+            raise GenevaError(
+                f"{one.said}: the spec has {len(several)} [[{name}]] tables, counted from 0"
+            )
         several[head] = _with(several[head], tuple(rest), one)
         return several
     table = dict(node) if isinstance(node, dict) else {}
@@ -88,6 +91,6 @@ def _with(node: Any, path: tuple[str | int, ...], one: Setting) -> Any:
 
 
 def said_of(given: Sequence[Setting], key: tuple[str | int, ...]) -> str:
-    """The option that set a key, or something in a table, that is complained of; else empty."""
-    found = (one.said for one in reversed(given) if one.path[: len(key)] == key)
-    return next(found, "")
+    """Option that set the key of an error, or a key in its table; empty if none did."""
+    options = (one.said for one in reversed(given) if one.path[: len(key)] == key)
+    return next(options, "")

@@ -1,4 +1,4 @@
-"""A commented spec to start from, made from the same keys that the reader knows."""
+"""A commented spec to start from, made from the keys that the reader knows."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from geneva_cli.spec.tables import LISTS
 from geneva_cli.specfile.json_schema import FILE
 from geneva_cli.specfile.writer import keys_of, quoted
 
-# what people ask for, beside the example that each kind of wheel and drive brings
+# common requests, in addition to the example of each kind of wheel and drive
 EXAMPLES = {
     "rollers": Example(
         "several rollers: more indexes in a turn of the crank",
@@ -25,7 +25,7 @@ EXAMPLES = {
         {"wheel": {"z": 6}, "motion": {"law": "modified-sine", "ratio": "matched"}},
     ),
     "curved-internal": Example(
-        "curved slots of an internal wheel, which a brake holds",
+        "curved slots of an internal wheel that a brake holds",
         {
             "wheel": {"z": 8, "gearing": "internal", "held_by": "brake"},
             "motion": {"law": "modified-sine", "alpha0_deg": -50, "ratio": "matched"},
@@ -33,7 +33,7 @@ EXAMPLES = {
         },
     ),
     "offset": Example(
-        "slots beside the wheel's centre: one end gentler than the other",
+        "slots that miss the wheel's centre: one end gentler than the other",
         {"wheel": {"z": 6, "offset_mm": 8}},
     ),
     "unequal-steps": Example(
@@ -48,7 +48,7 @@ EXAMPLES = {
         },
     ),
     "turret": Example(
-        "a turret with its load, its motor and what it is held to",
+        "a turret with its load, its motor and its limits",
         {
             "wheel": {"z": 8},
             "drive": {"n_rpm": 40},
@@ -72,34 +72,34 @@ KINDS = (*registry.GEARINGS, *EXAMPLES, *DRIVES)
 
 
 def template(kind: str, schema: bool = True, whole: bool = True) -> str:
-    """The text of a valid spec: ``whole`` with every key that it can have, its default and its
-    meaning; otherwise with the keys that most people set.
+    """Text of a valid spec: ``whole`` with every possible key, its default and its meaning;
+    otherwise with the keys that most people set.
 
-    With ``schema`` its first line names the JSON Schema in the same folder, for editors.
-    Raises GenevaError for a kind that is not known.
+    With ``schema`` its first line names the JSON Schema in the same folder, for editors. Raises
+    GenevaError for an unknown kind.
     """
     if kind not in KINDS:
         raise GenevaError(
             f'unknown KIND "{cut(kind)}"{nearest(kind, KINDS)}; it must be one of '
             f"{few(kind, KINDS)}; `geneva new --list` has all"
         )
-    about, given = example(kind)
-    drive = registry.drive(str(given.get("drive", {}).get("kind", Crank.NAME)))
+    about, own = example(kind)
+    drive = registry.drive(str(own.get("drive", {}).get("kind", Crank.NAME)))
     behind = "have the default shown, or none" if whole else "show usual values"
     lines = [
         *([f"#:schema ./{FILE}"] if schema else []),
         f"# A Geneva mechanism: {about}.",
-        f"# Keys behind a # {behind}; remove the # to set them.",
+        f"# Keys after a # {behind}; remove the # to set them.",
         *([] if whole else [f"# All keys: geneva new {kind} --all"]),
         f"title = {quoted(about[0].upper() + about[1:])}",
     ]
-    gearing = registry.gearing(str(given["wheel"].get("gearing", External.NAME)))
-    # any law may be put in: a template shows the keys of all
+    gearing = registry.gearing(str(own["wheel"].get("gearing", External.NAME)))
+    # any law may be set: a template shows the keys of all
     law_keys = [key for name in registry.LAWS for key in fields(registry.law(name))]
     keys = keys_of(gearing, drive, law_keys)
     for name, table in keys.items():
-        values = given.get(name, {})
-        # an empty table of a list would be one more body, without any of its keys
+        values = own.get(name, {})
+        # An empty table of a list would be one more body, without any of its keys.
         head = f"# [[{name}]]" if name in LISTS else f"[{name}]"
         block = [_line(f, values) for f in table] if whole else _usual(name, table, values)
         lines += ["", head, *block] if block else []
@@ -122,13 +122,13 @@ def _usual(name: str, table: list[Field], values: dict[str, Any]) -> list[str]:
 
 
 def example(kind: str) -> Example:
-    """What a kind's spec is about, and the keys that it sets."""
+    """Title of a kind's example, and the keys that it sets."""
     if kind in EXAMPLES:
         return EXAMPLES[kind]
     is_wheel = kind in registry.GEARINGS
     about, tables = (registry.gearing(kind) if is_wheel else registry.drive(kind)).EXAMPLE
     table, key, usual = ("wheel", "gearing", External.NAME) if is_wheel else ("drive", "kind", "")
-    named = {} if kind == usual else {key: kind}  # the default is left to be seen as such
+    named = {} if kind == usual else {key: kind}  # to show that it is the default
     return Example(about, {**tables, table: {**named, **tables.get(table, {})}})
 
 

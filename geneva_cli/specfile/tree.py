@@ -1,4 +1,4 @@
-"""From the tables of a parsed TOML file to a spec."""
+"""Conversion of the tables of a parsed TOML file to a spec."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ class _Files:
         self.folder, self.read = os.path.dirname(spec), [spec]
 
     def points(self, name: Any, rule: Csv, place: tuple[str, str]) -> Points:
-        """The pairs in the file that a key names, relative to the spec."""
+        """Pairs in the file that a key names, relative to the spec."""
         if not isinstance(name, str):
             raise GenevaError(f"{rule.key} must be text, not {shown(name)}", place)
         path = os.path.join(self.folder, name)
@@ -33,9 +33,9 @@ class _Files:
 
 
 def spec_of(tree: dict[str, Any], name: str) -> Spec:
-    """The spec of a TOML file's tables; ``name`` is the file's, to which others are relative.
+    """The spec of a TOML file's tables; paths in it are relative to the file ``name``.
 
-    Raises GenevaError, naming table and key, for what no spec can have.
+    Raises GenevaError, naming table and key, for anything invalid.
     """
     tree = dict(tree)
     title = tree.pop("title", "")
@@ -53,10 +53,12 @@ def spec_of(tree: dict[str, Any], name: str) -> Spec:
         if table in LISTS:
             _refuse_no_list(table, value)
         elif not isinstance(value, dict):
-            raise GenevaError(f"{table} must be a table: write [{table}] above its keys", (table,))
+            raise GenevaError(
+                f"{table} must be a table: write [{table}] on the line above its keys", (table,)
+            )
     if "wheel" not in tree:
         raise GenevaError(
-            f"{name}: no [wheel] table; the shortest spec is [wheel] and, below it, z = 6"
+            f"{name}: no [wheel] table; the shortest spec is [wheel] and, on the next line, z = 6"
         )
     files = _Files(name)
     return Spec(
@@ -88,27 +90,27 @@ def _refuse_no_list(table: str, value: Any) -> None:
 
 
 def _plain(tree: dict[str, Any], files: _Files) -> dict[str, Any]:
-    """The tables that do not depend on the machine, by their fields."""
+    """The tables that do not depend on the kind of machine, by field of ``Spec``."""
     out: dict[str, Any] = {}
     for name, cls in PLAIN.items():
         table, _, part = name.partition(".")
-        given = tree.get(table, {})
+        values = tree.get(table, {})
         if name in LISTS:
-            out[name] = tuple(_one(cls, name, i, one, files) for i, one in enumerate(given or ()))
+            out[name] = tuple(_one(cls, name, i, one, files) for i, one in enumerate(values or ()))
             continue
         if part:
-            _refuse_part(table, given)
-            given = given.get(part, {})
-        out[attribute(name)] = cls(**_values(cls, given, files))
+            _refuse_part(table, values)
+            values = values.get(part, {})
+        out[attribute(name)] = cls(**_values(cls, values, files))
     return out
 
 
 def _one(
-    cls: type[SpecTable], name: str, i: int, given: dict[str, Any], files: _Files
+    cls: type[SpecTable], name: str, i: int, values: dict[str, Any], files: _Files
 ) -> SpecTable:
-    """The i-th table of a list; its number stands in its errors."""
+    """The i-th table of a list; error messages contain its number."""
     try:
-        return cls(**_values(cls, given, files))
+        return cls(**_values(cls, values, files))
     except GenevaError as error:
         raise GenevaError(
             f"[[{name}]] number {i + 1}: {error}", (name, i, *error.key[1:])
@@ -136,7 +138,7 @@ def _kind(
     find: Callable[[str], type[Any]],
     files: _Files,
 ) -> Any:
-    """The object that a table describes whose keys depend on a word in it, such as ``kind``."""
+    """The object of a table whose keys depend on a word in it, such as ``kind``."""
     given = dict(given)
     name = given.pop(word, default)
     cls = find(name)
@@ -146,7 +148,7 @@ def _kind(
 
 
 def _motion(given: dict[str, Any], files: _Files) -> Motion | None:
-    """The motion and its law; without a law the straight slots give the motion."""
+    """The motion and its law, or None without a law, if the straight slots give the motion."""
     given = dict(given)
     name = given.pop("law", None)
     if name is None:
@@ -165,13 +167,13 @@ def _laws() -> Iterator[tuple[str, type[SpecTable]]]:
 
 
 def _refuse_lawless(given: dict[str, Any]) -> None:
-    """Raise GenevaError for keys of [motion] without a law, but for those at their defaults."""
+    """Raise GenevaError for keys of [motion] without a law, unless they have their defaults."""
     known = {f.key: f.default for _, law in _laws() for f in fields(law)}
     known |= {f.key: f.default for f in fields(Motion)}
     for key, value in given.items():
         if key in known and value != known[key]:
             raise GenevaError(
-                f'{key} needs a law (law = "cycloidal", say): straight slots leave it no freedom',
+                f'{key} needs a law, such as law = "cycloidal": straight slots fix the motion',
                 ("motion", key),
             )
         if key not in known:
@@ -194,7 +196,7 @@ def _refuse_foreign(
                 del given[key]
                 break
             if field:
-                raise GenevaError(f"{key} belongs to {other}, and this is {of}", (table, key))
+                raise GenevaError(f"{key} belongs to {other}, but this is {of}", (table, key))
         else:
             if key.casefold() not in {k.casefold() for k in own}:
                 _refuse_other_capitals(key, table, of, kinds())
@@ -209,7 +211,7 @@ def _refuse_other_capitals(
             if field.key.casefold() == key.casefold():
                 raise GenevaError(
                     f"unknown key {cut(key)} in [{table}]{nearest(key, [field.key])}; "
-                    f"{field.key} belongs to {other}, and this is {of}",
+                    f"{field.key} belongs to {other}, but this is {of}",
                     (table, key),
                 )
 
@@ -221,7 +223,7 @@ def _values(
     why: str = "",
     also: tuple[str, ...] = (),
 ) -> dict[str, Any]:
-    """The keys of a table as arguments of its class, which checks their values."""
+    """Keys of a table as arguments of its class, which checks their values."""
     known = {field.key: field for field in fields(cls)}
     out = {}
     for key, value in given.items():

@@ -1,4 +1,4 @@
-"""A spec's tables and keys in the order of a file, and a spec written as one."""
+"""A spec's tables and keys in the order of a file, and the text of a spec."""
 
 from __future__ import annotations
 
@@ -13,21 +13,21 @@ from geneva_cli.spec.rules import OneOf
 from geneva_cli.spec.schema import Field, Points, SpecTable, fields
 from geneva_cli.spec.tables import LISTS, PLAIN
 
-# The words that name a kind, each in its table.
+# words that name a kind, each in its table
 GEARING = Field(
-    "gearing", "", (str,), OneOf(registry.GEARINGS), "external", "where the crank turns"
+    "gearing", "", (str,), OneOf(registry.GEARINGS), "external", "gearing of wheel and crank"
 )
-KIND = Field("kind", "", (str,), None, "crank", "what turns the crank")
+KIND = Field("kind", "", (str,), None, "crank", "kind of drive")
 LAW = Field("law", "", (str,), None, None, "motion law of curved slots (`geneva laws`)")
 
-# Keys that a written spec shows also at their defaults: what one will change first.
+# Keys that a written spec shows even at their defaults, as users change them first.
 SHOWN = {("wheel", "gearing"), ("drive", "kind"), ("drive", "n_rpm"), ("drive", "rollers")}
 
 
 def keys_of(
     gearing: type[Gearing], drive: type[Drive], law_keys: Iterable[Field]
 ) -> dict[str, list[Field]]:
-    """Every key of a spec of these kinds, table by table in the order of a file."""
+    """Every key of a spec of these kinds, by table, in the order of a file."""
     slots, *wheel = fields(gearing)
     return {
         "wheel": [slots, GEARING, *wheel],
@@ -38,7 +38,7 @@ def keys_of(
 
 
 def written(spec: Spec) -> list[str]:
-    """The lines of a spec's tables: keys that are not at their defaults, and a few others."""
+    """Lines of a spec's tables: keys that differ from their defaults, and those in ``SHOWN``."""
     law_keys = fields(type(spec.motion.law)) if spec.motion else ()
     lines: list[str] = []
     for name, keys in keys_of(type(spec.wheel), type(spec.drive), law_keys).items():
@@ -56,7 +56,7 @@ def written(spec: Spec) -> list[str]:
 
 
 def values_of(spec: Spec, table: str) -> list[dict[str, Any]]:
-    """The values by their keys of each table of a name: one, none, or those of a list."""
+    """Values by key for each table of a name: one table, none, or those of a list."""
     if table == "motion":
         if spec.motion is None:  # straight slots
             return []
@@ -73,7 +73,7 @@ def _own(table: SpecTable) -> dict[str, Any]:
 
 
 def quoted(value: Any) -> str:
-    """A value as TOML has it."""
+    """A value in TOML."""
     if isinstance(value, (list, tuple)):
         return f"[{', '.join(quoted(v) for v in value)}]"
     if not isinstance(value, str):

@@ -42,12 +42,12 @@ def beside(
 def _varied(text: Text, vary: Sequence[str]) -> dict[str, Text]:
     """One spec with each combination of the values."""
     axes = [axis(v) for v in vary]
-    refuse_twice(axes, text.given)
+    refuse_twice(axes, text.set_keys)
     out: dict[str, Text] = {}
     for some in itertools.product(*[a.values for a in axes]):
         said = [f"{a.key}={v}" for a, v in zip(axes, some, strict=True)]
         changes = tuple(setting(s, "--vary") for s in said)
-        out[" ".join(said)] = text._replace(given=(*text.given, *changes))
+        out[" ".join(said)] = text._replace(set_keys=(*text.set_keys, *changes))
         if len(out) > MOST:
             raise GenevaError(
                 f"more than {MOST} designs side by side: `geneva sweep` has a row for each"

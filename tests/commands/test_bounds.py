@@ -132,7 +132,7 @@ def test_a_law_of_too_many_points(rows, line):
     put("law.csv", "".join(f"{i / (rows - 1)!r},{i / (rows - 1)!r}\n" for i in range(rows)))
     put("spec.toml", WHEEL + '[motion]\nlaw = "table"\nfile = "law.csv"\n')
     if line:
-        refused(["peaks", "spec.toml"], f"law.csv:{line}: ", "by 9e-05 or more", "thin them out")
+        refused(["peaks", "spec.toml"], f"law.csv:{line}: ", "at least 9e-05", "use fewer points")
         return
     status, said, _, seconds = run("peaks", "spec.toml")
     assert status == 0, said
@@ -144,7 +144,7 @@ def test_ratios_of_too_many_points():
     put("ratio.csv", "".join(f"{i / 500!r},1\n" for i in range(180_001)))
     gears = '[drive]\nkind = "noncircular-gears"\nratio_file = "ratio.csv"\n'
     put("spec.toml", WHEEL + gears)
-    refused(["peaks", "spec.toml"], "ratio.csv:2: ", "by 0.0199 or more", "thin them out")
+    refused(["peaks", "spec.toml"], "ratio.csv:2: ", "at least 0.0199", "use fewer points")
 
 
 def test_too_many_rollers_and_slots():

@@ -292,7 +292,7 @@ def test_no_file():
 
 def test_folder():
     os.mkdir("machines")
-    refused(run("peaks", "machines"), "folder", "give a file", place="machines: ")
+    refused(run("peaks", "machines"), "folder, not a file", place="machines: ")
 
 
 @pytest.mark.skipif(not os.path.exists("/dev/zero"), reason="no /dev/zero here")
@@ -342,14 +342,14 @@ POINTS = [
     ("nan", ROWS.replace("0.4,0.3", "0.4,nan"), 4, "finite"),
     ("infinite", ROWS.replace("0.4,0.3", "0.4,inf"), 4, "finite"),
     ("huge", ROWS.replace("0.4,0.3", "0.4,1e308"), 4, "s"),
-    ("backwards", ROWS.replace("0.4,0.3", "0.1,0.3"), 4, "above the one before"),
-    ("twice", ROWS.replace("0.4,0.3", "0.2,0.3"), 4, "above the one before"),
+    ("backwards", ROWS.replace("0.4,0.3", "0.1,0.3"), 4, "exceed the one before"),
+    ("twice", ROWS.replace("0.4,0.3", "0.2,0.3"), 4, "exceed the one before"),
     (
         "ninety-thousand",
         "".join(f"{k / 90_000},{(k / 90_000) ** 3}\n" for k in range(90_001)),
         2,
-        "by 9e-05 or more",
-        "rounding; thin them out",
+        "at least 9e-05",
+        "of closer ones are rounding",
     ),
     ("crowded", ROWS.replace("0.2,0.1", "1e-320,0.1"), 3, "u"),
     ("short", "u,s\n0,0\n0.5,0.5\n1,1\n", 0, "3 points", "at least"),

@@ -52,7 +52,7 @@ def test_a_tilted_law_is_not():
 @pytest.mark.parametrize("of", ["4-5-6-7", "sine-group"])
 def test_a_cam_whose_wheel_would_turn_back_at_mid_motion_is_refused(of):
     """With either law: s'(1/2) is -3.2 or -7.3 at a period ratio of 1/2."""
-    with pytest.raises(GenevaError, match="at mid-motion; the groove needs more than 0"):
+    with pytest.raises(GenevaError, match="as fast as the crank: the factor must be above 0"):
         _ = Design(
             External(5), Cam(), Motion(Tuned(period_ratio=0.5, of=of), alpha0_deg=-10.0)
         ).peaks

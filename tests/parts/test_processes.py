@@ -59,7 +59,7 @@ def test_a_key_that_is_given_wins() -> None:
 
 def test_a_clearance_that_leaves_no_machine_says_whose_it_is() -> None:
     tiny = Size(process="laser", center_distance_mm=0.3)
-    with pytest.raises(GenevaError, match=r"slot_clearance_mm = 0.2: .*; it is the one of process"):
+    with pytest.raises(GenevaError, match=r"slot_clearance_mm = 0.2: .*; the value comes from"):
         build(Design(External(6), size=tiny).spec)
 
 

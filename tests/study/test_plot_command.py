@@ -111,7 +111,7 @@ def test_a_column_by_any_name_of_its_quantity():
 
 def test_an_ending_that_two_names_share():
     file = put("drive.A,motion.max,acceleration.max\n0,1,2\n")
-    with pytest.raises(GenevaError, match=r"motion\.max or acceleration\.max; say which"):
+    with pytest.raises(GenevaError, match=r"motion\.max or acceleration\.max: write the"):
         of_table(file, "drive.A", ["max"])
 
 
@@ -120,7 +120,7 @@ def test_an_ending_that_two_names_share():
     [
         ("", "rows.csv: no rows"),
         ("a,b\n", "rows.csv: no rows"),
-        ("a,b\n1,2\n3\n", "rows.csv:3: 1 fields where the first line names 2"),
+        ("a,b\n1,2\n3\n", "rows.csv:3: 1 fields, but the first line names 2"),
         ("a,b\n1,\n,2\n", "no row of rows.csv has both it and a"),
         ("a,b\n" + "1,inf\n", "no numbers"),
     ],

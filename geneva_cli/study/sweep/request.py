@@ -110,7 +110,7 @@ def request(
         files = text.spec().files
     except GenevaError as error:
         files = _files(text, axes, error)
-    refuse_twice(axes, text.given)
+    refuse_twice(axes, text.set_keys)
     if best and random is None and any(a.span for a in axes):
         random = DRAWN
     if seed is not None and random is None:

@@ -163,7 +163,7 @@ def _refuse_hopeless(text: Text, plan: SweepPlan) -> None:
 def with_values(text: Text, axes: Sequence[VariedKey], some: Sequence[Value]) -> Text:
     """The spec with the values of the keys set over its own."""
     changes = tuple(_changed(a.key, v) for a, v in zip(axes, some, strict=True))
-    return text._replace(given=(*text.given, *changes))
+    return text._replace(set_keys=(*text.set_keys, *changes))
 
 
 def _machine(text: Text, plan: SweepPlan, some: Sequence[Value]) -> Mechanism:
