@@ -105,7 +105,7 @@ def build(spec: Spec) -> Mechanism:
     Raises GenevaError, naming the key, where the values do not make a machine together.
     """
     compatible.refuse_conflicts(spec)
-    plan = spec.drive.plan(spec)
+    plan = spec.drive.plan(spec.wheel, spec.motion, spec.given_distance_mm)
     refuse_sizes(spec, plan.center_distance_mm, plan.ratio)
     refuse_tolerances(spec, plan.center_distance_mm, plan.ratio)
     return Mechanism(spec, *plan)

@@ -214,7 +214,7 @@ def _dimensions(proof: Proof) -> Iterator[Row | Missing]:
 def _straight(mechanism: Mechanism) -> Iterator[Dimension]:
     """Of straight slots: each roller on the crank, and what the slots are off the centre by."""
     spec, L = mechanism.spec, mechanism.center_distance_mm
-    every = places(spec)
+    every = places(spec.wheel, spec.drive, spec.given_distance_mm)
     m = spec.drive.rollers
     for i in range(max(len(every), m)):
         place = every[i % len(every)]

@@ -301,6 +301,12 @@ def unknown(key: str, table: str, known: Sequence[str]) -> GenevaError:
     )
 
 
+def refuse_kind(given: object, name: str, kind: type, example: str) -> None:
+    """Raise GenevaError for the word of a file, or a class, in place of an object."""
+    if not isinstance(given, kind):
+        raise GenevaError(f"{name} must be an object like {example}, not {cut(repr(given))}")
+
+
 def require(table: type[SpecTable], given: Sequence[str], why: str = "") -> None:
     """Raise GenevaError where a key without a default is not given."""
     for field in fields(table):
