@@ -38,7 +38,7 @@ if TYPE_CHECKING:  # what a type checker sees: a line a name, and a kind needs n
     from geneva_cli.machine.laws.standard import SineGroup as SineGroup
     from geneva_cli.machine.laws.table import TableLaw as TableLaw
     from geneva_cli.machine.laws.tuned import Tuned as Tuned
-    from geneva_cli.machine.spec import Motion as Motion
+    from geneva_cli.machine.motion import Motion as Motion
     from geneva_cli.machine.spec import Spec as Spec
     from geneva_cli.machine.wheels.external import External as External
     from geneva_cli.machine.wheels.internal import Internal as Internal

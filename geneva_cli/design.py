@@ -20,7 +20,8 @@ from geneva_cli.errors import Caution, GenevaError, cut
 from geneva_cli.machine.drives.crank import Crank
 from geneva_cli.machine.drives.drive import Drive
 from geneva_cli.machine.mechanism import Mechanism, build
-from geneva_cli.machine.spec import Motion, Spec
+from geneva_cli.machine.motion import Motion
+from geneva_cli.machine.spec import Spec
 from geneva_cli.machine.wheels.gearing import Gearing
 from geneva_cli.spec.tables import (
     Limits,

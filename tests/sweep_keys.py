@@ -11,7 +11,8 @@ from geneva_cli.analysis.loads.summary import summaries
 from geneva_cli.errors import GenevaError
 from geneva_cli.machine.many import TABLES, changed, many, may_vary
 from geneva_cli.machine.mechanism import build
-from geneva_cli.machine.spec import Motion, attribute
+from geneva_cli.machine.motion import Motion
+from geneva_cli.machine.spec import attribute
 from geneva_cli.parts.proof import Proof
 from geneva_cli.spec.schema import fields
 from geneva_cli.spec.tables import (

@@ -17,7 +17,8 @@ from geneva_cli.machine.drives.side_crank import SideCrank
 from geneva_cli.machine.laws.standard import ModifiedSine, SineGroup
 from geneva_cli.machine.many import many
 from geneva_cli.machine.mechanism import Mechanism, build
-from geneva_cli.machine.spec import Motion, Spec
+from geneva_cli.machine.motion import Motion
+from geneva_cli.machine.spec import Spec
 from geneva_cli.machine.wheels.external import External
 from geneva_cli.machine.wheels.internal import Internal
 from geneva_cli.machine.wheels.spherical import Spherical

@@ -31,7 +31,8 @@ from geneva_cli.bench.method import Method, Task
 from geneva_cli.machine.laws.standard import ModifiedSine
 from geneva_cli.machine.many import taken
 from geneva_cli.machine.mechanism import Mechanism
-from geneva_cli.machine.spec import Motion, Spec
+from geneva_cli.machine.motion import Motion
+from geneva_cli.machine.spec import Spec
 from geneva_cli.machine.wheels.external import External
 from geneva_cli.numerics.chebyshev import POINTS
 from geneva_cli.numerics.quadrature import rule

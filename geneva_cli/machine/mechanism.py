@@ -106,7 +106,7 @@ def build(spec: Spec) -> Mechanism:
     Raises GenevaError, naming the key, if the values do not make a machine together.
     """
     compatible.refuse_conflicts(spec)
-    plan = spec.drive.plan(spec)
+    plan = spec.drive.plan(spec.wheel, spec.motion, spec.given_distance_mm)
     refuse_sizes(spec, plan.center_distance_mm, plan.ratio)
     refuse_tolerances(spec, plan.center_distance_mm, plan.ratio)
     return Mechanism(spec, *plan)

@@ -8,25 +8,24 @@ from typing import TYPE_CHECKING
 
 from geneva_cli.errors import GenevaError, refuse
 from geneva_cli.machine.wheels.classic import refuse_jam
-from geneva_cli.machine.wheels.gearing import RollerPlace
+from geneva_cli.machine.wheels.gearing import Gearing, RollerPlace
 from geneva_cli.machine.wheels.poses import HalfStep
 
 if TYPE_CHECKING:
-    from geneva_cli.machine.spec import Spec
+    from geneva_cli.machine.drives.drive import Drive
 
 
 ANGLES = ("drive", "roller_angles_deg")
 
 
-def places(spec: Spec) -> list[RollerPlace]:
+def places(wheel: Gearing, drive: Drive, L: float) -> list[RollerPlace]:
     """Rollers of a machine with straight slots, in the order in which they move the wheel.
 
     Rollers that move the wheel alike are returned as one. Raises GenevaError if rollers would jam.
     """
-    wheel, drive = spec.wheel, spec.drive
-    L, m = spec.given_distance_mm, drive.rollers
+    m = drive.rollers
     if wheel.steps:
-        return _unequal(spec, wheel.steps)
+        return _unequal(wheel, L)
     one = wheel.place(wheel.step, L)
     if drive.roller_angles_deg:
         return _at_angles(drive.roller_angles_deg, one)
@@ -58,12 +57,12 @@ def _too_near(a: float, b: float, motion: float) -> GenevaError:
     )
 
 
-def _unequal(spec: Spec, steps: tuple[float, ...]) -> list[RollerPlace]:
+def _unequal(wheel: Gearing, L: float) -> list[RollerPlace]:
     """Rollers on different arms, R_i = L sin b_i, with equal dwells between their motions."""
-    rollers = []
+    rollers, steps = [], wheel.steps
     for degrees in steps:
         p, q = degrees.as_integer_ratio()
-        rollers.append(spec.wheel.place(HalfStep(p, 360 * q), spec.given_distance_mm))
+        rollers.append(wheel.place(HalfStep(p, 360 * q), L))
     total = math.fsum(2.0 * f.half_motion_deg for f in rollers)
     if not total < 360.0:
         raise GenevaError(

@@ -4,21 +4,19 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 from functools import partial
-from typing import Annotated, Any, ClassVar, Self
+from typing import Any, Self
 
-from geneva_cli.errors import GenevaError, cut, refuse
+from geneva_cli.errors import GenevaError, refuse
 from geneva_cli.machine.drives.crank import Crank
 from geneva_cli.machine.drives.drive import Drive
-from geneva_cli.machine.laws.law import Law
+from geneva_cli.machine.motion import Motion
 from geneva_cli.machine.wheels.gearing import Gearing
 from geneva_cli.numerics.arrays import all_true
-from geneva_cli.spec.rules import FINITE, Range, Words
 from geneva_cli.spec.schema import (
     SpecTable,
     copied,
-    fields,
     hash_once,
-    unknown,
+    refuse_kind,
     without_hash,
 )
 from geneva_cli.spec.tables import (
@@ -58,54 +56,9 @@ NEEDED = {
 }
 
 
-class Motion(SpecTable):
-    """``[motion]``: the wheel's motion law; the slots (or a cam drive's pin path) are solved for.
-
-    ``law`` is the wheel's motion over its step. ``alpha0_deg`` is an extra dwell angle of the crank
-    in degrees, which shortens the motion. ``ratio`` is R/L of curved slots; "matched" is the R/L at
-    which the pressure angle stays below 90 degrees at mid-motion.
-
-    >>> Design(External(6), motion=Motion(Cycloidal(), ratio="matched")).peaks.acceleration.max
-    1.5
-    """
-
-    TABLE: ClassVar[str] = "motion"
-    law: Law
-    alpha0_deg: Annotated[float, FINITE, "extra dwell angle of the crank"] = 0.0
-    ratio: Annotated[
-        float | str | None,
-        Words(Range(0.0, 1.0, "()"), ("matched",)),
-        'ratio R/L of curved slots, or "matched" for a finite pressure angle',
-    ] = None
-
-    def __post_init__(self) -> None:
-        super().__post_init__()
-        _refuse_other(self, "law", Law, "Cycloidal()")
-
-    def with_key(self, key: str, value: object) -> Self:
-        """Return a copy with one key of the motion or of its law changed; None sets the default.
-
-        >>> Motion(SineGroup(0.1)).with_key("lambda", 0.05).law
-        SineGroup(lambda_=0.05)
-        """
-        law, own = ([f.key for f in fields(type(part))] for part in (self.law, self))
-        if key in law:
-            return self.replace(law=self.law.with_key(key, value))
-        if key not in own:
-            raise unknown(key, self.TABLE, (*law, *own))
-        return super().with_key(key, value)
-
-
 def attribute(table: str) -> str:
     """Name of the ``Spec`` field that holds a table of the file."""
     return table.replace(".", "_")
-
-
-def _refuse_other(of: SpecTable | Spec, name: str, kind: type, example: str) -> None:
-    """Refuse the name of a kind, or its class, where a Python user must pass an object of it."""
-    value = getattr(of, name)
-    if not isinstance(value, kind):
-        raise GenevaError(f"{name} must be an object like {example}, not {cut(repr(value))}")
 
 
 # Fields of ``Spec`` that hold a table, their type, and an example for the error message.
@@ -159,10 +112,9 @@ class Spec:
     def __post_init__(self) -> None:
         own = vars(self)
         for name, kind, example in _HELD:
-            if not isinstance(own[name], kind):
-                _refuse_other(self, name, kind, example)
+            refuse_kind(own[name], name, kind, example)
         if self.motion is not None:
-            _refuse_other(self, "motion", Motion, "Motion(Cycloidal())")
+            refuse_kind(self.motion, "motion", Motion, "Motion(Cycloidal())")
         if not isinstance(self.mass, tuple):
             object.__setattr__(self, "mass", tuple(self.mass))
         if not all(isinstance(one, Mass) for one in self.mass):

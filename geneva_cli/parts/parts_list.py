@@ -218,7 +218,7 @@ def _dimensions(proof: Proof) -> Iterator[Row | Missing]:
 def _straight(mechanism: Mechanism) -> Iterator[Dimension]:
     """Yield crank radius and angle of each roller on the crank, for straight slots."""
     spec, L = mechanism.spec, mechanism.center_distance_mm
-    stations = places(spec)
+    stations = places(spec.wheel, spec.drive, spec.given_distance_mm)
     m = spec.drive.rollers
     for i in range(max(len(stations), m)):
         station = stations[i % len(stations)]

@@ -303,6 +303,12 @@ def unknown(key: str, table: str, known: Sequence[str]) -> GenevaError:
     )
 
 
+def refuse_kind(value: object, name: str, kind: type, example: str) -> None:
+    """Raise GenevaError for a name or a class where an object of a kind is needed."""
+    if not isinstance(value, kind):
+        raise GenevaError(f"{name} must be an object like {example}, not {cut(repr(value))}")
+
+
 def require(table: type[SpecTable], keys: Sequence[str], why: str = "") -> None:
     """Raise GenevaError if a key without a default is missing."""
     for field in fields(table):

@@ -12,7 +12,7 @@ from collections.abc import Mapping
 from typing import Any
 
 from geneva_cli.machine import registry
-from geneva_cli.machine.spec import Motion
+from geneva_cli.machine.motion import Motion
 from geneva_cli.spec.rules import Csv, OneOf, Range, Words
 from geneva_cli.spec.schema import LIST, LIST_MAX, REQUIRED, Field, SpecTable, fields
 from geneva_cli.spec.tables import LISTS, PLAIN

@@ -7,7 +7,7 @@ from typing import Any, NamedTuple
 
 from geneva_cli.errors import GenevaError, cut, nearest
 from geneva_cli.machine import registry
-from geneva_cli.machine.spec import Motion
+from geneva_cli.machine.motion import Motion
 from geneva_cli.names import unit_of
 from geneva_cli.spec.rules import Csv, OneOf, Words
 from geneva_cli.spec.schema import LIST, REQUIRED, Field, SpecTable, fields

@@ -8,7 +8,8 @@ from typing import Any
 
 from geneva_cli.errors import GenevaError, clean, cut, few, nearest
 from geneva_cli.machine import registry
-from geneva_cli.machine.spec import Motion, Spec, attribute
+from geneva_cli.machine.motion import Motion
+from geneva_cli.machine.spec import Spec, attribute
 from geneva_cli.spec.rules import Csv
 from geneva_cli.spec.schema import REQUIRED, Points, SpecTable, fields, require, shown, unknown
 from geneva_cli.spec.tables import LISTS, PLAIN

@@ -7,7 +7,8 @@ from typing import Any
 
 from geneva_cli.machine import registry
 from geneva_cli.machine.drives.drive import Drive
-from geneva_cli.machine.spec import Motion, Spec, attribute
+from geneva_cli.machine.motion import Motion
+from geneva_cli.machine.spec import Spec, attribute
 from geneva_cli.machine.wheels.gearing import Gearing
 from geneva_cli.spec.rules import OneOf
 from geneva_cli.spec.schema import Field, Points, SpecTable, fields

@@ -21,7 +21,7 @@ from geneva_cli.machine.laws.standard import SineGroup
 from geneva_cli.machine.laws.table import TableLaw
 from geneva_cli.machine.many import taken
 from geneva_cli.machine.mechanism import build
-from geneva_cli.machine.spec import Motion
+from geneva_cli.machine.motion import Motion
 
 CASES = [
     *[(name, 0.0) for name in LAWS],

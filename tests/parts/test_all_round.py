@@ -9,7 +9,8 @@ from geneva_cli.machine.drives.cam import Cam
 from geneva_cli.machine.drives.crank import Crank
 from geneva_cli.machine.laws.standard import ModifiedSine
 from geneva_cli.machine.mechanism import build
-from geneva_cli.machine.spec import Motion, Spec
+from geneva_cli.machine.motion import Motion
+from geneva_cli.machine.spec import Spec
 from geneva_cli.machine.wheels.external import External
 from geneva_cli.machine.wheels.internal import Internal
 from geneva_cli.parts.all_round import leave_no_disc

@@ -7,7 +7,8 @@ import numpy as np
 from geneva_cli.machine.drives.cam import Cam
 from geneva_cli.machine.laws.standard import ModifiedSine
 from geneva_cli.machine.mechanism import build
-from geneva_cli.machine.spec import Motion, Spec
+from geneva_cli.machine.motion import Motion
+from geneva_cli.machine.spec import Spec
 from geneva_cli.machine.wheels.internal import Internal
 from geneva_cli.parts import locking_rings, outlines
 from geneva_cli.parts.assembly import assembly

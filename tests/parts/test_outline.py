@@ -24,7 +24,7 @@ from geneva_cli.curves.measure import turned as turn
 from geneva_cli.curves.shapes import Arc, Contour
 from geneva_cli.errors import GenevaError
 from geneva_cli.machine.mechanism import build
-from geneva_cli.machine.spec import Motion as Given
+from geneva_cli.machine.motion import Motion as Given
 from geneva_cli.parts.assembly import assembly
 from geneva_cli.parts.outlines import CURVED, Outlines, outlines
 from geneva_cli.parts.sizes import sizes

@@ -7,7 +7,7 @@ import tomli
 
 from geneva_cli import load
 from geneva_cli.machine import registry
-from geneva_cli.machine.spec import Motion
+from geneva_cli.machine.motion import Motion
 from geneva_cli.spec.schema import REQUIRED, SpecTable, fields
 from geneva_cli.spec.tables import Limits, Load, Size
 from geneva_cli.specfile.template import KINDS, template

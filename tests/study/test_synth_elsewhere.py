@@ -9,7 +9,7 @@ from geneva_cli.app import app
 from geneva_cli.design import load
 from geneva_cli.machine.laws.standard import ModifiedSine
 from geneva_cli.machine.mechanism import build
-from geneva_cli.machine.spec import Motion
+from geneva_cli.machine.motion import Motion
 from geneva_cli.study.synthesis.built import built
 from geneva_cli.study.synthesis.families import every
 from geneva_cli.study.synthesis.parts import suited

@@ -13,7 +13,8 @@ from geneva_cli.machine.drives.epicyclic import Epicyclic
 from geneva_cli.machine.drives.side_crank import SideCrank
 from geneva_cli.machine.laws.standard import Cycloidal, ModifiedConstantVelocity
 from geneva_cli.machine.mechanism import build
-from geneva_cli.machine.spec import Motion, Spec
+from geneva_cli.machine.motion import Motion
+from geneva_cli.machine.spec import Spec
 from geneva_cli.machine.wheels.external import External
 from geneva_cli.machine.wheels.internal import Internal
 from geneva_cli.parts.assembly import assembly

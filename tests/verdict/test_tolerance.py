@@ -27,7 +27,7 @@ from geneva_cli.analysis.tolerance.motion_error import motion_errors
 from geneva_cli.design import load
 from geneva_cli.errors import GenevaError
 from geneva_cli.machine.laws.standard import Cycloidal
-from geneva_cli.machine.spec import Motion
+from geneva_cli.machine.motion import Motion
 from geneva_cli.parts.proof import Proof
 from geneva_cli.verdict.tolerance.recesses import locks, sphere_locks
 from tests.repo import ROOT

@@ -15,7 +15,7 @@ from geneva_cli.bench.method import Method, Subject, missing
 from geneva_cli.bench.numeric import NUMERIC, vertex
 from geneva_cli.bench.scalar_loop import by_numba
 from geneva_cli.bench.truth import acceleration_peak, relative
-from geneva_cli.machine.wheels.side_crank_peaks import acceleration_peaks
+from geneva_cli.machine.wheels.side_crank_arrays import acceleration_peaks, wheels
 
 DESIGNS = 100_000
 QUICK = 2_000
@@ -159,7 +159,7 @@ def subject(quick: bool) -> Subject:
         Method(
             "ours",
             None,
-            lambda: acceleration_peaks(designs.z, designs.internal, designs.A)[0],
+            lambda: acceleration_peaks(wheels(designs.z, designs.arrays.sign, designs.A))[0],
             True,
         )
     )

@@ -18,7 +18,6 @@ from geneva_cli.machine.drives.side_crank import SideCrank
 from geneva_cli.machine.mechanism import build
 from geneva_cli.machine.spec import Spec
 from geneva_cli.machine.wheels import classic
-from geneva_cli.machine.wheels import side_crank_peaks as many
 
 DESIGNS = ((3, "external", 0.0), (6, "external", 0.6), (4, "internal", 0.95))
 CHEBPY = "chebfun"  # what installs chebpy: another package has that name
@@ -55,9 +54,6 @@ def _task(z: int, gearing: str, A: float, quick: bool) -> Task:
             Method("closed form of the textbook", None, lambda: closed(d)[0]),
             Method("ours", None, lambda: classic.acceleration_peak(l, gap)[0], True),
         ]
-    else:
-        one = partial(many.acceleration_peak, z, wheel.SIGN, A)
-        methods.append(Method("ours", None, lambda: one()[0], True))
     methods.append(
         Method(
             "ours, as geneva peaks does",

@@ -13,7 +13,8 @@ from geneva_cli.bench.method import Method, Subject, Task
 from geneva_cli.curves import fit
 from geneva_cli.machine.laws.standard import Cycloidal
 from geneva_cli.machine.mechanism import Mechanism, build
-from geneva_cli.machine.spec import Motion, Spec
+from geneva_cli.machine.motion import Motion
+from geneva_cli.machine.spec import Spec
 from geneva_cli.machine.wheels.external import External
 from geneva_cli.parts.slot_profile import slot
 from geneva_cli.parts.slot_sampling import chord_errors, nodes

@@ -14,7 +14,8 @@ from geneva_cli.bench.method import Method, Subject, Task
 from geneva_cli.machine.drives.crank import Crank
 from geneva_cli.machine.laws.standard import ModifiedSine
 from geneva_cli.machine.mechanism import Mechanism, build
-from geneva_cli.machine.spec import Motion, Spec
+from geneva_cli.machine.motion import Motion
+from geneva_cli.machine.spec import Spec
 from geneva_cli.machine.wheels.external import External
 from geneva_cli.parts.outlines import outlines
 from geneva_cli.parts.turn.full_turn import full_turn

@@ -22,7 +22,10 @@ from geneva_cli.numerics.arrays import larger, parameter
 from geneva_cli.numerics.jet import Jet, Number
 
 if TYPE_CHECKING:
-    from geneva_cli.machine.spec import Spec
+    from geneva_cli.machine.motion import Motion
+    from geneva_cli.machine.wheels.gearing import Gearing
+
+    pass
 
 
 class Cam(PinPath, kw_only=True):
@@ -48,9 +51,8 @@ class Cam(PinPath, kw_only=True):
     LAW: ClassVar[Needs] = Needs.LAW
     ONE_ROLLER: ClassVar[bool] = False
 
-    def plan(self, spec: Spec) -> Plan:
+    def plan(self, wheel: Gearing, motion: Motion | None, L: float) -> Plan:
         """The engagement of each roller. Raises GenevaError for an impossible law or ratio."""
-        motion, wheel = spec.motion, spec.wheel
         assert motion is not None  # ``compatible`` refuses a cam without a law
         if motion.ratio is not None:
             raise GenevaError(
@@ -71,7 +73,7 @@ class Cam(PinPath, kw_only=True):
             0.0, path, slot, turned, groove=path, body=body, reactions=reactions
         )
         ratio = parameter(path.crossing)
-        return self.planned(engagement, ratio, spec.given_distance_mm, wheel.SIGN < 0.0)
+        return self.planned(engagement, ratio, L, wheel.SIGN < 0.0)
 
 
 class Slide:

@@ -15,7 +15,7 @@ from geneva_cli.spec.schema import SpecTable
 
 if TYPE_CHECKING:
     from geneva_cli.machine.laws.law import Law
-    from geneva_cli.machine.spec import Spec
+    from geneva_cli.machine.motion import Motion
     from geneva_cli.machine.wheels.gearing import Gearing
     from geneva_cli.numerics.jet import Array
     from geneva_cli.numerics.spline import Doubt
@@ -146,5 +146,9 @@ class Drive(SpecTable, kw_only=True):
         return ()
 
     @abstractmethod
-    def plan(self, spec: Spec) -> Plan:
-        """Engagements and proportions of a machine. Raises GenevaError for impossible values."""
+    def plan(self, wheel: Gearing, motion: Motion | None, L: float) -> Plan:
+        """Engagements and proportions of a machine; without a motion its slots are straight.
+
+        ``L`` is the centre distance, mm, where the drive does not solve for it. Raises GenevaError
+        for impossible values.
+        """

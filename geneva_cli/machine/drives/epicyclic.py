@@ -27,7 +27,8 @@ from geneva_cli.numerics.jet import Jet, Number, sin_cos, sine_versine
 from geneva_cli.spec.rules import OneOf, Range, Words
 
 if TYPE_CHECKING:
-    from geneva_cli.machine.spec import Spec
+    from geneva_cli.machine.motion import Motion
+    from geneva_cli.machine.wheels.gearing import Gearing
     from geneva_cli.numerics.jet import Array
 
 
@@ -60,9 +61,8 @@ class Epicyclic(PinPath, kw_only=True):
     ]
     fixed: Annotated[str, OneOf(("sun", "ring")), "fixed gear that the planet rolls on"] = "sun"
 
-    def plan(self, spec: Spec) -> Plan:
+    def plan(self, wheel: Gearing, motion: Motion | None, L: float) -> Plan:
         """The engagement, with the planet's arm pointing outwards at mid-motion."""
-        wheel = spec.wheel
         refuse(
             (wheel.z != 3) & (wheel.z != 4) & (wheel.z != 6),
             lambda: GenevaError(
@@ -90,11 +90,11 @@ class Epicyclic(PinPath, kw_only=True):
             Anchor(half, step.b, cos_b, Arms(1.0, 0.0, both(1.0, -1.0, -rp), c)),
         )
         path = AnchoredPath(anchors)
-        motion = Followed(path, step.b)
+        followed = Followed(path, step.b)
         # The roller sits on the planet, which turns c times as fast as the carrier.
         reactions = PlanetReactions(R0, rp, c)
-        engagement = path_and_slot.engagement(0.0, path, motion, 1.0, Turning(-c), reactions)
-        return self.planned(engagement, R0 + rp, spec.given_distance_mm)
+        engagement = path_and_slot.engagement(0.0, path, followed, 1.0, Turning(-c), reactions)
+        return self.planned(engagement, R0 + rp, L)
 
     def layout(self, plan: Plan, sign: float) -> Layout:
         """Pivots and dimensions of carrier, planet crank and gears; at input 0 both arms point at

@@ -30,7 +30,8 @@ from geneva_cli.numerics.roots import boundary
 from geneva_cli.spec.rules import POSITIVE, Range, Words
 
 if TYPE_CHECKING:
-    from geneva_cli.machine.spec import Spec
+    from geneva_cli.machine.motion import Motion as GivenMotion
+    from geneva_cli.machine.wheels.gearing import Gearing
     from geneva_cli.numerics.jet import Array
 
 
@@ -62,11 +63,11 @@ class GearSector(PinPath, kw_only=True):
         'wheel speed / crank speed in gear; "shockless" for no jump',
     ] = "shockless"
 
-    def plan(self, spec: Spec) -> Plan:
+    def plan(self, wheel: Gearing, motion: GivenMotion | None, L: float) -> Plan:
         """The engagement of each roller; the slot's half angle follows from the step."""
-        b, u, handover, _ = self._solved(math.pi / spec.wheel.z)
+        b, u, handover, _ = self._solved(math.pi / wheel.z)
         engagement = SectorEngagement(*_slot(b), handover, self.sector_deg, u)
-        return self.planned(engagement, library(b).sin(b), spec.given_distance_mm)
+        return self.planned(engagement, library(b).sin(b), L)
 
     def layout(self, plan: Plan, sign: float) -> Layout:
         """Dimensions of slot, gears and handover, and angles between rollers and between slots"""

@@ -38,7 +38,8 @@ from geneva_cli.spec.tables import DISTANCE_MM
 
 if TYPE_CHECKING:
     from geneva_cli.machine.engagement import Engagement
-    from geneva_cli.machine.spec import Spec
+    from geneva_cli.machine.motion import Motion
+    from geneva_cli.machine.wheels.gearing import Gearing
     from geneva_cli.numerics.arrays import Long
     from geneva_cli.numerics.jet import Array
 
@@ -64,25 +65,25 @@ class Linkage(PinPath, kw_only=True):
     def roller_path(self) -> RollerPath:
         """The roller's path about the crank's axis."""
 
-    def plan(self, spec: Spec) -> Plan:
+    def plan(self, wheel: Gearing, motion: Motion | None, L: float) -> Plan:
         """The engagement of the wheel that the path can drive.
 
         If there are several wheels, it is the one with the least peak velocity, or the one whose
         entry is nearest to ``entry_deg``. Raises GenevaError if there is none, or if the spec sets
         the centre distance, which follows from the linkage.
         """
-        if spec.size.center_distance_mm not in (None, DISTANCE_MM):
+        if L != DISTANCE_MM:
             raise GenevaError(
                 f'center_distance_mm follows from the linkage of kind = "{self.NAME}": remove it',
                 ("size", "center_distance_mm"),
             )
-        step, path = spec.wheel.step, self.roller_path
+        step, path = wheel.step, self.roller_path
         if self.varies or is_array(step.b):
             engagement, L = self._of_many(step)
         else:
             wheel_fit = fit(path, step, self._wanted, known(path, step.b))
             if wheel_fit is None:
-                raise _none_fits(spec.wheel.z)
+                raise _none_fits(wheel.z)
             engagement, L = engagement_of(path, wheel_fit, step)
         x, y = engagement.path(0.0, 0)
         return self.planned(engagement, parameter(library(L).hypot(1.0 - x.c[0], y.c[0])), L)

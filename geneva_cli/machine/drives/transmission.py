@@ -31,7 +31,7 @@ from geneva_cli.numerics.jet import Jet, Number, sine_versine
 
 if TYPE_CHECKING:
     from geneva_cli.machine.laws.law import Law
-    from geneva_cli.machine.spec import Motion, Spec
+    from geneva_cli.machine.motion import Motion
 
 
 class About(NamedTuple):
@@ -90,19 +90,18 @@ class Transmission(Drive, kw_only=True):
         turns = round(crank_deg / whole)
         return 360.0 * turns + float(self.about(crank_deg - whole * turns).input_deg)
 
-    def plan(self, spec: Spec) -> Plan:
-        """The plan of straight slots, which give the motion; or of curved slots, from a law."""
-        return self._straight(spec) if spec.motion is None else self._curved(spec, spec.motion)
+    def plan(self, wheel: Gearing, motion: Motion | None, L: float) -> Plan:
+        """Plan of straight slots, which give the motion; or of curved slots, from a law."""
+        return self._straight(wheel, L) if motion is None else self._curved(wheel, motion, L)
 
-    def _straight(self, spec: Spec) -> Plan:
-        rollers = places(spec)
-        self._refuse_reach(spec.wheel, rollers[0].reach_deg)
-        L = spec.given_distance_mm
-        engagements = tuple(self._follows(spec.wheel, place, L) for place in rollers)
+    def _straight(self, wheel: Gearing, L: float) -> Plan:
+        rollers = places(wheel, self, L)
+        self._refuse_reach(wheel, rollers[0].reach_deg)
+        engagements = tuple(self._follows(wheel, place, L) for place in rollers)
         turn = 360.0 * self.turns
         period = turn / self.rollers if len(rollers) == 1 else turn
         most = rollers_max(2.0 * rollers[0].half_motion_deg)
-        return Plan(engagements, period, rollers[0].ratio, most, spec.given_distance_mm)
+        return Plan(engagements, period, rollers[0].ratio, most, L)
 
     def reactions(self, wheel: Gearing, path: Path, mid_deg: float, L: float) -> Reactions | None:
         """Reactions on crank and transmission; None if a length is not known.
@@ -148,9 +147,9 @@ class Transmission(Drive, kw_only=True):
         from_mid = here.input_deg - self.about(crank_deg).input_deg
         return Anchor(from_mid, pose.wheel, pose.along, PinTravel(pose, here.advance))
 
-    def _curved(self, spec: Spec, motion: Motion) -> Plan:
-        """The plan of curved slots, solved for from a law and the crank's circle."""
-        wheel, law = spec.wheel, motion.law
+    def _curved(self, wheel: Gearing, motion: Motion, L: float) -> Plan:
+        """Plan of curved slots, solved for from a law and the crank's circle."""
+        law = motion.law
         half = wheel.half_motion_deg(wheel.step)
         self._refuse_reach(wheel, half)
         natural = 2.0 * self.about(half).input_deg
@@ -160,7 +159,7 @@ class Transmission(Drive, kw_only=True):
         ratio = self._ratio(wheel, motion, motion_deg)
         pose = middle(wheel.SIGN, ratio, wheel.rest(ratio))
         anchor = self._anchor(pose, 0.0)
-        L, path = spec.given_distance_mm, MiddlePath(anchor, self.about(0.0).even)
+        path = MiddlePath(anchor, self.about(0.0).even)
         reactions = self.reactions(wheel, path, 0.0, L) if wheel.FLAT else None
         body = self.turning(0.0, -wheel.SIGN)
         engagement = path_and_motion.engagement(
@@ -168,7 +167,7 @@ class Transmission(Drive, kw_only=True):
         )
         period = 360.0 * self.turns / self.rollers
         most = rollers_max(motion_deg)
-        return Plan((engagement,), period, ratio, most, spec.given_distance_mm)
+        return Plan((engagement,), period, ratio, most, L)
 
     def _ratio(self, wheel: Gearing, motion: Motion, motion_deg: float) -> float:
         """R/L of a curved slot: the spec's, sin b, or matched to the law at mid-motion."""

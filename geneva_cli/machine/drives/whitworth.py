@@ -7,7 +7,6 @@ is f.
 
 from __future__ import annotations
 
-import math
 from typing import NamedTuple
 
 from geneva_cli.errors import GenevaError, refuse
@@ -15,13 +14,12 @@ from geneva_cli.machine.drives.pushed import Pushed
 from geneva_cli.machine.drives.transmission import About
 from geneva_cli.machine.engagement import Peak, Vector
 from geneva_cli.machine.wheels.gearing import Gearing, RollerPlace
-from geneva_cli.machine.wheels.side_crank_peaks import acceleration_peaks, velocity_peaks
 from geneva_cli.numerics.angles import radians, sin_cos_deg
-from geneva_cli.numerics.arrays import choose, library
+from geneva_cli.numerics.arrays import choose, library, parameter
 from geneva_cli.numerics.jet import Jet, Number, sin_cos, sine_versine_of
 
 A_MAX = 1.0 - 0.999e-12
-A_SURE = 0.999  # up to it the quicker searches miss no peak
+A_SURE = 0.999  # up to it the search for arrays misses no peak
 
 
 def refuse_rounding(A: float) -> None:
@@ -43,13 +41,19 @@ class SideCrankPeak(NamedTuple):
     sign: float
 
     def __call__(self, quantity: str) -> Peak[float] | None:
-        """Peak velocity or acceleration of a batch; None for a single design."""
-        peaks = {"velocity": velocity_peaks, "acceleration": acceleration_peaks}.get(quantity)
-        if peaks is None or (isinstance(self.A, float) and isinstance(self.z, int)):
+        """Peak of the velocity or acceleration of a batch, NaN where unknown; else None."""
+        if isinstance(self.A, float) and isinstance(self.z, int):
             return None
-        size, at_deg = peaks(self.z, self.sign < 0.0, self.A)
-        sure = abs(self.A) + 0.0 * size <= A_SURE  # of every design, even if only z differs
-        return Peak(choose(sure, size, math.nan), choose(sure, at_deg, math.nan))
+        import numpy as np
+
+        from geneva_cli.machine.wheels import side_crank_arrays as arrays
+
+        peaks = {"velocity": arrays.velocity_peaks, "acceleration": arrays.acceleration_peaks}
+        if quantity not in peaks:
+            return None
+        w = arrays.wheels(self.z, self.sign, self.A)
+        sure = abs(w.A) <= A_SURE
+        return Peak(*(parameter(np.where(sure, v, np.nan)[:, None]) for v in peaks[quantity](w)))
 
 
 def closed_peaks(A: float, wheel: Gearing, place: RollerPlace) -> SideCrankPeak | None:

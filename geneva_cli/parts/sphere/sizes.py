@@ -104,7 +104,7 @@ def ball(mechanism: Mechanism, roller_mm: float | None = None) -> Ball:
     size, z = spec.size, spec.wheel.z
     if z > Z_DRAWN:
         raise GenevaError(f"z = {z}: parts are drawn up to {Z_DRAWN} slots", ("wheel", "z"))
-    first, *others = places(spec)
+    first, *others = places(spec.wheel, spec.drive, spec.given_distance_mm)
     arm = math.atan2(first.ratio, first.cone)
     engagement = mechanism.engagements[0]
     mouth, deepest = (float(engagement.slot(x, 0)[0].c[0]) for x in (engagement.entry_deg, 0.0))

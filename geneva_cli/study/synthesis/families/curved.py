@@ -14,7 +14,8 @@ from geneva_cli.machine import registry
 from geneva_cli.machine.drives.cam import Cam
 from geneva_cli.machine.drives.crank import Crank
 from geneva_cli.machine.laws.law import Law
-from geneva_cli.machine.spec import Motion, Spec
+from geneva_cli.machine.motion import Motion
+from geneva_cli.machine.spec import Spec
 from geneva_cli.machine.wheels.classic import rollers_max
 from geneva_cli.machine.wheels.gearing import Gearing
 from geneva_cli.study.synthesis.families import closed

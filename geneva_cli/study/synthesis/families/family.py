@@ -11,7 +11,8 @@ from geneva_cli.errors import GenevaError
 from geneva_cli.machine import registry
 from geneva_cli.machine.compatible import refuse_conflicts
 from geneva_cli.machine.drives.drive import Drive
-from geneva_cli.machine.spec import Motion, Spec
+from geneva_cli.machine.motion import Motion
+from geneva_cli.machine.spec import Spec
 from geneva_cli.machine.wheels.classic import rollers_max
 from geneva_cli.machine.wheels.gearing import Gearing
 from geneva_cli.study.synthesis.spans import Interval
