@@ -25,6 +25,7 @@ def rough_is_near(motion, count):
         assert (abs(rough - exact) <= allowed).all()
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize("name", MACHINES)
 def test_as_one_by_one(name):
     """The search for one shares the motion with that for many, and no step of the search.
