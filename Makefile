@@ -32,7 +32,8 @@ bench: .venv/dev
 	@mkdir -p build/bench
 	$(BIN)/geneva bench --plots build/bench -o build/bench/bench.md
 
-# Numerical stress against mpmath, random machines turned, then sweeps of every key; an hour.
+# Numerical stress against mpmath, random machines turned, sweeps of every key, then every case of
+# the tests, of which `make test` takes a sample (tests/sampling.py); an hour.
 stress: .venv/dev
 	PYTHONPATH=tests:tests/machine:tests/parts $(BIN)/python tests/stress/stress.py
 	PYTHONPATH=tests:tests/machine:tests/parts $(BIN)/python tests/stress/stress_outline.py
@@ -40,6 +41,7 @@ stress: .venv/dev
 	PYTHONPATH=tests $(BIN)/python tests/stress/stress_synth.py
 	PYTHONPATH=tests $(BIN)/python tests/stress/stress_loads_many.py --designs 5000
 	PYTHONPATH=tests $(BIN)/python tests/stress/stress_sweep.py
+	GENEVA_STRESS=1 PYTHONDONTWRITEBYTECODE= $(BIN)/pytest -n logical --dist worksteal
 
 # 2,000 mutated specs before the reader, JSON Schema, and the checkers of two editors; two minutes.
 editors: .venv/dev

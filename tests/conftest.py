@@ -7,6 +7,7 @@ import pkgutil
 
 import pytest
 from hypothesis import settings
+from sampling import left_out, some
 from words import Drive, Keys, Motion, Spec, Wheel
 
 from geneva_cli import load, study
@@ -22,15 +23,21 @@ from geneva_cli.verdict import cautions
 SHARING = {"made_once", "read_once"}  # fixtures of what costs seconds
 
 
-def pytest_configure():
+def pytest_configure(config):
     """Collect tests without looking for garbage; give every run the same random cases."""
     gc.disable()
-    settings.register_profile("same", deadline=None, derandomize=True, database=None)
+    config.addinivalue_line("markers", "sampled(k): run one of k cases, all in `make stress`")
+    settings.register_profile(
+        "same", deadline=None, derandomize=True, database=None, max_examples=some(100, 25)
+    )
     settings.load_profile("same")
 
 
-def pytest_collection_modifyitems(items):
-    """Those that share what is made of designs come first, and so to the same worker."""
+def pytest_collection_modifyitems(config, items):
+    """Leave out what is not sampled; tests that share designs come first, to the same worker."""
+    if out := left_out(items):
+        config.hook.pytest_deselected(items=list(out))
+        items[:] = [item for item in items if item not in out]
     items.sort(key=lambda item: not SHARING.intersection(item.fixturenames))
 
 

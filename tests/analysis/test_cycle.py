@@ -266,6 +266,7 @@ def test_absurd_units_are_said(keys, said):
     assert said in run(text=WHEEL + keys).stderr
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize("path", DESIGNS, ids=lambda p: p.stem)
 def test_no_design_of_ours_is_absurd(path):
     cycle = Cycle(load(str(path)))

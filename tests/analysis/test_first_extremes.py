@@ -140,6 +140,7 @@ def both_routes(spec: Spec) -> Iterator[tuple[str, float, float]]:
         yield f"size of {name}", size.at_deg, float(batch_size.at_deg[1])
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize("design", SAME_BY_BOTH)
 @pytest.mark.parametrize("load_", LOADS)
 def test_by_loads_and_by_sweep_it_is_the_same(design: str, load_: Load) -> None:

@@ -168,6 +168,7 @@ def test_a_bearing_wall_as_sharp_as_the_roller_ends_in_an_edge():
     assert any("without bound" in text for text in load_cautions(mechanism))
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize(
     "load",
     [Load(0.02), Load(0.02, 3.0), Load(0.02, 3.0, friction=0.2, efficiency=0.9)],

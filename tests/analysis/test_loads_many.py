@@ -20,6 +20,7 @@ from geneva_cli.spec.tables import Load
 ULP = 2.0**-52
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize("name", MACHINES)
 def test_as_one_by_one(name):
     """Within 32 units in the last place of a quantity's greatest size, of which the motion has 16.
@@ -129,6 +130,7 @@ def test_an_inertia_alone_is_summed_in_pairs(name, friction):
         assert (np.abs(one.rms - cut.rms)[bounded] <= 1e-14 * size[bounded]).all(), load
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize("name", MACHINES)
 def test_no_peak_is_missed(name):
     """Dense samples of a hundred designs pass no extreme by more than rounding."""

@@ -108,6 +108,7 @@ def records(many, i, one, size=0.0, close=ULPS, places=1e-9):
             same(found[name], i, one and one._asdict()[name], *near)
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize("name", KINDS)
 def test_shocks(name):
     machine, each = designs(name)
@@ -161,6 +162,7 @@ def test_walls_of_curved_slots(name):
         records(drives, i, driven, one.center_distance_mm)
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize("name", KINDS)
 def test_shafts(name):
     machine, each = designs(name)
@@ -187,6 +189,7 @@ def horn_sizes(machine):
 DRAWN = [name for name in KINDS if MACHINES[name][0].is_flat]
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize("name", DRAWN)
 def test_horns(name):
     """Of given sizes, at angles of all designs and of each; without a recess there is no horn."""
@@ -248,6 +251,7 @@ def test_locks(name):
             same(getattr(told, field), i, getattr(alone_, field), size=radian)
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize("name", KINDS)
 def test_rollers(name):
     machine, each = designs(name)
@@ -273,6 +277,7 @@ def test_a_roller_that_turns_back_thrice_in_its_slot():
     assert roller.passages(one)[0].travel_m == pytest.approx(abs(far).sum(), rel=1e-9)
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize("name", KINDS)
 def test_sizing(name):
     """The work that swings is a difference of sums: 1e-12 of the torque's, as its mean is."""
@@ -284,6 +289,7 @@ def test_sizing(name):
             same(found.get(field), i, told[field], SUMMED)
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize("name", MACHINES)
 def test_tolerances(name):
     """Angles are differences of directions: rounding is a share of a radian's.
@@ -309,6 +315,7 @@ def test_tolerances(name):
             same(jumps, i, jump[0])
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize("name", KINDS)
 def test_vibration(name):
     """A share is what is left of a swing many times as large: within 1e-13 of the step."""

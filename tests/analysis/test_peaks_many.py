@@ -25,6 +25,7 @@ def rough_is_near(motion, count):
         assert (abs(rough - exact) <= allowed).all()
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize("name", MACHINES)
 def test_as_one_by_one(name):
     """A design has the peaks in a batch that it has alone, built with floats for its arrays.

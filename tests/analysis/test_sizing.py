@@ -85,6 +85,7 @@ def test_the_same_turret_on_a_geneva():
         assert found._asdict()[name] == pytest.approx(value, rel=1e-12), name
 
 
+@pytest.mark.sampled(4)
 @every
 def test_with_inertia_alone_the_energy_swings_by_what_the_wheel_holds(file):
     """theory-loads.md 4: exactly I w² psi1max²/2, and the form is the exact cycle's peak."""
@@ -186,6 +187,7 @@ def test_the_turret_of_the_readme():
     assert design.passes
 
 
+@pytest.mark.sampled(4)
 @every
 def test_what_is_not_known_is_none_and_says_what_would_give_it(file):
     found, needs = sized(Design.of(load(str(file)).spec.replace(motor=Motor(), support=Support())))

@@ -36,6 +36,7 @@ def close(found, exact):
     return abs(found - exact) <= max(1e-13 * exact, 1e-16)
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize("name", LAWS)
 @pytest.mark.parametrize("damping", [0.0, 0.02, 0.3, 0.95])
 def test_residuals_of_laws(name, damping):

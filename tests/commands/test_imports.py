@@ -185,6 +185,7 @@ def test_every_command_has_a_row():
     assert {row.line.split()[0] for row in ROWS} >= set(COMMANDS)
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize("row", ROWS, ids=lambda row: row.line)
 def test_heavy_modules(forks, row):
     may = set(row.may.split())
@@ -252,7 +253,7 @@ def test_a_terminal_costs_no_more_than_a_pipe():
 @pytest.mark.parametrize("sort", ["", "--sort min:loads.pin_force_N.rms"])
 def test_loads_are_imported_where_they_are_asked_for(forks, sort):
     """No report is; nor is numpy.ma, of which some functions of NumPy take a moment."""
-    wish = "synth --motion-deg 180 --z 6 --external --rollers 1 --check 0 " + sort
+    wish = "synth --motion-deg 120 --z 6 --external --rollers 2 --check 0 " + sort
     found = loaded_in(forks[1], wish.split())
     assert any(name.startswith("analysis.loads") for name in own(found)) == bool(sort)
     assert not any(name.startswith("verdict.report") for name in own(found))

@@ -208,6 +208,7 @@ def test_a_curve_that_leaps_is_refused_at_once(kind):
     kind(leaping, 0.0, 2.7, 1e-3)
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize("tolerance", [1e-2, 1e-4, 1e-6])
 @pytest.mark.parametrize("kind", KINDS)
 @pytest.mark.parametrize("name", CURVES)

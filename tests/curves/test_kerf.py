@@ -85,6 +85,7 @@ def test_corners_that_stand_in(turn):
     require_cut(notched, True, 0.3, corner=0.15 * 2.0)
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize("outside", [True, False])
 @pytest.mark.parametrize("layer", ["WHEEL", "CRANK", "ARM"])
 @pytest.mark.parametrize("name", ["turret", "press-curved", "internal-z6", "offset-slots"])

@@ -56,12 +56,14 @@ def near(found, expected, deg):
     assert np.all(np.abs(found - expected)[:-1] <= UNITS * (scale[:-1] + steep)[:, None])
 
 
+@pytest.mark.sampled(4)
 def test_the_same_designs_are_refused(case):
     _, _, found, singles = case
     assert found.refused.tolist() == [one is None for one in singles]
     assert len(found.which) > 5
 
 
+@pytest.mark.sampled(4)
 def test_the_same_motion_path_and_slot(case):
     _, _, found, singles = case
     singles = [one for one in singles if one is not None]

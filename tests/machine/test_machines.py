@@ -223,6 +223,7 @@ def test_the_wheel_turns_one_step_from_rest_to_rest(machine, witness, case):
             assert abs(mp.mpf(float(wheel[1])) - mp.mpf(float(wheel[0])) - 2 * w.b) <= 1e-14
 
 
+@pytest.mark.sampled(4)
 @every
 def test_error_within_16_ulp_of_the_peak(machine, exact, case):
     over = []
@@ -314,6 +315,7 @@ def test_the_pin_lies_on_its_slot(machine, witness, exact, case):
         assert abs(abs(off[0]) - abs(float(w.offset))) <= 2e-14
 
 
+@pytest.mark.sampled(4)
 @every
 def test_lever_and_speed_in_the_slot(machine, witness, case):
     for s, w in zip(machine(case).engagements, witness(case), strict=True):
@@ -354,6 +356,7 @@ def test_loads_keep_the_energy(machine, case):
                 assert found.pin_force_N * lever * L == pytest.approx(abs(torque), rel=1e-12)
 
 
+@pytest.mark.sampled(4)
 @every
 def test_peaks_against_a_dense_grid(machine, case):
     m = machine(case)

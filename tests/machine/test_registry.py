@@ -97,6 +97,7 @@ def test_a_spec_builds_the_same_machine_again(file):
     assert all_numbers(build(made.spec)) == all_numbers(made)
 
 
+@pytest.mark.sampled(4)
 @every
 def test_a_machine_can_be_pickled(file):
     """And gives the same numbers, bit for bit: no formula in it is a closure."""

@@ -300,6 +300,7 @@ def test_pipe_closed_before_the_start(arguments):
     assert (found.returncode, found.stderr) == (141, "")
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize("closed", ["<&-", ">&-", "2>&-", "<&- >&- 2>&-"])
 @pytest.mark.parametrize("arguments", ["table", "peaks spec.toml", "peaks -", "peaks gone.toml"])
 def test_closed_streams(closed, arguments):
@@ -448,6 +449,7 @@ def once(read):
     return lambda path, given=(): read(path, tuple(given))
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize("command", PRINTED)
 def test_hostile_title(command, monkeypatch):
     plain = {}

@@ -154,6 +154,7 @@ def overlapping(found):
             yield a[4], b[4]
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize("path", DESIGNS, ids=lambda p: p.stem)
 def test_texts_keep_clear_of_each_other_and_of_the_edge(path):
     text = svg_of(load(str(path)).figure())
@@ -296,6 +297,7 @@ def lines_of(figure, **settings):
     return "".join(plot_text.chunks(figure, **settings)).splitlines()
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize("path", DESIGNS, ids=lambda p: p.stem)
 def test_a_chart_fits_and_is_ascii(path):
     figure = load(str(path)).figure()

@@ -76,6 +76,7 @@ STATUS |= {"peaks --zz": 2, "tabel": 2, "--zz": 2}
 SAID = {}  # by a command line, with streams that can be written: the same in any folder
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize("arguments", STATUS)
 @pytest.mark.parametrize("kind", [pytest.param("full", marks=full), "pipe"])
 def test_messages_that_cannot_be_written(arguments, kind, environment):
@@ -106,6 +107,7 @@ def closed(arguments, streams):
     )
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize("streams", CLOSED)
 @pytest.mark.parametrize("spec", ["spec.toml", "warns.toml"])
 def test_closed_streams(spec, streams):

@@ -10,6 +10,7 @@ from itertools import combinations
 
 import numpy as np
 import pytest
+from sampling import some
 from shapely import affinity
 from shapely.geometry import Point, Polygon
 
@@ -28,7 +29,7 @@ from geneva_cli.specfile.template import template
 NEAR = 1e-6  # mm: more than rounding, less than any clearance
 SAGITTA = 0.002  # mm
 DEEP = 0.02  # mm: more than the sagittas of two polygons, and a groove's tolerance
-SAMPLES = 6  # of each kind
+SAMPLES = some(6, 1)  # of each kind
 TURN = np.linspace(-180.0, 180.0, 25)  # deg; the middle one is input angle 0
 # of each key a least and a greatest value, as fractions of the centre distance or the key's own
 SIZES = {

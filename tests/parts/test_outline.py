@@ -258,6 +258,7 @@ def test_a_low_mouth_is_locked(steps: tuple[float, float]) -> None:
     assert rows["dwell_play_deg"].value < 1e-3
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize("case", STRAIGHT, ids=name)
 def test_straight_slots_against_cutting(case: dict) -> None:
     """The witness strays by chords of its circles and of the flattened contour; both lie within,
@@ -574,6 +575,7 @@ def worst(found: Outlines, wanted: Polygon) -> float:
     return far
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize("case", CURVED_SLOTS, ids=name)
 def test_curved_slots_against_every_place_of_the_roller(case: dict) -> None:
     """On the mean, and at the worst place: there the flattened arcs of both polygons may differ by

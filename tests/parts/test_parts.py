@@ -202,6 +202,7 @@ def require_sound(shapes, inside=False, wheels=1):
 # 1. Every design
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize("name", FLAT)
 def test_assembly_of_every_design(name):
     """As svg: its shapes are sound, and the parts lie beside each other at input angle 0."""
@@ -249,6 +250,7 @@ def test_assembly_of_every_design(name):
             assert not around.buffer(-t).intersects(other)
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize("part", [*PARTS, "groove"])
 @pytest.mark.parametrize("name", VARIED)
 def test_dxf_and_svg_are_the_same_part(name, part):
@@ -741,6 +743,7 @@ def test_templates_without_flat_parts_say_so(kind):
     assert sorted(os.listdir()) == ["new.toml", "slot.csv"]
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize("kind", [kind for kind in KINDS if kind not in NOT_FLAT])
 def test_templates_draw_all_parts(kind):
     assert CliRunner().invoke(app, ["new", kind, "-o", "new.toml"]).exit_code == 0
@@ -826,6 +829,7 @@ def random_spec(rng):
     return "\n".join(lines) + "\n"
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize("seed", range(12))
 def test_random_wheels(seed):
     text = random_spec(random.Random(seed))

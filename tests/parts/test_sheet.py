@@ -51,6 +51,7 @@ def sheets():
     return made
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize("path", DESIGNS, ids=lambda p: p.stem)
 def test_no_text_of_a_design_stands_on_anything(path, sheets):
     design, found = sheets(path.stem)
@@ -84,6 +85,7 @@ SMALL = [
 ]
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize("spec", SMALL, ids=lambda s: f"{s.wheel.z}-{s.size.center_distance_mm:g}")
 def test_machines_of_every_size(spec):
     found = of(spec)

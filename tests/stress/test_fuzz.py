@@ -23,6 +23,7 @@ from fuzzing import FILES as FILES_OF_POINTS
 from fuzzing import folder, in_time, numbers
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
+from sampling import some
 from typer.testing import CliRunner
 
 from geneva_cli.analysis.motion import motion_table
@@ -97,8 +98,8 @@ def test_specs_of_known_keys():
     assert machines >= 25
 
 
-# of the first some that take a second or less: with parts, without them, and refused
-@pytest.mark.parametrize("case", [2, 5, 6, 9, 10, 11, 12, 13, 16, 21])
+# of the first some with parts, without them, and refused; 13 and 16 take most of the time
+@pytest.mark.parametrize("case", some([2, 5, 6, 9, 10, 11, 12, 13, 16, 21], [2, 5, 6, 12, 21]))
 def test_machines_with_parts(case):
     """Cases of `fuzz_parts.py`: all that is made of them is finite, without a warning."""
     fuzz_parts.one(machine_text(numbers("make test", case)))
@@ -203,7 +204,7 @@ SOUND_VALUES = {
 }  # fmt: skip
 SHARE = 0.5  # of the lines of each command that must succeed
 JUDGES = {"check", "report", "profile", "export"}  # which end with 1 where a design fails
-LINES = 30  # of each command
+LINES = some(30, 8)  # of each command
 
 
 @functools.cache

@@ -8,6 +8,7 @@ from stress_many import stressed
 from geneva_cli.numerics import extrema_many
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize("name", MACHINES)
 def test_none_is_missed(name):
     row = stressed(name, 60, witnessed=0)

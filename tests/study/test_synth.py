@@ -87,6 +87,7 @@ def natural(z, gearing):
 # Closed forms
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize("gearing", GEARINGS)
 @pytest.mark.parametrize("z", [3, 4, 6, 9, 24])
 @pytest.mark.parametrize("share", [0.02, 0.3, 0.49, 0.5, 0.6, 0.8, 0.98])
@@ -249,6 +250,7 @@ def test_the_quick_peak_is_the_built_machine_s(z, gearing, x):
         assert limits.peak_of(Wheel(z, gearing), ratio)(x) == pytest.approx(wanted, rel=1e-11)
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize("gearing", GEARINGS)
 @pytest.mark.parametrize("z", [3, 6, 11])
 @pytest.mark.parametrize("ratio", [limits.side_crank, limits.elliptical_gears])
@@ -531,6 +533,7 @@ def test_cams_too_carry_more_rollers_than_the_plain_wheel():
     assert three.motion_deg == pytest.approx(56.0, rel=1e-14) and three.parts == "maybe"
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize("z", [3, 6, 20])
 @pytest.mark.parametrize("share", [0.001, 0.2, 0.5, 0.7, 0.999])
 def test_shafts_at_an_angle(z, share):

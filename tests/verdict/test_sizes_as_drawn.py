@@ -48,6 +48,7 @@ def proof(name, tmp_path):
     return Proof(load(str(file)))
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize("name", [*FLAT, *GIVEN])
 def test_printed_sizes_are_those_of_the_outlines(proof):
     found, size, part = proof.outlines, sizes(proof), cut_sizes(proof)

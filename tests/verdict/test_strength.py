@@ -259,6 +259,7 @@ def test_what_a_sphere_lacks_is_said_in_its_rows():
     assert said in of.loads_table.to_dict()["warnings"]
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize("path", sorted(DESIGNS.glob("*.toml")), ids=lambda p: p.stem)
 def test_every_machine_of_the_family(path):
     """With a load and a face width: numbers, and a None only with its reason or where none is."""
