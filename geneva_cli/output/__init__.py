@@ -253,13 +253,13 @@ def refuse_existing(output: str) -> None:
 
 def show_markdown(text: str) -> None:
     """Print a text in Markdown, laid out where a person looks and as it is elsewhere."""
-    if not sys.stdout.isatty():
+    refuse_columns()
+    if not is_seen("-"):
         sys.stdout.write(text)
         return
-    from rich.console import Console
-    from rich.markdown import Markdown
+    from geneva_cli.output import reader, terminal
 
-    Console().print(Markdown(text))
+    _put(reader.chunks(text, terminal.window(False, chosen.wide)), "-", ())
 
 
 def _progress(done: int, rows: int) -> None:

@@ -5,13 +5,14 @@ Nothing is cut: a number is as wide as it is, and text is broken between its wor
 
 from __future__ import annotations
 
-import textwrap
+import re
 import unicodedata
 from collections.abc import Iterator, Sequence
 from typing import NamedTuple
 
 GAP = "  "  # between two columns
 PROSE = 24  # letters to which a column of prose is narrowed before another column is left out
+SIGN = re.compile(r"(?<=[/,=])|(?<=::)")  # behind which a long word may be broken
 BOLD, DIM, PLAIN = "\x1b[1m", "\x1b[2m", "\x1b[0m"
 
 
@@ -53,17 +54,34 @@ def wide(text: str) -> int:
 
 
 def wrapped(text: str, width: int) -> list[str]:
-    """A text in lines of at most ``width`` letters, broken between words; a word is never broken.
+    """A text in lines of at most ``width`` letters, broken between words.
+
+    A longer word stays whole, but for a path or a list, which is broken behind a sign, and a rule.
 
     >>> wrapped("a long text", 6)
     ['a long', 'text']
     """
     if wide(text) <= width:
         return [text]
-    lines = textwrap.wrap(text, width, break_long_words=False, break_on_hyphens=False)
-    if any(wide(line) > width for line in lines) and width > 1 and not text.isascii():
-        return wrapped(text, width - 1)  # letters that take two columns
-    return lines or [""]
+    lines: list[str] = []
+    line: str | None = None
+    for word in text.split(" "):
+        for i, part in enumerate(_parts(word, width)):
+            longer = part if line is None else line + " " * (i == 0) + part
+            if line is not None and wide(longer) > width:
+                lines += [line.rstrip()] if line.strip() else []
+                longer = part
+            line = longer
+    return [*lines, line or ""]
+
+
+def _parts(word: str, width: int) -> list[str]:
+    """The pieces between which a word may be broken if it has to be: most words are one."""
+    if wide(word) <= width:
+        return [word]
+    if not any(map(str.isalnum, word)):
+        return [word[i : i + width] for i in range(0, len(word), width)]
+    return SIGN.split(word)
 
 
 def widths(columns: Sequence[ShownColumn], room: int) -> list[int] | None:

@@ -98,8 +98,11 @@ def _bare(number: Any, unit: str) -> str:
     return f"{digits}e{int(power)}" if e else digits
 
 
-def _table(table: Table, window: Window) -> Iterator[str]:
-    """Rows under their headings: as many columns as fit, and what became of the others."""
+def _table(table: Table, window: Window, is_inner: bool = False) -> Iterator[str]:
+    """Rows under their headings: as many columns as fit, and what became of the others.
+
+    A short table is turned on its side where that shows more: one row, few in a record.
+    """
     blocks = table.blocks(HELD)
     first = next(blocks, [])
     if not first:
@@ -114,7 +117,7 @@ def _table(table: Table, window: Window) -> Iterator[str]:
         columns = [c if c.is_text else c._replace(cells=[*c.cells, "0" * NUMBER]) for c in columns]
     kept, sizes = fitting(columns, _order(table), BOUNDLESS if window.wide else window.columns)
     lost = [column.name for column in columns if column not in kept]
-    if lost and (len(first) == 1 or (len(first) <= FEW and 3 * len(kept) < len(columns))):
+    if lost and len(first) <= (FEW if is_inner or 3 * len(kept) < len(columns) else 1):
         lines = turned(columns, window.columns)
         if lines:
             yield from lines
@@ -164,7 +167,8 @@ def _columns(table: Table, block: list[tuple[Any, ...]]) -> list[ShownColumn]:
 def _aligned(texts: list[str]) -> list[str]:
     """Numbers with their points below each other, where that takes but little more width."""
     tails = [len(text) - text.find(".") if "." in text else 0 for text in texts]
-    found = [text + " " * (max(tails) - tail) for text, tail in zip(texts, tails, strict=True)]
+    most = max(tails)
+    found = [text + " " * (most - tail) for text, tail in zip(texts, tails, strict=True)]
     is_wide = max(map(len, found)) > max(map(len, texts)) + SPARE
     return texts if is_wide or any("e" in text for text in texts) else found
 
@@ -187,7 +191,7 @@ def _record(table: Table, window: Window) -> Iterator[str]:
     """A line a value, under the groups of their names; tables in it as tables."""
     is_first = True
     for name, part in apart(table):
-        lines = list(_values(part, window) if part.record else _table(part, window))
+        lines = list(_values(part, window) if part.record else _table(part, window, True))
         if not lines:
             continue
         if not is_first:
