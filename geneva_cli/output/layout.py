@@ -11,7 +11,7 @@ from collections.abc import Iterator, Sequence
 from typing import NamedTuple
 
 GAP = "  "  # between two columns
-PROSE = 24  # letters to which a column of prose is narrowed before another column is left out
+PROSE = 28  # letters to which a column of prose is narrowed before another column is left out
 SIGN = re.compile(r"(?<=[/,=])|(?<=::)")  # behind which a long word may be broken
 BOLD, DIM, PLAIN = "\x1b[1m", "\x1b[2m", "\x1b[0m"
 
@@ -27,8 +27,9 @@ class ShownColumn(NamedTuple):
 
     def least(self) -> int:
         """Width in letters to which it can be narrowed."""
-        least = max((wide(word) for text in self._words() for word in text.split(" ")), default=0)
-        return max(least, min(self.natural(), PROSE)) if self.is_prose() else self.natural()
+        if not self.is_prose():
+            return self.natural()
+        return max([min(self.natural(), PROSE), *map(wide, self._words())])
 
     def natural(self) -> int:
         """Width in letters of its longest cell, and of its heading broken between words."""
@@ -148,6 +149,14 @@ def turned(columns: Sequence[ShownColumn], room: int) -> list[str] | None:
         for column, cells in zip(columns, texts, strict=True)
         for line in row(cells, sizes, [True, *[column.is_text or len(rows) == 1] * len(rows)])
     ]
+
+
+def stacked(above: ShownColumn, below: ShownColumn, room: int) -> Iterator[str]:
+    """Two columns of which each cell of one stands below the other's."""
+    for one, other in zip(above.cells, below.cells, strict=True):
+        yield from wrapped(one.strip(), room)
+        for line in wrapped(other.strip(), room - len(GAP)):
+            yield GAP + line
 
 
 def _line(texts: Sequence[str], sizes: Sequence[int], is_text: Sequence[bool]) -> str:

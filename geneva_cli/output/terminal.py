@@ -19,6 +19,7 @@ from geneva_cli.output.layout import (
     fitting,
     heads,
     row,
+    stacked,
     turned,
     wide,
     wrapped,
@@ -36,7 +37,6 @@ ENDLESS = "practically unlimited"
 SPARE = 3  # letters by which a column may be wider so that its points stand below each other
 VALUE = 30  # letters that a value has beside its label; with fewer it stands below
 BOUNDLESS = 1_000_000  # letters of a line where the window does not matter
-EMPTY = {"-", ""}  # cells that hold nothing
 NAMING = ("quantity", "dimension", "check")  # columns whose cells are names with units
 
 
@@ -115,22 +115,26 @@ def _table(table: Table, window: Window, is_inner: bool = False) -> Iterator[str
         yield ""
     if len(table) > HELD:
         columns = [c if c.is_text else c._replace(cells=[*c.cells, "0" * NUMBER]) for c in columns]
-    kept, sizes = fitting(columns, _order(table), BOUNDLESS if window.wide else window.columns)
+    order = _order(table)
+    kept, sizes = fitting(columns, order, BOUNDLESS if window.wide else window.columns)
     lost = [column.name for column in columns if column not in kept]
     if lost and len(first) <= (FEW if is_inner or 3 * len(kept) < len(columns) else 1):
         lines = turned(columns, window.columns)
         if lines:
             yield from lines
             return
+    if lost and len(kept) == 1 and len(table) <= HELD:
+        second = min((c for c in columns if c.name in lost), key=lambda c: order.index(c.name))
+        yield from stacked(kept[0], second, window.columns)
+        yield from _left_out([name for name in lost if name != second.name], window)
+        return
     yield from heads(kept, sizes, window.styled)
     names = {column.name for column in kept}
     for block in chain([every], (_columns(table, block) for block in blocks)):
         cells = [column.cells for column in block if column.name in names]
         for texts in zip(*cells, strict=True):
             yield from row(texts, sizes, [column.is_text for column in kept])
-    if lost:
-        yield ""
-        yield _styled(_left_out(lost, window.columns), DIM, window)
+    yield from _left_out(lost, window)
 
 
 def _order(table: Table) -> list[str]:
@@ -138,13 +142,16 @@ def _order(table: Table) -> list[str]:
     return [*table.reading.first, *(n for n in table.names if n not in table.reading.first)]
 
 
-def _left_out(names: Sequence[str], width: int) -> str:
+def _left_out(names: Sequence[str], window: Window) -> Iterator[str]:
     """The line that says which columns are left out, and how to see them."""
+    if not names:
+        return
     one = "1 more column" if len(names) == 1 else f"{len(names)} more columns"
     line, rest = f"{one}: --wide, or --columns ", list(names)
-    while rest and wide(line + rest[0]) + len(",...") <= width:
+    while rest and wide(line + rest[0]) + len(",...") <= window.columns:
         line += rest.pop(0) + ","
-    return line[:-1] if not rest else f"{line}..."
+    yield ""
+    yield _styled(f"{line}..." if rest else line[:-1], DIM, window)
 
 
 def _columns(table: Table, block: list[tuple[Any, ...]]) -> list[ShownColumn]:
@@ -178,7 +185,7 @@ def _sorted_out(columns: list[ShownColumn], table: Table) -> tuple[list[ShownCol
     kept, once = [], []
     for column in columns:
         cells = {text.strip() for text in column.cells}
-        if cells <= EMPTY:
+        if cells == {""}:
             continue
         if len(cells) > 1 or len(column.cells) == 1 or table.reading.designs:
             kept.append(column)
