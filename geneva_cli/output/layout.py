@@ -29,11 +29,11 @@ class ShownColumn(NamedTuple):
         """Width in letters to which it can be narrowed."""
         if not self.is_prose():
             return self.natural()
-        return max([min(self.natural(), PROSE), *map(wide, self._words())])
+        return max([min(self.natural(), PROSE), *map(width_of, self._words())])
 
     def natural(self) -> int:
         """Width in letters of its longest cell, and of its heading broken between words."""
-        return max([wide(text) for text in (*self._words(), *self.cells)], default=0)
+        return max([width_of(text) for text in (*self._words(), *self.cells)], default=0)
 
     def is_prose(self) -> bool:
         """Whether its cells may be broken into several lines."""
@@ -44,7 +44,7 @@ class ShownColumn(NamedTuple):
         return [*self.words.split(), self.unit, *cells]
 
 
-def wide(text: str) -> int:
+def width_of(text: str) -> int:
     """Columns that a text takes on a terminal."""
     if text.isascii():
         return len(text)
@@ -62,14 +62,14 @@ def wrapped(text: str, width: int) -> list[str]:
     >>> wrapped("a long text", 6)
     ['a long', 'text']
     """
-    if wide(text) <= width:
+    if width_of(text) <= width:
         return [text]
     lines: list[str] = []
     line: str | None = None
     for word in text.split(" "):
         for i, part in enumerate(_parts(word, width)):
             longer = part if line is None else line + " " * (i == 0) + part
-            if line is not None and wide(longer) > width:
+            if line is not None and width_of(longer) > width:
                 lines += [line.rstrip()] if line.strip() else []
                 longer = part
             line = longer
@@ -78,7 +78,7 @@ def wrapped(text: str, width: int) -> list[str]:
 
 def _parts(word: str, width: int) -> list[str]:
     """The pieces between which a word may be broken if it has to be: most words are one."""
-    if wide(word) <= width:
+    if width_of(word) <= width:
         return [word]
     if not any(map(str.isalnum, word)):
         return [word[i : i + width] for i in range(0, len(word), width)]
@@ -162,7 +162,7 @@ def stacked(above: ShownColumn, below: ShownColumn, room: int) -> Iterator[str]:
 def _line(texts: Sequence[str], sizes: Sequence[int], is_text: Sequence[bool]) -> str:
     cells = []
     for text, size, left in zip(texts, sizes, is_text, strict=True):
-        space = " " * (size - wide(text))
+        space = " " * (size - width_of(text))
         cells.append(text + space if left else space + text)
     return GAP.join(cells).rstrip()
 

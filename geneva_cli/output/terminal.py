@@ -21,7 +21,7 @@ from geneva_cli.output.layout import (
     row,
     stacked,
     turned,
-    wide,
+    width_of,
     wrapped,
 )
 from geneva_cli.output.text import WIDTH, apart, cell, without_noise
@@ -148,7 +148,7 @@ def _left_out(names: Sequence[str], window: Window) -> Iterator[str]:
         return
     one = "1 more column" if len(names) == 1 else f"{len(names)} more columns"
     line, rest = f"{one}: --wide, or --columns ", list(names)
-    while rest and wide(line + rest[0]) + len(",...") <= window.columns:
+    while rest and width_of(line + rest[0]) + len(",...") <= window.columns:
         line += rest.pop(0) + ","
     yield ""
     yield _styled(f"{line}..." if rest else line[:-1], DIM, window)
@@ -216,7 +216,7 @@ def _values(record: Table, window: Window) -> Iterator[str]:
             group, _, last = name.rpartition(".")
             shown.append((group, last, found))
     labels = [("  " if group else "") + spoken(last)[0] for group, last, _ in shown]
-    width = max(map(wide, labels), default=0)
+    width = max(map(width_of, labels), default=0)
     current = ""
     for label, (group, last, found) in zip(labels, shown, strict=True):
         if group != current:
@@ -237,9 +237,9 @@ def _said(found: Any, unit: str) -> list[str]:
 def _value(label: str, width: int, texts: list[str], window: Window) -> Iterator[str]:
     """A label and its value, in several lines where it is long."""
     beside = window.columns - width - len(GAP)
-    if len(texts) == 1 and (wide(texts[0]) <= beside or beside >= VALUE):
+    if len(texts) == 1 and (width_of(texts[0]) <= beside or beside >= VALUE):
         first, *more = wrapped(texts[0], beside)
-        yield f"{label}{' ' * (width - wide(label))}{GAP}{first}"
+        yield f"{label}{' ' * (width - width_of(label))}{GAP}{first}"
         for line in more:
             yield " " * (width + len(GAP)) + line
         return
