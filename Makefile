@@ -42,6 +42,7 @@ stress: .venv/dev
 	PYTHONPATH=tests $(BIN)/python tests/stress/stress_loads_many.py --designs 5000
 	PYTHONPATH=tests $(BIN)/python tests/stress/stress_sweep.py
 	GENEVA_STRESS=1 PYTHONDONTWRITEBYTECODE= $(BIN)/pytest -n logical --dist worksteal
+	PYTHONPATH=tests $(BIN)/python tests/stress/stress_windows.py
 
 # 2,000 mutated specs before the reader, JSON Schema, and the checkers of two editors; two minutes.
 editors: .venv/dev

@@ -119,10 +119,24 @@ class Command(TyperCommand):
                     formatter.write_dl(records)
 
     def format_epilog(self, ctx: Any, formatter: Any) -> None:
-        """The examples, a line each as they are typed."""
+        """The examples as they are typed, each in a line that goes on in the next if it must."""
         if self.examples:
             with formatter.section("Examples"):
-                formatter.write("".join(f"  {line}\n" for line in self.examples))
+                for line in self.examples:
+                    formatter.write(f"  {_continued(line, formatter.width)}\n")
+
+
+def _continued(line: str, width: int) -> str:
+    """A command in lines of at most ``width`` letters, broken before an option as a shell reads."""
+    first, *options = line.split(" -")
+    lines = [first]
+    for option in options:
+        if len(lines[-1]) + len(option) + len("   - \\") > width:
+            lines[-1] += " \\"
+            lines.append(f"      -{option}")
+        else:
+            lines[-1] += f" -{option}"
+    return "\n".join(lines)
 
 
 class LazyGroup(TyperGroup):

@@ -43,6 +43,9 @@ WORDS = {
     "power_max": "peak power",
     "acceleration_max_deg": "peak at",  # in the survey of wheels, beside that peak
     "rollers_max": "most rollers",
+    "n": "input speed",
+    "youngs_modulus": "Young's modulus",
+    "poisson_ratio": "Poisson's ratio",
     "omega": "velocity",
     "alpha": "acceleration",
     "pv": "pressure times sliding",

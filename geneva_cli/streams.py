@@ -16,6 +16,8 @@ from geneva_cli.errors import cut
 
 SIGPIPE = 13
 LINE_MAX = 4000  # characters of a line on standard error
+MOVES = {"\r", "\x1b"}  # what begins a movement of the cursor
+NARROWEST = 60  # characters of a line that is never broken
 
 
 def open_streams() -> None:
@@ -86,11 +88,29 @@ class _Letting(io.FileIO):
 
 
 class _Messages(io.TextIOWrapper):
-    """Text of bounded lines: a message that quotes a megabyte hides what it says."""
+    """Text of bounded lines: a message that quotes a megabyte hides what it says.
+
+    On a terminal lines are broken between words; not those of a bar, which moves the cursor.
+    """
 
     def write(self, text: str, /) -> int:
-        if len(text) > LINE_MAX:
-            super().write("\n".join(cut(line, LINE_MAX) for line in text.split("\n")))
-        else:
-            super().write(text)
+        lines = [cut(line, LINE_MAX) for line in text.split("\n")]
+        if max(map(len, lines)) > NARROWEST and self.isatty() and not MOVES & set(text):
+            lines = [part for line in lines for part in _broken(line, _columns())]
+        super().write("\n".join(lines))
         return len(text)
+
+
+def _columns() -> int:
+    """The width of the terminal that shows messages."""
+    told = os.environ.get("COLUMNS", "")
+    return int(told) if told.isdigit() else os.get_terminal_size(2).columns
+
+
+def _broken(line: str, width: int) -> list[str]:
+    from textwrap import wrap  # only where somebody looks at a long message
+
+    width = max(width, NARROWEST)
+    return wrap(
+        line, width, subsequent_indent="  ", break_long_words=False, break_on_hyphens=False
+    ) or [line]

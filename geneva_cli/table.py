@@ -7,8 +7,6 @@ from collections.abc import Callable, Iterator, Sequence
 from itertools import islice
 from typing import Any, NamedTuple
 
-from geneva_cli.errors import GenevaError, cut, few
-
 PIECE = 65536  # rows of a long table that are made at once; blocks divide it
 HTML_ROWS = 60  # that a notebook shows
 NO_BOUND = "no bound"  # an infinity, where a person reads it
@@ -65,28 +63,6 @@ class Table(NamedTuple):
         """The table with some of its fields replaced; _replace counts fields by the rows."""
         own: dict[str, Any] = dict(zip(self._fields, self, strict=True))
         return Table(**own | fields)
-
-    def only(self, names: Sequence[str]) -> Table:
-        """The columns of these names, in their order; of a record its values and its tables'
-        columns. Raises GenevaError for a name that is not there.
-        """
-        inner = [v for v in next(self.rows(), ()) if isinstance(v, Table)] if self.record else []
-        known = dict.fromkeys([*self.names, *(name for table in inner for name in table.names)])
-        for name in names:
-            if name not in known:
-                raise GenevaError(
-                    f"--columns {cut(name)}: no such column; there are {few(name, known)}"
-                )
-        if not self.record:
-            at = [self.names.index(name) for name in names]
-            return self.replaced(names=tuple(names), columns=[self.columns[i] for i in at])
-        values: dict[str, Any] = {}
-        for name, value in zip(self.names, next(self.rows()), strict=True):
-            if name in names:
-                values[name] = value
-            elif isinstance(value, Table) and set(names) & set(value.names):
-                values[name] = value.only([n for n in names if n in value.names])
-        return self.replaced(names=tuple(values), columns=[(v,) for v in values.values()])
 
     def to_dict(self) -> dict[str, Any]:
         """Columns by name, numbers as arrays; a record's values by name, tables in it as rows.

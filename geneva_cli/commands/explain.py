@@ -31,10 +31,12 @@ def run(
     from geneva_cli.output import show, show_markdown, show_text
     from geneva_cli.output.formats import format_of
     from geneva_cli.specfile.meanings import Meaning, as_markdown, listed, meanings
-    from geneva_cli.table import rows_table
+    from geneva_cli.table import Reading, rows_table
 
     if not word:
-        show(rows_table(("group", "name", "about"), listed()), output, format)
+        reading = Reading(("name", "about"))
+        table = rows_table(("group", "name", "about"), listed()).replaced(reading=reading)
+        show(table, output, format)
         return
     found = meanings(word)
     if (format or format_of(output)) not in ("table", "md"):

@@ -48,7 +48,7 @@ def run(
     """
     from geneva_cli.output import show
     from geneva_cli.specfile.template import KINDS, example
-    from geneva_cli.table import rows_table
+    from geneva_cli.table import Reading, rows_table
 
     if bool(kind) + bool(from_design) + list_ != 1:
         raise GenevaError("KIND, --from-design NAME or --list: give one of them")
@@ -59,7 +59,8 @@ def run(
 
         kinds = [(name, "new", example(name).about) for name in KINDS]
         designs = [(name, "new --from-design", title) for name, title in titles().items()]
-        show(rows_table(("name", "command", "about"), kinds + designs), output)
+        table = rows_table(("name", "command", "about"), kinds + designs)
+        show(table.replaced(reading=Reading(("name", "about"))), output)
     elif kind:
         _new(kind, output, all_, force)
     else:

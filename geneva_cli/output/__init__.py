@@ -40,23 +40,23 @@ class Choice(NamedTuple):
     wide: bool = False
 
 
-chosen = Choice()  # what --columns and --wide say in this run
+choice = Choice()  # what --columns and --wide say in this run
 
 
 @contextmanager
-def choosing(choice: Choice) -> Iterator[None]:
+def choosing(made: Choice) -> Iterator[None]:
     """Show tables by this choice meanwhile."""
-    global chosen
-    before, chosen = chosen, choice
+    global choice
+    before, choice = choice, made
     try:
         yield
     finally:
-        chosen = before
+        choice = before
 
 
 def refuse_columns() -> None:
     """Raise GenevaError where columns were chosen by name and no table is shown."""
-    if chosen.columns:
+    if choice.columns:
         raise GenevaError("--columns is for tables, and this run prints none; leave it out")
 
 
@@ -97,12 +97,14 @@ def show(table: Table, output: str = "-", format: str = "", inputs: Iterable[str
     from geneva_cli.output.finite import checked
 
     table = checked(table, _progress)
-    if chosen.columns:
-        table = table.only(chosen.columns)
+    if choice.columns:
+        from geneva_cli.output.chosen import only
+
+        table = only(table, choice.columns)
     if name == "table" and is_seen(output):
         from geneva_cli.output import terminal
 
-        window = terminal.window(bool(chosen.columns), chosen.wide)
+        window = terminal.window(bool(choice.columns), choice.wide)
         _put(terminal.chunks(table, window), output, inputs)
         return
     module = cast(Format, importlib.import_module(f"geneva_cli.output.{FORMATS[name]}"))
@@ -253,13 +255,13 @@ def refuse_existing(output: str) -> None:
 
 def show_markdown(text: str) -> None:
     """Print a text in Markdown, laid out where a person looks and as it is elsewhere."""
-    if not sys.stdout.isatty():
+    refuse_columns()
+    if not is_seen("-"):
         sys.stdout.write(text)
         return
-    from rich.console import Console
-    from rich.markdown import Markdown
+    from geneva_cli.output import reader, terminal
 
-    Console().print(Markdown(text))
+    _put(reader.chunks(text, terminal.window(False, choice.wide)), "-", ())
 
 
 def _progress(done: int, rows: int) -> None:

@@ -5,13 +5,14 @@ Nothing is cut: a number is as wide as it is, and text is broken between its wor
 
 from __future__ import annotations
 
-import textwrap
+import re
 import unicodedata
 from collections.abc import Iterator, Sequence
 from typing import NamedTuple
 
 GAP = "  "  # between two columns
-PROSE = 24  # letters to which a column of prose is narrowed before another column is left out
+PROSE = 28  # letters to which a column of prose is narrowed before another column is left out
+SIGN = re.compile(r"(?<=[/,=])|(?<=::)")  # behind which a long word may be broken
 BOLD, DIM, PLAIN = "\x1b[1m", "\x1b[2m", "\x1b[0m"
 
 
@@ -26,12 +27,13 @@ class ShownColumn(NamedTuple):
 
     def least(self) -> int:
         """Width in letters to which it can be narrowed."""
-        least = max((wide(word) for text in self._words() for word in text.split(" ")), default=0)
-        return max(least, min(self.natural(), PROSE)) if self.is_prose() else self.natural()
+        if not self.is_prose():
+            return self.natural()
+        return max([min(self.natural(), PROSE), *map(width_of, self._words())])
 
     def natural(self) -> int:
         """Width in letters of its longest cell, and of its heading broken between words."""
-        return max([wide(text) for text in (*self._words(), *self.cells)], default=0)
+        return max([width_of(text) for text in (*self._words(), *self.cells)], default=0)
 
     def is_prose(self) -> bool:
         """Whether its cells may be broken into several lines."""
@@ -42,7 +44,7 @@ class ShownColumn(NamedTuple):
         return [*self.words.split(), self.unit, *cells]
 
 
-def wide(text: str) -> int:
+def width_of(text: str) -> int:
     """Columns that a text takes on a terminal."""
     if text.isascii():
         return len(text)
@@ -53,17 +55,34 @@ def wide(text: str) -> int:
 
 
 def wrapped(text: str, width: int) -> list[str]:
-    """A text in lines of at most ``width`` letters, broken between words; a word is never broken.
+    """A text in lines of at most ``width`` letters, broken between words.
+
+    A longer word stays whole, but for a path or a list, which is broken behind a sign, and a rule.
 
     >>> wrapped("a long text", 6)
     ['a long', 'text']
     """
-    if wide(text) <= width:
+    if width_of(text) <= width:
         return [text]
-    lines = textwrap.wrap(text, width, break_long_words=False, break_on_hyphens=False)
-    if any(wide(line) > width for line in lines) and width > 1 and not text.isascii():
-        return wrapped(text, width - 1)  # letters that take two columns
-    return lines or [""]
+    lines: list[str] = []
+    line: str | None = None
+    for word in text.split(" "):
+        for i, part in enumerate(_parts(word, width)):
+            longer = part if line is None else line + " " * (i == 0) + part
+            if line is not None and width_of(longer) > width:
+                lines += [line.rstrip()] if line.strip() else []
+                longer = part
+            line = longer
+    return [*lines, line or ""]
+
+
+def _parts(word: str, width: int) -> list[str]:
+    """The pieces between which a word may be broken if it has to be: most words are one."""
+    if width_of(word) <= width:
+        return [word]
+    if not any(map(str.isalnum, word)):
+        return [word[i : i + width] for i in range(0, len(word), width)]
+    return SIGN.split(word)
 
 
 def widths(columns: Sequence[ShownColumn], room: int) -> list[int] | None:
@@ -132,10 +151,18 @@ def turned(columns: Sequence[ShownColumn], room: int) -> list[str] | None:
     ]
 
 
+def stacked(above: ShownColumn, below: ShownColumn, room: int) -> Iterator[str]:
+    """Two columns of which each cell of one stands below the other's."""
+    for one, other in zip(above.cells, below.cells, strict=True):
+        yield from wrapped(one.strip(), room)
+        for line in wrapped(other.strip(), room - len(GAP)):
+            yield GAP + line
+
+
 def _line(texts: Sequence[str], sizes: Sequence[int], is_text: Sequence[bool]) -> str:
     cells = []
     for text, size, left in zip(texts, sizes, is_text, strict=True):
-        space = " " * (size - wide(text))
+        space = " " * (size - width_of(text))
         cells.append(text + space if left else space + text)
     return GAP.join(cells).rstrip()
 

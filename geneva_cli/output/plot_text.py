@@ -10,7 +10,7 @@ from collections.abc import Callable, Iterator
 
 from geneva_cli.errors import clean, cut
 from geneva_cli.figure import LINE, POINTS, Curve, Figure, Panel
-from geneva_cli.output.letters import LETTER, width
+from geneva_cli.output.layout import width_of, wrapped
 from geneva_cli.output.ticks import labels, said, ticks
 
 MARKS = "*o+x#@%&=~^$"  # of curves that share a panel, and of one in ASCII
@@ -29,10 +29,10 @@ def chunks(figure: Figure, columns: int = WIDTH, unicode: bool = False) -> Itera
     columns = min(max(columns, NARROW), WIDE)
     wide = columns - LABEL - 3
     known = figure.curves()
-    yield _line(clean(figure.title).strip(), columns)
+    yield from _lines(clean(figure.title).strip(), columns)
     if len(known) > 1:
         for curve in known.values():
-            yield _line(f"  {MARKS[curve.number]}  {clean(curve.name)}", columns)
+            yield from _lines(f"  {MARKS[curve.number]}  {clean(curve.name)}", columns)
     ground, dwell = ("─", "░") if unicode else ("-", ":")
     for panel in figure.panels:
         yield "\n"
@@ -49,23 +49,25 @@ def chunks(figure: Figure, columns: int = WIDTH, unicode: bool = False) -> Itera
         yield f"{'':>{LABEL}}  {dwell * 3} dwell\n"
 
 
-def _line(text: str, columns: int) -> str:
-    while text and width(text) > columns * LETTER:  # wide letters take two places
-        text = cut(text, len(text) - 1) if len(text) > 8 else ""
-    return text + "\n"
+def _lines(text: str, columns: int) -> Iterator[str]:
+    """A text broken between words; a word that is wider than the chart is cut."""
+    for line in wrapped(text, columns):
+        while line and width_of(line) > columns:
+            line = cut(line, len(line) - 1) if len(line) > 8 else ""
+        yield line + "\n"
 
 
 def _heading(panel: Panel, columns: int, several: bool, unit: str) -> Iterator[str]:
     """The quantity by its name, and its peaks."""
     name = panel.y.name
     if several:
-        yield _line(name, columns)
+        yield from _lines(name, columns)
         for curve in panel.curves:
             for mark in curve.marks:
-                yield _line(f"  {MARKS[curve.number]}  {said(mark, f' {unit}')}", columns)
+                yield from _lines(f"  {MARKS[curve.number]}  {said(mark, f' {unit}')}", columns)
         return
     peaks = ", ".join(said(m, f" {unit}".rstrip()) for c in panel.curves for m in c.marks)
-    yield _line(f"{name}: {peaks}" if peaks else name, columns)
+    yield from _lines(f"{name}: {peaks}" if peaks else name, columns)
 
 
 def _grid(figure: Figure, panel: Panel, wide: int, high: int, unicode: bool) -> Iterator[str]:

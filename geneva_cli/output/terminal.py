@@ -19,8 +19,9 @@ from geneva_cli.output.layout import (
     fitting,
     heads,
     row,
+    stacked,
     turned,
-    wide,
+    width_of,
     wrapped,
 )
 from geneva_cli.output.text import WIDTH, apart, cell, without_noise
@@ -36,7 +37,6 @@ ENDLESS = "practically unlimited"
 SPARE = 3  # letters by which a column may be wider so that its points stand below each other
 VALUE = 30  # letters that a value has beside its label; with fewer it stands below
 BOUNDLESS = 1_000_000  # letters of a line where the window does not matter
-EMPTY = {"-", ""}  # cells that hold nothing
 NAMING = ("quantity", "dimension", "check")  # columns whose cells are names with units
 
 
@@ -98,8 +98,11 @@ def _bare(number: Any, unit: str) -> str:
     return f"{digits}e{int(power)}" if e else digits
 
 
-def _table(table: Table, window: Window) -> Iterator[str]:
-    """Rows under their headings: as many columns as fit, and what became of the others."""
+def _table(table: Table, window: Window, is_inner: bool = False) -> Iterator[str]:
+    """Rows under their headings: as many columns as fit, and what became of the others.
+
+    A short table is turned on its side where that shows more: one row, few in a record.
+    """
     blocks = table.blocks(HELD)
     first = next(blocks, [])
     if not first:
@@ -112,22 +115,26 @@ def _table(table: Table, window: Window) -> Iterator[str]:
         yield ""
     if len(table) > HELD:
         columns = [c if c.is_text else c._replace(cells=[*c.cells, "0" * NUMBER]) for c in columns]
-    kept, sizes = fitting(columns, _order(table), BOUNDLESS if window.wide else window.columns)
+    order = _order(table)
+    kept, sizes = fitting(columns, order, BOUNDLESS if window.wide else window.columns)
     lost = [column.name for column in columns if column not in kept]
-    if lost and (len(first) == 1 or (len(first) <= FEW and 3 * len(kept) < len(columns))):
+    if lost and len(first) <= (FEW if is_inner or 3 * len(kept) < len(columns) else 1):
         lines = turned(columns, window.columns)
         if lines:
             yield from lines
             return
+    if lost and len(kept) == 1 and len(table) <= HELD:
+        second = min((c for c in columns if c.name in lost), key=lambda c: order.index(c.name))
+        yield from stacked(kept[0], second, window.columns)
+        yield from _left_out([name for name in lost if name != second.name], window)
+        return
     yield from heads(kept, sizes, window.styled)
     names = {column.name for column in kept}
     for block in chain([every], (_columns(table, block) for block in blocks)):
         cells = [column.cells for column in block if column.name in names]
         for texts in zip(*cells, strict=True):
             yield from row(texts, sizes, [column.is_text for column in kept])
-    if lost:
-        yield ""
-        yield _styled(_left_out(lost, window.columns), DIM, window)
+    yield from _left_out(lost, window)
 
 
 def _order(table: Table) -> list[str]:
@@ -135,13 +142,16 @@ def _order(table: Table) -> list[str]:
     return [*table.reading.first, *(n for n in table.names if n not in table.reading.first)]
 
 
-def _left_out(names: Sequence[str], width: int) -> str:
+def _left_out(names: Sequence[str], window: Window) -> Iterator[str]:
     """The line that says which columns are left out, and how to see them."""
+    if not names:
+        return
     one = "1 more column" if len(names) == 1 else f"{len(names)} more columns"
     line, rest = f"{one}: --wide, or --columns ", list(names)
-    while rest and wide(line + rest[0]) + len(",...") <= width:
+    while rest and width_of(line + rest[0]) + len(",...") <= window.columns:
         line += rest.pop(0) + ","
-    return line[:-1] if not rest else f"{line}..."
+    yield ""
+    yield _styled(f"{line}..." if rest else line[:-1], DIM, window)
 
 
 def _columns(table: Table, block: list[tuple[Any, ...]]) -> list[ShownColumn]:
@@ -164,7 +174,8 @@ def _columns(table: Table, block: list[tuple[Any, ...]]) -> list[ShownColumn]:
 def _aligned(texts: list[str]) -> list[str]:
     """Numbers with their points below each other, where that takes but little more width."""
     tails = [len(text) - text.find(".") if "." in text else 0 for text in texts]
-    found = [text + " " * (max(tails) - tail) for text, tail in zip(texts, tails, strict=True)]
+    most = max(tails)
+    found = [text + " " * (most - tail) for text, tail in zip(texts, tails, strict=True)]
     is_wide = max(map(len, found)) > max(map(len, texts)) + SPARE
     return texts if is_wide or any("e" in text for text in texts) else found
 
@@ -174,7 +185,7 @@ def _sorted_out(columns: list[ShownColumn], table: Table) -> tuple[list[ShownCol
     kept, once = [], []
     for column in columns:
         cells = {text.strip() for text in column.cells}
-        if cells <= EMPTY:
+        if cells == {""}:
             continue
         if len(cells) > 1 or len(column.cells) == 1 or table.reading.designs:
             kept.append(column)
@@ -187,7 +198,7 @@ def _record(table: Table, window: Window) -> Iterator[str]:
     """A line a value, under the groups of their names; tables in it as tables."""
     is_first = True
     for name, part in apart(table):
-        lines = list(_values(part, window) if part.record else _table(part, window))
+        lines = list(_values(part, window) if part.record else _table(part, window, True))
         if not lines:
             continue
         if not is_first:
@@ -205,7 +216,7 @@ def _values(record: Table, window: Window) -> Iterator[str]:
             group, _, last = name.rpartition(".")
             shown.append((group, last, found))
     labels = [("  " if group else "") + spoken(last)[0] for group, last, _ in shown]
-    width = max(map(wide, labels), default=0)
+    width = max(map(width_of, labels), default=0)
     current = ""
     for label, (group, last, found) in zip(labels, shown, strict=True):
         if group != current:
@@ -226,9 +237,9 @@ def _said(found: Any, unit: str) -> list[str]:
 def _value(label: str, width: int, texts: list[str], window: Window) -> Iterator[str]:
     """A label and its value, in several lines where it is long."""
     beside = window.columns - width - len(GAP)
-    if len(texts) == 1 and (wide(texts[0]) <= beside or beside >= VALUE):
+    if len(texts) == 1 and (width_of(texts[0]) <= beside or beside >= VALUE):
         first, *more = wrapped(texts[0], beside)
-        yield f"{label}{' ' * (width - wide(label))}{GAP}{first}"
+        yield f"{label}{' ' * (width - width_of(label))}{GAP}{first}"
         for line in more:
             yield " " * (width + len(GAP)) + line
         return

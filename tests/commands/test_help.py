@@ -39,7 +39,7 @@ def test_help_lists_the_commands_by_what_a_person_wants():
 @pytest.mark.parametrize("name", COMMANDS)
 def test_help_of_a_command_ends_with_its_examples(name):
     said = geneva(name, "-h")
-    shown = said.partition("\nExamples:\n")[2].splitlines()
+    shown = said.partition("\nExamples:\n")[2].replace(" \\\n      ", " ").splitlines()
     assert [line.strip() for line in shown] == [e for n, e in EXAMPLES if n == name] != []
 
 

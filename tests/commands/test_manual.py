@@ -8,11 +8,13 @@ import os
 import re
 import shlex
 import shutil
+from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
 import repo
 from typer.testing import CliRunner
+from windows import looking
 
 from geneva_cli.app import COMMANDS, app
 from geneva_cli.manual import TOPICS, page
@@ -50,6 +52,13 @@ def replay(block: str) -> str:
 
 def text_of(file: Path) -> str:
     return file.read_text(encoding="utf-8")
+
+
+@pytest.fixture(autouse=True)
+def windows() -> Iterator[None]:
+    """What is printed fits into the window of any terminal."""
+    with looking():
+        yield
 
 
 @pytest.fixture(autouse=True)

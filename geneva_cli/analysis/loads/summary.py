@@ -24,12 +24,14 @@ from geneva_cli.analysis.loads.quantities import (
 from geneva_cli.analysis.loads.sizing import WHEEL, sizing
 from geneva_cli.analysis.motion import HELD, check_samples, derivatives, inputs, times_s
 from geneva_cli.errors import Caution
-from geneva_cli.table import Table, pieces, record_table, rows_table
+from geneva_cli.table import Reading, Table, pieces, record_table, rows_table
 
 if TYPE_CHECKING:
     from geneva_cli.machine.spec import Spec
     from geneva_cli.numerics.jet import Array, Number
 
+# The columns of the summary from the most important one, for a narrow window.
+FIRST = ("quantity", "max", "rms", "max_at_deg", "min", "mean")
 PLACES = ("time_s", "input_deg", "wheel_deg")
 UNLOADED = (
     "nothing resists the wheel, so no force is known: set inertia_kgm2 or torque_Nm in [load], or "
@@ -188,7 +190,8 @@ def loads_table(
     found = summaries(cycle)
     if for_people:
         rows = [(name, *one) for name, one in found.items() if one != Summary()]
-        values["loads"] = rows_table(("quantity", *Summary._fields), rows, mixed=True)
+        table = rows_table(("quantity", *Summary._fields), rows, mixed=True)
+        values["loads"] = table.replaced(reading=Reading(FIRST))
     else:
         for name, one in found.items():
             values |= {f"{name}.{key}": value for key, value in one._asdict().items()}

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from geneva_cli.parts.parts_list import KINDS, parts_list
+from geneva_cli.parts.parts_list import FIRST, KINDS, parts_list
 from geneva_cli.parts.proof import Proof
-from geneva_cli.table import rows_table
+from geneva_cli.table import Reading, rows_table
 from geneva_cli.verdict.report.values import Values
 
 
@@ -14,5 +14,6 @@ def parts_list_tables(proof: Proof) -> Values:
     values: Values = {}
     for kind, names in KINDS.items():
         own = [[row[name] for name in names] for row in rows if row["row"] == kind]
-        values[f"parts_list.{kind}"] = rows_table(names, own, mixed=True) if own else None
+        table = rows_table(names, own, mixed=True).replaced(reading=Reading(FIRST))
+        values[f"parts_list.{kind}"] = table if own else None
     return values

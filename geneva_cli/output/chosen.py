@@ -1,0 +1,32 @@
+"""Columns that a user chooses by their names in csv."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+from geneva_cli.errors import GenevaError, cut, few
+from geneva_cli.table import Table
+
+
+def only(table: Table, names: Sequence[str]) -> Table:
+    """The columns of these names, in their order; of a record its values and its tables' columns.
+
+    Raises GenevaError for a name that is not there.
+    """
+    inner = [v for v in next(table.rows(), ()) if isinstance(v, Table)] if table.record else []
+    known = dict.fromkeys([*table.names, *(name for one in inner for name in one.names)])
+    for name in names:
+        if name not in known:
+            some = few(name, known)
+            raise GenevaError(f"--columns {cut(name)}: no such column; there are {some}")
+    if not table.record:
+        at = [table.names.index(name) for name in names]
+        return table.replaced(names=tuple(names), columns=[table.columns[i] for i in at])
+    values: dict[str, Any] = {}
+    for name, value in zip(table.names, next(table.rows()), strict=True):
+        if name in names:
+            values[name] = value
+        elif isinstance(value, Table) and set(names) & set(value.names):
+            values[name] = only(value, [n for n in names if n in value.names])
+    return table.replaced(names=tuple(values), columns=[(v,) for v in values.values()])
