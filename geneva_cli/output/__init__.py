@@ -68,9 +68,10 @@ def show(table: Table, output: str = "-", format: str = "", inputs: Iterable[str
     name = table_as(output, format)
     from geneva_cli.output.finite import checked
 
-    table = checked(table, _progress)
+    is_seen = output == "-" and sys.stdout.isatty()
+    table = checked(table, is_seen)
     module = cast(Format, importlib.import_module(f"geneva_cli.output.{FORMATS[name]}"))
-    _put(module.chunks(table, output == "-" and sys.stdout.isatty()), output, inputs)
+    _put(module.chunks(table, is_seen), output, inputs)
 
 
 def draw(
@@ -214,14 +215,6 @@ def show_markdown(text: str) -> None:
     from rich.markdown import Markdown
 
     Console().print(Markdown(text))
-
-
-def _progress(done: int, rows: int) -> None:
-    """How far a long table is, on a terminal where nothing else is being written."""
-    if sys.stderr.isatty() and not sys.stdout.isatty():
-        line = f"{done:,} of {rows:,} rows"
-        sys.stderr.write(f"\r{line}" if done < rows else f"\r{' ' * len(line)}\r")
-        sys.stderr.flush()
 
 
 def _put(chunks: Iterable[str], output: str, inputs: Iterable[str]) -> None:
