@@ -7,6 +7,7 @@ BIN = .venv/bin
 
 demo: .venv/demo
 	@mkdir -p build
+	@echo "--- a table, and a slot, a wheel and a whole machine in build/: some seconds"
 	$(BIN)/geneva table --z 6 --internal
 	$(BIN)/geneva profile designs/modified-sine-matched.toml -o build/modified-sine-slot.csv
 	$(BIN)/geneva profile designs/modified-sine-matched.toml --part wheel -o build/wheel.dxf
@@ -92,14 +93,17 @@ dist: .venv/dev
 
 .venv/python:
 	@test -n "$(PYTHON)" || { echo "make: no Python 3.11 or newer found; set PYTHON=..." >&2; exit 1; }
-	$(PYTHON) -m venv .venv
+	@echo "--- making .venv with $(PYTHON)"
+	@$(PYTHON) -m venv .venv
 	@touch $@
 
 .venv/demo: .venv/python pyproject.toml
+	@echo "--- installing geneva and what it needs in .venv: a minute, the first time alone"
 	$(BIN)/pip install --quiet --editable .
 	@touch $@
 
 .venv/dev: .venv/demo
+	@echo "--- installing what the tests need in .venv: some minutes, the first time alone"
 	$(BIN)/pip install --quiet $$($(BIN)/python -c "import tomli; print(*(r.replace(' ', '') for r in tomli.load(open('pyproject.toml', 'rb'))['dependency-groups']['dev']))")
 	@touch $@
 

@@ -17,6 +17,7 @@ from typer.main import get_command
 
 from geneva_cli import __version__
 from geneva_cli.errors import GenevaError, clean, cut
+from geneva_cli.progress import Bar, close, show_with
 from geneva_cli.streams import leave, open_streams
 
 # The registry: what a person wants -> module in geneva_cli.commands -> the line that --help shows.
@@ -177,6 +178,7 @@ class LazyGroup(TyperGroup):
 
     def invoke(self, ctx: Any) -> Any:
         """Run the command; what a user can put right becomes a line and an exit code."""
+        show_with(_bar)
         try:
             return super().invoke(ctx)
         except GenevaError as error:
@@ -187,11 +189,21 @@ class LazyGroup(TyperGroup):
             _fail("out of memory; ask for fewer samples or a coarser tolerance")
 
 
+def _bar(what: str, total: int) -> Bar | None:
+    """A progress bar, where a person looks."""
+    if not sys.stderr.isatty():
+        return None
+    from geneva_cli.output.bar import TextBar
+
+    return TextBar(what, total)
+
+
 def _stub() -> None:
     """Stands in for a command whose module is not loaded."""
 
 
 def _fail(message: str) -> None:
+    close()
     print(cut(clean(message), MESSAGE_MAX), file=sys.stderr)
     raise typer.Exit(2) from None
 

@@ -9,6 +9,7 @@ import typer
 from geneva_cli.commands import completion
 from geneva_cli.commands.options import Format, Given, SpecPath
 from geneva_cli.errors import GenevaError, cut
+from geneva_cli.progress import tracked
 
 if TYPE_CHECKING:
     from geneva_cli.study.sweep.outcome import Outcome
@@ -127,7 +128,7 @@ def run(
             "-o",
             "--output",
             metavar="FILE",
-            help="A .csv or .parquet; - prints csv.",
+            help="A .csv or .parquet; - prints.",
             show_default=False,
         ),
     ] = "-",
@@ -166,10 +167,12 @@ def run(
     if resume and (asked.chooses or format not in ("", "csv")):
         raise GenevaError("--resume goes on with all rows of a sweep, as csv or parquet")
     outcome = Outcome(asked)
-    if format in ("", "csv"):
+    if format not in ("", "csv"):
+        _show_rows(asked, outcome, output, format)
+    elif format or output != "-" or not sys.stdout.isatty():
         _write_rows(asked, outcome, output, resume)
     else:
-        _show_rows(asked, outcome, output, format)
+        _show_some(asked, outcome)
     for note in outcome.notes():
         print(f"{spec}: {note}", file=sys.stderr)
 
@@ -186,7 +189,9 @@ def _write_rows(asked: "Request", outcome: "Outcome", output: str, resume: bool)
             print(rows.found, file=sys.stderr)
         if rows.is_whole:
             return
-        for block in outcome.rows(_shown(asked, rows.done)):
+        is_seen = output == "-" and sys.stdout.isatty()
+        blocks = asked.blocks(rows.done) if is_seen else _shown(asked, rows.done)
+        for block in outcome.rows(blocks):
             rows.append(block)
         rows.finish()
 
@@ -198,6 +203,18 @@ def _show_rows(asked: "Request", outcome: "Outcome", output: str, format: str) -
 
     rows = [row for block in outcome.rows(_shown(asked, 0)) for row in block]
     show(rows_table(asked.sweep.names, rows), output, format, asked.inputs)
+
+
+def _show_some(asked: "Request", outcome: "Outcome") -> None:
+    """The first rows and the best, for a person."""
+    from geneva_cli.output import show
+    from geneva_cli.study.sweep.digest import Digest
+
+    digest = Digest(asked)
+    for block in outcome.rows(_shown(asked, 0)):
+        digest.add(block)
+    for table in digest.tables():
+        show(table)
 
 
 def _refuse_beside_best(output: str, format: str, resume: bool) -> None:
@@ -221,18 +238,6 @@ def _write_best(asked: "Request", spec: str, output: str) -> None:
 
 
 def _shown(asked: "Request", done: int) -> Iterator[Rows]:
-    """The rows, with a progress bar where a person looks and nothing else is printed."""
-    blocks = asked.blocks(done)
-    if not sys.stderr.isatty() or sys.stdout.isatty():
-        yield from blocks
-        return
-    from rich.console import Console
-    from rich.progress import BarColumn, MofNCompleteColumn, Progress, TimeRemainingColumn
-
+    """The rows, with a progress bar."""
     start, stop = asked.sweep.span
-    columns = (BarColumn(), MofNCompleteColumn(), TimeRemainingColumn())
-    with Progress(*columns, console=Console(stderr=True), transient=True) as bar:
-        task = bar.add_task("", total=stop - start, completed=done)
-        for block in blocks:
-            yield block
-            bar.advance(task, len(block))
+    return tracked(asked.blocks(done), "designs", stop - start - done, len)

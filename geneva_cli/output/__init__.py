@@ -96,7 +96,7 @@ def show(table: Table, output: str = "-", format: str = "", inputs: Iterable[str
     name = table_as(output, format)
     from geneva_cli.output.finite import checked
 
-    table = checked(table, _progress)
+    table = checked(table, is_seen(output))
     if choice.columns:
         from geneva_cli.output.chosen import only
 
@@ -262,14 +262,6 @@ def show_markdown(text: str) -> None:
     from geneva_cli.output import reader, terminal
 
     _put(reader.chunks(text, terminal.window(False, choice.wide)), "-", ())
-
-
-def _progress(done: int, rows: int) -> None:
-    """How far a long table is, on a terminal where nothing else is being written."""
-    if sys.stderr.isatty() and not sys.stdout.isatty():
-        line = f"{done:,} of {rows:,} rows"
-        sys.stderr.write(f"\r{line}" if done < rows else f"\r{' ' * len(line)}\r")
-        sys.stderr.flush()
 
 
 def _put(chunks: Iterable[str], output: str, inputs: Iterable[str]) -> None:

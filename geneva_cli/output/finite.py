@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Iterable, Sequence
 from typing import Any
 
 from geneva_cli.errors import GenevaError
+from geneva_cli.progress import Meter
 from geneva_cli.table import Column, Table, pieces
 
 # Where infinity is an answer: the radius of a straight line, a check's value that has no bound, and
@@ -14,22 +15,24 @@ from geneva_cli.table import Column, Table, pieces
 BOUNDLESS = {"curvature_radius_mm", "value", "k"}
 
 
-def checked(table: Table, progress: Callable[[int, int], None]) -> Table:
+def checked(table: Table, is_seen: bool = False) -> Table:
     """The table, looked at; one that is made while it is written is looked at then.
 
-    ``progress`` is told of each piece: the rows that are made, of how many. Raises GenevaError as
-    ``refuse_nonsense`` does.
+    Rows that are made piece by piece are reported, unless they are seen as they come. Raises
+    GenevaError as ``refuse_nonsense`` does.
     """
     first = table.columns[0] if table.columns else None
     if not isinstance(first, Column):
         refuse_nonsense(table.names, table.columns)
         return table
     source = first.pieces
+    meter = None if is_seen else Meter("rows", source.length)
 
     def make(start: int, stop: int) -> Sequence[Any]:
         found = source.make(start, stop)
         refuse_nonsense(table.names, found)
-        progress(stop, source.length)
+        if meter:
+            meter.report(stop)
         return found
 
     columns = pieces(source.length, len(table.columns), make, first.dtype)

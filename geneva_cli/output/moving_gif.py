@@ -11,6 +11,7 @@ from geneva_cli.curves.measure import at
 from geneva_cli.curves.shapes import Circle, Line, Point, Shape
 from geneva_cli.errors import GenevaError
 from geneva_cli.output.inks import INKS
+from geneva_cli.progress import tracked
 from geneva_cli.scene import place_at, pose, value_at
 
 if TYPE_CHECKING:
@@ -50,7 +51,7 @@ def written(scene: Scene) -> bytes:
         for body in scene.bodies
     }
     frames: list[Image.Image] = []
-    for i in range(FRAMES):
+    for i in tracked(range(FRAMES), "pictures", FRAMES):
         t = scene.turn_deg * i / FRAMES
         image = Image.new("RGB", (FINER * WIDE, FINER * high), "#ffffff")
         pen = ImageDraw.Draw(image, "RGBA")

@@ -8,6 +8,7 @@ from typing import NamedTuple
 
 from geneva_cli.design import load
 from geneva_cli.errors import GenevaError
+from geneva_cli.progress import tracked
 from geneva_cli.study.pool import cores, mapped
 from geneva_cli.table import Table, rows_table
 from geneva_cli.verdict.checks import Check, all_pass
@@ -45,7 +46,7 @@ def verdicts(paths: list[str], given: Sequence[str] = ()) -> Iterator[Verdict]:
     judge = partial(verdict, given=given)
     files = [path for path in paths if path != "-"]
     found = mapped(judge, files, min(len(files), cores()), "specs")
-    for path in paths:
+    for path in tracked(paths, "specs", len(paths)):
         yield judge(path) if path == "-" else next(found)
 
 

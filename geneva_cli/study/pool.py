@@ -12,6 +12,7 @@ from collections.abc import Callable, Iterable, Iterator
 from typing import TYPE_CHECKING, TypeVar
 
 from geneva_cli.errors import GenevaError
+from geneva_cli.progress import show_with
 
 if TYPE_CHECKING:
     from concurrent.futures import Future
@@ -76,6 +77,7 @@ def _attend() -> None:
     """
     if signal.getsignal(signal.SIGINT) is not signal.SIG_IGN:
         signal.signal(signal.SIGINT, signal.SIG_DFL)
+    show_with(None)  # the process that waits shows how far all are
     gc.freeze()  # what the program was made of stays
     gc.set_threshold(GARBAGE)
     threading.Thread(target=_leave, daemon=True).start()

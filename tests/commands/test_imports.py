@@ -122,12 +122,12 @@ ROWS = [
 
 # The quick ones may import this much of the program, and no more.
 OWN = {
-    "--help": "app errors streams",
-    "--version": "app errors streams",
+    "--help": "app errors progress streams manual",
+    "--version": "app errors progress streams",
     # no spec, no registry of kinds, no record of either: of the wheels their closed forms alone
-    "table --z 6": "app errors streams table commands commands.completion commands.options "
-    "commands.table output output.finite output.formats output.text study study.ranges "
-    "study.survey analysis analysis.cam_factors analysis.timing "
+    "table --z 6": "app errors progress streams table commands commands.completion "
+    "commands.options commands.table output output.finite output.formats output.text study "
+    "study.ranges study.survey analysis analysis.cam_factors analysis.timing "
     "machine machine.wheels machine.wheels.classic numerics numerics.angles numerics.arrays spec "
     "spec.rules",
 }
@@ -216,7 +216,7 @@ def test_completion(words):
     modules = loaded([], env=os.environ | settings)
     assert not modules & HEAVY
     if count == 1:  # a command's name: no command is imported
-        assert own(modules) == {"app", "errors", "streams"}
+        assert own(modules) == {"app", "errors", "progress", "streams"}
 
 
 @pytest.mark.parametrize(

@@ -19,13 +19,15 @@ import pytest
 import repo
 from words import load
 
+from geneva_cli import progress
 from geneva_cli.analysis.motion import HELD, SAMPLES_MAX, motion_table
 from geneva_cli.analysis.peaks import peaks
 from geneva_cli.errors import GenevaError
 from geneva_cli.output import show
+from geneva_cli.output.bar import TextBar
 from geneva_cli.parts.slot_sampling import profile_table
 from geneva_cli.study.survey import survey
-from geneva_cli.table import PIECE, Table, record_table, rows_table
+from geneva_cli.table import Table, record_table, rows_table
 
 GENEVA = os.path.join(os.path.dirname(sys.executable), "geneva")
 
@@ -73,14 +75,33 @@ def test_memory_does_not_grow():
 
 def test_progress_on_a_terminal():
     master, slave = pty.openpty()
-    arguments = ["motion", "spec.toml", "--samples", str(3 * PIECE), "-o", "out.csv"]
+    # a second at least on any machine: what is done sooner shows nothing
+    arguments = ["motion", "spec.toml", "--samples", str(SAMPLES_MAX), "-o", "out.csv"]
     process = subprocess.Popen([GENEVA, *arguments], stdout=subprocess.PIPE, stderr=slave)
     os.close(slave)
     said = repo.read_terminal(master)
     process.stdout.close()
     assert process.wait(timeout=60) == 0
-    assert b"131,072 of 196,608 rows" in said
+    assert b" of 1,000,000 rows, 0:" in said
     assert said.endswith(b" \r")  # and nothing is left of it
+
+
+def test_a_bar_shows_what_is_left_and_goes(capsys, monkeypatch):
+    """After a second, at most ten times a second, in one line that is overwritten."""
+    clock = iter([0.0, 0.5, 2.0, 2.05, 3.0])
+    monkeypatch.setattr("geneva_cli.output.bar.time.monotonic", lambda: next(clock))
+    monkeypatch.setattr("geneva_cli.output.bar._columns", lambda: 60)
+    progress.show_with(TextBar)
+    try:
+        # what is inside of other work shows nothing of its own
+        outer = (len([*progress.tracked("ab", "inner", 2)]) for _ in range(4))
+        assert [*progress.tracked(outer, "outer", 4)] == [2] * 4
+    finally:
+        progress.show_with(None)
+    _, first, second, *end = capsys.readouterr().err.split("\r")
+    assert first == f"[{'#' * 15}{'-' * 15}] 2 of 4 outer, 0:02 left"
+    assert second == f"[{'#' * 30}] 4 of 4 outer, 0:00 left"
+    assert all(not part.strip() for part in end)
 
 
 @pytest.mark.parametrize("gearing", ["spherical", "external"])

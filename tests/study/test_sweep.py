@@ -4,6 +4,7 @@ import csv
 import io
 import json
 import os
+import pty
 import re
 import signal
 import subprocess
@@ -12,6 +13,7 @@ import time
 from functools import lru_cache
 
 import pytest
+import repo
 import tomli
 from repo import heed_signals
 from typer.testing import CliRunner
@@ -394,3 +396,33 @@ def test_a_key_that_the_spec_lacks_may_be_the_one_that_is_varied(tmp_path):
         request(str(file), ["wheel.z=4,6"], pick="velocity.max")
     with pytest.raises(GenevaError, match=r"needs A for kind"):
         request(str(file), ["drive.A=5"], pick="velocity.max")
+
+
+# What a person sees
+
+
+def seen_on_a_terminal(*words):
+    """What a person sees of a run that draws no bar, since it takes less than a second."""
+    master, slave = pty.openpty()
+    program = [sys.executable, "-m", "geneva_cli", "sweep", *words]
+    with subprocess.Popen(program, stdout=slave, stderr=subprocess.PIPE) as run:
+        os.close(slave)
+        seen = repo.read_terminal(master).decode()
+        assert (run.stderr.read(), run.wait(timeout=60)) == (b"", 0)
+    return seen
+
+
+def test_a_person_sees_the_first_rows_and_the_best():
+    vary = ("--vary", "drive.A=0..0.9:0.01", "--pick", "dwell_s,jerk.max", "--jobs", "1")
+    seen = seen_on_a_terminal(SPEC, *vary, "--pareto", "max:dwell_s,min:acceleration.max")
+    assert "All 91 rows: -o FILE.csv" in seen
+    assert "The 5 rows with the greatest timing.dwell_s" in seen
+    rows = [line.split()[0] for line in seen.splitlines() if line.strip()[:1].isdigit()]
+    assert rows == ["1", "2", "3", "4", "5"] * 2  # A = 0 rests longest, and is the first
+
+
+def test_a_person_sees_all_of_a_few_rows():
+    seen = seen_on_a_terminal(SPEC, "--vary", "wheel.z=4..8", "--jobs", "1")
+    rows = [line.split()[:2] for line in seen.splitlines() if line.strip()[:1].isdigit()]
+    assert rows == [[str(i), str(z)] for i, z in enumerate(range(4, 9), 1)]
+    assert "All" not in seen

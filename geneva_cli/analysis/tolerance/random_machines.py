@@ -11,6 +11,7 @@ from geneva_cli.analysis.sphere_locking import SphereLock
 from geneva_cli.analysis.tolerance.dimensions import Draws
 from geneva_cli.analysis.tolerance.entry_jump import EntryJumps
 from geneva_cli.analysis.tolerance.motion_error import MotionError
+from geneva_cli.progress import tracked
 
 if TYPE_CHECKING:
     from geneva_cli.numerics.jet import Array
@@ -44,7 +45,7 @@ def random_machines(
     start = 0
     dwell, motion, jump = (np.zeros(samples) for _ in range(3))
     missed = jams = 0
-    for by in machines.blocks(samples, BLOCK):
+    for by in tracked(machines.blocks(samples, BLOCK), "blocks of machines", -(-samples // BLOCK)):
         part = slice(start, start + BLOCK)
         jam = np.zeros(len(dwell[part]), dtype=bool)
         if lock:

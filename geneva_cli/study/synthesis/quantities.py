@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 from geneva_cli.errors import GenevaError
 from geneva_cli.machine.mechanism import build
 from geneva_cli.machine.spec import Spec
+from geneva_cli.progress import tracked
 from geneva_cli.spec.load_named import load_named
 from geneva_cli.study.goals import Objective
 from geneva_cli.study.pool import cores, mapped
@@ -84,6 +85,7 @@ def bounded(wanted: Asked, found: Sequence[Row], together: Sequence[Cells | None
     names = wanted.names
     alone = [row.spec for row, one in zip(found, together, strict=True) if one is None]
     rest = mapped(partial(_values, wanted.pick), alone, min(cores(), len(alone)), "machines")
+    rest = tracked(rest, "machines asked", len(alone))
     values = [one or next(rest) for one in together]
     out = []
     nearest: dict[str, list[float]] = {b.name: [] for b in wanted.bounds}

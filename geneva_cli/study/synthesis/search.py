@@ -12,6 +12,7 @@ from geneva_cli.machine import registry
 from geneva_cli.machine.mechanism import build
 from geneva_cli.machine.spec import Spec
 from geneva_cli.machine.wheels.classic import rollers_max
+from geneva_cli.progress import tracked
 from geneva_cli.study.pool import cores, mapped
 from geneva_cli.study.quantities import in_batch
 from geneva_cli.study.sweep.constraints import Constraint, is_number
@@ -150,6 +151,7 @@ def _parts(
     workers = min(len(order), cores()) if many else 1
     work = partial(_part, names=names, how_near=how_near)
     done = mapped(work, [tasks[i] for i in order], workers, "machines", meanwhile)
+    done = tracked(done, "kinds of machines", len(order))
     found = dict(zip(order, done, strict=True))
     return [found[i] for i in sorted(found)]
 

@@ -7,6 +7,7 @@ from functools import partial
 from typing import NamedTuple
 
 from geneva_cli.machine.spec import Spec
+from geneva_cli.progress import tracked
 from geneva_cli.study.pool import cores, mapped
 from geneva_cli.study.synthesis.built import Built, built_together, passes
 from geneva_cli.study.synthesis.elsewhere import elsewhere
@@ -88,6 +89,7 @@ def _others(found: FoundRows, failing: dict[int, Row]) -> dict[int, Row]:
     """Of rows that fail, by their numbers, the best of their families that pass."""
     work = partial(other, found._replace(rows=[]))
     done = mapped(work, failing.values(), min(len(failing), cores()), "machines")
+    done = tracked(done, "others looked for", len(failing))
     return {no: row for no, row in zip(failing, done, strict=True) if row}
 
 
@@ -124,6 +126,7 @@ def _built(specs: Sequence[Spec], fixed: frozenset[str], in_order: bool) -> Iter
     tasks = [[specs[i] for i in members] for members in turned]
     work = partial(built_together, fixed=fixed)
     done = mapped(work, tasks, min(len(tasks), cores()), "machines")
+    done = tracked(done, "machines turned", len(tasks))
     results: dict[int, Built] = {}
     groups = iter(turned)
     for i in range(len(specs)):

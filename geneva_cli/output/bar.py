@@ -1,0 +1,72 @@
+"""A progress bar on standard error: how much is done, and the time that is left."""
+
+from __future__ import annotations
+
+import os
+import sys
+import time
+
+AFTER_S = 1.0  # what is done sooner shows no bar
+EVERY_S = 0.1  # between two pictures of it: more are not seen
+WIDTH_MAX = 30  # columns of the bar itself
+WIDTH_MIN = 8  # of less nothing is seen
+
+
+class TextBar:
+    """A bar of one line, which is overwritten, and gone at the end.
+
+    Plain characters alone: it stands on any terminal, whatever TERM says.
+    """
+
+    def __init__(self, what: str, total: int) -> None:
+        self.what, self.total = what, total
+        self.begun = self.next = time.monotonic()
+        self.next += AFTER_S
+        self.length = 0  # characters that stand there
+
+    def update(self, done: int) -> None:
+        """Draw the bar where it is time to."""
+        now = time.monotonic()
+        if now >= self.next:
+            self.next = now + EVERY_S
+            self._write(self._line(done, now - self.begun))
+
+    def close(self) -> None:
+        """Leave nothing of it."""
+        if self.length:
+            self._write("")
+            sys.stderr.write("\r")
+            sys.stderr.flush()
+
+    def _line(self, done: int, seconds: float) -> str:
+        left = seconds * (self.total - done) / done if done else None
+        text = f"{done:,} of {self.total:,} {self.what}"
+        text += f", {_time(left)} left" if left is not None else ""
+        room = min(WIDTH_MAX, _columns() - len(text) - len(" []") - 1)
+        if room < WIDTH_MIN:
+            return text[: _columns() - 1]
+        full = room * done // self.total
+        return f"[{'#' * full}{'-' * (room - full)}] {text}"
+
+    def _write(self, line: str) -> None:
+        sys.stderr.write(f"\r{line.ljust(self.length)}")
+        sys.stderr.flush()
+        self.length = len(line)
+
+
+def _columns() -> int:
+    try:
+        return os.get_terminal_size(sys.stderr.fileno()).columns or 80
+    except OSError:
+        return 80
+
+
+def _time(seconds: float) -> str:
+    """Minutes and seconds, with hours where there are some.
+
+    >>> _time(75.2), _time(7384)
+    ('1:15', '2:03:04')
+    """
+    minutes, rest = divmod(round(seconds), 60)
+    hours, minutes = divmod(minutes, 60)
+    return f"{hours}:{minutes:02}:{rest:02}" if hours else f"{minutes}:{rest:02}"

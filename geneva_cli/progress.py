@@ -1,0 +1,78 @@
+"""The progress of long work: the work reports it here, and the command line shows it.
+
+Nothing is shown unless somebody wants to: ``show_with`` is called by the command line alone.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Iterator
+from typing import Protocol, TypeAlias, TypeVar
+
+T = TypeVar("T")
+
+
+class Bar(Protocol):
+    """What shows the progress of one piece of work."""
+
+    def update(self, done: int) -> None:
+        """Show that so many are done."""
+
+    def close(self) -> None:
+        """Take the bar away."""
+
+
+# Makes a bar for items, given the word for them and their number; None where nobody looks.
+BarMaker: TypeAlias = Callable[[str, int], Bar | None]
+_maker: list[BarMaker] = []  # one at most
+_shown: list[Bar] = []  # one at most: work inside of other work is not shown
+
+
+def show_with(maker: BarMaker | None) -> None:
+    """Show progress with the bars that ``maker`` makes; None: show none."""
+    _maker[:] = [maker] if maker else []
+
+
+def close() -> None:
+    """Take away the bar that is shown."""
+    while _shown:
+        _shown.pop().close()
+
+
+class Meter:
+    """How far one piece of work is: so many of ``total`` items, ``what`` being the word for them.
+
+    Inside of other work that is shown it shows nothing.
+    """
+
+    def __init__(self, what: str, total: int) -> None:
+        self.total = total
+        self.bar = _maker[0](what, total) if _maker and not _shown else None
+        if self.bar:
+            _shown.append(self.bar)
+
+    def report(self, done: int) -> None:
+        """Report that so many are done; the last ends the bar."""
+        if self.bar:
+            self.bar.update(done)
+            if done >= self.total:
+                self.close()
+
+    def close(self) -> None:
+        """Take its bar away."""
+        if self.bar:
+            close()
+            self.bar = None
+
+
+def tracked(
+    items: Iterable[T], what: str, total: int, size: Callable[[T], int] | None = None
+) -> Iterator[T]:
+    """Yield the items and report how many of ``total`` are done; ``size`` of an item is 1."""
+    meter, done = Meter(what, total), 0
+    try:
+        for item in items:
+            yield item
+            done += size(item) if size else 1
+            meter.report(done)
+    finally:
+        meter.close()

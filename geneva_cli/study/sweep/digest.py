@@ -1,0 +1,72 @@
+"""What a person sees of a sweep: its first rows and its best."""
+
+from __future__ import annotations
+
+import heapq
+from collections.abc import Iterator, Sequence
+
+from geneva_cli.study.fields import Cell
+from geneva_cli.study.goals import Objective
+from geneva_cli.study.sweep.constraints import is_number
+from geneva_cli.study.sweep.request import Request
+from geneva_cli.table import Table, rows_table
+
+FIRST = 5  # rows from the top
+BEST = 5  # rows from the best on; of no more than both, all are shown
+
+Numbered = tuple[Cell, ...]  # a row behind its number, counted from 1
+
+
+class Digest:
+    """The first rows, the best and their count, as rows go by; memory stays bounded.
+
+    The best have the least, or the greatest, of the first goal of --pareto; without, the least of
+    the first quantity that is a number.
+    """
+
+    def __init__(self, asked: Request) -> None:
+        self.names = asked.sweep.names
+        self.goal = asked.objectives[0] if asked.objectives else None
+        self.quantities = asked.sweep.pick.names
+        self.count = 0
+        self.first: list[Numbered] = []
+        self.best: list[tuple[float, Numbered]] = []  # the best first
+
+    def add(self, rows: Sequence[Sequence[Cell]]) -> None:
+        """More rows."""
+        numbered = [(self.count + i, *row) for i, row in enumerate(rows, 1)]
+        self.count += len(rows)
+        self.first += numbered[: FIRST + BEST - len(self.first)]
+        self.goal = self.goal or self._goal(rows)
+        if self.goal:
+            sign, at = self.goal.sign, 1 + self.names.index(self.goal.name)
+            costs = ((sign * x, row) for row in numbered if is_number(x := row[at]))
+            self.best = heapq.nsmallest(
+                BEST, [*self.best, *costs], key=lambda found: (found[0], found[1][0])
+            )
+
+    def _goal(self, rows: Sequence[Sequence[Cell]]) -> Objective | None:
+        """The first quantity of which some row has a number, to be the least."""
+        for name in self.quantities:
+            at = self.names.index(name)
+            if any(is_number(row[at]) and not isinstance(row[at], bool) for row in rows):
+                return Objective(1.0, name)
+        return None
+
+    def tables(self) -> Iterator[Table]:
+        """All rows where they are few; else the first, and the best."""
+        if self.count <= FIRST + BEST:
+            yield self._table(self.first, "")
+            return
+        rest = f"All {self.count:,} rows: -o FILE.csv"
+        yield self._table(self.first[:FIRST], f"The first {FIRST} rows. {rest}")
+        if self.goal:
+            best = [row for _, row in self.best]
+            yield self._table(best, f"The {len(best)} rows with the {self.goal}")
+
+    def _table(self, rows: Sequence[Numbered], title: str) -> Table:
+        """Some rows, without columns that hold nothing."""
+        names = ("row", *self.names)
+        kept = [i for i in range(len(names)) if any(row[i] is not None for row in rows)]
+        shown = [tuple(row[i] for i in kept) for row in rows]
+        return rows_table([names[i] for i in kept], shown, title)
