@@ -71,7 +71,7 @@ def test_pages_fit(topic):
         "new --list",
         "table",
         "table --spherical --z 3..5",
-        "synth --motion-deg 180 --z 6 --checked 0 --external",
+        "synth --motion-deg 180 --z 6 --check 0 --external",
         "peaks two-rollers-side-crank.toml",
         "plot turret.toml",
     ],

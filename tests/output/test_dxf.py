@@ -389,7 +389,7 @@ def test_the_comparison_can_fail():
 def test_refusals():
     with pytest.raises(GenevaError, match="--units cm: it must be one of mm, inch"):
         text(MANY, "cm")
-    with pytest.raises(GenevaError, match="layer BORE: a circle at nan; coordinates must be finit"):
+    with pytest.raises(GenevaError, match="layer BORE: a circle at nan: coordinates must be"):
         text(of(Circle("BORE", (0.0, 0.0), math.nan)))
     with pytest.raises(GenevaError, match="nothing to draw"):
         text(of())

@@ -222,7 +222,7 @@ def test_bolts_and_keyway_are_holes(name):
 
 def test_a_wheel_thinner_than_its_line_of_contact_is_refused():
     size = Size(face_width_mm=12.0, wheel_thickness_mm=10.0)
-    with pytest.raises(GenevaError, match="it must be at least face_width_mm = 12"):
+    with pytest.raises(GenevaError, match="use at least face_width_mm = 12"):
         Design(External(6), size=size).mechanism  # noqa: B018
 
 

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 from functools import cached_property
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 from geneva_cli.errors import GenevaError
 from geneva_cli.machine.drives.crank import Crank
@@ -160,10 +160,8 @@ class _Turn:
         """The checks that fail of parts that stand still, of a machine that turns likewise."""
         if isinstance(self._made, Failing):
             return [self._made]
-        parts: Any = self._made
-        turned = parts.assembly._replace(given=machine, to_input=machine.spec.drive.input_deg)
-        parts = parts._replace(assembly=turned)
-        return _failing(standing_checks(parts))
+        own = self._made.assembly._replace(full=machine, to_input=machine.spec.drive.input_deg)
+        return _failing(standing_checks(self._made.over(own)))
 
     def every(self) -> list[Failing]:
         """The checks of the turn that fail."""
