@@ -37,6 +37,7 @@ def designs(count, seed):
     return z, random.random(count) < 0.5, A
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize("part", range(5))
 def test_none_is_missed(engagement, part):
     """1,000 designs against the adaptive search of geneva_cli.peaks, which shares no formula.
@@ -75,6 +76,7 @@ def test_inside_a_slow_crank_never_passes_its_jump(z):
     assert (inner <= jump).all()
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize("part", range(4))
 def test_no_velocity_is_missed(engagement, part):
     """Of 400 designs; inside, a crank that runs away puts a second peak near the ends."""
