@@ -18,7 +18,7 @@ from geneva_cli.parts.turn import full_turn
 from geneva_cli.parts.walls import chain as walls_chain
 from geneva_cli.parts.walls import curved as curved_walls
 from geneva_cli.study.synthesis.families import four_bar_search
-from geneva_cli.verdict import cautions
+from geneva_cli.verdict import advice, cautions
 
 SHARING = {"made_once", "read_once"}  # fixtures of what costs seconds
 
@@ -115,6 +115,12 @@ def made_once():
         patch.setattr(curved_walls, "chain", CHAIN)
         patch.setattr(cautions, "cautions", CAUTIONS)
         yield
+
+
+@pytest.fixture
+def no_advice(monkeypatch):
+    """No search for advice on failing checks: seconds, for tests of what else is said of them."""
+    monkeypatch.setattr(advice, "GLANCES", 0)
 
 
 @pytest.fixture(scope="module")

@@ -48,6 +48,7 @@ def test_as_one_by_one(name):
 KNOTTED = ("points of a law", "gears by points")  # a spline's higher derivatives jump
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize(
     "name", ["crank", "two rollers", "offset, slowed", "spherical", "matched", *KNOTTED]
 )
@@ -191,6 +192,7 @@ def test_the_least_of_a_size_is_nothing():
                 assert 0.0 <= together[load].min[row] < 1e-10
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize("name", MISSED)
 def test_what_was_stepped_over_is_found(name):
     """Dense samples pass no extreme of designs of which one was missed, together or one by one.

@@ -57,6 +57,7 @@ def test_every_machine(path):
             assert found == pytest.approx(by_gauss(engagement, ratio, damping), abs=1e-13)
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize(
     ("z", "gearing", "A", "damping"),
     [(3, "external", 0.0, 0.1), (6, "internal", 0.0, 0.0), (5, "external", 0.7, 0.02)],

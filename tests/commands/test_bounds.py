@@ -97,6 +97,7 @@ def test_a_range_of_slots_that_is_refused_says_how_many_go():
     assert "at most" in said or "more than" in said
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize(
     ("L", "share"), [(1.0, 1e-9), (1e6, 1e-12), (1.0, 1e-16), (1e6, 1e-16)], ids="{:g}".format
 )
@@ -152,6 +153,7 @@ def test_too_many_rollers_and_slots():
     refused(["peaks", "spec.toml"], "spec.toml:4: ")
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize("command", ["peaks", "motion", "profile", "report", "check"])
 def test_the_most_slots_are_no_trouble(command):
     put("spec.toml", "[wheel]\nz = 1000000\n")
@@ -161,6 +163,7 @@ def test_the_most_slots_are_no_trouble(command):
     assert seconds < CPU
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize("spec", ["spec.toml", "curved.toml"])
 def test_a_million_rows_in_flat_memory(spec):
     # The columns are 48 MB; the text, some 110 MB, never exists as a whole.
@@ -175,6 +178,7 @@ def test_a_million_rows_in_flat_memory(spec):
 
 # 36,000 rows of three numbers and a text are 9 MB as Python's objects; pyarrow reads and writes
 # ahead in blocks of 4 MB, and keeps what it has had
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize(
     ("file", "how", "more"), [("a.csv", "--random", 6.0), ("a.parquet", "grid", 40.0)]
 )

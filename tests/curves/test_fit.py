@@ -337,6 +337,7 @@ def greedy(curve, a, b, tolerance):
     return count
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize("name", CURVED)
 def test_few_pieces_on_the_curved_slots(name):
     """At 1e-3 mm: half as many arcs as the fewest chords, a tenth of cubics.

@@ -8,6 +8,7 @@ import pytest
 from drawing_witness import POINT, contours, length, scaled, vertices
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
+from sampling import some
 from scipy.integrate import quad
 from shapely.geometry import LineString, Point, Polygon
 
@@ -18,7 +19,7 @@ from geneva_cli.errors import GenevaError
 
 FINE = 1e-5  # mm, of the witnesses' polygons
 # Few examples: the whole file stays within seconds, and each is compared in several ways.
-QUICK = settings(max_examples=60)
+QUICK = settings(max_examples=some(60, 20))
 
 
 def winding_area(points):

@@ -9,13 +9,14 @@ import shapely
 from drawing_witness import contours, vertices
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
+from sampling import some
 from shapely.geometry import Polygon
 
 from geneva_cli.curves.distance import Polyarc
 from geneva_cli.curves.shapes import Arc, Contour, Line, about, backwards, closed
 
 FINE = 1e-5  # mm, how far the witnesses' polygons stray from the arcs
-QUICK = settings(max_examples=40)
+QUICK = settings(max_examples=some(40, 12))
 GRID = np.stack(np.meshgrid(np.linspace(-150, 150, 37), np.linspace(-150, 150, 37)), -1)
 GRID = GRID.reshape(-1, 2) + np.array([0.0371, 0.0129])  # off the corners' own coordinates
 

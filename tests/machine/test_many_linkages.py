@@ -75,6 +75,7 @@ def case(request):
     return many(spec, varied), [alone(spec, varied, i) for i in range(count)]
 
 
+@pytest.mark.sampled(2)
 def test_the_same_designs_are_refused(case):
     found, singles = case
     assert found.refused.tolist() == [one is None for one in singles]
@@ -152,6 +153,7 @@ def test_the_gentlest_wheel_is_found():
     assert motion.exit_deg == pytest.approx(math.degrees(2.3586) / 2.0, abs=1e-2)
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize("case", [(four_bar(), FOUR_BAR), (slider_crank(), SLIDER_CRANK)])
 def test_a_search_that_is_kept_finds_the_same(case, monkeypatch):
     """To the last bit, of machines built alone with it and without; and none is searched again."""

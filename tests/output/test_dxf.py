@@ -26,6 +26,7 @@ from drawing_witness import (
 from ezdxf import recover
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from sampling import some
 from shapely.geometry import Polygon
 
 from geneva_cli.curves.drawing import Drawing, extent
@@ -39,7 +40,7 @@ from geneva_cli.output.dxf_file import FLOAT_CODES
 # mm. A file's last decimal is 1e-12; a polyline's centre of 300 degrees, an ARC's ends at a radius
 # of a metre and a spline's joints (JOINT) come to less than 2e-9 together.
 SAME = 2e-9
-QUICK = settings(max_examples=40)
+QUICK = settings(max_examples=some(40, 15))
 
 
 def text(drawing, units="mm"):

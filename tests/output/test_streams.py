@@ -43,6 +43,7 @@ def run(arguments, environment=None, **settings):
     )
 
 
+@pytest.mark.sampled(2)
 @full
 @some
 def test_full_disk(arguments, environment):
@@ -53,6 +54,7 @@ def test_full_disk(arguments, environment):
     assert found.stderr.count("\n") == 1
 
 
+@pytest.mark.sampled(2)
 @some
 def test_pipe_without_a_reader(arguments, environment):
     read, write = os.pipe()
@@ -134,6 +136,7 @@ with open("rows.csv", "w") as file:
 """
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize("streams", CLOSED)
 def test_nothing_else_gets_into_a_file(streams):
     """The file took the descriptor of the closed stream, and with it what was said there."""
@@ -144,6 +147,7 @@ def test_nothing_else_gets_into_a_file(streams):
         assert file.read() == "data\n"
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize("streams", CLOSED)
 def test_a_sweep_without_streams_writes_the_same_file(streams):
     assert run([*ROWS, "-o", "plain.csv"]).returncode == 0

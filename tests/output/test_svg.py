@@ -7,6 +7,7 @@ from xml.etree import ElementTree
 import pytest
 from drawing_witness import apart, contours, drawn_shapes, dxf_shapes, scaled, svg_path, svg_shapes
 from hypothesis import given, settings
+from sampling import some
 from test_dxf import MANY, TINY, bow, of, smooth
 
 from geneva_cli.curves.drawing import Annotations, extent
@@ -20,7 +21,7 @@ from geneva_cli.output.svg_look import round_length
 # mm. The last decimal is 1e-9; a radius that is off by half of that moves an arc's centre by up to
 # 4 times as much (at 150 and 210 degrees), and a chord's ends add to it.
 SAME = 1e-8
-QUICK = settings(max_examples=40)
+QUICK = settings(max_examples=some(40, 15))
 NAME = "{http://www.w3.org/2000/svg}"
 
 

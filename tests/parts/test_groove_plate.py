@@ -67,6 +67,7 @@ def test_machines_without_such_a_plate(cam):
         Design(External(6)).drawing("groove-plate")
 
 
+@pytest.mark.usefixtures("no_advice")
 def test_a_machine_without_room_for_its_groove_plate_fails():
     """The rim needs four walls of 20 mm; the machine is not drawn or listed without the plate."""
     design = load(str(repo.DESIGNS / "tuned-dial.toml")).with_("size.wall_min_mm", 20.0)

@@ -31,7 +31,6 @@ from words import load
 from geneva_cli import Design
 from geneva_cli.app import app
 from geneva_cli.specfile.template import KINDS
-from geneva_cli.verdict import advice as adviser
 from geneva_cli.verdict.checks import checks
 
 ROOT = repo.ROOT
@@ -375,6 +374,7 @@ def test_straight_wheels_have_no_splines(name):
     assert written(DESIGNS[name], "wheel", "spline.dxf", "--curves", "spline") == arcs
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize(
     ("name", "part", "options"),
     [
@@ -416,6 +416,7 @@ def enlarged(shapes, factor):
     }
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize(
     ("curves", "tolerances"), [("arcs", (0.001, 0.01, 0.1)), ("spline", (1e-5, 1e-3, 0.1))]
 )
@@ -829,16 +830,14 @@ def random_spec(rng):
     return "\n".join(lines) + "\n"
 
 
+@pytest.mark.usefixtures("no_advice")
 @pytest.mark.sampled(3)
 @pytest.mark.parametrize("seed", range(12))
 def test_random_wheels(seed):
     text = random_spec(random.Random(seed))
     name = spec(text)
     Path("wheel.dxf").unlink(missing_ok=True)
-    # Freeing one takes a full turn for every try; here it only matters that it ends.
-    with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(adviser, "GLANCES", 0)
-        found = profile(name, "wheel", "wheel.dxf")
+    found = profile(name, "wheel", "wheel.dxf")
     if found.exit_code:
         refused(found, found.exit_code, "spec.toml:")
         assert found.exit_code in (1, 2)

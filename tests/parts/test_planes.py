@@ -38,6 +38,7 @@ def least_gap(design, name, where, radius, turn):
     return min(gaps)
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize("hub", [2.0, 4.0])
 def test_a_coupler_over_the_wheels_hub(hub):
     design = of("four-bar-z4", f"size.wheel_hub_mm={hub}")

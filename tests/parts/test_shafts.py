@@ -160,6 +160,7 @@ def test_a_shaft_that_the_spec_takes_through_a_link(low):
         assert found.passes is False and found.nearest == "leaving out crank_shaft_low_mm"
 
 
+@pytest.mark.usefixtures("no_advice")
 @pytest.mark.parametrize("name", ["four-bar-z4", "slider-crank"])
 def test_the_ends_of_a_cranks_shaft_that_carries_links_alone(name):
     """They are as given, and refused where the lower one is not below the upper one."""
@@ -207,6 +208,7 @@ def test_a_bore_leaves_a_wall_of_its_hub():
         assert row(thin, name).passes is False
 
 
+@pytest.mark.usefixtures("no_advice")
 def test_a_hub_stands_on_something():
     for key, value in (("wheel_hub_mm", 20.0), ("wheel_hub_length_mm", 5.0)):
         with pytest.raises(GenevaError, match=f"{key}: an internal wheel is open in the middle"):

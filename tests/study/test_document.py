@@ -121,6 +121,7 @@ def has(cells: set[str], told: str, value: Any) -> bool:
     return shown(value).replace("\u00a0", " ") in cells
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize("name", KINDS)
 def test_every_value_of_the_report_is_on_the_page(name: str) -> None:
     design, found = of(name)
@@ -199,6 +200,7 @@ def _plain(text: str) -> str:
     return re.sub(r"\\(.)", r"\1", codes).encode("latin-1").decode("cp1252")
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize("name", ["turret", "spherical-z6", "jams"])
 def test_a_pdf_holds_title_verdict_and_every_check(name: str, jams: str) -> None:
     design, found = made(jams) if name == "jams" else of(name)
@@ -233,6 +235,7 @@ def test_lines_fit_and_lose_no_word() -> None:
         assert "".join(found).replace(" ", "") == text.replace(" ", "")
 
 
+@pytest.mark.usefixtures("no_advice")
 def test_a_failing_design_says_so_first_and_exits_as_check_does(jams: str) -> None:
     run = CliRunner().invoke
     checked = run(app, ["check", jams, "--format", "json"])
@@ -253,6 +256,7 @@ def test_a_failing_design_says_so_first_and_exits_as_check_does(jams: str) -> No
     assert [row[0] for row in grid.rows if row[5] == "FAILS"] == failed
 
 
+@pytest.mark.usefixtures("no_advice")
 @pytest.mark.parametrize("format", ["html", "md"])
 def test_a_users_words_stay_words(jams: str, format: str) -> None:
     text = CliRunner().invoke(app, ["report", jams, "--format", format]).stdout

@@ -110,6 +110,7 @@ LOADS = [
 ]
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize(
     ("spec", "vary", "some"),
     [

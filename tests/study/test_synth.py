@@ -149,6 +149,7 @@ def test_tau_of_one_roller_outside():
         assert not plain(candidates(tau=beyond, external=True, rollers=1, space=NEAR))
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize(("z", "most"), [(3, 5), (4, 3), (5, 3), (6, 2), (7, 2), (12, 2), (24, 2)])
 def test_rollers_up_to_the_strict_bound(z, most):
     found = candidates(z=str(z), cycle="1", external=True, space=NEAR)
@@ -171,6 +172,7 @@ def test_k_of_internal_wheels():
         assert candidate.k == pytest.approx((z + 2) / (z - 2), rel=1e-13)
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize(("k", "z", "m"), [(3, 4, 3), (9, 5, 3), (1, 4, 2), (5, 3, 5), (2, 6, 2)])
 def test_k_above_1_outside(k, z, m):
     assert (z, m) in {
@@ -179,6 +181,7 @@ def test_k_above_1_outside(k, z, m):
     }
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize(
     ("z", "motion", "A"),
     [
@@ -213,6 +216,7 @@ def test_the_side_crank_paper_s_half_turn():
 # A greatest acceleration
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize(("limit", "laws"), [("0.3", "modified-sine"), ("0.7", "all")])
 def test_every_machine_stays_below_the_limit_and_none_by_more_than_needed(limit, laws):
     found = candidates(subject_to=[f"acceleration_max <= {limit}"], law=laws, z="3,6,12")
@@ -286,6 +290,7 @@ WISHES = [
 ]
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize("options", WISHES, ids=str)
 def test_rows_are_sorted_and_numbered(options):
     wish, found = searched(**options)
@@ -297,6 +302,7 @@ def test_rows_are_sorted_and_numbered(options):
     assert all(a <= b * (1 + 1e-11) for a, b in zip(peaks, peaks[1:], strict=False))
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize("options", WISHES, ids=str)
 def test_every_row_as_a_spec_is_the_row(options, tmp_path):
     wish, found_rows = searched(**options)
@@ -614,6 +620,7 @@ def test_no_roller_fits_a_loop():
 # Turned, written, checked and exported: a sample of the trial in tests/stress/stress_synth.py
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize(
     ("options", "number"),
     [
@@ -709,6 +716,7 @@ def test_the_lowest_of_a_range_is_the_lowest_in_time():
     assert best.acceleration_max > min(one.acceleration_max for one in scan)
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize("more", [{}, {"cycle": "1"}, {"internal": True}])
 def test_a_peak_that_nothing_reaches_is_said_with_the_nearest(more):
     """Issue: the motion was blamed, which all machines have."""

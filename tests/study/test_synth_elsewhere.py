@@ -27,6 +27,7 @@ def curved(found):
     return [row for row in found.rows if row.candidate.law and row.candidate.drive == "crank"]
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize("z", [6, 8, 11])
 def test_beside_a_row_that_cannot_be_built_is_the_best_that_may_be(z):
     """No motion of a dense sweep between the two has parts that may be built."""
@@ -81,6 +82,7 @@ def test_a_row_that_fails_in_its_turn_gives_way_to_the_best_that_passes(tmp_path
     assert not [c for c in design.checks if c.passes is False]
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize("bound", ["velocity.max >= 0.51", "sizes.slot_bottom_radius_mm >= 40"])
 def test_bounds_hold_elsewhere_too(bound):
     """On what is known of many designs together, and on what one is asked for alone."""
@@ -93,6 +95,7 @@ def test_bounds_hold_elsewhere_too(bound):
         assert whole.kept(row.asked[found.asked.names.index(whole.name)])
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize("z", [9, 10])
 def test_a_larger_roller_holds_the_wheel_better(z):
     """Curved slots with ways apart: those of the usual sizes leave too much play at their ends."""

@@ -180,6 +180,7 @@ WISHES = [
 ]
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize("options", WISHES, ids=str)
 def test_every_row_keeps_every_wish(options):
     wish, (found, *_) = searched(**options)
@@ -215,6 +216,7 @@ def swept(spec, key, values, low, high):
     return float(peak[fits].min()) if fits.any() else math.inf
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize(
     ("z", "low", "high"), [(6, 100.0, 140.0), (4, 110.0, 160.0), (6, 30.0, 50.0)]
 )
@@ -260,6 +262,7 @@ def test_no_dense_sweep_finds_a_gentler_machine(z, low, high, gearing):
     assert mine <= min(peak for _, peak in gears) * (1 + NEAR)
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize(
     "sort", ["min:jerk.max", "max:timing.dwell_s", "min:loads.input_torque_Nm.rms"]
 )
@@ -324,6 +327,7 @@ def test_without_a_wish_for_a_motion_the_nearest_to_the_plain_crank_keeps_the_bo
     assert pytest.approx(0.25, rel=1e-7) == ours["side-crank"].candidate.A
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize(
     ("wish", "bounds", "same"),
     [
@@ -495,6 +499,7 @@ def test_the_best_that_a_bound_leaves_beside_the_end_of_a_range():
     assert side.candidate.acceleration_max <= peak[fits].min() * (1 + 1e-4)
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize(
     ("limit", "field", "most"),
     [

@@ -92,6 +92,7 @@ def test_a_play_that_fails_is_found_where_it_failed_before():
     assert Turns().some_failing(build(with_roller(spec, 4.0)), seen) == seen
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize(
     "drive, ratio", [(Crank(), "matched"), (Cam(), None)], ids=["crank", "cam"]
 )
@@ -185,6 +186,7 @@ MENDED = [  # what is found to fail with the usual roller, and the roller that m
 ]
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize("spec, name, radius", MENDED, ids=[name for _, name, _ in MENDED])
 def test_the_first_roller_that_passes_every_check_is_taken(spec, name, radius):
     """As trying one after the other has it, with all their checks."""
@@ -196,6 +198,7 @@ def test_the_first_roller_that_passes_every_check_is_taken(spec, name, radius):
     assert first.size.roller_radius_mm == radius
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize(("z", "alpha0"), [(5, 0.0), (8, 0.0), (8, -20.0)])
 def test_an_undercut_near_its_limit_is_told_as_its_check_tells_it(z, alpha0):
     """Where a look at few places is within two hundredths of the limit, at all of them."""

@@ -29,6 +29,7 @@ def sector(z, motion_deg):
         return float(mpmath.degrees(motion - mpmath.pi + 2 * b))
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize(("z", "motion"), [(3, 61.0), (3, 180.0), (5, 150.0), (24, 300.0)])
 def test_gear_sectors_move_for_as_long_as_wished(z, motion):
     (row,) = of_kind("gear-sector", motion_deg=str(motion), z=str(z))
@@ -42,6 +43,7 @@ def test_there_are_none_for_a_motion_shorter_than_the_crank_s():
     assert not of_kind("gear-sector", motion_deg="150", z="5", internal=True)
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize(("z", "most"), [(3, 6), (4, 4), (5, 3), (6, 3), (7, 2)])
 def test_first_wheels_for_a_small_share_of_the_cycle(z, most):
     """Of the second crank's half motion f the first crank makes asin(sin f / sin b) - f, where the

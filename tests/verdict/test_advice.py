@@ -146,6 +146,7 @@ NEAREST = {
 }
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize("name", NEAREST)
 def test_no_nearer_value_passes(name: str, tmp_path: Path) -> None:
     """Values between the present one and the advice all fail, up to 3% of the change from it."""

@@ -186,7 +186,7 @@ def test_peaks_begin_with_spec_and_title() -> None:
         assert tree["jerk"]["max"] == greatest
 
 
-@pytest.mark.usefixtures("read_once")
+@pytest.mark.usefixtures("read_once", "no_advice")
 def test_values_that_are_none_or_have_no_bound_are_words(tmp_path: Path) -> None:
     """An eye smaller than its pin's hole has no wall; a slot's edge bears without bound."""
     spec = written(tmp_path, "[wheel]\nz = 6\n[size]\narm_eye_mm = 1\n")
