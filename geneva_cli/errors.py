@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from contextvars import ContextVar
 
+NO_BREAK = "\u00a0"  # the space at which no line is broken
 DECIMAL_BITS = 10_000  # of the whole numbers that are shown as decimal ones
 
 
@@ -48,6 +49,18 @@ class Caution(str):
         return self.name, str(self)
 
 
+NOT_KNOWN = "not-known"  # the name of a note on a value that needs a key, which is no warning
+
+
+def is_warning(text: str) -> bool:
+    """Whether a text warns, and is not a note on what is not known.
+
+    >>> is_warning(Caution("turns-back", "")), is_warning(Caution("not-known", ""))
+    (True, False)
+    """
+    return isinstance(text, Caution) and text.name != NOT_KNOWN
+
+
 _MARKS: list[ContextVar[list[Any]]] = []  # one at most, and none before anyone marks
 
 
@@ -84,7 +97,7 @@ def marking() -> Iterator[list[Any]]:
 
 def clean(text: str) -> str:
     """Text without control characters, which could carry terminal escapes."""
-    return "".join(c if c.isprintable() else " " for c in text)
+    return "".join(c if c.isprintable() or c == NO_BREAK else " " for c in text)
 
 
 def cut(value: str | int, most: int = 60) -> str:

@@ -6,6 +6,7 @@ import importlib
 import os
 import sys
 from collections.abc import Iterable, Iterator
+from itertools import chain
 from typing import TYPE_CHECKING, Any, Protocol, cast
 
 from geneva_cli.errors import GenevaError, cut
@@ -15,6 +16,7 @@ from geneva_cli.output.formats import (
     FORMATS,
     MOVING,
     PLOTTED,
+    READ,
     drawn_as,
     format_of,
     plotted_as,
@@ -27,7 +29,7 @@ from geneva_cli.table import Table
 if TYPE_CHECKING:
     from geneva_cli.curves.drawing import Drawing
     from geneva_cli.curves.sheet import Sheet
-    from geneva_cli.document import Document
+    from geneva_cli.document import Answer, Document
     from geneva_cli.figure import Figure
     from geneva_cli.scene import Scene
 
@@ -65,12 +67,40 @@ def show(table: Table, output: str = "-", format: str = "", inputs: Iterable[str
 
     Raises GenevaError where the format is none of a table's or the file cannot be written.
     """
-    name = table_as(output, format)
+    _put(_chunks(table, output, table_as(output, format)), output, inputs)
+
+
+def _chunks(table: Table, output: str, name: str) -> Iterator[str]:
     from geneva_cli.output.finite import checked
 
     table = checked(table, _progress)
     module = cast(Format, importlib.import_module(f"geneva_cli.output.{FORMATS[name]}"))
-    _put(module.chunks(table, output == "-" and sys.stdout.isatty()), output, inputs)
+    return module.chunks(table, output == "-" and sys.stdout.isatty())
+
+
+def tell(answer: Answer, output: str = "-", format: str = "", inputs: Iterable[str] = ()) -> None:
+    """Print an answer, or write it to the file ``output``; ``inputs`` are never overwritten.
+
+    Raises GenevaError as ``show`` does.
+    """
+    name = table_as(output, format)
+    if name not in READ:
+        show(answer.data, output, format, inputs)
+        return
+    from geneva_cli.output import summary
+
+    if name == "md":
+        first = summary.markdown(answer.summaries)
+    else:
+        first = summary.chunks(answer.summaries, summary.look_of(output))
+    page = answer.page
+    rest = chain(["\n"] if name == "table" else (), _chunks(page, output, name)) if page else ()
+    _put(chain(first, rest), output, inputs)
+
+
+def is_watched(output: str, format: str) -> bool:
+    """Whether a person looks at a table at a terminal."""
+    return output == "-" and format in ("", "table") and sys.stdout.isatty()
 
 
 def draw(

@@ -45,7 +45,7 @@ def meanings(word: str) -> list[Meaning]:
         among = dict.fromkeys([*known, *(name.rpartition(".")[2] for name in known)])
         hint = nearest(word, among)
         raise GenevaError(
-            f'"{cut(word)}" is no check, quantity, kind, law, warning, part or key{hint}; '
+            f'"{cut(word)}" is no check, quantity, kind, law, warning, part, choice or key{hint}; '
             "`geneva explain` lists them"
         )
     return found
