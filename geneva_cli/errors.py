@@ -9,7 +9,6 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from contextvars import ContextVar
 
-NO_BREAK = "\u00a0"  # the space at which no line is broken
 DECIMAL_BITS = 10_000  # of the whole numbers that are shown as decimal ones
 
 
@@ -97,7 +96,7 @@ def marking() -> Iterator[list[Any]]:
 
 def clean(text: str) -> str:
     """Text without control characters, which could carry terminal escapes."""
-    return "".join(c if c.isprintable() or c == NO_BREAK else " " for c in text)
+    return "".join(c if c.isprintable() else " " for c in text)
 
 
 def cut(value: str | int, most: int = 60) -> str:

@@ -10,7 +10,6 @@ from geneva_cli.errors import clean
 
 EXAMPLES = (
     "geneva check spec.toml",
-    "geneva check spec.toml --strict",
     "geneva check spec.toml --set size.slot_clearance_mm=0.05",
 )
 

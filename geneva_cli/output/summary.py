@@ -23,17 +23,15 @@ INKS = {PASSES: "\x1b[32m", WARNS: "\x1b[33m", FAILS: "\x1b[31m"}  # green, yell
 DIM, PLAIN = "\x1b[2m", "\x1b[0m"
 # What stands for a letter that the terminal's encoding has not.
 ASCII = {
-    "\u00a0": " ",
     "✓": "ok",
     "✗": "x",
     "°": " deg",
     "²": "2",
     "³": "3",
     "Ø": "dia.",
-    "ψ": "psi",
-    "α": "alpha",
 }
 UNICODE = "✓✗°²³⁻⁵"
+NO_BREAK = "\u00a0"  # the space at which no line is broken
 POWER = re.compile(f"{TIMES}10([⁻⁰¹²³⁴⁵⁶⁷⁸⁹]+)")
 LOWERED = {raised: plain for plain, raised in RAISED.items()}
 
@@ -99,8 +97,10 @@ def _lines(lines: Iterable[Line], look: Look) -> Iterator[str]:
 
 
 def _wrapped(text: str, room: int, look: Look) -> list[str]:
-    text = _letters(clean(text), look)
-    return textwrap.wrap(text, max(room, 1), break_long_words=False, break_on_hyphens=False)
+    """A text in lines; a value is not broken from its power of ten."""
+    text = _letters(NO_BREAK.join(map(clean, text.split(NO_BREAK))), look)
+    lines = textwrap.wrap(text, max(room, 1), break_long_words=False, break_on_hyphens=False)
+    return [line.replace(NO_BREAK, " ") for line in lines]
 
 
 def _letters(text: str, look: Look) -> str:

@@ -118,7 +118,7 @@ def has(cells: set[str], told: str, value: Any) -> bool:
     """Whether a value is in a cell, alone or before its unit; a text in any text."""
     if isinstance(value, bool) or not isinstance(value, (int, float)):
         return value in told if isinstance(value, str) else shown(value) in cells
-    return shown(value) in cells
+    return shown(value).replace("\u00a0", " ") in cells
 
 
 @pytest.mark.parametrize("name", KINDS)
