@@ -277,13 +277,13 @@ class Design:
         return self._loads(for_people=False)
 
     def _loads(self, for_people: bool) -> Table:
-        from geneva_cli.analysis.loads.summary import loads_table
+        from geneva_cli.analysis.loads.summary import loads_table, missing
         from geneva_cli.verdict.strength import OF_LIFE
 
         _ = self.loads  # all quantities together, of which life needs some
         # without a load all need one, and that is said already
         needed = self.strength.missing(OF_LIFE) if self.cycle.is_loaded else []
-        said = (*self.warnings, *self.load_warnings, *self.strength.cautions(), *needed)
+        said = (*self.warnings, *missing(self.cycle), *needed)
         own = self.wheel_plate and self.wheel_plate.inertia_kgm2
         return loads_table(self.cycle, self.life, own, said, for_people)
 
@@ -329,29 +329,27 @@ class Design:
 
     @answer
     def loads_page(self) -> Table:
-        """The same for people: each quantity a row.
+        """The loads for people: each quantity a row, and what is not known; without warnings.
 
         >>> page = Design(External(6), load=Load(0.4, 15)).loads_page.to_dict()
         >>> page["loads"][0]["quantity"], round(page["loads"][0]["max"], 12)
         ('omega_rad_s', 6.28318530718)
         """
-        return self._loads(for_people=True)
+        from geneva_cli.verdict.headline import below_summary
+
+        return below_summary(self._loads(for_people=True), said=("title",))
 
     @answer
     def load_warnings(self) -> list[Caution]:
-        """What the loads' numbers alone would hide: what has no bound, and what is not known.
+        """Warnings about the loads and what the wheel carries, and the loads that are not known.
 
         >>> Design(External(6), load=Load(torque_Nm=15)).load_warnings[0]
         'contact_stress_MPa: needs face_width_mm in [size]'
         """
         from geneva_cli.analysis.loads.summary import missing
-        from geneva_cli.verdict.carried_cautions import carried_cautions
-        from geneva_cli.verdict.cycle_cautions import cycle_cautions
-        from geneva_cli.verdict.load_cautions import load_cautions
+        from geneva_cli.verdict.warnings import under_load
 
-        carried = carried_cautions(self.mechanism, self.wheel_plate)
-        of_cycle = cycle_cautions(self.cycle, self.loads)
-        return [*load_cautions(self.mechanism), *of_cycle, *carried, *missing(self.cycle)]
+        return [*under_load(self.mechanism), *missing(self.cycle)]
 
     def load_cycle(self, samples: int = 361) -> Table:
         """``samples`` rows of the loads over a period, evenly in the input angle, dwells too.
@@ -640,11 +638,11 @@ class Design:
         return self._located(lambda: histogram_table(self.mechanism, self.proof, samples, seed))
 
     @answer
-    def warnings(self) -> list[Caution]:
-        """What a number alone would hide of the motion and the slots.
+    def motion_warnings(self) -> list[Caution]:
+        """Warnings about the motion and the slots, which need neither loads nor parts.
 
         >>> shock = Design(External(6), motion=Motion(Harmonic(), ratio="matched"))
-        >>> shock.warnings[0]
+        >>> shock.motion_warnings[0]
         'the law "harmonic" starts and stops with a jump in acceleration: a soft shock at both ends'
         """
         from geneva_cli.verdict.cautions import cautions
@@ -652,21 +650,19 @@ class Design:
         return cautions(self.mechanism)
 
     @answer
-    def turn_warnings(self) -> list[Caution]:
-        """What a whole turn of the parts shows that breaks no limit; none without parts.
+    def warnings(self) -> list[Caution]:
+        """All warnings about motion, loads and parts: those of check, report and loads.
 
-        >>> Design(External(6)).turn_warnings
-        []
+        >>> [text.name for text in Design(External(30)).warnings]
+        ['many-slots']
         """
-        if not self.spec.has_parts:
-            return []
-        from geneva_cli.verdict.turn_cautions import turn_cautions
+        from geneva_cli.verdict.warnings import warnings
 
-        return turn_cautions(self.proof)
+        return warnings(self.proof)
 
     @answer
     def report(self) -> Report:
-        """The whole page: a record of named values, whether all checks pass, and the cautions.
+        """The whole page: a record of named values, whether all checks pass, and the warnings.
 
         >>> page = Design(External(6)).report
         >>> page.passes, page.table.to_dict()["timing.k_r"]
@@ -674,4 +670,4 @@ class Design:
         """
         from geneva_cli.verdict.report import report
 
-        return report(self.mechanism, self.proof, self.checks)
+        return report(self.proof, self.checks, self.warnings)

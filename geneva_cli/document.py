@@ -7,10 +7,40 @@ from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 if TYPE_CHECKING:
     from geneva_cli.curves.drawing import Drawing
     from geneva_cli.figure import Figure
+    from geneva_cli.table import Table
 
 Value: TypeAlias = float | int | str | bool | None
 Row: TypeAlias = tuple[Value, ...]
 BAD = "FAILS"  # a cell that is to be seen
+PASSES, WARNS, FAILS = "passes", "warns", "fails"  # how a design stands
+
+
+class Line(NamedTuple):
+    """One answer about a design: what it is about, the answer, and how it follows."""
+
+    label: str
+    text: str
+    note: str = ""
+    state: str = ""  # WARNS or FAILS where it is a warning or a failed check
+
+
+class Summary(NamedTuple):
+    """What a designer tells a colleague about one design: a headline, and a line an answer.
+
+    ``state`` is PASSES, WARNS or FAILS; empty where nothing is judged.
+    """
+
+    head: str
+    lines: tuple[Line, ...] = ()
+    state: str = ""
+
+
+class Answer(NamedTuple):
+    """What a command answers: summaries above a table for people, and the data for programs."""
+
+    summaries: tuple[Summary, ...]
+    page: Table | None
+    data: Table
 
 
 class Heading(NamedTuple):
@@ -70,10 +100,13 @@ Block: TypeAlias = Heading | Prose | Listed | Facts | Grid | Picture | Curves
 
 
 class Document(NamedTuple):
-    """A title, the verdict with its reasons, and then everything else."""
+    """A title, the verdict with its reasons, and then everything else.
+
+    ``state`` is PASSES, WARNS or FAILS.
+    """
 
     title: str
-    passes: bool
+    state: str
     verdict: str
     reasons: tuple[str, ...]
     blocks: tuple[Block, ...]

@@ -49,6 +49,18 @@ class Caution(str):
         return self.name, str(self)
 
 
+NOT_KNOWN = "not-known"  # the name of a note on a value that needs a key, which is no warning
+
+
+def is_warning(text: str) -> bool:
+    """Whether a text warns, and is not a note on what is not known.
+
+    >>> is_warning(Caution("turns-back", "")), is_warning(Caution("not-known", ""))
+    (True, False)
+    """
+    return isinstance(text, Caution) and text.name != NOT_KNOWN
+
+
 _MARKS: list[ContextVar[list[Any]]] = []  # one at most, and none before anyone marks
 
 

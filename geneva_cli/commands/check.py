@@ -5,7 +5,7 @@ from typing import Annotated
 
 import typer
 
-from geneva_cli.commands.options import Format, Given, Output, with_name
+from geneva_cli.commands.options import Format, Given, Output, say
 from geneva_cli.errors import clean
 
 EXAMPLES = (
@@ -16,26 +16,37 @@ EXAMPLES = (
 
 def run(
     specs: Annotated[list[str], typer.Argument(metavar="SPEC...", help="Specs, TOML files.")],
+    strict: Annotated[bool, typer.Option("--strict", help="Exit 1 on a warning too.")] = False,
+    verbose: Annotated[
+        bool, typer.Option("-v", "--verbose", help="Every check, also on a terminal.")
+    ] = False,
     given: Given = None,
     output: Output = "-",
     format: Format = "",
 ) -> None:
-    """Does the design work? One line a check; exit status 1 where one fails.
+    """Does the design work? What fails and what to change, warnings, the tightest check.
 
-    The motion, the parts and the spec's own [limits]; where a check fails, the nearest change that
-    passes. Every spec is checked, also beside one that cannot be read.
+    Checked are the motion, the parts and the spec's own [limits]. Exit status 1 where a check
+    fails. Every spec is checked, also beside one that cannot be read.
     """
-    from geneva_cli.output import show
-    from geneva_cli.study.batch import checks_table, verdicts
+    from geneva_cli.output import is_watched, tell
+    from geneva_cli.output.formats import table_as
+    from geneva_cli.study.batch import verdicts
+    from geneva_cli.study.summary.checks import of_checks
 
+    name = table_as(output, format)
     found = list(verdicts(specs, given or ()))
     judged = [v for v in found if not v.error]
     if judged:
-        show(checks_table(judged), output, format, [file for v in judged for file in v.files])
+        is_short = is_watched(output, format) and not verbose
+        answer = of_checks(judged, not is_short, name == "json")
+        tell(answer, output, format, [file for v in judged for file in v.files])
     for v in found:
-        for said in (
-            [v.error] if v.error else [f"{v.path}: warning: {with_name(c)}" for c in v.cautions]
-        ):
-            print(clean(said), file=sys.stderr)
-    if not all(v.passes for v in found):
-        raise typer.Exit(2 if len(judged) < len(found) else 1)
+        if v.error:
+            print(clean(v.error), file=sys.stderr)
+        elif output != "-" or name == "csv":
+            say(v.path, v.warnings)
+    if len(judged) < len(found):
+        raise typer.Exit(2)
+    if not all(v.passes for v in found) or (strict and any(v.warnings for v in found)):
+        raise typer.Exit(1)

@@ -4,7 +4,7 @@ from typing import Annotated
 
 import typer
 
-from geneva_cli.commands.options import Format, Given, Output, SpecPath, say, warn
+from geneva_cli.commands.options import Format, Given, Output, SpecPath, say
 
 ROWS = 361
 
@@ -27,9 +27,10 @@ def run(
 ) -> None:
     """What the motion costs: torque, forces, stress, power and bearings over a cycle.
 
-    A summary of each: greatest and least over the motions with their input angles, mean and root
-    of the mean square over the whole period, dwells included. As csv, or with --samples, the cycle
-    row by row, evenly in the input angle from the first entry; json is always the summary.
+    The motor that is recommended comes first. Then a summary of each: greatest and least over the
+    motions with their input angles, mean and root of the mean square over the whole period, dwells
+    included. As csv, or with --samples, the cycle row by row, evenly in the input angle from the
+    first entry; json is always the summary.
 
     The pin force is positive on the wall that drives the wheel, negative on the one that holds it
     back; the input's torque and power are negative where the wheel drives the input. In a dwell
@@ -43,16 +44,17 @@ def run(
     pin; one that turns (friction_at) rolls as fast instead.
     """
     from geneva_cli.design import load
-    from geneva_cli.output import show
+    from geneva_cli.output import show, tell
     from geneva_cli.output.formats import format_of
+    from geneva_cli.study.summary.loads import of_loads
 
     design = load(spec, given or ())
     name = format or format_of(output)
     by_rows = name == "csv" or (samples is not None and name != "json")
     if by_rows:
         table = design.load_cycle(ROWS if samples is None else samples)
+        show(table, output, format, design.spec.files)
     else:
-        table = design.loads_table if name == "json" else design.loads_page
-    show(table, output, format, design.spec.files)
-    warn(design)
-    say(design.spec.path, design.load_warnings)
+        tell(of_loads(design), output, format, design.spec.files)
+    if by_rows or output != "-":
+        say(design.spec.path, design.loads_table.to_dict()["warnings"])

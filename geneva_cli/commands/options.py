@@ -56,16 +56,16 @@ Format: TypeAlias = Annotated[
 
 
 def warn(design: Design) -> None:
-    """Say on standard error what a number alone would hide."""
-    say(design.spec.path, design.warnings)
+    """Print the warnings about the motion on standard error."""
+    say(design.spec.path, design.motion_warnings)
 
 
-def say(path: str, cautions: Iterable[str]) -> None:
-    """Cautions about a spec, a line each."""
-    for caution in cautions:
-        print(clean(f"{path}: warning: {with_name(caution)}"), file=sys.stderr)
+def say(path: str, warnings: Iterable[str]) -> None:
+    """Print warnings about a spec on standard error, a line each."""
+    for warning in warnings:
+        print(clean(f"{path}: warning: {with_name(warning)}"), file=sys.stderr)
 
 
-def with_name(caution: str) -> str:
-    """A caution with the name by which ``geneva explain`` has it."""
-    return f"{caution} [{caution.name}]" if isinstance(caution, Caution) else caution
+def with_name(warning: str) -> str:
+    """A warning with the name by which ``geneva explain`` has it."""
+    return f"{warning} [{warning.name}]" if isinstance(warning, Caution) else warning

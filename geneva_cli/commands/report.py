@@ -39,18 +39,19 @@ def run(
     Exit status 1 where `check` has it: where a check fails.
     """
     from geneva_cli.design import load
-    from geneva_cli.output import hand_over, show
+    from geneva_cli.output import hand_over, tell
     from geneva_cli.output.formats import is_document
+    from geneva_cli.study.summary.report import of_report
 
     is_whole = is_document(output, format)
     design = load(spec, given or ())
-    found = design.report
     if is_whole:
         from geneva_cli.study.document import document
 
         hand_over(document(design), output, format, design.spec.files)
     else:
-        show(found.table, output, format, design.spec.files)
-    say(design.spec.path, found.cautions)
-    if not found.passes:
+        tell(of_report(design), output, format, design.spec.files)
+    if output != "-":
+        say(design.spec.path, design.warnings)
+    if not design.passes:
         raise typer.Exit(1)

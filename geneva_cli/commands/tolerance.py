@@ -29,13 +29,17 @@ def run(
     contributes how much; and the clearances with which every machine still turns.
     """
     from geneva_cli.design import load
-    from geneva_cli.output import show
+    from geneva_cli.output import show, tell
+    from geneva_cli.output.formats import table_as
+    from geneva_cli.study.summary.tolerance import of_tolerance
 
     design = load(spec, given or ())
     if histogram:
         show(design.tolerance_histogram(samples, seed), output, format, design.spec.files)
         return
     table = design.tolerance(samples, seed, radius)
-    show(table, output, format, design.spec.files)
-    warn(design)
-    say(design.spec.path, table.to_dict()["warnings"])
+    tell(of_tolerance(design, table), output, format, design.spec.files)
+    if output != "-" or table_as(output, format) in ("json", "csv"):  # of tolerances alone
+        warn(design)
+    if output != "-":
+        say(design.spec.path, table.to_dict()["warnings"])

@@ -30,8 +30,9 @@ def run(
     maximum; `avoid` says where they move with stiffness 20 % lower and higher.
     """
     from geneva_cli.design import load
-    from geneva_cli.output import show
+    from geneva_cli.output import show, tell
     from geneva_cli.output.formats import format_of
+    from geneva_cli.study.summary.vibration import of_vibration
 
     design = load(spec, given or ())
     if (format or format_of(output)) == "csv":
@@ -39,5 +40,6 @@ def run(
         show(table, output, format, design.spec.files)
         return
     found = design.vibration(period_ratio, damping)
-    show(found, output, format, design.spec.files)
-    say(design.spec.path, found.to_dict()["warnings"])
+    tell(of_vibration(design, found), output, format, design.spec.files)
+    if output != "-":
+        say(design.spec.path, found.to_dict()["warnings"])

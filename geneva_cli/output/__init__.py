@@ -7,6 +7,7 @@ import os
 import sys
 from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
+from itertools import chain
 from typing import TYPE_CHECKING, Any, NamedTuple, Protocol, cast
 
 from geneva_cli.errors import GenevaError, cut
@@ -16,6 +17,7 @@ from geneva_cli.output.formats import (
     FORMATS,
     MOVING,
     PLOTTED,
+    READ,
     drawn_as,
     format_of,
     plotted_as,
@@ -28,7 +30,7 @@ from geneva_cli.table import Table
 if TYPE_CHECKING:
     from geneva_cli.curves.drawing import Drawing
     from geneva_cli.curves.sheet import Sheet
-    from geneva_cli.document import Document
+    from geneva_cli.document import Answer, Document
     from geneva_cli.figure import Figure
     from geneva_cli.scene import Scene
 
@@ -93,7 +95,10 @@ def show(table: Table, output: str = "-", format: str = "", inputs: Iterable[str
 
     Raises GenevaError where the format is none of a table's or the file cannot be written.
     """
-    name = table_as(output, format)
+    _put(_chunks(table, output, table_as(output, format)), output, inputs)
+
+
+def _chunks(table: Table, output: str, name: str) -> Iterator[str]:
     from geneva_cli.output.finite import checked
 
     table = checked(table, is_seen(output))
@@ -105,15 +110,39 @@ def show(table: Table, output: str = "-", format: str = "", inputs: Iterable[str
         from geneva_cli.output import terminal
 
         window = terminal.window(bool(choice.columns), choice.wide)
-        _put(terminal.chunks(table, window), output, inputs)
-        return
+        return terminal.chunks(table, window)
     module = cast(Format, importlib.import_module(f"geneva_cli.output.{FORMATS[name]}"))
-    _put(module.chunks(table), output, inputs)
+    return module.chunks(table)
 
 
 def is_seen(output: str) -> bool:
-    """Whether what is written there is seen on a terminal."""
+    """Return True if output goes to a terminal."""
     return output == "-" and sys.stdout.isatty()
+
+
+def tell(answer: Answer, output: str = "-", format: str = "", inputs: Iterable[str] = ()) -> None:
+    """Print an answer, or write it to the file ``output``; ``inputs`` are never overwritten.
+
+    Raises GenevaError as ``show`` does.
+    """
+    name = table_as(output, format)
+    if name not in READ or choice.columns:  # who names columns wants these alone
+        show(answer.data, output, format, inputs)
+        return
+    from geneva_cli.output import summary
+
+    if name == "md":
+        first = summary.markdown(answer.summaries)
+    else:
+        first = summary.chunks(answer.summaries, summary.look_of(output))
+    page = answer.page
+    rest = chain(["\n"] if name == "table" else (), _chunks(page, output, name)) if page else ()
+    _put(chain(first, rest), output, inputs)
+
+
+def is_watched(output: str, format: str) -> bool:
+    """Return True if a table goes to a terminal, where a person reads it."""
+    return format in ("", "table") and is_seen(output)
 
 
 def draw(

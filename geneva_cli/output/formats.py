@@ -15,6 +15,7 @@ FORMATS = {
     "json": "jsonfile",
     "md": "markdown",
 }
+READ = ("table", "md")  # by people: a summary stands above the table
 # of drawings only; they are written in FORMATS as tables
 DRAWN = {"dxf": "dxf", "svg": "svg", "step": "step"}
 SMOOTH = ("step",)  # in which a wall is one face where it is a spline, and a hundred of arcs

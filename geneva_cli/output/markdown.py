@@ -14,23 +14,23 @@ ESCAPES = {"&": "&amp;", "<": "&lt;", ">": "&gt;", **{c: f"\\{c}" for c in "\\`*
 def chunks(table: Table) -> Iterator[str]:
     """The table, line by line."""
     if table.title:
-        yield f"# {_escaped(table.title)}\n\n"
+        yield f"# {escaped(table.title)}\n\n"
     if table.prose:
-        yield f"{_escaped(table.prose)}\n\n"
+        yield f"{escaped(table.prose)}\n\n"
     if table.record:
         yield "| quantity | value |\n| --- | ---: |\n"
         table = flat(table)
         for name, value in zip(table.names, next(table.rows()), strict=True):
-            yield f"| {_escaped(name)} | {_escaped(value)} |\n"
+            yield f"| {escaped(name)} | {escaped(value)} |\n"
         return
     if not table.names:  # nothing is left of it but what it says
         return
-    yield "| " + " | ".join(map(_escaped, table.names)) + " |\n"
+    yield "| " + " | ".join(map(escaped, table.names)) + " |\n"
     yield "| " + " | ".join(["---:"] * len(table.names)) + " |\n"
     for row in table.rows():
-        yield "| " + " | ".join(_escaped(v) for v in row) + " |\n"
+        yield "| " + " | ".join(escaped(v) for v in row) + " |\n"
 
 
-def _escaped(value: object) -> str:
+def escaped(value: object) -> str:
     """A value that means itself: a title is a user's text, and may look like HTML or Markdown."""
     return "".join(ESCAPES.get(c, c) for c in cell(value))

@@ -8,15 +8,20 @@ ASCII, and the same bytes on every run.
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Iterator, Sequence
 from typing import NamedTuple
 
+from geneva_cli.curves import helvetica
 from geneva_cli.curves.measure import halves
 from geneva_cli.curves.shapes import Arc, Circle, Contour, Cubic, Point, Segment, Shape, about
 from geneva_cli.errors import clean
 
 POINT = 72.0 / 25.4  # of PDF, in a millimetre
 QUARTER = 0.415  # bulge of an arc of 90 degrees, and a little: what one cubic stands for
+# a power of ten is raised: its size and its height, over that of the text
+EXPONENT = re.compile(r"(?<=10)\^(-?\d+)")
+EXPONENT_SIZE, EXPONENT_RISE = 0.7, 0.33
 FONTS = ("Helvetica", "Helvetica-Bold")  # F1 and F2
 
 
@@ -110,7 +115,20 @@ def text(words: str, at: Point, size: float, turn: float = 0.0, font: int = 1) -
     """A text from its first letter's base line on; ``turn`` is in radians."""
     c, s = math.cos(turn), math.sin(turn)
     matrix = " ".join(number(v) for v in (c, s, -s, c, *at))
-    return f"BT /F{font} {number(size)} Tf {matrix} Tm ({_escaped(words)}) Tj ET\n"
+    first, *others = EXPONENT.split(words)
+    shown = f"({_escaped(first)}) Tj"
+    for i, part in enumerate(others):
+        tall, rise = (size, 0.0) if i % 2 else (EXPONENT_SIZE * size, EXPONENT_RISE * size)
+        shown += f" /F{font} {number(tall)} Tf {number(rise)} Ts ({_escaped(part)}) Tj"
+    return f"BT /F{font} {number(size)} Tf {matrix} Tm {shown}{' 0 Ts' * bool(others)} ET\n"
+
+
+def wide(words: str, size: float, bold: bool = False) -> float:
+    """A text's width in Helvetica, as ``text`` shows it."""
+    parts = EXPONENT.split(words)
+    sizes = (EXPONENT_SIZE * size if i % 2 else size for i in range(len(parts)))
+    widths = (helvetica.width(part, bold) * tall for part, tall in zip(parts, sizes, strict=True))
+    return helvetica.CAPITALS * sum(widths)
 
 
 def _escaped(words: str) -> str:

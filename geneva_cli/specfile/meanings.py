@@ -46,8 +46,8 @@ def meanings(word: str) -> list[Meaning]:
         among = dict.fromkeys([*known, *(name.rpartition(".")[2] for name in known)])
         hint = nearest(word, among)
         raise GenevaError(
-            f'"{cut(word)}" is not a check, quantity, kind, law, warning, part or key{hint}; '
-            "`geneva explain` lists them"
+            f'"{cut(word)}" is not a check, quantity, kind, law, warning, part, choice or '
+            f"key{hint}; `geneva explain` lists them"
         )
     return known_meanings
 

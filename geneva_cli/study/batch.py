@@ -7,22 +7,23 @@ from functools import partial
 from typing import NamedTuple
 
 from geneva_cli.design import load
-from geneva_cli.errors import GenevaError
+from geneva_cli.errors import Caution, GenevaError
 from geneva_cli.progress import tracked
 from geneva_cli.study.pool import cores, mapped
-from geneva_cli.table import Table, rows_table
+from geneva_cli.table import Table, record_table, rows_table
 from geneva_cli.verdict.checks import Check, all_pass
 
+WARNINGS = ("spec", "name", "text")
 NAMES = ("spec", "check", "value", "at_deg", "must_be", "limit", "passes", "nearest", "why")
 
 
 class Verdict(NamedTuple):
-    """The checks and cautions of one spec, or why it could not be read."""
+    """The checks and warnings of one spec, or why it could not be read."""
 
     path: str
     files: tuple[str, ...] = ()  # all files from which the design was read
     checks: tuple[Check, ...] = ()
-    cautions: tuple[str, ...] = ()
+    warnings: tuple[Caution, ...] = ()
     error: str = ""
 
     @property
@@ -35,8 +36,8 @@ def verdict(path: str, given: Sequence[str] = ()) -> Verdict:
     """The verdict on one spec, with keys ``given`` set over its own; never raises GenevaError."""
     try:
         design = load(path, given)
-        told = (*design.warnings, *design.turn_warnings)
-        return Verdict(design.spec.path, design.spec.files, tuple(design.checks), told)
+        checks, warnings = tuple(design.checks), tuple(design.warnings)
+        return Verdict(design.spec.path, design.spec.files, checks, warnings)
     except GenevaError as error:
         return Verdict(path, error=str(error))
 
@@ -50,7 +51,7 @@ def verdicts(paths: list[str], given: Sequence[str] = ()) -> Iterator[Verdict]:
         yield judge(path) if path == "-" else next(found)
 
 
-def checks_table(found: list[Verdict]) -> Table:
+def checks_table(found: Sequence[Verdict]) -> Table:
     """A row for each check, spec after spec."""
     rows = [
         (v.path, c.name, c.value, c.at_deg, c.must_be, c.limit, c.passes, c.nearest, c.why)
@@ -58,3 +59,15 @@ def checks_table(found: list[Verdict]) -> Table:
         for c in v.checks
     ]
     return rows_table(NAMES, rows)
+
+
+def checks_record(found: Sequence[Verdict]) -> Table:
+    """The checks, whether all of them pass, and the warnings: what json holds."""
+    warnings = [(v.path, w.name, str(w)) for v in found for w in v.warnings]
+    return record_table(
+        {
+            "rows": checks_table(found),
+            "passes": all(v.passes for v in found),
+            "warnings": rows_table(WARNINGS, warnings),
+        }
+    )

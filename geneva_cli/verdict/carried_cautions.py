@@ -48,7 +48,7 @@ def _itself(spec: Spec, plate: MassProperties | None) -> list[Caution]:
     return [
         Caution(
             "wheel-left-out",
-            f"the wheel's own inertia, {own:.4g} kg m2 of the wheel as it is drawn, is "
+            f"the wheel's own inertia, {own:.4g} kg m² of the wheel as it is drawn, is "
             f"{100.0 * own / given:.3g} % of the {given:.4g} that are counted; if they leave it "
             f"out, add {helps}",
         )
@@ -106,7 +106,7 @@ def _unheard_of(spec: Spec) -> Iterator[Caution]:
         if density is not None and not FOAM_KGM3 <= density <= OSMIUM_KGM3:
             what = "lighter than foam" if density < FOAM_KGM3 else "heavier than osmium"
             other = 1e3 * density if density < FOAM_KGM3 else 1e-3 * density
-            unit = "g/cm3" if density < FOAM_KGM3 else "g/m3"
+            unit = "g/cm³" if density < FOAM_KGM3 else "g/m³"
             yield Caution(
                 "unlikely-material",
                 f"density_kgm3 = {density:g} in {table} is {what}: {density:g} {unit} would be "

@@ -200,7 +200,7 @@ def _loose(mechanism: Mechanism) -> list[Caution]:
     drive = positive_drive(mechanism)
     if drive is None or not drive.loose_deg:
         return []
-    where = ", ".join(f"{a:.4g} to {b:.4g}" for a, b in drive.loose_deg)
+    where = ", ".join(f"{round(a, 9):.4g} to {round(b, 9):.4g}" for a, b in drive.loose_deg)
     return [
         Caution(
             "not-positively-driven",

@@ -91,10 +91,10 @@ def _heavy(cycle: Cycle) -> list[Caution]:
     return [
         Caution(
             "heavy-inertia",
-            f"an inertia of {inertia:.4g} kg m2 is more than that of a solid steel table "
-            f"{1e3 * ACROSS * L:.4g} mm across and {1e3 * THICK * L:.4g} thick ({most:.3g} kg m2), "
-            f"on a wheel of {1e3 * L:.4g} mm centre distance: {inertia:.4g} kg cm2 would be "
-            f"{1e-4 * inertia:.4g} kg m2",
+            f"an inertia of {inertia:.4g} kg m² is more than that of a solid steel table "
+            f"{1e3 * ACROSS * L:.4g} mm across and {1e3 * THICK * L:.4g} thick ({most:.3g} kg m²), "
+            f"on a wheel of {1e3 * L:.4g} mm centre distance: {inertia:.4g} kg cm² would be "
+            f"{1e-4 * inertia:.4g} kg m²",
         )
     ]
 

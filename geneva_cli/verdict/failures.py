@@ -51,10 +51,20 @@ def failures(rows: list[Check], proof: Proof) -> tuple[str, list[str]]:
 
 def in_words(c: Check, parts: str = "parts") -> str:
     """A failing check in words; ``parts`` names those that overlap."""
+    shown = in_digits(c.value or 0.0, 6)
+    general = f"{c.name} is {shown}{_where(c)}; it must be {c.must_be} {c.limit or 0.0:.6g}"
+    return meaning(c, parts) or general
+
+
+def _where(c: Check) -> str:
+    return "" if c.at_deg is None else f" at input angle {c.at_deg:.6g} deg"
+
+
+def meaning(c: Check, parts: str = "parts") -> str:
+    """What it means that a check fails; empty where its value says it all."""
     from geneva_cli.verdict.checks.walls import NO_WALL
 
-    where = "" if c.at_deg is None else f" at input angle {c.at_deg:.6g} deg"
-    value, limit = c.value or 0.0, c.limit or 0.0
+    where, value, limit = _where(c), c.value or 0.0, c.limit or 0.0
     if c.name == "gap_mm":
         return f"{parts} overlap by {-value:.4g} mm{where}"
     if c.name == "idle_roller_mm":
@@ -78,5 +88,4 @@ def in_words(c: Check, parts: str = "parts") -> str:
             f"in its slot the roller leaves the wheel {value:.4g} deg either way{where}, more than "
             f"{limit:.4g}"
         )
-    shown = in_digits(value, 6)
-    return f"{c.name} is {shown}{where}; it must be {c.must_be} {limit:.6g}"
+    return ""

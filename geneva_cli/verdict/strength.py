@@ -11,6 +11,7 @@ import numpy as np
 
 from geneva_cli.analysis.loads.summary import PARALLEL
 from geneva_cli.analysis.strength import horn, lock, shafts
+from geneva_cli.errors import Caution
 from geneva_cli.parts.sizes import sized
 from geneva_cli.verdict.quantities.designs import single
 from geneva_cli.verdict.quantities.groups import REPORT, only
@@ -50,7 +51,7 @@ class Strength:
         """The values of ``LIFE``, by these names."""
         return {name: self[f"life.{name}"] for name in LIFE}
 
-    def cautions(self) -> list[str]:
+    def cautions(self) -> list[Caution]:
         """What a stress that is known leaves out."""
         sizes = self.load.lock_sizes
         if sizes is None or self["strength.horn.stress_MPa"] is None:
@@ -60,9 +61,12 @@ class Strength:
         if stout <= horn.THICK:
             return []
         return [
-            f"horn_stress_MPa is that of a slender beam, and this wheel's horns are {stout:.3g} "
-            f"times as thick at the mouth as their recess's radius ({recess:.4g} mm): it is "
-            "7 % too small at half of that radius, and more beyond"
+            Caution(
+                "stout-horns",
+                "horn_stress_MPa is that of a slender beam, and this wheel's horns are "
+                f"{stout:.3g} times as thick at the mouth as their recess's radius ({recess:.4g} "
+                "mm): it is 7 % too small at half of that radius, and more beyond",
+            )
         ]
 
     def reason(self, name: str) -> str | None:

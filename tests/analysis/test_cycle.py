@@ -258,7 +258,7 @@ def test_each_null_names_its_key():
 @pytest.mark.parametrize(
     ("keys", "said"),
     [
-        ("[load]\ninertia_kgm2 = 4000\n", "4000 kg cm2 would be 0.4 kg m2"),
+        ("[load]\ninertia_kgm2 = 4000\n", "4000 kg cm² would be 0.4 kg m²"),
         ("[drive]\nn_rpm = 1e6\n", "faster than sound"),
     ],
 )
@@ -271,5 +271,5 @@ def test_absurd_units_are_said(keys, said):
 def test_no_design_of_ours_is_absurd(path):
     cycle = Cycle(load(str(path)))
     said = " ".join(cycle_cautions(cycle, summaries(cycle)))
-    assert "kg cm2" not in said
+    assert "kg cm²" not in said
     assert "sound" not in said

@@ -23,7 +23,6 @@ from geneva_cli.machine.mechanism import build
 from geneva_cli.numerics.scan import hopeful, scan
 from geneva_cli.spec.tables import Limits, Load, Size
 from geneva_cli.verdict.load_cautions import load_cautions
-from geneva_cli.verdict.report import report
 
 OMEGA = 2.0 * math.pi
 BOTH = Load(0.02, 3.0, friction=0.1)
@@ -221,7 +220,7 @@ def test_a_limit_that_no_speed_keeps():
     mechanism = build(Spec(Wheel(6), load=Load(0.0, 5.0), limits=Limits(pin_force_max_N=20.0)))
     assert loads.fastest_rpm(mechanism) is None
     assert any("no speed keeps pin_force_max_N = 20" in t for t in load_cautions(mechanism))
-    table = report(mechanism).table
+    table = Design.of(mechanism.spec).report.table
     row = dict(zip(table.names, table.columns, strict=True))
     assert list(row["timing.shortest_motion_s"]) == [None]
 

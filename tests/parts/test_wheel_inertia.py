@@ -188,8 +188,8 @@ def test_a_material_in_another_unit_is_said():
     assert stiff.endswith(
         "[material.wheel] is stiffer than diamond (1220): 210000 MPa would be 210"
     )
-    assert heavy.endswith("in [[mass]] is heavier than osmium: 7.85e+06 g/m3 would be 7850")
-    assert light.endswith("[material.roller] is lighter than foam: 7.85 g/cm3 would be 7850")
+    assert heavy.endswith("in [[mass]] is heavier than osmium: 7.85e+06 g/m³ would be 7850")
+    assert light.endswith("[material.roller] is lighter than foam: 7.85 g/cm³ would be 7850")
 
 
 def test_no_design_of_ours_is_out_of_all_measure():

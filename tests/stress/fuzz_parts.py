@@ -16,13 +16,13 @@ from fuzzing import campaign, strictly
 from geneva_cli.analysis.motion import motion_table
 from geneva_cli.analysis.peaks import peaks_table
 from geneva_cli.curves.pieces import pieces_table
+from geneva_cli.design import Design
 from geneva_cli.errors import GenevaError
 from geneva_cli.parts.catalogue import DRAWINGS, PARTS, is_table, part_drawing, part_table
 from geneva_cli.parts.proof import Proof
 from geneva_cli.study.batch import Verdict, checks_table
 from geneva_cli.table import flat
 from geneva_cli.verdict.advice import judged
-from geneva_cli.verdict.report import report
 
 SECONDS = 30  # of one machine with all that is made of it
 TOLERANCE = 0.01  # mm at L = 100, of the drawings
@@ -50,7 +50,9 @@ def one(text):
         consistent(found)
         sound(flat(peaks_table(found)))
         sound(motion_table(found, 97))
-        tried(lambda: flat(report(found).table))  # loads that would be rounding are refused
+        tried(
+            lambda: flat(Design.of(found.spec).report.table)
+        )  # loads that would be rounding are refused
         tried(lambda: checks_table([Verdict("", checks=tuple(judged(found)))]))
         tolerance = TOLERANCE * found.center_distance_mm / 100.0
         for part in PARTS:

@@ -9,7 +9,7 @@ import repo
 from typer.testing import CliRunner
 from words import Drive, Motion, Spec, Wheel, load
 
-from geneva_cli import Design
+from geneva_cli import Design, design
 from geneva_cli.analysis.loads.cycle import cycle_of
 from geneva_cli.app import app
 from geneva_cli.errors import GenevaError
@@ -288,3 +288,12 @@ def test_different_materials(tmp_path: Path):
     assert limits["pin_stress_MPa"] == 150.0
     assert limits["horn_stress_MPa"] == limits["lock_horn_stress_MPa"] == 3.0
     assert found.exit_code == 0
+
+
+def test_horns_that_are_no_slender_beams_are_said():
+    """A locking disc of 40 mm leaves horns of 1.09 times that at the mouth; of 60 mm, less."""
+    turret = str(DESIGNS / "turret.toml")
+    (said,) = design.load(turret, ["size.lock_radius_mm=40"]).strength.cautions()
+    assert said.name == "stout-horns"
+    assert "1.09 times as thick" in said
+    assert design.load(turret, ["size.lock_radius_mm=60"]).strength.cautions() == []

@@ -56,7 +56,7 @@ def oscillator(
     ratio = period_ratio_of(mechanism, shaft.stiffness_Nm_rad, inertia)
     if ratio not in RATIO:
         raise GenevaError(
-            f"stiffness_Nm_rad = {shaft.stiffness_Nm_rad:g} with {inertia:g} kg m2 makes a period "
+            f"stiffness_Nm_rad = {shaft.stiffness_Nm_rad:g} with {inertia:g} kg m² makes a period "
             f"ratio (motion time / natural period) of {ratio:.4g}; it must be {RATIO_SAID}",
             STIFFNESS,
         )

@@ -20,6 +20,7 @@ GROUPS = {  # a file each, and what one of its entries is
     "laws": "law",
     "warnings": "warning",
     "parts": "part",
+    "choices": "choice",
 }
 _LABEL = re.compile(r"^(Formula|Unit|Source|To do|Proof): ", re.MULTILINE)
 

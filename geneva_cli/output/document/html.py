@@ -23,6 +23,7 @@ from geneva_cli.errors import clean
 from geneva_cli.output import plot_svg, svg
 from geneva_cli.output.document.inline import inline
 from geneva_cli.output.document.values import is_number, shown
+from geneva_cli.output.summary import SIGNS
 
 WIDE = 4  # columns that a phone has room for
 SHORT = 12  # letters that are not broken into lines
@@ -32,13 +33,13 @@ NUMBER, BRIEF, WORST = ' class="n"', ' class="s"', ' class="bad"'
 def chunks(document: Document) -> Iterator[str]:
     """The page's text; the same document gives the same bytes."""
     title = _text(document.title)
-    sign, name = ("✓", "passes") if document.passes else ("✗", "fails")
     yield (
         '<!DOCTYPE html>\n<html lang="en">\n<head>\n<meta charset="utf-8">\n'
         '<meta name="viewport" content="width=device-width, initial-scale=1">\n'
         f"<title>{title}</title>\n<style>\n{_style()}</style>\n</head>\n<body>\n<main>\n"
-        f'<h1>{title}</h1>\n<section class="verdict {name}" aria-label="Verdict">\n'
-        f'<p><span aria-hidden="true">{sign}</span> {_text(document.verdict)}</p>\n'
+        f'<h1>{title}</h1>\n<section class="verdict {document.state}" aria-label="Verdict">\n'
+        f'<p><span aria-hidden="true">{SIGNS[document.state]}</span> '
+        f"{_text(document.verdict)}</p>\n"
     )
     yield from _list(document.reasons)
     yield "</section>\n"
@@ -89,11 +90,11 @@ def _grid(grid: Grid) -> Iterator[str]:
         f'<th scope="col"{side if side == NUMBER else ""}>{_text(head)}</th>'
         for head, side in zip(grid.heads, sides, strict=True)
     )
+    head = f"<thead><tr>{heads}</tr></thead>\n" if any(grid.heads) else ""
     wide = " wide" if len(grid.heads) > WIDE else ""
     yield (
         f'<div class="grid{wide}" tabindex="0">\n'
-        f"<table>\n<caption>{_text(grid.caption)}</caption>\n<thead><tr>{heads}</tr></thead>\n"
-        "<tbody>\n"
+        f"<table>\n<caption>{_text(grid.caption)}</caption>\n{head}<tbody>\n"
     )
     for first, *rest in grid.rows:
         yield f'<tr><th scope="row">{_text(shown(first))}</th>'

@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Iterator
 from typing import NamedTuple
 
-from geneva_cli.curves import helvetica
 from geneva_cli.output import pdf_file
 from geneva_cli.output.letters import western
 from geneva_cli.output.pdf_file import POINT, Page, number
@@ -16,7 +15,7 @@ WIDE = WIDTH - 2.0 * LEFT
 BODY, SMALL = 3.4, 2.8  # sizes of letters
 LEADING = 1.32  # from line to line, over the letters' size
 INK, SOFT, LINE, BAND = "0.1 0.12 0.14", "0.35 0.39 0.43", "0.8 0.83 0.86", "0.95 0.96 0.97"
-RED, GREEN = "0.7 0.15 0.12", "0.1 0.42 0.2"
+RED, AMBER, GREEN = "0.7 0.15 0.12", "0.48 0.31 0", "0.1 0.42 0.2"
 
 
 class Item(NamedTuple):
@@ -94,7 +93,7 @@ def box(x: float, y: float, long: float, high: float, ink: str) -> str:
 
 def wide(text: str, size: float, bold: bool = False) -> float:
     """A text's width."""
-    return helvetica.width(western(text), bold) * helvetica.CAPITALS * size
+    return pdf_file.wide(western(text), size, bold)
 
 
 def lines(text: str, size: float, room: float, bold: bool = False) -> list[str]:

@@ -5,6 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from geneva_cli.document import (
+    FAILS,
+    PASSES,
+    WARNS,
     Block,
     Curves,
     Document,
@@ -18,6 +21,7 @@ from geneva_cli.document import (
 from geneva_cli.errors import clean
 from geneva_cli.output import pdf_file, plot_pdf
 from geneva_cli.output.document.paper import (
+    AMBER,
     BODY,
     GREEN,
     INK,
@@ -37,6 +41,7 @@ from geneva_cli.output.document.pdf_drawing import drawing
 from geneva_cli.output.document.pdf_table import facts, grid
 from geneva_cli.output.letters import western
 
+INKS = {PASSES: GREEN, WARNS: AMBER, FAILS: RED}
 TITLE, HEAD, VERDICT = 6.4, 4.4, 4.2
 STEP = LEADING * BODY
 MARK = 4.0  # before a text of a list
@@ -53,7 +58,7 @@ def _items(document: Document) -> Iterator[Item]:
     for text in lines(clean(document.title), TITLE, WIDE, bold=True):
         yield _line(text, TITLE, bold=True)
     yield _gap(2.0, keeps=True)
-    ink = GREEN if document.passes else RED
+    ink = INKS[document.state]
     for text in lines(document.verdict, VERDICT, WIDE - 2.0 * MARK, bold=True):
         yield _barred(text, VERDICT, ink, bold=True)
     for reason in document.reasons:

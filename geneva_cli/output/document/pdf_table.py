@@ -41,9 +41,11 @@ def grid(table: Grid) -> Iterator[Item]:
     room = _widths(table.heads, rows)
     head = _row(table.heads, right, room, bold=True)
     yield from _caption(table.caption)
-    yield head._replace(keeps=True)
+    has_head = any(table.heads)
+    if has_head:
+        yield head._replace(keeps=True)
     for row in rows:
-        yield _row(row, right, room)._replace(head=head)
+        yield _row(row, right, room)._replace(head=head if has_head else None)
     yield _space()
 
 

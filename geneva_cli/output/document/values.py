@@ -6,23 +6,23 @@ import math
 
 from geneva_cli.document import Row, Value
 from geneva_cli.errors import GenevaError, clean
-from geneva_cli.table import in_digits
+from geneva_cli.table import NO_BOUND, in_digits
 
 DIGITS = 6
 TIMES = "\u00a0×\u00a0"  # spaces at which no line is broken
 RAISED = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 
 
-def shown(value: Value | Row, unit: str = "") -> str:
+def shown(value: Value | Row, unit: str = "", digits: int = DIGITS) -> str:
     """A value with its unit. Raises GenevaError for a number that is none, a fault of ours.
 
     >>> shown(182.612895, "°"), shown(53.17, "W/m²"), shown(None), shown(True)
     ('182.613°', '53.17 W/m²', '–', 'yes')
     """
     if isinstance(value, tuple):
-        return ", ".join(shown(one, unit) for one in value) or "none"
-    text = _bare(value)
-    if not unit or value is None or not is_number(value):
+        return ", ".join(shown(one, unit, digits) for one in value) or "none"
+    text = _bare(value, digits)
+    if not unit or value is None or not is_number(value) or text == NO_BOUND:
         return text
     return f"{text}°" if unit == "°" else f"{text} {unit}"
 
@@ -32,7 +32,7 @@ def is_number(value: object) -> bool:
     return value is None or (isinstance(value, (int, float)) and not isinstance(value, bool))
 
 
-def _bare(value: Value) -> str:
+def _bare(value: Value, digits: int) -> str:
     if value is None:
         return "–"
     if isinstance(value, bool):
@@ -44,5 +44,5 @@ def _bare(value: Value) -> str:
             "a value of the report is not a number, which is a fault of this program; please "
             "report it with the spec"
         )
-    digits, _, power = in_digits(value, DIGITS).partition("e")
-    return f"{digits}{TIMES}10{str(int(power)).translate(RAISED)}" if power else digits
+    number, _, power = in_digits(value, digits).partition("e")
+    return f"{number}{TIMES}10{str(int(power)).translate(RAISED)}" if power else number

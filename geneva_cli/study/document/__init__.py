@@ -8,9 +8,10 @@ from __future__ import annotations
 
 from geneva_cli.design import Design
 from geneva_cli.document import Document, Prose
-from geneva_cli.study.document import answers, judged, pictures
-from geneva_cli.study.document.given import inputs
+from geneva_cli.study.document import answers, given, judged, pictures
+from geneva_cli.study.document.figures import key_figures
 from geneva_cli.study.document.left import Left
+from geneva_cli.study.summary.named import title_of
 
 
 def document(design: Design) -> Document:
@@ -18,20 +19,21 @@ def document(design: Design) -> Document:
 
     >>> from geneva_cli.study.document import document
     >>> page = document(Design(External(6)))
-    >>> page.title, page.passes, page.verdict
-    ('Geneva wheel of 6 slots', True, 'Passes all 14 checks')
+    >>> page.title, page.state, page.verdict
+    ('Geneva wheel of 6 slots', 'passes', 'All 14 checks pass')
     """
-    report = design.report
-    table = report.table
+    table = design.report.table
     left = Left(dict(zip(table.names, next(table.rows()), strict=True)))
-    title = left.one("title") or f"Geneva wheel of {design.spec.wheel.z} slots"
-    left.one("spec")
+    for name in ("spec", "title"):
+        left.one(name)
     left.take("inputs")  # all of them, and more, are in the spec
-    verdict, reasons = judged.verdict(design, left)
+    state, verdict, reasons = judged.verdict(design, left)
     blocks = (
         Prose(table.prose),
         *pictures.drawn(design),
-        *inputs(design.spec),
+        key_figures(design),
+        *judged.warned(left),
+        *given.inputs(design.spec),
         *answers.timing(left, design.spec.drive.n_rpm),
         *pictures.curves(design),
         *answers.loads(design, left),
@@ -41,5 +43,6 @@ def document(design: Design) -> Document:
         *answers.swinging(left),
         *answers.parts(left),
         *judged.said(design, left),
+        *given.defaults(design.spec),
     )
-    return Document(title, report.passes, verdict, reasons, blocks)
+    return Document(title_of(design), state, verdict, reasons, blocks)

@@ -10,7 +10,7 @@ from geneva_cli.analysis.loads.summary import Summary
 from geneva_cli.design import Design
 from geneva_cli.document import Block, Facts, Grid, Heading, Listed, Row
 from geneva_cli.study.document.left import Left, grid
-from geneva_cli.study.document.named import capital, fact, facts, is_known, unit_of
+from geneva_cli.study.document.named import capital, fact, facts, unit_of
 from geneva_cli.table import Table
 
 BESIDE = 6  # engagements that a page is wide enough for
@@ -67,7 +67,7 @@ def _each(stations: Table | None) -> Iterator[Block]:
 
 
 def loads(design: Design, left: Left) -> Iterator[Block]:
-    """The cycle under load, sizing, and blows; without a load the motion alone."""
+    """The cycle under load, sizing, and impacts; without a load the motion alone."""
     own = {name: left.take(name) for name in ("loads", "cycle")}
     page = design.loads_page.to_dict()
     yield Heading("Loads")
@@ -83,7 +83,7 @@ def loads(design: Design, left: Left) -> Iterator[Block]:
     }
     yield from facts("Of the loads", more)
     for name in ("entry", "reversal"):
-        caption = "Blow at entry" if name == "entry" else "Blow where the roller changes walls"
+        caption = "Impact at entry" if name == "entry" else "Impact where the roller changes walls"
         yield from facts(caption, left.take(f"shock.{name}"))
     sizing = {n.partition(".")[2]: v for n, v in page.items() if n.startswith("sizing.")}
     found = facts("What it takes", sizing)
@@ -136,15 +136,32 @@ CAPTIONS = {
     "dimension": "Dimensions",
     "missing": "Not built",
 }
+# The list of parts in two tables, each as wide as a page: what a part is, and where it is.
+PLACED = (
+    *("density_kgm3", "z_low_mm", "z_high_mm", "centroid_x_mm", "centroid_y_mm", "inertia_kgm2"),
+)
+WHAT = ("count", "material", "thickness_mm", "size_x_mm", "size_y_mm", "mass_kg")
 
 
 def parts(left: Left) -> Iterator[Block]:
     """The list of parts, pivots and dimensions."""
     tables: dict[str, Any] = left.take("parts_list")
-    if any(is_known(table) for table in tables.values()):
+    if any(table is not None for table in tables.values()):
         yield Heading("Parts list")
     for name, caption in CAPTIONS.items():
-        if is_known(tables.get(name)):
-            found = grid(caption, tables[name])
-            rows = (tuple("°" if cell == "deg" else cell for cell in row) for row in found.rows)
-            yield found._replace(rows=tuple(rows))
+        table: Table | None = tables.get(name)
+        if table is None:
+            continue
+        if name == "part":
+            yield grid(caption, _columns(table, ("name", *WHAT)))
+            yield grid("Places, densities and inertias", _columns(table, ("name", *PLACED)))
+            continue
+        found = grid(caption, table)
+        rows = (tuple("°" if cell == "deg" else cell for cell in row) for row in found.rows)
+        yield found._replace(rows=tuple(rows))
+
+
+def _columns(table: Table, names: tuple[str, ...]) -> Table:
+    """Some columns of a table."""
+    columns = dict(zip(table.names, table.columns, strict=True))
+    return Table(names, [columns[name] for name in names])

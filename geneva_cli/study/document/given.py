@@ -1,43 +1,54 @@
-"""The inputs of a design: every key of its spec, given or by default."""
+"""The inputs of a design: the keys that its spec gives, and those at their defaults."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
+from typing import Any
 
-from geneva_cli.document import Block, Grid, Heading, Prose, Row
+from geneva_cli.document import Block, Fact, Facts, Grid, Heading
 from geneva_cli.machine.spec import Spec
-from geneva_cli.spec.schema import fields
+from geneva_cli.spec.schema import Field, fields
 from geneva_cli.specfile.writer import keys_of, values_of
 from geneva_cli.study.document.named import unit_of
 
-HEADS = ("Key", "Value", "Unit", "Given", "Meaning")
+HEADS = ("Key", "Value", "Unit", "Meaning")
 
 
 def inputs(spec: Spec) -> Iterator[Block]:
-    """The keys in the order of a file, those that follow from the rest in a sentence after them."""
-    rows: list[Row] = []
-    absent: list[str] = []
+    """The keys that are set, in the order of a file."""
+    rows = [
+        (f"{name}.{key.key}", _shown(value), unit_of(key.key), key.meaning)
+        for name, key, value in _known(spec)
+        if value != key.default
+    ]
+    yield Heading("Inputs")
+    yield Grid("Keys that are set; the appendix has those at their defaults", HEADS, tuple(rows))
+
+
+def defaults(spec: Spec) -> Iterator[Block]:
+    """The keys at their defaults, in the order of a file."""
+    facts = (
+        Fact(f"{name}.{key.key}", _shown(value), unit_of(key.key))
+        for name, key, value in _known(spec)
+        if value == key.default
+    )
+    yield Heading("Appendix: keys at their defaults")
+    yield Facts("", tuple(facts))
+
+
+def _known(spec: Spec) -> Iterator[tuple[str, Field, Any]]:
+    """Table, key and value of each key that has a value, in the order of a file."""
     law_keys = fields(type(spec.motion.law)) if spec.motion else ()
     for table, keys in keys_of(type(spec.wheel), type(spec.drive), law_keys).items():
         several = values_of(spec, table)
-        if not several:
-            absent.append(table)
         for number, values in enumerate(several):
             name = table if len(several) < 2 else f"{table}.{number}"
             for key in keys:
-                value = values[key.key]
-                if value is None:
-                    absent.append(f"{name}.{key.key}")
-                    continue
-                shown = ", ".join(map(_plain, value)) if isinstance(value, tuple) else value
-                how = "default" if value == key.default else "yes"
-                whole = f"{name}.{key.key}"
-                rows.append((whole, shown, unit_of(key.key), how, key.meaning))
-    yield Heading("Inputs")
-    yield Grid("Keys of the spec", HEADS, tuple(rows))
-    if absent:
-        yield Prose(f"Not given, and following from the rest or not known: {', '.join(absent)}.")
+                if values[key.key] is not None:
+                    yield name, key, values[key.key]
 
 
-def _plain(value: float) -> str:
-    return f"{value:.6g}"
+def _shown(value: Any) -> Any:
+    if isinstance(value, tuple):
+        return ", ".join(f"{one:.6g}" for one in value)
+    return value

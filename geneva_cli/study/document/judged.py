@@ -1,4 +1,4 @@
-"""What is to be thought of a design: the verdict, each check, and what else is to be said."""
+"""The verdict on a design, each check, the warnings, and what is not known."""
 
 from __future__ import annotations
 
@@ -8,7 +8,9 @@ from geneva_cli.analysis.loads.summary import missing
 from geneva_cli.design import Design
 from geneva_cli.document import BAD, Block, Grid, Heading, Listed, Prose
 from geneva_cli.study.document.left import Left
+from geneva_cli.study.document.named import capital
 from geneva_cli.study.document.sources import sources
+from geneva_cli.verdict.headline import headline
 from geneva_cli.verdict.strength import OF_LIFE
 
 WORDS = {True: "passes", False: BAD, None: "not proved"}
@@ -23,18 +25,11 @@ HEADS = (
 )
 
 
-def verdict(design: Design, left: Left) -> tuple[str, tuple[str, ...]]:
-    """In a line whether it works, and the checks that fail or could not be made."""
-    failed, open_ = left.one("checks_failed"), left.one("not_proved")
+def verdict(design: Design, left: Left) -> tuple[str, str, tuple[str, ...]]:
+    """State of a design, its verdict in a line, and the checks that fail or are not proved."""
+    state, text = headline(design.checks, design.warnings)
     left.one("passes")
-    many = len(design.checks)
-    if failed:
-        some = "a check" if len(failed) == 1 else f"{len(failed)} checks"
-        return f"Fails {some} of {many}", (*failed, *open_)
-    if open_:
-        made = many - len(open_)
-        return f"Passes {made} check{'s' * (made != 1)}; {len(open_)} cannot be proved", open_
-    return f"Passes all {many} checks", ()
+    return state, capital(text), (*left.one("checks_failed"), *left.one("not_proved"))
 
 
 def checks(design: Design) -> Iterator[Block]:
@@ -48,22 +43,31 @@ def checks(design: Design) -> Iterator[Block]:
     yield Grid("Every check with its verdict", HEADS[:told], tuple(r[:told] for r in rows))
 
 
+def warned(left: Left) -> Iterator[Block]:
+    """The warnings."""
+    warnings = tuple(left.one("warnings"))
+    yield Heading("Warnings")
+    yield Listed(warnings) if warnings else Prose("None.")
+
+
 def said(design: Design, left: Left) -> Iterator[Block]:
-    """Warnings, what is not known and would be by which key, and sources."""
-    cautions = tuple(left.one("warnings"))
-    of_loads = design.loads_page.to_dict()["warnings"]  # the keys that sizing needs among them
-    known = {*cautions, *design.strength.missing(OF_LIFE)}  # these, and more, are the report's own
-    unknown = dict.fromkeys(missing(design.cycle))
-    unknown |= dict.fromkeys(text for text in of_loads if text not in known)
+    """What is not known and would be by which key, and sources."""
+    known = design.strength.missing(OF_LIFE)  # these, and more, are the report's own
+    unknown: dict[str, None] = dict.fromkeys(missing(design.cycle))
+    unknown |= dict.fromkeys(t for t in _notes(design) if t not in known)
     unknown |= dict.fromkeys(left.one("strength.needs"))
     rest = list(left.rest())
     if rest:
         yield Heading("Other answers")
         yield from rest
-    yield Heading("Warnings")
-    yield Listed(cautions) if cautions else Prose("None.")
     if unknown:
         yield Heading("What is not known, and the key that would give it")
         yield Listed(tuple(unknown))
     yield Heading("Sources of the formulas")
     yield Listed(sources(design.spec))
+
+
+def _notes(design: Design) -> tuple[str, ...]:
+    """What sizing and life need."""
+    notes: tuple[str, ...] = design.loads_page.to_dict().get("not_known", ())
+    return notes

@@ -1,0 +1,125 @@
+"""Summaries for people: a headline with a sign, then lines that fit the window."""
+
+from __future__ import annotations
+
+import os
+import re
+import shutil
+import sys
+import textwrap
+from collections.abc import Iterable, Iterator
+from typing import NamedTuple
+
+from geneva_cli.document import FAILS, PASSES, WARNS, Line, Summary
+from geneva_cli.errors import clean
+from geneva_cli.output.document.values import RAISED, TIMES
+from geneva_cli.output.markdown import escaped
+
+WIDTH = 90  # letters of a line where nobody looks
+WIDEST = 100  # of a line in a wide window: longer ones are hard to read
+LABEL = 20  # letters; a longer label stands above its text
+SIGNS = {PASSES: "✓", WARNS: "!", FAILS: "✗"}
+INKS = {PASSES: "\x1b[32m", WARNS: "\x1b[33m", FAILS: "\x1b[31m"}  # green, yellow, red
+DIM, PLAIN = "\x1b[2m", "\x1b[0m"
+# What stands for a letter that the terminal's encoding has not.
+ASCII = {
+    "✓": "ok",
+    "✗": "x",
+    "°": " deg",
+    "²": "2",
+    "³": "3",
+    "Ø": "dia.",
+}
+UNICODE = "✓✗°²³⁻⁵"
+NO_BREAK = "\u00a0"  # the space at which no line is broken
+POWER = re.compile(f"{TIMES}10([⁻⁰¹²³⁴⁵⁶⁷⁸⁹]+)")
+LOWERED = {raised: plain for plain, raised in RAISED.items()}
+
+
+class Look(NamedTuple):
+    """How a stream shows a summary."""
+
+    width: int = WIDTH
+    coloured: bool = False
+    unicode: bool = True
+
+
+def look_of(output: str) -> Look:
+    """The look for standard output, or for a file, which is always UTF-8."""
+    if output != "-":
+        return Look()
+    try:
+        UNICODE.encode(sys.stdout.encoding or "ascii")
+        unicode = True
+    except (UnicodeEncodeError, LookupError):
+        unicode = False
+    if not sys.stdout.isatty():
+        return Look(unicode=unicode)
+    plain = "NO_COLOR" in os.environ or os.environ.get("TERM") == "dumb"
+    return Look(min(shutil.get_terminal_size().columns, WIDEST), not plain, unicode)
+
+
+def chunks(summaries: Iterable[Summary], look: Look) -> Iterator[str]:
+    """Each summary as text; an empty line is on both sides of one that has lines."""
+    before: Summary | None = None
+    for summary in summaries:
+        if before and (before.lines or summary.lines):
+            yield "\n"
+        yield _head(summary, look)
+        if summary.lines:
+            yield "\n"
+            yield from _lines(summary.lines, look)
+        before = summary
+
+
+def _head(summary: Summary, look: Look) -> str:
+    sign = _letters(SIGNS.get(summary.state, ""), look)
+    indent = " " * (len(sign) + 1) if sign else ""
+    text = "\n".join(_wrapped(summary.head, look.width - len(indent), look))
+    text = text.replace("\n", f"\n{indent}")
+    return f"{_ink(sign, INKS.get(summary.state, ''), look)} {text}\n" if sign else f"{text}\n"
+
+
+def _lines(lines: Iterable[Line], look: Look) -> Iterator[str]:
+    lines = list(lines)
+    wide = max((len(line.label) for line in lines if len(line.label) <= LABEL), default=0)
+    room = look.width - wide - 4
+    for line in lines:
+        label = _ink(clean(line.label), INKS.get(line.state, ""), look)
+        texts = _wrapped(line.text, room, look)
+        notes = [_ink(note, DIM, look) for note in _wrapped(line.note, room, look)]
+        first = f"  {label}{' ' * (wide - len(line.label))}  "
+        if len(line.label) > wide:
+            yield f"  {label}\n"
+            first = " " * (wide + 4)
+        for number, text in enumerate([*texts, *notes]):
+            yield f"{' ' * (wide + 4) if number else first}{text}".rstrip() + "\n"
+
+
+def _wrapped(text: str, room: int, look: Look) -> list[str]:
+    """A text in lines; a value is not broken from its power of ten."""
+    text = _letters(NO_BREAK.join(map(clean, text.split(NO_BREAK))), look)
+    lines = textwrap.wrap(text, max(room, 1), break_long_words=False, break_on_hyphens=False)
+    return [line.replace(NO_BREAK, " ") for line in lines]
+
+
+def _letters(text: str, look: Look) -> str:
+    """A text in the letters that the stream has."""
+    if look.unicode:
+        return text
+    text = POWER.sub(lambda power: f"e{power[1].translate(LOWERED)}", text)
+    return "".join(ASCII.get(letter, letter) for letter in text)
+
+
+def _ink(text: str, ink: str, look: Look) -> str:
+    return f"{ink}{text}{PLAIN}" if look.coloured and ink and text else text
+
+
+def markdown(summaries: Iterable[Summary]) -> Iterator[str]:
+    """Each summary as a paragraph and a list."""
+    for summary in summaries:
+        yield f"**{escaped(summary.head)}**\n\n"
+        for line in summary.lines:
+            note = f" ({escaped(line.note)})" if line.note else ""
+            yield f"- {escaped(line.label)}: {escaped(line.text)}{note}\n"
+        yield "\n" if summary.lines else ""

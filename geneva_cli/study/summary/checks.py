@@ -1,0 +1,58 @@
+"""Summaries of ``geneva check``: which specs pass, what fails, what warns, what is tightest."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+
+from geneva_cli.document import FAILS, PASSES, WARNS, Answer, Line, Summary
+from geneva_cli.study.batch import Verdict, checks_record, checks_table
+from geneva_cli.verdict.headline import failure_lines, headline, tightest, warning_lines
+
+
+def of_checks(verdicts: Sequence[Verdict], page: bool, as_json: bool) -> Answer:
+    """The answer on specs that were read: a headline each, then what is to be done.
+
+    The tightest check is shown of a single spec only; ``page`` shows all checks below.
+    """
+    table = checks_table(verdicts)
+    data = checks_record(verdicts) if as_json else table
+    return Answer(tuple(_summaries(verdicts)), table if page else None, data)
+
+
+def _summaries(verdicts: Sequence[Verdict]) -> list[Summary]:
+    if len(verdicts) == 1:
+        (verdict,) = verdicts
+        lines = (*_lines(verdict), *tightest(verdict.checks))
+        return [_head(verdict)._replace(lines=lines)]
+    return [*map(_head, verdicts), _count(verdicts), *_details(verdicts)]
+
+
+def _head(verdict: Verdict) -> Summary:
+    state, text = headline(verdict.checks, verdict.warnings)
+    return Summary(f"{verdict.path}: {text}", state=state)
+
+
+def _lines(verdict: Verdict) -> tuple[Line, ...]:
+    checks = verdict.checks
+    return (*failure_lines(checks), *warning_lines(checks, verdict.warnings))
+
+
+def _count(verdicts: Sequence[Verdict]) -> Summary:
+    """How many specs pass."""
+    states = [headline(v.checks, v.warnings)[0] for v in verdicts]
+    failed, warned = states.count(FAILS), states.count(WARNS)
+    many = len(states)
+    text = (
+        f"{failed} of {many} specs fail{'s' * (failed == 1)}"
+        if failed
+        else f"all {many} specs pass"
+    )
+    more = f", {warned} with warnings" if warned else ""
+    return Summary(text + more, state=FAILS if failed else WARNS if warned else PASSES)
+
+
+def _details(verdicts: Sequence[Verdict]) -> Iterator[Summary]:
+    for verdict in verdicts:
+        lines = _lines(verdict)
+        if lines:
+            yield Summary(verdict.path, lines)

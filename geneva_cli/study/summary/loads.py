@@ -1,0 +1,144 @@
+"""Summary of ``geneva loads``: the motor first, then input, pin, wheel and flywheel."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import Any
+
+from geneva_cli.analysis.loads.summary import UNLOADED
+from geneva_cli.analysis.loads.summary import Summary as Ends
+from geneva_cli.design import Design
+from geneva_cli.document import WARNS, Answer, Line, Summary
+from geneva_cli.study.fields import pick
+from geneva_cli.study.summary.named import counted, title_of
+from geneva_cli.verdict.headline import warning
+from geneva_cli.verdict.measured import measured
+from geneva_cli.verdict.motor import RecommendedMotor, recommended_motor
+
+FOUR_POLES_RPM = 1400.0  # speed at full load of small motors with four poles, at 50 Hz
+EXPLAINED = "geneva explain motor"
+NO_BOUND = "without bound: see the warnings"
+
+
+def of_loads(design: Design) -> Answer:
+    """The answer of ``geneva loads``: some lines, and the powers with the definition of each."""
+    lines = [*load_lines(design), *map(warning, design.warnings)]
+    head = f"{title_of(design)}{counted(design.warnings)}"
+    first = Summary(head, tuple(lines), WARNS if design.warnings else "")
+    powers = tuple(_powers(design))
+    summaries = (first, Summary("Powers of this machine", powers)) if powers else (first,)
+    return Answer(summaries, design.loads_page, design.loads_table)
+
+
+def load_lines(design: Design) -> Iterator[Line]:
+    """Motor, input, pin, wheel and flywheel of a machine; without a load, what would give them."""
+    if not design.cycle.is_loaded:
+        yield Line("loads", f"not known: {UNLOADED}")
+        return
+    yield motor_line(design)
+    yield from cycle_lines(design)
+    sizing = _sizing(design)
+    if sizing["flywheel_to_add_kgm2"] is not None:
+        add = measured(sizing["flywheel_to_add_kgm2"], "kg m²")
+        share = measured(100.0 * (design.spec.motor.speed_variation or 0.0), "%")
+        yield Line("flywheel", f"{add} on the input for a speed variation of {share}")
+
+
+def cycle_lines(design: Design) -> Iterator[Line]:
+    """What input, pin and wheel bear over the cycle."""
+    loads = design.loads
+    torque, force, stress = (
+        loads[name] for name in ("input_torque_Nm", "pin_force_N", "contact_stress_MPa")
+    )
+    if torque.max is None or torque.min is None:
+        yield Line("input", f"torque {NO_BOUND}")
+    else:
+        text = f"{measured(torque.min)} to {measured(torque.max, 'N m')}"
+        text += f", rms {measured(torque.rms)}" if torque.rms is not None else ""
+        drives = f"drives the motor with up to {measured(-torque.min, 'N m')}"
+        driven = drives if torque.min < 0.0 else "never drives the motor"
+        yield Line("input", f"{text}; the wheel {driven}")
+    pin = _greatest(force, "N")
+    if design.spec.size.face_width_mm is None:
+        pin += "; contact stress needs face_width_mm in [size]"
+    else:
+        pin += f"; contact stress {_greatest(stress, 'MPa')}"
+    yield Line("pin", pin)
+    yield Line(
+        "wheel",
+        f"{_greatest(loads['alpha_rad_s2'], 'rad/s²')}; "
+        f"torque {_greatest(loads['wheel_torque_Nm'], 'N m')}",
+    )
+
+
+def _greatest(ends: Ends, unit: str) -> str:
+    """The greatest size of a load, and where."""
+    if ends.max is None or ends.min is None:
+        return NO_BOUND
+    is_min = -ends.min > ends.max
+    size, at_deg = (-ends.min, ends.min_at_deg) if is_min else (ends.max, ends.max_at_deg)
+    where = "" if at_deg is None else f" at {measured(at_deg, 'deg')}"
+    return f"{measured(size, unit)}{where}"
+
+
+def _sizing(design: Design) -> dict[str, Any]:
+    values = design.loads_table.to_dict()
+    return {n.removeprefix("sizing."): v for n, v in values.items() if n.startswith("sizing.")}
+
+
+def motor_line(design: Design) -> Line:
+    """The motor that is recommended, and how it follows."""
+    motor = recommended_motor(_sizing(design))
+    if motor is None:
+        return Line("motor", "none suffices: nothing bounds the input's torque", "", WARNS)
+    given = design.spec.motor
+    needed = f"{measured(motor.needed_W, 'W')} {_why(motor, given.service_factor)}"
+    torque = measured(motor.input_torque_Nm, "N m")
+    if motor.rated_kW is None:
+        return Line("motor", f"{needed}: more than any standard motor has", EXPLAINED, WARNS)
+    return Line(
+        "motor",
+        f"{measured(motor.rated_kW, 'kW')}, {_geared(motor, given.gear_ratio)}",
+        f"{needed}, {torque} on the input; the next power of IEC 60072-1 ({EXPLAINED})",
+    )
+
+
+def _geared(motor: RecommendedMotor, gear_ratio: float) -> str:
+    """Speed and gear ratio; a suggestion for a slow input without a reducer."""
+    if gear_ratio != 1.0 or 2.0 * motor.rpm > FOUR_POLES_RPM:
+        return f"{measured(motor.rpm, 'rpm')}, gear ratio {measured(gear_ratio)}"
+    ratio = measured(FOUR_POLES_RPM / motor.rpm, digits=3)
+    return (
+        f"{measured(motor.rpm, 'rpm')} behind its reducer, as gear ratio {ratio} from "
+        f"{measured(FOUR_POLES_RPM, 'rpm')}"
+    )
+
+
+def _why(motor: RecommendedMotor, service_factor: float) -> str:
+    """Which of both powers decides."""
+    if motor.form_W >= motor.peak_W:
+        return f"with service factor {measured(service_factor)} and all losses"
+    return "at most over the exact cycle"
+
+
+def _powers(design: Design) -> Iterator[Line]:
+    """The powers of a machine from the greatest, each with its definition."""
+    motor = recommended_motor(_sizing(design))
+    power = design.loads["power_W"]
+    (inertia,) = pick(["loads.kinetic_power_W"]).of(design.mechanism)
+    assert inertia is None or isinstance(inertia, float)
+    found: list[tuple[float | None, str]] = [
+        (power.max, "greatest at the input, over the exact cycle"),
+        (power.rms, "root mean square at the input, dwells included: what heats the motor"),
+        (power.mean, "mean at the input: the energy of a cycle over its time"),
+        (inertia, "greatest that the inertia alone takes from the input"),
+    ]
+    if motor:
+        text = "at the motor by the makers' form, with service factor and all losses"
+        found.append((motor.form_W, text))
+    if motor and design.spec.motor.gear_efficiency < 1.0:
+        text = "greatest at the motor over the exact cycle, with the reducer's losses"
+        found.append((motor.peak_W, text))
+    known = [(size, text) for size, text in found if size is not None]
+    for size, text in sorted(known, key=lambda pair: -pair[0]):
+        yield Line(measured(size, "W"), text)

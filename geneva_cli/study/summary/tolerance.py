@@ -1,0 +1,63 @@
+"""Summary of ``geneva tolerance``: place and play of the wheel, and what contributes most."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import Any
+
+from geneva_cli.design import Design
+from geneva_cli.document import WARNS, Answer, Line, Summary
+from geneva_cli.errors import is_warning
+from geneva_cli.names import spoken
+from geneva_cli.study.summary.named import counted, title_of
+from geneva_cli.table import Table
+from geneva_cli.verdict.headline import below_summary, warning
+from geneva_cli.verdict.measured import measured
+
+
+def of_tolerance(design: Design, record: Table) -> Answer:
+    """The answer of ``geneva tolerance``, from the record of ``Design.tolerance``."""
+    values = record.to_dict()
+    own = filter(is_warning, values["warnings"])
+    warnings = [*design.motion_warnings, *own]
+    lines = (*_lines(values), *map(warning, warnings))
+    state = WARNS if warnings else ""
+    summary = Summary(f"{title_of(design)}{counted(warnings)}", lines, state)
+    return Answer((summary,), below_summary(record, said=("title",)), record)
+
+
+def _lines(values: dict[str, Any]) -> Iterator[Line]:
+    yield _angle("dwell", "place of the wheel", "dwell_position", values)
+    yield _angle("motion", "play of the wheel", "motion_play", values)
+    rows = values["contributions"]
+    most = max(rows, key=lambda row: row["share"] or 0.0, default=None)
+    if most and most["share"]:
+        words, _ = spoken(most["dimension"])
+        share = measured(100.0 * most["share"], "%", 3)
+        yield Line("greatest", f"{words} contributes {share} of the dwell's squares")
+    if values["entry_jump.worst"] is not None:
+        jump = measured(values["entry_jump.worst"])
+        yield Line("entry", f"the wheel's velocity jumps by up to {jump} of the input's")
+    yield Line("clearances", _clearances(values))
+
+
+def _angle(label: str, what: str, name: str, values: dict[str, Any]) -> Line:
+    worst = values[f"{name}.worst_deg"]
+    if worst is None:
+        return Line(label, f"{what} is not known")
+    most = measured(values[f"{name}.p997_deg"], "deg")
+    seconds = measured(values[f"{name}.p997_arcsec"], "arc seconds", 3)
+    at_worst = measured(worst, "deg")
+    text = f"{what} within {most} ({seconds}) in 99.7 % of machines, {at_worst} at worst"
+    return Line(label, text)
+
+
+def _clearances(values: dict[str, Any]) -> str:
+    turns = values["clearances.turns"]
+    said = {True: "every machine turns", False: "not every machine turns", None: "not known"}[turns]
+    parts = [
+        f"{part} {measured(values[f'clearances.{part}_mm'], 'mm')}, needed {measured(needed)}"
+        for part in ("slot", "lock")
+        if (needed := values[f"clearances.{part}_needed_mm"]) is not None
+    ]
+    return "; ".join([said, *parts])

@@ -1,0 +1,106 @@
+"""The verdict on a design in one line, and the lines of what fails, warns and is tightest."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Sequence
+
+from geneva_cli.document import FAILS, PASSES, WARNS, Line
+from geneva_cli.errors import Caution, is_warning
+from geneva_cli.names import spoken
+from geneva_cli.table import Table, record_table
+from geneva_cli.verdict.checks.check import Check
+from geneva_cli.verdict.failures import meaning
+from geneva_cli.verdict.measured import measured
+
+# Checks that a design passes or not: they have no margin.
+YES_OR_NO = ("dwell_hold", "parts", "full_turn")
+
+
+def headline(checks: Sequence[Check], warnings: Sequence[str]) -> tuple[str, str]:
+    """State of a design, PASSES, WARNS or FAILS, and its checks and warnings counted in words.
+
+    >>> headline([Check("jerk_max", 31.4, "at most", 30.0, False)], [])
+    ('fails', '1 of 1 checks fails')
+    """
+    many = len(checks)
+    failed = sum(check.passes is False for check in checks)
+    not_proved = sum(check.passes is None for check in checks)
+    if failed:
+        text = f"{failed} of {many} checks fail{'s' * (failed == 1)}"
+    elif not_proved:
+        passed = many - not_proved
+        text = f"{passed} of {many} checks pass{'es' * (passed == 1)}"
+    else:
+        text = f"all {many} checks pass"
+    if not_proved:
+        text += f", {not_proved} not proved"
+    if warnings:
+        text += f", {len(warnings)} warning{'s' * (len(warnings) != 1)}"
+    state = FAILS if failed else WARNS if not_proved or warnings else PASSES
+    return state, text
+
+
+def below_summary(record: Table, *, said: Sequence[str] = ()) -> Table:
+    """A record as it stands below its summary, which says its warnings and the names ``said``.
+
+    Notes on what is not known stay, under that name.
+    """
+    values = dict(zip(record.names, next(record.rows()), strict=True))
+    notes = tuple(text for text in values.pop("warnings") if not is_warning(text))
+    left = {name: value for name, value in values.items() if name not in said}
+    return record_table(left | ({"not_known": notes} if notes else {}), prose=record.prose)
+
+
+def failure_lines(checks: Iterable[Check]) -> list[Line]:
+    """A line for each check that fails."""
+    return [_failure(check) for check in checks if check.passes is False]
+
+
+def warning_lines(checks: Iterable[Check], warnings: Iterable[str]) -> list[Line]:
+    """A line for each check that is not proved, then for each warning."""
+    unproved = [check for check in checks if check.passes is None]
+    lines = [Line("not proved", f"{spoken(c.name)[0]}: {c.why}", "", WARNS) for c in unproved]
+    return lines + [warning(text) for text in warnings]
+
+
+def warning(text: str) -> Line:
+    """The line of a warning, and the command that explains it."""
+    explained = f"geneva explain {text.name}" if isinstance(text, Caution) else ""
+    return Line("warning", text, explained, WARNS)
+
+
+def _failure(check: Check) -> Line:
+    """A check that fails: its value, its limit, and what to change."""
+    label, unit = spoken(check.name)
+    explained = f"geneva explain {check.name}"
+    if check.value is None or check.limit is None:
+        return Line(label, check.why, explained, FAILS)
+    change = f"passes with {check.nearest}" if check.nearest else check.why
+    note = f"{change} ({explained})" if change else explained
+    return Line(label, meaning(check) or compared_text(check, unit), note, FAILS)
+
+
+def compared_text(check: Check, unit: str) -> str:
+    """The value of a check, where it occurs, and its limit."""
+    assert check.value is not None
+    assert check.limit is not None
+    where = "" if check.at_deg is None else f" at {measured(check.at_deg, 'deg')}"
+    limit = measured(check.limit, unit if unit == "deg" else "")
+    return f"{measured(check.value, unit)}{where}, {check.must_be} {limit}"
+
+
+def tightest(checks: Iterable[Check]) -> Iterator[Line]:
+    """The line of the check that passes with the least margin, relative to its limit; or none."""
+    used = [(share, check) for check in checks if (share := _used(check)) is not None]
+    if used:
+        _, check = max(used, key=lambda pair: pair[0])
+        label, unit = spoken(check.name)
+        yield Line("tightest", f"{label} {compared_text(check, unit)}")
+
+
+def _used(check: Check) -> float | None:
+    """Fraction of its limit that a check uses up, 1 at the limit; None where it has no such."""
+    value, limit = check.value, check.limit
+    if not check.passes or not value or not limit or check.name in YES_OR_NO:
+        return None
+    return value / limit if check.must_be == "at most" else limit / value

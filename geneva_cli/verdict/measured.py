@@ -1,0 +1,16 @@
+"""Values in a sentence, with their units."""
+
+from __future__ import annotations
+
+from geneva_cli.output.document.values import shown
+
+DIGITS = 4  # significant, in a sentence
+
+
+def measured(value: float, unit: str = "", digits: int = DIGITS) -> str:
+    """A value with its unit.
+
+    >>> measured(8.25622, "mm"), measured(-58.2111, "deg")
+    ('8.256 mm', '-58.21°')
+    """
+    return shown(value, "°" if unit == "deg" else unit, digits)

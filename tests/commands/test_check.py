@@ -1,0 +1,124 @@
+"""`geneva check`: a headline that counts warnings, what to change, and one list of warnings."""
+
+import json
+import sys
+from pathlib import Path
+from typing import Any
+
+import pytest
+import repo
+from typer.testing import CliRunner
+
+from geneva_cli.app import app
+
+pytestmark = pytest.mark.usefixtures("made_once")
+TURRET, PLAIN, CURVED = "turret.toml", "side-crank-z6.toml", "press-curved.toml"
+FAST = "[wheel]\nz = 6\n[drive]\nkind = 'side-crank'\nA = 0.1\n[limits]\nacceleration_max = 1.0\n"
+
+
+def run(*arguments: str) -> Any:
+    return CliRunner().invoke(app, ["check", *arguments])
+
+
+@pytest.fixture(autouse=True)
+def fails(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> str:
+    """A spec that fails, in the folder with the designs."""
+    monkeypatch.chdir(tmp_path)
+    for name in (TURRET, PLAIN, CURVED):
+        (tmp_path / name).symlink_to(repo.DESIGNS / name)
+    (tmp_path / "fast.toml").write_text(FAST, encoding="utf-8")
+    return "fast.toml"
+
+
+@pytest.fixture
+def watched(monkeypatch: pytest.MonkeyPatch) -> None:
+    """A person looks at standard output, in a window of 60 columns, without colour."""
+    monkeypatch.setattr("geneva_cli.output.is_watched", lambda output, format: not format)
+    monkeypatch.setenv("COLUMNS", "60")
+    monkeypatch.setenv("NO_COLOR", "1")
+
+
+def test_a_headline_counts_warnings() -> None:
+    """A machine whose wall is cut away for half the motion does not read as one that passes."""
+    for spec, headline in (
+        (PLAIN, "✓ {}: all 15 checks pass"),
+        (TURRET, "! {}: all 14 checks pass, 1 warning"),
+        (CURVED, "! {}: all 19 checks pass, 3 warnings"),
+    ):
+        found = run(spec)
+        assert found.exit_code == 0
+        assert found.stdout.splitlines()[0] == headline.format(spec)
+
+
+def test_json_has_the_warnings_and_strict_obeys_them() -> None:
+    found = run(PLAIN, TURRET, "--format", "json")
+    tree = json.loads(found.stdout)
+    assert list(tree) == ["rows", "passes", "warnings"]
+    assert tree["passes"] is True
+    (warning,) = tree["warnings"]
+    assert list(warning) == ["spec", "name", "text"]
+    assert (warning["spec"], warning["name"]) == (TURRET, "wheel-left-out")
+    assert warning["text"].startswith("the wheel's own inertia, 0.3024 kg m²")
+    assert {row["spec"] for row in tree["rows"]} == {PLAIN, TURRET}
+    assert found.exit_code == 0
+    assert run(TURRET, "--strict", "--format", "json").exit_code == 1
+    assert run(PLAIN, "--strict").exit_code == 0
+
+
+@pytest.mark.parametrize("format", ["table", "csv", "json", "md"])
+def test_a_warning_is_printed_once(format: str) -> None:
+    """On standard error where the format has no place for it, and nowhere else."""
+    found = run(TURRET, "--format", format)
+    both = " ".join(f"{found.stdout} {found.stderr}".split())
+    assert both.count("if they leave it out, add") == 1
+    assert ("leave it" in found.stderr) is (format == "csv")
+
+
+def test_csv_is_the_rows_alone() -> None:
+    found = run(TURRET, "--format", "csv").stdout.splitlines()
+    assert found[0] == "spec,check,value,at_deg,must_be,limit,passes,nearest,why"
+    assert len(found) == 15
+
+
+def test_what_fails_says_what_to_change(fails: str) -> None:
+    """The change that is named passes."""
+    found = run(fails)
+    assert found.exit_code == 1
+    assert found.stdout.startswith(f"✗ {fails}: 1 of 16 checks fails\n")
+    failing = found.stdout.split("\n\n")[1]
+    assert "acceleration max  1.113, at most 1" in failing
+    change = failing.split("passes with ")[1].split(" (")[0]
+    assert run(fails, "--set", f"drive.{change.replace(' ', '')}").exit_code == 0
+
+
+def test_a_window_gets_the_answer_and_the_table_on_request(watched: None) -> None:
+    short, whole = run(TURRET).stdout, run(TURRET, "-v").stdout
+    assert "tightest  crank bore wall 8.256 mm, at least 1.25" in short
+    assert short.count(TURRET) == 1
+    assert "dwell_hold" not in short
+    assert "dwell_hold" in whole
+
+
+def test_several_specs_are_counted_before_their_details(fails: str) -> None:
+    found = run(PLAIN, fails, TURRET).stdout
+    heads, *details = found.split("\n\n")
+    assert [line[0] for line in heads.splitlines()] == ["✓", "✗", "!", "✗"]
+    assert heads.endswith("✗ 1 of 3 specs fails, 1 with warnings")
+    assert details[0] == fails
+    assert details[2] == TURRET
+
+
+def test_signs_need_neither_colour_nor_unicode(monkeypatch: pytest.MonkeyPatch) -> None:
+    from geneva_cli.output.summary import look_of
+
+    class Ascii:
+        encoding = "ascii"
+
+        @staticmethod
+        def isatty() -> bool:
+            return True
+
+    monkeypatch.setattr(sys, "stdout", Ascii)
+    monkeypatch.setenv("TERM", "dumb")
+    look = look_of("-")
+    assert (look.coloured, look.unicode) == (False, False)

@@ -1,0 +1,162 @@
+"""Summaries: what a designer tells a colleague, in lines that fit and values that hold."""
+
+import math
+import re
+from pathlib import Path
+from typing import Any
+
+import pytest
+import repo
+from typer.testing import CliRunner
+
+from geneva_cli.app import app
+from geneva_cli.design import Design, load
+from geneva_cli.document import FAILS, PASSES, WARNS, Line, Summary
+from geneva_cli.output.summary import Look, chunks
+from geneva_cli.study.summary.loads import of_loads
+from geneva_cli.study.summary.report import of_report
+from geneva_cli.study.summary.tolerance import of_tolerance
+from geneva_cli.study.summary.vibration import of_vibration
+from geneva_cli.verdict.motor import RATED_kW, RecommendedMotor
+
+pytestmark = pytest.mark.usefixtures("made_once")
+TURRET = str(repo.DESIGNS / "turret.toml")
+
+
+def design(name: str, *given: str) -> Design:
+    return load(str(repo.DESIGNS / f"{name}.toml"), given)
+
+
+def line(summary: Summary, label: str) -> Line:
+    (found,) = (one for one in summary.lines if one.label == label)
+    return found
+
+
+def shown(summary: Summary, width: int, unicode: bool = True) -> str:
+    return "".join(chunks([summary], Look(width, False, unicode)))
+
+
+@pytest.mark.parametrize(
+    ("power_W", "rated"), [(118.3, 0.12), (120.0, 0.12), (120.1, 0.18), (1.0, 0.06), (3.1e3, 4.0)]
+)
+def test_the_motor_is_the_next_standard_power(power_W: float, rated: float) -> None:
+    """Whichever of both powers is greater; beyond the largest there is none."""
+    assert RecommendedMotor(power_W, 0.0, 1400.0, 1.0).rated_kW == rated
+    assert RecommendedMotor(0.0, power_W, 1400.0, 1.0).rated_kW == rated
+    assert RecommendedMotor(1e3 * RATED_kW[-1] + 1.0, 0.0, 1400.0, 1.0).rated_kW is None
+    assert list(RATED_kW) == sorted(set(RATED_kW))
+
+
+def test_a_turret_gets_one_motor() -> None:
+    """By hand: 22.8 N m at 40 rpm, over the efficiencies 0.95 and 0.85, take 118 W."""
+    first, powers = of_loads(design("turret")).summaries
+    motor = line(first, "motor")
+    assert motor.text == "0.12 kW, 1400 rpm, gear ratio 35"
+    by_hand = 22.80584 * 40.0 * math.tau / 60.0 / 0.95 / 0.85
+    assert f"{by_hand:.4g} W with service factor 1.5" in motor.note
+    assert "22.81 N m on the input" in motor.note
+    assert line(first, "input").text.endswith("the wheel never drives the motor")
+    sizes = [float(one.label.removesuffix(" W")) for one in powers.lines]
+    assert sizes == sorted(sizes, reverse=True)
+    assert len(sizes) == 6
+    peak = 0.603613 * 1400.0 * math.tau / 60.0
+    assert line(powers, f"{peak:.4g} W").text.startswith("greatest at the motor")
+
+
+def test_a_slow_input_without_a_reducer_gets_a_gear_ratio() -> None:
+    first, *_ = of_loads(design("internal-z6")).summaries
+    assert line(first, "motor").text.endswith("as gear ratio 46.7 from 1400 rpm")
+
+
+def test_where_the_wheel_drives_the_motor_it_is_said() -> None:
+    first, *_ = of_loads(design("limits")).summaries
+    assert "drives the motor with up to 0.8559 N m" in line(first, "input").text
+    assert first.state == WARNS
+
+
+def test_without_a_load_no_motor_is_named() -> None:
+    (only,) = of_loads(design("turret", "load.inertia_kgm2=0", "load.torque_Nm=0")).summaries
+    assert "set inertia_kgm2 or torque_Nm in [load]" in line(only, "loads").text
+
+
+def test_what_has_no_bound_gets_no_motor(tmp_path: Path) -> None:
+    """Friction holds the wheel of three slots at mid-motion, however hard the roller presses."""
+    file = tmp_path / "spec.toml"
+    file.write_text("[wheel]\nz = 3\n[load]\ntorque_Nm = 3\nfriction = 3\n", encoding="utf-8")
+    first, *_ = of_loads(load(str(file))).summaries
+    assert line(first, "motor").state == WARNS
+    assert "nothing bounds" in line(first, "motor").text
+
+
+@pytest.mark.parametrize("name", ["turret", "spherical-z6", "internal-curved-z8", "unequal-steps"])
+def test_a_report_has_six_figures_and_a_motor(name: str) -> None:
+    one = design(name)
+    (summary,) = of_report(one).summaries
+    plain = [each for each in summary.lines if each.state == "" or each.label == "motor"]
+    assert len(plain) == 7
+    assert plain[-1].label == "motor"
+    assert summary.state == (WARNS if one.warnings else PASSES)
+    assert len([each for each in summary.lines if each.label == "warning"]) == len(one.warnings)
+
+
+def test_a_failing_report_begins_with_what_fails() -> None:
+    (summary,) = of_report(design("turret", "limits.velocity_max=0.5")).summaries
+    assert summary.state == FAILS
+    assert summary.lines[0].label == "velocity max"
+    assert "geneva explain velocity_max" in summary.lines[0].note
+
+
+def test_vibration_names_the_speeds_to_avoid() -> None:
+    one = design("tuned-dial")
+    record = one.vibration()
+    (summary,) = of_vibration(one, record).summaries
+    speeds = record.to_dict()["speeds_to_avoid_rpm"]
+    assert line(summary, "avoid").text == ", ".join(f"{rpm:.4g}" for rpm in speeds) + " rpm"
+    assert "practically at rest" in line(summary, "residual").text
+
+
+def test_tolerance_names_what_contributes_most() -> None:
+    one = design("tolerances")
+    record = one.tolerance(1024)
+    answer = of_tolerance(one, record)
+    (summary,) = answer.summaries
+    assert line(summary, "greatest").text.startswith("slot angle contributes 72.2 %")
+    worst = record.to_dict()["dwell_position.worst_deg"]
+    assert f"{worst:.4g}° at worst" in line(summary, "dwell").text
+    assert answer.page is not None
+    assert "not_known" in answer.page.names
+    assert answer.data is record
+
+
+@pytest.mark.parametrize("width", [60, 80, 100])
+@pytest.mark.parametrize("name", ["turret", "press-345", "tuned-dial", "tolerances"])
+def test_no_line_is_wider_than_the_window(name: str, width: int) -> None:
+    """And no word of it is lost."""
+    one = design(name)
+    for answer in (of_report(one), of_loads(one)):
+        for summary in answer.summaries:
+            text = shown(summary, width)
+            assert max(map(len, text.splitlines())) <= width
+            for each in summary.lines:
+                words = {word.replace("\u00a0", " ") for word in each.text.split()}
+                assert words <= set(text.replace("\u00a0", " ").split()) | {
+                    word for word in words if " " in word
+                }
+
+
+def test_an_ascii_terminal_gets_ascii() -> None:
+    """Powers of ten as a program writes them, and a sign in letters."""
+    summary = Summary("fine", (Line("pin", "1.23\u00a0×\u00a010⁻⁵ N at -3.5°, 2 kg m²"),), PASSES)
+    assert shown(summary, 80, unicode=False) == "ok fine\n\n  pin  1.23e-5 N at -3.5 deg, 2 kg m2\n"
+    assert shown(summary._replace(state=FAILS, lines=()), 80, unicode=False) == "x fine\n"
+
+
+@pytest.mark.parametrize("command", ["loads", "report", "vibration", "tolerance"])
+def test_a_warning_stands_once_on_both_streams(command: str) -> None:
+    spec = str(repo.DESIGNS / ("tuned-dial.toml" if command == "vibration" else "press-345.toml"))
+    given = ["--set", "tolerance.slot_angle_deg=0.01"] if command == "tolerance" else []
+    for format in ("table", "md", "json", "csv"):
+        found: Any = CliRunner().invoke(app, [command, spec, *given, "--format", format])
+        both = " ".join(f"{found.stdout} {found.stderr}".split())
+        names = re.findall(r"not positively driven from", both)
+        assert len(names) == (0 if command == "vibration" else 1), format
