@@ -126,8 +126,11 @@ def tell(answer: Answer, output: str = "-", format: str = "", inputs: Iterable[s
     Raises GenevaError as ``show`` does.
     """
     name = table_as(output, format)
-    if name not in READ or choice.columns:  # who names columns wants these alone
+    if name not in READ:
         show(answer.data, output, format, inputs)
+        return
+    if choice.columns:  # who names columns wants these alone
+        show(answer.page or answer.data, output, format, inputs)
         return
     from geneva_cli.output import summary
 
