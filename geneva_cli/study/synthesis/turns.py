@@ -161,7 +161,7 @@ class _Turn:
         if isinstance(self._made, Failing):
             return [self._made]
         parts: Any = self._made
-        turned = parts.assembly._replace(given=machine, to_input=machine.spec.drive.input_deg)
+        turned = parts.assembly._replace(full=machine, to_input=machine.spec.drive.input_deg)
         parts = parts._replace(assembly=turned)
         return _failing(standing_checks(parts))
 
