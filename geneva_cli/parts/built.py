@@ -29,7 +29,7 @@ from geneva_cli.parts.proof import Proof
 from geneva_cli.parts.sizes import pin_radius, thicknesses
 
 
-class Built(NamedTuple):
+class PlacedParts(NamedTuple):
     """The parts of a machine at their positions."""
 
     wheel: Member
@@ -86,7 +86,7 @@ def built(
     curves: str = "arcs",
     pitch: bool = True,
     fitted: bool = True,
-) -> Built:
+) -> PlacedParts:
     """Return all parts of a flat machine; ``contour`` is the wheel's, if drawn finer or coarser.
 
     Without ``pitch`` noncircular gears are omitted, without ``fitted`` a cam's groove plates too:
@@ -101,7 +101,7 @@ def built(
     fixed = groove_plates(parts, bars, tolerance, curves, fitted)
     first = tuple(first_members(mechanism, bars))
     frame = framed(proof, fixed, bars, first)
-    return Built(
+    return PlacedParts(
         Member(wheel_part(parts, contour or parts.wheel), turn=float(assembly.wheel(at)[0])),
         Member(
             crank_group(parts, arm, bars.pin_low),

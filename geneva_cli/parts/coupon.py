@@ -17,11 +17,11 @@ from geneva_cli.parts.outlines import Outlines
 LAYER, HOLES, MARKS = "COUPON", "BORE", "ENGRAVE"
 # mm per side: the first suit a mill, the last a laser or a printer
 CLEARANCES = (0.0, 0.02, 0.04, 0.06, 0.1, 0.15, 0.2, 0.3)
-PRESSES = (0.0, 0.01, 0.02, 0.03, 0.05, 0.08, 0.1, 0.15)  # mm that a hole's diameter is smaller
+PRESSES = (0.0, 0.01, 0.02, 0.03, 0.05, 0.08, 0.1, 0.15)  # mm of the diameter: hole below pin
 WALL, LEAST = 0.6, 2.0  # of material between holes: of the roller's radius, and at least in mm
 APART = 10.0  # mm between plate and disc: wider than any cut
 LETTER = 0.6  # height of a number, of the roller's radius
-WIDE, NEXT, DOT = 0.5, 0.75, 0.3  # of a number's height: width, pitch of digits, of a point
+WIDE, NEXT, DOT = 0.5, 0.75, 0.3  # of a number's height: a digit, pitch of digits, of a point
 # strokes by the corners that they join: (0, 0) is the lower left one, (1, 2) the upper right
 STROKES = {
     "a": ((0, 2), (1, 2)),

@@ -1,6 +1,6 @@
 """The crank's outline in the wheel's plane: the locking disc and its relief.
 
-They are in the crank's frame: its axis is the origin, and x is through the first roller at
+It is in the crank's frame: its axis is the origin, and x is through the first roller at
 mid-motion. The disc is whole where it locks, and relieved where a roller moves the wheel.
 """
 

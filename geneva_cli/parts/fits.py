@@ -16,11 +16,11 @@ class SizeRange(NamedTuple):
     up_to: float
     it6: int
     it7: int
-    g: int  # from the upper limit of a shaft g up to the nominal size
-    f: int  # the same for a shaft f; and from there up to the lower limit of a hole F
-    p: int  # from the nominal size to the lower limit of a shaft p
+    g: int  # of the upper limit of a shaft g, below the nominal size
+    f: int  # of the upper limit of a shaft f, below it; of the lower limit of a hole F, above
+    p: int  # of the lower limit of a shaft p, above the nominal size
     it11: int | None = None
-    c: int | None = None  # to a shaft c, of the range's larger sizes; the standard ends at 500
+    c: int | None = None  # of a shaft c, below it, for the range's larger sizes; None above 500 mm
 
 
 # ISO 286-1:2010: grades IT6, IT7 and IT11 by its table 1, the fundamental deviations g, f, p and c

@@ -34,7 +34,7 @@ from geneva_cli.parts.wheel_hub import wheel_hub
 NAME, LAYER, HOLES = "frame", "FRAME", "BORE"
 
 
-class Framed(NamedTuple):
+class FrameAndShafts(NamedTuple):
     """The frame, and the shafts at their positions, whether they reach it or not."""
 
     plate: Plate
@@ -54,12 +54,12 @@ def framed(
     fixed: Sequence[Member] | None = None,
     bars: Links | None = None,
     first: Sequence[Member] = (),
-) -> Framed:
+) -> FrameAndShafts:
     """Return the frame; ``fixed`` are the plates with a groove that it carries, ``bars`` the links.
 
     Both are computed if not given. ``first`` are the first wheel and its locking disc of two in
-    series. Raises GenevaError where wheel and crank do not stand in one plane, and for the errors
-    of ``shaft``.
+    series. Raises GenevaError where wheel and crank do not stand in one plane, and where a
+    shaft's lower end is not below its upper one.
     """
     mechanism = proof.mechanism
     if not mechanism.spec.wheel.FLAT:
@@ -90,7 +90,7 @@ def framed(
     corners = [(x, y) for x in (low[0], high[0]) for y in (low[1], high[1])]
     outline = convex_hull(LAYER, [Circle(LAYER, corner, eye) for corner in corners])
     holes += [Circle(HOLES, corner, even(0.4 * eye)) for corner in corners]
-    return Framed(
+    return FrameAndShafts(
         Plate(NAME, LAYER, outline, tuple(holes), bottom, top), tuple(outside_links(axles, bars, L))
     )
 

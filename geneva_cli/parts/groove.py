@@ -118,7 +118,7 @@ def _eased(
     return R + length * run, sense * rate, turn, level
 
 
-class GrooveLook(NamedTuple):
+class GrooveExtremes(NamedTuple):
     """Extremes of the grooves of m designs over sampled positions, (m,) each.
 
     ``nearest`` is the roller's least distance from the crank's axis, over L, ``pressure_deg`` the
@@ -129,7 +129,7 @@ class GrooveLook(NamedTuple):
     pressure_deg: Array
 
 
-def seen(groove: Groove, input_deg: Array) -> GrooveLook:
+def seen(groove: Groove, input_deg: Array) -> GrooveExtremes:
     """Return the extremes of a batch of grooves, or of one, over sampled positions.
 
     The motion is sampled at ``input_deg`` (m, k), the dwell at FEW positions.
@@ -140,7 +140,7 @@ def seen(groove: Groove, input_deg: Array) -> GrooveLook:
     resting = _back(groove, np.atleast_2d(rest), 1)
     R, slope = (np.hstack(pair) for pair in zip(moving, resting, strict=True))
     steep = np.abs(slope) / R
-    return GrooveLook(R.min(axis=1), np.degrees(np.arctan(steep.max(axis=1))))
+    return GrooveExtremes(R.min(axis=1), np.degrees(np.arctan(steep.max(axis=1))))
 
 
 def greatest_pressure(groove: Groove) -> tuple[float, float]:

@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 LAYER, ROLLER = "LINK", "ROLLER"
 
 
-class Joined(NamedTuple):
+class SharedJoint(NamedTuple):
     """Links that share a joint at all input angles: the joint's path, their names and planes."""
 
     way: Array  # complex points
@@ -29,7 +29,7 @@ class Joined(NamedTuple):
     planes: tuple[int, ...]
 
 
-def joined(links: Iterable[Link], near: float) -> list[Joined]:
+def joined(links: Iterable[Link], near: float) -> list[SharedJoint]:
     """Return the pin joints of several links: those nearer than ``near`` mm at all angles."""
     all_pins = [
         (link, at)
@@ -37,13 +37,13 @@ def joined(links: Iterable[Link], near: float) -> list[Joined]:
         for at, kind in zip(places(link), link.kinds, strict=True)
         if kind in (Joint.PIN, Joint.SLIDE)
     ]
-    shared: list[Joined] = []
+    shared: list[SharedJoint] = []
     for i, (link, at) in enumerate(all_pins):
         others = [other for other, there in all_pins[i + 1 :] if np.abs(at - there).max() < near]
         if others:
             both = sorted((link, *others), key=lambda one: one.plane)
             names, planes = zip(*((one.name, one.plane) for one in both), strict=True)
-            shared.append(Joined(at, names, planes))
+            shared.append(SharedJoint(at, names, planes))
     return shared
 
 

@@ -101,7 +101,7 @@ def link_sizes(
             f"link_width_mm = {2.0 * eye:g}: it must be above {2.0 * pin:.6g}, the pins' diameter",
             ("size", "link_width_mm"),
         )
-    limit = _beside_hub(mechanism, links)
+    limit = _eye_limit(mechanism, links)
     arm = thick.arm if spec.drive.ONE_ARM else thick.link
     return LinkSizes(
         wall=wall,
@@ -141,7 +141,7 @@ def _pin_distances(link: Link) -> Iterator[float]:
             yield float(np.abs(p - q).min())
 
 
-def _beside_hub(mechanism: Mechanism, links: Iterable[Link]) -> float:
+def _eye_limit(mechanism: Mechanism, links: Iterable[Link]) -> float:
     """Return a link's largest radius about the roller's pin that clears the wheel's hub."""
     size = mechanism.spec.size
     near = [

@@ -17,7 +17,7 @@ from geneva_cli.curves.shapes import Arc, Circle, Contour, Line, Shape, about
 from geneva_cli.machine.layout import Joint
 from geneva_cli.parts.arm import LAYER as ARM
 from geneva_cli.parts.arm import CrankArm
-from geneva_cli.parts.built import Built, built
+from geneva_cli.parts.built import PlacedParts, built
 from geneva_cli.parts.crank import roller_centres
 from geneva_cli.parts.drawings import PITCH, crank_shapes, pitch_lines, wheel_shapes
 from geneva_cli.parts.frame import LAYER as STANDING
@@ -36,7 +36,9 @@ def machine(parts: Outlines, tolerance: float, curves: str) -> Drawing:
     return machine_and_parts(parts, tolerance, curves)[0]
 
 
-def machine_and_parts(parts: Outlines, tolerance: float, curves: str) -> tuple[Drawing, Built]:
+def machine_and_parts(
+    parts: Outlines, tolerance: float, curves: str
+) -> tuple[Drawing, PlacedParts]:
     """Return the drawing of the machine at input angle 0, and its parts."""
     assembly = parts.assembly
     contour, *circles = wheel_shapes(parts, tolerance, curves)
@@ -57,8 +59,8 @@ def machine_and_parts(parts: Outlines, tolerance: float, curves: str) -> tuple[D
     return Drawing(title, tuple(once(drawn)), look, solid), whole
 
 
-def _standing(whole: Built, drawn: list[Shape]) -> list[Shape]:
-    """Return the plates that stand still: outlines, grooves, and holes hidden by no bore."""
+def _standing(whole: PlacedParts, drawn: list[Shape]) -> list[Shape]:
+    """Return the plates that stand still: outlines, grooves, and holes not covered by a bore."""
     seen = {_round(shape) for shape in drawn if isinstance(shape, Circle)}
     standing = shapes(whole.standing)
     return [

@@ -3,9 +3,9 @@
 Rows are parts, pivots, dimensions, and parts that cannot be built, with the reason. Pivots are at
 input angle 0, with the wheel's axis as origin and the crank's on the x axis. Mass and moment of
 inertia are of one part, in closed form, about the axis that it turns on. That is the wheel's, the
-crank's or a roller's own axis, or a link's first joint. The centroid is from there too, in the
-part's own frame. z is along the axis from the wheel's lower face; on a sphere inwards from the
-wheel's outer face.
+crank's or a roller's own axis, or a link's first joint. The centroid is measured from there
+too, in the part's own frame. Coordinate z is along the axis from the wheel's lower face, or on a
+sphere inwards from the wheel's outer face.
 """
 
 from __future__ import annotations

@@ -48,7 +48,7 @@ def _lock_directions(assembly: Assembly, middle: float, ends: list[float]) -> li
 def arc_floor(assembly: Assembly, lock: float) -> float:
     """Return the least distance from the axis of an arc that meets the disc at right angles.
 
-    It is that of the widest relief, or 0 where there is no such arc, from half a turn on.
+    It is that of the widest relief; 0 for half a turn or more, where there is no such arc.
     """
     half = max(one.half for one in reliefs(assembly))
     wide = half > 0.5 * math.pi - SAME
@@ -56,7 +56,7 @@ def arc_floor(assembly: Assembly, lock: float) -> float:
 
 
 def has_arcs(assembly: Assembly, lock: float) -> bool:
-    """Return True if arcs relieve the disc and, between gears' motions, leave room for a bore."""
+    """Return True if arcs relieve the disc; if gears widen the reliefs, they must leave a bore."""
     paired = any(engagement.apart for engagement in assembly.kinds)
     floor = arc_floor(assembly, lock)
     return floor >= BORED * assembly.L if paired else floor > 0.0

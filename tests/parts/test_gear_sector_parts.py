@@ -344,7 +344,7 @@ def test_the_forces_that_are_shown_act_on_the_walls():
 
 
 def test_refusals():
-    with pytest.raises(GenevaError, match=r'180 deg of the crank.*"sector" does'):
+    with pytest.raises(GenevaError, match=r'180 deg of the crank.*set relief = "sector"'):
         made(3, 60.0, relief="arc").parts  # noqa: B018
     with pytest.raises(GenevaError, match=r"cross by 16.08 deg"):
         made(24, 0.0155, 0.3, roller_radius_mm=1.0).parts  # noqa: B018

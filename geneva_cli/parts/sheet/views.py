@@ -9,7 +9,7 @@ from geneva_cli.curves.measure import bounds
 from geneva_cli.curves.plates import Group, plates
 from geneva_cli.curves.shapes import Shape
 from geneva_cli.parts import drawings
-from geneva_cli.parts.built import Built
+from geneva_cli.parts.built import PlacedParts
 from geneva_cli.parts.first_pair import first_outlines
 from geneva_cli.parts.gear_drawings import gear_shapes
 from geneva_cli.parts.machine_drawing import machine_and_parts
@@ -35,13 +35,13 @@ HUB = "crank's hub"  # stands on the disc
 APART = {"WHEEL", "ARM"}  # layers of which each plate has a view
 
 
-class Shown(NamedTuple):
+class SheetContent(NamedTuple):
     """The content of a sheet, independent of its scale."""
 
     outlines: Outlines
     together: tuple[Shape, ...]
     rows: list[dict[str, Any]]  # the list of parts
-    built: Built
+    built: PlacedParts
     first: Outlines | None
     groove: tuple[Shape, ...]  # flanks and pitch curve, of a cam
     gears: list[Shape]  # pitch curves and bores, of noncircular ones
@@ -51,7 +51,7 @@ class Shown(NamedTuple):
     curves: str
 
 
-def shown_on_sheet(parts: Outlines, tolerance: float, curves: str) -> Shown:
+def shown_on_sheet(parts: Outlines, tolerance: float, curves: str) -> SheetContent:
     """Return the content of the views, computed once for all scales."""
     mechanism, cam = parts.assembly.full, parts.assembly.rollers[0][0].groove is not None
     whole, built = machine_and_parts(parts, tolerance, curves)
@@ -61,7 +61,7 @@ def shown_on_sheet(parts: Outlines, tolerance: float, curves: str) -> Shown:
     *_, lowest = flat_plates(built.standing)
     apart = [bounds(plate.outline) for plate in plates(whole.solid) if plate.layer in APART]
     boxes = [*apart, bounds(lowest.outline)]
-    return Shown(
+    return SheetContent(
         parts,
         whole.shapes,
         rows,
@@ -76,7 +76,7 @@ def shown_on_sheet(parts: Outlines, tolerance: float, curves: str) -> Shown:
     )
 
 
-def views(shown: Shown, scale: float) -> Iterator[View]:
+def views(shown: SheetContent, scale: float) -> Iterator[View]:
     """Yield a view of each part."""
     begin = titled(shown.rows, scale)
     yield from _wheels(shown, begin)
@@ -85,7 +85,7 @@ def views(shown: Shown, scale: float) -> Iterator[View]:
     yield from _standing(shown, begin)
 
 
-def _wheels(shown: Shown, begin: Begin) -> Iterator[View]:
+def _wheels(shown: SheetContent, begin: Begin) -> Iterator[View]:
     """Yield the views of wheels and locking discs; of two wheels in series, of both."""
     for front, of in (("", shown.outlines), ("first ", shown.first)):
         if of is None:
@@ -101,7 +101,7 @@ def _wheels(shown: Shown, begin: Begin) -> Iterator[View]:
             yield view
 
 
-def _crank(shown: Shown, begin: Begin) -> Iterator[View]:
+def _crank(shown: SheetContent, begin: Begin) -> Iterator[View]:
     """Yield the views of the arm and of the roller with its pin."""
     if shown.built.arm:
         view = begin("arm")
@@ -110,14 +110,14 @@ def _crank(shown: Shown, begin: Begin) -> Iterator[View]:
     yield from rolling(begin, shown.outlines.assembly.mechanism)
 
 
-def _links(shown: Shown, begin: Begin) -> Iterator[View]:
+def _links(shown: SheetContent, begin: Begin) -> Iterator[View]:
     """Yield the views of links, and of gears by their pitch curves."""
     bars, mechanism = shown.built.links, shown.outlines.assembly.full
     yield from linked(begin, bars, mechanism, series=bool(shown.first))
     yield from geared(begin, shown.gears, mechanism)
 
 
-def _standing(shown: Shown, begin: Begin) -> Iterator[View]:
+def _standing(shown: SheetContent, begin: Begin) -> Iterator[View]:
     """Yield the views of shafts, and of the plates that stand still."""
     yield from shafted(begin, shown.built.shafts)
     *grooved, lowest = flat_plates(shown.built.standing)
@@ -132,7 +132,7 @@ def _standing(shown: Shown, begin: Begin) -> Iterator[View]:
     yield view
 
 
-def together(shown: Shown, scale: float) -> View:
+def together(shown: SheetContent, scale: float) -> View:
     """Return the view of the assembled machine."""
     view = View(f"assembly ({scale_name(scale)})", scale)
     draw_assembly(view, shown.outlines, shown.together)

@@ -31,7 +31,7 @@ if TYPE_CHECKING:
 ARM, CRANK, ROLLER = "ARM", "CRANK", "ROLLER"
 
 
-class BuiltBall(NamedTuple):
+class PlacedShells(NamedTuple):
     """The parts of a spherical machine at their positions."""
 
     wheel: Member
@@ -45,14 +45,14 @@ class BuiltBall(NamedTuple):
         return self.wheel, self.crank, *self.shafts
 
 
-def built(parts: Shells) -> BuiltBall:
+def built(parts: Shells) -> PlacedShells:
     """Return all parts of a machine.
 
     Raises GenevaError, naming the key, for sizes that leave no arm, hub or shaft.
     """
     arm = crank_arm(parts) if has_arm(parts) else None
     size, ball = parts.assembly.full.spec.size, parts.ball
-    return BuiltBall(
+    return PlacedShells(
         Member(wheel_group(size, ball)),
         Member(crank_group(parts, arm), frame=at_mid_motion(ball)),
         arm,

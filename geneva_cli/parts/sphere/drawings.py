@@ -103,7 +103,7 @@ def wheel_flat(ball: Ball, cone: Cone, tolerance: float, curves: str) -> list[Sh
 
 
 def slot_flat(ball: Ball, cone: Cone, tolerance: float, curves: str) -> Contour:
-    """Return the edge about the first slot, from the middle of one tooth to the next one."""
+    """Return the edge about the first slot, half-way to the adjacent slots on either side."""
     one: list[Segment] = []
     for arc in edge(ball):
         one += cone.segments(arc, 0.0, tolerance, curves)

@@ -119,8 +119,7 @@ class BallGaps:
         if not len(self._facing):
             return near + 0.0 * pose.wheel
         turn = pose.wheel + lead
-        # The wheel's edge against the sectors: its corners, and points that face their edges' axes
-        # ...
+        # The wheel's edge against the sectors: its corners, and points facing their edges' axes ...
         axis = about(np.tile(self._frame[2], (len(turn), 1)), -turn)
         far = np.arccos(np.clip(axis @ self.wheel.middle.T, -1.0, 1.0)) - self.wheel.size
         owner, piece = np.nonzero(far <= self.ball.lock + least[0] + ROUNDING)

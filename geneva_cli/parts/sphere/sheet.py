@@ -29,7 +29,7 @@ from geneva_cli.parts.sheet.standing import draw_hub, draw_shaft
 from geneva_cli.parts.sheet.view import Block, View, number, times
 from geneva_cli.parts.sphere.arm import CapArm
 from geneva_cli.parts.sphere.arm_drawing import arm_cone, arm_flat
-from geneva_cli.parts.sphere.built import ROLLER, BuiltBall, built
+from geneva_cli.parts.sphere.built import ROLLER, PlacedShells, built
 from geneva_cli.parts.sphere.dimensions import dimensions
 from geneva_cli.parts.sphere.drawings import (
     PITCH,
@@ -103,7 +103,7 @@ def _arm(proof: Proof, ball: Ball, arm: CapArm, flat: list[Contour], scale: floa
     return view
 
 
-def _axles(proof: Proof, whole: BuiltBall, scale: float) -> Iterator[View]:
+def _axles(proof: Proof, whole: PlacedShells, scale: float) -> Iterator[View]:
     """Yield views of hubs along their axes, with bores and keyways, and of shafts' sides."""
     size = proof.mechanism.spec.size
     for part, standard in ((whole.wheel, size.wheel_keyway), (whole.crank, size.crank_keyway)):
@@ -186,7 +186,7 @@ def flat_slot(ball: Ball, tolerance: float) -> Block:
 
 
 def _sectors(view: View, locking: list[Segment], far: float) -> None:
-    """Draw the angles of the locking sectors, and that from the first roller to the first one."""
+    """Draw the angles of the locking sectors, and from the first roller to the first."""
     arcs = [arc for arc in locking if isinstance(arc, Arc)]
     wide: dict[str, list[tuple[float, float]]] = {}
     for arc in arcs:

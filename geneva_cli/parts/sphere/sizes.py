@@ -58,7 +58,7 @@ class Ball(NamedTuple):
     bore_mm: float  # radius of the wheel's bore, 0 for none
     hub_mm: float  # radius of its hub, 0 for none
     pin_mm: float  # radius of the rollers' pins, 0 for none
-    about_crank_mm: float  # radius of the crank's shaft or hub between the arm and the wheel
+    about_crank_mm: float  # radius of the crank's shaft or hub inside the arm, 0 for none
 
     @property
     def half_step(self) -> float:

@@ -70,7 +70,7 @@ class Gaps:
 
     def _sector(self) -> None:
         """Reduce a wheel whose slots are all equal to one slot and its neighbours."""
-        # on the inside, the outline runs clockwise
+        # the outline of an internal wheel runs clockwise
         count, sense = len(self.assembly.slots), self.assembly.sign
         repeats = _repeats(self.wheel, count, SAME * self.assembly.L, sense)
         self.pitch = math.tau / count if repeats else 0.0

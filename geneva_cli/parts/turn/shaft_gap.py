@@ -18,7 +18,7 @@ from geneva_cli.curves.measure import at, with_material_left
 from geneva_cli.curves.plates import Group, Member, Part, Plate
 from geneva_cli.curves.shapes import Arc, Circle, Contour, Point, Segment, closed, two_arcs
 from geneva_cli.numerics.jet import Array
-from geneva_cli.parts.built import Built, built
+from geneva_cli.parts.built import PlacedParts, built
 from geneva_cli.parts.gear_drawings import PITCH, gear_span, pitch_radii
 from geneva_cli.parts.link_drawings import placed
 from geneva_cli.parts.outlines import Outlines
@@ -85,7 +85,7 @@ def gear_gap(parts: Outlines) -> ShaftGap | None:
 
 
 def _least(
-    parts: Outlines, whole: Built, turning: list[Ring], rings: list[Ring]
+    parts: Outlines, whole: PlacedParts, turning: list[Ring], rings: list[Ring]
 ) -> ShaftGap | None:
     """Return the least gap of rings to the shafts, and to the hubs of wheel and crank."""
     near = SAME * parts.assembly.L

@@ -120,8 +120,7 @@ class Stops:
             on, i, lead = within(turn, self.pitch, most)
             angle, sign = angle[on, i], sign[on, i]
             n, p, q, s, r, d, h, g = n[i], p[i], q[i], s[i], r[i], d[i], h[i], g[i]
-            # the direction from the wheel's arc to the other one, in a frame whose x axis points to
-            # that
+            # the direction from the wheel's arc to the other, where x points to the other
             x = ((s - r) + 2.0 * r * h * h) / d
             y = -2.0 * sign * r * h * g / d
             good = own.face(p, x, y, self.ahead[p] - angle, other.sense[q])
