@@ -1,4 +1,4 @@
-"""What a sweep works out together: strength, motor, swing, blows, play.
+"""What a sweep works out together: strength, motor, swing, impacts, play.
 
 Beside it, one design after the other.
 
@@ -14,7 +14,12 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from geneva_cli.analysis.blows import entry_blow, entry_blows, reversal_blow, reversal_blows
+from geneva_cli.analysis.impacts import (
+    entry_impact,
+    entry_impacts,
+    reversal_impact,
+    reversal_impacts,
+)
 from geneva_cli.analysis.loads.cycle import Cycle
 from geneva_cli.analysis.loads.sizing import sizing
 from geneva_cli.analysis.loads.sizing_many import sizings_of_many
@@ -131,13 +136,13 @@ ANSWERS = (
     Answer("dynamic factor", _swing, _swings),
     Answer(
         "jump at entry",
-        lambda machine: _jump(entry_blow(machine)),
-        lambda machine: abs(entry_blows(machine).jump),
+        lambda machine: _jump(entry_impact(machine)),
+        lambda machine: abs(entry_impacts(machine).jump),
     ),
     Answer(
         "jump at a change of sides",
-        lambda machine: _jump(reversal_blow(machine)),
-        lambda machine: np.nan_to_num(abs(reversal_blows(machine).jump)),
+        lambda machine: _jump(reversal_impact(machine)),
+        lambda machine: np.nan_to_num(abs(reversal_impacts(machine).jump)),
     ),
     Answer("play of a motion", _play, _plays),
 )

@@ -67,7 +67,7 @@ def _each(stations: Table | None) -> Iterator[Block]:
 
 
 def loads(design: Design, left: Left) -> Iterator[Block]:
-    """The cycle under load, sizing, and blows; without a load the motion alone."""
+    """The cycle under load, sizing, and impacts; without a load the motion alone."""
     own = {name: left.take(name) for name in ("loads", "cycle")}
     page = design.loads_page.to_dict()
     yield Heading("Loads")
@@ -83,7 +83,7 @@ def loads(design: Design, left: Left) -> Iterator[Block]:
     }
     yield from facts("Of the loads", more)
     for name in ("entry", "reversal"):
-        caption = "Blow at entry" if name == "entry" else "Blow where the roller changes walls"
+        caption = "Impact at entry" if name == "entry" else "Impact where the roller changes walls"
         yield from facts(caption, left.take(f"shock.{name}"))
     sizing = {n.partition(".")[2]: v for n, v in page.items() if n.startswith("sizing.")}
     found = facts("What it takes", sizing)
