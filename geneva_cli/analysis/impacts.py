@@ -60,13 +60,13 @@ def entry_impact(mechanism: Mechanism, share: float = 1.0) -> Impact | None:
 
 
 def entry_impacts(mechanism: Mechanism, share: float = 1.0) -> Impacts:
-    """The same of m designs."""
+    """Impacts at entry of m designs, as ``entry_impact`` of each."""
     best = np.full((2, 1), np.nan)
     for engagement in mechanism.engagements:
         every = [first_contacts(engagement, *e) for e in _errors(mechanism, engagement, share)]
-        for found in (*every, *_on_mouth(mechanism, engagement, share)):
-            if found is not None:
-                best = _harder(best, _shown(mechanism, engagement, *found))
+        for contacts in (*every, *_on_mouth(mechanism, engagement, share)):
+            if contacts is not None:
+                best = _harder(best, _shown(mechanism, engagement, *contacts))
     return _with_cost(mechanism, best)
 
 
@@ -96,9 +96,9 @@ def _on_mouth(
     mechanism: Mechanism, engagement: Engagement, share: float
 ) -> list[FirstContacts | None]:
     """First contacts with the mouth's corners, for the largest roller in the narrowest slot."""
-    given, L = mechanism.spec.tolerance, mechanism.center_distance_mm
+    tolerance, L = mechanism.spec.tolerance, mechanism.center_distance_mm
     clear = mechanism.spec.size.allowances.slot_clearance_mm
-    lost = 0.5 * share * (given.roller_diameter_mm + given.slot_width_mm)
+    lost = 0.5 * share * (tolerance.roller_diameter_mm + tolerance.slot_width_mm)
     spare = parameter(np.maximum(clear - lost, 0.0)) / L
     roller = mechanism.roller_radius_mm / L
     errors = _errors(mechanism, engagement, share)
@@ -115,8 +115,8 @@ def mouth_jumps_worst(mechanism: Mechanism) -> Array:
 
 def clearance_mm(mechanism: Mechanism) -> float:
     """Clearance between roller and slot per side, for the smallest roller in the widest slot."""
-    given = mechanism.spec.tolerance
-    both = given.roller_diameter_mm + given.slot_width_mm
+    tolerance = mechanism.spec.tolerance
+    both = tolerance.roller_diameter_mm + tolerance.slot_width_mm
     return mechanism.spec.size.allowances.slot_clearance_mm + 0.5 * both
 
 
@@ -149,11 +149,11 @@ def _reversal(mechanism: Mechanism, engagement: Engagement) -> Array:
     lever = abs(touching(taken(engagement, at.which), at.x[:, None]).lever.arrays()[0][:, 0])
     sine = clearance[at.which, 0] / (np.maximum(lever, NO_LEVER) * L[at.which, 0])
     play = np.where(lever > NO_LEVER, 2.0 * np.arcsin(np.minimum(sine, 1.0)), 0.0)
-    found = impacts_of(engagement, at, play, drag)
+    struck = impacts_of(engagement, at, play, drag)
     # hardest of each design; of equal ones the first
-    order = np.lexsort((np.nan_to_num(-found.speed, nan=np.inf), at.which))
+    order = np.lexsort((np.nan_to_num(-struck.speed, nan=np.inf), at.which))
     which, first = np.unique(at.which[order], return_index=True)
-    out[:, which] = found.at_deg[order][first], found.speed[order][first]
+    out[:, which] = struck.at_deg[order][first], struck.speed[order][first]
     return _shown(mechanism, engagement, *out)
 
 

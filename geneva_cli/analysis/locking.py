@@ -1,15 +1,20 @@
 """The play of the wheel in its lock during the dwell, for any deviations.
 
 A recess of radius rho is cut into the wheel about a point at the centre distance L. The locking
-disc of radius k turns about the crank's axis at L + dL. The wheel can turn by d until it is stopped
+disc of radius k turns about the crank's axis at L + dL. The wheel can turn by d until one of three
+contacts stops it.
 
-- by the corner of a recess, at p from the wheel's axis, that meets the disc:
-  d = chi(L, rho) - chi(L + dL, k), chi being the corner's angle from the line of centres,
-  cos chi = (L² + p² - rho²) / (2 L p). For a corner rounded by e this holds for its centre,
-  which is nearer by e, with rho + e and k + e;
-- by an end of the disc that meets the recess, if the recess reaches farther round than the disc;
-- on the recess itself, where the two centres are rho - k apart. This happens if the disc is too
-  near to the recess's bottom, or if both reach farther round than 90 degrees.
+A corner of a recess, at p from the wheel's axis, meets the disc:
+
+    d = chi(L, rho) - chi(L + dL, k) ,    cos chi = (L² + p² - rho²) / (2 L p) .
+
+Here chi is the corner's angle from the line of centres. For a corner rounded by e this holds for
+its centre, which is nearer by e, with rho + e and k + e.
+
+An end of the disc meets the recess, if the recess reaches farther round than the disc.
+
+The disc meets the recess between their ends, where the two centres are rho - k apart. This happens
+if the disc is too near to the recess's bottom, or if both reach farther round than 90 degrees.
 
 The play is computed in the middle of a dwell, where the disc is symmetric to the recess.
 """
@@ -47,9 +52,7 @@ class LockPlay(NamedTuple):
 
 
 class LockContact(NamedTuple):
-    """The contact of disc and recess: angles in radians, lengths in millimetres; (m, 1) for m
-    locks.
-    """
+    """The contact of disc and recess, in radians and millimetres; (m, 1) for m locks."""
 
     on: str  # "corner" of the recess on the disc, "disc's end" on the recess, or arc on "recess"
     phi: float  # direction of the force, through one of the arcs' centres, from their middle

@@ -2,13 +2,17 @@
 
 Angles are at the sphere's centre. A recess is cut into the wheel at an angle rho from the crank's
 axis, which is at S from the wheel's. The locking sector reaches to k. The wheel can turn by d until
-it is stopped
+one of two contacts stops it.
 
-- by the corner of a recess, at p from the wheel's axis, that meets the sector:
-  d = chi(p, rho) - chi(p, k). chi(p, a) is the azimuth about the wheel's axis, from the crank's,
-  of a point at p from the one and a from the other: cos a = cos S cos p + sin S sin p cos chi;
-- by an end of the sector, at q from the wheel's axis, that meets the recess, if the recess
-  reaches farther round: d = chi(q, rho) minus the azimuth of the end.
+A corner of a recess, at p from the wheel's axis, meets the sector:
+
+    d = chi(p, rho) - chi(p, k) ,    cos a = cos S cos p + sin S sin p cos chi .
+
+Here chi(p, a) is the azimuth about the wheel's axis, from the crank's, of a point at p from the
+wheel's axis and at a from the crank's.
+
+An end of the sector, at q from the wheel's axis, meets the recess, if the recess reaches farther
+round. Then d is chi(q, rho) minus the azimuth of the end.
 
 The two never reach farther round than 90 degrees together, so they do not touch between their ends.
 The recess reaches so far only with shafts beyond 90 degrees. The sector does so only with shafts

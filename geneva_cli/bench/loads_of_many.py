@@ -73,7 +73,7 @@ LOADED = (
 )
 
 
-class Asked(NamedTuple):
+class Request(NamedTuple):
     """Loads that are requested of each design."""
 
     name: str
@@ -82,12 +82,12 @@ class Asked(NamedTuple):
     summed: bool  # their root mean squares
 
 
-ASKED = (
-    Asked("greatest pin force", LOADS[:1], True, False),
-    Asked("greatest input torque", LOADS[1:2], True, False),
-    Asked("greatest contact stress", LOADS[2:], True, False),
-    Asked("rms of the three loads", LOADS, False, True),
-    Asked("extremes and rms of the three", LOADS, True, True),
+REQUESTS = (
+    Request("greatest pin force", LOADS[:1], True, False),
+    Request("greatest input torque", LOADS[1:2], True, False),
+    Request("greatest contact stress", LOADS[2:], True, False),
+    Request("rms of the three loads", LOADS, False, True),
+    Request("extremes and rms of the three", LOADS, True, True),
 )
 
 
@@ -98,7 +98,7 @@ def tasks(quick: bool) -> list[Task]:
         count = QUICK if quick else min(LOADS_OF, loaded.kind.most)
         for friction in (0.1,) if quick else (0.0, 0.1):
             of = _designs(loaded, count, friction)
-            out += [_task(asked, *of) for asked in (ASKED[2:] if quick else ASKED)]
+            out += [_task(request, *of) for request in (REQUESTS[2:] if quick else REQUESTS)]
     return out
 
 
@@ -122,82 +122,84 @@ def _designs(loaded: LoadedKind, count: int, friction: float) -> tuple[Designs, 
     return Designs(name, together, alone, A), built
 
 
-def _task(asked: Asked, of: Designs, built: int) -> Task:
+def _task(request: Request, of: Designs, built: int) -> Task:
     most = LOOP if built > QUICK else QUICK_LOOP
     methods = [
-        one_by_one(of.alone, built, partial(_one, asked), most),
+        one_by_one(of.alone, built, partial(_one, request), most),
         Method(
             "formulas alone, nothing searched",
-            _places(asked, of.together, built),
-            partial(_formulas, asked, of.together, built),
+            _places(request, of.together, built),
+            partial(_formulas, request, of.together, built),
         ),
-        Method("together", None, partial(_together, asked, of.together), True),
+        Method("together", None, partial(_together, request, of.together), True),
     ]
     if of.A:
         both = zip(of.alone, of.A, strict=False)
-        truth = np.array([_exact(asked, machine, A) for machine, A in both])
+        truth = np.array([_exact(request, machine, A) for machine, A in both])
     else:
-        truth = np.array([_one(asked, machine) for machine in of.alone])
-    return task_of_many(f"{asked.name} of {of.name}", built, partial(first_errors, truth), methods)
+        truth = np.array([_one(request, machine) for machine in of.alone])
+    return task_of_many(
+        f"{request.name} of {of.name}", built, partial(first_errors, truth), methods
+    )
 
 
 def first_errors(truth: Array, every: Sequence[Array] | Array) -> float:
     """Greatest relative error of the first designs; two loads without a bound agree."""
-    found, truth = np.array(every[: len(truth)]), truth[: len(every)]
+    computed, truth = np.array(every[: len(truth)]), truth[: len(every)]
     with np.errstate(invalid="ignore"):
-        wrong = np.where(found == truth, 0.0, np.abs(found / truth - 1.0))
+        wrong = np.where(computed == truth, 0.0, np.abs(computed / truth - 1.0))
     return float(wrong.max())
 
 
-def _exact(asked: Asked, machine: Mechanism, A: float) -> list[float]:
+def _exact(request: Request, machine: Mechanism, A: float) -> list[float]:
     """Loads of one design in 50 digits."""
-    which = [LOADS.index(name) for name in asked.loads]
-    sizes = load_truth.greatest(machine, A) if asked.sized else ()
-    sums = load_truth.roots(machine, A) if asked.summed else ()
+    which = [LOADS.index(name) for name in request.loads]
+    sizes = load_truth.greatest(machine, A) if request.sized else ()
+    sums = load_truth.roots(machine, A) if request.summed else ()
     return [every[k] for every in (sizes, sums) if every for k in which]
 
 
-def _one(asked: Asked, machine: Mechanism) -> list[float]:
+def _one(request: Request, machine: Mechanism) -> list[float]:
     """Loads of one design by its own search and sums."""
     cycle, out = Cycle(machine), []
-    if asked.sized:
-        sizes = [max(one.max, -one.min) for one in ends_of(cycle, *asked.loads)]
-        both = zip(asked.loads, sizes, strict=True)
+    if request.sized:
+        sizes = [max(one.max, -one.min) for one in ends_of(cycle, *request.loads)]
+        both = zip(request.loads, sizes, strict=True)
         out = [math.sqrt(size) if name in SQUARED else size for name, size in both]
-    if asked.summed:
+    if request.summed:
         totals = summaries(cycle)
-        out += [rms for name in asked.loads if (rms := totals[name].rms) is not None]
+        out += [rms for name in request.loads if (rms := totals[name].rms) is not None]
     return out
 
 
-def _together(asked: Asked, machine: Mechanism) -> Array:
-    if not asked.summed:
-        greatest = greatest_of_many(machine, asked.loads).values()
+def _together(request: Request, machine: Mechanism) -> Array:
+    if not request.summed:
+        greatest = greatest_of_many(machine, request.loads).values()
         return np.column_stack([one.max for one in greatest])
-    if not asked.sized:
-        means = means_of_many(machine, asked.loads, told=("rms",)).values()
+    if not request.sized:
+        means = means_of_many(machine, request.loads, told=("rms",)).values()
         return np.column_stack([one.rms for one in means])
-    totals = summaries_of_many(machine, asked.loads, told=("rms",)).values()
+    totals = summaries_of_many(machine, request.loads, told=("rms",)).values()
     sizes = [np.maximum(one.max, -one.min) for one in totals]
     return np.column_stack([*sizes, *[one.rms for one in totals if one.rms is not None]])
 
 
-def _places(asked: Asked, machine: Mechanism, count: int) -> int:
+def _places(request: Request, machine: Mechanism, count: int) -> int:
     """Mean number of places per motion at which the formulas are evaluated."""
     spans = spans_of(machine.engagements[0], count)
-    return len(spans) * (len(POINTS) * asked.sized + NODES * asked.summed)
+    return len(spans) * (len(POINTS) * request.sized + NODES * request.summed)
 
 
-def _formulas(asked: Asked, mechanism: Mechanism, count: int) -> Array:
+def _formulas(request: Request, mechanism: Mechanism, count: int) -> Array:
     """Results of samples and of Gauss's rule at as many places as the search starts with."""
     blocks = []
-    every = machine(mechanism.engagements[0], setting(mechanism), asked.loads, NONE)
+    every = machine(mechanism.engagements[0], setting(mechanism), request.loads, NONE)
     period = np.broadcast_to(np.ravel(mechanism.period_deg), (count,))
     for i in range(0, count, BLOCK):
         n = min(BLOCK, count - i)
-        load = Loaded(taken(every, slice(i, i + n)), asked.loads)
-        rows = [_sampled(load, n)] if asked.sized else []
-        if asked.summed:
+        load = Loaded(taken(every, slice(i, i + n)), request.loads)
+        rows = [_sampled(load, n)] if request.sized else []
+        if request.summed:
             rows.append(
                 np.sqrt(_summed(load, n) / (period[i : i + n] if period.size > 1 else period))
             )

@@ -90,7 +90,7 @@ def _styles(panels: Iterable[Panel]) -> dict[str, tuple[str, str]]:
 
 def _curves(figure: Any, subject: Subject, panels: list[Panel], lines: int, columns: int) -> None:
     styles = _styles(panels)
-    seen: dict[str, Any] = {}
+    curves: dict[str, Any] = {}
     own = list(dict.fromkeys(r.method for p in panels for r in p[2] if r.ours))
     for number, (title, label, rows, what) in enumerate(panels):
         axes = figure.add_subplot(lines, columns, number + 1)
@@ -115,13 +115,13 @@ def _curves(figure: Any, subject: Subject, panels: list[Panel], lines: int, colu
                 markeredgecolor="white",
                 markeredgewidth=0.6,
             )
-            seen.setdefault(name, line)
+            curves.setdefault(name, line)
         axes.set(xscale="log", yscale="log", xlabel=label, ylabel=subject.error)
         axes.set_title(title, fontsize=9.0)
         axes.margins(0.08)
-    order = sorted(seen, key=lambda name: name not in own)
+    order = sorted(curves, key=lambda name: name not in own)
     figure.legend(
-        [seen[n] for n in order],
+        [curves[n] for n in order],
         order,
         loc="outside lower center",
         ncols=3 if columns > 1 else 2,

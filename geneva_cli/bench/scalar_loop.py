@@ -2,8 +2,8 @@
 
 The formulas are those of a handbook, over the crank's angle f from mid-motion, v = 1 - cos f. An
 internal wheel has a negative l. With C and rho of the side-crank and D of the wheel, the
-acceleration is -l sin f (u - (c - l) w). u is the wheel's term, w that of the crank's changing
-speed. The slope is scanned for sign changes, and each is refined by secants inside its bracket.
+acceleration is -l sin f (u - (c - l) w). The wheel's term is u, that of the crank's changing speed
+w. The slope is scanned for sign changes, and each is refined by secants inside its bracket.
 """
 
 from __future__ import annotations

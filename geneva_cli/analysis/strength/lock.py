@@ -1,17 +1,21 @@
 """The lock under a torque in the dwell: force, contact, and deflection of the wheel.
 
-The wheel turns through its play until the end of a recess rests on the locking disc, or an end of a
-shorter disc on the recess, or the arcs on each other (``locking``). The force passes through the
-axis of the disc or of the recess, at an angle phi to the line of centres. A torque M needs F = M /
-(L sin phi). The deflection has three parts:
+The wheel turns through its play until disc and recess touch, at an end of either or on their arcs
+(``locking``). The force passes through the axis of the disc or of the recess, at an angle phi to
+the line of centres. A torque M needs F = M / (L sin phi). The deflection has three parts.
 
-- the play, exact: the rotation that uses up the clearance;
-- the approach of the two bodies (Johnson, Contact Mechanics, 5.6: a cylinder of radius R1, and a
-  body as thick as the horn): F/(pi b) [(1 - nu1²)/E1 (2 ln(4 R1/a) - 1)
-  + (1 - nu2²)/E2 (2 ln(2 h/a) - nu2/(1 - nu2))], a being Hertz's half width. If a is more than a
-  quarter of the horn, both yield as columns under the pressure below;
-- the bending of the horn (see ``horn``) by a force at its end, in the sections farther inwards.
-  Plane stress gives 6 to 30 % more, as the body that carries the horn yields too.
+The play is exact: the rotation that uses up the clearance.
+
+The approach of the two bodies (Johnson, Contact Mechanics, 5.6: a cylinder of radius R1, and a body
+as thick as the horn) is
+
+    F/(pi b) [(1 - nu1²)/E1 (2 ln(4 R1/a) - 1) + (1 - nu2²)/E2 (2 ln(2 h/a) - nu2/(1 - nu2))]
+
+with Hertz's half width a. If a is more than a quarter of the horn, both yield as columns under the
+pressure below.
+
+The bending of the horn (see ``horn``) is that of a force at its end, in the sections farther
+inwards. Plane stress gives 6 to 30 % more, as the body that carries the horn yields too.
 
 A sharp end has no finite contact stress: the recess's end needs a radius, and an end of the disc
 has none. Without clearance the arcs lie on each other, as they do after wear. The pressure is then

@@ -29,9 +29,9 @@ class Pin(NamedTuple):
     def equivalent(self) -> Number:
         """Greatest von Mises stress of the section.
 
-        With u the height over the neutral axis over the radius, bending is proportional to u and
-        shear to 1 - u². sigma² u² + 3 tau² (1 - u²)² is convex in u², and so is greatest at the
-        outer fibre or at the neutral axis.
+        Let u be the height over the neutral axis over the radius. Bending is proportional to u and
+        shear to 1 - u². The sum sigma² u² + 3 tau² (1 - u²)² is convex in u². So it is greatest at
+        the outer fibre or at the neutral axis.
         """
         import numpy as np
 
@@ -41,11 +41,10 @@ class Pin(NamedTuple):
 def moment_mm(held: str, width: Number, gap: Number) -> Number:
     """Greatest bending moment per newton, N mm, spread evenly over the contact line.
 
-    ``width`` is the line's length b and ``gap`` the free length g between it and a plate, mm.
-
-    - ``cantilever``, fixed in one plate: g + b/2, at the plate;
-    - ``supported``, turning in two plates: b/8 + g/2, in the middle;
-    - ``fixed``, fixed in two plates s = b + 2 g apart: (3 s² - b²)/(24 s), at the plates.
+    ``width`` is the line's length b and ``gap`` the free length g between it and a plate, mm. The
+    moment of a ``cantilever``, fixed in one plate, is g + b/2 at the plate. That of a ``supported``
+    pin, which turns in two plates, is b/8 + g/2 in the middle. That of a ``fixed`` pin, held in two
+    plates s = b + 2 g apart, is (3 s² - b²)/(24 s) at the plates.
 
     >>> moment_mm("cantilever", 24.0, 0.0), moment_mm("supported", 24.0, 0.0)
     (12.0, 3.0)

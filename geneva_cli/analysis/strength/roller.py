@@ -1,13 +1,13 @@
 """The roller as a bearing, and its slot: work, turns, life and wear.
 
-Over a motion the roller rolls along its wall. v_s is the speed at which it would slide if it did
-not turn in the body that carries it, and N the force on it. A bearing that carries N and turns by
-|v_s|/r per second has the life that it has under the constant force (ISO 281, roller bearings)
+Over a motion the roller rolls along its wall under a force N. If it did not turn in the body that
+carries it, it would slide at the speed v_s. A bearing that carries N and turns by |v_s|/r per
+second has the life that it has under the constant force (ISO 281, roller bearings)
 
     P = (∫ N^p |v_s| dt / ∫ |v_s| dt)^(1/p),  p = 10/3,  L10 = 10^6 (C/P)^p revolutions.
 
 Motions are cut where torque, sliding or the speed along the slot change sign, or the motion has a
-break, and integrated between the cuts to the last digits.
+break. Between the cuts they are integrated to the last digits.
 """
 
 from __future__ import annotations

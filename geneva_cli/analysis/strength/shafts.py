@@ -55,14 +55,14 @@ class GivenShaft(NamedTuple):
     span_mm: float | None
 
 
-def wheel_shaft(given: Shaft) -> GivenShaft:
+def wheel_shaft(table: Shaft) -> GivenShaft:
     """Dimensions of the wheel's shaft."""
-    return GivenShaft(given.wheel_diameter_mm, given.wheel_overhang_mm, given.wheel_span_mm)
+    return GivenShaft(table.wheel_diameter_mm, table.wheel_overhang_mm, table.wheel_span_mm)
 
 
-def crank_shaft(given: Shaft) -> GivenShaft:
+def crank_shaft(table: Shaft) -> GivenShaft:
     """Dimensions of the crank's shaft."""
-    return GivenShaft(given.crank_diameter_mm, given.crank_overhang_mm, given.crank_span_mm)
+    return GivenShaft(table.crank_diameter_mm, table.crank_overhang_mm, table.crank_span_mm)
 
 
 def shear_MPa(moment_Nm: N, diameter_mm: N) -> N:
@@ -148,18 +148,18 @@ def shaft_of_many(mechanism: Mechanism, ends: GivenShaft, loaded: On) -> Turned 
 
 def _wanted(mechanism: Mechanism, ends: GivenShaft, loaded: On) -> dict[str, Wanted]:
     """The squares of the equivalent moment and of the torque."""
-    given = mechanism.spec.shaft
+    table = mechanism.spec.shaft
     assert ends.overhang_mm is not None
-    lever = given.bending_factor * ends.overhang_mm / 1000.0
-    return {"moment": Moment(loaded, lever, given.torsion_factor), "torque": Torque(loaded)}
+    lever = table.bending_factor * ends.overhang_mm / 1000.0
+    return {"moment": Moment(loaded, lever, table.torsion_factor), "torque": Torque(loaded)}
 
 
 def _turned(
     mechanism: Mechanism, ends: GivenShaft, square: Array, at_deg: Number, torque_squared: Number
 ) -> Turned:
     """Results from the greatest squares of moment and torque, (m,)."""
-    given, d, span = mechanism.spec.shaft, ends.diameter_mm, ends.span_mm
-    moment, allowed = np.sqrt(square), given.shear_stress_max_MPa
+    table, d, span = mechanism.spec.shaft, ends.diameter_mm, ends.span_mm
+    moment, allowed = np.sqrt(square), table.shear_stress_max_MPa
     stress = least = twist = None
     if d is not None:
         stress = parameter(shear_MPa(moment, np.ravel(d)))
@@ -167,7 +167,7 @@ def _turned(
         least = parameter(least_diameter_mm(moment, np.ravel(allowed)))
     if d is not None and span is not None and ends.overhang_mm is not None:
         polar = math.pi * d**4 / 32.0  # N m mm / (GPa mm^4) is 1
-        rate = np.ravel((ends.overhang_mm + span) / (given.shear_modulus_GPa * polar))
+        rate = np.ravel((ends.overhang_mm + span) / (table.shear_modulus_GPa * polar))
         most = np.where(np.isfinite(torque_squared), np.sqrt(torque_squared), np.nan)
         twist = parameter(np.degrees(most * rate))
     return Turned(parameter(moment), parameter(at_deg), stress, least, twist)

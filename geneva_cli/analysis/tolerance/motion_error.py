@@ -61,8 +61,7 @@ class MotionError(NamedTuple):
         return by.slot_clearance + self.clearance
 
     def margin_mm(self, spec: Spec, use: Mapping[str, float]) -> float:
-        """Greatest sum of errors of centre distance and crank radius that every random machine
-        allows.
+        """Greatest sum of errors of L and R that every random machine allows, mm.
 
         With larger errors the roller may reach the wheel's axis, or the crank's. A normal
         distribution has tails: deviations lie within ``TAIL`` times the plus or minus.

@@ -77,13 +77,11 @@ class Swing(NamedTuple):
 
 
 def residual_swing(panels: Panels, motion: Whole, swing: Swing) -> Complex:
-    """Return the residual vibration of each oscillator after a motion: (n,), its size over the
-    step.
+    """Return the residual vibration of each oscillator after a motion: (n,), over the step.
 
-    It is (r' - p* r) / Im p at the end of the motion. r is the load's angle minus the wheel's, over
-    the step, and p* the conjugate of p, so r is its imaginary part. The motion begins without
-    vibration. ``motion`` (n,) are the motions of the oscillators, by their numbers among the
-    panels'.
+    It is (r' - p* r) / Im p at the end of the motion, which begins without vibration. Here r is the
+    load's angle minus the wheel's, over the step. p* is the conjugate of p, so r is its imaginary
+    part. ``motion`` (n,) are the motions of the oscillators, by their numbers among the panels'.
     """
     out = np.empty(len(motion), dtype=complex)
     order = _orders(panels, motion, swing)

@@ -153,7 +153,7 @@ def _task(count: int, what: str, orders: tuple[int, ...]) -> Task:
         f"{what} at {count} angles",
         f"one np.sin + np.cos over {count} angles",
         lambda: (np.sin(x), np.cos(x)),
-        lambda found: _error(found, mirrored, orders),
+        lambda results: _error(results, mirrored, orders),
         methods,
     )
 

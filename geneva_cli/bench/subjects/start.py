@@ -99,5 +99,5 @@ def _task(name: str, runs: dict[str, tuple[str, tuple[str, ...]]], spec: str | N
     return Task(name, BASELINE, base, lambda _: 0.0, methods)
 
 
-def _run(command: tuple[str, ...], given: str | None) -> None:
-    process_seconds(command, os.environ, given)
+def _run(command: tuple[str, ...], text: str | None) -> None:
+    process_seconds(command, os.environ, text)

@@ -154,7 +154,7 @@ def subject(quick: bool) -> Subject:
     assert machine is not None
     alone = [build(GIVEN.with_("drive.A", a)) for a in A[:checked].tolist()]
     return Subject(
-        "What a sweep works out of many designs together",
+        "Results of a sweep for a batch of designs",
         f"greatest relative error of {checked} designs, against the answer of one design",
         [_task(answer, machine, count, alone) for answer in ANSWERS],
         floor=1e-12,

@@ -46,7 +46,7 @@ def subject(quick: bool) -> Subject:
         f"{count} machines of seven dimensions",
         f"one np.sin + np.cos over {count} numbers",
         lambda: (np.sin(angles), np.cos(angles)),
-        lambda found: max(abs(a - b) / abs(b) for a, b in zip(found, true, strict=True)),
+        lambda results: max(abs(a - b) / abs(b) for a, b in zip(results, true, strict=True)),
         [
             Method("NumPy, pseudo-random", None, partial(_plain, count)),
             Method(
@@ -70,8 +70,8 @@ def _ours(count: int) -> partial[Means]:
     error, entry = motion_errors(mechanism)[0], entry_jumps(mechanism)[0]
 
     def run() -> Means:
-        found = random_machines(Draws(SIZES, False, 1), count, LOCK, (error, AT_DEG, 1.0), entry)
-        return Means(*(float(part.mean()) for part in found[:3]))
+        results = random_machines(Draws(SIZES, False, 1), count, LOCK, (error, AT_DEG, 1.0), entry)
+        return Means(*(float(part.mean()) for part in results[:3]))
 
     return partial(run)
 

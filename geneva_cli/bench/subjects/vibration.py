@@ -164,6 +164,6 @@ def _task(damping: float, quick: bool) -> Task:
         f"{count} period ratios, damping {damping:g}",
         f"one np.sin + np.cos over {count} numbers",
         lambda: (np.sin(ratio), np.cos(ratio)),
-        lambda found: _error(ratio, damping, found),
+        lambda residuals: _error(ratio, damping, residuals),
         methods,
     )
