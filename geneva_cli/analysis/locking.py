@@ -141,9 +141,7 @@ class Lock(NamedTuple):
         radius = choose(loose, choose(arcs, between, ended), math.inf)
         on = _word(arcs, "recess", _word(corner, "corner", "disc's end"))
         play = self(deviations([0.0] * len(Deviations._fields))).angle.c[0]
-        free = parameter(
-            np.maximum(play, 0.0)
-        )  # without clearance the play may be slightly negative by rounding
+        free = parameter(np.maximum(play, 0.0))  # without clearance rounding may make it negative
         return LockContact(on, phi, free if np.ndim(play) else float(free), radius)
 
     def _on_recess(self, by: Deviations, spare: Jet) -> Jet:

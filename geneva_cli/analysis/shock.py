@@ -59,9 +59,7 @@ class SlotAxis(NamedTuple):
         engagement = engagement.through
         if engagement.motion.entry is None:
             return None
-        x, y = engagement.slot(
-            0.5 * engagement.entry_deg, 1
-        )  # a straight slot has one direction everywhere
+        x, y = engagement.slot(0.5 * engagement.entry_deg, 1)  # any place in a straight slot
         (px, u), (py, v) = x.c, y.c
         m = library(px)
         sense = m.copysign(1.0, px * u + py * v)

@@ -95,7 +95,7 @@ def distances(points: Array, pieces: Sequence[Line | Arc | Cubic]) -> Array:
     grid = np.array([at(piece, u) for piece in pieces for u in np.linspace(0.0, 1.0, GRID + 1)])
     nearest = cKDTree(grid).query(np.column_stack((points.real, points.imag)))[1]
     own, place = np.divmod(nearest, GRID + 1)
-    fraction, nearest_mm = place / GRID, np.full(len(points), np.inf)
+    fraction, least = place / GRID, np.full(len(points), np.inf)
     for i, piece in enumerate(pieces):
         # The nearest of the sampled places may be shared by two pieces.
         for mine, u in (
@@ -104,10 +104,8 @@ def distances(points: Array, pieces: Sequence[Line | Arc | Cubic]) -> Array:
             ((own == i - 1) & (place == GRID), np.zeros(len(points))),
         ):
             if mine.any():
-                nearest_mm[mine] = np.minimum(
-                    nearest_mm[mine], _from_piece(points[mine], piece, u[mine])
-                )
-    return nearest_mm
+                least[mine] = np.minimum(least[mine], _from_piece(points[mine], piece, u[mine]))
+    return least
 
 
 def _from_piece(points: Array, piece: Line | Arc | Cubic, u: Array) -> Array:

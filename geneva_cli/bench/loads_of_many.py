@@ -52,9 +52,7 @@ class LoadedKind(NamedTuple):
 
     kind: Kind
     torque_Nm: float = 0.0
-    A: Callable[[float], float] | None = (
-        None  # A of a side-crank, from the varied value; None for another machine
-    )
+    A: Callable[[float], float] | None = None  # of a side-crank, from the varied value
 
 
 BY_NAME = {kind.name: kind for kind in KINDS}
@@ -138,9 +136,8 @@ def _task(request: Request, of: Designs, built: int) -> Task:
         truth = np.array([_exact(request, machine, A) for machine, A in both])
     else:
         truth = np.array([_one(request, machine) for machine in of.alone])
-    return task_of_many(
-        f"{request.name} of {of.name}", built, partial(first_errors, truth), methods
-    )
+    name = f"{request.name} of {of.name}"
+    return task_of_many(name, built, partial(first_errors, truth), methods)
 
 
 def first_errors(truth: Array, every: Sequence[Array] | Array) -> float:

@@ -18,9 +18,7 @@ class Method(NamedTuple):
     run: Callable[[], Any]
     ours: bool = False
     times: float = 1.0  # the run is that part of the task: a loop over a sample of the designs
-    pieces: Callable[[Any], int] | None = (
-        None  # number of pieces in the answer, a cost for its reader
-    )
+    pieces: Callable[[Any], int] | None = None  # number of pieces in the answer
     memory: Callable[[], float] | None = None  # peak of a run, MB
 
 

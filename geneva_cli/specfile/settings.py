@@ -80,9 +80,7 @@ def _with(node: Any, path: tuple[str | int, ...], one: Setting) -> Any:
         several = list(node) if isinstance(node, list) else []
         if not head < len(several):
             name = ".".join(map(str, one.path[: one.path.index(head)]))
-            raise GenevaError(
-                f"{one.said}: the spec has {len(several)} [[{name}]] tables, counted from 0"
-            )
+            raise GenevaError(f"{one.said}: the spec has {len(several)} [[{name}]], counted from 0")
         several[head] = _with(several[head], tuple(rest), one)
         return several
     table = dict(node) if isinstance(node, dict) else {}

@@ -53,9 +53,7 @@ def spec_of(tree: dict[str, Any], name: str) -> Spec:
         if table in LISTS:
             _refuse_no_list(table, value)
         elif not isinstance(value, dict):
-            raise GenevaError(
-                f"{table} must be a table: write [{table}] on the line above its keys", (table,)
-            )
+            raise GenevaError(f"{table} must be a table: write [{table}] above its keys", (table,))
     if "wheel" not in tree:
         raise GenevaError(
             f"{name}: no [wheel] table; the shortest spec is [wheel] and, on the next line, z = 6"

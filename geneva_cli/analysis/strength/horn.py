@@ -163,19 +163,15 @@ def horns(mechanism: Mechanism, half_width_mm: float, recess_mm: float) -> list[
         engagement, aheads = whole.through, whole.ahead_deg
         ends = engagement.entry_deg, engagement.exit_deg
         for end, mouth, ahead in zip((-1.0, 1.0), ends, (aheads[0], aheads[-1]), strict=True):
-            rest = (
-                -end * engagement.half_step
-            )  # direction of the crank's axis, with the wheel at rest
+            rest = -end * engagement.half_step  # direction of the crank's axis, the wheel at rest
             at = pitch(engagement, mouth)
             inwards = -end * vector(at.tangent_x, at.tangent_y)
             centre = L * vector(np.cos(rest), np.sin(rest))
             across = vector(-inwards[1], inwards[0])
             towards = L * vector(at.x, at.y) - centre
             across = across * np.copysign(1.0, product(across, towards))
-            directions = centre, inwards, across
-            sides.append(
-                Side(engagement, L, half_width_mm, recess_mm, end, *directions, whole, ahead)
-            )
+            frame = centre, inwards, across
+            sides.append(Side(engagement, L, half_width_mm, recess_mm, end, *frame, whole, ahead))
     return sides
 
 
@@ -325,22 +321,18 @@ def _stress(
     loads = state(mechanism, side.whole, _alike(x - side.ahead_deg))
     bears = np.asarray(loads.torque_Nm) * side.end < 0.0
     line = np.atleast_2d(np.where(bears, loads.pin_force_N, 0.0) / width)
-    (contact, wall), (direction, normal) = (np.split(of, [x.shape[1]], axis=2) for of in walls)
+    (contact, wall), (push, normal) = (np.split(of, [x.shape[1]], axis=2) for of in walls)
     m = max(len(line), len(thick))
     stress = np.zeros((m, x.shape[1], thick.shape[1]))
     own = np.flatnonzero(bears.any(axis=0) if bears.ndim > 1 else bears)  # elsewhere it is 0
-    contact, direction, line = (
-        contact[..., own, None],
-        direction[..., own, None],
-        line[:, own, None],
-    )
+    contact, push, line = contact[..., own, None], push[..., own, None], line[:, own, None]
     with np.errstate(all="ignore"):
         # from the contact to the middle of the section, (2, m, places, sections)
         arm = (wall + 0.5 * thick * normal)[:, :, None] - contact
-        moment = abs(arm[0] * direction[1] - arm[1] * direction[0])
+        moment = abs(arm[0] * push[1] - arm[1] * push[0])
         along, thick = normal[:, :, None], thick[:, None]
-        push = direction[1] * along[0] - direction[0] * along[1]  # along the beam
-        bent = line * (moment * (6.0 / thick**2) - push / thick)
+        pull = push[1] * along[0] - push[0] * along[1]  # along the beam
+        bent = line * (moment * (6.0 / thick**2) - pull / thick)
         further = wall[0][:, None] > contact[0]
         stress[:, own] = np.where(further & np.isfinite(bent), bent, 0.0)
     return stress

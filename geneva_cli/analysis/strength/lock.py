@@ -174,9 +174,7 @@ def _weakest(mechanism: Mechanism, half_width: float, recess: float, phi: float)
         middle = wall + 0.5 * thick * normal
         towards = abs(product(side.centre, side.across)) / np.hypot(*side.centre)
         ahead = np.arccos(np.minimum(1.0, towards))  # direction of the wheel's axis
-        tilt = (
-            phi - ahead
-        )  # angle of the force, which passes through the disc's axis, from the mouth's direction
+        tilt = phi - ahead  # angle of the force from the mouth's direction
         x, y = -np.sin(tilt), np.cos(tilt)
         moment = middle[0] * y - middle[1] * x
         across = x * normal[0] + y * normal[1]

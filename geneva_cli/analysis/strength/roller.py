@@ -183,13 +183,11 @@ def lives(mechanism: Mechanism, each: Sequence[Passage]) -> Life:
     spec, m = mechanism.spec, rollers(mechanism)
     radius_m = np.ravel(mechanism.roller_radius_mm / 1000.0)
     rows = []
-    for passages_ in (each[i::m] for i in range(min(m, len(each)))):
-        rolled = sum(one.rolled_m for one in passages_)
-        force = (sum(one.load for one in passages_) / rolled) ** (1.0 / EXPONENT)
-        turns = rolled / len(passages_) / (2.0 * math.pi * radius_m)
-        often = np.ravel(
-            _periods_per_h(mechanism) * (len(passages_) if len(each) >= m else 1.0 / m)
-        )
+    for own in (each[i::m] for i in range(min(m, len(each)))):
+        rolled = sum(one.rolled_m for one in own)
+        force = (sum(one.load for one in own) / rolled) ** (1.0 / EXPONENT)
+        turns = rolled / len(own) / (2.0 * math.pi * radius_m)
+        often = np.ravel(_periods_per_h(mechanism) * (len(own) if len(each) >= m else 1.0 / m))
         rows.append(np.stack(np.broadcast_arrays(force, turns, often)))
     with np.errstate(all="ignore"):
         every = np.stack(rows)

@@ -157,9 +157,8 @@ def _error(table: Table) -> Callable[[Any], float]:
             part = ",".join(lines[1 + start : 1 + min(start + 8192, len(table))])
             expected = np.column_stack([c[start : start + 8192] for c in table.columns]).ravel()
             values = np.array([float(v) for v in part.split(",")])
-            wrong += (
-                int((values != expected).sum()) if len(values) == len(expected) else len(expected)
-            )
+            alike = len(values) == len(expected)
+            wrong += int((values != expected).sum()) if alike else len(expected)
         return float(wrong)
 
     return mismatches

@@ -12,12 +12,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from geneva_cli.analysis.impacts import (
-    entry_impact,
-    entry_impacts,
-    reversal_impact,
-    reversal_impacts,
-)
+from geneva_cli.analysis import impacts
 from geneva_cli.analysis.loads.cycle import Cycle
 from geneva_cli.analysis.loads.sizing import sizing
 from geneva_cli.analysis.loads.sizing_many import sizings_of_many
@@ -134,13 +129,13 @@ ANSWERS = (
     Answer("dynamic factor", _swing, _swings),
     Answer(
         "jump at entry",
-        lambda machine: _jump(entry_impact(machine)),
-        lambda machine: abs(entry_impacts(machine).jump),
+        lambda machine: _jump(impacts.entry_impact(machine)),
+        lambda machine: abs(impacts.entry_impacts(machine).jump),
     ),
     Answer(
         "jump at a change of sides",
-        lambda machine: _jump(reversal_impact(machine)),
-        lambda machine: np.nan_to_num(abs(reversal_impacts(machine).jump)),
+        lambda machine: _jump(impacts.reversal_impact(machine)),
+        lambda machine: np.nan_to_num(abs(impacts.reversal_impacts(machine).jump)),
     ),
     Answer("play of a motion", _play, _plays),
 )

@@ -56,9 +56,7 @@ class SideCrankPeak(NamedTuple):
         if peaks is None:
             return None
         size, at_deg = peaks(self.z, self.sign < 0.0, self.A)
-        sure = (
-            abs(self.A) + 0.0 * size <= A_SURE
-        )  # an array over all designs, even if only z differs
+        sure = abs(self.A) + 0.0 * size <= A_SURE  # one for each design, even if only z differs
         return PeakValue(choose(sure, size, math.nan), choose(sure, at_deg, math.nan))
 
 
