@@ -526,7 +526,7 @@ class Design:
         Those are of corners that it leaves round, unless there are dog bones, and of narrow holes.
 
         >>> Design(External(6)).cutter("wheel", 12.0)[0].partition(": an ")[2]
-        'inner radius of 5 mm is narrower; a cutter up to 10 mm does'
+        'inner radius of 5 mm is narrower; use a cutter up to 10 mm'
         """
         from geneva_cli.parts.catalogue import require_cut
         from geneva_cli.parts.milling import judged

@@ -1,18 +1,18 @@
-"""Whether the wheel follows a roller that stops it from one wall alone.
+"""Check that the wheel follows a roller that stops it with one wall only.
 
-Where gears drive between two rollers, the slot of the second one has a wall behind its roller only
-(see ``parts.walls.straight``): the wheel's inertia must hold it on that wall, against the torque
-that resists. From the handover at s on the wheel coasts, psi'' = -m with m = M_r / (I w²), while
-the slot asks for less, psi'' > -m. It lags by
+If gears drive between two rollers, the slot of the second one has a wall behind its roller only
+(see ``parts.walls.straight``). The wheel's inertia must hold it on that wall, against the torque
+that resists. From the handover at s the wheel coasts, psi'' = -m with m = M_r / (I w²), while the
+slot needs less deceleration, psi'' > -m. It lags by
 
     d(x) = psi(x) - psi(s) - psi'(s) (x - s) + m (x - s)²/2
 
-and runs onto the wall where d is 0 again. -psi'' of a straight slot has one peak, and is not 0 at
-the exit e: so the wheel comes to its dwell, and stays on the wall until then, where
+and meets the wall where d is 0 again. -psi'' of a straight slot has one peak, and is not 0 at the
+exit e. So the wheel reaches its dwell, and stays on the wall until then, if
 
     m <= -psi''(e)  and  m <= 2 (psi'(s) (e - s) - (psi(e) - psi(s))) / (e - s)².
 
-With more it stops short. Angles are in radians, of the input's axis.
+With a larger m it stops short. Angles are input angles in radians.
 """
 
 from __future__ import annotations
@@ -27,7 +27,7 @@ from geneva_cli.numerics.roots import boundary
 
 
 class Lag(NamedTuple):
-    """By how much the wheel lags at most, where, and where it runs onto the wall again; degrees."""
+    """Greatest lag, its place, and the place where the wheel meets the wall again; degrees."""
 
     deg: float
     at_deg: float
@@ -35,9 +35,9 @@ class Lag(NamedTuple):
 
 
 class Arrival(NamedTuple):
-    """The torque that resists, and the most with which the wheel comes to its dwell.
+    """The torque that resists, and the greatest with which the wheel reaches its dwell.
 
-    ``lag`` is None where it does not, or nothing resists.
+    ``lag`` is None if the wheel does not reach it, or nothing resists.
     """
 
     torque_Nm: float
@@ -46,7 +46,7 @@ class Arrival(NamedTuple):
 
 
 def arrival(mechanism: Mechanism) -> Arrival | None:
-    """How the wheel of a machine comes to its dwell; None where slots have both walls, or no load.
+    """Arrival of a machine's wheel at its dwell; None if slots have both walls, or without a load.
 
     >>> design = Design(External(3), GearSector(sector_deg=60), load=Load(inertia_kgm2=0.01))
     >>> round(arrival(design.mechanism).most_Nm, 6)  # tan b = 0.57735 of I w²
@@ -63,15 +63,15 @@ def arrival(mechanism: Mechanism) -> Arrival | None:
 
 
 def greatest_drag(engagement: Engagement) -> float:
-    """The most of M_r / (I w²) with which the wheel comes to its dwell."""
+    """Greatest M_r / (I w²) with which the wheel reaches its dwell."""
     start, u = engagement.motion(_handover(engagement), 1).scalars()[:2]
     end, _, last = engagement.motion(engagement.exit_deg, 2).scalars()[:3]
-    way = (engagement.exit_deg - _handover(engagement)) * DEGREE
-    return max(0.0, min(-last, 2.0 * (u * way - (end - start)) / (way * way)))
+    span = (engagement.exit_deg - _handover(engagement)) * DEGREE
+    return max(0.0, min(-last, 2.0 * (u * span - (end - start)) / (span * span)))
 
 
 def _handover(engagement: Engagement) -> float:
-    """The input angle where the second roller takes over, from mid-motion, degrees."""
+    """Input angle at which the second roller takes over, from mid-motion, degrees."""
     *_, handover, _ = engagement.motion.breaks_deg
     return handover
 
@@ -81,10 +81,10 @@ def _lag(mechanism: Mechanism, engagement: Engagement, drag: float) -> Lag:
     start, u = engagement.motion(begin, 1).scalars()[:2]
 
     def lags(x: float) -> tuple[float, float]:
-        """The lag, and how fast it grows."""
-        way = (x - begin) * DEGREE
+        """Lag, and its rate."""
+        span = (x - begin) * DEGREE
         turned, speed = engagement.motion(x, 1).scalars()[:2]
-        return turned - start - way * (u - 0.5 * drag * way), speed - u + drag * way
+        return turned - start - span * (u - 0.5 * drag * span), speed - u + drag * span
 
     most = boundary(lambda x: lags(x)[1] > 0.0, begin, engagement.exit_deg)
     struck = boundary(lambda x: lags(x)[0] > 0.0, most, engagement.exit_deg)

@@ -1,10 +1,10 @@
-"""The change of sides: the wheel coasts through its play, and is struck where that is used up.
+"""The change of sides: the wheel coasts through its play and is struck at its end.
 
-Where the wheel's torque changes its sign the roller leaves one wall for the other: the wheel coasts
-through the play and is struck by its difference in speed.
+If the wheel's torque changes its sign, the roller leaves one wall for the other. The wheel coasts
+through the play and is struck at its difference in speed.
 
-Speeds are in units of the input's, angles of the wheel in radians, input angles in degrees from
-the engagement's own mid-motion.
+Speeds are in units of the input's. Wheel angles are in radians, input angles in degrees from the
+engagement's own mid-motion.
 """
 
 from __future__ import annotations
@@ -34,28 +34,28 @@ CLOSE = 1e-9  # of a bracket: what a Newton step so short leaves is rounding
 NODES, WEIGHTS = np.polynomial.legendre.leggauss(24)  # exact to a double over half a motion
 
 
-class Impacts(NamedTuple):
-    """Changes of sides: where wheels begin to coast, where they are struck, and how fast.
+class WallImpacts(NamedTuple):
+    """Impacts at changes of sides: the angles at which wheels coast and are struck, and the speeds.
 
-    (k,) each; NaN where the play is not taken up in the motion.
+    (k,) each; NaN if the play is not used up in the motion.
     """
 
     from_deg: Array
     at_deg: Array
-    speed: Array  # of the wheel against the slot, over the input's
+    speed: Array  # of the wheel against the slot, over the input's speed
 
 
 class Changes(NamedTuple):
-    """Where torques change their signs, k of them: of which designs, and the input angles."""
+    """Sign changes of torques, k of them: the designs, and the input angles."""
 
     which: Whole
     x: Array
 
 
 def changes(engagement: Engagement, drag: Array) -> Changes:
-    """Where the wheel's torque changes its sign inside a motion: psi2 = -drag, (m, 1) of each.
+    """Input angles inside a motion at which the wheel's torque changes sign: psi2 = -drag, (m, 1).
 
-    Nowhere where a drag holds the roller on one wall.
+    There are none if a drag holds the roller on one wall.
     """
     motion, m = engagement.motion, len(drag)
     if engagement.paired:  # gears hold the wheel until another roller stops it
@@ -75,15 +75,16 @@ def changes(engagement: Engagement, drag: Array) -> Changes:
         _, _, a, j = taken(motion, of[live])(place[:, None], 3).arrays()
         return (a + drag[of[live]])[:, 0], (j * DEGREE + 0.0 * place[:, None])[:, 0]
 
-    found = roots_many(over, x[before], x[before + 1], CLOSE)
-    return Changes(of, np.where(abs(found) < ROUNDING_DEG, 0.0, found))
+    roots = roots_many(over, x[before], x[before + 1], CLOSE)
+    return Changes(of, np.where(abs(roots) < ROUNDING_DEG, 0.0, roots))
 
 
-def impacts_of(engagement: Engagement, at: Changes, play: Array, drag: Array) -> Impacts:
-    """The changes of sides that begin ``at`` some places, for the play of each, (k,) in radians.
+def impacts_of(engagement: Engagement, at: Changes, play: Array, drag: Array) -> WallImpacts:
+    """WallImpacts after the changes of sides ``at``, for the play of each, (k,) in radians.
 
-    ``drag`` is M_r / (I w²), (m, 1). A wheel coasts from where psi2 = -drag, slowed by it alone,
-    until it is the play ahead of the slot, or behind it, where the torque comes back.
+    ``drag`` is M_r / (I w²), (m, 1). A wheel coasts from the place where psi2 = -drag, slowed only
+    by the drag. It is struck when it is ahead of the slot by the play, or behind if the torque
+    returns.
 
         >>> from geneva_cli import Design, External
         >>> [engagement] = Design(External(3)).mechanism.engagements
@@ -92,15 +93,15 @@ def impacts_of(engagement: Engagement, at: Changes, play: Array, drag: Array) ->
         array([0.55220712])
     """
     if not len(at.x):
-        return Impacts(at.x, at.x, at.x)
+        return WallImpacts(at.x, at.x, at.x)
     parts = []
     for i in range(0, len(at.x), BLOCK):
         part = slice(i, i + BLOCK)
         parts.append(_impacts(engagement, Changes(at.which[part], at.x[part]), play[part], drag))
-    return Impacts(*(np.concatenate(row) for row in zip(*parts, strict=True)))
+    return WallImpacts(*(np.concatenate(row) for row in zip(*parts, strict=True)))
 
 
-def _impacts(engagement: Engagement, at: Changes, play: Array, drag: Array) -> Impacts:
+def _impacts(engagement: Engagement, at: Changes, play: Array, drag: Array) -> WallImpacts:
     start = at.x[:, None]
 
     def gained(x: Array, live: Whole) -> tuple[Array, Array]:
@@ -114,20 +115,20 @@ def _impacts(engagement: Engagement, at: Changes, play: Array, drag: Array) -> I
 
         def over(x: Array, live: Whole) -> tuple[Array, Array]:
             ahead, faster = gained(x, there[live])
-            way = np.copysign(1.0, ahead)
-            return way * ahead - play[there[live]], way * faster
+            sense = np.copysign(1.0, ahead)
+            return sense * ahead - play[there[live]], sense * faster
 
         x, speed = np.full((2, len(span)), np.nan)
         if len(there):
             x[there] = roots_many(over, np.zeros(len(there)), span[there])
             speed[there] = abs(gained(x[there], there)[1])
-    return Impacts(at.x, at.x + x / DEGREE, speed)
+    return WallImpacts(at.x, at.x + x / DEGREE, speed)
 
 
 def _gained(motion: Motion, start: Array, drag: Array, x: Array) -> tuple[Array, Array]:
-    """By how much wheels are ahead of their slots, and faster, x radians after they coast: (k,).
+    """Lead of wheels over their slots, and difference in speed, x radians after they coast: (k,).
 
-    d = -int (x - t) (psi2 + drag) dt, which loses no digits however small the play.
+    d = -int (x - t) (psi2 + drag) dt, which loses no digits even for a small play.
     """
     end = start + x / DEGREE
     inner = [start, *[np.clip(b, start, end) for b in motion.breaks_deg], end]
@@ -140,7 +141,7 @@ def _gained(motion: Motion, start: Array, drag: Array, x: Array) -> tuple[Array,
 
 
 def drag_over(mechanism: Mechanism) -> float:
-    """M_r / (I w²) of the spec's load; infinite without an inertia: nothing coasts."""
+    """M_r / (I w²) of the spec's load; infinite without an inertia, as nothing coasts."""
     inertia = inertia_kgm2(mechanism.spec)
     w = omega(mechanism.spec.drive.n_rpm)
     heavy = inertia > 0.0
@@ -150,9 +151,9 @@ def drag_over(mechanism: Mechanism) -> float:
 
 
 def lasting_drag_Nm(mechanism: Mechanism) -> float:
-    """The torque that must be added for the roller to stay on one wall: I w² max(-psi2) - M_r.
+    """Torque to add for the roller to stay on one wall: I w² max(-psi2) - M_r.
 
-    0 where it stays there already. Of m designs (m, 1).
+    0 if it stays there already; (m, 1) for m designs.
     """
     inertia = inertia_kgm2(mechanism.spec)
     w = omega(mechanism.spec.drive.n_rpm)
@@ -163,7 +164,7 @@ def lasting_drag_Nm(mechanism: Mechanism) -> float:
 
 
 def braking(engagement: Engagement) -> float:
-    """The greatest -psi2 of a motion; of m designs (m, 1)."""
+    """Greatest -psi2 of a motion; (m, 1) for m designs."""
     motion = engagement.motion
     m = designs_in(motion)
     which, _, value = landmarks(motion, "acceleration", m)

@@ -1,17 +1,22 @@
 """The play of the wheel in its lock during the dwell, for any deviations.
 
-A recess of radius rho is cut into the wheel about a point at the centre distance L; the locking
-disc of radius k turns about the crank's axis at L + dL. Turned by d, the wheel is stopped
+A recess of radius rho is cut into the wheel about a point at the centre distance L. The locking
+disc of radius k turns about the crank's axis at L + dL. The wheel can turn by d until one of three
+contacts stops it.
 
-- by the corner of a recess, at p from the wheel's axis, that comes down on the disc:
-  d = chi(L, rho) - chi(L + dL, k), chi being the corner's angle from the line of centres,
-  cos chi = (L² + p² - rho²) / (2 L p); of a corner rounded by e that is so of its centre, e less
-  far out, rho + e and k + e away;
-- by an end of the disc, where the recess reaches farther round than it, that runs up to the recess;
-- or, with the disc too near to the recess's bottom, or where both reach farther round than 90
-  degrees, on the recess itself, where the two centres are rho - k apart.
+A corner of a recess, at p from the wheel's axis, meets the disc:
 
-It is taken in the middle of a dwell, where the disc stands symmetrically to the recess.
+    d = chi(L, rho) - chi(L + dL, k) ,    cos chi = (L² + p² - rho²) / (2 L p) .
+
+Here chi is the corner's angle from the line of centres. For a corner rounded by e this holds for
+its centre, which is nearer by e, with rho + e and k + e.
+
+An end of the disc meets the recess, if the recess reaches farther round than the disc.
+
+The disc meets the recess between their ends, where the two centres are rho - k apart. This happens
+if the disc is too near to the recess's bottom, or if both reach farther round than 90 degrees.
+
+The play is computed in the middle of a dwell, where the disc is symmetric to the recess.
 """
 
 from __future__ import annotations
@@ -40,33 +45,33 @@ ROUNDING = 1e-13  # of an angle, or of the centre distance
 
 
 class LockPlay(NamedTuple):
-    """The wheel's play to one side, radians; 0 where disc and recess do not go together."""
+    """The wheel's play to one side, radians; 0 if disc and recess do not fit together."""
 
     angle: Jet
-    jams: Mask  # where they do not
+    jams: Mask  # True if they do not fit together
 
 
 class LockContact(NamedTuple):
-    """Where disc and recess touch: angles in radians, lengths in millimetres. Of m locks (m, 1)."""
+    """The contact of disc and recess, in radians and millimetres; (m, 1) for m locks."""
 
     on: str  # "corner" of the recess on the disc, "disc's end" on the recess, or arc on "recess"
-    phi: float  # of the force, from the middle of the arcs; it goes through one of their centres
-    play: float  # of the wheel, either way
-    radius: float  # R_e of the contact: 0 of a sharp edge, infinite without clearance
+    phi: float  # direction of the force, through one of the arcs' centres, from their middle
+    play: float  # of the wheel, to either side
+    radius: float  # R_e of the contact: 0 for a sharp edge, infinite without clearance
 
 
 class Lock(NamedTuple):
     """One corner of a recess and one locking arc of the disc, millimetres and radians.
 
-    Of m designs (m, 1) each, and the same for all that follows.
+    For m designs numbers and results are (m, 1).
     """
 
     L: float
-    sign: float  # +1 where the disc reaches towards the wheel's axis, -1 away from it
+    sign: float  # +1 if the disc reaches towards the wheel's axis, -1 away from it
     lock: float
     recess: float
     corner: float  # distance of the recess's corner from the wheel's axis
-    half: float  # of the disc's locking arc
+    half: float  # half angle of the disc's locking arc
     edge: float = 0.0  # radius of the recess's corners
 
     @property
@@ -77,11 +82,11 @@ class Lock(NamedTuple):
 
     @property
     def on_corner(self) -> Truth:
-        """Whether the disc reaches as far round as the recess, whose corner comes down on it."""
+        """True if the disc reaches as far round as the recess, so that a corner meets the disc."""
         return _truth(self.reach <= self.half)
 
     def __call__(self, by: Deviations) -> LockPlay:
-        """The wheel's play to one side."""
+        """Play of the wheel to one side."""
         L, away = self.L, by.center_distance_mm + self.L
         lock, recess = by.lock_radius_mm + self.lock, by.recess_radius_mm + self.recess
         spare, m = recess - lock, library(self.half, self.sign, self.L)
@@ -97,7 +102,7 @@ class Lock(NamedTuple):
             return _at(far, L, recess) - atan2(y, x)
 
         angle = _either(self.on_corner, to_corner, to_end)
-        # to the recess's bottom
+        # distance to the recess's bottom
         nearer = array(by.center_distance_mm.c[0]) * -self.sign
         left = array(spare.c[0]) - np.maximum(nearer, 0.0)
         jams = (left < -ROUNDING * L) | (array(angle.c[0]) < -ROUNDING)
@@ -112,10 +117,10 @@ class Lock(NamedTuple):
         return self.corner - self.sign * self.edge
 
     def contact(self) -> LockContact:
-        """Where disc and recess touch once the play is used up, without deviations.
+        """Contact of disc and recess after the play is used up, without deviations.
 
-        >>> found = Lock(100.0, 1.0, 40.0, 40.5, 86.8, 2.0).contact()
-        >>> round(math.degrees(found.phi), 3), round(math.degrees(found.play), 4)
+        >>> touch = Lock(100.0, 1.0, 40.0, 40.5, 86.8, 2.0).contact()
+        >>> round(math.degrees(touch.phi), 3), round(math.degrees(touch.play), 4)
         (59.455, 0.3325)
         >>> Lock(100.0, -1.0, 30.0, 30.5, 86.8, 2.0).contact().on  # an internal wheel
         'recess'
@@ -127,7 +132,7 @@ class Lock(NamedTuple):
         reach = choose(corner, self.lock + self.edge, self.recess)
         cosine = self.sign * (L * L + reach * reach - far * far) / (2.0 * L * reach)
         arcs = _truth(smaller(self.reach, self.half) > 0.5 * math.pi)
-        # where the arcs touch there is no such triangle: the angle is 90 degrees
+        # if the arcs touch there is no such triangle: the angle is 90 degrees
         phi = library(cosine).acos(choose(arcs, 0.0, cosine))
         edge = choose(corner, self.edge, 0.0)
         ended = self.lock * edge / (self.lock + edge)
@@ -136,13 +141,13 @@ class Lock(NamedTuple):
         radius = choose(loose, choose(arcs, between, ended), math.inf)
         on = _word(arcs, "recess", _word(corner, "corner", "disc's end"))
         play = self(deviations([0.0] * len(Deviations._fields))).angle.c[0]
-        free = parameter(np.maximum(play, 0.0))  # of no clearance it may be a rounding less
+        free = parameter(np.maximum(play, 0.0))  # without clearance rounding may make it negative
         return LockContact(on, phi, free if np.ndim(play) else float(free), radius)
 
     def _on_recess(self, by: Deviations, spare: Jet) -> Jet:
-        """The play where disc and recess touch between their ends.
+        """Play if disc and recess touch between their ends.
 
-        4 L (L + dL) sin²(d/2) = c² - dL², c being the difference of their radii.
+        4 L (L + dL) sin²(d/2) = c² - dL², where c is the difference of their radii.
         """
         off = by.center_distance_mm
         square = (spare * spare - off * off) / ((off + self.L) * (4.0 * self.L))
@@ -152,18 +157,18 @@ class Lock(NamedTuple):
 
 
 def _at(one: Jet, other: float, opposite: Jet) -> Jet:
-    """The angle between two sides of a triangle, from all three."""
+    """Angle between two sides of a triangle, from all three."""
     a = one * one + (other * other) - opposite * opposite
     return atan2(positive_root(one * one * (4.0 * other * other) - a * a), a)
 
 
 def positive_root(square: Jet) -> Jet:
-    """The root, and next to nothing without slope where there is no triangle."""
+    """Square root, or almost 0 without a slope if there is no triangle."""
     return sqrt(_chosen(square.c[0] > 0.0, square, square * 0.0 + 1e-300))
 
 
 def _truth(condition: Truth) -> Truth:
-    """A truth value of one lock as Python's own."""
+    """Truth value of one lock as Python's own type."""
     return bool(condition) if np.ndim(condition) == 0 else condition
 
 
@@ -173,14 +178,14 @@ def _chosen(condition: Truth, yes: Jet, no: Jet) -> Jet:
 
 
 def _either(condition: Truth, yes: Callable[[], Jet], no: Callable[[], Jet]) -> Jet:
-    """One of two jets, of which a million machines of one lock need one alone."""
+    """One of two jets; only the needed one is computed if one lock's batch agrees."""
     if all_true(condition):
         return yes()
     return _chosen(condition, yes(), no()) if np.any(condition) else no()
 
 
 def _word(condition: Truth, yes: str, no: str) -> str:
-    """One of two words; of an array of truth values an array of words."""
+    """One of two words; an array of words for an array of truth values."""
     if isinstance(condition, bool):
         return yes if condition else no
     return cast("str", np.where(condition, yes, no))

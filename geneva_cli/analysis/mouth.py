@@ -1,20 +1,20 @@
-"""The shock at the mouth: a roller that comes beside its slot, which has no room for that.
+"""The shock at the mouth: a roller that enters beside its slot and meets a corner.
 
-Where the slot's clearance leaves no room for what the crank's radius and the centre distance are
-off, the roller meets the corner in which one of the slot's walls ends: the mouth lies across the
-slot where the roller should enter, at the foot of the perpendicular from a crank's axis. A crank's
-arm that is too short comes to the corner on the side of the crank's axis, which it strikes
-forwards, one too long to the one beyond, which it strikes back. On a sharp corner the blow is about
+If the errors of the crank's radius and of the centre distance exceed the slot's clearance, the
+roller meets the corner at the end of one of the slot's walls. The mouth lies across the slot where
+the roller should enter, at the foot of the perpendicular from a crank's axis. An arm that is too
+short strikes the corner on the side of the crank's axis, forwards. An arm that is too long strikes
+the other corner, backwards. On a sharp corner the impact is about
 
     jump / omega = tan b sqrt(2 eps) sqrt((R -+ r)/r),
 
-less for the arm too short, eps being the share of R that is missing or too much once the clearance
-is used up, r the roller's radius: some three times the first contact with the slot's axis
-(``shock``) where r is R/10, as if the walls went on past the mouth. A corner rounded by c counts
-as a roller of r + c.
+less if the arm is too short. eps is the error of R beyond the clearance, as a fraction of R, and r
+the roller's radius. With r = R/10 this is about three times the first contact with the slot's axis
+(``shock``), in which the walls would extend past the mouth. A corner rounded by c acts like a sharp
+one on a roller of radius r + c.
 
-The roller's centre P and the corner C keep their distance if the wheel turns at the speed
-(P - C) . P' / (P - C) . (z x C), whatever leads the roller. On a sphere P and C are directions.
+The roller's centre P and the corner C keep their distance if the wheel turns at the speed (P - C) .
+P' / (P - C) . (z x C), for any path of the roller. On a sphere P and C are directions.
 """
 
 from __future__ import annotations
@@ -39,11 +39,11 @@ ROUNDING = 1e-16  # of L²: less than that the roller is not too near to a corne
 
 
 class Corner(NamedTuple):
-    """A corner of the mouth, and the roller that comes to it with errors of R and L.
+    """A corner of the mouth, and the roller that meets it with errors of R and L.
 
-    Places are from the wheel's centre: along the slot outwards, across it and along the wheel's
+    Positions are from the wheel's centre: along the slot outwards, across it, and along the wheel's
     axis, which is 0 on a plane. ``side`` is 1 for the corner on the side to which the wheel turns,
-    -1 for the other; lengths are over L, on a sphere its arcs.
+    -1 for the other. Lengths are over L, on a sphere its arcs.
     """
 
     axis: SlotAxis
@@ -54,12 +54,12 @@ class Corner(NamedTuple):
     side: float
 
     def roller_at(self, tau: Array) -> tuple[Jet, Jet, Jet]:
-        """The roller's centre ``tau`` radians of the input after the true entry."""
+        """Roller centre ``tau`` radians of the input after the true entry."""
         axis, longer = self.axis, 1.0 + self.crank
         slot, anchor = axis.engagement.slot, axis.anchor
         x, y = anchor.displacement(tau, 1)
         x = (x + anchor.along) * longer - (self.crank - self.center) * axis.along
-        y = (y - axis.aside(self.crank, self.center)) * longer - slot.offset
+        y = (y - axis.offset(self.crank, self.center)) * longer - slot.offset
         if slot.height is None:
             return x, y, x * 0.0
         z = slot.height(radians(anchor.input_deg) + tau, 1) * longer - self.crank * slot.height.hub
@@ -68,14 +68,14 @@ class Corner(NamedTuple):
 
     @property
     def top(self) -> float:
-        """Where the mouth's middle is along the wheel's axis."""
+        """Position of the mouth's middle along the wheel's axis."""
         height = self.axis.engagement.slot.height
         start = radians(self.axis.anchor.input_deg)
         return 0.0 if height is None else parameter(height(start, 0).c[0])
 
     @property
     def place(self) -> tuple[float, float, float]:
-        """The corner."""
+        """Position of the corner."""
         slot, far = self.axis.engagement.slot, self.axis.anchor.along
         if slot.height is None:
             return far, self.side * self.wide - slot.offset, 0.0
@@ -84,7 +84,7 @@ class Corner(NamedTuple):
         return far * down, self.side * m.sin(self.wide), self.top * down
 
     def outside(self, tau: Array) -> tuple[Array, Array]:
-        """How far outside the mouth the roller's centre is, and its speed outwards."""
+        """Distance of the roller's centre outside the mouth, and its speed outwards."""
         x, _, z = self.roller_at(tau)
         far, top = self.axis.anchor.along, self.top
         out = x - far if self.axis.engagement.slot.height is None else x * top - z * far
@@ -93,30 +93,30 @@ class Corner(NamedTuple):
 
     @property
     def reach(self) -> float:
-        """The distance between corner and centre where the roller touches, a chord on a sphere."""
+        """Distance between corner and centre at contact, a chord on a sphere."""
         if self.axis.engagement.slot.height is None:
             return self.roller
         return parameter(2.0 * library(self.roller).sin(0.5 * self.roller))
 
-    def room(self, tau: Array) -> tuple[Array, Array]:
-        """The square of the distance of centre and corner less that at contact, and its slope."""
+    def gap(self, tau: Array) -> tuple[Array, Array]:
+        """Squared distance of centre and corner minus that at contact, and its slope."""
         x, y, z = (p - c for p, c in zip(self.roller_at(tau), self.place, strict=True))
         value, slope = (x * x + y * y + z * z - self.reach**2).arrays()
         return value, slope
 
     def jump(self, tau: Array) -> Array:
-        """The velocity that the roller gives to the wheel at this corner."""
+        """Velocity that the roller gives to the wheel at this corner."""
         corner = self.place
-        way = (-corner[1], corner[0], 0.0)
-        given = turned = 0.0 * tau
-        for p, c, w in zip(self.roller_at(tau), corner, way, strict=True):
+        direction = (-corner[1], corner[0], 0.0)
+        supplied = turned = 0.0 * tau
+        for p, c, w in zip(self.roller_at(tau), corner, direction, strict=True):
             value, speed = p.arrays()
-            given, turned = given + (value - c) * speed, turned + (value - c) * w
-        out: Array = given / turned
+            supplied, turned = supplied + (value - c) * speed, turned + (value - c) * w
+        out: Array = supplied / turned
         return out
 
     def contact(self) -> Array:
-        """Input radians after the true entry of the first contact, (m, 1); NaN where none is.
+        """Input radians after the true entry of the first contact, (m, 1); NaN if there is none.
 
         The roller comes from outside, and has passed once its centre is in the mouth.
         """
@@ -124,7 +124,7 @@ class Corner(NamedTuple):
         out, speed = self.outside(np.atleast_2d(0.0 * span))
         far = -out / speed - span * SHARES[::-1]
         with np.errstate(all="ignore"):
-            value = self.room(far)[0]
+            value = self.gap(far)[0]
             far = np.broadcast_to(far, value.shape)
             meets = value <= -ROUNDING
         there, first = np.flatnonzero(meets.any(axis=1)), np.argmax(meets, axis=1)
@@ -132,7 +132,7 @@ class Corner(NamedTuple):
         near = first[there]
 
         def over(tau: Array, which: Whole) -> tuple[Array, Array]:
-            value, slope = taken(self, there[which]).room(tau[:, None])
+            value, slope = taken(self, there[which]).gap(tau[:, None])
             return value[:, 0], slope[:, 0]
 
         out = np.full((len(value), 1), np.nan)
@@ -143,16 +143,16 @@ class Corner(NamedTuple):
 def mouth_contacts(
     engagement: Engagement, crank: float, center: float, roller: float, clearance: float
 ) -> FirstContacts | None:
-    """The first contacts with the mouth's sharp corners; NaN where the roller has room.
+    """First contacts with the mouth's sharp corners; NaN if the roller touches none.
 
-    ``crank`` and ``center`` are relative errors as of ``shock.first_contacts``, ``roller`` the
-    roller's radius and ``clearance`` that of the slot per side, both over L: floats, or (m, 1) of
-    m designs. None for slots that are solved for. A jump below 0 is one back.
+    ``crank`` and ``center`` are relative errors, as in ``shock.first_contacts``. ``roller`` is the
+    roller's radius and ``clearance`` that of the slot per side, both over L. They are floats, or
+    (m, 1) for m designs. None for slots that are solved for. A negative jump is backwards.
 
         >>> from geneva_cli import Design, External
         >>> [engagement] = Design(External(6)).mechanism.engagements
-        >>> found = mouth_contacts(engagement, -1e-4, 0.0, roller=0.05, clearance=0.0)
-        >>> round(float(found.jump[0]), 6)  # tan(30 deg) sqrt(2e-4) sqrt(9) is 0.024495
+        >>> contact = mouth_contacts(engagement, -1e-4, 0.0, roller=0.05, clearance=0.0)
+        >>> round(float(contact.jump[0]), 6)  # tan(30 deg) sqrt(2e-4) sqrt(9) is 0.024495
         0.024448
     """
     axis = SlotAxis.of(engagement)

@@ -1,13 +1,14 @@
 """The shock at entry: a roller that meets its slot off its line.
 
-The crank's radius R and the centre distance L are never quite right. The roller should come into
-the resting slot along its axis; with R/L too large by a share eps its path crosses that axis
-instead, before the entry, and the wheel is struck back at about tan b sqrt(2 eps) of the input's
-speed: by the root of the error. With R/L too small it never reaches the axis, and meets the mouth.
+The crank's radius R and the centre distance L always have errors. The roller should enter the
+resting slot along its axis. If R/L is too large by a fraction eps, its path crosses that axis
+before the entry. The wheel is then struck backwards at about tan b sqrt(2 eps) of the input's
+speed: by the square root of the error. If R/L is too small, the roller never reaches the axis, and
+meets the mouth.
 
-Speeds are in units of the input's, angles of the wheel in radians, input angles in degrees from
-the engagement's own mid-motion. Of m designs numbers of a machine and errors are (m, 1), and
-answers (m,).
+Speeds are in units of the input's. Wheel angles are in radians, input angles in degrees from the
+engagement's own mid-motion. For m designs the numbers of a machine and the errors are (m, 1), and
+results are (m,).
 """
 
 from __future__ import annotations
@@ -31,60 +32,60 @@ SHARES = 0.5 ** (0.5 * np.arange(STEPS, -1, -1))
 
 
 class FirstContacts(NamedTuple):
-    """Where rollers first reach the axis of the slot at rest, and what they do to the wheel.
+    """First contacts of rollers with the axis of the slot at rest, and the jumps that follow.
 
-    (m,) each; NaN where a roller never reaches the axis.
+    (m,) each; NaN if a roller never reaches the axis.
     """
 
     at_deg: Array
-    jump: Array  # of the wheel's velocity, over the input's; < 0: the wheel is struck back
+    jump: Array  # of the wheel's velocity, over the input's; negative if struck backwards
 
 
 class SlotAxis(NamedTuple):
-    """The axis of the slot at rest, for a roller that comes to it with errors of R and L.
+    """The axis of the slot at rest, for a roller that meets it with errors of R and L.
 
-    In the frame of the axis, from the wheel's centre outwards, the roller's place is
-    (1 + crank) p - (crank - center) c, p being its true place and c the hub of the crank's arm.
-    On a sphere, whose shafts meet whatever its radius, ``center`` has no meaning but 0.
+    In the frame of the axis, from the wheel's centre outwards, the roller is at (1 + crank) p -
+    (crank - center) c. Here p is its true position and c the hub of the crank's arm. On a sphere
+    the shafts meet for any radius, so ``center`` must be 0.
     """
 
     engagement: Engagement
-    beside: float  # of the hub: how far it is ahead of the line through the wheel's centre,
-    along: float  # and how far along it
+    hub_offset: float  # distance of the hub from the line through the wheel's centre,
+    along: float  # and its distance along that line
 
     @staticmethod
     def of(engagement: Engagement) -> SlotAxis | None:
-        """The axis of an engagement's straight slot; None of slots that are solved for."""
+        """The axis of an engagement's straight slot; None for a slot that is solved for."""
         engagement = engagement.through
         if engagement.motion.entry is None:
             return None
-        x, y = engagement.slot(0.5 * engagement.entry_deg, 1)  # a straight slot: anywhere
+        x, y = engagement.slot(0.5 * engagement.entry_deg, 1)  # any place in a straight slot
         (px, u), (py, v) = x.c, y.c
         m = library(px)
-        way = m.copysign(1.0, px * u + py * v)
-        hub, ahead = engagement.hub, engagement.half_step - m.atan2(way * v, way * u)
+        sense = m.copysign(1.0, px * u + py * v)
+        hub, ahead = engagement.hub, engagement.half_step - m.atan2(sense * v, sense * u)
         return SlotAxis(engagement, parameter(hub * m.sin(ahead)), parameter(hub * m.cos(ahead)))
 
-    def aside(self, crank: N, center: N) -> N:
-        """How far the true path is from the axis where the one with errors crosses it, over L."""
-        arm = self.beside + self.engagement.slot.offset  # from the slot's axis
-        return (crank * arm - center * self.beside) / (1.0 + crank)
+    def offset(self, crank: N, center: N) -> N:
+        """Distance over L of the true path from the axis where the path with errors crosses it."""
+        arm = self.hub_offset + self.engagement.slot.offset  # from the slot's axis
+        return (crank * arm - center * self.hub_offset) / (1.0 + crank)
 
     @property
     def anchor(self) -> Anchor:
         """The true entry."""
         anchor = self.engagement.motion.entry
-        assert anchor is not None  # ``of`` asks for it
+        assert anchor is not None  # ``of`` requires it
         return anchor
 
     def distance(self, tau: Array) -> tuple[Array, Array]:
-        """How far the true path is from the axis ``tau`` radians after entry, and its slope."""
+        """Distance of the true path from the axis ``tau`` radians after entry, and its slope."""
         _, across = self.anchor.displacement(tau, 1)
         value, slope = across.arrays()
         return value, slope
 
     def jump(self, tau: Array, crank: N, center: N) -> Array:
-        """The velocity that the roller gives to the wheel on the axis."""
+        """Velocity that the roller gives to the wheel on the axis."""
         along, across = self.anchor.displacement(tau, 1)
         moved = (center - crank) / (1.0 + crank) * self.along
         out: Array = across.arrays()[1] / (along.arrays()[0] + self.anchor.along + moved)
@@ -94,12 +95,12 @@ class SlotAxis(NamedTuple):
 def first_contacts(
     engagement: Engagement, crank: float, center: float = 0.0
 ) -> FirstContacts | None:
-    """The first contacts for relative errors of the crank's radius and of the centre distance.
+    """First contacts for relative errors of the crank's radius and of the centre distance.
 
-    Of m designs, or for m errors (m, 1); of rollers on a crank's arm, elsewhere only ``center`` has
-    a meaning. NaN where a roller never reaches the slot's axis, and meets the mouth, and where
-    there are no errors; None for slots and grooves that are solved for. A radial slot has
-    sin(phi + b) = sin b / l there.
+    For m designs, or for m errors (m, 1). If no crank's arm carries the roller, only ``center`` has
+    a meaning. NaN if a roller never reaches the slot's axis, and meets the mouth, or if there are
+    no errors. None for slots and grooves that are solved for. A radial slot has sin(phi + b) = sin
+    b / l at the contact.
 
         >>> from geneva_cli import Design, External
         >>> first_contacts(Design(External(3)).mechanism.engagements[0], crank=1e-4)
@@ -108,32 +109,32 @@ def first_contacts(
     axis = SlotAxis.of(engagement)
     if axis is None:
         return None
-    tau = contact_after(axis, np.atleast_2d(axis.aside(crank, center)))
+    tau = contact_after(axis, np.atleast_2d(axis.offset(crank, center)))
     at_deg, jump = engagement.entry_deg + tau / DEGREE, axis.jump(tau, crank, center)
     return FirstContacts(np.ravel(at_deg), np.ravel(jump))
 
 
-def contact_after(axis: SlotAxis, aside: Array) -> Array:
-    """Input radians after the true entry at which the rollers reach the axis, (m, 1).
+def contact_after(axis: SlotAxis, offset: Array) -> Array:
+    """Input radians after the true entry at which the rollers reach the axis, (m, 1); NaN if never.
 
-    NaN where one does not. The roller comes from one side, ``before``, and at a true entry stays
-    on it (a circle) or goes over to the other (a path with an inflection).
+    The roller comes from one side, ``before``. At a true entry it stays on that side (a circle) or
+    crosses to the other (a path with an inflection).
     """
     span = 0.5 * axis.engagement.motion_deg * DEGREE
     before = axis.distance(np.atleast_2d(-1e-3 * span))[0]
-    aside = aside + 0.0 * before
+    offset = offset + 0.0 * before
     with np.errstate(all="ignore"):
-        way = np.where(aside * before > 0.0, -1.0, np.where(aside > 0.0, 1.0, np.nan))
-        far = span * way * SHARES
-        passed = abs(axis.distance(far)[0]) >= abs(aside)
+        sense = np.where(offset * before > 0.0, -1.0, np.where(offset > 0.0, 1.0, np.nan))
+        far = span * sense * SHARES
+        passed = abs(axis.distance(far)[0]) >= abs(offset)
     there, first = np.flatnonzero(passed.any(axis=1)), np.argmax(passed, axis=1)
     far = np.hstack((np.zeros((len(far), 1)), far))
     ends = np.sort([far[there, first[there]], far[there, first[there] + 1]], axis=0)
 
     def less(tau: Array, which: Whole) -> tuple[Array, Array]:
         value, slope = taken(axis, there[which]).distance(tau[:, None])
-        return (value - aside[there[which]])[:, 0], slope[:, 0]
+        return (value - offset[there[which]])[:, 0], slope[:, 0]
 
-    out = np.full(aside.shape, np.nan)
+    out = np.full(offset.shape, np.nan)
     out[there, 0] = roots_many(less, *ends)
     return out

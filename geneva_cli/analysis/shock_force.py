@@ -1,14 +1,14 @@
-"""What a jump of the wheel's velocity costs: its impulse, and the force of an elastic contact.
+"""Impulse of a jump of the wheel's velocity, and the force of an elastic contact.
 
-The wheel's inertia I is struck at its lever by a roller that the crank carries on unmoved. With the
-roller pressed into the wall and its pin bent, both under the force Q,
+A roller, which the crank carries on unmoved, strikes the wheel's inertia I at its lever. Under the
+force Q the roller is pressed into the wall and its pin is bent, together by
 
-    d = c Q^0.9 + Q / k,    c = 3.84e-5 mm / N^0.9 / b^0.8    (b: line of contact, mm),
+    d = c Q^0.9 + Q / k,    c = 3.84e-5 mm / N^0.9 / b^0.8    (b: contact line, mm).
 
-the energy I dw² / 2 is taken up where c Q^1.9 0.9 / 1.9 + Q² / (2 k) reaches it. For a spring
-alone that is dv sqrt(k m), whatever the lever. c is Palmgren's for steel on steel (Ball and Roller
-Bearing Engineering, 3rd ed., 1959), and goes with the 0.9th power of the materials' softness; the
-pin is held at one end, 3 E pi d⁴ / (64 (b/2)³), and pushed in the middle of its roller.
+The force is greatest where c Q^1.9 0.9 / 1.9 + Q² / (2 k) equals the energy I dw² / 2. For a spring
+only, it is dv sqrt(k m), for any lever. c is Palmgren's value for steel on steel (Ball and Roller
+Bearing Engineering, 3rd ed., 1959). It is proportional to the 0.9th power of the materials'
+softness. The pin is a cantilever, 3 E pi d⁴ / (64 (b/2)³), loaded in the middle of its roller.
 """
 
 from __future__ import annotations
@@ -35,18 +35,19 @@ STEEL_GPa = 0.5 * Material().youngs_modulus_GPa / (1.0 - Material().poisson_rati
 
 
 def impulse_Nms(mechanism: Mechanism, jump: N) -> N:
-    """The moment of the blow, I dw, for a jump over the input's speed; over the lever its impulse.
+    """Moment of the impact, I dw, for a jump over the input's speed; over the lever its impulse.
 
-    The roller stays at the wall: a plastic blow, the least that there is. Jumps of m designs are
-    (m, 1), and so are their moments.
+    The roller stays at the wall: a plastic impact, the least possible. For m designs jumps and
+    moments are (m, 1).
     """
     w = omega(mechanism.spec.drive.n_rpm)
     return size(jump) * (inertia_kgm2(mechanism.spec) * w)
 
 
 def forces_N(mechanism: Mechanism, jump: Array) -> Array | None:
-    """The greatest forces of elastic blows, for jumps (m, 1) of m designs: (m,), NaN without an
-    inertia; None without a ``face_width_mm``.
+    """Greatest forces of elastic impacts, for jumps (m, 1) of m designs: (m,).
+
+    NaN without an inertia; None without a ``face_width_mm``.
     """
     spec = mechanism.spec
     face, inertia = spec.size.face_width_mm, inertia_kgm2(spec)
@@ -64,12 +65,12 @@ def forces_N(mechanism: Mechanism, jump: Array) -> Array | None:
         pressed, bent = c[live] * POWER * force**POWER, k[live] * force
         return pressed * force / (1.0 + POWER) + 0.5 * bent * force - work[live], pressed + bent
 
-    found = roots_many(over, 0.0 * work, np.sqrt(2.0 * work / k))
-    return np.where(heavy > 0.0, found, np.nan)
+    force = roots_many(over, 0.0 * work, np.sqrt(2.0 * work / k))
+    return np.where(heavy > 0.0, force, np.nan)
 
 
 def pin_stiffness_N_mm(mechanism: Mechanism, face_mm: float) -> float:
-    """The pin as a cantilever that is pushed half-way along the roller."""
+    """Stiffness of the pin as a cantilever that is loaded half-way along the roller."""
     spec = mechanism.spec
     given, r = spec.size.pin_mm, mechanism.roller_radius_mm
     d = r if given is None else choose(given == 0.0, r, given)

@@ -1,19 +1,25 @@
 """The play of a spherical wheel in its lock during the dwell, for any deviations.
 
 Angles are at the sphere's centre. A recess is cut into the wheel at an angle rho from the crank's
-axis, which stands at S from the wheel's; the locking sector reaches to k. Turned by d, the wheel is
-stopped
+axis, which is at S from the wheel's. The locking sector reaches to k. The wheel can turn by d until
+one of two contacts stops it.
 
-- by the corner of a recess, at p from the wheel's axis, that comes down on the sector:
-  d = chi(p, rho) - chi(p, k), chi(p, a) being the azimuth about the wheel's axis, from the crank's,
-  of what is p from the one and a from the other: cos a = cos S cos p + sin S sin p cos chi;
-- or, where the recess reaches farther round than the sector, by an end of this, q from the wheel's
-  axis, that runs up to the recess: d = chi(q, rho) less the azimuth at which the end stands.
+A corner of a recess, at p from the wheel's axis, meets the sector:
 
-Never do both reach farther round than 90 degrees, where they would touch between their ends: the
-recess does so beyond shafts at 90 degrees, the sector, which is what a motion of 2 acos(tan th /
-tan S) leaves of a turn, below. The radii of ``[tolerance]`` are from the crank's axis, L times the
-sine of the angle from there. Taken in the middle of a dwell, as on a plane.
+    d = chi(p, rho) - chi(p, k) ,    cos a = cos S cos p + sin S sin p cos chi .
+
+Here chi(p, a) is the azimuth about the wheel's axis, from the crank's, of a point at p from the
+wheel's axis and at a from the crank's.
+
+An end of the sector, at q from the wheel's axis, meets the recess, if the recess reaches farther
+round. Then d is chi(q, rho) minus the azimuth of the end.
+
+The two never reach farther round than 90 degrees together, so they do not touch between their ends.
+The recess reaches so far only with shafts beyond 90 degrees. The sector does so only with shafts
+below that, since it is what a motion of 2 acos(tan th / tan S) leaves of a turn.
+
+The radii of ``[tolerance]`` are from the crank's axis, L times the sine of the angle from there.
+The play is computed in the middle of a dwell, as on a plane.
 """
 
 from __future__ import annotations
@@ -30,7 +36,7 @@ from geneva_cli.numerics.jet import Jet, atan2, sqrt
 class SphereLock(NamedTuple):
     """One corner of a recess and one locking sector, angles in radians.
 
-    At a right angle, rim and crank's axis on one great circle, the play is the clearance:
+    At a right angle, with rim and crank's axis on one great circle, the play is the clearance:
 
     >>> from geneva_cli.analysis.tolerance.dimensions import deviations
     >>> lock = SphereLock(100.0, 0.5 * math.pi, 0.4, 0.401, 0.5 * math.pi, 0.5 * math.pi)
@@ -40,10 +46,10 @@ class SphereLock(NamedTuple):
 
     radius_mm: float  # L, of the sphere
     axes: float  # S, between the shafts
-    lock: float  # k, of the sector from the crank's axis
-    recess: float  # rho, likewise
-    corner: float  # p, of the recess's corner from the wheel's axis
-    half: float  # of the sector, about the crank's axis
+    lock: float  # k, sector's edge from the crank's axis
+    recess: float  # rho, recess's edge from the crank's axis
+    corner: float  # p, recess's corner from the wheel's axis
+    half: float  # half the sector, about the crank's axis
 
     @property
     def reach(self) -> float:
@@ -55,7 +61,7 @@ class SphereLock(NamedTuple):
         return math.acos(max(-1.0, min(1.0, cosine)))
 
     def __call__(self, by: Deviations) -> LockPlay:
-        """The wheel's play to one side."""
+        """Play of the wheel to one side."""
         lock = by.lock_radius_mm / self.radius_mm + math.sin(self.lock)
         recess = by.recess_radius_mm / self.radius_mm + math.sin(self.recess)
         lock_cosine, recess_cosine = _cosine(lock), _cosine(recess)
@@ -76,12 +82,12 @@ class SphereLock(NamedTuple):
         return LockPlay(free, jams)
 
     def _azimuth(self, cosine: Jet, sine: Jet, from_crank: Jet) -> Jet:
-        """chi of the cosine and sine of p, and the cosine of a."""
+        """Azimuth chi, from the cosine and sine of p, and the cosine of a."""
         across = sine * math.sin(self.axes)
         along = from_crank - cosine * math.cos(self.axes)
         return atan2(positive_root(across * across - along * along), along)
 
 
 def _cosine(sine: Jet) -> Jet:
-    """Of an angle below 90 degrees."""
+    """Cosine of an angle below 90 degrees, from its sine."""
     return positive_root(1.0 - sine * sine)

@@ -1,4 +1,4 @@
-"""Proof: run time against error, and numerical stress. No part of a design's own computation.
+"""Benchmarks: run time against error, and numerical stress; not used by a design's computation.
 
-Everything is a registry: a method, a subject or a machine enters by one line.
+Methods, subjects and machines are in registries, one line each.
 """

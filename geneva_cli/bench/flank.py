@@ -1,4 +1,4 @@
-"""A flank in arcs and cubics, as others make them: halved until each piece is near enough."""
+"""A flank in arcs and cubics, as others make them: halved until each piece is accurate enough."""
 
 from __future__ import annotations
 
@@ -27,20 +27,20 @@ SAMPLES = 20_001  # of the flank
 
 
 def left_flank(mechanism: Mechanism) -> tuple[Curve, float, float]:
-    """The left flank on the pin's way in, of a slot where it has no corner there."""
+    """The left flank on the pin's way in, for a slot without a corner there."""
     entry = mechanism.engagements[0].entry_deg
     reach = mechanism.roller_radius_mm + mechanism.spec.size.allowances.slot_clearance_mm
 
     def curve(input_deg: Array) -> tuple[Array, Array]:
-        found = slot(mechanism, input_deg)
-        normal = (found.left - found.centre) / reach
-        return found.left, np.column_stack((normal[:, 1], -normal[:, 0]))
+        profile = slot(mechanism, input_deg)
+        normal = (profile.left - profile.centre) / reach
+        return profile.left, np.column_stack((normal[:, 1], -normal[:, 0]))
 
     return curve, entry, 0.0
 
 
 def biarcs(curve: Curve, a: float, b: float, tolerance: float) -> list[Arc]:
-    """Biarcs with handles of the same length, on intervals halved in the parameter."""
+    """Biarcs with handles of equal length, on intervals halved in the parameter."""
 
     def fitted(p: complex, q: complex, t: complex, u: complex) -> list[Arc]:
         # |q - p - d (t + u)| = 2 d: the joint is midway between the ends of both handles.
@@ -85,31 +85,31 @@ def _halved(
 
 
 def stray(curve: Curve, a: float, b: float, pieces: Sequence[Line | Arc | Cubic]) -> float:
-    """The greatest distance of many points of the curve from the pieces, mm."""
+    """Greatest distance of many points of the curve from the pieces, mm."""
     z = curve(np.linspace(a, b, SAMPLES))[0] @ np.array([1.0, 1j])
     return float(distances(z, pieces).max())
 
 
 def distances(points: Array, pieces: Sequence[Line | Arc | Cubic]) -> Array:
-    """How far points lie from pieces, end to end."""
+    """Distances of points from pieces that are end to end."""
     grid = np.array([at(piece, u) for piece in pieces for u in np.linspace(0.0, 1.0, GRID + 1)])
     nearest = cKDTree(grid).query(np.column_stack((points.real, points.imag)))[1]
     own, place = np.divmod(nearest, GRID + 1)
-    share, found = place / GRID, np.full(len(points), np.inf)
+    fraction, least = place / GRID, np.full(len(points), np.inf)
     for i, piece in enumerate(pieces):
-        # The nearest of the places looked at may be the one that two pieces have in common.
+        # The nearest of the sampled places may be shared by two pieces.
         for mine, u in (
-            (own == i, share),
+            (own == i, fraction),
             ((own == i + 1) & (place == 0), np.ones(len(points))),
             ((own == i - 1) & (place == GRID), np.zeros(len(points))),
         ):
             if mine.any():
-                found[mine] = np.minimum(found[mine], _from_piece(points[mine], piece, u[mine]))
-    return found
+                least[mine] = np.minimum(least[mine], _from_piece(points[mine], piece, u[mine]))
+    return least
 
 
 def _from_piece(points: Array, piece: Line | Arc | Cubic, u: Array) -> Array:
-    """Distances to one piece, from the places on it that are nearly the nearest ones."""
+    """Distances to one piece, starting from places on it near the nearest ones."""
     if isinstance(piece, Arc):
         out: Array = np.abs(np.abs(points - complex(*piece.centre)) - piece.radius)
         return out

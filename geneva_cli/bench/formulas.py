@@ -1,7 +1,7 @@
-"""The motion as scripts write it: over the input angle, by hand, against ``math`` or ``numpy``.
+"""The motion as scripts write it: over the input angle, by hand, with ``math`` or ``numpy``.
 
-These are what the program is compared with, in their stable form so that a method is not blamed
-for its formula; ``textbook`` is the one that handbooks print.
+The program is compared with these. They are in their stable form, so that a method is not blamed
+for its formula. ``textbook`` is the form that handbooks print.
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ class Proportions(NamedTuple):
 
     @classmethod
     def of(cls, z: int, gearing: str, A: float) -> Proportions:
-        """One design."""
+        """Proportions of one design."""
         sign, b = registry.gearing(gearing).SIGN, math.pi / z
         crank = 0.5 * math.pi - sign * b
         return cls(sign, math.sin(b), A, crank + math.asin(A * math.sin(crank)))
@@ -57,6 +57,6 @@ def acceleration(m: Any, d: Proportions, x: Any) -> Any:
 
 
 def jerk(m: Any, d: Proportions, x: Any) -> Any:
-    """Its slope."""
+    """Slope of the acceleration at x radians from mid-motion."""
     f1, f2, f3, g1, g2, g3 = _parts(m, d, x, 3)
     return g3 * f1 * f1 * f1 + 3.0 * g2 * f1 * f2 + g1 * f3

@@ -1,4 +1,4 @@
-"""The machines whose many designs the bench works out, their designs, and tasks of them."""
+"""The machines of the bench, their varied designs, and tasks for batches of them."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ CHECKED, QUICK_CHECKED = 20, 4  # designs whose error is measured
 
 
 class Kind(NamedTuple):
-    """A machine, and the key that is varied between two values."""
+    """A machine, and a key that varies between two values."""
 
     name: str
     spec: Spec
@@ -88,18 +88,18 @@ KINDS = (
 
 
 def drawn(kind: Kind, spec: Spec, count: int) -> tuple[Mechanism, int, list[Mechanism]]:
-    """The machine of many designs, how many were built, and the first of them one by one."""
+    """Machine of a batch of designs, the number built, and the first of them one by one."""
     values = values_of(kind, count)
-    found = many(spec, {kind.key: values})
-    assert found.machine is not None, kind.name
+    batch = many(spec, {kind.key: values})
+    assert batch.machine is not None, kind.name
     few = CHECKED if count > QUICK else QUICK_CHECKED
-    some = values[found.which[:few]].tolist()
+    some = values[batch.which[:few]].tolist()
     alone = [build(spec.with_(kind.key, value)) for value in some]
-    return found.machine, len(found.which), alone
+    return batch.machine, len(batch.which), alone
 
 
 def values_of(kind: Kind, count: int) -> Any:
-    """The values of what is varied; always the same."""
+    """Random values of the varied key, always equal."""
     values = np.random.default_rng(12).uniform(kind.low, kind.high, count)
     return np.floor(values).astype(int) if kind.key == "wheel.z" else values
 
@@ -107,7 +107,7 @@ def values_of(kind: Kind, count: int) -> Any:
 def one_by_one(
     alone: Sequence[Mechanism], count: int, one: Callable[[Mechanism], Any], most: int
 ) -> Method:
-    """At most so many designs one after the other, in place of all."""
+    """Method that computes at most ``most`` designs one by one, in place of all."""
     few = alone[:most]
     name = f"one by one (extrapolated from {len(few)})"
     return Method(name, None, lambda: [one(m) for m in few], True, times=count / len(few))
@@ -116,7 +116,7 @@ def one_by_one(
 def task_of_many(
     name: str, count: int, error: Callable[[Any], float], methods: Sequence[Method]
 ) -> Task:
-    """A task of many designs, beside sine and cosine of as many numbers."""
+    """A task for a batch of designs, with sine and cosine of as many numbers as baseline."""
     angles = np.linspace(0.0, 1.0, count)
     return Task(
         name,

@@ -1,7 +1,7 @@
-"""Loads of a side-crank's wheel by 50 digits: a handbook's formulas for this one machine.
+"""Loads of a side-crank's wheel in 50 digits, by a handbook's formulas for this machine.
 
-Where to look is told by the search of one design: an error of a place is squared in a greatest
-value. The angle between two changes of a sign is summed by Gauss's rule, in 50 digits each value.
+The search of one design gives the place: an error of a place is squared in a greatest value. The
+angle between two sign changes is summed by Gauss's rule, with each value in 50 digits.
 """
 
 from __future__ import annotations
@@ -28,10 +28,10 @@ NEAR = 1e-12  # of a sliding: with so little of it both its signs have their lim
 
 @cache
 def greatest(machine: Mechanism, A: float) -> list[float]:
-    """The greatest size of each of ``LOADS``, of a side-crank outside; a plain one has A = 0."""
+    """Greatest size of each of ``LOADS`` for an external side-crank; a plain crank has A = 0."""
     out = []
-    for k, found in enumerate(ends_of(Cycle(machine), *LOADS)):
-        places = (found.max_at_deg, found.min_at_deg)
+    for k, ends in enumerate(ends_of(Cycle(machine), *LOADS)):
+        places = (ends.max_at_deg, ends.min_at_deg)
         sizes = [abs(row[k]) for at in places for row in _limits(machine, A, at)]
         out.append(float(max(sizes)))
     return out
@@ -39,27 +39,27 @@ def greatest(machine: Mechanism, A: float) -> list[float]:
 
 @cache
 def roots(machine: Mechanism, A: float) -> list[float]:
-    """The root mean square of each of ``LOADS`` over a period."""
+    """Root mean square of each of ``LOADS`` over a period."""
     (engagement,) = machine.engagements
     node, weight = np.polynomial.legendre.leggauss(PLACES)
     total = [digits().mpf(0)] * len(LOADS)
     for start, end, drives, slides, _ in stretches(engagement, Cycle(machine).given):
         half = 0.5 * (end - start)
-        for x, share in zip(0.5 * (start + end) + half * node, half * weight, strict=True):
+        for x, part in zip(0.5 * (start + end) + half * node, half * weight, strict=True):
             row = _loads(machine, A, float(x), drives, slides)
-            total = [a + share * v * v for a, v in zip(total, row, strict=True)]
+            total = [a + part * v * v for a, v in zip(total, row, strict=True)]
     return [float(digits().sqrt(one / machine.period_deg)) for one in total]
 
 
 def _limits(machine: Mechanism, A: float, deg: float) -> list[Sequence[Any]]:
-    """The loads at an input angle, from each side of it where a sign changes there."""
+    """Loads at an input angle, from each side if a sign changes there."""
     torque, rubs = _signs(machine, A, deg, 1.0)
-    found = []
+    rows = []
     for drives, slides in product((1.0, -1.0), (1.0, -1.0)):
         rubs = _signs(machine, A, deg, drives)[1]
         if torque * drives >= 0 and (rubs * slides >= 0 or abs(rubs) < NEAR):
-            found.append(_loads(machine, A, deg, drives, slides))
-    return found
+            rows.append(_loads(machine, A, deg, drives, slides))
+    return rows
 
 
 def _signs(machine: Mechanism, A: float, deg: float, drives: float) -> tuple[Any, Any]:
@@ -69,7 +69,7 @@ def _signs(machine: Mechanism, A: float, deg: float, drives: float) -> tuple[Any
 
 
 def _contact(machine: Mechanism, A: float, deg: float) -> tuple[Any, ...]:
-    """Torque, wheel's speed, pin's distance and its rate, crank's speed, roller: over L."""
+    """Torque, wheel speed, pin distance and its rate, crank speed and roller radius, over L."""
     mp, spec = digits(), machine.spec
     x = mp.mpf(deg) * mp.pi / 180
     _, velocity, acceleration, _ = motion(spec.wheel.z, "external", A, x)
@@ -85,7 +85,7 @@ def _contact(machine: Mechanism, A: float, deg: float) -> tuple[Any, ...]:
 
 
 def _loads(machine: Mechanism, A: float, deg: float, drives: float, slides: float) -> Sequence[Any]:
-    """Each of ``LOADS``, for signs of the torque and of the sliding that are known."""
+    """Each of ``LOADS``, for known signs of the torque and of the sliding."""
     mp, spec = digits(), machine.spec
     torque, velocity, rho, along, turns, radius = _contact(machine, A, deg)
     friction, L = mp.mpf(spec.load.friction), mp.mpf(machine.center_distance_mm) / 1000

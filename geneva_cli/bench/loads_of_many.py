@@ -1,9 +1,9 @@
-"""Loads of very many designs together, beside one design after the other, and beside the formulas.
+"""Loads of a large batch of designs, compared with single designs and with the formulas alone.
 
-A machine's loads are asked for one by one (the greatest pin force, input torque and contact stress;
-the root mean squares of the three), and all at once with both extremes. Every design turns: none
-has a load without a bound. What no search can pass is the time of the formulas alone, at as few
-places as tell the answer: that is a row of its own, ``formulas alone``.
+Some loads of a machine are computed one by one: the greatest pin force, input torque and contact
+stress, and the root mean squares of the three. Others are computed all at once with both extremes.
+All designs have bounded loads. No search can be faster than the formulas alone, at as few places as
+give the answer. That is a row of its own, ``formulas alone``.
 """
 
 from __future__ import annotations
@@ -49,16 +49,16 @@ BLOCK = 512
 
 
 class LoadedKind(NamedTuple):
-    """A machine whose loads are had, and the torque that resists beside friction."""
+    """A machine whose loads are computed, and the torque that resists in addition to friction."""
 
     kind: Kind
     torque_Nm: float = 0.0
-    A: Callable[[float], float] | None = None  # a side-crank's, by what is varied; None: another
+    A: Callable[[float], float] | None = None  # of a side-crank, from the varied value
 
 
 BY_NAME = {kind.name: kind for kind in KINDS}
-# Their force at mid-motion, where the pin crosses the radius, has a bound without a torque, or with
-# friction that holds it; and no wall is sharper than the roller.
+# At mid-motion the pin crosses the radius. Its force there is bounded without a torque, or if
+# friction holds it; and no wall is sharper than the roller.
 CURVED = Kind(
     "curved slots", Spec(External(4), motion=Motion(ModifiedSine())), "motion.alpha0_deg", -110, -35
 )
@@ -72,8 +72,8 @@ LOADED = (
 )
 
 
-class Asked(NamedTuple):
-    """What is asked of the loads of each design."""
+class Request(NamedTuple):
+    """Loads that are requested of each design."""
 
     name: str
     loads: tuple[str, ...]
@@ -81,28 +81,28 @@ class Asked(NamedTuple):
     summed: bool  # their root mean squares
 
 
-ASKED = (
-    Asked("greatest pin force", LOADS[:1], True, False),
-    Asked("greatest input torque", LOADS[1:2], True, False),
-    Asked("greatest contact stress", LOADS[2:], True, False),
-    Asked("rms of the three loads", LOADS, False, True),
-    Asked("extremes and rms of the three", LOADS, True, True),
+REQUESTS = (
+    Request("greatest pin force", LOADS[:1], True, False),
+    Request("greatest input torque", LOADS[1:2], True, False),
+    Request("greatest contact stress", LOADS[2:], True, False),
+    Request("rms of the three loads", LOADS, False, True),
+    Request("extremes and rms of the three", LOADS, True, True),
 )
 
 
 def tasks(quick: bool) -> list[Task]:
-    """What is asked of each machine, with friction and without."""
-    found = []
+    """Requests to each machine, with friction and without."""
+    out = []
     for loaded in LOADED[:1] if quick else LOADED:
         count = QUICK if quick else min(LOADS_OF, loaded.kind.most)
         for friction in (0.1,) if quick else (0.0, 0.1):
             of = _designs(loaded, count, friction)
-            found += [_task(asked, *of) for asked in (ASKED[2:] if quick else ASKED)]
-    return found
+            out += [_task(request, *of) for request in (REQUESTS[2:] if quick else REQUESTS)]
+    return out
 
 
 class Designs(NamedTuple):
-    """Of a machine: many designs together, the first ones alone, and A of those that have one."""
+    """Designs of a machine: the whole batch, the first ones alone, and their A if they have it."""
 
     name: str
     together: Mechanism
@@ -121,93 +121,92 @@ def _designs(loaded: LoadedKind, count: int, friction: float) -> tuple[Designs, 
     return Designs(name, together, alone, A), built
 
 
-def _task(asked: Asked, of: Designs, built: int) -> Task:
+def _task(request: Request, of: Designs, built: int) -> Task:
     most = LOOP if built > QUICK else QUICK_LOOP
     methods = [
-        one_by_one(of.alone, built, partial(_one, asked), most),
+        one_by_one(of.alone, built, partial(_one, request), most),
         Method(
             "formulas alone, nothing searched",
-            _places(asked, of.together, built),
-            partial(_formulas, asked, of.together, built),
+            _places(request, of.together, built),
+            partial(_formulas, request, of.together, built),
         ),
-        Method("together", None, partial(_together, asked, of.together), True),
+        Method("together", None, partial(_together, request, of.together), True),
     ]
     if of.A:
         both = zip(of.alone, of.A, strict=False)
-        truth = np.array([_exact(asked, machine, A) for machine, A in both])
+        truth = np.array([_exact(request, machine, A) for machine, A in both])
     else:
-        truth = np.array([_one(asked, machine) for machine in of.alone])
-    return task_of_many(f"{asked.name} of {of.name}", built, partial(first_errors, truth), methods)
+        truth = np.array([_one(request, machine) for machine in of.alone])
+    name = f"{request.name} of {of.name}"
+    return task_of_many(name, built, partial(first_errors, truth), methods)
 
 
 def first_errors(truth: Array, every: Sequence[Array] | Array) -> float:
-    """The greatest relative error of the first designs; a load that both say has no bound is
-    right.
-    """
-    found, truth = np.array(every[: len(truth)]), truth[: len(every)]
+    """Greatest relative error of the first designs; two loads without a bound agree."""
+    computed, truth = np.array(every[: len(truth)]), truth[: len(every)]
     with np.errstate(invalid="ignore"):
-        wrong = np.where(found == truth, 0.0, np.abs(found / truth - 1.0))
+        wrong = np.where(computed == truth, 0.0, np.abs(computed / truth - 1.0))
     return float(wrong.max())
 
 
-def _exact(asked: Asked, machine: Mechanism, A: float) -> list[float]:
-    """By 50 digits."""
-    which = [LOADS.index(name) for name in asked.loads]
-    sizes = load_truth.greatest(machine, A) if asked.sized else ()
-    sums = load_truth.roots(machine, A) if asked.summed else ()
+def _exact(request: Request, machine: Mechanism, A: float) -> list[float]:
+    """Loads of one design in 50 digits."""
+    which = [LOADS.index(name) for name in request.loads]
+    sizes = load_truth.greatest(machine, A) if request.sized else ()
+    sums = load_truth.roots(machine, A) if request.summed else ()
     return [every[k] for every in (sizes, sums) if every for k in which]
 
 
-def _one(asked: Asked, machine: Mechanism) -> list[float]:
-    """By the search and the sums of one design."""
+def _one(request: Request, machine: Mechanism) -> list[float]:
+    """Loads of one design by its own search and sums."""
     cycle, out = Cycle(machine), []
-    if asked.sized:
-        sizes = [max(one.max, -one.min) for one in ends_of(cycle, *asked.loads)]
-        both = zip(asked.loads, sizes, strict=True)
+    if request.sized:
+        sizes = [max(one.max, -one.min) for one in ends_of(cycle, *request.loads)]
+        both = zip(request.loads, sizes, strict=True)
         out = [math.sqrt(size) if name in SQUARED else size for name, size in both]
-    if asked.summed:
-        found = summaries(cycle)
-        out += [rms for name in asked.loads if (rms := found[name].rms) is not None]
+    if request.summed:
+        totals = summaries(cycle)
+        out += [rms for name in request.loads if (rms := totals[name].rms) is not None]
     return out
 
 
-def _together(asked: Asked, machine: Mechanism) -> Array:
-    if not asked.summed:
-        greatest = greatest_of_many(machine, asked.loads).values()
+def _together(request: Request, machine: Mechanism) -> Array:
+    if not request.summed:
+        greatest = greatest_of_many(machine, request.loads).values()
         return np.column_stack([one.max for one in greatest])
-    if not asked.sized:
-        means = means_of_many(machine, asked.loads, told=("rms",)).values()
+    if not request.sized:
+        means = means_of_many(machine, request.loads, told=("rms",)).values()
         return np.column_stack([one.rms for one in means])
-    found = summaries_of_many(machine, asked.loads, told=("rms",)).values()
-    sizes = [np.maximum(one.max, -one.min) for one in found]
-    return np.column_stack([*sizes, *[one.rms for one in found if one.rms is not None]])
+    totals = summaries_of_many(machine, request.loads, told=("rms",)).values()
+    sizes = [np.maximum(one.max, -one.min) for one in totals]
+    return np.column_stack([*sizes, *[one.rms for one in totals if one.rms is not None]])
 
 
-def _places(asked: Asked, machine: Mechanism, count: int) -> int:
-    """How many places of a motion the formulas are worked out at, in the mean of the designs."""
+def _places(request: Request, machine: Mechanism, count: int) -> int:
+    """Mean number of places per motion at which the formulas are evaluated."""
     spans = spans_of(machine.engagements[0], count)
-    return len(spans) * (len(POINTS) * asked.sized + NODES * asked.summed)
+    return len(spans) * (len(POINTS) * request.sized + NODES * request.summed)
 
 
-def _formulas(asked: Asked, mechanism: Mechanism, count: int) -> Array:
-    """What samples and Gauss's rule tell, of as many places as our search begins with."""
-    found = []
-    every = machine(mechanism.engagements[0], setting(mechanism), asked.loads, NONE)
+def _formulas(request: Request, mechanism: Mechanism, count: int) -> Array:
+    """Results of samples and of Gauss's rule at as many places as the search starts with."""
+    blocks = []
+    every = machine(mechanism.engagements[0], setting(mechanism), request.loads, NONE)
     period = np.broadcast_to(np.ravel(mechanism.period_deg), (count,))
     for i in range(0, count, BLOCK):
         n = min(BLOCK, count - i)
-        load = Loaded(taken(every, slice(i, i + n)), asked.loads)
-        rows = [_sampled(load, n)] if asked.sized else []
-        if asked.summed:
+        load = Loaded(taken(every, slice(i, i + n)), request.loads)
+        rows = [_sampled(load, n)] if request.sized else []
+        if request.summed:
             rows.append(
                 np.sqrt(_summed(load, n) / (period[i : i + n] if period.size > 1 else period))
             )
-        found.append(np.concatenate(rows))
-    return np.concatenate(found, axis=1).T
+        blocks.append(np.concatenate(rows))
+    return np.concatenate(blocks, axis=1).T
 
 
 def _sampled(load: Loaded, n: int) -> Array:
-    """The greatest of samples."""
+    """Greatest values of samples."""
     spans = spans_of(load.machine[0], n)
     spans = spans[: len(spans) // 2] if load.repeats else spans
     most = np.zeros((load.wanted, n))
@@ -221,7 +220,7 @@ def _sampled(load: Loaded, n: int) -> Array:
 
 
 def _summed(load: Loaded, n: int) -> Array:
-    """The integrals of the squares, where no change of a sign is looked for."""
+    """Integrals of the squares, without a search for sign changes."""
     node, weight = rule(NODES)
     spans, total = spans_of(load.machine[0], n), np.zeros((load.wanted, n))
     for a, b in spans[: len(spans) // 2] if load.mirrored else spans:

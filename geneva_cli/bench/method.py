@@ -1,4 +1,4 @@
-"""A method, a task and a subject of the bench; and when a method is on the frontier."""
+"""A method, a task and a subject of the bench; and the frontier of methods."""
 
 from __future__ import annotations
 
@@ -11,21 +11,21 @@ SECONDS = 1.0  # of a method's own time, at least one run
 
 
 class Method(NamedTuple):
-    """One way to do a task. ``size`` is its own: points, pieces, tolerance."""
+    """One way to do a task. ``size`` is its parameter: points, pieces or tolerance."""
 
     name: str
     size: float | None
     run: Callable[[], Any]
     ours: bool = False
     times: float = 1.0  # the run is that part of the task: a loop over a sample of the designs
-    pieces: Callable[[Any], int] | None = None  # how much the answer costs its reader
+    pieces: Callable[[Any], int] | None = None  # number of pieces in the answer
     memory: Callable[[], float] | None = None  # peak of a run, MB
 
 
 class Task(NamedTuple):
-    """What methods compete in: one answer, one baseline, one measure of error.
+    """A task for competing methods: one answer, one baseline, one measure of error.
 
-    The error of what the baseline's run returns is None where the baseline is no method.
+    The error of the baseline's result is None if the baseline is not a method.
     """
 
     name: str
@@ -33,24 +33,24 @@ class Task(NamedTuple):
     baseline_run: Callable[[], Any]
     error: Callable[[Any], float]
     methods: Sequence[Method]
-    designs: int | None = None  # that a run answers for: their number a second is told
+    designs: int | None = None  # designs per run, for their rate per second
 
 
 class Subject(NamedTuple):
-    """A subject of the bench, and the words of its plot."""
+    """A subject of the bench, and the texts of its plot."""
 
     title: str
-    error: str  # what the error is, and of what
+    error: str  # kind of error, and its reference
     tasks: Sequence[Task]
     processes: bool = False  # runs are whole processes: times come from ``pairs`` of them
     slack: float = SLACK
     floor: float = FLOOR
-    seconds: float = SECONDS  # that each method is run for
-    absent: Sequence[str] = ()  # libraries with methods of their own that are not installed
+    seconds: float = SECONDS  # run time of each method
+    absent: Sequence[str] = ()  # libraries with methods that are not installed
 
 
 def missing(*distributions: str) -> tuple[str, ...]:
-    """Those libraries, by the names that pip has, that are not installed."""
+    """Libraries, by their names in pip, that are not installed."""
     from importlib import metadata
 
     def is_here(name: str) -> bool:
@@ -80,7 +80,7 @@ class Row(NamedTuple):
 
 
 def beats(one: Row, other: Row, slack: float, floor: float) -> bool:
-    """Whether ``one`` is faster and as accurate, with as few pieces where pieces count."""
+    """True if ``one`` is faster and as accurate, with as few pieces if pieces count."""
     if one.error is None or other.error is None:
         return False
     faster = one.time_ratio < (1.0 - slack) * other.time_ratio
@@ -89,9 +89,9 @@ def beats(one: Row, other: Row, slack: float, floor: float) -> bool:
 
 
 def with_frontier(rows: Sequence[Row], slack: float, floor: float) -> list[Row]:
-    """The rows of a task, each marked: on the frontier unless another's method beats it.
+    """Rows of a task, each marked as on the frontier unless another method beats it.
 
-    Ours are different functions or inputs, not rivals of each other.
+    Ours are different functions or inputs, and do not compete with each other.
     """
     return [
         row

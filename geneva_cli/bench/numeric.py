@@ -1,4 +1,4 @@
-"""How a script finds a peak: grids, parabolas, SciPy's minimisers and roots, closed forms."""
+"""Ways in which scripts compute a peak: grids, parabolas, SciPy, closed forms."""
 
 from __future__ import annotations
 
@@ -13,27 +13,27 @@ from geneva_cli.bench.formulas import Proportions, acceleration, jerk
 
 
 def size_at(d: Proportions, x: float) -> float:
-    """|acceleration| at one input angle, radians."""
+    """Size of the acceleration at one input angle, radians."""
     return abs(float(acceleration(math, d, x)))
 
 
 def slope_at(d: Proportions, x: float) -> float:
-    """The signed slope there."""
+    """Signed slope of the acceleration at one input angle, radians."""
     return float(jerk(math, d, x))
 
 
 def grid(d: Proportions, n: int) -> float:
-    """The greatest of n even points."""
+    """Greatest of n even points."""
     return float(np.abs(acceleration(np, d, np.linspace(0.0, d.half, n))).max())
 
 
 def vertex(below: Any, middle: Any, above: Any) -> Any:
-    """The greatest value of the parabola through three even points around a greatest one."""
+    """Greatest value of the parabola through three even points around a greatest one."""
     return middle + (above - below) ** 2 / (8.0 * (2.0 * middle - below - above))
 
 
 def parabola(d: Proportions, n: int) -> float:
-    """The same, with a parabola through the greatest and its neighbours."""
+    """Greatest of n even points, refined by a parabola through it and its neighbours."""
     size = np.abs(acceleration(np, d, np.linspace(0.0, d.half, n)))
     i = int(size.argmax())
     if i in (0, n - 1):
@@ -42,20 +42,20 @@ def parabola(d: Proportions, n: int) -> float:
 
 
 def bounded(d: Proportions, tolerance: float) -> float:
-    """SciPy's bounded minimiser, and the end."""
+    """Peak by SciPy's bounded minimiser, or the value at the end."""
     from scipy.optimize import minimize_scalar
 
-    found = minimize_scalar(
+    minimum = minimize_scalar(
         lambda x: -size_at(d, x),
         bounds=(0.0, d.half),
         method="bounded",
         options={"xatol": tolerance},
     )
-    return max(-float(found.fun), size_at(d, d.half))
+    return max(-float(minimum.fun), size_at(d, d.half))
 
 
 def brentq(d: Proportions, tolerance: float, scan: int = 17) -> float:
-    """SciPy's brentq on the slope between the points of a scan, and the end."""
+    """Peak by SciPy's brentq on the slope between the points of a scan, or the value at the end."""
     from scipy.optimize import brentq as solve
 
     x = [d.half * i / (scan - 1) for i in range(scan)]
@@ -69,7 +69,7 @@ def brentq(d: Proportions, tolerance: float, scan: int = 17) -> float:
 
 
 def colleague(d: Proportions, degree: int) -> float:
-    """Chebyshev series of the slope, its roots as eigenvalues of the colleague matrix."""
+    """Peak from a Chebyshev series of the slope, with roots from the colleague matrix."""
     from numpy.polynomial import chebyshev
 
     series = chebyshev.chebinterpolate(lambda t: jerk(np, d, 0.5 * d.half * (1.0 + t)), degree)
@@ -80,7 +80,7 @@ def colleague(d: Proportions, degree: int) -> float:
 
 
 def by_chebpy(d: Proportions) -> float:
-    """Chebpy: the acceleration as a Chebyshev series, and the roots of its derivative."""
+    """Peak by Chebpy: the acceleration as a Chebyshev series, and the roots of its derivative."""
     from chebpy import chebfun
 
     series = chebfun(lambda x: acceleration(np, d, x), [0.0, d.half])
@@ -88,9 +88,9 @@ def by_chebpy(d: Proportions) -> float:
 
 
 def closed(d: Proportions) -> tuple[float, float]:
-    """A = 0 outside, as the textbook has it: cos a* = sqrt(q² + 2) - q, q = (1 + l²)/(4 l).
+    """Peak and its angle for A = 0 outside, in the textbook form.
 
-    The peak and its angle, which ours gives too.
+    cos a* = sqrt(q² + 2) - q, q = (1 + l²)/(4 l). The angle is included since ours returns it too.
     """
     l = d.l
     q = (1.0 + l * l) / (4.0 * l)
@@ -101,14 +101,14 @@ def closed(d: Proportions) -> tuple[float, float]:
 
 
 class Numeric(NamedTuple):
-    """A method that takes any design, and the sizes in which it is shown."""
+    """A method for single designs, and the sizes that are measured."""
 
     name: str
     run: Callable[[Proportions, Any], float]
     sizes: tuple[float, ...]
 
 
-# The registry: a method enters here, and in ``many`` too.
+# The registry of methods, also for ``many``.
 NUMERIC = (
     Numeric("grid", grid, (11, 101, 1001, 10001)),
     Numeric("grid + parabola", parabola, (11, 33, 101, 1001)),

@@ -18,24 +18,24 @@ TIME = "time / baseline"
 
 
 def require() -> None:
-    """Raise GenevaError where matplotlib is not installed."""
+    """Raise GenevaError if matplotlib is not installed."""
     try:
         import matplotlib.figure  # noqa: F401
     except ImportError:
         raise GenevaError(
-            "--plots needs matplotlib, which is not here: pip install 'geneva-cli[bench]'"
+            "--plots needs matplotlib, which is not installed: pip install 'geneva-cli[bench]'"
         ) from None
 
 
 def svg(subject: Subject, rows: Sequence[Row]) -> str:
-    """The plot; the same rows give the same bytes."""
+    """SVG text of the plot; equal rows give equal bytes."""
     out = io.StringIO()
     save(subject, rows, out, "svg")
     return out.getvalue()
 
 
 def save(subject: Subject, rows: Sequence[Row], out: Any, format: str) -> None:
-    """The plot to an open file, in any format that matplotlib has."""
+    """Save the plot to an open file, in any format that matplotlib has."""
     require()
     import matplotlib as mpl
     from matplotlib.figure import Figure
@@ -67,11 +67,11 @@ def save(subject: Subject, rows: Sequence[Row], out: Any, format: str) -> None:
         figure.savefig(out, format=format, metadata=metadata, dpi=80)
 
 
-Panel = tuple[str, str, list[Row], str]  # title, label of the x axis, rows, what x is
+Panel = tuple[str, str, list[Row], str]  # title, label of the x axis, rows, field of the x values
 
 
 def _panels(subject: Subject, rows: Sequence[Row]) -> list[Panel]:
-    """A panel a task; where answers come in pieces, another one with those."""
+    """One panel for each task; a second one if answers have pieces."""
     panels: list[Panel] = []
     for task in subject.tasks:
         own = [r for r in rows if r.task == task.name and r.error is not None]
@@ -90,7 +90,7 @@ def _styles(panels: Iterable[Panel]) -> dict[str, tuple[str, str]]:
 
 def _curves(figure: Any, subject: Subject, panels: list[Panel], lines: int, columns: int) -> None:
     styles = _styles(panels)
-    seen: dict[str, Any] = {}
+    curves: dict[str, Any] = {}
     own = list(dict.fromkeys(r.method for p in panels for r in p[2] if r.ours))
     for number, (title, label, rows, what) in enumerate(panels):
         axes = figure.add_subplot(lines, columns, number + 1)
@@ -115,13 +115,13 @@ def _curves(figure: Any, subject: Subject, panels: list[Panel], lines: int, colu
                 markeredgecolor="white",
                 markeredgewidth=0.6,
             )
-            seen.setdefault(name, line)
+            curves.setdefault(name, line)
         axes.set(xscale="log", yscale="log", xlabel=label, ylabel=subject.error)
         axes.set_title(title, fontsize=9.0)
         axes.margins(0.08)
-    order = sorted(seen, key=lambda name: name not in own)
+    order = sorted(curves, key=lambda name: name not in own)
     figure.legend(
-        [seen[n] for n in order],
+        [curves[n] for n in order],
         order,
         loc="outside lower center",
         ncols=3 if columns > 1 else 2,
@@ -131,7 +131,7 @@ def _curves(figure: Any, subject: Subject, panels: list[Panel], lines: int, colu
 
 
 def _bars(axes: Any, panels: list[Panel]) -> None:
-    """Times alone, where no method makes an error: a group of bars a task."""
+    """Bars of times, for methods without an error: one group for each task."""
     place, ticks, labels = 0.0, [], []
     for title, _, rows, _ in panels:
         for row in rows:

@@ -1,8 +1,8 @@
 """Run time against error, subject by subject, as one table.
 
 Times are ratios to a baseline in the same run: the median over rounds in which baseline and methods
-take turns. A method is on the frontier where no other one of its task is both faster (by more than
-a tenth, which is noise) and as accurate, with as few pieces where the answer has pieces.
+take turns. A method is on the frontier if no other one of its task is both faster and as accurate,
+with as few pieces if the answer has pieces. A tenth of the time counts as noise.
 """
 
 from __future__ import annotations
@@ -36,7 +36,7 @@ QUICK_SECONDS = 0.01
 
 
 def names(asked: str) -> tuple[str, ...]:
-    """The subjects that a word names: one, or all."""
+    """Subjects that a word names: one, or all."""
     if asked == "all":
         return SUBJECTS
     if asked not in SUBJECTS:
@@ -48,7 +48,7 @@ def names(asked: str) -> tuple[str, ...]:
 
 
 def measure(name: str, quick: bool) -> tuple[Subject, list[Row]]:
-    """One subject: what it is about, and its rows."""
+    """One subject with its rows."""
     module = importlib.import_module(f"geneva_cli.bench.subjects.{name}")
     subject = cast(Subject, module.subject(quick))
     rows = [row for task in subject.tasks for row in _rows(name, subject, task, quick)]
@@ -81,10 +81,10 @@ def _rows(name: str, subject: Subject, task: Task, quick: bool) -> Iterator[Row]
 
 
 def bench_table(rows: list[Row], for_people: bool) -> Table:
-    """The rows as ``geneva bench`` writes them; a column that is empty throughout is left out.
+    """Rows as ``geneva bench`` writes them, without columns that are all empty.
 
-    People get errors in powers of ten: a table for them shows as 0 what is small beside its
-    column's largest number, and here the smallest is what counts.
+    People get errors in powers of ten. A table for them shows numbers as 0 that are small compared
+    with the column's largest, and here the smallest ones count.
     """
     shown = rows_table(Row._fields, [_spelled(row) if for_people else row for row in rows])
     kept = [i for i, c in enumerate(shown.columns) if any(v is not None for v in c)]

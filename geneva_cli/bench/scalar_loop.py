@@ -1,9 +1,9 @@
-"""A loop over side-cranks, one number at a time, as who compiles a loop with Numba would write it.
+"""A loop over side-cranks, number by number, as one would write it for Numba.
 
 The formulas are those of a handbook, over the crank's angle f from mid-motion, v = 1 - cos f. An
 internal wheel has a negative l. With C and rho of the side-crank and D of the wheel, the
-acceleration is -l sin f (u - (c - l) w): u is the wheel's term, w that of the crank's changing
-speed. The slope is scanned for changes of sign, each refined by secants that keep to its bracket.
+acceleration is -l sin f (u - (c - l) w). The wheel's term is u, that of the crank's changing speed
+w. The slope is scanned for sign changes, and each is refined by secants inside its bracket.
 """
 
 from __future__ import annotations
@@ -24,7 +24,8 @@ CLOSE = 1e-7  # radians: the peak is flat, so its value is then known to the las
 def looped(compiled: Callable[[Any], Any]) -> Callable[[Array, Array, Array, Array], None]:
     """Return the loop from sign, l and A of designs to the size of their peaks.
 
-    ``compiled`` turns a function into a faster one, as ``numba.njit`` does, or leaves it.
+    ``compiled`` turns a function into a faster one, as ``numba.njit`` does, or returns it
+    unchanged.
     """
     terms = compiled(_terms)
     peak = _peak(compiled, terms, _root(compiled, terms))
@@ -33,8 +34,8 @@ def looped(compiled: Callable[[Any], Any]) -> Callable[[Array, Array, Array, Arr
         for i in range(len(out)):
             out[i] = peak(sign[i] * l[i], A[i])
 
-    made: Callable[[Array, Array, Array, Array], None] = compiled(loop)
-    return made
+    fast: Callable[[Array, Array, Array, Array], None] = compiled(loop)
+    return fast
 
 
 @cache
@@ -46,7 +47,7 @@ def by_numba() -> Callable[[Array, Array, Array, Array], None]:
 
 
 def _terms(l: float, A: float, s: float, c: float, v: float) -> tuple[float, float]:
-    """The acceleration's size, and its slope up to a factor, where sine and cosine are s and c."""
+    """Size of the acceleration, and its slope up to a factor, for sine s and cosine c."""
     K = (1.0 - A) * (1.0 + A)
     C = math.sqrt(c * c + K * s * s)
     rho = C + A * c if A * c > 0.0 else K / (C - A * c)

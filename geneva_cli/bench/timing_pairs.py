@@ -1,7 +1,6 @@
-"""Times as ratios: every run is paired with one of a baseline right before it.
+"""Times as ratios: every run follows a run of a baseline.
 
-A machine that speeds up or slows down in between hits both alike; the ratio is the median over the
-pairs.
+A change in the computer's speed affects both alike. The ratio is the median over the pairs.
 """
 
 from __future__ import annotations
@@ -14,14 +13,14 @@ from time import perf_counter, process_time
 from typing import Any, NamedTuple, TypeVar
 
 T = TypeVar("T")
-Pair = tuple[float, float]  # seconds of the baseline, of the run after it
+Pair = tuple[float, float]  # seconds of the baseline, and of the run after it
 SHORTEST = 2e-3  # seconds: shorter calls are repeated until they take as long
 
 
 class Timed(NamedTuple):
-    """What a call takes: as a ratio to the baseline, and the least time of a core, in seconds.
+    """Time of a call, as a ratio to the baseline, and the least processor time in seconds.
 
-    That is no longer where the machine does something else besides.
+    Other work of the computer does not add to the processor time.
     """
 
     ratio: float
@@ -29,28 +28,28 @@ class Timed(NamedTuple):
 
 
 def process_seconds(
-    command: Sequence[str], environment: Mapping[str, str], given: str | None = None
+    command: Sequence[str], environment: Mapping[str, str], text: str | None = None
 ) -> float:
-    """Wall time of a whole process, with ``given`` on its standard input."""
-    text = None if given is None else given.encode()
-    stdin = subprocess.DEVNULL if text is None else None
+    """Wall time of a whole process, with ``text`` on its standard input."""
+    data = None if text is None else text.encode()
+    stdin = subprocess.DEVNULL if data is None else None
     start = perf_counter()
-    subprocess.run(list(command), capture_output=True, env=environment, input=text, stdin=stdin)
+    subprocess.run(list(command), capture_output=True, env=environment, input=data, stdin=stdin)
     return perf_counter() - start
 
 
 def median_ratio(pairs: Sequence[Pair]) -> float:
-    """The median of the pairs' ratios."""
+    """Median of the pairs' ratios."""
     return statistics.median(own / base for base, own in pairs)
 
 
 def ratios(
     baseline: Callable[[], Any], calls: Sequence[Callable[[], T]], seconds: float
 ) -> tuple[list[T], list[Timed]]:
-    """What each call answers, and its time as a ratio to the baseline's.
+    """Answer of each call, and its time as a ratio to the baseline's.
 
-    Each call is first run for its answer, unmeasured; then they are run in turn, round after round.
-    Each takes part until it has used ``seconds``, but at least once; a call that is over in less
+    Each call first runs once for its answer, without measurement. Then the calls run in turn, round
+    after round. Each takes part until it has used ``seconds``, but at least once. A call shorter
     than ``SHORTEST`` is repeated in each round.
     """
     _, base_repeats = _first(baseline)
@@ -67,7 +66,7 @@ def ratios(
                 base = _time(baseline, base_repeats)
             start = process_time()
             own = _time(call, repeats[i])
-            # a processor's clock that ticks seldom may not have moved
+            # a slow processor clock may not have advanced
             core = (process_time() - start) / repeats[i] or own
             least[i] = min(least[i], core)
             spent[i] += own * repeats[i]
@@ -77,7 +76,7 @@ def ratios(
 
 
 def _first(call: Callable[[], T]) -> tuple[T, int]:
-    """What a call answers, and how often it is run in a round."""
+    """Answer of a call, and the number of its runs per round."""
     start = perf_counter()
     answer = call()
     once = perf_counter() - start

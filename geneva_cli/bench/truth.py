@@ -1,8 +1,8 @@
-"""Reference values of 50 digits, by other formulas than the program's.
+"""Reference values in 50 digits, by formulas that differ from the program's.
 
-The pin is a complex number, the wheel's angle its argument, and the derivatives come from the
-logarithm in closed form: d/dx log(1 - C) = i g C/(1 - C) with C = g l e^(-i g f), and for the
-coulisse d/dx arg(A + E) = Re E/(A + E) with E = e^(i x).
+The pin is a complex number, and the wheel's angle is its argument. The derivatives follow from the
+logarithm in closed form: d/dx log(1 - C) = i g C/(1 - C) with C = g l e^(-i g f). For the coulisse,
+d/dx arg(A + E) = Re E/(A + E) with E = e^(i x).
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ def digits() -> Any:
         import mpmath
     except ImportError:
         raise GenevaError(
-            "errors are measured with mpmath, which is not here: pip install 'geneva-cli[bench]'"
+            "errors need mpmath, which is not installed: pip install 'geneva-cli[bench]'"
         ) from None
     context = mpmath.mp.clone()
     context.dps = 50
@@ -72,14 +72,14 @@ def acceleration_peak(z: int, gearing: str, A: float) -> Any:
     x = crank + np.arcsin(A * np.sin(crank))
     slope = jerk(np, Proportions.of(z, gearing, A), x)
     end = half_motion(z, gearing, A)
-    found = [abs(motion(z, gearing, A, end)[2])]
+    sizes = [abs(motion(z, gearing, A, end)[2])]
     for i in np.flatnonzero(slope[:-1] * slope[1:] < 0.0):
         a, b = mp.mpf(float(x[i])), mp.mpf(float(x[i + 1]))
         root = mp.findroot(lambda t: motion(z, gearing, A, t)[3], (a, b), solver="illinois")
-        found.append(abs(motion(z, gearing, A, root)[2]))
-    return max(found)
+        sizes.append(abs(motion(z, gearing, A, root)[2]))
+    return max(sizes)
 
 
 def relative(value: float, exact: Any) -> float:
-    """The relative error of a double."""
+    """Relative error of a double."""
     return float(abs(digits().mpf(float(value)) / exact - 1))

@@ -1,4 +1,4 @@
-"""Whole runs of the program as tasks of the bench, beside a Python that imports Typer alone."""
+"""Whole runs of the program as tasks of the bench, compared with a Python that imports Typer."""
 
 from __future__ import annotations
 
@@ -13,13 +13,13 @@ BASELINE = f"python -c '{IMPORT}'"
 
 
 def finished(code: str, words: tuple[str, ...] = ()) -> None:
-    """Run a program in a Python of its own; raises CalledProcessError where it fails."""
+    """Run a program in a new Python process; raises CalledProcessError if it fails."""
     command = [sys.executable, "-c", code, *words]
     subprocess.run(command, capture_output=True, stdin=subprocess.DEVNULL, check=True)
 
 
 def task(name: str, runs: dict[str, tuple[str, ...]]) -> Task:
-    """What ``geneva`` takes with some words, each by its name; there is no error to it."""
+    """Task of ``geneva`` runs with some arguments, by name; it has no error."""
     methods = [
         Method(way, None, lambda words=words: finished(RUN, words), ours=True)  # type: ignore[misc]
         for way, words in runs.items()

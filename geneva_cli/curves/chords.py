@@ -33,8 +33,7 @@ MIDDLE = np.array([0.25, 0.5, 0.75])  # the same for many short chords, which ar
 
 
 def nodes(curves: Curves, ends: Sequence[float], tolerance_mm: float, fewest: bool = True) -> Array:
-    """Places from the first end to the last, so that no chord misses a curve by more than a
-    tolerance.
+    """Fewest places whose chords keep the tolerance on every curve.
 
     A chord's error is proportional to the square of its length. So nodes are spread evenly in the
     integral of the error's square root. Then the errors are measured, and nodes are moved, added or

@@ -19,9 +19,7 @@ LEFT = 1e-4  # mm: a corner in which a cutter leaves less is none
 
 
 class Corner(NamedTuple):
-    """A place at which a contour turns right: at the end of a piece, by a positive angle in
-    radians.
-    """
+    """A right turn of a contour: the end of a piece, by a positive angle in radians."""
 
     piece: int
     at: Point

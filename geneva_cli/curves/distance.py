@@ -187,9 +187,7 @@ class Polyarc:
         return row, piece
 
     def samples(self, sagitta: float, longest: float) -> Array:
-        """Points of the boundary, (n, 2): all corners, and points between them at the requested
-        spacing.
-        """
+        """Points of the boundary, (n, 2): all corners, and points at the requested spacing."""
         arc, radius = self.arc, np.where(self.arc, self.radius, 1.0)
         sweep = 2.0 * np.arccos(np.clip(self.cos_half, -1.0, 1.0))
         step = 4.0 * np.arcsin(np.sqrt(0.5 * np.minimum(sagitta / radius, 1.0)))

@@ -11,8 +11,7 @@ SAME = 1e-12  # radians: directions nearer to each other are one
 
 
 def convex_hull(layer: str, circles: Sequence[Circle]) -> Contour:
-    """Convex hull of circles, counterclockwise: an arc on each circle that it touches, lines
-    between.
+    """Convex hull of circles, counterclockwise: arcs on circles, and lines between them.
 
     It touches a circle in the directions in which this circle reaches farthest. Going round, the
     next circle takes over where both reach equally far, on their common tangent.

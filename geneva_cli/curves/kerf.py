@@ -149,9 +149,7 @@ def _joined(contour: Contour, pieces: list[Line | Arc], distance: float) -> Cont
     segments: list[Segment] = []
     for piece, start, end, arc in zip(pieces, low, high, around, strict=True):
         if start >= end:
-            raise Closed(
-                f"a piece of {contour.layer} is shorter than the width of the cut", piece.start
-            )
+            raise Closed(f"a piece of {contour.layer} is shorter than the cut is wide", piece.start)
         segments += [_part(piece, start, end), *([arc] if arc else [])]
     return closed(contour.layer, segments)
 

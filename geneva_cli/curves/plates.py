@@ -20,9 +20,7 @@ if TYPE_CHECKING:
 
 
 class Plate(NamedTuple):
-    """A flat part: the inside of an outline without its holes, from ``low`` to ``high`` on the
-    axis.
-    """
+    """A flat part: the inside of an outline without its holes, from ``low`` to ``high``."""
 
     name: str
     layer: str

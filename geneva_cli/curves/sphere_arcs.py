@@ -50,9 +50,7 @@ class Arcs:
         self.last = np.roll(self.first, -1)  # and after it
 
     def _turns(self, arcs: Sequence[SphereArc]) -> Array:
-        """Left turn of the boundary from one arc to the next; that before the first arc comes
-        first.
-        """
+        """Left turns of the boundary before each arc."""
         back = np.roll([arc.way(arc.end) for arc in arcs], 1, axis=0)
         on = np.array([arc.way(arc.start) for arc in arcs])
         sideways = (np.cross(back, on) * self.start).sum(axis=1)

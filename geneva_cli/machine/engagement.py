@@ -69,9 +69,7 @@ class CarrierVelocity(Protocol):
     """Angular velocity of the body that carries the roller, if that is not the crank's arm."""
 
     def __call__(self, tau: Number, order: int) -> Jet:
-        """Rate in radians per input radian, positive with the wheel, ``tau`` radians after
-        mid-motion.
-        """
+        """Rate in radians per input radian, positive with the wheel, ``tau`` after mid-motion."""
 
 
 Vector: TypeAlias = tuple[Jet, Jet]
@@ -373,9 +371,7 @@ class Displacement(Protocol):
     """The pin's displacement since an anchor."""
 
     def __call__(self, tau: Number, order: int) -> tuple[Jet, Jet]:
-        """Displacement along the anchor's ray and across it, ``tau`` input radians after the
-        anchor.
-        """
+        """Displacement along the anchor's ray and across it, ``tau`` input radians later."""
 
 
 def in_wheel(path: tuple[Jet, Jet], wheel: Jet) -> tuple[Jet, Jet]:

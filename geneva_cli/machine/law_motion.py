@@ -45,9 +45,7 @@ class LawMotion(Motion):
         return (self.entry_deg, *ascending(inner), self.exit_deg)
 
     def __call__(self, input_deg: Number, order: int = 3) -> Jet:
-        """Wheel angle with its derivatives; each half of the law is computed exactly from its own
-        end.
-        """
+        """Wheel angle with its derivatives; each half of the law is computed from its own end."""
         return self._latest(self._halves, input_deg, order)[0]
 
     def _halves(self, input_deg: Number, order: int) -> tuple[Jet]:

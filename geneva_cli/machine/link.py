@@ -19,9 +19,7 @@ class LinkTurning(NamedTuple):
     sense: float
 
     def __call__(self, tau: Number, order: int) -> Jet:
-        """Rate in radians per input radian, positive with the wheel, ``tau`` radians from
-        mid-motion.
-        """
+        """Rate in radians per input radian, positive with the wheel, ``tau`` after mid-motion."""
         x, y = self.path.link(*sin_cos(Jet.variable(tau + self.middle, order + 1)))
         return turning(x, y) * self.sense
 

@@ -94,15 +94,15 @@ def engagement_of(path: RollerPath, fit: Fit, step: HalfStep) -> tuple[Engagemen
     return path_and_slot.engagement(0.0, anchored, motion, -fit.sense, body, reactions), float(L)
 
 
-def engagement_many(path: RollerPath, found: Fits, step: HalfStep) -> tuple[Engagement, float]:
+def engagement_many(path: RollerPath, fits: Fits, step: HalfStep) -> tuple[Engagement, float]:
     """Engagements of wheels for the paths of n designs, and their centre distances (n, 1).
 
     The computation uses long doubles, if the computer has them, and rounds once.
     """
-    path, found, step = _alike(path, found, step)
-    b, sense = step.b, parameter(found.sense)
+    path, fits, step = _alike(path, fits, step)
+    b, sense = step.b, parameter(fits.sense)
     with np.errstate(all="ignore"):
-        entry, exit_ = polished(path, found, step)
+        entry, exit_ = polished(path, fits, step)
     middle = (entry + exit_) / 2
     turned = [middle + (exit_ - middle) * i / ANCHORS for i in range(-ANCHORS, ANCHORS + 1)]
     phi = [np.asarray(x, dtype=np.longdouble) for x in turned]
@@ -141,19 +141,19 @@ def engagement_many(path: RollerPath, found: Fits, step: HalfStep) -> tuple[Enga
     return path_and_slot.engagement(0.0, anchored, motion, -sense, body, reactions), distance
 
 
-def _alike(path: RollerPath, found: Fits, step: HalfStep) -> tuple[RollerPath, Fits, HalfStep]:
+def _alike(path: RollerPath, fits: Fits, step: HalfStep) -> tuple[RollerPath, Fits, HalfStep]:
     """Designs of a batch, with the first that has a wheel in place of those that have none.
 
     Designs without a wheel are refused already, and NaN in long doubles takes a hundred times as
     long.
     """
-    fits = found.entry[:, 0] == found.entry[:, 0]
-    if fits.all() or not fits.any():
-        return path, found, step
-    which = np.where(fits, np.arange(len(fits)), fits.argmax())
-    entry, exit_, sense = (x[which] for x in found[:3])
+    has_wheel = fits.entry[:, 0] == fits.entry[:, 0]
+    if has_wheel.all() or not has_wheel.any():
+        return path, fits, step
+    which = np.where(has_wheel, np.arange(len(has_wheel)), has_wheel.argmax())
+    entry, exit_, sense = (x[which] for x in fits[:3])
     p, q = (cast(int, np.asarray(x)[which]) if np.ndim(x) else x for x in step)
-    return path.of(which), Fits(entry, exit_, sense, found.alone), HalfStep(p, q)
+    return path.of(which), Fits(entry, exit_, sense, fits.alone), HalfStep(p, q)
 
 
 class AlongRay(NamedTuple):

@@ -89,11 +89,10 @@ class RadialSlot(Slot):
 
 
 class MeridianSlot(Slot):
-    """A spherical wheel's slot, a meridian; the path is the pin's projection along the wheel's
-    axis.
+    """A spherical wheel's slot, a meridian.
 
-    Its pitch curve is given in the flat development from the wheel's pole, which keeps lengths
-    along a meridian.
+    The path is the pin's projection along the wheel's axis. The pitch curve is in the flat
+    development from the wheel's pole, which keeps lengths along a meridian.
     """
 
     def __init__(self, path: AnchoredPath, height: Level) -> None:
@@ -197,8 +196,7 @@ class Classic(Followed):
         return Peak(size, 0.0 - at_deg)
 
     def derivatives(self, input_deg: Array, orders: Sequence[int] = (0, 1, 2, 3)) -> list[Array]:
-        """Wheel angle and its derivatives in closed form, with the shapes of
-        ``Motion.derivatives``.
+        """Wheel angle and its derivatives in closed form, shaped as in ``Motion.derivatives``.
 
         Near the ends, angle and velocity are computed from the end to keep their relative accuracy.
         """

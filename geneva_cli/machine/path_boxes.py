@@ -203,9 +203,9 @@ def newton_steps(boxes: Boxes, wanted: Array) -> NewtonSteps:
     places = np.array(steps)  # indices: corner, side, box; in widths of the box
     middle = places.mean(axis=0)
     apart = np.abs(places - middle).max(axis=(0, 1))
-    beside = np.abs(middle - 0.5).max(axis=0) - 0.5
+    outside = np.abs(middle - 0.5).max(axis=0) - 0.5
     phi = np.stack((entry.first.phi + middle[0] * wide, exit_.first.phi + middle[1] * high), axis=1)
-    return NewtonSteps(apart <= ALIKE, beside <= BESIDE, phi)
+    return NewtonSteps(apart <= ALIKE, outside <= BESIDE, phi)
 
 
 def halved(path: RollerPath, boxes: Boxes, wanted: Array) -> Boxes:

@@ -24,17 +24,17 @@ BLOCK = 256  # wheels at a time: they stay in the processor's cache
 TIE = 1e-8  # share by which two wheels' peak velocities may differ and be the same
 
 
-def chosen(path: RollerPath, found: Wheels, wanted: Number | None = None) -> Whole:
+def chosen(path: RollerPath, wheels: Wheels, wanted: Number | None = None) -> Whole:
     """Numbers of the chosen wheels, one for each design that has any, in the order of the designs.
 
     The chosen wheel is the gentlest, with the least peak velocity, or the one whose entry is
     nearest to ``wanted`` (radians, (n, 1) for all designs). If several are equal, as on a symmetric
     path, it is the one with the first entry.
     """
-    which = found.which
+    which = wheels.which
     cost = np.zeros(len(which))
     several = np.flatnonzero(np.bincount(which, minlength=1)[which] > 1)
-    some = found.taken(several)
+    some = wheels.taken(several)
     if wanted is not None:
         goal = np.ravel(wanted)
         off = some.phi[:, 0] - (goal[some.which] if len(goal) > 1 else goal)
@@ -44,28 +44,28 @@ def chosen(path: RollerPath, found: Wheels, wanted: Number | None = None) -> Who
     least = np.full(int(which.max(initial=-1)) + 1, np.inf)
     np.minimum.at(least, which, cost)
     tied = np.flatnonzero(cost <= least[which] * (1.0 + TIE))
-    order = tied[np.lexsort((found.phi[tied, 0] % math.tau, which[tied]))]
+    order = tied[np.lexsort((wheels.phi[tied, 0] % math.tau, which[tied]))]
     first = np.ones(len(order), dtype=bool)
     first[1:] = np.diff(which[order]) != 0
     return order[first]
 
 
-def _peaks(path: RollerPath, found: Wheels) -> Array:
+def _peaks(path: RollerPath, wheels: Wheels) -> Array:
     """Peak velocities of several wheels per design, accurate enough to know the least.
 
     A few points of each wheel bound its peak. If the bounds do not decide which wheel of a design
     has the least peak, those wheels are sampled more closely.
     """
-    known = _velocities(path, found)
-    open_ = _open_peaks(found.which, known)
+    known = _velocities(path, wheels)
+    open_ = _open_peaks(wheels.which, known)
     for _ in range(NEARER):
         if not len(open_):
             break
-        near = _velocities(path, found.taken(open_), known.beside[open_])
+        near = _velocities(path, wheels.taken(open_), known.bracket[open_])
         near = near._replace(most=np.minimum(near.most, known.most[open_]))
         for all_, some in zip(known, near, strict=True):
             all_[open_] = some
-        open_ = _open_peaks(found.which, known)
+        open_ = _open_peaks(wheels.which, known)
     return known.least
 
 
@@ -83,15 +83,15 @@ class _Velocities(NamedTuple):
 
     least: Array
     most: Array
-    beside: Array
+    bracket: Array
 
 
-def _velocities(path: RollerPath, found: Wheels, between: Array | None = None) -> _Velocities:
+def _velocities(path: RollerPath, wheels: Wheels, between: Array | None = None) -> _Velocities:
     """Peak velocities between crank angles (n, 2), by default from entry to exit."""
-    between = found.phi if between is None else between
+    between = wheels.phi if between is None else between
     bounds: _Velocities = joined(
         [
-            _block_velocities(path.roughly(found.which[i]), found.phi[i], between[i])
+            _block_velocities(path.roughly(wheels.which[i]), wheels.phi[i], between[i])
             for i in blocks(len(between), BLOCK)
         ]
     )
@@ -115,8 +115,8 @@ def _block_velocities(path: RollerPath, phi: Array, between: Array) -> _Velociti
     i = steepest.argmax(axis=1)[:, None]
     sides = np.hstack((np.maximum(i - 1, 0), np.minimum(i + 2, PLACES)))
     j = velocity.argmax(axis=1)[:, None]
-    beside = np.hstack((np.maximum(j - 1, 0), np.minimum(j + 1, PLACES)))
+    neighbours = np.hstack((np.maximum(j - 1, 0), np.minimum(j + 1, PLACES)))
     top, least = velocity.max(axis=1), steepest.max(axis=1)
-    bend = 2.0 * top - np.take_along_axis(velocity, beside, axis=1).sum(axis=1)
+    bend = 2.0 * top - np.take_along_axis(velocity, neighbours, axis=1).sum(axis=1)
     most = np.where(least > top, np.inf, top + HIGHER * bend)
     return _Velocities(least, most, np.take_along_axis(phi, sides, axis=1))

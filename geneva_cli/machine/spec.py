@@ -166,8 +166,7 @@ class Spec:
         return several[int(number)] if number.isdecimal() and int(number) < len(several) else None
 
     def with_(self, key: str, value: object) -> Self:
-        """Return a copy with one key changed, written ``table.key`` as in the file; None: its
-        default.
+        """Return a copy with one key changed, written ``table.key``; None sets its default.
 
         Raises GenevaError for a key that this spec's kinds do not have, or a value out of range.
 
@@ -230,8 +229,9 @@ class Spec:
 
     @property
     def given_distance_mm(self) -> float:
-        """Centre distance L in millimetres from the spec, or its default; some drives solve for
-        another.
+        """Centre distance L in millimetres from the spec, or its default.
+
+        Some drives solve for another one.
 
         >>> Spec(External(6)).given_distance_mm
         100.0

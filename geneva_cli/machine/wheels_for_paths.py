@@ -109,25 +109,25 @@ def long_point(path: RollerPath, phi: Long) -> tuple[LongComplex, LongComplex]:
     return x + 1j * y, unit
 
 
-def polished(path: RollerPath, found: Fits, step: HalfStep) -> tuple[Long, Long]:
+def polished(path: RollerPath, fits: Fits, step: HalfStep) -> tuple[Long, Long]:
     """Entry and exit in long doubles: Newton's method in two unknowns, with slopes in doubles.
 
     It starts from roots that are known to the last digits of a double.
     """
-    every = np.arange(len(found.entry))
-    ends = ends_at(path, every, np.hstack((found.entry, found.exit)))
-    rest = residual(ends, np.broadcast_to(step.b, found.entry.shape))
+    every = np.arange(len(fits.entry))
+    ends = ends_at(path, every, np.hstack((fits.entry, fits.exit)))
+    rest = residual(ends, np.broadcast_to(step.b, fits.entry.shape))
     by_entry, by_exit = rest.by_entry[:, None], rest.by_exit[:, None]
     turn, turn_out = ends.at.turn[:, :1], ends.at.turn[:, 1:]
     det = rest.det[:, None]
     double = np.abs(det) < FLAT * np.abs(by_exit)
     wanted = 2 * LONG_PI * step.p / step.q
-    entry, exit_ = (np.asarray(x, dtype=np.longdouble) for x in found[:2])
+    entry, exit_ = (np.asarray(x, dtype=np.longdouble) for x in fits[:2])
     for _ in range(POLISHINGS):
         (p, t), (q, u) = long_point(path, entry), long_point(path, exit_)
         away = ((q - p) * (t + u).conj()).imag
         index = -u * t.conj()
-        excess = index.imag * np.cos(wanted) - found.sense * index.real * np.sin(wanted)
+        excess = index.imag * np.cos(wanted) - fits.sense * index.real * np.sin(wanted)
         entry = entry - np.where(double, 0.0, (away * turn_out - excess * by_exit) / det)
         both = np.where(double, away / by_exit, (by_entry * excess + turn * away) / det)
         exit_ = exit_ - both

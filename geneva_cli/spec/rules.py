@@ -100,7 +100,7 @@ class Csv(NamedTuple):
                 raise GenevaError(f"{name}, point {i + 1}: {fault}", place)
         if len(pairs) < self.points_min:
             raise GenevaError(
-                f"{name}: {len(pairs)} points, but at least {self.points_min} are needed", place
+                f"{name}: {len(pairs)} points; at least {self.points_min} are needed", place
             )
 
 

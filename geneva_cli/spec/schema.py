@@ -272,10 +272,8 @@ def _word(place: tuple[str, ...], field: Field, value: str, numeric: bool) -> st
             f"{field.key} = {shown(value)} must be {field.rule}{nearest(value, field.rule)}", place
         )
     if numeric and value not in words:
-        alternatives = " or ".join(f'"{w}"' for w in words)
-        raise GenevaError(
-            f"{field.key} must be a number or {alternatives}, not {shown(value)}", place
-        )
+        allowed = " or ".join(f'"{w}"' for w in words)
+        raise GenevaError(f"{field.key} must be a number or {allowed}, not {shown(value)}", place)
     return value
 
 

@@ -41,17 +41,13 @@ class Size(SpecTable):
         float | None, NOT_NEGATIVE, "clearance per side, roller to slot; default 0, or by process"
     ] = None
     lock_clearance_mm: Annotated[
-        float | None,
-        NOT_NEGATIVE,
-        "clearance per side, locking disc to wheel; default 0, or by process",
+        float | None, NOT_NEGATIVE, "clearance per side, disc to wheel; default 0, or by process"
     ] = None
     face_width_mm: Annotated[
         float | None, POSITIVE, "length of the contact line between roller and slot"
     ] = None
     wheel_radius_mm: Annotated[
-        float | None,
-        POSITIVE,
-        "radius of the wheel's rim (internal: of its opening); default: roller at entry",
+        float | None, POSITIVE, "rim radius (internal: of the opening); default: roller at entry"
     ] = None
     wheel_outer_radius_mm: Annotated[
         float | None,
@@ -59,9 +55,7 @@ class Size(SpecTable):
         "internal: outer radius of the wheel; default: slots plus a roller's width",
     ] = None
     slot_bottom_clearance_mm: Annotated[
-        float | None,
-        NOT_NEGATIVE,
-        "straight slots: clearance from the deepest roller to the slot's end; default r/20",
+        float | None, NOT_NEGATIVE, "straight slots: roller's clearance at their ends; default r/20"
     ] = None
     lock_radius_mm: Annotated[
         float | None,
@@ -69,9 +63,7 @@ class Size(SpecTable):
         "radius of the locking disc, 0 for none; default: horns as thick as r, if possible",
     ] = None
     relief: Annotated[
-        str | None,
-        OneOf(("arc", "sector")),
-        "shape of the locking disc's relief; default: the one that clears the wheel",
+        str | None, OneOf(("arc", "sector")), "locking disc's relief; default: the one that clears"
     ] = None
     relief_clearance_mm: Annotated[
         float | None, NOT_NEGATIVE, "clearance from wheel to bottom of the relief; default L/200"
@@ -84,19 +76,13 @@ class Size(SpecTable):
         float | None, NOT_NEGATIVE, "diameter of the wheel's hub, on the side of the crank arm"
     ] = None
     wheel_hub_length_mm: Annotated[
-        float | None,
-        POSITIVE,
-        "length of the wheel's hub below the wheel; default: to below the crank arm",
+        float | None, POSITIVE, "wheel's hub: length below the wheel; default: past the crank arm"
     ] = None
     wheel_shaft_low_mm: Annotated[
-        float | None,
-        LENGTH,
-        "lower end of the wheel's shaft, from the wheel's lower face; default: the frame's",
+        float | None, LENGTH, "lower end of the wheel's shaft, from the wheel's lower face"
     ] = None
     wheel_shaft_high_mm: Annotated[
-        float | None,
-        LENGTH,
-        "upper end of the wheel's shaft, from the wheel's lower face; default: upper face",
+        float | None, LENGTH, "upper end of the wheel's shaft, from the wheel's lower face"
     ] = None
     crank_bore_mm: Annotated[
         float | None,
@@ -112,14 +98,10 @@ class Size(SpecTable):
         "length of the crank's hub, from the arm up; default: to the wheel's upper face",
     ] = None
     crank_shaft_low_mm: Annotated[
-        float | None,
-        LENGTH,
-        "lower end of the crank's shaft, from the wheel's lower face; default: the frame's",
+        float | None, LENGTH, "lower end of the crank's shaft, from the wheel's lower face"
     ] = None
     crank_shaft_high_mm: Annotated[
-        float | None,
-        LENGTH,
-        "upper end of the crank's shaft, from the wheel's lower face; default: of arm, disc or hub",
+        float | None, LENGTH, "upper end of the crank's shaft, from the wheel's lower face"
     ] = None
     pin_mm: Annotated[float | None, NOT_NEGATIVE, "diameter of the roller's pin; default r"] = None
     press_fit_mm: Annotated[
@@ -134,48 +116,30 @@ class Size(SpecTable):
         float | None, POSITIVE, "width of the crank arm round its bore; default 1.6 bores"
     ] = None
     arm_eye_mm: Annotated[
-        float | None,
-        POSITIVE,
-        "width of the crank arm round a pin; default 2 pin diameters, if the hub allows",
+        float | None, POSITIVE, "width of the crank arm round a pin; default up to 2 pin diameters"
     ] = None
     crank_keyway: Annotated[
         str | None, OneOf(("DIN 6885-1",)), "keyway in the bores of crank arm and locking disc"
     ] = None
     wheel_keyway: Annotated[str | None, OneOf(("DIN 6885-1",)), "keyway in the wheel's bore"] = None
-    dial_bolts: Annotated[
-        int, Range(0, 100), "number of bolts between dial and wheel, evenly spaced"
-    ] = 0
-    dial_bolt_mm: Annotated[
-        float | None, POSITIVE, "diameter of the dial's bolt holes; default up to L/40"
-    ] = None
+    dial_bolts: Annotated[int, Range(0, 100), "number of bolts between dial and wheel"] = 0
+    dial_bolt_mm: Annotated[float | None, POSITIVE, "dial's bolt holes: diameter, max. L/40"] = None
     dial_bolt_circle_mm: Annotated[
-        float | None,
-        POSITIVE,
-        "diameter of the dial's bolt circle; default: midway between bore and slots",
+        float | None, POSITIVE, "dial's bolt circle: diameter; default: amid bore and slots"
     ] = None
     gear_bolts: Annotated[
         int, Range(0, 100), "number of screws between a fixed gear and the frame, evenly spaced"
     ] = 4
-    gear_bolt_mm: Annotated[
-        float | None, POSITIVE, "diameter of the fixed gear's screw holes; default up to L/40"
-    ] = None
+    gear_bolt_mm: Annotated[float | None, POSITIVE, "fixed gear's screw holes, max. L/40"] = None
     gear_bolt_circle_mm: Annotated[
-        float | None,
-        POSITIVE,
-        "diameter of the fixed gear's screw circle; default: midway from bore to pitch circle",
+        float | None, POSITIVE, "fixed gear's screw circle; default: amid bore and pitch circle"
     ] = None
     lock_bolts: Annotated[
-        int,
-        Range(0, 100),
-        "number of bolts or dowels through each sector of the locking disc and the arm",
+        int, Range(0, 100), "bolts or dowels through each sector of the locking disc and the arm"
     ] = 0
-    lock_bolt_mm: Annotated[
-        float | None, POSITIVE, "diameter of the locking disc's bolt holes; default L/40"
-    ] = None
+    lock_bolt_mm: Annotated[float | None, POSITIVE, "lock's bolt holes; default L/40"] = None
     lock_bolt_circle_mm: Annotated[
-        float | None,
-        POSITIVE,
-        "diameter of the locking disc's bolt circle; default: where the disc is widest",
+        float | None, POSITIVE, "locking disc's bolt circle; default: where the disc is widest"
     ] = None
     pin_held: Annotated[
         str,
@@ -190,9 +154,7 @@ class Size(SpecTable):
         float | None, POSITIVE, "thickness of wheel and rollers; default face_width_mm, or L/10"
     ] = None
     lock_thickness_mm: Annotated[
-        float | None,
-        POSITIVE,
-        "thickness of the locking disc; default: the wheel's plus pin_gap_mm",
+        float | None, POSITIVE, "thickness of the locking disc; default: wheel plus pin_gap_mm"
     ] = None
     arm_thickness_mm: Annotated[
         float | None, POSITIVE, "thickness of the crank arm; default: the wheel's"
@@ -201,9 +163,7 @@ class Size(SpecTable):
         float | None, POSITIVE, "diameter of the pins between links; default up to L/20"
     ] = None
     link_bore_mm: Annotated[
-        float | None,
-        POSITIVE,
-        "diameter of shafts that carry links only; default up to L/10",
+        float | None, POSITIVE, "diameter of shafts that carry links only; default up to L/10"
     ] = None
     link_width_mm: Annotated[
         float | None, POSITIVE, "width of the links round their pins; default 2 pin diameters"
@@ -211,9 +171,7 @@ class Size(SpecTable):
     link_thickness_mm: Annotated[
         float | None, POSITIVE, "thickness of the links; default: the crank arm's"
     ] = None
-    washer_mm: Annotated[float, NOT_NEGATIVE, "thickness of the washers between stacked links"] = (
-        0.0
-    )
+    washer_mm: Annotated[float, NOT_NEGATIVE, "thickness of washers between stacked links"] = 0.0
 
     @cached_property
     def allowances(self) -> Allowances:
@@ -236,9 +194,7 @@ class Load(SpecTable):
 
     TABLE: ClassVar[str] = "load"
 
-    inertia_kgm2: Annotated[
-        float, NOT_NEGATIVE, "moment of inertia of everything that the wheel turns"
-    ] = 0.0
+    inertia_kgm2: Annotated[float, NOT_NEGATIVE, "inertia of everything the wheel turns"] = 0.0
     torque_Nm: Annotated[float, NOT_NEGATIVE, "torque that resists the wheel's motion"] = 0.0
     dwell_torque_Nm: Annotated[
         float | None, NOT_NEGATIVE, "torque that the lock holds during the dwell; default torque_Nm"
@@ -267,23 +223,15 @@ class Mass(SpecTable):
     TABLE: ClassVar[str] = "mass"
 
     shape: Annotated[str, OneOf(("disc", "ring", "block", "point")), "shape of the body"]
-    mass_kg: Annotated[
-        float | None, POSITIVE, "mass of one body; or set density_kgm3 and all sizes"
-    ] = None
-    density_kgm3: Annotated[
-        float | None, POSITIVE, "density, in place of mass_kg, with all sizes"
-    ] = None
+    mass_kg: Annotated[float | None, POSITIVE, "mass of one; or density_kgm3 and all sizes"] = None
+    density_kgm3: Annotated[float | None, POSITIVE, "density; the sizes then give the mass"] = None
     diameter_mm: Annotated[float | None, POSITIVE, "disc and ring: outer diameter D"] = None
     bore_mm: Annotated[float | None, POSITIVE, "ring: inner diameter d"] = None
     length_mm: Annotated[float | None, POSITIVE, "block: side a, perpendicular to the axis"] = None
     width_mm: Annotated[float | None, POSITIVE, "block: side c, perpendicular to the axis"] = None
-    thickness_mm: Annotated[
-        float | None, POSITIVE, "thickness along the axis; required with a density"
-    ] = None
+    thickness_mm: Annotated[float | None, POSITIVE, "thickness; required with a density"] = None
     count: Annotated[int, Range(1, 1000), "number of equal bodies"] = 1
-    radius_mm: Annotated[
-        float, NOT_NEGATIVE, "distance from the wheel's axis to the body's own"
-    ] = 0.0
+    radius_mm: Annotated[float, NOT_NEGATIVE, "distance from the wheel's axis to the body's"] = 0.0
     name: Annotated[str, None, "name of the body"] = ""
 
     # sizes of each shape, from which its mass or inertia follows
@@ -342,12 +290,8 @@ class Support(SpecTable):
 
     friction: Annotated[float, NOT_NEGATIVE, "friction coefficient of the table's bearing"] = 0.0
     radius_mm: Annotated[float, NOT_NEGATIVE, "radius at which that friction acts"] = 0.0
-    force_N: Annotated[
-        float, NOT_NEGATIVE, "force on the bearing, in addition to the weight of the masses"
-    ] = 0.0
-    axis: Annotated[str, OneOf(("vertical", "horizontal")), "direction of the wheel's shaft"] = (
-        "vertical"
-    )
+    force_N: Annotated[float, NOT_NEGATIVE, "force in addition to the weight of the masses"] = 0.0
+    axis: Annotated[str, OneOf(("vertical", "horizontal")), "the wheel's shaft"] = "vertical"
     gear_ratio: Annotated[float, POSITIVE, "turns of table and masses per turn of the wheel"] = 1.0
 
     @property
@@ -369,14 +313,10 @@ class Motor(SpecTable):
 
     TABLE: ClassVar[str] = "motor"
 
-    service_factor: Annotated[
-        float, Range(1.0, 100.0), "service factor on the load, in the makers' formula"
-    ] = 1.0
+    service_factor: Annotated[float, Range(1.0, 100.0), "service factor of the makers"] = 1.0
     gear_ratio: Annotated[float, POSITIVE, "turns of the motor per turn of the input shaft"] = 1.0
     gear_efficiency: Annotated[float, Range(0.0, 1.0, "(]"), "efficiency of the reducer"] = 1.0
-    inertia_kgm2: Annotated[
-        float, NOT_NEGATIVE, "moment of inertia of rotor and reducer, at the motor"
-    ] = 0.0
+    inertia_kgm2: Annotated[float, NOT_NEGATIVE, "inertia of rotor and reducer"] = 0.0
     speed_variation: Annotated[
         float | None,
         Range(0.0, 2.0, "()"),
@@ -393,41 +333,23 @@ class Shaft(SpecTable):
 
     TABLE: ClassVar[str] = "shaft"
 
-    stiffness_Nm_rad: Annotated[
-        float | None, POSITIVE, "torsional stiffness between wheel and load"
-    ] = None
-    damping_ratio: Annotated[
-        float, Range(0.0, 1.0, "[)"), "damping of that spring, as a fraction of critical damping"
-    ] = 0.0
+    stiffness_Nm_rad: Annotated[float | None, POSITIVE, "stiffness between wheel and load"] = None
+    damping_ratio: Annotated[float, Range(0.0, 1.0, "[)"), "shaft's damping over critical"] = 0.0
     wheel_diameter_mm: Annotated[float | None, POSITIVE, "diameter of the wheel's shaft"] = None
     crank_diameter_mm: Annotated[float | None, POSITIVE, "diameter of the crank's shaft"] = None
     wheel_overhang_mm: Annotated[
-        float | None,
-        NOT_NEGATIVE,
-        "wheel's shaft: distance from the slots' mid-plane to the nearer bearing",
+        float | None, NOT_NEGATIVE, "wheel's shaft: slots' mid-plane to the nearer bearing"
     ] = None
-    wheel_span_mm: Annotated[float | None, POSITIVE, "wheel's shaft: distance between bearings"] = (
-        None
-    )
+    wheel_span_mm: Annotated[float | None, POSITIVE, "wheel's shaft: bearing to bearing"] = None
     crank_overhang_mm: Annotated[
-        float | None,
-        NOT_NEGATIVE,
-        "crank's shaft: distance from the roller's mid-plane to the nearer bearing",
+        float | None, NOT_NEGATIVE, "crank's shaft: roller's mid-plane to the nearer bearing"
     ] = None
-    crank_span_mm: Annotated[float | None, POSITIVE, "crank's shaft: distance between bearings"] = (
-        None
-    )
+    crank_span_mm: Annotated[float | None, POSITIVE, "crank's shaft: bearing to bearing"] = None
     shear_stress_max_MPa: Annotated[
-        float | None,
-        POSITIVE,
-        "allowable; ASME B17c: the lower of 0.3 yield and 0.18 tensile strength",
+        float | None, POSITIVE, "allowable; ASME B17c: least of 0.3 yield, 0.18 tensile strength"
     ] = None
-    bending_factor: Annotated[float, Range(1.0, 10.0), "ASME B17c: bending, shock and fatigue"] = (
-        1.5
-    )
-    torsion_factor: Annotated[float, Range(1.0, 10.0), "ASME B17c: torsion, shock and fatigue"] = (
-        1.0
-    )
+    bending_factor: Annotated[float, Range(1.0, 10.0), "ASME B17c: shock factor in bending"] = 1.5
+    torsion_factor: Annotated[float, Range(1.0, 10.0), "ASME B17c: shock factor in torsion"] = 1.0
     shear_modulus_GPa: Annotated[float, POSITIVE, "shear modulus G"] = 80.8
 
 
@@ -450,9 +372,7 @@ class WheelMaterial(Material):
     TABLE: ClassVar[str] = "material.wheel"
 
     wear_mm3_Nm: Annotated[
-        float | None,
-        POSITIVE,
-        "Archard's wear volume per force and sliding distance, against the roller",
+        float | None, POSITIVE, "Archard: volume worn per force and distance, against the roller"
     ] = None
 
 
@@ -479,23 +399,15 @@ class Tolerance(SpecTable):
 
     TABLE: ClassVar[str] = "tolerance"
 
-    center_distance_mm: Annotated[float, NOT_NEGATIVE, "deviation +- of the centre distance L"] = (
-        0.0
-    )
-    crank_radius_mm: Annotated[float, NOT_NEGATIVE, "deviation +- of the crank radius R"] = 0.0
-    roller_diameter_mm: Annotated[float, NOT_NEGATIVE, "deviation +- of the roller diameter"] = 0.0
-    slot_width_mm: Annotated[float, NOT_NEGATIVE, "deviation +- of the slot width"] = 0.0
-    slot_angle_deg: Annotated[float, NOT_NEGATIVE, "deviation +- of each slot's direction"] = 0.0
-    lock_radius_mm: Annotated[float, NOT_NEGATIVE, "deviation +- of the locking disc's radius"] = (
-        0.0
-    )
-    recess_radius_mm: Annotated[
-        float, NOT_NEGATIVE, "deviation +- of the radius of the wheel's recesses"
-    ] = 0.0
+    center_distance_mm: Annotated[float, NOT_NEGATIVE, "+- of the centre distance L"] = 0.0
+    crank_radius_mm: Annotated[float, NOT_NEGATIVE, "+- of the crank radius R"] = 0.0
+    roller_diameter_mm: Annotated[float, NOT_NEGATIVE, "+- of the roller diameter"] = 0.0
+    slot_width_mm: Annotated[float, NOT_NEGATIVE, "+- of the slot width"] = 0.0
+    slot_angle_deg: Annotated[float, NOT_NEGATIVE, "+- of each slot's direction"] = 0.0
+    lock_radius_mm: Annotated[float, NOT_NEGATIVE, "+- of the locking disc's radius"] = 0.0
+    recess_radius_mm: Annotated[float, NOT_NEGATIVE, "+- of the wheel's recess radius"] = 0.0
     distribution: Annotated[
-        str,
-        OneOf(("uniform", "normal")),
-        "distribution within +-; normal: +- is three standard deviations",
+        str, OneOf(("uniform", "normal")), "within +-; normal: +- is three standard deviations"
     ] = "uniform"
 
 
@@ -509,36 +421,20 @@ class Limits(SpecTable):
 
     TABLE: ClassVar[str] = "limits"
 
-    velocity_max: Annotated[float | None, POSITIVE, "greatest velocity dpsi/dtheta"] = None
-    acceleration_max: Annotated[float | None, POSITIVE, "greatest acceleration d2psi/dtheta2"] = (
-        None
-    )
-    acceleration_entry_max: Annotated[float | None, POSITIVE, "greatest acceleration at entry"] = (
-        None
-    )
-    jerk_max: Annotated[float | None, POSITIVE, "greatest jerk d3psi/dtheta3"] = None
-    pin_force_max_N: Annotated[float | None, POSITIVE, "greatest force between roller and slot"] = (
-        None
-    )
-    input_torque_max_Nm: Annotated[float | None, POSITIVE, "greatest torque on the input shaft"] = (
-        None
-    )
-    pressure_angle_max_deg: Annotated[
-        float | None, Range(0.0, 90.0, "(]"), "greatest pressure angle of the slot"
-    ] = None
-    contact_stress_max_MPa: Annotated[
-        float | None, POSITIVE, "greatest Hertz stress between roller and slot"
-    ] = None
-    pv_max_W_m2: Annotated[
-        float | None, POSITIVE, "greatest contact stress times sliding speed"
-    ] = None
+    velocity_max: Annotated[float | None, POSITIVE, "velocity dpsi/dtheta"] = None
+    acceleration_max: Annotated[float | None, POSITIVE, "acceleration d2psi/dtheta2"] = None
+    acceleration_entry_max: Annotated[float | None, POSITIVE, "acceleration at entry"] = None
+    jerk_max: Annotated[float | None, POSITIVE, "jerk d3psi/dtheta3"] = None
+    pin_force_max_N: Annotated[float | None, POSITIVE, "greatest force of roller on slot"] = None
+    input_torque_max_Nm: Annotated[float | None, POSITIVE, "greatest torque on input shaft"] = None
+    pressure_angle_max_deg: Annotated[float | None, Range(0.0, 90.0, "(]"), "pressure angle"] = None
+    contact_stress_max_MPa: Annotated[float | None, POSITIVE, "Hertz stress, roller on slot"] = None
+    pv_max_W_m2: Annotated[float | None, POSITIVE, "contact stress times sliding speed"] = None
     roller_life_min_h: Annotated[float | None, POSITIVE, "least L10 life of the roller"] = None
     slot_wear_max_mm_per_million: Annotated[
         float | None, POSITIVE, "greatest wear depth of a slot's walls in a million passages"
     ] = None
-    lock_stress_max_MPa: Annotated[
-        float | None, POSITIVE, "greatest Hertz stress between locking disc and wheel"
-    ] = None
+    lock_stress_max_MPa: Annotated[float | None, POSITIVE, "Hertz stress, disc on wheel"] = None
     lock_deflection_max_deg: Annotated[
         float | None, POSITIVE, "greatest deflection of the locked wheel under dwell_torque_Nm"
     ] = None

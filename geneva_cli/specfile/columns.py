@@ -26,9 +26,7 @@ class Columns(NamedTuple):
             return short
         matches = [name for name in self.names if name.endswith(f".{short}")]
         if len(matches) > 1:
-            raise GenevaError(
-                f"{option} {cut(short)}: it may be {' or '.join(matches)}: write the full name"
-            )
+            raise GenevaError(f"{option} {cut(short)}: ambiguous; use {' or '.join(matches)}")
         if not matches:
             raise GenevaError(
                 f"{option} {cut(short)}: no column of {cut(self.path, 300)}"

@@ -33,9 +33,7 @@ def read_pairs(path: str, rule: Csv, key: tuple[str, ...]) -> list[tuple[float, 
         if fault:
             raise GenevaError(f"{where}: {fault}")
     if len(points) < rule.points_min:
-        raise GenevaError(
-            f"{path}: {len(points)} points, but at least {rule.points_min} are needed"
-        )
+        raise GenevaError(f"{path}: {len(points)} points; at least {rule.points_min} are needed")
     return points
 
 

@@ -24,8 +24,7 @@ def settings(texts: Iterable[str]) -> tuple[Setting, ...]:
 
 
 def setting(text: str, option: str = "--set") -> Setting:
-    """One ``table.key=value``, with the value as in the file; a word's quotation marks are
-    optional.
+    """One ``table.key=value`` setting; a word's quotation marks are optional.
 
     >>> setting("drive.A=0.6")
     Setting(said='--set drive.A=0.6', path=('drive', 'A'), value=0.6)
@@ -63,12 +62,12 @@ def _number(text: str) -> float | str:
         return text
 
 
-def applied(tree: dict[str, Any], given: Sequence[Setting]) -> dict[str, Any]:
+def applied(tree: dict[str, Any], set_keys: Sequence[Setting]) -> dict[str, Any]:
     """A spec's tree with these keys set, later settings over earlier ones.
 
     Raises GenevaError for a missing table of a list.
     """
-    for one in given:
+    for one in set_keys:
         tree = _with(tree, one.path, one)
     return tree
 
@@ -81,16 +80,14 @@ def _with(node: Any, path: tuple[str | int, ...], one: Setting) -> Any:
         several = list(node) if isinstance(node, list) else []
         if not head < len(several):
             name = ".".join(map(str, one.path[: one.path.index(head)]))
-            raise GenevaError(
-                f"{one.said}: the spec has {len(several)} [[{name}]] tables, counted from 0"
-            )
+            raise GenevaError(f"{one.said}: the spec has {len(several)} [[{name}]], counted from 0")
         several[head] = _with(several[head], tuple(rest), one)
         return several
     table = dict(node) if isinstance(node, dict) else {}
     return table | {head: _with(table.get(head), tuple(rest), one)}
 
 
-def said_of(given: Sequence[Setting], key: tuple[str | int, ...]) -> str:
+def said_of(set_keys: Sequence[Setting], key: tuple[str | int, ...]) -> str:
     """Option that set the key of an error, or a key in its table; empty if none did."""
-    options = (one.said for one in reversed(given) if one.path[: len(key)] == key)
+    options = (one.said for one in reversed(set_keys) if one.path[: len(key)] == key)
     return next(options, "")

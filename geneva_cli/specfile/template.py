@@ -21,7 +21,7 @@ EXAMPLES = {
         {"wheel": {"z": 4}, "drive": {"rollers": 3}},
     ),
     "curved": Example(
-        "curved slots for a given motion law, at the mid condition",
+        "curved slots for a motion law, at the mid condition",
         {"wheel": {"z": 6}, "motion": {"law": "modified-sine", "ratio": "matched"}},
     ),
     "curved-internal": Example(

@@ -54,9 +54,7 @@ def spec_of(tree: dict[str, Any], name: str) -> Spec:
         if table in LISTS:
             _refuse_no_list(table, value)
         elif not isinstance(value, dict):
-            raise GenevaError(
-                f"{table} must be a table: write [{table}] on the line above its keys", (table,)
-            )
+            raise GenevaError(f"{table} must be a table: write [{table}] above its keys", (table,))
     if "wheel" not in tree:
         raise GenevaError(
             f"{name}: no [wheel] table; the shortest spec is [wheel] and, on the next line, z = 6"
@@ -118,10 +116,10 @@ def _one(
         ) from None
 
 
-def _refuse_part(table: str, given: dict[str, Any]) -> None:
+def _refuse_part(table: str, values: dict[str, Any]) -> None:
     """Raise GenevaError for unknown tables, or values, in a table of tables such as [material]."""
     known = [n.partition(".")[2] for n in PLAIN if n.startswith(f"{table}.")]
-    for part, value in given.items():
+    for part, value in values.items():
         if part not in known:
             raise unknown(part, table, known)
         if not isinstance(value, dict):
@@ -131,7 +129,7 @@ def _refuse_part(table: str, given: dict[str, Any]) -> None:
 
 
 def _kind(
-    given: dict[str, Any],
+    values: dict[str, Any],
     table: str,
     word: str,
     default: str,
@@ -140,38 +138,38 @@ def _kind(
     files: _Files,
 ) -> Any:
     """The object of a table whose keys depend on a word in it, such as ``kind``."""
-    given = dict(given)
-    name = given.pop(word, default)
+    values = dict(values)
+    name = values.pop(word, default)
     cls = find(name)
     of = f'{word} = "{name}"'
-    _refuse_foreign(given, cls, table, of, lambda: ((f'{word} = "{k}"', find(k)) for k in kinds))
-    return cls(**_values(cls, given, files, f" for {of}", (word,)))
+    _refuse_foreign(values, cls, table, of, lambda: ((f'{word} = "{k}"', find(k)) for k in kinds))
+    return cls(**_values(cls, values, files, f" for {of}", (word,)))
 
 
-def _motion(given: dict[str, Any], files: _Files) -> Motion | None:
+def _motion(values: dict[str, Any], files: _Files) -> Motion | None:
     """The motion and its law, or None without a law, if the straight slots give the motion."""
-    given = dict(given)
-    name = given.pop("law", None)
+    values = dict(values)
+    name = values.pop("law", None)
     if name is None:
-        _refuse_lawless(given)
+        _refuse_lawless(values)
         return None
     cls = registry.law(name)
     own = {field.key for field in fields(cls)}
-    params = {key: given.pop(key) for key in own & set(given)}
-    _refuse_foreign(given, Motion, "motion", f'law = "{name}"', _laws)
+    params = {key: values.pop(key) for key in own & set(values)}
+    _refuse_foreign(values, Motion, "motion", f'law = "{name}"', _laws)
     law = cls(**_values(cls, params, files, f' for law = "{name}"'))
-    return Motion(law, **_values(Motion, given, files, also=("law", *own)))
+    return Motion(law, **_values(Motion, values, files, also=("law", *own)))
 
 
 def _laws() -> Iterator[tuple[str, type[SpecTable]]]:
     return ((f'law = "{name}"', registry.law(name)) for name in registry.LAWS)
 
 
-def _refuse_lawless(given: dict[str, Any]) -> None:
+def _refuse_lawless(values: dict[str, Any]) -> None:
     """Raise GenevaError for keys of [motion] without a law, unless they have their defaults."""
     known = {f.key: f.default for _, law in _laws() for f in fields(law)}
     known |= {f.key: f.default for f in fields(Motion)}
-    for key, value in given.items():
+    for key, value in values.items():
         if key in known and value != known[key]:
             raise GenevaError(
                 f'{key} needs a law, such as law = "cycloidal": straight slots fix the motion',
@@ -182,7 +180,7 @@ def _refuse_lawless(given: dict[str, Any]) -> None:
 
 
 def _refuse_foreign(
-    given: dict[str, Any],
+    values: dict[str, Any],
     cls: type[SpecTable],
     table: str,
     of: str,
@@ -190,11 +188,11 @@ def _refuse_foreign(
 ) -> None:
     """Remove other kinds' keys that are at their defaults; raise GenevaError for the others."""
     own = {field.key for field in fields(cls)}
-    for key in [k for k in given if k not in own]:
+    for key in [k for k in values if k not in own]:
         for other, theirs in kinds():
             field = next((f for f in fields(theirs) if f.key == key), None)
-            if field and field.default is not REQUIRED and given[key] == field.default:
-                del given[key]
+            if field and field.default is not REQUIRED and values[key] == field.default:
+                del values[key]
                 break
             if field:
                 raise GenevaError(f"{key} belongs to {other}, but this is {of}", (table, key))
@@ -219,7 +217,7 @@ def _refuse_other_capitals(
 
 def _values(
     cls: type[SpecTable],
-    given: dict[str, Any],
+    values: dict[str, Any],
     files: _Files,
     why: str = "",
     also: tuple[str, ...] = (),
@@ -227,12 +225,12 @@ def _values(
     """Keys of a table as arguments of its class, which checks their values."""
     known = {field.key: field for field in fields(cls)}
     out = {}
-    for key, value in given.items():
+    for key, value in values.items():
         if key not in known:
             raise unknown(key, cls.TABLE, (*also, *known))
         field = known[key]
         rule = field.rule
         named = isinstance(rule, Csv)
         out[field.attribute] = files.points(value, rule, (cls.TABLE, key)) if named else value
-    require(cls, tuple(given), why)
+    require(cls, tuple(values), why)
     return out

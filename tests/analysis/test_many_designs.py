@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 from design_arrays import MACHINES, alone, drawn
 
-from geneva_cli.analysis import blows, change_of_sides, undercut
+from geneva_cli.analysis import change_of_sides, impacts, undercut
 from geneva_cli.analysis import positive_drive as positive
 from geneva_cli.analysis.loads import loads
 from geneva_cli.analysis.loads.cycle import Cycle
@@ -112,12 +112,12 @@ def records(many, i, one, size=0.0, close=ULPS, places=1e-9):
 @pytest.mark.parametrize("name", KINDS)
 def test_shocks(name):
     machine, each = designs(name)
-    entry, back = blows.entry_blows(machine), blows.reversal_blows(machine)
+    entry, back = impacts.entry_impacts(machine), impacts.reversal_impacts(machine)
     drag = change_of_sides.lasting_drag_Nm(machine)
     for i, one in each:
-        records(entry, i, blows.entry_blow(one))
-        records(back, i, blows.reversal_blow(one))
-        same(blows.mouth_jumps_worst(machine), i, blows.mouth_jumps_worst(one).item())
+        records(entry, i, impacts.entry_impact(one))
+        records(back, i, impacts.reversal_impact(one))
+        same(impacts.mouth_jumps_worst(machine), i, impacts.mouth_jumps_worst(one).item())
         # what the inertia asks for less what resists: in units of either
         same(drag, i, change_of_sides.lasting_drag_Nm(one), size=one.spec.load.torque_Nm)
 
@@ -125,7 +125,12 @@ def test_shocks(name):
 def test_answers_of_one_design_are_not_the_first_of_many():
     """Asked of several, they refuse."""
     machine, _ = designs("modified-trapezoid")
-    for ask in (blows.entry_blow, blows.reversal_blow, undercut.undercut, positive.positive_drive):
+    for ask in (
+        impacts.entry_impact,
+        impacts.reversal_impact,
+        undercut.undercut,
+        positive.positive_drive,
+    ):
         with pytest.raises(ValueError, match=r"size 1|ambiguous"):
             ask(machine)
 

@@ -3,7 +3,7 @@
 import mpmath as mp
 import numpy as np
 import pytest
-from blow_witness import contact_of, force_of, impacts_in
+from impact_witness import contact_of, force_of, impacts_in
 
 from geneva_cli import Design, External, Internal, Load, SideCrank, Size, Spherical
 from geneva_cli.analysis import change_of_sides

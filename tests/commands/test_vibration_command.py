@@ -66,7 +66,7 @@ def test_without_damping_there_is_no_steady_state():
 
 def test_a_motion_shorter_than_a_natural_period_is_said():
     found = record(PRESS, "--period-ratio", "0.5", "--damping", "0.1")
-    assert "cannot follow" in found["warnings"][0]
+    assert "too few to follow" in found["warnings"][0]
 
 
 @pytest.mark.parametrize(
@@ -87,7 +87,7 @@ def test_a_motion_shorter_than_a_natural_period_is_said():
         ([PRESS, "--period-ratio", "nan"], "--period-ratio nan: must be"),
         (
             [PRESS, "--set", "shaft.stiffness_Nm_rad=1e12", "--set", "load.inertia_kgm2=1e-9"],
-            "makes",
+            "gives a period",
         ),
         ([PRESS, "--period-ratio", "3", "--format", "csv", "--samples", "1"], "--samples 1: must"),
         (

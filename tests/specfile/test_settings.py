@@ -75,7 +75,7 @@ def test_the_last_of_two_counts(spec):
         ("size.Bore=3", 'key Bore in [size] (did you mean "wheel_bore_mm"?)'),
         ("SIZE.roller_radius_mm=3", 'unknown table [SIZE] (did you mean "size"?)'),
         ("whel.z=3", '--set whel.z=3: unknown table [whel] (did you mean "wheel"?)'),
-        ("mass.1.count=3", "--set mass.1.count=3: the spec has 1 [[mass]] tables, counted from 0"),
+        ("mass.1.count=3", "--set mass.1.count=3: the spec has 1 [[mass]], counted from 0"),
         ("mass.0.count=0", "--set mass.0.count=0: [[mass]] number 1: count = 0 must be"),
         ("z=3", "a key is written with its table"),
         ("wheel.z", "it must be KEY=VALUE"),

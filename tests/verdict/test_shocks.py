@@ -5,11 +5,11 @@ import re
 
 import numpy as np
 import pytest
-from blow_witness import contact_of, force_of, impacts_in
+from impact_witness import contact_of, force_of, impacts_in
 
 from geneva_cli import Design, External, Limits, Load, Size, Spherical, Tolerance
 from geneva_cli.analysis import change_of_sides
-from geneva_cli.analysis.blows import entry_blow, reversal_blow
+from geneva_cli.analysis.impacts import entry_impact, reversal_impact
 from geneva_cli.analysis.mouth import mouth_contacts
 from geneva_cli.verdict.checks import single_check
 
@@ -88,6 +88,6 @@ def test_what_is_missing_is_named():
 def test_the_dimensions_that_are_not_there():
     """On a sphere the centre distance moves nothing; its crank's arm does."""
     only = Design(Spherical(6), tolerance=Tolerance(center_distance_mm=0.1))
-    assert entry_blow(only.mechanism) is None
-    assert entry_blow(only.with_("tolerance.crank_radius_mm", 0.1).mechanism).jump < 0.0
-    assert reversal_blow(only.mechanism) is None
+    assert entry_impact(only.mechanism) is None
+    assert entry_impact(only.with_("tolerance.crank_radius_mm", 0.1).mechanism).jump < 0.0
+    assert reversal_impact(only.mechanism) is None

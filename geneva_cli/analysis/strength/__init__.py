@@ -1,1 +1,1 @@
-"""Does it hold, and how long: pin, horn, lock, shafts, and the roller's life."""
+"""Strength and life of pin, horn, lock, shafts and roller."""

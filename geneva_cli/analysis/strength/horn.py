@@ -1,18 +1,20 @@
 """The horn, the wall between a slot and the recess of the lock, as a tapered cantilever.
 
-Its sections are square to the slot's wall, from there to the recess: beside a straight slot they
-are t(s) = h + R - sqrt(R² - s²) thick a distance s inwards of the mouth, h being the thickness at
-the mouth and R the recess's radius. The roller presses on the wall with N at s0; the section at s
-then carries, over the face width b, the bending stress 6 N (s - s0)/(b t²), which pulls at the
-slot's wall; of a curved wall N also has a part along the section's beam, which pushes or pulls
-evenly. The stress is the greatest at the wall over all places of the roller and all sections, to
-half-way along the recess: past it another horn begins. In the middle of a section shear adds
-3/2 N/(b t), at its faces nothing. The body that the horn stands on is taken as rigid, and no notch
-is counted.
+Its sections are perpendicular to the slot's wall, from there to the recess. At a distance s inwards
+from the mouth a straight slot's section is t(s) = h + R - sqrt(R² - s²) thick, with the thickness h
+at the mouth and the recess's radius R. The roller presses on the wall with N at s0. The section at
+s then carries, over the face width b, the bending stress 6 N (s - s0)/(b t²), a tension at the
+slot's wall. On a curved wall N also has a part along the section's beam, which pushes or pulls
+evenly.
 
-Plane stress (finite elements, in the tests), of external and internal wheels with straight slots:
-0.7 % less to 2 % more where h < R/6, 4 % more at h = 2 R/7, 7 % more at R/2; beyond that it is no
-beam. Of curved slots 3 % less to 2 % more where h < R/6, 5 % less to 7 % more at R/2.
+The result is the greatest stress at the wall over all places of the roller and all sections up to
+half-way along the recess, where another horn begins. In the middle of a section shear adds 3/2 N/(b
+t), at its faces nothing. The body that carries the horn is rigid, and notches are neglected.
+
+Compared with plane stress by finite elements (in the tests), for external and internal wheels with
+straight slots, the stress is 0.7 % lower to 2 % higher if h < R/6. It is 4 % higher at h = 2 R/7
+and 7 % higher at R/2; beyond that a horn is not a beam. For curved slots it is 3 % lower to 2 %
+higher if h < R/6, and 5 % lower to 7 % higher at R/2.
 """
 
 from __future__ import annotations
@@ -48,24 +50,24 @@ SHEAR = 1.2  # of a rectangular section: energy of its shear stress over that of
 
 
 class HornStress(NamedTuple):
-    """The greatest stress in a horn, where the roller is then, and the section that has it.
+    """The greatest stress in a horn, with the roller's place and the section.
 
-    Of m designs (m,) each, NaN of those without a horn or a load.
+    (m,) each for m designs, NaN for those without a horn or a load.
     """
 
     stress_MPa: float
     at_deg: float  # input angle from the engagement's mid-motion
-    inwards_mm: float  # of the section from the mouth
+    inwards_mm: float  # of the section, from the mouth
     thickness_mm: float
 
 
 class Side(NamedTuple):
-    """One horn of a slot, in the wheel's frame: that which bears a torque forwards, or back.
+    """One horn of a slot, in the wheel's frame: the one that bears torque forwards, or backwards.
 
-    ``engagement`` is that of the roller in its slot; ``whole`` the motion's, which has the load,
-    the input there being ``ahead_deg`` less.
+    ``engagement`` is that of the roller in its slot. ``whole`` is the engagement of the motion,
+    which has the load, at an input angle smaller by ``ahead_deg``.
 
-    Of m designs, or of one: numbers are floats or (m, 1), places and directions (2, m, 1).
+    Numbers are floats or (m, 1), positions and directions (2, m, 1).
     """
 
     engagement: Engagement
@@ -73,20 +75,20 @@ class Side(NamedTuple):
     half_width: float
     recess: float
     end: float  # -1: between the slot and where the crank's axis is before the motion; 1: after
-    centre: Array  # of the recess
-    inwards: Array  # along the slot at its mouth
-    across: Array  # square to that, from the recess's centre to the slot
+    centre: Array  # position of the recess's centre
+    inwards: Array  # direction along the slot at its mouth
+    across: Array  # direction perpendicular to that, from the recess's centre to the slot
     whole: Engagement
     ahead_deg: float
 
     @property
     def mouth_deg(self) -> float:
-        """Input angle at which the roller is at its mouth."""
+        """Input angle at which the roller is at this horn's mouth."""
         engagement = self.engagement
         return engagement.entry_deg if self.end < 0.0 else engagement.exit_deg
 
     def wall(self, input_deg: Number) -> tuple[Array, Array]:
-        """Points of the slot's wall and its normals towards the recess on the horn's axes.
+        """Points of the slot's wall, and its normals towards the recess, in the horn's frame.
 
         At angles (m, k) both are (2, m, k). The origin is the recess's centre.
         """
@@ -97,18 +99,19 @@ class Side(NamedTuple):
         return place + self.half_width * normal, normal
 
     def _turned(self, of: Array) -> Array:
-        """On the horn's axes."""
+        """Transform a vector to the horn's frame."""
         return np.stack(np.broadcast_arrays(product(of, self.inwards), product(of, self.across)))
 
     def thickness(self, wall: Array, normal: Array) -> Array:
-        """The thickness at points of the wall, mm; infinite where another horn begins."""
+        """Thickness at points of the wall, mm; infinite where another horn begins."""
         thick, turned = self.feet(wall, normal)
-        found: Array = np.where(turned < self.middle, thick, np.inf)
-        return found
+        thickness: Array = np.where(turned < self.middle, thick, np.inf)
+        return thickness
 
     def feet(self, wall: Array, normal: Array) -> tuple[Array, Array]:
-        """The thickness at points of the wall whatever begins there, and the directions of the
-        sections' feet on the recess, seen from its centre: radians from the mouth's.
+        """Thickness at points of the wall up to the recess, and directions of the sections' feet.
+
+        Directions are seen from the recess's centre: radians from the mouth's.
         """
         along = -product(wall, normal)
         with np.errstate(invalid="ignore"):
@@ -119,9 +122,9 @@ class Side(NamedTuple):
     def middle(self) -> Array:
         """Half the angle between this horn's mouth and the next one's, at the recess's centre."""
         away, up = product(self.centre, self.inwards), product(self.centre, self.across)
-        way = np.where(away > 0.0, 1.0, -1.0)
-        found: Array = np.arctan2(way * away, way * up)
-        return found
+        sense = np.where(away > 0.0, 1.0, -1.0)
+        half: Array = np.arctan2(sense * away, sense * up)
+        return half
 
     def places(self, count: int) -> Array:
         """Input angles from the mouth inwards."""
@@ -134,7 +137,7 @@ class Side(NamedTuple):
 
 
 def vector(x: Number, y: Number) -> Array:
-    """Vectors of many designs: (2, m, k)."""
+    """Vectors of a batch: (2, m, k)."""
     both = np.atleast_2d(x), np.atleast_2d(y)
     if both[0].shape != both[1].shape:
         return np.stack(np.broadcast_arrays(*both))
@@ -142,20 +145,20 @@ def vector(x: Number, y: Number) -> Array:
 
 
 def _alike(input_deg: Number) -> Array:
-    """Input angles (m, k); as (k,) of one design, or where they are alike: in half the time."""
+    """Input angles (m, k); as (k,) for one row, which takes half the time."""
     x = np.atleast_2d(input_deg)
     return x[0] if len(x) == 1 else x
 
 
 def product(a: Array, b: Array) -> Array:
-    """The scalar products of vectors."""
-    found: Array = a[0] * b[0] + a[1] * b[1]
-    return found
+    """Scalar products of vectors."""
+    products: Array = a[0] * b[0] + a[1] * b[1]
+    return products
 
 
 def horns(mechanism: Mechanism, half_width_mm: float, recess_mm: float) -> list[Side]:
     """Both horns of each kind of slot."""
-    L, found = mechanism.center_distance_mm, []
+    L, sides = mechanism.center_distance_mm, []
     for whole in mechanism.engagements:
         engagement, aheads = whole.through, whole.ahead_deg
         ends = engagement.entry_deg, engagement.exit_deg
@@ -165,40 +168,43 @@ def horns(mechanism: Mechanism, half_width_mm: float, recess_mm: float) -> list[
             inwards = -end * vector(at.tangent_x, at.tangent_y)
             centre = L * vector(np.cos(rest), np.sin(rest))
             across = vector(-inwards[1], inwards[0])
-            way = L * vector(at.x, at.y) - centre
-            across = across * np.copysign(1.0, product(across, way))
-            ways = centre, inwards, across
-            found.append(Side(engagement, L, half_width_mm, recess_mm, end, *ways, whole, ahead))
-    return found
+            towards = L * vector(at.x, at.y) - centre
+            across = across * np.copysign(1.0, product(across, towards))
+            frame = centre, inwards, across
+            sides.append(Side(engagement, L, half_width_mm, recess_mm, end, *frame, whole, ahead))
+    return sides
 
 
 def stoutness(mechanism: Mechanism, half_width_mm: float, recess_mm: float) -> Array:
-    """The stoutest horn's thickness at the mouth over the recess's radius, (m,)."""
+    """Greatest thickness at the mouth over the recess's radius of all horns, (m,)."""
     every = [side.stoutness for side in horns(mechanism, half_width_mm, recess_mm)]
-    found: Array = np.max(np.broadcast_arrays(*every), axis=0)
-    return found
+    most: Array = np.max(np.broadcast_arrays(*every), axis=0)
+    return most
 
 
 @lru_cache(maxsize=16)
 def horn(
     mechanism: Mechanism, half_width_mm: float, recess_mm: float, width_mm: float
 ) -> HornStress | None:
-    """The greatest bending stress in a machine's horns; None without a lock, or without a load.
+    """Greatest bending stress in a machine's horns; None without a lock, or without a load.
 
-    ``half_width_mm`` of the slot, ``recess_mm`` the radius of the wheel's recesses, ``width_mm``
-    the wheel's thickness.
+    ``half_width_mm`` is half the slot's width, ``recess_mm`` the radius of the wheel's recesses,
+    and ``width_mm`` the wheel's thickness.
     """
     if not recess_mm:
         return None
-    found = _horns(1, mechanism, half_width_mm, recess_mm, width_mm)
-    one = HornStress(*(float(array(row)[0]) for row in found))
+    rows = _horns(1, mechanism, half_width_mm, recess_mm, width_mm)
+    one = HornStress(*(float(array(row)[0]) for row in rows))
     return None if math.isnan(one.stress_MPa) else one
 
 
 def horn_of_many(
     mechanism: Mechanism, half_width_mm: float, recess_mm: float, width_mm: float
 ) -> HornStress:
-    """The same of m designs, whose sizes may be (m, 1); NaN of a recess of 0, or without a load."""
+    """Greatest bending stress of m designs, whose sizes may be (m, 1).
+
+    NaN for a recess of 0, or without a load.
+    """
     every = (mechanism, half_width_mm, recess_mm, width_mm)
     m = mechanism.designs
     if m == 1:
@@ -210,7 +216,7 @@ def horn_of_many(
 
 
 class _Search(NamedTuple):
-    """At which input angles of each design roller and section are looked at."""
+    """Input angles of each design at which roller and section are sampled."""
 
     roller: Array  # (m, halves of the motion, places)
     section: Array  # (m, sections)
@@ -219,14 +225,14 @@ class _Search(NamedTuple):
 def _horns(
     m: int, mechanism: Mechanism, half_width: float, recess: float, width: float
 ) -> HornStress:
-    """Of m designs that are searched together."""
+    """Greatest bending stress of m designs that are searched together."""
     best, which = np.full((4, m), np.nan), np.zeros(m, dtype=int)
     next_ = []
     for number, side in enumerate(horns(mechanism, half_width, recess)):
         start = _Search(_from(_halves(side), GRID), _from([side.mouth_deg], GRID)[:, 0])
-        found, around = _looked(mechanism, side, start, width)
-        better = ~(found[0] <= best[0] * (1.0 + TIE)) & ~np.isnan(found[0])
-        best, which = np.where(better, found, best), np.where(better, number, which)
+        sample, around = _sampled(mechanism, side, start, width)
+        better = ~(sample[0] <= best[0] * (1.0 + TIE)) & ~np.isnan(sample[0])
+        best, which = np.where(better, sample, best), np.where(better, number, which)
         next_.append((side, around))
     for number, (side, around) in enumerate(next_):
         own = np.flatnonzero((which == number) & ~np.isnan(best[0]))
@@ -237,17 +243,19 @@ def _horns(
             some = taken(some, own)
             one = horns(*some[:3])[number]
             around = _Search(*(places[own] for places in around))
-        for _ in range(ROUNDS):  # the middle of what is left is the best so far
-            found, around = _looked(some[0], one, around, some[3])
-            best[:, own] = np.where(np.isnan(found[0]), best[:, own], found)
+        for _ in range(ROUNDS):  # the middle of the remaining places is the best so far
+            sample, around = _sampled(some[0], one, around, some[3])
+            best[:, own] = np.where(np.isnan(sample[0]), best[:, own], sample)
         best[1, own] += np.ravel(one.whole.mid_deg - one.ahead_deg)
     at_deg = np.ravel(mechanism.shown_deg(parameter(best[1][:, None])))
     return HornStress(*map(parameter, (best[0], at_deg, *best[2:])))
 
 
 def _halves(side: Side) -> list[float]:
-    """The ends from which the roller runs along this horn's wall: its own, of curved slots, and
-    where another roller leaves by another slot.
+    """Input angles of the ends from which the roller runs along this horn's wall.
+
+    It is the horn's own end for curved slots, and also if another roller leaves by another slot.
+    Else both.
     """
     engagement = side.engagement
     if not side.whole.slot.walls_flat:
@@ -261,11 +269,12 @@ def _from(ends: Sequence[float], count: int) -> Array:
     return whole[..., None] * np.linspace(1.0, NEAR, count)
 
 
-def _looked(
+def _sampled(
     mechanism: Mechanism, side: Side, within: _Search, width: float
 ) -> tuple[Array, _Search]:
-    """The greatest stress of all these places as of ``HornStress``, (4, m), NaN where there is
-    none, and places around it to look at next.
+    """Greatest stress at these places, (4, m), and places around it for the next step.
+
+    The rows are those of ``HornStress``, NaN if there is no stress.
     """
     roller, u = within
     x = roller.reshape(len(roller), -1)
@@ -284,8 +293,8 @@ def _looked(
         wall = np.repeat(wall, m, axis=1)
     runs = roller[every, half]
     rows = (stress[every, first], runs[every, k], wall[0, every, j], thick[every, j])
-    found = np.where(most > 0.0, rows, np.nan)
-    return found, _Search(_around(runs, k)[:, None], _around(u, j))
+    sample = np.where(most > 0.0, rows, np.nan)
+    return sample, _Search(_around(runs, k)[:, None], _around(u, j))
 
 
 def _around(places: Array, i: Whole) -> Array:
@@ -293,8 +302,8 @@ def _around(places: Array, i: Whole) -> Array:
     every, last = np.arange(len(places)), places.shape[1] - 1
     before = places[every, np.maximum(i - 1, 0), None]
     after = places[every, np.minimum(i + 1, last), None]
-    found: Array = before + (after - before) * SHARES
-    return found
+    refined: Array = before + (after - before) * SHARES
+    return refined
 
 
 def _stress(
@@ -305,25 +314,25 @@ def _stress(
     walls: tuple[Array, Array],
     thick: Array,
 ) -> Array:
-    """The stress in MPa, of each design a row for each place of the roller, a column a section.
+    """Stress in MPa: for each design a row per place of the roller, a column per section.
 
-    ``walls`` are points and normals of the wall, where the roller is and at the sections.
+    ``walls`` are points and normals of the wall, at the roller and at the sections.
     """
     loads = state(mechanism, side.whole, _alike(x - side.ahead_deg))
     bears = np.asarray(loads.torque_Nm) * side.end < 0.0
     line = np.atleast_2d(np.where(bears, loads.pin_force_N, 0.0) / width)
-    (contact, wall), (way, normal) = (np.split(of, [x.shape[1]], axis=2) for of in walls)
+    (contact, wall), (push, normal) = (np.split(of, [x.shape[1]], axis=2) for of in walls)
     m = max(len(line), len(thick))
-    found = np.zeros((m, x.shape[1], thick.shape[1]))
+    stress = np.zeros((m, x.shape[1], thick.shape[1]))
     own = np.flatnonzero(bears.any(axis=0) if bears.ndim > 1 else bears)  # elsewhere it is 0
-    contact, way, line = contact[..., own, None], way[..., own, None], line[:, own, None]
+    contact, push, line = contact[..., own, None], push[..., own, None], line[:, own, None]
     with np.errstate(all="ignore"):
         # from the contact to the middle of the section, (2, m, places, sections)
         arm = (wall + 0.5 * thick * normal)[:, :, None] - contact
-        moment = abs(arm[0] * way[1] - arm[1] * way[0])
+        moment = abs(arm[0] * push[1] - arm[1] * push[0])
         along, thick = normal[:, :, None], thick[:, None]
-        push = way[1] * along[0] - way[0] * along[1]  # along the beam
-        bent = line * (moment * (6.0 / thick**2) - push / thick)
+        pull = push[1] * along[0] - push[0] * along[1]  # along the beam
+        bent = line * (moment * (6.0 / thick**2) - pull / thick)
         further = wall[0][:, None] > contact[0]
-        found[:, own] = np.where(further & np.isfinite(bent), bent, 0.0)
-    return found
+        stress[:, own] = np.where(further & np.isfinite(bent), bent, 0.0)
+    return stress

@@ -1,23 +1,26 @@
-"""The lock under a torque in the dwell: force, contact, and how far the wheel gives.
+"""The lock under a torque in the dwell: force, contact, and deflection of the wheel.
 
-The wheel turns through its play until the end of a recess rests on the locking disc, or an end of a
-shorter disc on the recess, or the arcs on each other (``locking``). The force goes through the axis
-of the disc or of the recess, at an angle phi to the line of centres, so that a torque M takes
-F = M / (L sin phi). Three things make up the deflection:
+The wheel turns through its play until disc and recess touch, at an end of either or on their arcs
+(``locking``). The force passes through the axis of the disc or of the recess, at an angle phi to
+the line of centres. A torque M needs F = M / (L sin phi). The deflection has three parts.
 
-- the play, exact: the turn that has used up the clearance;
-- the approach of the two bodies (Johnson, Contact Mechanics, 5.6: a cylinder of radius R1, and a
-  body as thick as the horn): F/(pi b) [(1 - nu1²)/E1 (2 ln(4 R1/a) - 1)
-  + (1 - nu2²)/E2 (2 ln(2 h/a) - nu2/(1 - nu2))], a being Hertz's half width; where that is more
-  than a quarter of the horn, both give as columns under the pressure that follows;
-- the bending of the horn (see ``horn``) where the force is at its end, in the sections farther
-  inwards. Plane stress gives 6 to 30 % more, as the body that the horn stands on gives too.
+The play is exact: the rotation that uses up the clearance.
 
-On a sharp end no contact stress is finite: the recess's end needs a radius, and an end of the disc
-has none. Without clearance the
-arcs lie on each other as they do once they have worn in. The pressure then goes with the sine of
-the angle from the line of centres, as the wear of a wheel that turns a little does: the greatest is
-2 M sin phi/(b R L (phi - sin phi cos phi)).
+The approach of the two bodies (Johnson, Contact Mechanics, 5.6: a cylinder of radius R1, and a body
+as thick as the horn) is
+
+    F/(pi b) [(1 - nu1²)/E1 (2 ln(4 R1/a) - 1) + (1 - nu2²)/E2 (2 ln(2 h/a) - nu2/(1 - nu2))]
+
+with Hertz's half width a. If a is more than a quarter of the horn, both yield as columns under the
+pressure below.
+
+The bending of the horn (see ``horn``) is that of a force at its end, in the sections farther
+inwards. Plane stress gives 6 to 30 % more, as the body that carries the horn yields too.
+
+A sharp end has no finite contact stress: the recess's end needs a radius, and an end of the disc
+has none. Without clearance the arcs lie on each other, as they do after wear. The pressure is then
+proportional to the sine of the angle from the line of centres, like the wear of a wheel that turns
+slightly. The greatest is 2 M sin phi/(b R L (phi - sin phi cos phi)).
 """
 
 from __future__ import annotations
@@ -43,16 +46,16 @@ GROUP = 8  # designs at a time: their sections stay in the cache
 
 
 class LockUnderTorque(NamedTuple):
-    """A lock under a torque; None where something is not known.
+    """A lock under a torque; None for values that are not known.
 
-    Of m designs (m,) each, and NaN where something is not known.
+    (m,) each for m designs, with NaN for values that are not known.
     """
 
-    on: str  # where disc and recess touch, as of ``LockContact``
+    on: str  # part where disc and recess touch, as in ``LockContact``
     torque_Nm: float
     force_N: float
-    contact_stress_MPa: float | None  # Hertz; None of a sharp edge, and without clearance
-    pressure_MPa: float  # worn in
+    contact_stress_MPa: float | None  # Hertz; None for a sharp edge, and without clearance
+    pressure_MPa: float  # after wear
     horn_stress_MPa: float  # bending
     play_deg: float
     approach_deg: float | None
@@ -60,14 +63,14 @@ class LockUnderTorque(NamedTuple):
 
     @property
     def deflection_deg(self) -> float | None:
-        """All three together; None where the approach is not known."""
+        """Sum of all three parts; None if the approach is not known."""
         if self.approach_deg is None:
             return None
         return self.play_deg + self.approach_deg + self.bending_deg
 
 
 class Bent(NamedTuple):
-    """Horns under 1 N on 1 mm, (m, 1): an end's deflection, mm, stress, MPa, and thickness, mm."""
+    """Horns under 1 N per mm, (m, 1): an end's deflection, mm, stress, MPa, and thickness, mm."""
 
     deflection: Array
     stress: Array
@@ -75,63 +78,63 @@ class Bent(NamedTuple):
 
 
 def held_torque_Nm(mechanism: Mechanism) -> float:
-    """What the lock holds in the dwell."""
+    """Torque that the lock holds during the dwell."""
     load = mechanism.spec.load
     return load.torque_Nm if load.dwell_torque_Nm is None else load.dwell_torque_Nm
 
 
 def lock(mechanism: Mechanism, half_width_mm: float, by: Lock) -> LockUnderTorque | None:
-    """The lock of a machine whose parts have these radii; of its horns the one that gives most.
+    """The lock of a machine whose parts have these radii, with its weakest horn.
 
-    None without a torque to hold, or a ``face_width_mm``.
+    None without a torque to hold, or without a ``face_width_mm``.
     """
-    found = lock_of_many(mechanism, half_width_mm, by)
-    if found is None:
+    batch = lock_of_many(mechanism, half_width_mm, by)
+    if batch is None:
         return None
-    on, *rows = found
+    on, *rows = batch
     return LockUnderTorque(on, *cast("list[float]", only_of(rows)))
 
 
 def lock_of_many(mechanism: Mechanism, half_width_mm: float, by: Lock) -> LockUnderTorque | None:
-    """The same of m designs, whose sizes may be (m, 1): NaN of those without a torque or a lock.
+    """Locks of m designs, whose sizes may be (m, 1); NaN for those without a torque or a lock.
 
-    None where all are without a torque.
+    None if all are without a torque.
     """
     torque, width = held_torque_Nm(mechanism), mechanism.spec.size.face_width_mm
     if width is None or all_true(torque == 0.0):
         return None
-    found, known = by.contact(), np.atleast_2d(np.where(torque == 0.0, np.nan, torque))
-    sine = np.sin(found.phi)
+    touch, known = by.contact(), np.atleast_2d(np.where(torque == 0.0, np.nan, torque))
+    sine = np.sin(touch.phi)
     lever = by.L * sine
     force = 1e3 * known / lever
-    worn = found.phi - sine * np.cos(found.phi)
+    worn = touch.phi - sine * np.cos(touch.phi)
     pressure = 2e3 * known * sine / (width * by.lock * by.L * worn)
-    arcs = np.equal(found.on, "recess")  # no horn is bent
+    arcs = np.equal(touch.on, "recess")  # no horn is bent
     give, stress, thick = still = Bent(*map(np.atleast_2d, (0.0, 0.0, by.recess)))
     if not arcs.all():
-        bent = bending(mechanism, half_width_mm, by.recess, found.phi)
+        bent = bending(mechanism, half_width_mm, by.recess, touch.phi)
         give, stress, thick = (np.where(arcs, *both) for both in zip(still, bent, strict=True))
     line = force / width
-    contact, approach = _contact(mechanism, line, found.radius, by.lock, thick, pressure)
+    contact, approach = _contact(mechanism, line, touch.radius, by.lock, thick, pressure)
     rows = (
         known,
         force,
         contact,
         pressure,
         stress * line,
-        np.degrees(found.play),
+        np.degrees(touch.play),
         np.degrees(approach / lever),
         np.degrees(give * line / lever),
     )
     every = np.ravel(np.broadcast_arrays(*rows)).reshape(len(rows), -1)
-    every[:, np.isnan(every[1])] = np.nan  # without a force there is nothing to know
-    return LockUnderTorque(found.on, *map(parameter, every))
+    every[:, np.isnan(every[1])] = np.nan  # without a force nothing is known
+    return LockUnderTorque(touch.on, *map(parameter, every))
 
 
 def _contact(
     mechanism: Mechanism, line: Array, radius: float, lock: float, thick: Array, pressure: Array
 ) -> tuple[Array, Array]:
-    """Hertz's stress, MPa, and the approach, mm, for a force on 1 mm; NaN of a sharp edge."""
+    """Hertz's stress, MPa, and the approach, mm, for a force per mm; NaN for a sharp edge."""
     modulus = contact_modulus_GPa(mechanism.spec) * 1e3
     sharp, loose = np.equal(radius, 0.0), np.isfinite(radius)
     with np.errstate(all="ignore"):
@@ -160,7 +163,7 @@ def bending(mechanism: Mechanism, half_width: float, recess: float, phi: float) 
 
 
 def _weakest(mechanism: Mechanism, half_width: float, recess: float, phi: float) -> Bent:
-    """Of designs that are worked out together."""
+    """The weakest horn of designs that are computed together."""
     material = mechanism.spec.material_wheel
     E = 1e3 * material.youngs_modulus_GPa
     G = E / (2.0 * (1.0 + material.poisson_ratio))
@@ -170,8 +173,8 @@ def _weakest(mechanism: Mechanism, half_width: float, recess: float, phi: float)
         thick, turned = side.feet(wall, normal)
         middle = wall + 0.5 * thick * normal
         towards = abs(product(side.centre, side.across)) / np.hypot(*side.centre)
-        ahead = np.arccos(np.minimum(1.0, towards))  # of the wheel's axis
-        tilt = phi - ahead  # of the force, which goes through the disc's axis, against the mouth's
+        ahead = np.arccos(np.minimum(1.0, towards))  # direction of the wheel's axis
+        tilt = phi - ahead  # angle of the force from the mouth's direction
         x, y = -np.sin(tilt), np.cos(tilt)
         moment = middle[0] * y - middle[1] * x
         across = x * normal[0] + y * normal[1]
@@ -179,14 +182,14 @@ def _weakest(mechanism: Mechanism, half_width: float, recess: float, phi: float)
         give = 12.0 * moment**2 / (E * thick**3) + SHEAR * across**2 / (G * thick)
         stress = 6.0 * abs(moment) / thick**2 + push / thick
         past, own = wall[0] - recess * x, side.middle - turned
-        # once another horn has begun, or where no foot is, there is nothing of this one
+        # where another horn has begun, or without a foot, nothing belongs to this one
         own = np.where(np.logical_and.accumulate(own > 0.0, axis=1), own, np.fmin(own, 0.0))
         strips = _rises(past), _rises(-own)
-        way = np.hypot(*np.diff(wall)) * np.maximum(strips[1] - strips[0], 0.0)
+        length = np.hypot(*np.diff(wall)) * np.maximum(strips[1] - strips[0], 0.0)
         (low, high), stresses = (_ends(of, *strips) for of in (give, stress))
         rows = (
-            np.where(way > 0.0, 0.5 * (low + high) * way, 0.0).sum(axis=1),
-            np.where(way > 0.0, np.fmax(*stresses), 0.0).max(axis=1),
+            np.where(length > 0.0, 0.5 * (low + high) * length, 0.0).sum(axis=1),
+            np.where(length > 0.0, np.fmax(*stresses), 0.0).max(axis=1),
             np.where(own > 0.0, thick, np.inf).min(axis=1),
         )
         every.append(Bent(*(row[:, None] for row in rows)))
@@ -194,21 +197,21 @@ def _weakest(mechanism: Mechanism, half_width: float, recess: float, phi: float)
 
 
 def _ends(of: Array, begins: Array, ends: Array) -> tuple[Array, Array]:
-    """Values where parts of the strips between sections begin and end."""
+    """Values at which parts of the strips between sections begin and end."""
     of = np.where(np.isfinite(of), of, 0.0)
     rise = np.diff(of)
     return of[:, :-1] + rise * begins, of[:, :-1] + rise * ends
 
 
 def _rises(of: Array) -> Array:
-    """Which share of each strip lies before a quantity becomes positive: 1 where it does not."""
+    """Fraction of each strip before a quantity becomes positive: 1 if it does not."""
     low, high = of[:, :-1], of[:, 1:]
     with np.errstate(all="ignore"):
-        share = np.where(high > 0.0, -low / (high - low), 1.0)
-    return np.where(low >= 0.0, 0.0, share)
+        fraction = np.where(high > 0.0, -low / (high - low), 1.0)
+    return np.where(low >= 0.0, 0.0, fraction)
 
 
 def _weaker(one: Bent, other: Bent) -> Bent:
-    """That which gives more, of each design."""
+    """The horn with the greater deflection, in each design."""
     more = other.deflection > one.deflection
     return Bent(*(np.where(more, b, a) for a, b in zip(one, other, strict=True)))

@@ -15,23 +15,23 @@ if TYPE_CHECKING:
 
 
 class Pin(NamedTuple):
-    """A round pin's stresses under one newton, and its diameter; megapascals per newton."""
+    """A round pin's stresses per newton, MPa, and its diameter."""
 
     diameter_mm: Number
     bending: Number
     shear: Number
 
     def under(self, force_N: Number) -> Pin:
-        """The stresses under a force, megapascals."""
+        """Stresses under a force, MPa."""
         return Pin(self.diameter_mm, self.bending * force_N, self.shear * force_N)
 
     @property
     def equivalent(self) -> Number:
-        """The greatest von Mises stress of the section.
+        """Greatest von Mises stress of the section.
 
-        Over it, u being the height over the neutral axis by the radius, bending goes with u and
-        shear with 1 - u²: sigma² u² + 3 tau² (1 - u²)² is convex in u², and so is greatest at the
-        outer fibre or at the neutral axis.
+        Let u be the height over the neutral axis over the radius. Bending is proportional to u and
+        shear to 1 - u². The sum sigma² u² + 3 tau² (1 - u²)² is convex in u². So it is greatest at
+        the outer fibre or at the neutral axis.
         """
         import numpy as np
 
@@ -39,13 +39,12 @@ class Pin(NamedTuple):
 
 
 def moment_mm(held: str, width: Number, gap: Number) -> Number:
-    """The greatest bending moment under one newton, N mm, spread evenly over the line of contact.
+    """Greatest bending moment per newton, N mm, spread evenly over the contact line.
 
-    ``width`` is the line's length b and ``gap`` g what is free between it and a plate, mm.
-
-    - ``cantilever``, fast in one plate: g + b/2, at the plate;
-    - ``supported``, turning in two plates: b/8 + g/2, in the middle;
-    - ``fixed``, fast in two plates s = b + 2 g apart: (3 s² - b²)/(24 s), at the plates.
+    ``width`` is the line's length b and ``gap`` the free length g between it and a plate, mm. The
+    moment of a ``cantilever``, fixed in one plate, is g + b/2 at the plate. That of a ``supported``
+    pin, which turns in two plates, is b/8 + g/2 in the middle. That of a ``fixed`` pin, held in two
+    plates s = b + 2 g apart, is (3 s² - b²)/(24 s) at the plates.
 
     >>> moment_mm("cantilever", 24.0, 0.0), moment_mm("supported", 24.0, 0.0)
     (12.0, 3.0)
@@ -69,7 +68,7 @@ PLATES = {"cantilever": 1.0, "supported": 2.0, "fixed": 2.0}  # that share the f
 
 
 def pin_diameter_mm(mechanism: Mechanism) -> float:
-    """The diameter of the roller's pin; with ``pin_mm = 0`` the roller is its own pin."""
+    """Diameter of the roller's pin; with ``pin_mm = 0`` the roller is its own pin."""
     size, r = mechanism.spec.size, mechanism.roller_radius_mm
     if size.pin_mm is None:
         return r
@@ -78,7 +77,7 @@ def pin_diameter_mm(mechanism: Mechanism) -> float:
 
 
 def pin(mechanism: Mechanism) -> Pin | None:
-    """The pin of a machine's rollers; None without the length of the line of contact.
+    """The pin of a machine's rollers; None without the length of the contact line.
 
     Bending 32 M/(pi d³) at the plate or in the middle, shear 4/3 V/(pi d²/4) in the neutral axis.
     """
@@ -92,7 +91,7 @@ def pin(mechanism: Mechanism) -> Pin | None:
 
 
 def least_diameter_mm(of: Pin, force_N: Number, allowed_MPa: Number) -> Number:
-    """The diameter at which the equivalent stress is the allowed one."""
+    """Diameter at which the equivalent stress equals the allowable one."""
     import numpy as np
 
     bent = np.cbrt(of.bending * force_N / allowed_MPa)

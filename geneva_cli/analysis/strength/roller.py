@@ -1,13 +1,13 @@
-"""The roller as a bearing, and the slot that it runs in: work, turns, life and wear.
+"""The roller as a bearing, and its slot: work, turns, life and wear.
 
-Over a motion the roller rolls along its wall, v_s being the speed at which it would rub if it did
-not turn in the body that carries it, and N the force on it. A bearing that carries N while it
-turns by |v_s|/r per second lives as under the constant force (ISO 281, roller bearings)
+Over a motion the roller rolls along its wall under a force N. If it did not turn in the body that
+carries it, it would slide at the speed v_s. A bearing that carries N and turns by |v_s|/r per
+second has the life that it has under the constant force (ISO 281, roller bearings)
 
     P = (∫ N^p |v_s| dt / ∫ |v_s| dt)^(1/p),  p = 10/3,  L10 = 10^6 (C/P)^p revolutions.
 
-Motions are cut where torque, sliding or the way along the slot change their signs, or the motion
-breaks, and integrated between to the last digits.
+Motions are cut where torque, sliding or the speed along the slot change sign, or the motion has a
+break. Between the cuts they are integrated to the last digits.
 """
 
 from __future__ import annotations
@@ -45,19 +45,19 @@ FORCE = ("pin_force_N",)  # whose bound says whether there is one of the integra
 
 
 class Passage(NamedTuple):
-    """One roller's way through one slot, in SI units; infinite where the force has no bound.
+    """One roller's passage through one slot, in SI units; infinite if the force has no bound.
 
-    Of m designs (m,) each.
+    (m,) each for m designs.
     """
 
     travel_m: float  # of the contact along the walls, in and out
     rolled_m: float  # ∫ |v_s| dt
-    work: float  # ∫ N |v_s| dt, joules: friction's for a coefficient of 1
+    work: float  # ∫ N |v_s| dt, joules: friction work for a coefficient of 1
     load: float  # ∫ N^p |v_s| dt
 
 
 class Life(NamedTuple):
-    """The most loaded roller's life; None without a capacity, infinite where nothing loads it."""
+    """Life of the most loaded roller; None without a capacity, infinite without a force."""
 
     equivalent_force_N: float  # P
     turns_per_motion: float
@@ -68,7 +68,7 @@ class Life(NamedTuple):
 
 @lru_cache(maxsize=256)
 def passage(engagement: Engagement, given: Setting, half: float = 0.0) -> Passage:
-    """The integrals over one motion; before mid-motion alone for a ``half`` of -1, after it for 1.
+    """Integrals over one motion; only before mid-motion for a ``half`` of -1, only after it for 1.
 
     >>> from geneva_cli import External, Load, Size
     >>> from geneva_cli.machine.mechanism import build
@@ -81,18 +81,18 @@ def passage(engagement: Engagement, given: Setting, half: float = 0.0) -> Passag
 
 
 def passage_of_many(engagement: Engagement, given: Setting, half: float = 0.0) -> Passage:
-    """The same integrals of m designs: (m,) each."""
+    """Integrals over one motion of m designs: (m,) each."""
     every = machine(engagement, given, FORCE, NONE)
     (rows,) = of_groups(every, lambda some, n: (_integrals(some, n, half),))
     return Passage(*map(parameter, rows))
 
 
 def _integrals(every: Machine, n: int, half: float) -> Array:
-    """The integrals of n designs, a row each; infinite where the force has no bound."""
+    """Integrals of n designs, one row each; infinite if the force has no bound."""
     engagement = every[0]
     load = Loaded(every, FORCE, ("slides", "along") if turns_back(engagement) else ("slides",))
-    found = search(load, spans_of(engagement, n), n, True, load.at_mid_motion(n), load.spread)
-    design, _, (a, b), positive = to_mid_motion(engagement, found.stretches, n)
+    extremes = search(load, spans_of(engagement, n), n, True, load.at_mid_motion(n), load.spread)
+    design, _, (a, b), positive = to_mid_motion(engagement, extremes.stretches, n)
     own = np.flatnonzero(half * (a + b) >= 0.0)
     design, a, b, positive = design[own], a[own], b[own], positive[:, own]
     signs = dict(zip(load.kinds, np.where(positive, 1.0, -1.0)[..., None], strict=True))
@@ -102,74 +102,74 @@ def _integrals(every: Machine, n: int, half: float) -> Array:
         drives, slides = (
             signs[kind][which] if kind in signs else 1.0 for kind in ("drives", "slides")
         )
-        found = passing(given, contact(some, x, reactions=False), drives, slides)
-        return np.stack(np.broadcast_arrays(*found))
+        integrands = passing(given, contact(some, x, reactions=False), drives, slides)
+        return np.stack(np.broadcast_arrays(*integrands))
 
-    bounded = np.isfinite(found.most[0])
+    bounded = np.isfinite(extremes.most[0])
     every_one = np.full(n, True)
-    asked = np.stack((every_one, every_one, bounded, bounded))
+    requested = np.stack((every_one, every_one, bounded, bounded))
     with np.errstate(all="ignore"):
-        total = integrals_many(rows, a, b, design, asked, ends=True) * DEGREE
-    return np.where(asked, total, np.inf)
+        total = integrals_many(rows, a, b, design, requested, ends=True) * DEGREE
+    return np.where(requested, total, np.inf)
 
 
 def turns_back(engagement: Engagement) -> bool:
-    """Whether a roller may turn back in its slot elsewhere than at mid-motion.
+    """True if a roller may turn back in its slot elsewhere than at mid-motion.
 
-    One on a crank's arm does not, unless its motion is tilted: it turns on the line of centres. Of
-    a curved slot both ways begin at mid-motion.
+    A roller on a crank's arm turns back on the line of centres, unless its motion is tilted. In a
+    curved slot both branches begin at mid-motion.
     """
     on_arm = all_true(engagement.crank_sense == 0.0)
     return is_straight(engagement) and not (on_arm and engagement.motion.symmetric)
 
 
 def passing(given: Setting, at: Contact[Jet], drives: Number, slides: Number) -> list[Array]:
-    """What is integrated over a passage, at places where torque and sliding have these signs."""
-    found = Forces(given, at, drives, slides)
+    """Integrands of a passage, at places where torque and sliding have these signs."""
+    forces = Forces(given, at, drives, slides)
     rubs = abs(sliding(at, drives, given.radius).arrays()[0]) * given.L
     with np.errstate(all="ignore"):
-        # beside the torque's change of sign the force of one sign may be a rounding below 0
-        force = np.maximum(found.force.c[0], 0.0)
-        force = np.where(found.grip.c[0] > 0.0, force, np.inf) * at.touches.c[0]
-        # nothing presses on a wall where nothing is to be turned
-        force = np.where(found.torque.c[0] == 0.0, 0.0, force)
+        # near the torque's change of sign the force may be slightly negative by rounding
+        force = np.maximum(forces.force.c[0], 0.0)
+        force = np.where(forces.grip.c[0] > 0.0, force, np.inf) * at.touches.c[0]
+        # nothing presses on a wall if nothing must be turned
+        force = np.where(forces.torque.c[0] == 0.0, 0.0, force)
         along = abs(at.along.arrays()[0]) * given.L * at.touches.c[0]
         return [along, rubs, force * rubs, force**EXPONENT * rubs]
 
 
 def passages(mechanism: Mechanism) -> list[Passage]:
-    """The passage of each engagement of a period: of m designs (m,) each."""
+    """Passage of each engagement of a period: (m,) each for m designs."""
     return [_passage(mechanism, engagement, 0.0) for engagement in mechanism.engagements]
 
 
 def by_roller(mechanism: Mechanism) -> list[Passage]:
-    """The same of each roller: an engagement takes two where one starts the wheel, one stops it."""
+    """Passages of each roller; an engagement has two if one starts and another stops the wheel."""
     each = [(one, half) for one in mechanism.engagements for half in halves(one)]
     return [_passage(mechanism, *of) for of in each]
 
 
 def _passage(mechanism: Mechanism, engagement: Engagement, half: float) -> Passage:
-    """The passage of a machine's engagement; of a single design it is kept."""
+    """Passage of a machine's engagement; for a single design it is cached."""
     single = isinstance(mechanism.design, int)
     return (passage if single else passage_of_many)(engagement, setting(mechanism), half)
 
 
 def halves(engagement: Engagement) -> tuple[float, ...]:
-    """Which half of a motion each of its rollers makes; 0 is the whole."""
+    """Half of a motion that each of its rollers makes; 0 is the whole."""
     return (-1.0, 1.0) if engagement.paired else (0.0,)
 
 
 def rollers(mechanism: Mechanism) -> int:
-    """How many rollers there are on the crank."""
+    """Number of rollers on the crank."""
     spec = mechanism.spec
     count = len(spec.wheel.steps or spec.drive.roller_angles_deg or ()) or spec.drive.rollers
     return count * len(mechanism.engagements[0].ahead_deg)
 
 
 def life(mechanism: Mechanism) -> Life | None:
-    """The life of the roller that wears out first; None where nothing is known to load it.
+    """Life of the roller that wears out first; None if no load is known.
 
-    Each roller moves the wheel in its turn: of several, each makes its own share of the motions.
+    The rollers move the wheel in turn, so each makes a fraction of the motions.
     """
     if not mechanism.spec.is_loaded:
         return None
@@ -179,18 +179,18 @@ def life(mechanism: Mechanism) -> Life | None:
 
 
 def lives(mechanism: Mechanism, each: Sequence[Passage]) -> Life:
-    """The same of m designs, (m,) each, or of one, from the passages of their rollers."""
+    """Lives of m designs, (m,) each, or of one, from the passages of their rollers."""
     spec, m = mechanism.spec, rollers(mechanism)
     radius_m = np.ravel(mechanism.roller_radius_mm / 1000.0)
-    found = []
-    for ways in (each[i::m] for i in range(min(m, len(each)))):
-        rolled = sum(way.rolled_m for way in ways)
-        force = (sum(way.load for way in ways) / rolled) ** (1.0 / EXPONENT)
-        turns = rolled / len(ways) / (2.0 * math.pi * radius_m)
-        often = np.ravel(_periods_per_h(mechanism) * (len(ways) if len(each) >= m else 1.0 / m))
-        found.append(np.stack(np.broadcast_arrays(force, turns, often)))
+    rows = []
+    for own in (each[i::m] for i in range(min(m, len(each)))):
+        rolled = sum(one.rolled_m for one in own)
+        force = (sum(one.load for one in own) / rolled) ** (1.0 / EXPONENT)
+        turns = rolled / len(own) / (2.0 * math.pi * radius_m)
+        often = np.ravel(_periods_per_h(mechanism) * (len(own) if len(each) >= m else 1.0 / m))
+        rows.append(np.stack(np.broadcast_arrays(force, turns, often)))
     with np.errstate(all="ignore"):
-        every = np.stack(found)
+        every = np.stack(rows)
         worst = np.argmax(every[:, 0] ** EXPONENT * every[:, 1] * every[:, 2], axis=0)
         force, turns, often = every[worst, :, np.arange(every.shape[2])].T
         lasts: list[float | None] = [None] * 3
@@ -206,10 +206,10 @@ def _periods_per_h(mechanism: Mechanism) -> float:
 
 
 def wear_mm(mechanism: Mechanism) -> float | None:
-    """Mean depth worn off a slot's walls by a million passages of a pin that does not turn, mm.
+    """Mean wear depth of a slot's walls in a million passages of a pin that does not turn, mm.
 
-    Archard: a volume of k ∫ N |v_s| dt a passage, over the face that the contact sweeps. Of the
-    slot that wears most; None without ``wear_mm3_Nm`` or ``face_width_mm``.
+    Archard: a volume of k ∫ N |v_s| dt per passage, over the face that the contact sweeps, for the
+    slot with the most wear. None without ``wear_mm3_Nm`` or ``face_width_mm``.
     """
     if not mechanism.spec.is_loaded:
         return None
@@ -217,12 +217,12 @@ def wear_mm(mechanism: Mechanism) -> float | None:
 
 
 def wears_mm(mechanism: Mechanism, each: Sequence[Passage]) -> Array | None:
-    """The same of m designs, (m,), or of one, from the passages of their engagements."""
+    """Wear depths of m designs, (m,), or of one, from the passages of their engagements."""
     spec = mechanism.spec
     k, width = spec.material_wheel.wear_mm3_Nm, spec.size.face_width_mm
     if k is None or width is None:
         return None
     rate = np.ravel(1e6 * k / (width * 1000.0))
-    worn: Array = np.asarray([rate * way.work / way.travel_m for way in each])
+    worn: Array = np.asarray([rate * one.work / one.travel_m for one in each])
     most: Array = worn.max(axis=0)
     return most

@@ -1,15 +1,15 @@
 """The shafts of wheel and crank, in torsion and bending, by the ASME code.
 
-The Code for Design of Transmission Shafting (ASME, later ASA B17c-1927) goes by the greatest shear
+The Code for Design of Transmission Shafting (ASME, later ASA B17c-1927) limits the greatest shear
 stress, with factors for shock and fatigue on both moments:
 
     tau = 16/(pi d³) sqrt((Kb M)² + (Kt T)²)
 
-Rotating shafts, load applied gradually: Kb = 1.5, Kt = 1; suddenly with minor shocks: 1.5 to 2 and
-1 to 1.5; with heavy shocks: 2 to 3 and 1.5 to 3. Allowable is 0.3 of the yield strength or 0.18 of
-the tensile strength, whichever is less, and three quarters of that beside a keyway. M is the force
-on the shaft times its overhang, T the torque at the same moment: their greatest combination over
-the cycle is exact.
+For rotating shafts with load applied gradually, Kb = 1.5 and Kt = 1. With sudden loads and minor
+shocks they are 1.5 to 2 and 1 to 1.5, with heavy shocks 2 to 3 and 1.5 to 3. Allowable is the lower
+of 0.3 of the yield strength and 0.18 of the tensile strength, and three quarters of that at a
+keyway. M is the force on the shaft times its overhang, T the torque at the same moment. Their
+greatest combination over the cycle is exact.
 """
 
 from __future__ import annotations
@@ -38,31 +38,31 @@ if TYPE_CHECKING:
 
 
 class Turned(NamedTuple):
-    """A shaft under its cycle; None where what it needs is not known. Of m designs (m,) each."""
+    """A shaft under its cycle; None for values that are not known; (m,) each for m designs."""
 
-    moment_Nm: float  # sqrt((Kb M)² + (Kt T)²), the greatest
+    moment_Nm: float  # greatest sqrt((Kb M)² + (Kt T)²)
     at_deg: float
     stress_MPa: float | None
     least_diameter_mm: float | None
-    twist_deg: float | None  # over overhang and span, greatest
+    twist_deg: float | None  # greatest, over overhang and span
 
 
 class GivenShaft(NamedTuple):
-    """One shaft as ``[shaft]`` gives it."""
+    """Dimensions of one shaft from ``[shaft]``."""
 
     diameter_mm: float | None
     overhang_mm: float | None
     span_mm: float | None
 
 
-def wheel_shaft(given: Shaft) -> GivenShaft:
-    """The wheel's."""
-    return GivenShaft(given.wheel_diameter_mm, given.wheel_overhang_mm, given.wheel_span_mm)
+def wheel_shaft(table: Shaft) -> GivenShaft:
+    """Dimensions of the wheel's shaft."""
+    return GivenShaft(table.wheel_diameter_mm, table.wheel_overhang_mm, table.wheel_span_mm)
 
 
-def crank_shaft(given: Shaft) -> GivenShaft:
-    """The crank's."""
-    return GivenShaft(given.crank_diameter_mm, given.crank_overhang_mm, given.crank_span_mm)
+def crank_shaft(table: Shaft) -> GivenShaft:
+    """Dimensions of the crank's shaft."""
+    return GivenShaft(table.crank_diameter_mm, table.crank_overhang_mm, table.crank_span_mm)
 
 
 def shear_MPa(moment_Nm: N, diameter_mm: N) -> N:
@@ -75,51 +75,51 @@ def shear_MPa(moment_Nm: N, diameter_mm: N) -> N:
 
 
 def least_diameter_mm(moment_Nm: N, allowed_MPa: N) -> N:
-    """The diameter at which that stress is the allowed one."""
-    found: N = np.cbrt(16e3 * moment_Nm / (math.pi * allowed_MPa))
-    return found
+    """Diameter at which the shear stress equals the allowable one."""
+    diameter: N = np.cbrt(16e3 * moment_Nm / (math.pi * allowed_MPa))
+    return diameter
 
 
 def on_wheel(i: Instant[Jet], at: Contact[Jet]) -> tuple[Jet, Jet]:
-    """Square of the force on the wheel's shaft, and torque: what slot and wheel pass on."""
+    """Squared force on the wheel's shaft, and torque: the loads from slot and wheel."""
     return i.wheel_bearing_N * i.wheel_bearing_N, i.wheel_torque_Nm
 
 
 def on_crank(i: Instant[Jet], at: Contact[Jet]) -> tuple[Jet, Jet]:
-    """Likewise of a crank's shaft that is the input shaft, or turns with it."""
+    """Squared force on the crank's shaft, and torque, if it is or turns with the input shaft."""
     return i.crank_bearing_squared, i.input_torque_Nm
 
 
 def on_driven_crank(i: Instant[Jet], at: Contact[Jet]) -> tuple[Jet, Jet]:
-    """Likewise of the shaft of a crank with a transmission before it.
+    """Squared force on the shaft of a crank behind a transmission, and torque.
 
-    It turns at another rate than the input, that of the roller's body; the torque is as much less
-    or more as the power asks.
+    It turns at another rate than the input, that of the roller's body. The torque differs
+    accordingly, since the power is equal.
     """
     return i.crank_bearing_squared, i.input_torque_Nm / (at.spin + at.velocity * at.arm)
 
 
 class Moment(NamedTuple):
-    """The square of (Kb M)² + (Kt T)², as ``greatest_of_many`` asks for it; lever in metres."""
+    """The square (Kb M)² + (Kt T)², as a row for ``greatest_of_many``; lever in metres."""
 
     loaded: On
     lever: float
     torsion: float
 
     def __call__(self, i: Instant[Jet], at: Contact[Jet]) -> Row[Jet]:
-        """The square, and what bounds it."""
+        """The square, and the grip that bounds it."""
         square, torque = self.loaded(i, at)
         turned = torque * self.torsion
         return Row(square * (self.lever * self.lever) + turned * turned, i.grip)
 
 
 class Torque(NamedTuple):
-    """The square of the torque, likewise."""
+    """The squared torque, as a row for ``greatest_of_many``."""
 
     loaded: On
 
     def __call__(self, i: Instant[Jet], at: Contact[Jet]) -> Row[Jet]:
-        """The square, and what bounds it."""
+        """The squared torque, and the grip that bounds it."""
         _, torque = self.loaded(i, at)
         return Row(torque * torque, i.grip)
 
@@ -127,18 +127,18 @@ class Torque(NamedTuple):
 def shaft(mechanism: Mechanism, ends: GivenShaft, loaded: On) -> Turned | None:
     """A shaft under the force and torque of a cycle; None without an overhang or without a load.
 
-    Moments are infinite where the force has no bound.
+    Moments are infinite if the force has no bound.
     """
-    found = shaft_of_many(mechanism, ends, loaded)
-    if found is None:
+    batch = shaft_of_many(mechanism, ends, loaded)
+    if batch is None:
         return None
-    moment, at_deg, *rest = only_of(found)
+    moment, at_deg, *rest = only_of(batch)
     assert moment is not None and at_deg is not None
     return Turned(moment, at_deg, *rest)
 
 
 def shaft_of_many(mechanism: Mechanism, ends: GivenShaft, loaded: On) -> Turned | None:
-    """The same of m designs; None where none has an overhang or a load."""
+    """Shafts of m designs; None if none has an overhang or a load."""
     if ends.overhang_mm is None or not mechanism.spec.is_loaded:
         return None
     own = _wanted(mechanism, ends, loaded)
@@ -148,18 +148,18 @@ def shaft_of_many(mechanism: Mechanism, ends: GivenShaft, loaded: On) -> Turned 
 
 def _wanted(mechanism: Mechanism, ends: GivenShaft, loaded: On) -> dict[str, Wanted]:
     """The squares of the equivalent moment and of the torque."""
-    given = mechanism.spec.shaft
+    table = mechanism.spec.shaft
     assert ends.overhang_mm is not None
-    lever = given.bending_factor * ends.overhang_mm / 1000.0
-    return {"moment": Moment(loaded, lever, given.torsion_factor), "torque": Torque(loaded)}
+    lever = table.bending_factor * ends.overhang_mm / 1000.0
+    return {"moment": Moment(loaded, lever, table.torsion_factor), "torque": Torque(loaded)}
 
 
 def _turned(
     mechanism: Mechanism, ends: GivenShaft, square: Array, at_deg: Number, torque_squared: Number
 ) -> Turned:
-    """From the greatest squares of moment and torque, (m,)."""
-    given, d, span = mechanism.spec.shaft, ends.diameter_mm, ends.span_mm
-    moment, allowed = np.sqrt(square), given.shear_stress_max_MPa
+    """Results from the greatest squares of moment and torque, (m,)."""
+    table, d, span = mechanism.spec.shaft, ends.diameter_mm, ends.span_mm
+    moment, allowed = np.sqrt(square), table.shear_stress_max_MPa
     stress = least = twist = None
     if d is not None:
         stress = parameter(shear_MPa(moment, np.ravel(d)))
@@ -167,7 +167,7 @@ def _turned(
         least = parameter(least_diameter_mm(moment, np.ravel(allowed)))
     if d is not None and span is not None and ends.overhang_mm is not None:
         polar = math.pi * d**4 / 32.0  # N m mm / (GPa mm^4) is 1
-        rate = np.ravel((ends.overhang_mm + span) / (given.shear_modulus_GPa * polar))
+        rate = np.ravel((ends.overhang_mm + span) / (table.shear_modulus_GPa * polar))
         most = np.where(np.isfinite(torque_squared), np.sqrt(torque_squared), np.nan)
         twist = parameter(np.degrees(most * rate))
     return Turned(parameter(moment), parameter(at_deg), stress, least, twist)

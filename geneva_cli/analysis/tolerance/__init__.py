@@ -1,1 +1,1 @@
-"""What deviations of the dimensions do to the wheel's place and entry: formulas, and many draws."""
+"""Effects of tolerances on the wheel: formulas for its place and entry, and random machines."""

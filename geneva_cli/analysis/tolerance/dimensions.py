@@ -1,6 +1,6 @@
-"""The dimensions that deviate: by how much, how they are distributed, and a machine drawn of them.
+"""The dimensions that deviate: sizes and distribution of deviations, and random machines.
 
-Deviations are in millimetres and radians. They are jets, so that one formula gives a place for a
+Deviations are in millimetres and radians. They are jets, so that one formula gives a value for a
 million machines at once (order 0) and its exact slope by one dimension (order 1).
 """
 
@@ -25,7 +25,7 @@ LEAST = 2.0**-53  # a share of 0 would be infinitely far out
 
 
 class Deviations(NamedTuple):
-    """One deviation each, of the keys of ``[tolerance]`` in their order."""
+    """Deviations of the dimensions in ``[tolerance]``, in their order."""
 
     center_distance_mm: Jet
     crank_radius_mm: Jet
@@ -37,21 +37,21 @@ class Deviations(NamedTuple):
 
     @property
     def slot_clearance(self) -> Jet:
-        """What they add to the clearance between roller and slot, per side, mm."""
+        """Their contribution to the clearance between roller and slot, per side, mm."""
         return (self.slot_width_mm - self.roller_diameter_mm) * 0.5
 
 
 def tolerances(spec: Spec) -> dict[str, float]:
-    """The plus or minus of each dimension, in millimetres and radians."""
-    given = spec.tolerance.as_dict()
+    """Plus or minus of each dimension, in millimetres and radians."""
+    values = spec.tolerance.as_dict()
     return {
-        name: radians(given[name]) if name.endswith("_deg") else given[name]
+        name: radians(values[name]) if name.endswith("_deg") else values[name]
         for name in Deviations._fields
     }
 
 
 def without_effect(spec: Spec) -> dict[str, str]:
-    """The dimensions whose deviations have no effect in a machine, and why."""
+    """Dimensions whose deviations have no effect in a machine, with the reason."""
     why = {}
     if not spec.drive.ONE_ARM:
         why["crank_radius_mm"] = "no crank's arm carries the roller"
@@ -61,33 +61,33 @@ def without_effect(spec: Spec) -> dict[str, str]:
 
 
 def deviations(values: list[Number]) -> Deviations:
-    """The deviations with these values; for places without slopes."""
+    """Deviations with these values, without slopes."""
     return Deviations(*[Jet((value,)) for value in values])
 
 
 def slope_of(number: int) -> Deviations:
-    """No deviation at all, and the slope by one of them."""
+    """Deviations of 0, with the slope by one of them."""
     return Deviations(*[Jet((0.0, float(i == number))) for i in range(len(Deviations._fields))])
 
 
 def corners(sizes: list[float]) -> Deviations:
-    """Every combination of the ends of the tolerances that are not 0: arrays of 2**n machines.
+    """Every combination of the ends of the nonzero tolerances: arrays of 2**n machines.
 
-    Of m designs, whose tolerances may be (m, 1), the arrays may be (2**n, m, 1).
+    For m designs, whose tolerances may be (m, 1), the arrays may be (2**n, m, 1).
     """
     ends = [(0.0,) if all_true(size == 0.0) else (-size, size) for size in sizes]
     return deviations([np.array(column) for column in zip(*product(*ends), strict=True)])
 
 
 class Draws(NamedTuple):
-    """Machines drawn quasi-randomly: Sobol's sequence, shifted by a random vector of the seed."""
+    """Quasi-random machines: Sobol's sequence, shifted by a random vector of the seed."""
 
     sizes: tuple[float, ...]
     normal: bool
     seed: int
 
     def blocks(self, samples: int, size: int) -> Iterator[Deviations]:
-        """So many machines, a block at a time."""
+        """Deviations of ``samples`` machines, in blocks of ``size``."""
         from scipy.stats.qmc import Sobol
 
         deviate = [i for i, size in enumerate(self.sizes) if size]
@@ -95,20 +95,20 @@ class Draws(NamedTuple):
         shift = np.random.default_rng(self.seed).random(len(self.sizes))
         for start in range(0, samples, size):
             count = min(size, samples - start)
-            # drawn in powers of two: of others the sequence warns that they are out of balance
-            shares = sequence.random(1 << (count - 1).bit_length())[:count].T.copy()
+            # drawn in powers of two, since others unbalance the sequence and give a warning
+            quantiles = sequence.random(1 << (count - 1).bit_length())[:count].T.copy()
             columns: list[Number] = [0.0] * len(self.sizes)
-            for i, share in zip(deviate, shares, strict=True):
-                share += shift[i]
-                share[share >= 1.0] -= 1.0
-                columns[i] = self._spread(share) * self.sizes[i]
+            for i, quantile in zip(deviate, quantiles, strict=True):
+                quantile += shift[i]
+                quantile[quantile >= 1.0] -= 1.0
+                columns[i] = self._spread(quantile) * self.sizes[i]
             yield deviations(columns)
 
-    def _spread(self, share: Array) -> Array:
-        """Deviations over the tolerance for shares of the distribution."""
+    def _spread(self, quantile: Array) -> Array:
+        """Deviations over the tolerance for quantiles of the distribution."""
         if not self.normal:
-            return 2.0 * share - 1.0
+            return 2.0 * quantile - 1.0
         from scipy.special import ndtri
 
-        out: Array = ndtri(np.maximum(share, LEAST)) / SIGMAS
+        out: Array = ndtri(np.maximum(quantile, LEAST)) / SIGMAS
         return out

@@ -1,6 +1,6 @@
 """The jump of the wheel's velocity at entry, for many deviations of one machine.
 
-The true path is tabulated once; each machine's jump is interpolated where its roller reaches the
+The true path is tabulated once. Each machine's jump is interpolated where its roller reaches the
 slot's axis (see ``analysis.shock``).
 """
 
@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from geneva_cli.analysis.blows import arm_mm
+from geneva_cli.analysis.impacts import arm_mm
 from geneva_cli.analysis.shock import SlotAxis
 from geneva_cli.analysis.tolerance.dimensions import Deviations
 from geneva_cli.machine.mechanism import Mechanism
@@ -28,14 +28,14 @@ NOTHING = 3e-8  # the root of a distance from the axis, over L, that is rounding
 
 
 class Branch(NamedTuple):
-    """The true path on one side of its entry, where the path with errors crosses the axis.
+    """The true path on one side of its entry, for crossings of the axis by paths with errors.
 
-    ``side`` is that of the axis on which the true path is; the rest are arrays along it.
+    ``side`` is the side of the axis on which the true path is; the others are arrays along it.
     """
 
     side: float
-    root: Array  # of its distance from the axis, over L
-    speed: Array  # of its approach to the axis over that root: nearly constant
+    root: Array  # square root of its distance from the axis, over L
+    speed: Array  # speed of its approach to the axis over that root, nearly constant
     lever: Array  # of the wheel, to the roller
 
 
@@ -48,17 +48,17 @@ class EntryJumps(NamedTuple):
     branches: tuple[Branch, ...]
 
     def __call__(self, by: Deviations) -> tuple[Array, Array]:
-        """The sizes of the jumps, over the input's speed, and which machines miss the axis.
+        """Sizes of the jumps, over the input's speed, and a mask of machines that miss the axis.
 
-        0 for a machine that misses it: its roller meets the mouth instead.
+        A machine that misses it has a jump of 0: its roller meets the mouth instead.
         """
         crank, center = by.crank_radius_mm.c[0] / self.arm, by.center_distance_mm.c[0] / self.L
-        aside = np.atleast_1d(self.axis.aside(array(crank), array(center)))
-        moved = np.broadcast_to((center - crank) / (1.0 + crank) * self.axis.along, aside.shape)
-        jump, missed = np.zeros(len(aside)), aside != 0.0
+        offset = np.atleast_1d(self.axis.offset(array(crank), array(center)))
+        moved = np.broadcast_to((center - crank) / (1.0 + crank) * self.axis.along, offset.shape)
+        jump, missed = np.zeros(len(offset)), offset != 0.0
         for branch in self.branches:
-            here = np.flatnonzero(aside * branch.side > 0.0)
-            at = np.sqrt(abs(aside[here]))
+            here = np.flatnonzero(offset * branch.side > 0.0)
+            at = np.sqrt(abs(offset[here]))
             speed = at * np.interp(at, branch.root, branch.speed, right=np.nan)
             lever = np.interp(at, branch.root, branch.lever) + moved[here]
             jump[here] = np.nan_to_num(speed / lever)
@@ -67,7 +67,7 @@ class EntryJumps(NamedTuple):
 
 
 def entry_jumps(mechanism: Mechanism) -> list[EntryJumps]:
-    """The entry jump of each engagement whose roller should come in along its slot's axis."""
+    """Entry jump of each engagement whose roller should enter along its slot's axis."""
     L = mechanism.center_distance_mm
     out = []
     for engagement in mechanism.engagements:
@@ -79,16 +79,16 @@ def entry_jumps(mechanism: Mechanism) -> list[EntryJumps]:
 
 
 def _branches(axis: SlotAxis) -> list[Branch]:
-    """The path before the true entry, and after it where it crosses the axis there."""
+    """The path before the true entry, and the one after it if it is on the other side."""
     before = _branch(axis, -1.0)
     after = _branch(axis, 1.0)
     return [before] if before.side == after.side else [before, after]
 
 
-def _branch(axis: SlotAxis, way: float) -> Branch:
+def _branch(axis: SlotAxis, sense: float) -> Branch:
     anchor = axis.anchor
     span = 0.5 * axis.engagement.motion_deg * DEGREE
-    tau = way * span * np.geomspace(FIRST, 1.0, PLACES)
+    tau = sense * span * np.geomspace(FIRST, 1.0, PLACES)
     along, across = anchor.displacement(tau, 1)
     off, slope = across.arrays()
     root = np.sqrt(abs(off))

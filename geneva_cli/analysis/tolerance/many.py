@@ -1,15 +1,15 @@
-"""The worst that tolerances do to many designs' motions and entries; of one design m is 1.
+"""The worst effects of tolerances on motions and entries, for a batch of designs.
 
-The rest of a study is random machines, which are an array already: as many as one design's take
-the time of as many designs, and so of each design alone.
+The other results of a study need random machines, which are an array already. A batch would save no
+time there, so they are computed design by design.
 
     >>> import numpy as np
     >>> from geneva_cli import External, Tolerance
     >>> from geneva_cli.machine.many import many
     >>> from geneva_cli.machine.spec import Spec
     >>> spec = Spec(External(6), tolerance=Tolerance(slot_angle_deg=0.1, crank_radius_mm=0.02))
-    >>> found = many(spec, {"wheel.z": np.array([4, 6])})
-    >>> motion_plays(found.machine).worst_deg.round(6)
+    >>> batch = many(spec, {"wheel.z": np.array([4, 6])})
+    >>> motion_plays(batch.machine).worst_deg.round(6)
     array([0.122925, 0.115281])
 """
 
@@ -21,7 +21,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from geneva_cli.analysis.blows import arm_mm
+from geneva_cli.analysis.impacts import arm_mm
 from geneva_cli.analysis.shock import first_contacts
 from geneva_cli.analysis.tolerance.dimensions import (
     corners,
@@ -42,9 +42,9 @@ MOST = 1 << 20  # places of machines with deviations looked at together
 
 
 class MotionPlays(NamedTuple):
-    """How far wheels may be off during a motion, as of ``Spread``: (m,) each.
+    """Greatest errors of wheels during a motion: (m,) each.
 
-    NaN of tolerances that are all 0, or too wide for a machine.
+    NaN if tolerances are all 0, or too wide for a machine.
     """
 
     worst_deg: Array
@@ -53,12 +53,12 @@ class MotionPlays(NamedTuple):
 
 
 def used(mechanism: Mechanism) -> dict[str, float]:
-    """The plus or minus of each dimension, 0 where it has no effect; of m designs (m, 1)."""
+    """Plus or minus of each dimension, 0 if it has no effect; (m, 1) for m designs."""
     return tolerances(mechanism.spec) | dict.fromkeys(without_effect(mechanism.spec), 0.0)
 
 
 def motion_plays(mechanism: Mechanism) -> MotionPlays | None:
-    """The plays of m designs; None of curved slots, which are solved for."""
+    """Greatest errors of m designs; None for curved slots, which are solved for."""
     errors, sizes = motion_errors(mechanism), list(used(mechanism).values())
     if not errors:
         return None
@@ -77,20 +77,20 @@ def _of(mechanism: Mechanism, n: int) -> MotionPlays:
     rss, shown = np.zeros((2, n))
     known = sum(sizes) > np.zeros((n, 1))
     for engagement, error in zip(mechanism.engagements, motion_errors(mechanism), strict=True):
-        found = Worst(*(np.resize(row, n) for row in error.greatest(corners(sizes))))
-        more = found.error > best.error
-        best = found.beyond(best)
-        rss = np.where(more, _rss(error, sizes, found), rss)
-        at_deg = mechanism.shown_deg(parameter(engagement.mid_deg + found.at_deg[:, None]))
+        worst = Worst(*(np.resize(row, n) for row in error.greatest(corners(sizes))))
+        more = worst.error > best.error
+        best = worst.beyond(best)
+        rss = np.where(more, _rss(error, sizes, worst), rss)
+        at_deg = mechanism.shown_deg(parameter(engagement.mid_deg + worst.at_deg[:, None]))
         shown = np.where(more, np.ravel(at_deg), shown)
         both = use["center_distance_mm"] + use["crank_radius_mm"]
-        known = known & (both < error.room_mm(mechanism.spec, use))
+        known = known & (both < error.margin_mm(mechanism.spec, use))
     rows = (np.degrees(best.error), np.degrees(rss), shown)
     return MotionPlays(*(np.where(known[:, 0], row, np.nan) for row in rows))
 
 
 def _rss(error: MotionError, sizes: list[float], at: Worst) -> Array:
-    """The root of the squares of what each dimension alone does, at these places."""
+    """Root of the squared effects of each dimension, at these places."""
     x, side = at.at_deg[:, None], at.side[:, None]
     rest = error(deviations([0.0] * len(sizes)), x, side).c[0]
     parts = [
@@ -103,9 +103,9 @@ def _rss(error: MotionError, sizes: list[float], at: Worst) -> Array:
 
 
 def entry_jumps_worst(mechanism: Mechanism, use: Mapping[str, float]) -> Array | None:
-    """The greatest jump of velocity at entry for any of the deviations, over the input's speed.
+    """Greatest jump of velocity at entry for any of the deviations, over the input's speed.
 
-    (m,) of m designs; 0 where the roller always misses the slot's axis. None of slots and grooves
+    (m,) for m designs; 0 if the roller always misses the slot's axis. None for slots and grooves
     that are solved for.
     """
     worst: Array | None = None
@@ -113,9 +113,9 @@ def entry_jumps_worst(mechanism: Mechanism, use: Mapping[str, float]) -> Array |
         crank = use["crank_radius_mm"] / arm_mm(mechanism, engagement)
         center = use["center_distance_mm"] / mechanism.center_distance_mm
         for one, other in product((-1.0, 1.0), repeat=2):
-            found = first_contacts(engagement, one * crank, other * center)
-            if found is None:
+            contacts = first_contacts(engagement, one * crank, other * center)
+            if contacts is None:
                 return None
-            jump = np.nan_to_num(abs(found.jump))
+            jump = np.nan_to_num(abs(contacts.jump))
             worst = jump if worst is None else np.maximum(worst, jump)
     return worst

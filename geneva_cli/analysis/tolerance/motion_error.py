@@ -6,7 +6,7 @@ clearance c between roller and wall, on one side or the other:
 
     psi = arg p + asin((e + c) / |p|),    dpsi/dR = L sin(phi) / |p|²,  dpsi/dL = -R sin(phi) / |p|²
 
-The slopes are a plain crank's. e is the distance of the slot's axis from the wheel's centre.
+The slopes are those of a plain crank. e is the distance of the slot's axis from the wheel's centre.
 """
 
 from __future__ import annotations
@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from geneva_cli.analysis.blows import arm_mm
+from geneva_cli.analysis.impacts import arm_mm
 from geneva_cli.analysis.tolerance.dimensions import Deviations
 from geneva_cli.machine.engagement import Engagement
 from geneva_cli.machine.mechanism import Mechanism
@@ -38,33 +38,33 @@ class MotionError(NamedTuple):
 
     engagement: Engagement
     L: float
-    arm: float  # R; without effect where no crank's arm carries the roller
+    arm: float  # R; without effect if no crank's arm carries the roller
     clearance: float  # roller to slot, per side
 
     def __call__(self, by: Deviations, input_deg: Number, side: Number) -> Jet:
-        """The wheel's angle less its true one, radians; ``side`` (1, -1) is the wall that bears."""
+        """Wheel angle minus its true one, radians; ``side`` (1, -1) is the wall that bears."""
         x, y = (self.L * z.c[0] for z in self.engagement.path(input_deg, 0))
         offset = self.L * self.engagement.slot.offset
-        share = by.crank_radius_mm * (1.0 / self.arm)
-        moved = share * (x - self.L * self.engagement.hub) + by.center_distance_mm
-        px, py = moved + x, share * y + y
-        free = self.room(by)
+        scale = by.crank_radius_mm * (1.0 / self.arm)
+        moved = scale * (x - self.L * self.engagement.hub) + by.center_distance_mm
+        px, py = moved + x, scale * y + y
+        free = self.play_mm(by)
         free = free * choose(free.c[0] > 0.0, 1.0, 0.0)
-        turned = atan2(share * y * x - moved * y, px * x + py * y)
-        beside = _asin(free * side + offset, px * px + py * py)
+        turned = atan2(scale * y * x - moved * y, px * x + py * y)
+        tilt = _asin(free * side + offset, px * px + py * py)
         true = np.arcsin(offset / np.hypot(x, y))
-        out: Jet = turned + (beside - true) + by.slot_angle_deg
+        out: Jet = turned + (tilt - true) + by.slot_angle_deg
         return out
 
-    def room(self, by: Deviations) -> Jet:
-        """The clearance per side, mm; below 0 the roller does not go into the slot."""
+    def play_mm(self, by: Deviations) -> Jet:
+        """Clearance per side, mm; negative if the roller does not fit into the slot."""
         return by.slot_clearance + self.clearance
 
-    def room_mm(self, spec: Spec, use: Mapping[str, float]) -> float:
-        """What the centre distance and the crank's radius may be off by together, of every draw.
+    def margin_mm(self, spec: Spec, use: Mapping[str, float]) -> float:
+        """Greatest sum of errors of L and R that every random machine allows, mm.
 
-        Further off the roller may reach the wheel's axis, or the crank's. A normal distribution
-        has tails: deviations lie within ``TAIL`` times the plus or minus.
+        With larger errors the roller may reach the wheel's axis, or the crank's. A normal
+        distribution has tails: deviations lie within ``TAIL`` times the plus or minus.
         """
         times = TAIL if spec.tolerance.distribution == "normal" else 1.0
         play = 0.5 * (use["roller_diameter_mm"] + use["slot_width_mm"])
@@ -73,13 +73,13 @@ class MotionError(NamedTuple):
         x, y = e.path(np.linspace(entry, exit_, LOOKS, axis=-1), 0)
         near = np.atleast_2d(np.hypot(x.c[0], y.c[0])).min(axis=-1, keepdims=True)
         nearest = self.L * (near - size(e.slot.offset))
-        room = np.minimum((nearest - self.clearance) / times - play, self.arm / times)
-        return parameter(room if room.size > 1 else float(room[0, 0]))
+        margin = np.minimum((nearest - self.clearance) / times - play, self.arm / times)
+        return parameter(margin if margin.size > 1 else float(margin[0, 0]))
 
     def greatest(self, by: Deviations) -> Worst:
-        """The greatest error of any of the machines: (n,) of n designs, or (1,) of one.
+        """Greatest error of any of the machines: (n,) for n designs, or (1,) for one.
 
-        The machines are a first axis of the deviations, (k,) or of n designs (k, n, 1).
+        The machines are a first axis of the deviations, (k,) or for n designs (k, n, 1).
         """
         each = Deviations(*[Jet([_machines_first(z) for z in jet.c]) for jet in by])
         entry, exit_ = (np.ravel(x) for x in (self.engagement.entry_deg, self.engagement.exit_deg))
@@ -101,31 +101,31 @@ class MotionError(NamedTuple):
 
 
 class Worst(NamedTuple):
-    """Greatest errors of n designs, radians, their input angles and their sides: (n,) each."""
+    """Greatest errors of n designs, radians, with their input angles and sides: (n,) each."""
 
     error: Array
     at_deg: Array
     side: Array
 
     def beyond(self, other: Worst) -> Worst:
-        """Each of these where it is greater than the other, else that."""
+        """Select the greater error of this and another result, in each design."""
         more = self.error > other.error
         return Worst(*(np.where(more, a, b) for a, b in zip(self, other, strict=True)))
 
 
 def _machines_first(z: Number) -> Array:
-    """Deviations of machines as (k, n, 1), n being 1 for one design."""
+    """Deviations of machines as (k, n, 1), with n = 1 for one design."""
     return np.reshape(z, (np.shape(z)[0] if np.ndim(z) else 1, -1, 1))
 
 
 def _asin(height: Jet, square: Jet) -> Jet:
-    """The angle whose sine is a height over the root of a square."""
+    """Angle whose sine is a height over the root of a square."""
     left = square - height * height
     return atan2(height, sqrt(left))
 
 
 def motion_errors(mechanism: Mechanism) -> list[MotionError]:
-    """The motion error of each engagement; none for curved slots, which are solved for."""
+    """Motion error of each engagement; none for curved slots, which are solved for."""
     L, clearance = mechanism.center_distance_mm, mechanism.spec.size.allowances.slot_clearance_mm
     if mechanism.engagements[0].slot.curved:
         return []

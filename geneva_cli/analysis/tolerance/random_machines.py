@@ -1,4 +1,4 @@
-"""Monte Carlo of the tolerances: machines with random deviations, a block at a time."""
+"""Monte Carlo of the tolerances: machines with random deviations, block by block."""
 
 from __future__ import annotations
 
@@ -21,13 +21,13 @@ ROUNDING_MM = 1e-12
 
 
 class RandomMachines(NamedTuple):
-    """How far n machines of random dimensions are off: arrays (n,), 0 for what is not asked."""
+    """Errors of n machines with random dimensions: arrays (n,), 0 for what is not requested."""
 
-    dwell: Array  # the wheel's angle off its place in the dwell, radians
-    motion: Array  # the same at one input angle of a motion
-    jump: Array  # the jump of the wheel's velocity at entry, over the input's speed
-    missed: float  # share of them whose roller misses the slot's axis
-    jams: float | None  # share of them that do not go together; None without a lock and a motion
+    dwell: Array  # error of the wheel's angle in the dwell, radians
+    motion: Array  # error of the wheel's angle at one input angle of a motion, radians
+    jump: Array  # jump of the wheel's velocity at entry, over the input's speed
+    missed: float  # fraction whose roller misses the slot's axis
+    jams: float | None  # fraction that does not fit together; None without a lock and a motion
 
 
 def random_machines(
@@ -37,10 +37,10 @@ def random_machines(
     error: tuple[MotionError, float, float] | None,
     entry: EntryJumps | None,
 ) -> RandomMachines:
-    """``samples`` machines: the play of a lock, the error of a motion, the jump of an entry.
+    """Errors of ``samples`` machines: the play of a lock, the error of a motion, the jump at entry.
 
-    ``error`` is one engagement's motion error, the input angle in degrees at which it is taken, and
-    the side of the slot (1 or -1) on which the roller bears. What is None is left out.
+    ``error`` is one engagement's motion error, the input angle in degrees, and the side of the slot
+    (1 or -1) on which the roller bears. Arguments that are None are left out.
     """
     start = 0
     dwell, motion, jump = (np.zeros(samples) for _ in range(3))
@@ -55,7 +55,7 @@ def random_machines(
         if error:
             one, at, side = error
             motion[part] = one(by, at, side).c[0] * side
-            jam |= one.room(by).c[0] < -ROUNDING_MM
+            jam |= one.play_mm(by).c[0] < -ROUNDING_MM
         if entry:
             jump[part], misses = entry(by)
             missed += int(np.broadcast_to(misses, jam.shape).sum())

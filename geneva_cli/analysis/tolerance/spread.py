@@ -19,11 +19,12 @@ MOST = 0.997  # of the machines are within p997
 
 
 class Spread(NamedTuple):
-    """How far the wheel is off its place, degrees, towards one side.
+    """Error of the wheel's angle towards one side, degrees.
 
-    ``mean`` and ``std`` are of that angle with its sign, ``p997`` is the size that 99.7 % of the
-    machines keep. ``parts`` has for each dimension its own plus or minus of it. ``shape`` is the
-    histogram of the machines drawn: the middles of its bins, and the share of the machines in each.
+    ``mean`` and ``std`` are of that angle with its sign. ``p997`` is the size that 99.7 % of the
+    machines keep. ``parts`` has the contribution of each dimension's plus or minus. ``shape`` is
+    the histogram of the random machines: the middles of its bins, and the fraction of the machines
+    in each.
     """
 
     worst: float
@@ -36,7 +37,7 @@ class Spread(NamedTuple):
 
     @property
     def shares(self) -> tuple[float, ...]:
-        """Each dimension's share of the squares; 0 where nothing deviates."""
+        """Each dimension's fraction of the squares; 0 if nothing deviates."""
         total = math.fsum(part * part for part in self.parts)
         return tuple(part * part / total if total else 0.0 for part in self.parts)
 
@@ -44,7 +45,7 @@ class Spread(NamedTuple):
 def spread(
     angle: Callable[[Deviations], Jet], sizes: list[float], worst: float, drawn: Array
 ) -> Spread:
-    """The spread of an angle in radians; ``drawn`` has it for machines drawn at random."""
+    """Spread of an angle in radians; ``drawn`` has it for random machines."""
     at_rest = _one(angle(deviations([0.0] * len(sizes))).c[0])
     parts = [_one(angle(slope_of(i)).c[1]) * size if size else 0.0 for i, size in enumerate(sizes)]
     rss = abs(at_rest) + math.sqrt(math.fsum(part * part for part in parts))

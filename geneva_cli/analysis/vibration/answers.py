@@ -1,4 +1,4 @@
-"""What ``geneva vibration`` prints: a record at the design's speed, a spectrum over speed."""
+"""Results of ``geneva vibration``: a record at the design's speed, a spectrum over speed."""
 
 from __future__ import annotations
 
@@ -35,7 +35,7 @@ SPECTRUM = (
 
 
 def values(mechanism: Mechanism, load: Oscillator | None) -> dict[str, Any]:
-    """Named values, the same for every machine; all None where no inertia is known."""
+    """Named values, with equal names for every machine; all None if no inertia is known."""
     if load is None:
         return dict.fromkeys((*NUMBERS, "avoid", "stations")) | {
             "warnings": (Caution("not-known", f"all is null: {NO_INERTIA}"),)
@@ -77,8 +77,8 @@ STATION = (
 NUMBERS = (*Vibrations._fields, "speeds_to_avoid_rpm")
 OFF = 0.01  # share by which a tuned law may miss its period ratio without a word
 UNDAMPED = (
-    "steady_share is null: without damping_ratio in [shaft], or --damping, what an index leaves "
-    "never dies out, and there is no steady state"
+    "steady_share is not computed: without damping (damping_ratio in [shaft], or --damping) the "
+    "vibration never dies out, and there is no steady state"
 )
 
 
@@ -88,8 +88,8 @@ def _warnings(mechanism: Mechanism, load: Oscillator, least: float) -> list[Caut
         out.append(
             Caution(
                 "short-motion",
-                f"a motion takes only {least:.4g} natural periods of the load, which cannot follow "
-                "it: a stiffer shaft, less inertia or a lower speed helps",
+                f"a motion takes only {least:.4g} natural periods of the load, too few to follow: "
+                "use a stiffer shaft, less inertia or a lower speed",
             )
         )
     law = mechanism.law
@@ -99,8 +99,8 @@ def _warnings(mechanism: Mechanism, load: Oscillator, least: float) -> list[Caut
         out.append(
             Caution(
                 "off-tune",
-                f"the law is tuned to a period ratio of {tuned:g}, and this is {load.ratio:.6g}: "
-                f"n_rpm = {n_rpm:.6g} would meet it, or {(tuned / load.ratio) ** 2:.4g} times the "
+                f"the law is tuned to period ratio {tuned:g}, but this load has {load.ratio:.6g}: "
+                f"set n_rpm = {n_rpm:.6g}, or use {(tuned / load.ratio) ** 2:.4g} times the "
                 "stiffness",
             )
         )
@@ -110,14 +110,14 @@ def _warnings(mechanism: Mechanism, load: Oscillator, least: float) -> list[Caut
 
 
 def vibration_table(mechanism: Mechanism, load: Oscillator | None) -> Table:
-    """The record of ``geneva vibration``."""
+    """Record of ``geneva vibration``."""
     title = mechanism.spec.title
     head = {"spec": mechanism.spec.path, "title": title}
     return record_table(head | values(mechanism, load), title)
 
 
 def spectrum(mechanism: Mechanism, load: Oscillator, samples: int) -> Table:
-    """``samples`` speeds from half to twice the design's, each the same factor above the last."""
+    """Table of ``samples`` speeds from half to twice the design's, in geometric progression."""
     check_samples(samples)
     n_rpm = mechanism.spec.drive.n_rpm
     speed = n_rpm * np.geomspace(SLOWER, FASTER, samples)

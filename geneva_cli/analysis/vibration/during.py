@@ -29,9 +29,9 @@ _INTEGRALS = (
 def greatest_accelerations(panels: Panels, motion: Whole, swing: Swing) -> Array:
     """Return the greatest size of each load's acceleration by u over the step: (n,).
 
-    From entry to exit; the load begins at rest. ``motion`` (n,) are the motions of the oscillators
-    by their numbers. A shape's second derivative is integrated piece by piece of its panels, so
-    short that the swing has few terms on each.
+    It is over the motion, with the load at rest at entry. ``motion`` (n,) are the motions of the
+    oscillators by number. A shape's second derivative is integrated over pieces of its panels,
+    which are short enough for the swing to have few terms on each.
     """
     most, omega, p = np.zeros(len(motion)), 2.0 * np.pi * swing.ratio, swing.p
     of, panel, first = panels.paired(motion)
@@ -52,7 +52,7 @@ def greatest_accelerations(panels: Panels, motion: Whole, swing: Swing) -> Array
         series = panels.series[1, panel[pair]].T[:, :, None]
         u = (2.0 * place[:, None] + 1.0 + X) / cut[:, None] - 1.0
         bent = legendre.legval(u, series, tensor=False)
-        # z' = p z - s'': what a piece adds, seen from its left end
+        # z' = p z - s'': contribution of a piece, seen from its left end
         back = np.exp(-(rate * half)[:, None] * (1.0 + X))
         added = -half[:, None] * ((bent * back) @ _INTEGRALS.T)
         ahead = np.exp((rate * half)[:, None] * (1.0 + _ENDS))
@@ -71,9 +71,10 @@ def greatest_accelerations(panels: Panels, motion: Whole, swing: Swing) -> Array
 
 
 def _one_after_the_other(whole: Complex, own: Complex, z: Complex) -> tuple[Complex, Complex]:
-    """Where pieces (n, k) begin, each ending at whole (z + own) from its own z; and the last ends.
+    """Values at the starts of pieces (n, k), and at the end of the last.
 
-    Neighbours are joined in pairs, pairs of pairs, and so on.
+    Each piece ends at whole (z + own) from its own start z. Neighbours are joined in pairs, pairs
+    of pairs, and so on.
     """
     rate, add = whole, whole * own
     step = 1
@@ -88,7 +89,10 @@ def _one_after_the_other(whole: Complex, own: Complex, z: Complex) -> tuple[Comp
 
 
 def _take_most(most: Array, load: Array, of: Whole) -> None:
-    """The greatest of |load|, given at the nodes and the right ends of pieces, between them too."""
+    """Update ``most`` with |load|, which is known at the nodes and right ends of pieces.
+
+    Maxima between the nodes are included.
+    """
     size = np.abs(load)
     np.maximum.at(most, of, size.max(axis=1))
     near = np.flatnonzero(size.max(axis=1) >= most[of] * (1.0 - NEAR))

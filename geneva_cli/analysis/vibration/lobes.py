@@ -1,7 +1,8 @@
-"""Where, over the period ratio, a motion leaves most of a swing: the lobes of the residual.
+"""The lobes of the residual: local maxima of a motion's vibration over the period ratio.
 
-The residual's square is band-limited: over the period ratio it swings once in 1 at most. So samples
-close to each other find its maxima, and a polynomial between them places each to the last digits.
+The residual's square is band-limited: over the period ratio it oscillates at most once per 1. So
+closely spaced samples find its maxima, and a polynomial between them places each to the last
+digits.
 """
 
 from __future__ import annotations
@@ -26,7 +27,7 @@ _chebyshev = np.polynomial.chebyshev
 
 
 class Lobes(NamedTuple):
-    """Local maxima of the residuals of n oscillators: which, period ratio and share of each."""
+    """Local maxima of the residuals of n oscillators: number, period ratio and residual of each."""
 
     which: Whole
     ratio: Array
@@ -34,24 +35,24 @@ class Lobes(NamedTuple):
 
 
 def lobes(share_at: Callable[[Whole, Array], Array], low: Array, high: Array) -> Lobes:
-    """Return the local maxima of n residuals, each between two period ratios of its own.
+    """Return the local maxima of n residuals, each between its own two period ratios.
 
     ``share_at(which, ratio)`` gives the residuals of the oscillators ``which``, (k,) each.
     """
     count = np.maximum(FEWEST, np.ceil(PER_ONE * (high - low)).astype(np.intp))
-    found = []
+    maxima = []
     for number in np.unique(count).tolist():
         some = np.flatnonzero(count == number)
         ratio = np.linspace(low[some], high[some], number + 1, axis=1)
         share = share_at(np.repeat(some, number + 1), ratio.ravel()).reshape(ratio.shape)
         before, here, after = share[:, :-2], share[:, 1:-1], share[:, 2:]
         row, at = np.nonzero((here >= before) & (here > after))
-        found.append((some[row], ratio[row, at + 1], ((high - low) / count)[some[row]]))
-    which, middle, reach = (np.concatenate(part) for part in zip(*found, strict=True))
+        maxima.append((some[row], ratio[row, at + 1], ((high - low) / count)[some[row]]))
+    which, middle, reach = (np.concatenate(part) for part in zip(*maxima, strict=True))
     nodes = np.cos(np.pi * (np.arange(DEGREE + 1) + 0.5) / (DEGREE + 1))
     places = middle[:, None] + reach[:, None] * nodes
     square = share_at(np.repeat(which, len(nodes)), places.ravel()).reshape(places.shape) ** 2
-    # through the nodes of Chebyshev: his coefficients are sums over them
+    # at Chebyshev's nodes his coefficients are sums over them
     vander = _chebyshev.chebvander(nodes, DEGREE)
     series = (square @ vander * (2.0 / (DEGREE + 1))).T
     series[0] *= 0.5
@@ -68,10 +69,10 @@ def lobes(share_at: Callable[[Whole, Array], Array], low: Array, high: Array) ->
 
 
 def highest_ratio(panels: Panels, share: float, damping: float) -> float:
-    """Return a period ratio above which a motion never leaves more than a share of the step.
+    """Return a period ratio above which a motion never leaves more than this fraction of the step.
 
-    The residual is at most the variation of a derivative over Omega to its order, and over
-    sqrt(1 - zeta²).
+    The residual is at most the variation of a derivative over Omega to its order, and over sqrt(1 -
+    zeta²).
     """
     variation = panels.variation[: int(panels.smooth[0]) + 1, 0]
     orders = np.arange(1, len(variation) + 1)

@@ -1,4 +1,4 @@
-"""The load as an oscillator: by the spec's shaft and inertia, or by a period ratio given."""
+"""The load as an oscillator, from the spec's shaft and inertia, or from a period ratio."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ STIFFNESS = ("shaft", "stiffness_Nm_rad")
 RATIO_SAID = f"{RATIO.low:g} to {RATIO.high:g}"
 NO_INERTIA = (
     "a load without inertia has no natural period; set inertia_kgm2 in [load] or a [[mass]], or "
-    "give --period-ratio"
+    "use --period-ratio"
 )
 
 
@@ -32,13 +32,13 @@ class Oscillator(NamedTuple):
 def oscillator(
     mechanism: Mechanism, period_ratio: float | None = None, damping: float | None = None
 ) -> Oscillator | None:
-    """The load as [shaft] has it, or as given beside it; None where no inertia is known.
+    """The load from [shaft], or from the arguments; None if no inertia is known.
 
     Raises GenevaError without a stiffness, and for values out of range.
     """
     shaft = mechanism.spec.shaft
     if damping is not None and damping not in DAMPING:
-        raise GenevaError(f"--damping {damping:g}: must be {DAMPING}: at 1 nothing swings")
+        raise GenevaError(f"--damping {damping:g}: must be {DAMPING}: at 1 nothing oscillates")
     zeta = shaft.damping_ratio if damping is None else damping
     if period_ratio is not None:
         if period_ratio not in RATIO:
@@ -46,7 +46,7 @@ def oscillator(
         return Oscillator(period_ratio, zeta)
     if shaft.stiffness_Nm_rad is None:
         raise GenevaError(
-            "no stiffness_Nm_rad in [shaft]: set the stiffness between wheel and load, or give "
+            "no stiffness_Nm_rad in [shaft]: set the stiffness between wheel and load, or use "
             "--period-ratio, the motion's time over the load's natural period",
             STIFFNESS,
         )
@@ -56,15 +56,15 @@ def oscillator(
     ratio = period_ratio_of(mechanism, shaft.stiffness_Nm_rad, inertia)
     if ratio not in RATIO:
         raise GenevaError(
-            f"stiffness_Nm_rad = {shaft.stiffness_Nm_rad:g} with {inertia:g} kg m² makes a period "
-            f"ratio (motion time / natural period) of {ratio:.4g}; it must be {RATIO_SAID}",
+            f"stiffness_Nm_rad = {shaft.stiffness_Nm_rad:g} with {inertia:g} kg m² gives a period "
+            f"ratio (motion time / natural period) of {ratio:.4g}: it must be {RATIO_SAID}",
             STIFFNESS,
         )
     return Oscillator(ratio, zeta)
 
 
 def period_ratio_of(mechanism: Mechanism, stiffness_Nm_rad: float, inertia_kgm2: float) -> float:
-    """The time of the first motion over the load's natural period; of m designs (m, 1)."""
+    """Time of the first motion over the load's natural period; (m, 1) for m designs."""
     squared = stiffness_Nm_rad / inertia_kgm2
     natural_hz = library(squared).sqrt(squared) / (2.0 * math.pi)
     return timings(mechanism)[0].motion_s * natural_hz
@@ -73,7 +73,7 @@ def period_ratio_of(mechanism: Mechanism, stiffness_Nm_rad: float, inertia_kgm2:
 def required_oscillator(
     mechanism: Mechanism, period_ratio: float | None = None, damping: float | None = None
 ) -> Oscillator:
-    """The same where nothing can be said without an inertia: raises GenevaError."""
+    """The load as an oscillator. Raises GenevaError if no inertia is known."""
     load = oscillator(mechanism, period_ratio, damping)
     if load is None:
         raise GenevaError(NO_INERTIA, STIFFNESS)

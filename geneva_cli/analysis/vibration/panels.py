@@ -1,8 +1,8 @@
-"""Motions as pure shapes, cut into panels on each of which their derivatives are polynomials.
+"""Motions as pure shapes, cut into panels on which their derivatives are polynomials.
 
-A shape is the share s of the step over the share u of the motion's time. Panels are halved until a
-Legendre series of each derivative has ended: that is all that integrals over it need. The panels
-of many motions are found together, and those of one motion are those of m = 1.
+A shape is the fraction s of the step by the fraction u of the motion's time. Panels are halved
+until a Legendre series of each derivative has ended, which is all that integrals over it need. The
+panels of a batch of motions are computed together; a single motion is a batch of one.
 """
 
 from __future__ import annotations
@@ -15,7 +15,8 @@ import numpy as np
 if TYPE_CHECKING:
     from geneva_cli.numerics.arrays import Array, Whole
 
-    # places u (p, k) of the motions (p,), and the highest order -> derivatives 1, 2, ...: (n, p, k)
+    # Places u (p, k) of the motions (p,), and the highest order -> derivatives 1, 2, ...: (n, p,
+    # k).
     Derivatives = Callable[[Array, Whole, int], Array]
 
 NODES = 32  # of Gauss's rule on a panel
@@ -32,10 +33,10 @@ X = np.polynomial.legendre.leggauss(NODES)[0]
 
 
 def _series() -> Array:
-    """Values at the nodes -> coefficients of Legendre's series, to the last digits.
+    """Matrix from values at the nodes to coefficients of Legendre's series, to the last digits.
 
-    The inverse of the polynomials' values at the nodes as they are rounded; one step of Newton's
-    method in longer numbers, where the processor has them.
+    It is the inverse of the polynomials' values at the rounded nodes, after one step of Newton's
+    method in longer numbers, if the processor has them.
     """
     values = np.polynomial.legendre.legvander(X.astype(np.longdouble), NODES - 1)
     inverse = np.linalg.inv(values.astype(float)).astype(np.longdouble)
@@ -47,34 +48,34 @@ SERIES = _series()
 
 
 class Panels(NamedTuple):
-    """The panels of m motions, one after the other and each in the order of places: p in all.
+    """The panels of m motions, in the order of motions and of places: p in all.
 
-    ``smooth`` is the highest derivative of a motion that neither jumps inside nor at the ends;
-    derivatives to the next one are meant by ``greatest`` and ``variation``, (n, m).
+    ``smooth`` is the highest derivative of a motion that jumps neither inside nor at the ends.
+    ``greatest`` and ``variation``, (n, m), are valid up to the next derivative.
     """
 
-    motion: Whole  # (p,) whose panel it is
-    left: Array  # (p,) its ends
+    motion: Whole  # (p,) motion of each panel
+    left: Array  # (p,) ends of each panel
     right: Array
     series: Array  # (n, p, term): derivatives 1, 2, ... by u as Legendre series
     smooth: Whole  # (m,)
-    greatest: Array  # the size of each derivative
-    variation: Array  # how much each goes up and down in all, jumps and ends included
+    greatest: Array  # greatest size of each derivative
+    variation: Array  # total variation of each derivative, with jumps and ends
 
     @property
     def half(self) -> Array:
-        """Half their width."""
+        """Half the width of each panel."""
         return 0.5 * (self.right - self.left)
 
     @property
     def ends(self) -> Whole:
-        """(m + 1,) where the panels of a motion begin, and those of the one before it end."""
+        """First panel of each motion, and the end of the last: (m + 1,)."""
         return np.searchsorted(self.motion, np.arange(len(self.smooth) + 1))
 
     def paired(self, motion: Whole) -> tuple[Whole, Whole, Whole]:
         """Pairs of an oscillator and a panel of its ``motion`` (n,), in order.
 
-        The numbers of both; and the first pair of each oscillator.
+        The result has the numbers of both, and the first pair of each oscillator.
         """
         ends = self.ends
         count = (ends[1:] - ends[:-1])[motion]
@@ -84,7 +85,7 @@ class Panels(NamedTuple):
 
 
 class _Refined(NamedTuple):
-    """Panels' motions and ends, and the derivatives on their nodes (order, p, NODES)."""
+    """Panels' motions and ends, and the derivatives at their nodes (order, p, NODES)."""
 
     motion: Whole
     edges: Array
@@ -92,22 +93,22 @@ class _Refined(NamedTuple):
 
 
 def panelled(derivatives: Derivatives, breaks: Array) -> Panels:
-    """The panels of m motions, whose derivatives may jump at the ``breaks`` (m, k) of each.
+    """Panels of m motions, whose derivatives may jump at the ``breaks`` (m, k) of each.
 
-    For as high a derivative as neither jumps nor asks for too many of them.
+    They hold up to the highest derivative that neither jumps nor needs too many panels.
     """
-    m, found, top = len(breaks), [], np.full(len(breaks), HIGHEST)
+    m, parts, top = len(breaks), [], np.full(len(breaks), HIGHEST)
     rest = np.arange(m)
     for order in range(HIGHEST, LOWEST - 1, -1):
         part, rest = _refined(derivatives, breaks, rest, order)
         gap = np.zeros((HIGHEST - order, *part.values.shape[1:]))
-        found.append(part._replace(values=np.concatenate((part.values, gap))))
+        parts.append(part._replace(values=np.concatenate((part.values, gap))))
         top[rest] = order - 1
         if not len(rest):
             break
-    motion = np.concatenate([part.motion for part in found])
-    edges = np.concatenate([part.edges for part in found])
-    values = np.concatenate([part.values for part in found], axis=1)
+    motion = np.concatenate([part.motion for part in parts])
+    edges = np.concatenate([part.edges for part in parts])
+    values = np.concatenate([part.values for part in parts], axis=1)
     order_ = np.lexsort((edges[:, 0], motion))
     motion, (left, right), values = motion[order_], edges[order_].T, values[:, order_]
     series = values @ SERIES.T
@@ -125,7 +126,7 @@ def panelled(derivatives: Derivatives, breaks: Array) -> Panels:
 def _refined(
     derivatives: Derivatives, breaks: Array, which: Whole, order: int
 ) -> tuple[_Refined, Whole]:
-    """The panels of some motions for derivatives up to one; and the motions that ask for too many.
+    """Panels of some motions for derivatives up to an order; and the motions that need too many.
 
     Panels are halved until the series of each derivative has ended.
     """
@@ -142,12 +143,12 @@ def _refined(
             many = count > PANELS
             open_, motion = open_[~many[motion]], motion[~many[motion]]
         left, width = open_[:, :1], open_[:, 1:] - open_[:, :1]
-        found = derivatives(left + width * (0.5 * (1.0 + X)), motion, order)
-        for row, values in zip(greatest, np.abs(found).max(axis=2), strict=True):
+        rates = derivatives(left + width * (0.5 * (1.0 + X)), motion, order)
+        for row, values in zip(greatest, np.abs(rates).max(axis=2), strict=True):
             np.maximum.at(row, motion, values)
-        tail = np.abs(found @ SERIES[TERMS - TAIL :].T).max(axis=2)
+        tail = np.abs(rates @ SERIES[TERMS - TAIL :].T).max(axis=2)
         ended = (tail <= ENDED * greatest[:, motion]).all(axis=0) | (width[:, 0] < NARROW)
-        closed.append(_Refined(motion[ended], open_[ended], found[:, ended]))
+        closed.append(_Refined(motion[ended], open_[ended], rates[:, ended]))
         rest, of = open_[~ended], motion[~ended]
         middle = rest.mean(axis=1)
         halves = (np.stack((rest[:, 0], middle), 1), np.stack((middle, rest[:, 1]), 1))
@@ -165,7 +166,7 @@ def _refined(
 
 
 def _jumps(motion: Whole, values: Array, series: Array, m: int) -> tuple[Array, Array]:
-    """Of each derivative the greatest jump between panels or at the ends, and the variation.
+    """Greatest jump of each derivative between panels or at the ends, and the variation.
 
     (order, m) each.
     """

@@ -1,4 +1,4 @@
-"""A motion as a pure shape: the share s of the step over the share u of the motion's time."""
+"""A motion as a pure shape: the fraction s of the step by the fraction u of the motion's time."""
 
 from __future__ import annotations
 

@@ -1,15 +1,17 @@
-"""Integrals of a motion's derivatives against the swing of an oscillator, to the last digits.
+"""Integrals of a motion's derivatives against the vibration of an oscillator, to the last digits.
 
-The load swings as e^(p u), u the share of the motion's time, with
+The load vibrates as e^(p u), with u the fraction of the motion's time and
 
-    p = Omega (-zeta + i sqrt(1 - zeta²)),    Omega = 2 pi lambda,
+    p = Omega (-zeta + i sqrt(1 - zeta²)),    Omega = 2 pi lambda.
 
-lambda being the period ratio: the motion's time over the load's natural period. What a motion
-leaves of it is an integral of f e^(p (1 - u)) over 0..1, f a derivative of the motion by u. On each
-panel f is a Legendre series, and the moments of e^(p (1 - u)) with Legendre's polynomials are
-spherical Bessel functions of q = -p h, h half the panel's width: by a power series where q is
-small, by Miller's recurrence downwards, and where |q| exceeds the number of terms upwards, where it
-is stable and leaves nothing but the panels' ends (Filon's method). No textbook form's 0/0 is there.
+lambda is the period ratio: the motion's time over the load's natural period. The residual of a
+motion is an integral of f e^(p (1 - u)) over 0..1, where f is a derivative of the motion by u. On
+each panel f is a Legendre series. The moments of e^(p (1 - u)) with Legendre's polynomials are
+spherical Bessel functions of q = -p h, with h half the panel's width.
+
+For small q they are computed by a power series, otherwise by Miller's downward recurrence. If |q|
+exceeds the number of terms, the upward recurrence is stable and needs only the panels' ends
+(Filon's method). The 0/0 of textbook forms does not occur.
 """
 
 from __future__ import annotations
@@ -54,12 +56,12 @@ class Swing(NamedTuple):
 
     @property
     def p(self) -> Complex:
-        """The complex rate p of each, by the motion's time."""
+        """Complex rate p of each, by the motion's time."""
         zeta = self.damping
         return 2.0 * np.pi * self.ratio * (-zeta + 1j * np.sqrt(1.0 - zeta * zeta))
 
     def after(self, v: float | Array) -> Complex:
-        """e^(p v), its angle reduced before it is rounded; of arrays each for itself."""
+        """e^(p v), with the angle reduced before it is rounded; elementwise for arrays."""
         whole = np.floor(self.ratio)
         head = np.floor(v * SPLIT) / SPLIT
         turns = (whole * head) % 1.0 + whole * (v - head) + (self.ratio - whole) * v
@@ -67,7 +69,7 @@ class Swing(NamedTuple):
         zeta = self.damping
         if not zeta.any():
             return np.cos(angle) + 1j * np.sin(angle)
-        # sqrt(1 - zeta²) is by that much below 1
+        # difference of sqrt(1 - zeta²) from 1
         slower = zeta * zeta / (1.0 + np.sqrt(1.0 - zeta * zeta))
         omega = 2.0 * np.pi * self.ratio
         angle -= omega * slower * v
@@ -75,11 +77,11 @@ class Swing(NamedTuple):
 
 
 def residual_swing(panels: Panels, motion: Whole, swing: Swing) -> Complex:
-    """Return what a motion leaves of each oscillator's swing: (n,), its size over the step.
+    """Return the residual vibration of each oscillator after a motion: (n,), over the step.
 
-    It is (r' - p* r) / Im p at the end of the motion, r being the load's angle less the wheel's
-    over the step, and p* the conjugate: r = Im of it. The motion begins without vibration.
-    ``motion`` (n,) are the motions of the oscillators, by their numbers among the panels'.
+    It is (r' - p* r) / Im p at the end of the motion, which begins without vibration. Here r is the
+    load's angle minus the wheel's, over the step. p* is the conjugate of p, so r is its imaginary
+    part. ``motion`` (n,) are the motions of the oscillators, by their numbers among the panels'.
     """
     out = np.empty(len(motion), dtype=complex)
     order = _orders(panels, motion, swing)
@@ -93,14 +95,14 @@ def residual_swing(panels: Panels, motion: Whole, swing: Swing) -> Complex:
             part = at[start:stop]
             some = Swing(swing.ratio[part], swing.damping[part])
             p = some.p
-            # By parts: a derivative more, where it vanishes at both ends, is worth a factor p.
+            # By parts: one more derivative, if it vanishes at both ends, gains a factor p.
             out[part] = -_integral(panels, k, motion[part], some) * p ** (2 - k) / p.imag
             start = stop
     return out
 
 
 def _orders(panels: Panels, motion: Whole, swing: Swing) -> Whole:
-    """Return which derivative is best integrated: rounding is a share of its greatest value."""
+    """Return the best derivative to integrate: rounding is proportional to its greatest value."""
     best = np.ones(len(motion), dtype=np.intp)
     omega = 2.0 * np.pi * swing.ratio
     with np.errstate(all="ignore"):
@@ -111,12 +113,12 @@ def _orders(panels: Panels, motion: Whole, swing: Swing) -> Whole:
 
 
 def _integral(panels: Panels, order: int, motion: Whole, swing: Swing) -> Complex:
-    """Integrate a derivative of each oscillator's motion against its swing."""
+    """Integrate a derivative of each oscillator's motion against its vibration."""
     of, panel, first = panels.paired(motion)
     p, h = swing.p[of], panels.half[panel]
     each = Swing(swing.ratio[of], swing.damping[of])
     series = panels.series[order - 1, panel]
-    # Without damping q = -i omega h, and all recurrences are real ones of omega h.
+    # Without damping q = -i omega h, and all recurrences are real in omega h.
     unit = 1.0 if swing.damping.any() else -1j
     size = np.abs(p) * h
     reduced: Array | Complex = -p * h if unit == 1.0 else size
@@ -135,13 +137,13 @@ def _integral(panels: Panels, order: int, motion: Whole, swing: Swing) -> Comple
 
 
 def _sums(terms: NDArray[np.inexact], series: Array) -> Complex:
-    """Return sums over the terms: of (terms, pairs) times (pairs, terms)."""
+    """Sums over the terms: of (terms, pairs) times (pairs, terms)."""
     out: Complex = np.einsum("tp,pt->p", terms, series)
     return out
 
 
 def _by_powers(reduced: Array | Complex, unit: complex, series: Array) -> Complex:
-    """Integrals of f e^(q (x - 1)), q the oscillators' and f the panels', by powers of q."""
+    """Integrals of f e^(q (x - 1)) by powers of q, with the oscillators' q and the panels' f."""
     q: Complex = np.multiply(reduced, unit, dtype=complex)
     total: Complex = q * 0.0 * series[:, 0]
     for c in (series @ _MOMENTS).T[::-1]:
@@ -151,9 +153,10 @@ def _by_powers(reduced: Array | Complex, unit: complex, series: Array) -> Comple
 
 
 def _by_recurrence(reduced: Array | Complex, unit: complex, series: Array) -> Complex:
-    """The same by modified spherical Bessel functions i_n(q) = unit^n y_n, scaled by their sum.
+    """Integrals of f e^(q (x - 1)) by modified spherical Bessel functions i_n(q) = unit^n y_n.
 
-    q = unit times ``reduced``; the sum of (2 n + 1) i_n(q) is e^q.
+    They are scaled by their sum: q is unit times ``reduced``, and the sum of (2 n + 1) i_n(q) is
+    e^q.
     """
     start = TERMS + 12 + int(1.2 * np.abs(reduced).max())
     square = (unit * unit).real
@@ -174,15 +177,15 @@ def _by_recurrence(reduced: Array | Complex, unit: complex, series: Array) -> Co
         above, here = here, term
     scaled = 2.0 * series * square ** (np.arange(TERMS) // 2)
     even, odd = _sums(kept[::2], scaled[:, ::2]), _sums(kept[1::2], scaled[:, 1::2])
-    found: Complex = (even + unit * odd) / (sums[0] + unit * sums[1])
-    return found
+    integrals: Complex = (even + unit * odd) / (sums[0] + unit * sums[1])
+    return integrals
 
 
 def _by_ends(reduced: Array | Complex, unit: complex, series: Array) -> tuple[Complex, Complex]:
-    """What the panels' left and right ends add, times p.
+    """Contributions of the panels' left and right ends, times p.
 
     The moments with Legendre's polynomials are m_(n+1) = m_(n-1) - (2 n + 1) m_n / q, from those of
-    the ends alone; ``even`` and ``odd`` are their parts in 1/q, odd over ``unit``.
+    the ends only. ``even`` and ``odd`` are their parts in 1/q, odd over ``unit``.
     """
     square = (unit * unit).real
     y = -1.0 / reduced * square

@@ -1,11 +1,11 @@
-"""Vibration of a load on an elastic shaft, at one speed or many, behind one design or many.
+"""Vibration of a load on an elastic shaft, for oscillators at several speeds or a batch of designs.
 
 The wheel turns by psi, the load by psi + r, and between them are a spring k and a damper:
 
     r'' + 2 zeta wn r' + wn² r = -psi'',    wn² = k / I
 
 The period ratio is the motion's time over the natural period 2 pi / wn. A residual is the amplitude
-of the swing that a motion leaves, begun at rest, at its end; its share is that of the wheel's step.
+of the vibration after a motion that began at rest. Its share is the fraction of the wheel's step.
 
     >>> import numpy as np
     >>> from geneva_cli import External, Load, Shaft
@@ -52,7 +52,7 @@ GROUP = 32  # designs at a time: the panels of each are some 20 kB, and stay in 
 
 
 class Vibrations(NamedTuple):
-    """Vibration of m designs (m,) each, as of the command; NaN where one is not known."""
+    """Vibration results of m designs, (m,) each; NaN for values that are not known."""
 
     period_ratio: Array
     damping_ratio: Array
@@ -66,7 +66,7 @@ class Vibrations(NamedTuple):
 
 
 class Avoid(NamedTuple):
-    """A speed at which the residual is greatest, and where it moves to with stiffness +-20 %."""
+    """A speed with a local maximum of the residual, and its range for a stiffness of +-20 %."""
 
     rpm: float
     from_rpm: float
@@ -75,7 +75,7 @@ class Avoid(NamedTuple):
 
 
 class Index:
-    """One kind of index: of one design, or of each of a batch of m."""
+    """One kind of index: of one design, or of each design in a batch of m."""
 
     def __init__(self, engagement: Engagement, scale: Array, m: int, in_batch: bool) -> None:
         motion, law = engagement.motion, engagement.motion.law
@@ -97,16 +97,16 @@ class Index:
         return 0 * which if self.is_one else which
 
     def residual(self, which: Whole, ratio: Array, damping: Array) -> Complex:
-        """Return what the motion leaves of oscillators, by period ratios of the first motion."""
+        """Return the residuals of oscillators, by period ratios of the first motion."""
         scale = self.scale if len(self.scale) == 1 else self.scale[which]
         return residual_swing(self.panels, self.shapes(which), Swing(ratio * scale, damping))
 
 
 class Loads:
-    """n oscillators behind a machine: each behind one of its n designs, or all behind one.
+    """n oscillators on a machine: each on one of its n designs, or all on one design.
 
-    Arrays (stations, n) have a row for each kind of index in a period; the load is at rest before
-    it, but for the steady state.
+    Arrays (stations, n) have a row for each kind of index in a period. The load is at rest before
+    it, except in the steady state.
     """
 
     def __init__(self, mechanism: Mechanism, swing: Swing) -> None:
@@ -125,11 +125,11 @@ class Loads:
 
     @cached_property
     def residual(self) -> Complex:
-        """Residual swings, as of ``residual_swing``."""
+        """Residual vibrations, as complex numbers of ``residual_swing``."""
         return self.residuals(self.swing.ratio)
 
     def residuals(self, ratio: Array, which: Whole | None = None) -> Complex:
-        """Return residual swings (stations, k) of some oscillators at period ratios (k,)."""
+        """Return residual vibrations (stations, k) of some oscillators at period ratios (k,)."""
         which = self.every if which is None else which
         damping = self.swing.damping[which]
         return np.array([index.residual(which, ratio, damping) for index in self.indices])
@@ -150,7 +150,7 @@ class Loads:
         rows = []
         for index, bent in zip(self.indices, self._bent_deg, strict=True):
             most = peaks_of_many(index.motion, ["acceleration"])["acceleration"].max
-            # by the share of the motion's time, over the step
+            # by the fraction of the motion's time, over the step
             rows.append(np.ravel(most) * index.whole * index.whole / index.step * bent)
         return np.array(rows)
 
@@ -166,9 +166,9 @@ class Loads:
 
     @cached_property
     def steady_share(self) -> Array:
-        """Residuals over the step once the cycle repeats itself; NaN without damping.
+        """Residuals over the step in the steady state; NaN without damping.
 
-        A motion adds its own residual to what is left of all before it: a geometric series. Without
+        A motion adds its own residual to the rest of all earlier ones: a geometric series. Without
         damping it has no sum.
         """
         period = np.ravel(self.mechanism.period_deg)
@@ -187,13 +187,13 @@ class Loads:
 
     @cached_property
     def worst_share(self) -> Array:
-        """The greatest residual share for any stiffness within 20 % of the given: (n,)."""
+        """Greatest residual share for any stiffness within 20 % of the spec's: (n,)."""
         low, high = self.swing.ratio * SOFTER, self.swing.ratio * STIFFER
         near = [self.residuals(ratio) for ratio in (low, self.swing.ratio, high)]
         worst: Array = np.abs(near).max(axis=(0, 1))
         for index in self.indices:
             one = index.is_one and bool((self.swing.damping == self.swing.damping[0]).all())
-            if one:  # the lobes of all are those of one
+            if one:  # all oscillators have the lobes of one
                 tops = self.lobes(index, low.min(keepdims=True), high.max(keepdims=True))
                 of, top = np.nonzero((tops.ratio >= low[:, None]) & (tops.ratio <= high[:, None]))
             else:
@@ -205,7 +205,7 @@ class Loads:
         return worst
 
     def lobes(self, index: Index, low: Array, high: Array) -> Lobes:
-        """Return the lobes of an index, between period ratios of the first oscillators' own."""
+        """Return the lobes of an index, each between two period ratios of its own oscillator."""
 
         def share_at(which: Whole, ratio: Array) -> Array:
             return np.abs(index.residual(which, ratio, self.swing.damping[which]))
@@ -219,7 +219,7 @@ class Loads:
 
     @property
     def _bent_deg(self) -> Array:
-        """The wind-up at an acceleration of 1 step over the motion's time squared, degrees."""
+        """Wind-up at an acceleration of 1 step over the motion's time squared, degrees."""
         out: Array = np.degrees(self._steps) / (2.0 * np.pi * self.ratio) ** 2
         return out
 
@@ -229,11 +229,10 @@ def loads_of(mechanism: Mechanism, load: Oscillator) -> Loads:
     return Loads(mechanism, Swing(np.array([load.ratio]), np.array([load.damping])))
 
 
-def vibrations(loads: Loads, asked: Collection[str] = Vibrations._fields) -> Vibrations:
-    """Return the answers of each oscillator; the greatest of all motions.
+def vibrations(loads: Loads, requested: Collection[str] = Vibrations._fields) -> Vibrations:
+    """Return the results of each oscillator; of several motions the greatest.
 
-    NaN stands for what takes its time and is not in ``asked``: the worst residual, and what happens
-    during the motion.
+    The worst residual and the dynamic factor take time: they are NaN unless ``requested``.
     """
     swing, none = loads.swing, np.full(len(loads.every), np.nan)
     windup = loads.windup_deg.max(axis=0)
@@ -243,25 +242,25 @@ def vibrations(loads: Loads, asked: Collection[str] = Vibrations._fields) -> Vib
         swing.ratio / np.ravel(timings(loads.mechanism)[0].motion_s),
         loads.share.max(axis=0),
         loads.residual_deg.max(axis=0),
-        loads.worst_share if "residual_share_worst" in asked else none,
+        loads.worst_share if "residual_share_worst" in requested else none,
         loads.steady_share.max(axis=0),
-        loads.swung_deg.max(axis=0) / windup if "dynamic_factor" in asked else none,
+        loads.swung_deg.max(axis=0) / windup if "dynamic_factor" in requested else none,
         windup,
     )
 
 
 def vibrations_of_many(
-    mechanism: Mechanism, asked: Collection[str] = Vibrations._fields
+    mechanism: Mechanism, requested: Collection[str] = Vibrations._fields
 ) -> Vibrations | None:
-    """Return the answers of m designs; None where they have no ``stiffness_Nm_rad``.
+    """Return the results of m designs; None if they have no ``stiffness_Nm_rad``.
 
-    NaN stands for a design whose period ratio is out of range.
+    They are NaN for a design whose period ratio is out of range.
     """
     stiffness = mechanism.spec.shaft.stiffness_Nm_rad
     if stiffness is None:
         return None
     with np.errstate(all="ignore"):
-        # an array: a float's quotient by 0 is an error
+        # an array, as a float's quotient by 0 is an error
         inertia = parameter(array(inertia_kgm2(mechanism.spec)))
         periods = period_ratio_of(mechanism, stiffness, inertia)
     damping = mechanism.spec.shaft.damping_ratio
@@ -271,15 +270,15 @@ def vibrations_of_many(
     for i in range(0, len(known), GROUP):
         part = known[i : i + GROUP]
         some = Loads(taken(mechanism, part), Swing(ratio[part], zeta[part]))
-        out[:, part] = vibrations(some, asked)
+        out[:, part] = vibrations(some, requested)
     return Vibrations(*out)
 
 
 def speeds_to_avoid(mechanism: Mechanism, load: Oscillator) -> list[Avoid]:
     """Return speeds at which the residual has a local maximum of at least ``AVOIDED`` of the step.
 
-    From half to twice the design's, ascending. Where engagements differ, the greatest residual of
-    all counts.
+    They range from half to twice the design's, ascending. If engagements differ, the greatest
+    residual of all counts.
     """
     n_rpm, own = mechanism.spec.drive.n_rpm, loads_of(mechanism, load)
     places: list[tuple[float, float]] = []

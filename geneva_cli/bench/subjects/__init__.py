@@ -1,1 +1,1 @@
-"""What is measured, one file a subject."""
+"""Subjects of the bench, one file each."""

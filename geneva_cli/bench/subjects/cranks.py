@@ -26,7 +26,7 @@ SECANTS = 6  # steps
 
 
 class Designs:
-    """Random side-cranks: z from 3 to 24, both gearings, A from -0.9 to 0.9; always the same."""
+    """Random side-cranks: z from 3 to 24, both gearings, A from -0.9 to 0.9; always equal."""
 
     def __init__(self, count: int) -> None:
         random = np.random.default_rng(6)
@@ -39,11 +39,11 @@ class Designs:
         self.arrays = Proportions(sign, np.sin(b), self.A, half)
 
     def one(self, i: int) -> Proportions:
-        """A design for the methods that take one."""
+        """One design, for methods that take single designs."""
         return Proportions(*[float(v[i]) for v in self.arrays])
 
     def blocks(self, method: Callable[[Proportions], Any]) -> Any:
-        """A vectorised method, a block at a time so that it stays in the cache."""
+        """Results of a vectorised method, in blocks that stay in the cache."""
         return np.concatenate(
             [
                 method(Proportions(*[v[i : i + BLOCK] for v in self.arrays]))
@@ -51,8 +51,8 @@ class Designs:
             ]
         )
 
-    def error(self, found: Any) -> float:
-        """The greatest relative error of the first ones, as many as were computed."""
+    def error(self, peaks: Any) -> float:
+        """Greatest relative error of the first designs, as many as were computed."""
         return max(
             relative(
                 peak,
@@ -60,12 +60,12 @@ class Designs:
                     int(self.z[i]), "internal" if self.internal[i] else "external", float(self.A[i])
                 ),
             )
-            for i, peak in enumerate(found[:CHECKED])
+            for i, peak in enumerate(peaks[:CHECKED])
         )
 
 
 def grid(d: Proportions, n: int) -> Any:
-    """The greatest of n points, running over the points."""
+    """Greatest of n points, in a loop over the points."""
     best = np.zeros(len(d.half))
     for i in range(1, n):
         np.maximum(best, np.abs(acceleration(np, d, d.half * (i / (n - 1)))), out=best)
@@ -73,7 +73,7 @@ def grid(d: Proportions, n: int) -> Any:
 
 
 def parabola(d: Proportions, n: int) -> Any:
-    """A parabola through the greatest of n points and its neighbours."""
+    """Peak of a parabola through the greatest of n points and its neighbours."""
     size = np.array([np.abs(acceleration(np, d, d.half * (i / (n - 1)))) for i in range(n)])
     i, every = size.argmax(axis=0), np.arange(len(d.half))
     inner = np.clip(i, 1, n - 2)
@@ -82,7 +82,7 @@ def parabola(d: Proportions, n: int) -> Any:
 
 
 def scanned(d: Proportions, n: int, solve: Callable[[Proportions, Any, Any], Any]) -> Any:
-    """The greatest value at the end and where ``solve`` finds the slope's zeros between points."""
+    """Greatest value at the end and at the slope's zeros, which ``solve`` finds between points."""
     best = np.abs(acceleration(np, d, d.half))
     nodes = [d.half * (i / (n - 1)) for i in range(n)]
     slopes = np.array([jerk(np, d, x) for x in nodes])
@@ -94,7 +94,7 @@ def scanned(d: Proportions, n: int, solve: Callable[[Proportions, Any, Any], Any
 
 
 def find_root(d: Proportions, n: int) -> Any:
-    """SciPy's vectorised bracketing solver between the points of a scan."""
+    """Peak by SciPy's vectorised bracketing solver between the points of a scan."""
     from scipy.optimize.elementwise import find_root as solve
 
     def root(part: Proportions, a: Any, b: Any) -> Any:
@@ -104,7 +104,7 @@ def find_root(d: Proportions, n: int) -> Any:
 
 
 def secants(d: Proportions, n: int) -> Any:
-    """Some steps of the secant method between the points of a scan, in NumPy alone."""
+    """Peak by steps of the secant method between the points of a scan, in NumPy only."""
 
     def root(part: Proportions, a: Any, b: Any) -> Any:
         x, value, last, before = b, jerk(np, part, b), a, jerk(np, part, a)
@@ -118,7 +118,7 @@ def secants(d: Proportions, n: int) -> Any:
 
 
 def _has_find_root() -> bool:
-    """It came with SciPy 1.15."""
+    """True with SciPy 1.15 or later."""
     return find_spec("scipy.optimize.elementwise") is not None
 
 
@@ -132,7 +132,7 @@ VECTORISED: list[tuple[str, Callable[[Proportions, int], Any], tuple[int, ...]]]
 
 
 def subject(quick: bool) -> Subject:
-    """Every method on the same designs."""
+    """Every method on one set of designs."""
     count = QUICK if quick else DESIGNS
     designs = Designs(count)
     methods = [

@@ -25,14 +25,14 @@ MEGABYTE = 1e6
 
 
 class Sink(io.TextIOBase):
-    """Takes text and counts it, and keeps it only if asked: memory is the writer's own."""
+    """Text stream that counts its text, and keeps it only on request, so memory is the writer's."""
 
     def __init__(self, keep: bool = False) -> None:
         self.parts: list[str] | None = [] if keep else None
         self.size = 0
 
     def write(self, text: str) -> int:
-        """As of any text stream."""
+        """Write a text; return its length."""
         self.size += len(text)
         if self.parts is not None:
             self.parts.append(text)
@@ -40,27 +40,27 @@ class Sink(io.TextIOBase):
 
 
 def with_csv(table: Table, out: Sink) -> None:
-    """The csv module, fed with Python's numbers."""
+    """Write by the csv module from Python's numbers."""
     writer = csv.writer(out, lineterminator="\n")
     writer.writerow(table.names)
     writer.writerows(zip(*[c.tolist() for c in table.columns], strict=True))
 
 
 def savetxt(table: Table, out: Sink) -> None:
-    """np.savetxt with 17 digits (with %r, NumPy 2 writes ``np.float64(...)``)."""
+    """Write by np.savetxt with 17 digits (with %r, NumPy 2 writes ``np.float64(...)``)."""
     header = ",".join(table.names)
     np.savetxt(out, np.column_stack(table.columns), "%.17g", ",", header=header, comments="")
 
 
 def with_polars(table: Table, out: Sink) -> None:
-    """Polars, from NumPy's columns."""
+    """Write by Polars from NumPy's columns."""
     import polars
 
     out.write(polars.DataFrame(dict(zip(table.names, table.columns, strict=True))).write_csv())
 
 
 def with_pyarrow(table: Table, out: Sink) -> None:
-    """Apache Arrow's csv, from NumPy's columns."""
+    """Write by Apache Arrow's csv from NumPy's columns."""
     import pyarrow
     from pyarrow import csv as arrow
 
@@ -71,7 +71,7 @@ def with_pyarrow(table: Table, out: Sink) -> None:
 
 
 def with_orjson(table: Table, out: Sink) -> None:
-    """orjson writes json; the rows of an array, brackets made line ends, are csv."""
+    """Write by orjson: the rows of a JSON array with brackets replaced by line ends are csv."""
     import orjson
 
     rows = orjson.dumps(np.column_stack(table.columns), option=orjson.OPT_SERIALIZE_NUMPY)
@@ -80,18 +80,18 @@ def with_orjson(table: Table, out: Sink) -> None:
 
 
 def ours(table: Table, out: Sink) -> None:
-    """The program's own csv."""
+    """Write the program's own csv."""
     out.writelines(delimited.chunks(table))
 
 
 SAVETXT = "np.savetxt, %.17g"
-# The registry: name, writer, whether it is ours.
+# The registry: name, writer, True for ours.
 WRITERS: list[tuple[str, Callable[[Table, Sink], None], bool]] = [
     ("csv module", with_csv, False),
     (SAVETXT, savetxt, False),
     ("ours", ours, True),
 ]
-# Libraries that take part where they are installed.
+# Libraries that take part if they are installed.
 LIBRARIES = {"orjson": with_orjson, "polars": with_polars, "pyarrow": with_pyarrow}
 
 
@@ -99,15 +99,15 @@ def subject(quick: bool) -> Subject:
     """Every writer at every number of rows."""
     mechanism = build(Spec(External(6)))
     absent = [name for name in LIBRARIES if importlib.util.find_spec(name) is None]
-    found = [(name, run, False) for name, run in LIBRARIES.items() if name not in absent]
+    libraries = [(name, run, False) for name, run in LIBRARIES.items() if name not in absent]
     tasks = []
     for count in COUNTS[:1] if quick else COUNTS:
-        # whole arrays, as the writers take them: the program's own columns are made while written
+        # whole arrays for all writers, as the program makes its own columns while writing
         columns = motion_table(mechanism, count).to_dict()
         table = Table(tuple(columns), list(columns.values()))
         methods = [
             Method(name, count, _call(run, table), is_ours, memory=_memory(run, table, count))
-            for name, run, is_ours in (*found, *WRITERS)
+            for name, run, is_ours in (*libraries, *WRITERS)
         ]
         base = _call(savetxt, table)
         tasks.append(Task(f"{count} rows x 6", SAVETXT, base, _error(table), methods))
@@ -127,9 +127,9 @@ def _call(run: Callable[[Table, Sink], None], table: Table) -> Callable[[], Any]
 def _memory(
     run: Callable[[Table, Sink], None], table: Table, count: int
 ) -> Callable[[], float] | None:
-    """Peak of what a writer allocates besides the table itself; being traced, it takes long.
+    """Peak of a writer's allocations in addition to the table; tracing makes it slow.
 
-    Python's memory: of a library with an allocator of its own, only what it hands over.
+    It is Python's memory: for a library with its own allocator, only its result counts.
     """
     if count > TRACED:
         return None
@@ -155,9 +155,10 @@ def _error(table: Table) -> Callable[[Any], float]:
         wrong = 0
         for start in range(0, len(table), 8192):
             part = ",".join(lines[1 + start : 1 + min(start + 8192, len(table))])
-            wanted = np.column_stack([c[start : start + 8192] for c in table.columns]).ravel()
-            found = np.array([float(v) for v in part.split(",")])
-            wrong += int((found != wanted).sum()) if len(found) == len(wanted) else len(wanted)
+            expected = np.column_stack([c[start : start + 8192] for c in table.columns]).ravel()
+            values = np.array([float(v) for v in part.split(",")])
+            alike = len(values) == len(expected)
+            wrong += int((values != expected).sum()) if alike else len(expected)
         return float(wrong)
 
     return mismatches

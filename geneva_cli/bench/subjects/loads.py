@@ -27,7 +27,7 @@ SPEED = 2.0 * math.pi
 
 
 def script(x: Array) -> tuple[Array, ...]:
-    """What a handbook's formulas make of it; x in radians."""
+    """Torque, force and input torque by a handbook's formulas; x in radians."""
     l = math.sin(math.pi / Z)
     sine, cosine = np.sin(x), np.cos(x)
     D = 1.0 - 2.0 * l * cosine + l * l
@@ -40,7 +40,7 @@ def script(x: Array) -> tuple[Array, ...]:
 
 
 def differences(x: Array) -> tuple[Array, ...]:
-    """The same with np.gradient of the wheel's angle for velocity and acceleration."""
+    """Torque, force and input torque with np.gradient of the wheel's angle."""
     l = math.sin(math.pi / Z)
     sine, cosine = np.sin(x), np.cos(x)
     velocity = np.gradient(np.arctan2(l * sine, 1.0 - l * cosine), x)
@@ -52,15 +52,15 @@ def differences(x: Array) -> tuple[Array, ...]:
 
 
 def subject(quick: bool) -> Subject:
-    """The handbook's formulas for this one wheel, beside the cycle of any machine."""
+    """The handbook's formulas for this wheel, compared with the cycle of any machine."""
     cycle = Cycle(build(GIVEN))
     (engagement,) = cycle.mechanism.engagements
     degrees = np.linspace(engagement.entry_deg, engagement.exit_deg, COUNT)
     x = np.radians(degrees)
 
     def ours() -> tuple[Array, ...]:
-        found = cycle.moving(engagement, degrees)
-        return found.wheel_torque_Nm, abs(found.pin_force_N), found.input_torque_Nm
+        loads = cycle.moving(engagement, degrees)
+        return loads.wheel_torque_Nm, abs(loads.pin_force_N), loads.input_torque_Nm
 
     task = Task(
         f"torque, force and input torque at {COUNT} angles",
@@ -80,10 +80,10 @@ def subject(quick: bool) -> Subject:
     )
 
 
-def _error(found: Any, x: Array) -> float:
+def _error(results: Any, x: Array) -> float:
     worst = 0.0
     exact = [_exact(float(a)) for a in x[:: COUNT // 40]]
-    for i, values in enumerate(found):
+    for i, values in enumerate(results):
         peak = max(abs(row[i]) for row in exact)
         for value, row in zip(values[:: COUNT // 40], exact, strict=True):
             worst = max(worst, float(abs(digits().mpf(float(value)) - row[i]) / peak))
@@ -92,7 +92,7 @@ def _error(found: Any, x: Array) -> float:
 
 @cache
 def _exact(angle: float) -> tuple[Any, ...]:
-    """By 50 digits; the distance of the pin from the wheel's axis as a complex number's size."""
+    """Loads in 50 digits, with the pin as a complex number."""
     mp = digits()
     a = mp.mpf(angle)
     l = mp.sin(mp.pi / Z)

@@ -1,7 +1,7 @@
-"""Peaks and loads of very many designs of every machine, worked out together.
+"""Peaks and loads of large batches of designs of every machine.
 
-Beside them one design after the other, and a grid over all of them. The manual's table of designs a
-second is this one.
+They are compared with single designs, and with a grid over all of them. The manual's table of
+designs per second comes from this subject.
 """
 
 from __future__ import annotations
@@ -45,7 +45,7 @@ NAMES = ("velocity", "acceleration")
 
 
 def subject(quick: bool) -> Subject:
-    """A task a machine, and of some one more for each thing that is asked of their loads."""
+    """One task for each machine, and one for each request to the loads of some machines."""
     peaks = [_task(kind, QUICK if quick else kind.most) for kind in KINDS]
     return Subject(
         "Peaks of velocity, acceleration and loads of many designs of every machine",
@@ -79,15 +79,15 @@ def _built_together(spec: Spec, varied: Mapping[str, Any]) -> Array:
 
 
 def _together(machine: Mechanism) -> Array:
-    found = worst_of_many(machine, NAMES)
-    both: Array = np.column_stack([found[name].max for name in NAMES])
+    peaks = worst_of_many(machine, NAMES)
+    both: Array = np.column_stack([peaks[name].max for name in NAMES])
     return both
 
 
 def _formulas_alone(machine: Mechanism, count: int) -> list[Method]:
-    """What a search in NumPy cannot do without: the scan's places of all designs, as it has them.
+    """Method of the formulas alone, at all places of the scan, without a search.
 
-    Of no machine whose peaks are found another way.
+    None for machines whose peaks are computed in another way.
     """
     motion = machine.engagements[0].motion
     if motion.closed_peak(NAMES[0]) is not None:
@@ -100,7 +100,7 @@ def _formulas_alone(machine: Mechanism, count: int) -> list[Method]:
 
 
 def _at_places(motion: Motion, count: int, pieces: list[tuple[float, float]]) -> Array:
-    """The greatest of the places' values."""
+    """Greatest of the values at the places."""
     most = np.zeros((count, len(NAMES)))
     for piece in pieces:
         a, b = (np.broadcast_to(np.reshape(end, (-1, 1)), (count, 1)) for end in piece)
@@ -114,23 +114,23 @@ def _at_places(motion: Motion, count: int, pieces: list[tuple[float, float]]) ->
 
 
 def _grid(machine: Mechanism, count: int) -> Array:
-    """The greatest of a grid's values, a block of designs at a time."""
+    """Greatest values on a grid, in blocks of designs."""
     motion = machine.engagements[0].motion
     ends = [np.broadcast_to(np.ravel(x), (count,)) for x in (motion.entry_deg, motion.exit_deg)]
-    found = []
+    rows = []
     for i in range(0, count, BLOCK):
         which = slice(i, i + BLOCK)
         a, b = (side[which, None] for side in ends)
         x = a + (b - a) * np.linspace(0.0, 1.0, GRID)
         p = taken(motion, which)(x, 2).derivatives()
-        found.append(
+        rows.append(
             np.column_stack([np.abs(np.broadcast_to(p[k], x.shape)).max(axis=1) for k in (1, 2)])
         )
-    both: Array = np.concatenate(found)
+    both: Array = np.concatenate(rows)
     return both
 
 
 def _one(machine: Mechanism) -> list[float]:
-    """The peaks of one design, by the search for one."""
+    """Peaks of one design, by its own search."""
     motion = machine.engagements[0].motion
     return [peak(motion, name).max for name in NAMES]

@@ -19,14 +19,14 @@ from geneva_cli.numerics.angles import DEGREE
 if TYPE_CHECKING:
     from geneva_cli.numerics.jet import Array
 
-Z = 3  # the wheel that asks most of a formula
+Z = 3  # the wheel that is hardest for a formula
 COUNTS = (1_000, 1_000_000)
 BLOCK = 8192  # angles at a time
 CHECKED = 200  # angles whose error is measured, ends and middle among them
 
 
 def textbook(l: float, x: Array, orders: Sequence[int]) -> list[Array]:
-    """What handbooks print, over whole arrays; x in radians."""
+    """Derivatives by the formulas of handbooks, over whole arrays; x in radians."""
     sine, cosine = np.sin(x), np.cos(x)
     D = 1.0 - 2.0 * l * cosine + l * l
     out = []
@@ -43,7 +43,7 @@ def textbook(l: float, x: Array, orders: Sequence[int]) -> list[Array]:
 
 
 def stable(l: float, x: Array, orders: Sequence[int]) -> list[Array]:
-    """The same with the half angle, over whole arrays."""
+    """Derivatives with the half angle, over whole arrays."""
     half = 0.5 * x
     h, g = np.sin(half), np.cos(half)
     v, sine, rest = 2.0 * h * h, 2.0 * h * g, 1.0 - l
@@ -62,15 +62,15 @@ def stable(l: float, x: Array, orders: Sequence[int]) -> list[Array]:
 
 
 def differences(l: float, x: Array, orders: Sequence[int]) -> list[Array]:
-    """The position, and np.gradient of it, and of that: what scripts do."""
-    found = [np.arctan2(l * np.sin(x), 1.0 - l * np.cos(x))]
+    """Position, and repeated np.gradient of it, as scripts do."""
+    values = [np.arctan2(l * np.sin(x), 1.0 - l * np.cos(x))]
     for _ in range(max(orders)):
-        found.append(np.gradient(found[-1], x))
-    return [found[k] for k in orders]
+        values.append(np.gradient(values[-1], x))
+    return [values[k] for k in orders]
 
 
 def blocks(l: float, x: Array, orders: Sequence[int]) -> list[Array]:
-    """The stable formula a block at a time, so that what it works on stays in the cache."""
+    """The stable formula in blocks that stay in the cache."""
     out = [np.empty(len(x)) for _ in orders]
     for i in range(0, len(x), BLOCK):
         for whole, part in zip(out, stable(l, x[i : i + BLOCK], orders), strict=True):
@@ -90,7 +90,7 @@ EXPRESSIONS = (
 
 
 def expressions(l: float, x: Array, orders: Sequence[int]) -> list[Array]:
-    """The stable formula as numexpr compiles it, on one core as all methods here."""
+    """The stable formula compiled by numexpr, on one core as for all methods."""
     import numexpr
 
     numexpr.set_num_threads(1)
@@ -109,7 +109,7 @@ WANTED = {"velocity and acceleration": (1, 2), "position to jerk": (0, 1, 2, 3)}
 
 
 def subject(quick: bool) -> Subject:
-    """Every formula for velocity and acceleration, and for all four."""
+    """Every formula for velocity and acceleration, and for position to jerk."""
     tasks = [
         _task(count, what, orders)
         for count in (COUNTS[:1] if quick else COUNTS)
@@ -129,13 +129,14 @@ def _task(count: int, what: str, orders: tuple[int, ...]) -> Task:
     half = np.linspace(engagement.entry_deg, 0.0, count // 2 + 1)[: count // 2]
     mirrored = np.concatenate((half, -half[::-1]))
     skew = mirrored.copy()
-    skew[1] = math.nextafter(skew[1], 0.0)  # no longer the mirror image of itself
+    skew[1] = math.nextafter(skew[1], 0.0)  # no longer its own mirror image
     x = np.radians(skew)
 
     absent = missing(*LIBRARIES)
-    found = [LIBRARIES[name] for name in LIBRARIES if name not in absent]
+    libraries = [LIBRARIES[name] for name in LIBRARIES if name not in absent]
     methods = [
-        Method(name, count, partial(formula, l, x, orders)) for name, formula in (*FORMULAS, *found)
+        Method(name, count, partial(formula, l, x, orders))
+        for name, formula in (*FORMULAS, *libraries)
     ]
     methods += [
         Method(
@@ -152,20 +153,20 @@ def _task(count: int, what: str, orders: tuple[int, ...]) -> Task:
         f"{what} at {count} angles",
         f"one np.sin + np.cos over {count} angles",
         lambda: (np.sin(x), np.cos(x)),
-        lambda found: _error(found, mirrored, orders),
+        lambda results: _error(results, mirrored, orders),
         methods,
     )
 
 
-def _error(found: Any, input_deg: Array, orders: Sequence[int]) -> float:
-    """At an even sample of the angles, the two ends and the two beside the middle among them."""
+def _error(results: Any, input_deg: Array, orders: Sequence[int]) -> float:
+    """Greatest error at an even sample of the angles, with the ends and the two middle ones."""
     n = len(input_deg)
     sample = np.unique(
         np.concatenate((np.linspace(0, n - 1, CHECKED).astype(int), [n // 2 - 1, n // 2]))
     )
     exact = [_exact(float(input_deg[i])) for i in sample]
     worst = 0.0
-    for values, k in zip(found, orders, strict=True):
+    for values, k in zip(results, orders, strict=True):
         peak = _peak(k)
         for i, derivatives in zip(sample, exact, strict=True):
             error = abs(digits().mpf(float(values[i])) - derivatives[k]) / peak
@@ -181,7 +182,7 @@ def _exact(degrees: float) -> tuple[Any, ...]:
 
 @cache
 def _peak(k: int) -> float:
-    """Size of the peak of a derivative, to the percent: the unit of its error."""
+    """Size of the peak of a derivative, to one per cent: the unit of its error."""
     half = 90.0 - 180.0 / Z
     scan = np.linspace(0.0, half, 1001) * DEGREE
     return float(np.abs(stable(math.sin(math.pi / Z), scan, (k,))[0]).max())

@@ -20,8 +20,8 @@ from geneva_cli.machine.spec import Spec
 from geneva_cli.machine.wheels import classic
 
 DESIGNS = ((3, "external", 0.0), (6, "external", 0.6), (4, "internal", 0.95))
-CHEBPY = "chebfun"  # what installs chebpy: another package has that name
-QUICK = 2  # how many of a method's sizes a quick run shows
+CHEBPY = "chebfun"  # the package name of chebpy in pip, as another package has that name
+QUICK = 2  # number of a method's sizes in a quick run
 
 
 def subject(quick: bool) -> Subject:

@@ -30,31 +30,31 @@ STARTS = 17  # the first guess of the methods that refine one
 
 
 def even(mechanism: Mechanism, tolerance: float) -> Array:
-    """Even input angles, as many as it takes: the number goes with the error's square root."""
+    """Even input angles, as many as needed: the number follows the square root of the error."""
     engagement, count = mechanism.engagements[0], STARTS - 1
     while True:
-        found = np.linspace(engagement.entry_deg, engagement.exit_deg, count + 1)
-        worst = chord_errors(mechanism, found).max()
+        angles = np.linspace(engagement.entry_deg, engagement.exit_deg, count + 1)
+        worst = chord_errors(mechanism, angles).max()
         if worst <= tolerance:
-            return found
+            return angles
         count = 2 * int(np.ceil(0.5 * max(count * 1.001, count * np.sqrt(worst / tolerance))))
 
 
 def bisection(mechanism: Mechanism, tolerance: float) -> Array:
-    """Chords that miss by more are halved, until none does."""
+    """Input angles from halving chords until each is within the tolerance."""
     engagement = mechanism.engagements[0]
-    found = np.array([engagement.entry_deg, 0.0, engagement.exit_deg])
-    while len(long := np.flatnonzero(chord_errors(mechanism, found) > tolerance)):
-        found = np.insert(found, long + 1, 0.5 * (found[long] + found[long + 1]))
-    return found
+    angles = np.array([engagement.entry_deg, 0.0, engagement.exit_deg])
+    while len(long := np.flatnonzero(chord_errors(mechanism, angles) > tolerance)):
+        angles = np.insert(angles, long + 1, 0.5 * (angles[long] + angles[long + 1]))
+    return angles
 
 
 def greedy(mechanism: Mechanism, tolerance: float) -> Array:
-    """The longest chords that stay within the tolerance, one by one: the fewest there can be."""
+    """Input angles of the longest chords within the tolerance, one by one: the fewest possible."""
     engagement = mechanism.engagements[0]
-    found = [engagement.entry_deg]
+    angles = [engagement.entry_deg]
     guess = engagement.motion_deg / STARTS
-    while (a := found[-1]) < engagement.exit_deg:
+    while (a := angles[-1]) < engagement.exit_deg:
         far = 0.0 if a < 0.0 else engagement.exit_deg
 
         def good(b: float, a: float = a) -> bool:
@@ -70,14 +70,14 @@ def greedy(mechanism: Mechanism, tolerance: float) -> Array:
                 middle = 0.5 * (low + high)
                 low, high = (middle, high) if good(middle) else (low, middle)
         guess = low - a
-        found.append(low)
-    return np.array(found)
+        angles.append(low)
+    return np.array(angles)
 
 
 class Pieces(NamedTuple):
-    """A way to write a slot in pieces: from a tolerance to an answer, its count and its error.
+    """A way to write a slot in pieces: functions for the answer, its count and its error.
 
-    Those of the same ``shape`` compete.
+    Ways with equal ``shape`` compete.
     """
 
     shape: str
@@ -89,21 +89,21 @@ class Pieces(NamedTuple):
     finest: float = 0.0  # mm; the method is not shown at finer tolerances
 
 
-def chords(found: Array) -> int:
-    """A polyline's pieces."""
-    return len(found) - 1
+def chords(angles: Array) -> int:
+    """Number of a polyline's pieces."""
+    return len(angles) - 1
 
 
-def chord_error(mechanism: Mechanism, found: Array) -> float:
-    """The greatest distance of 63 points a chord from it, over pitch curve and flanks, mm.
+def chord_error(mechanism: Mechanism, angles: Array) -> float:
+    """Greatest distance of 63 points per chord from it, over pitch curve and flanks, mm.
 
-    As complex numbers turned into each chord's direction: another way than the program's.
+    The points are complex numbers rotated into each chord's direction, unlike the program's method.
     """
-    ends = slot(mechanism, found)
+    ends = slot(mechanism, angles)
     inner = np.linspace(0.0, 1.0, 65)[1:-1]
     worst = 0.0
-    for start in range(0, len(found) - 1, 2048):
-        a, b = found[start : start + 2049][:-1], found[start : start + 2049][1:]
+    for start in range(0, len(angles) - 1, 2048):
+        a, b = angles[start : start + 2049][:-1], angles[start : start + 2049][1:]
         points = slot(mechanism, (a[:, None] + (b - a)[:, None] * inner).ravel())
         for name in ("centre", "left", "right"):
             p = (getattr(points, name) @ [1.0, 1j]).reshape(len(a), -1)
@@ -114,17 +114,17 @@ def chord_error(mechanism: Mechanism, found: Array) -> float:
 
 
 def on_flank(fitted: Callable[..., list[Any]]) -> Callable[[Mechanism, float], list[Any]]:
-    """The left flank in pieces that are fitted to a curve."""
+    """Return a function that fits the left flank in pieces."""
     return lambda mechanism, tolerance: fitted(*flank.left_flank(mechanism), tolerance)
 
 
-def flank_error(mechanism: Mechanism, found: list[Any]) -> float:
-    """How far the left flank strays from such pieces, mm."""
-    return flank.stray(*flank.left_flank(mechanism), found)
+def flank_error(mechanism: Mechanism, pieces: list[Any]) -> float:
+    """Greatest distance of the left flank from its pieces, mm."""
+    return flank.stray(*flank.left_flank(mechanism), pieces)
 
 
 SLOT, ARCS, CUBICS = "", ": left flank in arcs", ": left flank in cubics"
-# The registry: each way by one line.
+# The registry: one line for each way.
 PIECES = [
     Pieces(SLOT, "even input angles", even, chords, chord_error),
     Pieces(SLOT, "recursive bisection", bisection, chords, chord_error),

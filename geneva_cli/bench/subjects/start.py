@@ -12,7 +12,7 @@ from geneva_cli.bench.timing_pairs import process_seconds
 from geneva_cli.bench.whole_runs import BASELINE, IMPORT, RUN, finished
 from geneva_cli.specfile.template import template
 
-# What a command is run with; a spec on standard input. Others are run with --help.
+# Arguments of commands, with a spec on standard input. Other commands run with --help.
 ARGUMENTS = {
     "table": ("--z", "6"),
     "peaks": ("-",),
@@ -25,7 +25,7 @@ ARGUMENTS = {
 }
 SPEC = "curved"  # the template that needs most
 QUICK = ("table",)
-# A wheel to cut: its outline found, turned against the crank, and written. Templates and keys.
+# A wheel to cut: its outline computed, turned against the crank, and written. Templates and keys.
 EXPORT = ("profile", "-", "--part", "wheel", "--format", "dxf")
 CUT = {
     "6 straight slots": ("external", ()),
@@ -38,7 +38,7 @@ EAGER = (
     "from geneva_cli.app import COMMANDS\n"
     "for name in COMMANDS: importlib.import_module('geneva_cli.commands.' + name)\n"
 )
-# What one would write instead: a row of the table as handbooks have it, by a script of its own.
+# A user's own script instead: a row of the table as in handbooks.
 ROW = """
 def row(z):
     import math
@@ -63,7 +63,7 @@ SCRIPTS = {
 
 
 def commands() -> list[str]:
-    """The registry, asked of the program as a whole: this module is below it."""
+    """Names of the commands, from a run of the program, since this module may not import it."""
     code = "from geneva_cli.app import COMMANDS; print(*COMMANDS)"
     return subprocess.run(
         [sys.executable, "-c", code], capture_output=True, text=True, check=True
@@ -99,5 +99,5 @@ def _task(name: str, runs: dict[str, tuple[str, tuple[str, ...]]], spec: str | N
     return Task(name, BASELINE, base, lambda _: 0.0, methods)
 
 
-def _run(command: tuple[str, ...], given: str | None) -> None:
-    process_seconds(command, os.environ, given)
+def _run(command: tuple[str, ...], text: str | None) -> None:
+    process_seconds(command, os.environ, text)

@@ -1,9 +1,7 @@
-"""What a sweep works out together: strength, motor, swing, blows, play.
+"""Batch results of a sweep: strength, motor, vibration, impacts, play.
 
-Beside it, one design after the other.
-
-Of side-cranks of six slots, A from -0.9 to 0.9, that carry an inertia on an elastic shaft and are
-rubbed by friction.
+They are compared with single designs. The designs are side-cranks with six slots, A from -0.9 to
+0.9, with an inertia on an elastic shaft and with friction.
 """
 
 from __future__ import annotations
@@ -14,7 +12,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from geneva_cli.analysis.blows import entry_blow, entry_blows, reversal_blow, reversal_blows
+from geneva_cli.analysis import impacts
 from geneva_cli.analysis.loads.cycle import Cycle
 from geneva_cli.analysis.loads.sizing import sizing
 from geneva_cli.analysis.loads.sizing_many import sizings_of_many
@@ -53,7 +51,7 @@ GIVEN = Spec(
 
 
 class Answer(NamedTuple):
-    """A quantity: of one design, and of all of them together."""
+    """A quantity: its function of one design, and of a batch."""
 
     name: str
     one: Callable[[Mechanism], float]
@@ -61,33 +59,33 @@ class Answer(NamedTuple):
 
 
 def _shaft(machine: Mechanism) -> float:
-    found = shafts.shaft(machine, shafts.wheel_shaft(machine.spec.shaft), shafts.on_wheel)
-    assert found is not None
-    return found.moment_Nm
+    result = shafts.shaft(machine, shafts.wheel_shaft(machine.spec.shaft), shafts.on_wheel)
+    assert result is not None
+    return result.moment_Nm
 
 
 def _shafts(machine: Mechanism) -> Any:
     ends = shafts.wheel_shaft(machine.spec.shaft)
-    found = shafts.shaft_of_many(machine, ends, shafts.on_wheel)
-    return found and found.moment_Nm
+    result = shafts.shaft_of_many(machine, ends, shafts.on_wheel)
+    return result and result.moment_Nm
 
 
 def _horn(machine: Mechanism) -> float:
-    found = horn.horn(machine, *HORN)
-    assert found is not None
-    return found.stress_MPa
+    result = horn.horn(machine, *HORN)
+    assert result is not None
+    return result.stress_MPa
 
 
 def _force(machine: Mechanism) -> float:
-    found = roller.life(machine)
-    assert found is not None
-    return found.equivalent_force_N
+    result = roller.life(machine)
+    assert result is not None
+    return result.equivalent_force_N
 
 
 def _motor(machine: Mechanism) -> float:
-    found = sizing(Cycle(machine))[0]["motor_torque_rms_Nm"]
-    assert found is not None
-    return found
+    result = sizing(Cycle(machine))[0]["motor_torque_rms_Nm"]
+    assert result is not None
+    return result
 
 
 def _swing(machine: Mechanism) -> float:
@@ -97,22 +95,22 @@ def _swing(machine: Mechanism) -> float:
 
 
 def _swings(machine: Mechanism) -> Any:
-    found = vibrations_of_many(machine, ("dynamic_factor",))
-    return found and found.dynamic_factor
+    result = vibrations_of_many(machine, ("dynamic_factor",))
+    return result and result.dynamic_factor
 
 
-def _jump(found: Any) -> float:
-    return 0.0 if found is None else abs(found.jump)
+def _jump(impact: Any) -> float:
+    return 0.0 if impact is None else abs(impact.jump)
 
 
 def _play(machine: Mechanism) -> float:
-    found = motion_errors(machine)[0].greatest(corners(list(used(machine).values())))
-    return float(np.degrees(found.error[0]))
+    result = motion_errors(machine)[0].greatest(corners(list(used(machine).values())))
+    return float(np.degrees(result.error[0]))
 
 
 def _plays(machine: Mechanism) -> Any:
-    found = motion_plays(machine)
-    return found and found.worst_deg
+    result = motion_plays(machine)
+    return result and result.worst_deg
 
 
 ANSWERS = (
@@ -131,27 +129,27 @@ ANSWERS = (
     Answer("dynamic factor", _swing, _swings),
     Answer(
         "jump at entry",
-        lambda machine: _jump(entry_blow(machine)),
-        lambda machine: abs(entry_blows(machine).jump),
+        lambda machine: _jump(impacts.entry_impact(machine)),
+        lambda machine: abs(impacts.entry_impacts(machine).jump),
     ),
     Answer(
         "jump at a change of sides",
-        lambda machine: _jump(reversal_blow(machine)),
-        lambda machine: np.nan_to_num(abs(reversal_blows(machine).jump)),
+        lambda machine: _jump(impacts.reversal_impact(machine)),
+        lambda machine: np.nan_to_num(abs(impacts.reversal_impacts(machine).jump)),
     ),
     Answer("play of a motion", _play, _plays),
 )
 
 
 def subject(quick: bool) -> Subject:
-    """A task a quantity."""
+    """One task for each quantity."""
     count, checked = (QUICK, QUICK_CHECKED) if quick else (DESIGNS, CHECKED)
     A = np.random.default_rng(12).uniform(-0.9, 0.9, count)
     machine = many(GIVEN, {"drive.A": A}).machine
     assert machine is not None
     alone = [build(GIVEN.with_("drive.A", a)) for a in A[:checked].tolist()]
     return Subject(
-        "What a sweep works out of many designs together",
+        "Results of a sweep for a batch of designs",
         f"greatest relative error of {checked} designs, against the answer of one design",
         [_task(answer, machine, count, alone) for answer in ANSWERS],
         floor=1e-12,
@@ -169,14 +167,14 @@ def _task(answer: Answer, machine: Mechanism, count: int, alone: list[Mechanism]
 
 
 def _again(answer: Answer, machine: Mechanism) -> float:
-    """The answer of a design that nothing is known of."""
-    for known in (roller.passage, stretches):
-        known.cache_clear()
+    """Answer for a design with empty caches."""
+    for cached in (roller.passage, stretches):
+        cached.cache_clear()
     horn.horn.cache_clear()
     return answer.one(machine)
 
 
-def _error(truth: Array, found: Any) -> float:
-    there = np.asarray(found)[: len(truth)]
-    known = truth[: len(there)]
-    return float(np.max(np.abs(there - known) / np.where(known == 0.0, 1.0, known)))
+def _error(truth: Array, values: Any) -> float:
+    computed = np.asarray(values)[: len(truth)]
+    known = truth[: len(computed)]
+    return float(np.max(np.abs(computed - known) / np.where(known == 0.0, 1.0, known)))

@@ -1,4 +1,4 @@
-"""From a wish to machines that grant it: whole runs, with the first twenty turned and without."""
+"""From requirements to machines: whole runs, with the first twenty turned and without."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ WAYS = {"search": "0", "search, twenty turned": "20"}  # rows whose parts are tu
 
 
 def subject(quick: bool) -> Subject:
-    """A task a wish."""
+    """One task for each set of requirements."""
     wishes, ways = ((QUICK,), {"search": "0"}) if quick else (WISHES, WAYS)
     tasks = [
         task(

@@ -24,13 +24,13 @@ if TYPE_CHECKING:
 
 MACHINES, QUICK, LOOP = 1_000_000, 20_000, 200
 Z, L, AT_DEG = 6, 100.0, 20.0
-# of centre distance, crank, roller, slot, slot's angle, disc, recess: mm and radians
+# centre distance, crank, roller, slot, slot's angle, disc, recess: mm and radians
 SIZES = (0.02, 0.02, 0.01, 0.01, 3e-4, 0.01, 0.01)
 LOCK = Lock(L, 1.0, 39.9, 39.95, 86.75, 2.0)
 
 
 class Means(NamedTuple):
-    """What a method finds: the mean play of the lock, the mean place in motion, the mean jump."""
+    """Results of a method: mean play of the lock, mean error in motion, mean jump."""
 
     dwell: float
     motion: float
@@ -38,7 +38,7 @@ class Means(NamedTuple):
 
 
 def subject(quick: bool) -> Subject:
-    """Ours, and the same in plain NumPy and in a plain loop, with pseudo-random machines."""
+    """Ours, compared with plain NumPy and a plain loop, with pseudo-random machines."""
     count = QUICK if quick else MACHINES
     angles = np.linspace(0.0, 1.0, count)
     true = _ours(1 << 16 if quick else 1 << 22)()
@@ -46,7 +46,7 @@ def subject(quick: bool) -> Subject:
         f"{count} machines of seven dimensions",
         f"one np.sin + np.cos over {count} numbers",
         lambda: (np.sin(angles), np.cos(angles)),
-        lambda found: max(abs(a - b) / abs(b) for a, b in zip(found, true, strict=True)),
+        lambda results: max(abs(a - b) / abs(b) for a, b in zip(results, true, strict=True)),
         [
             Method("NumPy, pseudo-random", None, partial(_plain, count)),
             Method(
@@ -70,14 +70,14 @@ def _ours(count: int) -> partial[Means]:
     error, entry = motion_errors(mechanism)[0], entry_jumps(mechanism)[0]
 
     def run() -> Means:
-        found = random_machines(Draws(SIZES, False, 1), count, LOCK, (error, AT_DEG, 1.0), entry)
-        return Means(*(float(part.mean()) for part in found[:3]))
+        results = random_machines(Draws(SIZES, False, 1), count, LOCK, (error, AT_DEG, 1.0), entry)
+        return Means(*(float(part.mean()) for part in results[:3]))
 
     return partial(run)
 
 
 def _plain(count: int) -> Means:
-    """The formulas of the books on arrays of machines."""
+    """Textbook formulas on arrays of machines."""
     rng = np.random.default_rng(1)
     dL, dR, dd, dw, da, dk, dr = (rng.uniform(-s, s, count) for s in SIZES)
     R, away, p = L * math.sin(math.pi / Z) + dR, L + dL, LOCK.corner
@@ -104,7 +104,7 @@ def _jumps(ratio: Array) -> Array:
 
 
 def _loop(count: int) -> Means:
-    """One machine after the other."""
+    """Textbook formulas, machine by machine."""
     rng = np.random.default_rng(1)
     rows = [_one(*(rng.uniform(-s, s) for s in SIZES)) for _ in range(count)]
     return Means(*(sum(column) / count for column in zip(*rows, strict=True)))

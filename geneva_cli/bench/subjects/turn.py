@@ -1,6 +1,6 @@
-"""The outlines of a machine's parts, and the proof that they turn: walls, gaps and play.
+"""The outlines of a machine's parts, and the collision check of a full turn: walls, gaps and play.
 
-In units of one sine and cosine of a million numbers, which take some 15 ms.
+Times are in units of one sine and cosine of a million numbers, about 15 ms.
 """
 
 from __future__ import annotations
@@ -41,12 +41,12 @@ KINDS = (
 
 
 def subject(quick: bool) -> Subject:
-    """A task a machine."""
+    """One task for each machine."""
     return Subject(
         "Outlines and full turn of a machine",
         "gap between roller and slot, over the centre distance: without clearance it is 0",
         [_task(kind, QUICK if quick else NUMBERS) for kind in KINDS],
-        floor=2e-6,  # how nearly curved walls are known
+        floor=2e-6,  # accuracy of curved walls
     )
 
 

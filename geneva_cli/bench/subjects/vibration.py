@@ -1,7 +1,7 @@
-"""What the modified sine leaves of a load's swing, at very many period ratios.
+"""The residual vibration of a load after a modified sine, at very many period ratios.
 
-A script solves the oscillator's equation; with more thought it integrates the acceleration against
-the swing, or takes the closed form, which is 0/0 at the ratios 2/3 and 2.
+A script solves the oscillator's equation. A better one integrates the acceleration against the
+vibration, or uses the closed form, which is 0/0 at the ratios 2/3 and 2.
 """
 
 from __future__ import annotations
@@ -32,7 +32,7 @@ BLOCK = 256  # ratios at a time of a sum over points
 LEAST = 1e-3  # share of the step: errors are over the residual, or over this where it is less
 DAMPED = 0.02
 PEAK = 4.0 * math.pi**2 / (4.0 + math.pi)  # C_a, the greatest acceleration
-# The pieces of its acceleration: from, to, rate and phase of the sine
+# The pieces of its acceleration: from, to, rate and phase of the sine.
 PIECES = (
     (0.0, 0.125, 4.0, 0.0),
     (0.125, 0.875, 4.0 / 3.0, 1.0 / 3.0),
@@ -41,13 +41,13 @@ PIECES = (
 
 
 def acceleration(u: float) -> float:
-    """The law's acceleration at one place, as a script has it."""
+    """The law's acceleration at one place, as in a script."""
     _, _, rate, phase = next(piece for piece in PIECES if u <= piece[1])
     return PEAK * math.sin(math.pi * (rate * u + phase))
 
 
 def solved(ratio: Array, damping: float, tolerance: float) -> list[float]:
-    """SciPy's solver of differential equations, piece by piece, one ratio after the other."""
+    """Residuals by SciPy's solver of differential equations, piece by piece, ratio by ratio."""
     from scipy.integrate import solve_ivp
 
     out = []
@@ -68,7 +68,7 @@ def solved(ratio: Array, damping: float, tolerance: float) -> list[float]:
 
 
 def summed(ratio: Array, damping: float, points: int) -> Array:
-    """The trapezoidal rule on the integral of the acceleration times the swing."""
+    """Residuals by the trapezoidal rule on the integral of acceleration times vibration."""
     u = np.linspace(0.0, 1.0, points)
     bent = np.array([acceleration(x) for x in u]) / (points - 1)
     p = 2.0 * np.pi * ratio * complex(-damping, math.sqrt(1.0 - damping * damping))
@@ -80,15 +80,15 @@ def summed(ratio: Array, damping: float, points: int) -> Array:
 
 
 def closed(ratio: Array, damping: float, _: int = 0) -> Array:
-    """The closed form, each sine as two exponentials."""
+    """Residuals by the closed form, each sine as two exponentials."""
     p = 2.0 * np.pi * ratio * complex(-damping, math.sqrt(1.0 - damping * damping))
     with np.errstate(all="ignore"):
-        found: Array = np.abs(_exponentials(np, np.pi, p)) * PEAK / p.imag
-    return found
+        residuals: Array = np.abs(_exponentials(np, np.pi, p)) * PEAK / p.imag
+    return residuals
 
 
 def _exponentials(m: Any, pi: Any, p: Any) -> Any:
-    """The integral of the unit law times e^(p (1 - u)), for a module's exp."""
+    """Integral of the unit law times e^(p (1 - u)), with a module's exp."""
     total = 0.0
     for a, b, rate, phase in ((_fraction(pi, v) for v in piece) for piece in _thirds()):
         for side in (1, -1):
@@ -110,16 +110,16 @@ def _fraction(pi: Any, value: tuple[int, int]) -> Any:
 
 @cache
 def _exact(ratio: float, damping: float) -> Any:
-    """The same at 50 digits, of which a ratio moved by 1e-25 away from 0/0 leaves half."""
+    """Residual in 50 digits; half of them remain when the ratio is moved by 1e-25 away from 0/0."""
     mp = digits()
     zeta, moved = mp.mpf(damping), mp.mpf(ratio) + mp.mpf("1e-25")
     p = 2 * mp.pi * moved * mp.mpc(-zeta, mp.sqrt(1 - zeta * zeta))
     return abs(_exponentials(mp, mp.pi, p)) * 4 * mp.pi**2 / (4 + mp.pi) / p.imag
 
 
-def _error(ratio: Array, damping: float, found: Sequence[float] | Array) -> float:
+def _error(ratio: Array, damping: float, residuals: Sequence[float] | Array) -> float:
     worst = 0.0
-    for value, exact in zip(found[:CHECKED], ratio, strict=False):
+    for value, exact in zip(residuals[:CHECKED], ratio, strict=False):
         true = _exact(float(exact), damping)
         error = float(abs(digits().mpf(float(value)) - true) / max(true, LEAST))
         worst = max(worst, error if math.isfinite(error) else 1.0)  # no digit is right
@@ -127,9 +127,9 @@ def _error(ratio: Array, damping: float, found: Sequence[float] | Array) -> floa
 
 
 def subject(quick: bool) -> Subject:
-    """Without damping, and with a little."""
+    """One task without damping, and one with a little."""
     return Subject(
-        "What a modified sine leaves of a load's swing",
+        "Residual vibration of a load after a modified sine",
         f"greatest error of {CHECKED} residuals, over the residual or {LEAST:g} of the step",
         [_task(damping, quick) for damping in (0.0, DAMPED)],
     )
@@ -164,6 +164,6 @@ def _task(damping: float, quick: bool) -> Task:
         f"{count} period ratios, damping {damping:g}",
         f"one np.sin + np.cos over {count} numbers",
         lambda: (np.sin(ratio), np.cos(ratio)),
-        lambda found: _error(ratio, damping, found),
+        lambda residuals: _error(ratio, damping, residuals),
         methods,
     )

@@ -74,14 +74,14 @@ def _errors(arcs: Arcs, points: Array, tangents: Array) -> Array:
     curvature = (2.0 * np.sin(arcs.half) / size)[:, None]
     ahead = chord / size * np.exp(-1j * arcs.half)
     # As seen from the arc's start along its tangent: an arc's centre may be at infinity.
-    seen = (points - arcs.start[:, None]) * ahead.conj()[:, None]
+    local = (points - arcs.start[:, None]) * ahead.conj()[:, None]
     # A point (x, y) is off the arc by the root of k d² / 2 - d + y - k (x² + y²) / 2 = 0.
-    off = seen.imag - 0.5 * curvature * np.abs(seen) ** 2
+    off = local.imag - 0.5 * curvature * np.abs(local) ** 2
     miss = 2.0 * np.abs(off) / (1.0 + np.sqrt(np.maximum(1.0 - 2.0 * curvature * off, 0.0)))
     past = points - arcs.end[:, None]
     beyond = (past * (chord.conj() * np.exp(-1j * arcs.half))[:, None]).real > 0.0
-    miss = np.where(seen.real < 0.0, np.abs(seen), np.where(beyond, np.abs(past), miss))
-    at_foot = 1.0 - curvature * seen.imag + 1j * curvature * seen.real
+    miss = np.where(local.real < 0.0, np.abs(local), np.where(beyond, np.abs(past), miss))
+    at_foot = 1.0 - curvature * local.imag + 1j * curvature * local.real
     along = (tangents * (ahead[:, None] * at_foot).conj()).real > 0.0
     length = np.abs(np.diff(points, axis=1)).sum(axis=1)
     out: Array = np.where(along.all(axis=1), miss.max(axis=1), length)

@@ -44,9 +44,7 @@ class CurvePath:
     """
 
     def __init__(self, curve: Curve, a: float, b: float, tolerance: float) -> None:
-        """Raises GenevaError if double precision cannot show the tolerance, or the curve leaps
-        farther.
-        """
+        """Raise GenevaError for a tolerance finer than double precision, or a curve that leaps."""
         self.curve, self.tolerance = curve, tolerance
         self.t = np.linspace(a, b, CELLS + 1)
         points, tangents = self._complex(self.t)
@@ -71,8 +69,8 @@ class CurvePath:
 
         Only a cell that is much longer than both of its neighbours is halved.
         """
-        beside = np.pad(step, 1)
-        i = np.flatnonzero(step > LEAP * np.maximum(beside[:-2], beside[2:]) + self.tolerance)
+        padded = np.pad(step, 1)
+        i = np.flatnonzero(step > LEAP * np.maximum(padded[:-2], padded[2:]) + self.tolerance)
         t0, t1, p0, p1 = self.t[i], self.t[i + 1], points[i], points[i + 1]
         for _ in range(HALVINGS if len(i) else 0):
             t = 0.5 * (t0 + t1)

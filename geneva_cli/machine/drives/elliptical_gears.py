@@ -46,9 +46,7 @@ class EllipticalGears(Transmission, kw_only=True):
         },
     )
     GEARED: ClassVar[bool] = True
-    eccentricity: Annotated[
-        float, Range(0.0, 1.0, "[)"), "eccentricity of the gears' pitch ellipses"
-    ]
+    eccentricity: Annotated[float, Range(0.0, 1.0, "[)"), "of the gears' pitch ellipses"]
     phase: Annotated[str, OneOf(("slow", "quick")), "phase of the gears at mid-motion"] = "slow"
     gear_distance_mm: Annotated[float, POSITIVE, "distance between the two gears' axes, C"] = 100.0
 

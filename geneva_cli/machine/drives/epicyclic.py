@@ -97,8 +97,8 @@ class Epicyclic(PinPath, kw_only=True):
         return self.planned(engagement, R0 + rp, L)
 
     def layout(self, plan: Plan, sign: float) -> Layout:
-        """Pivots and dimensions of carrier, planet crank and gears; at input 0 both arms point at
-        the wheel.
+        """Pivots and dimensions of carrier, planet and gears; at input 0 both arms point at the
+        wheel.
         """
         reactions = cast(PlanetReactions, plan.engagements[0].reactions)
         L = plan.center_distance_mm

@@ -116,8 +116,8 @@ class FourBar(Linkage, kw_only=True):
 class CouplerPath(RodPath):
     """The path of a point of the coupler.
 
-    With d the vector from A to the rocker's pivot, D = d² and N = sqrt(4 b² D - (b² + D - c²)²),
-    the unit vector from A towards B is e = d k, k = ((D + b² - c²) + i N) / (2 b D). It turns by
+    d is the vector from A to the rocker's pivot, D = d² and N = sqrt(4 b² D - (b² + D - c²)²). The
+    unit vector from A towards B is e = d k, k = ((D + b² - c²) + i N) / (2 b D). It turns by
 
         1/2 (1 + (a² - g²) / D) - a g sin phi (1 - (b² - c²) / D) / N
 
@@ -154,8 +154,9 @@ class CouplerPath(RodPath):
         return b, ((cosine * a + ex * b - g) / c, (sine * a + ey * b) / c)
 
     def about(self, sine: float, cosine: float) -> PointDisplacement:
-        """Displacement since a crank direction: A, D, 1/D, N, k and e change each by the one
-        before.
+        """Displacement since a crank direction.
+
+        Each of A, D, 1/D, N, k and e changes by the change of the one before it.
         """
         a, g, b, c, p, q = self.exact
         D0 = g * g + a * a - 2 * g * a * cosine

@@ -64,8 +64,9 @@ class GenevaPair(Transmission, kw_only=True):
         return 180.0 / self.first_z
 
     def layout(self, plan: Plan, sign: float) -> Layout:
-        """Pivots and dimensions of the first pair; by default its centre distance equals the
-        second's.
+        """Pivots and dimensions of the first pair.
+
+        By default its centre distance equals the second's.
         """
         L = plan.center_distance_mm
         first = self._distance_mm(L)

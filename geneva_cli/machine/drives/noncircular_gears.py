@@ -54,9 +54,7 @@ class NoncircularGears(Transmission, kw_only=True):
         },
     )
     GEARED: ClassVar[bool] = True
-    A: Annotated[
-        float | None, Range(-1.0, 1.0, "()"), "the gears have the ratio of a side-crank with this A"
-    ] = None
+    A: Annotated[float | None, Range(-1.0, 1.0, "()"), "ratio of a side-crank with this A"] = None
     ratio: Annotated[
         Points | None,
         # from 18,001 points a second derivative is known to 1e-9, as from doubles

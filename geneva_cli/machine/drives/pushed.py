@@ -15,9 +15,7 @@ class Pushed(ABC):
 
     @abstractmethod
     def line(self, input_deg: Number, order: int) -> tuple[Vector, Vector]:
-        """Point of the push from the crank's axis, over L, and its direction as a vector of any
-        size.
-        """
+        """Point of the push from the crank's axis, over L, and a vector in its direction."""
 
     def __call__(
         self, input_deg: Number, path: Vector, loads: Sequence[tuple[Vector, Jet]]

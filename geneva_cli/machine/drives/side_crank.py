@@ -89,13 +89,11 @@ class SideCrank(Transmission, kw_only=True):
         return own if self.input_crank_mm is None else self.input_crank_mm
 
     def reactions(self, wheel: Gearing, path: Path, mid_deg: float, L: float) -> Reactions | None:
-        """Reactions to the block on the input crank, which pushes across the coulisse. Peak
-        acceleration of plain wheels; None for others.
-        """
+        """Reactions to the block on the input crank, which pushes across the coulisse."""
         if self.input_crank_mm is None:
             return None
         return whitworth.SlidingBlock(self.A, self.input_crank_mm / L, wheel.SIGN, radians(mid_deg))
 
     def closed_peaks(self, wheel: Gearing, place: RollerPlace) -> ClosedPeaks | None:
-        """The peak acceleration of plain wheels."""
+        """Peak acceleration of plain wheels; None for others."""
         return whitworth.closed_peaks(self.A, wheel, place)

@@ -46,9 +46,7 @@ class SliderCrank(Linkage, kw_only=True):
     rod_mm: Annotated[float, POSITIVE, "length of connecting rod b, from crank pin A to slider B"]
     point_mm: Annotated[float, POSITIVE, "distance of roller C from crank pin A"]
     point_deg: Annotated[float, Range(-360.0, 360.0), "angle BAC, from AB to AC"]
-    height_mm: Annotated[
-        float, LENGTH, "distance of the slider's line from the crank's axis, h"
-    ] = 0.0
+    height_mm: Annotated[float, LENGTH, "slider's line from the crank's axis, h"] = 0.0
 
     def __post_init__(self) -> None:
         super().__post_init__()

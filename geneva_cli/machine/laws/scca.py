@@ -26,15 +26,9 @@ class SineConstantCosine(Law):
 
     NAME: ClassVar[str] = "scca"
     ABOUT: ClassVar[str] = "your own: fractions b of sine, c of constant, d of cosine acceleration"
-    b: Annotated[
-        float, Range(0.0, 1.0), "scca: time fraction of the sine, in which acceleration rises"
-    ]
-    c: Annotated[
-        float, Range(0.0, 1.0), "scca: time fraction of constant acceleration; b + c + d = 1"
-    ]
-    d: Annotated[
-        float, Range(0.0, 1.0), "scca: time fraction of the cosine, in which acceleration falls"
-    ]
+    b: Annotated[float, Range(0.0, 1.0), "scca: time fraction of the sine (rising acceleration)"]
+    c: Annotated[float, Range(0.0, 1.0), "scca: time fraction of constant acceleration"]
+    d: Annotated[float, Range(0.0, 1.0), "scca: time fraction of the cosine; b + c + d = 1"]
 
     def __post_init__(self) -> None:
         super().__post_init__()

@@ -75,9 +75,7 @@ class External(Gearing):
             ),
         )
         if max(steps) >= 180.0:
-            raise GenevaError(
-                f"a step of {max(steps):g} deg is too large: it must be below 180", key
-            )
+            raise GenevaError(f"a step of {max(steps):g} deg is too large; below 180", key)
 
     @property
     def steps(self) -> tuple[float, ...]:

@@ -68,12 +68,11 @@ class OffsetFollowed(Followed):
         return piecewise(input_deg, cuts, [first, lambda x: self._inside(x, order, angle), last])
 
     def _from_end(self, anchor: Anchor, order: int, angle: bool) -> Callable[[Number], Jet]:
-        """Wheel angle or rate near entry or exit, where the pin is at (along, -e) in the slot's
-        frame.
+        """Wheel angle or rate near entry or exit.
 
-        The slot's axis passes the pin at (s, -e) with s² = rho² - e². The excess of s over
-        ``along`` is written so that it vanishes with ``across``. The wheel's angle and speed then
-        vanish too.
+        The pin is at (along, -e) in the slot's frame there. The slot's axis passes the pin at (s,
+        -e) with s² = rho² - e². The excess of s over ``along`` is written so that it vanishes with
+        ``across``. The wheel's angle and speed then vanish too.
         """
         e = self.skew.e
 

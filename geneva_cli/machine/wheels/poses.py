@@ -1,7 +1,7 @@
 """The pin's circle as seen from the wheel, for external and internal wheels.
 
 The wheel's axis is the origin, the crank's axis at (1, 0): lengths are in units of the centre
-distance L. b = pi/z is half the index angle, l = R/L the crank radius.
+distance L. Half the index angle is b = pi/z, and l = R/L the crank radius.
 
 A pose is one moment of the motion. Its x axis is the ray from the wheel's centre to the pin at that
 moment. From there the pin moves by
@@ -32,9 +32,7 @@ class PinPose(NamedTuple):
     bend: tuple[float, float]  # second derivative
 
     def displacement(self, sine: Jet, versine: Jet) -> tuple[Jet, Jet]:
-        """The pin's displacement since the pose, from sin d and 1 - cos d of the crank's rotation
-        d.
-        """
+        """Displacement since the pose, from sin d and 1 - cos d of the crank's rotation d."""
         u = sine * self.slope[0] + versine * self.bend[0]
         v = sine * self.slope[1] + versine * self.bend[1]
         return u, v
@@ -61,8 +59,9 @@ class HalfStep(NamedTuple):
 
 
 def middle(sign: float, l: float, gap: float) -> PinPose:
-    """Pose of the pin on the line of centres, ``gap`` from the wheel's axis, for any crank radius
-    l.
+    """Pose of the pin on the line of centres, ``gap`` from the wheel's axis.
+
+    It holds for any crank radius l.
     """
     return PinPose(0.0, 0.0, gap, (0.0, l), (sign * l, 0.0))
 

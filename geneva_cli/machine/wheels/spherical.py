@@ -69,9 +69,7 @@ class Spherical(Gearing):
         return sphere(step, self.axes_deg).half_motion_deg
 
     def place(self, step: HalfStep, center_distance_mm: float) -> RollerPlace:
-        """Place of a roller that passes through a meridian slot; its arm is over the sphere's
-        radius.
-        """
+        """Place of a roller in a meridian slot; its arm is over the sphere's radius."""
         ball = sphere(step, self.axes_deg)
         top = ball.cos_S * ball.cos_th + ball.sin_S * ball.sin_th  # cos(S - th)
         fall = ball.sin_S * ball.sin_th

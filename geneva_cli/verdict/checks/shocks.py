@@ -11,35 +11,35 @@ from geneva_cli.spec.tables import Tolerance
 from geneva_cli.verdict.checks.check import Check, compared
 
 if TYPE_CHECKING:
-    from geneva_cli.analysis.blows import Blow
+    from geneva_cli.analysis.impacts import Impact
 
 
 def entry_shock(name: str, mechanism: Mechanism) -> Check | None:
-    """The blow at entry where R/L is wrong, and the roller does not come in along its slot."""
+    """The impact at entry where R/L is wrong, and the roller does not come in along its slot."""
     given = mechanism.spec.tolerance
     if not (given.crank_radius_mm or given.center_distance_mm):
         return None
-    from geneva_cli.analysis.blows import entry_blow
+    from geneva_cli.analysis.impacts import entry_impact
 
-    blow = entry_blow(mechanism)
-    if blow is None:
+    impact = entry_impact(mechanism)
+    if impact is None:
         return None
-    check = _judged(name, mechanism, blow)
+    check = _judged(name, mechanism, impact)
     if check.passes is not False:
         return check
     return check._replace(why=_share(mechanism, check.limit or 0.0))
 
 
 def reversal_shock(name: str, mechanism: Mechanism) -> Check | None:
-    """The blow where the roller leaves one wall of its slot for the other."""
+    """The impact where the roller leaves one wall of its slot for the other."""
     if mechanism.spec.tolerance == Tolerance(distribution=mechanism.spec.tolerance.distribution):
         return None
-    from geneva_cli.analysis.blows import reversal_blow
+    from geneva_cli.analysis.impacts import reversal_impact
 
-    blow = reversal_blow(mechanism)
-    if blow is None:
+    impact = reversal_impact(mechanism)
+    if impact is None:
         return None
-    check = _judged(name, mechanism, blow)
+    check = _judged(name, mechanism, impact)
     more = drag_words(mechanism)
     if check.passes is None:
         return check._replace(why=f"{check.why}; {more}")
@@ -58,11 +58,11 @@ def drag_words(mechanism: Mechanism) -> str:
     return f"add a drag of {drag:g} N m and the change of sides is gone"
 
 
-def _judged(name: str, mechanism: Mechanism, blow: Blow) -> Check:
-    """The blow's force, held to the pin's where that is limited."""
+def _judged(name: str, mechanism: Mechanism, impact: Impact) -> Check:
+    """The impact's force, held to the pin's where that is limited."""
     limit = mechanism.spec.limits.pin_force_max_N
-    if blow.force_N is not None and limit is not None:
-        return compared(name, blow.force_N, "at most", limit, blow.at_deg)
+    if impact.force_N is not None and limit is not None:
+        return compared(name, impact.force_N, "at most", limit, impact.at_deg)
     spec, lacks = mechanism.spec, []
     if not spec.is_loaded:
         lacks.append("inertia_kgm2 in [load]")
@@ -70,19 +70,19 @@ def _judged(name: str, mechanism: Mechanism, blow: Blow) -> Check:
         lacks.append("face_width_mm in [size]")
     if limit is None:
         lacks.append("pin_force_max_N in [limits]")
-    why = f"the wheel jumps by {blow.jump:.4g} of the input's speed; to judge it set "
+    why = f"the wheel jumps by {impact.jump:.4g} of the input's speed; to judge it set "
     return Check(
-        name, blow.force_N, "at most", limit, None, why + ", ".join(lacks), at_deg=blow.at_deg
+        name, impact.force_N, "at most", limit, None, why + ", ".join(lacks), at_deg=impact.at_deg
     )
 
 
 def _share(mechanism: Mechanism, limit: float) -> str:
     """By how much the tolerances on R and L must be tighter: the force goes by their root."""
-    from geneva_cli.analysis.blows import entry_blow
+    from geneva_cli.analysis.impacts import entry_impact
 
     def holds(share: float) -> bool:
-        blow = entry_blow(mechanism, share)
-        return blow is None or (blow.force_N or 0.0) <= limit
+        impact = entry_impact(mechanism, share)
+        return impact is None or (impact.force_N or 0.0) <= limit
 
     low = boundary(holds, 0.0, 1.0)
     given = mechanism.spec.tolerance

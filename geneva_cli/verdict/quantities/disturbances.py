@@ -1,4 +1,4 @@
-"""What disturbs designs: the swing of the load, blows of the roller, and tolerances."""
+"""What disturbs designs: the swing of the load, impacts of the roller, and tolerances."""
 
 from __future__ import annotations
 
@@ -6,8 +6,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from geneva_cli.analysis.blows import Blows, entry_blows, reversal_blows
 from geneva_cli.analysis.change_of_sides import lasting_drag_Nm
+from geneva_cli.analysis.impacts import Impacts, entry_impacts, reversal_impacts
 from geneva_cli.analysis.loads.carried import inertia_kgm2
 from geneva_cli.analysis.tolerance.many import entry_jumps_worst, motion_plays, used
 from geneva_cli.analysis.vibration.vibration import Vibrations, vibrations_of_many
@@ -28,18 +28,18 @@ def vibration(of: Designs) -> Columns:
 
 
 def entry(of: Designs) -> Columns:
-    """The blow at entry where R/L is wrong."""
-    return _blow(entry_blows(of.machine))
+    """The impact at entry where R/L is wrong."""
+    return _impact(entry_impacts(of.machine))
 
 
 def reversal(of: Designs) -> Columns:
-    """The blow where the roller changes sides, and the drag that would keep it on one."""
+    """The impact where the roller changes sides, and the drag that would keep it on one."""
     coasts = np.ravel(inertia_kgm2(of.spec)) > 0.0
     drag = np.where(coasts, np.ravel(lasting_drag_Nm(of.machine)), np.inf)
-    return {**_blow(reversal_blows(of.machine)), "drag_Nm": drag}
+    return {**_impact(reversal_impacts(of.machine)), "drag_Nm": drag}
 
 
-def _blow(found: Blows) -> Columns:
+def _impact(found: Impacts) -> Columns:
     return {name: np.where(np.isnan(row), np.inf, row) for name, row in found._asdict().items()}
 
 

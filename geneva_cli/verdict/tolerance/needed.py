@@ -15,7 +15,7 @@ import math
 from collections.abc import Callable
 from typing import NamedTuple, TypeAlias
 
-from geneva_cli.analysis.blows import arm_mm
+from geneva_cli.analysis.impacts import arm_mm
 from geneva_cli.errors import GenevaError
 from geneva_cli.machine.engagement import Engagement
 from geneva_cli.machine.mechanism import Mechanism, build

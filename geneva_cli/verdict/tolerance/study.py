@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from geneva_cli.analysis.blows import mouth_jumps_worst
+from geneva_cli.analysis.impacts import mouth_jumps_worst
 from geneva_cli.analysis.locking import Lock
 from geneva_cli.analysis.sphere_locking import SphereLock
 from geneva_cli.analysis.tolerance.dimensions import (
@@ -141,7 +141,7 @@ def _refuse_wide(mechanism: Mechanism, use: dict[str, float]) -> None:
     A normal distribution has tails: deviations lie within three times the plus or minus.
     """
     for one in motion_errors(mechanism):
-        room = one.room_mm(mechanism.spec, use)
+        room = one.margin_mm(mechanism.spec, use)
         if not use["center_distance_mm"] + use["crank_radius_mm"] < room:
             raise GenevaError(
                 "the tolerances are too wide for a machine: center_distance_mm and "

@@ -1,4 +1,4 @@
-"""The blows that a machine's roller deals at the worst of its tolerances, and their forces."""
+"""The impacts of a machine's roller at the worst of its tolerances, and their forces."""
 
 from __future__ import annotations
 
@@ -23,10 +23,10 @@ if TYPE_CHECKING:
 NO_LEVER = 1e-6  # of the centre distance: where the slot lies across the way nothing bounds a play
 
 
-class Blow(NamedTuple):
-    """A jump of the wheel's velocity over the input's, and what it costs.
+class Impact(NamedTuple):
+    """A jump of the wheel's velocity over the input's, with its force and moment.
 
-    Both are None without an inertia, ``force_N`` without a ``face_width_mm`` too.
+    Both are None without an inertia; ``force_N`` is None without a ``face_width_mm`` too.
     """
 
     at_deg: float
@@ -35,8 +35,8 @@ class Blow(NamedTuple):
     moment_Nms: float | None
 
 
-class Blows(NamedTuple):
-    """The same of m designs, (m,) each; NaN where there is none, or where it is not known."""
+class Impacts(NamedTuple):
+    """Impacts of m designs, (m,) each; NaN if there is none, or if it is not known."""
 
     at_deg: Array
     jump: Array
@@ -44,36 +44,36 @@ class Blows(NamedTuple):
     moment_Nms: Array
 
     @property
-    def only(self) -> Blow | None:
-        """That of the one design."""
+    def only(self) -> Impact | None:
+        """Impact of a single design, or None."""
         at_deg, jump, *cost = only_of(self)
-        return None if at_deg is None or jump is None else Blow(at_deg, jump, *cost)
+        return None if at_deg is None or jump is None else Impact(at_deg, jump, *cost)
 
 
-def entry_blow(mechanism: Mechanism, share: float = 1.0) -> Blow | None:
-    """Where the crank is as wrong as its tolerances allow, times ``share``; None without any.
+def entry_impact(mechanism: Mechanism, share: float = 1.0) -> Impact | None:
+    """Impact at entry if the crank has its greatest error, times ``share``; None without an error.
 
-    On the slot's axis, or on a corner of the mouth where the slot is too narrow to let the roller
-    in beside its axis. The jump is negative where the wheel is struck back.
+    It is on the slot's axis, or on a corner of the mouth if the slot is too narrow for the roller
+    to enter beside its axis. The jump is negative if the wheel is struck backwards.
     """
-    return entry_blows(mechanism, share).only
+    return entry_impacts(mechanism, share).only
 
 
-def entry_blows(mechanism: Mechanism, share: float = 1.0) -> Blows:
-    """The same of m designs."""
+def entry_impacts(mechanism: Mechanism, share: float = 1.0) -> Impacts:
+    """Impacts at entry of m designs, as ``entry_impact`` of each."""
     best = np.full((2, 1), np.nan)
     for engagement in mechanism.engagements:
         every = [first_contacts(engagement, *e) for e in _errors(mechanism, engagement, share)]
-        for found in (*every, *_on_mouth(mechanism, engagement, share)):
-            if found is not None:
-                best = _harder(best, _shown(mechanism, engagement, *found))
+        for contacts in (*every, *_on_mouth(mechanism, engagement, share)):
+            if contacts is not None:
+                best = _harder(best, _shown(mechanism, engagement, *contacts))
     return _with_cost(mechanism, best)
 
 
 def _errors(
     mechanism: Mechanism, engagement: Engagement, share: float
 ) -> Iterator[tuple[float, float]]:
-    """The largest relative errors of R and L that lie across the slot, one way and the other."""
+    """Greatest relative errors of R and L that act across the slot, in both directions."""
     spec, L = mechanism.spec, mechanism.center_distance_mm
     arm = arm_mm(mechanism, engagement)
     crank = share * spec.tolerance.crank_radius_mm / arm if spec.drive.ONE_ARM else 0.0
@@ -84,7 +84,7 @@ def _errors(
 
 
 def arm_mm(mechanism: Mechanism, engagement: Engagement) -> float:
-    """The crank's radius at an engagement: its rollers' arms may differ."""
+    """Crank radius at an engagement, mm; its rollers' arms may differ."""
     L = mechanism.center_distance_mm
     if not mechanism.spec.wheel.FLAT:
         return mechanism.ratio * L
@@ -95,18 +95,18 @@ def arm_mm(mechanism: Mechanism, engagement: Engagement) -> float:
 def _on_mouth(
     mechanism: Mechanism, engagement: Engagement, share: float
 ) -> list[FirstContacts | None]:
-    """The first contacts on the mouth's corners, the largest roller in the narrowest slot."""
-    given, L = mechanism.spec.tolerance, mechanism.center_distance_mm
+    """First contacts with the mouth's corners, for the largest roller in the narrowest slot."""
+    tolerance, L = mechanism.spec.tolerance, mechanism.center_distance_mm
     clear = mechanism.spec.size.allowances.slot_clearance_mm
-    lost = 0.5 * share * (given.roller_diameter_mm + given.slot_width_mm)
-    room = parameter(np.maximum(clear - lost, 0.0)) / L
+    lost = 0.5 * share * (tolerance.roller_diameter_mm + tolerance.slot_width_mm)
+    spare = parameter(np.maximum(clear - lost, 0.0)) / L
     roller = mechanism.roller_radius_mm / L
     errors = _errors(mechanism, engagement, share)
-    return [mouth_contacts(engagement, *error, roller, room) for error in errors]
+    return [mouth_contacts(engagement, *error, roller, spare) for error in errors]
 
 
 def mouth_jumps_worst(mechanism: Mechanism) -> Array:
-    """The sizes of the worst jumps on a mouth's corner, (m,); 0 where a roller has room in each."""
+    """Sizes of the worst jumps on a mouth's corner, (m,); 0 if no roller touches a corner."""
     every = [on for one in mechanism.engagements for on in _on_mouth(mechanism, one, 1.0)]
     sizes = [np.nan_to_num(abs(one.jump)) for one in every if one is not None]
     worst: Array = np.max(np.broadcast_arrays(np.zeros(1), *sizes), axis=0)
@@ -114,23 +114,23 @@ def mouth_jumps_worst(mechanism: Mechanism) -> Array:
 
 
 def clearance_mm(mechanism: Mechanism) -> float:
-    """Roller to slot, per side, of the smallest roller in the widest slot."""
-    given = mechanism.spec.tolerance
-    both = given.roller_diameter_mm + given.slot_width_mm
+    """Clearance between roller and slot per side, for the smallest roller in the widest slot."""
+    tolerance = mechanism.spec.tolerance
+    both = tolerance.roller_diameter_mm + tolerance.slot_width_mm
     return mechanism.spec.size.allowances.slot_clearance_mm + 0.5 * both
 
 
-def reversal_blow(mechanism: Mechanism) -> Blow | None:
-    """The hardest change of sides, through the largest play; None where the roller changes none.
+def reversal_impact(mechanism: Mechanism) -> Impact | None:
+    """Hardest impact at a change of sides with the greatest play; None if there is no change.
 
-    The play is that of the clearance at the lever where the wheel begins to coast. Without an
-    inertia there is none that coasts; with a drag above ``lasting_drag_Nm`` nothing changes.
+    The play is the clearance over the lever where the wheel begins to coast. Without an inertia no
+    wheel coasts. With a drag above ``lasting_drag_Nm`` the roller never changes sides.
     """
-    return reversal_blows(mechanism).only
+    return reversal_impacts(mechanism).only
 
 
-def reversal_blows(mechanism: Mechanism) -> Blows:
-    """The same of m designs."""
+def reversal_impacts(mechanism: Mechanism) -> Impacts:
+    """Hardest impacts at a change of sides of m designs."""
     best = np.full((2, 1), np.nan)
     none = (drag_over(mechanism) == np.inf) | (clearance_mm(mechanism) == 0.0)
     for engagement in () if all_true(none) else mechanism.engagements:
@@ -139,7 +139,7 @@ def reversal_blows(mechanism: Mechanism) -> Blows:
 
 
 def _reversal(mechanism: Mechanism, engagement: Engagement) -> Array:
-    """Of one engagement: shown input angles and jumps, (2, m)."""
+    """Displayed input angles and jumps of one engagement's hardest impacts, (2, m)."""
     numbers = mechanism.center_distance_mm, drag_over(mechanism), clearance_mm(mechanism)
     L, drag, clearance = (np.broadcast_to(x, (mechanism.designs, 1)) for x in numbers)
     at = changes(engagement, drag)
@@ -147,32 +147,32 @@ def _reversal(mechanism: Mechanism, engagement: Engagement) -> Array:
     if not len(at.x):
         return out
     lever = abs(touching(taken(engagement, at.which), at.x[:, None]).lever.arrays()[0][:, 0])
-    share = clearance[at.which, 0] / (np.maximum(lever, NO_LEVER) * L[at.which, 0])
-    play = np.where(lever > NO_LEVER, 2.0 * np.arcsin(np.minimum(share, 1.0)), 0.0)
-    found = impacts_of(engagement, at, play, drag)
-    # the hardest of each design, of equal ones the first
-    order = np.lexsort((np.nan_to_num(-found.speed, nan=np.inf), at.which))
+    sine = clearance[at.which, 0] / (np.maximum(lever, NO_LEVER) * L[at.which, 0])
+    play = np.where(lever > NO_LEVER, 2.0 * np.arcsin(np.minimum(sine, 1.0)), 0.0)
+    struck = impacts_of(engagement, at, play, drag)
+    # hardest of each design; of equal ones the first
+    order = np.lexsort((np.nan_to_num(-struck.speed, nan=np.inf), at.which))
     which, first = np.unique(at.which[order], return_index=True)
-    out[:, which] = found.at_deg[order][first], found.speed[order][first]
+    out[:, which] = struck.at_deg[order][first], struck.speed[order][first]
     return _shown(mechanism, engagement, *out)
 
 
 def _shown(mechanism: Mechanism, engagement: Engagement, at_deg: Array, jump: Array) -> Array:
-    """Input angles as they are shown, and jumps: (2, m)."""
+    """Displayed input angles, and jumps: (2, m)."""
     shown = mechanism.shown_deg(parameter(engagement.mid_deg + at_deg[:, None]))
     return np.stack(np.broadcast_arrays(np.ravel(shown), jump))
 
 
 def _harder(one: Array, other: Array) -> Array:
-    """The harder of two blows, the first where they are one."""
+    """The harder of two impacts in each design; the first if they are equal."""
     more = abs(other[1]) > np.nan_to_num(abs(one[1]), nan=-1.0)
     return np.where(more, other, one)
 
 
-def _with_cost(mechanism: Mechanism, blows: Array) -> Blows:
-    at_deg, jump = blows
+def _with_cost(mechanism: Mechanism, impacts: Array) -> Impacts:
+    at_deg, jump = impacts
     moment = np.ravel(impulse_Nms(mechanism, jump[:, None]))
     force = forces_N(mechanism, jump[:, None])
     force = np.full(len(moment), np.nan) if force is None else force
     moment = np.where(moment == 0.0, np.nan, moment)
-    return Blows(*np.broadcast_arrays(at_deg, jump, force, moment))
+    return Impacts(*np.broadcast_arrays(at_deg, jump, force, moment))

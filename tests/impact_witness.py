@@ -1,8 +1,8 @@
-"""Single contacts and impacts, as the tests of blows ask for them."""
+"""Single contacts and impacts, as the tests of impacts ask for them."""
 
 import numpy as np
 
-from geneva_cli.analysis.change_of_sides import Impacts, changes, impacts_of
+from geneva_cli.analysis.change_of_sides import WallImpacts, changes, impacts_of
 from geneva_cli.analysis.shock import FirstContacts, first_contacts
 from geneva_cli.analysis.shock_force import forces_N
 
@@ -20,10 +20,10 @@ def impacts_in(engagement, play, drag=0.0):
     over = np.array([[float(drag)]])
     at = changes(engagement, over)
     rows = zip(*impacts_of(engagement, at, np.full(len(at.x), play), over), strict=True)
-    return [Impacts(*row) for row in rows if not np.isnan(row[1])]
+    return [WallImpacts(*row) for row in rows if not np.isnan(row[1])]
 
 
 def force_of(mechanism, jump):
-    """The force of one design's blow; None where it is not known."""
+    """The force of one design's impact; None where it is not known."""
     found = forces_N(mechanism, np.array([[jump]]))
     return None if found is None or np.isnan(found).any() else found.item()
