@@ -102,10 +102,10 @@ def show(table: Table, output: str = "-", format: str = "", inputs: Iterable[str
 
         table = only(table, choice.columns)
     if name == "table" and is_seen(output):
-        from geneva_cli.output import terminal
+        from geneva_cli.output.terminal import chunks
+        from geneva_cli.output.window import window
 
-        window = terminal.window(bool(choice.columns), choice.wide)
-        _put(terminal.chunks(table, window), output, inputs)
+        _put(chunks(table, window(bool(choice.columns), choice.wide)), output, inputs)
         return
     module = cast(Format, importlib.import_module(f"geneva_cli.output.{FORMATS[name]}"))
     _put(module.chunks(table), output, inputs)
@@ -259,9 +259,10 @@ def show_markdown(text: str) -> None:
     if not is_seen("-"):
         sys.stdout.write(text)
         return
-    from geneva_cli.output import reader, terminal
+    from geneva_cli.output.reader import chunks
+    from geneva_cli.output.window import window
 
-    _put(reader.chunks(text, terminal.window(False, choice.wide)), "-", ())
+    _put(chunks(text, window(False, choice.wide)), "-", ())
 
 
 def _progress(done: int, rows: int) -> None:

@@ -19,7 +19,9 @@ from windows import COLUMNS, bare, look_at_page, look_at_table, require_width
 from geneva_cli import output
 from geneva_cli.app import COMMANDS, app
 from geneva_cli.manual import TOPICS, page
-from geneva_cli.output.terminal import Window, chunks, value
+from geneva_cli.output.terminal import chunks
+from geneva_cli.output.values import value
+from geneva_cli.output.window import Window
 from geneva_cli.table import Reading, record_table, rows_table
 
 GENEVA = os.path.join(os.path.dirname(sys.executable), "geneva")
@@ -177,6 +179,12 @@ def test_what_is_alike_in_every_row_is_said_once():
     ]
 
 
+def test_rows_that_are_all_alike_keep_a_column():
+    table = rows_table(("z", "tau"), [(6, 0.25), (6, 0.25)])
+    assert lines_of(table, 80)[0] == "In every row: slots 6; tau 0.25."
+    assert [line.strip() for line in lines_of(table, 80)[2:]] == ["slots", "6", "6"]
+
+
 @pytest.mark.parametrize(
     ("number", "unit", "text"),
     [
@@ -188,7 +196,7 @@ def test_what_is_alike_in_every_row_is_said_once():
         (1234567, "", "1234567"),
         (8760.0, "h", "8760 h"),
         (2.8e8, "h", "practically unlimited"),
-        (float("inf"), "", "no bound"),
+        (float("inf"), "mm", "no bound"),
         (None, "mm", "-"),
         (True, "", "yes"),
         ("external", "", "external"),

@@ -8,7 +8,7 @@ from contextlib import contextmanager
 import pytest
 
 from geneva_cli.output import plot_text, reader, terminal, text
-from geneva_cli.output.terminal import Window
+from geneva_cli.output.window import Window
 
 COLUMNS = (60, 80, 120, 200)
 STYLED = (True, False)

@@ -1,0 +1,116 @@
+"""A table of rows in the window of a terminal, and what is left out of it."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from itertools import chain
+from typing import Any
+
+from geneva_cli.errors import clean
+from geneva_cli.names import heading, spoken
+from geneva_cli.output.layout import (
+    DIM,
+    ShownColumn,
+    fitting,
+    heads,
+    row,
+    stacked,
+    turned,
+    width_of,
+)
+from geneva_cli.output.text import without_noise
+from geneva_cli.output.values import NUMBER, aligned, bare, with_unit
+from geneva_cli.output.window import Window, paragraphs, styled
+from geneva_cli.table import Table
+
+HELD = 8192  # rows by which a table is laid out; later ones of a longer table follow that
+FEW = 3  # rows of a table that may be turned on its side
+BOUNDLESS = 1_000_000  # letters of a line where the window does not matter
+NAMING = ("quantity", "dimension", "check")  # columns whose cells are names with units
+
+
+def rows_of(table: Table, window: Window, is_inner: bool = False) -> Iterator[str]:
+    """Rows under their headings: as many columns as fit, and what became of the others.
+
+    A short table is turned on its side where that shows more: one row, few in a record.
+    """
+    blocks = table.blocks(HELD)
+    first = next(blocks, [])
+    if not first:
+        yield from ["no rows"] if table.names else []
+        return
+    every = _columns(table, first)
+    columns, once = (every, []) if window.whole else _sorted_out(every, table)
+    if once:
+        yield from paragraphs(f"In every row: {'; '.join(once)}.", window)
+        yield ""
+    if len(table) > HELD:
+        columns = [c if c.is_text else c._replace(cells=[*c.cells, "0" * NUMBER]) for c in columns]
+    order = _order(table)
+    kept, sizes = fitting(columns, order, BOUNDLESS if window.wide else window.columns)
+    lost = [column.name for column in columns if column not in kept]
+    if lost and len(first) <= (FEW if is_inner or 3 * len(kept) < len(columns) else 1):
+        lines = turned(columns, window.columns)
+        if lines:
+            yield from lines
+            return
+    if lost and len(kept) == 1 and len(table) <= HELD:
+        second = min((c for c in columns if c.name in lost), key=lambda c: order.index(c.name))
+        yield from stacked(kept[0], second, window.columns)
+        yield from _left_out([name for name in lost if name != second.name], window)
+        return
+    yield from heads(kept, sizes, window.styled)
+    names = {column.name for column in kept}
+    for block in chain([every], (_columns(table, block) for block in blocks)):
+        cells = [column.cells for column in block if column.name in names]
+        for texts in zip(*cells, strict=True):
+            yield from row(texts, sizes, [column.is_text for column in kept])
+    yield from _left_out(lost, window)
+
+
+def _order(table: Table) -> list[str]:
+    """The columns from the most important one."""
+    return [*table.reading.first, *(n for n in table.names if n not in table.reading.first)]
+
+
+def _left_out(names: Sequence[str], window: Window) -> Iterator[str]:
+    """The line that says which columns are left out, and how to see them."""
+    if not names:
+        return
+    one = "1 more column" if len(names) == 1 else f"{len(names)} more columns"
+    line, rest = f"{one}: --wide, or --columns ", list(names)
+    while rest and width_of(line + rest[0]) + len(",...") <= window.columns:
+        line += rest.pop(0) + ","
+    yield ""
+    yield styled(f"{line}..." if rest else line[:-1], DIM, window)
+
+
+def _columns(table: Table, block: list[tuple[Any, ...]]) -> list[ShownColumn]:
+    """All columns of some rows."""
+    rows = block if table.mixed else without_noise(block)
+    found = []
+    for name, values in zip(table.names, zip(*rows, strict=True), strict=True):
+        literal = table.reading.designs and name not in NAMING
+        words, unit = (name, "") if literal else spoken(name)
+        is_text = any(isinstance(v, (str, bool)) for v in values)
+        texts = [bare(v, unit) for v in values]
+        if name in NAMING:
+            texts = [clean(heading(text)) for text in texts]
+        elif not is_text and not table.mixed:
+            texts = aligned(texts)
+        found.append(ShownColumn(name, clean(words), unit, texts, is_text))
+    return found
+
+
+def _sorted_out(columns: list[ShownColumn], table: Table) -> tuple[list[ShownColumn], list[str]]:
+    """The columns that differ from row to row, and what the others hold in every row."""
+    kept, once = [], []
+    for column in columns:
+        cells = {text.strip() for text in column.cells}
+        if cells == {""}:
+            continue
+        if len(cells) > 1 or len(column.cells) == 1 or table.reading.designs:
+            kept.append(column)
+        elif column.name not in table.reading.said:
+            once.append(f"{column.words} {with_unit(cells.pop(), column.unit)}")
+    return kept or columns[:1], once
