@@ -78,11 +78,12 @@ def _left_out(names: Sequence[str], window: Window) -> Iterator[str]:
     if not names:
         return
     one = "1 more column" if len(names) == 1 else f"{len(names)} more columns"
-    line, rest = f"{one}: --wide, or --columns ", list(names)
-    while rest and width_of(line + rest[0]) + len(",...") <= window.columns:
-        line += rest.pop(0) + ","
+    start, some, rest = f"{one}: --wide, or --columns ", "", list(names)
+    while rest and width_of(start + some + rest[0]) + len(",...") <= window.columns:
+        some += rest.pop(0) + ","
+    line = f"{start}{some}..." if rest else start + some[:-1]
     yield ""
-    yield styled(f"{line}..." if rest else line[:-1], DIM, window)
+    yield styled(line if some else f"{one}: --wide", DIM, window)
 
 
 def _columns(table: Table, block: list[tuple[Any, ...]]) -> list[ShownColumn]:

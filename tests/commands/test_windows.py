@@ -6,6 +6,7 @@ What the manual's commands print is looked at where test_manual.py runs them.
 import fcntl
 import os
 import pty
+import random
 import struct
 import subprocess
 import sys
@@ -177,6 +178,30 @@ def test_what_is_alike_in_every_row_is_said_once():
         "    3",
         "    4",
     ]
+
+
+def any_value(rng, kind):
+    words = ["a", "wheel's", "slot_width_mm", "12.5", "x" * 20, "輪の", "greatest"]
+    values = {
+        "number": lambda: rng.choice((1, -1)) * 10 ** rng.uniform(-12, 12),
+        "count": lambda: rng.randrange(10 ** rng.randrange(1, 9)),
+        "truth": lambda: rng.random() < 0.5,
+        "prose": lambda: " ".join(rng.choices(words, k=rng.randrange(15))),
+        "same": lambda: 1.5,
+    }
+    return None if rng.random() < 0.15 else values[kind]()
+
+
+@pytest.mark.parametrize("seed", range(30))
+def test_any_table_fits(seed):
+    """Of up to 24 columns of all kinds, with values that are not there and with wide letters."""
+    rng = random.Random(seed)
+    kinds = rng.choices(("number", "number", "count", "truth", "prose", "same"), k=1 + seed % 24)
+    names = [f"{rng.choice(('motion', 'k_r', 'loads.pin_N'))}_{i}_mm" for i in range(len(kinds))]
+    rows = [[any_value(rng, kind) for kind in kinds] for _ in range(seed % 6)]
+    table = rows_table(names, rows, mixed=seed % 3 == 0)
+    look_at_table(table)
+    look_at_table(record_table({"x": 1.0, "t": table, "g.y_mm": 2.0}, "Title " * 20, "Prose " * 50))
 
 
 def test_rows_that_are_all_alike_keep_a_column():

@@ -14,7 +14,7 @@ COLUMNS = (60, 80, 120, 200)
 STYLED = (True, False)
 WIDEST = Window(1_000_000, whole=True, wide=True)
 ESCAPE = re.compile(r"\x1b\[[0-9;]*m")
-MORE = re.compile(r"\d+ more columns?: --wide, or --columns (\S+)")
+MORE = re.compile(r"\d+ more columns?: --wide(?:, or --columns (\S+))?")
 # what the program says between the cells
 OWN = {"In", "every", "row", "no", "rows", "-"}
 LONG = 40  # letters of a path or a list that may be broken behind a sign
@@ -46,7 +46,7 @@ def require_width(lines, columns):
 def require_whole(lines, columns, known):
     """Nothing too wide, and no word that is not ``known``: it would be a piece of one."""
     require_width(lines, columns)
-    more = [found[1] for found in map(MORE.match, map(bare, lines)) if found]
+    more = [found[1] for found in map(MORE.match, map(bare, lines)) if found and found[1]]
     own = [line for line in lines if not MORE.match(bare(line))]
     strange = {word for word in words(own) - known - OWN if any(map(str.isalnum, word))}
     strange = {w for w in strange if not any(p in known for p in re.split(r"[/,=]|::", w) if p)}
