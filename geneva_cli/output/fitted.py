@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from itertools import chain
 from typing import Any
 
 from geneva_cli.errors import clean
@@ -17,6 +16,7 @@ from geneva_cli.output.layout import (
     stacked,
     turned,
     width_of,
+    widths,
 )
 from geneva_cli.output.text import without_noise
 from geneva_cli.output.values import NUMBER, aligned, bare, with_unit
@@ -46,25 +46,32 @@ def rows_of(table: Table, window: Window, is_inner: bool = False) -> Iterator[st
         yield ""
     if len(table) > HELD:
         columns = [c if c.is_text else c._replace(cells=[*c.cells, "0" * NUMBER]) for c in columns]
-    order = _order(table)
-    kept, sizes = fitting(columns, order, BOUNDLESS if window.wide else window.columns)
-    lost = [column.name for column in columns if column not in kept]
-    if lost and len(first) <= (FEW if is_inner or 3 * len(kept) < len(columns) else 1):
-        lines = turned(columns, window.columns)
-        if lines:
-            yield from lines
-            return
-    if lost and len(kept) == 1 and len(table) <= HELD:
-        second = min((c for c in columns if c.name in lost), key=lambda c: order.index(c.name))
-        yield from stacked(kept[0], second, window.columns)
-        yield from _left_out([name for name in lost if name != second.name], window)
+    order, room = _order(table), BOUNDLESS if window.wide else window.columns
+    kept, sizes = fitting(columns, order, room)
+    lost = [
+        column
+        for column in sorted(columns, key=lambda c: order.index(c.name))
+        if column not in kept
+    ]
+    few = FEW if is_inner or 3 * len(kept) < len(columns) else 1
+    other = turned(columns, window.columns) if lost and len(first) <= few else None
+    if not other and lost and len(kept) == 1 and len(table) <= HELD:
+        other = list(stacked(kept[0], lost.pop(0), window.columns))
+        other += _left_out(lost, window)
+    if other:
+        yield from other
         return
+    if len(table) <= HELD and not table.mixed:
+        pointed = [column._replace(cells=aligned(column.cells)) for column in kept]
+        sizes, kept = (found, pointed) if (found := widths(pointed, room)) else (sizes, kept)
     yield from heads(kept, sizes, window.styled)
-    names = {column.name for column in kept}
-    for block in chain([every], (_columns(table, block) for block in blocks)):
-        cells = [column.cells for column in block if column.name in names]
+    is_text, names = [column.is_text for column in kept], {column.name for column in kept}
+    for texts in zip(*(column.cells[: len(first)] for column in kept), strict=True):
+        yield from row(texts, sizes, is_text)
+    for block in blocks:
+        cells = [column.cells for column in _columns(table, block) if column.name in names]
         for texts in zip(*cells, strict=True):
-            yield from row(texts, sizes, [column.is_text for column in kept])
+            yield from row(texts, sizes, is_text)
     yield from _left_out(lost, window)
 
 
@@ -73,12 +80,12 @@ def _order(table: Table) -> list[str]:
     return [*table.reading.first, *(n for n in table.names if n not in table.reading.first)]
 
 
-def _left_out(names: Sequence[str], window: Window) -> Iterator[str]:
+def _left_out(columns: Sequence[ShownColumn], window: Window) -> Iterator[str]:
     """The line that says which columns are left out, and how to see them."""
-    if not names:
+    if not columns:
         return
-    one = "1 more column" if len(names) == 1 else f"{len(names)} more columns"
-    start, some, rest = f"{one}: --wide, or --columns ", "", list(names)
+    one = "1 more column" if len(columns) == 1 else f"{len(columns)} more columns"
+    start, some, rest = f"{one}: --wide, or --columns ", "", [column.name for column in columns]
     while rest and width_of(start + some + rest[0]) + len(",...") <= window.columns:
         some += rest.pop(0) + ","
     line = f"{start}{some}..." if rest else start + some[:-1]
@@ -97,8 +104,6 @@ def _columns(table: Table, block: list[tuple[Any, ...]]) -> list[ShownColumn]:
         texts = [bare(v, unit) for v in values]
         if name in NAMING:
             texts = [clean(heading(text)) for text in texts]
-        elif not is_text and not table.mixed:
-            texts = aligned(texts)
         found.append(ShownColumn(name, clean(words), unit, texts, is_text))
     return found
 
@@ -107,7 +112,7 @@ def _sorted_out(columns: list[ShownColumn], table: Table) -> tuple[list[ShownCol
     """The columns that differ from row to row, and what the others hold in every row."""
     kept, once = [], []
     for column in columns:
-        cells = {text.strip() for text in column.cells}
+        cells = set(column.cells)
         if cells == {""}:
             continue
         if len(cells) > 1 or len(column.cells) == 1 or table.reading.designs:

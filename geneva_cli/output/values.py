@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import re
+from collections.abc import Sequence
 from typing import Any
 
 from geneva_cli.output.text import cell
@@ -11,6 +13,7 @@ DIGITS = 5  # significant digits; csv and json carry all
 NUMBER = 11  # letters of the widest number of so many digits, -1.2345e-10
 HOURS = 1e6  # of a life, 114 years of running day and night: longer ones mean nothing
 ENDLESS = "practically unlimited"
+NUMERIC = re.compile(r"-?[\d.]+|-")  # without a power of ten; or no value
 SPARE = 3  # letters by which a column may be wider so that its points stand below each other
 
 
@@ -38,10 +41,11 @@ def bare(number: Any, unit: str) -> str:
     return f"{digits}e{int(power)}" if e else digits
 
 
-def aligned(texts: list[str]) -> list[str]:
+def aligned(texts: Sequence[str]) -> Sequence[str]:
     """Numbers with their points below each other, where that takes but little more width."""
+    if not all(NUMERIC.fullmatch(text) for text in texts):
+        return texts
     tails = [len(text) - text.find(".") if "." in text else 0 for text in texts]
     most = max(tails)
     found = [text + " " * (most - tail) for text, tail in zip(texts, tails, strict=True)]
-    is_wide = max(map(len, found)) > max(map(len, texts)) + SPARE
-    return texts if is_wide or any("e" in text for text in texts) else found
+    return found if max(map(len, found)) <= max(map(len, texts)) + SPARE else texts

@@ -54,14 +54,14 @@ def require_whole(lines, columns, known):
     return more
 
 
-def look_at_table(table):
+def look_at_table(table, chunks=terminal.chunks):
     """A table in every window: its words are those of the same table without a window."""
-    known = words("".join(terminal.chunks(table, WIDEST)).splitlines())
+    known = words("".join(chunks(table, WIDEST)).splitlines())
     inner = [v for v in next(table.rows(), ()) if hasattr(v, "names")] if table.record else []
     names = {name for one in (table, *inner) for name in one.names}
     title = words([table.title, table.reading.title, table.prose])
     for columns, styled in itertools.product(COLUMNS, STYLED):
-        lines = "".join(terminal.chunks(table, Window(columns, styled))).splitlines()
+        lines = "".join(chunks(table, Window(columns, styled))).splitlines()
         assert styled or lines == [bare(line) for line in lines]
         for said in require_whole(lines, columns, known | title):
             assert set(said.removesuffix(",...").split(",")) <= names
@@ -79,11 +79,15 @@ def look_at_page(page):
 @contextmanager
 def looking():
     """Look at every table, and every chart in text, that is printed meanwhile."""
-    tables, charts = text.chunks, plot_text.chunks
+    tables, charts, fitted = text.chunks, plot_text.chunks, terminal.chunks
 
     def shown(table):
-        look_at_table(table)
+        look_at_table(table, fitted)
         return tables(table)
+
+    def seen(table, window):
+        look_at_table(table, fitted)
+        return fitted(table, window)
 
     def drawn(figure, *where):
         for columns, unicode in itertools.product(COLUMNS, STYLED):
@@ -92,5 +96,6 @@ def looking():
 
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(text, "chunks", shown)
+        patch.setattr(terminal, "chunks", seen)
         patch.setattr(plot_text, "chunks", drawn)
         yield
