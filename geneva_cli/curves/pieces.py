@@ -20,12 +20,14 @@ from geneva_cli.curves.shapes import (
     joined,
 )
 from geneva_cli.errors import GenevaError, cut
-from geneva_cli.table import Table, rows_table
+from geneva_cli.table import Reading, Table, rows_table
 
 UNITS = {"mm": 1.0, "inch": 25.4}  # millimetres in one
 SUFFIX = {"mm": "mm", "inch": "in"}
 DECIMALS = 12  # beyond them is rounding
 STEP = 1e-9  # mm; what is shorter, or bends less from its chord, no file shows
+# What a narrow window keeps: what a piece is, where it begins, and its circle.
+FIRST = ("kind", "x", "y", "radius", "center_x", "center_y", "end_x", "end_y")
 LENGTHS = (
     "x",
     "y",
@@ -59,7 +61,9 @@ def pieces_table(drawing: Drawing, units: str = "mm") -> Table:
     if not any(row[3] == "cubic" for row in rows):
         names = names[:-4]
         rows = [row[:-4] for row in rows]
-    return rows_table(names, rows, drawing.title)
+    first = [name if name == "kind" else f"{name}_{SUFFIX[units]}" for name in FIRST]
+    reading = Reading(("layer", "contour", "piece", *first))
+    return rows_table(names, rows, drawing.title).replaced(reading=reading)
 
 
 def prepared(drawing: Drawing, units: str = "mm") -> Drawing:

@@ -107,10 +107,10 @@ def _chunks(table: Table, output: str, name: str) -> Iterator[str]:
 
         table = only(table, choice.columns)
     if name == "table" and is_seen(output):
-        from geneva_cli.output import terminal
+        from geneva_cli.output.terminal import chunks
+        from geneva_cli.output.window import window
 
-        window = terminal.window(bool(choice.columns), choice.wide)
-        return terminal.chunks(table, window)
+        return chunks(table, window(bool(choice.columns), choice.wide))
     module = cast(Format, importlib.import_module(f"geneva_cli.output.{FORMATS[name]}"))
     return module.chunks(table)
 
@@ -291,9 +291,10 @@ def show_markdown(text: str) -> None:
     if not is_seen("-"):
         sys.stdout.write(text)
         return
-    from geneva_cli.output import reader, terminal
+    from geneva_cli.output.reader import chunks
+    from geneva_cli.output.window import window
 
-    _put(reader.chunks(text, terminal.window(False, choice.wide)), "-", ())
+    _put(chunks(text, window(False, choice.wide)), "-", ())
 
 
 def _put(chunks: Iterable[str], output: str, inputs: Iterable[str]) -> None:

@@ -138,7 +138,7 @@ def turned(columns: Sequence[ShownColumn], room: int) -> list[str] | None:
     rows = list(zip(*(column.cells for column in columns), strict=True))
     sides = [
         ShownColumn("", "", "", labels, True),
-        *(ShownColumn("", "", "", [*map(str.strip, cells)], True) for cells in rows),
+        *(ShownColumn("", "", "", cells, True) for cells in rows),
     ]
     sizes = widths(sides, room)
     if sizes is None:
@@ -154,8 +154,8 @@ def turned(columns: Sequence[ShownColumn], room: int) -> list[str] | None:
 def stacked(above: ShownColumn, below: ShownColumn, room: int) -> Iterator[str]:
     """Two columns of which each cell of one stands below the other's."""
     for one, other in zip(above.cells, below.cells, strict=True):
-        yield from wrapped(one.strip(), room)
-        for line in wrapped(other.strip(), room - len(GAP)):
+        yield from wrapped(one, room)
+        for line in wrapped(other, room - len(GAP)):
             yield GAP + line
 
 

@@ -10,8 +10,8 @@ import re
 from collections.abc import Iterator
 
 from geneva_cli.output.layout import BOLD, PLAIN, ShownColumn, heads, row, widths, wrapped
-from geneva_cli.output.terminal import Window
 from geneva_cli.output.text import WIDTH
+from geneva_cli.output.window import Window
 
 FENCE = "```"
 INDENT = "  "  # of code

@@ -16,6 +16,7 @@ import repo
 from typer.testing import CliRunner
 from windows import looking
 
+from geneva_cli import output
 from geneva_cli.app import COMMANDS, app
 from geneva_cli.manual import TOPICS, page
 
@@ -28,6 +29,7 @@ UPDATE = bool(os.environ.get("GENEVA_UPDATE"))
 BLOCK = re.compile(r"```console\n(.*?)```", re.DOTALL)
 DRAWN = re.compile(r"<!-- (geneva .*?) -o (\S+\.svg) -->")
 SHOWN = re.compile(r'<img src="([^"]+)"')
+COLUMNS = 78  # of the terminal that examples are seen on: with their indent they fill one of 80
 NUMBER = re.compile(r"-?\d+\.\d+")
 
 
@@ -39,9 +41,14 @@ def invoke(arguments: list[str]) -> str:
 
 @functools.cache
 def run(command: str) -> str:
+    """What a reader sees, on a terminal without colours; of charts those of a pipe, in ASCII."""
     program, *arguments = shlex.split(command)
     assert program == "geneva"
-    return invoke(arguments)
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(output, "is_seen", lambda file: file == "-" and arguments[0] != "plot")
+        patch.setenv("COLUMNS", str(COLUMNS))
+        patch.setenv("TERM", "dumb")
+        return invoke(arguments)
 
 
 def replay(block: str) -> str:

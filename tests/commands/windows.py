@@ -8,13 +8,13 @@ from contextlib import contextmanager
 import pytest
 
 from geneva_cli.output import plot_text, reader, terminal, text
-from geneva_cli.output.terminal import Window
+from geneva_cli.output.window import Window
 
 COLUMNS = (60, 80, 120, 200)
 STYLED = (True, False)
 WIDEST = Window(1_000_000, whole=True, wide=True)
 ESCAPE = re.compile(r"\x1b\[[0-9;]*m")
-MORE = re.compile(r"\d+ more columns?: --wide, or --columns (\S+)")
+MORE = re.compile(r"\d+ more columns?: --wide(?:, or --columns (\S+))?")
 # what the program says between the cells
 OWN = {"In", "every", "row", "no", "rows", "-"}
 LONG = 40  # letters of a path or a list that may be broken behind a sign
@@ -46,7 +46,7 @@ def require_width(lines, columns):
 def require_whole(lines, columns, known):
     """Nothing too wide, and no word that is not ``known``: it would be a piece of one."""
     require_width(lines, columns)
-    more = [found[1] for found in map(MORE.match, map(bare, lines)) if found]
+    more = [found[1] for found in map(MORE.match, map(bare, lines)) if found and found[1]]
     own = [line for line in lines if not MORE.match(bare(line))]
     strange = {word for word in words(own) - known - OWN if any(map(str.isalnum, word))}
     strange = {w for w in strange if not any(p in known for p in re.split(r"[/,=]|::", w) if p)}
@@ -54,14 +54,14 @@ def require_whole(lines, columns, known):
     return more
 
 
-def look_at_table(table):
+def look_at_table(table, chunks=terminal.chunks):
     """A table in every window: its words are those of the same table without a window."""
-    known = words("".join(terminal.chunks(table, WIDEST)).splitlines())
+    known = words("".join(chunks(table, WIDEST)).splitlines())
     inner = [v for v in next(table.rows(), ()) if hasattr(v, "names")] if table.record else []
     names = {name for one in (table, *inner) for name in one.names}
     title = words([table.title, table.reading.title, table.prose])
     for columns, styled in itertools.product(COLUMNS, STYLED):
-        lines = "".join(terminal.chunks(table, Window(columns, styled))).splitlines()
+        lines = "".join(chunks(table, Window(columns, styled))).splitlines()
         assert styled or lines == [bare(line) for line in lines]
         for said in require_whole(lines, columns, known | title):
             assert set(said.removesuffix(",...").split(",")) <= names
@@ -79,11 +79,15 @@ def look_at_page(page):
 @contextmanager
 def looking():
     """Look at every table, and every chart in text, that is printed meanwhile."""
-    tables, charts = text.chunks, plot_text.chunks
+    tables, charts, fitted = text.chunks, plot_text.chunks, terminal.chunks
 
     def shown(table):
-        look_at_table(table)
+        look_at_table(table, fitted)
         return tables(table)
+
+    def seen(table, window):
+        look_at_table(table, fitted)
+        return fitted(table, window)
 
     def drawn(figure, *where):
         for columns, unicode in itertools.product(COLUMNS, STYLED):
@@ -92,5 +96,6 @@ def looking():
 
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(text, "chunks", shown)
+        patch.setattr(terminal, "chunks", seen)
         patch.setattr(plot_text, "chunks", drawn)
         yield

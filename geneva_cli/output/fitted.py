@@ -1,0 +1,122 @@
+"""A table of rows in the window of a terminal, and what is left out of it."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from typing import Any
+
+from geneva_cli.errors import clean
+from geneva_cli.names import heading, spoken
+from geneva_cli.output.layout import (
+    DIM,
+    ShownColumn,
+    fitting,
+    heads,
+    row,
+    stacked,
+    turned,
+    width_of,
+    widths,
+)
+from geneva_cli.output.text import without_noise
+from geneva_cli.output.values import NUMBER, aligned, bare, with_unit
+from geneva_cli.output.window import Window, paragraphs, styled
+from geneva_cli.table import Table
+
+HELD = 8192  # rows by which a table is laid out; later ones of a longer table follow that
+FEW = 3  # rows of a table that may be turned on its side
+BOUNDLESS = 1_000_000  # letters of a line where the window does not matter
+NAMING = ("quantity", "dimension", "check")  # columns whose cells are names with units
+
+
+def rows_of(table: Table, window: Window, is_inner: bool = False) -> Iterator[str]:
+    """Rows under their headings: as many columns as fit, and what became of the others.
+
+    A short table is turned on its side where that shows more: one row, few in a record.
+    """
+    blocks = table.blocks(HELD)
+    first = next(blocks, [])
+    if not first:
+        yield from ["no rows"] if table.names else []
+        return
+    every = _columns(table, first)
+    columns, once = (every, []) if window.whole else _sorted_out(every, table)
+    if once:
+        yield from paragraphs(f"In every row: {'; '.join(once)}.", window)
+        yield ""
+    if len(table) > HELD:
+        columns = [c if c.is_text else c._replace(cells=[*c.cells, "0" * NUMBER]) for c in columns]
+    order, room = _order(table), BOUNDLESS if window.wide else window.columns
+    kept, sizes = fitting(columns, order, room)
+    lost = [
+        column
+        for column in sorted(columns, key=lambda c: order.index(c.name))
+        if column not in kept
+    ]
+    few = FEW if is_inner or 3 * len(kept) < len(columns) else 1
+    other = turned(columns, window.columns) if lost and len(first) <= few else None
+    if not other and lost and len(kept) == 1 and len(table) <= HELD:
+        other = list(stacked(kept[0], lost.pop(0), window.columns))
+        other += _left_out(lost, window)
+    if other:
+        yield from other
+        return
+    if len(table) <= HELD and not table.mixed:
+        pointed = [column._replace(cells=aligned(column.cells)) for column in kept]
+        sizes, kept = (found, pointed) if (found := widths(pointed, room)) else (sizes, kept)
+    yield from heads(kept, sizes, window.styled)
+    is_text, names = [column.is_text for column in kept], {column.name for column in kept}
+    for texts in zip(*(column.cells[: len(first)] for column in kept), strict=True):
+        yield from row(texts, sizes, is_text)
+    for block in blocks:
+        cells = [column.cells for column in _columns(table, block) if column.name in names]
+        for texts in zip(*cells, strict=True):
+            yield from row(texts, sizes, is_text)
+    yield from _left_out(lost, window)
+
+
+def _order(table: Table) -> list[str]:
+    """The columns from the most important one."""
+    return [*table.reading.first, *(n for n in table.names if n not in table.reading.first)]
+
+
+def _left_out(columns: Sequence[ShownColumn], window: Window) -> Iterator[str]:
+    """The line that says which columns are left out, and how to see them."""
+    if not columns:
+        return
+    one = "1 more column" if len(columns) == 1 else f"{len(columns)} more columns"
+    start, some, rest = f"{one}: --wide, or --columns ", "", [column.name for column in columns]
+    while rest and width_of(start + some + rest[0]) + len(",...") <= window.columns:
+        some += rest.pop(0) + ","
+    line = f"{start}{some}..." if rest else start + some[:-1]
+    yield ""
+    yield styled(line if some else f"{one}: --wide", DIM, window)
+
+
+def _columns(table: Table, block: list[tuple[Any, ...]]) -> list[ShownColumn]:
+    """All columns of some rows."""
+    rows = block if table.mixed else without_noise(block)
+    found = []
+    for name, values in zip(table.names, zip(*rows, strict=True), strict=True):
+        literal = table.reading.designs and name not in NAMING
+        words, unit = (name, "") if literal else spoken(name)
+        is_text = any(isinstance(v, (str, bool)) for v in values)
+        texts = [bare(v, unit) for v in values]
+        if name in NAMING:
+            texts = [clean(heading(text)) for text in texts]
+        found.append(ShownColumn(name, clean(words), unit, texts, is_text))
+    return found
+
+
+def _sorted_out(columns: list[ShownColumn], table: Table) -> tuple[list[ShownColumn], list[str]]:
+    """The columns that differ from row to row, and what the others hold in every row."""
+    kept, once = [], []
+    for column in columns:
+        cells = set(column.cells)
+        if cells == {""}:
+            continue
+        if len(cells) > 1 or len(column.cells) == 1 or table.reading.designs:
+            kept.append(column)
+        elif column.name not in table.reading.said:
+            once.append(f"{column.words} {with_unit(cells.pop(), column.unit)}")
+    return kept or columns[:1], once

@@ -1,0 +1,45 @@
+"""The window of a terminal: its width, and text in it."""
+
+from __future__ import annotations
+
+import os
+import shutil
+from collections.abc import Iterator
+from typing import NamedTuple
+
+from geneva_cli.errors import clean
+from geneva_cli.output.layout import PLAIN, wrapped
+from geneva_cli.output.text import WIDTH
+
+NARROWEST = 60  # columns of a window; a narrower one breaks lines itself
+
+
+class Window(NamedTuple):
+    """The terminal's width in letters, whether it shows bold ones, and what does not depend on it.
+
+    A ``whole`` table has every column, constant ones too; a ``wide`` one is wider than the window.
+    """
+
+    columns: int
+    styled: bool = False
+    whole: bool = False
+    wide: bool = False
+
+
+def window(whole: bool, is_wide: bool) -> Window:
+    """The window of standard output; COLUMNS says its width before the terminal does."""
+    styled = os.environ.get("TERM", "dumb") != "dumb" and not os.environ.get("NO_COLOR")
+    columns = max(shutil.get_terminal_size().columns, NARROWEST)
+    return Window(columns, styled, whole or is_wide, is_wide)
+
+
+def paragraphs(text: str, window: Window, style: str = "") -> Iterator[str]:
+    """The lines of a text of one or more paragraphs."""
+    for paragraph in text.split("\n") if text else ():
+        for line in wrapped(clean(paragraph), min(window.columns, WIDTH)):
+            yield styled(line, style, window)
+
+
+def styled(line: str, style: str, window: Window) -> str:
+    """A line in bold letters, say, where the terminal has them."""
+    return f"{style}{line}{PLAIN}" if style and line and window.styled else line
