@@ -66,6 +66,7 @@ COLUMNS: dict[str, Any] = {
 }
 NO_TABLE = {"animate", "schema"}
 HELP = {"help_option_names": ["-h", "--help"]}
+USAGE: Any = typer.BadParameter.__base__  # Typer's error for words that no command takes
 PANEL = "rich_help_panel"  # the attribute in which Typer keeps an option's heading
 
 
@@ -183,6 +184,10 @@ class LazyGroup(TyperGroup):
             return super().invoke(ctx)
         except GenevaError as error:
             _fail(str(error))
+        except USAGE as error:
+            path = " ".join(["geneva", *error.ctx.command_path.split()[1:]])
+            said = error.format_message().rstrip(".")
+            _fail(f"{path}: {said[:1].lower()}{said[1:]}; see {path} -h")
         except OSError as error:
             _fail(f"{error.filename or 'system'}: {error.strerror}")
         except MemoryError:

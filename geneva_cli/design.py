@@ -12,9 +12,10 @@ What is imported for an answer is imported when it is asked for: here is the one
 
 from __future__ import annotations
 
+import os
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from functools import cached_property
-from typing import TYPE_CHECKING, Any, TypeVar
+from functools import cached_property, wraps
+from typing import TYPE_CHECKING, Any, Concatenate, ParamSpec, Self, TypeVar
 
 from geneva_cli.errors import Caution, GenevaError, cut
 from geneva_cli.machine.drives.crank import Crank
@@ -23,6 +24,8 @@ from geneva_cli.machine.mechanism import Mechanism, build
 from geneva_cli.machine.motion import Motion
 from geneva_cli.machine.spec import Spec
 from geneva_cli.machine.wheels.gearing import Gearing
+from geneva_cli.spec.rules import plain
+from geneva_cli.spec.schema import SHOWN_MAX, refuse_keywords, shortly
 from geneva_cli.spec.tables import (
     Limits,
     Load,
@@ -54,6 +57,7 @@ if TYPE_CHECKING:
     from geneva_cli.verdict.strength import Strength
 
 T = TypeVar("T")
+P = ParamSpec("P")
 CURVES = {"arcs": "arcs", "spline": "cubics"}  # what curved walls are written as
 
 
@@ -83,6 +87,18 @@ def answer(make: Callable[[Any], T]) -> cached_property[T]:
     return cached_property(located)
 
 
+def question(ask: Callable[Concatenate[Any, P], T]) -> Callable[Concatenate[Any, P], T]:
+    """A method that takes NumPy's scalars as Python's numbers, and refuses a wrong keyword."""
+    known = [name for name in ask.__annotations__ if name != "return"]
+
+    @wraps(ask)
+    def asked(design: Any, /, *given: P.args, **named: P.kwargs) -> T:
+        refuse_keywords(f"{ask.__name__}()", named, known)
+        return ask(design, *map(plain, given), **{k: plain(v) for k, v in named.items()})
+
+    return asked
+
+
 class Design:
     """A Geneva mechanism: what it is given as, and what follows.
 
@@ -94,6 +110,11 @@ class Design:
     >>> Design(External(6), SideCrank(A=0.6)).timing.motion_s  # at 60 rpm
     0.5072580347148502
     """
+
+    def __new__(cls, *_: object, **given: object) -> Self:
+        """Refuse a keyword that no design takes, with the nearest."""
+        refuse_keywords(cls.__name__, given, [*cls.__init__.__annotations__][:-1])
+        return super().__new__(cls)
 
     def __init__(
         self,
@@ -142,6 +163,22 @@ class Design:
         design.spec, design._text = spec, text
         return design
 
+    def __repr__(self) -> str:
+        """The design as Python writes it, without what has its default.
+
+        >>> Design(External(6), SideCrank(A=0.6), title="feed")
+        Design(External(z=6), SideCrank(A=0.6), title='feed')
+        """
+        spec = self.spec
+        said = [shortly(one) for one in (spec.wheel, spec.drive, spec.motion) if one is not None]
+        for name in [*type(self).__init__.__annotations__][3:-1]:
+            value = vars(spec)[name]
+            text = f"{value!r}" if isinstance(value, (str, tuple)) else shortly(value)
+            if value and not text.endswith("()"):
+                said.append(f"{name}={cut(text, SHOWN_MAX)}")
+        return f"Design({', '.join(said)})"
+
+    @question
     def with_(self, key: str, value: Any) -> Design:
         """The design with one key changed, ``table.key`` as in the file; None: its default.
 
@@ -166,6 +203,20 @@ class Design:
         0.5
         """
         return build(self.spec)
+
+    @answer
+    def size(self) -> Size:
+        """The sizes, with those that are not given as the machine has them; mm.
+
+        None is left of what a machine has not, and of a few details that only its parts know.
+
+        >>> size = Design(External(6)).size
+        >>> size.center_distance_mm, size.wheel_thickness_mm
+        (100.0, 10.0)
+        """
+        from geneva_cli.parts.sizes import built
+
+        return built(self.mechanism)
 
     @answer
     def timings(self) -> list[Timing]:
@@ -214,6 +265,7 @@ class Design:
 
         return peaks_table(self.mechanism)
 
+    @question
     def motion(self, samples: int = 361) -> Table:
         """``samples`` rows over a period from the first entry, evenly in the input angle.
 
@@ -226,6 +278,7 @@ class Design:
 
         return self._located(lambda: motion_table(self.mechanism, samples))
 
+    @question
     def figure(self, pick: Sequence[str] = ()) -> Figure:
         """Curves of motion and loads over a cycle, a panel a quantity; as ``geneva plot`` draws.
 
@@ -351,6 +404,7 @@ class Design:
 
         return [*under_load(self.mechanism), *missing(self.cycle)]
 
+    @question
     def load_cycle(self, samples: int = 361) -> Table:
         """``samples`` rows of the loads over a period, evenly in the input angle, dwells too.
 
@@ -361,6 +415,7 @@ class Design:
 
         return self._located(lambda: cycle_table(self.cycle, samples))
 
+    @question
     def vibration(self, period_ratio: float | None = None, damping: float | None = None) -> Table:
         """The load on an elastic shaft: a record of what an index leaves swinging.
 
@@ -380,6 +435,7 @@ class Design:
             )
         )
 
+    @question
     def spectrum(
         self, samples: int = 401, period_ratio: float | None = None, damping: float | None = None
     ) -> Table:
@@ -398,6 +454,7 @@ class Design:
             )
         )
 
+    @question
     def slot(self, tolerance_mm: float = 0.001, samples: int | None = None) -> Table:
         """The slot's pitch curve and flanks in the wheel's frame, mm, for a chord tolerance.
 
@@ -409,6 +466,7 @@ class Design:
         """
         return self.part_table("slot", tolerance_mm, samples)
 
+    @question
     def part_table(
         self, part: str, tolerance_mm: float = 0.001, samples: int | None = None
     ) -> Table:
@@ -456,6 +514,7 @@ class Design:
         """
         return self.proof.outlines
 
+    @question
     def drawn(self, tolerance_mm: float, part: str = "wheel") -> Proof:
         """The parts as they are written for a tolerance in mm, and their full turn.
 
@@ -476,6 +535,7 @@ class Design:
         made = self._located(lambda: outlines(mechanism, tolerance_mm))
         return Proof(mechanism, made)
 
+    @question
     def drawing(
         self,
         part: str,
@@ -518,6 +578,7 @@ class Design:
         require_cut(part)
         return self._located(lambda: paths(made, kerf_mm))
 
+    @question
     def cutter(
         self, part: str, cutter_mm: float, dog_bones: bool = False, of: Proof | None = None
     ) -> tuple[str, list[str]]:
@@ -538,6 +599,7 @@ class Design:
             return refused, left
         return judged(self.drawing(part, of=proof, dog_bones_mm=cutter_mm), cutter_mm)
 
+    @question
     def sheet(
         self,
         tolerance_mm: float = 0.001,
@@ -559,6 +621,41 @@ class Design:
             raise GenevaError(f"--curves {cut(curves)}: it must be arcs or spline")
         proof = of or self.drawn(tolerance_mm, part)
         return self._located(lambda: part_sheet(proof, part, tolerance_mm, CURVES[curves]))
+
+    @question
+    def save(
+        self, path: str, part: str = "", tolerance_mm: float = 0.001, force: bool = False
+    ) -> None:
+        """Write a part to a file, as ``geneva profile`` does; the extension says the format.
+
+        ``part`` is one of its parts; without, the one that the file is named for (``wheel.dxf``,
+        ``sheet.pdf``, ``slot.csv``), else the assembly. ``tolerance_mm`` is the greatest distance
+        from the true curve. Raises GenevaError where the part cannot be drawn, the file cannot be
+        written, or the machine jams, unless ``force`` is given.
+
+        >>> import tempfile
+        >>> with tempfile.TemporaryDirectory() as folder:
+        ...     Design(External(6)).save(f"{folder}/wheel.dxf")
+        """
+        from geneva_cli.output import draw, draw_sheet, show
+        from geneva_cli.output.formats import is_drawn, sheet_as, usual_curves
+        from geneva_cli.parts.catalogue import PARTS, is_sheet
+
+        stem = os.path.splitext(os.path.basename(path))[0]
+        part = part or (stem if stem in PARTS else "assembly")
+        sheet, files = is_sheet(part), self.spec.files
+        drawn = bool(sheet_as(path, "")) if sheet else is_drawn(path, "")
+        if not sheet and self.is_table(part, drawn):
+            show(self.part_table(part, tolerance_mm), path, inputs=files)
+            return
+        proof, curves = self.drawn(tolerance_mm, part), usual_curves(path, "")
+        refused = self.judge(proof)[0] if self.spec.has_parts and not force else ""
+        if refused:
+            raise GenevaError(f"{cut(path, 300)}: not written: {refused}")
+        if sheet:
+            draw_sheet(self.sheet(tolerance_mm, curves, proof, part), path, inputs=files)
+        else:
+            draw(self.drawing(part, tolerance_mm, curves, proof), path, inputs=files)
 
     def _repr_html_(self) -> str:
         """How a notebook shows it: words and verdict, the machine, its curves, the report."""
@@ -608,6 +705,7 @@ class Design:
 
         return self._located(lambda: failures(judged(proof.mechanism, proof), proof))
 
+    @question
     def tolerance(
         self, samples: int = 65536, seed: int = 0, radius_mm: float | None = None
     ) -> Table:
@@ -624,6 +722,7 @@ class Design:
             lambda: tolerance_table(self.mechanism, self.proof, samples, seed, radius_mm)
         )
 
+    @question
     def tolerance_histogram(self, samples: int = 65536, seed: int = 0) -> Table:
         """How the machines of ``tolerance`` spread: the middles of bins, and the share in each.
 

@@ -4,11 +4,15 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator, Sequence
-from itertools import islice
+from itertools import accumulate, islice
 from typing import Any, NamedTuple
+
+from geneva_cli.errors import GenevaError, cut, few, nearest
 
 PIECE = 65536  # rows of a long table that are made at once; blocks divide it
 HTML_ROWS = 60  # that a notebook shows
+SHOWN_ROWS = 10  # that the interpreter shows
+SHOWN_WIDTH = 100  # characters of these
 NO_BOUND = "no bound"  # an infinity, where a person reads it
 
 
@@ -43,6 +47,72 @@ class Table(NamedTuple):
     prose: str = ""
     mixed: bool = False
     reading: Reading = Reading()
+
+    def __getitem__(self, key: Any) -> Any:
+        """A column by its name, as a NumPy array that cannot be written to; of a record the value.
+
+        Raises GenevaError, with the nearest name, for one that it does not have.
+
+        >>> Table(("z", "tau"), ([3, 4], [1 / 6, 0.25]))["z"]
+        array([3, 4])
+        """
+        if not isinstance(key, str):
+            return tuple.__getitem__(self, key)
+        if key not in self.names:
+            hint = nearest(key, self.names)
+            raise GenevaError(f"no column {cut(key)}{hint}; it has {few(key, self.names)}")
+        column = self.columns[self.names.index(key)]
+        if self.record:
+            return column[0]
+        import numpy as np
+
+        array = np.asarray(_whole(column)).view()
+        array.flags.writeable = False
+        return array
+
+    def __repr__(self) -> str:
+        """The title and the first rows, numbers to six digits; of a record the first values."""
+        lines, rest = self._first_values() if self.record else self._first_rows()
+        return "\n".join([*([self.title] if self.title else []), *lines, *rest])
+
+    def _first_values(self) -> tuple[list[str], list[str]]:
+        """Lines of a record's first values, and what is left out."""
+        row = zip(self.names, next(self.rows()), strict=True)
+        known = [(name, _briefly(value)) for name, value in row if value not in (None, "", ())]
+        shown = known[:SHOWN_ROWS]
+        width = max((len(name) for name, _ in shown), default=0)
+        more = len(known) - len(shown)
+        lines = [f"{name.ljust(width)}  {value}" for name, value in shown]
+        return lines, [f"... {more} more values"] if more else []
+
+    def _first_rows(self) -> tuple[list[str], list[str]]:
+        """Lines of the first rows, as many columns as fit, and what is left out."""
+        rows = [tuple(map(_briefly, row)) for row in islice(self.rows(), SHOWN_ROWS)]
+        columns = list(zip(self.names, *rows, strict=True))
+        widths = [max(map(len, column)) + 2 for column in columns]
+        ends = accumulate(widths)
+        fit = max(1, sum(end <= SHOWN_WIDTH + 2 for end in ends))
+        padded = [
+            [cell.rjust(width) for cell in column]
+            for column, width in zip(columns[:fit], widths, strict=False)
+        ]
+        lines = ["".join(cells)[2:] for cells in zip(*padded, strict=True)]
+        left = {"rows": len(self) - len(rows), "columns": len(columns) - fit}
+        more = " and ".join(f"{count} more {what}" for what, count in left.items() if count)
+        return lines, [f"... {more}"] if more else []
+
+    def to_pandas(self) -> Any:
+        """A pandas DataFrame of the rows; of a record one row, nested names joined by dots.
+
+        Raises GenevaError where pandas is not installed.
+        """
+        try:
+            import pandas
+        except ImportError:
+            raise GenevaError("pandas is not installed: pip install pandas") from None
+        table = flat(self) if self.record else self
+        columns = zip(table.names, map(_whole, table.columns), strict=True)
+        return pandas.DataFrame({name: list(column) for name, column in columns})
 
     def __len__(self) -> int:
         return len(self.columns[0]) if self.columns else 0
@@ -96,6 +166,15 @@ class Table(NamedTuple):
         more = "" if self.record or len(self) <= HTML_ROWS else f"<p>{len(self)} rows</p>"
         title = f"<caption>{escape(self.title)}</caption>" if self.title else ""
         return f"<table>{title}<thead><tr>{head}</tr></thead><tbody>{body}</tbody></table>{more}"
+
+
+def _briefly(value: object) -> str:
+    """A cell in a few characters."""
+    if isinstance(value, Table):
+        return f"a table of {len(value)} rows"
+    if isinstance(value, tuple):
+        return f"{len(value)} texts" if value else "none"
+    return in_digits(value, 6) if isinstance(value, float) else cut(_shown(value), 40)
 
 
 def _shown(value: object) -> str:

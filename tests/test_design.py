@@ -4,11 +4,13 @@ import inspect
 import math
 import subprocess
 import sys
+import types
 from functools import cached_property
 
 import numpy as np
 import pytest
 import repo
+from typer.testing import CliRunner
 
 import geneva_cli
 from geneva_cli import (
@@ -35,7 +37,9 @@ from geneva_cli import (
     design,
     load,
 )
+from geneva_cli.app import app
 from geneva_cli.machine import registry
+from geneva_cli.manual import page
 
 PRESS = {
     "size": Size(center_distance_mm=441.89, roller_radius_mm=20, face_width_mm=30),
@@ -426,3 +430,126 @@ def test_every_name_can_be_imported(name):
 def test_every_kind_has_its_name_in_the_package():
     kinds = (registry.GEARINGS, registry.DRIVES, registry.LAWS)
     assert {path.partition(":")[2] for k in kinds for path in k.values()} <= set(geneva_cli.__all__)
+
+
+# What the interpreter shows, and what it takes
+
+
+def test_a_design_shows_itself_as_python_writes_it():
+    for made in DESIGNS.values():
+        names = vars(geneva_cli) | {name: getattr(geneva_cli, name) for name in dir(geneva_cli)}
+        shown = repr(made)
+        if "..." not in shown:  # points of a table are cut
+            assert eval(shown, names).spec == made.spec, shown
+    assert repr(Design(External(6))) == "Design(External(z=6), Crank())"
+    assert max(len(repr(made)) for made in DESIGNS.values()) < 500
+
+
+def test_a_table_shows_ten_rows_no_wider_than_a_page():
+    made = Design(External(6), load=Load(0.4, 15))
+    lines = repr(made.load_cycle(500)).splitlines()
+    assert (len(lines), max(map(len, lines))) == (12, pytest.approx(90, abs=10))
+    assert lines[0].split()[:2] == ["time_s", "input_deg"]
+    assert lines[-1].startswith("... 490 more rows and ")
+    assert repr(made.motion(3)).count("\n") == 3
+    shown = repr(made.peaks_table)
+    assert "velocity.max         1\n" in shown and "None" not in shown
+
+
+def test_a_column_is_an_array_that_stays_as_it_is():
+    made = Design(External(6), load=Load(torque_Nm=15))
+    table = made.load_cycle(4)
+    force = table["pin_force_N"]
+    assert isinstance(force, np.ndarray) and force.shape == (4,)
+    with pytest.raises(ValueError, match="read-only"):
+        force[0] = 1.0
+    assert table.columns[0].flags.writeable  # only what is handed out is not
+    assert made.peaks_table["velocity.max"] == 1.0
+    with pytest.raises(GenevaError, match=r'no column pin_force \(did you mean "pin_force_N"'):
+        table["pin_force"]
+
+
+def test_a_table_as_a_frame(monkeypatch):
+    table = Design(External(6)).motion(3)
+    monkeypatch.setitem(sys.modules, "pandas", None)
+    with pytest.raises(GenevaError, match="pip install pandas"):
+        table.to_pandas()
+    monkeypatch.setitem(sys.modules, "pandas", types.SimpleNamespace(DataFrame=dict))
+    assert list(table.to_pandas()) == list(table.names)
+    assert table.to_pandas()["input_deg"] == [-60.0, 120.0, 300.0]
+    record = Design(External(6)).peaks_table.to_pandas()
+    assert record["velocity.max"] == [1.0]
+
+
+@pytest.mark.parametrize("kind", [np.float32, np.float64, np.int64, np.int8])
+def test_numbers_of_numpy_are_numbers(kind):
+    whole = int if issubclass(kind, np.floating) else kind  # slots are counted
+    made = Design(External(whole(6)), size=Size(kind(100)), load=Load(torque_Nm=kind(15)))
+    assert made.spec == Design(External(6), size=Size(100), load=Load(torque_Nm=15)).spec
+    assert type(made.spec.size.center_distance_mm) is float
+    assert len(made.motion(whole(5))) == len(made.load_cycle(samples=whole(5))) == 5
+    assert made.with_("drive.n_rpm", kind(30)).timing.cycle_s == 2.0
+    assert made.vibration(kind(5), kind(0))["period_ratio"] == 5.0
+
+
+def test_lists_of_numpy_are_lists():
+    steps = External(6, steps_deg=np.array([72.0, 48.0]))
+    assert steps == External(6, steps_deg=[np.float32(72), np.int64(48)])
+
+
+@pytest.mark.parametrize(
+    ("ask", "said"),
+    [
+        (lambda: Size(centre_distance_mm=100), 'Size has no centre_distance_mm .*"center_dist'),
+        (lambda: Design(External(6), sizes=Size()), r'Design has no sizes \(did you mean "size"'),
+        (lambda: SideCrank(A=0.1, n_rmp=60), r'SideCrank has no n_rmp \(did you mean "n_rpm"'),
+        (lambda: Size().replace(widht=1), "Size has no widht"),
+        (lambda: Design(External(6)).motion(sample=3), r"motion\(\) has no sample .*samples"),
+        (lambda: Motion(Cycloidal(), ration=0.5), r'Motion has no ration \(did you mean "ratio"'),
+    ],
+    ids=range(6),
+)
+def test_a_wrong_keyword_is_refused_with_the_nearest(ask, said):
+    with pytest.raises(GenevaError, match=said):
+        ask()
+
+
+def test_sizes_that_are_not_given_are_those_of_the_parts():
+    """Given to the machine, they are its own: its parts are the same."""
+    made = Design(External(6), SideCrank(A=0.3))
+    size = made.size
+    assert (size.center_distance_mm, size.roller_radius_mm) == (100.0, 5.0)
+    assert size.wheel_radius_mm > 100.0 * math.cos(math.pi / 6)  # a roller enters on the rim
+    again = Design(External(6), SideCrank(A=0.3), size=size)
+    ours, theirs = (one.report.table.to_dict() for one in (made, again))
+    cut = [name for name in ours if name.startswith(("sizes.", "parts.")) and ours[name]]
+    assert len(cut) > 15
+    for name in cut:
+        if isinstance(ours[name], float):
+            assert theirs[name] == pytest.approx(ours[name], rel=1e-9), name  # rounding of halves
+    assert Design(Spherical(6)).size.center_distance_mm == 100.0  # no flat parts
+
+
+def test_a_design_is_saved_as_the_command_writes_it(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    spec = str(repo.DESIGNS / "turret.toml")
+    made = load(spec)
+    for file, part in [("wheel.dxf", ""), ("slot.csv", ""), ("a.svg", "crank"), ("sheet.pdf", "")]:
+        made.save(file, part)
+        part = part or file.partition(".")[0]
+        run = CliRunner().invoke(app, ["profile", spec, "--part", part, "-o", f"c-{file}"])
+        assert run.exit_code == 0
+        with open(file, "rb") as ours, open(f"c-{file}", "rb") as theirs:
+            assert ours.read() == theirs.read()
+    with pytest.raises(GenevaError, match="names no format"):
+        made.save("wheel.xyz")
+    jams = Design(External(6), size=Size(100, 5, wheel_radius_mm=88))  # its rim meets a roller
+    with pytest.raises(GenevaError, match=r"jam\.dxf: not written: "):
+        jams.save("jam.dxf", "wheel")
+    jams.save("jam.dxf", "wheel", force=True)
+
+
+def test_the_reference_page_names_all_that_a_design_answers():
+    answers = {name for name in vars(Design) if not name.startswith("_")}
+    text = page("python")
+    assert {name for name in answers if f"`{name}" not in text and f".{name}" not in text} == set()

@@ -20,7 +20,7 @@ Rows: TypeAlias = list[list[Any]]
 EXAMPLES = (
     "geneva sweep spec.toml --vary wheel.z=4..12 --pick dwell_s,acceleration.max",
     "geneva sweep spec.toml --vary size.roller_radius_mm=8..16:1 -o all.csv",
-    "geneva sweep spec.toml --vary drive.n_rpm=20..60 --best min:velocity.max_rad_s",
+    "geneva sweep spec.toml --vary wheel.z=4..12 --pareto min:jerk.max,max:dwell_s",
 )
 
 DESIGNS = "Designs"

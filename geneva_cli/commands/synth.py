@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 EXAMPLES = (
     "geneva synth --motion-deg 180 --z 6 --check 0",
     "geneva synth --dwell-s 0.8.. --cycle 1.5 --z 8 --sort min:jerk.max --check 0",
-    "geneva synth --motion-deg 180 --z 6 --external --write 1 -o machine.toml",
+    "geneva synth --tau 0.2..0.3 --z 5,6 --external --check 0",
 )
 
 

@@ -142,6 +142,41 @@ def sizes(assembly: Assembly, known: RollerPaths | None = None) -> Sizes:
     return out
 
 
+def built(mechanism: Mechanism) -> Size:
+    """The spec's sizes with all that they leave out as the machine has it, mm and diameters.
+
+    Where no flat parts can be cut, centre distance, roller and clearances alone.
+    """
+    given = mechanism.spec.size
+    known: dict[str, float] = {
+        "center_distance_mm": mechanism.center_distance_mm,
+        "roller_radius_mm": mechanism.roller_radius_mm,
+        "slot_clearance_mm": given.allowances.slot_clearance_mm,
+        "lock_clearance_mm": given.allowances.lock_clearance_mm,
+        "press_fit_mm": given.allowances.press_fit_mm,
+    }
+    if found := sized(mechanism):
+        _, own = found
+        known |= {
+            "wheel_radius_mm": own.rim,
+            "slot_bottom_clearance_mm": own.slot_bottom,
+            "lock_radius_mm": own.lock,
+            "relief_clearance_mm": own.relief,
+            "wall_min_mm": own.wall_min,
+            "wheel_bore_mm": 2.0 * own.wheel_bore,
+            "wheel_hub_mm": 2.0 * own.wheel_hub,
+            "crank_bore_mm": 2.0 * own.crank_bore,
+            "crank_hub_mm": 2.0 * own.crank_hub,
+            "pin_mm": 2.0 * own.pin,
+            "wheel_thickness_mm": own.wheel_thickness,
+            "lock_thickness_mm": own.lock_thickness,
+            "arm_thickness_mm": own.arm_thickness,
+        }
+        known |= {"wheel_outer_radius_mm": own.outer} if own.outer else {}
+    values = given.as_dict()
+    return given.replace(**{key: x for key, x in known.items() if values[key] is None})
+
+
 class Thicknesses(NamedTuple):
     """The parts' thicknesses along the axis, mm."""
 

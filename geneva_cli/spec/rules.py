@@ -127,6 +127,13 @@ def require_mm(option: str, value: float, allowed: Range, of: str = "") -> None:
         raise GenevaError(f"{option} {value:g}: must be {allowed} mm{of and f', {of}'}")
 
 
+def plain(x: Any) -> Any:
+    """Return a scalar of NumPy as the number, word or truth value of Python that it is."""
+    numpy = sys.modules.get("numpy")
+    generic = vars(numpy).get("generic") if numpy else None
+    return x.item() if generic is not None and isinstance(x, generic) else x
+
+
 def is_array(x: object) -> bool:
     """True if it is a NumPy array; NumPy is not imported for this check.
 

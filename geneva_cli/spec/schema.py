@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import dataclasses
 import math
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from types import NoneType, UnionType
 from typing import (
     Annotated,
@@ -27,10 +27,11 @@ from typing import (
 )
 
 from geneva_cli.errors import GenevaError, cut, few, nearest, refuse
-from geneva_cli.spec.rules import Csv, OneOf, Words, is_array
+from geneva_cli.spec.rules import Csv, OneOf, Words, is_array, plain
 
 LIST: TypeAlias = tuple[float, ...]
 LIST_MAX = 1000
+SHOWN_MAX = 200  # characters of a value in a record that is shown shortly
 EXACT = 2.0**53  # up to it, a float that is whole is that whole number
 REQUIRED = dataclasses.MISSING
 _NAMES: dict[Any, str] = {
@@ -75,6 +76,11 @@ class SpecTable:
 
     def __init_subclass__(cls, kw_only: bool = False) -> None:
         dataclasses.dataclass(frozen=True, eq=False, repr=False, kw_only=kw_only)(cls)
+
+    def __new__(cls, *_: object, **given: object) -> Self:
+        """Refuse a keyword that is no field, with the nearest."""
+        refuse_keywords(cls.__name__, given, _names(cls))
+        return super().__new__(cls)
 
     def __post_init__(self) -> None:
         for field in fields(type(self)):
@@ -147,13 +153,36 @@ def copied(record: T, changes: dict[str, Any]) -> T:
     """
     kind, own = type(record), vars(record)
     names = _names(kind)
-    for name in changes:
-        if name not in names:
-            raise TypeError(f"{kind.__name__} has no field {name}")
+    refuse_keywords(kind.__name__, changes, names)
     new = object.__new__(kind)
     vars(new).update({name: own[name] for name in names} | changes)
     new.__post_init__()  # type: ignore[attr-defined]
     return new
+
+
+def refuse_keywords(what: str, given: Iterable[str], known: Sequence[str]) -> None:
+    """Raise GenevaError for a keyword that ``what`` does not take, with the nearest one."""
+    for name in given:
+        if name not in known:
+            hint = nearest(name, known)
+            raise GenevaError(f"{what} has no {cut(name)}{hint}; it takes {few(name, known)}")
+
+
+def shortly(record: object) -> str:
+    """A record as Python writes it, without the fields that have their defaults.
+
+    >>> shortly(SideCrank(A=0.6))
+    'SideCrank(A=0.6)'
+    """
+    said = []
+    for one in dataclasses.fields(record):  # type: ignore[arg-type]
+        value = getattr(record, one.name)
+        made = one.default_factory
+        default = one.default if made is dataclasses.MISSING else made()
+        if value != default:
+            text = shortly(value) if dataclasses.is_dataclass(value) else repr(value)
+            said.append(f"{one.name}={cut(text, SHOWN_MAX)}")
+    return f"{type(record).__name__}({', '.join(said)})"
 
 
 def hash_once(record: object) -> int:
@@ -211,6 +240,7 @@ def checked(table: str, field: Field, value: Any) -> Any:
     if (kind is float or kind is int) and kind in field.types and value in field.rule:
         return value  # the usual case
     place = (*table.split("."), field.key)
+    value = plain(value)
     if value is None and NoneType in field.types:
         return None
     if isinstance(field.rule, Csv):
@@ -220,6 +250,8 @@ def checked(table: str, field: Field, value: Any) -> Any:
         return _number(place, field, value, whole=numeric[0] is int)
     if numeric and is_array(value):
         return _numbers(place, field, value, whole=numeric[0] is int)
+    if is_array(value) and LIST in field.types:
+        value = value.tolist()
     if isinstance(value, (list, tuple)) and LIST in field.types:
         if not value or len(value) > LIST_MAX:
             raise GenevaError(f"{field.key} must be a list of 1 to {LIST_MAX} numbers", place)

@@ -8,7 +8,7 @@ from itertools import pairwise
 
 from geneva_cli.analysis.figures import OF_NAME, LeftOut, figure
 from geneva_cli.design import Design
-from geneva_cli.errors import GenevaError, cut
+from geneva_cli.errors import GenevaError, cut, few
 from geneva_cli.figure import JOINED, LINE, POINTS, Axis, Curve, Figure, Panel, Piece
 from geneva_cli.machine.spec import Spec
 from geneva_cli.specfile.columns import Columns, read_columns
@@ -41,8 +41,17 @@ def of_specs(
     """
     texts = beside(paths, tuple(given), vary)
     designs = {name: Design.of(text.spec(), text) for name, text in texts.items()}
-    made, left_out = figure({name: design.cycle for name, design in designs.items()}, pick)
+    cycles = {name: design.cycle for name, design in designs.items()}
+    made, left_out = figure(cycles, [_drawn_as(name) for name in pick])
     return made, list(designs.values()), [(texts[name].name, text) for name, text in left_out]
+
+
+def _drawn_as(name: str) -> str:
+    """The curve of a quantity: of ``acceleration.max`` and ``pin_force_N_max`` what they are of."""
+    if name in OF_NAME:
+        return name
+    parts = (_quantity(name) or "").split(".")
+    return next((part for part in parts if part in OF_NAME), name)
 
 
 def of_table(path: str, x: str, ys: Sequence[str]) -> Figure:
@@ -57,7 +66,7 @@ def of_table(path: str, x: str, ys: Sequence[str]) -> Figure:
     if not x or not ys:
         raise GenevaError(
             f"{cut(path, 300)}: --x COLUMN and --y COLUMN,... say what to plot; it has "
-            f"{', '.join(table.names)}"
+            f"{few('', table.names)}"
         )
     x, ys = _column(table, x, "--x"), [_column(table, y, "--y") for y in dict.fromkeys(ys)]
     at = table.numbers(x, "--x")

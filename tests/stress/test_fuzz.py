@@ -164,7 +164,8 @@ FILES = [
 FILE = r"(spec|other|gone)\.toml|law\.csv|x+\.*x*\.csv|\.:|/|<std\w+>|'a\\x00b'"
 TEXT = r'".*" is no '
 PLACES = re.compile(
-    rf"Usage: |(unknown )?KIND|SUBJECT|--?[\w-]+|SPEC|{FILE}|{TEXT}|[^:]+: cannot (read|write)"
+    r"geneva( [a-z]+)?: |(unknown )?KIND|SUBJECT|--?[\w-]+|SPEC|"
+    rf"{FILE}|{TEXT}|[^:]+: cannot (read|write)"
 )
 
 

@@ -211,3 +211,12 @@ def test_one_spec_through_values_is_a_curve_for_each():
     assert len(moving) > 20 and moving <= first  # it begins to rest elsewhere in the window
     refused = run("plot", SPEC, SPEC, "--vary", "drive.A=0,0.6")
     assert refused.exit_code == 2 and "--vary is for one SPEC" in refused.output
+
+
+def test_a_quantity_is_drawn_by_any_of_its_names():
+    """A peak, or a column of ``geneva table``, stands for the curve that it is of."""
+    shown = [
+        run("plot", SPEC, "--pick", name).stdout
+        for name in ("acceleration", "acceleration.max", "acceleration_max")
+    ]
+    assert shown[0] and shown[0] == shown[1] == shown[2]
