@@ -27,10 +27,10 @@ MOST = 6  # machines in one figure that the eye still tells apart
 INPUT = Axis("input_deg", "Input angle", "deg")
 AXES = (
     Axis(WHEEL, "Wheel angle", "deg"),
-    Axis("velocity", "Velocity dψ/dθ"),
-    Axis("acceleration", "Acceleration d²ψ/dθ²"),
-    Axis("jerk", "Jerk d³ψ/dθ³"),
-    Axis("power", "Power dψ/dθ · d²ψ/dθ²"),
+    Axis("velocity", "Speed of the wheel, relative to the input"),
+    Axis("acceleration", "Acceleration of the wheel, relative to the input"),
+    Axis("jerk", "Jerk of the wheel, relative to the input"),
+    Axis("power", "Speed times acceleration, relative to the input"),
     Axis("omega_rad_s", "Wheel's velocity", "rad/s"),
     Axis("alpha_rad_s2", "Wheel's acceleration", "rad/s²"),
     Axis("wheel_torque_Nm", "Torque on the wheel", "N m"),

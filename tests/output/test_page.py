@@ -281,3 +281,17 @@ def test_links_turn_as_they_are_cut(name):
                 pins = [z for z, k in zip(there, link.kinds, strict=True) if k is Joint.PIN]
                 for z in pins:
                     assert min(abs(z - d) for d in drawn) < 2e-5 * L
+
+
+def test_curves_have_scales():
+    """Each curve has round numbers within its span, and all have the angles of the window."""
+    data = page._data(scene(load(str(repo.DESIGNS / "turret.toml"))))
+    low, high = data["window"]
+    assert [text for _, text in data["angles"]][:3] == ["-60°", "0°", "60°"]
+    assert all(low <= x <= high for x, _ in data["angles"])
+    for panel in data["panels"]:
+        assert len(panel["ticks"]) >= 2
+        for value, text in panel["ticks"]:
+            assert panel["low"] <= value <= panel["high"]
+            assert float(text) == value
+    assert data["panels"][0]["name"] == "Speed of the wheel, relative to the input"

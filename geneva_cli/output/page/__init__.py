@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any
 from geneva_cli.errors import clean
 from geneva_cli.output.inks import INKS
 from geneva_cli.output.svg_paths import element
+from geneva_cli.output.ticks import labels, ticks
 
 if TYPE_CHECKING:
     from geneva_cli.figure import Curve, Panel
@@ -19,6 +20,7 @@ if TYPE_CHECKING:
 
 DIGITS = 10  # significant, of angles and places: 1e-9 of a turn
 SEEN = 5  # of what only is looked at
+SCALE, ANGLES = 4, 7  # numbers beside a curve, and below it
 SHORT = 120  # points of a curve that is looked at
 
 
@@ -93,6 +95,7 @@ def _data(scene: Scene) -> dict[str, Any]:
         "states": [[_short(s.start), _short(s.end), s.moves, s.words] for s in scene.states],
         "panels": [_panel(panel) for panel in scene.figure.panels],
         "window": scene.figure.window,
+        "angles": _ticks(*scene.figure.window, ANGLES, "deg"),
         "inks": {layer.lower(): ink.rgb for layer, ink in INKS.items()},
     }
 
@@ -120,8 +123,16 @@ def _panel(panel: Panel) -> dict[str, Any]:
         "name": panel.y.label + unit,
         "low": low,
         "high": high,
+        "ticks": _ticks(low, high, SCALE),
         "pieces": [piece for curve in panel.curves for piece in _pieces(curve)],
     }
+
+
+def _ticks(low: float, high: float, most: int, unit: str = "") -> list[tuple[float, str]]:
+    """Round places of an axis, and how they are written."""
+    places = ticks(low, high, most, unit)
+    degree = "°" if unit == "deg" else ""
+    return [(x, text + degree) for x, text in zip(places, labels(places), strict=True)]
 
 
 def _pieces(curve: Curve) -> Iterator[list[list[float]]]:

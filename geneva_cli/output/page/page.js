@@ -40,9 +40,11 @@
     const name = document.createElement("span"), value = document.createElement("b");
     name.textContent = panel.name;
     caption.append(name, value);
-    figure.append(caption);
+    const plot = document.createElement("div");
+    plot.className = "plot";
+    figure.append(caption, plot);
     by("curves").append(figure);
-    const svg = make("svg", figure, { viewBox: "0 0 1000 100", preserveAspectRatio: "none" });
+    const svg = make("svg", plot, { viewBox: "0 0 1000 100", preserveAspectRatio: "none" });
     const low = panel.low, span = panel.high - panel.low || 1;
     const x = (v) => (1000 * (v - from)) / (to - from), y = (v) => 96 - (92 * (v - low)) / span;
     for (const [a, b, moves] of scene.states) {
@@ -50,6 +52,21 @@
       for (const p of spans(a, b)) {
         make("rect", svg, { class: "rest", x: x(p[0]), width: x(p[1]) - x(p[0]), y: 0, height: 100 });
       }
+    }
+    const label = (name, text, place) => {
+      const mark = document.createElement("span");
+      mark.className = name;
+      mark.textContent = text;
+      Object.assign(mark.style, place);
+      plot.append(mark);
+    };
+    for (const [v, text] of panel.ticks) {
+      make("line", svg, { class: "tick", x1: 0, x2: 1000, y1: y(v), y2: y(v) });
+      label("y", text, { top: `${y(v)}%` });
+    }
+    for (const [v, text] of scene.angles) {
+      make("line", svg, { class: "tick", x1: x(v), x2: x(v), y1: 0, y2: 100 });
+      label("x", text, { left: `${x(v) / 10}%` });
     }
     if (low < 0 && panel.high > 0) make("line", svg, { class: "zero", x1: 0, x2: 1000, y1: y(0), y2: y(0) });
     let last = null;
