@@ -10,8 +10,9 @@ from collections.abc import Iterable, Iterator
 
 from geneva_cli.curves.helvetica import width
 from geneva_cli.curves.shapes import Line, Point, Segment, about
-from geneva_cli.curves.sheet import ARROW, BELOW, Arrow, Label, Measure, polar
+from geneva_cli.curves.sheet import ARROW, BELOW, SMALL, Arrow, Label, Measure, polar
 
+AXIS = 0.0, 0.0  # of the part whose angles are shown
 PAST = 1.5  # an extension line beyond the dimension's
 CLEAR = 0.8  # from the outline to an extension line, and from a line to the text on it
 ROUND = 16  # directions of a leader
@@ -27,7 +28,6 @@ def linear(
     levels: Iterable[float],
     text: str,
     value: float,
-    h: float,
 ) -> Iterator[Measure]:
     """A distance in the direction ``turn``, its line at some levels along the normal to it.
 
@@ -37,7 +37,7 @@ def linear(
     a, b = sorted((_dot(p, u), _dot(p, n)) for p in ends)
     for level in levels:
         for place in PLACES:
-            made = _linear(a, b, level, turn, place, text, h)
+            made = _linear(a, b, level, turn, place, text)
             if made is None:
                 continue
             lines, arrows, label = made
@@ -46,14 +46,14 @@ def linear(
 
 
 def _linear(
-    a: Point, b: Point, level: float, turn: float, place: float, text: str, h: float
+    a: Point, b: Point, level: float, turn: float, place: float, text: str
 ) -> tuple[tuple[Segment, ...], tuple[Arrow, ...], Label] | None:
     """With the text somewhere between the arrows, or beyond one end; None where it has no room.
 
     ``place`` is the share of the room before it, or below 0 or above 1 for beyond an end.
     """
     u, n = _axes(turn)
-    long, room = width(text) * h, b[0] - a[0]
+    long, room = width(text) * SMALL, b[0] - a[0]
     spare = room - long - 2.0 * (LENGTH + CLEAR)
     if 0.0 <= place <= 1.0 and spare < 0.0:
         return None
@@ -78,39 +78,36 @@ def _linear(
     arrows = tuple(
         Arrow(_at(u, n, along, level), way) for (along, _), way in zip((a, b), turns, strict=True)
     )
-    return tuple(lines), arrows, _on_line(u, n, start, start + long, level, turn, text, h)
+    return tuple(lines), arrows, _on_line(start, start + long, level, turn, text)
 
 
-def _on_line(
-    u: Point, n: Point, start: float, end: float, level: float, turn: float, text: str, h: float
-) -> Label:
+def _on_line(start: float, end: float, level: float, turn: float, text: str) -> Label:
     """The text above its line, to be read from below or from the right."""
-    off = CLEAR + BELOW * h
+    u, n = _axes(turn)
+    off = CLEAR + BELOW * SMALL
     if math.cos(turn) > 1e-9 or (abs(math.cos(turn)) <= 1e-9 and math.sin(turn) > 0.0):
-        return Label(text, _at(u, n, start, level + off), h, turn)
-    return Label(text, _at(u, n, end, level - off), h, turn + math.pi)
+        return Label(text, _at(u, n, start, level + off), SMALL, turn)
+    return Label(text, _at(u, n, end, level - off), SMALL, turn + math.pi)
 
 
 def angular(
-    apex: Point,
     legs: tuple[float, float],
     begin: float,
     radii: Iterable[float],
     text: str,
     value: float,
-    h: float,
 ) -> Iterator[Measure]:
-    """An angle from one leg counterclockwise to the other, radians, on arcs of some radii.
+    """An angle about the axis from one leg counterclockwise to the other, on arcs of some radii.
 
-    The extension lines begin at the distance ``begin`` from the apex.
+    The extension lines begin at the distance ``begin`` from the axis.
     """
     first, last = legs
     for radius in radii:
         inside = radius * (last - first) > 3.0 * LENGTH
         spare = 0.0 if inside else 2.5 * LENGTH / radius
         lines: list[Segment] = [
-            about(apex, radius, first - spare, last - first + 2.0 * spare),
-            *(Line(polar(apex, begin, leg), polar(apex, radius + PAST, leg)) for leg in legs),
+            about(AXIS, radius, first - spare, last - first + 2.0 * spare),
+            *(Line(polar(AXIS, begin, leg), polar(AXIS, radius + PAST, leg)) for leg in legs),
         ]
         tilt = 0.5 * LENGTH / radius  # an arrow's back lies on the arc
         quarter = 0.5 * math.pi
@@ -120,44 +117,44 @@ def angular(
             else (first + quarter - tilt, last - quarter + tilt)
         )
         arrows = tuple(
-            Arrow(polar(apex, radius, leg), turn) for leg, turn in zip(legs, turns, strict=True)
+            Arrow(polar(AXIS, radius, leg), turn) for leg, turn in zip(legs, turns, strict=True)
         )
         middle = 0.5 * (first + last)
-        points = (apex, *(polar(apex, begin, leg) for leg in legs), polar(apex, radius, middle))
+        points = (AXIS, *(polar(AXIS, begin, leg) for leg in legs), polar(AXIS, radius, middle))
         for share in (0.5, 0.3, 0.7, -0.3, 1.3):
             at = first + share * (last - first) if inside else middle
-            label = _beside(polar(apex, radius, at), at, text, h)
+            label = _beside(polar(AXIS, radius, at), at, text)
             yield Measure("angular", points, value, label, tuple(lines), arrows)
 
 
-def _beside(p: Point, way: float, text: str, h: float) -> Label:
+def _beside(p: Point, way: float, text: str) -> Label:
     """An upright text whose box stands clear of a point, in a direction from it."""
-    half = 0.5 * width(text) * h, 0.7 * h
+    half = 0.5 * width(text) * SMALL, 0.7 * SMALL
     away = half[0] * abs(math.cos(way)) + half[1] * abs(math.sin(way)) + 2.0 * CLEAR
     x, y = polar(p, away, way)
-    return Label(text, (x - half[0], y - 0.4 * h), h)
+    return Label(text, (x - half[0], y - 0.4 * SMALL), SMALL)
 
 
 def diameter(
-    centre: Point, radius: float, ways: Iterable[float], text: str, value: float, h: float
+    centre: Point, radius: float, ways: Iterable[float], text: str, value: float
 ) -> Iterator[Measure]:
     """A diameter by a leader that meets the circle in one of some directions from its centre."""
-    for tip, way, end, label in _leaders(centre, radius, ways, text, h):
+    for tip, way, end, label in _leaders(centre, radius, ways, text):
         points = (polar(centre, -radius, way), tip)
         yield _led("diameter", points, value, tip, end, label)
 
 
 def radius(
-    centre: Point, reach: float, ways: Iterable[float], text: str, value: float, h: float
+    centre: Point, reach: float, ways: Iterable[float], text: str, value: float
 ) -> Iterator[Measure]:
     """A radius, in the same way."""
-    for tip, _, end, label in _leaders(centre, reach, ways, text, h):
+    for tip, _, end, label in _leaders(centre, reach, ways, text):
         yield _led("radius", (centre, tip), value, tip, end, label)
 
 
-def note(tip: Point, text: str, h: float) -> Iterator[Measure]:
+def note(tip: Point, text: str) -> Iterator[Measure]:
     """A text with a leader to a point."""
-    for _, _, end, label in _leaders(tip, 0.0, around(), text, h):
+    for _, _, end, label in _leaders(tip, 0.0, around(), text):
         yield _led("note", (tip,), 0.0, tip, end, label)
 
 
@@ -175,11 +172,11 @@ def within(start: float, end: float, count: int = 9) -> list[float]:
 
 
 def _leaders(
-    centre: Point, reach: float, ways: Iterable[float], text: str, h: float
+    centre: Point, reach: float, ways: Iterable[float], text: str
 ) -> Iterator[tuple[Point, float, Point, Label]]:
     """Tips, directions, where the leader turns level, and the text on it: short ones first."""
     every = list(ways)
-    long = width(text) * h
+    long = width(text) * SMALL
     for length in LENGTHS:
         for way in every:
             tip = polar(centre, reach, way)
@@ -187,7 +184,7 @@ def _leaders(
                 end = polar(tip, out * length, way)
                 right = out * math.cos(way) >= 0.0
                 start = end[0] + CLEAR if right else end[0] - CLEAR - long
-                yield tip, way, end, Label(text, (start, end[1] + CLEAR + BELOW * h), h)
+                yield tip, way, end, Label(text, (start, end[1] + CLEAR + BELOW * SMALL), SMALL)
 
 
 def _led(
