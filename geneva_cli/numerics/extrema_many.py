@@ -16,8 +16,9 @@ from typing import TYPE_CHECKING, NamedTuple, Protocol, TypeAlias
 
 import numpy as np
 
-from geneva_cli.numerics.roots import DEEPEST, PREDICTED, TIE
+from geneva_cli.numerics.roots import DEEPEST, PREDICTED
 from geneva_cli.numerics.roots_many import Brackets, nearer, newton_many
+from geneva_cli.numerics.tolerances import TIE
 
 if TYPE_CHECKING:
     from geneva_cli.numerics.arrays import Array, Mask, Whole

@@ -23,10 +23,11 @@ from geneva_cli.curves.shapes import (
     closed,
 )
 from geneva_cli.errors import GenevaError
+from geneva_cli.numerics.tolerances import SAME_ANGLE
 from geneva_cli.parts.assembly import Assembly
 from geneva_cli.parts.keyways import bore, key
 from geneva_cli.parts.locking_rings import LAYER, rings, seen, towards
-from geneva_cli.parts.reliefs import SAME, Relief, followed, keyway_direction, merged, reliefs
+from geneva_cli.parts.reliefs import Relief, followed, keyway_direction, merged, reliefs
 from geneva_cli.parts.sizes import Sizes
 
 if TYPE_CHECKING:
@@ -48,7 +49,7 @@ def crank_contours(
     if relief == "sector":
         around = merged([_widened(sizes, one, swept) for one in around])
     cut = _arc if relief == "arc" else _sector
-    if sum(one.end - one.start for one in around) > math.tau - SAME:
+    if sum(one.end - one.start for one in around) > math.tau - SAME_ANGLE:
         raise GenevaError(
             "nothing is left of the locking disc: its reliefs go all the way round; a smaller "
             f"roller than {sizes.roller:g} mm, or fewer, leave some",
@@ -57,7 +58,7 @@ def crank_contours(
     found: list[Segment] = []
     for one, after in followed(around):
         found += cut(assembly, sizes, one)
-        if after - one.end > SAME:
+        if after - one.end > SAME_ANGLE:
             found.append(about((0.0, 0.0), sizes.lock, one.end, after - one.end))
     return [closed(LAYER, found)]
 
@@ -74,8 +75,8 @@ def _widened(sizes: Sizes, one: Relief, swept: Swept) -> Relief:
     off = seen(*beyond, middle).direction
     spare = sizes.relief / sizes.lock
     low, high = float(off.min(initial=0.0)), float(off.max(initial=0.0))
-    start = middle + low - spare if low < -one.half - SAME else one.start
-    end = middle + high + spare if high > one.half + SAME else one.end
+    start = middle + low - spare if low < -one.half - SAME_ANGLE else one.start
+    end = middle + high + spare if high > one.half + SAME_ANGLE else one.end
     return one._replace(start=start, end=end)
 
 
@@ -120,7 +121,7 @@ def _arc(assembly: Assembly, sizes: Sizes, relief: Relief) -> list[Segment]:
     entry, scaled down to the disc: centre L rk/R from the axis, radius L cos b rk/R. Raises
     GenevaError where the wheel moves over half a turn of the crank or more.
     """
-    if relief.half > 0.5 * math.pi - SAME:
+    if relief.half > 0.5 * math.pi - SAME_ANGLE:
         raise GenevaError(
             f'relief = "arc": the wheel moves over {math.degrees(2.0 * relief.half):.6g} deg of '
             'the crank, and an arc relieves less than 180; "sector" does',

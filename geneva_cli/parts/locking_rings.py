@@ -14,8 +14,9 @@ import numpy as np
 
 from geneva_cli.curves.shapes import Arc, Contour, Line, about, closed
 from geneva_cli.errors import GenevaError
+from geneva_cli.numerics.tolerances import CLEARLY, SAME_ANGLE, SAME_LENGTH
 from geneva_cli.parts.assembly import Assembly
-from geneva_cli.parts.reliefs import SAME, Relief, followed
+from geneva_cli.parts.reliefs import Relief, followed
 from geneva_cli.parts.sizes import Sizes
 
 if TYPE_CHECKING:
@@ -27,9 +28,6 @@ if TYPE_CHECKING:
 
 LAYER = "CRANK"
 EDGE = 0.035  # radians, two degrees: how far a sector's edge reaches
-TINY = 1e-9
-CLEARLY = 1.0 + 1e-6  # times a distance: what is farther is so whatever the rounding
-BESIDE = 1e-9  # of a cosine: more than its rounding
 THIN = 0.1  # of the disc's radius: a locking sector is no thinner
 POINTED = 0.01  # of the disc's radius: nearer to the axis no sector is brought to a point
 SHARES = [1.0 - 0.02 * k for k in range(40)]  # of the locking angle, where not all of it clears
@@ -49,7 +47,7 @@ def towards(x: Array, y: Array, middle: float, half: float) -> tuple[Array, Arra
     """Of places on the crank those within ``half`` of a direction, up to pi on either side, and a
     few beside them: told in less time than their directions."""
     along, away = x * math.cos(middle) + y * math.sin(middle), np.sqrt(x * x + y * y)
-    near = np.flatnonzero(along >= (math.cos(half) - BESIDE) * away)
+    near = np.flatnonzero(along >= (math.cos(half) - SAME_ANGLE) * away)
     return x[near], y[near]
 
 
@@ -75,7 +73,7 @@ def rings(
     limit = (1.0 - THIN) * sizes.lock
     found = []
     for one, after in followed(around):
-        if after - one.end <= SAME:
+        if after - one.end <= SAME_ANGLE:
             continue
         whole, middle = 0.5 * (after - one.end), 0.5 * (after + one.end)
         few = seen(*towards(*some, middle, whole), middle)
@@ -143,7 +141,7 @@ def inner_arc(sizes: Sizes, half: float, wheel: Reached, more: float) -> tuple[f
     edge = max(at_edge + spare, POINTED * sizes.lock)
     ex, ey = edge * math.cos(half), edge * math.sin(half)
     x, y = radius * np.cos(off), radius * np.sin(off)
-    aside = np.abs(x - ex) > TINY * edge
+    aside = np.abs(x - ex) > SAME_LENGTH * edge
     x, y = x[aside], y[aside]
     centre = (x * x + y * y - edge * edge) / (2.0 * (x - ex))
     reach = np.copysign(np.hypot(ex - centre, ey), x - ex)

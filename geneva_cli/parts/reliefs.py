@@ -5,9 +5,9 @@ from __future__ import annotations
 import math
 from typing import NamedTuple
 
+from geneva_cli.numerics.tolerances import SAME_ANGLE
 from geneva_cli.parts.assembly import Assembly
 
-SAME = 1e-9  # radians: directions nearer to each other are one
 BORED = 1.0 / 18.0  # of the centre distance: what an arc must leave about the axis for a bore
 
 
@@ -34,7 +34,7 @@ def reliefs(assembly: Assembly) -> list[Relief]:
     first = found[0].start
     out = []
     for one in found:
-        start = first + (one.start - first + SAME) % math.tau - SAME
+        start = first + (one.start - first + SAME_ANGLE) % math.tau - SAME_ANGLE
         out.append(one._replace(start=start, end=start + one.end - one.start))
     return sorted(out)
 
@@ -50,7 +50,7 @@ def arc_room(assembly: Assembly, lock: float) -> float:
     widest; 0 where there is no such arc, over half a turn and more.
     """
     half = max(one.half for one in reliefs(assembly))
-    wide = half > 0.5 * math.pi - SAME
+    wide = half > 0.5 * math.pi - SAME_ANGLE
     return 0.0 if wide else lock * math.tan(0.25 * math.pi - 0.5 * half)
 
 
@@ -63,7 +63,7 @@ def has_arcs(assembly: Assembly, lock: float) -> bool:
 
 def without_lock(assembly: Assembly) -> bool:
     """Whether two motions follow each other without a dwell, and no disc is left between them."""
-    return any(after - one.end <= SAME for one, after in followed(reliefs(assembly)))
+    return any(after - one.end <= SAME_ANGLE for one, after in followed(reliefs(assembly)))
 
 
 def followed(around: list[Relief]) -> list[tuple[Relief, float]]:
@@ -76,11 +76,11 @@ def merged(around: list[Relief]) -> list[Relief]:
     """The reliefs, with those that touch joined into one."""
     found = around[:1]
     for one in around[1:]:
-        if one.start - found[-1].end > SAME:
+        if one.start - found[-1].end > SAME_ANGLE:
             found.append(one)
         else:
             found[-1] = found[-1]._replace(end=max(one.end, found[-1].end))
-    if len(found) > 1 and found[0].start + math.tau - found[-1].end <= SAME:
+    if len(found) > 1 and found[0].start + math.tau - found[-1].end <= SAME_ANGLE:
         found = [found[0]._replace(start=found[-1].start - math.tau), *found[1:-1]]
     return found
 
@@ -88,7 +88,9 @@ def merged(around: list[Relief]) -> list[Relief]:
 def sectors(assembly: Assembly) -> list[tuple[float, float]]:
     """The sectors in which the disc locks: directions on the crank, radians, from and to."""
     return [
-        (one.end, after) for one, after in followed(reliefs(assembly)) if after - one.end > SAME
+        (one.end, after)
+        for one, after in followed(reliefs(assembly))
+        if after - one.end > SAME_ANGLE
     ]
 
 

@@ -16,6 +16,7 @@ import numpy as np
 from geneva_cli.curves.plates import Member, Plate
 from geneva_cli.curves.shapes import Circle
 from geneva_cli.errors import GenevaError
+from geneva_cli.numerics.tolerances import SAME_LENGTH
 from geneva_cli.parts.arm import has_arm, shaft_bore
 from geneva_cli.parts.crank import crank_circles, is_whole
 from geneva_cli.parts.link_positions import links_at
@@ -24,7 +25,6 @@ from geneva_cli.parts.wheel_hub import AXIS, HUB, about_axis
 from geneva_cli.spec.tables import Size
 
 SHAFT = "SHAFT"
-SAME = 1e-9  # of the centre distance: what is nearer to an axis is on it
 
 
 def crank_hub(found: Outlines) -> Plate | None:
@@ -84,7 +84,7 @@ def wheel_shaft_ends(found: Outlines, lowest: float) -> tuple[float, float]:
 
 def _has_gear(found: Outlines) -> bool:
     """Whether the wheel's shaft carries a gear below the wheel."""
-    near = SAME * found.assembly.L
+    near = SAME_LENGTH * found.assembly.L
     return any(
         link.radius_mm and math.hypot(float(x[0]), float(y[0])) < near
         for link in links_at(found.assembly.given, np.zeros(1))

@@ -12,6 +12,7 @@ from typing import NamedTuple
 from geneva_cli.errors import GenevaError
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.machine.spec import Spec
+from geneva_cli.numerics.tolerances import SAME_LENGTH
 from geneva_cli.parts.assembly import Assembly, assembly
 from geneva_cli.parts.keyways import reach
 from geneva_cli.parts.reliefs import arc_room, has_arcs
@@ -21,7 +22,6 @@ from geneva_cli.spec.tables import Size
 PLAIN = 0.4  # of a hub's diameter: the radius of a bore in it
 KEYED = 0.5 / 1.6  # the same of a bore with a keyway, which is up to 0.39 of the radius deep
 BESIDE_HUB = 0.6  # of the room: the widest bore whose default hub, of 1.5 bores, has room
-SAME = 1e-9  # of the centre distance: radii that differ by less are equal
 
 # what stands on the axis of a wheel, and has nothing to stand on where that is a ring
 ON_AXIS = (
@@ -300,7 +300,7 @@ def _refuse(assembly: Assembly, found: Sizes) -> None:
         one_arm
         and own
         and found.crank_bore
-        and abs(0.5 * own - found.crank_bore) > SAME * assembly.L
+        and abs(0.5 * own - found.crank_bore) > SAME_LENGTH * assembly.L
     ):
         raise GenevaError(
             f"arm_bore_mm = {own:g}: the same shaft goes through the locking disc, whose "

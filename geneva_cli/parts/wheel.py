@@ -9,12 +9,12 @@ from geneva_cli.curves.measure import turned
 from geneva_cli.curves.shapes import Arc, Circle, Contour, Point, Segment, Shape, about, closed
 from geneva_cli.errors import GenevaError
 from geneva_cli.machine.engagement import Engagement
+from geneva_cli.numerics.tolerances import SAME_LENGTH
 from geneva_cli.parts.assembly import Assembly
 from geneva_cli.parts.keyways import bore, key
 from geneva_cli.parts.sizes import Sizes
 
 LAYER = "WHEEL"
-SAME = 1e-9  # of the centre distance: radii nearer to each other are one
 # Of the way from where the recess touches it to the rim: how far out a low mouth is carried. It
 # gives the disc something to hold, and little that the relief must make room for.
 HELD = 0.2
@@ -101,7 +101,7 @@ def _rim(assembly: Assembly, sizes: Sizes, start: Point, end: Point, at: float) 
     own = math.hypot(*start), math.hypot(*end)
     reach = assembly.L - sizes.recess
     least = reach + HELD * (sizes.rim - reach) if sizes.lock else max(own)
-    raised = [least > rim + SAME * assembly.L and assembly.sign > 0.0 for rim in own]
+    raised = [least > rim + SAME_LENGTH * assembly.L and assembly.sign > 0.0 for rim in own]
     rims = [least if up else rim for up, rim in zip(raised, own, strict=True)]
     found: list[Segment] = []
     after: list[Segment] = []

@@ -21,7 +21,6 @@ if TYPE_CHECKING:
 FIRST, NEXT = 8.0, 7.0  # mm: from the outline to the first dimension line, and to the next
 RANKS = 14  # of dimension lines that are looked at
 OVER = 3.0  # mm: a centre line beyond what it is the centre of
-NEAR = 1e-6  # mm: radii and centres nearer to each other are one
 
 
 class Block(NamedTuple):

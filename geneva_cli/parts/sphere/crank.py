@@ -14,8 +14,8 @@ import numpy as np
 
 from geneva_cli.curves.sphere import Region, Rotation, SphereArc, cross, opposite, place
 from geneva_cli.curves.sphere_belt import Cap
+from geneva_cli.numerics.tolerances import SAME_ANGLE
 from geneva_cli.parts.locking_rings import SHARES
-from geneva_cli.parts.reliefs import SAME
 from geneva_cli.parts.sphere.sizes import Ball, NoRoom
 from geneva_cli.parts.sphere.wheel import POLE, QUARTER, edge_points
 
@@ -83,7 +83,7 @@ def locked(found: Ball) -> list[tuple[float, float]]:
         (a + found.half_motion, b - found.half_motion)
         for a, b in zip(found.rollers, after, strict=True)
     ]
-    return [(a, b) for a, b in spans if b - a > SAME]
+    return [(a, b) for a, b in spans if b - a > SAME_ANGLE]
 
 
 def _sector(high: float, low: float, start: float, end: float) -> Region:
@@ -117,10 +117,10 @@ def _reached(found: Ball, ways: tuple[Array, Array], middle: float) -> Callable[
     polar, azimuth = ways
     ahead = [azimuth + turn - middle for turn in found.rollers]
     off = np.abs(np.remainder(np.stack(ahead) + math.pi, math.tau) - math.pi)
-    near = polar < found.lock * (1.0 - SAME)
+    near = polar < found.lock * (1.0 - SAME_ANGLE)
 
     def reached(half: float) -> float:
-        inside = near & (off < half * (1.0 - SAME))
+        inside = near & (off < half * (1.0 - SAME_ANGLE))
         # what comes in or goes out from one position to the next does so on its way
         inside[:, 1:] |= inside[:, :-1]
         inside[:, :-1] |= inside[:, 1:]
@@ -141,11 +141,11 @@ def swept(found: Ball) -> tuple[Array, Array]:
     # the wheel turns by half a step either way: what is nearer to the crank's axis then
     off = np.maximum(np.abs(np.arctan2(wheel[:, 1], wheel[:, 0])) - found.half_step, 0.0)
     flat = math.sin(found.axes) * np.hypot(wheel[:, 0], wheel[:, 1]) * np.cos(off)
-    wheel = wheel[math.cos(found.axes) * wheel[:, 2] + flat > math.cos(found.lock) - SAME]
+    wheel = wheel[math.cos(found.axes) * wheel[:, 2] + flat > math.cos(found.lock) - SAME_ANGLE]
     turns = np.linspace(-found.half_motion, found.half_motion, STEPS)
     x, y, up = np.moveaxis((wheel @ _index(found, frame, turns)) @ frame, -1, 0)
     # less than their angles tells which points come there; those along the edge do not
-    comes = np.flatnonzero(up.max(axis=0) > math.cos((1.0 - 0.5 * SAME) * found.lock))
+    comes = np.flatnonzero(up.max(axis=0) > math.cos((1.0 - 0.5 * SAME_ANGLE) * found.lock))
     x, y, up = x[:, comes], y[:, comes], up[:, comes]
     return np.arctan2(np.hypot(x, y), up), np.arctan2(y, x) + turns[:, None]
 

@@ -13,7 +13,8 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from geneva_cli.curves.sphere_arcs import FLAT, Arcs
+from geneva_cli.curves.sphere_arcs import Arcs
+from geneva_cli.numerics.tolerances import SAME_ANGLE
 from geneva_cli.parts.turn.touch import SLACK, WAYS, Touch, triangles, within
 
 if TYPE_CHECKING:
@@ -46,7 +47,7 @@ def caps(boundaries: Sequence[Arcs]) -> Caps:
     """The caps of arcs, and those of the corners where these come to a point."""
     found = []
     for one in boundaries:
-        corner = np.flatnonzero(one.first > FLAT)
+        corner = np.flatnonzero(one.first > SAME_ANGLE)
         at, none = one.at(corner, np.zeros(len(corner))), np.zeros(len(corner))
         found.append(Caps(one.axis, one.angle, one.x, one.y, one.sweep))
         found.append(Caps(at, none, at, at, none + WHOLE))

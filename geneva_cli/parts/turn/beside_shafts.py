@@ -18,6 +18,7 @@ from geneva_cli.curves.measure import at, with_material_left
 from geneva_cli.curves.plates import Group, Member, Part, Plate
 from geneva_cli.curves.shapes import Arc, Circle, Contour, Point, Segment, closed, two_arcs
 from geneva_cli.numerics.jet import Array
+from geneva_cli.numerics.tolerances import SAME_LENGTH
 from geneva_cli.parts.built import Built, built
 from geneva_cli.parts.gear_drawings import PITCH, gear_span, pitch_radii
 from geneva_cli.parts.link_drawings import placed
@@ -26,7 +27,6 @@ from geneva_cli.parts.proof import Proof
 from geneva_cli.parts.wheel_hub import HUB
 
 Measure = TypeVar("Measure", float, Array)  # one gap, or one on each of some spheres
-SAME = 1e-9  # of the centre distance: what shares less of a height only touches
 
 
 class ShaftGap(NamedTuple):
@@ -88,7 +88,7 @@ def _least(
     found: Outlines, whole: Built, turning: list[Ring], rings: list[Ring]
 ) -> ShaftGap | None:
     """The least gap of some rings to the shafts, and to the hubs among wheel and crank."""
-    near = SAME * found.assembly.L
+    near = SAME_LENGTH * found.assembly.L
     axes = [ring for ring in turning if ring.layer == HUB] + _rings_of(whole.shafts)
     return min(
         (
