@@ -218,6 +218,31 @@ def untyped(tree):
             yield name
 
 
+MOST_PARAMETERS = 6
+# Functions with more: each has one keyword a table of a spec, or one an option of a command.
+MANY_PARAMETERS = {
+    "design": {"__init__", "drawing"},
+    "output.rows": {"__init__"},
+    "study.sweep.request": {"request"},
+    "study.synthesis.reading": {"read_wish"},
+    "numerics.quadrature_many": {"integrals_many", "_parts"},  # the batch's integrals, to be cut
+}
+
+
+def long_lists(tree):
+    """The names of functions with more parameters than six, a method's self left out."""
+    for owner in ast.walk(tree):
+        for node in ast.iter_child_nodes(owner):
+            if not isinstance(node, ast.FunctionDef):
+                continue
+            given = node.args
+            every = [*given.posonlyargs, *given.args, *given.kwonlyargs, given.vararg, given.kwarg]
+            static = "staticmethod" in map(named, node.decorator_list)
+            bound = isinstance(owner, ast.ClassDef) and not static
+            if len([one for one in every if one]) - bound > MOST_PARAMETERS:
+                yield node.name
+
+
 CLASSES = {
     path.partition(":")[2]
     for kinds in (registry.DRIVES, registry.GEARINGS, registry.LAWS)
@@ -233,6 +258,7 @@ class Read(NamedTuple):
     streams: list
     asks: list
     untyped: set
+    long_lists: set
 
 
 @functools.cache
@@ -245,6 +271,7 @@ def read(text):
         list(streams(tree)),
         list(asks(tree)),
         set(untyped(tree)),
+        set(long_lists(tree)),
     )
 
 
@@ -342,6 +369,27 @@ def test_no_number_of_the_core_is_any():
     """A number of a formula is a float, an array, or one of both, to the type checker too."""
     core = [m for m in MODULES if room(m) in CORE]
     assert broken(lambda m: read(source(m)).untyped, core) == ANY
+
+
+def test_few_parameters():
+    """At most six, but for a command's own function, whose parameters are its options."""
+    others = [m for m in MODULES if room(m) != "commands"]
+    wrong = {m: read(source(m)).long_lists - MANY_PARAMETERS.get(m, set()) for m in others}
+    assert {module: names for module, names in wrong.items() if names} == {}
+
+
+@pytest.mark.parametrize(
+    "line",
+    [
+        "def f(a, b, c, d, e, g, h): ...",
+        "def f(a, b, *, c, d, e, **rest): ...\ndef g(a, b, *c, d, e, f, **h): ...",
+        "class A:\n    def f(self, a, b, c, d, e, g, h): ...",
+        "class A:\n    @staticmethod\n    def f(a, b, c, d, e, g, h): ...",
+    ],
+)
+def test_a_long_list_would_be_noticed(line):
+    assert read(line).long_lists
+    assert not read("class A:\n    def f(self, a, b, c, d, e, g): ...").long_lists
 
 
 @pytest.mark.parametrize(

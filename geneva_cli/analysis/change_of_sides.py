@@ -22,13 +22,13 @@ from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.numerics.angles import DEGREE, omega
 from geneva_cli.numerics.arrays import choose, larger
 from geneva_cli.numerics.roots_many import roots_many
+from geneva_cli.numerics.tolerances import ROUNDED
 
 if TYPE_CHECKING:
     from geneva_cli.numerics.arrays import Whole
     from geneva_cli.numerics.jet import Array
 
 ROUNDING_DEG = 1e-12  # nearer to mid-motion a change of sign is there
-NO_TORQUE = 1e-9  # of the greatest: less is rounding
 BLOCK = 256  # changes whose integrals are worked out together: they stay in the cache
 CLOSE = 1e-9  # of a bracket: what a Newton step so short leaves is rounding
 NODES, WEIGHTS = np.polynomial.legendre.leggauss(24)  # exact to a double over half a motion
@@ -66,7 +66,7 @@ def changes(engagement: Engagement, drag: Array) -> Changes:
     most = np.zeros(m)
     np.maximum.at(most, which, abs(torque))
     # a law may run at constant speed for a while
-    kept = abs(torque) > NO_TORQUE * most[which]
+    kept = abs(torque) > ROUNDED * most[which]
     which, x, torque = which[kept], x[kept], torque[kept]
     before = np.flatnonzero((torque[:-1] * torque[1:] < 0.0) & (which[:-1] == which[1:]))
     of = which[before]

@@ -22,6 +22,7 @@ from geneva_cli.analysis.stages import MOTION, WHEEL, Stage, load_stages, motion
 from geneva_cli.errors import Caution, GenevaError, cut, few, nearest
 from geneva_cli.figure import Axis, Curve, Figure, Mark, Panel, Piece
 from geneva_cli.machine.mechanism import Mechanism
+from geneva_cli.numerics.tolerances import ROUNDED, SAME_INPUT_DEG
 
 MOST = 6  # machines in one figure that the eye still tells apart
 INPUT = Axis("input_deg", "Input angle", "deg")
@@ -50,8 +51,6 @@ AXES = (
 )
 OF_NAME = {axis.name: axis for axis in AXES}
 USUAL = (WHEEL, "velocity", "acceleration", "jerk", "pin_force_N", "input_torque_Nm", "power_W")
-TINY = 1e-9  # degrees: nearer to each other, input angles are one
-NOUGHT = 1e-9  # of a quantity's size: so small a least value is rounding
 SHOWN = 3.0  # times its typical size is shown of a load that nothing bounds
 
 
@@ -195,7 +194,7 @@ def _peak(
     values = [
         float(stage.of(np.array([x]))[row, 0])
         for stage in stages
-        if stage.start - TINY <= x <= stage.end + TINY
+        if stage.start - SAME_INPUT_DEG <= x <= stage.end + SAME_INPUT_DEG
     ]
     nearest_to = min(values, key=lambda value: abs(abs(value) - found.max))
     y = math.copysign(found.max, nearest_to)
@@ -206,8 +205,8 @@ def _ends(machine: Mechanism, ends: Extremes, window: tuple[float, float]) -> It
     """The greatest value of a load and, where it goes below 0, the least."""
     size = max(abs(ends.max), abs(ends.min))
     for word, value, at_deg, shown in (
-        ("max", ends.max, ends.max_at_deg, ends.max > NOUGHT * size),
-        ("min", ends.min, ends.min_at_deg, ends.min < -NOUGHT * size),
+        ("max", ends.max, ends.max_at_deg, ends.max > ROUNDED * size),
+        ("min", ends.min, ends.min_at_deg, ends.min < -ROUNDED * size),
     ):
         if shown or math.isinf(value):
             y = value if math.isfinite(value) else None
@@ -217,7 +216,7 @@ def _ends(machine: Mechanism, ends: Extremes, window: tuple[float, float]) -> It
 def _placed(machine: Mechanism, at_deg: float, window: tuple[float, float]) -> float:
     """An input angle as it is shown, in the window: the first that it stands for."""
     turn = 360.0 * machine.spec.drive.turns
-    return at_deg + turn * math.ceil((window[0] - TINY - at_deg) / turn)
+    return at_deg + turn * math.ceil((window[0] - SAME_INPUT_DEG - at_deg) / turn)
 
 
 def _bounds(cycle: Cycle, ends: Mapping[str, Extremes]) -> dict[str, tuple[float, float]]:
@@ -260,5 +259,5 @@ def _rests(
         turns = range(-1, 2 + int((window[1] - window[0]) // period))
         own = [(a + k * period, b + k * period) for k in turns for a, b in dwells]
         both = [(max(a, c), min(b, d)) for a, b in common for c, d in own]
-        common = [(a, b) for a, b in both if b - a > TINY]
+        common = [(a, b) for a, b in both if b - a > SAME_INPUT_DEG]
     yield from common

@@ -25,7 +25,7 @@ from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.numerics.angles import DEGREE
 from geneva_cli.numerics.arrays import Array, parameter
 from geneva_cli.numerics.extrema_many import GROUP, Rough, Stationary, extrema_many, peaks_many
-from geneva_cli.numerics.roots import TIE
+from geneva_cli.numerics.tolerances import TIE
 
 if TYPE_CHECKING:
     from geneva_cli.numerics.extrema_many import Which

@@ -18,6 +18,7 @@ from geneva_cli.analysis.loads.contact import NEAR, is_straight
 from geneva_cli.figure import Piece
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.numerics.sampling import ASPECT, MISS, places, refined, thinned
+from geneva_cli.numerics.tolerances import ROUNDED
 
 if TYPE_CHECKING:
     from geneva_cli.analysis.loads.cycle import Cycle
@@ -34,7 +35,6 @@ MOTION: dict[str, Callable[[Sequence[Array]], Array]] = {
     "jerk": lambda p: p[3],
     "power": lambda p: p[1] * p[2],
 }
-TINY = 1e-9  # of a period: rounding of input angles
 
 
 class Stage(NamedTuple):
@@ -169,7 +169,7 @@ def _repeated(
 ) -> Iterator[tuple[Stage, float, float, float]]:
     """The stages in a window: each with its shift, its beginning and its end there."""
     start, end = window
-    tiny, last = TINY * period, -math.inf
+    tiny, last = ROUNDED * period, -math.inf
     for number in range(
         math.floor((start - stages[-1].end) / period), 2 + int((end - start) // period)
     ):

@@ -15,7 +15,7 @@ import numpy as np
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.machine.pitch_curve import Pitch, pitch, retraces
 from geneva_cli.numerics.arrays import only_of
-from geneva_cli.numerics.roots import TIE
+from geneva_cli.numerics.tolerances import TIE
 
 if TYPE_CHECKING:
     from geneva_cli.numerics.arrays import Array, Mask, Number

@@ -21,8 +21,8 @@ from geneva_cli.curves.plates import Plate
 from geneva_cli.curves.shapes import Arc, Circle, Contour, Line, Point, Shape
 from geneva_cli.errors import GenevaError
 from geneva_cli.numerics.roots import boundary
+from geneva_cli.numerics.tolerances import SAME_CUT_MM
 
-NEAR = 1e-5  # mm: a cutter as wide as a slot enters it
 DIGITS = 6  # of a place in mm
 LOOKS = 14  # halvings between a cutter that enters and one that does not
 
@@ -44,7 +44,7 @@ def faults(plate: Plate, radius: float) -> Iterator[Fault]:
     """
     for shape, outside in shapes(plate):
         if isinstance(shape, Circle):
-            if not outside and shape.radius < radius - NEAR:
+            if not outside and shape.radius < radius - SAME_CUT_MM:
                 x, y = shape.centre
                 size = f"hole of {2.0 * shape.radius:.6g} mm at x = {x:.6g}, y = {y:.6g}"
                 text = f"{size} in {plate.name}: narrower than the cutter; drill it"
@@ -90,10 +90,12 @@ def blocked(contour: Contour, outside: bool, radius: float) -> tuple[Point, floa
     """
     hollow = [p for p in pieces(contour) if isinstance(p, Arc) and p.bulge < 0.0]
     tightest = min(hollow, key=lambda arc: arc.radius, default=None)
-    if tightest and tightest.radius < radius - 0.5 * NEAR:
+    if tightest and tightest.radius < radius - 0.5 * SAME_CUT_MM:
         return at(tightest, 0.5), tightest.radius
     try:
-        offset(contour, outside, radius - NEAR)  # leaves half of NEAR of an arc that just fits
+        offset(
+            contour, outside, radius - SAME_CUT_MM
+        )  # leaves half of SAME_CUT_MM of an arc that just fits
     except Closed as error:
         return error.at, 0.0
     return None
@@ -147,7 +149,7 @@ def _require_free(
         raise GenevaError(
             f"{corner} is at a wall that guides roller or lock: omit --dog-bones to keep it round"
         )
-    if away < radius - NEAR:
+    if away < radius - SAME_CUT_MM:
         raise GenevaError(
             f"{corner} is so near to another wall that its bite, {2.0 * radius:.6g} mm wide, would "
             "cut into it: use a narrower cutter, or omit --dog-bones"

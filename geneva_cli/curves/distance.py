@@ -15,6 +15,7 @@ import numpy as np
 
 from geneva_cli.curves.measure import directions
 from geneva_cli.curves.shapes import Arc, Contour, Line
+from geneva_cli.numerics.tolerances import SAME_ANGLE
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -27,7 +28,6 @@ BLOCK = 1 << 14  # distances that are held at once: in the cache
 COARSE = 60  # points that stand for many, where pieces are picked
 MANY = 64  # pieces, of which only those nearby are looked at
 ROUNDING = 1e-9  # share of a distance that is surely more than its rounding
-FLAT = 1e-9  # a corner that turns by less is none
 
 
 class _Seen(NamedTuple):
@@ -234,4 +234,4 @@ def _row(piece: Line | Arc) -> tuple[float, ...]:
 
 def _corner(before: float, after: float) -> float:
     turn = math.remainder(after - before, math.tau)
-    return math.copysign(1.0, turn) if abs(turn) > FLAT else 0.0
+    return math.copysign(1.0, turn) if abs(turn) > SAME_ANGLE else 0.0

@@ -19,9 +19,9 @@ from geneva_cli.curves.plates import plates
 from geneva_cli.curves.shapes import Arc, Circle, Contour, Line, Point, Segment, closed
 from geneva_cli.errors import GenevaError
 from geneva_cli.numerics.roots import boundary
+from geneva_cli.numerics.tolerances import SAME_CUT_MM
 from geneva_cli.spec.rules import TOOL_MM, require_mm
 
-NEAR = 1e-5  # mm: a path that comes nearer to the part by less leaves it whole
 SAMPLES = 4  # of the path, along the offset
 MOST = 50_000  # samples of a path
 STEPS = 40  # of Newton's method
@@ -202,9 +202,9 @@ def _require_away(contour: Contour, path: Contour, distance: float) -> None:
     boundary = Polyarc([contour])
     around = math.fsum(map(segment_length, path.segments))
     longest = max(distance / SAMPLES, around / MOST)
-    points = Polyarc([path]).samples(NEAR, longest)
+    points = Polyarc([path]).samples(SAME_CUT_MM, longest)
     away = boundary.signed(points)
-    if float(away.min()) < distance - NEAR:
+    if float(away.min()) < distance - SAME_CUT_MM:
         at_x, at_y = points[int(np.argmin(away))]
         raise Closed(
             f"near x = {at_x:.4g}, y = {at_y:.4g} on {contour.layer} a gap is narrower than the "

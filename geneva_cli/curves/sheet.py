@@ -13,6 +13,7 @@ from geneva_cli.curves.helvetica import width
 from geneva_cli.curves.shapes import Contour, Line, Point, Segment, Shape
 
 ARROW = 3.0, 0.4  # mm: an arrow's length, and half its width (ISO 129-1: filled, 15 degrees)
+SMALL, LARGE = 2.5, 3.5  # mm: capitals of dimensions, and of titles (ISO 3098-1)
 BELOW, ABOVE = 0.3, 1.1  # of a text's height: how far its letters reach below and above the line
 
 # The layers of a sheet, with the width of their lines in mm (ISO 128-2: two widths, 2 to 1).

@@ -12,13 +12,12 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from geneva_cli.curves.sphere import SphereArc
+from geneva_cli.numerics.tolerances import SAME_ANGLE
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from geneva_cli.numerics.jet import Array
-
-FLAT = 1e-9  # radians: a corner that turns by less is none
 
 
 class Arcs:
@@ -87,7 +86,7 @@ class Arcs:
         away = 2.0 * np.arcsin(np.sqrt(np.minimum(square[row, near], 1.0)))
         at_start = short[row, near] < past[row, near]
         corner = np.where(at_start, self.first[near], self.last[near])
-        corner = np.where((beyond[row, near] > 0.0) & (np.abs(corner) > FLAT), corner, 0.0)
+        corner = np.where((beyond[row, near] > 0.0) & (np.abs(corner) > SAME_ANGLE), corner, 0.0)
         outside = np.where(corner != 0.0, corner > 0.0, off[row, near] > 0.0)
         end = np.where(at_start, 0.0, self.sweep[near])
         foot = np.where(past[row, near] <= 0.0, turn[row, near], end)

@@ -10,8 +10,7 @@ from collections.abc import Iterator, Sequence
 from typing import NamedTuple
 
 from geneva_cli.curves.sphere import Region, SphereArc, Vector, cross, dot, square_to, unit
-
-SAME = 1e-9  # of a cap's rim: two that reach as far
+from geneva_cli.numerics.tolerances import SAME_LENGTH
 
 
 class Cap(NamedTuple):
@@ -66,7 +65,7 @@ def _tangents(i: int, caps: Sequence[Cap]) -> Iterator[Tangent]:
     candidates: list[tuple[float, Tangent]] = []
     for j in range(len(caps)):
         pole = _pole(caps[i], caps[j]) if j != i else None
-        if pole is None or any(dot(pole, c.middle) < math.sin(c.angle) - SAME for c in caps):
+        if pole is None or any(dot(pole, c.middle) < math.sin(c.angle) - SAME_LENGTH for c in caps):
             continue
         ends = [unit(_sum(caps[k].middle, 1.0, pole, -math.sin(caps[k].angle))) for k in (i, j)]
         candidates.append((dot(*ends), Tangent(pole, j, *ends)))
@@ -87,7 +86,7 @@ def _pole(one: Cap, other: Cap) -> Vector | None:
         return None
     a, b = (s - g * t) / square, (t - g * s) / square
     left = (1.0 - (a * s + b * t)) / square
-    if left <= SAME * SAME:
+    if left <= SAME_LENGTH * SAME_LENGTH:
         return None  # one cap holds the other
     both = _sum(one.middle, a, other.middle, b)
     return unit(_sum(both, 1.0, cross(one.middle, other.middle), math.sqrt(left)))
@@ -99,7 +98,7 @@ def _turn(middle: Vector, start: Vector, end: Vector) -> float:
 
 
 def _same(one: Vector, other: Vector) -> bool:
-    return math.dist(one, other) < SAME
+    return math.dist(one, other) < SAME_LENGTH
 
 
 def _sum(one: Vector, a: float, other: Vector, b: float) -> Vector:

@@ -248,36 +248,38 @@ def mirror(first: Array, count: int, order: int) -> Array:
     return numpy.concatenate((first, rest if order % 2 else -rest), axis=-1)
 
 
+class Carrier(NamedTuple):
+    """What carries and guides a roller: nothing but the crank's arm, or what is given.
+
+    ``crank_sense`` says which way the crank turns where the roller is not on its arm: with the
+    wheel (-1) or against it (1); 0 where it is, and the pin's direction is the crank's. ``body``
+    carries the roller where the crank's arm does not, and ``reactions`` hold that body. ``groove``
+    is the path where a fixed groove guides the roller along the crank. ``hub`` is where the crank's
+    arm turns about, on the line of centres: 1 but on a sphere.
+    """
+
+    crank_sense: float = 0.0
+    body: CarrierVelocity | None = None
+    reactions: Reactions | None = None
+    groove: Groove | None = None
+    hub: float = 1.0
+
+
+ARM = Carrier()
+
+
 class Engagement:
     """Pin path, slot and motion of one roller in one slot.
 
-    ``mid_deg`` is the machine's input angle at its mid-motion. ``groove`` is the path if a fixed
-    groove guides the roller along the crank.
-
-    If the roller is not on the crank's arm, ``body`` is the body that carries it and ``reactions``
-    hold that body. ``crank_sense`` is then the crank's direction: -1 with the wheel, 1 against it.
-    It is 0 if the roller is on the arm, and the crank turns as the pin does.
-
-    ``hub`` is the arm's centre of rotation on the line of centres: 1, except on a sphere.
+    ``mid_deg`` is the machine's input angle at its mid-motion.
     """
 
     def __init__(
-        self,
-        mid_deg: float,
-        path: Path,
-        slot: Slot,
-        motion: Motion,
-        crank_sense: float = 0.0,
-        groove: Groove | None = None,
-        body: CarrierVelocity | None = None,
-        hub: float = 1.0,
-        reactions: Reactions | None = None,
+        self, mid_deg: float, path: Path, slot: Slot, motion: Motion, carrier: Carrier = ARM
     ) -> None:
         self.mid_deg = mid_deg
         self.path, self.slot, self.motion = path, slot, motion
-        self.crank_sense = crank_sense
-        self.groove, self.body, self.hub = groove, body, hub
-        self.reactions = reactions
+        self.crank_sense, self.body, self.reactions, self.groove, self.hub = carrier
 
     @property
     def entry_deg(self) -> float:

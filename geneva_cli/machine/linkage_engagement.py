@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, NamedTuple, cast
 import numpy as np
 
 from geneva_cli.machine import path_and_slot
-from geneva_cli.machine.engagement import Anchor, Engagement
+from geneva_cli.machine.engagement import Anchor, Carrier, Engagement
 from geneva_cli.machine.exact_path import ExactPoint, angle, length, unit
 from geneva_cli.machine.link import LinkReactions, LinkTurning
 from geneva_cli.machine.path_and_slot import AnchoredPath, Followed
@@ -91,7 +91,9 @@ def engagement_of(path: RollerPath, fit: Fit, step: HalfStep) -> tuple[Engagemen
     motion = LinkFollowed(anchored, step.b, body, (float(ox), float(oy)))
     ahead_x, ahead_y = float(-ox / L), float(-oy / L)
     reactions = LinkReactions(path, float(middle), fit.sense, float(L), ahead_x, ahead_y)
-    return path_and_slot.engagement(0.0, anchored, motion, -fit.sense, body, reactions), float(L)
+    return path_and_slot.engagement(
+        0.0, anchored, motion, Carrier(-fit.sense, body, reactions)
+    ), float(L)
 
 
 def engagement_many(path: RollerPath, fits: Fits, step: HalfStep) -> tuple[Engagement, float]:
@@ -138,7 +140,9 @@ def engagement_many(path: RollerPath, fits: Fits, step: HalfStep) -> tuple[Engag
     reactions = LinkReactions(path, mid, sense, distance, *line)
     body = LinkTurning(path, mid, sense)
     motion = LinkFollowed(anchored, b, body, (rounded(centre.real), rounded(centre.imag)))
-    return path_and_slot.engagement(0.0, anchored, motion, -sense, body, reactions), distance
+    return path_and_slot.engagement(
+        0.0, anchored, motion, Carrier(-sense, body, reactions)
+    ), distance
 
 
 def _alike(path: RollerPath, fits: Fits, step: HalfStep) -> tuple[RollerPath, Fits, HalfStep]:

@@ -13,8 +13,7 @@ from geneva_cli.machine.size_rules import refuse_sizes
 from geneva_cli.machine.spec import Spec
 from geneva_cli.machine.tolerance_rules import refuse_tolerances
 from geneva_cli.numerics.arrays import choose, designs_of, larger, library
-
-ROUNDING_DEG = 1e-9  # input angles nearer to each other are one
+from geneva_cli.numerics.tolerances import SAME_INPUT_DEG
 
 
 class Mechanism(NamedTuple):
@@ -75,7 +74,7 @@ class Mechanism(NamedTuple):
         m = library(input_deg, whole)
         entry = self.engagements[0].mid_deg + self.engagements[0].entry_deg
         # Rounding may put an angle just before the entry: count it as the entry.
-        periods = m.floor((input_deg - entry + ROUNDING_DEG) / whole)
+        periods = m.floor((input_deg - entry + SAME_INPUT_DEG) / whole)
         counted = larger(input_deg - periods * whole, entry)
         if isinstance(input_deg, (float, int)) and isinstance(whole, float):
             return math.remainder(input_deg, whole) if whole == 360.0 else counted

@@ -4,10 +4,9 @@ from __future__ import annotations
 
 from geneva_cli.machine.engagement import (
     Anchor,
-    CarrierVelocity,
+    Carrier,
     Engagement,
     Motion,
-    Reactions,
     Slot,
     in_wheel,
 )
@@ -50,12 +49,9 @@ def engagement(
     half_step: float,
     law: Law,
     path: MiddlePath,
-    reactions: Reactions | None = None,
-    body: CarrierVelocity | None = None,
+    carrier: Carrier,
 ) -> Engagement:
     """Build the engagement of a curved slot whose motion is centred on the line of centres."""
     half = 0.5 * motion_deg
     motion = LawMotion(-half, half, half_step, law)
-    return Engagement(
-        mid_deg, path, SolvedSlot(path, motion), motion, body=body, reactions=reactions
-    )
+    return Engagement(mid_deg, path, SolvedSlot(path, motion), motion, carrier)

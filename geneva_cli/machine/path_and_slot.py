@@ -8,13 +8,12 @@ from typing import TYPE_CHECKING, ClassVar
 from geneva_cli.machine.anchors import anchors_of
 from geneva_cli.machine.engagement import (
     Anchor,
-    CarrierVelocity,
+    Carrier,
     ClosedPeaks,
     Engagement,
     Level,
     Motion,
     Peak,
-    Reactions,
     Slot,
     SlotAxis,
     is_mirrored,
@@ -231,16 +230,10 @@ class Classic(Followed):
 
 
 def engagement(
-    mid_deg: float,
-    path: AnchoredPath,
-    motion: Followed,
-    crank_sense: float = 0.0,
-    body: CarrierVelocity | None = None,
-    reactions: Reactions | None = None,
+    mid_deg: float, path: AnchoredPath, motion: Followed, carrier: Carrier
 ) -> Engagement:
     """Build the engagement of a radial slot in a plane."""
-    slot = RadialSlot(path)
-    return Engagement(mid_deg, path, slot, motion, crank_sense, body=body, reactions=reactions)
+    return Engagement(mid_deg, path, RadialSlot(path), motion, carrier)
 
 
 def _length(vector: tuple[Jet, Jet]) -> Jet:

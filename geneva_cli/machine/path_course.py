@@ -15,12 +15,12 @@ import numpy as np
 from geneva_cli.machine.path_pairs import Pairs
 from geneva_cli.machine.path_samples import PathPoints, points
 from geneva_cli.machine.roller_path import RollerPath
+from geneva_cli.numerics.tolerances import ROUNDED
 
 if TYPE_CHECKING:
     from geneva_cli.numerics.arrays import Array, Complex, Mask, Number, Which
 
 THIRD = 1.0 / 3.0
-ROUNDING = 1e-9  # share of its greatest by which a quantity may be below zero where it is zero
 CLOSER = 8  # parts into which an interval is cut that is looked at more closely
 LOOKS = 4  # times that it is
 
@@ -66,7 +66,7 @@ def leaves_slot(
     motion: Array,
 ) -> Mask:
     """True for each wheel whose roller leaves its slot between samples ``nodes`` since entry."""
-    bar = [ROUNDING * np.abs(x).max(axis=1) for x in (course.moment, course.short)]
+    bar = [ROUNDED * np.abs(x).max(axis=1) for x in (course.moment, course.short)]
     fails = np.zeros(len(nodes), dtype=bool)
     inside = nodes[:, :-1] < motion
     row, column = np.nonzero(_open(nodes, course, inside, *(x[:, None] for x in bar)))

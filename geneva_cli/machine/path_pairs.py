@@ -35,11 +35,11 @@ from geneva_cli.machine.path_boxes import (
 )
 from geneva_cli.machine.path_samples import PathPoints, PathSamples, joined, points
 from geneva_cli.machine.roller_path import RollerPath
+from geneva_cli.numerics.tolerances import ROUNDED
 
 if TYPE_CHECKING:
     from geneva_cli.numerics.arrays import Array, Mask, Which, Whole
 
-ROUNDING = 1e-9
 HALVINGS = 8  # of a box
 STEPS = 12  # of Newton in a box
 CLOSE = 1e-6  # radians: after so short a step of Newton, half of the digits and all of them next
@@ -148,7 +148,7 @@ def _solved(path: RollerPath, boxes: Boxes, phi: Array, b: Array) -> tuple[Pairs
         move *= np.minimum(1.0, (width[live] / np.abs(move)).min(axis=1))[:, None]
         phi[live] += move
         off = np.maximum(low[live] - phi[live], phi[live] - high[live]) / width[live]
-        inside = (off <= BESIDE + ROUNDING).all(axis=1)
+        inside = (off <= BESIDE + ROUNDED).all(axis=1)
         done = np.abs(move).max(axis=1) < CLOSE
         close[live] = done & inside
         live = live[~done & inside]

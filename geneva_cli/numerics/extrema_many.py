@@ -16,8 +16,9 @@ from typing import TYPE_CHECKING, NamedTuple, Protocol, TypeAlias
 
 import numpy as np
 
-from geneva_cli.numerics.roots import DEEPEST, PREDICTED, TIE
-from geneva_cli.numerics.roots_many import nearer, newton_many
+from geneva_cli.numerics.roots import DEEPEST, PREDICTED
+from geneva_cli.numerics.roots_many import Brackets, nearer, newton_many
+from geneva_cli.numerics.tolerances import TIE
 
 if TYPE_CHECKING:
     from geneva_cli.numerics.arrays import Array, Mask, Whole
@@ -316,11 +317,11 @@ def _tops(f: Curves, pairs: _Pairs, rough: Rough | None = None) -> _Tops:
         return slope, bend - slope * others, value
 
     start = turn_of_cubic(left, right)
-    slopes = np.where(at_a, np.nan, left[2]), np.where(at_b, np.nan, right[2])
+    brackets = Brackets(a, b, np.where(at_a, np.nan, left[2]), np.where(at_b, np.nan, right[2]))
     if rough:
         slope, bend, _ = slope_of(start, np.arange(len(start)), rough.f)
-        start = nearer(slope, bend, a, b, start, slopes)
-    x, rise, (_, _, value) = newton_many(slope_of, a, b, start, before < 0.0, CLOSE, slopes)
+        start = nearer(slope, bend, brackets, start)
+    x, rise, (_, _, value) = newton_many(slope_of, brackets, start, before < 0.0, CLOSE)
     found = np.stack((x, value + rise))
     (x, value), which = (np.concatenate(p, axis=-1) for p in zip((found, which), flat, strict=True))
     return _Tops(which, x, value, np.arange(len(which)) >= len(rise))

@@ -4,9 +4,7 @@ from __future__ import annotations
 
 import math
 
-# Share of the limit. Values are computed to 1e-12 or so, loads (by search) to 1e-10, and
-# nobody can measure a billionth: a size that was chosen to meet its limit exactly is to pass.
-ROUNDING = 1e-9
+from geneva_cli.numerics.tolerances import ROUNDED
 
 
 def keeps(value: float, must_be: str, limit: float, noise: float = 0.0) -> bool:
@@ -15,7 +13,7 @@ def keeps(value: float, must_be: str, limit: float, noise: float = 0.0) -> bool:
     ``noise`` is the rounding of the value itself, where that is larger than the limit's (a gap
     that should be 0 is known as nearly as the outlines are). Raises ValueError for another word.
     """
-    slack = max(ROUNDING * abs(limit), noise) if math.isfinite(limit) else 0.0
+    slack = max(ROUNDED * abs(limit), noise) if math.isfinite(limit) else 0.0
     if must_be == "at least":
         return value >= limit - slack
     if must_be == "at most":

@@ -10,6 +10,7 @@ from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING, TypeVar
 
 from geneva_cli.numerics.arrays import all_true, choose
+from geneva_cli.numerics.tolerances import TIE
 
 if TYPE_CHECKING:
     from decimal import Decimal
@@ -24,7 +25,6 @@ FLAT = 1e-8
 SCAN = 16  # intervals of the first scan
 DEEPEST = 50  # halvings of one of them: a feature 2**-50 of the interval wide is still seen
 PREDICTED = 1e-2  # share of the range by which a cubic may miss the middle of its interval
-TIE = 1e-13  # peaks whose sizes differ by a smaller share are one peak that occurs twice
 
 
 def root(

@@ -6,7 +6,7 @@ that is not a number anywhere has no number for an answer, and disturbs no other
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
@@ -15,6 +15,15 @@ from geneva_cli.numerics.roots import STEPS
 
 if TYPE_CHECKING:
     from geneva_cli.numerics.arrays import Array, Mask, Whole
+
+
+class Brackets(NamedTuple):
+    """Ends of intervals, and what functions are there: NaN where that tells nothing."""
+
+    a: Array
+    b: Array
+    at_a: Array
+    at_b: Array
 
 
 class Roots(NamedTuple):
@@ -41,7 +50,7 @@ def roots_between(
     with np.errstate(all="ignore"):
         chord = a + (b - a) * (ends[0] / (ends[0] - ends[1]))
         start = np.where((chord > a) & (chord < b), chord, 0.5 * (a + b))
-        return Roots(*newton_many(f, a, b, start, ends[0] < 0.0, close, ends))
+        return Roots(*newton_many(f, Brackets(a, b, *ends), start, ends[0] < 0.0, close))
 
 
 def roots_many(
@@ -61,30 +70,28 @@ def roots_many(
     with np.errstate(all="ignore"):
         every = np.arange(len(a))
         rising = slope(a, every)[0] < 0.0
-        return newton_many(slope, a, b, 0.5 * (a + b), rising, close)[0]
+        unknown = np.full(len(a), np.nan)
+        return newton_many(slope, Brackets(a, b, unknown, unknown), 0.5 * (a + b), rising, close)[0]
 
 
 def newton_many(
     f: Callable[[Array, Whole], tuple[Array, ...]],
-    a: Array,
-    b: Array,
+    brackets: Brackets,
     x: Array,
     rising: Mask,
     close: float,
-    ends: Sequence[Array] | None = None,
 ) -> tuple[Array, Array, list[Array]]:
-    """Roots between a and b from x on, what f's integral gains by the last steps to them, and what
-    f was a step before.
+    """Roots in brackets from x on, what f's integral gains by the last steps to them, and what f
+    was a step before.
 
-    f begins with value and slope. Steps are Newton's, bent by what is known of f at the bracket's
-    ends: ``ends`` are its values at a and b, NaN where they tell nothing. A bracket is done after
-    a step of ``close`` times its width, or of two units in the last place; those that are done
-    drop out.
+    f begins with value and slope. Steps are Newton's, bent by f at the bracket's ends. A bracket
+    is done after a step of ``close`` times its width, or of two units in the last place; those that
+    are done drop out.
     """
     out, rises, live = x.copy(), np.zeros(len(x)), np.arange(len(x))
     last: list[Array] = []
+    a, b, f_a, f_b = brackets
     near, step = close * (b - a), b - a
-    f_a, f_b = np.full((2, len(x)), np.nan) if ends is None else ends
     for _ in range(STEPS):
         values = f(x, live)
         if not last:
@@ -112,11 +119,10 @@ def newton_many(
     return out, rises, last
 
 
-def nearer(
-    value: Array, slope: Array, a: Array, b: Array, x: Array, ends: tuple[Array, Array]
-) -> Array:
+def nearer(value: Array, slope: Array, brackets: Brackets, x: Array) -> Array:
     """x after one step of ``newton_many``; as it is where that leaves its bracket."""
-    new = x + _bent_step(value, slope, (a - x, ends[0]), (b - x, ends[1]))[0]
+    a, b, f_a, f_b = brackets
+    new = x + _bent_step(value, slope, (a - x, f_a), (b - x, f_b))[0]
     inside: Array = np.where((a < new) & (new < b), new, x)
     return inside
 

@@ -92,7 +92,7 @@ class _Pen:
     ) -> None:
         (x, y), size = self._place((x, y)), self.scale * size
         before = 0.0 if hold == START else wide(text, size, bold) * (1.0 if hold == END else 0.5)
-        self.out.append(words(text, x - before, y, size, bold, INK))
+        self.out.append(words(text, (x - before, y), size, bold, INK))
 
     def _stroke(
         self, ink: str, width: float, paths: Iterable[Path], pattern: tuple[float, ...] = ()

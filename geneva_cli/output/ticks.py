@@ -6,11 +6,11 @@ import math
 from collections.abc import Sequence
 
 from geneva_cli.figure import Axis, Mark
+from geneva_cli.numerics.tolerances import ROUNDED
 
 DEGREES = (5.0, 10.0, 15.0, 30.0, 45.0, 60.0, 90.0, 180.0, 360.0)  # steps that people count in
 MANY = 1e5  # from here on a place is written with an exponent
 DIGITS = 6  # of a peak's value, and at first of an axis
-SHARE = 1e-9  # of a step: rounding
 
 
 def ticks(low: float, high: float, most: int, unit: str = "") -> list[float]:
@@ -27,7 +27,7 @@ def ticks(low: float, high: float, most: int, unit: str = "") -> list[float]:
     if unit == "deg" and width > 40.0:
         steps = [*DEGREES, *(360.0 * 2**n for n in range(1, 60))]
     for step in steps:
-        first, last = math.ceil(low / step - SHARE), math.floor(high / step + SHARE)
+        first, last = math.ceil(low / step - ROUNDED), math.floor(high / step + ROUNDED)
         if last - first < most:
             break
     return [float(f"{n * step:.12g}") + 0.0 for n in range(first, last + 1)]

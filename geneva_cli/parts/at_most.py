@@ -26,13 +26,14 @@ from geneva_cli.curves.shapes import (
 from geneva_cli.errors import GenevaError
 from geneva_cli.machine.engagement import Engagement
 from geneva_cli.numerics.arrays import scalar
+from geneva_cli.numerics.tolerances import CLEARLY, SAME_ANGLE, SAME_LENGTH
 from geneva_cli.parts.all_round import corners
 from geneva_cli.parts.assembly import Assembly
 from geneva_cli.parts.crank import is_whole
-from geneva_cli.parts.locking_rings import CLEARLY, SHARES, beyond, seen
 from geneva_cli.parts.locking_rings import LAYER as DISC
-from geneva_cli.parts.outlines import CURVED, EXACT, SWEPT_DEG, Outlines, slot_walls
-from geneva_cli.parts.reliefs import SAME, followed, reliefs
+from geneva_cli.parts.locking_rings import SHARES, beyond, seen
+from geneva_cli.parts.outlines import CURVED, SWEPT_DEG, Outlines, slot_walls
+from geneva_cli.parts.reliefs import followed, reliefs
 from geneva_cli.parts.roller_paths import rest
 from geneva_cli.parts.sizes import Sizes
 from geneva_cli.parts.turn.gaps import Gaps, swept_deg
@@ -52,7 +53,7 @@ def at_most(assembly: Assembly, sizes: Sizes) -> Outlines | None:
     walls = {one: _walls(assembly, sizes, one) for one in assembly.kinds}
     wheel, crank = wheel_contour(assembly, sizes, walls), _sectors(assembly, sizes)
     gaps = Gaps(assembly, sizes, wheel, crank)
-    close = EXACT * assembly.L  # no more than that of the true parts
+    close = SAME_LENGTH * assembly.L  # no more than that of the true parts
     return Outlines(assembly, sizes, walls, wheel, crank, "sector", gaps, close, close)
 
 
@@ -117,7 +118,7 @@ def _sectors(assembly: Assembly, sizes: Sizes) -> list[Contour]:
     x, y = x[within], y[within]
     contours = []
     for one, after in followed(reliefs(assembly)):
-        if after - one.end <= SAME:
+        if after - one.end <= SAME_ANGLE:
             continue
         whole, middle = 0.5 * (after - one.end), 0.5 * (after + one.end)
         wheel = seen(x, y, middle)

@@ -23,10 +23,11 @@ from geneva_cli.curves.shapes import (
     closed,
 )
 from geneva_cli.errors import GenevaError
+from geneva_cli.numerics.tolerances import SAME_ANGLE
 from geneva_cli.parts.assembly import Assembly
 from geneva_cli.parts.keyways import bore, key
 from geneva_cli.parts.locking_rings import LAYER, rings, seen, towards
-from geneva_cli.parts.reliefs import SAME, Relief, followed, keyway_direction, merged, reliefs
+from geneva_cli.parts.reliefs import Relief, followed, keyway_direction, merged, reliefs
 from geneva_cli.parts.sizes import Sizes
 
 if TYPE_CHECKING:
@@ -49,7 +50,7 @@ def crank_contours(
     if relief == "sector":
         around = merged([_widened(sizes, one, swept) for one in around])
     cut = _arc if relief == "arc" else _sector
-    if sum(one.end - one.start for one in around) > math.tau - SAME:
+    if sum(one.end - one.start for one in around) > math.tau - SAME_ANGLE:
         raise GenevaError(
             "nothing is left of the locking disc: its reliefs go all the way round; use fewer "
             f"rollers, or a smaller one than {sizes.roller:g} mm",
@@ -58,7 +59,7 @@ def crank_contours(
     segments: list[Segment] = []
     for one, after in followed(around):
         segments += cut(assembly, sizes, one)
-        if after - one.end > SAME:
+        if after - one.end > SAME_ANGLE:
             segments.append(about((0.0, 0.0), sizes.lock, one.end, after - one.end))
     return [closed(LAYER, segments)]
 
@@ -75,8 +76,8 @@ def _widened(sizes: Sizes, one: Relief, swept: Swept) -> Relief:
     off = seen(*beyond, middle).direction
     spare = sizes.relief / sizes.lock
     low, high = float(off.min(initial=0.0)), float(off.max(initial=0.0))
-    start = middle + low - spare if low < -one.half - SAME else one.start
-    end = middle + high + spare if high > one.half + SAME else one.end
+    start = middle + low - spare if low < -one.half - SAME_ANGLE else one.start
+    end = middle + high + spare if high > one.half + SAME_ANGLE else one.end
     return one._replace(start=start, end=end)
 
 
@@ -122,7 +123,7 @@ def _arc(assembly: Assembly, sizes: Sizes, relief: Relief) -> list[Segment]:
     scaled down to the disc. Its centre is L rk/R from the axis, its radius is L cos b rk/R. Raises
     GenevaError where the wheel moves over half a turn of the crank or more.
     """
-    if relief.half > 0.5 * math.pi - SAME:
+    if relief.half > 0.5 * math.pi - SAME_ANGLE:
         raise GenevaError(
             f'relief = "arc": the wheel moves over {math.degrees(2.0 * relief.half):.6g} deg of '
             'the crank, but an arc relieves less than 180 deg; set relief = "sector"',

@@ -7,12 +7,11 @@ from typing import TYPE_CHECKING
 from geneva_cli.curves.shapes import Point
 from geneva_cli.machine.layout import Joint, Link
 from geneva_cli.machine.mechanism import Mechanism
+from geneva_cli.numerics.tolerances import SAME_LENGTH
 from geneva_cli.parts.groove import roller_in_groove
 
 if TYPE_CHECKING:
     from geneva_cli.numerics.jet import Array
-
-SAME = 1e-9  # of the centre distance: points nearer to each other count as one
 
 
 def links_at(mechanism: Mechanism, input_deg: Array) -> tuple[Link, ...]:
@@ -35,4 +34,4 @@ def links_at(mechanism: Mechanism, input_deg: Array) -> tuple[Link, ...]:
 
 def same(p: Point, q: Point, L: float) -> bool:
     """Return True if two points coincide, with the centre distance L."""
-    return abs(complex(*p) - complex(*q)) < SAME * L
+    return abs(complex(*p) - complex(*q)) < SAME_LENGTH * L

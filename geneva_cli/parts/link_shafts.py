@@ -14,8 +14,9 @@ from typing import NamedTuple
 from geneva_cli.curves.plates import Member, Plate
 from geneva_cli.machine.layout import Joint
 from geneva_cli.machine.mechanism import Mechanism
+from geneva_cli.numerics.tolerances import SAME_LENGTH
 from geneva_cli.parts.link_axes import Axis
-from geneva_cli.parts.link_positions import SAME, same
+from geneva_cli.parts.link_positions import same
 from geneva_cli.parts.links import Links, placed_holes
 from geneva_cli.parts.shafts import shaft, shaft_ends
 from geneva_cli.parts.sizes import thicknesses
@@ -82,6 +83,6 @@ def outside_links(shafts: Iterable[Member], bars: Links, L: float) -> Iterator[M
         for plate in bars.one_piece(member.at, L):
             below = [(low, min(high, plate.low)) for low, high in spans]
             above = [(max(low, plate.high), high) for low, high in spans]
-            spans = [(low, high) for low, high in below + above if high - low > SAME * L]
+            spans = [(low, high) for low, high in below + above if high - low > SAME_LENGTH * L]
         for low, high in spans:
             yield member._replace(part=member.part._replace(low=low, high=high))

@@ -20,11 +20,12 @@ from geneva_cli.curves.shapes import Circle, Contour, Point, Shape
 from geneva_cli.errors import GenevaError
 from geneva_cli.machine.layout import Joint, Link
 from geneva_cli.machine.mechanism import Mechanism
+from geneva_cli.numerics.tolerances import SAME_LENGTH
 from geneva_cli.parts.gear_blanks import Gear, link_gear
 from geneva_cli.parts.hole_walls import apart, least_wall
 from geneva_cli.parts.link_axes import Axis, axes
 from geneva_cli.parts.link_pins import pins, rollers
-from geneva_cli.parts.link_positions import SAME, links_at, same
+from geneva_cli.parts.link_positions import links_at, same
 from geneva_cli.parts.link_sizes import SPARE, LinkSizes, link_sizes, places
 from geneva_cli.parts.outlines import Outlines
 from geneva_cli.parts.sizes import even, pin_radius
@@ -96,12 +97,14 @@ def drawn_links(mechanism: Mechanism, parts: Outlines | None = None) -> Links:
     L = mechanism.center_distance_mm
     bars = [link for link in links if not link.radius_mm]
     unbored = [_bar(link, sizes, L) for link in bars]
-    turning = [_with_shaft(axis, unbored, links, sizes, parts, L) for axis in axes(links, SAME * L)]
+    turning = [
+        _with_shaft(axis, unbored, links, sizes, parts, L) for axis in axes(links, SAME_LENGTH * L)
+    ]
     _refuse_unused(mechanism, turning, sizes, parts)
     cut = [member for bar in unbored for member in _members(bar, turning, sizes, L)]
     r = mechanism.roller_radius_mm
     between = [
-        *pins(bars, sizes, SAME * L),
+        *pins(bars, sizes, SAME_LENGTH * L),
         *rollers(bars, sizes, r, pin_radius(mechanism.spec.size, r)),
     ]
     gears = [_gear(link, turning, sizes, mechanism) for link in links if link.radius_mm]
@@ -181,7 +184,7 @@ def _bar(link: Link, sizes: LinkSizes, L: float) -> _Bar:
     joints = places(link)
     at = [complex(joint[middle]) for joint in joints]
     ahead = at[1] - at[0]
-    unit = ahead / abs(ahead) if abs(ahead) > SAME * L else 1.0
+    unit = ahead / abs(ahead) if abs(ahead) > SAME_LENGTH * L else 1.0
     own = tuple((z - at[0]) / unit for z in at)
     low, high = sizes.span(link.plane)
     eyes: list[Circle] = []

@@ -15,8 +15,9 @@ import numpy as np
 
 from geneva_cli.curves.shapes import Arc, Contour, Line, about, closed
 from geneva_cli.errors import GenevaError
+from geneva_cli.numerics.tolerances import CLEARLY, SAME_ANGLE, SAME_LENGTH
 from geneva_cli.parts.assembly import Assembly
-from geneva_cli.parts.reliefs import SAME, Relief, followed
+from geneva_cli.parts.reliefs import Relief, followed
 from geneva_cli.parts.sizes import Sizes
 
 if TYPE_CHECKING:
@@ -28,9 +29,6 @@ if TYPE_CHECKING:
 
 LAYER = "CRANK"
 EDGE = 0.035  # radians, two degrees: width of the range that counts as a sector's edge
-TINY = 1e-9
-CLEARLY = 1.0 + 1e-6  # times a distance: farther in spite of rounding
-BESIDE = 1e-9  # of a cosine: more than its rounding
 THIN = 0.1  # of the disc's radius: least thickness of a locking sector
 POINTED = 0.01  # of the disc's radius: no sector comes nearer to the axis with its point
 SHARES = [1.0 - 0.02 * k for k in range(40)]  # of the locking angle, tried until one clears
@@ -53,7 +51,7 @@ def towards(x: Array, y: Array, middle: float, half: float) -> tuple[Array, Arra
     ``half`` is at most pi. This takes less time than their directions.
     """
     along, away = x * math.cos(middle) + y * math.sin(middle), np.sqrt(x * x + y * y)
-    near = np.flatnonzero(along >= (math.cos(half) - BESIDE) * away)
+    near = np.flatnonzero(along >= (math.cos(half) - SAME_ANGLE) * away)
     return x[near], y[near]
 
 
@@ -79,7 +77,7 @@ def rings(
     limit = (1.0 - THIN) * sizes.lock
     contours = []
     for one, after in followed(around):
-        if after - one.end <= SAME:
+        if after - one.end <= SAME_ANGLE:
             continue
         whole, middle = 0.5 * (after - one.end), 0.5 * (after + one.end)
         few = seen(*towards(*some, middle, whole), middle)
@@ -146,7 +144,7 @@ def inner_arc(sizes: Sizes, half: float, wheel: PolarPoints, more: float) -> tup
     edge = max(at_edge + spare, POINTED * sizes.lock)
     ex, ey = edge * math.cos(half), edge * math.sin(half)
     x, y = radius * np.cos(off), radius * np.sin(off)
-    off_edge = np.abs(x - ex) > TINY * edge
+    off_edge = np.abs(x - ex) > SAME_LENGTH * edge
     x, y = x[off_edge], y[off_edge]
     centre = (x * x + y * y - edge * edge) / (2.0 * (x - ex))
     reach = np.copysign(np.hypot(ex - centre, ey), x - ex)

@@ -15,6 +15,7 @@ from geneva_cli.curves.measure import mapped, turned
 from geneva_cli.curves.plates import Group
 from geneva_cli.curves.shapes import Arc, Circle, Contour, Line, Shape, about
 from geneva_cli.machine.layout import Joint
+from geneva_cli.numerics.tolerances import SAME_LENGTH
 from geneva_cli.parts.arm import LAYER as ARM
 from geneva_cli.parts.arm import CrankArm
 from geneva_cli.parts.built import PlacedParts, built
@@ -23,7 +24,7 @@ from geneva_cli.parts.drawings import PITCH, crank_shapes, pitch_lines, wheel_sh
 from geneva_cli.parts.frame import LAYER as STANDING
 from geneva_cli.parts.gear_drawings import gear_shapes
 from geneva_cli.parts.link_drawings import once, shapes, titled, together
-from geneva_cli.parts.link_positions import SAME, links_at
+from geneva_cli.parts.link_positions import links_at
 from geneva_cli.parts.link_sizes import places
 from geneva_cli.parts.outlines import Outlines
 from geneva_cli.parts.proof import Proof
@@ -96,7 +97,11 @@ def _link_turns(parts: Outlines) -> Iterator[Arc]:
     mechanism, L = parts.assembly.full, parts.assembly.L
     for link in links_at(mechanism, np.array([-0.5, 0.0, 0.5])):
         first, *others = places(link)
-        if link.kinds[0] is not Joint.SHAFT or not others or np.abs(first - L).max() > SAME * L:
+        if (
+            link.kinds[0] is not Joint.SHAFT
+            or not others
+            or np.abs(first - L).max() > SAME_LENGTH * L
+        ):
             continue
         ahead = others[0] - first
         sense = math.copysign(1.0, float(np.angle(ahead[2] / ahead[0])))

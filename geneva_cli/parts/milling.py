@@ -13,13 +13,12 @@ from geneva_cli.curves.drawing import Drawing
 from geneva_cli.curves.plates import Group, Part, Plate, plates
 from geneva_cli.curves.shapes import Arc, Contour, Line, Shape
 from geneva_cli.machine.mechanism import Mechanism
+from geneva_cli.numerics.tolerances import SAME_LENGTH
 from geneva_cli.parts.locking_rings import LAYER as CRANK
 from geneva_cli.parts.proof import Proof
 from geneva_cli.parts.sizes import wall_min
 from geneva_cli.parts.wheel import LAYER as WHEEL
 from geneva_cli.spec.rules import TOOL_MM, require_mm
-
-SAME = 1e-9  # of the centre distance: radii nearer to each other count as equal
 
 
 def judged(drawing: Drawing, cutter_mm: float) -> tuple[str, list[str]]:
@@ -60,7 +59,7 @@ def with_dog_bones(drawing: Drawing, proof: Proof, cutter_mm: float) -> Drawing:
 
 def _locks(piece: Line | Arc, lock: float, mechanism: Mechanism) -> bool:
     """Return True if a piece lies on the locking disc's circle."""
-    near = SAME * mechanism.center_distance_mm
+    near = SAME_LENGTH * mechanism.center_distance_mm
     return (
         isinstance(piece, Arc)
         and abs(piece.radius - lock) < near

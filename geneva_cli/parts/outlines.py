@@ -12,6 +12,7 @@ from geneva_cli.curves.distance import Polyarc
 from geneva_cli.curves.shapes import Contour
 from geneva_cli.machine.engagement import Engagement
 from geneva_cli.machine.mechanism import Mechanism
+from geneva_cli.numerics.tolerances import SAME_LENGTH
 from geneva_cli.parts.assembly import Assembly, assembly
 from geneva_cli.parts.crank import crank_contours, is_whole
 from geneva_cli.parts.reliefs import has_arcs, without_lock
@@ -25,7 +26,6 @@ from geneva_cli.parts.wheel import wheel_contour
 if TYPE_CHECKING:
     from geneva_cli.numerics.jet import Array
 
-EXACT = 1e-9  # of the centre distance: rounding of outlines that are lines and arcs by nature
 CURVED = 2e-6  # of the centre distance: accuracy of curved walls
 # Of the centre distance, 0.2 um in 100 mm: parts that overlap by less count as touching. No cutter
 # and no roller is more accurate, nor are curved walls.
@@ -98,7 +98,7 @@ def drawn(assembly: Assembly, sizes: Sizes, tolerance: float = 0.0) -> Outlines:
     kinds, L = assembly.kinds, assembly.L
     fine = max(0.5 * CURVED * L, tolerance)
     walls = {engagement: slot_walls(assembly, sizes, engagement, fine) for engagement in kinds}
-    close = (CURVED if any(engagement.slot.curved for engagement in kinds) else EXACT) * L
+    close = (CURVED if any(engagement.slot.curved for engagement in kinds) else SAME_LENGTH) * L
     wheel = wheel_contour(assembly, sizes, walls)
     crank, relief, gaps = _relieved(Gaps(assembly, sizes, wheel, []), close)
     return Outlines(assembly, sizes, walls, wheel, crank, relief, gaps, close, fine)

@@ -5,9 +5,9 @@ from __future__ import annotations
 import math
 from typing import NamedTuple
 
+from geneva_cli.numerics.tolerances import SAME_ANGLE
 from geneva_cli.parts.assembly import Assembly
 
-SAME = 1e-9  # radians: directions nearer to each other count as equal
 BORED = 1.0 / 18.0  # of the centre distance: radius that an arc must leave about the axis
 
 
@@ -34,7 +34,7 @@ def reliefs(assembly: Assembly) -> list[Relief]:
     first = unordered[0].start
     out = []
     for one in unordered:
-        start = first + (one.start - first + SAME) % math.tau - SAME
+        start = first + (one.start - first + SAME_ANGLE) % math.tau - SAME_ANGLE
         out.append(one._replace(start=start, end=start + one.end - one.start))
     return sorted(out)
 
@@ -51,7 +51,7 @@ def arc_floor(assembly: Assembly, lock: float) -> float:
     It is that of the widest relief; 0 for half a turn or more, where there is no such arc.
     """
     half = max(one.half for one in reliefs(assembly))
-    wide = half > 0.5 * math.pi - SAME
+    wide = half > 0.5 * math.pi - SAME_ANGLE
     return 0.0 if wide else lock * math.tan(0.25 * math.pi - 0.5 * half)
 
 
@@ -64,7 +64,7 @@ def has_arcs(assembly: Assembly, lock: float) -> bool:
 
 def without_lock(assembly: Assembly) -> bool:
     """Return True if two motions follow without a dwell, so that no disc is left between them."""
-    return any(after - one.end <= SAME for one, after in followed(reliefs(assembly)))
+    return any(after - one.end <= SAME_ANGLE for one, after in followed(reliefs(assembly)))
 
 
 def followed(around: list[Relief]) -> list[tuple[Relief, float]]:
@@ -77,11 +77,11 @@ def merged(around: list[Relief]) -> list[Relief]:
     """Return the reliefs, with those that touch joined into one."""
     joined = around[:1]
     for one in around[1:]:
-        if one.start - joined[-1].end > SAME:
+        if one.start - joined[-1].end > SAME_ANGLE:
             joined.append(one)
         else:
             joined[-1] = joined[-1]._replace(end=max(one.end, joined[-1].end))
-    if len(joined) > 1 and joined[0].start + math.tau - joined[-1].end <= SAME:
+    if len(joined) > 1 and joined[0].start + math.tau - joined[-1].end <= SAME_ANGLE:
         joined = [joined[0]._replace(start=joined[-1].start - math.tau), *joined[1:-1]]
     return joined
 
@@ -89,7 +89,9 @@ def merged(around: list[Relief]) -> list[Relief]:
 def sectors(assembly: Assembly) -> list[tuple[float, float]]:
     """Return the sectors in which the disc locks: directions on the crank, radians, from and to."""
     return [
-        (one.end, after) for one, after in followed(reliefs(assembly)) if after - one.end > SAME
+        (one.end, after)
+        for one, after in followed(reliefs(assembly))
+        if after - one.end > SAME_ANGLE
     ]
 
 

@@ -16,6 +16,7 @@ import numpy as np
 from geneva_cli.curves.plates import Member, Plate
 from geneva_cli.curves.shapes import Circle
 from geneva_cli.errors import GenevaError
+from geneva_cli.numerics.tolerances import SAME_LENGTH
 from geneva_cli.parts.arm import has_arm, shaft_bore
 from geneva_cli.parts.crank import crank_circles, is_whole
 from geneva_cli.parts.link_positions import links_at
@@ -24,7 +25,6 @@ from geneva_cli.parts.wheel_hub import AXIS, HUB, about_axis
 from geneva_cli.spec.tables import Size
 
 SHAFT = "SHAFT"
-SAME = 1e-9  # of the centre distance: a part nearer to an axis is on it
 
 
 def crank_hub(parts: Outlines) -> Plate | None:
@@ -84,7 +84,7 @@ def wheel_shaft_ends(parts: Outlines, lowest: float) -> tuple[float, float]:
 
 def _has_gear(parts: Outlines) -> bool:
     """Return True if the wheel's shaft carries a gear below the wheel."""
-    near = SAME * parts.assembly.L
+    near = SAME_LENGTH * parts.assembly.L
     return any(
         link.radius_mm and math.hypot(float(x[0]), float(y[0])) < near
         for link in links_at(parts.assembly.full, np.zeros(1))

@@ -13,6 +13,7 @@ from typing import NamedTuple
 from geneva_cli.errors import GenevaError
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.machine.spec import Spec
+from geneva_cli.numerics.tolerances import SAME_LENGTH
 from geneva_cli.parts.assembly import Assembly, assembly
 from geneva_cli.parts.keyways import reach
 from geneva_cli.parts.reliefs import arc_floor, has_arcs
@@ -22,7 +23,6 @@ from geneva_cli.spec.tables import Size
 PLAIN = 0.4  # of a hub's diameter: radius of a bore in it
 KEYED = 0.5 / 1.6  # of a hub's diameter: radius of a bore with keyway, up to 0.39 radii deep
 BESIDE_HUB = 0.6  # of the space: largest bore that fits with its default hub, of 1.5 bores
-SAME = 1e-9  # of the centre distance: radii that differ by less count as equal
 
 # keys of parts on a wheel's axis, where an internal wheel, a ring, has nothing to carry them
 ON_AXIS = (
@@ -337,7 +337,7 @@ def _refuse(assembly: Assembly, sizes: Sizes) -> None:
         one_arm
         and own
         and sizes.crank_bore
-        and abs(0.5 * own - sizes.crank_bore) > SAME * assembly.L
+        and abs(0.5 * own - sizes.crank_bore) > SAME_LENGTH * assembly.L
     ):
         raise GenevaError(
             f"arm_bore_mm = {own:g}: one shaft goes through arm and locking disc, whose "

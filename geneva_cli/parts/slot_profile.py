@@ -11,15 +11,12 @@ from geneva_cli.machine.engagement import Engagement
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.machine.pitch_curve import Pitch, Way, pitch, pitch_at_retrace, retraces, way
 from geneva_cli.numerics.arrays import array
+from geneva_cli.numerics.tolerances import SAME_INPUT_DEG
 
 if TYPE_CHECKING:
     from geneva_cli.numerics.jet import Array, Number
 
 T = TypeVar("T", Way, Pitch)
-
-# A sample nearer to mid-motion than this counts as being there. Where the pin stops at mid-motion,
-# its direction nearby would be rounding, and the curve has turned by less than that rounding.
-MIDDLE_DEG = 1e-9
 
 
 class Slot(NamedTuple):
@@ -69,7 +66,7 @@ def flanks(mechanism: Mechanism, input_deg: Array) -> tuple[Array, Array, Array]
 
 def _snapped(input_deg: Array, back: bool) -> Array:
     """Return input angles, with those near a retracing mid-motion set to exactly 0."""
-    return np.where(np.abs(input_deg) < MIDDLE_DEG, 0.0, input_deg) if back else input_deg
+    return np.where(np.abs(input_deg) < SAME_INPUT_DEG, 0.0, input_deg) if back else input_deg
 
 
 def _side(engagement: Engagement, input_deg: Array, at: Way | Pitch, back: bool) -> Array:
@@ -106,7 +103,7 @@ def way_at(engagement: Engagement, input_deg: Array, back: bool) -> Way:
 def _with_limit(
     of: Callable[[Engagement, Number], T], engagement: Engagement, input_deg: Array, back: bool
 ) -> T:
-    middle = np.abs(input_deg) < MIDDLE_DEG
+    middle = np.abs(input_deg) < SAME_INPUT_DEG
     if not back or not middle.any():
         return of(engagement, input_deg)
     # any regular place stands in for mid-motion

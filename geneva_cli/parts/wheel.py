@@ -9,12 +9,12 @@ from geneva_cli.curves.measure import turned
 from geneva_cli.curves.shapes import Arc, Circle, Contour, Point, Segment, Shape, about, closed
 from geneva_cli.errors import GenevaError
 from geneva_cli.machine.engagement import Engagement
+from geneva_cli.numerics.tolerances import SAME_LENGTH
 from geneva_cli.parts.assembly import Assembly
 from geneva_cli.parts.keyways import bore, key
 from geneva_cli.parts.sizes import Sizes
 
 LAYER = "WHEEL"
-SAME = 1e-9  # of the centre distance: radii nearer to each other count as equal
 # A low mouth is extended to this fraction of the distance from the recess to the rim. That gives
 # the disc something to hold, and the relief needs to clear little more.
 HELD = 0.2
@@ -101,7 +101,7 @@ def _rim(assembly: Assembly, sizes: Sizes, start: Point, end: Point, at: float) 
     own = math.hypot(*start), math.hypot(*end)
     reach = assembly.L - sizes.recess
     least = reach + HELD * (sizes.rim - reach) if sizes.lock else max(own)
-    raised = [least > rim + SAME * assembly.L and assembly.sign > 0.0 for rim in own]
+    raised = [least > rim + SAME_LENGTH * assembly.L and assembly.sign > 0.0 for rim in own]
     rims = [least if up else rim for up, rim in zip(raised, own, strict=True)]
     before: list[Segment] = []
     after: list[Segment] = []

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Callable, Iterator
-from typing import Any
+from collections.abc import Callable, Collection, Iterator
+from typing import Any, NamedTuple
 
 from geneva_cli.errors import GenevaError, clean, cut, few, nearest
 from geneva_cli.machine import registry
@@ -16,6 +16,24 @@ from geneva_cli.spec.tables import LISTS, PLAIN
 from geneva_cli.specfile.points import read_pairs
 
 TABLES = ("wheel", "drive", "motion", *dict.fromkeys(t.partition(".")[0] for t in PLAIN))
+
+
+class _Kinds(NamedTuple):
+    """A table whose keys depend on a word in it."""
+
+    table: str
+    word: str
+    default: str
+    names: Collection[str]
+    find: Callable[[str], type[Any]]
+
+    def all(self) -> Iterator[tuple[str, type[SpecTable]]]:
+        """Yield every kind, with the words that choose it."""
+        return ((f'{self.word} = "{name}"', self.find(name)) for name in self.names)
+
+
+WHEELS = _Kinds("wheel", "gearing", "external", registry.GEARINGS, registry.gearing)
+DRIVES = _Kinds("drive", "kind", "crank", registry.DRIVES, registry.drive)
 
 
 class _Files:
@@ -61,18 +79,8 @@ def spec_of(tree: dict[str, Any], name: str) -> Spec:
         )
     files = _Files(name)
     return Spec(
-        wheel=_kind(
-            tree["wheel"],
-            "wheel",
-            "gearing",
-            "external",
-            registry.GEARINGS,
-            registry.gearing,
-            files,
-        ),
-        drive=_kind(
-            tree.get("drive", {}), "drive", "kind", "crank", registry.DRIVES, registry.drive, files
-        ),
+        wheel=_kind(tree["wheel"], WHEELS, files),
+        drive=_kind(tree.get("drive", {}), DRIVES, files),
         motion=_motion(tree["motion"], files) if "motion" in tree else None,
         **_plain(tree, files),
         title=clean(title),
@@ -128,21 +136,13 @@ def _refuse_part(table: str, values: dict[str, Any]) -> None:
             )
 
 
-def _kind(
-    values: dict[str, Any],
-    table: str,
-    word: str,
-    default: str,
-    kinds: dict[str, str],
-    find: Callable[[str], type[Any]],
-    files: _Files,
-) -> Any:
+def _kind(values: dict[str, Any], kinds: _Kinds, files: _Files) -> Any:
     """The object of a table whose keys depend on a word in it, such as ``kind``."""
-    values = dict(values)
-    name = values.pop(word, default)
-    cls = find(name)
+    values, word = dict(values), kinds.word
+    name = values.pop(word, kinds.default)
+    cls = kinds.find(name)
     of = f'{word} = "{name}"'
-    _refuse_foreign(values, cls, table, of, lambda: ((f'{word} = "{k}"', find(k)) for k in kinds))
+    _refuse_foreign(values, cls, kinds.table, of, kinds.all)
     return cls(**_values(cls, values, files, f" for {of}", (word,)))
 
 

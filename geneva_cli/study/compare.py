@@ -6,7 +6,7 @@ import math
 from collections.abc import Sequence
 
 from geneva_cli.machine.mechanism import Mechanism, build
-from geneva_cli.numerics.keeps import ROUNDING
+from geneva_cli.numerics.tolerances import ROUNDED
 from geneva_cli.parts.proof import Proof
 from geneva_cli.study.beside import beside
 from geneva_cli.study.fields import Cell, pick, values
@@ -55,7 +55,7 @@ def compare(
 def _same(cell: Cell, first: Cell) -> bool:
     """Whether two cells are equal, numbers but for rounding."""
     if isinstance(cell, float) and isinstance(first, float):
-        return math.isclose(cell, first, rel_tol=ROUNDING)
+        return math.isclose(cell, first, rel_tol=ROUNDED)
     return cell == first
 
 

@@ -10,6 +10,7 @@ from geneva_cli.analysis.loads.cycle import Cycle
 from geneva_cli.analysis.loads.summary import Summary
 from geneva_cli.errors import Caution
 from geneva_cli.machine.mechanism import Mechanism
+from geneva_cli.numerics.tolerances import ROUNDED
 
 SOUND_M_S = 343.0
 STEEL_KGM3 = 7850.0
@@ -17,7 +18,6 @@ STEEL_KGM3 = 7850.0
 # and L/2 thick. A larger inertia is nearly always one in kg cm2.
 ACROSS, THICK = 6.0, 0.5
 BRIEF = 1e-4  # share of a motion: next to a rest signs are rounding
-ROUNDING = 1e-9  # share of the greatest torque
 
 
 def cycle_cautions(cycle: Cycle, loads: Mapping[str, Summary]) -> list[Caution]:
@@ -44,7 +44,7 @@ def back_driven_deg(cycle: Cycle) -> list[tuple[float, float]]:
 def _back_driven(cycle: Cycle, loads: Mapping[str, Summary]) -> list[Caution]:
     torque, alpha = loads["input_torque_Nm"], loads["alpha_rad_s2"]
     least, most = torque.min, torque.max
-    if least is None or alpha.min is None or not least < -ROUNDING * abs(most or least):
+    if least is None or alpha.min is None or not least < -ROUNDED * abs(most or least):
         return []
     driven = back_driven_deg(cycle)
     where = ", ".join(f"{round(a, 9):.4g} to {round(b, 9):.4g}" for a, b in driven)

@@ -4,7 +4,7 @@ import math
 
 import numpy as np
 import pytest
-from witness import SIGN, Geneva
+from witness import Geneva
 
 from geneva_cli.analysis.peaks import peak
 from geneva_cli.analysis.peaks_many import peaks_of_many, searched
@@ -19,6 +19,7 @@ from geneva_cli.machine.wheels.side_crank_arrays import (
     velocity_peaks,
     wheels,
 )
+from geneva_cli.numerics.angles import one_minus_sin_pi, sin_cos_pi
 
 GEARINGS = ("external", "internal")
 # What it promises, relative to the true peak; and twice that between two that promise it.
@@ -38,7 +39,8 @@ def designs(count, seed):
 
 
 def batch(z, internal, A):
-    return wheels(z, np.where(internal, -1.0, 1.0), A)
+    sign = np.where(internal, -1.0, 1.0)
+    return wheels(sign, sin_cos_pi(1, z)[0], one_minus_sin_pi(1, z), A)
 
 
 PEAKS = {"velocity": velocity_peaks, "acceleration": acceleration_peaks}
@@ -79,7 +81,7 @@ def test_a_finer_scan_finds_no_more(peaks, monkeypatch):
 def test_inside_a_slow_crank_never_passes_its_jump(z):
     """What is not searched for: inside and A >= 0, on a grid of A up to 1 - 1e-6 and of f."""
     A = np.concatenate((np.linspace(0.0, 0.9, 40), 1.0 - np.logspace(-1, -6, 60)))
-    w = wheels(z, -1.0, A)
+    w = batch(z, True, A)
     jump = acceleration_at_end(w)[0]
     inner = acceleration(w, np.linspace(0.0, 1.0, 2001)[:-1, None] * w.half)[0]
     assert (inner <= jump).all()
@@ -102,7 +104,7 @@ def test_beyond_what_the_quick_way_is_sure_of(engagement, z):
 @pytest.mark.parametrize("z", [3, 4, 11, 24, 1000])
 def test_against_50_digits(z, gearing, quantity):
     A = np.array([-0.999, -0.9, -0.3, 0.01, 0.324737, 0.6, 0.9, 0.999])
-    size, place = PEAKS[quantity](wheels(z, SIGN[gearing], A))
+    size, place = PEAKS[quantity](batch(z, gearing == "internal", A))
     assert np.isnan(size).sum() <= 2
     for i in np.flatnonzero(~np.isnan(size)):
         exact, at_deg = Geneva(z, gearing, float(A[i])).peak(quantity)

@@ -281,7 +281,7 @@ def test_what_finds_no_place_is_said_below():
     full, half = Board(), Board()
     full.write(Label("W" * 400, (-1000.0, -500.0), 700.0))
     half.write(Label("here", (4.0, 4.0), 3.0))
-    tries = list(marks.diameter((0.0, 0.0), 5.0, marks.around(), "Ø 10", 10.0, 2.5))
+    tries = list(marks.diameter((0.0, 0.0), 5.0, marks.around(), "Ø 10", 10.0))
     assert full.first(tries) is None
     moved = half.first(tries)
     assert moved is not None

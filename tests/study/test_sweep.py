@@ -84,7 +84,7 @@ def test_the_same_rows_whatever_the_processes_and_shares():
     some = grid("drive.A=-0.9..0.9:0.05", "wheel.z=4,6")
     alone = rows(sweep(read(SPEC), some), workers=1)
     assert rows(sweep(read(SPEC), some), workers=2) == alone
-    shares = [sweep(read(SPEC), some, shard=Shard(i, 3)) for i in (1, 2, 3)]
+    shares = [sweep(read(SPEC), some)._replace(shard=Shard(i, 3)) for i in (1, 2, 3)]
     assert [row for share in shares for row in rows(share, workers=1)] == alone
 
 

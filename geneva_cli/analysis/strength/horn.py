@@ -29,7 +29,7 @@ from geneva_cli.analysis.loads.loads import state
 from geneva_cli.machine.many import taken
 from geneva_cli.machine.pitch_curve import pitch
 from geneva_cli.numerics.arrays import array, parameter
-from geneva_cli.numerics.roots import TIE
+from geneva_cli.numerics.tolerances import TIE
 
 if TYPE_CHECKING:
     from collections.abc import Sequence

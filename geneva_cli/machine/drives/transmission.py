@@ -10,6 +10,7 @@ from geneva_cli.machine import path_and_motion
 from geneva_cli.machine.drives.drive import Drive, Needs, Plan
 from geneva_cli.machine.engagement import (
     Anchor,
+    Carrier,
     CarrierVelocity,
     ClosedPeaks,
     Displacement,
@@ -127,7 +128,8 @@ class Transmission(Drive, kw_only=True):
         mid = here.input_deg
         reactions = self.reactions(wheel, path, mid, L) if wheel.FLAT else None
         hub = wheel.hub(place)
-        return Engagement(mid, path, slot, motion, body=body, hub=hub, reactions=reactions)
+        carrier = Carrier(body=body, reactions=reactions, hub=hub)
+        return Engagement(mid, path, slot, motion, carrier)
 
     def turning(self, crank_deg: float, sense: float) -> CarrierVelocity | None:
         """Rate of the crank from a crank angle on; None if only its pin's path gives it.
@@ -163,7 +165,7 @@ class Transmission(Drive, kw_only=True):
         reactions = self.reactions(wheel, path, 0.0, L) if wheel.FLAT else None
         body = self.turning(0.0, -wheel.SIGN)
         engagement = path_and_motion.engagement(
-            0.0, motion_deg, wheel.step.b, law, path, reactions, body
+            0.0, motion_deg, wheel.step.b, law, path, Carrier(body=body, reactions=reactions)
         )
         period = 360.0 * self.turns / self.rollers
         most = rollers_max(motion_deg)

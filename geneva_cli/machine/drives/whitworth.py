@@ -37,12 +37,13 @@ class SideCrankPeak(NamedTuple):
     """Peaks of a batch of plain wheels behind side-cranks, faster than by a general search."""
 
     A: float
-    z: int
     sign: float
+    l: float
+    rest: float  # 1 - l
 
     def __call__(self, quantity: str) -> Peak[float] | None:
         """Peak of the velocity or acceleration of a batch, NaN where unknown; else None."""
-        if isinstance(self.A, float) and isinstance(self.z, int):
+        if isinstance(self.A, float) and isinstance(self.l, float):
             return None
         import numpy as np
 
@@ -51,7 +52,7 @@ class SideCrankPeak(NamedTuple):
         peaks = {"velocity": arrays.velocity_peaks, "acceleration": arrays.acceleration_peaks}
         if quantity not in peaks:
             return None
-        w = arrays.wheels(self.z, self.sign, self.A)
+        w = arrays.wheels(self.sign, self.l, self.rest, self.A)
         sure = abs(w.A) <= A_SURE
         return Peak(*(parameter(np.where(sure, v, np.nan)[:, None]) for v in peaks[quantity](w)))
 
@@ -62,7 +63,7 @@ def closed_peaks(A: float, wheel: Gearing, place: RollerPlace) -> SideCrankPeak 
     plain = isinstance(place.crank_deg, float) and place.crank_deg == 0.0
     if closed is None or wheel.steps or not plain:
         return None
-    return SideCrankPeak(A, wheel.z, wheel.SIGN)
+    return SideCrankPeak(A, *closed)
 
 
 class Coulisse(NamedTuple):

@@ -21,10 +21,10 @@ from geneva_cli.machine import registry
 from geneva_cli.machine.laws.law import Law
 from geneva_cli.numerics.arrays import Truth, scalar
 from geneva_cli.numerics.jet import Jet, Number
+from geneva_cli.numerics.tolerances import ROUNDED
 from geneva_cli.spec.rules import OneOf, Range
 
 SMOOTH = 3  # derivatives of y that must not jump: the wheel's velocity has the third
-ROUNDING = 1e-9  # of a derivative that vanishes
 
 
 class Tuned(Law):
@@ -99,4 +99,4 @@ class Tuned(Law):
 def _serves(y: Law) -> bool:
     """True if the law's derivatives up to the third vanish at both ends and do not jump."""
     ends = [c for x in (0.0, 1.0) for c in y(x, SMOOTH).c[1:]]
-    return not y.breaks and all(abs(scalar(c)) < ROUNDING for c in ends)
+    return not y.breaks and all(abs(scalar(c)) < ROUNDED for c in ends)

@@ -61,13 +61,12 @@ class Wheels(NamedTuple):
         return Wheels._make(v[which] for v in self)
 
 
-def wheels(z: Number | Whole, sign: Number, A: Number) -> Wheels:
-    """Wheels of z slots, external (sign 1) or internal (-1), behind side-cranks A: (n,) each."""
-    b, rest = np.pi / z, 2.0 * np.sin(np.pi * (z - 2.0) / (4.0 * z)) ** 2
-    l, cos_b = np.sin(b), np.sin(np.pi * (z - 2.0) / (2.0 * z))
-    half, big = 0.5 * np.pi - sign * b, 1.0 + l * (4.0 + l)
-    minus, square = (1.0 - A) * (1.0 + A), rest * (1.0 + l)
-    every = sign, A, l, rest, half, cos_b, sign * l, minus, square, rest * rest, big
+def wheels(sign: Number, l: Number, rest: Number, A: Number) -> Wheels:
+    """Wheels of R/L = l and ``rest`` = 1 - l, external (sign 1) or internal (-1): (n,) each."""
+    square, big, minus = rest * (1.0 + l), 1.0 + l * (4.0 + l), (1.0 - A) * (1.0 + A)
+    cos_b, end_cos = np.sqrt(square), sign * l
+    half = np.arctan2(cos_b, end_cos)
+    every = sign, A, l, rest, half, cos_b, end_cos, minus, square, rest * rest, big
     return Wheels._make(v.ravel() for v in np.broadcast_arrays(*every))
 
 
@@ -76,7 +75,7 @@ def acceleration_peaks(w: Wheels) -> tuple[Array, Array]:
 
     To a relative error of 4e-15 for |A| <= 0.999; NaN where a search did not converge.
 
-    >>> acceleration_peaks(wheels(6, 1.0, 0.6))
+    >>> acceleration_peaks(wheels(1.0, 0.5, 0.5, 0.6))
     (array([0.52252982]), array([-38.20547183]))
     """
     size, at = best = acceleration_at_end(w)

@@ -68,16 +68,21 @@ def _page(content: str, which: str, foot: str) -> Page:
     begin = f"{POINT:.9f} 0 0 {POINT:.9f} 0 0 cm\n1 J 1 j\n"
     low = 11.0
     name = fitting(foot, SMALL, WIDE - 30.0)
-    end = words(name, LEFT, low, SMALL, ink=SOFT)
-    end += words(which, LEFT + WIDE - wide(which, SMALL), low, SMALL, ink=SOFT)
+    end = words(name, (LEFT, low), SMALL, ink=SOFT)
+    end += words(which, (LEFT + WIDE - wide(which, SMALL), low), SMALL, ink=SOFT)
     return Page(WIDTH, HEIGHT, begin + content + end, fonts=2)
 
 
 def words(
-    text: str, x: float, y: float, size: float, bold: bool = False, ink: str = INK, turn: float = 0
+    text: str,
+    at: tuple[float, float],
+    size: float,
+    bold: bool = False,
+    ink: str = INK,
+    turn: float = 0,
 ) -> str:
-    """A text in a colour, from x on along the base line y."""
-    return f"{ink} rg\n" + pdf_file.text(western(text), (x, y), size, turn, 2 if bold else 1)
+    """A text in a colour, from a point on along its base line."""
+    return f"{ink} rg\n" + pdf_file.text(western(text), at, size, turn, 2 if bold else 1)
 
 
 def rule(x: float, y: float, long: float, width: float = 0.15, ink: str = LINE) -> str:

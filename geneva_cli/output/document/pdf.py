@@ -109,8 +109,8 @@ def _gap(high: float, keeps: bool = False) -> Item:
 def _line(text: str, size: float, bold: bool = False, indent: float = 0.0, mark: str = "") -> Item:
     def draw(top: float) -> str:
         y = top - size
-        before = words(mark, LEFT + 1.0, y, size) if mark else ""
-        return before + words(text, LEFT + indent, y, size, bold)
+        before = words(mark, (LEFT + 1.0, y), size) if mark else ""
+        return before + words(text, (LEFT + indent, y), size, bold)
 
     return Item(LEADING * size, draw)
 
@@ -118,7 +118,7 @@ def _line(text: str, size: float, bold: bool = False, indent: float = 0.0, mark:
 def _heading(text: str) -> Item:
     def draw(top: float) -> str:
         y = top - 4.0 - HEAD
-        return words(text, LEFT, y, HEAD, bold=True) + rule(LEFT, y - 1.7, WIDE, 0.3, LINE)
+        return words(text, (LEFT, y), HEAD, bold=True) + rule(LEFT, y - 1.7, WIDE, 0.3, LINE)
 
     return Item(4.0 + HEAD + 4.5, draw, keeps=True)
 
@@ -130,8 +130,8 @@ def _barred(text: str, size: float, ink: str, bold: bool = False, mark: str = ""
 
     def draw(top: float) -> str:
         y = top - size
-        before = words(mark, LEFT + MARK + 1.0, y, size) if mark else ""
+        before = words(mark, (LEFT + MARK + 1.0, y), size) if mark else ""
         bar = box(LEFT, top - high, BAR, high, ink)
-        return bar + before + words(text, x, y, size, bold, ink if bold else INK)
+        return bar + before + words(text, (x, y), size, bold, ink if bold else INK)
 
     return Item(high, draw)

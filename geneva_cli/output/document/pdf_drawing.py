@@ -50,7 +50,7 @@ def drawing(made: Drawing) -> Item:
         bar = round_length(0.25 * (x1 - x0))
         y = top - high - spans * SPAN - SPAN
         out += rule(LEFT, y, scale * bar, 0.5, INK)
-        return out + words(f"{bar:g} mm", LEFT + scale * bar + 2.0, y - 0.35 * SMALL, SMALL)
+        return out + words(f"{bar:g} mm", (LEFT + scale * bar + 2.0, y - 0.35 * SMALL), SMALL)
 
     return Item(high + (spans + 1) * SPAN + 5.0, draw)
 
@@ -95,7 +95,7 @@ def _look(look: Annotations, at: Put, placed: Move, bottom: float) -> Iterator[s
             yield f"{point(p)} m {point((p[0], y - 1.0))} l S\n"
         yield rule(a[0], y, b[0] - a[0], THIN, SOFT)
         yield _arrow((a[0], y), math.pi) + _arrow((b[0], y), 0.0)
-        yield words(text, 0.5 * (a[0] + b[0] - wide(text, SMALL)), y + 0.9, SMALL)
+        yield words(text, (0.5 * (a[0] + b[0] - wide(text, SMALL)), y + 0.9), SMALL)
 
 
 def _arrow(tip: Point, way: float) -> str:

@@ -67,7 +67,7 @@ def _caption(text: str) -> Iterator[Item]:
     if text:
         yield Item(
             STEP + 1.4,
-            lambda top: words(text, LEFT, top - SMALL, SMALL, bold=True, ink=SOFT),
+            lambda top: words(text, (LEFT, top - SMALL), SMALL, bold=True, ink=SOFT),
             keeps=True,
         )
 
@@ -118,7 +118,7 @@ def _cell(texts: list[str], x: float, top: float, room: float, right: bool, bold
     ink, bold = (RED, True) if texts == [BAD] else (INK, bold)
     for i, text in enumerate(texts):
         at = x + room - wide(text, SMALL, bold) if right else x
-        out += words(text, at, top - SPACE - 0.95 * SMALL - i * STEP, SMALL, bold, ink)
+        out += words(text, (at, top - SPACE - 0.95 * SMALL - i * STEP), SMALL, bold, ink)
     return out
 
 

@@ -8,6 +8,7 @@ from geneva_cli.curves.measure import at, legs
 from geneva_cli.curves.shapes import Arc, Circle, Shape
 from geneva_cli.curves.sheet import CENTRE, HIDDEN, OUTLINE
 from geneva_cli.machine.mechanism import Mechanism
+from geneva_cli.numerics.tolerances import SAME_ON_SHEET
 from geneva_cli.parts.arm import CrankArm, bolts
 from geneva_cli.parts.crank import crank_circles, is_whole
 from geneva_cli.parts.outlines import Outlines
@@ -17,8 +18,6 @@ from geneva_cli.parts.sheet.bores import bolted, bored, circle_of, radius_of
 from geneva_cli.parts.sheet.standing import draw_hub
 from geneva_cli.parts.sheet.view import View, number, times
 from geneva_cli.parts.sizes import pin_radius
-
-SAME = 1e-6  # mm
 
 
 def draw_disc(view: View, parts: Outlines) -> None:
@@ -40,7 +39,9 @@ def draw_disc(view: View, parts: Outlines) -> None:
         draw_hub(view, hub)
     bored(view, bores, sizes.crank_bore, assembly.mechanism.spec.size.crank_keyway)
     arcs = [s for contour in parts.crank for s in contour.segments if isinstance(s, Arc)]
-    locking = [a for a in arcs if math.hypot(*a.centre) < SAME and _is(a.radius, sizes.lock)]
+    locking = [
+        a for a in arcs if math.hypot(*a.centre) < SAME_ON_SHEET and _is(a.radius, sizes.lock)
+    ]
     view.of_arcs(locking, sized.lock(assembly.mechanism, sizes.lock), whole=True)
     seen: set[tuple[str, str]] = set()
     for arc in arcs:
@@ -53,7 +54,7 @@ def draw_disc(view: View, parts: Outlines) -> None:
             continue
         seen.add(shown)
         view.of_arcs([arc], shown[0])
-        if math.hypot(*arc.centre) > SAME and far > SAME:
+        if math.hypot(*arc.centre) > SAME_ON_SHEET and far > SAME_ON_SHEET:
             turn = math.atan2(middle[1], middle[0])
             view.linear((0.0, 0.0), middle, turn, shown[1], near=True)
     _gaps(view, parts, locking)
@@ -66,7 +67,7 @@ def _gaps(view: View, parts: Outlines, locking: list[Arc]) -> None:
     gaps: dict[str, list[tuple[float, float]]] = {}
     for (_, end), (start, _) in zip(ends, [*ends[1:], *ends[:1]], strict=True):
         wide = (start - end) % math.tau
-        if wide > SAME:
+        if wide > SAME_ON_SHEET:
             gaps.setdefault(f"{number(math.degrees(wide))}°", []).append((end, end + wide))
     for text, pairs in gaps.items():
         view.angular(pairs, parts.sizes.lock, parts.sizes.lock, times(len(pairs), text))
@@ -122,7 +123,9 @@ def _between(view: View, arm: CrankArm) -> None:
     pairs: dict[str, list[tuple[float, float]]] = {}
     for start, end in zip(angles, [*angles[1:], angles[0] + math.tau], strict=True):
         wide = end - start
-        if wide < math.pi - SAME:  # the rest of a turn, and a straight line, need no dimension
+        if (
+            wide < math.pi - SAME_ON_SHEET
+        ):  # the rest of a turn, and a straight line, need no dimension
             pairs.setdefault(f"{number(math.degrees(wide))}°", []).append((start, end))
     for text, some in pairs.items():
         view.angular(some, reach, reach, times(len(some), text))
@@ -156,4 +159,4 @@ def draw_assembly(view: View, parts: Outlines, shapes: tuple[Shape, ...]) -> Non
 
 
 def _is(a: float, b: float) -> bool:
-    return abs(a - b) < SAME
+    return abs(a - b) < SAME_ON_SHEET

@@ -7,13 +7,13 @@ from collections.abc import Sequence
 
 from geneva_cli.curves.shapes import Arc, Circle, Contour, Point, Shape
 from geneva_cli.curves.sheet import CENTRE, OUTLINE
+from geneva_cli.numerics.tolerances import SAME_ON_SHEET
 from geneva_cli.parts.gear_blanks import Gear
 from geneva_cli.parts.link_drawings import placed
 from geneva_cli.parts.sheet import sized
 from geneva_cli.parts.sheet.bores import bolted, circle_of
 from geneva_cli.parts.sheet.view import View, number, times
 
-NEAR = 1e-6  # mm
 TOOTHLESS = "teeth not shown"
 
 
@@ -46,14 +46,14 @@ def draw_blank(view: View, gear: Gear, at: Point) -> None:
         pieces[:1] = [Contour("", (piece,), closed=False) for piece in outline.segments]
     for shape in pieces:
         (arc,) = shape.segments if isinstance(shape, Contour) else (shape,)
-        on_pitch = isinstance(arc, (Arc, Circle)) and abs(arc.radius - gear.radius) < NEAR
+        on_pitch = isinstance(arc, (Arc, Circle)) and abs(arc.radius - gear.radius) < SAME_ON_SHEET
         view.draw(placed(shape, at, 0.0), CENTRE if on_pitch else OUTLINE)
 
 
 def _sectors(view: View, gear: Gear, outline: Contour, pitch: str) -> None:
     """Draw the toothed arcs, their angles, and the hub's radius between them."""
     arcs = [piece for piece in outline.segments if isinstance(piece, Arc)]
-    toothed = [arc for arc in arcs if abs(arc.radius - gear.radius) < NEAR]
+    toothed = [arc for arc in arcs if abs(arc.radius - gear.radius) < SAME_ON_SHEET]
     hub = [arc for arc in arcs if arc not in toothed]
     count = len(toothed)
     view.of_arcs(toothed, times(count, pitch) if count > 1 else pitch, whole=True)

@@ -13,6 +13,7 @@ from geneva_cli.curves.shapes import Arc, Circle, Contour, Point
 from geneva_cli.curves.sheet import OUTLINE
 from geneva_cli.machine.layout import Joint
 from geneva_cli.machine.mechanism import Mechanism
+from geneva_cli.numerics.tolerances import SAME_ON_SHEET
 from geneva_cli.parts.link_positions import links_at, same
 from geneva_cli.parts.link_sizes import places
 from geneva_cli.parts.links import Links, placed_holes
@@ -21,7 +22,6 @@ from geneva_cli.parts.sheet.paper import table
 from geneva_cli.parts.sheet.view import Block, View, number, times
 
 UP = 0.5 * math.pi
-NEAR = 1e-6  # mm
 COLUMNS = (62.0, 44.0, 46.0, 16.0)  # mm, of the table of round parts
 HEADING = ("round parts",)
 
@@ -55,9 +55,9 @@ def _base(view: View, plate: Plate, holes: list[Circle]) -> Point:
     """Return the origin of a link's dimensions: its own if on the link, else its first hole."""
     assert isinstance(plate.outline, Contour)
     eyes = (piece for piece in plate.outline.segments if isinstance(piece, Arc))
-    own = next((eye for eye in eyes if math.hypot(*eye.centre) < NEAR), None)
+    own = next((eye for eye in eyes if math.hypot(*eye.centre) < SAME_ON_SHEET), None)
     nearest = sorted((hole.centre for hole in holes), key=lambda p: math.hypot(*p))
-    if nearest and (own is None or math.hypot(*nearest[0]) < NEAR):
+    if nearest and (own is None or math.hypot(*nearest[0]) < SAME_ON_SHEET):
         return nearest[0]
     view.cross((0.0, 0.0), own.radius if own else 0.0)
     view.remark("one piece with its shaft")
@@ -98,7 +98,7 @@ def _slot(view: View, slot: Contour, base: Point) -> None:
     sides = [(x1 + s * half * math.sin(turn), y1 - s * half * math.cos(turn)) for s in (-1.0, 1.0)]
     view.linear(sides[0], sides[1], turn + UP, sized.fitted(2.0 * half, "", "H7"))
     degrees = math.degrees(abs(math.remainder(turn, math.tau)))
-    if degrees > NEAR and math.hypot(*base) < NEAR:
+    if degrees > SAME_ON_SHEET and math.hypot(*base) < SAME_ON_SHEET:
         legs = (0.0, turn) if turn > 0.0 else (turn, 0.0)
         reach = math.dist(base, near.centre)
         view.angular([legs], 0.0, reach, f"{number(degrees)}°")

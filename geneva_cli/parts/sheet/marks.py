@@ -10,8 +10,9 @@ from collections.abc import Iterable, Iterator
 
 from geneva_cli.curves.helvetica import width
 from geneva_cli.curves.shapes import Line, Point, Segment, about
-from geneva_cli.curves.sheet import ARROW, BELOW, Arrow, Label, Measure, polar
+from geneva_cli.curves.sheet import ARROW, BELOW, SMALL, Arrow, Label, Measure, polar
 
+AXIS = 0.0, 0.0  # of the part whose angles are shown
 PAST = 1.5  # length of an extension line beyond the dimension line
 CLEAR = 0.8  # gap from the outline to an extension line, and from a line to its text
 ROUND = 16  # number of directions of a leader
@@ -27,7 +28,6 @@ def linear(
     levels: Iterable[float],
     text: str,
     value: float,
-    h: float,
 ) -> Iterator[Measure]:
     """Yield candidates of a distance in the direction ``turn``, with its line at some levels.
 
@@ -37,7 +37,7 @@ def linear(
     a, b = sorted((_dot(p, u), _dot(p, n)) for p in ends)
     for level in levels:
         for place in PLACES:
-            mark = _linear(a, b, level, turn, place, text, h)
+            mark = _linear(a, b, level, turn, place, text)
             if mark is None:
                 continue
             lines, arrows, label = mark
@@ -46,7 +46,7 @@ def linear(
 
 
 def _linear(
-    a: Point, b: Point, level: float, turn: float, place: float, text: str, h: float
+    a: Point, b: Point, level: float, turn: float, place: float, text: str
 ) -> tuple[tuple[Segment, ...], tuple[Arrow, ...], Label] | None:
     """Return one candidate; None where the text does not fit between the arrows.
 
@@ -54,7 +54,7 @@ def _linear(
     beyond one end.
     """
     u, n = _axes(turn)
-    long, length = width(text) * h, b[0] - a[0]
+    long, length = width(text) * SMALL, b[0] - a[0]
     spare = length - long - 2.0 * (LENGTH + CLEAR)
     if 0.0 <= place <= 1.0 and spare < 0.0:
         return None
@@ -79,39 +79,36 @@ def _linear(
     arrows = tuple(
         Arrow(_at(u, n, along, level), way) for (along, _), way in zip((a, b), turns, strict=True)
     )
-    return tuple(lines), arrows, _on_line(u, n, start, start + long, level, turn, text, h)
+    return tuple(lines), arrows, _on_line(start, start + long, level, turn, text)
 
 
-def _on_line(
-    u: Point, n: Point, start: float, end: float, level: float, turn: float, text: str, h: float
-) -> Label:
+def _on_line(start: float, end: float, level: float, turn: float, text: str) -> Label:
     """Return the text above its line, readable from below or from the right."""
-    off = CLEAR + BELOW * h
+    u, n = _axes(turn)
+    off = CLEAR + BELOW * SMALL
     if math.cos(turn) > 1e-9 or (abs(math.cos(turn)) <= 1e-9 and math.sin(turn) > 0.0):
-        return Label(text, _at(u, n, start, level + off), h, turn)
-    return Label(text, _at(u, n, end, level - off), h, turn + math.pi)
+        return Label(text, _at(u, n, start, level + off), SMALL, turn)
+    return Label(text, _at(u, n, end, level - off), SMALL, turn + math.pi)
 
 
 def angular(
-    apex: Point,
     legs: tuple[float, float],
     begin: float,
     radii: Iterable[float],
     text: str,
     value: float,
-    h: float,
 ) -> Iterator[Measure]:
-    """Yield candidates of an angle from one leg counterclockwise to the other, on arcs.
+    """Yield candidates of an angle about the axis, counterclockwise from leg to leg, on arcs.
 
-    Angles are in radians. The extension lines begin at the distance ``begin`` from the apex.
+    Angles are in radians. The extension lines begin at the distance ``begin`` from the axis.
     """
     first, last = legs
     for radius in radii:
         inside = radius * (last - first) > 3.0 * LENGTH
         spare = 0.0 if inside else 2.5 * LENGTH / radius
         lines: list[Segment] = [
-            about(apex, radius, first - spare, last - first + 2.0 * spare),
-            *(Line(polar(apex, begin, leg), polar(apex, radius + PAST, leg)) for leg in legs),
+            about(AXIS, radius, first - spare, last - first + 2.0 * spare),
+            *(Line(polar(AXIS, begin, leg), polar(AXIS, radius + PAST, leg)) for leg in legs),
         ]
         tilt = 0.5 * LENGTH / radius  # an arrow's back lies on the arc
         quarter = 0.5 * math.pi
@@ -121,44 +118,44 @@ def angular(
             else (first + quarter - tilt, last - quarter + tilt)
         )
         arrows = tuple(
-            Arrow(polar(apex, radius, leg), turn) for leg, turn in zip(legs, turns, strict=True)
+            Arrow(polar(AXIS, radius, leg), turn) for leg, turn in zip(legs, turns, strict=True)
         )
         middle = 0.5 * (first + last)
-        points = (apex, *(polar(apex, begin, leg) for leg in legs), polar(apex, radius, middle))
+        points = (AXIS, *(polar(AXIS, begin, leg) for leg in legs), polar(AXIS, radius, middle))
         for fraction in (0.5, 0.3, 0.7, -0.3, 1.3):
             at = first + fraction * (last - first) if inside else middle
-            label = _clear_of(polar(apex, radius, at), at, text, h)
+            label = _clear_of(polar(AXIS, radius, at), at, text)
             yield Measure("angular", points, value, label, tuple(lines), arrows)
 
 
-def _clear_of(p: Point, angle: float, text: str, h: float) -> Label:
+def _clear_of(p: Point, angle: float, text: str) -> Label:
     """Return an upright text whose box keeps clear of a point, in a direction from it."""
-    half = 0.5 * width(text) * h, 0.7 * h
+    half = 0.5 * width(text) * SMALL, 0.7 * SMALL
     away = half[0] * abs(math.cos(angle)) + half[1] * abs(math.sin(angle)) + 2.0 * CLEAR
     x, y = polar(p, away, angle)
-    return Label(text, (x - half[0], y - 0.4 * h), h)
+    return Label(text, (x - half[0], y - 0.4 * SMALL), SMALL)
 
 
 def diameter(
-    centre: Point, radius: float, angles: Iterable[float], text: str, value: float, h: float
+    centre: Point, radius: float, angles: Iterable[float], text: str, value: float
 ) -> Iterator[Measure]:
     """Yield candidates of a diameter, with a leader to the circle in one of some directions."""
-    for tip, angle, end, label in _leaders(centre, radius, angles, text, h):
+    for tip, angle, end, label in _leaders(centre, radius, angles, text):
         points = (polar(centre, -radius, angle), tip)
         yield _led("diameter", points, value, tip, end, label)
 
 
 def radius(
-    centre: Point, reach: float, angles: Iterable[float], text: str, value: float, h: float
+    centre: Point, reach: float, angles: Iterable[float], text: str, value: float
 ) -> Iterator[Measure]:
     """Yield candidates of a radius, with a leader to the circle in one of some directions."""
-    for tip, _, end, label in _leaders(centre, reach, angles, text, h):
+    for tip, _, end, label in _leaders(centre, reach, angles, text):
         yield _led("radius", (centre, tip), value, tip, end, label)
 
 
-def note(tip: Point, text: str, h: float) -> Iterator[Measure]:
+def note(tip: Point, text: str) -> Iterator[Measure]:
     """Yield candidates of a text with a leader to a point."""
-    for _, _, end, label in _leaders(tip, 0.0, around(), text, h):
+    for _, _, end, label in _leaders(tip, 0.0, around(), text):
         yield _led("note", (tip,), 0.0, tip, end, label)
 
 
@@ -176,11 +173,11 @@ def within(start: float, end: float, count: int = 9) -> list[float]:
 
 
 def _leaders(
-    centre: Point, reach: float, angles: Iterable[float], text: str, h: float
+    centre: Point, reach: float, angles: Iterable[float], text: str
 ) -> Iterator[tuple[Point, float, Point, Label]]:
     """Yield tip, direction, bend and text of leaders, short ones first."""
     directions = list(angles)
-    long = width(text) * h
+    long = width(text) * SMALL
     for length in LENGTHS:
         for angle in directions:
             tip = polar(centre, reach, angle)
@@ -188,7 +185,7 @@ def _leaders(
                 end = polar(tip, out * length, angle)
                 right = out * math.cos(angle) >= 0.0
                 start = end[0] + CLEAR if right else end[0] - CLEAR - long
-                yield tip, angle, end, Label(text, (start, end[1] + CLEAR + BELOW * h), h)
+                yield tip, angle, end, Label(text, (start, end[1] + CLEAR + BELOW * SMALL), SMALL)
 
 
 def _led(

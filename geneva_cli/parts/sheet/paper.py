@@ -8,8 +8,18 @@ from typing import NamedTuple
 
 from geneva_cli.curves.helvetica import width
 from geneva_cli.curves.shapes import Circle, Point, Shape
-from geneva_cli.curves.sheet import FRAME, OUTLINE, TEXT, Label, line, polar, rectangle
-from geneva_cli.parts.sheet.view import LARGE, SMALL, Block
+from geneva_cli.curves.sheet import (
+    FRAME,
+    LARGE,
+    OUTLINE,
+    SMALL,
+    TEXT,
+    Label,
+    line,
+    polar,
+    rectangle,
+)
+from geneva_cli.parts.sheet.view import Block
 
 LEFT, MARGIN = 20.0, 10.0  # mm: margin of the frame on the filing side, and on the others
 BLOCK = 180.0  # mm: width of the title block

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from geneva_cli.machine.mechanism import Mechanism
+from geneva_cli.numerics.tolerances import SAME_LENGTH
 from geneva_cli.parts.gear_drawings import crank_sense, driven_curve, driver_curve
 from geneva_cli.parts.groove import groove_curve
 from geneva_cli.parts.outlines import Outlines
@@ -23,7 +24,6 @@ COARSE = 1e-4  # of the centre distance: finest tolerance of a table
 COLUMNS = (9.0, 17.0, 17.0)
 ROWS = 40  # at most; longer tables continue in further columns
 MIRRORED = "; the other half is its mirror image in the x axis"
-SAME = 1e-9  # of the centre distance
 BEGIN = 4  # intervals
 DEPTH = 14  # halvings of one
 BETWEEN = (0.25, 0.5, 0.75)  # where a chord's distance from the curve is computed
@@ -74,7 +74,7 @@ def gear_tables(mechanism: Mechanism, tolerance: float) -> list[Block]:
             return both(np.radians(t))[0]
 
         seen = np.linspace(0.0, 180.0, 37)
-        symmetric = bool(np.abs(curve(-seen) - curve(seen) * (1.0, -1.0)).max() < SAME * L)
+        symmetric = bool(np.abs(curve(-seen) - curve(seen) * (1.0, -1.0)).max() < SAME_LENGTH * L)
         points = polyline(curve, 0.0, 180.0 if symmetric else 360.0, close)
         what = f"{name}: points of its pitch curve about its axis, at input angle 0"
         blocks.append(point_table(what + (MIRRORED if symmetric else ""), points, close))

@@ -11,18 +11,16 @@ import numpy as np
 
 from geneva_cli.curves.measure import legs, mapped
 from geneva_cli.curves.shapes import Arc, Circle, Contour, Point, Shape
-from geneva_cli.curves.sheet import CENTRE, Label, Measure, line, polar
+from geneva_cli.curves.sheet import CENTRE, LARGE, SMALL, Label, Measure, line, polar
 from geneva_cli.parts.sheet import marks
 from geneva_cli.parts.sheet.board import Board, chords
 
 if TYPE_CHECKING:
     from geneva_cli.numerics.jet import Array
 
-SMALL, LARGE = 2.5, 3.5  # mm: capitals of dimensions, and of titles (ISO 3098-1)
 FIRST, NEXT = 8.0, 7.0  # mm: from the outline to the first dimension line, and between lines
 RANKS = 14  # rows of dimension lines that are tried
 OVER = 3.0  # mm: length of a centre line beyond its part
-NEAR = 1e-6  # mm: radii and centres nearer to each other count as equal
 
 
 class Block(NamedTuple):
@@ -111,7 +109,7 @@ class View:
         ends = self._at(p), self._at(q)
         value = abs((q[0] - p[0]) * math.cos(turn) + (q[1] - p[1]) * math.sin(turn))
         levels = list(self._levels(turn, ends if near else ()))
-        self._put(marks.linear(ends, turn, levels, text, value, SMALL), text)
+        self._put(marks.linear(ends, turn, levels, text, value), text)
 
     def angular(
         self, pairs: Iterable[tuple[float, float]], begin: float, radius: float, text: str
@@ -124,9 +122,7 @@ class View:
             mark
             for wide in radii
             for legs in pairs
-            for mark in marks.angular(
-                (0.0, 0.0), legs, start, [wide], text, math.degrees(legs[1] - legs[0]), SMALL
-            )
+            for mark in marks.angular(legs, start, [wide], text, math.degrees(legs[1] - legs[0]))
         )
         self._put(candidates, text)
 
@@ -139,7 +135,6 @@ class View:
                 marks.around(),
                 text,
                 2.0 * c.radius,
-                SMALL,
             )
             for c in circles
         )
@@ -155,7 +150,6 @@ class View:
                 marks.within(*legs(arc)),
                 text,
                 factor * arc.radius,
-                SMALL,
             )
             for arc in arcs
         )
@@ -163,7 +157,7 @@ class View:
 
     def note(self, tip: Point, text: str) -> None:
         """Draw a text that points at a place."""
-        self._put(marks.note(self._at(tip), text, SMALL), text)
+        self._put(marks.note(self._at(tip), text), text)
 
     def remark(self, text: str) -> None:
         """Add a text below the title."""

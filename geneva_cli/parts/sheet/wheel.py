@@ -9,6 +9,7 @@ from geneva_cli.curves.measure import turned
 from geneva_cli.curves.shapes import Arc, Contour, Point
 from geneva_cli.curves.sheet import CENTRE, HIDDEN, OUTLINE
 from geneva_cli.machine.engagement import Engagement
+from geneva_cli.numerics.tolerances import SAME_ON_SHEET
 from geneva_cli.parts import drawings
 from geneva_cli.parts.outlines import Outlines
 from geneva_cli.parts.sheet import sized
@@ -17,8 +18,6 @@ from geneva_cli.parts.sheet.standing import draw_hub
 from geneva_cli.parts.sheet.view import View, number, times
 from geneva_cli.parts.wheel import dial_bolts
 from geneva_cli.parts.wheel_hub import HUB, wheel_hub
-
-SAME = 1e-6  # mm
 
 
 def draw_wheel(view: View, parts: Outlines, tolerance: float, curves: str) -> None:
@@ -100,7 +99,7 @@ def _slot(view: View, parts: Outlines, engagement: Engagement, count: int) -> No
     foot = _foot(end, turn)
     view.linear(foot, end, turn, sized.plain(math.dist(foot, end)), near=True)
     view.linear(end, mouth, turn, times(count, sized.plain(math.dist(end, mouth))), near=True)
-    if math.hypot(*foot) > SAME:
+    if math.hypot(*foot) > SAME_ON_SHEET:
         normal = math.atan2(foot[1], foot[0])
         view.linear((0.0, 0.0), foot, normal, sized.plain(math.hypot(*foot)))
     rounds = [
@@ -108,7 +107,7 @@ def _slot(view: View, parts: Outlines, engagement: Engagement, count: int) -> No
         for one, d in parts.assembly.slots
         if one is engagement
         for s in turned(parts.slots[one], d).segments
-        if isinstance(s, Arc) and math.hypot(*s.centre) > SAME
+        if isinstance(s, Arc) and math.hypot(*s.centre) > SAME_ON_SHEET
     ]
     view.of_arcs(rounds, times(count, sized.plain(rounds[0].radius, "R ")))
 
@@ -126,8 +125,8 @@ def _recesses(view: View, parts: Outlines, arcs: list[Arc]) -> None:
     L = assembly.L
     if not sizes.recess:
         return
-    about = [arc for arc in arcs if abs(math.hypot(*arc.centre) - L) < SAME]
-    own = [arc for arc in about if abs(arc.radius - sizes.recess) < SAME]
+    about = [arc for arc in arcs if abs(math.hypot(*arc.centre) - L) < SAME_ON_SHEET]
+    own = [arc for arc in about if abs(arc.radius - sizes.recess) < SAME_ON_SHEET]
     deviation = assembly.mechanism.spec.tolerance.center_distance_mm
     centre = _recess_centre(parts)
     turn = math.atan2(centre[1], centre[0])
@@ -147,9 +146,9 @@ def _recess_centre(parts: Outlines) -> Point:
 
 def _rims(view: View, arcs: list[Arc], reach: float) -> None:
     """Draw arcs about the wheel's axis other than the outermost one."""
-    own = [arc for arc in arcs if math.hypot(*arc.centre) < SAME]
+    own = [arc for arc in arcs if math.hypot(*arc.centre) < SAME_ON_SHEET]
     for radius, some in _by_radius(own).items():
-        if abs(radius - reach) > SAME:
+        if abs(radius - reach) > SAME_ON_SHEET:
             view.of_arcs(some, times(len(some), sized.plain(radius, "R ")))
 
 
@@ -192,6 +191,6 @@ def _by_radius(arcs: list[Arc]) -> dict[float, list[Arc]]:
     """Return arcs grouped by radius."""
     groups: dict[float, list[Arc]] = {}
     for arc in arcs:
-        same = next((r for r in groups if abs(r - arc.radius) < SAME), arc.radius)
+        same = next((r for r in groups if abs(r - arc.radius) < SAME_ON_SHEET), arc.radius)
         groups.setdefault(same, []).append(arc)
     return groups

@@ -14,8 +14,8 @@ import numpy as np
 
 from geneva_cli.curves.sphere import Region, Rotation, SphereArc, cross, opposite, place
 from geneva_cli.curves.sphere_hull import Cap
+from geneva_cli.numerics.tolerances import SAME_ANGLE
 from geneva_cli.parts.locking_rings import SHARES
-from geneva_cli.parts.reliefs import SAME
 from geneva_cli.parts.sphere.sizes import Ball, PartDoesNotFit
 from geneva_cli.parts.sphere.wheel import POLE, QUARTER, edge_points
 
@@ -83,7 +83,7 @@ def locked(ball: Ball) -> list[tuple[float, float]]:
         (a + ball.half_motion, b - ball.half_motion)
         for a, b in zip(ball.rollers, after, strict=True)
     ]
-    return [(a, b) for a, b in spans if b - a > SAME]
+    return [(a, b) for a, b in spans if b - a > SAME_ANGLE]
 
 
 def _sector(high: float, low: float, start: float, end: float) -> Region:
@@ -120,10 +120,10 @@ def _reached(ball: Ball, paths: tuple[Array, Array], middle: float) -> Callable[
     polar, azimuth = paths
     ahead = [azimuth + turn - middle for turn in ball.rollers]
     off = np.abs(np.remainder(np.stack(ahead) + math.pi, math.tau) - math.pi)
-    near = polar < ball.lock * (1.0 - SAME)
+    near = polar < ball.lock * (1.0 - SAME_ANGLE)
 
     def reached(half: float) -> float:
-        inside = near & (off < half * (1.0 - SAME))
+        inside = near & (off < half * (1.0 - SAME_ANGLE))
         # a point that is inside at one position counts at the adjacent ones too
         inside[:, 1:] |= inside[:, :-1]
         inside[:, :-1] |= inside[:, 1:]
@@ -144,11 +144,11 @@ def swept(ball: Ball) -> tuple[Array, Array]:
     # the wheel turns by half a step either way: the position nearest to the crank's axis counts
     off = np.maximum(np.abs(np.arctan2(wheel[:, 1], wheel[:, 0])) - ball.half_step, 0.0)
     flat = math.sin(ball.axes) * np.hypot(wheel[:, 0], wheel[:, 1]) * np.cos(off)
-    wheel = wheel[math.cos(ball.axes) * wheel[:, 2] + flat > math.cos(ball.lock) - SAME]
+    wheel = wheel[math.cos(ball.axes) * wheel[:, 2] + flat > math.cos(ball.lock) - SAME_ANGLE]
     turns = np.linspace(-ball.half_motion, ball.half_motion, STEPS)
     x, y, up = np.moveaxis((wheel @ _index(ball, frame, turns)) @ frame, -1, 0)
     # the limit is below the locking edge's angle, so that points along the edge do not count
-    comes = np.flatnonzero(up.max(axis=0) > math.cos((1.0 - 0.5 * SAME) * ball.lock))
+    comes = np.flatnonzero(up.max(axis=0) > math.cos((1.0 - 0.5 * SAME_ANGLE) * ball.lock))
     x, y, up = x[:, comes], y[:, comes], up[:, comes]
     return np.arctan2(np.hypot(x, y), up), np.arctan2(y, x) + turns[:, None]
 

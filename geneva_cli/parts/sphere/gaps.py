@@ -12,6 +12,7 @@ import numpy as np
 
 from geneva_cli.curves.sphere import Region, opposite, place
 from geneva_cli.curves.sphere_arcs import Arcs
+from geneva_cli.numerics.tolerances import SAME_ANGLE
 from geneva_cli.parts.assembly import Assembly
 from geneva_cli.parts.sphere.crank import at_mid_motion
 from geneva_cli.parts.sphere.sizes import Ball
@@ -28,7 +29,6 @@ if TYPE_CHECKING:
 NEAR = 0.02  # radians: wider gaps are returned as this
 BESIDE = 1e-6  # of an arc: next to a corner, which may lie on an edge where all else overlaps
 SHARES = (0.0, BESIDE, 0.5, 1.0 - BESIDE)  # of an arc: positions of its sampled points
-SAME = 1e-9  # radians: arcs nearer to each other count as one
 ROUNDING = 1e-7  # radians: error of an angle computed from its cosine
 
 
@@ -90,8 +90,9 @@ class BallGaps:
         """Return True if the parts coincide with themselves after one slot and 1/``count`` turn."""
         first, step = self.sectors[:1], 2.0 * np.pi / count
         return len(self.sectors) in (0, count) and all(
-            np.abs(about(one.middle, np.full(len(one), -k * step)) - sector.middle).max() < SAME
-            and np.abs(one.sweep - sector.sweep).max() < SAME
+            np.abs(about(one.middle, np.full(len(one), -k * step)) - sector.middle).max()
+            < SAME_ANGLE
+            and np.abs(one.sweep - sector.sweep).max() < SAME_ANGLE
             for one in first
             for k, sector in enumerate(self.sectors)
         )

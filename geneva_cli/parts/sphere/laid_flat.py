@@ -15,12 +15,12 @@ import numpy as np
 from geneva_cli.curves import fit
 from geneva_cli.curves.shapes import Arc, Line, Point, Segment
 from geneva_cli.curves.sphere import SphereArc, Vector
+from geneva_cli.numerics.tolerances import SAME_ANGLE
 
 if TYPE_CHECKING:
     from geneva_cli.numerics.jet import Array
 
 LEVEL = 1e-12  # cosine of the angle between a great circle and its axis
-CYLINDER = 1e-9  # cosine of the polar angle below which the cone counts as a cylinder
 
 
 class Cone(NamedTuple):
@@ -91,13 +91,13 @@ class Cone(NamedTuple):
     def level(self, start: Point, end: Point, azimuth: float) -> Segment:
         """Return the arc about the apex between two points, over an azimuth."""
         bulge = math.tan(0.25 * azimuth * math.cos(self.polar))
-        return Arc(start, end, bulge) if abs(bulge) > CYLINDER else Line(start, end)
+        return Arc(start, end, bulge) if abs(bulge) > SAME_ANGLE else Line(start, end)
 
     def described(self, whose: str) -> str:
         """Return a description of the cone's shape and position for the workshop."""
         polar = math.degrees(self.polar)
         at = f"touches the {self.radius_mm:g} mm sphere {polar:.6g} deg from the {whose}'s axis"
-        if abs(math.cos(self.polar)) < CYLINDER:
+        if abs(math.cos(self.polar)) < SAME_ANGLE:
             return f"cylinder that {at}"
         return (
             f"cone that {at}, {abs(self.apex_mm):.6g} mm from its apex; sector "

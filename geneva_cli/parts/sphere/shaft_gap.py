@@ -15,6 +15,7 @@ import numpy as np
 
 from geneva_cli.curves.plates import Plate, plates
 from geneva_cli.curves.shapes import Circle
+from geneva_cli.numerics.tolerances import SAME_LENGTH
 from geneva_cli.parts.sphere.built import ROLLER, PlacedShells
 from geneva_cli.parts.sphere.sizes import Ball
 from geneva_cli.parts.turn.shaft_gap import ShaftGap, ring_gap
@@ -23,7 +24,6 @@ if TYPE_CHECKING:
     from geneva_cli.numerics.jet import Array
     from geneva_cli.parts.sphere.shells import Shells
 
-SAME = 1e-9  # of the sphere's radius: parts that share less of a distance only touch
 LOOKS = 257  # spheres on which a gap is computed where it may grow and shrink
 
 
@@ -72,7 +72,7 @@ def shaft_gap(parts: Shells, whole: PlacedShells) -> ShaftGap | None:
     wheel, crank = ([s for p in some for s in _round(p)] for some in (on_wheel, on_crank))
     pairs = [*product(wheel, [*crank, *_crank_rings(parts, whole)])]
     pairs += [*product(crank, [_wheel_ring(ball)])]
-    near = SAME * ball.radius_mm
+    near = SAME_LENGTH * ball.radius_mm
     return min(
         (
             ShaftGap(_gap(one, other, ball.axes), one.name, other.name)

@@ -18,6 +18,7 @@ from geneva_cli.curves.plates import Group, plates
 from geneva_cli.curves.shapes import Arc, Contour, Line, Point, Segment, Shape
 from geneva_cli.curves.sheet import CENTRE, OUTLINE, Sheet
 from geneva_cli.machine.layout import Dimension
+from geneva_cli.numerics.tolerances import SAME_ANGLE
 from geneva_cli.parts.parts_list import part_rows
 from geneva_cli.parts.proof import Proof
 from geneva_cli.parts.sheet import sized
@@ -39,7 +40,7 @@ from geneva_cli.parts.sphere.drawings import (
     wheel_cone,
     wheel_flat,
 )
-from geneva_cli.parts.sphere.laid_flat import CYLINDER, Cone
+from geneva_cli.parts.sphere.laid_flat import Cone
 from geneva_cli.parts.sphere.section import degrees, section
 from geneva_cli.parts.sphere.sizes import Ball
 
@@ -161,7 +162,7 @@ def _flat(whose: str, ball: Ball, cone: Cone, shapes: Sequence[Shape], scale: fl
 
 def _shift(ball: Ball, cone: Cone) -> float:
     """Return the distance from a cone's apex to its contact, mm; 0 if too far for a sheet."""
-    near = abs(math.cos(cone.polar)) > CYLINDER and abs(cone.apex_mm) < FAR * ball.radius_mm
+    near = abs(math.cos(cone.polar)) > SAME_ANGLE and abs(cone.apex_mm) < FAR * ball.radius_mm
     return cone.apex_mm if near else 0.0
 
 

@@ -9,8 +9,9 @@ import numpy as np
 
 from geneva_cli.curves.sphere import Region
 from geneva_cli.machine.mechanism import Mechanism
+from geneva_cli.numerics.tolerances import SAME_LENGTH
 from geneva_cli.parts.assembly import Assembly, assembled
-from geneva_cli.parts.outlines import CONTACT, EXACT
+from geneva_cli.parts.outlines import CONTACT
 from geneva_cli.parts.sizes import wall_min
 from geneva_cli.parts.sphere.fitted import fitted
 from geneva_cli.parts.sphere.gaps import BallGaps
@@ -44,7 +45,7 @@ class Shells(NamedTuple):
     @property
     def close(self) -> float:
         """The overlap, mm, that counts as rounding."""
-        return EXACT * self.ball.radius_mm
+        return SAME_LENGTH * self.ball.radius_mm
 
     @property
     def contact(self) -> float:

@@ -14,7 +14,8 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from geneva_cli.curves.sphere_arcs import FLAT, Arcs
+from geneva_cli.curves.sphere_arcs import Arcs
+from geneva_cli.numerics.tolerances import SAME_ANGLE
 from geneva_cli.parts.turn.touch import SLACK, WAYS, Touch, triangles, within
 
 if TYPE_CHECKING:
@@ -47,7 +48,7 @@ def caps(boundaries: Sequence[Arcs]) -> Caps:
     """Return the caps of arcs, and caps of the convex corners between them."""
     columns = []
     for one in boundaries:
-        corner = np.flatnonzero(one.first > FLAT)
+        corner = np.flatnonzero(one.first > SAME_ANGLE)
         at, none = one.at(corner, np.zeros(len(corner))), np.zeros(len(corner))
         columns.append(Caps(one.axis, one.angle, one.x, one.y, one.sweep))
         columns.append(Caps(at, none, at, at, none + WHOLE))

@@ -12,6 +12,7 @@ import numpy as np
 from geneva_cli.curves.distance import Polyarc
 from geneva_cli.curves.shapes import Contour, backwards
 from geneva_cli.errors import GenevaError
+from geneva_cli.numerics.tolerances import SAME_LENGTH
 from geneva_cli.parts.assembly import Assembly
 from geneva_cli.parts.sizes import Sizes
 from geneva_cli.parts.turn.angular_index import AngularIndex, half_angle
@@ -26,7 +27,6 @@ if TYPE_CHECKING:
 
 NEAR = 0.02  # of the centre distance: wider gaps are returned as this
 SAGITTA = 2e-6  # of the centre distance: greatest deviation of an arc's samples from the arc
-SAME = 1e-9  # of the centre distance: corners nearer to each other count as one
 TOUCH = 1e-7  # of the locking disc: a smaller overlap counts as touching
 WORK = 1e8  # greatest number of distances between points and pieces in a full turn: about 5 s
 BLOCK = 1 << 19  # points of the wheel that are computed together, so that they fit into the cache
@@ -72,7 +72,7 @@ class Gaps:
         """Reduce a wheel whose slots are all equal to one slot and its neighbours."""
         # the outline of an internal wheel runs clockwise
         count, sense = len(self.assembly.slots), self.assembly.sign
-        repeats = _repeats(self.wheel, count, SAME * self.assembly.L, sense)
+        repeats = _repeats(self.wheel, count, SAME_LENGTH * self.assembly.L, sense)
         self.pitch = math.tau / count if repeats else 0.0
         middle = np.arctan2(self.wheel.y0 + self.wheel.y1, self.wheel.x0 + self.wheel.x1)
         reach = math.asin(min(1.0, (self.near + self.sizes.roller) / self.sizes.rim))
@@ -81,7 +81,7 @@ class Gaps:
 
     def repeats(self, count: int) -> bool:
         """Return True if the parts coincide with themselves after one slot and 1/``count`` turn."""
-        alike = self.crank is None or _repeats(self.crank, count, SAME * self.assembly.L)
+        alike = self.crank is None or _repeats(self.crank, count, SAME_LENGTH * self.assembly.L)
         return bool(self.pitch) and alike
 
     def _to_wheel(self, points: Array, reach: float) -> Array:
@@ -241,7 +241,7 @@ def _repeats(outline: Polyarc, count: int, near: float, sense: float = 1.0) -> b
     angle = np.full(len(outline), math.tau / count * sense)
     same = np.abs(turned_points(np.roll(corners, each, axis=0), angle) - corners).max() < near
     bends = np.column_stack((outline.sense, outline.cos_half))
-    return bool(same and np.abs(np.roll(bends, each, axis=0) - bends).max() < SAME)
+    return bool(same and np.abs(np.roll(bends, each, axis=0) - bends).max() < SAME_LENGTH)
 
 
 def turned_points(points: Array, angle: Array) -> Array:

@@ -7,9 +7,10 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from geneva_cli.numerics.tolerances import SAME_INPUT_DEG
 from geneva_cli.parts.turn.free_angles import free_angles
 from geneva_cli.parts.turn.machine_parts import MachineParts
-from geneva_cli.parts.turn.play import NEAR, windows
+from geneva_cli.parts.turn.play import windows
 
 if TYPE_CHECKING:
     from geneva_cli.numerics.jet import Array
@@ -42,9 +43,9 @@ def play_before_entry(parts: MachineParts) -> float:
 def _loose(parts: MachineParts, at: Array) -> float:
     free = np.ones(len(at), dtype=bool)
     for start, end, motion, rests in windows(parts):
-        here = np.flatnonzero((at >= start - NEAR) & (at <= end + NEAR))
+        here = np.flatnonzero((at >= start - SAME_INPUT_DEG) & (at <= end + SAME_INPUT_DEG))
         if len(here) and not rests:
-            free[here] &= parts.past_mouth(motion, at[here]) <= -NEAR * parts.assembly.L
+            free[here] &= parts.past_mouth(motion, at[here]) <= -SAME_INPUT_DEG * parts.assembly.L
     if not free.any():
         return 0.0
     return math.degrees(float(np.maximum(*free_angles(parts, at[free])).max()))

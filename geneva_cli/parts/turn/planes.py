@@ -18,9 +18,10 @@ import numpy as np
 from geneva_cli.curves.distance import Polyarc
 from geneva_cli.curves.shapes import Contour
 from geneva_cli.machine.layout import Joint, Link
+from geneva_cli.numerics.tolerances import SAME_LENGTH
 from geneva_cli.parts.arm import has_arm
 from geneva_cli.parts.link_pins import joined
-from geneva_cli.parts.link_positions import SAME, links_at
+from geneva_cli.parts.link_positions import links_at
 from geneva_cli.parts.link_sizes import LinkSizes, places
 from geneva_cli.parts.links import Links, drawn_links
 from geneva_cli.parts.outlines import Outlines
@@ -102,7 +103,7 @@ def _gears(parts: Outlines, bars: Links, links: tuple[Link, ...], turn: Array) -
     for gear, link in zip(bars.gears, gears, strict=True):
         away = np.abs(places(link)[0])
         on_shaft = bool(
-            away.max() < SAME * parts.assembly.L
+            away.max() < SAME_LENGTH * parts.assembly.L
         )  # a shaft fills the gear's bore, a hub does not
         for one in _on_wheel(parts, [link], bars.sizes, 0.0 * turn):
             gaps = away - gear.outer - one.radius
@@ -136,7 +137,7 @@ def _outlines(bars: Links) -> dict[str, Contour]:
 
 def _passing(parts: Outlines, links: list[Link], sizes: LinkSizes, turn: Array) -> Iterator[Round]:
     yield from _on_wheel(parts, links, sizes, 0.0 * turn)
-    for one in joined(links, SAME * parts.assembly.L):
+    for one in joined(links, SAME_LENGTH * parts.assembly.L):
         for plane in range(min(one.planes) + 1, max(one.planes)):
             if plane not in one.planes:
                 name = f"the pin of {' and '.join(one.names)}"
@@ -152,9 +153,9 @@ def _on_wheel(parts: Outlines, links: list[Link], sizes: LinkSizes, axis: Array)
     low, _ = wheel_shaft_ends(parts, -math.inf)
     for plane in sorted({link.plane for link in links}):
         high = sizes.span(plane)[1]
-        if hub and reach < high - SAME * parts.assembly.L:
+        if hub and reach < high - SAME_LENGTH * parts.assembly.L:
             yield Round("the wheel's hub", plane, axis, hub)
-        elif shaft and low < high - SAME * parts.assembly.L:
+        elif shaft and low < high - SAME_LENGTH * parts.assembly.L:
             yield Round("the wheel's shaft", plane, axis, shaft)
 
 
@@ -175,7 +176,7 @@ class _Shaft:
         self.carries: set[int] = set()
         for link in links:
             at, kind = places(link)[0], link.kinds[0]
-            if kind is Joint.SHAFT and np.abs(at - L).max() < SAME * L:
+            if kind is Joint.SHAFT and np.abs(at - L).max() < SAME_LENGTH * L:
                 self.carries.add(link.plane)
         if has_arm(parts):
             self.carries.add(1)
@@ -184,7 +185,7 @@ class _Shaft:
             self.carries.add(0)
         self.radius = sizes.crank_shaft or bars.shaft((L, 0.0), L)
         low = parts.assembly.full.spec.size.crank_shaft_low_mm
-        ends = math.inf if low is None else low + SAME * L
+        ends = math.inf if low is None else low + SAME_LENGTH * L
         self.reached = {link.plane for link in links if sizes.span(link.plane)[1] > ends}
 
     def _in(self, plane: int) -> Round:

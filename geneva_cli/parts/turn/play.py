@@ -17,6 +17,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from geneva_cli.numerics.arrays import rising
+from geneva_cli.numerics.tolerances import SAME_INPUT_DEG
 from geneva_cli.parts.turn.free_angles import search_deg, touching, wheel_stops
 from geneva_cli.parts.turn.machine_parts import MachineParts
 
@@ -25,7 +26,6 @@ if TYPE_CHECKING:
 
     from geneva_cli.numerics.jet import Array
 
-NEAR = 1e-9  # degrees: positions nearer to each other are one
 CHANGE_DEG = 15.0  # of the input, on either side of entry and exit: lock and roller change over
 ENDS = 24  # positions there
 DWELL = 5  # positions in the rest of a dwell
@@ -88,7 +88,7 @@ def windows(parts: MachineParts) -> Iterator[Window]:
         entry, exit_ = behind + engagement.entry_deg, behind + engagement.exit_deg
         following = later + turns + after.entry_deg
         yield Window(entry, exit_, i, False)
-        if following - exit_ > NEAR:
+        if following - exit_ > SAME_INPUT_DEG:
             yield Window(exit_, following, i, True)
 
 
@@ -150,7 +150,9 @@ def _play_at(parts: MachineParts, at: Array, fits: bool) -> Play:
     speed = np.zeros(len(at))
     last = assembly.start_deg + assembly.span_deg
     for motion, spans in groupby(windows(parts), key=lambda window: window.motion):
-        inside = [(w, (at >= w.start - NEAR) & (at <= w.end + NEAR)) for w in spans]
+        inside = [
+            (w, (at >= w.start - SAME_INPUT_DEG) & (at <= w.end + SAME_INPUT_DEG)) for w in spans
+        ]
         here = np.flatnonzero(reduce(or_, [mask for _, mask in inside]))
         if not len(here):
             continue
@@ -163,7 +165,7 @@ def _play_at(parts: MachineParts, at: Array, fits: bool) -> Play:
             if window.rests:
                 resting |= mask
             elif mask.any():
-                guided[mask] |= parts.past_mouth(motion, at[mask]) > -NEAR * assembly.L
+                guided[mask] |= parts.past_mouth(motion, at[mask]) > -SAME_INPUT_DEG * assembly.L
     known = touching(parts)
     back_push, on_push = (np.where(s.lead > known, np.degrees(s.pressure), 0.0) for s in (back, on))
     return Play(

@@ -18,6 +18,7 @@ from geneva_cli.curves.measure import at, with_material_left
 from geneva_cli.curves.plates import Group, Member, Part, Plate
 from geneva_cli.curves.shapes import Arc, Circle, Contour, Point, Segment, closed, two_arcs
 from geneva_cli.numerics.jet import Array
+from geneva_cli.numerics.tolerances import SAME_LENGTH
 from geneva_cli.parts.built import PlacedParts, built
 from geneva_cli.parts.gear_drawings import PITCH, gear_span, pitch_radii
 from geneva_cli.parts.link_drawings import placed
@@ -26,7 +27,6 @@ from geneva_cli.parts.proof import Proof
 from geneva_cli.parts.wheel_hub import HUB
 
 Measure = TypeVar("Measure", float, Array)  # one gap, or an array of one for each sphere
-SAME = 1e-9  # of the centre distance: parts that share less height only touch
 
 
 class ShaftGap(NamedTuple):
@@ -88,7 +88,7 @@ def _least(
     parts: Outlines, whole: PlacedParts, turning: list[Ring], rings: list[Ring]
 ) -> ShaftGap | None:
     """Return the least gap of rings to the shafts, and to the hubs of wheel and crank."""
-    near = SAME * parts.assembly.L
+    near = SAME_LENGTH * parts.assembly.L
     axes = [ring for ring in turning if ring.layer == HUB] + _rings_of(whole.shafts)
     return min(
         (

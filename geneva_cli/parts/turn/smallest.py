@@ -11,8 +11,8 @@ from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 import numpy as np
 
 from geneva_cli.numerics.arrays import rising
+from geneva_cli.numerics.tolerances import SAME_INPUT_DEG
 from geneva_cli.parts.turn.machine_parts import MachineParts
-from geneva_cli.parts.turn.play import NEAR
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -104,7 +104,10 @@ def _drives(parts: MachineParts, x: Array) -> NDArray[np.bool_]:
     columns = []
     for engagement, behind in assembly.rollers:
         away = (x - behind + half) % assembly.turn_deg - half
-        columns.append((away >= engagement.entry_deg - NEAR) & (away <= engagement.exit_deg + NEAR))
+        columns.append(
+            (away >= engagement.entry_deg - SAME_INPUT_DEG)
+            & (away <= engagement.exit_deg + SAME_INPUT_DEG)
+        )
     return np.column_stack(columns)
 
 

@@ -18,13 +18,13 @@ from geneva_cli.curves.shapes import Arc, Contour, Line, Segment, about, joined
 from geneva_cli.errors import GenevaError
 from geneva_cli.machine.engagement import Engagement
 from geneva_cli.numerics.arrays import array, scalar
+from geneva_cli.numerics.tolerances import SAME_ANGLE
 from geneva_cli.parts.assembly import Assembly
 from geneva_cli.parts.roller_paths import corner, mouth, rest
 from geneva_cli.parts.sizes import Sizes
 
 LAYER = "WHEEL"
 LOOKS = 721  # positions among which the deepest is selected
-ONE = 1e-9  # radians: slots nearer to each other count as one
 QUARTER = math.tan(math.pi / 8.0)  # the bulge of a quarter of a circle
 
 
@@ -52,7 +52,7 @@ def straight_walls(assembly: Assembly, sizes: Sizes, engagement: Engagement) -> 
         starts.append(start)
     first = Line((starts[0], level - w), (bottom, level - w))
     last = Line((bottom, level + w), (starts[1], level + w))
-    if abs(apart) < ONE:
+    if abs(apart) < SAME_ANGLE:
         pieces: tuple[Segment, ...] = (first, Arc(first.end, last.start, -out), last)
     else:
         _refuse_crossed(apart)

@@ -67,7 +67,9 @@ def walls(assembly: Assembly, sizes: Sizes, engagement: Engagement) -> list[Wall
         at, outward = pitch_at(engagement, part, back) if back else None, bool(part[-1] > 0.0)
         for side in (-w, w):
             curve = parallel(assembly, engagement, side, outward)
-            flanks.append(_flank(curve, path, near, part, at, assembly.L, side))
+            t = part if at is None else _unfolded(curve, part, at, assembly.L, side)
+            points = curve(t)[0]
+            flanks.append(Wall(curve, t, points, _free(points, path, near)))
     if not back:
         return [*arcs, *flanks]
     x, y = _pitch(assembly, engagement, np.zeros(1))[0]
@@ -143,16 +145,6 @@ def parallel(assembly: Assembly, engagement: Engagement, side: float, outward: b
         return assembly.L * np.column_stack((at.x, at.y)) + side * normal, tangent
 
     return curve
-
-
-def _flank(
-    curve: Curve, path: Array, near: float, t: Array, at: Pitch | None, L: float, side: float
-) -> Wall:
-    """Return one side of the way in, or of the way out; ``side`` is the offset to the left."""
-    if at is not None:
-        t = _unfolded(curve, t, at, L, side)
-    points = curve(t)[0]
-    return Wall(curve, t, points, _free(points, path, near))
 
 
 def _unfolded(curve: Curve, t: Array, at: Pitch, L: float, side: float) -> Array:

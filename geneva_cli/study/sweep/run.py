@@ -122,7 +122,6 @@ def sweep(
     plan: SweepPlan,
     picks: Sequence[str] = DEFAULT,
     check: bool = False,
-    shard: Shard = WHOLE,
     options: Mapping[str, str] | None = None,
     of_best: Sequence[str] | None = None,
 ) -> Sweep:
@@ -139,7 +138,7 @@ def sweep(
     _refuse_hopeless(text, plan)
     varied = [a.key for a in plan.axes]  # these have their columns: no name may stand twice
     names = tuple(name for name in found.names if name not in varied)
-    return Sweep(text, plan, found._replace(names=names), shard, later)
+    return Sweep(text, plan, found._replace(names=names), of_best=later)
 
 
 def _refuse_hopeless(text: Text, plan: SweepPlan) -> None:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from typing import NamedTuple
 
-SAME = 1e-9  # share by which two exact wishes for one quantity may differ and be the same
+from geneva_cli.numerics.tolerances import ROUNDED
 
 
 class Interval(NamedTuple):
@@ -45,7 +45,7 @@ class Interval(NamedTuple):
         Interval(low=2.0, high=3.0)
         """
         low, high = max(self.low, other.low), min(self.high, other.high)
-        if low > high and math.isclose(low, high, rel_tol=SAME):
+        if low > high and math.isclose(low, high, rel_tol=ROUNDED):
             return self if self.exact else other if other.exact else Interval(low, low)
         return Interval(low, high)
 

@@ -15,6 +15,7 @@ from geneva_cli.machine.drives.crank import Crank
 from geneva_cli.machine.mechanism import Mechanism, build
 from geneva_cli.machine.spec import Spec
 from geneva_cli.numerics.keeps import keeps
+from geneva_cli.numerics.tolerances import CLEARLY
 from geneva_cli.parts.all_round import leave_no_disc
 from geneva_cli.parts.assembly import Assembly, assembly
 from geneva_cli.parts.at_most import at_most
@@ -40,7 +41,6 @@ LOST = 6.0
 # From here on it may be so much, which a closer look or the drawn parts tell: of 108 wheels with a
 # law that outlines with more material had looser by less than this, none was by so much.
 NEARLY = 0.5 * LOST
-CLEARLY = 1.0 + 1e-6  # times a limit: what is beyond it is so whatever the rounding
 
 
 class Failing(NamedTuple):

@@ -24,7 +24,6 @@ from geneva_cli.study.synthesis.spans import Interval
 
 GEARINGS = ("external", "internal", "spherical")
 USUAL_RPM = 60.0
-MARGIN = 1e-12  # share by which a machine stays below a limit, so that rounding does not break it
 ANY = Interval(0.0, math.inf)
 PEAK, RATE = "acceleration.max", "acceleration.max_rad_s2"
 TIMES = ("tau", "k", "motion_deg", "dwell_deg")  # bounds on which say how long a motion may be

@@ -15,7 +15,7 @@ from exact.table import strictly, ulps, unit
 from geneva_cli.analysis.peaks import peaks
 from geneva_cli.errors import GenevaError
 from geneva_cli.machine.drives.drive import Drive
-from geneva_cli.numerics.roots import TIE
+from geneva_cli.numerics.tolerances import TIE
 from geneva_cli.spec.schema import fields
 
 # Four-bars whose wheel's motion is short, or whose wheel is near: with places near which their

@@ -14,6 +14,7 @@ from geneva_cli.analysis.peaks import peak
 from geneva_cli.machine.mechanism import build
 from geneva_cli.machine.spec import Spec
 from geneva_cli.machine.wheels.gearing import Gearing
+from geneva_cli.numerics.tolerances import MARGIN
 from geneva_cli.study.synthesis.by_law import law_costs
 from geneva_cli.study.synthesis.families import closed
 from geneva_cli.study.synthesis.families import limit as limits
@@ -32,7 +33,6 @@ from geneva_cli.study.synthesis.wish import Wish
 
 # velocities at which curved slots inside cannot be, where R/L is 1, and can be: R/L is 9/11
 PARALLEL, QUICK = 0.5, 0.45
-MARGIN = 1e-12  # share by which a machine stays below a limit, so that rounding does not break it
 
 
 def straight(wish: Wish, wheels: Sequence[Gearing], reached: list[float]) -> Iterator[Family]:
