@@ -16,9 +16,7 @@ import numpy as np
 
 from geneva_cli.analysis.blows import entry_blow, entry_blows, reversal_blow, reversal_blows
 from geneva_cli.analysis.loads.cycle import Cycle
-from geneva_cli.analysis.loads.sizing import sizing
-from geneva_cli.analysis.loads.sizing_many import sizings_of_many
-from geneva_cli.analysis.loads.stretches import stretches
+from geneva_cli.analysis.loads.sizing import sizing, sizings_of_many
 from geneva_cli.analysis.strength import horn, roller, shafts
 from geneva_cli.analysis.tolerance.dimensions import corners
 from geneva_cli.analysis.tolerance.many import motion_plays, used
@@ -170,8 +168,7 @@ def _task(answer: Answer, machine: Mechanism, count: int, alone: list[Mechanism]
 
 def _again(answer: Answer, machine: Mechanism) -> float:
     """The answer of a design that nothing is known of."""
-    for known in (roller.passage, stretches):
-        known.cache_clear()
+    roller.passage.cache_clear()
     horn.horn.cache_clear()
     return answer.one(machine)
 
