@@ -1,14 +1,15 @@
 """Machines of design_arrays.py under loads of their own, and a scan that knows no search."""
 
 import numpy as np
-from design_arrays import MACHINES, alone, drawn
+from design_arrays import MACHINES, drawn
 
-from geneva_cli.analysis.loads.contact import contact
-from geneva_cli.analysis.loads.cycle import Cycle
+from geneva_cli.analysis.loads.contact import NEAR, contact
+from geneva_cli.analysis.loads.forces import setting
 from geneva_cli.analysis.loads.loaded_many import Loaded, look
 from geneva_cli.analysis.loads.loaded_many import machine as of
 from geneva_cli.analysis.loads.many import SummaryOfMany, summaries_of_many
-from geneva_cli.analysis.loads.quantities import QUANTITIES, SQUARED, ends_of
+from geneva_cli.analysis.loads.quantities import QUANTITIES, SQUARED
+from geneva_cli.analysis.loads.summary import plain
 from geneva_cli.machine.many import many, taken
 from geneva_cli.spec.tables import Load
 
@@ -98,32 +99,47 @@ def missed(name):
     return spec, varied, many(spec, varied)
 
 
-def one_by_one(spec, varied, found):
-    """The extremes of NAMES as each design gives them for itself."""
-    every = [ends_of(Cycle(alone(spec, varied, i)), *NAMES) for i in found.which]
-    out = {}
-    for name, ends in zip(NAMES, zip(*every, strict=True), strict=True):
-        columns = [np.array(one) for one in zip(*ends, strict=True)]
-        if name in SQUARED:
-            columns[::2] = [np.sqrt(np.maximum(one, 0.0)) for one in columns[::2]]
-        out[name] = SummaryOfMany(*columns)
-    return out
+def dense_means(cycle, name, parts=2000):
+    """Mean and root mean square of a quantity over a period, by 20 places in each of many parts."""
+    node, weight = np.polynomial.legendre.leggauss(20)
+    edges = np.linspace(0.0, 1.0, parts + 1)
+    half = 0.5 * np.diff(edges)[:, None]
+    s = 0.5 * (edges[1:] + edges[:-1])[:, None] + half * node
+    sums = np.zeros(2)
+
+    def both(engagement, stretch, x):
+        value = plain(cycle, cycle.along(engagement, stretch, x.ravel()), name).reshape(x.shape)
+        return np.stack((value, value * value))
+
+    for engagement, stretch in cycle.stretches:
+        a, b = stretch.start, stretch.end
+        if engagement.slot.curved and 0.0 in (a, b):  # a parabola to mid-motion, as beside it
+            gap = NEAR * (engagement.exit_deg if b else engagement.entry_deg)
+            a, b = (gap if end == 0.0 else end for end in (a, b))
+            beside = both(engagement, stretch, gap * np.array([1.0, 2.0, 3.0]))
+            for k, values in enumerate(beside):
+                inwards = np.polyint(np.polyfit([1.0, 2.0, 3.0], values, 2))
+                sums[k] += abs(gap) * np.polyval(inwards, 1.0)
+        x = a + (b - a) * s * s * (3.0 - 2.0 * s)  # roots at its ends are smooth
+        rate = (b - a) * 6.0 * s * (1.0 - s) * half * weight
+        sums += (both(engagement, stretch, x) * rate).sum(axis=(1, 2))
+    mean, square = sums / cycle.mechanism.period_deg
+    return mean, np.sqrt(square)
 
 
-def beyond(found, places, seed, together=None, names=NAMES):
+def beyond(found, places, seed, names=NAMES):
     """By what share of a quantity's size places of a scan pass its extremes: (designs, names).
 
-    One place anywhere in each of so many equal parts of the motion, others in each design. The
-    extremes are those ``together``, or else what the search of many designs gives.
+    One place anywhere in each of so many equal parts of the motion, others in each design.
     """
     random = np.random.default_rng(seed)
     machine, n = found.machine, len(found.which)
-    together = together or summaries_of_many(machine, names, told=())
+    together = summaries_of_many(machine, names, told=())
     out = np.full((n, len(names)), -np.inf)
     for engagement in machine.engagements:
         for i in range(0, n, BLOCK):
             part = slice(i, min(i + BLOCK, n))
-            some = taken(of(engagement, Cycle(machine).given, names, {}), part)
+            some = taken(of(engagement, setting(machine), names, {}), part)
             here, given, _ = some
             a, b = (np.reshape(x, (-1, 1)) for x in (here.entry_deg, here.exit_deg))
             share = (np.arange(places) + random.random((part.stop - i, places))) / places

@@ -16,7 +16,7 @@ import numpy as np
 from geneva_cli.analysis import peaks
 from geneva_cli.analysis.loads import summary
 from geneva_cli.analysis.loads.cycle import Cycle, Extremes
-from geneva_cli.analysis.loads.quantities import known_quantities
+from geneva_cli.analysis.loads.quantities import known_quantities, shares
 from geneva_cli.analysis.motion import first_entry_deg
 from geneva_cli.analysis.stages import MOTION, WHEEL, Stage, load_stages, motion_stages, pieces
 from geneva_cli.errors import Caution, GenevaError, cut, few, nearest
@@ -111,8 +111,8 @@ def _title(machines: Sequence[Mechanism]) -> str:
 
 
 def _known(cycle: Cycle) -> set[str]:
-    loads = set(known_quantities(cycle))
-    shared = summary.shares(cycle).items()
+    loads = set(known_quantities(cycle.mechanism))
+    shared = shares(cycle.mechanism).items()
     loads |= {name for name, (of, share, _) in shared if share is not None and of in loads}
     return {*MOTION, *loads}
 
@@ -167,7 +167,7 @@ def _drawn(cycle: Cycle, names: Sequence[str], window: tuple[float, float]) -> M
         out.pieces.update(zip(moves, found, strict=True))
         out.marks.update((n, _peak(machine, n, i, stages, window)) for i, n in enumerate(moves))
     if loads:
-        ends = dict(zip(loads, summary.extremes(cycle, loads), strict=True))
+        ends = {name: cycle.extremes[name] for name in loads}
         out.bounds.update(_bounds(cycle, ends))
         stages = list(load_stages(cycle, loads, out.bounds))
         found = pieces(stages, machine.period_deg, window, [0.0] * len(loads))

@@ -1,6 +1,6 @@
 """Loads of a side-crank's wheel in 50 digits, by a handbook's formulas for this machine.
 
-The search of one design gives the place: an error of a place is squared in a greatest value. The
+The search gives the place: an error of a place is squared in a greatest value. The
 angle between two sign changes is summed by Gauss's rule, with each value in 50 digits.
 """
 
@@ -13,8 +13,6 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from geneva_cli.analysis.loads.cycle import Cycle
-from geneva_cli.analysis.loads.quantities import ends_of
-from geneva_cli.analysis.loads.stretches import stretches
 from geneva_cli.bench.truth import digits, motion
 from geneva_cli.machine.mechanism import Mechanism
 
@@ -30,7 +28,8 @@ NEAR = 1e-12  # of a sliding: with so little of it both its signs have their lim
 def greatest(machine: Mechanism, A: float) -> list[float]:
     """Greatest size of each of ``LOADS`` for an external side-crank; a plain crank has A = 0."""
     out = []
-    for k, ends in enumerate(ends_of(Cycle(machine), *LOADS)):
+    extremes = Cycle(machine).extremes
+    for k, ends in enumerate(extremes[name] for name in LOADS):
         places = (ends.max_at_deg, ends.min_at_deg)
         sizes = [abs(row[k]) for at in places for row in _limits(machine, A, at)]
         out.append(float(max(sizes)))
@@ -40,10 +39,9 @@ def greatest(machine: Mechanism, A: float) -> list[float]:
 @cache
 def roots(machine: Mechanism, A: float) -> list[float]:
     """Root mean square of each of ``LOADS`` over a period."""
-    (engagement,) = machine.engagements
     node, weight = np.polynomial.legendre.leggauss(PLACES)
     total = [digits().mpf(0)] * len(LOADS)
-    for start, end, drives, slides, _ in stretches(engagement, Cycle(machine).given):
+    for _, (start, end, drives, slides, _) in Cycle(machine).stretches:
         half = 0.5 * (end - start)
         for x, part in zip(0.5 * (start + end) + half * node, half * weight, strict=True):
             row = _loads(machine, A, float(x), drives, slides)

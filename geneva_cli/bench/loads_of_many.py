@@ -8,7 +8,6 @@ give the answer. That is a row of its own, ``formulas alone``.
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable, Sequence
 from functools import partial
 from typing import TYPE_CHECKING, NamedTuple
@@ -21,8 +20,8 @@ from geneva_cli.analysis.loads.forces import setting
 from geneva_cli.analysis.loads.loaded_many import NONE, Loaded, machine
 from geneva_cli.analysis.loads.many import greatest_of_many, summaries_of_many
 from geneva_cli.analysis.loads.means_many import means_of_many, powers
-from geneva_cli.analysis.loads.quantities import SQUARED, ends_of
-from geneva_cli.analysis.loads.stretches_many import spans_of
+from geneva_cli.analysis.loads.quantities import SQUARED
+from geneva_cli.analysis.loads.stretches import spans_of
 from geneva_cli.analysis.loads.summary import summaries
 from geneva_cli.bench import load_truth
 from geneva_cli.bench.kinds import KINDS, QUICK, Kind, drawn, one_by_one, task_of_many, values_of
@@ -161,9 +160,7 @@ def _one(request: Request, machine: Mechanism) -> list[float]:
     """Loads of one design by its own search and sums."""
     cycle, out = Cycle(machine), []
     if request.sized:
-        sizes = [max(one.max, -one.min) for one in ends_of(cycle, *request.loads)]
-        both = zip(request.loads, sizes, strict=True)
-        out = [math.sqrt(size) if name in SQUARED else size for name, size in both]
+        out = [max(one.max, -one.min) for one in map(cycle.extremes.__getitem__, request.loads)]
     if request.summed:
         totals = summaries(cycle)
         out += [rms for name in request.loads if (rms := totals[name].rms) is not None]

@@ -1,4 +1,4 @@
-"""Integrals of functions of many designs: Gauss and Legendre, halved where a series says so.
+"""Integrals of functions of designs: Gauss and Legendre, halved where a series says so.
 
 The values at the rule's n places give the first n terms of a function's Legendre series. The rule
 leaves about as much as the term 2 n has, so the last of the n terms bound it, and no second rule is
@@ -15,12 +15,13 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from geneva_cli.numerics.arrays import read_only
-from geneva_cli.numerics.quadrature import DEEPEST, rule
+from geneva_cli.numerics.quadrature import lobatto, rule
 
 if TYPE_CHECKING:
     from geneva_cli.numerics.arrays import Mask, Whole
     from geneva_cli.numerics.jet import Array
 
+DEEPEST = 40
 BLOCK = 1024  # spans at a time: their places lie in the processor's cache
 NODES = 20  # of a load between its cuts most are settled by so many
 FEW = 12  # and by so many where the span is below a share of its design's widest
@@ -108,7 +109,7 @@ def _parts(
     ends: bool,
 ) -> tuple[Array, Array, Array]:
     """Of shares of spans the integrals, their last terms, and those of the functions' sizes."""
-    node, terms = _rule(nodes)
+    node, terms = _rule(nodes, ends)
     half = 0.5 * (high - low)
     # designs lie side by side in memory
     t = np.asfortranarray((0.5 * (low + high))[:, None] + half[:, None] * node)
@@ -124,9 +125,12 @@ def _parts(
 
 
 @cache
-def _rule(nodes: int) -> tuple[Array, Array]:
-    """Places in [-1, 1]; and the weights, then those of the last terms."""
-    node, weight = rule(nodes)
+def _rule(nodes: int, ends: bool) -> tuple[Array, Array]:
+    """Places in [-1, 1], with both ends or not; and the weights, then those of the last terms.
+
+    Beside an end a kink shows in no value of Gauss's rule; in Lobatto's the end's own tells it.
+    """
+    node, weight = lobatto(nodes) if ends else rule(nodes)
     series = np.polynomial.legendre.legvander(node, nodes - 1) * (np.arange(nodes) + 0.5)
     sums = weight[:, None] * np.column_stack([np.ones(nodes), series[:, -TERMS:]])
     return read_only((node, sums))

@@ -6,7 +6,7 @@ A tolerance of one file's own method (a step of Newton's, a scan) stands in that
 """
 
 # Share of the centre distance, or of a sphere's radius: lengths and places nearer to each other are
-# one. 1e-7 mm of 100 mm is the size of an atom, and a hundred times the rounding of a chain of parts.
+# one. 1e-7 mm of 100 mm is the size of an atom, and a hundred times the rounding of a chain.
 SAME_LENGTH = 1e-9
 
 # Radians, or a cosine near 0: directions nearer to each other are one; SAME_LENGTH as an angle.

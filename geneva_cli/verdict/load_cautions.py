@@ -6,8 +6,7 @@ import math
 
 from geneva_cli.analysis.loads import loads
 from geneva_cli.analysis.loads.cycle import Cycle, cycle_of
-from geneva_cli.analysis.loads.quantities import STRESS, ends_of, known_quantities
-from geneva_cli.analysis.loads.summary import extremes
+from geneva_cli.analysis.loads.quantities import FORCE, STRESS
 from geneva_cli.errors import Caution
 from geneva_cli.machine.mechanism import Mechanism
 
@@ -28,14 +27,14 @@ def _kept(cycle: Cycle) -> bool:
     """Whether the limits on loads are kept at the speed as it is."""
     limits = zip(loads.LIMITED, loads.load_limits(cycle.mechanism.spec.limits), strict=True)
     given = {name: limit for name, limit in limits if limit}
-    if not given.keys() <= set(known_quantities(cycle)):
+    if not given.keys() <= cycle.extremes.keys():
         return False
-    found = zip(extremes(cycle, list(given)), given.values(), strict=True)
+    found = [(cycle.extremes[name], limit) for name, limit in given.items()]
     return all(max(one.max, -one.min) <= limit for one, limit in found)
 
 
 def _jammed(cycle: Cycle) -> list[Caution]:
-    (force,) = ends_of(cycle, "pin_force_N")
+    force = cycle.extremes[FORCE]
     friction = cycle.mechanism.spec.load.friction
     endless = [
         at
@@ -55,9 +54,9 @@ def _jammed(cycle: Cycle) -> list[Caution]:
 
 
 def _on_an_edge(cycle: Cycle) -> list[Caution]:
-    if STRESS not in known_quantities(cycle):
+    stress, force = cycle.extremes.get(STRESS), cycle.extremes[FORCE]
+    if stress is None:
         return []
-    stress, force = ends_of(cycle, STRESS, "pin_force_N")
     if math.isfinite(stress.max) or math.isinf(force.max) or math.isinf(force.min):
         return []
     return [

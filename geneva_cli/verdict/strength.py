@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, TypeAlias
 
 import numpy as np
 
-from geneva_cli.analysis.loads.summary import PARALLEL
+from geneva_cli.analysis.loads.quantities import PARALLEL
 from geneva_cli.analysis.strength import horn, lock, shafts
 from geneva_cli.errors import Caution
 from geneva_cli.parts.sizes import sized

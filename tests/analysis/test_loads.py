@@ -7,11 +7,7 @@ import pytest
 from words import Drive, Motion, Spec, Wheel
 
 from geneva_cli.analysis.loads import loads
-from geneva_cli.analysis.loads.cycle import Cycle
-from geneva_cli.analysis.loads.many import greatest_of_many, summaries_of_many
-from geneva_cli.analysis.loads.quantities import ends_of, ends_of_each
 from geneva_cli.machine import registry
-from geneva_cli.machine.many import many
 from geneva_cli.machine.mechanism import build
 from geneva_cli.spec.tables import Load, Size
 
@@ -96,22 +92,18 @@ def test_power_closes_over_a_cycle() -> None:
 
 
 def test_the_greatest_of_two_that_are_nearly_one() -> None:
-    """Nearer than 1e-13 the first has the place and the greater the size, of one and of many.
+    """Nearer than 1e-13 the first has the place and the greater the size.
 
-    To 2e-14, since those of many are known to 32 units in the last place: the first's size is less
-    by 5.5e-14.
+    To 2e-14, since extremes are known to 32 units in the last place: the first's size is less by
+    5.5e-14.
     """
     drive = registry.drive("side-crank")(A=0.3, roller_angles_deg=(0.0, 120.0, 240.0 - 5e-12))
-    spec = Spec(Wheel(3), drive, size=Size(100.0), load=Load(1.0))
-    m, force, bearing = build(spec), "pin_force_N", "wheel_bearing_N"
-    first, second = ends_of_each(Cycle(m), bearing)[1:]
-    assert first.max * (1.0 + 5e-14) < second.max < first.max * (1.0 + 1e-13)
-    together = many(spec, {"drive.A": np.array([0.3])}).machine
-    for most, at_deg in (
-        ends_of(Cycle(m), bearing)[0][:2],
-        loads.greatest(m, force),
-        [v[0] for v in summaries_of_many(together, [bearing], told=())[bearing][:2]],
-        [v[0] for v in greatest_of_many(together, [force])[force]],
-    ):
-        assert most == pytest.approx(second.max, rel=2e-14)
-        assert at_deg == pytest.approx(first.max_at_deg, abs=1e-6)
+    m = build(Spec(Wheel(3), drive, size=Size(100.0), load=Load(1.0)))
+    found = loads.greatest(m, "pin_force_N")
+    _, one, other = m.engagements  # the other's motion is the one's, backwards
+    near = found.at_deg - one.mid_deg + np.linspace(-1e-3, 1e-3, 2001)  # of a flat top
+    both = loads.state(m, one, near), loads.state(m, other, -near)
+    first, second = (float(np.max(state.pin_force_N)) for state in both)
+    assert first * (1.0 + 2e-14) < second < first * (1.0 + 1e-13)
+    assert found.max == pytest.approx(second, rel=2e-14)
+    assert found.at_deg == pytest.approx(131.7088107, abs=1e-6)

@@ -1,48 +1,23 @@
-"""Loads of many designs: against the cycle of each, bodies cut free, and dense samples."""
+"""Loads of many designs: against bodies cut free, dense samples, and sums of many places."""
 
 import load_witness
 import numpy as np
 import pytest
+import repo
 from design_arrays import MACHINES, alone, drawn
-from loaded_arrays import CARRIED, LOAD, MISSED, NAMES, beyond, loaded, missed, one_by_one
+from loaded_arrays import CARRIED, LOAD, MISSED, NAMES, beyond, dense_means, loaded, missed
 
+from geneva_cli import design
 from geneva_cli.analysis.loads import loads
 from geneva_cli.analysis.loads.cycle import Cycle
 from geneva_cli.analysis.loads.many import greatest_of_many, summaries_of_many
 from geneva_cli.analysis.loads.means_many import means_of_many
-from geneva_cli.analysis.loads.quantities import SQUARED, ends_of
-from geneva_cli.analysis.loads.summary import summaries
 from geneva_cli.machine.many import many
 from geneva_cli.machine.mechanism import build
 from geneva_cli.numerics.search import BLOCK
 from geneva_cli.spec.tables import Load
 
 ULP = 2.0**-52
-
-
-@pytest.mark.sampled(4)
-@pytest.mark.parametrize("name", MACHINES)
-def test_as_one_by_one(name):
-    """Within 32 units in the last place of a quantity's greatest size, of which the motion has 16.
-
-    Of unbounded ones, of curved slots, 128: their size is what is left beside mid-motion.
-    """
-    spec, varied, found = loaded(name, 12, 21)
-    together = summaries_of_many(found.machine, NAMES, told=())
-    for row, i in list(enumerate(found.which))[:2]:
-        cycle = Cycle(alone(spec, varied, i))
-        for load, one in zip(NAMES, ends_of(cycle, *NAMES), strict=True):
-            here = [values[row] for values in together[load][:4]]
-            ends = [one.max, one.min]
-            if load in SQUARED:
-                ends = [max(x, 0.0) ** 0.5 for x in ends]
-            bounded = np.isfinite(ends)
-            size = max((abs(x) for x in np.compress(bounded, ends)), default=0.0)
-            close = (32 if bounded.all() else 128) * ULP * size
-            for k, (end, at) in enumerate(zip(ends, one[1::2], strict=True)):
-                assert here[2 * k] == pytest.approx(end, abs=close), (load, i)
-                # A top is flat: its place is known to the root of a rounding.
-                assert here[2 * k + 1] == pytest.approx(at, abs=1e-4), (load, i)
 
 
 KNOTTED = ("points of a law", "gears by points")  # a spline's higher derivatives jump
@@ -52,20 +27,22 @@ KNOTTED = ("points of a law", "gears by points")  # a spline's higher derivative
 @pytest.mark.parametrize(
     "name", ["crank", "two rollers", "offset, slowed", "spherical", "matched", *KNOTTED]
 )
-def test_means_as_one_by_one(name):
+def test_means_against_sums_of_many_places(name):
+    """Beside poles 2e-12 of the size, as 80,000 places a stretch leave: elsewhere much less."""
     names = ("omega_rad_s", "power_W", *NAMES)
     spec, varied, found = loaded(name, 8, 3)
     together = summaries_of_many(found.machine, names)
-    for row, i in list(enumerate(found.which))[:2]:
-        told = summaries(Cycle(alone(spec, varied, i)))
-        for load in names:
-            one, here = told[load], together[load]
-            if one.mean is None:
-                assert np.isinf(here.mean[row]) and np.isinf(here.rms[row])
-                continue
-            size = 1e-12 * max(abs(one.max), abs(one.min))
-            assert here.mean[row] == pytest.approx(one.mean, abs=size), (load, i)
-            assert here.rms[row] == pytest.approx(one.rms, abs=size), (load, i)
+    row, i = 0, found.which[0]
+    cycle = Cycle(alone(spec, varied, i))
+    for load in names:
+        here = together[load]
+        if np.isinf(here.rms[row]):
+            assert np.isinf([here.max[row], here.min[row]]).any()
+            continue
+        mean, rms = dense_means(cycle, load)
+        size = 2e-12 * max(abs(here.max[row]), abs(here.min[row]))
+        assert here.mean[row] == pytest.approx(mean, abs=size), load
+        assert here.rms[row] == pytest.approx(rms, abs=size), load
     for told in (("mean", "rms"), ("rms",)):  # without a search for extremes
         for load, alone_ in means_of_many(found.machine, names, told).items():
             assert alone_.rms == pytest.approx(together[load].rms, rel=1e-12)
@@ -74,6 +51,17 @@ def test_means_as_one_by_one(name):
                 assert alone_.mean == pytest.approx(together[load].mean, rel=1e-14)
             else:
                 assert alone_.mean is None
+
+
+def test_a_reaction_that_nearly_vanishes_has_its_mean():
+    """Of a planet's guide, at four places of its motion: dips of a ten-thousandth of a degree."""
+    spec = design.load(str(repo.DESIGNS / "epicyclic-soft-z6.toml")).spec
+    spec = spec.replace(load=Load(inertia_kgm2=0.5, torque_Nm=5.0, friction=0.1))
+    cycle = Cycle(build(spec))
+    mean, rms = dense_means(cycle, "guide_force_N", parts=20_000)
+    found = cycle.known["guide_force_N"]
+    assert found.mean[0] == pytest.approx(mean, rel=1e-11)  # the dips, between so many places
+    assert found.rms[0] == pytest.approx(rms, rel=1e-12)
 
 
 NARROW = {  # features that a sum's first terms hide: the law, a quantity, and what varies
@@ -108,13 +96,13 @@ def test_means_beside_narrow_features(case, told):
     load = Load(inertia_kgm2=1.0, friction=0.1, friction_at="pin")
     spec = spec.replace(load=load, size=spec.size.replace(face_width_mm=10.0))
     columns = {key: np.array([value]) for key, value in varied.items()}
-    one = summaries(Cycle(alone(spec, columns, 0)))[name]
+    _, dense = dense_means(Cycle(alone(spec, columns, 0)), name)
     found = many(spec, columns).machine
     for rms in (
         summaries_of_many(found, [name], told)[name].rms,
         means_of_many(found, [name], told)[name].rms,
     ):
-        assert rms == pytest.approx(one.rms, rel=1e-12)
+        assert rms == pytest.approx(dense, rel=2e-12)
 
 
 @pytest.mark.parametrize("name", ["side-crank", "spherical", "gear sector, any ratio"])
@@ -145,12 +133,7 @@ def test_a_least_value_before_a_pole_is_found():
     spec = spec.replace(load=Load(torque_Nm=5.0), size=spec.size.replace(face_width_mm=10.0))
     spec = spec.with_("wheel.z", 8)
     found = many(spec, {"motion.alpha0_deg": np.array([-16.12715, -12.83089])})
-    least = summaries_of_many(found.machine, ["pv_W_m2"], told=())["pv_W_m2"]
-    for i, alpha0 in enumerate((-16.12715, -12.83089)):
-        one = ends_of(Cycle(build(spec.with_("motion.alpha0_deg", alpha0))), "pv_W_m2")[0]
-        # where it is 0, what a rounding of the place leaves beside millions
-        assert least.min[i] == pytest.approx(max(one.min, 0.0) ** 0.5, rel=1e-12, abs=1.0)
-        assert least.min_at_deg[i] == pytest.approx(one.min_at_deg, abs=1e-4)
+    assert (beyond(found, 3000, 5, ("pv_W_m2",)) <= 1e-12).all()
 
 
 def test_a_least_value_far_from_a_pole_is_found():
@@ -169,8 +152,7 @@ def test_a_least_value_far_from_a_pole_is_found():
     columns = {key: np.array([value]) for key, value in varied.items()}
     found = many(spec, columns)
     least = summaries_of_many(found.machine, ["crank_bearing_N"], told=())["crank_bearing_N"]
-    one = ends_of(Cycle(alone(spec, columns, 0)), "crank_bearing_N")[0]
-    assert least.min[0] == pytest.approx(one.min**0.5, rel=1e-12)
+    assert (beyond(found, 3000, 5, ("crank_bearing_N",)) <= 1e-12).all()
     assert least.min_at_deg[0] == pytest.approx(89.72321, abs=1e-4)
 
 
@@ -182,38 +164,24 @@ def test_the_least_of_a_size_is_nothing():
     """
     names = ("wheel_bearing_N", "crank_bearing_N")
     for torque, of_each in ((0.0, (0, 3, 6)), (10.0, (0,))):
-        spec, varied, found = loaded("cycloidal", 12, 5, torque_Nm=torque)
+        _, _, found = loaded("cycloidal", 12, 5, torque_Nm=torque)
         together = summaries_of_many(found.machine, names, told=())
         for row in of_each:
-            cycle = Cycle(alone(spec, varied, found.which[row]))
-            assert abs(ends_of(cycle, "wheel_bearing_N")[0].min) < 1e-10
             for load in names:
-                assert 0.0 <= summaries(cycle)[load].min < 1e-10
                 assert 0.0 <= together[load].min[row] < 1e-10
 
 
 @pytest.mark.sampled(2)
 @pytest.mark.parametrize("name", MISSED)
 def test_what_was_stepped_over_is_found(name):
-    """Dense samples pass no extreme of designs of which one was missed, together or one by one.
-
-    And what is told of each together is what is told of it alone.
-    """
-    spec, varied, found = missed(name)
-    every = one_by_one(spec, varied, found)
+    """Dense samples pass no extreme of designs of which one was missed."""
+    _, _, found = missed(name)
     assert (beyond(found, 3000, 7) <= 1e-12).all()
-    assert (beyond(found, 3000, 7, every) <= 1e-12).all()
-
-    def same(one, other, size):
-        with np.errstate(invalid="ignore"):
-            return ((one == other) | (np.abs(one - other) <= 1e-12 * size)).all()
-
-    for load, together in summaries_of_many(found.machine, NAMES, told=()).items():
-        size = np.maximum(np.abs(every[load].max), np.abs(every[load].min))
-        assert same(together.max, every[load].max, size), load
-        assert same(together.min, every[load].min, size), load
+    for load, one in summaries_of_many(found.machine, NAMES, told=()).items():
+        size = np.maximum(np.abs(one.max), np.abs(one.min))
         # where one is asked for alone, others' cuts bring nothing to light
-        assert same(greatest_of_many(found.machine, [load])[load].max, size, size), load
+        alone_ = greatest_of_many(found.machine, [load])[load].max
+        assert alone_ == pytest.approx(size, rel=1e-12), load
 
 
 def test_no_friction_among_designs_with():
@@ -226,9 +194,10 @@ def test_no_friction_among_designs_with():
         means_of_many(found.machine, ["power_W"])["power_W"].rms,
     ):
         assert np.isinf(one).tolist() == [True, False, True]
-    told = summaries(Cycle(build(spec)))["input_torque_Nm"]
     here = summaries_of_many(found.machine, ["input_torque_Nm"])["input_torque_Nm"]
-    assert (here.max[1], here.rms[1]) == pytest.approx((told.max, told.rms), rel=1e-13)
+    _, rms = dense_means(Cycle(build(spec)), "input_torque_Nm")
+    assert here.max[1] == pytest.approx(28.93, abs=5e-3)
+    assert here.rms[1] == pytest.approx(rms, rel=1e-12)
 
 
 @pytest.mark.parametrize("name", ["crank", "internal", "side-crank", "offset", "elliptical gears"])
@@ -265,7 +234,7 @@ def test_greatest_sizes_as_the_report_tells_them(name):
     for row, i in list(enumerate(found.which))[:2]:
         machine = alone(spec, varied, i)
         for told, name_ in names.items():
-            one = loads.greatest(machine, told)
+            one = loads.greatest(machine, name_)
             assert together[name_].max[row] == pytest.approx(one.max, rel=32 * ULP), (told, i)
             if np.isfinite(one.max):
                 assert together[name_].at_deg[row] == pytest.approx(one.at_deg, abs=1e-4)
@@ -307,8 +276,9 @@ def test_a_torque_alone_has_no_sign_that_counts():
     sizes = greatest_of_many(found.machine, names)
     for i, row in enumerate(found.which.tolist()):
         one = build(spec.replace(drive=spec.drive.replace(A=(-0.2, 0.0, 0.6)[row])))
-        for name, ends in zip(names, ends_of(Cycle(one), *names), strict=True):
-            assert sizes[name].max[i] == pytest.approx(max(ends.max, -ends.min), rel=32 * ULP)
+        middle = loads.state(one, one.engagements[0], 0.0)
+        for name in names:
+            assert sizes[name].max[i] == pytest.approx(getattr(middle, name), rel=32 * ULP)
 
 
 def test_the_inertia_alone_against_the_theory():

@@ -14,8 +14,7 @@ from geneva_cli.analysis import change_of_sides, impacts, undercut
 from geneva_cli.analysis import positive_drive as positive
 from geneva_cli.analysis.loads import loads
 from geneva_cli.analysis.loads.cycle import Cycle
-from geneva_cli.analysis.loads.sizing import sizing
-from geneva_cli.analysis.loads.sizing_many import NAMES, sizings_of_many
+from geneva_cli.analysis.loads.sizing import NAMES, sizing, sizings_of_many
 from geneva_cli.analysis.locking import Lock
 from geneva_cli.analysis.strength import horn, lock, roller, shafts
 from geneva_cli.analysis.tolerance.dimensions import corners

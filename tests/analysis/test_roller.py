@@ -10,8 +10,8 @@ import repo
 from witness import mp
 from words import Drive, Keys, Motion, Spec, Wheel, load
 
+from geneva_cli.analysis.loads.cycle import Cycle
 from geneva_cli.analysis.loads.forces import setting
-from geneva_cli.analysis.loads.stretches import whole
 from geneva_cli.analysis.strength.roller import EXPONENT, life, passage, passages, wear_mm
 from geneva_cli.machine.mechanism import build
 from geneva_cli.spec.tables import Load, RollerMaterial, Size, WheelMaterial
@@ -107,7 +107,9 @@ def test_work_and_turns_of_bodies_cut_free(name):
     found = passage(engagement, given)
     node, weight = np.polynomial.legendre.leggauss(20)
     work = rolled = 0.0
-    for piece in whole(engagement, given):
+    for owner, piece in Cycle(mechanism).stretches:
+        if owner is not engagement:
+            continue
         half = 0.5 * (piece.end - piece.start)
         for x, share in zip(node, weight, strict=True):
             at, _ = load_witness.loads(mechanism.spec, *machine, piece.start + half * (1.0 + x))

@@ -13,7 +13,7 @@ from typer.testing import CliRunner
 from geneva_cli.analysis import figures, law_values, motion
 from geneva_cli.analysis.cam_factors import CamFactors
 from geneva_cli.analysis.loads import summary
-from geneva_cli.analysis.loads.sizing import Sizing
+from geneva_cli.analysis.loads.sizing import SHOWN
 from geneva_cli.analysis.vibration import answers
 from geneva_cli.analysis.vibration.vibration import Avoid
 from geneva_cli.app import app
@@ -97,7 +97,7 @@ def quantities() -> set[str]:
     out |= {"passes", "checks_failed", "not_proved", "warnings", "spec", "title"}  # the report's
     of_loads = {f"{q}.{s}" for q in summary.SHOWN for s in summary.Summary._fields}
     out |= {f"loads.{name}" for name in of_loads} | {"loads.reversals_deg"}
-    out |= {f"sizing.{name}" for name in Sizing._fields}
+    out |= {f"sizing.{name}" for name in SHOWN}
     out |= {f"vibration.avoid.{name}" for name in Avoid._fields}
     out |= {f"vibration.{name}" for name in (*answers.STATION, "avoid")}
     out |= {

@@ -9,7 +9,8 @@ from geneva_cli.machine.laws.standard import ModifiedSine
 from geneva_cli.machine.slot_and_motion import _sinc
 from geneva_cli.numerics.jet import Jet
 from geneva_cli.numerics.latest import Latest
-from geneva_cli.numerics.quadrature import integrals
+from geneva_cli.numerics.quadrature import lobatto, rule
+from geneva_cli.numerics.quadrature_many import integrals_many
 
 CLOSED = {  # over 2..5
     "root at the start": (lambda x: np.sqrt(x - 2.0), 2.0 / 3.0 * 3.0**1.5),
@@ -25,14 +26,35 @@ def test_roots_at_the_ends_cost_no_more_than_what_is_smooth(name):
     f, exact = CLOSED[name]
     calls = []
 
-    def rows(x, span):
-        calls.append(len(x))
-        return [f(x)]
+    def rows(x, which):
+        calls.append(x.size)
+        return f(x)[None]
 
-    (found,) = integrals(rows, [(2.0, 5.0)])
+    ends, one = (np.array([2.0]), np.array([5.0])), np.zeros(1, dtype=int)
+    (found,) = integrals_many(rows, *ends, one, np.full((1, 1), True), ends=True)[0]
     # beside an end x itself is rounded, to 4e-16 of 5: a root of that over so short a way is lost
-    assert found == pytest.approx(exact, rel=2e-15)
+    assert found == pytest.approx(exact, rel=1e-14)
     assert len(calls) <= 4, "an end is halved time and again"
+
+
+@pytest.mark.parametrize("kink", [2.0 + 1e-3, 2.003, 2.05, 3.5, 4.997])
+def test_a_kink_beside_an_end_is_found(kink):
+    """|x - kink| over 2..5: between an end and the nearest place of Gauss none would tell of it."""
+    ends, one = (np.array([2.0]), np.array([5.0])), np.zeros(1, dtype=int)
+    found = integrals_many(
+        lambda x, _: abs(x - kink)[None], *ends, one, np.full((1, 1), True), ends=True
+    )
+    exact = 0.5 * ((kink - 2.0) ** 2 + (5.0 - kink) ** 2)
+    assert found[0, 0] == pytest.approx(exact, rel=1e-12)  # what its last terms may leave
+
+
+@pytest.mark.parametrize("nodes", [4, 12, 20, 28])
+def test_rules_are_exact_for_polynomials(nodes):
+    """Gauss to the degree 2 n - 1, and Lobatto to 2 n - 3: a few roundings of 1."""
+    for (x, weight), degree in ((rule(nodes), 2 * nodes - 2), (lobatto(nodes), 2 * nodes - 4)):
+        for power in (0, 2, degree):
+            assert x**power @ weight == pytest.approx(2.0 / (power + 1), abs=2e-15)
+            assert x ** (power + 1) @ weight == pytest.approx(0.0, abs=2e-15)
 
 
 def test_the_latest_angles_are_known_by_array_and_values():

@@ -18,7 +18,6 @@ import numpy as np
 from loaded_arrays import beyond, loaded
 from many_options import options
 
-from geneva_cli.analysis.loads.cycle import Cycle
 from geneva_cli.analysis.loads.many import greatest_of_many, summaries_of_many
 from geneva_cli.analysis.loads.quantities import known_quantities
 
@@ -39,7 +38,7 @@ def stressed(name, count, seed=12, places=PLACES, seconds=math.inf):
         seed += 1
         if found.machine is None:
             continue
-        names = known_quantities(Cycle(found.machine))
+        names = known_quantities(found.machine)
         over = beyond(found, places, seed, names=names)
         for one in [name for name in ALONE if name in names]:
             together = summaries_of_many(found.machine, (one,), told=())

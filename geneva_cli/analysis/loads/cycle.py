@@ -7,44 +7,39 @@ act at rest.
 
 from __future__ import annotations
 
-import math
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Mapping
 from functools import cached_property, lru_cache
-from typing import TYPE_CHECKING, NamedTuple, Protocol, TypeAlias
+from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 
 import numpy as np
 
 from geneva_cli.analysis.loads.contact import contact, contacts
-from geneva_cli.analysis.loads.forces import Row, Setting, gain, setting, sliding
+from geneva_cli.analysis.loads.forces import Setting, gain, setting, sliding
 from geneva_cli.analysis.loads.instant import NAMES, Instant, bounded, values
+from geneva_cli.analysis.loads.loaded_many import NONE, Loaded, machine
+from geneva_cli.analysis.loads.many import (
+    Searched,
+    SummaryOfMany,
+    searched,
+    shown,
+    summed_up,
+    sums_of,
+)
 from geneva_cli.analysis.loads.mid_motion import at_crossing
-from geneva_cli.analysis.loads.peaks import looked
-from geneva_cli.analysis.loads.stretches import Stretch, cusps, stretches, whole
+from geneva_cli.analysis.loads.quantities import KINETIC, known_quantities, shares
+from geneva_cli.analysis.loads.stretches import Stretch, refuse_rounding, to_mid_motion, whole
 from geneva_cli.analysis.motion import local_deg, spans
 from geneva_cli.machine.engagement import Engagement
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.numerics.angles import DEGREE
-from geneva_cli.numerics.arrays import all_true
-from geneva_cli.numerics.jet import Jet, Number, V
-from geneva_cli.numerics.quadrature import integrals
+from geneva_cli.numerics.quadrature_many import integrals_many
+from geneva_cli.numerics.search import Found
 
 if TYPE_CHECKING:
-    from geneva_cli.analysis.loads.contact import Contact
     from geneva_cli.numerics.arrays import Whole
     from geneva_cli.numerics.jet import Array
-    from geneva_cli.numerics.scan import Scan
 
 Integrand: TypeAlias = "Callable[[Instant[Array]], Array]"  # of values, at many angles
-
-# The integral of a cubic from 0 to 1 by its values at AHEAD (Adams and Bashforth), next to a cusp.
-AHEAD, SHARES = np.array([1.0, 2.0, 3.0]), np.array([23.0, -16.0, 5.0]) / 12.0
-
-
-class Quantity(Protocol):
-    """A quantity as a function of an instant, of jets or of their values."""
-
-    def __call__(self, i: Instant[V], /) -> Row[V]:
-        """The quantity, and what bounds it."""
 
 
 class Extremes(NamedTuple):
@@ -69,14 +64,11 @@ class Cycle:
     def __init__(self, mechanism: Mechanism) -> None:
         self.mechanism = mechanism
         self.given: Setting = setting(mechanism)
-        # of each engagement, by name, as ``ends_of`` looks for them; and the samples for it
-        self.found: dict[str, list[Extremes]] = {}
-        self.samples: dict[str, list[Scan]] = {}
 
     @property
     def is_loaded(self) -> bool:
         """Whether an inertia or a resisting torque is known."""
-        return not all_true((self.given.inertia_Nm == 0.0) & (self.given.resists_Nm == 0.0))
+        return self.mechanism.spec.is_loaded
 
     @property
     def period(self) -> float:
@@ -129,38 +121,55 @@ class Cycle:
             at = contacts(engagement, input_deg)
             return bounded(Instant(self.given, at, stretch.drives, stretch.slides, stretch.feeds))
 
-    def look(self, quantities: Mapping[str, Quantity]) -> None:
-        """Search the extremes of each quantity over each motion, without the dwells."""
-        every: list[list[Extremes]] = [[] for _ in quantities]
-        scans = []
+    @cached_property
+    def _searches(self) -> list[tuple[Loaded, Found]]:
+        """The search of each engagement for the extremes of all known quantities, and its cuts."""
+        names, out = [*known_quantities(self.mechanism), KINETIC], []
         for engagement in self.mechanism.engagements:
-            both = self._both_ways(list(quantities.values()))
-            found, scan = looked(engagement, self.given, both, -math.inf)
-            scans.append(scan)
-            for most, least, of in zip(found[::2], found[1::2], every, strict=True):
-                at, bt = (
-                    self.mechanism.shown_deg(engagement.mid_deg + one.at_deg)
-                    for one in (most, least)
-                )
-                of.append(Extremes(most.max, at, -least.max, bt))
-        for row, (name, ends) in enumerate(zip(quantities, every, strict=True)):
-            self.found[name] = ends
-            self.samples[name] = [scan.row(2 * row) for scan in scans]
+            every = machine(engagement, self.given, names, NONE)
+            load = Loaded(every, names, ("slides", "feeds"))
+            found = searched(load, 1)
+            fastest = found.most[names.index("omega_rad_s"), 0] / self.given.speed_rad_s
+            refuse_rounding(engagement, fastest)
+            out.append((load, found))
+        return out
 
-    def _both_ways(
-        self, quantities: Sequence[Quantity]
-    ) -> Callable[[Contact[Jet], Number, Number, Number], list[Row[Jet]]]:
-        """Two rows a quantity: it and its negative, whose maxima are its two extremes."""
+    @cached_property
+    def known(self) -> Mapping[str, SummaryOfMany]:
+        """The summaries of all quantities that have a value, of this one design."""
+        names = [*known_quantities(self.mechanism), KINETIC]
+        names += [
+            name
+            for name, (source, share, _) in shares(self.mechanism).items()
+            if share is not None and source in names
+        ]
+        each = [
+            Searched(
+                found.most,
+                shown(self.mechanism, load.machine[0], found.x),
+                sums_of(load, found, 1, plain=True),
+            )
+            for load, found in self._searches
+        ]
+        return summed_up(self.mechanism, names, each, plain=True)
 
-        def rows(at: Contact[Jet], drives: Number, slides: Number, feeds: Number) -> list[Row[Jet]]:
-            found = Instant(self.given, at, drives, slides, feeds)
-            out = []
-            for quantity in quantities:
-                row = quantity(found)
-                out += [row, Row(-row.value, row.room, -row.way)]
-            return out
+    @cached_property
+    def peaks(self) -> list[tuple[float, float, float]]:
+        """Each engagement's greatest velocity, acceleration and product of both, as invariants."""
+        w, out = self.given.speed_rad_s, []
+        for load, found in self._searches:
+            most = found.most.reshape(2, -1).max(axis=0)
+            places = [load.names.index(n) for n in ("omega_rad_s", "alpha_rad_s2", KINETIC)]
+            v, a, p = (float(most[place]) / w**k for k, place in enumerate(places, 1))
+            out.append((v, a, p))
+        return out
 
-        return rows
+    @cached_property
+    def extremes(self) -> Mapping[str, Extremes]:
+        """The extremes of all quantities that have a value."""
+        return {
+            name: Extremes(*(float(end[0]) for end in one[:4])) for name, one in self.known.items()
+        }
 
     def integrals(self, *of: Integrand) -> list[float]:
         """The integral of each function over a period by the input angle in radians.
@@ -168,33 +177,36 @@ class Cycle:
         Of a torque it is a work in joules; divided by ``period``, a mean over the cycle. Infinite
         where the function is too near to a place without a bound.
         """
-        total = [0.0] * len(of)
+        total = np.zeros((len(of), 1))
         for engagement in self.mechanism.engagements:
-            pieces = stretches(engagement, self.given)
-            signs = np.array([piece[2:] for piece in pieces]).T
+            pieces = [piece for owner, piece in self.stretches if owner is engagement]
+            start, end, *signs = np.array(pieces).T
 
             def rows(
-                x: Array, span: Whole, engagement: Engagement = engagement, signs: Array = signs
-            ) -> list[Array]:
-                here = values(Instant(self.given, contact(engagement, x), *signs[:, span]))
-                return [f(here) for f in of]
+                x: Array,
+                which: Whole,
+                engagement: Engagement = engagement,
+                signs: list[Array] = signs,
+            ) -> Array:
+                at = contact(engagement, x)
+                here = values(Instant(self.given, at, *(sign[which, None] for sign in signs)))
+                return np.stack([np.broadcast_to(f(here), x.shape) for f in of])
 
-            found = integrals(rows, [(p.start, p.end) for p in pieces])
-            for number, near in cusps(engagement, pieces):
-                beside = rows(near * AHEAD, np.full(len(AHEAD), number))
-                gap = [abs(near) * float(np.dot(SHARES, row)) for row in beside]
-                found = [a + b for a, b in zip(found, gap, strict=True)]
-            total = [a + b * DEGREE for a, b in zip(total, found, strict=True)]
-        return total
+            one = np.zeros(len(pieces), dtype=int)
+            asked = np.full(total.shape, True)
+            with np.errstate(all="ignore"):
+                total += integrals_many(rows, start, end, one, asked, ends=True)
+        return [float(x) for x in total[:, 0] * DEGREE]
 
     @cached_property
     def stretches(self) -> list[tuple[Engagement, Stretch]]:
         """The motions cut where torque, sliding or the input's torque change sign, or break."""
-        return [
-            (engagement, stretch)
-            for engagement in self.mechanism.engagements
-            for stretch in whole(engagement, self.given)
-        ]
+        out = []
+        for load, found in self._searches:
+            engagement = load.machine[0]
+            pieces = to_mid_motion(engagement, found.stretches, 1)
+            out += [(engagement, one) for one in whole(engagement, self.given, load.kinds, pieces)]
+        return out
 
 
 @lru_cache(maxsize=16)

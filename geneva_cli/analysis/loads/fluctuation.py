@@ -1,62 +1,69 @@
-"""How far the input's work swings about its mean: what a flywheel has to take up and give back."""
+"""How far the input's work swings about its mean: what a flywheel has to take up and give back.
+
+The work turns where the torque is its mean. Motions are cut there, too, and integrated between to
+the last digits.
+
+    >>> import numpy as np
+    >>> from geneva_cli import External, Load
+    >>> from geneva_cli.machine.many import many
+    >>> from geneva_cli.machine.spec import Spec
+    >>> spec = Spec(External(4), load=Load(inertia_kgm2=2.0))
+    >>> found = many(spec, {"wheel.z": np.array([4, 6])}).machine
+    >>> swings_of_many(found, np.zeros(2)).energy_J.round(6)  # I (w psi1max)²/2
+    array([230.09708 ,  39.478418])
+"""
 
 from __future__ import annotations
 
-from bisect import bisect
-from collections.abc import Iterable
-from itertools import accumulate, pairwise
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from geneva_cli.analysis.loads.contact import contact
-from geneva_cli.analysis.loads.cycle import Cycle
-from geneva_cli.analysis.loads.instant import Instant, values
-from geneva_cli.analysis.loads.means import TORQUE, means_of
-from geneva_cli.analysis.loads.stretches import stretches, whole
-from geneva_cli.analysis.loads.zeros import zeros
+from geneva_cli.analysis.loads.contact import Contact
+from geneva_cli.analysis.loads.forces import Row, Setting, setting
+from geneva_cli.analysis.loads.groups_many import parts
+from geneva_cli.analysis.loads.instant import Instant
+from geneva_cli.analysis.loads.loaded_many import Loaded, Signs, look, machine
+from geneva_cli.analysis.loads.stretches import spans_of, to_mid_motion
 from geneva_cli.machine.engagement import Engagement
+from geneva_cli.machine.many import taken
+from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.numerics.angles import DEGREE
-from geneva_cli.numerics.quadrature import integral_of_each
+from geneva_cli.numerics.jet import Jet
+from geneva_cli.numerics.quadrature_many import integrals_many
+from geneva_cli.numerics.search import search
 
 if TYPE_CHECKING:
-    from geneva_cli.numerics.arrays import Whole
+    from geneva_cli.numerics.arrays import Mask, Whole
     from geneva_cli.numerics.jet import Array
-    from geneva_cli.numerics.scan import Scan
-
 
 NOUGHT = 1e-26  # a mean whose square is so small a share of the mean square is rounding
+UNEVEN = ("unevenness_Nm",)
 
 
-def fluctuation_J(cycle: Cycle) -> float:
-    """Greatest minus least of the input's cumulated work less its mean line over a period.
+class Unevenness(NamedTuple):
+    """The input's torque less its mean, which is (m, 1)."""
 
-    The work turns where the torque is its mean: there the motions are cut, and the torque is
-    integrated between. Of inertia alone it is I w² psi1max²/2. Infinite where the torque's
-    integral is.
-    """
-    found = means_of(cycle).get(TORQUE)
-    if found is None or not np.isfinite(found.square):
-        return float("inf")
-    # of inertia alone the mean is nothing but rounding
-    mean = found.mean if found.mean**2 > NOUGHT * found.square else 0.0
-    parts, end = [], None
-    for engagement, samples in zip(cycle.mechanism.engagements, cycle.samples[TORQUE], strict=True):
-        if end is not None:
-            parts.append(-mean * (engagement.mid_deg + engagement.entry_deg - end) * DEGREE)
-        parts += [work - mean * way for work, way in _work(cycle, engagement, samples, mean)]
-        end = engagement.mid_deg + engagement.exit_deg
-    return swing(parts)
+    mean: Array
+
+    def __call__(self, i: Instant[Jet], at: Contact[Jet]) -> Row[Jet]:
+        """The quantity, and what bounds it."""
+        return Row(i.input_torque_Nm - self.mean, i.held)
 
 
-def swing(parts: Iterable[float]) -> float:
-    """Greatest minus least of the sums of parts from the first on.
+class Swings(NamedTuple):
+    """Of m designs, (m,) each."""
 
-    >>> swing([2.0, -5.0, 3.0])
-    5.0
-    """
-    sums = [0.0, *accumulate(parts)]
-    return max(sums) - min(sums)
+    energy_J: Array  # greatest minus least of the cumulated work less its mean line
+    returned: Array  # integral over the period of the torque's square where the wheel drives
+
+
+def swings_of_many(mechanism: Mechanism, mean: Array) -> Swings:
+    """Of designs the means (m,) of whose input torque are known; of one without a mean infinite."""
+    energy, returned = np.empty((2, len(mean)))
+    for part in parts(setting(mechanism).friction, len(mean)):
+        energy[part], returned[part] = _group(taken(mechanism, part), mean[part])
+    return Swings(energy, returned)
 
 
 def flywheel_kgm2(energy_J: float, speed_variation: float, w: float) -> float:
@@ -68,44 +75,51 @@ def flywheel_kgm2(energy_J: float, speed_variation: float, w: float) -> float:
     return energy_J / (speed_variation * w * w)
 
 
-def _work(
-    cycle: Cycle, engagement: Engagement, samples: Scan, mean: float
-) -> list[tuple[float, float]]:
-    """Work in joules and input angle in radians, between places where the torque is its mean."""
-    given = cycle.given
-    pieces = whole(engagement, given)
-    ends = [piece.start for piece in pieces]
-    # where the mean is nothing the torque changes sign, and there the pieces are cut already
-    crossed = _crossings(cycle, engagement, samples, mean).tolist() if mean else []
-    places = sorted({*ends, *crossed, pieces[-1].end})
-    spans = list(pairwise(places))
-    of = np.array([bisect(ends, 0.5 * (a + b)) - 1 for a, b in spans])
-    signs = np.array([piece[2:] for piece in pieces]).T
-
-    def torque(x: Array, span: Whole) -> Array:
-        at = contact(engagement, x, reactions=False)
-        return values(Instant(given, at, *signs[:, of[span]])).input_torque_Nm
-
-    works = integral_of_each(torque, spans)
-    return [(work * DEGREE, (b - a) * DEGREE) for work, (a, b) in zip(works, spans, strict=True)]
+def _group(mechanism: Mechanism, mean: Array) -> Swings:
+    """The sums, in the order of the period, of the works between places of the mean."""
+    bounded = np.isfinite(mean)
+    mean = np.where(bounded, mean, 0.0)[:, None]
+    given, end = setting(mechanism), None
+    each, returned = [0.0 * mean], np.zeros(len(mean))
+    for engagement in mechanism.engagements:
+        if end is not None:
+            dwell = (engagement.mid_deg + engagement.entry_deg - end) * DEGREE
+            each.append(-mean * dwell)
+        works, back = _works(engagement, given, mean, bounded)
+        each.append(works)
+        returned += back
+        end = engagement.mid_deg + engagement.exit_deg
+    sums = np.cumsum(np.hstack(each), axis=1)
+    energy = sums.max(axis=1) - sums.min(axis=1)
+    return Swings(np.where(bounded, energy, np.inf), np.where(bounded, returned, np.inf))
 
 
-def _crossings(cycle: Cycle, engagement: Engagement, samples: Scan, mean: float) -> Array:
-    """Input angles at which the torque is its mean, from the engagement's mid-motion.
+def _works(
+    engagement: Engagement, given: Setting, mean: Array, bounded: Mask
+) -> tuple[Array, Array]:
+    """Works less the mean's in joules, a row a design with zeros at its end; and what returns."""
+    n = len(mean)
+    every = machine(engagement, given, UNEVEN, {UNEVEN[0]: Unevenness(mean)})
+    load = Loaded(every, UNEVEN, ("feeds", "wanted"))
+    spans = spans_of(engagement, n)
+    found = search(Signs(load), spans, n, False)
+    whole = to_mid_motion(engagement, found.stretches, n)
+    design, _, (a, b), positive = whole
+    signs = np.where(positive, 1.0, -1.0)
 
-    ``samples`` are those among which its greatest and least values were looked for.
-    """
-    given = cycle.given
-    pieces = stretches(engagement, given)
-    signs = np.array([piece[2:] for piece in pieces]).T
+    def rows(x: Array, which: Whole) -> Array:
+        some, at, _, (uneven,) = load.at(x, design[which], 0)
+        here = look(load.kinds, some, at, signs[:, which, None]).instant
+        back = 0.5 * (1.0 - here.feeds) * here.input_torque_Nm.c[0]
+        return np.stack(np.broadcast_arrays(uneven(here, at).value.c[0], back * back))
 
-    def above(x: Array, span: Whole) -> tuple[Array, Array]:
-        at = contact(engagement, x, 1, reactions=False)
-        value, slope = Instant(given, at, *signs[:, span]).input_torque_Nm.arrays()
-        return value - mean, slope * DEGREE
-
-    found = samples._replace(value=samples.value - mean)
-    before, after = found.changes(0)
-    return zeros(
-        lambda x, which: above(x, found.span[before[which]]), found, 0 * before, before, after
-    )
+    asked = np.stack((bounded, bounded))
+    with np.errstate(all="ignore"):
+        each = integrals_many(rows, a, b, design, asked, True, apart=True) * DEGREE
+    first = np.searchsorted(design, np.arange(n))
+    number = np.arange(len(design)) - first[design]
+    works = np.zeros((n, int(number.max()) + 1))
+    works[design, number] = each[0]
+    returned = np.zeros(n)
+    np.add.at(returned, design, each[1])
+    return works, returned

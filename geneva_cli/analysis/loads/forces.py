@@ -25,6 +25,8 @@ from geneva_cli.numerics.angles import omega
 from geneva_cli.numerics.arrays import all_true, choose, designs_of, library
 from geneva_cli.numerics.jet import Jet, Number, V
 
+ZERO = 1e-12  # share of a torque, a motion, or a lever over L that is rounding
+
 
 class Setting(NamedTuple):
     """The data on which the loads depend besides the motion."""

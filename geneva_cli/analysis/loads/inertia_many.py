@@ -12,10 +12,10 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from geneva_cli.analysis.loads.contact import mirrored
+from geneva_cli.analysis.loads.forces import ZERO
 from geneva_cli.analysis.loads.loaded_many import Loaded, Signs, look
-from geneva_cli.analysis.loads.means import square_of
-from geneva_cli.analysis.loads.stretches import ZERO
-from geneva_cli.analysis.loads.stretches_many import spans_of
+from geneva_cli.analysis.loads.quantities import square_of
+from geneva_cli.analysis.loads.stretches import spans_of
 from geneva_cli.numerics.angles import DEGREE
 from geneva_cli.numerics.arrays import all_true, array
 from geneva_cli.numerics.quadrature_many import integrals_many

@@ -14,13 +14,11 @@ from typing import TYPE_CHECKING, Any, NamedTuple, Protocol, TypeAlias
 import numpy as np
 
 from geneva_cli.analysis.loads.contact import Contact, column, contact, mirrored, rows
-from geneva_cli.analysis.loads.cycle import Quantity
-from geneva_cli.analysis.loads.forces import Row, Setting, Worked, gain, sliding, wheel_torque
+from geneva_cli.analysis.loads.forces import ZERO, Row, Setting, Worked, gain, sliding, wheel_torque
 from geneva_cli.analysis.loads.instant import Instant
 from geneva_cli.analysis.loads.mid_motion import Known, at_mid_motion
-from geneva_cli.analysis.loads.quantities import PV, QUANTITIES
+from geneva_cli.analysis.loads.quantities import PV, QUANTITIES, Quantity
 from geneva_cli.analysis.loads.spread import spread_deg
-from geneva_cli.analysis.loads.stretches import ZERO
 from geneva_cli.machine.engagement import Engagement
 from geneva_cli.machine.many import taken
 from geneva_cli.numerics.arrays import all_true
@@ -32,7 +30,7 @@ if TYPE_CHECKING:
     from geneva_cli.numerics.pieces import Which
     from geneva_cli.numerics.search import Stretches
 
-# Sizes of sums of forces: where one nearly vanishes its mean is had one by one, halved further.
+# What needs the reactions of joints where links carry the roller.
 REACTIONS = ("crank_bearing_N", "guide_force_N")
 ROOMS = ("grip", "edge")  # without which a quantity has no bound
 SLIDING = ("sliding_m_s", PV)  # what hangs on it without friction
@@ -199,7 +197,9 @@ class Loaded:
                 values[k][i] = row.value.c[k]
             if row.room is not None:
                 room = row.room.c[0]
-                lost = room <= ZERO
+                # a lever that friction takes nothing from has all its digits, however short
+                whole = row.room is found.instant.grip and not given.rubs
+                lost = room <= (0.0 if whole else ZERO)
                 for kind in self.rooms:  # where it is known to end, a rounding may be left of it
                     lost = lost | ((found.signs[kind] < 0.0) & (room == found.jets[kind].c[0]))
                 lost = np.broadcast_to(lost, shape)

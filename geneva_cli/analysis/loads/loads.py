@@ -7,27 +7,27 @@ forces in newtons.
 from __future__ import annotations
 
 import math
+from collections.abc import Callable, Mapping
 from functools import lru_cache
 from typing import TYPE_CHECKING, NamedTuple
 
+import numpy as np
+
 from geneva_cli.analysis.loads.carried import inertia_kgm2
 from geneva_cli.analysis.loads.contact import Contact, contact, is_straight
-from geneva_cli.analysis.loads.forces import (
-    Forces,
-    Greatest,
-    Row,
-    Setting,
-    pressed,
-    setting,
-    sliding,
-)
+from geneva_cli.analysis.loads.cycle import cycle_of
+from geneva_cli.analysis.loads.forces import Forces, Greatest, Row, Setting, setting, sliding
+from geneva_cli.analysis.loads.instant import Instant
+from geneva_cli.analysis.loads.loaded_many import Loaded, Wanted, machine
+from geneva_cli.analysis.loads.many import greatest_of_many, searched
+from geneva_cli.analysis.loads.quantities import FORCE, SQUARED, STRESS, TORQUE
 from geneva_cli.machine.engagement import Engagement
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.machine.pitch_curve import retraces
 from geneva_cli.numerics.angles import omega
 from geneva_cli.numerics.arrays import array
 from geneva_cli.numerics.jet import Jet, Number
-from geneva_cli.numerics.roots import greatest_at
+from geneva_cli.numerics.ties import first_greatest
 from geneva_cli.spec.tables import Limits
 
 if TYPE_CHECKING:
@@ -53,8 +53,6 @@ def state(mechanism: Mechanism, engagement: Engagement, input_deg: Number) -> St
 
     Of m designs at k angles (m, k), at one (m, 1); without the m what is alike in all.
     """
-    import numpy as np
-
     given = setting(mechanism)
     x = np.atleast_1d(np.asarray(input_deg, dtype=float))
     at = contact(engagement, x, reactions=False)
@@ -81,120 +79,123 @@ def state(mechanism: Mechanism, engagement: Engagement, input_deg: Number) -> St
     return State(torque, force, shaft, stress, pressure)
 
 
-def greatest(mechanism: Mechanism, quantity: str) -> Greatest:
-    """The greatest size of a field of ``State`` over all engagements."""
-    return _over_all(mechanism, setting(mechanism), quantity)
+def greatest(mechanism: Mechanism, name: str) -> Greatest:
+    """The greatest size of a quantity of the cycle, and the first input angle that has it.
+
+    Without a load nothing presses: 0.
+    """
+    one = cycle_of(mechanism).extremes.get(name)
+    if one is None:
+        return Greatest(0.0, 0.0)
+    first = mechanism.engagements[0]
+    start, turn = first.mid_deg + first.entry_deg - TINY, 360.0 * mechanism.spec.drive.turns
+    ends = [(one.max, one.max_at_deg), (-one.min, one.min_at_deg)]
+    ends.sort(key=lambda end: (end[1] - start) % turn)
+    value, place = np.array(ends).T[..., None]
+    most, at_deg = first_greatest(value, place, np.zeros(1))
+    return Greatest(float(most[0]), float(at_deg[0]))
 
 
-def _over_all(mechanism: Mechanism, given: Setting, quantity: str) -> Greatest:
-    found = [(0.0, 0.0)]
-    for engagement in mechanism.engagements:
-        size, at_deg = _greatest(engagement, given)[quantity]
-        found.append((size, mechanism.shown_deg(engagement.mid_deg + at_deg)))
-    return Greatest(*greatest_at(found))
+TINY = 1e-9  # degrees: rounding of an input angle
 
 
-@lru_cache(maxsize=256)
-def _greatest(engagement: Engagement, given: Setting) -> dict[str, Greatest]:
-    """The greatest of each field of ``State``, at the engagement's own input angles."""
-    from geneva_cli.analysis.loads.peaks import maxima
+class Slope(NamedTuple):
+    """The square of the pressure angle's tangent."""
 
-    def rows(at: Contact[Jet], drives: Number, slides: Number, _: Number) -> list[Row[Jet]]:
-        found = Forces(given, at, drives, slides)
-        grip = found.grip if given.friction else None
+    def __call__(self, i: Instant[Jet], at: Contact[Jet]) -> Row[Jet]:
+        """The quantity; what may be 0 under it bounds it."""
         slope = at.aside / at.lever
-        out = [
-            Row(found.torque * drives),
-            Row(found.force, found.grip),
-            Row(found.shaft * (1.0 / given.efficiency), grip),
-            Row(-found.shaft, grip),
-            Row(slope * slope),
-        ]
-        if found.square is not None:
-            out.append(Row(found.square, pressed(grip, found.edge)))
-        return out
-
-    torque, force, driving, driven, slope, *square = maxima(engagement, given, rows)
-    pressure = Greatest(math.degrees(math.atan(math.sqrt(slope.max))), slope.at_deg)
-    if not is_straight(engagement) and not retraces(engagement):
-        pressure = Greatest(90.0, 0.0)
-    stress = Greatest(math.sqrt(square[0].max), square[0].at_deg) if square else Greatest(0.0, 0.0)
-    shafts = sorted((driving, driven), key=lambda found: found.at_deg)
-    return {
-        "torque_Nm": torque,
-        "pin_force_N": force,
-        "input_torque_Nm": Greatest(*greatest_at(shafts)),
-        "contact_stress_MPa": stress,
-        "pressure_deg": pressure,
-    }
+        return Row(slope * slope)
 
 
+@lru_cache(maxsize=16)
+def greatest_pressure(mechanism: Mechanism) -> Greatest:
+    """The greatest pressure angle, degrees, and its input angle.
+
+    It is 90 at mid-motion where the pin crosses the radius.
+    """
+    for engagement in mechanism.engagements:
+        if not is_straight(engagement) and not retraces(engagement):
+            return Greatest(90.0, mechanism.shown_deg(engagement.mid_deg))
+    own: dict[str, Wanted] = {"slope": Slope()}
+    given = setting(mechanism)._replace(inertia_Nm=0.0, friction=0.0, hertz=None, efficiency=1.0)
+    found = greatest_of_many(mechanism, tuple(own), own, given)["slope"]
+    if not found.max[0]:  # all along a radial slot
+        return Greatest(0.0, 0.0)
+    return Greatest(math.degrees(math.atan(math.sqrt(found.max[0]))), float(found.at_deg[0]))
+
+
+@lru_cache(maxsize=16)
 def fastest_rpm(mechanism: Mechanism) -> float | None:
     """The highest input speed at which the limits on force, torque and stress hold.
 
     Infinite where they hold at any speed, or where there are none; None where no speed keeps them.
     """
     limits = load_limits(mechanism.spec.limits)
-    if not any(limits):
+    given = {name: limit for name, limit in zip(LIMITED, limits, strict=True) if limit}
+    at_one = setting(mechanism)._replace(inertia_Nm=inertia_kgm2(mechanism.spec))  # at 1 rad/s
+    if at_one.hertz is None:
+        given.pop(STRESS, None)
+    if not given:
         return math.inf
-    inertia = inertia_kgm2(mechanism.spec)
-    given = setting(mechanism)._replace(inertia_Nm=inertia)  # at 1 rad/s
-    least = max(_slowness(engagement, given, limits) for engagement in mechanism.engagements)
+    least = max(_slowness(engagement, at_one, given) for engagement in mechanism.engagements)
     rpm = math.sqrt(1.0 / least) / omega(1.0) if least > 0.0 else math.inf
     # Speeds below it may be too low where inertia helps against the resistance, and this one too.
     w = omega(mechanism.spec.drive.n_rpm if math.isinf(rpm) else rpm)
-    tried = given._replace(inertia_Nm=inertia * w * w)
-    kept = all(
-        _over_all(mechanism, tried, quantity).max <= limit * KEPT
-        for quantity, limit in zip(LIMITED, limits, strict=True)
-        if limit
-    )
+    tried = at_one._replace(inertia_Nm=at_one.inertia_Nm * w * w)
+    found = greatest_of_many(mechanism, tuple(given), given=tried)
+    kept = all(found[name].max[0] <= limit * KEPT for name, limit in given.items())
     return rpm if kept else None
 
 
-@lru_cache(maxsize=256)
-def _slowness(
-    engagement: Engagement, given: Setting, limits: tuple[float | None, float | None, float | None]
-) -> float:
-    """The greatest of 1 / (highest speed that a place allows)²; infinite where it allows none.
+class Slowness(NamedTuple):
+    """1 / (highest speed that a place allows)², of a load at the wheel's torque of 1.
 
     With the load q (T) = q1 T, of a factor q1 that no speed changes, and T = w² I a + M, the
     limit holds up to w² = (limit - q1 M) / (q1 I a).
     """
-    import numpy as np
 
-    from geneva_cli.analysis.loads.peaks import maxima
+    of: Callable[[Forces[Jet]], Jet]
+    limit: float
+    given: Setting  # at 1 rad/s
 
-    force_max, torque_max, stress_max = limits
-    unit = given._replace(inertia_Nm=0.0, resists_Nm=1.0)
+    def __call__(self, i: Instant[Jet], at: Contact[Jet]) -> Row[Jet]:
+        """The quantity, which has no bound where the place allows no speed."""
+        unit = self.given._replace(inertia_Nm=0.0, resists_Nm=1.0)
+        factor = self.of(Forces(unit, at, i.drives, i.slides))
+        load = at.acceleration * self.given.inertia_Nm * factor
+        left = self.limit - factor * self.given.resists_Nm
+        # Where it is not driven any speed keeps the limit: there is room, and as much as beside
+        # it, for at rest the load's sign is rounding.
+        over = (np.asarray(load.c[0]) <= 0.0) & (np.asarray(left.c[0]) < 0.0)
+        return Row(load / left, Jet([np.where(over, -c, c) for c in left.c]))
 
-    def rows(at: Contact[Jet], drives: Number, slides: Number, _: Number) -> list[Row[Jet]]:
-        found = Forces(unit, at, drives, slides)
-        needed = at.acceleration * given.inertia_Nm
-        held: list[tuple[float, Jet]] = []
-        if force_max:
-            held.append((force_max, found.force))
-        if torque_max:
-            held.append((torque_max, found.shaft * (1.0 / given.efficiency)))
-            held.append((torque_max, -found.shaft))
-        if stress_max and found.square is not None:
-            held.append((stress_max * stress_max, found.square))
-        out = []
-        for limit, factor in held:
-            load = needed * factor
-            left = limit - factor * given.resists_Nm
-            # Where it is not driven any speed keeps the limit: there is room, and as much as beside
-            # it, for at rest the load's sign is rounding.
-            over = (np.asarray(load.c[0]) <= 0.0) & (np.asarray(left.c[0]) < 0.0)
-            out.append(Row(load / left, Jet([np.where(over, -c, c) for c in left.c])))
-        return out
 
-    still = given._replace(resists_Nm=0.0)
-    return max(found.max for found in maxima(engagement, still, rows))
+def _slowness(engagement: Engagement, given: Setting, limits: Mapping[str, float]) -> float:
+    """The greatest of 1 / (highest speed that a place allows)²; infinite where it allows none."""
+
+    def square(found: Forces[Jet]) -> Jet:
+        assert found.square is not None  # there is a face width
+        return found.square
+
+    eta = given.efficiency
+    factors: dict[str, list[Callable[[Forces[Jet]], Jet]]] = {
+        FORCE: [lambda found: found.force],
+        TORQUE: [lambda found: found.shaft * (1.0 / eta), lambda found: -found.shaft],
+        STRESS: [square],
+    }
+    own: dict[str, Wanted] = {}
+    for name, limit in limits.items():
+        most = limit * limit if name in SQUARED else limit
+        for factor in factors[name]:
+            own[f"slowness {len(own)}"] = Slowness(factor, most, given)
+    names, still = tuple(own), given._replace(resists_Nm=0.0)
+    found = searched(Loaded(machine(engagement, still, names, own), names), 1)
+    return max(0.0, float(found.most[: len(names)].max()))
 
 
 KEPT = 1.0 + 1e-9  # a limit met at the fastest speed may be missed by rounding
-LIMITED = ("pin_force_N", "input_torque_Nm", "contact_stress_MPa")
+LIMITED = (FORCE, TORQUE, STRESS)
 
 
 def load_limits(limits: Limits) -> tuple[float | None, float | None, float | None]:

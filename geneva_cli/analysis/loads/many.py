@@ -1,7 +1,7 @@
-"""Loads of many designs at once: what ``summary`` and ``loads.greatest`` give of one.
+"""The greatest, least and mean loads of designs; a single one is a batch of one.
 
-Every machine is answered for: friction, curved slots, linkages, several rollers. The formulas are
-those of one design; all its stretches are found together, a block of designs after the other.
+Every machine is answered for: friction, curved slots, linkages, several rollers. All stretches of
+the designs are found together, a block of designs after the other.
 
     >>> import numpy as np
     >>> from geneva_cli import External, Load, SideCrank
@@ -20,23 +20,35 @@ from typing import TYPE_CHECKING, NamedTuple, cast
 
 import numpy as np
 
-from geneva_cli.analysis.loads.forces import setting
+from geneva_cli.analysis.loads.forces import Setting, setting
 from geneva_cli.analysis.loads.groups_many import of_groups
 from geneva_cli.analysis.loads.loaded_many import NONE, Loaded, Machine, Wanted, machine
 from geneva_cli.analysis.loads.means_many import means_from, sources_of, sums
-from geneva_cli.analysis.loads.quantities import FORCE, SQUARED, STRESS, outermost
-from geneva_cli.analysis.loads.stretches_many import spans_of
-from geneva_cli.analysis.loads.summary import ends_told
+from geneva_cli.analysis.loads.quantities import (
+    FORCE,
+    SIZES,
+    SQUARED,
+    STRESS,
+    outermost,
+)
+from geneva_cli.analysis.loads.stretches import on_breaks, spans_of
 from geneva_cli.analysis.peaks_many import PeakOfMany, greater
+from geneva_cli.machine.engagement import Engagement
 from geneva_cli.machine.mechanism import Mechanism
-from geneva_cli.numerics.search import search
+from geneva_cli.numerics.search import Found, search
 
 if TYPE_CHECKING:
+    from geneva_cli.numerics.arrays import Number
     from geneva_cli.numerics.jet import Array
+
+ZERO = 1e-14  # share of a peak that is rounding
 
 
 class SummaryOfMany(NamedTuple):
-    """As ``Summary``, of m designs: (m,) each; infinite where nothing bounds a value."""
+    """Greatest and least over the motions, mean and root of the mean square over a period.
+
+    Of m designs, (m,) each; infinite where nothing bounds a value.
+    """
 
     max: Array
     max_at_deg: Array
@@ -53,19 +65,35 @@ class SummaryOfMany(NamedTuple):
         )
 
 
+class Searched(NamedTuple):
+    """Greatest values over one engagement, where, and the sums: a row a quantity, of m designs.
+
+    Of extremes with their signs the greatest values of minus the quantities come after those.
+    """
+
+    most: Array
+    at_deg: Array  # as shown
+    total: Array | None  # as of ``sums``
+
+
 def greatest_of_many(
-    mechanism: Mechanism, names: Sequence[str], own: Mapping[str, Wanted] = NONE
+    mechanism: Mechanism,
+    names: Sequence[str],
+    own: Mapping[str, Wanted] = NONE,
+    given: Setting | None = None,
 ) -> dict[str, PeakOfMany]:
     """The greatest sizes of quantities, and the first input angles that have them: (m,).
 
-    As ``loads.greatest`` gives them for one design; its ``torque_Nm`` is ``wheel_torque_Nm``.
-    ``own`` are quantities that the cycle does not know, by their names.
+    ``own`` are quantities that the cycle does not know, by their names; ``given`` is another
+    setting than the machine's.
     """
-    given, best = setting(mechanism), dict[str, PeakOfMany]()
+    given, best = given or setting(mechanism), dict[str, PeakOfMany]()
     flat = all(e.slot.walls_flat for e in mechanism.engagements)
     lent = {n: FORCE if flat and n == STRESS and given.hertz is not None else n for n in names}
     sought = list(dict.fromkeys(lent.values()))
-    for found, at_deg, _ in _over_all(mechanism, sought, sized=True, told=(), own=own):
+    for engagement in mechanism.engagements:
+        every = machine(engagement, given, sought, own)
+        found, at_deg, _ = _searched(mechanism, every, sought, sized=True)
         for name, most, at in zip(sought, found, at_deg, strict=True):
             here = PeakOfMany(most, at)
             best[name] = greater(best[name], here) if name in best else here
@@ -84,70 +112,90 @@ def summaries_of_many(
 ) -> dict[str, SummaryOfMany]:
     """The summaries of quantities over a period, by their names; signs kept.
 
-    Extremes are within some units in the last place of a quantity's greatest size of those of one
-    design; means, and roots of the mean square, within 1e-12 of that size: both are sums of what
-    quadrature leaves of 2e-13, over stretches that may cancel. ``told`` says which of the two are
-    asked for; of ``REACTIONS`` there are no means. One that is not told is None.
+    Extremes are exact to some units in the last place of a quantity's greatest size; means, and
+    roots of the mean square, to 1e-12 of that size: both are sums of what quadrature leaves of
+    2e-13, over stretches that may cancel. ``told`` says which of the two are asked for; one that is
+    not told is None.
+    """
+    _, sources = sources_of(mechanism, names)
+    given = setting(mechanism)
+    every = [machine(engagement, given, sources, NONE) for engagement in mechanism.engagements]
+    each = [_searched(mechanism, one, sources, told=told) for one in every]
+    return summed_up(mechanism, names, each, "mean" in told)
+
+
+def summed_up(
+    mechanism: Mechanism, names: Sequence[str], each: Sequence[Searched], plain: bool
+) -> dict[str, SummaryOfMany]:
+    """The summaries of quantities from what was found of their sources in each engagement.
+
+    ``plain``: the sums are those of the quantities too, besides those of their squares.
     """
     lent, sources = sources_of(mechanism, names)
-    each: dict[str, list[Array]] = {name: [] for name in sources}
-    whole: Array | None = None
-    for found, at_deg, total in _over_all(mechanism, sources, sized=False, told=told):
-        (most, low), (most_at, low_at) = np.split(found, 2), np.split(at_deg, 2)
-        for i, name in enumerate(sources):
-            each[name].append(np.stack((most[i], most_at[i], -low[i], low_at[i])))
-        if total is not None:
-            whole = total if whole is None else whole + total
-    means = {} if whole is None else means_from(mechanism, sources, whole, "mean" in told)
+    totals = [one.total for one in each if one.total is not None]
+    means = means_from(mechanism, sources, np.sum(totals, axis=0), plain) if totals else {}
     best: dict[str, SummaryOfMany] = {}
-    for name, rows in each.items():
-        one = SummaryOfMany(*outermost(np.stack(rows)))
-        most, least = ends_told(name, one.max, one.min)
-        one = one._replace(max=most, min=least)
-        best[name] = one._replace(**means[name]._asdict()) if name in means else one
+    for i, name in enumerate(sources):
+        k = i + len(sources)
+        rows = [(one.most[i], one.at_deg[i], -one.most[k], one.at_deg[k]) for one in each]
+        most, most_at, least, least_at = outermost(np.array(rows))
+        most, least = _ends_told(name, most, least)
+        mean, rms = means.get(name, (None, None))
+        best[name] = SummaryOfMany(most, most_at, least, least_at, mean, rms)
     return {name: best[source].times(share) for name, (source, share) in lent.items()}
 
 
-def _over_all(
+def _ends_told(name: str, most: Array, least: Array) -> list[Array]:
+    """Greatest and least of a quantity from those of what is looked for.
+
+    Where the torque changes its sign, rounding may leave a size below 0. Of the two, 0 is told
+    where one is rounding of the other.
+    """
+    found = [np.maximum(x, 0.0) if name in SIZES else np.asarray(x) for x in (most, least)]
+    found = [np.sqrt(x) if name in SQUARED else x for x in found]
+    level = ZERO * np.maximum(*[np.where(np.isfinite(x), np.abs(x), 0.0) for x in found])
+    return [np.where(np.abs(x) > level, x, 0.0) for x in found]
+
+
+def _searched(
     mechanism: Mechanism,
+    every: Machine,
     names: Sequence[str],
-    *,
-    sized: bool,
-    told: Collection[str],
-    own: Mapping[str, Wanted] = NONE,
-) -> list[tuple[Array, Array, Array | None]]:
-    """For each engagement the greatest values, their input angles as shown, and the integrals."""
-    given = setting(mechanism)
-    out = []
-    for engagement in mechanism.engagements:
-        every = machine(engagement, given, names, own)
-        most, x, whole = _of(every, names, sized, told)
-        places = np.reshape(engagement.mid_deg, (-1, 1)) + x.T
-        shown = [mechanism.shown_deg(cast("float", places[:, i : i + 1])) for i in range(len(x))]
-        out.append((most, np.hstack([np.broadcast_to(s, (x.shape[1], 1)) for s in shown]).T, whole))
-    return out
+    sized: bool = False,
+    told: Collection[str] = (),
+) -> Searched:
+    """What is found of one engagement of m designs, in groups of them."""
+
+    def found(some: Machine, n: int) -> Sequence[Array]:
+        load = Loaded(some, names)
+        here = searched(load, n, sized)
+        rows = here.most, here.x
+        return (*rows, sums_of(load, here, n, "mean" in told)) if told else rows
+
+    most, x, *total = of_groups(every, found)
+    return Searched(most, shown(mechanism, every[0], x), *(total or (None,)))
 
 
-def _of(
-    every: Machine, names: Sequence[str], sized: bool, told: Collection[str]
-) -> tuple[Array, Array, Array | None]:
-    """The same for one engagement, at its own input angles."""
-
-    def found(some: Machine, n: int) -> tuple[Array, Array, Array]:
-        return _group(Loaded(some, names), n, sized, told)
-
-    most, x, whole = of_groups(every, found)
-    return most, x, whole if told else None
-
-
-def _group(load: Loaded, n: int, sized: bool, told: Collection[str]) -> tuple[Array, Array, Array]:
+def searched(load: Loaded, n: int, sized: bool = False) -> Found:
+    """The extremes of n designs' loads over a motion, and its stretches."""
     spans = spans_of(load.machine[0], n)
     if sized and load.repeats:
         spans = spans[: len(spans) // 2]
-    known = load.at_mid_motion(n)
-    found = search(load, spans, n, sized, known, load.spread)
-    if not told:
-        return found.most, found.x, found.most
-    pieces = found.stretches
+    return search(load, spans, n, sized, load.at_mid_motion(n), load.spread)
+
+
+def sums_of(load: Loaded, found: Found, n: int, plain: bool) -> Array:
+    """The sums over the stretches found, as of ``sums``."""
     bounded = np.asarray(np.isfinite(found.most).reshape(2, -1, n).all(axis=0))
-    return found.most, found.x, sums(load, pieces, bounded, n, "mean" in told)
+    return sums(load, found.stretches, bounded, n, plain)
+
+
+def shown(mechanism: Mechanism, engagement: Engagement, x: Array) -> Array:
+    """Input angles of an engagement, (rows, m), as they are shown."""
+    places = np.reshape(engagement.mid_deg, (-1, 1)) + on_breaks(x, engagement).T
+    rows = [_shown(mechanism, places[:, i : i + 1]) for i in range(len(x))]
+    return np.hstack([np.broadcast_to(row, (x.shape[1], 1)) for row in rows]).T
+
+
+def _shown(mechanism: Mechanism, places: Array) -> Number:
+    return mechanism.shown_deg(cast("float", places))

@@ -8,13 +8,11 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from geneva_cli.analysis.loads.contact import NEAR, mirrored
-from geneva_cli.analysis.loads.cycle import AHEAD, SHARES, Cycle
 from geneva_cli.analysis.loads.forces import setting
 from geneva_cli.analysis.loads.groups_many import of_groups
 from geneva_cli.analysis.loads.inertia_many import is_balanced, squares
 from geneva_cli.analysis.loads.loaded_many import (
     NONE,
-    REACTIONS,
     At,
     Loaded,
     Machine,
@@ -22,10 +20,8 @@ from geneva_cli.analysis.loads.loaded_many import (
     look,
     machine,
 )
-from geneva_cli.analysis.loads.means import NOUGHT, square_of
-from geneva_cli.analysis.loads.quantities import SQUARED
-from geneva_cli.analysis.loads.stretches_many import mirror_images, spans_of
-from geneva_cli.analysis.loads.summary import shares
+from geneva_cli.analysis.loads.quantities import SQUARED, plain_values, shares, square_of
+from geneva_cli.analysis.loads.stretches import mirror_images, spans_of
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.numerics.angles import DEGREE
 from geneva_cli.numerics.arrays import array
@@ -37,6 +33,10 @@ if TYPE_CHECKING:
     from geneva_cli.numerics.arrays import Mask, Whole
     from geneva_cli.numerics.jet import Array
     from geneva_cli.numerics.search import Stretches
+
+# The integral of a cubic from 0 to 1 by its values at AHEAD (Adams and Bashforth), next to a cusp.
+AHEAD, SHARES = np.array([1.0, 2.0, 3.0]), np.array([23.0, -16.0, 5.0]) / 12.0
+NOUGHT = 1e-30  # a mean whose square is so small a share of the mean square is rounding
 
 
 class MeansOfMany(NamedTuple):
@@ -80,7 +80,7 @@ def sources_of(
     mechanism: Mechanism, names: Sequence[str]
 ) -> tuple[dict[str, tuple[str, Array]], list[str]]:
     """Of each name the quantity of which it is a share, and that share: (m,) or (1,)."""
-    known = shares(Cycle(mechanism))
+    known = shares(mechanism)
     lent = {n: known.get(n, (n, 1.0, ""))[:2] for n in names}
     there = {
         n: (source, np.ravel(share)) for n, (source, share) in lent.items() if share is not None
@@ -92,11 +92,10 @@ def means_from(
     mechanism: Mechanism, names: Sequence[str], sums: Array, plain: bool
 ) -> dict[str, MeansOfMany]:
     """The means of what was summed, as of ``sums``."""
-    joined = any(engagement.reactions for engagement in mechanism.engagements)
     every, out = sums / (np.ravel(mechanism.period_deg) * DEGREE), {}
     for i, name in enumerate(names):
         square, mean = every[i], None
-        if plain and not (joined and name in REACTIONS):
+        if plain:
             mean = every[len(names) + i]
             nought = np.isfinite(square) & (mean * mean <= NOUGHT * square)
             mean = np.where(nought, 0.0, mean)
@@ -178,5 +177,5 @@ def powers(load: Loaded, state: At, signs: Array | None, plain: bool) -> Array:
         value = array(quantity(here, at).value.c[0])
         out[i] = square_of(value, name)
         if plain:
-            out[count + i] = np.sqrt(abs(value)) if name in SQUARED else value
+            out[count + i] = plain_values(value, name)
     return out

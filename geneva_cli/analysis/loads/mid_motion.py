@@ -11,9 +11,8 @@ from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 import numpy as np
 
 from geneva_cli.analysis.loads.contact import NEAR, Contact, contact
-from geneva_cli.analysis.loads.forces import Row, Setting, gain, sliding, value, wheel_torque
+from geneva_cli.analysis.loads.forces import ZERO, Row, Setting, gain, sliding, value, wheel_torque
 from geneva_cli.analysis.loads.instant import Instant, bounded, values
-from geneva_cli.analysis.loads.stretches import ZERO
 from geneva_cli.machine.engagement import Engagement
 from geneva_cli.machine.pitch_curve import retraces
 from geneva_cli.numerics.angles import DEGREE

@@ -1,20 +1,23 @@
-"""The quantities of a cycle by their names, and the extremes of each, which are searched once."""
+"""The quantities of a cycle by their names, and which of them a machine and its load have."""
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Protocol
 
 import numpy as np
 
-from geneva_cli.analysis.loads.cycle import Cycle, Extremes, Quantity
-from geneva_cli.analysis.loads.forces import Row
+from geneva_cli.analysis.loads.forces import Row, setting
 from geneva_cli.numerics.ties import first_greatest
 
 if TYPE_CHECKING:
+    from geneva_cli.analysis.loads.instant import Instant
+    from geneva_cli.machine.mechanism import Mechanism
     from geneva_cli.numerics.arrays import Array
+    from geneva_cli.numerics.jet import V
 
 FORCE = "pin_force_N"
 STRESS = "contact_stress_MPa"
+TORQUE = "input_torque_Nm"
 MOVES = ("omega_rad_s", "alpha_rad_s2", "sliding_m_s")  # known without a load
 PV = "pv_W_m2"  # greatest Hertz pressure times the speed of sliding
 KINETIC = "kinetic_rad2_s3"  # speed times acceleration of the wheel: the power of an inertia of 1
@@ -23,7 +26,18 @@ PRESSED = (STRESS, PV)  # known only with a face width
 SQUARED = (*PRESSED, "crank_bearing_N", "guide_force_N")
 # Those that are never negative.
 SIZES = (*SQUARED, "wheel_bearing_N")
-# Each quantity at an instant.
+# Loads of which a report has the greatest size, and their names in the cycle.
+SIZED = {"torque_Nm": "wheel_torque_Nm", FORCE: FORCE, TORQUE: TORQUE, STRESS: STRESS}
+PARALLEL = "parallel shafts; on a sphere the force moves along them, and pushes along them too"
+
+
+class Quantity(Protocol):
+    """A quantity as a function of an instant, of jets or of their values."""
+
+    def __call__(self, i: Instant[V], /) -> Row[V]:
+        """The quantity, and what bounds it."""
+
+
 QUANTITIES: dict[str, Quantity] = {
     "omega_rad_s": lambda i: Row(i.omega_rad_s),
     "alpha_rad_s2": lambda i: Row(i.alpha_rad_s2),
@@ -31,7 +45,7 @@ QUANTITIES: dict[str, Quantity] = {
     FORCE: lambda i: i.pin_force,
     STRESS: lambda i: i.stress,
     "sliding_m_s": lambda i: Row(i.sliding_m_s),
-    "input_torque_Nm": lambda i: i.shaft,
+    TORQUE: lambda i: i.shaft,
     "wheel_bearing_N": lambda i: Row(i.wheel_bearing_N, i.grip),
     "crank_bearing_N": lambda i: Row(i.crank_bearing_squared, i.grip),
     PV: lambda i: i.pressure_speed,
@@ -40,34 +54,50 @@ QUANTITIES: dict[str, Quantity] = {
 }
 
 
-def known_quantities(cycle: Cycle) -> list[str]:
+def known_quantities(mechanism: Mechanism) -> list[str]:
     """The names of the quantities that have a value for this machine and load."""
-    missing = {KINETIC} if cycle.given.hertz is not None else {KINETIC, *PRESSED}
-    if not any(engagement.reactions for engagement in cycle.mechanism.engagements):
+    missing = {KINETIC} if setting(mechanism).hertz is not None else {KINETIC, *PRESSED}
+    if not any(engagement.reactions for engagement in mechanism.engagements):
         missing.add("guide_force_N")
-    found = QUANTITIES if cycle.is_loaded else MOVES
+    found = QUANTITIES if mechanism.spec.is_loaded else MOVES
     return [name for name in found if name not in missing]
 
 
-def ends_of(cycle: Cycle, *names: str) -> list[Extremes]:
-    """The extremes of known quantities over all motions."""
-    return [_of_all(ends_of_each(cycle, name)) for name in names]
+def shares(mechanism: Mechanism) -> dict[str, tuple[str, float | None, str]]:
+    """What is another quantity times a number: which, and what gives the number.
 
-
-def ends_of_each(cycle: Cycle, name: str) -> list[Extremes]:
-    """The extremes of a known quantity, one for each engagement.
-
-    All known quantities are searched at once, as nearly all of the cost is the motion's.
+    A shaft carries its load outside two bearings, the overhang a from the nearer and s between
+    them: the nearer bears (a + s)/s of it, the other a/s the other way.
     """
-    if not cycle.found:
-        names = (*known_quantities(cycle), KINETIC)
-        cycle.look({name: QUANTITIES[name] for name in names})
-    return cycle.found[name]
+    shaft, flat = mechanism.spec.shaft, mechanism.spec.wheel.FLAT
+    out: dict[str, tuple[str, float | None, str]] = {
+        "power_W": (TORQUE, setting(mechanism).speed_rad_s, ""),
+    }
+    for name, a, s in (
+        ("wheel", shaft.wheel_overhang_mm, shaft.wheel_span_mm),
+        ("crank", shaft.crank_overhang_mm, shaft.crank_span_mm),
+    ):
+        needs = f"{name}_overhang_mm and {name}_span_mm in [shaft]" if flat else PARALLEL
+        far = a / s if flat and a is not None and s is not None else None
+        near = None if far is None else 1.0 + far
+        out[f"{name}_near_bearing_N"] = (f"{name}_bearing_N", near, needs)
+        out[f"{name}_far_bearing_N"] = (f"{name}_bearing_N", far, needs)
+    return out
 
 
-def _of_all(each: list[Extremes]) -> Extremes:
-    """The greatest maximum and the least minimum, of equal ones the first."""
-    return Extremes(*map(float, outermost(np.array(each))))
+def plain_of(i: Instant[Array], name: str) -> Array:
+    """A quantity at an instant of values, itself where its square is looked for."""
+    return plain_values(QUANTITIES[name](i).value, name)
+
+
+def plain_values(values: Array, name: str) -> Array:
+    """Values of a quantity, of what is looked for."""
+    return np.sqrt(np.abs(values)) if name in SQUARED else values
+
+
+def square_of(values: Array, name: str) -> Array:
+    """The square of a quantity's values, or what is one already."""
+    return values if name in SQUARED else values * values
 
 
 def outermost(each: Array) -> Array:

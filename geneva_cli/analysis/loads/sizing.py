@@ -1,71 +1,84 @@
-"""What must be bought: the index-drive makers' form beside the exact cycle, motor and flywheel."""
+"""What must be bought: the index-drive makers' form beside the exact cycle, motor and flywheel.
+
+>>> import numpy as np
+>>> from geneva_cli import External, Load
+>>> from geneva_cli.machine.many import many
+>>> from geneva_cli.machine.spec import Spec
+>>> spec = Spec(External(6), load=Load(inertia_kgm2=2.0, friction=0.1))
+>>> found = many(spec, {"load.torque_Nm": np.array([0.0, 20.0])})
+>>> sizings_of_many(found.machine, ["motor_torque_rms_Nm"])["motor_torque_rms_Nm"].round(4)
+array([26.8019, 28.3356])
+"""
 
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, NamedTuple
+from collections.abc import Collection
+from typing import TYPE_CHECKING, TypeAlias, cast
+
+import numpy as np
 
 from geneva_cli.analysis.cam_factors import CamFactors, cam_factors
 from geneva_cli.analysis.loads.carried import inertia_kgm2, support_torque_Nm
-from geneva_cli.analysis.loads.fluctuation import fluctuation_J, flywheel_kgm2
+from geneva_cli.analysis.loads.fluctuation import NOUGHT, flywheel_kgm2, swings_of_many
+from geneva_cli.analysis.loads.forces import setting
 from geneva_cli.analysis.loads.makers_form import MakersForm, ShaftLoad, makers_form
-from geneva_cli.analysis.loads.means import DRIVEN, TORQUE, means_of
-from geneva_cli.analysis.loads.quantities import KINETIC, ends_of, ends_of_each
-from geneva_cli.analysis.peaks import velocity_peak
-from geneva_cli.numerics.arrays import choose_record, larger, library
+from geneva_cli.analysis.loads.many import SummaryOfMany, summaries_of_many
+from geneva_cli.analysis.loads.quantities import TORQUE
+from geneva_cli.analysis.peaks_many import peaks_of_many
+from geneva_cli.machine.engagement import Engagement
+from geneva_cli.machine.mechanism import Mechanism
+from geneva_cli.numerics.angles import DEGREE
+from geneva_cli.numerics.arrays import choose_record, larger, library, parameter
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from geneva_cli.analysis.loads.cycle import Cycle
-    from geneva_cli.machine.mechanism import Mechanism
     from geneva_cli.machine.spec import Spec
-    from geneva_cli.numerics.arrays import N
+    from geneva_cli.numerics.arrays import N, Number
+    from geneva_cli.numerics.jet import Array
     from geneva_cli.spec.tables import Motor
 
-
+Peaks: TypeAlias = "tuple[float, ...]"  # of one engagement, as ``PEAKS``
+CARRIED = ("inertia_kgm2", "motor_rpm")
+FACTORS = ("acceleration_rad_s2", "Am", "Vm", "Qm")
+UNLOADED = (*CARRIED, *FACTORS)  # known without a load
+FORM = (
+    *("inertia_torque_Nm", "friction_torque_Nm", "total_torque_Nm", "design_torque_Nm"),
+    *("input_torque_Nm", "power_W"),
+)
+SUMS = ("energy_fluctuation_J", "flywheel_kgm2", "flywheel_to_add_kgm2", "motor_torque_rms_Nm")
+ENDS = ("motor_torque_max_Nm", "input_torque_ratio")
+PEAKS = ("velocity", "acceleration", "power")  # of each motion, for the makers' form
+ROTOR = ("inertia_ratio", "coasting_speed_share")
+# all but the wheel's own inertia, which is its outline's
+NAMES = (*CARRIED, *FACTORS, *FORM, *SUMS, *ENDS, *ROTOR)
 WHEEL = "wheel_inertia_kgm2"  # which parts know, and ``sizing`` does not
-
-
-class Sizing(NamedTuple):
-    """None where a value needs what is not given, or nothing bounds the input's torque."""
-
-    inertia_kgm2: float | None = None  # of all that the wheel turns, at its shaft
-    wheel_inertia_kgm2: float | None = None  # of the wheel itself, from its outline
-    # the makers' form, of the engagement with the greatest torque at the input
-    acceleration_rad_s2: float | None = None
-    inertia_torque_Nm: float | None = None
-    friction_torque_Nm: float | None = None  # of the support
-    total_torque_Nm: float | None = None
-    design_torque_Nm: float | None = None  # with the service factor
-    input_torque_Nm: float | None = None
-    power_W: float | None = None  # at the motor, losses of wheel and reducer included
-    Am: float | None = None
-    Vm: float | None = None
-    Qm: float | None = None
-    # of the exact cycle
-    energy_fluctuation_J: float | None = None
-    flywheel_kgm2: float | None = None  # in all, at the input shaft, for the speed variation
-    motor_rpm: float | None = None
-    motor_torque_max_Nm: float | None = None
-    motor_torque_rms_Nm: float | None = None
-    inertia_ratio: float | None = None  # greatest inertia that the motor feels, over its own
-    flywheel_to_add_kgm2: float | None = None  # the same less the motor's own, seen at the input
-    coasting_speed_share: float | None = None  # least speed without drive or losses, over greatest
-    input_torque_ratio: float | None = None  # the form's over the exact cycle's greatest
+# In the order shown: what the wheel turns at its shaft, and of it the wheel itself; the makers'
+# form, of the engagement with the greatest torque at the input; and the exact cycle.
+SHOWN = (
+    *("inertia_kgm2", WHEEL, "acceleration_rad_s2", "inertia_torque_Nm", "friction_torque_Nm"),
+    *("total_torque_Nm", "design_torque_Nm", "input_torque_Nm", "power_W", "Am", "Vm", "Qm"),
+    *("energy_fluctuation_J", "flywheel_kgm2", "motor_rpm", "motor_torque_max_Nm"),
+    *("motor_torque_rms_Nm", "inertia_ratio", "flywheel_to_add_kgm2", "coasting_speed_share"),
+    "input_torque_ratio",
+)
 
 
 def sizing(cycle: Cycle) -> tuple[dict[str, float | None], list[str]]:
-    """The values of ``Sizing`` by their names, and what would give those that are None."""
+    """The values of one design in the order shown, and what would give those that are None."""
     spec = cycle.mechanism.spec
-    inertia = inertia_kgm2(spec) or None
-    out = _form(cycle)._asdict()
-    out |= {"inertia_kgm2": inertia, "motor_rpm": spec.drive.n_rpm * spec.motor.gear_ratio}
-    if not cycle.is_loaded:
+    names, torque = (NAMES, cycle.known[TORQUE]) if cycle.is_loaded else (UNLOADED, None)
+    found = sizings_of_many(cycle.mechanism, names, torque, cycle.peaks)
+    values = {name: float(row[0]) for name, row in found.items()}
+    out = {name: x if math.isfinite(x := values.get(name, math.nan)) else None for name in SHOWN}
+    if torque is None:
         return out, []
-    exact, needs = _exact(cycle, out["input_torque_Nm"])
-    out |= exact
-    if inertia is None:
+    needs = []
+    if not (np.isfinite(torque.max) & np.isfinite(torque.min)).all():
+        needs.append("sizing: nothing bounds the input's torque, so no motor or flywheel suffices")
+    if out["inertia_kgm2"] is None:
         needs.append("inertia_kgm2: needs inertia_kgm2 in [load], or a [[mass]]")
     if out["friction_torque_Nm"] is None:
         needs.append("friction_torque_Nm: needs friction and radius_mm in [support]")
@@ -76,46 +89,112 @@ def sizing(cycle: Cycle) -> tuple[dict[str, float | None], list[str]]:
     return out, needs
 
 
-def _form(cycle: Cycle) -> Sizing:
+def sizings_of_many(
+    mechanism: Mechanism,
+    asked: Collection[str] = NAMES,
+    torque: SummaryOfMany | None = None,
+    peaks: Sequence[Peaks] | None = None,
+) -> dict[str, Array]:
+    """Values of ``NAMES``, (m,) each, or (1,) of what is the same in all.
+
+    NaN where a design has none. Those that are asked for are among them. ``torque`` is the summary
+    of the input's torque, and ``peaks`` each engagement's greatest velocity, acceleration and
+    power, as invariants, where they are known already.
+    """
+    spec, given, names = mechanism.spec, setting(mechanism), set(asked)
+    loaded = np.ravel(given.inertia_Nm + given.resists_Nm > 0.0)
+    found: dict[str, Number] = {}
+    if names & set(CARRIED):
+        rpm = spec.drive.n_rpm * spec.motor.gear_ratio
+        found |= {"inertia_kgm2": _some(inertia_kgm2(spec)), "motor_rpm": rpm}
+    formed = bool(names & {*FACTORS, *FORM, "input_torque_ratio"})
+    if peaks is None:
+        sought = PEAKS if formed else PEAKS[:1] if names & set(ROTOR) else ()
+        peaks = [_peaks(engagement, sought) for engagement in mechanism.engagements]
+    if formed:
+        found |= _form(mechanism, peaks)
+    if names & {*SUMS, *ENDS}:
+        if torque is None:
+            told = ("mean", "rms") if names & set(SUMS) else ()
+            torque = summaries_of_many(mechanism, [TORQUE], told)[TORQUE]
+        found |= _exact(mechanism, torque, found.get("input_torque_Nm"))
+    if names & set(ROTOR):
+        found |= _rotor(mechanism, [velocity for velocity, *_ in peaks])
+    return {
+        name: np.ravel(row) if name in UNLOADED else np.where(loaded, np.ravel(row), np.nan)
+        for name, row in found.items()
+    }
+
+
+def _some(x: Number) -> Array:
+    """NaN for 0."""
+    return np.where(np.asarray(x) > 0.0, x, np.nan)
+
+
+def _peaks(engagement: Engagement, names: Sequence[str]) -> Peaks:
+    """The greatest of these quantities, (m, 1) each."""
+    found = peaks_of_many(engagement.motion, names) if names else {}
+    return tuple(parameter(one.max[:, None]) for one in found.values())
+
+
+def _form(mechanism: Mechanism, peaks: Sequence[Peaks]) -> dict[str, Number]:
     """The makers' form, for the engagement with the greatest torque at the input."""
-    spec, w = cycle.mechanism.spec, cycle.given.speed_rad_s
-    friction = support_torque_Nm(spec)
-    peaks = []
-    for number, engagement in enumerate(cycle.mechanism.engagements):
-        closed_peak = engagement.motion.closed_peak
-        velocity, acceleration, power = (
-            found.max
-            if (found := closed_peak(invariant))
-            else _greatest(cycle, quantity, number) / unit
-            for invariant, quantity, unit in (
-                ("velocity", "omega_rad_s", w),
-                ("acceleration", "alpha_rad_s2", w * w),
-                ("power", KINETIC, w * w * w),
-            )
-        )
-        peaks.append((velocity, acceleration, power))
-    form, factors = greatest_form(cycle.mechanism, peaks)
-    out = Sizing(acceleration_rad_s2=form.alpha, **factors._asdict())
-    if not cycle.is_loaded:
+    spec, w = mechanism.spec, setting(mechanism).speed_rad_s
+    form, factors = greatest_form(mechanism, peaks)
+    return {
+        "acceleration_rad_s2": form.alpha,
+        **factors._asdict(),
+        "inertia_torque_Nm": _some(form.Ti),
+        "friction_torque_Nm": _some(support_torque_Nm(spec)),
+        "total_torque_Nm": form.Tt,
+        "design_torque_Nm": form.Te,
+        "input_torque_Nm": form.Tc,
+        "power_W": w * form.Tc / (spec.load.efficiency * spec.motor.gear_efficiency),
+    }
+
+
+def _exact(
+    mechanism: Mechanism, torque: SummaryOfMany, form_torque: Number | None
+) -> dict[str, Number]:
+    """What the exact cycle says of motor and flywheel; NaN where nothing bounds the torque."""
+    motor, w = mechanism.spec.motor, setting(mechanism).speed_rad_s
+    bounded = np.isfinite(torque.max) & np.isfinite(torque.min)
+    most, least = (np.where(bounded, x, np.nan)[:, None] for x in (torque.max, torque.min))
+    out: dict[str, Number] = {"motor_torque_max_Nm": greatest_motor_torque_Nm(motor, most, least)}
+    if form_torque is not None:
+        size = np.maximum(most, -least)
+        out["input_torque_ratio"] = form_torque / _some(size)
+    if torque.mean is None or torque.rms is None:
         return out
-    lost = spec.load.efficiency * spec.motor.gear_efficiency
-    return out._replace(
-        inertia_torque_Nm=form.Ti or None,
-        friction_torque_Nm=friction or None,
-        total_torque_Nm=form.Tt,
-        design_torque_Nm=form.Te,
-        input_torque_Nm=form.Tc,
-        power_W=w * form.Tc / lost,
-    )
+    square = np.where(bounded, torque.rms, np.nan) ** 2
+    # of inertia alone the mean is nothing but rounding
+    mean = np.where(torque.mean**2 > NOUGHT * square, torque.mean, 0.0 * square)
+    swings = swings_of_many(mechanism, mean)
+    energy = np.where(bounded, swings.energy_J, np.nan)[:, None]
+    returned = swings.returned / np.ravel(mechanism.period_deg * DEGREE)
+    out["energy_fluctuation_J"] = energy
+    out["motor_torque_rms_Nm"] = rms_motor_torque_Nm(motor, square[:, None], returned[:, None])
+    if motor.speed_variation is not None:
+        whole = flywheel_kgm2(parameter(energy), motor.speed_variation, w)
+        out["flywheel_kgm2"] = whole
+        out["flywheel_to_add_kgm2"] = flywheel_to_add_kgm2(motor, whole)
+    return out
 
 
-def greatest_form(
-    mechanism: Mechanism, peaks: Sequence[tuple[float, float, float]]
-) -> tuple[MakersForm, CamFactors]:
+def _rotor(mechanism: Mechanism, velocities: Sequence[float]) -> dict[str, Number]:
+    """The wheel's inertia against the motor's own, where that is known."""
+    own = mechanism.spec.motor.inertia_kgm2
+    fastest = np.max(np.broadcast_arrays(*velocities), axis=0)
+    with np.errstate(all="ignore"):
+        ratio = inertia_ratio(mechanism.spec, cast("Array", fastest))
+    known = np.asarray(own) > 0.0
+    return {name: np.where(known, x, np.nan) for name, x in zip(ROTOR, ratio, strict=True)}
+
+
+def greatest_form(mechanism: Mechanism, peaks: Sequence[Peaks]) -> tuple[MakersForm, CamFactors]:
     """The makers' form with the greatest torque at the input, and its motion's factors.
 
-    ``peaks`` are each engagement's greatest velocity, acceleration, and product of both, as
-    invariants.
+    ``peaks`` are each engagement's ``PEAKS``, as invariants.
     """
     spec = mechanism.spec
     load = ShaftLoad(
@@ -127,7 +206,8 @@ def greatest_form(
     every = []
     for number, (engagement, peak) in enumerate(zip(mechanism.engagements, peaks, strict=True)):
         step, motion = mechanism.index_deg(number), engagement.motion_deg
-        factors = cam_factors(*peak, motion, step)
+        velocity, acceleration, power = peak
+        factors = cam_factors(velocity, acceleration, power, motion, step)
         every.append((makers_form(factors, step, motion, spec.drive.n_rpm, load), factors))
     best, *others = every
     for other in others:
@@ -135,34 +215,6 @@ def greatest_form(
         more = (two.Tc > one.Tc) | ((two.Tc == one.Tc) & (two.alpha > one.alpha))
         best = choose_record(more, other, best)
     return best
-
-
-def _greatest(cycle: Cycle, quantity: str, engagement: int) -> float:
-    """The greatest size of a quantity over one of the motions."""
-    found = ends_of_each(cycle, quantity)[engagement]
-    return max(found.max, -found.min)
-
-
-def _exact(cycle: Cycle, form_torque: float | None) -> tuple[dict[str, float | None], list[str]]:
-    """What the exact cycle says of motor and flywheel; that nothing bounds it, where that is so."""
-    motor, w = cycle.mechanism.spec.motor, cycle.given.speed_rad_s
-    (torque,) = ends_of(cycle, TORQUE)
-    means = means_of(cycle)
-    out: dict[str, float | None] = _inertias(cycle, motor)
-    if TORQUE not in means or not math.isfinite(means[TORQUE].square):
-        return out, ["sizing: nothing bounds the input's torque, so no motor or flywheel suffices"]
-    swing = fluctuation_J(cycle)
-    out["energy_fluctuation_J"] = swing
-    if motor.speed_variation is not None:
-        whole = flywheel_kgm2(swing, motor.speed_variation, w)
-        out |= {"flywheel_kgm2": whole, "flywheel_to_add_kgm2": flywheel_to_add_kgm2(motor, whole)}
-    squares = means[TORQUE].square, means[DRIVEN].square
-    out["motor_torque_max_Nm"] = greatest_motor_torque_Nm(motor, torque.max, torque.min)
-    out["motor_torque_rms_Nm"] = rms_motor_torque_Nm(motor, *squares)
-    size = max(torque.max, -torque.min)
-    if form_torque and size:
-        out["input_torque_ratio"] = form_torque / size
-    return out, []
 
 
 def greatest_motor_torque_Nm(motor: Motor, most: N, least: N) -> N:
@@ -187,14 +239,6 @@ def flywheel_to_add_kgm2(motor: Motor, whole: N) -> N:
     """What the flywheel in all needs besides the motor's own inertia, seen at the input."""
     left = whole - motor.inertia_kgm2 * motor.gear_ratio**2
     return larger(left, 0.0 * left)
-
-
-def _inertias(cycle: Cycle, motor: Motor) -> dict[str, float | None]:
-    if not motor.inertia_kgm2:
-        return {}
-    fastest = max(velocity_peak(engagement).max for engagement in cycle.mechanism.engagements)
-    ratio, share = inertia_ratio(cycle.mechanism.spec, fastest)
-    return {"inertia_ratio": ratio, "coasting_speed_share": share}
 
 
 def inertia_ratio(spec: Spec, fastest: N) -> tuple[N, N]:

@@ -21,8 +21,8 @@ import numpy as np
 from geneva_cli.analysis.loads.contact import contact, is_straight
 from geneva_cli.analysis.loads.forces import Forces, setting, sliding
 from geneva_cli.analysis.loads.groups_many import of_groups
-from geneva_cli.analysis.loads.loaded_many import NONE, Loaded, Machine, machine
-from geneva_cli.analysis.loads.stretches_many import spans_of, to_mid_motion
+from geneva_cli.analysis.loads.loaded_many import NONE, Loaded, Machine, Signs, machine
+from geneva_cli.analysis.loads.stretches import spans_of, to_mid_motion
 from geneva_cli.machine.many import taken
 from geneva_cli.numerics.angles import DEGREE
 from geneva_cli.numerics.arrays import all_true, array, only_of, parameter
@@ -91,8 +91,8 @@ def _integrals(every: Machine, n: int, half: float) -> Array:
     """Integrals of n designs, one row each; infinite if the force has no bound."""
     engagement = every[0]
     load = Loaded(every, FORCE, ("slides", "along") if turns_back(engagement) else ("slides",))
-    extremes = search(load, spans_of(engagement, n), n, True, load.at_mid_motion(n), load.spread)
-    design, _, (a, b), positive = to_mid_motion(engagement, extremes.stretches, n)
+    pieces = search(Signs(load), spans_of(engagement, n), n, False, w=load.spread).stretches
+    design, _, (a, b), positive = to_mid_motion(engagement, pieces, n)
     own = np.flatnonzero(half * (a + b) >= 0.0)
     design, a, b, positive = design[own], a[own], b[own], positive[:, own]
     signs = dict(zip(load.kinds, np.where(positive, 1.0, -1.0)[..., None], strict=True))
@@ -105,7 +105,8 @@ def _integrals(every: Machine, n: int, half: float) -> Array:
         integrands = passing(given, contact(some, x, reactions=False), drives, slides)
         return np.stack(np.broadcast_arrays(*integrands))
 
-    bounded = np.isfinite(extremes.most[0])
+    with np.errstate(all="ignore"):
+        (bounded,) = load.bounded(pieces, n)
     every_one = np.full(n, True)
     requested = np.stack((every_one, every_one, bounded, bounded))
     with np.errstate(all="ignore"):

@@ -14,9 +14,7 @@ import numpy as np
 
 from geneva_cli.analysis import impacts
 from geneva_cli.analysis.loads.cycle import Cycle
-from geneva_cli.analysis.loads.sizing import sizing
-from geneva_cli.analysis.loads.sizing_many import sizings_of_many
-from geneva_cli.analysis.loads.stretches import stretches
+from geneva_cli.analysis.loads.sizing import sizing, sizings_of_many
 from geneva_cli.analysis.strength import horn, roller, shafts
 from geneva_cli.analysis.tolerance.dimensions import corners
 from geneva_cli.analysis.tolerance.many import motion_plays, used
@@ -168,8 +166,7 @@ def _task(answer: Answer, machine: Mechanism, count: int, alone: list[Mechanism]
 
 def _again(answer: Answer, machine: Mechanism) -> float:
     """Answer for a design with empty caches."""
-    for cached in (roller.passage, stretches):
-        cached.cache_clear()
+    roller.passage.cache_clear()
     horn.horn.cache_clear()
     return answer.one(machine)
 

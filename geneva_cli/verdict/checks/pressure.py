@@ -23,7 +23,7 @@ def limited_pressure(name: str, mechanism: Mechanism) -> Check | None:
 
 
 def _greatest(name: str, mechanism: Mechanism, limit: float) -> Check:
-    found = loads.greatest(mechanism, "pressure_deg")
+    found = loads.greatest_pressure(mechanism)
     # At 90 degrees nothing turns the wheel, whatever the limit.
     passes = keeps(found.max, "at most", limit) and found.max < 90.0
     return Check(name, found.max, "at most", limit, passes, at_deg=found.at_deg)

@@ -6,13 +6,11 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from geneva_cli.analysis.loads.cycle import Cycle
 from geneva_cli.analysis.loads.loads import kinetic_power_W
 from geneva_cli.analysis.loads.many import greatest_of_many, summaries_of_many
 from geneva_cli.analysis.loads.means_many import means_of_many
-from geneva_cli.analysis.loads.quantities import known_quantities
-from geneva_cli.analysis.loads.sizing_many import sizings_of_many
-from geneva_cli.analysis.loads.summary import shares
+from geneva_cli.analysis.loads.quantities import SIZED, known_quantities, shares
+from geneva_cli.analysis.loads.sizing import sizings_of_many
 from geneva_cli.analysis.peaks_many import worst_of_many
 from geneva_cli.analysis.positive_drive import positive_drives
 from geneva_cli.numerics.arrays import parameter
@@ -21,19 +19,12 @@ if TYPE_CHECKING:
     from geneva_cli.numerics.arrays import Number
     from geneva_cli.verdict.quantities.designs import Columns, Designs
 
-# Loads of which a report has the greatest size, and their names in the cycle.
-SIZED = {
-    "torque_Nm": "wheel_torque_Nm",
-    "pin_force_N": "pin_force_N",
-    "input_torque_Nm": "input_torque_Nm",
-    "contact_stress_MPa": "contact_stress_MPa",
-}
 MEANS = {"mean", "rms"}  # of each quantity of the cycle, beside its least value
 
 
 def greatest(of: Designs) -> Columns:
     """The greatest sizes of loads and their input angles; infinite of one that no design has."""
-    known, requested = known_quantities(Cycle(of.machine)), of.requested("loads")
+    known, requested = known_quantities(of.machine), of.requested("loads")
     names = [name for name in SIZED if {f"{name}.max", f"{name}.at_deg"} & requested]
     sought = [SIZED[name] for name in names if SIZED[name] in known]
     found = greatest_of_many(of.machine, sought) if sought else {}
@@ -50,9 +41,10 @@ def greatest(of: Designs) -> Columns:
 
 def summaries(of: Designs) -> Columns:
     """Least values, means and root mean squares of those loads that all these designs have."""
-    cycle = Cycle(of.machine)
-    sources = {n: source for n, (source, share, _) in shares(cycle).items() if share is not None}
-    known = known_quantities(cycle)
+    sources = {
+        n: source for n, (source, share, _) in shares(of.machine).items() if share is not None
+    }
+    known = known_quantities(of.machine)
     ends: dict[str, list[str]] = {}
     for name in of.requested("loads"):
         load, _, end = name.rpartition(".")
@@ -67,7 +59,6 @@ def summaries(of: Designs) -> Columns:
         found = one._asdict()
         out |= {f"{load}.{end}": found[end] for end in ends[load]}
     loaded = np.isfinite(of.loaded)
-    # reactions have no means
     return {n: np.where(loaded, v, np.nan) for n, v in out.items() if v is not None}
 
 

@@ -11,7 +11,7 @@ import numpy as np
 
 from geneva_cli.analysis.loads.cycle import cycle_of
 from geneva_cli.analysis.loads.many import greatest_of_many
-from geneva_cli.analysis.loads.quantities import FORCE, PV, ends_of
+from geneva_cli.analysis.loads.quantities import FORCE, PV
 from geneva_cli.analysis.strength import lock, roller, shafts
 from geneva_cli.parts.sizes import sized
 from geneva_cli.verdict.lock_sizes import LockSizes, lock_of, lock_sizes_of_many
@@ -75,7 +75,7 @@ class SingleUnderLoad(UnderLoad):
         """The greatest force on a roller."""
         if np.isnan(self.loaded[0]):
             return self.loaded
-        (found,) = ends_of(cycle_of(self.machine), FORCE)
+        found = cycle_of(self.machine).extremes[FORCE]
         return np.array([max(found.max, -found.min)])
 
     @cached_property
@@ -83,8 +83,7 @@ class SingleUnderLoad(UnderLoad):
         """The greatest contact pressure times sliding speed; it needs a face width."""
         if np.isnan(self.loaded[0]):
             return self.loaded
-        (square,) = ends_of(cycle_of(self.machine), PV)
-        return np.sqrt([square.max])
+        return np.array([cycle_of(self.machine).extremes[PV].max])
 
     @cached_property
     def passages(self) -> Sequence[Passage]:

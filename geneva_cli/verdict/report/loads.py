@@ -6,6 +6,7 @@ import math
 
 from geneva_cli.analysis.loads import loads
 from geneva_cli.analysis.loads.carried import inertia_kgm2
+from geneva_cli.analysis.loads.quantities import SIZED, STRESS
 from geneva_cli.analysis.peaks import worst
 from geneva_cli.parts.proof import Proof
 from geneva_cli.verdict.report.values import Values
@@ -16,9 +17,9 @@ def greatest_loads(proof: Proof) -> Values:
     mechanism = proof.mechanism
     loaded = mechanism.spec.is_loaded
     values: Values = {}
-    for name in ("torque_Nm", "pin_force_N", "input_torque_Nm", "contact_stress_MPa"):
-        wide = name != "contact_stress_MPa" or mechanism.spec.size.face_width_mm is not None
-        found = loads.greatest(mechanism, name) if loaded and wide else None
+    for name, source in SIZED.items():
+        wide = source != STRESS or mechanism.spec.size.face_width_mm is not None
+        found = loads.greatest(mechanism, source) if loaded and wide else None
         bounded = found is not None and math.isfinite(found.max)
         values[f"loads.{name}.max"] = found.max if found and bounded else None
         values[f"loads.{name}.at_deg"] = found.at_deg if found else None

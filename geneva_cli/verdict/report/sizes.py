@@ -61,9 +61,7 @@ def sizes(proof: Proof) -> Values:
         "sizes.clearances_from": spec.size.allowances.source,
         **_cut_radii(mechanism),
         "sizes.pressure_angle_max_deg": (
-            loads.greatest(mechanism, "pressure_deg").max
-            if mechanism.engagements[0].slot.curved
-            else None
+            loads.greatest_pressure(mechanism).max if mechanism.engagements[0].slot.curved else None
         ),
         "sizes.rollers_max": mechanism.rollers_max,
     }
