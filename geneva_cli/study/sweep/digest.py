@@ -1,4 +1,4 @@
-"""What a person sees of a sweep: its first rows and its best."""
+"""The rows of a sweep that a person sees: the first and the best."""
 
 from __future__ import annotations
 
