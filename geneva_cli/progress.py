@@ -12,7 +12,7 @@ T = TypeVar("T")
 
 
 class Bar(Protocol):
-    """What shows the progress of one piece of work."""
+    """A display of the progress of one piece of work."""
 
     def update(self, done: int) -> None:
         """Show that so many are done."""
@@ -39,7 +39,7 @@ def close() -> None:
 
 
 class Meter:
-    """How far one piece of work is: so many of ``total`` items, ``what`` being the word for them.
+    """The progress of one piece of work over ``total`` items; ``what`` is the word for them.
 
     Inside of other work that is shown it shows nothing.
     """

@@ -12,6 +12,7 @@ from geneva_cli.errors import GenevaError, cut
 from geneva_cli.progress import tracked
 
 if TYPE_CHECKING:
+    from geneva_cli.study.sweep.digest import Digest
     from geneva_cli.study.sweep.outcome import Outcome
     from geneva_cli.study.sweep.request import Request
 
@@ -178,8 +179,9 @@ def run(
 
 
 def _write_rows(asked: "Request", outcome: "Outcome", output: str, resume: bool) -> None:
-    """All rows as they come, or the choice of them."""
+    """All rows as they come, or the choice of them; to a person who has them in a file some."""
     from geneva_cli.output.rows import Growth
+    from geneva_cli.study.sweep.digest import Digest
     from geneva_cli.study.sweep.run import TEXTS
 
     found = asked.sweep
@@ -190,10 +192,16 @@ def _write_rows(asked: "Request", outcome: "Outcome", output: str, resume: bool)
         if rows.is_whole:
             return
         is_seen = output == "-" and sys.stdout.isatty()
+        digest = (
+            Digest(asked, output) if sys.stdout.isatty() and not (is_seen or rows.done) else None
+        )
         blocks = asked.blocks(rows.done) if is_seen else _shown(asked, rows.done)
         for block in outcome.rows(blocks):
             rows.append(block)
+            if digest:
+                digest.add(block)
         rows.finish()
+    _show_digest(digest)
 
 
 def _show_rows(asked: "Request", outcome: "Outcome", output: str, format: str) -> None:
@@ -207,13 +215,18 @@ def _show_rows(asked: "Request", outcome: "Outcome", output: str, format: str) -
 
 def _show_some(asked: "Request", outcome: "Outcome") -> None:
     """The first rows and the best, for a person."""
-    from geneva_cli.output import show
     from geneva_cli.study.sweep.digest import Digest
 
     digest = Digest(asked)
     for block in outcome.rows(_shown(asked, 0)):
         digest.add(block)
-    for table in digest.tables():
+    _show_digest(digest)
+
+
+def _show_digest(digest: "Digest | None") -> None:
+    from geneva_cli.output import show
+
+    for table in digest.tables() if digest else ():
         show(table)
 
 

@@ -58,7 +58,10 @@ def run(
     z: Annotated[
         str,
         typer.Option(
-            help="Slots: 6, 3..12 or 3,4,6.", show_default="3..24", rich_help_panel=MACHINES
+            metavar="Z",
+            help="Slots: 6, 3..12 or 3,4,6.",
+            show_default="3..24",
+            rich_help_panel=MACHINES,
         ),
     ] = "",
     internal: Annotated[

@@ -16,7 +16,7 @@ EXAMPLES = (
 
 
 def run(
-    z: Annotated[str, typer.Option(help="Slots: 6, 3..12 or 3,4,6.")] = "3..12",
+    z: Annotated[str, typer.Option(metavar="Z", help="Slots: 6, 3..12 or 3,4,6.")] = "3..12",
     internal: Annotated[bool, typer.Option("--internal", help="Internal wheels.")] = False,
     spherical: Annotated[
         bool, typer.Option("--spherical", help="Spherical wheels, shafts at 90 degrees.")

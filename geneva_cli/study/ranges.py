@@ -1,4 +1,4 @@
-"""The one syntax of ranges: ``LOW..HIGH`` and ``LOW..HIGH:STEP``, and lists with commas between."""
+"""Ranges as text: ``LOW..HIGH`` and ``LOW..HIGH:STEP``, and lists with commas between."""
 
 from __future__ import annotations
 

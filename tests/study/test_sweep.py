@@ -421,6 +421,14 @@ def test_a_person_sees_the_first_rows_and_the_best():
     assert rows == ["1", "2", "3", "4", "5"] * 2  # A = 0 rests longest, and is the first
 
 
+def test_a_person_sees_where_the_rest_is(tmp_path):
+    place = str(tmp_path / "a.csv")
+    seen = seen_on_a_terminal(SPEC, "--vary", "drive.A=0..0.9:0.05", "--jobs", "1", "-o", place)
+    assert "All 19 rows:" in seen and "a.csv" in seen
+    with open(place) as file:
+        assert len(file.readlines()) == 1 + 19
+
+
 def test_a_person_sees_all_of_a_few_rows():
     seen = seen_on_a_terminal(SPEC, "--vary", "wheel.z=4..8", "--jobs", "1")
     rows = [line.split()[:2] for line in seen.splitlines() if line.strip()[:1].isdigit()]

@@ -1,4 +1,4 @@
-"""What a person sees of a sweep: its first rows and its best."""
+"""The rows of a sweep that a person sees: the first and the best."""
 
 from __future__ import annotations
 
@@ -21,10 +21,11 @@ class Digest:
     """The first rows, the best and their count, as rows go by; memory stays bounded.
 
     The best have the least, or the greatest, of the first goal of --pareto; without, the least of
-    the first quantity that is a number.
+    the first quantity that is a number. ``place`` is where all rows are, or may be written.
     """
 
-    def __init__(self, asked: Request) -> None:
+    def __init__(self, asked: Request, place: str = "-o FILE.csv") -> None:
+        self.place = place
         self.names = asked.sweep.names
         self.goal = asked.objectives[0] if asked.objectives else None
         self.quantities = asked.sweep.pick.names
@@ -58,7 +59,7 @@ class Digest:
         if self.count <= FIRST + BEST:
             yield self._table(self.first, "")
             return
-        rest = f"All {self.count:,} rows: -o FILE.csv"
+        rest = f"All {self.count:,} rows: {self.place}"
         yield self._table(self.first[:FIRST], f"The first {FIRST} rows. {rest}")
         if self.goal:
             best = [row for _, row in self.best]
