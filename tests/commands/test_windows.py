@@ -94,6 +94,14 @@ def test_a_terminal_itself_says_how_wide_it_is(environment):
     assert max(map(len, map(bare, lines))) > 60
 
 
+def test_an_error_on_a_terminal_is_broken_between_words():
+    lines = on_a_terminal(60, LOOKS[1], "peaks", "no-such-design.toml")
+    require_width(lines, 60)
+    assert len(lines) > 1
+    said = CliRunner().invoke(app, ["peaks", "no-such-design.toml"]).stderr
+    assert " ".join(line.strip() for line in lines) == said.strip()
+
+
 def test_the_first_screen(monkeypatch):
     """The README's first command: what is alike once, units below headings, the rest by name."""
     lines = seen(monkeypatch, 80, "table", "--z", "4..6")
