@@ -68,7 +68,7 @@ def test_a_support_s_own_friction_is_a_load():
     assert limited.loads["wheel_torque_Nm"].max == 15.0
     assert limited.life["equivalent_force_N"] > 15.0 / 0.0866
     assert not Spec(External(6), support=Support(friction=0.15, radius_mm=100.0)).is_loaded
-    with pytest.raises(GenevaError, match=r"no inertia: give its radius_mm, or its weight as"):
+    with pytest.raises(GenevaError, match=r"no inertia: set radius_mm, or set its weight as"):
         Mass("point", mass_kg=1.0)
 
 
