@@ -11,7 +11,7 @@ from repo import DESIGNS, ROOT
 
 from geneva_cli import load
 
-NOTEBOOK = json.loads((ROOT / "geneva_cli" / "manual" / "choosing.ipynb").read_text())
+NOTEBOOK = json.loads((ROOT / "geneva_cli" / "manual" / "howto" / "choosing.ipynb").read_text())
 
 
 def displayed(source, names):

@@ -1,4 +1,4 @@
-"""The manual: a page of Markdown a topic, beside this file and installed with it.
+"""The manual: a page of Markdown for each topic, in a folder for each kind of page.
 
 A new page is a file, and a line below.
 """
@@ -11,28 +11,36 @@ from typing import NamedTuple
 
 from geneva_cli.errors import GenevaError, cut, nearest
 
-TOPICS = {
-    "spec": "the file that describes a design, and what is said of a wrong one",
-    "commands": "what peaks, report, motion and profile print",
-    "symbols": "z, L, R, psi and the rest, and what the literature calls them",
-    "family": "the machines, with a picture each",
-    "laws": "motion laws for curved slots and cams",
-    "curved-slots": "what curved slots can and cannot do",
-    "cam-curve": "a Geneva is a cam curve: Am, Vm, Qm",
-    "cycle": "forces, torques and power over the cycle: from a turret to its motor",
-    "strength": "pins, horns, shafts, lock and slot: stresses and life",
-    "vibration": "a load on an elastic shaft, and the law made for it",
-    "tolerances": "place and play from the plus or minus of each dimension",
-    "square-root": "what a wrong R/L costs: the square root of it",
-    "checks": "whether the design works, and what would make it work",
-    "parts": "what is cut: wheel, crank, arm, lists, solids; the full turn",
-    "choosing": "from a wish to a machine; compare, sweep, the best of many",
-    "plots": "curves over the cycle, and of a sweep",
-    "python": "the same from Python",
-    "accuracy": "what is promised, how it is tested, and run time against error",
-    "numbers": "why our numbers differ from those that circulate",
-    "house": "how the program is built, for who changes it",
+# Pages of each kind (https://diataxis.fr): learning by doing, one task, facts, reasons.
+GROUPS: dict[str, dict[str, str]] = {
+    "howto": {
+        "choosing": "from a wish to a machine; compare, sweep, the best of many",
+        "plots": "curves over the cycle, and of a sweep",
+    },
+    "reference": {
+        "spec": "the file that describes a design, and what is said of a wrong one",
+        "commands": "what peaks, report, motion and profile print",
+        "checks": "whether the design works, and what would make it work",
+        "parts": "what is cut: wheel, crank, arm, lists, solids; the full turn",
+        "laws": "motion laws for curved slots and cams",
+        "family": "the machines, with a picture each",
+        "python": "the same from Python",
+    },
+    "explanation": {
+        "symbols": "z, L, R, psi and the rest, and what the literature calls them",
+        "curved-slots": "what curved slots can and cannot do",
+        "cam-curve": "a Geneva is a cam curve: Am, Vm, Qm",
+        "cycle": "forces, torques and power over the cycle: from a turret to its motor",
+        "strength": "pins, horns, shafts, lock and slot: stresses and life",
+        "vibration": "a load on an elastic shaft, and the law made for it",
+        "tolerances": "place and play from the plus or minus of each dimension",
+        "square-root": "what a wrong R/L costs: the square root of it",
+        "accuracy": "what is promised, how it is tested, and run time against error",
+        "numbers": "why our numbers differ from those that circulate",
+        "house": "how the program is built, for who changes it",
+    },
 }
+TOPICS = {topic: about for pages in GROUPS.values() for topic, about in pages.items()}
 
 AROUND = 24  # characters of a line on each side of a word that was searched for
 _COMMENT = re.compile(r"<!--.*?-->\n*", re.DOTALL)
@@ -81,6 +89,12 @@ def _around(line: str, wanted: str) -> str:
     return plain[start : end if end > 0 else len(plain)]
 
 
+def path(topic: str) -> str:
+    """File of a topic's page."""
+    group = next(group for group, pages in GROUPS.items() if topic in pages)
+    return os.path.join(os.path.dirname(__file__), group, f"{topic}.md")
+
+
 def page(topic: str) -> str:
     """A topic's page as Markdown; without its pictures.
 
@@ -94,6 +108,6 @@ def page(topic: str) -> str:
             f'"{cut(topic)}" is no page of the manual{nearest(topic, TOPICS)}; '
             "`geneva help` lists all"
         )
-    with open(os.path.join(os.path.dirname(__file__), f"{topic}.md"), encoding="utf-8") as file:
+    with open(path(topic), encoding="utf-8") as file:
         text = file.read()
     return _PICTURE.sub("", _COMMENT.sub("", text))

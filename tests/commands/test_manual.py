@@ -18,13 +18,13 @@ from windows import looking
 
 from geneva_cli import output
 from geneva_cli.app import COMMANDS, app
-from geneva_cli.manual import TOPICS, page
+from geneva_cli.manual import GROUPS, TOPICS, page, path
 
 pytestmark = pytest.mark.usefixtures("made_once")
 ROOT = repo.ROOT
 README = ROOT / "README.md"
 MANUAL = ROOT / "geneva_cli" / "manual"
-PAGES = [README, *(MANUAL / f"{topic}.md" for topic in TOPICS)]
+PAGES = [README, *(Path(path(topic)) for topic in TOPICS)]
 UPDATE = bool(os.environ.get("GENEVA_UPDATE"))
 BLOCK = re.compile(r"```console\n(.*?)```", re.DOTALL)
 DRAWN = re.compile(r"<!-- (geneva .*?) -o (\S+\.svg) -->")
@@ -132,7 +132,7 @@ def test_no_picture_is_left_over() -> None:
     assert {file.name for file in (MANUAL / "pictures").iterdir()} == shown
 
 
-@pytest.mark.parametrize("file", [README, MANUAL / "spec.md"], ids=lambda file: file.stem)
+@pytest.mark.parametrize("file", [README, Path(path("spec"))], ids=lambda file: file.stem)
 def test_the_spec_that_is_shown_passes(file: Path, tmp_path: Path) -> None:
     spec = re.search(r"```toml\n(.*?)```", text_of(file), re.DOTALL)
     assert spec
@@ -144,7 +144,8 @@ def test_the_spec_that_is_shown_passes(file: Path, tmp_path: Path) -> None:
 def test_the_readme_is_short_and_leads_to_every_page() -> None:
     text = text_of(README)
     assert len(text.splitlines()) <= 200
-    assert set(re.findall(r"\(geneva_cli/manual/([a-z-]+)\.md\)", text)) == set(TOPICS)
+    named = set(re.findall(r"\(geneva_cli/manual/([a-z]+)/([a-z-]+)\.md\)", text))
+    assert named == {(group, topic) for group, pages in GROUPS.items() for topic in pages}
 
 
 @pytest.mark.parametrize("command", COMMANDS)
@@ -162,7 +163,7 @@ def test_pages_begin_with_a_title_and_name_pages_that_exist(topic: str) -> None:
 
 def test_help_prints_the_page_the_list_or_the_options_of_a_command() -> None:
     assert invoke(["help", "symbols"]) == page("symbols")
-    assert all(f"\n{topic} " in invoke(["help"]) for topic in TOPICS)
+    assert all(f"  {topic} " in invoke(["help"]) for topic in TOPICS)
     assert invoke(["help", "keys"]) == invoke(["keys", "--help"])
     result = CliRunner().invoke(app, ["help", "symblos"])
     assert result.exit_code == 2 and 'did you mean "symbols"?' in result.output

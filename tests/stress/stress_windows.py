@@ -30,7 +30,7 @@ UNBROKEN = re.compile(r"\S+")  # a single word, which is longer than the window
 
 def examples():
     """The commands of the README and the manual, and the help of every command and topic."""
-    pages = [repo.ROOT / "README.md", *(repo.ROOT / "geneva_cli" / "manual").glob("*.md")]
+    pages = [repo.ROOT / "README.md", *(repo.ROOT / "geneva_cli" / "manual").glob("*/*.md")]
     lines = "\n".join(page.read_text(encoding="utf-8") for page in pages).replace("\\\n", " ")
     found = re.findall(r"^(?:\$ )?geneva (.*)$", lines, re.MULTILINE)
     yield from dict.fromkeys(line for line in found if not set("$>|") & set(line))

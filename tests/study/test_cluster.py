@@ -7,11 +7,12 @@ import sys
 
 import repo
 
+from geneva_cli.manual import page
 from geneva_cli.study.sweep.request import request
 
 
 def test_the_dask_example_makes_the_bytes_of_one_run(tmp_path):
-    text = (repo.ROOT / "geneva_cli" / "manual" / "choosing.md").read_text(encoding="utf-8")
+    text = page("choosing")
     blocks = re.findall(r"```python\n(.*?)```", text, re.DOTALL)
     (example,) = [block for block in blocks if "dask" in block]
     # each share is a run of the program, which takes longer to start than its rows: 3, not 16

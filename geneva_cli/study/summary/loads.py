@@ -9,6 +9,7 @@ from geneva_cli.analysis.loads.summary import UNLOADED
 from geneva_cli.analysis.loads.summary import Summary as Ends
 from geneva_cli.design import Design
 from geneva_cli.document import WARNS, Answer, Line, Summary
+from geneva_cli.numerics.tolerances import TIE
 from geneva_cli.study.fields import pick
 from geneva_cli.study.summary.named import counted, title_of
 from geneva_cli.verdict.headline import warning
@@ -72,11 +73,12 @@ def cycle_lines(design: Design) -> Iterator[Line]:
 
 
 def _greatest(ends: Ends, unit: str) -> str:
-    """The greatest size of a load, and where."""
+    """Greatest size of a load, and its input angle; the earlier one of two equal sizes."""
     if ends.max is None or ends.min is None:
         return NO_BOUND
-    is_min = -ends.min > ends.max
-    size, at_deg = (-ends.min, ends.min_at_deg) if is_min else (ends.max, ends.max_at_deg)
+    both = (ends.max, ends.max_at_deg), (-ends.min, ends.min_at_deg)
+    bar = (1.0 - TIE) * max(ends.max, -ends.min)
+    size, at_deg = min((p for p in both if p[0] >= bar), key=lambda p: p[1] or 0.0)
     where = "" if at_deg is None else f" at {measured(at_deg, 'deg')}"
     return f"{measured(size, unit)}{where}"
 
