@@ -2,8 +2,10 @@
 PYTHON ?= $(firstword $(foreach p,python3 python3.14 python3.13 python3.12 python3.11 python,\
   $(shell $(p) -c 'import sys; sys.exit(sys.version_info < (3, 11))' 2>/dev/null && echo $(p))))
 BIN = .venv/bin
+# Not --quiet: mkdocs then counts no warning, and --strict passes whatever is broken.
+DOCS = $(BIN)/mkdocs build --strict --config-file .ci/mkdocs.yml
 
-.PHONY: demo test pytest lint stress jam cad editors page fuzz bench bench-start dist clean
+.PHONY: demo test pytest lint docs stress jam cad editors page fuzz bench bench-start dist clean
 
 demo: .venv/demo
 	@mkdir -p build
@@ -27,6 +29,11 @@ lint: .venv/dev
 	$(BIN)/ruff check .
 	$(BIN)/ruff format --check .
 	$(BIN)/mypy
+	$(DOCS)
+
+# The manual as a static site in build/site; a broken link is an error.
+docs: .venv/dev
+	$(DOCS)
 
 # Run time against error, tables and plots in build/bench; some minutes.
 bench: .venv/dev

@@ -25,15 +25,14 @@ def run(
         ),
     ] = "",
 ) -> None:
-    """The manual: a page, the options of a command, or where a word stands in all pages."""
-    from geneva_cli.manual import GROUPS, TOPICS, Hit, page, search
+    """Show a page of the manual, the options of a command, or all places of a word."""
+    from geneva_cli.manual import TOPICS, Hit, contents, page, search
     from geneva_cli.output import show, show_markdown, show_text
     from geneva_cli.table import rows_table
 
     commands: Any = context.find_root().command
     if not topic:
-        rows = [(group, *row) for group, pages in GROUPS.items() for row in pages.items()]
-        show(rows_table(("kind", "topic", "about"), rows))
+        show_markdown(contents())
     elif topic not in TOPICS and topic in commands.list_commands(context):
         _, command, _ = commands.resolve_command(context, [topic])
         info = typer.Context(command, parent=context.find_root(), info_name=topic)

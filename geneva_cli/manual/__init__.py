@@ -18,13 +18,18 @@ GROUPS: dict[str, dict[str, str]] = {
         "plots": "curves over the cycle, and of a sweep",
     },
     "reference": {
-        "spec": "the file that describes a design, and what is said of a wrong one",
-        "commands": "what peaks, report, motion and profile print",
-        "checks": "whether the design works, and what would make it work",
-        "parts": "what is cut: wheel, crank, arm, lists, solids; the full turn",
+        "commands": "every command: usage, arguments, options, examples",
+        "spec": "the file that describes a design, and its errors",
+        "keys": "every key of a spec: unit, range, default, meaning",
+        "formats": "tables, csv, json, drawings; exit codes and messages",
+        "quantities": "every field of json and column of csv",
+        "checks": "what a design must pass, and how to repair it",
+        "warnings": "what a number alone would hide, and how to repair it",
+        "kinds": "the machines, with a picture each",
         "laws": "motion laws for curved slots and cams",
-        "family": "the machines, with a picture each",
-        "python": "the same from Python",
+        "parts": "what is drawn and listed: wheel, crank, arm, links, frame",
+        "choices": "what the program recommends, and how",
+        "python": "classes and functions for Python",
     },
     "explanation": {
         "symbols": "z, L, R, psi and the rest, and what the literature calls them",
@@ -40,6 +45,12 @@ GROUPS: dict[str, dict[str, str]] = {
         "house": "how the program is built, for who changes it",
     },
 }
+TITLES = {
+    "tutorial": "Tutorial: learn by doing",
+    "howto": "How-to: one task each",
+    "reference": "Reference: look it up",
+    "explanation": "Explanation: why it is so",
+}
 TOPICS = {topic: about for pages in GROUPS.values() for topic, about in pages.items()}
 
 AROUND = 24  # characters of a line on each side of a word that was searched for
@@ -50,7 +61,7 @@ _PICTURE = re.compile(r"<img [^>]*>(<br>|\n)?")
 class Hit(NamedTuple):
     """A section of a page in which a word stands, and the first line with it."""
 
-    topic: str  # as ``geneva help`` takes it, or "explain" for what ``geneva explain`` explains
+    topic: str  # as ``geneva help`` takes it
     section: str
     line: str
 
@@ -61,18 +72,11 @@ def search(word: str) -> list[Hit]:
     >>> {hit.topic for hit in search("Freudenstein")}
     set()
     """
-    from geneva_cli.manual.explained import GROUPS as EXPLAINED
-
-    folder = os.path.dirname(__file__)
-    texts = [(topic, page(topic)) for topic in TOPICS]
-    for group in EXPLAINED:
-        with open(os.path.join(folder, "explained", f"{group}.md"), encoding="utf-8") as file:
-            texts.append(("explain", file.read()))
     wanted = word.casefold()
     hits: dict[tuple[str, str], Hit] = {}
-    for topic, text in texts:
+    for topic in TOPICS:
         section = ""
-        for line in text.splitlines():
+        for line in page(topic).splitlines():
             if line.startswith("#"):
                 section = line.lstrip("# ")
             if wanted in line.casefold():
@@ -87,6 +91,21 @@ def _around(line: str, wanted: str) -> str:
     start = max(0, plain.rfind(" ", 0, max(0, at - AROUND)) + 1) if at > AROUND else 0
     end = plain.find(" ", at + len(wanted) + AROUND)
     return plain[start : end if end > 0 else len(plain)]
+
+
+def contents() -> str:
+    """The list of all pages in Markdown, a heading for each kind.
+
+    >>> contents().startswith("## ")
+    True
+    """
+    parts = []
+    for group, pages in GROUPS.items():
+        lines = [f"- {topic}: {about}" for topic, about in pages.items()]
+        parts.append("\n".join([f"## {TITLES[group]}", "", *lines, ""]))
+    return "\n".join(
+        [*parts, "`geneva help TOPIC` shows a page; another word is searched for.", ""]
+    )
 
 
 def path(topic: str) -> str:

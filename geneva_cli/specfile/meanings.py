@@ -23,11 +23,14 @@ class Meaning(NamedTuple):
     group: str
     name: str
     meaning: str
-    unit: str | None
-    formula: str | None
-    source: str | None
-    to_do: str | None
-    proof: str | None
+    why: str | None = None
+    unit: str | None = None
+    formula: str | None = None
+    source: str | None = None
+    to_do: str | None = None
+    bad: str | None = None  # a command that shows it
+    good: str | None = None  # the command after the repair
+    manual: str | None = None  # the commands that show its pages
 
 
 def meanings(word: str) -> list[Meaning]:
@@ -122,11 +125,14 @@ def _of_entry(entry: Entry, name: str) -> Meaning:
         entry.group,
         name,
         " ".join(text for text in texts if text),
+        entry.why or None,
         entry.unit or next((u for n in (name, *entry.names) if (u := unit_of(n))), None),
         entry.formula or None,
         entry.source or None,
         entry.to_do or None,
-        entry.proof or None,
+        entry.bad or None,
+        entry.good or None,
+        ", ".join(f"geneva help {topic}" for topic in entry.topics),
     )
 
 
@@ -164,8 +170,8 @@ def _of_key(key: Key) -> Meaning:
         "key",
         _name(key),
         f"A key of the spec's [{key.table}]: " + "; ".join(text for text in texts if text) + ".",
-        key.unit,
-        *[None] * 4,
+        unit=key.unit,
+        manual="geneva help keys",
     )
 
 

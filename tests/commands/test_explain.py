@@ -4,6 +4,7 @@ import ast
 import json
 import pickle
 import re
+import tomllib
 from functools import cache
 
 import pytest
@@ -21,6 +22,7 @@ from geneva_cli.commands.options import say
 from geneva_cli.design import load
 from geneva_cli.errors import Caution, GenevaError
 from geneva_cli.machine import registry
+from geneva_cli.manual import TOPICS
 from geneva_cli.manual.explained import GROUPS, Entry, entries
 from geneva_cli.parts import gear_curves, groove, parts_list, slot_sampling
 from geneva_cli.parts.catalogue import PARTS
@@ -35,6 +37,9 @@ from geneva_cli.verdict.tolerance.tables import ANGLES
 
 WORDLESS = {"word", "yes or no", "list", "table", "text", "number"}  # not worked out by a formula
 PACKAGE = repo.ROOT / "geneva_cli"
+# Tests that hold what an entry says, by its group and first name. The wheel has no tests, so that
+# they stand here and not in the pages.
+PROOFS = tomllib.loads((repo.ROOT / "tests/commands/proofs.toml").read_text(encoding="utf-8"))
 
 
 def explained(group: str) -> set[str]:
@@ -154,9 +159,8 @@ def test_an_entry_is_whole(entry: Entry):
     for name in entry.names:
         assert re.fullmatch(r"\.?[\w.-]+", name), name
         (found,) = [m for m in meanings(name) if m.group == entry.group and m.name == name]
-        needed = {"meaning", "source", "proof"} | (
-            {"to_do"} if entry.group in ("check", "warning") else set()
-        )
+        needed = {"meaning", "source", "manual"}
+        needed |= {"to_do"} if entry.group in ("check", "warning") else set()
         needed |= {"formula", "unit"} if entry.group in ("check", "quantity", "law") else set()
         if name.startswith("."):
             needed -= {"unit", "source"}  # those of what it ends
@@ -165,10 +169,16 @@ def test_an_entry_is_whole(entry: Entry):
         missing = {field for field in needed if not found._asdict()[field]}
         assert not missing
         assert found.meaning[0].isupper() and found.meaning.endswith(".")
-    for proof in entry.proof.split(", "):
+    assert set(entry.topics) <= TOPICS.keys()
+    for proof in PROOFS[entry.group][entry.names[0]]:
         path, _, test = proof.partition("::")
         text = (repo.ROOT / path).read_text(encoding="utf-8")
         assert path.startswith("tests/") and f"\ndef {test}(" in text, proof
+
+
+def test_no_proof_is_of_nothing():
+    named = {(e.group, e.names[0]) for e in entries()}
+    assert {(group, name) for group, some in PROOFS.items() for name in some} == named
 
 
 def test_no_name_is_explained_twice():
@@ -177,13 +187,13 @@ def test_no_name_is_explained_twice():
         assert len(every) == len(set(every))
 
 
-def test_a_file_has_nothing_besides_its_entries():
-    """A label that is misspelt would be read as part of what is said before it."""
-    for group in GROUPS:
-        text = (PACKAGE / "manual" / "explained" / f"{group}.md").read_text(encoding="utf-8")
-        for line in text.splitlines():
-            label = re.match(r"([A-Z][a-z]+(?: [a-z]+)?): ", line)
-            assert not label or label[1] in ("Formula", "Unit", "Source", "To do", "Proof"), line
+def test_every_label_is_a_field_of_an_entry():
+    """A label that is misspelt would be an item without a meaning."""
+    labels = {name.replace("_", " ").capitalize() for name in Entry._fields[3:]}
+    for page in GROUPS:
+        text = (PACKAGE / "manual" / "reference" / f"{page}.md").read_text(encoding="utf-8")
+        _, _, own = text.partition("\n## ")
+        assert set(re.findall(r"^- ([^:]*)", own, re.MULTILINE)) <= labels
 
 
 @pytest.mark.parametrize(

@@ -18,7 +18,8 @@ from windows import looking
 
 from geneva_cli import output
 from geneva_cli.app import COMMANDS, app
-from geneva_cli.manual import GROUPS, TOPICS, page, path
+from geneva_cli.commands import help
+from geneva_cli.manual import GROUPS, TITLES, TOPICS, page, path
 
 pytestmark = pytest.mark.usefixtures("made_once")
 ROOT = repo.ROOT
@@ -158,20 +159,25 @@ def test_pages_begin_with_a_title_and_name_pages_that_exist(topic: str) -> None:
     text = page(topic)
     assert text.startswith("# ") and "<img" not in text and "<!--" not in text
     named = set(re.findall(r"geneva help ([a-z-]+)", text))
-    assert named <= {*TOPICS, *COMMANDS}
+    searched = {line.split()[-1] for line in help.EXAMPLES}  # words that help searches for
+    assert named <= {*TOPICS, *COMMANDS, *searched}
 
 
 def test_help_prints_the_page_the_list_or_the_options_of_a_command() -> None:
     assert invoke(["help", "symbols"]) == page("symbols")
-    assert all(f"  {topic} " in invoke(["help"]) for topic in TOPICS)
-    assert invoke(["help", "keys"]) == invoke(["keys", "--help"])
+    contents = invoke(["help"])
+    assert all(f"- {topic}: {about}\n" in contents for topic, about in TOPICS.items())
+    assert [line[3:] for line in contents.splitlines() if line.startswith("## ")] == [
+        TITLES[group] for group in GROUPS
+    ]
+    assert invoke(["help", "peaks"]) == invoke(["peaks", "--help"])
     result = CliRunner().invoke(app, ["help", "symblos"])
     assert result.exit_code == 2 and 'did you mean "symbols"?' in result.output
 
 
 def test_help_searches_all_pages_for_another_word() -> None:
     """Each section in which the word stands is named once, with the words around it."""
-    shown = invoke(["help", "Taplo"])
-    pages = [topic for topic in TOPICS if "taplo" in page(topic).casefold()]
-    assert pages and all(f"\n{topic} " in shown for topic in pages)
-    assert "\nexplain " in invoke(["help", "undercut"])
+    for word in ("taplo", "undercut"):
+        shown = invoke(["help", word.upper()])
+        pages = [topic for topic in TOPICS if word in page(topic).casefold()]
+        assert pages and all(f"\n{topic} " in shown for topic in pages)

@@ -14,7 +14,7 @@ CITED = (
     "Derivatives: Taylor coefficients that are carried along; peaks: roots of the next derivative.",
     "Contact stress: Hertz, line contact. Life of the roller: ISO 281. Shafts: the ASME code for "
     "transmission shafting (B17c). Pins: bending and shear by von Mises.",
-    "Formula, source and proof of each value and check: geneva explain NAME.",
+    "Formula and source of each value and check: geneva explain NAME.",
 )
 
 

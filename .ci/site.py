@@ -1,0 +1,51 @@
+"""Hooks of mkdocs: the contents from the manual's list of pages, a start page, links in texts."""
+
+import re
+from typing import Any
+
+from mkdocs.exceptions import PluginError
+from mkdocs.structure.files import File, Files
+
+from geneva_cli.manual import GROUPS, TITLES
+
+START = "index.md"
+_COMMAND = re.compile(r"`geneva help ([a-z-]+)`")
+_PICTURE = re.compile(r'<img src="([^"]+)"')
+
+
+def on_config(config: Any) -> Any:
+    """Make the navigation: the start, then a heading for each kind of page."""
+    groups = [
+        {TITLES[group].partition(":")[0]: [f"{group}/{topic}.md" for topic in pages]}
+        for group, pages in GROUPS.items()
+    ]
+    config.nav = [{"Start": START}, *groups]
+    return config
+
+
+def on_files(files: Files, config: Any) -> Files:
+    """Add the start page: all pages, with what each is about."""
+    parts = ["# geneva\n\nDesign calculator for Geneva (Maltese-cross) mechanisms.\n"]
+    for group, pages in GROUPS.items():
+        lines = [f"- [{topic}]({group}/{topic}.md): {about}" for topic, about in pages.items()]
+        parts.append("\n".join([f"## {TITLES[group]}\n", *lines, ""]))
+    files.append(File.generated(config, START, content="\n".join(parts)))
+    return files
+
+
+def on_page_markdown(text: str, page: Any, config: Any, files: Files) -> str:
+    """Link each `geneva help TOPIC` to its page. Raises PluginError for a missing picture."""
+    folder = page.file.src_uri.rpartition("/")[0]
+    for name in _PICTURE.findall(text):
+        if files.get_file_from_path(name.removeprefix("../")) is None:
+            raise PluginError(f"{page.file.src_uri}: no picture {name}")
+
+    def link(found: re.Match[str]) -> str:
+        topic = found[1]
+        group = next((g for g, pages in GROUPS.items() if topic in pages), None)
+        if group is None:
+            return found[0]
+        up = "../" if folder else ""
+        return f"[{found[0]}]({up}{group}/{topic}.md)"
+
+    return _COMMAND.sub(link, text)

@@ -1,0 +1,77 @@
+"""Entries of the reference pages: what each word of the output means.
+
+The pages in ``reference`` are the only source. A ``## `` heading names what an entry explains, or
+several names of one thing; a name that begins with a dot is an ending of others, as ``.max``. The
+first paragraph is the meaning. Items with a label have the fields: ``- Formula: ...``.
+"""
+
+from __future__ import annotations
+
+import os
+import re
+from functools import cache
+from typing import NamedTuple
+
+GROUPS = {  # a page each, and what one of its entries is
+    "checks": "check",
+    "quantities": "quantity",
+    "kinds": "kind",
+    "laws": "law",
+    "warnings": "warning",
+    "parts": "part",
+    "choices": "choice",
+}
+_ITEM = re.compile(r"^- ([A-Z][a-z ]*): (.*(?:\n  .*)*)", re.MULTILINE)
+_PICTURE = re.compile(r"<!--.*?-->|<img [^>]*>", re.DOTALL)
+_LINK = re.compile(r"\[([a-z-]+)\]\([^)]*\)")
+
+
+class Entry(NamedTuple):
+    """One heading of a page and its texts, without line breaks; "" for what a page leaves out."""
+
+    page: str
+    names: tuple[str, ...]
+    meaning: str
+    why: str = ""
+    formula: str = ""
+    unit: str = ""
+    source: str = ""
+    to_do: str = ""
+    bad: str = ""  # a command that shows the warning or the check that fails
+    good: str = ""  # the command after the repair
+    see: str = ""  # links to other pages
+
+    @property
+    def group(self) -> str:
+        """The kind of thing that is explained."""
+        return GROUPS[self.page]
+
+    @property
+    def topics(self) -> tuple[str, ...]:
+        """Pages of the manual that have it: its own, then those for the reasons."""
+        return (self.page, *_LINK.findall(self.see))
+
+
+@cache
+def entries() -> tuple[Entry, ...]:
+    """All entries, page by page.
+
+    >>> next(e.unit for e in entries() if "power.max" in e.names)
+    '1'
+    """
+    return tuple(entry for page in GROUPS for entry in _read(page))
+
+
+def _read(page: str) -> list[Entry]:
+    place = os.path.join(os.path.dirname(__file__), "reference", f"{page}.md")
+    with open(place, encoding="utf-8") as file:
+        _, *sections = re.split(r"^## ", _PICTURE.sub("", file.read()), flags=re.MULTILINE)
+    return [_entry(page, section) for section in sections]
+
+
+def _entry(page: str, section: str) -> Entry:
+    heading, _, text = section.partition("\n")
+    meaning = text.strip().partition("\n\n")[0]
+    items = {label.lower().replace(" ", "_"): words for label, words in _ITEM.findall(text)}
+    texts = {label: " ".join(words.split()).strip("`") for label, words in items.items()}
+    return Entry(page, tuple(heading.split(", ")), " ".join(meaning.split()), **texts)
