@@ -168,8 +168,8 @@ def test_an_entry_is_whole(entry: Entry):
         assert re.fullmatch(r"\.?[\w.-]+", name), name
         (found,) = [m for m in meanings(name) if m.group == entry.group and m.name == name]
         needed = {"meaning", "source", "manual"}
-        needed |= {"to_do"} if entry.group in ("check", "warning") else set()
-        needed |= {"why", "bad", "good"} if entry.group == "warning" else set()
+        needed |= {"to_do", "why"} if entry.group in ("check", "warning") else set()
+        needed |= {"bad", "good"} if entry.group == "warning" else set()
         needed |= {"formula", "unit"} if entry.group in ("check", "quantity", "law") else set()
         if name.startswith("."):
             needed -= {"unit", "source"}  # those of what it ends
