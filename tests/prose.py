@@ -62,12 +62,12 @@ def split(text: str, where: str) -> Iterator[Sentence]:
 
 
 def page_sentences(path: Path) -> list[Sentence]:
-    """Sentences of a Markdown page, without code, tables, headings and pictures."""
+    """Sentences of a Markdown page, without code, formulas, tables, headings and pictures."""
     text = _FENCE.sub("\n\n", path.read_text(encoding="utf-8"))
     lines = []
     for line in text.splitlines():
         bare = line.strip()
-        if bare.startswith(("#", "|", "![", "<", "    ")) or line.startswith("    "):
+        if bare.startswith(("#", "|", "![", "<", "- Formula: `")) or line.startswith("    "):
             lines.append("")
         elif re.match(r"([-*+]|\d+\.)\s", bare):
             lines += ["", re.sub(r"^([-*+]|\d+\.)\s+", "", bare)]

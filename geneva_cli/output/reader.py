@@ -63,7 +63,8 @@ def _shown(block: list[str], window: Window) -> Iterator[str]:
     elif first.startswith("|"):
         yield from _table(block, window)
     elif first.startswith("#") and window.styled:
-        yield f"{BOLD}{_bare(first.lstrip('# '))}{PLAIN}"
+        for line in wrapped(_bare(first.lstrip("# ")), window.columns):
+            yield f"{BOLD}{line}{PLAIN}"
     else:
         is_item = first.startswith(("- ", "* "))
         text = " ".join(line.strip() for line in block)

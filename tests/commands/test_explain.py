@@ -4,8 +4,11 @@ import ast
 import json
 import pickle
 import re
+import shlex
+import shutil
 import tomllib
 from functools import cache
+from pathlib import Path
 
 import pytest
 import repo
@@ -154,13 +157,19 @@ def test_no_entry_names_no_quantity(quantities: set[str]):
     assert not [name for name in explained("quantity") if not is_named(name)]
 
 
+# The examples of these are points of a file, and a value that is null without a word.
+WITHOUT_RUN = {"rounded-points", "not-known"}
+WARNINGS = [e for e in entries() if e.group == "warning" and e.names[0] not in WITHOUT_RUN]
+
+
 @pytest.mark.parametrize("entry", entries(), ids=lambda e: e.names[0])
 def test_an_entry_is_whole(entry: Entry):
     for name in entry.names:
         assert re.fullmatch(r"\.?[\w.-]+", name), name
         (found,) = [m for m in meanings(name) if m.group == entry.group and m.name == name]
         needed = {"meaning", "source", "manual"}
-        needed |= {"to_do"} if entry.group in ("check", "warning") else set()
+        needed |= {"to_do", "why"} if entry.group in ("check", "warning") else set()
+        needed |= {"bad", "good"} if entry.group == "warning" else set()
         needed |= {"formula", "unit"} if entry.group in ("check", "quantity", "law") else set()
         if name.startswith("."):
             needed -= {"unit", "source"}  # those of what it ends
@@ -179,6 +188,27 @@ def test_an_entry_is_whole(entry: Entry):
 def test_no_proof_is_of_nothing():
     named = {(e.group, e.names[0]) for e in entries()}
     assert {(group, name) for group, some in PROOFS.items() for name in some} == named
+
+
+@pytest.mark.parametrize("entry", WARNINGS, ids=lambda e: e.names[0])
+def test_a_warning_shows_in_its_bad_example_and_not_in_the_good_one(
+    entry: Entry, tmp_path, monkeypatch
+):
+    monkeypatch.chdir(tmp_path)
+    shutil.copytree(repo.DESIGNS, tmp_path, dirs_exist_ok=True)
+    (name,) = entry.names
+    assert [name in warned(example) for example in (entry.bad, entry.good)] == [True, False]
+
+
+def warned(example: str) -> set[str]:
+    """Names of the warnings that a command gives, or a spec with some more lines."""
+    if not example.startswith("geneva "):
+        spec = (repo.DESIGNS / "press-straight.toml").read_text(encoding="utf-8")
+        Path("more.toml").write_text("\n".join([spec, *example.split("; ")]), encoding="utf-8")
+        example = "geneva loads more.toml"
+    result = CliRunner().invoke(app, shlex.split(example)[1:])
+    assert result.exit_code == 0, result.output
+    return set(re.findall(r"(?:explain |\[)([a-z-]+)", result.output))
 
 
 def test_no_name_is_explained_twice():
