@@ -138,7 +138,7 @@ def run(
     """One row a design: the varied keys, then the quantities.
 
     VALUES are 4,6,8, 3..12, 0..0.9:0.1 or words; with --random and --best LOW..HIGH, all between.
-    Long runs, shards and the best of many: `geneva help choosing`.
+    Long runs, shards and the best of many: `geneva help search`.
     """
     from geneva_cli.output import is_seen
     from geneva_cli.output.formats import FORMATS

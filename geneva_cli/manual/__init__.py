@@ -13,9 +13,31 @@ from geneva_cli.errors import GenevaError, cut, nearest
 
 # Pages of each kind (https://diataxis.fr): learning by doing, one task, facts, reasons.
 GROUPS: dict[str, dict[str, str]] = {
+    "tutorial": {
+        "first-turret": "ten minutes: a turret checked, drawn, cut and shown to the boss",
+    },
     "howto": {
-        "choosing": "from a wish to a machine; compare, sweep, the best of many",
-        "plots": "curves over the cycle, and of a sweep",
+        "dwell-time": "choose a machine for a dwell time",
+        "compare-designs": "compare designs in one table",
+        "reduce-acceleration": "reduce the acceleration",
+        "reversal": "get rid of the reversal",
+        "both-ways": "drive both ways",
+        "law-from-csv": "use a curve from a CSV",
+        "size-motor": "size the motor and the flywheel",
+        "shafts": "size pins, shafts and bearings",
+        "stop-swinging": "stop the load from swinging",
+        "find-tolerances": "find the tolerances that matter",
+        "laser": "cut it with a laser",
+        "mill": "mill it",
+        "print": "print it",
+        "drawing-sheet": "make a drawing with dimensions",
+        "step-cad": "hand over a STEP to CAD",
+        "plots": "plot curves and show the machine moving",
+        "sweep-front": "sweep a million designs and plot the front",
+        "cluster": "run a sweep on a cluster",
+        "ci": "gate a CI job",
+        "notebook": "use it from a notebook",
+        "published-table": "compare with a published table",
     },
     "reference": {
         "spec": "the file that describes a design, and what is said of a wrong one",
@@ -23,6 +45,7 @@ GROUPS: dict[str, dict[str, str]] = {
         "checks": "whether the design works, and what would make it work",
         "parts": "what is cut: wheel, crank, arm, lists, solids; the full turn",
         "laws": "motion laws for curved slots and cams",
+        "search": "what synth and sweep try, and their rules",
         "family": "the machines, with a picture each",
         "python": "the same from Python",
     },
