@@ -10,6 +10,7 @@ import pytest
 from repo import DESIGNS, ROOT
 
 from geneva_cli import load
+from geneva_cli.manual import page
 
 NOTEBOOK = json.loads((ROOT / "geneva_cli" / "manual" / "howto" / "choosing.ipynb").read_text())
 
@@ -37,6 +38,17 @@ def test_the_example_runs_and_shows_what_it_says():
     dwells, accelerations = [r[1] for r in rows], [r[2] for r in rows]
     assert dwells == sorted(dwells, reverse=True) and accelerations[0] > accelerations[1]
     assert cycle[1] == pytest.approx(17.957, rel=1e-3)
+
+
+def test_the_page_runs_cell_by_cell_and_prints_what_it_says(capsys):
+    blocks = re.findall(r"```python\n(.*?)```", page("notebook"), re.DOTALL)
+    names, said = {}, []
+    for block in blocks:
+        displayed(block, names)
+        printed = capsys.readouterr().out.splitlines()
+        comments = [line.split("  # ")[1:] for line in block.splitlines() if "print(" in line]
+        said += [(p, c[0]) for p, c in zip(printed, comments, strict=False) if c]
+    assert len(said) == 3 and all(out.startswith(comment.strip()) for out, comment in said)
 
 
 @pytest.mark.parametrize("name", ["two-rollers-side-crank", "spherical-z6", "gear-sector"])

@@ -138,8 +138,9 @@ def run(
     """One row a design: the varied keys, then the quantities.
 
     VALUES are 4,6,8, 3..12, 0..0.9:0.1 or words; with --random and --best LOW..HIGH, all between.
-    Long runs, shards and the best of many: `geneva help choosing`.
+    Long runs, shards and the best of many: `geneva help search`.
     """
+    from geneva_cli.output import is_seen
     from geneva_cli.output.formats import FORMATS
     from geneva_cli.study.sweep.outcome import Outcome
     from geneva_cli.study.sweep.request import request
@@ -170,7 +171,7 @@ def run(
     outcome = Outcome(asked)
     if format not in ("", "csv"):
         _show_rows(asked, outcome, output, format)
-    elif format or output != "-" or not sys.stdout.isatty():
+    elif format or not is_seen(output):
         _write_rows(asked, outcome, output, resume)
     else:
         _show_some(asked, outcome)
@@ -180,6 +181,7 @@ def run(
 
 def _write_rows(asked: "Request", outcome: "Outcome", output: str, resume: bool) -> None:
     """All rows as they come, or the choice of them; to a person who has them in a file some."""
+    from geneva_cli.output import is_seen
     from geneva_cli.output.rows import Growth
     from geneva_cli.study.sweep.digest import Digest
     from geneva_cli.study.sweep.run import TEXTS
@@ -191,11 +193,9 @@ def _write_rows(asked: "Request", outcome: "Outcome", output: str, resume: bool)
             print(rows.found, file=sys.stderr)
         if rows.is_whole:
             return
-        is_seen = output == "-" and sys.stdout.isatty()
-        digest = (
-            Digest(asked, output) if sys.stdout.isatty() and not (is_seen or rows.done) else None
-        )
-        blocks = asked.blocks(rows.done) if is_seen else _shown(asked, rows.done)
+        shows_all = is_seen(output)
+        digest = Digest(asked, output) if is_seen("-") and not (shows_all or rows.done) else None
+        blocks = asked.blocks(rows.done) if shows_all else _shown(asked, rows.done)
         for block in outcome.rows(blocks):
             rows.append(block)
             if digest:

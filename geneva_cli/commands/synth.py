@@ -130,7 +130,7 @@ def run(
 ) -> None:
     """From wishes to the machines that grant them all, the lowest peak first.
 
-    What is tried, and what the columns mean: `geneva help choosing`.
+    What is tried, and what the columns mean: `geneva help search`.
     """
     from geneva_cli.study.synthesis.reading import read_wish
 

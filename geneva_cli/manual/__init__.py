@@ -13,9 +13,31 @@ from geneva_cli.errors import GenevaError, cut, nearest
 
 # Pages of each kind (https://diataxis.fr): learning by doing, one task, facts, reasons.
 GROUPS: dict[str, dict[str, str]] = {
+    "tutorial": {
+        "first-turret": "ten minutes: a turret checked, drawn, cut and shown to the boss",
+    },
     "howto": {
-        "choosing": "from a wish to a machine; compare, sweep, the best of many",
-        "plots": "curves over the cycle, and of a sweep",
+        "dwell-time": "choose a machine for a dwell time",
+        "compare-designs": "compare designs in one table",
+        "reduce-acceleration": "reduce the acceleration",
+        "reversal": "get rid of the reversal",
+        "both-ways": "drive both ways",
+        "law-from-csv": "use a curve from a CSV",
+        "size-motor": "size the motor and the flywheel",
+        "shafts": "size pins, shafts and bearings",
+        "stop-swinging": "stop the load from swinging",
+        "find-tolerances": "find the tolerances that matter",
+        "laser": "cut it with a laser",
+        "mill": "mill it",
+        "print": "print it",
+        "drawing-sheet": "make a drawing with dimensions",
+        "step-cad": "hand over a STEP to CAD",
+        "plots": "plot curves and show the machine moving",
+        "sweep-front": "sweep a million designs and plot the front",
+        "cluster": "run a sweep on a cluster",
+        "ci": "gate a CI job",
+        "notebook": "use it from a notebook",
+        "published-table": "compare with a published table",
     },
     "reference": {
         "commands": "every command: usage, arguments, options, examples",
@@ -29,6 +51,7 @@ GROUPS: dict[str, dict[str, str]] = {
         "laws": "motion laws for curved slots and cams",
         "parts": "what is drawn and listed: wheel, crank, arm, links, frame",
         "choices": "what the program recommends, and how",
+        "search": "what synth and sweep try, and their rules",
         "python": "classes and functions for Python",
     },
     "explanation": {

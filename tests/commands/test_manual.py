@@ -3,7 +3,6 @@
 ``GENEVA_UPDATE=1 pytest tests/commands/test_manual.py`` writes today's outputs and pictures.
 """
 
-import functools
 import os
 import re
 import shlex
@@ -20,6 +19,7 @@ from geneva_cli import output
 from geneva_cli.app import COMMANDS, app
 from geneva_cli.commands import help
 from geneva_cli.manual import GROUPS, TITLES, TOPICS, page, path
+from geneva_cli.output import summary
 
 pytestmark = pytest.mark.usefixtures("made_once")
 ROOT = repo.ROOT
@@ -28,6 +28,10 @@ MANUAL = ROOT / "geneva_cli" / "manual"
 PAGES = [README, *(Path(path(topic)) for topic in TOPICS)]
 UPDATE = bool(os.environ.get("GENEVA_UPDATE"))
 BLOCK = re.compile(r"```console\n(.*?)```", re.DOTALL)
+FENCE = re.compile(r"```([a-z]+)\n(.*?)```", re.DOTALL)
+NAMED = re.compile(r"# (add to )?(\S+\.\w+)\n")  # first line of a block that is a file
+ALONE = {"tutorial", "howto"}  # pages that make every file that they use
+SILENT = re.compile(r"^(\$ .*\n)\n(?=\$ )", re.MULTILINE)  # a command without output
 DRAWN = re.compile(r"<!-- (geneva .*?) -o (\S+\.svg) -->")
 SHOWN = re.compile(r'<img src="([^"]+)"')
 COLUMNS = 78  # of the terminal that examples are seen on: with their indent they fill one of 80
@@ -35,12 +39,12 @@ NUMBER = re.compile(r"-?\d+\.\d+")
 
 
 def invoke(arguments: list[str]) -> str:
+    """What a command prints; a check that is shown to fail ends with 1."""
     result = CliRunner().invoke(app, arguments, prog_name="geneva")
-    assert result.exit_code == 0, result.output
+    assert result.exit_code <= (arguments[0] == "check"), result.output
     return result.stdout
 
 
-@functools.cache
 def run(command: str) -> str:
     """What a reader sees, on a terminal without colours; of charts those of a pipe, in ASCII."""
     program, *arguments = shlex.split(command)
@@ -55,7 +59,21 @@ def run(command: str) -> str:
 def replay(block: str) -> str:
     """The block with the output of each of its commands as it is today."""
     commands = [line[2:] for line in block.splitlines() if line.startswith("$ ")]
-    return "\n".join(f"$ {command}\n{run(command)}" for command in commands)
+    shown = "\n".join(f"$ {command}\n{run(command)}" for command in commands)
+    return SILENT.sub(r"\1", shown)
+
+
+def do(kind: str, block: str) -> str:
+    """A block of a how-to as it is today, done by a reader who takes one after the other."""
+    if kind == "console":
+        return replay(block)
+    if kind == "sh":
+        for command in commands_in(block):
+            invoke(words_of(command))
+    elif (name := NAMED.match(block)) and kind != "python":
+        with open(name[2], "a" if name[1] else "w", encoding="utf-8") as file:
+            file.write(block)
+    return block
 
 
 def text_of(file: Path) -> str:
@@ -75,9 +93,16 @@ def at_root(monkeypatch: pytest.MonkeyPatch) -> None:
 
 
 @pytest.mark.parametrize("file", PAGES, ids=lambda file: file.stem)
-def test_the_examples_print_what_is_shown(file: Path) -> None:
+def test_the_examples_print_what_is_shown(
+    file: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     text = text_of(file)
-    today = BLOCK.sub(lambda m: f"```console\n{replay(m[1])}```", text)
+    if file.parent.name in ALONE:
+        monkeypatch.chdir(tmp_path)
+        monkeypatch.setattr(summary, "look_of", lambda output: summary.Look(COLUMNS))
+        today = FENCE.sub(lambda m: f"```{m[1]}\n{do(m[1], m[2])}```", text)
+    else:
+        today = BLOCK.sub(lambda m: f"```console\n{replay(m[1])}```", text)
     if UPDATE:
         file.write_text(today, encoding="utf-8")
     assert text == today or UPDATE
@@ -104,28 +129,38 @@ def test_the_pictures_are_what_their_commands_draw(file: Path, tmp_path: Path) -
 SHELL = re.compile(r"```sh\n(.*?)```", re.DOTALL)
 
 
-def commands_of(file: Path) -> list[str]:
-    """The commands of a page's shell blocks, but those of a job array's variables."""
-    lines = "\n".join(SHELL.findall(text_of(file))).replace("\\\n", " ").splitlines()
+def commands_in(block: str) -> list[str]:
+    """The commands of a shell block, but those of a job array's variables."""
+    lines = block.replace("\\\n", " ").splitlines()
     return [line for line in lines if line.startswith("geneva ") and "$" not in line]
+
+
+def words_of(command: str) -> list[str]:
+    """The arguments of a command as a shell splits them; fewer designs of many."""
+    few = re.sub(r"--random 10+|--samples 1000000", lambda m: m[0][:-2], command)
+    words = shlex.split(few, comments=True)
+    return words[1 : words.index(">") if ">" in words else None]
+
+
+def commands_of(file: Path) -> list[str]:
+    """The commands of a page that is not done alone, in shell blocks."""
+    if file.parent.name in ALONE:
+        return []
+    return commands_in("\n".join(SHELL.findall(text_of(file))))
 
 
 @pytest.mark.parametrize("file", [p for p in PAGES if commands_of(p)], ids=lambda file: file.stem)
 def test_the_commands_run_as_they_stand(
     file: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """One after the other where a reader has a spec.toml and the designs; fewer designs of many."""
+    """One after the other where a reader has a spec.toml and the designs."""
     monkeypatch.chdir(tmp_path)
     shutil.copytree(ROOT / "designs", "designs")
     spec = text_of(ROOT / "designs" / "tolerances.toml")
     Path("spec.toml").write_text(spec, encoding="utf-8")
     shutil.copy("designs/side-crank-z6.toml", "wish.toml")  # some pages have it from another
     for command in commands_of(file):
-        few = re.sub(r"--random 10000|--samples 1000000", lambda m: m[0][:-2], command)
-        words = shlex.split(few, comments=True)
-        if ">" in words:
-            words = words[: words.index(">")]
-        invoke(words[1:])
+        invoke(words_of(command))
 
 
 def test_no_picture_is_left_over() -> None:

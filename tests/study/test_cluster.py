@@ -12,10 +12,10 @@ from geneva_cli.study.sweep.request import request
 
 
 def test_the_dask_example_makes_the_bytes_of_one_run(tmp_path):
-    text = page("choosing")
+    text = page("cluster")
     blocks = re.findall(r"```python\n(.*?)```", text, re.DOTALL)
     (example,) = [block for block in blocks if "dask" in block]
-    # each share is a run of the program, which takes longer to start than its rows: 3, not 16
+    # each shard is a run of the program, which takes longer to start than its rows: 3, not 16
     for shown, few in (("of=16", "of=3"), ("range(1, 17)", "range(1, 4)"), (":0.01", ":0.05")):
         assert shown in example
         example = example.replace(shown, few)

@@ -31,16 +31,28 @@ def front(
 def best(costs: Array) -> list[int]:
     """The rows of costs that no other row dominates, in their order.
 
-    By descending lexicographic order nothing later dominates anything earlier, so each row is held
-    against the front so far alone.
+    Time grows as n log n for up to two costs, and as n times the rows that are kept for more.
     """
-    order = np.lexsort(costs.T[::-1])
-    found: list[int] = []
-    held = np.empty((0, costs.shape[1]))
-    for i in order.tolist():
-        row = costs[i]
-        dominated = ((held <= row).all(axis=1) & (held < row).any(axis=1)).any()
-        if not dominated:
-            found.append(i)
-            held = np.vstack((held, row))
-    return sorted(found)
+    rows, places = np.unique(costs, axis=0, return_inverse=True)
+    if costs.shape[1] <= 2:  # in lexicographic order only a new minimum of the last is kept
+        last = rows[:, -1]
+        kept = np.append(True, last[1:] < np.minimum.accumulate(last)[:-1])
+    else:
+        kept = _not_dominated(rows)
+    return np.flatnonzero(kept[places.ravel()]).tolist()
+
+
+def _not_dominated(rows: Array) -> Array:
+    """Mask of the rows that no other dominates; the rows differ, in lexicographic order.
+
+    In this order nothing later dominates anything earlier, so each row is held against the front
+    so far alone.
+    """
+    kept = np.zeros(len(rows), dtype=bool)
+    front_rows, size = np.empty_like(rows), 0
+    for i, row in enumerate(rows):
+        if not (front_rows[:size] <= row).all(axis=1).any():
+            kept[i] = True
+            front_rows[size] = row
+            size += 1
+    return kept
