@@ -54,7 +54,7 @@ if TYPE_CHECKING:  # what a type checker sees: a line a name, and a kind needs n
     from geneva_cli.spec.tables import Tolerance as Tolerance
     from geneva_cli.spec.tables import WheelMaterial as WheelMaterial
 
-__version__ = "0.1.0"
+__version__ = "1.0.0rc1"
 
 # Where what is no kind comes from; a drive, a wheel and a law are found in their registry.
 _FROM = {

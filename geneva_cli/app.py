@@ -9,10 +9,12 @@ import importlib
 import os
 import sys
 import textwrap
-from typing import Annotated, Any
+from collections.abc import Mapping
+from functools import partial
+from typing import Annotated, Any, get_args
 
 import typer
-from typer.core import TyperCommand, TyperGroup, TyperOption
+from typer.core import TyperCommand, TyperGroup
 from typer.main import get_command
 
 from geneva_cli import __version__
@@ -59,18 +61,51 @@ COMMANDS = {name: line for group in GROUPS.values() for name, line in group.item
 
 WIDEST = max(map(len, COMMANDS))
 MESSAGE_MAX = 1000  # characters
-# What every command has that prints a table; beside them stand those that print none.
-COLUMNS: dict[str, Any] = {
-    "--columns": {"metavar": "NAME,...", "help": "Only these columns, named as in csv."},
-    "--wide": {"is_flag": True, "help": "All columns on a terminal, however wide."},
-}
-NO_TABLE = {"animate", "schema"}
+NO_TABLE = {"animate", "schema"}  # commands without the options of `_table_options`
 HELP = {"help_option_names": ["-h", "--help"]}
 USAGE: Any = typer.BadParameter.__base__  # Typer's error for words that no command takes
 PANEL = "rich_help_panel"  # the attribute in which Typer keeps an option's heading
+NUMBERS = {float: "a number", int: "a whole number"}
 
 
-class Command(TyperCommand):
+class PlainValues:
+    """A command or group that converts what is typed by itself.
+
+    From release 0.29 on Typer loads pydantic for that, which doubles the time of a short run
+    (`make bench-start`). So every release is as quick, and has the same messages.
+    """
+
+    kinds: Mapping[str, Any] = {}  # name of a parameter -> its type
+
+    def get_params(self, ctx: Any) -> list[Any]:
+        """Options and arguments, each with its own conversion."""
+        params: list[Any] = super().get_params(ctx)  # type: ignore[misc]
+        for param in params:
+            if "process_value" not in vars(param):
+                kind = self.kinds.get(param.name)
+                param.process_value = partial(_value, param, kind, param.process_value)
+        return params
+
+
+def _value(param: Any, kind: Any, refuse: Any, ctx: Any, typed: Any) -> Any:
+    """Value of a parameter; what is required and missing is left to Typer, to ``refuse``.
+
+    While a shell completes words, nothing is refused.
+    """
+    if param.required and not typed and not ctx.resilient_parsing:
+        return refuse(ctx, typed)
+    value = () if typed is None and (param.multiple or param.nargs == -1) else typed
+    for number, meaning in NUMBERS.items():
+        if isinstance(typed, str) and kind in (number, number | None):
+            try:
+                value = number(typed)
+            except ValueError:
+                said = f"{typed!r} is not {meaning}"
+                raise typer.BadParameter(said, ctx=ctx, param=param) from None
+    return param.callback(ctx, param, value) if param.callback else value
+
+
+class Command(PlainValues, TyperCommand):
     """A command whose help ends with examples, and all of whose options count."""
 
     examples: tuple[str, ...] = ()
@@ -105,6 +140,11 @@ class Command(TyperCommand):
         with choosing(Choice(tuple(filter(None, names)), wide)):
             return super().invoke(ctx)
 
+    def collect_usage_pieces(self, ctx: Any) -> list[str]:
+        """The words after the command's name in its help."""
+        arguments = [p for p in self.params if p.param_type_name == "argument"]
+        return ["[OPTIONS]", *(_placeholder(argument) for argument in arguments)]
+
     def format_options(self, ctx: Any, formatter: Any) -> None:
         """Arguments, then options under the headings that they name; those of all commands last."""
         groups: dict[str, list[tuple[str, str]]] = {"Arguments": []}
@@ -113,6 +153,8 @@ class Command(TyperCommand):
             record = param.get_help_record(ctx)
             is_argument = param.param_type_name == "argument"
             heading = "Arguments" if is_argument else getattr(param, PANEL, None)
+            if record and is_argument:
+                record = _placeholder(param), record[1]
             if record:
                 (groups.setdefault(heading, []) if heading else shared).append(record)
         for heading, records in (groups | {"Options": shared}).items():
@@ -128,6 +170,11 @@ class Command(TyperCommand):
                     formatter.write(f"  {_continued(line, formatter.width)}\n")
 
 
+def _placeholder(argument: Any) -> str:
+    """The word that stands for an argument in help."""
+    return str(argument.metavar or argument.name)
+
+
 def _continued(line: str, width: int) -> str:
     """A command in lines of at most ``width`` letters, broken before an option as a shell reads."""
     first, *options = line.split(" -")
@@ -141,7 +188,7 @@ def _continued(line: str, width: int) -> str:
     return "\n".join(lines)
 
 
-class LazyGroup(TyperGroup):
+class LazyGroup(PlainValues, TyperGroup):
     """A group of stubs; the chosen command's module is imported when it is resolved."""
 
     def __init__(self, **settings: Any) -> None:
@@ -169,12 +216,10 @@ class LazyGroup(TyperGroup):
         if stub is None or name is None:
             return name, stub, rest
         module = importlib.import_module(f"geneva_cli.commands.{name}")
-        one = typer.Typer(add_completion=False, rich_markup_mode=None)
-        one.command(name, cls=Command, context_settings=HELP)(module.run)
-        command: Any = get_command(one)
+        command = _command(name, module.run)
         command.examples = module.EXAMPLES
         if name not in NO_TABLE:
-            command.params += [TyperOption(param_decls=[n], **own) for n, own in COLUMNS.items()]
+            command.params += _command(name, _table_options).params
         return name, command, rest
 
     def invoke(self, ctx: Any) -> Any:
@@ -185,7 +230,7 @@ class LazyGroup(TyperGroup):
         except GenevaError as error:
             _fail(str(error))
         except USAGE as error:
-            path = " ".join(["geneva", *error.ctx.command_path.split()[1:]])
+            path = f"geneva {ctx.invoked_subcommand}" if ctx.invoked_subcommand else "geneva"
             said = error.format_message().rstrip(".")
             _fail(f"{path}: {said[:1].lower()}{said[1:]}; see {path} -h")
         except OSError as error:
@@ -205,6 +250,27 @@ def _bar(what: str, total: int) -> Bar | None:
 
 def _stub() -> None:
     """Stands in for a command whose module is not loaded."""
+
+
+def _table_options(
+    columns: Annotated[
+        str | None,
+        typer.Option("--columns", metavar="NAME,...", help="Only these columns, named as in csv."),
+    ] = None,
+    wide: Annotated[
+        bool, typer.Option("--wide", help="All columns on a terminal, however wide.")
+    ] = False,
+) -> None:
+    """Options of every command that prints a table."""
+
+
+def _command(name: str, run: Any) -> Any:
+    """A function as a command."""
+    one = typer.Typer(add_completion=False, rich_markup_mode=None)
+    one.command(name, cls=Command, context_settings=HELP)(run)
+    command: Any = get_command(one)
+    command.kinds = {n: get_args(k)[0] for n, k in run.__annotations__.items() if get_args(k)}
+    return command
 
 
 def _fail(message: str) -> None:

@@ -4,7 +4,7 @@ import os
 import shlex
 import subprocess
 import sys
-from typing import NamedTuple
+from typing import NamedTuple, get_args
 
 import pytest
 from typer.main import get_command
@@ -428,13 +428,14 @@ OPTIONS = [
     ("table --n -60", "above 0"),
     ("table --n nan", "above 0"),
     ("table --n inf", "speed"),
-    ("table --n fast", "float"),
+    ("table --n fast", "not a number"),
+    ("table --n", "requires an argument"),
     ("table --A 1", "below 1"),
     ("table --A -1", "above -1"),
     ("table --A nan", "above -1"),
     ("table --rollers 0", "at least 1"),
     ("table --rollers -1", "at least 1"),
-    ("table --rollers 1.5", "int"),
+    ("table --rollers 1.5", "not a whole number"),
     ("table --z 6 --rollers 3", "rollers = 3", "at most 2"),
     ("table --z 6 --internal --rollers 2", "rollers = 2", "one roller"),
     ("table --rollers 3 --A 0.5", "spec", "geneva report"),
@@ -444,7 +445,7 @@ OPTIONS = [
     ("motion --samples -5 spec.toml", "at least 2"),
     ("motion --samples 1000000000000 spec.toml", "at most"),
     ("motion --samples " + "9" * 5000 + " spec.toml",),
-    ("motion --samples many spec.toml", "int"),
+    ("motion --samples many spec.toml", "not a whole number"),
     ("motion --format dwg spec.toml", "csv"),
     ("peaks --format xml spec.toml", "csv"),
     ("profile --tolerance 0 spec.toml", "above 0"),
@@ -499,7 +500,9 @@ def texts():
         _, command, _ = group.resolve_command(context, [name])
         spec = ["spec.toml"] if name not in WITHOUT_SPEC else []
         for option in command.params:
-            if option.param_type_name == "option" and option.type.name == "str":
+            kind = command.kinds.get(option.name)
+            numeric = {int, float} & {kind, *get_args(kind)}
+            if option.param_type_name == "option" and not (option.is_flag or numeric):
                 for said in option.opts:
                     words = [name, *spec, said, ""]
                     yield pytest.param(words, option.opts[0], id=f"{name} {said}")
