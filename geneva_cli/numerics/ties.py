@@ -1,7 +1,7 @@
 """Which of several extremes are equal: of those the first is told.
 
-A search of one design and one of many find the same extremes by other steps, and so with other last
-digits. What counts as equal is said here for both.
+Searches of several functions and of one alone find the same extremes by other steps, and so with
+other last digits. What counts as equal is said here for all.
 """
 
 from __future__ import annotations

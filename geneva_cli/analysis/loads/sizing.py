@@ -134,7 +134,7 @@ def _some(x: Number) -> Array:
 def _peaks(engagement: Engagement, names: Sequence[str]) -> Peaks:
     """The greatest of these quantities, (m, 1) each."""
     found = peaks_of_many(engagement.motion, names) if names else {}
-    return tuple(parameter(one.max[:, None]) for one in found.values())
+    return tuple(parameter(found[name].max[:, None]) for name in names)
 
 
 def _form(mechanism: Mechanism, peaks: Sequence[Peaks]) -> dict[str, Number]:
