@@ -20,14 +20,14 @@ def run(
         str,
         typer.Argument(
             metavar="[CHECK|QUANTITY|KIND]",
-            help="horn_mm, acceleration.max, side-crank, a law, a warning, a part; all without.",
+            help="horn_mm, acceleration.max, side-crank, a warning, a part, ...; without one: all.",
             autocompletion=completion.words(completion.explained),
         ),
     ] = "",
     output: Output = "-",
     format: Format = "",
 ) -> None:
-    """What a word of the output means: formula, unit, source, what to do, which test proves it."""
+    """Meaning of a word of the output: formula, unit, source, what to do, which test proves it."""
     from geneva_cli.output import show, show_markdown, show_text
     from geneva_cli.output.formats import format_of
     from geneva_cli.specfile.meanings import Meaning, as_markdown, listed, meanings
