@@ -66,9 +66,9 @@ def _to_one_side(spec: Spec) -> list[Caution]:
                 Caution(
                     "weight-to-one-side",
                     f"{mass.name or mass.shape} stands {mass.radius_mm:g} mm off a horizontal "
-                    f"axis. Its weight puts up to {torque:.4g} N m on the wheel, in either "
-                    "direction as it turns, which is not counted: balance it with another body "
-                    "(count = 2), or add the torque to torque_Nm in [load]",
+                    f"axis. Its weight puts up to {torque:.4g} N m on the wheel in either "
+                    "direction. That is not counted: balance it with another body (count = 2), or "
+                    "add the torque to torque_Nm in [load]",
                 )
             )
     return out

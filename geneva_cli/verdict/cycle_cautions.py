@@ -76,7 +76,7 @@ def _lags(mechanism: Mechanism) -> list[Caution]:
             "lags-behind",
             f"a torque of {found.torque_Nm:.4g} N m takes the wheel off the roller that stops it. "
             f"Once the gears let go the wheel lags, by up to {lag:.4g} deg at {at_deg:.4g} deg, "
-            f"and the roller strikes it at {struck:.4g} deg: less torque, more inertia or more "
+            f"and the roller strikes it at {struck:.4g} deg. Less torque, more inertia or more "
             "speed reduces the lag",
         )
     ]
