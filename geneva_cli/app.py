@@ -35,10 +35,10 @@ GROUPS = {
     },
     "Judge": {
         "check": "Does the design work? Exit status 1 where a check fails.",
-        "report": "All of a design on a page, for a person.",
+        "report": "Everything about a design on a page.",
     },
     "Choose": {
-        "synth": "From a wish (angle, time, acceleration) to machines for it.",
+        "synth": "From requirements (angle, time, ...) to machines for them.",
         "compare": "Designs side by side, a column each.",
         "sweep": "Thousands of designs, a row each; the best of them.",
     },
@@ -48,12 +48,12 @@ GROUPS = {
         "animate": "A page on which the machine turns; --open shows it.",
     },
     "Learn": {
-        "help": "The manual: a page a topic.",
+        "help": "The manual: a page for each topic.",
         "new": "A commented spec to start from.",
         "explain": "What a check, a quantity, a kind or a warning means.",
         "keys": "Every key of a spec: unit, range, default, meaning.",
         "schema": "JSON Schema of a spec, for editors.",
-        "bench": "Run time against error, beside what else is in use.",
+        "bench": "Run time against error, compared with other tools.",
     },
 }
 COMMANDS = {name: line for group in GROUPS.values() for name, line in group.items()}

@@ -19,6 +19,8 @@ from repo import ROOT
 PACKAGE = ROOT / "geneva_cli"
 # First words that put the subject last, or that need another text to be understood.
 POOR_STARTS = ("What", "Of", "Whether", "How", "Where", "Which", "The same")
+# Strings of fewer words are names, keys and parts of other texts.
+SHOWN_WORDS = 4
 # A sentence ends at a full stop before a capital, a quote or a code word; not after "e.g." or "z."
 _ENDS = re.compile(r"(?<=[.!?])(?<!e\.g\.)(?<!i\.e\.)(?<!cf\.)(?<!No\.)\s+(?=[A-Z`\"'(*\d])")
 _FENCE = re.compile(r"^(```|~~~).*?^\1\s*$", re.MULTILINE | re.DOTALL)
@@ -116,18 +118,26 @@ def docstring_sentences(doc: Docstring) -> list[Sentence]:
 
 
 def messages(path: Path) -> list[Sentence]:
-    """Sentences of what a file says to users: errors it raises, and help of options."""
+    """Sentences that a file shows to users: its strings of ``SHOWN_WORDS`` words, but docstrings.
+
+    Errors, warnings, advice, help of options and texts of tables are all of them; a value that is
+    filled in stands as X. Strings with markup or braces are code.
+    """
     tree = ast.parse(path.read_text(encoding="utf-8"))
-    texts: list[ast.expr] = []
-    for node in ast.walk(tree):
-        if isinstance(node, ast.Raise) and isinstance(node.exc, ast.Call):
-            texts += node.exc.args
-        elif isinstance(node, ast.keyword) and node.arg in ("help", "epilog", "short_help"):
-            texts.append(node.value)
+    inner = {
+        id(part)
+        for node in ast.walk(tree)
+        if isinstance(node, ast.JoinedStr)
+        for part in ast.walk(node)
+        if part is not node
+    }
+    inner |= {id(node.value) for node in ast.walk(tree) if isinstance(node, ast.Expr)}
     result: list[Sentence] = []
-    for text in texts:
-        where = f"{path.relative_to(ROOT)}:{text.lineno}"
-        result += split(_literal(text), where)
+    for node in ast.walk(tree):
+        if id(node) not in inner and isinstance(node, ast.expr):
+            text = _literal(node)
+            if len(text.split()) >= SHOWN_WORDS and not re.search("[{}<>]|--[a-z-]+:", text):
+                result += split(text, f"{path.relative_to(ROOT)}:{node.lineno}")
     return result
 
 
@@ -137,8 +147,6 @@ def _literal(node: ast.expr) -> str:
         return node.value if isinstance(node.value, str) else ""
     if isinstance(node, ast.JoinedStr):
         return "".join(_literal(v) if isinstance(v, ast.Constant) else "X" for v in node.values)
-    if isinstance(node, ast.BinOp):
-        return _literal(node.left) + _literal(node.right)
     return ""
 
 

@@ -32,8 +32,8 @@ def run(
 ) -> None:
     """A page that needs no network, on which the machine turns.
 
-    With its parts, gears, contact force and curves; played, or moved by a slider. A .gif needs the
-    extra plot; an .svg stands still. --open says where the page is if there is no browser.
+    It shows parts, gears, contact force and curves, and plays or follows a slider. A .gif needs
+    the extra plot; an .svg does not move. --open prints the page's path if there is no browser.
     """
     import os
 

@@ -26,8 +26,8 @@ def run(
 ) -> None:
     """Does the design work? What fails and what to change, warnings, the tightest check.
 
-    Checked are the motion, the parts and the spec's own [limits]. Exit status 1 where a check
-    fails. Every spec is checked, also beside one that cannot be read.
+    It checks the motion, the parts and the spec's own [limits]. The exit status is 1 if a check
+    fails. If one spec cannot be read, the others are still checked.
     """
     from geneva_cli.output import is_watched, tell
     from geneva_cli.output.formats import table_as

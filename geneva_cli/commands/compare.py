@@ -16,7 +16,7 @@ def run(
         list[str] | None,
         typer.Option(
             metavar="KEY=VALUES",
-            help="One spec through values: drive.A=0,0.3,0.6.",
+            help="One spec with several values: drive.A=0,0.3,0.6.",
             autocompletion=completion.keys,
         ),
     ] = None,
@@ -36,7 +36,7 @@ def run(
     output: Output = "-",
     format: Format = "",
 ) -> None:
-    """Designs side by side: a column a design, a row a quantity, and whether they differ in it."""
+    """Designs side by side: a column for each design, a row for each quantity."""
     from geneva_cli.output import show
     from geneva_cli.study.compare import compare
 

@@ -20,7 +20,7 @@ def run(
         str,
         typer.Argument(
             metavar="[CHECK|QUANTITY|KIND]",
-            help="horn_mm, acceleration.max, side-crank, a law, a warning, a part; all without.",
+            help="horn_mm, acceleration.max, side-crank, a warning, a part, ...; without one: all.",
             autocompletion=completion.words(completion.explained),
         ),
     ] = "",

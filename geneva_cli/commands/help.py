@@ -20,7 +20,7 @@ def run(
         str,
         typer.Argument(
             metavar="[WORD]",
-            help="A page, a command, or a word to search for; all pages without.",
+            help="A page, a command, or a word to search for; without one: all pages.",
             autocompletion=completion.words(completion.topics),
         ),
     ] = "",

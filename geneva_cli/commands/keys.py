@@ -18,7 +18,7 @@ def run(
         str,
         typer.Argument(
             metavar="[TABLE|KEY]",
-            help="drive, drive.A or A; all without.",
+            help="drive, drive.A or A; without one: all.",
             autocompletion=completion.words(completion.tables_and_keys),
         ),
     ] = "",

@@ -19,7 +19,7 @@ def run(
     spec: SpecPath,
     samples: Annotated[
         int | None,
-        typer.Option(metavar="N", help=f"The cycle in so many rows (csv: {ROWS}) instead."),
+        typer.Option(metavar="N", help=f"The cycle in N rows instead (csv: {ROWS})."),
     ] = None,
     given: Given = None,
     output: Output = "-",
@@ -27,21 +27,20 @@ def run(
 ) -> None:
     """What the motion costs: torque, forces, stress, power and bearings over a cycle.
 
-    The motor that is recommended comes first. Then a summary of each: greatest and least over the
-    motions with their input angles, mean and root of the mean square over the whole period, dwells
-    included. As csv, or with --samples, the cycle row by row, evenly in the input angle from the
-    first entry; json is always the summary.
+    The recommended motor comes first, then a summary of each quantity: its greatest and least value
+    over the motions with their input angles, its mean and root mean square over the whole period,
+    dwells included. As csv, or with --samples, the cycle is printed row by row, evenly in the
+    input angle from the first entry. json is always the summary.
 
-    The pin force is positive on the wall that drives the wheel, negative on the one that holds it
-    back; the input's torque and power are negative where the wheel drives the input. In a dwell
-    the lock holds the wheel and all is 0.
+    The pin force is positive on the wall that drives the wheel, and negative on the wall that holds
+    it back. The input's torque and power are negative where the wheel drives the input. In a dwell
+    the lock holds the wheel, and all values are 0.
 
-    Bearings carry rigid links without mass or weight; a motor gives a couple alone. The guide is
-    what holds the roller's body besides its shaft: rocker, slider, groove, fixed gear, or what
-    pushes the crank round: teeth, a coulisse's block, a first wheel's roller. The last two need a
-    length in [drive]: without it the crank's bearings are shown without that push. p v is the
-    greatest Hertz pressure times the speed of sliding, and that is a roller's that is fast on its
-    pin; one that turns (friction_at) rolls as fast instead.
+    Links are rigid and have no mass or weight, and the motor exerts a torque alone. guide_force_N
+    is the force on what guides the roller besides its shaft: a rocker, slider, groove or fixed
+    gear, or what pushes the crank. A coulisse's block or a first wheel's roller needs a length in
+    [drive]; without it the crank's bearings are shown without that force. pv_W_m2 is the greatest
+    Hertz pressure times the sliding speed, for a roller fixed to its pin.
     """
     from geneva_cli.design import load
     from geneva_cli.output import show, tell

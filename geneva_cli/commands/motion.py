@@ -21,7 +21,7 @@ def run(
 ) -> None:
     """Position, velocity, acceleration and jerk, evenly in the input angle over a cycle from entry.
 
-    Where the engagements differ, over a whole period of the machine.
+    If the engagements differ, it covers a whole period of the machine.
     """
     from geneva_cli.design import load
     from geneva_cli.output import show

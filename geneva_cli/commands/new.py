@@ -87,7 +87,7 @@ def _copy(name: str, output: str, force: bool) -> None:
     text, files = design(name)
     if files and output == "-":
         raise GenevaError(
-            f"--from-design {name}: it needs {', '.join(files)} beside it; give -o FILE"
+            f"--from-design {name}: it needs {', '.join(files)} in its folder; give -o FILE"
         )
     beside = {os.path.join(os.path.dirname(output), file): files[file] for file in files}
     if not force:

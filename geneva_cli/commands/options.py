@@ -30,7 +30,7 @@ Given: TypeAlias = Annotated[
     typer.Option(
         "--set",
         metavar="KEY=VALUE",
-        help="A key over the file's, as drive.n_rpm=90.",
+        help="Set a key over the file's, as drive.n_rpm=90.",
         autocompletion=completion.keys,
     ),
 ]

@@ -34,7 +34,7 @@ def run(
         list[str] | None,
         typer.Option(
             metavar="KEY=VALUES",
-            help="One spec through values: wheel.z=4,6,8.",
+            help="One spec with several values: wheel.z=4,6,8.",
             autocompletion=completion.keys,
         ),
     ] = None,
@@ -49,8 +49,8 @@ def run(
 ) -> None:
     """Curves over a cycle, exact at peaks and jumps; or columns of a csv, as of a sweep.
 
-    Without -o a chart in text; png and pdf need the extra geneva-cli[plot]. More: `geneva help
-    plots`.
+    Without -o it prints a chart in text. png and pdf need the extra geneva-cli[plot]. More:
+    `geneva help plots`.
     """
     from geneva_cli.output import plot
     from geneva_cli.output.formats import plotted_as
@@ -63,7 +63,7 @@ def run(
         plot(of_table(tables[0], x, _names(y)), output, format, tables)
         return
     if x or y:
-        raise GenevaError(f"--x and --y are for a .csv; of {cut(specs[0], 300)} give --pick")
+        raise GenevaError(f"--x and --y are for a .csv; for {cut(specs[0], 300)} give --pick")
     found, designs, left_out = of_specs(specs, given or (), _names(pick), vary or ())
     plot(found, output, format, [file for d in designs for file in d.spec.files])
     for design in designs:
@@ -82,4 +82,4 @@ def _refuse_beside(table: str, specs: list[str], options: dict[str, object]) -> 
         raise GenevaError(f"{cut(table, 300)}: a csv is plotted by itself, without other files")
     for option, value in options.items():
         if value:
-            raise GenevaError(f"{option} is for specs; of {cut(table, 300)} give --x and --y")
+            raise GenevaError(f"{option} is for specs; for {cut(table, 300)} give --x and --y")

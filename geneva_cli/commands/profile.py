@@ -47,7 +47,7 @@ def run(
         float, typer.Option(metavar="MM", help="Greatest distance from the true curve.")
     ] = 0.001,
     samples: Annotated[
-        int | None, typer.Option(metavar="N", help="This many rows instead, evenly (tables).")
+        int | None, typer.Option(metavar="N", help="Number of rows of a table, evenly spaced.")
     ] = None,
     curves: Annotated[
         str | None,
@@ -94,7 +94,7 @@ def run(
         str,
         typer.Option(
             metavar="UNIT",
-            help="Of drawings: mm or inch.",
+            help="Unit of drawings: mm or inch.",
             autocompletion=completion.words(lambda: ("mm", "inch")),
             rich_help_panel=DRAWING,
         ),
@@ -103,7 +103,7 @@ def run(
         str | None,
         typer.Option(
             metavar="VERSION",
-            help="Of .dxf, R12 to R2018.  [default: R2000]",
+            help="Version of .dxf, R12 to R2018.  [default: R2000]",
             autocompletion=completion.words(lambda: DXF_VERSIONS),
             rich_help_panel=DRAWING,
         ),
@@ -112,7 +112,7 @@ def run(
         str | None,
         typer.Option(
             metavar="LOOK",
-            help="Of .svg, how plates look: none, tint or hatch.",
+            help="Plates in .svg: none, tint or hatch.",
             autocompletion=completion.words(lambda: FILLS),
             rich_help_panel=DRAWING,
         ),
@@ -132,7 +132,7 @@ def run(
 ) -> None:
     """A part as a table of points, or as a drawing to cut: csv, dxf, svg, step or pdf.
 
-    A drawing is written only of a machine that turns a whole turn. All parts, frames of reference
+    A drawing is written only if its machine turns a whole turn. All parts, frames of reference
     and layers: `geneva help parts`.
     """
     from geneva_cli.design import load
@@ -216,7 +216,7 @@ def _judge(design: "Design", verdict: tuple[str, list[str]], force: bool) -> Non
     path = design.spec.path
     refused, warned = verdict
     if refused and not force:
-        text = f"not written: {refused}; --force writes it all the same"
+        text = f"not written: {refused}; --force writes it anyway"
         print(clean(f"{path}: {text}"), file=sys.stderr)
         raise typer.Exit(1)
     for text in [refused, *warned] if refused else warned:

@@ -32,11 +32,11 @@ def run(
 ) -> None:
     """One page on a design, for a person: failed checks, words, timing, peaks, loads, sizes.
 
-    As html, pdf or md, what is handed over: the verdict first, the machine drawn, all inputs with
-    their defaults, curves, every check, what is not known and which key would give it. As table,
-    csv and json the values alone.
+    As html, pdf or md it is a document to hand over: the verdict, drawings, all inputs with their
+    defaults, curves and every check. It lists what is not known, and the key that would give it.
+    As table, csv and json it has the values alone.
 
-    Exit status 1 where `check` has it: where a check fails.
+    The exit status is 1 if a check fails.
     """
     from geneva_cli.design import load
     from geneva_cli.output import hand_over, tell

@@ -53,7 +53,7 @@ def run(
         int | None,
         typer.Option(
             metavar="N",
-            help="N designs drawn from the box, not the grid.",
+            help="N random designs from the ranges, not the grid.",
             rich_help_panel=DESIGNS,
         ),
     ] = None,
@@ -61,7 +61,7 @@ def run(
         int | None,
         typer.Option(
             metavar="S",
-            help="What they are drawn with; 0 without.",
+            help="Seed of the random designs; 0 by default.",
             rich_help_panel=DESIGNS,
         ),
     ] = None,
@@ -86,7 +86,7 @@ def run(
         str,
         typer.Option(
             metavar="min:FIELD,...",
-            help="Only rows that no other beats in all these.",
+            help="Only rows that no other row beats in all of these.",
             rich_help_panel=CHOICE,
         ),
     ] = "",
@@ -102,7 +102,7 @@ def run(
         str,
         typer.Option(
             metavar="I/N",
-            help="Only the I-th of N shares, as 3/16.",
+            help="Only shard I of N, as 3/16.",
             rich_help_panel=LONG,
         ),
     ] = "",
@@ -118,7 +118,7 @@ def run(
         int | None,
         typer.Option(
             metavar="N",
-            help="Processes; all cores without.",
+            help="Number of processes; all cores by default.",
             rich_help_panel=LONG,
         ),
     ] = None,
@@ -135,9 +135,10 @@ def run(
     ] = "-",
     format: Format = "",
 ) -> None:
-    """One row a design: the varied keys, then the quantities.
+    """One row for each design: the varied keys, then the quantities.
 
-    VALUES are 4,6,8, 3..12, 0..0.9:0.1 or words; with --random and --best LOW..HIGH, all between.
+    VALUES are 4,6,8, 3..12, 0..0.9:0.1 or words. With --random and --best, LOW..HIGH is the
+    whole range between.
     Long runs, shards and the best of many: `geneva help search`.
     """
     from geneva_cli.output import is_seen

@@ -128,7 +128,7 @@ def run(
     output: Output = "-",
     format: Format = "",
 ) -> None:
-    """From wishes to the machines that grant them all, the lowest peak first.
+    """Find the machines that meet all requirements; the lowest peak comes first.
 
     What is tried, and what the columns mean: `geneva help search`.
     """

@@ -11,13 +11,13 @@ EXAMPLES = ("geneva tolerance spec.toml --set tolerance.slot_angle_deg=0.01",)
 
 def run(
     spec: SpecPath,
-    samples: Annotated[int, typer.Option(metavar="N", help="Machines that are drawn.")] = 65536,
+    samples: Annotated[int, typer.Option(metavar="N", help="Number of machines to draw.")] = 65536,
     seed: Annotated[int, typer.Option(metavar="K", help="The same seed, the same machines.")] = 0,
     radius: Annotated[
-        float | None, typer.Option(metavar="MM", help="Where micrometres are told.")
+        float | None, typer.Option(metavar="MM", help="Show micrometres too, at this radius.")
     ] = None,
     histogram: Annotated[
-        bool, typer.Option("--histogram", help="How the drawn machines spread, bin by bin.")
+        bool, typer.Option("--histogram", help="Distribution of the drawn machines, a row a bin.")
     ] = False,
     given: Given = None,
     output: Output = "-",
@@ -25,8 +25,8 @@ def run(
 ) -> None:
     """The wheel's place in the dwell, its play in motion and its entry, from [tolerance].
 
-    Worst case, root of squares and Monte Carlo, in degrees and arc seconds; which dimension
-    contributes how much; and the clearances with which every machine still turns.
+    Worst case, root of squares and Monte Carlo, in degrees and arc seconds. How much each
+    dimension contributes, and the clearances with which every machine still turns.
     """
     from geneva_cli.design import load
     from geneva_cli.output import show, tell

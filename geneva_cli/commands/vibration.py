@@ -13,21 +13,21 @@ def run(
     spec: SpecPath,
     period_ratio: Annotated[
         float | None,
-        typer.Option(metavar="X", help="Motion time over natural period; instead of [shaft]'s."),
+        typer.Option(metavar="X", help="Motion time over natural period, in place of [shaft]."),
     ] = None,
     damping: Annotated[
-        float | None, typer.Option(metavar="Z", help="Damping ratio; instead of [shaft]'s.")
+        float | None, typer.Option(metavar="Z", help="Damping ratio, in place of [shaft]'s.")
     ] = None,
-    samples: Annotated[int, typer.Option(metavar="N", help="Speeds of the csv's spectrum.")] = 401,
+    samples: Annotated[int, typer.Option(metavar="N", help="Number of speeds in the csv.")] = 401,
     given: Given = None,
     output: Output = "-",
     format: Format = "",
 ) -> None:
     """The load on an elastic shaft: what each index leaves swinging, and the speeds to avoid.
 
-    As csv the spectrum: residual and steady state from half to twice the design's speed. The
-    speeds to avoid are those of at least 0.0001 of the step where the residual has a local
-    maximum; `avoid` says where they move with stiffness 20 % lower and higher.
+    As csv the spectrum: residual and steady state from half to twice the design's speed. At a
+    speed to avoid the residual has a local maximum of at least 0.0001 of the step. `avoid` says
+    how far it moves with a stiffness 20 % lower and higher.
     """
     from geneva_cli.design import load
     from geneva_cli.output import show, tell

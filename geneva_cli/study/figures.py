@@ -133,7 +133,7 @@ def _families(table: Columns, x: str) -> dict[str, list[int]]:
     if len(out) > FAMILY:
         raise GenevaError(
             f"{len(out)} curves, one for each combination of {', '.join(others)}; at most {FAMILY} "
-            "can be told apart: sweep fewer values, or plot over another key"
+            "can be distinguished: sweep fewer values, or plot over another key"
         )
     return out
 

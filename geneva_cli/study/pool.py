@@ -58,7 +58,7 @@ def mapped(
                 yield waiting.popleft().result()
         except BrokenProcessPool:
             raise GenevaError(
-                f"a process that worked on some of the {what} was ended from outside, or ran out "
+                f"a process that computed some of the {what} was stopped from outside, or ran out "
                 f"of memory; try fewer {what} at a time"
             ) from None
 

@@ -77,7 +77,7 @@ def whole_name(asked: str, option: str = "--pick") -> str:
             return found[0]
     raise GenevaError(
         f"{option} {cut(asked)}: no quantity of a design{_nearest(asked)}; `geneva compare` "
-        "shows all that are quick, and check names stand behind checks."
+        "shows most of them, and a check is checks.NAME"
     )
 
 

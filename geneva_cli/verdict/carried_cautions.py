@@ -48,9 +48,8 @@ def _itself(spec: Spec, plate: MassProperties | None) -> list[Caution]:
     return [
         Caution(
             "wheel-left-out",
-            f"the wheel's own inertia, {own:.4g} kg m² of the wheel as it is drawn, is "
-            f"{100.0 * own / given:.3g} % of the {given:.4g} that are counted; if they leave it "
-            f"out, add {helps}",
+            f"the wheel's own inertia, as drawn, is {own:.4g} kg m², {100.0 * own / given:.3g} % "
+            f"of the {given:.4g} kg m² of the load: if the load leaves it out, add {helps}",
         )
     ]
 
@@ -67,9 +66,9 @@ def _to_one_side(spec: Spec) -> list[Caution]:
                 Caution(
                     "weight-to-one-side",
                     f"{mass.name or mass.shape} stands {mass.radius_mm:g} mm off a horizontal "
-                    f"axis: its weight takes up to {torque:.4g} N m at the wheel, one way and the "
-                    "other as it turns, which is not counted; set a body against it (count = 2), "
-                    "or add the torque to torque_Nm in [load]",
+                    f"axis. Its weight puts up to {torque:.4g} N m on the wheel in either "
+                    "direction. That is not counted: balance it with another body (count = 2), or "
+                    "add the torque to torque_Nm in [load]",
                 )
             )
     return out
@@ -84,8 +83,8 @@ def _far(mechanism: Mechanism) -> list[Caution]:
     return [
         Caution(
             "far-mass",
-            f"radius_mm = {far:g} of a [[mass]] is {share:.3g} centre distances from the wheel's "
-            "axis, out of its reach: is it in mm?",
+            f"radius_mm = {far:g} in [[mass]] is {share:.3g} centre distances from the wheel's "
+            "axis: check that it is in mm",
         )
     ]
 
@@ -99,7 +98,7 @@ def _unheard_of(spec: Spec) -> Iterator[Caution]:
             yield Caution(
                 "unlikely-material",
                 f"youngs_modulus_GPa = {E:g} in {table} is stiffer than diamond "
-                f"({DIAMOND_GPa:g}): {E:g} MPa would be {1e-3 * E:g}",
+                f"({DIAMOND_GPa:g} GPa): if it is in MPa, write {1e-3 * E:g}",
             )
     dense = [("[[mass]]", mass.density_kgm3) for mass in spec.mass]
     for table, density in (*dense, *[(k, part.density_kgm3) for k, part in parts.items()]):
@@ -109,7 +108,7 @@ def _unheard_of(spec: Spec) -> Iterator[Caution]:
             unit = "g/cm³" if density < FOAM_KGM3 else "g/m³"
             yield Caution(
                 "unlikely-material",
-                f"density_kgm3 = {density:g} in {table} is {what}: {density:g} {unit} would be "
+                f"density_kgm3 = {density:g} in {table} is {what}: if it is in {unit}, write "
                 f"{other:g}",
             )
 
@@ -121,8 +120,8 @@ def _for_nothing(spec: Spec) -> list[Caution]:
         out.append(
             Caution(
                 "nothing-to-act-on",
-                "[motor] has nothing to drive: without inertia_kgm2 or torque_Nm in [load], or a "
-                "[[mass]], neither service factor nor flywheel has a torque to go by",
+                "[motor] has no load to drive, so no motor or flywheel is computed: set "
+                "inertia_kgm2 or torque_Nm in [load], or a [[mass]]",
             )
         )
     support = spec.support
@@ -133,15 +132,16 @@ def _for_nothing(spec: Spec) -> list[Caution]:
         out.append(
             Caution(
                 "nothing-to-act-on",
-                f"{given} in [support] takes no torque without {lacking}: set it, or remove both",
+                f"{given} in [support] has no effect without {lacking}: set {lacking}, or remove "
+                f"{given}",
             )
         )
     elif support.friction and not (spec.mass or support.force_N):
         out.append(
             Caution(
                 "nothing-to-act-on",
-                "friction in [support] takes no torque: nothing presses on it; set force_N there, "
-                "or give the weight as [[mass]]",
+                "friction in [support] has no effect, because nothing presses on the support: set "
+                "force_N there, or give the weight as [[mass]]",
             )
         )
     return out

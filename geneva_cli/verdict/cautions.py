@@ -31,15 +31,15 @@ def cautions(mechanism: Mechanism) -> list[Caution]:
         out.append(
             Caution(
                 "many-slots",
-                f"z = {z}: above {Z_USUAL} slots little is left of the wheel between them",
+                f"z = {z}: more than {Z_USUAL} slots leave little of the wheel between them",
             )
         )
     if mechanism.spec.wheel.held_by is None and _no_lock(mechanism):
         out.append(
             Caution(
                 "nothing-holds",
-                "nothing holds the wheel in the dwell: there is no locking disc, and the spec "
-                'names nothing else (held_by = "brake", "detent" or "pin" in [wheel])',
+                "nothing holds the wheel in the dwell, because there is no locking disc: set "
+                'held_by = "brake", "detent" or "pin" in [wheel]',
             )
         )
     engagement = mechanism.engagements[0]
@@ -72,8 +72,8 @@ def cautions(mechanism: Mechanism) -> list[Caution]:
         out.append(
             Caution(
                 "soft-shock-at-mid",
-                f'the law "{law.NAME}" goes from speeding up to slowing down in a jump: a soft '
-                "shock at mid-motion",
+                f'the law "{law.NAME}" jumps from acceleration to deceleration: a soft shock at '
+                "mid-motion",
             )
         )
     if engagement.slot.curved:
@@ -102,7 +102,7 @@ def _loose_fits(mechanism: Mechanism) -> Iterator[Caution]:
             helps = "" if size.process else ", or name the process that needs it"
             yield Caution(
                 "loose-fit",
-                f"{key} = {given:g}: the {part} is loose in its {mate}; at Ø {2.0 * radius:.4g} mm "
+                f"{key} = {given:g}: the {part} is loose in its {mate}. At Ø {2.0 * radius:.4g} mm "
                 f"the loosest running fit of ISO 286, H11/c11, leaves at most {0.5 * fit:.4g} mm a "
                 f"side: reduce {key} to {most:.4g}{helps}",
             )
@@ -116,9 +116,9 @@ def _overtaken(mechanism: Mechanism) -> list[Caution]:
     return [
         Caution(
             "roller-overtakes",
-            f"the roller overtakes the wheel by {lead:.4g} deg while the gears drive: near the "
-            "line of centres its slot would turn the wheel faster than gear_ratio, so it presses "
-            'into the wall that it drove; gear_ratio = "shockless" keeps it behind',
+            f"the roller overtakes the wheel by {lead:.4g} deg while the gears drive. Near the "
+            "line of centres its slot would turn the wheel faster than the gears do, so it presses "
+            'into the wall that it drove: gear_ratio = "shockless" keeps it behind',
         )
     ]
 
@@ -146,9 +146,8 @@ def _rounded_points(mechanism: Mechanism) -> list[Caution]:
     return [
         Caution(
             "rounded-points",
-            f"the points are given to {decimals} decimals; jerk is known to about "
-            f"{float(f'{100.0 * share:.2g}'):g} %: more decimals, or fewer points, make it "
-            "better known",
+            f"the points have {decimals} decimals, so the jerk is known only to about "
+            f"{float(f'{100.0 * share:.2g}'):g} %: use more decimals, or fewer points",
         )
     ]
 
@@ -188,9 +187,9 @@ def _off_the_mid_condition(mechanism: Mechanism) -> Caution:
     )
     return Caution(
         "off-mid-condition",
-        f"pressure angle 90 deg at mid-motion (0 deg): R/L = {mechanism.ratio:.6g} is off the mid "
-        "condition, so without friction the pin force there has no bound unless the torque is "
-        f"zero; {helps}",
+        f"pressure angle 90 deg at mid-motion (0 deg), because R/L = {mechanism.ratio:.6g} does "
+        "not meet the mid condition. Without friction the pin force there has no bound unless the "
+        f"torque is zero: {helps}",
     )
 
 
@@ -205,9 +204,9 @@ def _loose(mechanism: Mechanism) -> list[Caution]:
         Caution(
             "not-positively-driven",
             f"not positively driven from {where} deg ({100.0 * drive.share:.3g} % of the motion): "
-            "the wall that the torque needs there is cut away by the slot's other branch, up to "
-            f'{drive.loose_gap_mm:.3g} mm off; kind = "cam" drives any law through straight slots, '
-            "and less torque_Nm against the inertia makes the interval shorter",
+            f"the slot's other branch, up to {drive.loose_gap_mm:.3g} mm off, cuts away the wall "
+            "that the torque needs there. Less torque_Nm against the inertia shortens the "
+            'interval; kind = "cam" drives any law through straight slots',
         )
     ]
 
@@ -221,7 +220,7 @@ def _undercut(mechanism: Mechanism) -> list[Caution]:
     r = mechanism.roller_radius_mm + mechanism.spec.size.allowances.slot_clearance_mm
     free = found.radius_mm - mechanism.spec.size.allowances.slot_clearance_mm
     helps = (
-        "a smaller roller or a longer motion makes it less"
+        "a smaller roller or a longer motion reduces it"
         if found.to_cusp or free <= 0.0
         else f"a roller radius below {free:.4g} mm avoids it"
     )
@@ -229,8 +228,7 @@ def _undercut(mechanism: Mechanism) -> list[Caution]:
         Caution(
             "undercut",
             f"undercut of the {found.wall} flank from {found.from_deg:.4g} to {found.to_deg:.4g} "
-            f"deg: the roller's {r:.4g} mm exceed the radius of curvature, {found.radius_mm:.4g} "
-            f"mm at {found.at_deg:.4g} deg, and cut the wall back by {found.depth_mm:.3g} mm; "
-            f"{helps}",
+            f"deg, by up to {found.depth_mm:.3g} mm. The roller's radius, {r:.4g} mm, exceeds the "
+            f"radius of curvature, {found.radius_mm:.4g} mm at {found.at_deg:.4g} deg: {helps}",
         )
     ]

@@ -51,16 +51,16 @@ def _back_driven(cycle: Cycle, loads: Mapping[str, Summary]) -> list[Caution]:
     # With so much resistance the wheel is braked without the input even where it slows down most.
     inertia = cycle.given.inertia_Nm / cycle.given.speed_rad_s**2
     drag = -inertia * alpha.min
-    helps = f"or a drag on the wheel: with a resisting torque of {drag:.4g} N m in all the input "
-    helps += "always drives"
+    helps = f"or add a drag to the wheel (with a resisting torque of {drag:.4g} N m in all, the "
+    helps += "input always drives)"
     if arrival(cycle.mechanism):
-        helps = "and no drag on the wheel, which would take it off the roller that stops it"
+        helps = "but no drag on the wheel, which would take it off the roller that stops it"
     return [
         Caution(
             "drives-the-motor",
             f"the wheel drives the motor from {where} deg, with up to {-least:.4g} N m on the "
-            "input: the play of slot and reducer changes sides there, and a self-locking worm "
-            f"jams; it takes a brake or a motor that brakes, {helps}",
+            "input. There the play of slot and reducer changes sides, and a self-locking worm "
+            f"jams: use a brake or a motor that brakes, {helps}",
         )
     ]
 
@@ -74,9 +74,10 @@ def _lags(mechanism: Mechanism) -> list[Caution]:
     return [
         Caution(
             "lags-behind",
-            f"a torque of {found.torque_Nm:.4g} N m takes the wheel off the roller that stops it: "
-            f"where the gears let go it lags, by up to {lag:.4g} deg at {at_deg:.4g} deg, and is "
-            f"struck at {struck:.4g} deg; less torque, more inertia or more speed make it less",
+            f"a torque of {found.torque_Nm:.4g} N m takes the wheel off the roller that stops it. "
+            f"Once the gears let go the wheel lags, by up to {lag:.4g} deg at {at_deg:.4g} deg, "
+            f"and the roller strikes it at {struck:.4g} deg. Less torque, more inertia or more "
+            "speed reduces the lag",
         )
     ]
 
@@ -91,10 +92,9 @@ def _heavy(cycle: Cycle) -> list[Caution]:
     return [
         Caution(
             "heavy-inertia",
-            f"an inertia of {inertia:.4g} kg m² is more than that of a solid steel table "
-            f"{1e3 * ACROSS * L:.4g} mm across and {1e3 * THICK * L:.4g} thick ({most:.3g} kg m²), "
-            f"on a wheel of {1e3 * L:.4g} mm centre distance: {inertia:.4g} kg cm² would be "
-            f"{1e-4 * inertia:.4g} kg m²",
+            f"an inertia of {inertia:.4g} kg m² is large for a centre distance of {1e3 * L:.4g} "
+            f"mm: a solid steel table {1e3 * ACROSS * L:.4g} mm across and {1e3 * THICK * L:.4g} "
+            f"mm thick has {most:.3g} kg m². If it is in kg cm², write {1e-4 * inertia:.4g}",
         )
     ]
 
@@ -110,7 +110,7 @@ def _fast(mechanism: Mechanism, loads: Mapping[str, Summary]) -> list[Caution]:
     return [
         Caution(
             "faster-than-sound",
-            f"the wheel's rim runs at up to {speed:.4g} m/s, faster than sound ({SOUND_M_S:g} "
-            f"m/s): n_rpm = {n:g} is meant in turns of the input a minute",
+            f"the wheel's rim moves at up to {speed:.4g} m/s, faster than sound ({SOUND_M_S:g} "
+            f"m/s): check n_rpm = {n:g}, the input's turns a minute",
         )
     ]

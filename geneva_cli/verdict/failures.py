@@ -76,16 +76,16 @@ def meaning(c: Check, parts: str = "parts") -> str:
     if c.name == "hand_over_play_deg":
         return (
             f"between lock and slot the wheel can turn by {value:.4g} deg{where}, more than the "
-            f"{limit:.4g} at which the roller still finds its slot"
+            f"{limit:.4g} deg at which the roller still finds its slot"
         )
     if c.name == "hand_over_pressure_deg":
         return (
             f"the roller meets the wheel{where} at a pressure angle of {value:.4g} deg, above "
-            f"{limit:g}"
+            f"{limit:g} deg"
         )
     if c.name == "motion_play_deg":
         return (
-            f"in its slot the roller leaves the wheel {value:.4g} deg either way{where}, more than "
-            f"{limit:.4g}"
+            f"in its slot the wheel can turn by {value:.4g} deg either way{where}, more than "
+            f"{limit:.4g} deg"
         )
     return ""

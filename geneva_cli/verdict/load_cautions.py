@@ -46,9 +46,9 @@ def _jammed(cycle: Cycle) -> list[Caution]:
     return [
         Caution(
             "friction-holds-the-wheel",
-            f"friction of {friction:g} holds the wheel at {min(endless):.4g} deg: it takes as much "
-            "torque from the wheel as the wall gives, however hard the roller presses; a smaller "
-            "roller or less friction avoids it",
+            f"friction of {friction:g} holds the wheel at {min(endless):.4g} deg, however hard the "
+            "roller presses: it takes as much torque as the wall gives. Use a smaller roller or "
+            "less friction",
         )
     ]
 
@@ -62,10 +62,9 @@ def _on_an_edge(cycle: Cycle) -> list[Caution]:
     return [
         Caution(
             "sharp-wall",
-            f"contact stress without bound at {stress.max_at_deg:.4g} deg: the wall that bears "
-            "there is as sharp as the roller, undercut towards mid-motion, and ends in an edge; "
-            'less of it bears with a smaller roller, and none in straight slots (kind = "cam" for '
-            "any law)",
+            f"contact stress without bound at {stress.max_at_deg:.4g} deg: the roller bears on an "
+            "edge there, where the undercut of the wall begins. A smaller roller bears on less of "
+            'it; straight slots have none (kind = "cam" drives any law)',
         )
     ]
 
@@ -76,6 +75,6 @@ def _no_speed(mechanism: Mechanism) -> Caution:
     given = " and ".join(f"{k} = {v:g}" for k, v in zip(keys, limits, strict=True) if v)
     return Caution(
         "no-speed",
-        f"no speed keeps {given}, so there is no shortest motion: the resisting torque alone takes "
-        "more, or nothing bounds the load; a larger machine or less torque_Nm helps",
+        f"no speed keeps {given}, so there is no shortest motion: the resisting torque alone "
+        "exceeds it, or nothing bounds the load. Use a larger machine or less torque_Nm",
     )

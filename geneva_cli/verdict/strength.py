@@ -63,9 +63,9 @@ class Strength:
         return [
             Caution(
                 "stout-horns",
-                "horn_stress_MPa is that of a slender beam, and this wheel's horns are "
-                f"{stout:.3g} times as thick at the mouth as their recess's radius ({recess:.4g} "
-                "mm): it is 7 % too small at half of that radius, and more beyond",
+                "horn_stress_MPa is that of a slender beam, but the horns are thick: "
+                f"{stout:.3g} times their recess's radius ({recess:.4g} mm) at the mouth. The "
+                "stress is 7 % too small for horns of half that radius, more for thicker ones",
             )
         ]
 

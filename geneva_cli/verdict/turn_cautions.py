@@ -27,9 +27,9 @@ def turn_cautions(proof: Proof) -> list[Caution]:
             Caution(
                 "driven-by-one-wall",
                 f"in its slots the wheel is free ahead by {ahead.deg:.4g} deg at "
-                f"{ahead.at_deg:.4g} deg and behind by {behind.deg:.4g} at {behind.at_deg:.4g}: "
-                "one wall starts it, and one stops it; a load that overruns the first roller, or "
-                "that its inertia does not bring along with the second, leaves them",
+                f"{ahead.at_deg:.4g} deg and behind by {behind.deg:.4g} deg at "
+                f"{behind.at_deg:.4g} deg. One wall starts it and one stops it: it leaves them if "
+                "its load overruns the first roller, or stays behind the second",
             )
         ]
     helps = "a load that overruns the roller" if first else "a load that holds back"
@@ -37,7 +37,7 @@ def turn_cautions(proof: Proof) -> list[Caution]:
         Caution(
             "driven-by-one-wall",
             f"in its slot the wheel is free {way} by {free:.4g} deg at {at_deg:.4g} deg, where one "
-            f"wall alone drives it: {helps} meets a corner; friction or a brake keeps it on that "
+            f"wall alone drives it: {helps} meets a corner. Friction or a brake keeps it on that "
             "wall",
         )
     ]

@@ -258,7 +258,7 @@ def test_each_null_names_its_key():
 @pytest.mark.parametrize(
     ("keys", "said"),
     [
-        ("[load]\ninertia_kgm2 = 4000\n", "4000 kg cm² would be 0.4 kg m²"),
+        ("[load]\ninertia_kgm2 = 4000\n", "If it is in kg cm², write 0.4"),
         ("[drive]\nn_rpm = 1e6\n", "faster than sound"),
     ],
 )

@@ -58,7 +58,7 @@ def test_json_has_the_warnings_and_strict_obeys_them() -> None:
     (warning,) = tree["warnings"]
     assert list(warning) == ["spec", "name", "text"]
     assert (warning["spec"], warning["name"]) == (TURRET, "wheel-left-out")
-    assert warning["text"].startswith("the wheel's own inertia, 0.3024 kg m²")
+    assert warning["text"].startswith("the wheel's own inertia, as drawn, is 0.3024 kg m²")
     assert {row["spec"] for row in tree["rows"]} == {PLAIN, TURRET}
     assert found.exit_code == 0
     assert run(TURRET, "--strict", "--format", "json").exit_code == 1
@@ -70,8 +70,8 @@ def test_a_warning_is_printed_once(format: str) -> None:
     """On standard error where the format has no place for it, and nowhere else."""
     found = run(TURRET, "--format", format)
     both = " ".join(f"{found.stdout} {found.stderr}".split())
-    assert both.count("if they leave it out, add") == 1
-    assert ("leave it" in found.stderr) is (format == "csv")
+    assert both.count("if the load leaves it out, add") == 1
+    assert ("leaves it" in found.stderr) is (format == "csv")
 
 
 def test_csv_is_the_rows_alone() -> None:

@@ -104,4 +104,4 @@ def test_the_user_is_told(tmp_path, digits, warned):
         said = [c for c in cautions(load(str(tmp_path / "spec.toml"))) if "decimals" in c]
         assert bool(said) == warned
         if warned:
-            assert f"given to {digits} decimals; jerk is known to about" in said[0]
+            assert f"have {digits} decimals, so the jerk is known only to about" in said[0]

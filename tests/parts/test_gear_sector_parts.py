@@ -280,7 +280,7 @@ def test_what_is_said_of_a_wheel_that_lags():
     assert (check.value, check.passes) == (0.0, True)
     assert "lags-behind" not in said and "no drag on the wheel" in said["drives-the-motor"]
     check, said = of(0.004)
-    assert check.passes and "less torque" in said["lags-behind"]
+    assert check.passes and "Less torque" in said["lags-behind"]
     check, said = of(0.02)
     assert not check.passes and "lags-behind" not in said
     (failing,) = [c for c in judged(loaded(0.02).mechanism, parts=False) if c.passes is False]

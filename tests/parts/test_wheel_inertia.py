@@ -149,7 +149,7 @@ def test_a_weight_to_one_side_of_a_horizontal_axis():
     one = Mass("point", mass_kg=2.0, radius_mm=100.0, name="drum")
     spec = Spec(External(6), mass=(one,), support=Support(axis="horizontal"))
     (said,) = told(spec, None)
-    assert said.startswith("drum stands 100 mm off a horizontal axis: its weight takes up to 1.961")
+    assert said.startswith("drum stands 100 mm off a horizontal axis. Its weight puts up to 1.961")
     assert not told(spec.with_("support.axis", "vertical"), None)
     four = Mass("point", mass_kg=2.0, radius_mm=100.0, count=4)
     assert not told(Spec(External(6), mass=(four,), support=spec.support), None)
@@ -160,16 +160,16 @@ def test_a_weight_to_one_side_of_a_horizontal_axis():
     [
         (
             Spec(External(6), mass=(Mass("point", mass_kg=1.0, radius_mm=9000.0),)),
-            "radius_mm = 9000 of a [[mass]] is 90 centre distances",
+            "radius_mm = 9000 in [[mass]] is 90 centre distances",
         ),
-        (Spec(External(6), motor=Motor(service_factor=2.0)), "[motor] has nothing to drive"),
+        (Spec(External(6), motor=Motor(service_factor=2.0)), "[motor] has no load to drive"),
         (
             Spec(External(6), load=Load(0.1), support=Support(friction=0.1)),
-            "friction in [support] takes no torque without radius_mm",
+            "friction in [support] has no effect without radius_mm",
         ),
         (
             Spec(External(6), load=Load(0.1), support=Support(friction=0.1, radius_mm=50.0)),
-            "nothing presses on it",
+            "nothing presses on the support",
         ),
     ],
 )
@@ -186,10 +186,10 @@ def test_a_material_in_another_unit_is_said():
     }
     stiff, heavy, light = told(Spec(External(6), **given), None)
     assert stiff.endswith(
-        "[material.wheel] is stiffer than diamond (1220): 210000 MPa would be 210"
+        "[material.wheel] is stiffer than diamond (1220 GPa): if it is in MPa, write 210"
     )
-    assert heavy.endswith("in [[mass]] is heavier than osmium: 7.85e+06 g/m³ would be 7850")
-    assert light.endswith("[material.roller] is lighter than foam: 7.85 g/cm³ would be 7850")
+    assert heavy.endswith("in [[mass]] is heavier than osmium: if it is in g/m³, write 7850")
+    assert light.endswith("[material.roller] is lighter than foam: if it is in g/cm³, write 7850")
 
 
 def test_no_design_of_ours_is_out_of_all_measure():

@@ -171,7 +171,7 @@ def test_bounds_that_contradict_each_other_are_told_with_what_comes_nearest(tmp_
     [
         (
             {"best": "min:jerk.max", "subject_to": ["dwell_s >= 5"]},
-            "is kept by 0, the nearest being",
+            "is kept by 0 (nearest",
         ),
         ({"best": "min:jerk.mx"}, "did you mean"),
         ({"best": "min:jerk.max", "pareto": "min:jerk.max"}, "choose one of them"),

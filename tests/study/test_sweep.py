@@ -238,7 +238,7 @@ def test_a_wrong_range_of_a_key_that_the_spec_lacks_is_what_is_said(tmp_path):
     spec.write_text('[wheel]\nz = 6\n[drive]\nkind = "side-crank"\n')
     found = geneva("sweep", str(spec), "--vary", "drive.A=0..1:0")
     assert found.exit_code == 2
-    assert found.stderr.startswith("--vary drive.A=0..1:0: a step of 0 never comes from 0 to 1")
+    assert found.stderr.startswith("--vary drive.A=0..1:0: a step of 0 does not lead from 0 to 1")
     assert geneva("sweep", str(spec), "--vary", "drive.A=0..0.5:0.1").exit_code == 0
 
 
@@ -330,7 +330,7 @@ def test_the_spec_may_come_from_a_pipe():
 @pytest.mark.parametrize(
     ("arguments", "said"),
     [
-        (["--vary", "drive.A=0..1:0"], "a step of 0 never comes"),
+        (["--vary", "drive.A=0..1:0"], "a step of 0 does not lead"),
         (["--vary", "drive.B=1,2"], "drive.B=1: unknown key B in [drive]"),
         (["--vary", "drive.A=0.1", "--pick", "acceleration.mx"], "did you mean"),
         (["--vary", "drive.A=0.1", "--best", "min:jerk.mx"], "--best jerk.mx: no quantity"),
@@ -342,7 +342,7 @@ def test_the_spec_may_come_from_a_pipe():
         (["--vary", "drive.A=0.1", "--resume", "--format", "json"], "--resume goes on with all"),
         (["--vary", "drive.A=0.1", "--shard", "3/2"], "--shard 3/2"),
         (["--vary", "drive.A=0.1", "--jobs", "0"], "--jobs 0"),
-        (["--vary", "drive.A=0.1", "--seed", "1"], "--seed 1: it goes with --random"),
+        (["--vary", "drive.A=0.1", "--seed", "1"], "--seed 1: it needs --random"),
         (["--vary", "drive.A=0.1", "--pareto", "min:wheel.gearing"], "a word has no order"),
         (["--vary", "drive.A=0.1", "--subject-to", "kind >= 1"], "drive.kind: a word has no"),
         (["--vary", "drive.A=0.1", "--pareto", "min:k,max:timing.k"], "both min and max"),
@@ -371,18 +371,20 @@ def test_where_no_row_is_left_it_says_why():
     broken, none = few.stderr.splitlines()
     assert "1 of 3 designs cannot be built: the first: drive.A=2: A = 2 must be" in broken
     assert none.endswith(
-        "no row of 3 is left: timing.dwell_s >= 5 is kept by 0, the nearest being 0.666667"
+        "none of 3 rows is left: timing.dwell_s >= 5 is kept by 0 (nearest 0.666667)"
     )
     unknown = geneva(*some, "--pareto", "min:loads.pin_force_N.max,max:dwell_s")
     assert len(unknown.stdout.splitlines()) == 1
-    assert unknown.stderr.endswith("is left: loads.pin_force_N.max is known of none\n")
+    assert unknown.stderr.endswith("is left: no design has a value of loads.pin_force_N.max\n")
 
 
 def test_one_design_anywhere_tells_what_there_is():
     """The first 1000 cannot be built, nor the one in the middle; a later one can."""
     found = sweep(read(SPEC), grid("drive.A=-5..0.9:0.001"), picks=["velocity.max"])
     assert found.rows(5900, 5901)[0][1] == pytest.approx(1.0 / 1.9, rel=1e-15)
-    with pytest.raises(GenevaError, match=r"none of 1000 designs all over can be built: drive.A=2"):
+    with pytest.raises(
+        GenevaError, match=r"none of 1000 designs from all over the range can be built: drive.A=2"
+    ):
         sweep(read(SPEC), grid("drive.A=2..3:0.001"), picks=["velocity.max"])
 
 

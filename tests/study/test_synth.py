@@ -380,7 +380,7 @@ def test_several_rollers_share_the_turn():
 @pytest.mark.parametrize(
     ("options", "wants"),
     [
-        ({}, ["no wish", "--tau", "--subject-to"]),
+        ({}, ["no requirement", "--tau", "--subject-to"]),
         ({"tau": "0.3", "motion_deg": "240"}, ["--tau 0.3", "--motion-deg 240", "108 deg"]),
         ({"tau": "1.2"}, ["--tau 1.2", "below 1"]),
         ({"tau": "-1/3"}, ["--tau -1/3", "above 0"]),
@@ -617,7 +617,7 @@ def test_no_roller_fits_a_loop():
     assert found[number - 1].parts == "no: island"
     words = ["--motion-deg", "120", "--z", "5", "--external", "--rollers", "1"]
     head, _ = run(*words, "--write", str(number)).stdout.split("[wheel]")
-    assert "# Beware: its parts cannot be built: island." in head
+    assert "# Warning: its parts cannot be built: island." in head
 
 
 # Turned, written, checked and exported: a sample of the trial in tests/stress/stress_synth.py

@@ -147,7 +147,7 @@ def test_a_dwell_of_several_turns_is_behind_a_first_wheel():
     for row in found:
         c, turns = row.candidate, 360.0 * row.candidate.first_z
         assert c.dwell_deg == pytest.approx(turns - c.motion_deg, rel=1e-12)
-    with pytest.raises(GenevaError, match="it takes 4 rollers, of which straight slots carry"):
+    with pytest.raises(GenevaError, match="it takes 4 rollers, but straight slots carry"):
         rows(motion_deg="30", dwell_deg="60", z="6")
     with pytest.raises(GenevaError, match="only behind a first wheel"):
         rows(dwell_deg="400", z="6")

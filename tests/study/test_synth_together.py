@@ -133,7 +133,7 @@ def test_bounds_hold_where_no_plain_crank_carries_the_rollers():
     assert found.asked.names == ("jerk.max", "timing.dwell_deg")
     row = found.rows[0]
     assert row.asked == (pytest.approx(row.candidate.jerk_max), pytest.approx(50.0))
-    with pytest.raises(GenevaError, match="none of 2 machines that grant the rest"):
+    with pytest.raises(GenevaError, match="none of 2 machines that keep the rest"):
         search(read_wish(**wish, subject_to=["dwell_deg >= 49", "jerk.max <= 1"]))
 
 

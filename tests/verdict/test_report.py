@@ -112,7 +112,7 @@ def test_tolerances_say_what_is_not_known(tmp_path: Path) -> None:
     found = json.loads(run("report", spec, "--format", "json").stdout)["tolerance"]
     assert found["dwell_position"]["worst_deg"] is None
     (said, _) = found["warnings"]
-    assert said.startswith("dwell_position is not known: no locking disc")
+    assert said.startswith("dwell_position is not known: no drawn locking disc")
     page = tmp_path / "page.md"
     run("report", spec, "-o", str(page))
     assert said in page.read_text()

@@ -295,5 +295,5 @@ def test_horns_that_are_no_slender_beams_are_said():
     turret = str(DESIGNS / "turret.toml")
     (said,) = design.load(turret, ["size.lock_radius_mm=40"]).strength.cautions()
     assert said.name == "stout-horns"
-    assert "1.09 times as thick" in said
+    assert "1.09 times their recess's radius" in said
     assert design.load(turret, ["size.lock_radius_mm=60"]).strength.cautions() == []

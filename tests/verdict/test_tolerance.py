@@ -578,7 +578,7 @@ def test_a_roller_that_could_come_to_the_wheels_axis_is_refused(distribution, mo
     assert room == pytest.approx(most, rel=1e-12)
     fits = told(design.with_("tolerance.crank_radius_mm", room - 5.001), 500)
     assert all(math.isfinite(v) for v in fits.values() if isinstance(v, float))
-    with pytest.raises(GenevaError, match=f"must together be below {room:.6g}"):
+    with pytest.raises(GenevaError, match=f"must add up to less than {room:.6g} mm"):
         told(design.with_("tolerance.crank_radius_mm", room - 4.999))
 
 

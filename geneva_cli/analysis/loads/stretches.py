@@ -132,7 +132,7 @@ def refuse_rounding(engagement: Engagement, fastest: float) -> None:
     if share > COARSE:
         raise GenevaError(
             f"the wheel moves {fastest:.2g} times as fast as the input, {share:.1g} of its step "
-            "while the input's angle changes by its last digit: such loads would be rounding; a "
-            "drive that hurries less has some (elliptical gears, an eccentricity up to 0.999999)",
+            "while the input's angle changes by its last digit: such loads would be rounding. Make "
+            "the drive more even (elliptical gears: an eccentricity up to 0.999999)",
             ("drive", "kind"),
         )

@@ -176,9 +176,9 @@ class Linkage(PinPath, kw_only=True):
 
 def _none_fits(z: int) -> GenevaError:
     return GenevaError(
-        f"no wheel of z = {z} slots fits this path: it needs two tangents that meet at "
-        f"{360.0 / z:.6g} deg, equally far away, with the roller nearer than that "
-        "between them and farther otherwise: change the linkage, or z",
+        f"no wheel of z = {z} slots fits this path: change the linkage, or z. The path needs two "
+        f"tangents that meet at {360.0 / z:.6g} deg, equally long, with the roller nearer to that "
+        "point between them and farther away elsewhere",
         ("drive", "kind"),
     )
 

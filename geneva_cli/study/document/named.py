@@ -23,7 +23,7 @@ WORDS = {
     "entry": "at entry",
     "exit": "at exit",
     "k": "k, time of motion over time of dwell",
-    "tau": "τ, share of the cycle in motion",
+    "tau": "τ, fraction of the cycle in motion",
     "k_r": "k_r, motion over the rest of a turn",
     "index": "step of the wheel",
     "Am": "Am, peak acceleration of the motion curve",
@@ -55,7 +55,7 @@ def words_of(name: str) -> str:
     """The name without its unit.
 
     >>> words_of("slot_mouth_radius_mm"), words_of("at_deg"), words_of("tau")
-    ('slot mouth radius', 'at the input angle', 'τ, share of the cycle in motion')
+    ('slot mouth radius', 'at the input angle', 'τ, fraction of the cycle in motion')
     """
     if name in WORDS:
         return WORDS[name]

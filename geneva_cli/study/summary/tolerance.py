@@ -34,7 +34,7 @@ def _lines(values: dict[str, Any]) -> Iterator[Line]:
     if most and most["share"]:
         words, _ = spoken(most["dimension"])
         share = measured(100.0 * most["share"], "%", 3)
-        yield Line("greatest", f"{words} contributes {share} of the dwell's squares")
+        yield Line("greatest", f"{words} contributes {share} of the dwell's variance")
     if values["entry_jump.worst"] is not None:
         jump = measured(values["entry_jump.worst"])
         yield Line("entry", f"the wheel's velocity jumps by up to {jump} of the input's")

@@ -111,9 +111,9 @@ class Tally:
 
     def none(self, near: Row) -> str:
         """What to say where no design keeps the bounds; ``near`` breaks them least."""
-        why = self.nearness.said() or [f"{self.search.name} is known of none"]
+        why = self.nearness.said() or [f"no design has a value of {self.search.name}"]
         values = [(c.name, near[i]) for i, c in self.search.bounds]
         if len(values) > 1 and all(is_number(value) for _, value in values):
             told = dict.fromkeys(f"{name} {value:.6g}" for name, value in values)
-            why.append(f"the design nearest to all has {', '.join(told)}")
-        return f"--best: none of {self.tried:,} designs will do: {'; '.join(why)}"
+            why.append(f"the design that comes nearest to all has {', '.join(told)}")
+        return f"--best: none of {self.tried:,} designs is feasible: {'; '.join(why)}"

@@ -103,10 +103,9 @@ class Nearness:
     def said(self) -> list[str]:
         """How near they come to each."""
         return [
-            f"{c.name} is known of none"
+            f"no design has a value of {c.name}"
             if nearest is None
-            else f"{c} is kept by {count:,}"
-            + (f", the nearest being {nearest:.6g}" if not count else "")
+            else f"{c} is kept by {count:,}" + (f" (nearest {nearest:.6g})" if not count else "")
             for (_, c), count, nearest in zip(self.bounds, self.kept, self.nearest, strict=True)
         ]
 

@@ -54,7 +54,7 @@ class Outcome:
         """What a person should know besides the rows."""
         said = [*self.refused()]
         if self.all and not self.left:
-            unknown = [f"{name} is known of none" for name in self._unknown.values()]
+            unknown = [f"no design has a value of {name}" for name in self._unknown.values()]
             why = dict.fromkeys([*unknown, *self._nearness.said()])
-            said.append(f"no row of {self.all:,} is left: {'; '.join(why)}")
+            said.append(f"none of {self.all:,} rows is left: {'; '.join(why)}")
         return said

@@ -114,12 +114,12 @@ def request(
     if best and random is None and any(a.span for a in axes):
         random = DRAWN
     if seed is not None and random is None:
-        raise GenevaError(f"--seed {cut(seed)}: it goes with --random N; a grid is not drawn")
+        raise GenevaError(f"--seed {cut(seed)}: it needs --random N; a grid has no random draw")
     bounds = [constraint(text) for text in subject_to]
     wanted = _objectives(pareto, best)
     part = share(shard) if shard else WHOLE
     if shard and wanted:
-        raise GenevaError("--shard: a share has a front of its own; choose from all rows together")
+        raise GenevaError("--shard: each shard has a front of its own; join all rows, then choose")
     names = [name.strip() for name in pick.split(",")] if pick else []
     if not names and not wanted:
         names = list(DEFAULT)

@@ -154,7 +154,11 @@ def _refuse_hopeless(text: Text, plan: SweepPlan) -> None:
         except GenevaError as error:
             said.append(str(error))
     del said[0]  # that of the middle design, which may be one of the others
-    those = f"{len(said)} designs all over" if len(plan) > TRIED else f"the {len(said)} designs"
+    those = (
+        f"{len(said)} designs from all over the range"
+        if len(plan) > TRIED
+        else f"the {len(said)} designs"
+    )
     count = f"none of {those}" if len(plan) > 1 else "no design"
     raise GenevaError(f"{count} can be built: {said[0]}")
 

@@ -156,7 +156,8 @@ def _steps(low: Decimal, high: Decimal, step: Decimal, said: str) -> Steps:
     """The values from LOW up to HIGH. Raises GenevaError where there are none, or too many."""
     if not step or (high - low) / step < 0:
         raise GenevaError(
-            f"{said}: a step of {step:g} never comes from {low:g} to {high:g}; give LOW..HIGH:STEP"
+            f"{said}: a step of {step:g} does not lead from {low:g} to {high:g}; "
+            "give LOW..HIGH:STEP"
         )
     count = (high - low) / step
     _refuse_many(said, count + 1)

@@ -103,7 +103,7 @@ def _alike(spec: Spec) -> Spec:
 def _looks(specs: Sequence[Spec], machine: Mechanism) -> list[PartsLook]:
     """The looks at n specs that are one machine."""
     engagement, *others = machine.engagements
-    assert not others, "all rollers of a machine that synthesis finds move alike"
+    assert not others, "synth finds only machines whose rollers move alike"
     L = np.atleast_2d(array(machine.center_distance_mm))
     entry, wide = (np.atleast_2d(x) for x in (engagement.entry_deg, engagement.motion_deg))
     moving = entry + wide * (np.arange(PLACES + 1) / PLACES)

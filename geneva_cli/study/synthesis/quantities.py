@@ -62,8 +62,8 @@ def asked(wish: Wish, spec: Spec) -> Asked:
     loads = [name for name in found.names if name.startswith("loads.")]
     if loads and not load_named("analysis.loads.cycle:cycle_of")(machine).is_loaded:
         raise GenevaError(
-            f"{loads[0]}: nothing resists the wheel, so it is known of none; --from SPEC says what "
-            "does, its [load]"
+            f"{loads[0]}: nothing resists the wheel, so no machine has a value of it; give a load "
+            "with --from SPEC and its [load]"
         )
     return Asked(found, bounds, wish.sort and wish.sort._replace(name=of_sort[0]))
 
@@ -126,5 +126,5 @@ def _how_near(wanted: Asked, nearest: dict[str, list[float]], count: int) -> str
         if seen:
             said.append(f"{b} (nearest {(max if b.sign == '>=' else min)(seen):.6g})")
         else:
-            said.append(f"{b} (known of none)")
-    return f"none of {count} machines that grant the rest keeps {' and '.join(said)}"
+            said.append(f"{b} (not known)")
+    return f"none of {count} machines that keep the rest keeps {' and '.join(said)}"

@@ -72,8 +72,8 @@ def read_wish(
     }
     if not (spans or subject_to or frame):
         raise GenevaError(
-            "no wish; ask for --tau, --motion-deg, --dwell-deg, --motion-s, --dwell-s, --cycle or "
-            "--subject-to, alone or together"
+            "no requirement; give one or more of --tau, --motion-deg, --dwell-deg, --motion-s, "
+            "--dwell-s, --cycle and --subject-to"
         )
     if rollers is not None and not 1 <= rollers <= Z_MAX:
         raise GenevaError(f"--rollers {cut(rollers)}: it must be at least 1, at most {Z_MAX}")

@@ -276,19 +276,19 @@ def _out_of_reach(wish: Wish, reached: list[float], errors: list[str]) -> str:
     if wish.only_acceleration and reached:
         (limit,) = wish.limits
         return (
-            f"--subject-to {limit}: out of reach; with these wheels it "
-            f"must be above {min(reached):.6g}, and more slots come lower"
+            f"--subject-to {limit}: out of reach; with these wheels the limit "
+            f"must be above {min(reached):.6g}, and more slots allow a lower one"
         )
     motion = wish.motion_for(m)
     most = max(
         rollers_max(natural_deg(registry.gearing(g)(z))) for z in wish.z for g in wish.gearings
     )
     if motion is None:
-        return f"--rollers {m}: they jam on every wheel asked for; at most {most}"
+        return f"--rollers {m}: they jam on every requested wheel; at most {most}"
     if wish.rollers is None and m > most:
         return (
-            f"{wish.words}: out of reach: it takes {m} rollers, of which straight slots carry at "
-            f"most {most} here, and no curved slots or cam for so many can be built"
+            f"{wish.words}: out of reach: it takes {m} rollers, but straight slots carry at "
+            f"most {most} here, and no curved slots or cam with so many can be built"
         )
     if motion.low * m >= 360.0:
         return (
@@ -297,13 +297,13 @@ def _out_of_reach(wish: Wish, reached: list[float], errors: list[str]) -> str:
         )
     if max(counts) < 1.0:
         return (
-            f"{wish.words}: out of reach: only behind a first wheel, which turns the crank once in "
-            f"{TURNS[0]} to {TURNS[-1]} turns, does a wheel rest so long, and none of these so"
+            f"{wish.words}: out of reach: a wheel rests so long only behind a first wheel, which "
+            f"turns the crank once in {TURNS[0]} to {TURNS[-1]} turns; none of these rests so long"
         )
     first = f"; the first says: {errors[0]}" if errors else ""
     return (
         f"{wish.words}: out of reach with {'one roller' if m == 1 else f'{m} rollers'}: curved "
         "slots turn an internal wheel at most half as fast as the crank"
         + (f", and no drive goes beyond A or eccentricity {closed.MOST}" if m == 1 else "")
-        + f"; more slots or a longer motion would do{first}"
+        + f"; use more slots or a longer motion{first}"
     )

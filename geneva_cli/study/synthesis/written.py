@@ -48,5 +48,5 @@ def _heading(wish: Wish, number: int, row: Candidate, found: Built) -> list[str]
         "# " + ", ".join(f"{n} {getattr(row, n):.7g}" for n in COSTS[3:]) + ".",
     ]
     if found.trouble:
-        lines.append(f"# Beware: its parts cannot be built: {found.trouble}.")
+        lines.append(f"# Warning: its parts cannot be built: {found.trouble}.")
     return lines

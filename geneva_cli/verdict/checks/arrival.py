@@ -18,4 +18,4 @@ def stopping_torque(name: str, mechanism: Mechanism) -> Check | None:
     check = compared(name, found.torque_Nm, "at most", found.most_Nm)
     if check.passes or found.most_Nm > 0.0:
         return check
-    return check._replace(why="no inertia_kgm2 carries the wheel on")
+    return check._replace(why="no inertia carries the wheel on: set inertia_kgm2 in [load]")

@@ -12,8 +12,8 @@ if TYPE_CHECKING:
     from geneva_cli.parts.turn.shaft_gap import ShaftGap
 
 # Why a failing check has no advice.
-NONE = "no change of one value that was tried passes all checks"
-STOPPED = "no change found: the adviser made all the trials that it may"
+NONE = "none of the changes of one value that were tried passes all checks"
+STOPPED = "no change found within the number of trials"
 ROUNDING = 1e-12  # of the centre distance, or the sphere's radius: of a gap
 
 

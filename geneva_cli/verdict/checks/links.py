@@ -40,7 +40,7 @@ def gap(name: str, found: Outlines) -> Check | None:
             0.0,
             False,
             f"{one.passing} meets the {one.link}: it needs an eccentric in a hollow input shaft, "
-            "or another way out",
+            "or another path to its bearings",
             given.shown_deg(one.input_deg),
         )
     if seen.nearest is None:

@@ -51,11 +51,11 @@ def drag_words(mechanism: Mechanism) -> str:
     makes it less: a drag would take the wheel off the second one.
     """
     if any(engagement.paired for engagement in mechanism.engagements):
-        return "less slot_clearance_mm makes it less"
+        return "a smaller slot_clearance_mm reduces it"
     from geneva_cli.analysis.change_of_sides import lasting_drag_Nm
 
     drag = _up(lasting_drag_Nm(mechanism))
-    return f"add a drag of {drag:g} N m and the change of sides is gone"
+    return f"a drag of {drag:g} N m on the wheel prevents the change of sides"
 
 
 def _judged(name: str, mechanism: Mechanism, impact: Impact) -> Check:
@@ -70,7 +70,7 @@ def _judged(name: str, mechanism: Mechanism, impact: Impact) -> Check:
         lacks.append("face_width_mm in [size]")
     if limit is None:
         lacks.append("pin_force_max_N in [limits]")
-    why = f"the wheel jumps by {impact.jump:.4g} of the input's speed; to judge it set "
+    why = f"the wheel's speed jumps by {impact.jump:.4g} of the input's; to judge it, set "
     return Check(
         name, impact.force_N, "at most", limit, None, why + ", ".join(lacks), at_deg=impact.at_deg
     )

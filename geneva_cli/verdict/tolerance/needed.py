@@ -56,7 +56,7 @@ def needed(
     fit = 0.5 * (sizes["roller_diameter_mm"] + sizes["slot_width_mm"])
     slot = fit + max(_across(mechanism, e, sizes, least_play) for e in mechanism.engagements)
     if not spec.has_parts:
-        return Needed(slot, None, None, "no parts are drawn, which could be turned")
+        return Needed(slot, None, None, "there are no drawn parts to turn")
     try:
         lock, corner = (
             _flat(spec, proof.outlines, sizes, slot)

@@ -85,8 +85,7 @@ def study(mechanism: Mechanism, proof: Proof, samples: int, seed: int) -> Study:
         warnings.append(
             Caution(
                 "not-known",
-                "dwell_position is not known: no locking disc that is drawn holds the wheel "
-                "at rest",
+                "dwell_position is not known: no drawn locking disc holds the wheel at rest",
             )
         )
     if farthest:
@@ -97,7 +96,7 @@ def study(mechanism: Mechanism, proof: Proof, samples: int, seed: int) -> Study:
         warnings.append(
             Caution(
                 "not-known",
-                "motion_play is not known: the slots are curved, and solved for a true path",
+                "motion_play is not known: curved slots are computed for a path without errors",
             )
         )
     if jumps:
@@ -144,9 +143,9 @@ def _refuse_wide(mechanism: Mechanism, use: dict[str, float]) -> None:
         room = one.margin_mm(mechanism.spec, use)
         if not use["center_distance_mm"] + use["crank_radius_mm"] < room:
             raise GenevaError(
-                "the tolerances are too wide for a machine: center_distance_mm and "
-                f"crank_radius_mm must together be below {max(room, 0.0):.6g}, or the roller could "
-                "come to the wheel's axis, or to the crank's",
+                "the tolerances are too wide: center_distance_mm and crank_radius_mm must add up "
+                f"to less than {max(room, 0.0):.6g} mm, or the roller could reach the wheel's axis "
+                "or the crank's",
                 ("tolerance", "center_distance_mm"),
             )
 
