@@ -36,6 +36,7 @@ GROUPS: dict[str, dict[str, str]] = {
         "tolerances": "place and play from the plus or minus of each dimension",
         "square-root": "what a wrong R/L costs: the square root of it",
         "accuracy": "what is promised, how it is tested, and run time against error",
+        "certificates": "peaks with proved bounds: what is proved, and by what argument",
         "numbers": "why our numbers differ from those that circulate",
         "house": "how the program is built, for who changes it",
     },
