@@ -5,7 +5,7 @@ BIN = .venv/bin
 # Not --quiet: mkdocs then counts no warning, and --strict passes whatever is broken.
 DOCS = $(BIN)/mkdocs build --strict --config-file .ci/mkdocs.yml
 
-.PHONY: demo test pytest lint docs stress jam cad editors page fuzz bench bench-start dist clean
+.PHONY: demo test pytest lint docs stress certify jam cad editors page fuzz bench bench-start dist clean
 
 demo: .venv/demo
 	@mkdir -p build
@@ -41,7 +41,8 @@ bench: .venv/dev
 	$(BIN)/geneva bench --plots build/bench -o build/bench/bench.md
 
 # Numerical stress against mpmath, random machines turned, sweeps of every key, then every case of
-# the tests, of which `make test` takes a sample (tests/sampling.py); an hour.
+# the tests, of which `make test` takes a sample (tests/sampling.py), the certificates of all designs
+# among them (`make certify` adds random machines); an hour.
 stress: .venv/dev
 	PYTHONPATH=tests:tests/machine:tests/parts $(BIN)/python tests/stress/stress.py
 	PYTHONPATH=tests:tests/machine:tests/parts $(BIN)/python tests/stress/stress_outline.py
@@ -51,6 +52,12 @@ stress: .venv/dev
 	PYTHONPATH=tests $(BIN)/python tests/stress/stress_sweep.py
 	GENEVA_STRESS=1 PYTHONDONTWRITEBYTECODE= $(BIN)/pytest -n logical --dist worksteal
 	PYTHONPATH=tests $(BIN)/python tests/stress/stress_windows.py
+
+# Proved bounds of every peak: all designs, and 1,000 random machines of each kind; an hour. `make
+# stress` takes the designs alone.
+certify: .venv/dev
+	@mkdir -p build
+	PYTHONPATH=tests:tests/machine:tests/parts:tests/stress $(BIN)/python tests/stress/certify.py --runs 26000 --jobs 2 --state build/certify.json
 
 # 2,000 mutated specs before the reader, JSON Schema, and the checkers of two editors; two minutes.
 editors: .venv/dev

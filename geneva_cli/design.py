@@ -40,6 +40,7 @@ from geneva_cli.spec.tables import (
 )
 
 if TYPE_CHECKING:
+    from geneva_cli.analysis.certificate import Certificate
     from geneva_cli.analysis.loads.cycle import Cycle
     from geneva_cli.analysis.loads.summary import Summary
     from geneva_cli.analysis.peaks import Peaks
@@ -264,6 +265,45 @@ class Design:
         from geneva_cli.analysis.peaks import peaks_table
 
         return peaks_table(self.mechanism)
+
+    @question
+    def certificate(self, quantity: str, intervals: int | None = None) -> Certificate:
+        """Proved bounds of a peak, with all places where it may be; needs python-flint.
+
+        ``quantity`` is velocity, acceleration, jerk or power. It is not proved if it takes more
+        than so many ``intervals`` a motion (2,000). Raises GenevaError for another quantity.
+
+        >>> Design(External(6)).certificate("acceleration").text
+        'acceleration.max in [1.34963727590190, 1.34963727590191], at two mirrored places, proved'
+        """
+        from geneva_cli.analysis.certificate import LIMIT, certificate
+
+        limit = LIMIT if intervals is None else intervals
+        return self._located(lambda: certificate(self.mechanism, quantity, limit))
+
+    @answer
+    def certified_table(self) -> Table:
+        """The peaks, and a table of their certificates; as ``geneva peaks --certify`` prints json.
+
+        >>> table = Design(External(6)).certified_table
+        >>> [row["proved"] for row in table.to_dict()["certificate"]]
+        [True, True, True, True]
+        """
+        return self._certified(for_people=False)
+
+    @answer
+    def certified_page(self) -> Table:
+        """The peaks, and their certificates in words.
+
+        >>> Design(External(6)).certified_page.to_dict()["certificate"][2]
+        'jerk.max in [5.99999999999999, 6.00000000000000], unique, proved'
+        """
+        return self._certified(for_people=True)
+
+    def _certified(self, for_people: bool) -> Table:
+        from geneva_cli.analysis.certificate import with_certificates
+
+        return with_certificates(self.peaks_table, self.mechanism, for_people)
 
     @question
     def motion(self, samples: int = 361) -> Table:

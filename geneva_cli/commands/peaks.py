@@ -1,22 +1,43 @@
 """``geneva peaks``."""
 
+from typing import Annotated
+
+import typer
+
 from geneva_cli.commands.options import Format, Given, Output, SpecPath, warn
 
 EXAMPLES = (
     "geneva peaks spec.toml",
     "geneva peaks spec.toml --set wheel.z=5 --format json",
+    "geneva peaks spec.toml --certify",
 )
 
 
-def run(spec: SpecPath, given: Given = None, output: Output = "-", format: Format = "") -> None:
+def run(
+    spec: SpecPath,
+    certify: Annotated[
+        bool, typer.Option("--certify", help="Prove each peak between two bounds.")
+    ] = False,
+    given: Given = None,
+    output: Output = "-",
+    format: Format = "",
+) -> None:
     """Greatest velocity, acceleration, jerk and power of a design, as invariants.
 
     Angles are signed input angles from mid-motion. If engagements differ, each peak is the
     greatest of all.
+
+    With --certify each peak is proved to lie between two bounds, or is called not proved. It needs
+    the extra geneva-cli[certify]. More: `geneva help certificates`.
     """
     from geneva_cli.design import load
     from geneva_cli.output import show
+    from geneva_cli.output.formats import table_as
 
     design = load(spec, given or ())
-    show(design.peaks_table, output, format, design.spec.files)
+    table = design.peaks_table
+    if certify:
+        data = table_as(output, format) in ("json", "csv")
+        table = design.certified_table if data else design.certified_page
+    show(table, output, format, design.spec.files)
     warn(design)

@@ -7,6 +7,7 @@ centre distance L. The wheel's axis is the origin, the crank's axis is at (1, 0)
 
 from __future__ import annotations
 
+import math
 from abc import ABC, abstractmethod
 from collections.abc import Sequence
 from functools import cached_property
@@ -213,6 +214,14 @@ class Motion(ABC):
         """Entry, places where a derivative may jump, mid-motion, and exit, in degrees."""
         return (self.entry_deg, 0.0, self.exit_deg)
 
+    @property
+    def seams_deg(self) -> tuple[float, ...]:
+        """Entry, every place where another formula takes over, and exit, in degrees.
+
+        Between two of them, in order, the motion is one analytic formula. For one design.
+        """
+        return self.breaks_deg
+
     def closed_peak(self, quantity: str) -> Peak[float] | None:
         """Peak of a quantity in closed form, or by a search that is faster than the general one.
 
@@ -357,7 +366,12 @@ class Anchor(NamedTuple):
     input_deg: float
     wheel: float  # direction of the ray from the wheel's axis to the pin there, radians
     along: float  # distance from the wheel's axis to the pin there
-    displacement: Displacement
+    displacement: PinDisplacement
+
+    @property
+    def seams_deg(self) -> list[float]:
+        """Input angles at which another formula of the displacement takes over, degrees."""
+        return [self.input_deg + math.degrees(cut) for cut in self.displacement.cuts]
 
     def displacement_at(self, input_deg: Number, order: int) -> tuple[Jet, Jet]:
         """Pin displacement (along the ray, across it) at an input angle in degrees."""
@@ -374,6 +388,14 @@ class Displacement(Protocol):
 
     def __call__(self, tau: Number, order: int) -> tuple[Jet, Jet]:
         """Displacement along the anchor's ray and across it, ``tau`` input radians later."""
+
+
+class PinDisplacement(Displacement, Protocol):
+    """A displacement with the places where another formula takes over."""
+
+    @property
+    def cuts(self) -> Sequence[float]:
+        """Input radians since the anchor, in order; none for one formula throughout."""
 
 
 def in_wheel(path: tuple[Jet, Jet], wheel: Jet) -> tuple[Jet, Jet]:

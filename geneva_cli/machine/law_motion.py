@@ -8,8 +8,7 @@ from typing import TYPE_CHECKING
 from geneva_cli.errors import GenevaError, refuse
 from geneva_cli.machine.engagement import Motion
 from geneva_cli.machine.laws.law import Law, remaining
-from geneva_cli.numerics.angles import DEGREE
-from geneva_cli.numerics.arrays import all_true, ascending
+from geneva_cli.numerics.arrays import ONE, all_true, ascending, library
 from geneva_cli.numerics.jet import Jet, Number, piecewise
 from geneva_cli.numerics.latest import Latest
 
@@ -44,6 +43,13 @@ class LawMotion(Motion):
             inner = [0.0, *[(u - 0.5) * whole for u in self.law.breaks]]
         return (self.entry_deg, *ascending(inner), self.exit_deg)
 
+    @property
+    def seams_deg(self) -> tuple[float, ...]:
+        """Entry, the law's knots and its middle, and exit, in degrees."""
+        whole = self.exit_deg - self.entry_deg
+        inner = sorted({0.5, *self.law.knots})
+        return (self.entry_deg, *[self.entry_deg + u * whole for u in inner], self.exit_deg)
+
     def __call__(self, input_deg: Number, order: int = 3) -> Jet:
         """Wheel angle with its derivatives; each half of the law is computed from its own end."""
         return self._latest(self._halves, input_deg, order)[0]
@@ -60,11 +66,11 @@ class LawMotion(Motion):
             rest = self.law.near_end((self.exit_deg - x) / whole, order)
             return remaining(rest * step, self.half_step)
 
-        if not isinstance(input_deg, float | int) and input_deg.ndim == 1 and self._halves_alike:
+        if not isinstance(input_deg, ONE) and input_deg.ndim == 1 and self._halves_alike:
             s = self._at_once(input_deg, middle, order)
         else:
             s = piecewise(input_deg, (middle,), (first, second))
-        rate = 1.0 / (whole * DEGREE)
+        rate = 1.0 / (whole * (library(input_deg).pi / 180.0))
         return (Jet([c * rate**k if k else c for k, c in enumerate(s.c)]),)
 
     @cached_property

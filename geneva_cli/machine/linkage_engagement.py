@@ -168,6 +168,7 @@ class AlongRay(NamedTuple):
     y: float
     scale: float
     sense: float
+    cuts: tuple[float, ...] = ()
 
     def __call__(self, tau: Number, order: int) -> tuple[Jet, Jet]:
         """Displacement after ``tau`` radians of crank rotation."""

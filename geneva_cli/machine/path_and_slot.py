@@ -142,6 +142,14 @@ class Followed(Motion):
         """True if path and slot are symmetric about mid-motion."""
         return self.mirrored and super().symmetric
 
+    @property
+    def seams_deg(self) -> tuple[float, ...]:
+        """Entry, mid-motion, where one anchor hands over to the next, the path's own, and exit."""
+        anchors = self.path.anchors
+        places = {0.0, *anchors.cuts, *[at for one in anchors for at in one.seams_deg]}
+        inside = sorted(at for at in places if self.entry_deg < at < self.exit_deg)
+        return (self.entry_deg, *inside, self.exit_deg)
+
     def __call__(self, input_deg: Number, order: int = 3) -> Jet:
         """Wheel angle from the direction of the pin at the nearest anchor; at rest at both ends."""
 

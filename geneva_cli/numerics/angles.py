@@ -10,7 +10,7 @@ import math
 from collections.abc import Callable
 from functools import lru_cache
 
-from geneva_cli.numerics.arrays import Array, N, parameter
+from geneva_cli.numerics.arrays import Array, Enclosed, N, parameter
 
 DEGREE = math.pi / 180.0
 _BITS = 128
@@ -164,6 +164,8 @@ def sin_cos_deg(degrees: float) -> tuple[float, float]:
 
 def radians(degrees: N) -> N:
     """Degrees to radians, for numbers and arrays alike."""
+    if isinstance(degrees, Enclosed):
+        return degrees * (degrees.library.pi / 180.0)
     return degrees * DEGREE
 
 

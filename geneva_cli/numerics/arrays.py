@@ -9,8 +9,9 @@ of angles went in. To the type checker the numbers of a machine are floats.
 from __future__ import annotations
 
 import math
+from bisect import bisect_left
 from collections.abc import Callable, Iterable, Sequence
-from typing import TYPE_CHECKING, Protocol, TypeAlias, TypeVar, cast
+from typing import TYPE_CHECKING, ClassVar, Protocol, TypeAlias, TypeVar, cast
 
 if TYPE_CHECKING:
     from decimal import Decimal
@@ -40,6 +41,8 @@ _PLAIN = (float, int)
 class Library(Protocol):
     """What ``math`` and ``numpy`` both have."""
 
+    @property
+    def pi(self) -> float: ...
     def sin(self, x: N, /) -> N: ...
     def cos(self, x: N, /) -> N: ...
     def asin(self, x: N, /) -> N: ...
@@ -57,10 +60,39 @@ class Library(Protocol):
 PLAIN = cast("Library", math)
 
 
+class Enclosed:
+    """A single number that is known by two bounds (``balls.Ball``); it brings its own functions.
+
+    To the type checker it is a float, as all numbers of formulas are.
+    """
+
+    __slots__ = ()
+    library: ClassVar[Library]
+
+    def piece(self, cuts: Sequence[float]) -> int:
+        """Number of the piece between ``cuts`` that holds it."""
+        raise NotImplementedError
+
+
+ONE = (float, int, Enclosed)  # the kinds of a single number; any other is an array
+
+
+def piece_of(x: Number, cuts: Sequence[float]) -> int:
+    """Number of the piece that holds x: the i-th lies up to ``cuts[i]``, the end included.
+
+    >>> piece_of(0.5, [0.0, 0.5, 1.0])
+    1
+    """
+    return x.piece(cuts) if isinstance(x, Enclosed) else bisect_left(cuts, cast(float, x))
+
+
 def library(x: Number, y: Number = 0.0, z: Number = 0.0) -> Library:
     """The module whose sin and cos suit numbers: ``numpy`` where one of them is an array."""
     if isinstance(x, _PLAIN) and isinstance(y, _PLAIN) and isinstance(z, _PLAIN):
         return PLAIN
+    for one in (x, y, z):
+        if isinstance(one, Enclosed):
+            return one.library
     import numpy
 
     return cast("Library", numpy)
@@ -162,7 +194,7 @@ def are_alike(records: Sequence[object]) -> bool:
 
 def are_designs(x: Number, *numbers: Number) -> bool:
     """Whether angles are (n, k), or one of some numbers differs from design to design."""
-    plain = isinstance(x, float) or x.ndim < 2
+    plain = isinstance(x, ONE) or x.ndim < 2
     return not (plain and all(isinstance(one, float) for one in numbers))
 
 

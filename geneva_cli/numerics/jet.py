@@ -11,23 +11,20 @@ The recurrences are the classical ones of automatic differentiation
 
 from __future__ import annotations
 
-from bisect import bisect_left
 from collections.abc import Callable, Sequence
 from itertools import pairwise
+from math import factorial
 from typing import TYPE_CHECKING, TypeVar, cast
 
+from geneva_cli.numerics.arrays import ONE, Enclosed, library, minus, piece_of, plus, size
 from geneva_cli.numerics.arrays import Array as Array
 from geneva_cli.numerics.arrays import Number as Number
-from geneva_cli.numerics.arrays import library, minus, plus, size
 
 if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import NDArray
 
     from geneva_cli.numerics.arrays import Mask, Whole
-
-
-_FACTORIAL = (1.0, 1.0, 2.0, 6.0, 24.0, 120.0)
 
 
 class Jet:
@@ -51,7 +48,7 @@ class Jet:
 
     def derivatives(self) -> tuple[Number, ...]:
         """Value, first derivative, second, ... up to the order."""
-        return tuple(c if k < 2 else c * _FACTORIAL[k] for k, c in enumerate(self.c))
+        return tuple(c if k < 2 else c * factorial(k) for k, c in enumerate(self.c))
 
     def scalars(self) -> tuple[float, ...]:
         """The derivatives of a jet at one number."""
@@ -188,6 +185,14 @@ def _circle(slope: Sequence[Number], sine: Number, cosine: Number) -> tuple[Jet,
     return Jet(s), Jet(c)
 
 
+def cosines_after(sine: Number, cosine: Number, order: int) -> list[Number]:
+    """Taylor coefficients of a cosine by its own angle, from the sine and cosine there."""
+    terms = [cosine, -sine]
+    for k in range(2, order + 1):
+        terms.append(terms[k - 2] / (k - k * k))
+    return terms[: order + 1]
+
+
 def sine_versine(x: Jet) -> tuple[Jet, Jet]:
     """sin x and 1 - cos x, the latter without cancellation."""
     s, c = sin_cos(x)
@@ -200,11 +205,20 @@ def sine_versine_of(rate: Jet, y: Number, x: Number, order: int) -> tuple[Jet, J
     m = library(x, y)
     length = m.hypot(x, y)
     sine, cosine = y / length, x / length
-    # 1 - cos = sin²/(1 + cos), or as it stands where the cosine is negative
-    ahead = 0.5 * (1.0 + m.copysign(1.0, x))
-    versine = ahead * sine * sine / (1.0 + size(cosine)) + (1.0 - ahead) * (1.0 - cosine)
+    versine = _versine(sine, cosine)
     s, c = _circle([0.0, *rate.c][: order + 1], sine, cosine)
     return s, Jet((versine, *[-a for a in c.c[1:]]))
+
+
+def _versine(sine: Number, cosine: Number) -> Number:
+    """1 - cos without cancellation: sin²/(1 + cos), or as it stands where the cosine is negative.
+
+    A ball has digits to spare, and may lie on both sides.
+    """
+    if isinstance(cosine, Enclosed):
+        return 1.0 - cosine
+    ahead = 0.5 * (1.0 + library(cosine).copysign(1.0, cosine))
+    return ahead * sine * sine / (1.0 + size(cosine)) + (1.0 - ahead) * (1.0 - cosine)
 
 
 def turned_at(rate: Jet, x: Number, y: Number, order: int) -> tuple[Jet, Jet]:
@@ -264,8 +278,8 @@ def piecewise(x: Number, cuts: Sequence[Number], pieces: Sequence[Callable[[Numb
     cuts may differ, each piece sees the columns in which it holds anywhere, and its own part of
     them is chosen: so it pays to ask for angles that lie in one piece.
     """
-    if isinstance(x, float) and isinstance(cuts[0], float) and isinstance(cuts[-1], float):
-        return pieces[bisect_left(cuts, x)](x)
+    if isinstance(x, ONE) and isinstance(cuts[0], float) and isinstance(cuts[-1], float):
+        return pieces[piece_of(x, cast("Sequence[float]", cuts))](x)
     import numpy as np
 
     angles = np.asarray(x)

@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import TYPE_CHECKING
 
-from geneva_cli.numerics.arrays import read_only
+from geneva_cli.numerics.arrays import ONE, read_only
 from geneva_cli.numerics.jet import Jet, Number
 
 if TYPE_CHECKING:
@@ -36,7 +36,7 @@ class Latest:
         self, of: Callable[[Number, int], tuple[Jet, ...]], x: Number, order: int
     ) -> tuple[Jet, ...]:
         """``of(x, order)``, from the cache where it has it."""
-        if isinstance(x, (int, float)):
+        if isinstance(x, ONE):
             return of(x, order)
         kept = self._kept
         if kept and kept[0] is x and kept[2] >= order and bool((kept[1] == x).all()):

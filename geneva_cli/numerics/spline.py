@@ -9,7 +9,6 @@ decimals leave far more unknown.
 from __future__ import annotations
 
 import math
-from bisect import bisect_left
 from collections.abc import Sequence
 from decimal import Decimal
 from itertools import pairwise
@@ -17,7 +16,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from geneva_cli.numerics.arrays import Array, N
+from geneva_cli.numerics.arrays import ONE, Array, N, piece_of
 
 DEGREE = 5
 # Points of other periods on either side of a periodic spline: each one nearer to the end moves the
@@ -38,12 +37,18 @@ class Pieces:
 
     def __call__(self, x: N, order: int) -> list[N]:
         """Taylor coefficients 0 to ``order`` at a number or an array of numbers."""
-        if isinstance(x, (float, int)):
+        if isinstance(x, ONE):
             cuts, origins, rows = self._scalars
-            i = bisect_left(cuts, x)
+            i = piece_of(x, cuts)
             return taylor(x - origins[i], rows[i], order)
         index = self.cuts.searchsorted(x)
         return taylor(x - self.origins[index], [c[index] for c in self._columns], order)
+
+    @property
+    def seams(self) -> list[float]:
+        """The cuts as Python's numbers."""
+        cuts: list[float] = self._scalars[0]
+        return cuts
 
     def integral(self) -> Pieces:
         """The integral from the first origin, for pieces that begin at their origins."""

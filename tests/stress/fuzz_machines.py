@@ -206,10 +206,11 @@ def motion(rng, kind, gearing):
     return lines
 
 
-def machine_text(rng):
-    """A machine that a designer might write, or nearly."""
+def machine_text(rng, kind=None):
+    """A machine that a designer might write, or nearly; of any kind of drive, or the one given."""
     # linkages take a hundred times as long to read as others
-    kind = rng.choice(["crank"] * 14 + [k for k in DRIVES for _ in range(1 + (k not in LINKAGES))])
+    kinds = ["crank"] * 14 + [k for k in DRIVES for _ in range(1 + (k not in LINKAGES))]
+    kind = kind or rng.choice(kinds)
     z, gearing, lines = wheel(rng, kind)
     L = rng.choice([100.0, 100.0, near(rng, 100.0, 1.0)])
     R = L * math.sin(math.pi / z)

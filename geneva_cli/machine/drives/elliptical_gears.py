@@ -21,7 +21,7 @@ from geneva_cli.machine.layout import Dimension, Layout, Pivot
 from geneva_cli.machine.wheels.gearing import Gearing
 from geneva_cli.numerics.angles import sin_cos_deg
 from geneva_cli.numerics.arrays import library
-from geneva_cli.numerics.jet import Jet, Number, sine_versine_of
+from geneva_cli.numerics.jet import Jet, Number, cosines_after, sine_versine_of
 from geneva_cli.spec.rules import POSITIVE, OneOf, Range
 
 MOST = 1.0 - 0.999e-12
@@ -115,8 +115,8 @@ class Focal(NamedTuple):
         x, y = along * along - across * across, 2.0 * along * across
         W = ((1.0 + e) * cosine) ** 2 + ((1.0 - e) * sine) ** 2
         sin_phi, cos_phi = 2.0 * sine * cosine, (cosine - sine) * (cosine + sine)
-        turns = (cos_phi, -sin_phi, -0.5 * cos_phi, sin_phi / 6.0, cos_phi / 24.0)[: max(order, 1)]
-        rate = least / Jet((W, *[2.0 * e * t for t in turns[1:]]))
+        cosines = cosines_after(sin_phi, cos_phi, max(order, 1) - 1)
+        rate = least / Jet((W, *[2.0 * e * t for t in cosines[1:]]))
         return sine_versine_of(rate, y, x, order)
 
 

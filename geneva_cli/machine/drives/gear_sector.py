@@ -180,6 +180,14 @@ class SectorMotion(Motion):
         """Entry, both handovers with mid-motion between them, and exit, in degrees."""
         return (self.entry_deg, -self.half_sector, 0.0, self.half_sector, self.exit_deg)
 
+    @property
+    def seams_deg(self) -> tuple[float, ...]:
+        """Those of the slot's motion at both ends, and those of ``breaks_deg``."""
+        before, after = self.entry_deg - self.inner.entry_deg, self.exit_deg - self.inner.exit_deg
+        places = {at + before for at in self.inner.seams_deg if at + before < -self.half_sector}
+        places |= {at + after for at in self.inner.seams_deg if at + after > self.half_sector}
+        return tuple(sorted(places | {*self.breaks_deg}))
+
     def slot_deg(self, input_deg: Number) -> Number:
         """Crank angle in the slot's own motion; while the gears drive, that of the handover."""
         out = larger(size(input_deg) - self.half_sector, 0.0) + self.handover_deg

@@ -165,7 +165,8 @@ class Since(NamedTuple):
 def _through(crank: Pieces, crank_deg: float) -> About:
     turns, wanted = divmod(math.radians(crank_deg), math.tau)
     phi = boundary(lambda x: crank(x, 0)[0] < wanted, 0.0, math.tau)
-    return About(math.degrees(phi + turns * math.tau), Since(_since(crank, phi)), even=False)
+    since = _since(crank, phi)
+    return About(math.degrees(phi + turns * math.tau), Since(since), False, since.seams)
 
 
 def _since(crank: Pieces, phi: float) -> Pieces:

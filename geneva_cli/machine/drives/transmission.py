@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from abc import abstractmethod
+from collections.abc import Sequence
 from typing import TYPE_CHECKING, ClassVar, NamedTuple
 
 from geneva_cli.errors import GenevaError, refuse
@@ -44,6 +45,8 @@ class About(NamedTuple):
     advance: Displacement
     # True if the crank may turn alike before and after; False for an arbitrary ratio
     even: bool = True
+    # input radians since then at which another formula of ``advance`` takes over
+    cuts: Sequence[float] = ()
 
 
 def same(tau: Number, order: int) -> tuple[Jet, Jet]:
@@ -56,6 +59,7 @@ class PinTravel(NamedTuple):
 
     pose: PinPose
     advance: Displacement
+    cuts: Sequence[float] = ()  # of ``advance``
 
     def __call__(self, tau: Number, order: int) -> tuple[Jet, Jet]:
         """Displacement along the pose's ray and across it, ``tau`` input radians later."""
@@ -147,7 +151,7 @@ class Transmission(Drive, kw_only=True):
         """A pose as an anchor by the input angle; the roller is ``crank_deg`` behind the first."""
         here = self.about(crank_deg + pose.crank_deg)
         from_mid = here.input_deg - self.about(crank_deg).input_deg
-        return Anchor(from_mid, pose.wheel, pose.along, PinTravel(pose, here.advance))
+        return Anchor(from_mid, pose.wheel, pose.along, PinTravel(pose, here.advance, here.cuts))
 
     def _curved(self, wheel: Gearing, motion: Motion, L: float) -> Plan:
         """Plan of curved slots, solved for from a law and the crank's circle."""

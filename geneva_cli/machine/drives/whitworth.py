@@ -16,7 +16,7 @@ from geneva_cli.machine.engagement import Peak, Vector
 from geneva_cli.machine.wheels.gearing import Gearing, RollerPlace
 from geneva_cli.numerics.angles import radians, sin_cos_deg
 from geneva_cli.numerics.arrays import choose, library, parameter
-from geneva_cli.numerics.jet import Jet, Number, sin_cos, sine_versine_of
+from geneva_cli.numerics.jet import Jet, Number, cosines_after, sin_cos, sine_versine_of
 
 A_MAX = 1.0 - 0.999e-12
 A_SURE = 0.999  # up to it the search for arrays misses no peak
@@ -102,9 +102,9 @@ class Coulisse(NamedTuple):
         # df/dphi = (1 + (1 - A²)/W)/2 with W = x² + y² = 1 + A² + 2 A cos phi. As A nears 1 the
         # coulisse turns at half speed, and nothing cancels.
         sine, cosine = x * s + y * c, x * c - y * s - A
-        turns = (cosine, -sine, -0.5 * cosine, sine / 6.0, cosine / 24.0)[: max(order, 0) + 1]
+        cosines = cosines_after(sine, cosine, max(order, 0))
         W = choose(self.grows, length * length - 4.0 * A * c * sin_t * sin_t, x * x + y * y)
-        square = Jet((W, *[2.0 * A * t for t in turns[1:]]))
+        square = Jet((W, *[2.0 * A * t for t in cosines[1:]]))
         return y, x, 0.5 + (0.5 * (1.0 - A) * (1.0 + A)) / square
 
 

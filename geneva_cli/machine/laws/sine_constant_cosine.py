@@ -15,12 +15,11 @@ from geneva_cli.numerics.arrays import library
 from geneva_cli.numerics.jet import Jet, Number, piecewise, sin_cos
 
 
-def peak(b: float, d: float) -> float:
+def peak(b: float, d: float, pi: float = math.pi) -> float:
     """Greatest acceleration without a middle at constant velocity; c is 1 - b - d.
 
     Ca = 4 pi² / ((pi² - 8)(b² - d²) - 2 pi (pi - 2) b + pi²), Norton's closed form.
     """
-    pi = math.pi
     bends = (pi * pi - 8.0) * (b - d) * (b + d)
     return 4.0 * pi * pi / (bends - 2.0 * pi * (pi - 2.0) * b + pi * pi)
 
@@ -50,25 +49,25 @@ def first_half(u: Number, order: int, b: float, d: float, v: float = 0.0) -> Jet
     ends = _ends(b, d, v)
     sine, constant, cosine = ends[0], ends[1] - ends[0], ends[2] - ends[1]
     # v only stretches the time: top speed V of the rise alone, in 1 - v of its time
-    alone = peak(b, d) * ((b + d) / math.pi + 0.5 * (1.0 - b - d))
+    m = library(u)
+    pi, greatest = m.pi, peak(b, d, m.pi)
+    alone = greatest * ((b + d) / pi + 0.5 * (1.0 - b - d))
     top = alone / (1.0 - v + v * alone)
-    a = peak(b, d) * top / alone / (1.0 - v)
+    a = greatest * top / alone / (1.0 - v)
 
-    v_1 = a * sine * 2.0 / math.pi  # after the sine
-    s_1 = v_1 * sine * (1.0 - 2.0 / math.pi)
+    v_1 = a * sine * 2.0 / pi  # after the sine
+    s_1 = v_1 * sine * (1.0 - 2.0 / pi)
     v_2 = v_1 + a * constant  # before the cosine
     s_2 = s_1 + constant * (v_1 + 0.5 * a * constant)
 
     def start(x: Number) -> Jet:
-        rate = 0.5 * math.pi / sine
+        rate = 0.5 * pi / sine
 
         def velocity(x: Jet) -> Jet:
             half = sin_cos(x * (0.5 * rate))[0]
             return half * half * (2.0 * a / rate)
 
-        return from_velocity(
-            x, order, lambda x: a / rate * (x - library(x).sin(rate * x) / rate), velocity
-        )
+        return from_velocity(x, order, lambda x: a / rate * (x - m.sin(rate * x) / rate), velocity)
 
     def flat(x: Number) -> Jet:
         t = x - sine
@@ -80,11 +79,11 @@ def first_half(u: Number, order: int, b: float, d: float, v: float = 0.0) -> Jet
         )
 
     def end(x: Number) -> Jet:
-        rate = 0.5 * math.pi / cosine
+        rate = 0.5 * pi / cosine
         t = x - ends[1]
 
         def position(x: Number) -> Number:
-            return s_2 + v_2 * t + 2.0 * a * (library(x).sin(0.5 * rate * t) / rate) ** 2
+            return s_2 + v_2 * t + 2.0 * a * (m.sin(0.5 * rate * t) / rate) ** 2
 
         return from_velocity(
             x,

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from typing import Annotated, ClassVar
 
 from geneva_cli.machine.laws.law import Law, from_velocity
@@ -30,11 +29,12 @@ class Harmonic(Law):
 
     def first(self, u: Number, order: int) -> Jet:
         """Fraction s = sin²(pi u / 2)."""
+        m = library(u)
         return from_velocity(
             u,
             order,
-            lambda u: library(u).sin(math.pi / 2.0 * u) ** 2,
-            lambda u: _sine(u * math.pi) * (math.pi / 2.0),
+            lambda u: m.sin(m.pi / 2.0 * u) ** 2,
+            lambda u: _sine(u * m.pi) * (m.pi / 2.0),
         )
 
 
@@ -52,14 +52,13 @@ class Cycloidal(Law):
 
     def first(self, u: Number, order: int) -> Jet:
         """Fraction s = u - sin(2 pi u) / (2 pi)."""
+        m = library(u)
 
         def velocity(u: Jet) -> Jet:
-            s = _sine(u * math.pi)
+            s = _sine(u * m.pi)
             return s * s * 2.0
 
-        return from_velocity(
-            u, order, lambda u: u - library(u).sin(2.0 * math.pi * u) / (2.0 * math.pi), velocity
-        )
+        return from_velocity(u, order, lambda u: u - m.sin(2.0 * m.pi * u) / (2.0 * m.pi), velocity)
 
 
 class _ScaledLaw(Law):
@@ -200,14 +199,15 @@ class SineGroup(Law):
 
 
 def _tilted(u: Number, order: int, shape: Number) -> Jet:
+    m = library(u)
+
     def position(u: Number) -> Number:
-        m = library(u)
-        x = math.pi * u
+        x = m.pi * u
         even = x - 2.0 / 3.0 * m.sin(2.0 * x) + m.sin(4.0 * x) / 12.0
-        return (even - 64.0 / 15.0 * shape * m.sin(x) ** 5) / math.pi
+        return (even - 64.0 / 15.0 * shape * m.sin(x) ** 5) / m.pi
 
     def velocity(u: Jet) -> Jet:
-        s, c = sin_cos(u * math.pi)
+        s, c = sin_cos(u * m.pi)
         squared = s * s
         out: Jet = squared * squared * (1.0 - c * (8.0 * shape)) * (8.0 / 3.0)
         return out

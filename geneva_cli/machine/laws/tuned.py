@@ -12,14 +12,13 @@ lambda.
 
 from __future__ import annotations
 
-import math
 from functools import cached_property
 from typing import Annotated, ClassVar
 
 from geneva_cli.errors import GenevaError
 from geneva_cli.machine import registry
 from geneva_cli.machine.laws.law import Law
-from geneva_cli.numerics.arrays import Truth, scalar
+from geneva_cli.numerics.arrays import Truth, library, scalar
 from geneva_cli.numerics.jet import Jet, Number
 from geneva_cli.numerics.tolerances import ROUNDED
 from geneva_cli.spec.rules import OneOf, Range
@@ -91,7 +90,7 @@ class Tuned(Law):
         return self._with_rates(self._y.second(w, order + 2), -1.0)
 
     def _with_rates(self, y: Jet, sign: float) -> Jet:
-        omega = 2.0 * math.pi * self.period_ratio
+        omega = 2.0 * library(y.c[0]).pi * self.period_ratio
         rate = Jet(y.derivative().c[:-1]) * (sign * 2.0 * self.damping_ratio / omega)
         return Jet(y.c[:-2]) + rate + y.derivative().derivative() * (1.0 / (omega * omega))
 

@@ -1,0 +1,248 @@
+"""Certificates of peaks: proved bounds of the greatest velocity, acceleration, jerk or power.
+
+The program's own formulas are evaluated in balls over every whole motion (``enclosures.greatest``).
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Sequence
+from decimal import ROUND_CEILING, ROUND_FLOOR, Context, Decimal
+from importlib.util import find_spec
+from typing import TYPE_CHECKING, NamedTuple, cast
+
+from geneva_cli.analysis.peaks import QUANTITIES
+from geneva_cli.errors import GenevaError, cut, nearest
+from geneva_cli.machine.engagement import Engagement, Motion
+from geneva_cli.machine.mechanism import Mechanism
+from geneva_cli.numerics.jet import Jet, Number
+from geneva_cli.numerics.tolerances import TIE
+from geneva_cli.table import Table, rows_table
+
+if TYPE_CHECKING:
+    from geneva_cli.numerics.balls import Ball
+    from geneva_cli.numerics.enclosures import Greatest, Interval
+
+ABOUT = "the program's formulas, with pi exact and the machine's other numbers as doubles"
+LIMIT = 2000  # intervals a motion: 12 times what any design here takes, some seconds
+DIGITS = 15  # that are printed: as many as every double keeps
+SHOWN_TO_DEG = 2.0**-42  # rounding of an angle that is counted from another mid-motion
+NARROW_DEG = 1e-6  # a narrower place is one angle for people
+DERIVED = {"velocity": 0, "acceleration": 1, "jerk": 2}  # derivatives of the velocity
+
+
+class Place(NamedTuple):
+    """Input angles in degrees between which the greatest size may be, rounded outwards."""
+
+    from_deg: float
+    to_deg: float
+
+    @property
+    def is_narrow(self) -> bool:
+        """True if it is one angle for people."""
+        return self.to_deg - self.from_deg < NARROW_DEG
+
+
+class Open(NamedTuple):
+    """An interval of input angles that was not settled, and what is known of the size there.
+
+    ``below`` is a proved bound of it, None if there is none.
+    """
+
+    from_deg: float
+    to_deg: float
+    below: float | None
+
+
+class Certificate(NamedTuple):
+    """Bounds of a peak, and all places where it may be.
+
+    If it is ``proved``, the greatest size lies from ``low`` to ``high``. Else ``low`` is reached,
+    ``high`` is None, and ``open`` is the interval that was left over.
+    """
+
+    quantity: str
+    low: float
+    high: float | None
+    places: tuple[Place, ...]
+    mirrored: bool  # True for two places that mirror each other
+    intervals: int
+    open: Open | None
+    about: str = ABOUT
+
+    @property
+    def proved(self) -> bool:
+        """True if no interval is left over."""
+        return self.open is None
+
+    @property
+    def at_deg(self) -> float | None:
+        """Middle of the first place, degrees; None if it is not proved."""
+        first = self.places[0] if self.places else None
+        return None if first is None else 0.5 * (first.from_deg + first.to_deg)
+
+    @property
+    def where(self) -> str:
+        """The places in words.
+
+        >>> Design(External(6)).certificate("acceleration").where
+        'at two mirrored places'
+        """
+        if len(self.places) > 1:
+            return "at two mirrored places" if self.mirrored else f"at {len(self.places)} places"
+        (place,) = self.places
+        between = f"between {place.from_deg:.9g} and {place.to_deg:.9g} deg"
+        return "unique" if place.is_narrow else between
+
+    @property
+    def text(self) -> str:
+        """The certificate in a line.
+
+        >>> Design(External(6)).certificate("velocity").text
+        'velocity.max in [0.999999999999999, 1.00000000000001], unique, proved'
+        """
+        low = _outwards(self.low, ROUND_FLOOR)
+        if self.open is None:
+            high = _outwards(cast(float, self.high), ROUND_CEILING)
+            return f"{self.quantity}.max in [{low}, {high}], {self.where}, proved"
+        a, b, below = self.open
+        known = "no bound is known" if below is None else f"below {below:.6g}"
+        return (
+            f"{self.quantity}.max at least {low}, not proved: open from {a:.9g} to {b:.9g} deg, "
+            f"{known} there, after {self.intervals} intervals"
+        )
+
+    def confirms(self, size: float, at_deg: float) -> bool:
+        """True if it is proved and a peak in doubles agrees with it, up to the share ``TIE``.
+
+        >>> certificate = Design(External(6)).certificate("velocity")
+        >>> certificate.confirms(1.0, 0.0), certificate.confirms(1.0 + 1e-12, 0.0)
+        (True, False)
+        """
+        if self.high is None:
+            return False
+        near = any(a - NARROW_DEG <= at_deg <= b + NARROW_DEG for a, b in self.places)
+        return near and self.low * (1.0 - TIE) <= size <= self.high * (1.0 + TIE)
+
+
+def certificate(mechanism: Mechanism, quantity: str, limit: int = LIMIT) -> Certificate:
+    """The certificate of a machine's peak over all its engagements, with so many intervals each.
+
+    Raises GenevaError without python-flint, and for a quantity that has no certificate.
+    """
+    if quantity not in QUANTITIES:
+        hint = nearest(quantity, QUANTITIES)
+        raise GenevaError(
+            f'no certificate of "{cut(quantity)}"{hint}; there are those of {", ".join(QUANTITIES)}'
+        )
+    if find_spec("flint") is None:
+        raise GenevaError('certificates need python-flint: pip install "geneva-cli[certify]"')
+    each = mechanism.engagements
+    found = [_Found(mechanism, e, _greatest(e.motion, quantity, limit)) for e in each]
+    return _combined(quantity, found)
+
+
+def _greatest(motion: Motion, quantity: str, limit: int) -> Greatest:
+    """The greatest size over one whole motion."""
+    from geneva_cli.numerics.balls import precision
+    from geneva_cli.numerics.enclosures import greatest
+
+    with precision():
+        return greatest(_curve(motion, quantity), motion.seams_deg, limit)
+
+
+def _curve(motion: Motion, quantity: str) -> Callable[[Ball, int], Sequence[Ball]]:
+    """Taylor coefficients of a quantity at a ball of input angles in degrees."""
+    from geneva_cli.numerics.balls import ball_of
+
+    def coefficients(at: Ball, order: int) -> list[Ball]:
+        x = cast("Number", at)
+        if quantity == "power":
+            rate = motion.rate(x, order + 1)
+            jet: Jet = Jet(rate.c[:-1]) * rate.derivative()
+        else:
+            jet = motion.rate(x, order + DERIVED[quantity])
+            for _ in range(DERIVED[quantity]):
+                jet = jet.derivative()
+        return [ball_of(c) for c in jet.c]
+
+    return coefficients
+
+
+class _Found(NamedTuple):
+    """The greatest size over one engagement, with its angles as the machine's input angles."""
+
+    mechanism: Mechanism
+    engagement: Engagement
+    greatest: Greatest
+
+    def shown(self, interval: Interval) -> Place:
+        """An interval of the engagement as the machine's; longer by the rounding of both ends."""
+        start = self.mechanism.shown_deg(self.engagement.mid_deg + interval.start)
+        slack = 0.0 if start == interval.start else SHOWN_TO_DEG
+        end = interval.end + (start - interval.start)
+        return Place(start - slack, end + slack)
+
+    def mirrors(self, one: Interval, other: Interval) -> bool:
+        """True if two intervals lie opposite each other in a symmetric motion."""
+        apart = abs(one.start + other.end)
+        return self.engagement.motion.symmetric and apart < NARROW_DEG
+
+
+def _combined(quantity: str, found: Sequence[_Found]) -> Certificate:
+    """One certificate of all engagements."""
+    low = max(one.greatest.low for one in found)
+    least = low * (1.0 - TIE)
+    count = sum(one.greatest.intervals for one in found)
+    left = [
+        Open(*one.shown(one.greatest.open), _known(one.greatest.open.high))
+        for one in found
+        if one.greatest.open and one.greatest.open.high >= least
+    ]
+    if left:
+        worst = max(left, key=lambda o: math.inf if o.below is None else o.below)
+        return Certificate(quantity, low, None, (), False, count, worst)
+    places = [(one, place) for one in found for place in one.greatest.places if place.high >= least]
+    first, last = places[0], places[-1]
+    mirrored = len(places) == 2 and first[0] is last[0] and first[0].mirrors(first[1], last[1])
+    shown = tuple(sorted(one.shown(place) for one, place in places))
+    high = max(one.greatest.high for one in found)
+    return Certificate(quantity, low, high, shown, mirrored, count, None)
+
+
+def _known(high: float) -> float | None:
+    return high if math.isfinite(high) else None
+
+
+def _outwards(x: float, rounding: str) -> str:
+    """A number with ``DIGITS`` digits, rounded as given.
+
+    >>> _outwards(1 / 3, ROUND_CEILING)
+    '0.333333333333334'
+    """
+    digits = Context(prec=DIGITS, rounding=rounding).create_decimal(Decimal(x))
+    exponent = digits.adjusted() - DIGITS + 1
+    return f"{digits.quantize(Decimal((0, (1,), exponent)))}"
+
+
+def with_certificates(peaks: Table, mechanism: Mechanism, for_people: bool) -> Table:
+    """A record of peaks with the certificates of all: a table of them, or a text each."""
+    found = [certificate(mechanism, quantity) for quantity in QUANTITIES]
+    rows = [_row(one) for one in found]
+    table = rows_table(tuple(rows[0]), [tuple(row.values()) for row in rows])
+    value = tuple(one.text for one in found) if for_people else table
+    return peaks.replaced(names=(*peaks.names, "certificate"), columns=[*peaks.columns, (value,)])
+
+
+def _row(one: Certificate) -> dict[str, object]:
+    return {
+        "quantity": one.quantity,
+        "low": one.low,
+        "high": one.high,
+        "at_deg": one.at_deg,
+        "places": tuple(map(tuple, one.places)),
+        "proved": one.proved,
+        "intervals": one.intervals,
+        "about": one.about,
+        "open": None if one.open is None else one.open._asdict(),
+    }

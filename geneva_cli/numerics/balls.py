@@ -1,0 +1,231 @@
+"""Balls: numbers with an error bound, from Arb (python-flint, the optional extra ``certify``).
+
+A ball holds every number within its radius of its middle. A formula of balls gives a ball that
+holds every value of the formula. F. Johansson, "Arb: efficient arbitrary-precision midpoint-radius
+interval arithmetic", IEEE Transactions on Computers 66 (2017).
+
+This ball never becomes a float, and never answers a comparison that it cannot decide. Otherwise
+``math.sin`` would return a float without a bound, and a test with an open answer would be False.
+"""
+
+from __future__ import annotations
+
+import math
+from bisect import bisect_left
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
+from typing import ClassVar, NoReturn, cast
+
+from flint import arb, ctx
+
+from geneva_cli.numerics.arrays import Enclosed, Library, Number
+
+BITS = 128  # of a middle: 75 more than a double has, against cancellation in high derivatives
+# How far a ball may reach over the end of its piece of a formula, in the formula's own variable.
+# The ends are known to a few units in the last place of doubles (EDGE_DEG of enclosures).
+REACH = 2.0**-39
+# Share of a radius that is rounding: Arb's radii have 30 bits and are rounded up at each step.
+RADIUS_ROUNDED = 2.0**-24
+
+
+class Undecided(ArithmeticError):
+    """A comparison that holds for some numbers of the balls and not for others."""
+
+
+class Ball(Enclosed):
+    """A number between two bounds.
+
+    >>> third = Ball.exact(1.0) / 3.0
+    >>> third < 0.5, third.bounds()
+    (True, (0.33333333333333326, 0.33333333333333337))
+    >>> float(third)
+    Traceback (most recent call last):
+    TypeError: a ball is no float
+    """
+
+    __slots__ = ("arb",)
+    __array_ufunc__ = None  # NumPy's numbers leave the arithmetic to the ball
+    library: ClassVar[Library]
+
+    def __init__(self, value: arb) -> None:
+        self.arb = value
+
+    @classmethod
+    def exact(cls, x: float) -> Ball:
+        """The ball of one double."""
+        return cls(arb(x))
+
+    @classmethod
+    def between(cls, a: float, b: float) -> Ball:
+        """A ball that holds the numbers from a to b."""
+        return cls(arb(a).union(arb(b)))
+
+    @property
+    def middle(self) -> float:
+        """Middle, to the nearest double."""
+        return float(self.arb.mid())
+
+    @property
+    def radius(self) -> float:
+        """Radius, rounded up."""
+        return math.nextafter(float(self.arb.rad()), math.inf)
+
+    @property
+    def is_finite(self) -> bool:
+        """True if it has bounds."""
+        return self.arb.is_finite()
+
+    def bounds(self) -> tuple[float, float]:
+        """Doubles below and above every number of it; infinite where there is no bound."""
+        return _below(self.arb.lower()), -_below(-self.arb.upper())
+
+    def sizes(self) -> tuple[float, float]:
+        """Doubles below and above the size of every number of it."""
+        return max(_below(self.arb.abs_lower()), 0.0), -_below(-self.arb.abs_upper())
+
+    @property
+    def sign(self) -> int:
+        """1 or -1 if all its numbers have that sign, else 0."""
+        return (self.arb > 0) - (self.arb < 0)
+
+    def meet(self, other: Ball) -> Ball:
+        """What two balls that hold one number have in common; of one without bounds the other."""
+        if not other.is_finite:
+            return self
+        return Ball(self.arb.intersection(other.arb)) if self.is_finite else other
+
+    def piece(self, cuts: Sequence[float]) -> int:
+        """Number of the piece between ``cuts`` that holds its middle.
+
+        Raises Undecided if it reaches over a cut by more than ``REACH`` and its radius's rounding.
+        """
+        middle, radius = self.middle, self.radius * (1.0 - RADIUS_ROUNDED)
+        for cut in cuts:
+            if radius - abs(cut - middle) > REACH:
+                raise Undecided(f"the cut {cut!r} is inside {self!r}")
+        return bisect_left(cuts, middle)
+
+    def __repr__(self) -> str:
+        low, high = self.bounds()
+        return f"Ball.between({low!r}, {high!r})"
+
+    def __float__(self) -> NoReturn:
+        raise TypeError("a ball is no float")
+
+    def __bool__(self) -> NoReturn:
+        raise TypeError("a ball has no truth value")
+
+    def __neg__(self) -> Ball:
+        return Ball(-self.arb)
+
+    def __abs__(self) -> Ball:
+        return Ball(abs(self.arb))
+
+    def __add__(self, other: Ball | float) -> Ball:
+        return Ball(self.arb + _arb(other))
+
+    def __sub__(self, other: Ball | float) -> Ball:
+        return Ball(self.arb - _arb(other))
+
+    def __rsub__(self, other: Ball | float) -> Ball:
+        return Ball(_arb(other) - self.arb)
+
+    def __mul__(self, other: Ball | float) -> Ball:
+        return Ball(self.arb * _arb(other))
+
+    def __truediv__(self, other: Ball | float) -> Ball:
+        return Ball(self.arb / _arb(other))
+
+    def __rtruediv__(self, other: Ball | float) -> Ball:
+        return Ball(_arb(other) / self.arb)
+
+    def __pow__(self, power: int) -> Ball:
+        return Ball(self.arb**power)
+
+    __radd__, __rmul__ = __add__, __mul__
+
+    def __lt__(self, other: Ball | float) -> bool:
+        limit = _arb(other)
+        return self._decided(self.arb < limit, self.arb >= limit, other)
+
+    def __le__(self, other: Ball | float) -> bool:
+        limit = _arb(other)
+        return self._decided(self.arb <= limit, self.arb > limit, other)
+
+    def __gt__(self, other: Ball | float) -> bool:
+        return not self <= other
+
+    def __ge__(self, other: Ball | float) -> bool:
+        return not self < other
+
+    def __eq__(self, other: object) -> bool:
+        limit = _arb(cast("float", other))
+        return self._decided(self.arb == limit, self.arb != limit, other)
+
+    __hash__ = None  # type: ignore[assignment]
+
+    def _decided(self, yes: bool, no: bool, other: object) -> bool:
+        if yes == no:
+            raise Undecided(f"{self!r} against {other!r}")
+        return yes
+
+
+@contextmanager
+def precision() -> Iterator[None]:
+    """Compute with ``BITS`` bits meanwhile."""
+    with ctx.workprec(BITS):
+        yield
+
+
+def _arb(x: Ball | float) -> arb:
+    return x.arb if isinstance(x, Ball) else arb(x)
+
+
+def _below(x: arb) -> float:
+    """The greatest double that is not above an exact number; without bound for none."""
+    if x.is_nan():
+        return -math.inf
+    near = float(x)
+    return near if arb(near) <= x else math.nextafter(near, -math.inf)
+
+
+def _of_one(f: Callable[[arb], arb]) -> Callable[[object, Ball | float], Ball]:
+    return lambda _, x: Ball(f(_arb(x)))
+
+
+class _Balls:
+    """The functions of ``math``, of balls."""
+
+    sin, cos, sqrt, exp = map(_of_one, (arb.sin, arb.cos, arb.sqrt, arb.exp))
+    asin, acos = map(_of_one, (arb.asin, arb.acos))
+
+    @property
+    def pi(self) -> Ball:
+        return Ball(arb.pi())
+
+    def atan2(self, y: Ball | float, x: Ball | float) -> Ball:
+        return Ball(arb.atan2(_arb(y), _arb(x)))
+
+    def hypot(self, x: Ball | float, y: Ball | float) -> Ball:
+        return Ball((_arb(x) ** 2 + _arb(y) ** 2).sqrt())
+
+    def degrees(self, x: Ball | float) -> Ball:
+        return x * (180.0 / self.pi)
+
+    def floor(self, x: Ball) -> float:
+        low, high = (math.floor(bound) for bound in x.bounds())
+        if low != high:
+            raise Undecided(f"a whole number is inside {x!r}")
+        return float(low)
+
+    def copysign(self, x: Ball | float, y: Ball | float) -> Ball:
+        size = abs(Ball(_arb(x)))
+        return size if y > 0.0 else -size
+
+
+Ball.library = cast("Library", _Balls())
+
+
+def ball_of(x: Number) -> Ball:
+    """A formula's number as a ball: where the formula does not depend on its balls, a double."""
+    return x if isinstance(x, Ball) else Ball.exact(cast("float", x))
