@@ -222,7 +222,6 @@ MOST_PARAMETERS = 6
 # Functions with more: each has one keyword a table of a spec, or one an option of a command.
 MANY_PARAMETERS = {
     "design": {"__init__", "drawing"},
-    "output.rows": {"__init__"},
     "study.sweep.request": {"request"},
     "study.synthesis.reading": {"read_wish"},
     "numerics.quadrature_many": {"integrals_many", "_parts"},  # the batch's integrals, to be cut

@@ -189,7 +189,7 @@ def _write_rows(asked: "Request", outcome: "Outcome", output: str, resume: bool)
 
     found = asked.sweep
     first = found.shard.number == 1
-    with Growth(found.names, asked.key, first, output, resume, asked.inputs, TEXTS) as rows:
+    with Growth(found.names, asked.key, first, output, resume, asked.inputs) as rows:
         if rows.found:
             print(rows.found, file=sys.stderr)
         if rows.is_whole:
@@ -201,7 +201,7 @@ def _write_rows(asked: "Request", outcome: "Outcome", output: str, resume: bool)
             rows.append(block)
             if digest:
                 digest.add(block)
-        rows.finish()
+        rows.finish(TEXTS)
     _show_digest(digest)
 
 

@@ -20,7 +20,7 @@ class Growth(Closing):
     """Where the rows of ``names`` go; ``done`` of them are there already, or all (``is_whole``).
 
     ``key`` is all that they depend on, for ``resume``, which ``found`` says what of; a later share
-    of a table has no ``header``; ``texts`` are columns that hold no numbers.
+    of a table has no ``header``.
     """
 
     def __init__(
@@ -31,10 +31,9 @@ class Growth(Closing):
         output: str,
         resume: bool = False,
         inputs: Iterable[str] = (),
-        texts: Collection[str] = (),
     ) -> None:
         refuse_columns()
-        self.names, self.texts, self.output, self.done = names, texts, output, 0
+        self.names, self.output, self.done = names, output, 0
         self.is_whole, self.found = False, ""
         self.file: Growing | None = None
         self.parquet = output.endswith(".parquet")
@@ -64,8 +63,8 @@ class Growth(Closing):
         else:
             sys.stdout.write(text)
 
-    def finish(self) -> None:
-        """Nothing more comes: the file takes its name."""
+    def finish(self, texts: Collection[str] = ()) -> None:
+        """Give the complete file its name; ``texts`` are columns that hold no numbers."""
         if not self.file:
             return
         if not self.parquet:
@@ -73,7 +72,7 @@ class Growth(Closing):
             return
         from geneva_cli.output.parquet import convert
 
-        self.file.finish(partial(convert, texts=self.texts))
+        self.file.finish(partial(convert, texts=texts))
 
     def close(self) -> None:
         """A file that is not finished can be gone on from."""

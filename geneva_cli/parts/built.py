@@ -1,13 +1,11 @@
-"""All parts of a machine as they are built, at input angle 0.
+"""All parts of a flat machine as they are built, at input angle 0.
 
-They are the source of its drawing, its sheet, its list of parts and the check of shafts. The
-wheel's axis is the origin, and the crank's is on the x axis.
+The wheel's axis is the origin, and the crank's is on the x axis.
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import NamedTuple
 
 import numpy as np
 
@@ -24,29 +22,10 @@ from geneva_cli.parts.link_positions import links_at
 from geneva_cli.parts.link_sizes import places
 from geneva_cli.parts.links import Links, drawn_links
 from geneva_cli.parts.outlines import Outlines
+from geneva_cli.parts.placed import PlacedParts
 from geneva_cli.parts.plates import crank_group, roller_plates, wheel_part
 from geneva_cli.parts.proof import Proof
 from geneva_cli.parts.sizes import pin_radius, thicknesses
-
-
-class PlacedParts(NamedTuple):
-    """The parts of a machine at their positions."""
-
-    wheel: Member
-    crank: Member  # locking disc, arm, rollers on their pins, hub
-    arm: CrankArm | None
-    links: Links
-    gears: tuple[Member, ...]  # as blanks up to their pitch curves
-    first: tuple[Member, ...]  # of two wheels in series, the first and its locking disc
-    shafts: tuple[Member, ...]
-    standing: tuple[Member, ...]  # a cam's groove plate, if there is one, and then the frame
-
-    @property
-    def members(self) -> tuple[Member, ...]:
-        """All parts."""
-        links = *self.links.cut, *self.links.joined
-        moved = (self.wheel, self.crank, *links, *self.gears, *self.first)
-        return (*moved, *self.shafts, *self.standing)
 
 
 def link_gears(bars: Links) -> list[Member]:
@@ -86,7 +65,7 @@ def built(
     curves: str = "arcs",
     pitch: bool = True,
     fitted: bool = True,
-) -> PlacedParts:
+) -> PlacedParts[CrankArm]:
     """Return all parts of a flat machine; ``contour`` is the wheel's, if drawn finer or coarser.
 
     Without ``pitch`` noncircular gears are omitted, without ``fitted`` a cam's groove plates too:
@@ -109,9 +88,9 @@ def built(
             float(assembly.crank(at)[0]),
         ),
         arm,
+        frame.shafts,
         bars,
         (*([] if first else link_gears(bars)), *(gear_members(proof) if pitch and fitted else ())),
         first,
-        frame.shafts,
         (*fixed, Member(frame.plate)),
     )

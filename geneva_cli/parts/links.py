@@ -41,10 +41,10 @@ class Links(NamedTuple):
     ``gears`` the gears as blanks.
     """
 
-    sizes: LinkSizes | None  # None without links
-    cut: tuple[Member, ...]
-    joined: tuple[Member, ...]
-    gears: tuple[Gear, ...]
+    sizes: LinkSizes | None = None  # None without links
+    cut: tuple[Member, ...] = ()
+    joined: tuple[Member, ...] = ()
+    gears: tuple[Gear, ...] = ()
     pin_low: float | None = None  # lower end of the pin on a link that carries the wheel's roller
     standing: frozenset[str] = frozenset()  # names of the links that are fixed to the frame
     blocks: frozenset[str] = frozenset()  # names of the blocks that slide in a link
@@ -92,7 +92,7 @@ def drawn_links(mechanism: Mechanism, parts: Outlines | None = None) -> Links:
     turn = np.linspace(-180.0 * turns, 180.0 * turns, ANGLES * turns + 1)
     links = links_at(mechanism, turn)
     if not links:
-        return Links(None, (), (), ())
+        return Links()
     sizes = link_sizes(mechanism, links, parts)
     L = mechanism.center_distance_mm
     bars = [link for link in links if not link.radius_mm]

@@ -18,7 +18,7 @@ from geneva_cli.machine.layout import Joint
 from geneva_cli.numerics.tolerances import SAME_LENGTH
 from geneva_cli.parts.arm import LAYER as ARM
 from geneva_cli.parts.arm import CrankArm
-from geneva_cli.parts.built import PlacedParts, built
+from geneva_cli.parts.built import built
 from geneva_cli.parts.crank import roller_centres
 from geneva_cli.parts.drawings import PITCH, crank_shapes, pitch_lines, wheel_shapes
 from geneva_cli.parts.frame import LAYER as STANDING
@@ -27,6 +27,7 @@ from geneva_cli.parts.link_drawings import once, shapes, titled, together
 from geneva_cli.parts.link_positions import links_at
 from geneva_cli.parts.link_sizes import places
 from geneva_cli.parts.outlines import Outlines
+from geneva_cli.parts.placed import PlacedParts
 from geneva_cli.parts.proof import Proof
 
 BEYOND = 0.04  # of the centre distance: from a part to the arrow that shows how it turns
@@ -39,7 +40,7 @@ def machine(parts: Outlines, tolerance: float, curves: str) -> Drawing:
 
 def machine_and_parts(
     parts: Outlines, tolerance: float, curves: str
-) -> tuple[Drawing, PlacedParts]:
+) -> tuple[Drawing, PlacedParts[CrankArm]]:
     """Return the drawing of the machine at input angle 0, and its parts."""
     assembly = parts.assembly
     contour, *circles = wheel_shapes(parts, tolerance, curves)
@@ -60,7 +61,7 @@ def machine_and_parts(
     return Drawing(title, tuple(once(drawn)), look, solid), whole
 
 
-def _standing(whole: PlacedParts, drawn: list[Shape]) -> list[Shape]:
+def _standing(whole: PlacedParts[CrankArm], drawn: list[Shape]) -> list[Shape]:
     """Return the plates that stand still: outlines, grooves, and holes not covered by a bore."""
     seen = {_round(shape) for shape in drawn if isinstance(shape, Circle)}
     standing = shapes(whole.standing)

@@ -15,7 +15,7 @@ from typing import TypeAlias
 
 from geneva_cli.curves.mass import MM, mass_properties
 from geneva_cli.curves.measure import bounds
-from geneva_cli.curves.plates import Group, Member, Part, Plate, Shell, solids
+from geneva_cli.curves.plates import Member, Part, Plate, Shell, solids
 from geneva_cli.curves.sphere import opposite
 from geneva_cli.machine.layout import Dimension, Pivot
 from geneva_cli.machine.mechanism import Mechanism
@@ -110,22 +110,24 @@ def _bare_rows(proof: Proof) -> Iterator[Row]:
 
 def link_rows(proof: Proof) -> Iterator[Row]:
     """Yield rows for links, gears, shafts and frame, where the wheel is not drawn."""
-    yield from part_rows(proof.mechanism.spec, Group("", link_members(proof)))
+    yield from part_rows(proof.mechanism.spec, link_members(proof))
 
 
 def _rows(proof: Proof, members: tuple[Member, ...]) -> Iterator[Row]:
     spec = proof.mechanism.spec
     outside = None if spec.wheel.FLAT else proof.shells.ball.span_mm[1]
-    yield from part_rows(spec, Group("", members), outside)
+    yield from part_rows(spec, members, outside)
 
 
-def part_rows(spec: Spec, group: Group, outside: float | None = None) -> Iterator[Row]:
-    """Yield a row for each kind of solid in a group, with its count.
+def part_rows(
+    spec: Spec, members: tuple[Member, ...], outside: float | None = None
+) -> Iterator[Row]:
+    """Yield a row for each kind of solid among some parts, with its count.
 
     On a sphere ``outside`` is the radius of the wheel's outer face, from which z counts inwards.
     """
     kinds: dict[Plate | tuple[str, str], list[Plate | Shell]] = {}
-    for solid in solids(group):
+    for solid in (one for member in members for one in solids(member.part)):
         # Shells of one kind lie at different places, and may differ by rounding.
         kind = solid if isinstance(solid, Plate) else (solid.name, f"{solid.volume:.9g}")
         kinds.setdefault(kind, []).append(solid)

@@ -6,15 +6,16 @@ from collections.abc import Iterator
 from typing import Any, NamedTuple
 
 from geneva_cli.curves.measure import bounds
-from geneva_cli.curves.plates import Group, plates
+from geneva_cli.curves.plates import plates
 from geneva_cli.curves.shapes import Shape
 from geneva_cli.parts import drawings
-from geneva_cli.parts.built import PlacedParts
+from geneva_cli.parts.arm import CrankArm
 from geneva_cli.parts.first_pair import first_outlines
 from geneva_cli.parts.gear_drawings import gear_shapes
 from geneva_cli.parts.machine_drawing import machine_and_parts
 from geneva_cli.parts.outlines import Outlines
 from geneva_cli.parts.parts_list import part_rows
+from geneva_cli.parts.placed import PlacedParts
 from geneva_cli.parts.proof import Proof
 from geneva_cli.parts.sheet import wheel
 from geneva_cli.parts.sheet.crank import draw_arm, draw_assembly, draw_disc
@@ -41,7 +42,7 @@ class SheetContent(NamedTuple):
     outlines: Outlines
     together: tuple[Shape, ...]
     rows: list[dict[str, Any]]  # the list of parts
-    built: PlacedParts
+    built: PlacedParts[CrankArm]
     first: Outlines | None
     groove: tuple[Shape, ...]  # flanks and pitch curve, of a cam
     gears: list[Shape]  # pitch curves and bores, of noncircular ones
@@ -55,11 +56,15 @@ def shown_on_sheet(parts: Outlines, tolerance: float, curves: str) -> SheetConte
     """Return the content of the views, computed once for all scales."""
     mechanism, cam = parts.assembly.full, parts.assembly.rollers[0][0].groove is not None
     whole, built = machine_and_parts(parts, tolerance, curves)
-    assert isinstance(whole.solid, Group)
-    rows: list[dict[str, Any]] = list(part_rows(mechanism.spec, whole.solid))
+    rows: list[dict[str, Any]] = list(part_rows(mechanism.spec, built.members))
     sizes = [row[f"size_{axis}_mm"] for row in rows for axis in "xy"]
     *_, lowest = flat_plates(built.standing)
-    apart = [bounds(plate.outline) for plate in plates(whole.solid) if plate.layer in APART]
+    apart = [
+        bounds(plate.outline)
+        for one in built.members
+        for plate in plates(one.part)
+        if plate.layer in APART
+    ]
     boxes = [*apart, bounds(lowest.outline)]
     return SheetContent(
         parts,

@@ -6,7 +6,7 @@ The sphere's centre is the origin and the wheel's axis is z. The crank's parts a
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING
 
 from geneva_cli.curves.plates import Group, Member, Plate, Shell
 from geneva_cli.curves.round_holes import RoundHole
@@ -15,6 +15,7 @@ from geneva_cli.curves.sphere import axis_frame, place
 from geneva_cli.curves.sphere_hull import Cap
 from geneva_cli.errors import GenevaError
 from geneva_cli.parts.keyways import bore, key
+from geneva_cli.parts.placed import PlacedParts
 from geneva_cli.parts.shafts import SHAFT
 from geneva_cli.parts.sphere.arm import CapArm, crank_arm, has_arm
 from geneva_cli.parts.sphere.axles import crank_hub, refuse_wide
@@ -31,28 +32,14 @@ if TYPE_CHECKING:
 ARM, CRANK, ROLLER = "ARM", "CRANK", "ROLLER"
 
 
-class PlacedShells(NamedTuple):
-    """The parts of a spherical machine at their positions."""
-
-    wheel: Member
-    crank: Member
-    arm: CapArm | None
-    shafts: tuple[Member, ...]
-
-    @property
-    def members(self) -> tuple[Member, ...]:
-        """All parts."""
-        return self.wheel, self.crank, *self.shafts
-
-
-def built(parts: Shells) -> PlacedShells:
+def built(parts: Shells) -> PlacedParts[CapArm]:
     """Return all parts of a machine.
 
     Raises GenevaError, naming the key, for sizes that leave no arm, hub or shaft.
     """
     arm = crank_arm(parts) if has_arm(parts) else None
     size, ball = parts.assembly.full.spec.size, parts.ball
-    return PlacedShells(
+    return PlacedParts(
         Member(wheel_group(size, ball)),
         Member(crank_group(parts, arm), frame=at_mid_motion(ball)),
         arm,

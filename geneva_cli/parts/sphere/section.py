@@ -12,10 +12,11 @@ from typing import TYPE_CHECKING, TypeAlias
 from geneva_cli.curves.plates import Plate, plates
 from geneva_cli.curves.shapes import Arc, Circle, Contour, Line, Point, about, closed
 from geneva_cli.curves.sheet import CENTRE, HIDDEN, OUTLINE, polar
+from geneva_cli.parts.placed import PlacedParts
 from geneva_cli.parts.sheet import sized
 from geneva_cli.parts.sheet.view import View, number
 from geneva_cli.parts.sphere.arm import CapArm
-from geneva_cli.parts.sphere.built import ROLLER, PlacedShells
+from geneva_cli.parts.sphere.built import ROLLER
 from geneva_cli.parts.sphere.sizes import Ball
 
 if TYPE_CHECKING:
@@ -29,7 +30,7 @@ DECIMALS = 4  # of an angle in degrees: 0.2 um on 100 mm
 Side: TypeAlias = Callable[[float], float]  # an angle from the wheel's axis, on each sphere
 
 
-def section(parts: Shells, whole: PlacedShells, scale: float) -> View:
+def section(parts: Shells, whole: PlacedParts[CapArm], scale: float) -> View:
     """Return all parts cut by the plane of the shafts, with angles from the wheel's axis.
 
     Locking sectors are turned into that plane.
@@ -79,7 +80,7 @@ def _dimension_angles(
         view.angular([(axis - angle, axis)], far, far, f"{name} {degrees(angle)}")
 
 
-def _crank(parts: Shells, whole: PlacedShells) -> Iterator[Contour]:
+def _crank(parts: Shells, whole: PlacedParts[CapArm]) -> Iterator[Contour]:
     """Yield the cut faces of rollers, locking sector and arm."""
     ball, arm = parts.ball, whole.arm
     for middle in _rollers(ball):
@@ -117,7 +118,7 @@ def _behind(ball: Ball, arm: CapArm) -> list[Side]:
     return [end]
 
 
-def _plates(parts: Shells, whole: PlacedShells) -> Iterator[tuple[Plate, float]]:
+def _plates(parts: Shells, whole: PlacedParts[CapArm]) -> Iterator[tuple[Plate, float]]:
     """Yield hubs, shafts and pins, each with the angle of its axis from the wheel's axis."""
     axes = parts.ball.axes
     yield from ((plate, 0.0) for plate in plates(whole.wheel.part))
@@ -147,7 +148,7 @@ def _edge(plate: Plate) -> Point:
     return (hole.radius, 0.0) if isinstance(hole, Circle) else hole.segments[0].start
 
 
-def _far(whole: PlacedShells) -> float:
+def _far(whole: PlacedParts[CapArm]) -> float:
     """Return the distance of the shafts' farthest end from the centre."""
     return max((m.part.high for m in whole.shafts if isinstance(m.part, Plate)), default=0.0)
 

@@ -16,7 +16,9 @@ import numpy as np
 from geneva_cli.curves.plates import Plate, plates
 from geneva_cli.curves.shapes import Circle
 from geneva_cli.numerics.tolerances import SAME_LENGTH
-from geneva_cli.parts.sphere.built import ROLLER, PlacedShells
+from geneva_cli.parts.placed import PlacedParts
+from geneva_cli.parts.sphere.arm import CapArm
+from geneva_cli.parts.sphere.built import ROLLER
 from geneva_cli.parts.sphere.sizes import Ball
 from geneva_cli.parts.turn.shaft_gap import ShaftGap, ring_gap
 
@@ -57,7 +59,7 @@ class Sweep(NamedTuple):
         return math.hypot(self.inner, self.wide) if self.wide else 0.0
 
 
-def shaft_gap(parts: Shells, whole: PlacedShells) -> ShaftGap | None:
+def shaft_gap(parts: Shells, whole: PlacedParts[CapArm]) -> ShaftGap | None:
     """Return the least gap of hubs and shafts to parts about the other axis, mm along a sphere.
 
     None where no two of them share a distance from the centre.
@@ -93,7 +95,7 @@ def _round(plate: Plate) -> Iterator[Sweep]:
             yield Sweep(plate.name, back, 0.0, 0.0, flat, math.hypot(high, wide), wide)
 
 
-def _crank_rings(parts: Shells, whole: PlacedShells) -> Iterator[Sweep]:
+def _crank_rings(parts: Shells, whole: PlacedParts[CapArm]) -> Iterator[Sweep]:
     """Yield the regions that arm, locking sectors and rollers sweep about the crank's axis."""
     ball, arm = parts.ball, whole.arm
     out = ball.span_mm[1]

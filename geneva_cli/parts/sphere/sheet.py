@@ -14,23 +14,25 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from geneva_cli.curves.measure import at, mapped
-from geneva_cli.curves.plates import Group, plates
+from geneva_cli.curves.plates import plates
 from geneva_cli.curves.shapes import Arc, Contour, Line, Point, Segment, Shape
 from geneva_cli.curves.sheet import CENTRE, OUTLINE, Sheet
 from geneva_cli.machine.layout import Dimension
 from geneva_cli.numerics.tolerances import SAME_ANGLE
 from geneva_cli.parts.parts_list import part_rows
+from geneva_cli.parts.placed import PlacedParts
 from geneva_cli.parts.proof import Proof
 from geneva_cli.parts.sheet import sized
 from geneva_cli.parts.sheet.bores import bored, radius_of
 from geneva_cli.parts.sheet.composed import on_paper
+from geneva_cli.parts.sheet.linked import flat_plates
 from geneva_cli.parts.sheet.paper import table
 from geneva_cli.parts.sheet.points import COARSE, MIRRORED, point_table, polyline
 from geneva_cli.parts.sheet.standing import draw_hub, draw_shaft
 from geneva_cli.parts.sheet.view import Block, View, number, times
 from geneva_cli.parts.sphere.arm import CapArm
 from geneva_cli.parts.sphere.arm_drawing import arm_cone, arm_flat
-from geneva_cli.parts.sphere.built import ROLLER, PlacedShells, built
+from geneva_cli.parts.sphere.built import ROLLER, built
 from geneva_cli.parts.sphere.dimensions import dimensions
 from geneva_cli.parts.sphere.drawings import (
     PITCH,
@@ -86,7 +88,7 @@ def sheet(proof: Proof, tolerance: float, curves: str) -> Sheet:
         views += _axles(proof, whole, scale)
         yield [*(view.block() for view in views), *fixed]
 
-    items = list(part_rows(proof.mechanism.spec, Group("", whole.members), ball.span_mm[1]))
+    items = list(part_rows(proof.mechanism.spec, whole.members, ball.span_mm[1]))
     return on_paper(proof.mechanism.spec, items, 2.0 * ball.span_mm[1], blocks)
 
 
@@ -104,7 +106,7 @@ def _arm(proof: Proof, ball: Ball, arm: CapArm, flat: list[Contour], scale: floa
     return view
 
 
-def _axles(proof: Proof, whole: PlacedShells, scale: float) -> Iterator[View]:
+def _axles(proof: Proof, whole: PlacedParts[CapArm], scale: float) -> Iterator[View]:
     """Yield views of hubs along their axes, with bores and keyways, and of shafts' sides."""
     size = proof.mechanism.spec.size
     for part, standard in ((whole.wheel, size.wheel_keyway), (whole.crank, size.crank_keyway)):
@@ -119,7 +121,7 @@ def _axles(proof: Proof, whole: PlacedShells, scale: float) -> Iterator[View]:
             draw_hub(view, hub)
             view.remark(f"{number(hub.thickness)} long")
             yield view
-    for shaft in plates(Group("", whole.shafts)):
+    for shaft in flat_plates(whole.shafts):
         view = View(shaft.name, scale)
         draw_shaft(view, shaft)
         yield view

@@ -19,10 +19,12 @@ from geneva_cli.curves.plates import Group, Member, Part, Plate
 from geneva_cli.curves.shapes import Arc, Circle, Contour, Point, Segment, closed, two_arcs
 from geneva_cli.numerics.jet import Array
 from geneva_cli.numerics.tolerances import SAME_LENGTH
-from geneva_cli.parts.built import PlacedParts, built
+from geneva_cli.parts.arm import CrankArm
+from geneva_cli.parts.built import built
 from geneva_cli.parts.gear_drawings import PITCH, gear_span, pitch_radii
 from geneva_cli.parts.link_drawings import placed
 from geneva_cli.parts.outlines import Outlines
+from geneva_cli.parts.placed import PlacedParts
 from geneva_cli.parts.proof import Proof
 from geneva_cli.parts.wheel_hub import HUB
 
@@ -85,7 +87,7 @@ def gear_gap(parts: Outlines) -> ShaftGap | None:
 
 
 def _least(
-    parts: Outlines, whole: PlacedParts, turning: list[Ring], rings: list[Ring]
+    parts: Outlines, whole: PlacedParts[CrankArm], turning: list[Ring], rings: list[Ring]
 ) -> ShaftGap | None:
     """Return the least gap of rings to the shafts, and to the hubs of wheel and crank."""
     near = SAME_LENGTH * parts.assembly.L
