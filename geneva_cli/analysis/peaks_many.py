@@ -1,7 +1,7 @@
-"""The search for peaks: one scan and one Newton for a batch of designs, or for a batch of one.
+"""The search for peaks by one scan and Newton's method; a single design is a batch of one.
 
 A peak is a root of the next derivative, refined to the last bit, or an end of the motion, or a
-place where the law's derivative jumps; never the largest of a grid.
+place where the law's derivative jumps; never the largest sample of a grid.
 
 >>> import numpy as np
 >>> from geneva_cli import External, SideCrank
@@ -40,7 +40,7 @@ PeakOfMany: TypeAlias = Peak[Array]  # the peaks of m designs: (m,)
 class _Samples:
     """A motion's speed and its derivatives, to ten digits, at angles in degrees.
 
-    All quantities are scanned at the same places, a block of designs after the other; these
+    All quantities are scanned at the same places, one block of designs after the other, so these
     samples are kept.
     """
 
@@ -66,7 +66,7 @@ class _Samples:
 
 
 class _Curve(NamedTuple):
-    """A quantity over the input angle in degrees, as ``extrema_many`` asks for it."""
+    """A quantity over the input angle in degrees, as a function for ``extrema_many``."""
 
     motion: Motion
     quantity: str
@@ -78,7 +78,7 @@ class _Curve(NamedTuple):
 
 
 class _Sampled(NamedTuple):
-    """The same to ten digits, from samples."""
+    """A quantity to ten digits, from samples."""
 
     samples: _Samples
     quantity: str
@@ -123,9 +123,9 @@ def peaks_of_many(motion: Motion, quantities: Sequence[str] = QUANTITIES) -> dic
 
 
 def landmarks(motion: Motion, quantity: str, m: int) -> Stationary:
-    """Where a quantity of m designs is stationary, and the ends of its smooth parts: all in order.
+    """Stationary points of a quantity of m designs, and the ends of its smooth parts, in order.
 
-    Between two of them that follow each other it only rises or only falls.
+    Between two consecutive ones it only rises or only falls.
     """
     breaks = [np.broadcast_to(np.asarray(x, dtype=float), (m, 1)) for x in motion.breaks_deg]
     last = np.vstack(breaks[1:])
@@ -146,8 +146,8 @@ def landmarks(motion: Motion, quantity: str, m: int) -> Stationary:
 
 
 def searched(motion: Motion, quantities: Sequence[str]) -> dict[str, PeakOfMany]:
-    """Return peaks as ``peaks_of_many``, without closed forms and other quicker ways."""
-    # mid-motion, where wheels have their narrowest peaks, is among them
+    """The peaks from the search only, without closed forms."""
+    # mid-motion, where wheels have their narrowest peaks, is one of them
     breaks = [x for x in motion.breaks_deg if not motion.symmetric or np.all(x <= 0.0)]
     m = designs_in(motion)
     places = np.hstack([np.broadcast_to(x, (m, 1)) for x in breaks])
@@ -161,7 +161,7 @@ def searched(motion: Motion, quantities: Sequence[str]) -> dict[str, PeakOfMany]
 def _part(
     motion: Motion, places: Array, which: slice, quantities: Sequence[str]
 ) -> dict[str, PeakOfMany]:
-    """Of some of the designs, between their breaks."""
+    """Peaks of some of the designs, between their breaks."""
     here = places[which]
     some = motion if len(here) == len(places) else taken(motion, which)
     samples, edges = _Samples(some, len(here), quantities), np.hsplit(here, here.shape[1])
@@ -173,7 +173,7 @@ def _part(
 
 
 def greater(first: PeakOfMany, other: PeakOfMany) -> PeakOfMany:
-    """The greater of two sizes; of two that are one peak, where the first is."""
+    """The greater of two sizes; if they are equal, at the place of the first."""
     more = other.max > first.max * (1.0 + TIE)
     return PeakOfMany(
         np.where(other.max > first.max, other.max, first.max),

@@ -18,11 +18,12 @@ from geneva_cli.verdict.quantities.groups import values as values_of
 
 Cell: TypeAlias = float | int | str | bool | None
 
-SHOWN = (MACHINE, *(group for group in REPORT if not group.makes_parts))  # where nothing is picked
+# the groups that are shown without --pick
+SHOWN = (MACHINE, *(group for group in REPORT if not group.makes_parts))
 
 
 def values(proof: Proof, groups: Iterable[Group] = SHOWN) -> dict[str, Cell]:
-    """The quantities of some groups, without tables and texts of several lines.
+    """The quantities of some groups, without tables and multi-line texts.
 
     What nothing bounds is None, as in the report's json.
     """
@@ -43,7 +44,7 @@ class Pick(NamedTuple):
     asked: tuple[str, ...] = ()
 
     def of(self, mechanism: Mechanism) -> list[Cell]:
-        """The quantities' values for a machine; None where one does not apply."""
+        """The values of the quantities for a machine; None if one does not apply."""
         found = values(Proof(mechanism), self.groups)
         return [found.get(name) for name in self.names]
 

@@ -1,8 +1,8 @@
-"""Mean squares of the loads of an inertia alone, in motions that are their own mirror image.
+"""Mean squares of the loads of an inertia alone, for motions that are symmetric.
 
-Mirrored at mid-motion, an inertia's torque turns round, and friction does what its negative did: at
-x and -x together it is there once with either sign, whichever way the roller slides. So the squares
-of the two, added up, are smooth where the sliding turns round, and that place need not be known.
+Mirrored at mid-motion, an inertia's torque changes sign. Friction then acts as its negative would:
+in the pair x and -x, it occurs once with either sign, whichever way the roller slides. So the sum
+of both squares is smooth where the sliding reverses, and that place is not needed.
 """
 
 from __future__ import annotations
@@ -28,7 +28,10 @@ if TYPE_CHECKING:
 
 
 def is_balanced(load: Loaded) -> bool:
-    """Whether it is so: no torque resists, nor is any lost but to friction in straight slots."""
+    """Return True if the method applies to these designs.
+
+    No torque may resist, and the only loss may be friction in straight slots.
+    """
     engagement, given, _ = load.machine
     alone = all_true(given.resists_Nm == 0.0) and all_true(given.efficiency == 1.0)
     return load.mirrored and alone and not engagement.slot.curved
@@ -59,7 +62,7 @@ def squares(load: Loaded, n: int) -> Array:
             for k, (name, quantity) in enumerate(zip(load.names, wanted, strict=True)):
                 row = quantity(found, here)
                 total[k] += square_of(array(row.value.c[0]), name)[:, ::way]
-                if row.room is not None:  # what has no bound is asked no more
+                if row.room is not None:  # an unbounded function is not evaluated again
                     lost = np.any(row.room.c[0] <= ZERO, axis=1)
                     bounded[k, design[which[lost]]] = False
         return total * rate
