@@ -4,7 +4,7 @@ t is the unit tangent of the slot, away from the wheel's axis. n = d i t is the 
 wall that bears; d = 1 if the torque T drives the wheel, and -1 if it holds the wheel back. The
 contact point is C = M + r n, and the wheel's balance about its axis is
 
-|T| = N |C x n + f s C x t| = N [M . t + f s (d (M x t) - r)]
+    |T| = N |C x n + f s C x t| = N [M . t + f s (d (M x t) - r)]
 
 (M x t = 0 in a radial slot). s is the sign of the speed at which the roller, fixed to its body,
 rubs along the wall: v = M' . t - d r (rate of that body - rate of the wheel).
