@@ -28,9 +28,9 @@ if TYPE_CHECKING:
     from geneva_cli.numerics.arrays import Whole
     from geneva_cli.numerics.jet import Array
 
-ROUNDING_DEG = 1e-12  # nearer to mid-motion a change of sign is there
-BLOCK = 256  # changes whose integrals are worked out together: they stay in the cache
-CLOSE = 1e-9  # of a bracket: what a Newton step so short leaves is rounding
+ROUNDING_DEG = 1e-12  # nearer to mid-motion, a change of sign is at mid-motion
+BLOCK = 256  # changes whose integrals are computed together, which fit in the cache
+CLOSE = 1e-9  # of a bracket: after a Newton step this short, the rest is rounding
 NODES, WEIGHTS = np.polynomial.legendre.leggauss(24)  # exact to a double over half a motion
 
 

@@ -35,7 +35,7 @@ if TYPE_CHECKING:
     from geneva_cli.numerics.arrays import Whole
     from geneva_cli.numerics.jet import Array
 
-ROUNDING = 1e-16  # of L²: less than that the roller is not too near to a corner
+ROUNDING = 1e-16  # of L²: with less, the roller is not too near to a corner
 
 
 class Corner(NamedTuple):

@@ -25,9 +25,9 @@ def run(
     output: Output = "-",
     format: Format = "",
 ) -> None:
-    """Run time against error: ours beside what else is in use.
+    """Compare run time and error with other programs.
 
-    Errors against 50 digits; times as ratios to a baseline in the same run, which has a row.
+    Errors are against 50 digits; times are ratios to a baseline in the same run, which has a row.
     """
     import os
     import sys

@@ -36,7 +36,7 @@ def run(
     output: Output = "-",
     format: Format = "",
 ) -> None:
-    """Designs side by side: a column a design, a row a quantity, and whether they differ in it."""
+    """Compare designs: one column for each, one row for each quantity, and whether they differ."""
     from geneva_cli.output import show
     from geneva_cli.study.compare import compare
 

@@ -27,7 +27,7 @@ def run(
     output: Output = "-",
     format: Format = "",
 ) -> None:
-    """What a word of the output means: formula, unit, source, what to do, which test proves it."""
+    """Explain a word of the output: formula, unit, source, remedy, and the test that proves it."""
     from geneva_cli.output import show, show_markdown, show_text
     from geneva_cli.output.formats import format_of
     from geneva_cli.specfile.meanings import Meaning, as_markdown, listed, meanings

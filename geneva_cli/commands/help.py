@@ -25,7 +25,7 @@ def run(
         ),
     ] = "",
 ) -> None:
-    """The manual: a page, the options of a command, or where a word stands in all pages."""
+    """Show a page of the manual, the options of a command, or all places of a word."""
     from geneva_cli.manual import GROUPS, TOPICS, Hit, page, search
     from geneva_cli.output import show, show_markdown, show_text
     from geneva_cli.table import rows_table

@@ -19,9 +19,10 @@ def run(
     output: Output = "-",
     format: Format = "",
 ) -> None:
-    """Position, velocity, acceleration and jerk, evenly in the input angle over a cycle from entry.
+    """Position, velocity, acceleration and jerk over a cycle from entry.
 
-    Where the engagements differ, over a whole period of the machine.
+    Rows are evenly spaced in the input angle. Where the engagements differ, they cover a whole
+    period of the machine.
     """
     from geneva_cli.design import load
     from geneva_cli.output import show

@@ -11,7 +11,8 @@ EXAMPLES = (
 def run(spec: SpecPath, given: Given = None, output: Output = "-", format: Format = "") -> None:
     """Greatest velocity, acceleration, jerk and power of a design, as invariants.
 
-    Angles are signed input angles from mid-motion. Where engagements differ, the greatest of all.
+    Angles are signed input angles from mid-motion. If engagements differ, these are the greatest of
+    all.
     """
     from geneva_cli.design import load
     from geneva_cli.output import show

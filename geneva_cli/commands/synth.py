@@ -128,9 +128,9 @@ def run(
     output: Output = "-",
     format: Format = "",
 ) -> None:
-    """From wishes to the machines that grant them all, the lowest peak first.
+    """Find the machines that meet all requirements, the lowest peak first.
 
-    What is tried, and what the columns mean: `geneva help choosing`.
+    The machines tried, and the columns: `geneva help choosing`.
     """
     from geneva_cli.study.synthesis.reading import read_wish
 
@@ -171,7 +171,7 @@ def _frame(path: str, given: Sequence[str]) -> "Spec":
 
 
 def _inputs(wish: "Wish") -> Sequence[str]:
-    """The files that the wish was read from."""
+    """The files that the requirement was read from."""
     return wish.frame.files if wish.frame else ()
 
 

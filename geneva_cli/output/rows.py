@@ -1,4 +1,4 @@
-"""Rows of a table that grows: csv on standard output or in a file, or a parquet made from it."""
+"""Rows of a growing table: csv on standard output or in a file, or parquet made from it."""
 
 from __future__ import annotations
 
@@ -17,10 +17,11 @@ ENDINGS = (".csv", ".parquet")
 
 
 class Growth(Closing):
-    """Where the rows of ``names`` go; ``done`` of them are there already, or all (``is_whole``).
+    """The destination of the rows of ``names``, ``done`` of which exist already.
 
-    ``key`` is all that they depend on, for ``resume``, which ``found`` says what of; a later share
-    of a table has no ``header``; ``texts`` are columns that hold no numbers.
+    ``is_whole`` is true if all do. ``key`` is all that the rows depend on, for ``resume``;
+    ``found`` says what it met. Shards after the first have no ``header``. ``texts`` are columns
+    without numbers.
     """
 
     def __init__(
@@ -44,7 +45,7 @@ class Growth(Closing):
             from geneva_cli.output.parquet import refuse_without
 
             refuse_without()
-            header = True  # a share is a file of its own
+            header = True  # a shard is a file of its own
         first = one_line(names) if header else ""
         if output != "-":
             self.file = Growing(output, first, key, resume, inputs)
@@ -56,7 +57,7 @@ class Growth(Closing):
             sys.stdout.write(first)
 
     def append(self, rows: Sequence[Sequence[Any]]) -> None:
-        """More rows. Raises GenevaError for a number that is none."""
+        """Add rows. Raises GenevaError for NaN."""
         refuse_nonsense(self.names, list(zip(*rows, strict=True)))
         text = "".join(map(one_line, rows))
         if self.file:
@@ -65,7 +66,7 @@ class Growth(Closing):
             sys.stdout.write(text)
 
     def finish(self) -> None:
-        """Nothing more comes: the file takes its name."""
+        """End the rows: the file gets its name."""
         if not self.file:
             return
         if not self.parquet:
@@ -76,6 +77,6 @@ class Growth(Closing):
         self.file.finish(partial(convert, texts=self.texts))
 
     def close(self) -> None:
-        """A file that is not finished can be gone on from."""
+        """Close the file; an unfinished one can be continued."""
         if self.file:
             self.file.close()

@@ -41,7 +41,7 @@ if TYPE_CHECKING:
 
 EXPONENT = 10.0 / 3.0  # p, of line contact
 RATED = 1e6  # revolutions that C is rated for
-FORCE = ("pin_force_N",)  # whose bound says whether there is one of the integrals
+FORCE = ("pin_force_N",)  # the integrals are bounded where this quantity is
 
 
 class Passage(NamedTuple):
@@ -196,7 +196,7 @@ def lives(mechanism: Mechanism, each: Sequence[Passage]) -> Life:
         force, turns, often = every[worst, :, np.arange(every.shape[2])].T
         lasts: list[float | None] = [None] * 3
         capacity = spec.material_roller.dynamic_capacity_N
-        if capacity is not None:  # without a force it lasts for ever
+        if capacity is not None:  # without a force the life is unlimited
             rated = RATED * (np.ravel(capacity) / force) ** EXPONENT
             lasts = [parameter(x) for x in (rated, rated / turns, rated / turns / often)]
     return Life(parameter(force), parameter(turns), *lasts)

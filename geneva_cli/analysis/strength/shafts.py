@@ -38,7 +38,7 @@ if TYPE_CHECKING:
 
 
 class Turned(NamedTuple):
-    """A shaft under its cycle; None for values that are not known; (m,) each for m designs."""
+    """Results for a shaft over its cycle; None for unknown values; (m,) each for m designs."""
 
     moment_Nm: float  # greatest sqrt((Kb M)² + (Kt T)²)
     at_deg: float

@@ -75,7 +75,7 @@ STATION = (
     "steady_share",
 )
 NUMBERS = (*Vibrations._fields, "speeds_to_avoid_rpm")
-OFF = 0.01  # share by which a tuned law may miss its period ratio without a word
+OFF = 0.01  # fraction by which a tuned law may miss its period ratio without a warning
 UNDAMPED = (
     "steady_share is not computed: without damping (damping_ratio in [shaft], or --damping) the "
     "vibration never dies out, and there is no steady state"

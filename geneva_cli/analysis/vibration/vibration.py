@@ -45,9 +45,9 @@ if TYPE_CHECKING:
     from geneva_cli.numerics.arrays import Array, Complex, Whole
 
 SOFTER, STIFFER = math.sqrt(0.8), math.sqrt(1.2)  # the natural frequency's at 20 % of stiffness
-SLOWER, FASTER = 0.5, 2.0  # the speeds looked at, over the design's
+SLOWER, FASTER = 0.5, 2.0  # range of speeds over the design's
 AVOIDED = 1e-4  # least share of the step that makes a speed one to avoid
-TIE = 1e-12  # share of a residual: a lobe that falls short of the greatest by less counts
+TIE = 1e-12  # fraction of a residual: a lobe lower than the greatest by less is equal
 GROUP = 32  # designs at a time: the panels of each are some 20 kB, and stay in the cache
 
 

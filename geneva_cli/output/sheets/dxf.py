@@ -31,7 +31,7 @@ OWN = 32 + 128
 
 
 def chunks(sheet: Sheet, version: str = USUAL) -> Iterator[str]:
-    """The file's text. Raises GenevaError for another version, or cubics in R12."""
+    """The file's text. Raises GenevaError for an unknown version, or for cubics in R12."""
 
     def fill(document: Document, space: Modelspace) -> None:
         _layers(document)
@@ -134,6 +134,6 @@ def _text(space: BaseLayout, label: Label, layer: str) -> None:
 
 
 def _signed(text: str) -> str:
-    """A text with DXF's own signs; what would be one by chance is none."""
+    """A text with DXF's own signs; accidental ones are separated."""
     shown = clean(text).replace("%%", "% %")
     return "".join(SIGNS.get(c, c) for c in shown)
