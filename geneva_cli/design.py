@@ -665,12 +665,13 @@ class Design:
         from contextlib import suppress
 
         from geneva_cli.output.notebook import shown
+        from geneva_cli.verdict.headline import headline
 
         drawing = None
         with suppress(GenevaError):  # wheels with very many slots are not drawn
             drawing = self.drawing("assembly")
-        report = self.report
-        return shown(report.table, report.passes, drawing, self.figure())
+        _, verdict = headline(self.checks, self.warnings)
+        return shown(self.report.table, verdict, drawing, self.figure())
 
     @answer
     def checks(self) -> list[Check]:

@@ -16,14 +16,14 @@ if TYPE_CHECKING:
     from geneva_cli.table import Table
 
 
-def shown(report: Table, passes: bool, drawing: Drawing | None, figure: Figure) -> str:
+def shown(report: Table, verdict: str, drawing: Drawing | None, figure: Figure) -> str:
     """HTML of a design: title, verdict, the machine if it is flat, curves, and the report."""
     pictures = [plot_svg.chunks(figure)]
     if drawing is not None:
         pictures.insert(0, svg.chunks(drawing, "mm"))
-    verdict = "passes every check" if passes else "fails a check: see the report"
     return (
-        f"<h3>{escape(clean(report.title))}</h3><p>{escape(report.prose)} It {verdict}.</p>"
+        f"<h3>{escape(clean(report.title))}</h3><p>{escape(report.prose)}</p>"
+        + f"<p><b>{escape(verdict)}</b></p>"
         + "".join(_picture(chunks) for chunks in pictures)
         + f"<details><summary>Report</summary>{report._repr_html_()}</details>"
     )

@@ -86,7 +86,7 @@ def test_what_fails_says_what_to_change(fails: str) -> None:
     assert found.exit_code == 1
     assert found.stdout.startswith(f"✗ {fails}: 1 of 16 checks fails\n")
     failing = found.stdout.split("\n\n")[1]
-    assert "acceleration max  1.113, at most 1" in failing
+    assert "peak acceleration  1.113, at most 1" in failing
     change = failing.split("passes with ")[1].split(" (")[0]
     assert run(fails, "--set", f"drive.{change.replace(' ', '')}").exit_code == 0
 

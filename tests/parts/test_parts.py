@@ -684,7 +684,7 @@ def test_wheel_without_an_error_is_silent():
 @pytest.mark.parametrize(
     ("text", "line", "said"),
     [
-        (size("lock_radius_mm = 60"), 4, ["lock_radius_mm = 60", "below 50", "roller's way"]),
+        (size("lock_radius_mm = 60"), 4, ["lock_radius_mm = 60", "below 50", "the crank's arm"]),
         (size("lock_radius_mm = 46"), 4, ["lock_radius_mm = 46", "below 45", "horn"]),
         (size("lock_radius_mm = 5"), 4, ["lock_radius_mm = 5", "above 13.25", "rim"]),
         (size("roller_radius_mm = 48"), 4, ["roller_radius_mm", "slots meet", "0.4 mm"]),

@@ -162,7 +162,7 @@ FILES = [
 ]
 # a file, an option, an argument's name or its text, or the usage of the whole
 FILE = r"(spec|other|gone)\.toml|law\.csv|x+\.*x*\.csv|\.:|/|<std\w+>|'a\\x00b'"
-TEXT = r'".*" is no '
+TEXT = r'".*" is (no|not a) '
 PLACES = re.compile(
     r"geneva( [a-z]+)?: |(unknown )?KIND|SUBJECT|--?[\w-]+|SPEC|"
     rf"{FILE}|{TEXT}|[^:]+: cannot (read|write)"

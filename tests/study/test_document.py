@@ -19,7 +19,7 @@ from geneva_cli.app import app
 from geneva_cli.design import Design, load
 from geneva_cli.document import Document, Fact, Facts, Grid, Listed, Picture
 from geneva_cli.errors import GenevaError
-from geneva_cli.output import jsonfile
+from geneva_cli.output import jsonfile, pdf_file
 from geneva_cli.output.document import html, markdown, pdf
 from geneva_cli.output.document.inline import inline
 from geneva_cli.output.document.paper import lines, wide
@@ -128,7 +128,7 @@ def test_every_value_of_the_report_is_on_the_page(name: str) -> None:
     page = Page("".join(html.chunks(found)))
     told = "\n".join(page.cells)
     cells = {part for cell in page.cells for text in cell.split(", ") for part in _parts(text)}
-    tree = json.loads("".join(jsonfile.chunks(design.report.table, terminal=False)))
+    tree = json.loads("".join(jsonfile.chunks(design.report.table)))
     assert tree.pop("spec") == design.spec.path
     assert tree.pop("passes") is True
     every = values(tree)
@@ -214,6 +214,33 @@ def test_a_pdf_holds_title_verdict_and_every_check(name: str, jams: str) -> None
     numbers = [t for t in texts if re.fullmatch(r"\d+ / \d+", t)]
     assert numbers == [f"{i} / {len(pages)}" for i in range(1, len(pages) + 1)]
     assert text == "".join(pdf.chunks(found)) and "CreationDate" not in text
+
+
+@pytest.mark.parametrize("name", ["turret", "spherical-z6", "press-curved", "internal-z6"])
+def test_page_1_is_machine_verdict_key_figures_and_motor(name: str) -> None:
+    _, found = of(name)
+    every, _ = objects("".join(pdf.chunks(found)))
+    first = next(body for _, body in sorted(every.items()) if "stream" in body)
+    texts = [_plain(t) for t in re.findall(r"\(((?:[^()\\]|\\.)*)\) Tj", first)]
+    assert found.verdict in texts
+    assert {"The machine", "In short", "Cycle", "Size", "Tightest", "Motor"} <= set(texts)
+    (grid,) = (b for b in found.blocks if isinstance(b, Grid) and b.caption == "In short")
+    assert len(grid.rows) == 7
+
+
+def test_the_parts_list_fits_its_columns() -> None:
+    """No heading and no number of it is broken."""
+    _, found = of("turret")
+    texts, _ = said("".join(pdf.chunks(found)))
+    assert {"Count", "Mass, kg", "461.94", "143.342", "material.wheel"} <= set(texts)
+    assert "Centroid x, mm" in texts
+
+
+def test_a_power_of_ten_is_raised_on_paper() -> None:
+    """The exponent is smaller and higher, and no caret stands before it."""
+    shown_ = pdf_file.text(western(shown(1.21353e-6)), (0.0, 0.0), 10.0)
+    assert "10) Tj /F1 7 Tf 3.3 Ts (-6) Tj" in shown_
+    assert pdf_file.wide("10^-6", 10.0) < pdf_file.wide("10-6", 10.0)
 
 
 def test_nothing_of_a_pdf_leaves_its_page(jams: str) -> None:

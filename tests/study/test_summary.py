@@ -102,7 +102,7 @@ def test_a_report_has_six_figures_and_a_motor(name: str) -> None:
 def test_a_failing_report_begins_with_what_fails() -> None:
     (summary,) = of_report(design("turret", "limits.velocity_max=0.5")).summaries
     assert summary.state == FAILS
-    assert summary.lines[0].label == "velocity max"
+    assert summary.lines[0].label == "peak velocity"
     assert "geneva explain velocity_max" in summary.lines[0].note
 
 

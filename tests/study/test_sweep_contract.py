@@ -135,7 +135,7 @@ def test_shares_of_a_law_are_given_one_by_one(tmp_path):
 @pytest.mark.parametrize(
     ("text", "vary", "refused"),
     [
-        ("steps_deg = [72, 48]", "wheel.offset_mm=0,0.003", "choose one of them"),
+        ("steps_deg = [72, 48]", "wheel.offset_mm=0,0.003", "remove one of them"),
         ("[drive]\nrollers = 2\nroller_angles_deg = [0, 90]", "wheel.z=4,5", "jam"),
     ],
 )

@@ -162,7 +162,7 @@ def test_a_shaft_adds_its_vibration(tmp_path: Path) -> None:
     assert whole == {name: alone[name] for name in whole}
     for text, said in (
         (f"{SHAFT}3000\n", "no natural period"),
-        (f"{SHAFT}1e12\n[load]\ninertia_kgm2 = 1e-9\n", "makes a period ratio"),
+        (f"{SHAFT}1e12\n[load]\ninertia_kgm2 = 1e-9\n", "gives a period ratio"),
     ):
         why = json.loads(run("report", written(tmp_path, text), "--format", "json").stdout)
         assert said in why["vibration"].pop("none")

@@ -15,7 +15,7 @@ from geneva_cli.output.pdf_file import number, outline, point
 from geneva_cli.output.svg_fill import TINT, TINTS, rings
 from geneva_cli.output.svg_look import round_length
 
-HIGH = 105.0  # greatest height of the shapes
+HIGH = 92.0  # greatest height of the shapes
 ROOM = 3.0  # margin around them
 STROKE, THIN = 0.3, 0.16
 DASHES = "4 0.8 0.8 0.8"

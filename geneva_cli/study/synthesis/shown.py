@@ -70,7 +70,8 @@ def for_terminal(table: Table) -> Table:
     """A table with a description of each machine and all its numbers, in order of importance."""
     rows = table.to_rows()
     laws = {row["law"] for row in rows if row["law"]}
-    columns = [*_columns(rows, table.names, len(laws) > 1)]
+    every = _columns(rows, table.names, len(laws) > 1)
+    columns = [c for c in every if any(v is not None for v in c.cells)]
     names = [c.head if c.source == "asked" else c.source for c in columns]
     rank = _ranks(columns)
     first = sorted(range(len(columns)), key=lambda i: rank[columns[i].source])
