@@ -24,10 +24,10 @@ def run(
     output: Output = "-",
     format: Format = "",
 ) -> None:
-    """Does the design work? What fails and what to change, warnings, the tightest check.
+    """Check designs: failures with their remedies, warnings, and the tightest check.
 
-    Checked are the motion, the parts and the spec's own [limits]. Exit status 1 where a check
-    fails. Every spec is checked, also beside one that cannot be read.
+    The checks are of the motion, the parts and the spec's own [limits]. Exit status 1 if a check
+    fails. Every spec is checked, even if another cannot be read.
     """
     from geneva_cli.output import is_watched, tell
     from geneva_cli.output.formats import table_as

@@ -25,23 +25,23 @@ def run(
     output: Output = "-",
     format: Format = "",
 ) -> None:
-    """What the motion costs: torque, forces, stress, power and bearings over a cycle.
+    """Loads of the motion: torque, forces, stress, power and bearings over a cycle.
 
-    The motor that is recommended comes first. Then a summary of each: greatest and least over the
-    motions with their input angles, mean and root of the mean square over the whole period, dwells
-    included. As csv, or with --samples, the cycle row by row, evenly in the input angle from the
-    first entry; json is always the summary.
+    The recommended motor comes first. Then follows a summary of each load. It has the greatest and
+    the least value over the motions with their input angles, and the mean and root mean square over
+    the whole period, dwells included. As csv, or with --samples, the cycle is a table, with rows
+    evenly spaced in the input angle from the first entry; json is always the summary.
 
     The pin force is positive on the wall that drives the wheel, negative on the one that holds it
-    back; the input's torque and power are negative where the wheel drives the input. In a dwell
-    the lock holds the wheel and all is 0.
+    back. The input's torque and power are negative where the wheel drives the input. In a dwell the
+    lock holds the wheel and all loads are 0.
 
-    Bearings carry rigid links without mass or weight; a motor gives a couple alone. The guide is
-    what holds the roller's body besides its shaft: rocker, slider, groove, fixed gear, or what
+    Bearings carry rigid links without mass or weight; a motor gives a couple alone. The guide holds
+    the roller's body besides its shaft. It is a rocker, a slider, a groove or a fixed gear, or it
     pushes the crank round: teeth, a coulisse's block, a first wheel's roller. The last two need a
-    length in [drive]: without it the crank's bearings are shown without that push. p v is the
-    greatest Hertz pressure times the speed of sliding, and that is a roller's that is fast on its
-    pin; one that turns (friction_at) rolls as fast instead.
+    length in [drive]; without it the crank's bearings are shown without that push. p v is the
+    greatest Hertz pressure times the sliding speed of a roller fixed to its pin; one that turns
+    (friction_at) rolls as fast instead.
     """
     from geneva_cli.design import load
     from geneva_cli.output import show, tell

@@ -30,13 +30,13 @@ def run(
         ),
     ] = "",
 ) -> None:
-    """One page on a design, for a person: failed checks, words, timing, peaks, loads, sizes.
+    """Report on a design for people: failed checks, words, timing, peaks, loads, sizes.
 
-    As html, pdf or md, what is handed over: the verdict first, the machine drawn, all inputs with
-    their defaults, curves, every check, what is not known and which key would give it. As table,
-    csv and json the values alone.
+    As html, pdf or md it is a document to hand over. It begins with the verdict, then shows the
+    machine, all inputs with their defaults, curves and every check. It lists unknown values with
+    the keys that they need. As table, csv and json it has the values only.
 
-    Exit status 1 where `check` has it: where a check fails.
+    The exit status is 1 if a check fails, as with `check`.
     """
     from geneva_cli.design import load
     from geneva_cli.output import hand_over, tell

@@ -25,8 +25,9 @@ def run(
 ) -> None:
     """The wheel's place in the dwell, its play in motion and its entry, from [tolerance].
 
-    Worst case, root of squares and Monte Carlo, in degrees and arc seconds; which dimension
-    contributes how much; and the clearances with which every machine still turns.
+    The results are worst case, root of squares and Monte Carlo, in degrees and arc seconds. They
+    include the contribution of each dimension, and the clearances with which every machine still
+    turns.
     """
     from geneva_cli.design import load
     from geneva_cli.output import show, tell
@@ -39,7 +40,8 @@ def run(
         return
     table = design.tolerance(samples, seed, radius)
     tell(of_tolerance(design, table), output, format, design.spec.files)
-    if output != "-" or table_as(output, format) in ("json", "csv"):  # of tolerances alone
+    # the warnings of tolerances only
+    if output != "-" or table_as(output, format) in ("json", "csv"):
         warn(design)
     if output != "-":
         say(design.spec.path, table.to_dict()["warnings"])

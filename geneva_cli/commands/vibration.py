@@ -23,11 +23,11 @@ def run(
     output: Output = "-",
     format: Format = "",
 ) -> None:
-    """The load on an elastic shaft: what each index leaves swinging, and the speeds to avoid.
+    """The load on an elastic shaft: vibration after each index, and the speeds to avoid.
 
-    As csv the spectrum: residual and steady state from half to twice the design's speed. The
-    speeds to avoid are those of at least 0.0001 of the step where the residual has a local
-    maximum; `avoid` says where they move with stiffness 20 % lower and higher.
+    As csv it is the spectrum: residual and steady state from half to twice the design's speed. A
+    speed to avoid is a local maximum of the residual of at least 0.0001 of the step. `avoid` gives
+    its range for stiffness 20 % lower and higher.
     """
     from geneva_cli.design import load
     from geneva_cli.output import show, tell

@@ -1,6 +1,6 @@
-"""Cautions about what the wheel carries, and about what drives it.
+"""Warnings about the load that the wheel carries, and about its motor.
 
-The wheel's own inertia, unbalanced or distant masses, materials that there are not, and keys
+They are about the wheel's own inertia, unbalanced or distant masses, unlikely materials, and keys
 without effect.
 """
 
@@ -16,16 +16,18 @@ from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.machine.spec import Spec
 from geneva_cli.spec.tables import Motor
 
-NAME = "wheel"  # of the [[mass]] that is the wheel itself
-SHOWN = 0.01  # share of the given inertia: less of the wheel's own is not mentioned
+NAME = "wheel"  # name of the [[mass]] that is the wheel itself
+# fraction of the given inertia: a smaller inertia of the wheel itself is not mentioned
+SHOWN = 0.01
 FAR = 5.0  # centre distances to a body, beyond most tables
-# No material is stiffer than diamond, heavier than osmium, or as light as what is meant in g/cm3
+# No material is stiffer than diamond, heavier than osmium, or as light as a density in g/cm3
+# suggests
 DIAMOND_GPa, OSMIUM_KGM3, FOAM_KGM3 = 1220.0, 22590.0, 25.0
-FULL_CIRCLE = 2  # so many alike, or more, are taken to stand evenly around the axis
+FULL_CIRCLE = 2  # at least so many equal masses are assumed to be spaced evenly around the axis
 
 
 def carried_cautions(mechanism: Mechanism, plate: MassProperties | None) -> list[Caution]:
-    """Cautions about inertia left out, bodies off the axis, and keys with nothing to act on."""
+    """Warnings about missing inertia, bodies off the axis, and keys without effect."""
     spec = mechanism.spec
     about = [*_itself(spec, plate), *_to_one_side(spec), *_far(mechanism), *_unheard_of(spec)]
     return [*about, *_for_nothing(spec)]
@@ -56,7 +58,7 @@ def _itself(spec: Spec, plate: MassProperties | None) -> list[Caution]:
 
 
 def _to_one_side(spec: Spec) -> list[Caution]:
-    """Masses to one side of a horizontal axis: the torque of gravity is not counted."""
+    """Warnings about masses to one side of a horizontal axis, whose gravity is not counted."""
     if spec.support.axis != "horizontal":
         return []
     out: list[Caution] = []
@@ -76,7 +78,7 @@ def _to_one_side(spec: Spec) -> list[Caution]:
 
 
 def _far(mechanism: Mechanism) -> list[Caution]:
-    """A mass farther off than any table reaches."""
+    """Warnings about a mass that is farther away than a table reaches."""
     far = max((mass.radius_mm for mass in mechanism.spec.mass), default=0.0)
     share = far / mechanism.center_distance_mm
     if share <= FAR:
@@ -91,7 +93,7 @@ def _far(mechanism: Mechanism) -> list[Caution]:
 
 
 def _unheard_of(spec: Spec) -> Iterator[Caution]:
-    """Materials in another unit."""
+    """Warnings about materials that seem to be in another unit."""
     parts = {"[material.wheel]": spec.material_wheel, "[material.roller]": spec.material_roller}
     for table, part in parts.items():
         if part.youngs_modulus_GPa > DIAMOND_GPa:
@@ -115,7 +117,7 @@ def _unheard_of(spec: Spec) -> Iterator[Caution]:
 
 
 def _for_nothing(spec: Spec) -> list[Caution]:
-    """Keys without effect."""
+    """Warnings about keys without effect."""
     out: list[Caution] = []
     if not spec.is_loaded and spec.motor != Motor():
         out.append(

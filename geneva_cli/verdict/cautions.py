@@ -1,4 +1,4 @@
-"""Cautions about a machine's motion and slots: what is the matter, where, and what helps."""
+"""Warnings about a machine's motion and slots: the problem, its place, and a remedy."""
 
 from __future__ import annotations
 
@@ -19,12 +19,12 @@ from geneva_cli.spec.processes import PROCESSES
 from geneva_cli.spec.tables import Z_USUAL
 
 SHOWN_LEAD = 1e-6  # degrees: less is rounding
-SHOWN_DOUBT = 0.01  # share of the greatest jerk: less is not mentioned
+SHOWN_DOUBT = 0.01  # fraction of the greatest jerk: less is not mentioned
 SHOWN_UNDERCUT = 0.005  # mm: a wall cut back by less is within a shop's tolerance
 
 
 def cautions(mechanism: Mechanism) -> list[Caution]:
-    """The cautions about a machine that need neither its loads nor its parts."""
+    """The warnings about a machine that need neither its loads nor its parts."""
     out: list[Caution] = []
     z = mechanism.spec.wheel.z
     if z > Z_USUAL:
@@ -83,9 +83,9 @@ def cautions(mechanism: Mechanism) -> list[Caution]:
 
 
 def _loose_fits(mechanism: Mechanism) -> Iterator[Caution]:
-    """Clearances that are given larger than the loosest running fit, or the process, needs.
+    """Clearances larger than the loosest running fit, or the process, needs.
 
-    A locking disc that is not given is smaller than the crank, whose fit is looser.
+    A default locking disc is smaller than the crank, whose fit is looser.
     """
     size, disc = mechanism.spec.size, mechanism.spec.size.lock_radius_mm
     pairs = [("slot_clearance_mm", "roller", "slot", mechanism.roller_radius_mm)]
@@ -109,7 +109,7 @@ def _loose_fits(mechanism: Mechanism) -> Iterator[Caution]:
 
 
 def _overtaken(mechanism: Mechanism) -> list[Caution]:
-    """Where a roller presses into the wall that it drove, as gears turn the wheel more slowly."""
+    """A warning for a roller that presses into the wall that it drove, as gears slow the wheel."""
     lead = mechanism.engagements[0].overtaking / DEGREE
     if not lead > SHOWN_LEAD:
         return []
@@ -128,9 +128,10 @@ def _no_lock(mechanism: Mechanism) -> bool:
 
 
 def _rounded_points(mechanism: Mechanism) -> list[Caution]:
-    """How far the rounding of a file's points leaves the jerk unknown."""
+    """A warning about the uncertainty of the jerk from the rounding of a file's points."""
     engagement, law = mechanism.engagements[0], mechanism.law
-    top = peak(engagement.motion, "velocity")  # where the jerk of a ratio counts most
+    # the place where the jerk of a ratio has the greatest effect
+    top = peak(engagement.motion, "velocity")
     ratio = mechanism.spec.drive.doubt(engagement.mid_deg + top.at_deg)
     points = law.doubt() if law else None
     if ratio:
@@ -164,12 +165,12 @@ def turns_back(mechanism: Mechanism) -> tuple[float, float] | None:
 
 @lru_cache(maxsize=128)
 def _law_turns_back(law: Law) -> bool:
-    """Whether a wheel turns back by a law, whatever its step and its motion angle."""
+    """Return True if a wheel turns back with a law, whatever its step and its motion angle."""
     return _least_velocity(LawMotion(-0.5, 0.5, 0.5, law)) is not None
 
 
 def _least_velocity(motion: Motion) -> tuple[float, float] | None:
-    """Return the least velocity of a motion where it is below 0, and its place; else None."""
+    """The least velocity of a motion and its place if it is below 0; else None."""
     from geneva_cli.analysis.peaks_many import landmarks
 
     _, x, velocity = landmarks(motion, "velocity", 1)

@@ -1,4 +1,4 @@
-"""Cautions about a cycle: where the wheel drives the motor, and numbers of an unlikely size."""
+"""Warnings about a cycle: places where the wheel drives the motor, and unlikely numbers."""
 
 from __future__ import annotations
 
@@ -15,13 +15,13 @@ from geneva_cli.numerics.tolerances import ROUNDED
 SOUND_M_S = 343.0
 STEEL_KGM3 = 7850.0
 # The largest table that a wheel of centre distance L is expected to turn: solid steel, 6 L across
-# and L/2 thick. A larger inertia is nearly always one in kg cm2.
+# and L/2 thick. A larger inertia is nearly always meant in kg cm2.
 ACROSS, THICK = 6.0, 0.5
-BRIEF = 1e-4  # share of a motion: next to a rest signs are rounding
+BRIEF = 1e-4  # fraction of a motion: next to a rest, signs are rounding
 
 
 def cycle_cautions(cycle: Cycle, loads: Mapping[str, Summary]) -> list[Caution]:
-    """The cautions, for the summaries of a cycle's loads."""
+    """The warnings, for the summaries of a cycle's loads."""
     lags = _lags(cycle.mechanism)
     return [*_back_driven(cycle, loads), *lags, *_heavy(cycle), *_fast(cycle.mechanism, loads)]
 
@@ -48,7 +48,7 @@ def _back_driven(cycle: Cycle, loads: Mapping[str, Summary]) -> list[Caution]:
         return []
     driven = back_driven_deg(cycle)
     where = ", ".join(f"{round(a, 9):.4g} to {round(b, 9):.4g}" for a, b in driven)
-    # With so much resistance the wheel is braked without the input even where it slows down most.
+    # With this resistance the wheel is braked without the input even at its greatest deceleration.
     inertia = cycle.given.inertia_Nm / cycle.given.speed_rad_s**2
     drag = -inertia * alpha.min
     helps = f"or a drag on the wheel: with a resisting torque of {drag:.4g} N m in all the input "
@@ -66,7 +66,7 @@ def _back_driven(cycle: Cycle, loads: Mapping[str, Summary]) -> list[Caution]:
 
 
 def _lags(mechanism: Mechanism) -> list[Caution]:
-    """Where the wheel comes off the roller that stops it, and on again."""
+    """A warning if the wheel leaves the roller that stops it, and meets it again."""
     found = arrival(mechanism)
     if found is None or found.lag is None:
         return []

@@ -1,4 +1,4 @@
-"""Cautions about loads: those without a bound, and limits that no speed keeps."""
+"""Warnings about loads: unbounded ones, and limits that no speed keeps."""
 
 from __future__ import annotations
 
@@ -12,19 +12,19 @@ from geneva_cli.machine.mechanism import Mechanism
 
 
 def load_cautions(mechanism: Mechanism) -> list[Caution]:
-    """The cautions that need the loads; none without a load."""
+    """The warnings that need the loads; none without a load."""
     if not mechanism.spec.is_loaded:
         return []
     cycle = cycle_of(mechanism)
     out = [*_jammed(cycle), *_on_an_edge(cycle)]
-    # a speed that keeps the limits need not be looked for where this one does
+    # the search for a speed is needed only if the present one breaks a limit
     if not _kept(cycle) and loads.fastest_rpm(mechanism) is None:
         out.append(_no_speed(mechanism))
     return out
 
 
 def _kept(cycle: Cycle) -> bool:
-    """Whether the limits on loads are kept at the speed as it is."""
+    """Return True if the limits on loads are kept at the present speed."""
     limits = zip(loads.LIMITED, loads.load_limits(cycle.mechanism.spec.limits), strict=True)
     given = {name: limit for name, limit in limits if limit}
     if not given.keys() <= cycle.extremes.keys():

@@ -1,4 +1,4 @@
-"""Cautions about a whole turn of the parts that breaks no limit."""
+"""Warnings about a whole turn of the parts that breaks no limit."""
 
 from __future__ import annotations
 
@@ -9,14 +9,14 @@ from geneva_cli.verdict.checks.play import motion_play_max
 
 
 def turn_cautions(proof: Proof) -> list[Caution]:
-    """Cautions of the parts' whole turn; none where there is no such turn."""
+    """Warnings about the parts' whole turn; none without such a turn."""
     if not proof.mechanism.spec.has_parts:
         return []
     try:
         ahead, behind, limit = proof.turn.ahead, proof.turn.behind, motion_play_max(proof.parts)
     except GenevaError:
         return []
-    # Freedom both ways is play, which has a limit of its own.
+    # Play to both sides has a limit of its own.
     free = max(ahead.deg, behind.deg)
     if free <= limit or proof.turn.motion.deg >= free * (1.0 - SAME):
         return []

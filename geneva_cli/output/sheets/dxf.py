@@ -1,8 +1,8 @@
 """A drawing sheet as DXF, in millimetres on paper, its dimensions as DIMENSION entities.
 
-Each dimension has a block with the lines and the text that it is drawn by, so that every reader
-shows it as the other formats do; a style for each scale makes a CAD program that measures again
-find the part's own size.
+Each dimension has a block with its lines and its text, so that every reader shows it as the other
+formats do. Each scale has a style, with which a CAD program that measures again gets the part's own
+size.
 """
 
 from __future__ import annotations

@@ -65,7 +65,7 @@ class Wish(NamedTuple):
 
     @property
     def any_motion(self) -> bool:
-        """Whether any motion will do that keeps some bound."""
+        """Return True if any motion is allowed, and there is some bound."""
         bounded = bool(self.bounds) or self.acceleration_max is not None
         return bounded and self.asks_nothing(1)
 
@@ -77,7 +77,7 @@ class Wish(NamedTuple):
 
     @property
     def by_bounds(self) -> Wish:
-        """The same with the bound on the acceleration as any other bound."""
+        """The requirement with the limit on acceleration as an ordinary bound."""
         return self._replace(acceleration_max=None, bounds=self.limits)
 
     @property

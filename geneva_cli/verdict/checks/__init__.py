@@ -1,6 +1,6 @@
 """The checks of a design, each with its value and its limit.
 
-A check is one file, or a function in a file of like ones, and one line in ``registry``.
+A check is a file, or a function in a file of related ones, and one line in ``registry``.
 """
 
 from __future__ import annotations
@@ -38,7 +38,7 @@ def checks(mechanism: Mechanism, proof: Proof | None = None, parts: bool = True)
 def checks_at_rest(mechanism: Mechanism, proof: Proof | None) -> Iterator[Check]:
     """The checks of the motion and of the limits, then those of ``proof``'s parts at rest.
 
-    Raises GenevaError where wheel or crank cannot be made.
+    Raises GenevaError if wheel or crank cannot be made.
     """
     yield from motion_checks(MOTION, mechanism)
     yield from motion_checks(LIMITS, mechanism)
@@ -47,9 +47,9 @@ def checks_at_rest(mechanism: Mechanism, proof: Proof | None) -> Iterator[Check]
 
 
 def checks_turning(proof: Proof) -> Iterator[Check]:
-    """The checks of the turn, several times, each time looked at closer.
+    """The checks of the turn, repeated with ever closer sampling.
 
-    What fails once, fails in the end. Raises NotProved where that takes too long.
+    A check that fails once fails in the end. Raises NotProved if the sampling takes too long.
     """
     from geneva_cli.parts.turn.full_turn import turning
 
@@ -58,9 +58,9 @@ def checks_turning(proof: Proof) -> Iterator[Check]:
 
 
 def single_check(mechanism: Mechanism, name: str) -> Check | None:
-    """The check of this name, without the others and the turn; None if there is no such check.
+    """The check with this name, without the others and the turn; None if there is no such check.
 
-    Raises GenevaError where it is of parts that cannot be made.
+    Raises GenevaError if its parts cannot be made.
     """
     for among in (MOTION, LIMITS):
         found = check_named(among, name, mechanism)
@@ -81,7 +81,7 @@ def _proof(mechanism: Mechanism) -> Proof:
 def _parts(mechanism: Mechanism, proof: Proof | None = None) -> Iterator[Check]:
     """Walls, shafts and the full turn of a machine whose parts are drawn.
 
-    Where wheel or crank cannot be made, or turned, one check says so in place of the rest.
+    If wheel or crank cannot be made, or turned, a single check says so instead.
     """
     if not mechanism.spec.has_parts:
         why = f"not proved: wheels of more than {Z_DRAWN} slots are not drawn"

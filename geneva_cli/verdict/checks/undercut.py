@@ -8,7 +8,7 @@ from geneva_cli.verdict.checks.check import Check, compared
 
 
 def undercut_depth(name: str, mechanism: Mechanism) -> Check | None:
-    """The depth of the undercut, mm, 0 where there is none."""
+    """The depth of the undercut, mm; 0 if there is none."""
     if not mechanism.engagements[0].slot.curved:
         return None
     from geneva_cli.analysis.undercut import undercut

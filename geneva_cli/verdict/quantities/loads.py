@@ -1,4 +1,4 @@
-"""Loads of designs: greatest sizes, least values and means, and what must be bought."""
+"""Loads of designs: greatest sizes, least values and means, and sizing."""
 
 from __future__ import annotations
 
@@ -19,11 +19,11 @@ if TYPE_CHECKING:
     from geneva_cli.numerics.arrays import Number
     from geneva_cli.verdict.quantities.designs import Columns, Designs
 
-MEANS = {"mean", "rms"}  # of each quantity of the cycle, beside its least value
+MEANS = {"mean", "rms"}  # of each quantity of the cycle, besides its least value
 
 
 def greatest(of: Designs) -> Columns:
-    """The greatest sizes of loads and their input angles; infinite of one that no design has."""
+    """The greatest sizes of loads and their input angles; infinite if no design has the load."""
     known, requested = known_quantities(of.machine), of.requested("loads")
     names = [name for name in SIZED if {f"{name}.max", f"{name}.at_deg"} & requested]
     sought = [SIZED[name] for name in names if SIZED[name] in known]
@@ -40,7 +40,7 @@ def greatest(of: Designs) -> Columns:
 
 
 def summaries(of: Designs) -> Columns:
-    """Least values, means and root mean squares of those loads that all these designs have."""
+    """Least values, means and root mean squares of the loads that all these designs have."""
     sources = {
         n: source for n, (source, share, _) in shares(of.machine).items() if share is not None
     }
@@ -63,7 +63,7 @@ def summaries(of: Designs) -> Columns:
 
 
 def sizing(of: Designs) -> Columns:
-    """Motor, flywheel and the makers' form; None of what needs keys that no design has."""
+    """Motor, flywheel and the makers' form; None for values that need keys that no design has."""
     requested = of.requested("sizing")
     out: dict[str, Number | None] = dict.fromkeys(requested)
     for name, row in sizings_of_many(of.machine, requested).items():
@@ -72,7 +72,7 @@ def sizing(of: Designs) -> Columns:
 
 
 def slot(of: Designs) -> Columns:
-    """Where the wall that must push is cut away, and the distance of the slot's two branches."""
+    """Intervals without the needed wall, and the distance of the slot's two branches."""
     found = positive_drives(of.machine)
     if found is None:
         return {}

@@ -23,7 +23,7 @@ ENDS = {"acceleration": 2, "jerk": 3}  # derivatives of the wheel's angle
 
 
 def timing(of: Designs) -> Columns:
-    """The timing of machines whose engagements are alike; nothing of others."""
+    """The timing of machines whose engagements are alike; empty for others."""
     first, *others = timings(of.machine)
     return {} if others else first._asdict()
 
@@ -43,7 +43,7 @@ def peak_values(name: str, w: N, peak: Sequence[N], ends: Sequence[N]) -> dict[s
     """The quantities of a peak, by their whole names.
 
     ``w`` is the input's speed, ``peak`` the greatest size and its input angle, ``ends`` the sizes
-    just after entry and just before exit, where they are told.
+    just after entry and just before exit, if requested.
 
     >>> peak_values("velocity", 2.0, (1.0, 0.0), ())
     {'velocity.max': 1.0, 'velocity.at_deg': 0.0, 'velocity.max_rad_s': 2.0}

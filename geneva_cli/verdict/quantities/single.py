@@ -28,7 +28,7 @@ def machine(proof: Proof) -> Values:
 
 
 def judged(proof: Proof) -> Values:
-    """The value of each check, None of those that do not apply, and whether all pass."""
+    """The value of each check, None for those that do not apply, and whether all pass."""
     rows = checks(proof.mechanism, proof)
     values: Values = {f"checks.{name}": None for name in every_check()}
     values |= {f"checks.{c.name}": c.value for c in rows}
@@ -44,6 +44,6 @@ def cycle(proof: Proof) -> Values:
 
 
 def bought(proof: Proof) -> Values:
-    """Motor, flywheel and the makers' form; the wheel's own inertia is that of its parts."""
+    """Motor, flywheel and the makers' form, without the wheel's own inertia."""
     found, _ = sizing(cycle_of(proof.mechanism))
     return {f"sizing.{name}": value for name, value in found.items() if name != WHEEL}

@@ -1,4 +1,4 @@
-"""Designs under their loads: what strength and life need of the cycle, the parts and the roller."""
+"""Designs under their loads: values of cycle, parts and roller for strength and life."""
 
 from __future__ import annotations
 
@@ -47,18 +47,18 @@ class UnderLoad:
 
     @cached_property
     def roller_passages(self) -> Sequence[Passage]:
-        """The passages of each roller; an engagement has two where one starts and one stops it."""
+        """The passages of each roller; an engagement has two if one starts and one stops it."""
         paired = any(one.paired for one in self.machine.engagements)
         return roller.by_roller(self.machine) if paired else self.passages
 
     @cached_property
     def lock_sizes(self) -> LockSizes | None:
-        """The sizes of horn and lock, (m, 1); None where no design has a lock."""
+        """The sizes of horn and lock, (m, 1); None if no design has a lock."""
         return lock_sizes_of_many(self.machine)
 
     @cached_property
     def lock(self) -> LockUnderTorque | None:
-        """The lock under the torque that it holds in the dwell; None where no design has one."""
+        """The lock under the torque that it holds in the dwell; None if no design has one."""
         sizes = self.lock_sizes
         return sizes and lock.lock_of_many(self.machine, sizes.half_width, sizes.lock)
 
@@ -68,7 +68,7 @@ class UnderLoad:
 
 
 class SingleUnderLoad(UnderLoad):
-    """A single design, m = 1: its loads are those of its cycle, which keeps them."""
+    """A single design, m = 1, whose loads are those of its cached cycle."""
 
     @cached_property
     def force_N(self) -> Array:
@@ -96,7 +96,7 @@ class SingleUnderLoad(UnderLoad):
         return self._bounded(roller.by_roller(self.machine))
 
     def _bounded(self, every: Sequence[Passage]) -> Sequence[Passage]:
-        """The passages, their work and load infinite where nothing bounds the force."""
+        """The passages, with infinite work and load if the force is unbounded."""
         if not math.isinf(self.force_N[0]):
             return every
         return [one._replace(work=math.inf, load=math.inf) for one in every]

@@ -1,4 +1,4 @@
-"""One page on a design, for a person: words, timing, peaks, loads, sizes, warnings.
+"""A report on a design for people: words, timing, peaks, loads, sizes, warnings.
 
 A section is a group of quantities in ``verdict.quantities.groups``, and its function.
 """
@@ -19,7 +19,7 @@ from geneva_cli.verdict.report.words import words
 
 
 class Report(NamedTuple):
-    """A page on a design; ``passes`` as ``check`` has it."""
+    """A report on a design; ``passes`` is the result of ``check``."""
 
     table: Table
     passes: bool
@@ -28,7 +28,7 @@ class Report(NamedTuple):
 def report(proof: Proof, rows: Sequence[Check], warnings: Sequence[Caution]) -> Report:
     """Everything about one design, as a tree of named values under a paragraph of words.
 
-    The names are the same for every machine; a value is None where it does not apply. ``rows`` and
+    The names are equal for every machine; a value is None if it does not apply. ``rows`` and
     ``warnings`` are the checks and the warnings of the machine of ``proof``.
     """
     mechanism = proof.mechanism
@@ -46,7 +46,7 @@ def report(proof: Proof, rows: Sequence[Check], warnings: Sequence[Caution]) -> 
 
 
 def _said(check: Check) -> str:
-    """A failing check in a line."""
+    """A failing check in one line."""
     if check.value is None or check.limit is None:
         return check.not_computed
     where = "" if check.at_deg is None else f" at {check.at_deg:.6g} deg"

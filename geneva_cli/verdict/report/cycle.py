@@ -1,4 +1,4 @@
-"""What the input has to give over a period: the cycle's torque and power, with their signs."""
+"""Torque and power of the input over a period, with their signs."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What the numbers of a report rest on: speed, clearances, load and limits, as they are given."""
+"""Inputs that the numbers of a report depend on: speed, clearances, load and limits."""
 
 from __future__ import annotations
 
@@ -8,9 +8,9 @@ from geneva_cli.verdict.report.values import Values
 
 
 def inputs(proof: Proof) -> Values:
-    """What was asked."""
+    """The values of these keys."""
     spec = proof.mechanism.spec
-    known = {  # where a key is left out
+    known = {  # if a key is left out
         "wheel": {"held_by": spec.wheel.held_by},
         "size": spec.size.allowances._asdict(),
     }

@@ -1,4 +1,4 @@
-"""Which keys would give the values of strength and life that are not known."""
+"""The keys that unknown values of strength and life need."""
 
 from __future__ import annotations
 

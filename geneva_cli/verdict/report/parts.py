@@ -1,4 +1,4 @@
-"""Sizes that the parts are cut to, and what a whole turn of them shows."""
+"""Cut sizes of the parts, and results of their whole turn."""
 
 from __future__ import annotations
 
@@ -9,9 +9,9 @@ from geneva_cli.verdict.report.values import Values
 
 
 def parts(proof: Proof) -> Values:
-    """None where there are no parts; ``parts.none`` says why they cannot be made.
+    """Sizes and results of the parts; None without parts, with the reason in ``parts.none``.
 
-    Of a sphere what a turn shows, and the horn: its sizes are angles, in the list of parts.
+    A sphere has results of the turn, and the horn; its sizes are angles, in the list of parts.
     """
     values: Values = dict.fromkeys(own_names("parts"))
     if not proof.mechanism.spec.has_parts:
@@ -34,7 +34,7 @@ def _turned(proof: Proof) -> Values:
 
 
 def cut_sizes(proof: Proof) -> Values:
-    """Sizes of flat parts as they are cut."""
+    """Cut sizes of flat parts."""
     found, size = proof.outlines, proof.outlines.sizes
     locked = bool(found.crank)
     return {

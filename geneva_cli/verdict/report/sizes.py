@@ -1,4 +1,4 @@
-"""The machine's own sizes, in millimetres; of a sphere, degrees too."""
+"""The machine's own sizes, in millimetres; for a sphere also in degrees."""
 
 from __future__ import annotations
 
@@ -42,9 +42,9 @@ _FLAT = [
 
 
 def sizes(proof: Proof) -> Values:
-    """Sizes of a flat wheel as it is cut, of a sphere's as it is turned.
+    """Sizes of a flat wheel as cut, or of a spherical wheel as turned.
 
-    The rim is None where the spec's sizes leave no wheel; the slots too where no wheel is drawn.
+    The rim is None if the spec's sizes leave no wheel; the slots too if no wheel is drawn.
     """
     mechanism = proof.mechanism
     spec = mechanism.spec
@@ -68,7 +68,7 @@ def sizes(proof: Proof) -> Values:
 
 
 def _cut_radii(mechanism: Mechanism) -> Values:
-    """Radii of slots and rim as they are cut, mm."""
+    """Radii of slots and rim as cut, mm."""
     mouth = bottom = rim = None
     inside = mechanism.spec.wheel.SIGN < 0.0
     if mechanism.spec.is_flat:
@@ -76,7 +76,7 @@ def _cut_radii(mechanism: Mechanism) -> Values:
         path = roller_paths(where)
         mouth = max(where.L * scalar(s.entry_reach) for s in where.kinds)
         bottom = max(path.ends) if inside else min(path.ends)
-        with suppress(GenevaError):  # ``parts.none`` says why
+        with suppress(GenevaError):  # ``parts.none`` gives the reason
             rim = part_sizes(where, path).rim
     return {
         "sizes.slot_mouth_radius_mm": mouth,

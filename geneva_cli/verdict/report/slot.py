@@ -1,4 +1,4 @@
-"""Whether curved slots drive the wheel positively under the spec's load."""
+"""Positive drive of curved slots under the spec's load."""
 
 from __future__ import annotations
 
@@ -8,6 +8,6 @@ from geneva_cli.verdict.report.values import Values
 
 
 def slot(proof: Proof) -> Values:
-    """No where the wall that must push is cut away; None of straight slots."""
+    """False if the wall that must push is cut away; None for straight slots."""
     drive = positive_drive(proof.mechanism)
     return {"slot.positively_driven": not drive.loose_deg if drive else None}

@@ -1,4 +1,4 @@
-"""Timing and peaks: what all engagements share, the greatest, and a row for each."""
+"""Timing and peaks: shared values, the greatest, and a row for each engagement."""
 
 from __future__ import annotations
 
@@ -15,18 +15,18 @@ from geneva_cli.table import rows_table
 from geneva_cli.verdict.quantities.motion import peak_values
 from geneva_cli.verdict.report.values import Numbers, Values
 
-SAME = 1e-12  # share of a value by which rounding may make it differ between engagements
+SAME = 1e-12  # fraction of a value by which rounding may make it differ between engagements
 
 
 def timing(proof: Proof) -> Values:
-    """The timing that all engagements share; None of what they do not."""
+    """The timing that all engagements share; None for values that differ."""
     mechanism = proof.mechanism
     each = [_timing(mechanism, i) for i in range(len(mechanism.engagements))]
     return {name: _shared([one[name] for one in each]) for name in each[0]}
 
 
 def _shared(values: Sequence[float | None]) -> float | None:
-    """The value that all engagements share, but for rounding; None where they do not."""
+    """The value that all engagements share, apart from rounding; None if they differ."""
     known = [value for value in values if value is not None]
     if len(known) < len(values) or not math.isclose(min(known), max(known), rel_tol=SAME):
         return None
@@ -39,7 +39,7 @@ def peaks(proof: Proof) -> Values:
 
 
 def stations(proof: Proof) -> Values:
-    """A row for each engagement, where they differ."""
+    """A row for each engagement, if they differ."""
     mechanism = proof.mechanism
     if len(mechanism.engagements) == 1:
         return {"stations": None}
@@ -53,9 +53,9 @@ def stations(proof: Proof) -> Values:
 def _timing(mechanism: Mechanism, i: int) -> Numbers:
     timing = timings(mechanism)[i]
     values: Numbers = {f"timing.{k}": v for k, v in timing._asdict().items()}
-    # Krasniqi's (15) and (16): t = phi/omega, shortest at the highest speed that the limits on
-    # force, torque and stress allow (n itself where none bounds it; none where no speed keeps
-    # them), and the work coefficient of one roller, k_r = phi/(2 pi - phi).
+    # Krasniqi's (15) and (16): t = phi/omega is shortest at the highest speed that the limits on
+    # force, torque and stress allow. That is n itself without limits, and none if no speed keeps
+    # them. The work coefficient of one roller is k_r = phi/(2 pi - phi).
     motion = mechanism.engagements[i].motion_deg
     fastest = loads.fastest_rpm(mechanism)
     if fastest is not None and math.isinf(fastest):

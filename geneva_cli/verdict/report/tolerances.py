@@ -1,4 +1,4 @@
-"""What the deviations of ``[tolerance]`` do to the wheel's place, play and entry."""
+"""Effects of the deviations in ``[tolerance]`` on the wheel's place, play and entry."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ def tolerances(proof: Proof) -> Values:
         return dict.fromkeys(names)
     from geneva_cli.verdict.tolerance.tables import tolerance_table
 
-    # at some radius: micrometres are not among them
+    # micrometres need a radius, which is not given here
     L = mechanism.center_distance_mm
     answers = tolerance_table(mechanism, proof, SAMPLES, 0, L).to_dict()
     return {name: answers[name.removeprefix("tolerance.")] for name in names}

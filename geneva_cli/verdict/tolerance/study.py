@@ -1,4 +1,4 @@
-"""The effect of one machine's tolerances on its dwell, motion, entry and clearances."""
+"""The effects of one machine's tolerances on its dwell, motion, entry and clearances."""
 
 from __future__ import annotations
 
@@ -40,26 +40,26 @@ class EntryJumps(NamedTuple):
     worst: float
     mean: float
     std: float
-    missed: float  # share of the machines whose roller misses the slot's axis
-    mouth: float  # the worst on a mouth's corner; 0 where all have room
+    missed: float  # fraction of the machines whose roller misses the slot's axis
+    mouth: float  # the worst on a mouth's corner; 0 if no roller touches one
 
 
 class Study(NamedTuple):
-    """The effects of the tolerances; None where one does not exist, as ``warnings`` say."""
+    """The effects of the tolerances; None for those that do not exist, as ``warnings`` say."""
 
     dwell: Spread | None
     motion: Spread | None
     motion_at_deg: float | None
     entry: EntryJumps | None
     clearances: Needed
-    jams: float | None  # share of the machines that do not go together
+    jams: float | None  # fraction of the machines that do not fit together
     warnings: tuple[Caution, ...]
 
 
 def study(mechanism: Mechanism, proof: Proof, samples: int, seed: int) -> Study:
     """The study of a machine by its ``[tolerance]``.
 
-    Raises GenevaError where there is none, or for numbers of samples and seeds out of range.
+    Raises GenevaError without tolerances, and for numbers of samples and seeds out of range.
     """
     _refuse(mechanism, samples, seed)
     given = tolerances(mechanism.spec)
@@ -136,7 +136,7 @@ def _refuse(mechanism: Mechanism, samples: int, seed: int) -> None:
 
 
 def _refuse_wide(mechanism: Mechanism, use: dict[str, float]) -> None:
-    """Raise GenevaError where some machine's roller may reach the wheel's axis or the crank's.
+    """Raise GenevaError if some machine's roller may reach the wheel's axis or the crank's.
 
     A normal distribution has tails: deviations lie within three times the plus or minus.
     """
@@ -154,7 +154,7 @@ def _refuse_wide(mechanism: Mechanism, use: dict[str, float]) -> None:
 def _applicable(
     mechanism: Mechanism, given: dict[str, float]
 ) -> tuple[dict[str, float], list[Caution]]:
-    """The tolerances, 0 for those without effect in this machine; and why they have none."""
+    """The tolerances, 0 for those without effect in this machine, and the reasons."""
     use, warnings = dict(given), list[Caution]()
     why = without_effect(mechanism.spec)
     for name, reason in why.items():
@@ -177,7 +177,7 @@ def _locks(
 
 
 def _first(found: Worst) -> tuple[float, float, float]:
-    """Of the one design."""
+    """The values of the single design."""
     return float(found.error[0]), float(found.at_deg[0]), float(found.side[0])
 
 

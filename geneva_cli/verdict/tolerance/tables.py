@@ -1,4 +1,4 @@
-"""A study of tolerances as ``geneva tolerance`` prints it."""
+"""The results of a study of tolerances as ``geneva tolerance`` prints them."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ ARCSEC = 3600.0  # in a degree
 def tolerance_table(
     mechanism: Mechanism, proof: Proof, samples: int, seed: int, radius_mm: float | None = None
 ) -> Table:
-    """The study as a record, with micrometres at ``radius_mm``, if that is given."""
+    """The study as a record, with micrometres if ``radius_mm`` is given."""
     if radius_mm is not None:
         require_mm("--radius", radius_mm, POSITIVE)
     found = study(mechanism, proof, samples, seed)
@@ -52,9 +52,9 @@ def tolerance_table(
 
 
 def histogram_table(mechanism: Mechanism, proof: Proof, samples: int, seed: int) -> Table:
-    """Histograms of the machines: for each angle the middles of bins, and the share in each.
+    """Histograms of the machines: for each angle the middles of bins, and the fraction in each.
 
-    Raises GenevaError where neither angle is known.
+    Raises GenevaError if neither angle is known.
     """
     found = study(mechanism, proof, samples, seed)
     known = {"dwell_position": found.dwell, "motion_play": found.motion}
@@ -82,7 +82,7 @@ def _angles(name: str, spread: Spread | None, radius_mm: float | None) -> dict[s
 
 
 def _unscaled(found: Study, radius_mm: float | None) -> list[Caution]:
-    """What would give the micrometres, where there are angles and no radius."""
+    """A note on the micrometres, if there are angles and no radius."""
     known = [
         name for name, of in (("dwell_position", found.dwell), ("motion_play", found.motion)) if of
     ]
@@ -92,7 +92,7 @@ def _unscaled(found: Study, radius_mm: float | None) -> list[Caution]:
 
 
 def _contributions(mechanism: Mechanism, found: Study) -> Table:
-    """A row a dimension that deviates: its share of the squares, and its own plus or minus."""
+    """A row for each dimension that deviates: its fraction of the squares, its plus or minus."""
     names = ("dimension", "share", "dwell_position_deg", "motion_share", "motion_play_deg")
     rows = []
     for i, name in enumerate(Deviations._fields):
