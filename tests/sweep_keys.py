@@ -62,7 +62,7 @@ UNITS = 16 * np.finfo(float).eps
 ROOTS, FOURFOLD = ("strength.horn",), 4
 UNBOUNDED = 1000.0  # N: a force without a peak; the load's torque gives it at a lever of 5 mm
 MANY = 100  # quantities of any loaded machine that a sweep has of arrays, at least
-SUMS = 1e-12  # what is promised of sums, and of what follows from them (summaries_of_many)
+SUMS = 1e-12  # what is promised of sums, and of what follows from them (load_summaries)
 PLACE = 1e-6  # degrees: a peak is flat
 # these draw whole studies, judge parts, or list them, none of which a sweep has of arrays
 SLOW = ("tolerance", "checks", "parts", "parts_list")

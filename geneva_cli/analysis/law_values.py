@@ -1,6 +1,6 @@
 """The characteristic values of motion laws (C_v, C_a, C_j, C_p), and a cam form's factors.
 
-They are for the table of laws; the peaks of machines' motions are in ``peaks_many``.
+They are for the table of laws; the peaks of machines' motions are in ``peak_search``.
 """
 
 from __future__ import annotations

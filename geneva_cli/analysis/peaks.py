@@ -1,7 +1,7 @@
 """Peak velocity, acceleration, jerk and power of a motion, as invariants.
 
 Plain wheels have closed forms, which need no NumPy. All other peaks are searched as a batch of one
-by ``peaks_many``.
+by ``peak_search``.
 """
 
 from __future__ import annotations
@@ -46,11 +46,11 @@ def peaks_of(motion: Motion, names: Sequence[str]) -> list[Peak[float]]:
     found = {name: motion.closed_peak(name) for name in names}
     open_ = [name for name, known in found.items() if known is None]
     if open_:
-        from geneva_cli.analysis.peaks_many import peaks_of_many
+        from geneva_cli.analysis.peak_search import motion_peaks
 
         found |= {
             name: Peak(size.item(), at_deg.item())
-            for name, (size, at_deg) in peaks_of_many(motion, open_).items()
+            for name, (size, at_deg) in motion_peaks(motion, open_).items()
         }
     return [known for known in found.values() if known is not None]
 

@@ -1,6 +1,6 @@
 """Roots, minima and boundaries in one variable, to the last bit.
 
-``roots_many`` finds roots and ``extrema_many`` stationary points of a batch of functions.
+``newton`` finds roots and ``extrema`` stationary points of a batch of functions.
 """
 
 from __future__ import annotations

@@ -171,7 +171,7 @@ def _law_turns_back(law: Law) -> bool:
 
 def _least_velocity(motion: Motion) -> tuple[float, float] | None:
     """The least velocity of a motion and its place if it is below 0; else None."""
-    from geneva_cli.analysis.peaks_many import landmarks
+    from geneva_cli.analysis.peak_search import landmarks
 
     _, x, velocity = landmarks(motion, "velocity", 1)
     least = velocity.argmin()

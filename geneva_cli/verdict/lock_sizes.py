@@ -34,7 +34,7 @@ def lock_of(where: Assembly, found: Sizes) -> Lock:
     return Lock(where.L, where.sign, found.lock, found.recess, found.rim, half, edge)
 
 
-def lock_sizes_of_many(mechanism: Mechanism) -> LockSizes | None:
+def design_lock_sizes(mechanism: Mechanism) -> LockSizes | None:
     """The sizes of m designs: numbers if they are equal in all, None if none has a lock."""
     given = mechanism.spec
     # the parts' sizes depend on these tables; designs that differ in loads only are sized once

@@ -16,23 +16,23 @@ import numpy as np
 from geneva_cli.analysis.loads.contact import contact, contacts
 from geneva_cli.analysis.loads.forces import Setting, gain, setting, sliding
 from geneva_cli.analysis.loads.instant import NAMES, Instant, bounded, values
-from geneva_cli.analysis.loads.loaded_many import NONE, Loaded, machine
-from geneva_cli.analysis.loads.many import (
+from geneva_cli.analysis.loads.loaded import NONE, Loaded, machine
+from geneva_cli.analysis.loads.mid_motion import at_crossing
+from geneva_cli.analysis.loads.quantities import KINETIC, known_quantities, shares
+from geneva_cli.analysis.loads.stretches import Stretch, refuse_rounding, to_mid_motion, whole
+from geneva_cli.analysis.loads.summaries import (
+    LoadSummary,
     Searched,
-    SummaryOfMany,
     searched,
     shown,
     summed_up,
     sums_of,
 )
-from geneva_cli.analysis.loads.mid_motion import at_crossing
-from geneva_cli.analysis.loads.quantities import KINETIC, known_quantities, shares
-from geneva_cli.analysis.loads.stretches import Stretch, refuse_rounding, to_mid_motion, whole
 from geneva_cli.analysis.motion import local_deg, spans
 from geneva_cli.machine.engagement import Engagement
 from geneva_cli.machine.mechanism import Mechanism
+from geneva_cli.numerics.adaptive_quadrature import span_integrals
 from geneva_cli.numerics.angles import DEGREE
-from geneva_cli.numerics.quadrature_many import integrals_many
 from geneva_cli.numerics.search import Found
 
 if TYPE_CHECKING:
@@ -135,7 +135,7 @@ class Cycle:
         return out
 
     @cached_property
-    def known(self) -> Mapping[str, SummaryOfMany]:
+    def known(self) -> Mapping[str, LoadSummary]:
         """The summaries of all quantities that have a value, (1,) each."""
         names = [*known_quantities(self.mechanism), KINETIC]
         names += [
@@ -195,7 +195,7 @@ class Cycle:
             one = np.zeros(len(pieces), dtype=int)
             asked = np.full(total.shape, True)
             with np.errstate(all="ignore"):
-                total += integrals_many(rows, start, end, one, asked, ends=True)
+                total += span_integrals(rows, start, end, one, asked, ends=True)
         return [float(x) for x in total[:, 0] * DEGREE]
 
     @cached_property

@@ -9,7 +9,7 @@ integrated between to the last digits.
     >>> from geneva_cli.machine.spec import Spec
     >>> spec = Spec(External(4), load=Load(inertia_kgm2=2.0))
     >>> found = many(spec, {"wheel.z": np.array([4, 6])}).machine
-    >>> swings_of_many(found, np.zeros(2)).energy_J.round(6)  # I (w psi1max)²/2
+    >>> fluctuations(found, np.zeros(2)).energy_J.round(6)  # I (w psi1max)²/2
     array([230.09708 ,  39.478418])
 """
 
@@ -21,16 +21,16 @@ import numpy as np
 
 from geneva_cli.analysis.loads.contact import Contact
 from geneva_cli.analysis.loads.forces import Row, Setting, setting
-from geneva_cli.analysis.loads.groups_many import parts
+from geneva_cli.analysis.loads.groups import parts
 from geneva_cli.analysis.loads.instant import Instant
-from geneva_cli.analysis.loads.loaded_many import Loaded, Signs, look, machine
+from geneva_cli.analysis.loads.loaded import Loaded, Signs, look, machine
 from geneva_cli.analysis.loads.stretches import spans_of, to_mid_motion
 from geneva_cli.machine.engagement import Engagement
 from geneva_cli.machine.many import taken
 from geneva_cli.machine.mechanism import Mechanism
+from geneva_cli.numerics.adaptive_quadrature import span_integrals
 from geneva_cli.numerics.angles import DEGREE
 from geneva_cli.numerics.jet import Jet
-from geneva_cli.numerics.quadrature_many import integrals_many
 from geneva_cli.numerics.search import search
 
 if TYPE_CHECKING:
@@ -58,7 +58,7 @@ class Swings(NamedTuple):
     returned: Array  # integral over the period of the torque's square where the wheel drives
 
 
-def swings_of_many(mechanism: Mechanism, mean: Array) -> Swings:
+def fluctuations(mechanism: Mechanism, mean: Array) -> Swings:
     """The fluctuation of designs, from the means (m,) of their input torque.
 
     The mean of an unbounded torque must be infinite.
@@ -118,7 +118,7 @@ def _works(
 
     asked = np.stack((bounded, bounded))
     with np.errstate(all="ignore"):
-        each = integrals_many(rows, a, b, design, asked, True, apart=True) * DEGREE
+        each = span_integrals(rows, a, b, design, asked, True, apart=True) * DEGREE
     first = np.searchsorted(design, np.arange(n))
     number = np.arange(len(design)) - first[design]
     works = np.zeros((n, int(number.max()) + 1))

@@ -18,9 +18,9 @@ from geneva_cli.analysis.loads.contact import Contact, contact, is_straight
 from geneva_cli.analysis.loads.cycle import cycle_of
 from geneva_cli.analysis.loads.forces import Forces, Greatest, Row, Setting, setting, sliding
 from geneva_cli.analysis.loads.instant import Instant
-from geneva_cli.analysis.loads.loaded_many import Loaded, Wanted, machine
-from geneva_cli.analysis.loads.many import greatest_of_many, searched
+from geneva_cli.analysis.loads.loaded import Loaded, Wanted, machine
 from geneva_cli.analysis.loads.quantities import FORCE, SQUARED, STRESS, TORQUE
+from geneva_cli.analysis.loads.summaries import load_peaks, searched
 from geneva_cli.machine.engagement import Engagement
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.machine.pitch_curve import retraces
@@ -120,7 +120,7 @@ def greatest_pressure(mechanism: Mechanism) -> Greatest:
             return Greatest(90.0, mechanism.shown_deg(engagement.mid_deg))
     own: dict[str, Wanted] = {"slope": Slope()}
     given = setting(mechanism)._replace(inertia_Nm=0.0, friction=0.0, hertz=None, efficiency=1.0)
-    found = greatest_of_many(mechanism, tuple(own), own, given)["slope"]
+    found = load_peaks(mechanism, tuple(own), own, given)["slope"]
     if not found.max[0]:  # 0 throughout a radial slot
         return Greatest(0.0, 0.0)
     return Greatest(math.degrees(math.atan(math.sqrt(found.max[0]))), float(found.at_deg[0]))
@@ -145,7 +145,7 @@ def fastest_rpm(mechanism: Mechanism) -> float | None:
     # speed.
     w = omega(mechanism.spec.drive.n_rpm if math.isinf(rpm) else rpm)
     tried = at_one._replace(inertia_Nm=at_one.inertia_Nm * w * w)
-    found = greatest_of_many(mechanism, tuple(given), given=tried)
+    found = load_peaks(mechanism, tuple(given), given=tried)
     kept = all(found[name].max[0] <= limit * KEPT for name, limit in given.items())
     return rpm if kept else None
 

@@ -6,7 +6,7 @@
 >>> from geneva_cli.machine.spec import Spec
 >>> spec = Spec(External(6), load=Load(inertia_kgm2=2.0, friction=0.1))
 >>> found = many(spec, {"load.torque_Nm": np.array([0.0, 20.0])})
->>> sizings_of_many(found.machine, ["motor_torque_rms_Nm"])["motor_torque_rms_Nm"].round(4)
+>>> sizings(found.machine, ["motor_torque_rms_Nm"])["motor_torque_rms_Nm"].round(4)
 array([26.8019, 28.3356])
 """
 
@@ -20,12 +20,12 @@ import numpy as np
 
 from geneva_cli.analysis.cam_factors import CamFactors, cam_factors
 from geneva_cli.analysis.loads.carried import inertia_kgm2, support_torque_Nm
-from geneva_cli.analysis.loads.fluctuation import NOUGHT, flywheel_kgm2, swings_of_many
+from geneva_cli.analysis.loads.fluctuation import NOUGHT, fluctuations, flywheel_kgm2
 from geneva_cli.analysis.loads.forces import setting
 from geneva_cli.analysis.loads.makers_form import MakersForm, ShaftLoad, makers_form
-from geneva_cli.analysis.loads.many import SummaryOfMany, summaries_of_many
 from geneva_cli.analysis.loads.quantities import TORQUE
-from geneva_cli.analysis.peaks_many import peaks_of_many
+from geneva_cli.analysis.loads.summaries import LoadSummary, load_summaries
+from geneva_cli.analysis.peak_search import motion_peaks
 from geneva_cli.machine.engagement import Engagement
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.numerics.angles import DEGREE
@@ -70,7 +70,7 @@ def sizing(cycle: Cycle) -> tuple[dict[str, float | None], list[str]]:
     """The values of one design in the order shown, and the keys that missing values need."""
     spec = cycle.mechanism.spec
     names, torque = (NAMES, cycle.known[TORQUE]) if cycle.is_loaded else (UNLOADED, None)
-    found = sizings_of_many(cycle.mechanism, names, torque, cycle.peaks)
+    found = sizings(cycle.mechanism, names, torque, cycle.peaks)
     values = {name: float(row[0]) for name, row in found.items()}
     out = {name: x if math.isfinite(x := values.get(name, math.nan)) else None for name in SHOWN}
     if torque is None:
@@ -89,10 +89,10 @@ def sizing(cycle: Cycle) -> tuple[dict[str, float | None], list[str]]:
     return out, needs
 
 
-def sizings_of_many(
+def sizings(
     mechanism: Mechanism,
     asked: Collection[str] = NAMES,
-    torque: SummaryOfMany | None = None,
+    torque: LoadSummary | None = None,
     peaks: Sequence[Peaks] | None = None,
 ) -> dict[str, Array]:
     """Values of ``NAMES``, (m,) each, or (1,) for values equal in all designs; NaN if undefined.
@@ -116,7 +116,7 @@ def sizings_of_many(
     if names & {*SUMS, *ENDS}:
         if torque is None:
             told = ("mean", "rms") if names & set(SUMS) else ()
-            torque = summaries_of_many(mechanism, [TORQUE], told)[TORQUE]
+            torque = load_summaries(mechanism, [TORQUE], told)[TORQUE]
         found |= _exact(mechanism, torque, found.get("input_torque_Nm"))
     if names & set(ROTOR):
         found |= _rotor(mechanism, [velocity for velocity, *_ in peaks])
@@ -133,7 +133,7 @@ def _some(x: Number) -> Array:
 
 def _peaks(engagement: Engagement, names: Sequence[str]) -> Peaks:
     """The greatest values of these quantities, (m, 1) each."""
-    found = peaks_of_many(engagement.motion, names) if names else {}
+    found = motion_peaks(engagement.motion, names) if names else {}
     return tuple(parameter(found[name].max[:, None]) for name in names)
 
 
@@ -154,7 +154,7 @@ def _form(mechanism: Mechanism, peaks: Sequence[Peaks]) -> dict[str, Number]:
 
 
 def _exact(
-    mechanism: Mechanism, torque: SummaryOfMany, form_torque: Number | None
+    mechanism: Mechanism, torque: LoadSummary, form_torque: Number | None
 ) -> dict[str, Number]:
     """Motor and flywheel from the exact cycle; NaN if the torque is unbounded."""
     motor, w = mechanism.spec.motor, setting(mechanism).speed_rad_s
@@ -169,7 +169,7 @@ def _exact(
     square = np.where(bounded, torque.rms, np.nan) ** 2
     # for an inertia alone the mean is only rounding
     mean = np.where(torque.mean**2 > NOUGHT * square, torque.mean, 0.0 * square)
-    swings = swings_of_many(mechanism, mean)
+    swings = fluctuations(mechanism, mean)
     energy = np.where(bounded, swings.energy_J, np.nan)[:, None]
     returned = swings.returned / np.ravel(mechanism.period_deg * DEGREE)
     out["energy_fluctuation_J"] = energy

@@ -11,7 +11,6 @@ import numpy as np
 
 from geneva_cli.analysis.loads.cycle import Cycle
 from geneva_cli.analysis.loads.instant import Instant
-from geneva_cli.analysis.loads.many import SummaryOfMany
 from geneva_cli.analysis.loads.quantities import (
     PRESSED,
     PV,
@@ -21,6 +20,7 @@ from geneva_cli.analysis.loads.quantities import (
     shares,
 )
 from geneva_cli.analysis.loads.sizing import WHEEL, sizing
+from geneva_cli.analysis.loads.summaries import LoadSummary
 from geneva_cli.analysis.motion import HELD, check_samples, derivatives, inputs, times_s
 from geneva_cli.errors import Caution
 from geneva_cli.table import Reading, Table, pieces, record_table, rows_table
@@ -77,7 +77,7 @@ def summaries(cycle: Cycle) -> Mapping[str, Summary]:
     return {name: _summary(found[name]) if name in found else Summary() for name in SHOWN}
 
 
-def _summary(found: SummaryOfMany) -> Summary:
+def _summary(found: LoadSummary) -> Summary:
     every = [None if end is None else float(end[0]) for end in found]
     return Summary(*(x if x is not None and math.isfinite(x) else None for x in every))
 

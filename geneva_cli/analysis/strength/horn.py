@@ -198,7 +198,7 @@ def horn(
     return None if math.isnan(one.stress_MPa) else one
 
 
-def horn_of_many(
+def horn_stresses(
     mechanism: Mechanism, half_width_mm: float, recess_mm: float, width_mm: float
 ) -> HornStress:
     """Greatest bending stress of m designs, whose sizes may be (m, 1).

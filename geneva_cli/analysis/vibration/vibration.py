@@ -13,7 +13,7 @@ of the vibration after a motion that began at rest. Its share is the fraction of
     >>> from geneva_cli.machine.spec import Spec
     >>> spec = Spec(External(6), load=Load(inertia_kgm2=0.2), shaft=Shaft(stiffness_Nm_rad=5e3))
     >>> machine = many(spec, {"drive.n_rpm": np.array([60.0, 90.0])}).machine
-    >>> vibrations_of_many(machine).residual_share.round(6)
+    >>> design_vibrations(machine).residual_share.round(6)
     array([0.000708, 0.000695])
 """
 
@@ -27,7 +27,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from geneva_cli.analysis.loads.carried import inertia_kgm2
-from geneva_cli.analysis.peaks_many import peaks_of_many
+from geneva_cli.analysis.peak_search import motion_peaks
 from geneva_cli.analysis.timing import timings
 from geneva_cli.analysis.vibration.during import greatest_accelerations
 from geneva_cli.analysis.vibration.lobes import Lobes, highest_ratio, lobes
@@ -149,7 +149,7 @@ class Loads:
         """I alpha / k at the wheel's greatest acceleration, degrees."""
         rows = []
         for index, bent in zip(self.indices, self._bent_deg, strict=True):
-            most = peaks_of_many(index.motion, ["acceleration"])["acceleration"].max
+            most = motion_peaks(index.motion, ["acceleration"])["acceleration"].max
             # by the fraction of the motion's time, over the step
             rows.append(np.ravel(most) * index.whole * index.whole / index.step * bent)
         return np.array(rows)
@@ -249,7 +249,7 @@ def vibrations(loads: Loads, requested: Collection[str] = Vibrations._fields) ->
     )
 
 
-def vibrations_of_many(
+def design_vibrations(
     mechanism: Mechanism, requested: Collection[str] = Vibrations._fields
 ) -> Vibrations | None:
     """Return the results of m designs; None if they have no ``stiffness_Nm_rad``.

@@ -9,8 +9,8 @@ import numpy as np
 from geneva_cli.analysis.change_of_sides import lasting_drag_Nm
 from geneva_cli.analysis.impacts import Impacts, entry_impacts, reversal_impacts
 from geneva_cli.analysis.loads.carried import inertia_kgm2
-from geneva_cli.analysis.tolerance.many import entry_jumps_worst, motion_plays, used
-from geneva_cli.analysis.vibration.vibration import Vibrations, vibrations_of_many
+from geneva_cli.analysis.tolerance.worst_effects import entry_jumps_worst, motion_plays, used
+from geneva_cli.analysis.vibration.vibration import Vibrations, design_vibrations
 
 if TYPE_CHECKING:
     from geneva_cli.numerics.arrays import Number
@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 
 def vibration(of: Designs) -> Columns:
     """The vibration of a load on its elastic shaft."""
-    found = vibrations_of_many(of.machine, of.requested("vibration"))
+    found = design_vibrations(of.machine, of.requested("vibration"))
     if found is None:
         return dict.fromkeys(Vibrations._fields)
     # without damping there is no steady state; without a period ratio the design says why

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from geneva_cli.analysis.peaks_many import QUANTITIES, worst_of_many
+from geneva_cli.analysis.peak_search import QUANTITIES, worst_peaks
 from geneva_cli.analysis.timing import timings
 from geneva_cli.numerics.angles import omega
 from geneva_cli.verdict.quantities.groups import RATES
@@ -33,7 +33,7 @@ def peaks(of: Designs) -> Columns:
     requested = [name for name in QUANTITIES if of.requested(name)]
     w = np.ravel(omega(of.spec.drive.n_rpm))
     out: dict[str, Number | None] = {}
-    for name, peak in worst_of_many(of.machine, requested).items():
+    for name, peak in worst_peaks(of.machine, requested).items():
         ends = _ends(of.machine, ENDS[name]) if name in ENDS else ()
         out |= peak_values(name, w, tuple(peak), ends)
     return out

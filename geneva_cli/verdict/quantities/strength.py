@@ -8,7 +8,7 @@ import numpy as np
 
 from geneva_cli.analysis.strength import pin as pins
 from geneva_cli.analysis.strength import roller, shafts
-from geneva_cli.analysis.strength.horn import horn_of_many
+from geneva_cli.analysis.strength.horn import horn_stresses
 from geneva_cli.verdict.quantities.under_load import under_load
 
 if TYPE_CHECKING:
@@ -64,7 +64,7 @@ def horn(of: Designs) -> Columns:
     force = under_load(of).force_N
     if not np.isfinite(force).any():
         return out | dict.fromkeys(("stress_MPa", "at_deg", "inwards_mm", "thickness_mm"), force)
-    found = horn_of_many(of.machine, sizes.half_width, sizes.lock.recess, width)
+    found = horn_stresses(of.machine, sizes.half_width, sizes.lock.recess, width)
     rows = {name: _known(row) for name, row in found._asdict().items()}
     stress = np.where(np.isfinite(force), rows["stress_MPa"], force)
     out["margin"] = margin(stress, allowed)

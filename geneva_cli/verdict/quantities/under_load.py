@@ -10,11 +10,11 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from geneva_cli.analysis.loads.cycle import cycle_of
-from geneva_cli.analysis.loads.many import greatest_of_many
 from geneva_cli.analysis.loads.quantities import FORCE, PV
+from geneva_cli.analysis.loads.summaries import load_peaks
 from geneva_cli.analysis.strength import lock, roller, shafts
 from geneva_cli.parts.sizes import sized
-from geneva_cli.verdict.lock_sizes import LockSizes, lock_of, lock_sizes_of_many
+from geneva_cli.verdict.lock_sizes import LockSizes, design_lock_sizes, lock_of
 
 if TYPE_CHECKING:
     from geneva_cli.analysis.strength.lock import LockUnderTorque
@@ -33,12 +33,12 @@ class UnderLoad:
     @cached_property
     def force_N(self) -> Array:
         """The greatest force on a roller."""
-        return greatest_of_many(self.machine, [FORCE])[FORCE].max * self.loaded
+        return load_peaks(self.machine, [FORCE])[FORCE].max * self.loaded
 
     @cached_property
     def pv_W_m2(self) -> Array:
         """The greatest contact pressure times sliding speed; it needs a face width."""
-        return greatest_of_many(self.machine, [PV])[PV].max * self.loaded
+        return load_peaks(self.machine, [PV])[PV].max * self.loaded
 
     @cached_property
     def passages(self) -> Sequence[Passage]:
@@ -54,17 +54,17 @@ class UnderLoad:
     @cached_property
     def lock_sizes(self) -> LockSizes | None:
         """The sizes of horn and lock, (m, 1); None if no design has a lock."""
-        return lock_sizes_of_many(self.machine)
+        return design_lock_sizes(self.machine)
 
     @cached_property
     def lock(self) -> LockUnderTorque | None:
         """The lock under the torque that it holds in the dwell; None if no design has one."""
         sizes = self.lock_sizes
-        return sizes and lock.lock_of_many(self.machine, sizes.half_width, sizes.lock)
+        return sizes and lock.loaded_locks(self.machine, sizes.half_width, sizes.lock)
 
     def shaft(self, ends: shafts.GivenShaft, loaded: shafts.On) -> shafts.Turned | None:
         """A shaft under its cycle; None without an overhang or a load."""
-        return shafts.shaft_of_many(self.machine, ends, loaded)
+        return shafts.shafts_under_load(self.machine, ends, loaded)
 
 
 class SingleUnderLoad(UnderLoad):

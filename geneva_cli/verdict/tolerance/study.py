@@ -18,10 +18,10 @@ from geneva_cli.analysis.tolerance.dimensions import (
     without_effect,
 )
 from geneva_cli.analysis.tolerance.entry_jump import entry_jumps
-from geneva_cli.analysis.tolerance.many import entry_jumps_worst
 from geneva_cli.analysis.tolerance.motion_error import Worst, motion_errors
 from geneva_cli.analysis.tolerance.random_machines import random_machines
 from geneva_cli.analysis.tolerance.spread import Spread, spread
+from geneva_cli.analysis.tolerance.worst_effects import entry_jumps_worst
 from geneva_cli.errors import Caution, GenevaError, cut
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.parts.proof import Proof

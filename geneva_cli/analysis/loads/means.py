@@ -9,9 +9,9 @@ import numpy as np
 
 from geneva_cli.analysis.loads.contact import NEAR, mirrored
 from geneva_cli.analysis.loads.forces import setting
-from geneva_cli.analysis.loads.groups_many import of_groups
-from geneva_cli.analysis.loads.inertia_many import is_balanced, squares
-from geneva_cli.analysis.loads.loaded_many import (
+from geneva_cli.analysis.loads.groups import of_groups
+from geneva_cli.analysis.loads.inertia_means import is_balanced, squares
+from geneva_cli.analysis.loads.loaded import (
     NONE,
     At,
     Loaded,
@@ -23,9 +23,9 @@ from geneva_cli.analysis.loads.loaded_many import (
 from geneva_cli.analysis.loads.quantities import SQUARED, plain_values, shares, square_of
 from geneva_cli.analysis.loads.stretches import mirror_images, spans_of
 from geneva_cli.machine.mechanism import Mechanism
+from geneva_cli.numerics.adaptive_quadrature import span_integrals
 from geneva_cli.numerics.angles import DEGREE
 from geneva_cli.numerics.arrays import array
-from geneva_cli.numerics.quadrature_many import integrals_many
 from geneva_cli.numerics.search import search
 from geneva_cli.numerics.spread import gathered, spread
 
@@ -39,20 +39,20 @@ AHEAD, SHARES = np.array([1.0, 2.0, 3.0]), np.array([23.0, -16.0, 5.0]) / 12.0
 NOUGHT = 1e-30  # a mean whose square is this fraction of the mean square is rounding
 
 
-class MeansOfMany(NamedTuple):
+class LoadMeans(NamedTuple):
     """Means over a period of m designs, dwells included: (m,) each; infinite if unbounded."""
 
     mean: Array | None  # None if not requested
     rms: Array
 
-    def times(self, share: Array) -> MeansOfMany:
+    def times(self, share: Array) -> LoadMeans:
         """The means of a multiple of the quantity."""
-        return MeansOfMany(None if self.mean is None else self.mean * share, self.rms * share)
+        return LoadMeans(None if self.mean is None else self.mean * share, self.rms * share)
 
 
-def means_of_many(
+def load_means(
     mechanism: Mechanism, names: Sequence[str], told: Collection[str] = ("mean", "rms")
-) -> dict[str, MeansOfMany]:
+) -> dict[str, LoadMeans]:
     """The means of quantities over a period, without a search for extremes.
 
     >>> import numpy as np
@@ -61,7 +61,7 @@ def means_of_many(
     >>> from geneva_cli.machine.spec import Spec
     >>> spec = Spec(External(6), load=Load(inertia_kgm2=2.0, friction=0.1))
     >>> found = many(spec, {"drive.n_rpm": np.array([60.0, 120.0])})
-    >>> means_of_many(found.machine, ["input_torque_Nm"])["input_torque_Nm"].rms.round(4)
+    >>> load_means(found.machine, ["input_torque_Nm"])["input_torque_Nm"].rms.round(4)
     array([ 26.8019, 107.2078])
     """
     given = setting(mechanism)
@@ -90,7 +90,7 @@ def sources_of(
 
 def means_from(
     mechanism: Mechanism, names: Sequence[str], sums: Array, plain: bool
-) -> dict[str, MeansOfMany]:
+) -> dict[str, LoadMeans]:
     """The means from the results of ``sums``."""
     every, out = sums / (np.ravel(mechanism.period_deg) * DEGREE), {}
     for i, name in enumerate(names):
@@ -99,7 +99,7 @@ def means_from(
             mean = every[len(names) + i]
             nought = np.isfinite(square) & (mean * mean <= NOUGHT * square)
             mean = np.where(nought, 0.0, mean)
-        out[name] = MeansOfMany(mean, np.sqrt(square))
+        out[name] = LoadMeans(mean, np.sqrt(square))
     return out
 
 
@@ -154,7 +154,7 @@ def sums(load: Loaded, pieces: Stretches, bounded: Mask, n: int, plain: bool) ->
         asked = np.tile(bounded, (parts, 1))
         ends = spread(a, w), spread(b, w)
         poles = 0.5 * np.pi * w
-        total = integrals_many(by_spread, *ends, design, asked, rooted, poles=poles)
+        total = span_integrals(by_spread, *ends, design, asked, rooted, poles=poles)
         if paired.any():
             total = total[: len(total) // 2] + total[len(total) // 2 :]
         engagement = load.machine[0]

@@ -48,10 +48,10 @@ def roots_between(
     with np.errstate(all="ignore"):
         chord = a + (b - a) * (ends[0] / (ends[0] - ends[1]))
         start = np.where((chord > a) & (chord < b), chord, 0.5 * (a + b))
-        return Roots(*newton_many(f, Brackets(a, b, *ends), start, ends[0] < 0.0, close))
+        return Roots(*newton_roots(f, Brackets(a, b, *ends), start, ends[0] < 0.0, close))
 
 
-def roots_many(
+def find_roots(
     slope: Callable[[Array, Whole], tuple[Array, Array]], a: Array, b: Array, close: float = 0.0
 ) -> Array:
     """The root of each function in [a, b], where its sign changes: shape (n,), to the last bit.
@@ -60,7 +60,7 @@ def roots_many(
     Newton step shorter than ``close`` times the bracket is the last one.
 
     >>> A = np.array([2.0, 9.0])
-    >>> roots_many(lambda x, which: (x * x - A[which], 2.0 * x), 0.0 * A, A)
+    >>> find_roots(lambda x, which: (x * x - A[which], 2.0 * x), 0.0 * A, A)
     array([1.41421356, 3.        ])
     """
     if not len(a):
@@ -68,11 +68,11 @@ def roots_many(
     with np.errstate(all="ignore"):
         every = np.arange(len(a))
         rising = slope(a, every)[0] < 0.0
-        unknown = np.full(len(a), np.nan)
-        return newton_many(slope, Brackets(a, b, unknown, unknown), 0.5 * (a + b), rising, close)[0]
+        ends = Brackets(a, b, *np.full((2, len(a)), np.nan))
+        return newton_roots(slope, ends, 0.5 * (a + b), rising, close)[0]
 
 
-def newton_many(
+def newton_roots(
     f: Callable[[Array, Whole], tuple[Array, ...]],
     brackets: Brackets,
     x: Array,
@@ -117,7 +117,7 @@ def newton_many(
 
 
 def nearer(value: Array, slope: Array, brackets: Brackets, x: Array) -> Array:
-    """x after one step of ``newton_many``; unchanged if that step leaves its bracket."""
+    """x after one step of ``newton_roots``; unchanged if that step leaves its bracket."""
     a, b, f_a, f_b = brackets
     new = x + _bent_step(value, slope, (a - x, f_a), (b - x, f_b))[0]
     inside: Array = np.where((a < new) & (new < b), new, x)

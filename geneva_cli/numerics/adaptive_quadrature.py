@@ -33,7 +33,7 @@ TERMS = 2  # last terms taken together: every other term of an even or odd funct
 LEFT = 2e-12
 
 
-def integrals_many(
+def span_integrals(
     functions: Callable[[Array, Whole], Array],
     a: Array,
     b: Array,

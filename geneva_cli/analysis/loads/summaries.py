@@ -9,7 +9,7 @@ designs are searched together, one block of designs after the other.
     >>> from geneva_cli.machine.spec import Spec
     >>> spec = Spec(External(6), SideCrank(A=0.0), load=Load(inertia_kgm2=2.0, friction=0.1))
     >>> found = many(spec, {"drive.A": np.array([0.0, 0.6])})
-    >>> greatest_of_many(found.machine, ["pin_force_N"])["pin_force_N"].max.round(4)
+    >>> load_peaks(found.machine, ["pin_force_N"])["pin_force_N"].max.round(4)
     array([1905.0702,  731.1404])
 """
 
@@ -21,9 +21,9 @@ from typing import TYPE_CHECKING, NamedTuple, cast
 import numpy as np
 
 from geneva_cli.analysis.loads.forces import Setting, setting
-from geneva_cli.analysis.loads.groups_many import of_groups
-from geneva_cli.analysis.loads.loaded_many import NONE, Loaded, Machine, Wanted, machine
-from geneva_cli.analysis.loads.means_many import means_from, sources_of, sums
+from geneva_cli.analysis.loads.groups import of_groups
+from geneva_cli.analysis.loads.loaded import NONE, Loaded, Machine, Wanted, machine
+from geneva_cli.analysis.loads.means import means_from, sources_of, sums
 from geneva_cli.analysis.loads.quantities import (
     FORCE,
     SIZES,
@@ -32,7 +32,7 @@ from geneva_cli.analysis.loads.quantities import (
     outermost,
 )
 from geneva_cli.analysis.loads.stretches import on_breaks, spans_of
-from geneva_cli.analysis.peaks_many import PeakOfMany, greater
+from geneva_cli.analysis.peak_search import PeakArray, greater
 from geneva_cli.machine.engagement import Engagement
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.numerics.search import Found, search
@@ -44,7 +44,7 @@ if TYPE_CHECKING:
 ZERO = 1e-14  # fraction of a peak that is rounding
 
 
-class SummaryOfMany(NamedTuple):
+class LoadSummary(NamedTuple):
     """Greatest and least over the motions, mean and root mean square over a period.
 
     Each is (m,) for m designs, and infinite if unbounded.
@@ -57,10 +57,10 @@ class SummaryOfMany(NamedTuple):
     mean: Array | None = None  # None if not requested
     rms: Array | None = None
 
-    def times(self, share: Array) -> SummaryOfMany:
+    def times(self, share: Array) -> LoadSummary:
         """The summary of a multiple of the quantity."""
         mean, rms = (None if v is None else v * share for v in self[4:])
-        return SummaryOfMany(
+        return LoadSummary(
             self.max * share, self.max_at_deg, self.min * share, self.min_at_deg, mean, rms
         )
 
@@ -76,17 +76,17 @@ class Searched(NamedTuple):
     total: Array | None  # the result of ``sums``
 
 
-def greatest_of_many(
+def load_peaks(
     mechanism: Mechanism,
     names: Sequence[str],
     own: Mapping[str, Wanted] = NONE,
     given: Setting | None = None,
-) -> dict[str, PeakOfMany]:
+) -> dict[str, PeakArray]:
     """The greatest sizes of quantities, and the first input angles that have them: (m,).
 
     ``own`` are further quantities by name; ``given`` replaces the machine's setting.
     """
-    given, best = given or setting(mechanism), dict[str, PeakOfMany]()
+    given, best = given or setting(mechanism), dict[str, PeakArray]()
     flat = all(e.slot.walls_flat for e in mechanism.engagements)
     lent = {n: FORCE if flat and n == STRESS and given.hertz is not None else n for n in names}
     sought = list(dict.fromkeys(lent.values()))
@@ -94,7 +94,7 @@ def greatest_of_many(
         every = machine(engagement, given, sought, own)
         found, at_deg, _ = _searched(mechanism, every, sought, sized=True)
         for name, most, at in zip(sought, found, at_deg, strict=True):
-            here = PeakOfMany(most, at)
+            here = PeakArray(most, at)
             best[name] = greater(best[name], here) if name in best else here
     out = {}
     for name, source in lent.items():
@@ -106,9 +106,9 @@ def greatest_of_many(
     return out
 
 
-def summaries_of_many(
+def load_summaries(
     mechanism: Mechanism, names: Sequence[str], told: Collection[str] = ("mean", "rms")
-) -> dict[str, SummaryOfMany]:
+) -> dict[str, LoadSummary]:
     """The summaries of quantities over a period, by their names; signs kept.
 
     Extremes are exact to some units in the last place of a quantity's greatest size. Means and root
@@ -124,7 +124,7 @@ def summaries_of_many(
 
 def summed_up(
     mechanism: Mechanism, names: Sequence[str], each: Sequence[Searched], plain: bool
-) -> dict[str, SummaryOfMany]:
+) -> dict[str, LoadSummary]:
     """The summaries of quantities, from the results of their sources in each engagement.
 
     With ``plain`` the sums include those of the quantities, besides those of their squares.
@@ -132,14 +132,14 @@ def summed_up(
     lent, sources = sources_of(mechanism, names)
     totals = [one.total for one in each if one.total is not None]
     means = means_from(mechanism, sources, np.sum(totals, axis=0), plain) if totals else {}
-    best: dict[str, SummaryOfMany] = {}
+    best: dict[str, LoadSummary] = {}
     for i, name in enumerate(sources):
         k = i + len(sources)
         rows = [(one.most[i], one.at_deg[i], -one.most[k], one.at_deg[k]) for one in each]
         most, most_at, least, least_at = outermost(np.array(rows))
         most, least = _ends_told(name, most, least)
         mean, rms = means.get(name, (None, None))
-        best[name] = SummaryOfMany(most, most_at, least, least_at, mean, rms)
+        best[name] = LoadSummary(most, most_at, least, least_at, mean, rms)
     return {name: best[source].times(share) for name, (source, share) in lent.items()}
 
 

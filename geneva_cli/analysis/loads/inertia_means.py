@@ -13,12 +13,12 @@ import numpy as np
 
 from geneva_cli.analysis.loads.contact import mirrored
 from geneva_cli.analysis.loads.forces import ZERO
-from geneva_cli.analysis.loads.loaded_many import Loaded, Signs, look
+from geneva_cli.analysis.loads.loaded import Loaded, Signs, look
 from geneva_cli.analysis.loads.quantities import square_of
 from geneva_cli.analysis.loads.stretches import spans_of
+from geneva_cli.numerics.adaptive_quadrature import span_integrals
 from geneva_cli.numerics.angles import DEGREE
 from geneva_cli.numerics.arrays import all_true, array
-from geneva_cli.numerics.quadrature_many import integrals_many
 from geneva_cli.numerics.search import search
 from geneva_cli.numerics.spread import gathered, spread
 
@@ -68,5 +68,5 @@ def squares(load: Loaded, n: int) -> Array:
         return total * rate
 
     with np.errstate(all="ignore"):
-        total = integrals_many(rows, spread(a, w), spread(b, w), design, bounded)
+        total = span_integrals(rows, spread(a, w), spread(b, w), design, bounded)
     return np.where(bounded, total * DEGREE, np.inf)

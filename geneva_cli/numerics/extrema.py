@@ -14,8 +14,8 @@ from typing import TYPE_CHECKING, NamedTuple, Protocol, TypeAlias
 
 import numpy as np
 
+from geneva_cli.numerics.newton import Brackets, nearer, newton_roots
 from geneva_cli.numerics.roots import DEEPEST, PREDICTED
-from geneva_cli.numerics.roots_many import Brackets, nearer, newton_many
 from geneva_cli.numerics.tolerances import TIE
 
 if TYPE_CHECKING:
@@ -55,7 +55,7 @@ class Stationary(NamedTuple):
     value: Array
 
 
-def extrema_many(f: Curves, a: Array, b: Array) -> Stationary:
+def stationary_points(f: Curves, a: Array, b: Array) -> Stationary:
     """All stationary points between a and b, of the shape (n, 1), in order of design and place."""
     found = []
     with np.errstate(all="ignore"):
@@ -73,7 +73,7 @@ class Rough(NamedTuple):
     wrong: float
 
 
-def peaks_many(f: Curves, *places: Array, rough: Rough | None = None) -> tuple[Array, Array]:
+def greatest_sizes(f: Curves, *places: Array, rough: Rough | None = None) -> tuple[Array, Array]:
     """Greatest sizes between the first and the last of some places (n, 1), and where: (n,) both.
 
     Functions are smooth from one place to the next; a place itself belongs to the part before it.
@@ -84,7 +84,7 @@ def peaks_many(f: Curves, *places: Array, rough: Rough | None = None) -> tuple[A
     >>> def waves(x, which, order):
     ...     sine, cosine = np.sin(A[which] * x), np.cos(A[which] * x)
     ...     return [sine, A[which] * cosine, -(A[which] ** 2) * sine][: order + 1]
-    >>> peaks_many(waves, 0.0 * A, 0.0 * A + 1.0)
+    >>> greatest_sizes(waves, 0.0 * A, 0.0 * A + 1.0)
     (array([0.84147098, 1.        ]), array([1.        , 0.78539816]))
     """
     with np.errstate(all="ignore"):
@@ -319,7 +319,7 @@ def _tops(f: Curves, pairs: _Pairs, rough: Rough | None = None) -> _Tops:
     if rough:
         slope, bend, _ = slope_of(start, np.arange(len(start)), rough.f)
         start = nearer(slope, bend, brackets, start)
-    x, rise, (_, _, value) = newton_many(slope_of, brackets, start, before < 0.0, CLOSE)
+    x, rise, (_, _, value) = newton_roots(slope_of, brackets, start, before < 0.0, CLOSE)
     found = np.stack((x, value + rise))
     (x, value), which = (np.concatenate(p, axis=-1) for p in zip((found, which), flat, strict=True))
     return _Tops(which, x, value, np.arange(len(which)) >= len(rise))
