@@ -17,7 +17,7 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from functools import cached_property, wraps
 from typing import TYPE_CHECKING, Any, Concatenate, ParamSpec, Self, TypeVar
 
-from geneva_cli.errors import Caution, GenevaError, cut
+from geneva_cli.errors import GenevaError, Notice, cut
 from geneva_cli.machine.drives.crank import Crank
 from geneva_cli.machine.drives.drive import Drive
 from geneva_cli.machine.mechanism import Mechanism, build
@@ -48,8 +48,8 @@ if TYPE_CHECKING:
     from geneva_cli.curves.mass import MassProperties
     from geneva_cli.curves.sheet import Sheet
     from geneva_cli.figure import Figure
+    from geneva_cli.parts.model import PartsModel
     from geneva_cli.parts.outlines import Outlines
-    from geneva_cli.parts.proof import Proof
     from geneva_cli.specfile.reader import Text
     from geneva_cli.table import Table
     from geneva_cli.verdict.checks import Check
@@ -394,7 +394,7 @@ class Design:
         return below_summary(self._loads(for_people=True), said=("title",))
 
     @answer
-    def load_warnings(self) -> list[Caution]:
+    def load_warnings(self) -> list[Notice]:
         """Warnings about the loads and what the wheel carries, and notes on unknown loads.
 
         >>> Design(External(6), load=Load(torque_Nm=15)).load_warnings[0]
@@ -497,15 +497,15 @@ class Design:
         return self._located(lambda: is_table(self.mechanism, part, drawn))
 
     @answer
-    def proof(self) -> Proof:
+    def proof(self) -> PartsModel:
         """Outlines and full turn of the parts, shared by all their results.
 
         >>> Design(External(6)).proof.turn.holds  # its lock, in the dwell
         True
         """
-        from geneva_cli.parts.proof import Proof
+        from geneva_cli.parts.model import PartsModel
 
-        return Proof(self.mechanism)
+        return PartsModel(self.mechanism)
 
     @answer
     def parts(self) -> Outlines:
@@ -517,7 +517,7 @@ class Design:
         return self.proof.outlines
 
     @question
-    def drawn(self, tolerance_mm: float, part: str = "wheel") -> Proof:
+    def drawn(self, tolerance_mm: float, part: str = "wheel") -> PartsModel:
         """The parts as they are written for a tolerance in mm, and their full turn.
 
         Raises GenevaError for a tolerance out of range. Also raises it without flat parts, unless
@@ -527,15 +527,15 @@ class Design:
         'arc'
         """
         from geneva_cli.parts.catalogue import is_alone, machine_of, require_tolerance
+        from geneva_cli.parts.model import PartsModel
         from geneva_cli.parts.outlines import outlines
-        from geneva_cli.parts.proof import Proof
 
         mechanism = self._located(lambda: machine_of(self.mechanism, part))
         require_tolerance(mechanism, tolerance_mm)
         if not mechanism.spec.is_flat and is_alone(mechanism, part):
-            return Proof(mechanism)
+            return PartsModel(mechanism)
         made = self._located(lambda: outlines(mechanism, tolerance_mm))
-        return Proof(mechanism, made)
+        return PartsModel(mechanism, made)
 
     @question
     def drawing(
@@ -543,7 +543,7 @@ class Design:
         part: str,
         tolerance_mm: float = 0.001,
         curves: str = "arcs",
-        of: Proof | None = None,
+        of: PartsModel | None = None,
         kerf_mm: float | None = None,
         dog_bones_mm: float | None = None,
         centre_marks: bool = False,
@@ -562,12 +562,12 @@ class Design:
 
         if curves not in CURVES:
             raise GenevaError(f"--curves {cut(curves)}: it must be arcs or spline")
-        proof, of_curves = of or self.drawn(tolerance_mm, part), CURVES[curves]
-        made = self._located(lambda: part_drawing(proof, part, tolerance_mm, of_curves))
+        model, of_curves = of or self.drawn(tolerance_mm, part), CURVES[curves]
+        made = self._located(lambda: part_drawing(model, part, tolerance_mm, of_curves))
         if dog_bones_mm is not None:
             from geneva_cli.parts.milling import with_dog_bones
 
-            made = self._located(lambda: with_dog_bones(made, proof, dog_bones_mm))
+            made = self._located(lambda: with_dog_bones(made, model, dog_bones_mm))
         if centre_marks:
             from geneva_cli.parts.centre_marks import with_centre_marks
 
@@ -582,7 +582,7 @@ class Design:
 
     @question
     def cutter(
-        self, part: str, cutter_mm: float, dog_bones: bool = False, of: Proof | None = None
+        self, part: str, cutter_mm: float, dog_bones: bool = False, of: PartsModel | None = None
     ) -> tuple[str, list[str]]:
         """The reason why a milling cutter cannot cut a part, empty if it can; and warnings.
 
@@ -596,18 +596,18 @@ class Design:
         from geneva_cli.parts.milling import judged
 
         require_cut(part, "--cutter")
-        proof = of or self.drawn(0.001, part)
-        refused, left = judged(self.drawing(part, of=proof), cutter_mm)
+        model = of or self.drawn(0.001, part)
+        refused, left = judged(self.drawing(part, of=model), cutter_mm)
         if refused or not dog_bones:
             return refused, left
-        return judged(self.drawing(part, of=proof, dog_bones_mm=cutter_mm), cutter_mm)
+        return judged(self.drawing(part, of=model, dog_bones_mm=cutter_mm), cutter_mm)
 
     @question
     def sheet(
         self,
         tolerance_mm: float = 0.001,
         curves: str = "arcs",
-        of: Proof | None = None,
+        of: PartsModel | None = None,
         part: str = "sheet",
     ) -> Sheet:
         """A drawing sheet of the parts with dimensions, to a standard scale on A4 to A1.
@@ -622,8 +622,8 @@ class Design:
 
         if curves not in CURVES:
             raise GenevaError(f"--curves {cut(curves)}: it must be arcs or spline")
-        proof = of or self.drawn(tolerance_mm, part)
-        return self._located(lambda: part_sheet(proof, part, tolerance_mm, CURVES[curves]))
+        model = of or self.drawn(tolerance_mm, part)
+        return self._located(lambda: part_sheet(model, part, tolerance_mm, CURVES[curves]))
 
     @question
     def save(
@@ -651,14 +651,14 @@ class Design:
         if not sheet and self.is_table(part, drawn):
             show(self.part_table(part, tolerance_mm), path, inputs=files)
             return
-        proof, curves = self.drawn(tolerance_mm, part), usual_curves(path, "")
-        refused = self.judge(proof)[0] if self.spec.has_parts and not force else ""
+        model, curves = self.drawn(tolerance_mm, part), usual_curves(path, "")
+        refused = self.judge(model)[0] if self.spec.has_parts and not force else ""
         if refused:
             raise GenevaError(f"{cut(path, 300)}: not written: {refused}")
         if sheet:
-            draw_sheet(self.sheet(tolerance_mm, curves, proof, part), path, inputs=files)
+            draw_sheet(self.sheet(tolerance_mm, curves, model, part), path, inputs=files)
         else:
-            draw(self.drawing(part, tolerance_mm, curves, proof), path, inputs=files)
+            draw(self.drawing(part, tolerance_mm, curves, model), path, inputs=files)
 
     def _repr_html_(self) -> str:
         """HTML for a notebook: description and verdict, the machine, its curves, the report."""
@@ -697,7 +697,7 @@ class Design:
 
         return all_pass(self.checks)
 
-    def judge(self, proof: Proof) -> tuple[str, list[str]]:
+    def judge(self, model: PartsModel) -> tuple[str, list[str]]:
         """The reason why drawn parts cannot be written, empty if they can; and other problems.
 
         >>> wheel = Design(External(6))
@@ -707,7 +707,7 @@ class Design:
         from geneva_cli.verdict.advice import judged
         from geneva_cli.verdict.failures import failures
 
-        return self._located(lambda: failures(judged(proof.mechanism, proof), proof))
+        return self._located(lambda: failures(judged(model.mechanism, model), model))
 
     @question
     def tolerance(
@@ -741,19 +741,19 @@ class Design:
         return self._located(lambda: histogram_table(self.mechanism, self.proof, samples, seed))
 
     @answer
-    def motion_warnings(self) -> list[Caution]:
+    def motion_warnings(self) -> list[Notice]:
         """Warnings about the motion and the slots, which need neither loads nor parts.
 
         >>> shock = Design(External(6), motion=Motion(Harmonic(), ratio="matched"))
         >>> shock.motion_warnings[0]
         'the law "harmonic" starts and stops with a jump in acceleration: a soft shock at both ends'
         """
-        from geneva_cli.verdict.cautions import cautions
+        from geneva_cli.verdict.motion_warnings import motion_warnings
 
-        return cautions(self.mechanism)
+        return motion_warnings(self.mechanism)
 
     @answer
-    def warnings(self) -> list[Caution]:
+    def warnings(self) -> list[Notice]:
         """All warnings about motion, loads and parts, as in check, report and loads.
 
         >>> [text.name for text in Design(External(30)).warnings]

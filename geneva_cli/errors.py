@@ -29,17 +29,17 @@ class GenevaError(Exception):
         self.key = key
 
 
-class Caution(str):
-    """A warning about a design, with the name by which ``geneva explain`` describes it.
+class Notice(str):
+    """A warning or a note about a design, with its name in ``geneva explain``.
 
-    >>> Caution("turns-back", "the wheel turns back").name
+    >>> Notice("turns-back", "the wheel turns back").name
     'turns-back'
     """
 
     name: str
 
-    def __new__(cls, name: str, text: str) -> Caution:
-        """The warning's text, with its name."""
+    def __new__(cls, name: str, text: str) -> Notice:
+        """The text, with its name."""
         made = super().__new__(cls, text)
         made.name = name
         return made
@@ -55,10 +55,10 @@ NOT_KNOWN = "not-known"  # the name of a note on a value that needs a key, which
 def is_warning(text: str) -> bool:
     """Return True for a warning, and False for a note on an unknown value.
 
-    >>> is_warning(Caution("turns-back", "")), is_warning(Caution("not-known", ""))
+    >>> is_warning(Notice("turns-back", "")), is_warning(Notice("not-known", ""))
     (True, False)
     """
-    return isinstance(text, Caution) and text.name != NOT_KNOWN
+    return isinstance(text, Notice) and text.name != NOT_KNOWN
 
 
 _MARKS: list[ContextVar[list[Any]]] = []  # at most one, created at the first use of ``marking``

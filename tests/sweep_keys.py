@@ -13,7 +13,7 @@ from geneva_cli.machine.many import TABLES, changed, many, may_vary
 from geneva_cli.machine.mechanism import build
 from geneva_cli.machine.motion import Motion
 from geneva_cli.machine.spec import attribute
-from geneva_cli.parts.proof import Proof
+from geneva_cli.parts.model import PartsModel
 from geneva_cli.spec.schema import fields
 from geneva_cli.spec.tables import (
     Load,
@@ -121,7 +121,7 @@ def quantities(mechanism):
     every = summaries(cycle_of(mechanism)).items() if mechanism.spec.is_loaded else ()
     bounded = {load: one for load, one in every if None not in (one.max, one.min)}
     peaks = {f"loads.{load}.max": max(one.max, -one.min) for load, one in bounded.items()}
-    return peaks | values(Proof(mechanism), SHOWN)
+    return peaks | values(PartsModel(mechanism), SHOWN)
 
 
 def off(spec, varied):

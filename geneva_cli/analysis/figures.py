@@ -19,7 +19,7 @@ from geneva_cli.analysis.loads.cycle import Cycle, Extremes
 from geneva_cli.analysis.loads.quantities import known_quantities, shares
 from geneva_cli.analysis.motion import first_entry_deg
 from geneva_cli.analysis.stages import MOTION, WHEEL, Stage, load_stages, motion_stages, pieces
-from geneva_cli.errors import Caution, GenevaError, cut, few, nearest
+from geneva_cli.errors import GenevaError, Notice, cut, few, nearest
 from geneva_cli.figure import Axis, Curve, Figure, Mark, Panel, Piece
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.numerics.tolerances import ROUNDED, SAME_INPUT_DEG
@@ -123,7 +123,7 @@ def _left_out(cycle: Cycle, names: Sequence[str]) -> Iterator[str]:
     for name in names:
         reasons.setdefault(_why(cycle, name), []).append(name)
     for why, lacking in reasons.items():
-        yield Caution("not-known", f"no curve of {', '.join(lacking)}: {why}")
+        yield Notice("not-known", f"no curve of {', '.join(lacking)}: {why}")
 
 
 def _why(cycle: Cycle, name: str) -> str:

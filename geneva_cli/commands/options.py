@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Annotated, TypeAlias
 import typer
 
 from geneva_cli.commands import completion
-from geneva_cli.errors import Caution, clean
+from geneva_cli.errors import Notice, clean
 from geneva_cli.output.formats import FORMATS
 
 if TYPE_CHECKING:
@@ -68,4 +68,4 @@ def say(path: str, warnings: Iterable[str]) -> None:
 
 def with_name(warning: str) -> str:
     """A warning with its name for ``geneva explain``."""
-    return f"{warning} [{warning.name}]" if isinstance(warning, Caution) else warning
+    return f"{warning} [{warning.name}]" if isinstance(warning, Notice) else warning

@@ -154,24 +154,24 @@ def run(
         return
     if samples is not None:
         raise GenevaError("--samples is for tables of points; drawings take --tolerance")
-    proof = design.drawn(tolerance, part)
+    model = design.drawn(tolerance, part)
     if design.spec.has_parts:
-        _judge(design, design.judge(proof), force)
+        _judge(design, design.judge(model), force)
     if sheet:
         _refuse(units, kerf, cutter, center_marks)
         if fill is not None:
             raise GenevaError(
                 "--fill is for single parts and the assembly; a sheet has lines alone"
             )
-        draw_sheet(design.sheet(tolerance, curves, proof, part), output, format, files, **own)
+        draw_sheet(design.sheet(tolerance, curves, model, part), output, format, files, **own)
     else:
         if cutter is not None:
-            _judge(design, design.cutter(part, cutter, dog_bones, proof), force)
+            _judge(design, design.cutter(part, cutter, dog_bones, model), force)
         drawing = design.drawing(
             part,
             tolerance,
             curves,
-            proof,
+            model,
             kerf,
             cutter if dog_bones else None,
             center_marks,

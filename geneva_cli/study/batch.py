@@ -7,7 +7,7 @@ from functools import partial
 from typing import NamedTuple
 
 from geneva_cli.design import load
-from geneva_cli.errors import Caution, GenevaError
+from geneva_cli.errors import GenevaError, Notice
 from geneva_cli.progress import tracked
 from geneva_cli.study.pool import cores, mapped
 from geneva_cli.table import Table, record_table, rows_table
@@ -23,7 +23,7 @@ class Verdict(NamedTuple):
     path: str
     files: tuple[str, ...] = ()  # all files that the design was read from
     checks: tuple[Check, ...] = ()
-    warnings: tuple[Caution, ...] = ()
+    warnings: tuple[Notice, ...] = ()
     error: str = ""
 
     @property

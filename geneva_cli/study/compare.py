@@ -7,7 +7,7 @@ from collections.abc import Sequence
 
 from geneva_cli.machine.mechanism import Mechanism, build
 from geneva_cli.numerics.tolerances import ROUNDED
-from geneva_cli.parts.proof import Proof
+from geneva_cli.parts.model import PartsModel
 from geneva_cli.study.beside import beside
 from geneva_cli.study.fields import Cell, pick, values
 from geneva_cli.study.sweep.constraints import is_number
@@ -39,7 +39,7 @@ def compare(
         wanted = pick(picks)
         each = [dict(zip(wanted.names, wanted.of(m), strict=True)) for m in machines]
     else:
-        each = [values(Proof(m)) for m in machines]
+        each = [values(PartsModel(m)) for m in machines]
     rows = []
     for quantity in dict.fromkeys(name for found in each for name in found):
         if quantity.startswith(LEFT_OUT) and not picks:

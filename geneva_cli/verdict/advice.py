@@ -23,7 +23,7 @@ from geneva_cli.verdict.failures import JAMS
 from geneva_cli.verdict.remedies import remedies
 
 if TYPE_CHECKING:
-    from geneva_cli.parts.proof import Proof
+    from geneva_cli.parts.model import PartsModel
 
 WHOLE = 40  # trials of all checks, for one piece of advice: about a second
 GLANCES = 150  # trials of the failing checks alone: each of some ten changes takes about twelve
@@ -55,12 +55,14 @@ class OutOfTrials(Exception):
     """The adviser has no trials left: not a fault of the spec, so not a GenevaError."""
 
 
-def judged(mechanism: Mechanism, proof: Proof | None = None, parts: bool = True) -> list[Check]:
+def judged(
+    mechanism: Mechanism, model: PartsModel | None = None, parts: bool = True
+) -> list[Check]:
     """Every check of a design; failing ones have one change with which all checks pass.
 
     Without such a change they say why, and name a change with which they pass themselves.
     """
-    rows = checks(mechanism, proof, parts)
+    rows = checks(mechanism, model, parts)
     failing = [c for c in rows if c.passes is False]
     if not failing:
         return rows
@@ -207,22 +209,22 @@ class _Search:
         spec = changed(self.mechanism.spec, change.table, change.key, value)
         if spec is None:
             return False
-        from geneva_cli.parts.proof import Proof
-        from geneva_cli.parts.turn.gaps import NotProved
+        from geneva_cli.parts.model import PartsModel
+        from geneva_cli.parts.turn.gaps import WorkLimit
 
         turn = self.turned or (change.table, change.key) not in APART
         try:
             machine = build(spec)
-            proof = Proof(machine, advice=False) if self.parts and spec.has_parts else None
-            if not self._pass(checks_at_rest(machine, proof)):
+            model = PartsModel(machine, advice=False) if self.parts and spec.has_parts else None
+            if not self._pass(checks_at_rest(machine, model)):
                 return False
-            if proof is None or not turn:
+            if model is None or not turn:
                 return True
             self.whole -= 1
             if self.whole < 0:
                 raise OutOfTrials
-            return self._pass(checks_turning(proof))
-        except NotProved:
+            return self._pass(checks_turning(model))
+        except WorkLimit:
             raise OutOfTrials from None  # a trial of some seconds, which is not repeated
         except GenevaError:
             return False
@@ -239,11 +241,11 @@ def _left(machine: Mechanism, check: Check) -> float:
     """
     try:
         if check.at_deg is not None and check.name in (*GAPS, LOOSE):
-            from geneva_cli.parts.proof import Proof
+            from geneva_cli.parts.model import PartsModel
             from geneva_cli.parts.turn.glance import gap_about, play_about
             from geneva_cli.verdict.checks.play import finds_slot
 
-            parts = Proof(machine, advice=False).parts
+            parts = PartsModel(machine, advice=False).parts
             if check.name in GAPS:
                 return gap_about(parts, check.at_deg) + parts.contact
             return finds_slot(parts) - play_about(parts, check.at_deg)

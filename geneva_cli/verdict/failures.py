@@ -8,7 +8,7 @@ from geneva_cli.table import in_digits
 from geneva_cli.verdict.checks.check import Check
 
 if TYPE_CHECKING:
-    from geneva_cli.parts.proof import Proof
+    from geneva_cli.parts.model import PartsModel
 
 # A roller that does not find its slot, or meets the rim next to it, jams.
 JAMS = ("hand_over_play_deg", "hand_over_pressure_deg")
@@ -16,7 +16,7 @@ JAMS = ("hand_over_play_deg", "hand_over_pressure_deg")
 BELOW = ("link_wall_mm", "link_gap_mm", "gear_gap_mm")
 
 
-def failures(rows: list[Check], proof: Proof) -> tuple[str, list[str]]:
+def failures(rows: list[Check], model: PartsModel) -> tuple[str, list[str]]:
     """The reason why the parts jam or cannot be cut, and a sentence on each other failing check.
 
     The first text is empty if the parts can be written.
@@ -38,7 +38,7 @@ def failures(rows: list[Check], proof: Proof) -> tuple[str, list[str]]:
             and c.name.endswith("_mm")
             and (c.value or 0.0) < 0.0
         ):
-            turn = turn or proof.turn
+            turn = turn or model.turn
             refused.append(in_words(c, turn.smallest.parts))
             advice = advice or c.nearest
         else:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Sequence
 
 from geneva_cli.document import FAILS, PASSES, WARNS, Line
-from geneva_cli.errors import Caution, is_warning
+from geneva_cli.errors import Notice, is_warning
 from geneva_cli.names import spoken
 from geneva_cli.table import Table, record_table
 from geneva_cli.verdict.checks.check import Check
@@ -65,7 +65,7 @@ def warning_lines(checks: Iterable[Check], warnings: Iterable[str]) -> list[Line
 
 def warning(text: str) -> Line:
     """The line of a warning, and the command that explains it."""
-    explained = f"geneva explain {text.name}" if isinstance(text, Caution) else ""
+    explained = f"geneva explain {text.name}" if isinstance(text, Notice) else ""
     return Line("warning", text, explained, WARNS)
 
 

@@ -11,7 +11,7 @@ import numpy as np
 
 from geneva_cli.analysis.loads.quantities import PARALLEL
 from geneva_cli.analysis.strength import horn, lock, shafts
-from geneva_cli.errors import Caution
+from geneva_cli.errors import Notice
 from geneva_cli.parts.sizes import sized
 from geneva_cli.verdict.quantities.designs import single
 from geneva_cli.verdict.quantities.groups import REPORT, only
@@ -51,7 +51,7 @@ class Strength:
         """The values of ``LIFE``, by these names."""
         return {name: self[f"life.{name}"] for name in LIFE}
 
-    def cautions(self) -> list[Caution]:
+    def warnings(self) -> list[Notice]:
         """A note on the limits of a known stress."""
         sizes = self.load.lock_sizes
         if sizes is None or self["strength.horn.stress_MPa"] is None:
@@ -61,7 +61,7 @@ class Strength:
         if stout <= horn.THICK:
             return []
         return [
-            Caution(
+            Notice(
                 "stout-horns",
                 "horn_stress_MPa is that of a slender beam, and this wheel's horns are "
                 f"{stout:.3g} times as thick at the mouth as their recess's radius ({recess:.4g} "

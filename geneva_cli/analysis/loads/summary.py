@@ -22,7 +22,7 @@ from geneva_cli.analysis.loads.quantities import (
 from geneva_cli.analysis.loads.sizing import WHEEL, sizing
 from geneva_cli.analysis.loads.summaries import LoadSummary
 from geneva_cli.analysis.motion import HELD, check_samples, derivatives, inputs, times_s
-from geneva_cli.errors import Caution
+from geneva_cli.errors import Notice
 from geneva_cli.table import Reading, Table, pieces, record_table, rows_table
 
 if TYPE_CHECKING:
@@ -140,10 +140,10 @@ def _unweighed(spec: Spec) -> str:
     return "no wheel can be cut, as `geneva profile` says"
 
 
-def missing(cycle: Cycle) -> list[Caution]:
+def missing(cycle: Cycle) -> list[Notice]:
     """Notes on the keys that the missing quantities need."""
     if not cycle.is_loaded:
-        return [Caution("not-known", UNLOADED)]
+        return [Notice("not-known", UNLOADED)]
     wide = cycle.given.hertz is not None
     out = [] if wide else [f"{name}: needs face_width_mm in [size]" for name in PRESSED]
     spec, guide = cycle.mechanism.spec, "guide_force_N"
@@ -155,7 +155,7 @@ def missing(cycle: Cycle) -> list[Caution]:
         if share is None:
             unknown.setdefault(needs, []).append(name)
     out += [f"{', '.join(names)}: needs {needs}" for needs, names in unknown.items()]
-    return [Caution("not-known", text) for text in out]
+    return [Notice("not-known", text) for text in out]
 
 
 def cycle_table(cycle: Cycle, samples: int) -> Table:

@@ -24,8 +24,8 @@ from geneva_cli.parts.sizes import sizes, wall_min
 from geneva_cli.parts.sphere.sizes import ball
 from geneva_cli.spec.tables import Size
 from geneva_cli.study.synthesis.looks import PartsLook, gap_at_rest, look
-from geneva_cli.verdict.cautions import SHOWN_UNDERCUT
 from geneva_cli.verdict.checks.undercut import undercut_depth
+from geneva_cli.verdict.motion_warnings import SHOWN_UNDERCUT
 
 USUAL = (5.0, 4.0, 3.0, 2.5, 2.0, 1.5, 1.0, 0.8, 0.6, 0.5, 0.4, 0.3, 0.2, 0.1)  # % of L
 # fraction of the allowed undercut below which samples suffice: they rarely miss more than 2 %

@@ -20,11 +20,11 @@ from geneva_cli.parts.all_round import leave_no_disc
 from geneva_cli.parts.assembly import Assembly, assembly
 from geneva_cli.parts.at_most import at_most
 from geneva_cli.parts.crank import rollers_gap
+from geneva_cli.parts.model import PartsModel
 from geneva_cli.parts.outlines import drawn
-from geneva_cli.parts.proof import Proof
 from geneva_cli.parts.sizes import Sizes, sizes
 from geneva_cli.parts.turn.full_turn import turning
-from geneva_cli.parts.turn.gaps import NotProved
+from geneva_cli.parts.turn.gaps import WorkLimit
 from geneva_cli.parts.turn.glance import gap_about, play_about, play_before_entry
 from geneva_cli.parts.turn.machine_parts import MachineParts
 from geneva_cli.parts.turn.one_motion import one_motion
@@ -109,7 +109,11 @@ class _Turn:
     def _made(self) -> MachineParts | Failing:
         """The parts, or the key that prevents them."""
         try:
-            return drawn(*self._sized) if self._sized else Proof(self._machine, advice=False).parts
+            return (
+                drawn(*self._sized)
+                if self._sized
+                else PartsModel(self._machine, advice=False).parts
+            )
         except GenevaError as error:
             return _in_the_way(error)
 
@@ -204,7 +208,7 @@ def _looks(parts: MachineParts) -> Iterator[list[Failing]]:
     try:
         for turn in turning(one_motion(parts)):
             yield _failing(turn_checks(parts, turn))
-    except NotProved:
+    except WorkLimit:
         yield [Failing("full_turn")]
 
 
@@ -225,6 +229,6 @@ def _fails_there(parts: MachineParts, one: Failing) -> bool:
             return gap_about(parts, one.at_deg) < -CLEARLY * parts.contact
         if one.name in LOOSE:
             return play_about(parts, one.at_deg) > CLEARLY * finds_slot(parts)
-    except NotProved:
+    except WorkLimit:
         return False
     return False

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from geneva_cli.machine.mechanism import Mechanism
-from geneva_cli.verdict.cautions import turns_back
 from geneva_cli.verdict.checks.check import Check, compared
+from geneva_cli.verdict.motion_warnings import turns_back
 
 
 def least_velocity(name: str, mechanism: Mechanism) -> Check | None:

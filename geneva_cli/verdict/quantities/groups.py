@@ -16,7 +16,7 @@ from geneva_cli.verdict.checks.registry import every_check
 
 if TYPE_CHECKING:
     from geneva_cli.numerics.arrays import Number
-    from geneva_cli.parts.proof import Proof
+    from geneva_cli.parts.model import PartsModel
     from geneva_cli.verdict.quantities.designs import Columns, Designs
     from geneva_cli.verdict.report.values import Values
 
@@ -52,7 +52,7 @@ RATES = {
 class Group(NamedTuple):
     """Quantities that are computed together.
 
-    ``alone`` computes them for the machine of a Proof and ``batch`` for Designs, each as
+    ``alone`` computes them for the machine of a PartsModel and ``batch`` for Designs, each as
     module:function of this folder, imported at its first use. Without ``alone`` a single design is
     a batch of one, and no design has the values that ``batch`` leaves out. Groups may share a
     function. ``alone`` may also give lists and tables.
@@ -76,15 +76,15 @@ class Group(NamedTuple):
         names = [name for name in self.own if self.batch and name not in self.one_by_one]
         return tuple(map(self._whole, names))
 
-    def values(self, proof: Proof) -> Values:
+    def values(self, model: PartsModel) -> Values:
         """The values of a single design; None for those that it lacks."""
         found: Values
         if self.alone:
-            found = load_named(f"verdict.{self.alone}")(proof)
+            found = load_named(f"verdict.{self.alone}")(model)
             return found
         from geneva_cli.verdict.quantities.designs import single
 
-        columns = self.columns(single(proof.mechanism))
+        columns = self.columns(single(model.mechanism))
         return {self._whole(name): only(columns[name]) for name in self.own}
 
     def columns(self, of: Designs) -> Columns:
@@ -115,13 +115,13 @@ def own_names(table: str) -> tuple[str, ...]:
     return tuple(name for group in GROUPS if group.table == table for name in group.names)
 
 
-def values(groups: Iterable[Group], proof: Proof) -> Values:
+def values(groups: Iterable[Group], model: PartsModel) -> Values:
     """The values of several groups of a single design, in order."""
     out: Values = {}
     called = set()
     for group in groups:
         if group.alone not in called:
-            out |= group.values(proof)
+            out |= group.values(model)
         called |= {group.alone} - {""}
     return out
 

@@ -8,8 +8,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import NamedTuple
 
-from geneva_cli.errors import Caution
-from geneva_cli.parts.proof import Proof
+from geneva_cli.errors import Notice
+from geneva_cli.parts.model import PartsModel
 from geneva_cli.table import Table, in_digits, record_table
 from geneva_cli.verdict.checks.check import Check, all_pass
 from geneva_cli.verdict.quantities.groups import REPORT
@@ -25,13 +25,13 @@ class Report(NamedTuple):
     passes: bool
 
 
-def report(proof: Proof, rows: Sequence[Check], warnings: Sequence[Caution]) -> Report:
+def report(model: PartsModel, rows: Sequence[Check], warnings: Sequence[Notice]) -> Report:
     """Everything about one design, as a tree of named values under a paragraph of words.
 
     The names are equal for every machine; a value is None if it does not apply. ``rows`` and
-    ``warnings`` are the checks and the warnings of the machine of ``proof``.
+    ``warnings`` are the checks and the warnings of the machine of ``model``.
     """
-    mechanism = proof.mechanism
+    mechanism = model.mechanism
     passes = all_pass(rows)
     title = mechanism.spec.title
     values: Values = {
@@ -41,7 +41,7 @@ def report(proof: Proof, rows: Sequence[Check], warnings: Sequence[Caution]) -> 
         "checks_failed": tuple(_said(c) for c in rows if c.passes is False),
         "not_proved": tuple(f"{c.name}: {c.why}" for c in rows if c.passes is None),
     }
-    values |= values_of(REPORT, proof) | {"warnings": tuple(warnings)}
+    values |= values_of(REPORT, model) | {"warnings": tuple(warnings)}
     return Report(record_table(values, title, words(mechanism)), passes)
 
 

@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from geneva_cli.parts.proof import Proof
+from geneva_cli.parts.model import PartsModel
 from geneva_cli.verdict.quantities.groups import ECHOED, INPUTS
 from geneva_cli.verdict.report.values import Values
 
 
-def inputs(proof: Proof) -> Values:
+def inputs(model: PartsModel) -> Values:
     """The values of these keys."""
-    spec = proof.mechanism.spec
+    spec = model.mechanism.spec
     known = {  # if a key is left out
         "wheel": {"held_by": spec.wheel.held_by},
         "size": spec.size.allowances._asdict(),

@@ -10,7 +10,7 @@ from geneva_cli.errors import GenevaError
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.numerics.arrays import scalar
 from geneva_cli.parts.assembly import assembly
-from geneva_cli.parts.proof import Proof
+from geneva_cli.parts.model import PartsModel
 from geneva_cli.parts.roller_paths import roller_paths
 from geneva_cli.parts.sizes import sizes as part_sizes
 from geneva_cli.verdict.report.values import Values
@@ -41,12 +41,12 @@ _FLAT = [
 ]
 
 
-def sizes(proof: Proof) -> Values:
+def sizes(model: PartsModel) -> Values:
     """Sizes of a flat wheel as cut, or of a spherical wheel as turned.
 
     The rim is None if the spec's sizes leave no wheel; the slots too if no wheel is drawn.
     """
-    mechanism = proof.mechanism
+    mechanism = model.mechanism
     spec = mechanism.spec
     L, r = mechanism.center_distance_mm, mechanism.roller_radius_mm
     if not spec.wheel.FLAT:

@@ -10,7 +10,7 @@ from geneva_cli.analysis.peaks import Peaks, placed, worst
 from geneva_cli.analysis.timing import timings
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.numerics.angles import omega
-from geneva_cli.parts.proof import Proof
+from geneva_cli.parts.model import PartsModel
 from geneva_cli.table import rows_table
 from geneva_cli.verdict.quantities.motion import peak_values
 from geneva_cli.verdict.report.values import Numbers, Values
@@ -18,9 +18,9 @@ from geneva_cli.verdict.report.values import Numbers, Values
 SAME = 1e-12  # fraction of a value by which rounding may make it differ between engagements
 
 
-def timing(proof: Proof) -> Values:
+def timing(model: PartsModel) -> Values:
     """The timing that all engagements share; None for values that differ."""
-    mechanism = proof.mechanism
+    mechanism = model.mechanism
     each = [_timing(mechanism, i) for i in range(len(mechanism.engagements))]
     return {name: _shared([one[name] for one in each]) for name in each[0]}
 
@@ -33,14 +33,14 @@ def _shared(values: Sequence[float | None]) -> float | None:
     return known[0]
 
 
-def peaks(proof: Proof) -> Values:
+def peaks(model: PartsModel) -> Values:
     """The greatest peaks over all engagements."""
-    return {**_peaks(proof.mechanism, worst(proof.mechanism))}
+    return {**_peaks(model.mechanism, worst(model.mechanism))}
 
 
-def stations(proof: Proof) -> Values:
+def stations(model: PartsModel) -> Values:
     """A row for each engagement, if they differ."""
-    mechanism = proof.mechanism
+    mechanism = model.mechanism
     if len(mechanism.engagements) == 1:
         return {"stations": None}
     each = [

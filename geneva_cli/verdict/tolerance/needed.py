@@ -19,8 +19,8 @@ from geneva_cli.errors import GenevaError
 from geneva_cli.machine.engagement import Engagement
 from geneva_cli.machine.mechanism import Mechanism, build
 from geneva_cli.machine.spec import Spec
+from geneva_cli.parts.model import PartsModel
 from geneva_cli.parts.outlines import Outlines
-from geneva_cli.parts.proof import Proof
 from geneva_cli.parts.sphere.sizes import Ball
 from geneva_cli.verdict.checks.registry import turn_checks
 
@@ -44,7 +44,7 @@ class Needed(NamedTuple):
 
 
 def needed(
-    mechanism: Mechanism, proof: Proof, sizes: dict[str, float], least_play: float
+    mechanism: Mechanism, model: PartsModel, sizes: dict[str, float], least_play: float
 ) -> Needed:
     """The clearances that the tolerances need, and a whole turn of the tightest and the loosest.
 
@@ -58,9 +58,9 @@ def needed(
         return Needed(slot, None, None, "no parts are drawn, which could be turned")
     try:
         lock, corner = (
-            _flat(spec, proof.outlines, sizes, slot)
+            _flat(spec, model.outlines, sizes, slot)
             if spec.wheel.FLAT
-            else _on_sphere(spec, proof.shells.ball, sizes, slot)
+            else _on_sphere(spec, model.shells.ball, sizes, slot)
         )
     except GenevaError as error:
         return Needed(slot, None, None, str(error))
@@ -172,8 +172,8 @@ def _wider(angle: float, by: float, L: float) -> float:
 def _fails(spec: Spec) -> tuple[bool | None, str] | None:
     """The check of a whole turn that fails; None if all pass."""
     try:
-        proof = Proof(build(spec))
-        rows = list(turn_checks(proof.parts, proof.turn))
+        model = PartsModel(build(spec))
+        rows = list(turn_checks(model.parts, model.turn))
     except GenevaError as error:
         return None, f"not proved: {error}"
     for row in rows:

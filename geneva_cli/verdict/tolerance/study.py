@@ -22,9 +22,9 @@ from geneva_cli.analysis.tolerance.motion_error import Worst, motion_errors
 from geneva_cli.analysis.tolerance.random_machines import random_machines
 from geneva_cli.analysis.tolerance.spread import Spread, spread
 from geneva_cli.analysis.tolerance.worst_effects import entry_jumps_worst
-from geneva_cli.errors import Caution, GenevaError, cut
+from geneva_cli.errors import GenevaError, Notice, cut
 from geneva_cli.machine.mechanism import Mechanism
-from geneva_cli.parts.proof import Proof
+from geneva_cli.parts.model import PartsModel
 from geneva_cli.verdict.tolerance.needed import Needed, needed
 from geneva_cli.verdict.tolerance.recesses import locks, sphere_locks
 
@@ -53,10 +53,10 @@ class Study(NamedTuple):
     entry: EntryJumps | None
     clearances: Needed
     jams: float | None  # fraction of the machines that do not fit together
-    warnings: tuple[Caution, ...]
+    warnings: tuple[Notice, ...]
 
 
-def study(mechanism: Mechanism, proof: Proof, samples: int, seed: int) -> Study:
+def study(mechanism: Mechanism, model: PartsModel, samples: int, seed: int) -> Study:
     """The study of a machine by its ``[tolerance]``.
 
     Raises GenevaError without tolerances, and for numbers of samples and seeds out of range.
@@ -67,7 +67,7 @@ def study(mechanism: Mechanism, proof: Proof, samples: int, seed: int) -> Study:
     _refuse_wide(mechanism, use)
     sizes = list(use.values())
     ends = corners(sizes)
-    found = _locks(mechanism, proof, warnings)
+    found = _locks(mechanism, model, warnings)
     lock = max(found, key=lambda one: _most(one(ends).angle.arrays()[0]), default=None)
     least_play = min((float(np.min(one(ends).angle.c[0])) for one in found), default=0.0)
     errors = [(one, *_first(one.greatest(ends))) for one in motion_errors(mechanism)]
@@ -83,7 +83,7 @@ def study(mechanism: Mechanism, proof: Proof, samples: int, seed: int) -> Study:
         dwell = spread(lambda by: lock(by).angle + by.slot_angle_deg, sizes, worst, drawn.dwell)
     else:
         warnings.append(
-            Caution(
+            Notice(
                 "not-known",
                 "dwell_position is not known: no locking disc that is drawn holds the wheel "
                 "at rest",
@@ -95,7 +95,7 @@ def study(mechanism: Mechanism, proof: Proof, samples: int, seed: int) -> Study:
         at_deg = mechanism.shown_deg(one.engagement.mid_deg + at)
     else:
         warnings.append(
-            Caution(
+            Notice(
                 "not-known",
                 "motion_play is not known: the slots are curved, and solved for a true path",
             )
@@ -109,15 +109,15 @@ def study(mechanism: Mechanism, proof: Proof, samples: int, seed: int) -> Study:
         entry = EntryJumps(float(worst_jump[0]), mean, deviation, drawn.missed, mouth)
     else:
         warnings.append(
-            Caution(
+            Notice(
                 "not-known",
                 "entry_jump is not known: the law, not the path, sets how the roller enters",
             )
         )
-    clearances = needed(mechanism, proof, use, least_play)
+    clearances = needed(mechanism, model, use, least_play)
     if clearances.turns is not True:
         what = "not every machine turns" if clearances.turns is False else "not proved to turn"
-        warnings.append(Caution("not-every-machine-turns", f"{what}: {clearances.why}"))
+        warnings.append(Notice("not-every-machine-turns", f"{what}: {clearances.why}"))
     return Study(dwell, motion, at_deg, entry, clearances, drawn.jams, tuple(warnings))
 
 
@@ -153,26 +153,26 @@ def _refuse_wide(mechanism: Mechanism, use: dict[str, float]) -> None:
 
 def _applicable(
     mechanism: Mechanism, given: dict[str, float]
-) -> tuple[dict[str, float], list[Caution]]:
+) -> tuple[dict[str, float], list[Notice]]:
     """The tolerances, 0 for those without effect in this machine, and the reasons."""
-    use, warnings = dict(given), list[Caution]()
+    use, warnings = dict(given), list[Notice]()
     why = without_effect(mechanism.spec)
     for name, reason in why.items():
         if use[name]:
             use[name] = 0.0
-            warnings.append(Caution("tolerance-left-out", f"{name} is left out: {reason}"))
+            warnings.append(Notice("tolerance-left-out", f"{name} is left out: {reason}"))
     return use, warnings
 
 
 def _locks(
-    mechanism: Mechanism, proof: Proof, warnings: list[Caution]
+    mechanism: Mechanism, model: PartsModel, warnings: list[Notice]
 ) -> Sequence[Lock | SphereLock]:
     if not mechanism.spec.has_parts:
         return []
     try:
-        return locks(proof.outlines) if mechanism.spec.wheel.FLAT else sphere_locks(proof.shells)
+        return locks(model.outlines) if mechanism.spec.wheel.FLAT else sphere_locks(model.shells)
     except GenevaError as error:
-        warnings.append(Caution("not-known", f"no parts: {error}"))
+        warnings.append(Notice("not-known", f"no parts: {error}"))
         return []
 
 
