@@ -11,7 +11,7 @@ from __future__ import annotations
 import importlib
 from typing import TYPE_CHECKING
 
-if TYPE_CHECKING:  # what a type checker sees: a line a name, and a kind needs no other
+if TYPE_CHECKING:  # for a type checker: one line for each name
     from geneva_cli.design import Design as Design
     from geneva_cli.design import load as load
     from geneva_cli.errors import GenevaError as GenevaError
@@ -56,7 +56,7 @@ if TYPE_CHECKING:  # what a type checker sees: a line a name, and a kind needs n
 
 __version__ = "1.0.0rc1"
 
-# Where what is no kind comes from; a drive, a wheel and a law are found in their registry.
+# The modules of other names; drives, wheels and laws are in their registries.
 _FROM = {
     "design": ("Design", "load"),
     "errors": ("GenevaError",),
@@ -77,7 +77,7 @@ _FROM = {
 
 
 def _rooms() -> dict[str, str]:
-    """The module of each name that is offered."""
+    """The module of each public name."""
     from geneva_cli.machine.registry import DRIVES, GEARINGS, LAWS
 
     rooms = {name: module for module, names in _FROM.items() for name in names}
@@ -91,7 +91,7 @@ def __dir__() -> list[str]:
     return ["__version__", *sorted(_rooms())]
 
 
-if not TYPE_CHECKING:  # which would take any name for known
+if not TYPE_CHECKING:  # otherwise a type checker would accept any name
 
     def __getattr__(name: str) -> object:
         if name == "__all__":

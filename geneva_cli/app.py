@@ -22,7 +22,7 @@ from geneva_cli.errors import GenevaError, clean, cut
 from geneva_cli.progress import Bar, close, show_with
 from geneva_cli.streams import leave, open_streams
 
-# The registry: what a person wants -> module in geneva_cli.commands -> the line that --help shows.
+# The registry by task: the module in geneva_cli.commands, and its line in --help.
 GROUPS = {
     "Calculate": {
         "table": "Timing and peaks of wheels, a row for each number of slots.",
@@ -63,7 +63,7 @@ WIDEST = max(map(len, COMMANDS))
 MESSAGE_MAX = 1000  # characters
 NO_TABLE = {"animate", "schema"}  # commands without the options of `_table_options`
 HELP = {"help_option_names": ["-h", "--help"]}
-USAGE: Any = typer.BadParameter.__base__  # Typer's error for words that no command takes
+USAGE: Any = typer.BadParameter.__base__  # Typer's error for arguments that no command takes
 PANEL = "rich_help_panel"  # the attribute in which Typer keeps an option's heading
 NUMBERS = {float: "a number", int: "a whole number"}
 
@@ -106,13 +106,14 @@ def _value(param: Any, kind: Any, refuse: Any, ctx: Any, typed: Any) -> Any:
 
 
 class Command(PlainValues, TyperCommand):
-    """A command whose help ends with examples, and all of whose options count."""
+    """A command whose help ends with examples, and which refuses ineffective options."""
 
     examples: tuple[str, ...] = ()
 
     def parse_args(self, ctx: Any, args: list[str]) -> list[str]:
-        """Refuse an option that would count as not given: one given as nothing, as a script does by
-        a variable without a value, and the first of one given twice.
+        """Parse arguments, and refuse an option that would have no effect.
+
+        Such an option is empty, as a script's unset variable makes it, or is given twice.
         """
         typed = list(args)
         rest = super().parse_args(ctx, args)
@@ -130,7 +131,7 @@ class Command(PlainValues, TyperCommand):
         return rest
 
     def invoke(self, ctx: Any) -> Any:
-        """Run the command; the tables that it shows have the columns of --columns and --wide."""
+        """Run the command; its tables have the columns of --columns and --wide."""
         columns, wide = ctx.params.pop("columns", None), ctx.params.pop("wide", False)
         if not (columns or wide):
             return super().invoke(ctx)
@@ -146,7 +147,7 @@ class Command(PlainValues, TyperCommand):
         return ["[OPTIONS]", *(_placeholder(argument) for argument in arguments)]
 
     def format_options(self, ctx: Any, formatter: Any) -> None:
-        """Arguments, then options under the headings that they name; those of all commands last."""
+        """Write arguments, then options under their headings, with shared options last."""
         groups: dict[str, list[tuple[str, str]]] = {"Arguments": []}
         shared: list[tuple[str, str]] = []
         for param in self.get_params(ctx):
@@ -163,7 +164,7 @@ class Command(PlainValues, TyperCommand):
                     formatter.write_dl(records)
 
     def format_epilog(self, ctx: Any, formatter: Any) -> None:
-        """The examples as they are typed, each in a line that goes on in the next if it must."""
+        """Write the examples as typed, each continued on the next line if needed."""
         if self.examples:
             with formatter.section("Examples"):
                 for line in self.examples:
@@ -176,7 +177,7 @@ def _placeholder(argument: Any) -> str:
 
 
 def _continued(line: str, width: int) -> str:
-    """A command in lines of at most ``width`` letters, broken before an option as a shell reads."""
+    """A command in lines of at most ``width`` letters, broken before options with a backslash."""
     first, *options = line.split(" -")
     lines = [first]
     for option in options:
@@ -200,7 +201,7 @@ class LazyGroup(PlainValues, TyperGroup):
         return list(COMMANDS)
 
     def format_commands(self, ctx: Any, formatter: Any) -> None:
-        """The commands by what a person wants."""
+        """Write the commands by task."""
         for name, group in GROUPS.items():
             with formatter.section(name):
                 formatter.write_dl([(name.ljust(WIDEST), line) for name, line in group.items()])
@@ -223,7 +224,7 @@ class LazyGroup(PlainValues, TyperGroup):
         return name, command, rest
 
     def invoke(self, ctx: Any) -> Any:
-        """Run the command; what a user can put right becomes a line and an exit code."""
+        """Run the command; an error that a user can correct becomes a line and an exit code."""
         show_with(_bar)
         try:
             return super().invoke(ctx)
@@ -240,7 +241,7 @@ class LazyGroup(PlainValues, TyperGroup):
 
 
 def _bar(what: str, total: int) -> Bar | None:
-    """A progress bar, where a person looks."""
+    """A progress bar, if standard error is a terminal."""
     if not sys.stderr.isatty():
         return None
     from geneva_cli.output.bar import TextBar
@@ -249,7 +250,7 @@ def _bar(what: str, total: int) -> Bar | None:
 
 
 def _stub() -> None:
-    """Stands in for a command whose module is not loaded."""
+    """The callback of a command whose module is not loaded."""
 
 
 def _table_options(
@@ -285,7 +286,7 @@ def _version(asked: bool) -> None:
         raise typer.Exit
 
 
-# NumPy's arrays here are small: starting threads for them costs more than they save.
+# NumPy's arrays here are small: starting threads for them would cost more than it saves.
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 
 # Without Rich's markup the help is plain text, which needs no import of Rich.
@@ -302,7 +303,7 @@ def geneva(
 
 
 def main() -> None:
-    """The command line of a process, which it ends."""
+    """Run the command line and end the process."""
     open_streams()
     try:
         app(prog_name="geneva")

@@ -1,4 +1,4 @@
-"""Design: one spec and all its answers, each computed once and kept.
+"""Design: one spec and all its results, each computed once and cached.
 
     >>> from geneva_cli import Design, External, SideCrank
     >>> slow = Design(External(6), SideCrank(A=0.6))
@@ -7,7 +7,7 @@
     >>> slow.with_("drive.A", 0.0).timing.motion_deg
     120.0
 
-What is imported for an answer is imported when it is asked for: here is the one door.
+The modules for a result are imported at its first use, and only here.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from functools import cached_property, wraps
 from typing import TYPE_CHECKING, Any, Concatenate, ParamSpec, Self, TypeVar
 
-from geneva_cli.errors import Caution, GenevaError, cut
+from geneva_cli.errors import GenevaError, Notice, cut
 from geneva_cli.machine.drives.crank import Crank
 from geneva_cli.machine.drives.drive import Drive
 from geneva_cli.machine.mechanism import Mechanism, build
@@ -49,8 +49,8 @@ if TYPE_CHECKING:
     from geneva_cli.curves.mass import MassProperties
     from geneva_cli.curves.sheet import Sheet
     from geneva_cli.figure import Figure
+    from geneva_cli.parts.model import PartsModel
     from geneva_cli.parts.outlines import Outlines
-    from geneva_cli.parts.proof import Proof
     from geneva_cli.specfile.reader import Text
     from geneva_cli.table import Table
     from geneva_cli.verdict.checks import Check
@@ -59,15 +59,15 @@ if TYPE_CHECKING:
 
 T = TypeVar("T")
 P = ParamSpec("P")
-CURVES = {"arcs": "arcs", "spline": "cubics"}  # what curved walls are written as
+CURVES = {"arcs": "arcs", "spline": "cubics"}  # forms in which curved walls are written
 
 
 def load(path: str, given: Iterable[str] = ()) -> Design:
-    """The design in a spec file; ``-`` is standard input.
+    """Return the design in a spec file; ``-`` is standard input.
 
-    ``given`` are keys set beside the file or over it, as ``["drive.A=0.6"]``.
-    Raises GenevaError, ``FILE:LINE: what is wrong; what would be right``, here for what cannot be
-    read, and from every answer for what cannot be built.
+    ``given`` are keys that complete or replace those of the file, as ``["drive.A=0.6"]``. Raises
+    GenevaError, ``FILE:LINE: what is wrong; what would be right``, for a file that cannot be read.
+    Every result of the design raises it if the design cannot be built.
 
     >>> load("designs/side-crank-z6.toml", ["drive.A=0.3"]).spec.drive.A
     0.3
@@ -79,7 +79,7 @@ def load(path: str, given: Iterable[str] = ()) -> Design:
 
 
 def answer(make: Callable[[Any], T]) -> cached_property[T]:
-    """An answer that is worked out once; what is wrong with it is said with the spec's line."""
+    """A result that is computed once; its errors are located at the spec's line."""
 
     def located(design: Design) -> T:
         return design._located(lambda: make(design))
@@ -89,7 +89,7 @@ def answer(make: Callable[[Any], T]) -> cached_property[T]:
 
 
 def question(ask: Callable[Concatenate[Any, P], T]) -> Callable[Concatenate[Any, P], T]:
-    """A method that takes NumPy's scalars as Python's numbers, and refuses a wrong keyword."""
+    """A method that takes NumPy's scalars as Python's numbers, and refuses an unknown keyword."""
     known = [name for name in ask.__annotations__ if name != "return"]
 
     @wraps(ask)
@@ -101,19 +101,19 @@ def question(ask: Callable[Concatenate[Any, P], T]) -> Callable[Concatenate[Any,
 
 
 class Design:
-    """A Geneva mechanism: what it is given as, and what follows.
+    """A Geneva mechanism: its inputs, and the results that follow from them.
 
-    Values are checked where they are made: ``SideCrank(A=2.0)`` raises the GenevaError that a
-    file with ``A = 2`` gets, without the line. Angles are in degrees, lengths in millimetres,
-    loads in newtons, newton metres and megapascals; velocity, acceleration and jerk are
-    derivatives of the wheel's angle by the input's in radians.
+    Values are checked when they are created: ``SideCrank(A=2.0)`` raises the GenevaError that a
+    file with ``A = 2`` gets, without the line. Angles are in degrees and lengths in millimetres,
+    loads in newtons, newton metres and megapascals. Velocity, acceleration and jerk are derivatives
+    of the wheel's angle by the input's in radians.
 
     >>> Design(External(6), SideCrank(A=0.6)).timing.motion_s  # at 60 rpm
     0.5072580347148502
     """
 
     def __new__(cls, *_: object, **given: object) -> Self:
-        """Refuse a keyword that no design takes, with the nearest."""
+        """Refuse an unknown keyword, with the nearest known one."""
         refuse_keywords(cls.__name__, given, [*cls.__init__.__annotations__][:-1])
         return super().__new__(cls)
 
@@ -155,7 +155,7 @@ class Design:
 
     @classmethod
     def of(cls, spec: Spec, text: Text | None = None) -> Design:
-        """The design of a whole spec; ``text`` is the file that it was read from.
+        """Return the design of a spec; ``text`` is the file that it was read from.
 
         >>> Design.of(Spec(External(6))).spec.wheel.z
         6
@@ -165,7 +165,7 @@ class Design:
         return design
 
     def __repr__(self) -> str:
-        """The design as Python writes it, without what has its default.
+        """The design as a Python expression, without default values.
 
         >>> Design(External(6), SideCrank(A=0.6), title="feed")
         Design(External(z=6), SideCrank(A=0.6), title='feed')
@@ -181,9 +181,9 @@ class Design:
 
     @question
     def with_(self, key: str, value: Any) -> Design:
-        """The design with one key changed, ``table.key`` as in the file; None: its default.
+        """Return the design with one key changed, ``table.key`` as in the file; None: its default.
 
-        Raises GenevaError for a key that it does not have, or a value out of its range.
+        Raises GenevaError for an unknown key, and for a value out of range.
 
         >>> Design(External(6)).with_("wheel.z", 8).timing.motion_deg
         135.0
@@ -198,7 +198,7 @@ class Design:
 
     @answer
     def mechanism(self) -> Mechanism:
-        """The machine: its engagements over a period. Raises GenevaError where there is none.
+        """The machine: its engagements over a period. Raises GenevaError if it cannot be built.
 
         >>> round(Design(External(6)).mechanism.ratio, 12)  # crank over centre distance, sin(pi/z)
         0.5
@@ -207,9 +207,10 @@ class Design:
 
     @answer
     def size(self) -> Size:
-        """The sizes, with those that are not given as the machine has them; mm.
+        """The sizes, with the machine's values for those that are not given; mm.
 
-        None is left of what a machine has not, and of a few details that only its parts know.
+        None remains for sizes that the machine lacks, and for a few details that only its parts
+        know.
 
         >>> size = Design(External(6)).size
         >>> size.center_distance_mm, size.wheel_thickness_mm
@@ -241,7 +242,7 @@ class Design:
 
     @answer
     def peaks(self) -> Peaks:
-        """Greatest velocity, acceleration, jerk and power of a period, and where.
+        """Greatest velocity, acceleration, jerk and power of a period, and their places.
 
         Invariants: derivatives by the input's angle in radians. Angles are input angles in degrees.
 
@@ -257,7 +258,7 @@ class Design:
 
     @answer
     def peaks_table(self) -> Table:
-        """The peaks as ``geneva peaks`` prints them, engagement by engagement where they differ.
+        """The peaks as ``geneva peaks`` prints them, with each engagement if they differ.
 
         >>> Design(External(6)).peaks_table.to_dict()["velocity.max"]
         1.0
@@ -307,7 +308,7 @@ class Design:
 
     @question
     def motion(self, samples: int = 361) -> Table:
-        """``samples`` rows over a period from the first entry, evenly in the input angle.
+        """``samples`` rows over a period from the first entry, evenly spaced in the input angle.
 
         Columns: time_s, input_deg, wheel_deg, velocity, acceleration, jerk.
 
@@ -320,7 +321,7 @@ class Design:
 
     @question
     def figure(self, pick: Sequence[str] = ()) -> Figure:
-        """Curves of motion and loads over a cycle, a panel a quantity; as ``geneva plot`` draws.
+        """Curves of motion and loads over a cycle, one panel for each quantity.
 
         ``pick`` are names of quantities, as ``jerk`` or ``pin_force_N``; without, the usual ones
         that are known. ``geneva_cli.output.plot`` writes it. Raises GenevaError for another name.
@@ -349,7 +350,7 @@ class Design:
     def loads(self) -> Mapping[str, Summary]:
         """Greatest, least, mean and root-mean-square of each load over a period, by its name.
 
-        None where nothing bounds a value, or what it needs is not given. Newtons, newton metres,
+        None for an unbounded value, or if its inputs are not given. Newtons, newton metres,
         megapascals, watts; input angles in degrees.
 
         >>> loaded = Design(External(6), load=Load(inertia_kgm2=0.4, torque_Nm=15))
@@ -373,8 +374,8 @@ class Design:
         from geneva_cli.analysis.loads.summary import loads_table, missing
         from geneva_cli.verdict.strength import OF_LIFE
 
-        _ = self.loads  # all quantities together, of which life needs some
-        # without a load all need one, and that is said already
+        _ = self.loads  # all quantities at once, some of which the life needs
+        # without a load every quantity needs one, and that is reported already
         needed = self.strength.missing(OF_LIFE) if self.cycle.is_loaded else []
         said = (*self.warnings, *missing(self.cycle), *needed)
         own = self.wheel_plate and self.wheel_plate.inertia_kgm2
@@ -384,7 +385,7 @@ class Design:
     def wheel_plate(self) -> MassProperties | None:
         """The wheel's own mass, centroid and inertia, from its outline, or its sphere's shell.
 
-        None without ``face_width_mm`` or ``wheel_thickness_mm``, or where there are no parts.
+        None without ``face_width_mm`` or ``wheel_thickness_mm``, or if it has no parts.
 
         >>> wheel = Design(External(6), size=Size(face_width_mm=20)).wheel_plate
         >>> round(wheel.mass_kg, 3), round(1e3 * wheel.inertia_kgm2, 3)
@@ -392,14 +393,14 @@ class Design:
         """
         size = self.spec.size
         if size.face_width_mm is None and size.wheel_thickness_mm is None:
-            return None  # before what draws parts is imported
+            return None  # before the import of what draws parts
         from geneva_cli.parts.wheel_inertia import known_wheel_body
 
         return known_wheel_body(self.mechanism)
 
     @answer
     def life(self) -> dict[str, float | None]:
-        """Stresses of pin and horn, the roller's life and the slots' wear; None where not known.
+        """Stresses of pin and horn, the roller's life and the slots' wear; None if unknown.
 
         >>> held = Design(External(6), size=Size(200, 8), load=Load(inertia_kgm2=0.4, torque_Nm=15))
         >>> round(held.life["roller_turns_per_motion"], 12)
@@ -422,7 +423,7 @@ class Design:
 
     @answer
     def loads_page(self) -> Table:
-        """The loads for people: each quantity a row, and what is not known; without warnings.
+        """The loads for people: one row for each quantity, and notes on unknown ones; no warnings.
 
         >>> page = Design(External(6), load=Load(0.4, 15)).loads_page.to_dict()
         >>> page["loads"][0]["quantity"], round(page["loads"][0]["max"], 12)
@@ -433,8 +434,8 @@ class Design:
         return below_summary(self._loads(for_people=True), said=("title",))
 
     @answer
-    def load_warnings(self) -> list[Caution]:
-        """Warnings about the loads and what the wheel carries, and the loads that are not known.
+    def load_warnings(self) -> list[Notice]:
+        """Warnings about the loads and what the wheel carries, and notes on unknown loads.
 
         >>> Design(External(6), load=Load(torque_Nm=15)).load_warnings[0]
         'contact_stress_MPa: needs face_width_mm in [size]'
@@ -446,7 +447,7 @@ class Design:
 
     @question
     def load_cycle(self, samples: int = 361) -> Table:
-        """``samples`` rows of the loads over a period, evenly in the input angle, dwells too.
+        """``samples`` rows of the loads over a period with dwells, evenly spaced in input angle.
 
         >>> Design(External(6), load=Load(torque_Nm=15)).load_cycle(4).to_dict()["pin_force_N"]
         array([173.20508076, 173.20508076,   0.        ,   0.        ])
@@ -457,10 +458,11 @@ class Design:
 
     @question
     def vibration(self, period_ratio: float | None = None, damping: float | None = None) -> Table:
-        """The load on an elastic shaft: a record of what an index leaves swinging.
+        """The load on an elastic shaft: a record of the vibration after an index.
 
-        By [shaft], or at a period ratio (motion time over natural period) and damping ratio given
-        here. Shares are of the wheel's step. Raises GenevaError where no stiffness is known.
+        The oscillator is that of [shaft], or has the given period ratio (motion time over natural
+        period) and damping ratio. Shares are fractions of the wheel's step. Raises GenevaError if
+        no stiffness is known.
 
         >>> found = Design(External(3)).vibration(0.5, damping=0.02).to_dict()
         >>> round(found["residual_share"], 12)
@@ -479,7 +481,7 @@ class Design:
     def spectrum(
         self, samples: int = 401, period_ratio: float | None = None, damping: float | None = None
     ) -> Table:
-        """The vibration that an index leaves, over speeds from half to twice the design's.
+        """The vibration after an index, over speeds from half to twice the design's.
 
         >>> table = Design(External(6)).spectrum(3, period_ratio=10.0).to_dict()
         >>> [round(float(n), 9) for n in table["n_rpm"]]
@@ -498,7 +500,7 @@ class Design:
     def slot(self, tolerance_mm: float = 0.001, samples: int | None = None) -> Table:
         """The slot's pitch curve and flanks in the wheel's frame, mm, for a chord tolerance.
 
-        Or ``samples`` rows, evenly in the input angle.
+        Or ``samples`` rows, evenly spaced in the input angle.
 
         >>> slot = Design(External(6), motion=Motion(Cycloidal(), ratio="matched")).slot(samples=5)
         >>> len(slot), slot.names[:4]
@@ -512,7 +514,7 @@ class Design:
     ) -> Table:
         """A part as a table of points: ``slot``, ``gears``, ``groove``, or a sphere's ``wheel``.
 
-        Columns as ``profile --part`` writes them, lengths in mm. Raises GenevaError for a part
+        Columns are those of ``profile --part``, lengths in mm. Raises GenevaError for a part
         that the machine does not have.
 
         >>> geared = Design(External(6), EllipticalGears(eccentricity=0.3))
@@ -524,7 +526,7 @@ class Design:
         return self._located(lambda: part_table(self.mechanism, part, tolerance_mm, samples))
 
     def is_table(self, part: str, drawn: bool) -> bool:
-        """Whether a part is a table of points; ``drawn`` where a drawing is asked for.
+        """Return True if a part is a table of points; ``drawn`` means that a drawing is requested.
 
         >>> wheel = Design(External(6))
         >>> wheel.is_table("slot", drawn=False), wheel.is_table("wheel", drawn=False)
@@ -535,19 +537,19 @@ class Design:
         return self._located(lambda: is_table(self.mechanism, part, drawn))
 
     @answer
-    def proof(self) -> Proof:
-        """Outlines and full turn, which all questions about the parts share.
+    def proof(self) -> PartsModel:
+        """Outlines and full turn of the parts, shared by all their results.
 
         >>> Design(External(6)).proof.turn.holds  # its lock, in the dwell
         True
         """
-        from geneva_cli.parts.proof import Proof
+        from geneva_cli.parts.model import PartsModel
 
-        return Proof(self.mechanism)
+        return PartsModel(self.mechanism)
 
     @answer
     def parts(self) -> Outlines:
-        """Wheel and crank as closed outlines. Raises GenevaError where there are no flat parts.
+        """Wheel and crank as closed outlines. Raises GenevaError without flat parts.
 
         >>> Design(External(6)).parts.relief
         'arc'
@@ -555,25 +557,25 @@ class Design:
         return self.proof.outlines
 
     @question
-    def drawn(self, tolerance_mm: float, part: str = "wheel") -> Proof:
+    def drawn(self, tolerance_mm: float, part: str = "wheel") -> PartsModel:
         """The parts as they are written for a tolerance in mm, and their full turn.
 
-        Raises GenevaError for another tolerance, or where there are no flat parts, unless ``part``
-        is one that is drawn without.
+        Raises GenevaError for a tolerance out of range. Also raises it without flat parts, unless
+        ``part`` is drawn without them.
 
         >>> Design(External(6)).drawn(0.01).outlines.relief
         'arc'
         """
         from geneva_cli.parts.catalogue import is_alone, machine_of, require_tolerance
+        from geneva_cli.parts.model import PartsModel
         from geneva_cli.parts.outlines import outlines
-        from geneva_cli.parts.proof import Proof
 
         mechanism = self._located(lambda: machine_of(self.mechanism, part))
         require_tolerance(mechanism, tolerance_mm)
         if not mechanism.spec.is_flat and is_alone(mechanism, part):
-            return Proof(mechanism)
+            return PartsModel(mechanism)
         made = self._located(lambda: outlines(mechanism, tolerance_mm))
-        return Proof(mechanism, made)
+        return PartsModel(mechanism, made)
 
     @question
     def drawing(
@@ -581,17 +583,17 @@ class Design:
         part: str,
         tolerance_mm: float = 0.001,
         curves: str = "arcs",
-        of: Proof | None = None,
+        of: PartsModel | None = None,
         kerf_mm: float | None = None,
         dog_bones_mm: float | None = None,
         centre_marks: bool = False,
     ) -> Drawing:
-        """A part as lines and arcs, or (``spline``) cubics: what is written as DXF or SVG.
+        """A part as lines and arcs, or (``spline``) cubics, for DXF or SVG.
 
-        ``slot``, ``wheel``, ``crank``, ``arm``, ``links``, ``assembly``, ``groove``, ``gears`` or
-        ``coupon``; millimetres. With a kerf, the paths of a cut so wide; with dog bones, those of
-        a cutter of a diameter in the corners that stand in; with centre marks, crosses in its
-        circles. Raises GenevaError where there is no room for kerf or bones.
+        Parts are ``slot``, ``wheel``, ``crank``, ``arm``, ``links``, ``assembly``, ``groove``,
+        ``gears`` or ``coupon``; lengths in millimetres. ``kerf_mm`` gives the paths of a cut of
+        that width. ``dog_bones_mm`` gives reliefs in inner corners for a cutter of that diameter.
+        ``centre_marks`` adds crosses in circles. Raises GenevaError if kerf or reliefs do not fit.
 
         >>> Design(External(6)).drawing("wheel").layers
         ('WHEEL', 'BORE')
@@ -600,12 +602,12 @@ class Design:
 
         if curves not in CURVES:
             raise GenevaError(f"--curves {cut(curves)}: it must be arcs or spline")
-        proof, of_curves = of or self.drawn(tolerance_mm, part), CURVES[curves]
-        made = self._located(lambda: part_drawing(proof, part, tolerance_mm, of_curves))
+        model, of_curves = of or self.drawn(tolerance_mm, part), CURVES[curves]
+        made = self._located(lambda: part_drawing(model, part, tolerance_mm, of_curves))
         if dog_bones_mm is not None:
             from geneva_cli.parts.milling import with_dog_bones
 
-            made = self._located(lambda: with_dog_bones(made, proof, dog_bones_mm))
+            made = self._located(lambda: with_dog_bones(made, model, dog_bones_mm))
         if centre_marks:
             from geneva_cli.parts.centre_marks import with_centre_marks
 
@@ -620,11 +622,12 @@ class Design:
 
     @question
     def cutter(
-        self, part: str, cutter_mm: float, dog_bones: bool = False, of: Proof | None = None
+        self, part: str, cutter_mm: float, dog_bones: bool = False, of: PartsModel | None = None
     ) -> tuple[str, list[str]]:
-        """Why a milling cutter of a diameter cannot cut a part, empty where it can; and warnings.
+        """The reason why a milling cutter cannot cut a part, empty if it can; and warnings.
 
-        Those are of corners that it leaves round, unless there are dog bones, and of narrow holes.
+        Warnings are about corners that it leaves round, unless there are dog bones, and narrow
+        holes.
 
         >>> Design(External(6)).cutter("wheel", 12.0)[0].partition(": an ")[2]
         'inner radius of 5 mm is narrower; use a cutter up to 10 mm'
@@ -633,18 +636,18 @@ class Design:
         from geneva_cli.parts.milling import judged
 
         require_cut(part, "--cutter")
-        proof = of or self.drawn(0.001, part)
-        refused, left = judged(self.drawing(part, of=proof), cutter_mm)
+        model = of or self.drawn(0.001, part)
+        refused, left = judged(self.drawing(part, of=model), cutter_mm)
         if refused or not dog_bones:
             return refused, left
-        return judged(self.drawing(part, of=proof, dog_bones_mm=cutter_mm), cutter_mm)
+        return judged(self.drawing(part, of=model, dog_bones_mm=cutter_mm), cutter_mm)
 
     @question
     def sheet(
         self,
         tolerance_mm: float = 0.001,
         curves: str = "arcs",
-        of: Proof | None = None,
+        of: PartsModel | None = None,
         part: str = "sheet",
     ) -> Sheet:
         """A drawing sheet of the parts with dimensions, to a standard scale on A4 to A1.
@@ -659,19 +662,19 @@ class Design:
 
         if curves not in CURVES:
             raise GenevaError(f"--curves {cut(curves)}: it must be arcs or spline")
-        proof = of or self.drawn(tolerance_mm, part)
-        return self._located(lambda: part_sheet(proof, part, tolerance_mm, CURVES[curves]))
+        model = of or self.drawn(tolerance_mm, part)
+        return self._located(lambda: part_sheet(model, part, tolerance_mm, CURVES[curves]))
 
     @question
     def save(
         self, path: str, part: str = "", tolerance_mm: float = 0.001, force: bool = False
     ) -> None:
-        """Write a part to a file, as ``geneva profile`` does; the extension says the format.
+        """Write a part to a file, as ``geneva profile`` does; the extension gives the format.
 
-        ``part`` is one of its parts; without, the one that the file is named for (``wheel.dxf``,
-        ``sheet.pdf``, ``slot.csv``), else the assembly. ``tolerance_mm`` is the greatest distance
-        from the true curve. Raises GenevaError where the part cannot be drawn, the file cannot be
-        written, or the machine jams, unless ``force`` is given.
+        ``part`` is one of its parts. Without it, the file's name decides (``wheel.dxf``,
+        ``sheet.pdf``, ``slot.csv``), else the assembly is written. ``tolerance_mm`` is the greatest
+        distance from the true curve. Raises GenevaError if the part cannot be drawn, or the file
+        cannot be written. Also raises it if the machine jams, unless ``force`` is given.
 
         >>> import tempfile
         >>> with tempfile.TemporaryDirectory() as folder:
@@ -688,31 +691,31 @@ class Design:
         if not sheet and self.is_table(part, drawn):
             show(self.part_table(part, tolerance_mm), path, inputs=files)
             return
-        proof, curves = self.drawn(tolerance_mm, part), usual_curves(path, "")
-        refused = self.judge(proof)[0] if self.spec.has_parts and not force else ""
+        model, curves = self.drawn(tolerance_mm, part), usual_curves(path, "")
+        refused = self.judge(model)[0] if self.spec.has_parts and not force else ""
         if refused:
             raise GenevaError(f"{cut(path, 300)}: not written: {refused}")
         if sheet:
-            draw_sheet(self.sheet(tolerance_mm, curves, proof, part), path, inputs=files)
+            draw_sheet(self.sheet(tolerance_mm, curves, model, part), path, inputs=files)
         else:
-            draw(self.drawing(part, tolerance_mm, curves, proof), path, inputs=files)
+            draw(self.drawing(part, tolerance_mm, curves, model), path, inputs=files)
 
     def _repr_html_(self) -> str:
-        """How a notebook shows it: words and verdict, the machine, its curves, the report."""
+        """HTML for a notebook: description and verdict, the machine, its curves, the report."""
         from contextlib import suppress
 
         from geneva_cli.output.notebook import shown
         from geneva_cli.verdict.headline import headline
 
         drawing = None
-        with suppress(GenevaError):  # very many slots are not drawn
+        with suppress(GenevaError):  # wheels with very many slots are not drawn
             drawing = self.drawing("assembly")
         _, verdict = headline(self.checks, self.warnings)
         return shown(self.report.table, verdict, drawing, self.figure())
 
     @answer
     def checks(self) -> list[Check]:
-        """Every check: its value, its limit, and where it fails the nearest change that passes.
+        """Every check: its value, its limit and, if it fails, the nearest change that passes.
 
         >>> first = Design(External(6)).checks[0]
         >>> first.name, first.value, first.must_be, first.limit, first.passes
@@ -720,12 +723,12 @@ class Design:
         """
         from geneva_cli.verdict.advice import judged
 
-        # what has no parts is judged without NumPy
+        # a machine without parts is judged without NumPy
         return judged(self.mechanism, self.proof if self.spec.has_parts else None)
 
     @property
     def passes(self) -> bool:
-        """Whether no check fails; what cannot be proved does not fail.
+        """True if no check fails; a check without a proof does not fail.
 
         >>> Design(External(6), limits=Limits(velocity_max=0.8)).passes
         False
@@ -734,8 +737,8 @@ class Design:
 
         return all_pass(self.checks)
 
-    def judge(self, proof: Proof) -> tuple[str, list[str]]:
-        """Why drawn parts cannot be written, empty where they can, and what else is wrong.
+    def judge(self, model: PartsModel) -> tuple[str, list[str]]:
+        """The reason why drawn parts cannot be written, empty if they can; and other problems.
 
         >>> wheel = Design(External(6))
         >>> wheel.judge(wheel.drawn(0.01))
@@ -744,13 +747,13 @@ class Design:
         from geneva_cli.verdict.advice import judged
         from geneva_cli.verdict.failures import failures
 
-        return self._located(lambda: failures(judged(proof.mechanism, proof), proof))
+        return self._located(lambda: failures(judged(model.mechanism, model), model))
 
     @question
     def tolerance(
         self, samples: int = 65536, seed: int = 0, radius_mm: float | None = None
     ) -> Table:
-        """What the deviations of ``[tolerance]`` do, as ``geneva tolerance`` prints it: a record.
+        """The effects of the deviations in ``[tolerance]``, the record of ``geneva tolerance``.
 
         >>> from geneva_cli import Design, External, Tolerance
         >>> indexed = Design(External(6), tolerance=Tolerance(slot_angle_deg=0.02))
@@ -765,7 +768,7 @@ class Design:
 
     @question
     def tolerance_histogram(self, samples: int = 65536, seed: int = 0) -> Table:
-        """How the machines of ``tolerance`` spread: the middles of bins, and the share in each.
+        """Histogram of the machines of ``tolerance``: middles of bins, and fractions in each.
 
         >>> from geneva_cli import Design, External, Tolerance
         >>> indexed = Design(External(6), tolerance=Tolerance(slot_angle_deg=0.02))
@@ -778,20 +781,20 @@ class Design:
         return self._located(lambda: histogram_table(self.mechanism, self.proof, samples, seed))
 
     @answer
-    def motion_warnings(self) -> list[Caution]:
+    def motion_warnings(self) -> list[Notice]:
         """Warnings about the motion and the slots, which need neither loads nor parts.
 
         >>> shock = Design(External(6), motion=Motion(Harmonic(), ratio="matched"))
         >>> shock.motion_warnings[0]
         'the law "harmonic" starts and stops with a jump in acceleration: a soft shock at both ends'
         """
-        from geneva_cli.verdict.cautions import cautions
+        from geneva_cli.verdict.motion_warnings import motion_warnings
 
-        return cautions(self.mechanism)
+        return motion_warnings(self.mechanism)
 
     @answer
-    def warnings(self) -> list[Caution]:
-        """All warnings about motion, loads and parts: those of check, report and loads.
+    def warnings(self) -> list[Notice]:
+        """All warnings about motion, loads and parts, as in check, report and loads.
 
         >>> [text.name for text in Design(External(30)).warnings]
         ['many-slots']

@@ -1,4 +1,4 @@
-"""The document: what is handed over of a design, as blocks that any format of pages can set."""
+"""The document: a design's results as blocks that any page format can set."""
 
 from __future__ import annotations
 
@@ -11,23 +11,23 @@ if TYPE_CHECKING:
 
 Value: TypeAlias = float | int | str | bool | None
 Row: TypeAlias = tuple[Value, ...]
-BAD = "FAILS"  # a cell that is to be seen
-PASSES, WARNS, FAILS = "passes", "warns", "fails"  # how a design stands
+BAD = "FAILS"  # a cell that must be noticed
+PASSES, WARNS, FAILS = "passes", "warns", "fails"  # the state of a design
 
 
 class Line(NamedTuple):
-    """One answer about a design: what it is about, the answer, and how it follows."""
+    """One answer about a design: its label, the answer, and its reason."""
 
     label: str
     text: str
     note: str = ""
-    state: str = ""  # WARNS or FAILS where it is a warning or a failed check
+    state: str = ""  # WARNS or FAILS for a warning or a failed check
 
 
 class Summary(NamedTuple):
-    """What a designer tells a colleague about one design: a headline, and a line an answer.
+    """A short summary of one design: a headline, and one line for each answer.
 
-    ``state`` is PASSES, WARNS or FAILS; empty where nothing is judged.
+    ``state`` is PASSES, WARNS or FAILS; empty if nothing is judged.
     """
 
     head: str
@@ -36,7 +36,7 @@ class Summary(NamedTuple):
 
 
 class Answer(NamedTuple):
-    """What a command answers: summaries above a table for people, and the data for programs."""
+    """The answer of a command: summaries above a table for people, and the data for programs."""
 
     summaries: tuple[Summary, ...]
     page: Table | None
@@ -44,7 +44,7 @@ class Answer(NamedTuple):
 
 
 class Heading(NamedTuple):
-    """What the blocks up to the next one are about."""
+    """The subject of the blocks up to the next heading."""
 
     text: str
 
@@ -56,13 +56,13 @@ class Prose(NamedTuple):
 
 
 class Listed(NamedTuple):
-    """Texts, one below the other."""
+    """A list of texts."""
 
     texts: tuple[str, ...]
 
 
 class Fact(NamedTuple):
-    """A named value; several of a kind are a tuple."""
+    """A named value, or a tuple of several."""
 
     name: str
     value: Value | Row
@@ -77,7 +77,7 @@ class Facts(NamedTuple):
 
 
 class Grid(NamedTuple):
-    """A table: its first column says what each row is."""
+    """A table whose first column names its rows."""
 
     caption: str
     heads: tuple[str, ...]
@@ -85,7 +85,7 @@ class Grid(NamedTuple):
 
 
 class Picture(NamedTuple):
-    """A drawing, to be looked at."""
+    """A drawing to view."""
 
     drawing: Drawing
 
@@ -100,7 +100,7 @@ Block: TypeAlias = Heading | Prose | Listed | Facts | Grid | Picture | Curves
 
 
 class Document(NamedTuple):
-    """A title, the verdict with its reasons, and then everything else.
+    """A title, the verdict with its reasons, and then the blocks.
 
     ``state`` is PASSES, WARNS or FAILS.
     """

@@ -1,4 +1,4 @@
-"""The one exception for what a user can put right."""
+"""The one exception for errors that a user can correct, and helpers for messages."""
 
 from __future__ import annotations
 
@@ -9,12 +9,12 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from contextvars import ContextVar
 
-DECIMAL_BITS = 10_000  # of the whole numbers that are shown as decimal ones
-SUGGESTED_MAX = 5  # words in a message: more are not read
+DECIMAL_BITS = 10_000  # of the whole numbers that are shown in decimal
+SUGGESTED_MAX = 5  # words in a message: nobody reads more
 
 
 class GenevaError(Exception):
-    """Wrong spec, wrong file or wrong value: shown as ``FILE:LINE: message``, exit code 2.
+    """A wrong spec, file or value: shown as ``FILE:LINE: message``, with exit code 2.
 
     ``key`` names the place in the spec, as in ``("drive", "A")``; the reader of the spec
     turns it into a file and a line; a number in it counts a list's tables from 0.
@@ -29,46 +29,46 @@ class GenevaError(Exception):
         self.key = key
 
 
-class Caution(str):
-    """What a designer must be told, under the name that ``geneva explain`` has it by.
+class Notice(str):
+    """A warning or a note about a design, with its name in ``geneva explain``.
 
-    >>> Caution("turns-back", "the wheel turns back").name
+    >>> Notice("turns-back", "the wheel turns back").name
     'turns-back'
     """
 
     name: str
 
-    def __new__(cls, name: str, text: str) -> Caution:
+    def __new__(cls, name: str, text: str) -> Notice:
         """The text, with its name."""
         made = super().__new__(cls, text)
         made.name = name
         return made
 
     def __getnewargs__(self) -> tuple[str, str]:  # type: ignore[override]
-        """What a copy in another process is made of."""
+        """The arguments for a copy in another process."""
         return self.name, str(self)
 
 
-NOT_KNOWN = "not-known"  # the name of a note on a value that needs a key, which is no warning
+NOT_KNOWN = "not-known"  # the name of a note on a value that needs a key, which is not a warning
 
 
 def is_warning(text: str) -> bool:
-    """Whether a text warns, and is not a note on what is not known.
+    """Return True for a warning, and False for a note on an unknown value.
 
-    >>> is_warning(Caution("turns-back", "")), is_warning(Caution("not-known", ""))
+    >>> is_warning(Notice("turns-back", "")), is_warning(Notice("not-known", ""))
     (True, False)
     """
-    return isinstance(text, Caution) and text.name != NOT_KNOWN
+    return isinstance(text, Notice) and text.name != NOT_KNOWN
 
 
-_MARKS: list[ContextVar[list[Any]]] = []  # one at most, and none before anyone marks
+_MARKS: list[ContextVar[list[Any]]] = []  # at most one, created at the first use of ``marking``
 
 
 def refuse(where: Any, error: Callable[[], GenevaError]) -> None:
-    """Raise an error where something cannot be; of an array of designs, mark those that cannot.
+    """Raise an error where a condition holds; for an array of designs, mark those where it does.
 
-    ``where`` is a truth value, or an array (n, 1) of them, one a design. The error is only made
-    when it is raised: an array has none to tell, but one of its designs built alone has.
+    ``where`` is a truth value, or an array (n, 1) with one for each design. The error is created
+    only when it is raised: an array does not report it, but a single design does.
     """
     if isinstance(where, bool):
         if where:
@@ -82,7 +82,7 @@ def refuse(where: Any, error: Callable[[], GenevaError]) -> None:
 
 @contextmanager
 def marking() -> Iterator[list[Any]]:
-    """Where ``refuse`` marks designs of an array: the list of what it was told meanwhile."""
+    """Collect the masks of designs that ``refuse`` marks within the block."""
     from contextvars import ContextVar  # not at the start of every run
 
     if not _MARKS:
@@ -101,9 +101,9 @@ def clean(text: str) -> str:
 
 
 def cut(value: str | int, most: int = 60) -> str:
-    """A value as a message quotes it, in ``most`` characters: of a long one beginning and end.
+    """A value as a message quotes it, in ``most`` characters: beginning and end if longer.
 
-    Whole numbers of more than some thousand digits are hexadecimal, as Python writes no other.
+    Whole numbers of more than some thousand digits are hexadecimal, as Python writes no others.
     """
     if isinstance(value, int) and value.bit_length() > DECIMAL_BITS:
         value = hex(value)
@@ -115,9 +115,9 @@ def cut(value: str | int, most: int = 60) -> str:
 
 
 def nearest(word: str, known: Iterable[str]) -> str:
-    """`` (did you mean "..."?)`` for the known word that is most like it, or nothing.
+    """A question `` (did you mean "..."?)`` with the known word most like ``word``, or nothing.
 
-    Capitals make no difference; of three letters or more also a beginning or a part will do.
+    Capitals make no difference; from three letters on, a beginning or a part is enough.
     """
     import difflib
 
@@ -130,7 +130,7 @@ def nearest(word: str, known: Iterable[str]) -> str:
 
 
 def few(word: Any, known: Iterable[str]) -> str:
-    """The known words, for a message: of more than five those that are most like ``word``.
+    """The known words, for a message: at most the five most like ``word``.
 
     >>> few("cirle", ["arc", "line", "circle", "spline", "point", "ellipse", "text"])
     'circle, line, spline, arc, text and 2 more'

@@ -1,4 +1,4 @@
-"""The figure: what every command that draws curves hands to the output."""
+"""The figure: curves that a command hands to the output."""
 
 from __future__ import annotations
 
@@ -9,11 +9,12 @@ from geneva_cli.table import Table, rows_table
 
 Piece: TypeAlias = tuple[Sequence[float], Sequence[float]]  # x ascending, and y
 
-LINE, POINTS, JOINED = "line", "points", "joined"  # joined: points with a line from one to the next
+# joined: points with a line from each to the next
+LINE, POINTS, JOINED = "line", "points", "joined"
 
 
 class Axis(NamedTuple):
-    """A quantity as it is called in a spec's answers, in words, and its unit ("": none)."""
+    """A quantity with its name, its label in words, and its unit ("": none)."""
 
     name: str
     label: str
@@ -21,7 +22,7 @@ class Axis(NamedTuple):
 
 
 class Mark(NamedTuple):
-    """A place on a curve with its exact value; ``y`` is None where nothing bounds the curve."""
+    """A place on a curve with its exact value; ``y`` is None where the curve is unbounded."""
 
     word: str  # "max", "min" or, of either sign, "peak"
     x: float
@@ -29,11 +30,11 @@ class Mark(NamedTuple):
 
 
 class Curve(NamedTuple):
-    """One curve of a panel: ``number`` and ``name`` are its design's, alike in all panels.
+    """One curve of a panel; ``number`` and ``name`` are its design's, equal in all panels.
 
-    Within a piece the curve is smooth, and the chords between its points stand for it. Where a
-    piece begins at the x at which the one before it ended, the curve jumps between their values;
-    a piece may be a single point.
+    Within a piece the curve is smooth, and the chords between its points approximate it. If a piece
+    begins at the x at which the one before it ended, the curve jumps there. A piece may be a single
+    point.
     """
 
     number: int
@@ -43,22 +44,22 @@ class Curve(NamedTuple):
     style: str = LINE
 
     def jumps(self) -> Iterator[tuple[float, float, float]]:
-        """Where the curve jumps: x, the value before and the value after."""
+        """The jumps of the curve: x, the value before and the value after."""
         for (x, y), (next_x, next_y) in zip(self.pieces, self.pieces[1:], strict=False):
             if x[-1] == next_x[0] and y[-1] != next_y[0]:
                 yield x[-1], y[-1], next_y[0]
 
 
 class Panel(NamedTuple):
-    """Curves of one quantity. ``bounds`` are what is shown of curves that nothing bounds."""
+    """Curves of one quantity. ``bounds`` is the visible range of unbounded curves."""
 
     y: Axis
     curves: tuple[Curve, ...]
     bounds: tuple[float, float] | None = None
-    from_zero: bool = True  # whether 0 is shown in any case
+    from_zero: bool = True  # whether 0 is always shown
 
     def span(self) -> tuple[float, float]:
-        """The least and the greatest value that are to be shown."""
+        """The least and the greatest value to show."""
         if self.bounds:
             return self.bounds
         values = [v for curve in self.curves for _, y in curve.pieces for v in y]
@@ -68,7 +69,7 @@ class Panel(NamedTuple):
 
 
 class Figure(NamedTuple):
-    """Panels, one below the other, over one x axis; ``shaded`` are stretches of it at rest."""
+    """Panels, stacked over one x axis; ``shaded`` are its stretches at rest."""
 
     title: str
     x: Axis
@@ -77,7 +78,7 @@ class Figure(NamedTuple):
     shaded: tuple[tuple[float, float], ...] = ()
 
     def curves(self) -> dict[int, Curve]:
-        """A curve of each number, in the order of the numbers."""
+        """One curve of each number, in the order of the numbers."""
         found = {c.number: c for panel in reversed(self.panels) for c in panel.curves}
         return dict(sorted(found.items()))
 

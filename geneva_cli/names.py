@@ -1,8 +1,8 @@
-"""Names of keys, columns and quantities: the unit at their end, and how a person reads them."""
+"""Names of keys, columns and quantities: the unit at their end, and their words for people."""
 
 from __future__ import annotations
 
-# What the ending of a name says of its unit; an ending stands before a shorter one of its own end.
+# Units by the ending of a name; a longer ending stands before a shorter one with the same end.
 UNITS = {
     "_kgm2": "kg m²",
     "_kgm3": "kg/m³",
@@ -32,9 +32,9 @@ UNITS = {
     "_h": "h",
     "_s": "s",
 }
-# Units that a person at a terminal reads in fewer letters.
+# Shorter forms of units, for people at a terminal.
 SHORT_UNITS = {"1/min": "rpm", "arc seconds": "arcsec"}
-# Names that do not speak for themselves, with or without their units.
+# Words for names that are not clear by themselves, with or without their units.
 WORDS = {
     "z": "slots",
     "velocity_max": "peak velocity",
@@ -53,21 +53,21 @@ WORDS = {
     "p997": "99.7 % of machines",
     "rss": "root of squares",
 }
-SYMBOL = "C_v"  # a name of no more letters is a symbol with its index
+SYMBOL = "C_v"  # a name with no more letters is a symbol with its index
 
 
 def unit_of(name: str) -> str | None:
-    """The unit that the ending of a key's or a quantity's name says; None where it says none.
+    """The unit in the ending of a key's or a quantity's name; None without one.
 
     >>> unit_of("loads.omega_rad_s"), unit_of("tau")
     ('rad/s', None)
     """
-    last = "_" + name.rpartition(".")[2]  # a column may be its unit alone, as rpm
+    last = "_" + name.rpartition(".")[2]  # a column may be its unit alone, such as rpm
     return next((unit for end, unit in UNITS.items() if last.endswith(end)), None)
 
 
 def spoken(name: str) -> tuple[str, str]:
-    """A name as words and a unit, for people; no unit is an empty text.
+    """A name as words and a unit, for people; an empty text without a unit.
 
     >>> spoken("wheel_bore_mm"), spoken("loads.pin_force_N.max")
     (('wheel bore', 'mm'), ('loads pin force max', 'N'))

@@ -1,6 +1,6 @@
-"""The progress of long work: the work reports it here, and the command line shows it.
+"""Progress of long work, reported here by the work and shown by the command line.
 
-Nothing is shown unless somebody wants to: ``show_with`` is called by the command line alone.
+Nothing is shown by default: only the command line calls ``show_with``.
 """
 
 from __future__ import annotations
@@ -15,16 +15,16 @@ class Bar(Protocol):
     """A display of the progress of one piece of work."""
 
     def update(self, done: int) -> None:
-        """Show that so many are done."""
+        """Show that ``done`` items are done."""
 
     def close(self) -> None:
-        """Take the bar away."""
+        """Remove the bar."""
 
 
-# Makes a bar for items, given the word for them and their number; None where nobody looks.
+# Makes a bar from the word for the items and their number; None if nobody watches.
 BarMaker: TypeAlias = Callable[[str, int], Bar | None]
-_maker: list[BarMaker] = []  # one at most
-_shown: list[Bar] = []  # one at most: work inside of other work is not shown
+_maker: list[BarMaker] = []  # at most one
+_shown: list[Bar] = []  # at most one: work within other work is not shown
 
 
 def show_with(maker: BarMaker | None) -> None:
@@ -33,7 +33,7 @@ def show_with(maker: BarMaker | None) -> None:
 
 
 def close() -> None:
-    """Take away the bar that is shown."""
+    """Remove the bar that is shown."""
     while _shown:
         _shown.pop().close()
 
@@ -41,7 +41,7 @@ def close() -> None:
 class Meter:
     """The progress of one piece of work over ``total`` items; ``what`` is the word for them.
 
-    Inside of other work that is shown it shows nothing.
+    Within other work that is shown it shows nothing.
     """
 
     def __init__(self, what: str, total: int) -> None:
@@ -51,14 +51,14 @@ class Meter:
             _shown.append(self.bar)
 
     def report(self, done: int) -> None:
-        """Report that so many are done; the last ends the bar."""
+        """Report that ``done`` items are done; the last one ends the bar."""
         if self.bar:
             self.bar.update(done)
             if done >= self.total:
                 self.close()
 
     def close(self) -> None:
-        """Take its bar away."""
+        """Remove its bar."""
         if self.bar:
             close()
             self.bar = None

@@ -1,7 +1,7 @@
-"""The scene: drawings that move with the input angle, handed to the output as a page.
+"""The scene: drawings that move with the input angle, for a page or a picture.
 
-Millimetres and radians, y up, the wheel's axis the origin; the input's angle in degrees from the
-scene's start.
+Millimetres and radians, y up, with the wheel's axis as origin. The input's angle is in degrees from
+the scene's start.
 """
 
 from __future__ import annotations
@@ -16,9 +16,9 @@ if TYPE_CHECKING:
 
 
 class Track(NamedTuple):
-    """A value that moves: between two knots the cubic with these values and slopes, per degree.
+    """A value that moves: cubics between knots with these values and slopes, per degree.
 
-    A single knot is a value that stands still. A turn of the scene adds ``gain``.
+    A single knot is a constant value. A turn of the scene adds ``gain``.
     """
 
     at: tuple[float, ...]
@@ -28,7 +28,7 @@ class Track(NamedTuple):
 
 
 def value_at(track: Track, t: float) -> float:
-    """A track's value at an input angle, as the page's script has it.
+    """A track's value at an input angle, as the page's script computes it.
 
     >>> from geneva_cli.scene import Track, value_at
     >>> value_at(Track((0.0, 2.0), (0.0, 8.0), (0.0, 12.0)), 1.0)  # t³
@@ -63,7 +63,7 @@ class Body(NamedTuple):
 
 
 class Carried(NamedTuple):
-    """Shapes that a link carries: their origin at a joint, x away from the first or ahead of it."""
+    """Shapes that a link carries: their origin is at a joint, their x away from the first joint."""
 
     joint: int
     shapes: tuple[Shape, ...]
@@ -73,7 +73,7 @@ class Bar(NamedTuple):
     """A link between joints, or with a radius a circle about its one joint.
 
     ``plates`` are the link itself, from its first joint towards the second, and the blocks that
-    slide in it; where there are none it is seen as a bar.
+    slide in it. Without plates it is shown as a bar.
     """
 
     name: str
@@ -83,12 +83,12 @@ class Bar(NamedTuple):
 
 
 def place_at(place: Place, t: float) -> tuple[float, float]:
-    """Where a place is at an input angle."""
+    """The position of a place at an input angle."""
     return value_at(place[0], t), value_at(place[1], t)
 
 
 def pose(bar: Bar, plate: Carried, t: float) -> tuple[float, float, float]:
-    """Where a link's plate or block is at an input angle, and its turn in radians.
+    """The position of a link's plate or block at an input angle, and its rotation in radians.
 
     >>> from geneva_cli.scene import Bar, Carried, Track, pose
     >>> one, two, four, six = (Track((0.0,), (x,), (0.0,)) for x in (1.0, 2.0, 4.0, 6.0))
@@ -100,7 +100,7 @@ def pose(bar: Bar, plate: Carried, t: float) -> tuple[float, float, float]:
 
 
 class Push(NamedTuple):
-    """Where a roller bears on the wheel, and its force on the wheel, N; chords between."""
+    """The contact point of a roller on the wheel, and its force, N; linear between samples."""
 
     at: tuple[float, ...]
     x: tuple[float, ...]
@@ -110,7 +110,7 @@ class Push(NamedTuple):
 
 
 class Phase(NamedTuple):
-    """What the wheel does over a stretch of the input, in words."""
+    """A stretch of the input in which the wheel moves or rests, described in words."""
 
     start: float
     end: float
@@ -119,12 +119,12 @@ class Phase(NamedTuple):
 
 
 class Scene(NamedTuple):
-    """A machine over the turn after which it stands as before, but for the wheel's steps."""
+    """A machine over the turn after which its position repeats, except for the wheel's steps."""
 
     title: str
     caption: str
     spec: str  # as text
-    start_deg: float  # the input's angle at the start, as it is shown
+    start_deg: float  # the input's angle at the start, as displayed
     turn_deg: float
     seconds: float  # of that turn
     bodies: tuple[Body, ...]  # the wheel first
@@ -134,4 +134,4 @@ class Scene(NamedTuple):
     pushes: tuple[Push, ...]
     states: tuple[Phase, ...]
     figure: Figure
-    box: Box  # of all that is ever seen
+    box: Box  # of all shapes during the turn

@@ -1,8 +1,8 @@
-"""The standard streams of a run, and what becomes of it where they cannot be written.
+"""The standard streams of a run, and its reaction if they cannot be written.
 
-Everybody writes to them: commands, Typer's help and error messages, the interpreter's last flush.
-So what a write may run into is settled in the streams themselves, whoever writes and whenever the
-buffer is emptied.
+Many writers use them: commands, Typer's help and error messages, the interpreter's last flush. So
+write errors are handled in the streams themselves, whoever writes and whenever the buffer is
+flushed.
 """
 
 from __future__ import annotations
@@ -16,7 +16,7 @@ from geneva_cli.errors import cut
 
 SIGPIPE = 13
 LINE_MAX = 4000  # characters of a line on standard error
-MOVES = {"\r", "\x1b"}  # what begins a movement of the cursor
+MOVES = {"\r", "\x1b"}  # characters that begin a movement of the cursor
 NARROWEST = 60  # characters of a line that is never broken
 
 
@@ -33,15 +33,16 @@ def open_streams() -> None:
     sys.stdout = io.TextIOWrapper(
         io.BufferedWriter(_Ending(1, "w", closefd=False)),
         encoding=_encoding(sys.stdout),
-        errors="backslashreplace",  # a title in a script that the terminal has not
+        errors="backslashreplace",  # for a title in a script that the terminal lacks
         line_buffering=os.isatty(1),
     )
 
 
 def _fill_closed() -> None:
-    """Open the null device for each stream that is closed, as a daemon's may be, and keep it open.
+    """Open the null device for each closed stream, such as a daemon's, and keep it open.
 
-    An open takes the lowest free descriptor. An output file that took 2 would get the messages.
+    An open takes the lowest free descriptor, so an output file with number 2 would get the
+    messages.
     """
     for number in (0, 1, 2):
         try:
@@ -55,16 +56,16 @@ def _encoding(stream: TextIO | None) -> str:
 
 
 def leave(status: int) -> NoReturn:
-    """End the process at once; taking the interpreter apart would cost a sixth of the run."""
+    """End the process at once; cleaning up the interpreter would take a sixth of the run."""
     sys.stdout.flush()
     sys.stderr.flush()
     os._exit(status)
 
 
 class _Ending(io.FileIO):
-    """Standard output: data that cannot be written ends the run.
+    """Standard output, for which a write error ends the run.
 
-    Where the reader has left, as SIGPIPE would end it; else with a message and status 2.
+    If the reader has left, the run ends as by SIGPIPE; otherwise with a message and status 2.
     """
 
     def write(self, data: Any, /) -> int:
@@ -78,7 +79,7 @@ class _Ending(io.FileIO):
 
 
 class _Letting(io.FileIO):
-    """Standard error: a message that nobody can read is let go, and changes no exit status."""
+    """Standard error, which ignores write errors and leaves the exit status unchanged."""
 
     def write(self, data: Any, /) -> int:
         try:
@@ -88,9 +89,9 @@ class _Letting(io.FileIO):
 
 
 class _Messages(io.TextIOWrapper):
-    """Text of bounded lines: a message that quotes a megabyte hides what it says.
+    """Text with a limited line length, since a quoted megabyte would hide the message.
 
-    On a terminal lines are broken between words; not those of a bar, which moves the cursor.
+    On a terminal lines are broken between words, except for those of a bar, which moves the cursor.
     """
 
     def write(self, text: str, /) -> int:

@@ -1,4 +1,4 @@
-"""The table: what every command that prints numbers hands to the output."""
+"""The table: numbers that a command hands to the output."""
 
 from __future__ import annotations
 
@@ -9,19 +9,19 @@ from typing import Any, NamedTuple
 
 from geneva_cli.errors import GenevaError, cut, few, nearest
 
-PIECE = 65536  # rows of a long table that are made at once; blocks divide it
-HTML_ROWS = 60  # that a notebook shows
-SHOWN_ROWS = 10  # that the interpreter shows
+PIECE = 65536  # rows of a long table that are computed at once; a multiple of a block
+HTML_ROWS = 60  # rows that a notebook shows
+SHOWN_ROWS = 10  # rows that the interpreter shows
 SHOWN_WIDTH = 100  # characters of these
-NO_BOUND = "no bound"  # an infinity, where a person reads it
+NO_BOUND = "no bound"  # an infinity, for people
 
 
 class Reading(NamedTuple):
-    """How a person at a terminal reads a table whose columns do not all fit.
+    """Hints for showing a table at a terminal if its columns do not all fit.
 
-    ``first`` are its columns from the most important one; others follow in their order. ``title``
-    stands above it, and says what is in the columns ``said``: where they are constant, it stands
-    for them. Of ``designs`` the names are those of designs, not of quantities.
+    ``first`` are its columns in order of importance; others follow in their order. ``title`` stands
+    above it, and replaces the columns ``said`` if they are constant. With ``designs`` the columns
+    are named for designs, not for quantities.
     """
 
     first: tuple[str, ...] = ()
@@ -33,11 +33,11 @@ class Reading(NamedTuple):
 class Table(NamedTuple):
     """Named columns (lists or arrays) of equal length; the names carry the units.
 
-    A ``record`` has one row, whose dotted names are a tree: json nests it, and people read it
-    line by line. A None is a value that does not exist (an empty field, ``null`` in json). In a
-    record a value may be a tuple of texts, or a table of its own. ``prose`` stands below the title.
-    The columns of a ``mixed`` table hold quantities of many kinds, so that no number in them is
-    small beside another; their names are headings, as drive.A=0.6, in which json sees no tree.
+    A ``record`` has one row, whose dotted names form a tree: nested in json, one line each for
+    people. None is a value that does not exist (an empty field, ``null`` in json). In a record a
+    value may also be a tuple of texts, or a table. ``prose`` stands below the title. The columns of
+    a ``mixed`` table hold quantities of many kinds, so no number in them is rounding compared with
+    another. Their names are headings, such as drive.A=0.6, which json does not nest.
     """
 
     names: tuple[str, ...]
@@ -49,9 +49,9 @@ class Table(NamedTuple):
     reading: Reading = Reading()
 
     def __getitem__(self, key: Any) -> Any:
-        """A column by its name, as a NumPy array that cannot be written to; of a record the value.
+        """A column by its name, as a read-only NumPy array; for a record, the value.
 
-        Raises GenevaError, with the nearest name, for one that it does not have.
+        Raises GenevaError, with the nearest name, for an unknown one.
 
         >>> Table(("z", "tau"), ([3, 4], [1 / 6, 0.25]))["z"]
         array([3, 4])
@@ -71,12 +71,12 @@ class Table(NamedTuple):
         return array
 
     def __repr__(self) -> str:
-        """The title and the first rows, numbers to six digits; of a record the first values."""
+        """The title and the first rows, numbers to six digits; for a record the first values."""
         lines, rest = self._first_values() if self.record else self._first_rows()
         return "\n".join([*([self.title] if self.title else []), *lines, *rest])
 
     def _first_values(self) -> tuple[list[str], list[str]]:
-        """Lines of a record's first values, and what is left out."""
+        """Lines of a record's first values, and a note on the others."""
         row = zip(self.names, next(self.rows()), strict=True)
         known = [(name, _briefly(value)) for name, value in row if value not in (None, "", ())]
         shown = known[:SHOWN_ROWS]
@@ -86,7 +86,7 @@ class Table(NamedTuple):
         return lines, [f"... {more} more values"] if more else []
 
     def _first_rows(self) -> tuple[list[str], list[str]]:
-        """Lines of the first rows, as many columns as fit, and what is left out."""
+        """Lines of the first rows, as many columns as fit, and a note on the others."""
         rows = [tuple(map(_briefly, row)) for row in islice(self.rows(), SHOWN_ROWS)]
         columns = list(zip(self.names, *rows, strict=True))
         widths = [max(map(len, column)) + 2 for column in columns]
@@ -102,9 +102,9 @@ class Table(NamedTuple):
         return lines, [f"... {more}"] if more else []
 
     def to_pandas(self) -> Any:
-        """A pandas DataFrame of the rows; of a record one row, nested names joined by dots.
+        """A pandas DataFrame of the rows; a record is one row, with nested names joined by dots.
 
-        Raises GenevaError where pandas is not installed.
+        Raises GenevaError if pandas is not installed.
         """
         try:
             import pandas
@@ -118,19 +118,19 @@ class Table(NamedTuple):
         return len(self.columns[0]) if self.columns else 0
 
     def blocks(self, size: int = 8192) -> Iterator[list[tuple[Any, ...]]]:
-        """Rows as plain Python values, a block at a time, so that memory stays flat."""
+        """Rows as plain Python values, in blocks, so that memory stays flat."""
         for start in range(0, len(self), size):
             part = [c[start : start + size] for c in self.columns]
             lists = [p if isinstance(p, (list, tuple)) else p.tolist() for p in part]
             yield list(zip(*lists, strict=True))
 
     def rows(self) -> Iterator[tuple[Any, ...]]:
-        """Rows one by one."""
+        """The rows, one by one."""
         for block in self.blocks():
             yield from block
 
     def replaced(self, **fields: Any) -> Table:
-        """The table with some of its fields replaced; _replace counts fields by the rows."""
+        """The table with some fields replaced; _replace would check their number against len()."""
         own: dict[str, Any] = dict(zip(self._fields, self, strict=True))
         return Table(**own | fields)
 
@@ -147,11 +147,11 @@ class Table(NamedTuple):
         return dict(zip(self.names, columns, strict=True))
 
     def to_rows(self) -> list[dict[str, Any]]:
-        """A list of rows, each by name; what a data frame is made of."""
+        """A list of rows by name, as data frames take it."""
         return [dict(zip(self.names, row, strict=True)) for row in self.rows()]
 
     def _repr_html_(self) -> str:
-        """How a notebook shows it: the first rows, and how many there are."""
+        """HTML for a notebook: the first rows, and their number."""
         from html import escape  # nothing else needs it, and it takes 5 ms
 
         names, rows = self.names, list(islice(self.rows(), HTML_ROWS))
@@ -184,7 +184,7 @@ def _shown(value: object) -> str:
 
 
 def in_digits(value: float, digits: int) -> str:
-    """A number in so many significant digits, without a sign at zero; an infinity in words.
+    """A number in significant digits, zero without a sign, infinity in words.
 
     >>> in_digits(-0.0, 6), in_digits(float("inf"), 6)
     ('0', 'no bound')
@@ -194,7 +194,7 @@ def in_digits(value: float, digits: int) -> str:
 
 
 def _whole(column: Any) -> Any:
-    """A column as one array, those made piece by piece too."""
+    """A column as one array, including one that is computed in pieces."""
     import numpy as np
 
     if not isinstance(column, Column):
@@ -204,15 +204,15 @@ def _whole(column: Any) -> Any:
 
 
 class _Pieces:
-    """Rows of a table too long to be held; the piece that was made last is kept."""
+    """Rows of a table too long for memory; the last computed piece is kept."""
 
     def __init__(self, length: int, make: Callable[[int, int], Sequence[Any]]) -> None:
         self.length, self.make = length, make
-        # its start and its columns, replaced together: another thread may ask for another piece
+        # its start and its columns, replaced together: another thread may request another piece
         self.last: tuple[int, Sequence[Any]] = (-1, ())
 
     def at(self, start: int) -> Sequence[Any]:
-        """The columns of the piece that begins there; arrays are read-only, since they are kept."""
+        """The columns of the piece that begins at ``start``, read-only as they are kept."""
         known, columns = self.last
         if start != known:
             columns = self.make(start, min(start + PIECE, self.length))
@@ -224,7 +224,7 @@ class _Pieces:
 
 
 class Column:
-    """One column of such a table: it has a length, and gives slices within a piece."""
+    """One column of such a table, with a length and slices within a piece."""
 
     def __init__(self, pieces: _Pieces, number: int, dtype: str = "float64") -> None:
         self.pieces, self.number, self.dtype = pieces, number, dtype
@@ -240,17 +240,17 @@ class Column:
 def pieces(
     length: int, count: int, make: Callable[[int, int], Sequence[Any]], dtype: str = "float64"
 ) -> list[Column]:
-    """``count`` columns of numbers of which ``make(start, stop)`` gives the rows, as arrays.
+    """``count`` columns of numbers, whose rows ``make(start, stop)`` gives as arrays.
 
-    ``dtype`` is "object" where some may be lists with None among the numbers. A table of them
-    takes the memory of one piece, however many rows are written.
+    ``dtype`` is "object" for columns that may be lists with None. The table takes the memory of one
+    piece, however many rows are written.
     """
     made = _Pieces(length, make)
     return [Column(made, number, dtype) for number in range(count)]
 
 
 def is_floats(column: Any) -> bool:
-    """Whether a column is an array of doubles."""
+    """Return True if a column is an array of doubles."""
     return not isinstance(column, (list, tuple)) and column.dtype == "float64"
 
 
@@ -263,14 +263,14 @@ def rows_table(
 
 
 def record_table(values: dict[str, Any], title: str = "", prose: str = "") -> Table:
-    """A table of one row, to be read line by line."""
+    """A table of one row, shown line by line."""
     return Table(tuple(values), [(v,) for v in values.values()], True, title, prose)
 
 
 def flat(table: Table) -> Table:
-    """A record with one text or number a name: ``name.1``, ``name.2`` for texts and tables in it.
+    """A record with one text or number for each name; ``name.1``, ``name.2`` for lists and tables.
 
-    For formats that cannot nest. No texts at all are the word none.
+    For formats without nesting. An empty list is the word none.
     """
     values: dict[str, Any] = {}
     for name, value in zip(table.names, next(table.rows()), strict=True):

@@ -12,13 +12,13 @@ from words import Drive, Keys, Motion, Spec, Wheel
 
 from geneva_cli import load, study
 from geneva_cli.machine.mechanism import build
+from geneva_cli.parts import model
 from geneva_cli.parts import outlines as outline
-from geneva_cli.parts import proof
 from geneva_cli.parts.turn import full_turn
 from geneva_cli.parts.walls import chain as walls_chain
 from geneva_cli.parts.walls import curved as curved_walls
 from geneva_cli.study.synthesis.families import four_bar_search
-from geneva_cli.verdict import advice, cautions
+from geneva_cli.verdict import advice, motion_warnings
 
 SHARING = {"made_once", "read_once"}  # fixtures of what costs seconds
 
@@ -98,22 +98,22 @@ def of_slot(assembly, sizes, engagement):
 OUTLINES = kept(outline.outlines, of_mechanism)
 TURNED = kept(full_turn.full_turn, of_outlines)
 CHAIN = kept(walls_chain.chain, of_slot)
-CAUTIONS = kept(cautions.cautions, of_mechanism)
+MOTION_WARNINGS = kept(motion_warnings.motion_warnings, of_mechanism)
 
 
 @pytest.fixture(scope="module")
 def made_once():
-    """What costs seconds, walls, outlines, turn and cautions of a design: made once for such files.
+    """Walls, outlines, turn and warnings of a design, which take seconds, made once for a file.
 
     The same spec has the same ones. Not for tests of how they are made, or of how long it takes.
     """
     with pytest.MonkeyPatch.context() as patch:
-        for module in (outline, proof):
+        for module in (outline, model):
             patch.setattr(module, "outlines", OUTLINES)
-        for module in (full_turn, proof):
+        for module in (full_turn, model):
             patch.setattr(module, "full_turn", TURNED)
         patch.setattr(curved_walls, "chain", CHAIN)
-        patch.setattr(cautions, "cautions", CAUTIONS)
+        patch.setattr(motion_warnings, "motion_warnings", MOTION_WARNINGS)
         yield
 
 

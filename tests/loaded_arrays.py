@@ -5,10 +5,10 @@ from design_arrays import MACHINES, drawn
 
 from geneva_cli.analysis.loads.contact import NEAR, contact
 from geneva_cli.analysis.loads.forces import setting
-from geneva_cli.analysis.loads.loaded_many import Loaded, look
-from geneva_cli.analysis.loads.loaded_many import machine as of
-from geneva_cli.analysis.loads.many import SummaryOfMany, summaries_of_many
+from geneva_cli.analysis.loads.loaded import Loaded, look
+from geneva_cli.analysis.loads.loaded import machine as of
 from geneva_cli.analysis.loads.quantities import QUANTITIES, SQUARED
+from geneva_cli.analysis.loads.summaries import LoadSummary, load_summaries
 from geneva_cli.analysis.loads.summary import plain
 from geneva_cli.machine.many import many, taken
 from geneva_cli.spec.tables import Load
@@ -134,7 +134,7 @@ def beyond(found, places, seed, names=NAMES):
     """
     random = np.random.default_rng(seed)
     machine, n = found.machine, len(found.which)
-    together = summaries_of_many(machine, names, told=())
+    together = load_summaries(machine, names, told=())
     out = np.full((n, len(names)), -np.inf)
     for engagement in machine.engagements:
         for i in range(0, n, BLOCK):
@@ -150,7 +150,7 @@ def beyond(found, places, seed, names=NAMES):
                     load.kinds, given, contact(here, x, reactions=load.reactions), None
                 ).instant
             for k, name in enumerate(names):
-                one = SummaryOfMany(*[v if v is None else v[part] for v in together[name]])
+                one = LoadSummary(*[v if v is None else v[part] for v in together[name]])
                 out[part, k] = np.maximum(out[part, k], _passed(found_, name, one, x.shape))
     return out
 

@@ -13,7 +13,7 @@ from geneva_cli.machine.many import TABLES, changed, many, may_vary
 from geneva_cli.machine.mechanism import build
 from geneva_cli.machine.motion import Motion
 from geneva_cli.machine.spec import attribute
-from geneva_cli.parts.proof import Proof
+from geneva_cli.parts.model import PartsModel
 from geneva_cli.spec.schema import fields
 from geneva_cli.spec.tables import (
     Load,
@@ -62,7 +62,7 @@ UNITS = 16 * np.finfo(float).eps
 ROOTS, FOURFOLD = ("strength.horn",), 4
 UNBOUNDED = 1000.0  # N: a force without a peak; the load's torque gives it at a lever of 5 mm
 MANY = 100  # quantities of any loaded machine that a sweep has of arrays, at least
-SUMS = 1e-12  # what is promised of sums, and of what follows from them (summaries_of_many)
+SUMS = 1e-12  # what is promised of sums, and of what follows from them (load_summaries)
 PLACE = 1e-6  # degrees: a peak is flat
 # these draw whole studies, judge parts, or list them, none of which a sweep has of arrays
 SLOW = ("tolerance", "checks", "parts", "parts_list")
@@ -121,7 +121,7 @@ def quantities(mechanism):
     every = summaries(cycle_of(mechanism)).items() if mechanism.spec.is_loaded else ()
     bounded = {load: one for load, one in every if None not in (one.max, one.min)}
     peaks = {f"loads.{load}.max": max(one.max, -one.min) for load, one in bounded.items()}
-    return peaks | values(Proof(mechanism), SHOWN)
+    return peaks | values(PartsModel(mechanism), SHOWN)
 
 
 def off(spec, varied):

@@ -189,7 +189,7 @@ CORE = {"numerics", "machine", "curves", "analysis", "parts"}
 # table, a key's value of any type, a class that is found by its name.
 ANY = {
     # jets and values alike; what the searches of numerics hand back to whom they ask, unread
-    "analysis.loads.loaded_many": {"self.kept"},
+    "analysis.loads.loaded": {"self.kept"},
     "numerics.pieces": {"at", "column", "rows", "look", "_turn"},
     "analysis.loads.summary": {"rows", "_rows", "_cells"},
     "analysis.vibration.answers": {"values"},
@@ -224,7 +224,7 @@ MANY_PARAMETERS = {
     "design": {"__init__", "drawing"},
     "study.sweep.request": {"request"},
     "study.synthesis.reading": {"read_wish"},
-    "numerics.quadrature_many": {"integrals_many", "_parts"},  # the batch's integrals, to be cut
+    "numerics.adaptive_quadrature": {"span_integrals", "_parts"},  # to be cut
 }
 
 

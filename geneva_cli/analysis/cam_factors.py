@@ -1,4 +1,4 @@
-"""The factors Am, Vm and Qm of a motion, for a maker's form that needs a cam curve."""
+"""The factors Am, Vm and Qm of a motion, for a maker's form that expects a cam curve."""
 
 from __future__ import annotations
 
@@ -10,8 +10,8 @@ from geneva_cli.numerics.angles import radians
 class CamFactors(NamedTuple):
     """Peaks of a motion that is scaled to a step of 1 in a time of 1.
 
-    Am of acceleration, Vm of velocity, and Qm, by which Am times the greatest inertia torque makes
-    the greatest torque on the input: that of velocity times acceleration, over Am.
+    Am is that of acceleration, Vm of velocity. Qm is that of velocity times acceleration, over Am:
+    the greatest inertia torque times Qm gives the greatest torque on the input.
     """
 
     Am: float

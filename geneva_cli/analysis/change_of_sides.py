@@ -15,22 +15,22 @@ from typing import TYPE_CHECKING, NamedTuple, cast
 import numpy as np
 
 from geneva_cli.analysis.loads.carried import inertia_kgm2, resisting_torque_Nm
-from geneva_cli.analysis.peaks_many import landmarks
+from geneva_cli.analysis.peak_search import landmarks
 from geneva_cli.machine.engagement import Engagement, Motion
 from geneva_cli.machine.many import designs_in, taken
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.numerics.angles import DEGREE, omega
 from geneva_cli.numerics.arrays import choose, larger
-from geneva_cli.numerics.roots_many import roots_many
+from geneva_cli.numerics.newton import find_roots
 from geneva_cli.numerics.tolerances import ROUNDED
 
 if TYPE_CHECKING:
     from geneva_cli.numerics.arrays import Whole
     from geneva_cli.numerics.jet import Array
 
-ROUNDING_DEG = 1e-12  # nearer to mid-motion a change of sign is there
-BLOCK = 256  # changes whose integrals are worked out together: they stay in the cache
-CLOSE = 1e-9  # of a bracket: what a Newton step so short leaves is rounding
+ROUNDING_DEG = 1e-12  # nearer to mid-motion, a change of sign is at mid-motion
+BLOCK = 256  # changes whose integrals are computed together, which fit in the cache
+CLOSE = 1e-9  # of a bracket: after a Newton step this short, the rest is rounding
 NODES, WEIGHTS = np.polynomial.legendre.leggauss(24)  # exact to a double over half a motion
 
 
@@ -75,7 +75,7 @@ def changes(engagement: Engagement, drag: Array) -> Changes:
         _, _, a, j = taken(motion, of[live])(place[:, None], 3).arrays()
         return (a + drag[of[live]])[:, 0], (j * DEGREE + 0.0 * place[:, None])[:, 0]
 
-    roots = roots_many(over, x[before], x[before + 1], CLOSE)
+    roots = find_roots(over, x[before], x[before + 1], CLOSE)
     return Changes(of, np.where(abs(roots) < ROUNDING_DEG, 0.0, roots))
 
 
@@ -120,7 +120,7 @@ def _impacts(engagement: Engagement, at: Changes, play: Array, drag: Array) -> W
 
         x, speed = np.full((2, len(span)), np.nan)
         if len(there):
-            x[there] = roots_many(over, np.zeros(len(there)), span[there])
+            x[there] = find_roots(over, np.zeros(len(there)), span[there])
             speed[there] = abs(gained(x[there], there)[1])
     return WallImpacts(at.x, at.x + x / DEGREE, speed)
 

@@ -1,7 +1,7 @@
 """The curves of one or more machines over a cycle: motion and loads by the input angle.
 
-Every piece in which a curve is smooth is sampled by itself, both ends from inside, so that a jump
-has both its values; peaks are those of the analysis, never the highest of the points.
+Each smooth piece of a curve is sampled separately, with both ends from inside, so that a jump has
+both its values. Peaks are those of the analysis, never the highest of the samples.
 """
 
 from __future__ import annotations
@@ -19,12 +19,12 @@ from geneva_cli.analysis.loads.cycle import Cycle, Extremes
 from geneva_cli.analysis.loads.quantities import known_quantities, shares
 from geneva_cli.analysis.motion import first_entry_deg
 from geneva_cli.analysis.stages import MOTION, WHEEL, Stage, load_stages, motion_stages, pieces
-from geneva_cli.errors import Caution, GenevaError, cut, few, nearest
+from geneva_cli.errors import GenevaError, Notice, cut, few, nearest
 from geneva_cli.figure import Axis, Curve, Figure, Mark, Panel, Piece
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.numerics.tolerances import ROUNDED, SAME_INPUT_DEG
 
-MOST = 6  # machines in one figure that the eye still tells apart
+MOST = 6  # machines in one figure that the eye can tell apart
 INPUT = Axis("input_deg", "Input angle", "deg")
 AXES = (
     Axis(WHEEL, "Wheel angle", "deg"),
@@ -51,14 +51,14 @@ AXES = (
 )
 OF_NAME = {axis.name: axis for axis in AXES}
 USUAL = (WHEEL, "velocity", "acceleration", "jerk", "pin_force_N", "input_torque_Nm", "power_W")
-SHOWN = 3.0  # times its typical size is shown of a load that nothing bounds
+SHOWN = 3.0  # times its typical size, the visible range of an unbounded load
 
 
 LeftOut: TypeAlias = tuple[str, str]  # a machine's name, and a sentence on what it lacks
 
 
 class MachineCurves(NamedTuple):
-    """Some quantities of a machine over the window: for each its pieces, marks and bounds."""
+    """Some quantities of a machine over the window: the pieces, marks and bounds of each."""
 
     pieces: dict[str, list[Piece]]
     marks: dict[str, tuple[Mark, ...]]
@@ -66,10 +66,10 @@ class MachineCurves(NamedTuple):
 
 
 def figure(cycles: Mapping[str, Cycle], pick: Sequence[str] = ()) -> tuple[Figure, list[LeftOut]]:
-    """The figure of machines by their names, and what it lacks of which machine, and why.
+    """The figure of machines by their names, and the curves that it lacks, with reasons.
 
-    ``pick`` are names of quantities; without, those of ``USUAL`` that are known. Raises
-    GenevaError for a name that is none, and for a quantity asked for that no machine has.
+    ``pick`` are names of quantities; without it, those of ``USUAL`` that are known. Raises
+    GenevaError for an unknown name, and for a requested quantity that no machine has.
 
     >>> from geneva_cli import Design, External
     >>> found, left_out = figure({"six": Design(External(6)).cycle}, ["velocity"])
@@ -118,16 +118,16 @@ def _known(cycle: Cycle) -> set[str]:
 
 
 def _left_out(cycle: Cycle, names: Sequence[str]) -> Iterator[str]:
-    """Sentences on what a figure lacks of a machine, one a reason."""
+    """Sentences on the curves that a figure lacks for a machine, one for each reason."""
     reasons: dict[str, list[str]] = {}
     for name in names:
         reasons.setdefault(_why(cycle, name), []).append(name)
     for why, lacking in reasons.items():
-        yield Caution("not-known", f"no curve of {', '.join(lacking)}: {why}")
+        yield Notice("not-known", f"no curve of {', '.join(lacking)}: {why}")
 
 
 def _why(cycle: Cycle, name: str) -> str:
-    """Why a machine does not have a quantity."""
+    """The reason why a machine does not have a quantity."""
     said = summary.missing(cycle)
     if not cycle.is_loaded:
         return said[0]
@@ -144,7 +144,7 @@ def _panel(name: str, drawn: Mapping[str, MachineCurves]) -> Panel:
     for number, (design, found) in enumerate(drawn.items()):
         if name in found.pieces:
             marks = found.marks[name]
-            if len(drawn) > 1:  # one a design: the greater in size
+            if len(drawn) > 1:  # one mark for each design: the greater in size
                 marks = tuple(sorted(marks, key=_size, reverse=True)[:1])
             curves.append(Curve(number, design, tuple(found.pieces[name]), marks))
             bounds += found.bounds.get(name, ())
@@ -185,7 +185,7 @@ def _peak(
     stages: Sequence[Stage],
     window: tuple[float, float],
 ) -> tuple[Mark, ...]:
-    """The greatest size of a quantity of the motion, with its sign; the wheel's angle has none."""
+    """The greatest size of a quantity of the motion, with its sign; none for the wheel's angle."""
     if name == WHEEL:
         return ()
     found = peaks.worst_of(machine, name)
@@ -202,7 +202,7 @@ def _peak(
 
 
 def _ends(machine: Mechanism, ends: Extremes, window: tuple[float, float]) -> Iterator[Mark]:
-    """The greatest value of a load and, where it goes below 0, the least."""
+    """The greatest value of a load and, if it goes below 0, the least."""
     size = max(abs(ends.max), abs(ends.min))
     for word, value, at_deg, shown in (
         ("max", ends.max, ends.max_at_deg, ends.max > ROUNDED * size),
@@ -214,13 +214,13 @@ def _ends(machine: Mechanism, ends: Extremes, window: tuple[float, float]) -> It
 
 
 def _placed(machine: Mechanism, at_deg: float, window: tuple[float, float]) -> float:
-    """An input angle as it is shown, in the window: the first that it stands for."""
+    """An input angle as displayed, moved by whole turns to its first place in the window."""
     turn = 360.0 * machine.spec.drive.turns
     return at_deg + turn * math.ceil((window[0] - SAME_INPUT_DEG - at_deg) / turn)
 
 
 def _bounds(cycle: Cycle, ends: Mapping[str, Extremes]) -> dict[str, tuple[float, float]]:
-    """What is shown of each load that nothing bounds, by its size half-way between the cuts."""
+    """The visible range of each unbounded load, from its sizes half-way between cuts."""
     endless = [n for n, e in ends.items() if math.isinf(e.max) or math.isinf(e.min)]
     out = {}
     for name in endless:
@@ -236,7 +236,7 @@ def _bounds(cycle: Cycle, ends: Mapping[str, Extremes]) -> dict[str, tuple[float
 
 
 def _within(piece: Piece, bounds: tuple[float, float]) -> Iterator[Piece]:
-    """A piece that was cut back to bounds, without what runs along them."""
+    """A piece that was limited to bounds, without its parts along them."""
     x, y = piece
     begin = 0
     for i, (a, b) in enumerate(pairwise(y), 1):
@@ -251,7 +251,7 @@ def _within(piece: Piece, bounds: tuple[float, float]) -> Iterator[Piece]:
 def _rests(
     machines: Sequence[Mechanism], window: tuple[float, float]
 ) -> Iterator[tuple[float, float]]:
-    """Where all machines rest."""
+    """The stretches in which all machines rest."""
     common = [window]
     for machine in machines:
         dwells = [(s.start, s.end) for s in motion_stages(machine, [WHEEL]) if s.flat]

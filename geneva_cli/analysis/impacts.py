@@ -20,7 +20,8 @@ from geneva_cli.numerics.arrays import all_true, library, only_of, parameter
 if TYPE_CHECKING:
     from geneva_cli.numerics.jet import Array
 
-NO_LEVER = 1e-6  # of the centre distance: where the slot lies across the way nothing bounds a play
+# of the centre distance: where the slot lies across the path, the play is unbounded
+NO_LEVER = 1e-6
 
 
 class Impact(NamedTuple):

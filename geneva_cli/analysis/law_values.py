@@ -1,6 +1,6 @@
-"""The characteristic values of the motion laws: C_v, C_a, C_j and C_p, and a cam form's factors.
+"""The characteristic values of motion laws (C_v, C_a, C_j, C_p), and a cam form's factors.
 
-Of one law, for the table of them; the peaks of many machines' motions are in ``peaks_many``.
+They are for the table of laws; the peaks of machines' motions are in ``peak_search``.
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ from geneva_cli.spec.schema import REQUIRED, fields
 from geneva_cli.table import Reading, Table, rows_table
 
 NAMES = ("law", "C_v", "C_a", "C_j", "C_p", *CamFactors._fields, "about")
-FIRST = ("law", "about")  # what a narrow window keeps; then the columns in their order
+FIRST = ("law", "about")  # columns that a narrow window keeps; the others follow in order
 
 
 class Characteristic(NamedTuple):
@@ -31,12 +31,12 @@ class Characteristic(NamedTuple):
 
     @property
     def factors(self) -> CamFactors:
-        """Am, Vm and Qm: a law's own step and time are 1."""
+        """Am, Vm and Qm, as a law's own step and time are 1."""
         return CamFactors(self.acceleration, self.velocity, self.power / self.acceleration)
 
 
 def characteristic(law: Law) -> Characteristic:
-    """The characteristic values of one law, from the same root finding as a machine's peaks."""
+    """The characteristic values of one law, from the search for a machine's peaks."""
     # A step of 1 in a motion of 1 radian: the invariants are then the law's own derivatives.
     half = math.degrees(0.5)
     motion = LawMotion(-half, half, 0.5, law)
@@ -44,14 +44,14 @@ def characteristic(law: Law) -> Characteristic:
 
 
 def laws_table(shape: float) -> Table:
-    """One row a law; ``shape`` is the sine group's lambda."""
+    """One row for each law; ``shape`` is the sine group's lambda."""
     if not abs(shape) <= 10.0:
         raise GenevaError(f"--lambda {shape:g}: must be at least -10, at most 10")
     rows: list[tuple[object, ...]] = []
     for name in registry.LAWS:
         kind = registry.law(name)
         keys = fields(kind)
-        if any(key.default is REQUIRED for key in keys):  # a user's own, which has no values yet
+        if any(key.default is REQUIRED for key in keys):  # a user's own law has no values yet
             rows.append((name, *[None] * (len(NAMES) - 2), kind.ABOUT))
             continue
         given = {key.attribute: shape for key in keys if key.key == "lambda"}

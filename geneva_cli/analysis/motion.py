@@ -1,7 +1,7 @@
 """The wheel's position, velocity, acceleration and jerk over a whole period of the machine.
 
-Of one design, as each has its motions and dwells in other rows; an engagement's own ``motion``
-answers for many.
+These tables are of one design, since each design has its own rows of motion and dwell. For batches
+there is the ``motion`` of an engagement.
 """
 
 from __future__ import annotations
@@ -21,20 +21,20 @@ if TYPE_CHECKING:
     from geneva_cli.numerics.jet import Array
 
 SAMPLES_MAX = 1_000_000  # some seconds of writing, some 80 MB
-HELD = 100_000  # rows; longer tables are computed as they are written
+HELD = 100_000  # rows; longer tables are computed while they are written
 NAMES = ("time_s", "input_deg", "wheel_deg", "velocity", "acceleration", "jerk")
 
 
 def check_samples(samples: int) -> None:
-    """Raise GenevaError where so many samples are too few or too many."""
+    """Raise GenevaError for too few or too many samples."""
     if not 2 <= samples <= SAMPLES_MAX:
         raise GenevaError(f"--samples {cut(samples)}: must be at least 2, at most {SAMPLES_MAX}")
 
 
 def motion_table(mechanism: Mechanism, samples: int) -> Table:
-    """``samples`` rows, evenly in the input angle over one period from the first entry.
+    """``samples`` rows, evenly spaced in the input angle over one period from the first entry.
 
-    Entry and exit belong to the motion: what is just inside is shown there. The last row is the
+    Entry and exit belong to the motion: their rows show the limits from inside. The last row is the
     end of the last dwell.
     """
     check_samples(samples)
@@ -46,7 +46,7 @@ def motion_table(mechanism: Mechanism, samples: int) -> Table:
 
 
 class Span(NamedTuple):
-    """A motion and the dwell after it, among input angles that ascend."""
+    """A motion and the dwell after it, as slices of ascending input angles."""
 
     engagement: Engagement
     moves: slice
@@ -55,7 +55,7 @@ class Span(NamedTuple):
 
 
 def inputs(mechanism: Mechanism, samples: int, begin: int, end: int) -> Array:
-    """The input angles of rows ``begin`` up to ``end``, left out, of ``samples`` over a period."""
+    """The input angles of rows ``begin`` to ``end - 1`` of ``samples`` over a period."""
     start = first_entry_deg(mechanism)
     input_deg: Array = start + mechanism.period_deg * np.arange(begin, end) / (samples - 1)
     if end == samples:
@@ -73,7 +73,7 @@ def spans(mechanism: Mechanism, input_deg: Array) -> Iterator[Span]:
     engagements = mechanism.engagements
     first = 0
     for i, engagement in enumerate(engagements):
-        # What stays constant within a cycle: the steps that are done before it.
+        # The wheel's angle from the steps before this one, constant within a cycle.
         base = sum(2.0 * s.half_step for s in engagements[:i]) + engagement.half_step
         base -= engagements[0].half_step
         exit_ = engagement.mid_deg + engagement.exit_deg
@@ -86,14 +86,14 @@ def spans(mechanism: Mechanism, input_deg: Array) -> Iterator[Span]:
 
 
 def local_deg(span: Span, input_deg: Array) -> Array:
-    """The input angles of a motion from its own mid-motion."""
+    """The input angles of a motion, from its own mid-motion."""
     engagement = span.engagement
     here = input_deg[span.moves] - engagement.mid_deg
     return np.clip(here, engagement.entry_deg, engagement.exit_deg)
 
 
 def _rows(mechanism: Mechanism, samples: int, begin: int, end: int) -> list[Array]:
-    """The columns' rows from ``begin`` up to ``end``, left out, of ``samples`` in all."""
+    """The columns' rows ``begin`` to ``end - 1`` of ``samples``."""
     input_deg = inputs(mechanism, samples, begin, end)
     wheel, *rates = derivatives(mechanism, input_deg, (0, 1, 2, 3))
     return [times_s(mechanism, input_deg), input_deg, np.degrees(wheel), *rates]

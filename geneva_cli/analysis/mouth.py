@@ -28,14 +28,14 @@ from geneva_cli.machine.many import taken
 from geneva_cli.numerics.angles import DEGREE, radians
 from geneva_cli.numerics.arrays import library, parameter
 from geneva_cli.numerics.jet import Jet, sqrt
-from geneva_cli.numerics.roots_many import roots_many
+from geneva_cli.numerics.newton import find_roots
 
 if TYPE_CHECKING:
     from geneva_cli.machine.engagement import Engagement
     from geneva_cli.numerics.arrays import Whole
     from geneva_cli.numerics.jet import Array
 
-ROUNDING = 1e-16  # of L²: less than that the roller is not too near to a corner
+ROUNDING = 1e-16  # of L²: with less, the roller is not too near to a corner
 
 
 class Corner(NamedTuple):
@@ -136,7 +136,7 @@ class Corner(NamedTuple):
             return value[:, 0], slope[:, 0]
 
         out = np.full((len(value), 1), np.nan)
-        out[there, 0] = roots_many(over, far[there, near - 1], far[there, near])
+        out[there, 0] = find_roots(over, far[there, near - 1], far[there, near])
         return out
 
 

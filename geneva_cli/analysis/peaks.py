@@ -1,7 +1,7 @@
 """Peak velocity, acceleration, jerk and power of a motion, as invariants.
 
-Plain wheels have closed forms, which need no NumPy. Other peaks are found by the search of a batch,
-``peaks_many``: a single design is a batch of one.
+Plain wheels have closed forms, which need no NumPy. All other peaks are searched as a batch of one
+by ``peak_search``.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ from geneva_cli.table import Table, record_table, rows_table
 
 
 class Ends(NamedTuple):
-    """Sizes just after entry and just before exit."""
+    """Sizes of acceleration and jerk just after entry and just before exit."""
 
     acceleration_entry: float
     acceleration_exit: float
@@ -41,16 +41,16 @@ QUANTITIES = Peaks._fields[:-1]
 def peaks_of(motion: Motion, names: Sequence[str]) -> list[Peak[float]]:
     """Greatest sizes of quantities over the motion of one design, ends included.
 
-    Each with the signed input angle of its first occurrence, degrees from mid-motion.
+    Each has the signed input angle of its first occurrence, degrees from mid-motion.
     """
     found = {name: motion.closed_peak(name) for name in names}
     open_ = [name for name, known in found.items() if known is None]
     if open_:
-        from geneva_cli.analysis.peaks_many import peaks_of_many
+        from geneva_cli.analysis.peak_search import motion_peaks
 
         found |= {
             name: Peak(size.item(), at_deg.item())
-            for name, (size, at_deg) in peaks_of_many(motion, open_).items()
+            for name, (size, at_deg) in motion_peaks(motion, open_).items()
         }
     return [known for known in found.values() if known is not None]
 
@@ -73,7 +73,7 @@ def ends(engagement: Engagement) -> Ends:
 
 
 def peaks(engagement: Engagement) -> Peaks:
-    """Every peak of one engagement."""
+    """All peaks of one engagement."""
     return Peaks._make((*peaks_of(engagement.motion, QUANTITIES), ends(engagement)))
 
 
@@ -91,7 +91,7 @@ def worst_of(mechanism: Mechanism, quantity: str) -> Peak[float]:
 
 
 def placed(mechanism: Mechanism, engagement: Engagement) -> Peaks:
-    """Peaks of an engagement, their angles the machine's input angles."""
+    """Peaks of an engagement at the machine's input angles."""
     found = peaks(engagement)
     return Peaks._make((*(_placed(mechanism, engagement, p) for p in found[:-1]), found.ends))
 
@@ -101,7 +101,7 @@ def _placed(mechanism: Mechanism, engagement: Engagement, p: Peak[float]) -> Pea
 
 
 def peaks_table(mechanism: Mechanism) -> Table:
-    """The greatest peaks, then those of each engagement where they differ (None if not)."""
+    """The greatest peaks, then those of each engagement if they differ (else None)."""
     times = timings(mechanism)
     rows = [
         _record(placed(mechanism, engagement))

@@ -1,9 +1,9 @@
-"""Positive drive: where a curved slot lacks the wall that its load needs.
+"""Positive drive: the input angles at which a curved slot lacks the wall that its load needs.
 
-The roller passes each radius of the wheel twice, in and out, and by the same track only if the odd
+The roller passes each radius of the wheel twice, in and out. Both tracks are equal only if the odd
 part of the motion is the straight slot's (the one-track theorem). Otherwise the slot has two
 branches, and each keeps only its outer wall. Where the other wall would have to carry the torque,
-nothing holds the wheel but the play between the branches.
+only the play between the branches limits the wheel.
 """
 
 from __future__ import annotations
@@ -19,21 +19,24 @@ if TYPE_CHECKING:
     from geneva_cli.numerics.arrays import Array, Mask
 
 SAMPLES = 720  # in a half motion
-PLAY_MM = 0.01  # branches nearer than this are one slot, as a shop cuts it
+PLAY_MM = 0.01  # branches nearer than this are one slot, as machined
 
 
 class PositiveDrive(NamedTuple):
-    """How a curved slot drives: the intervals where it does not, and its branches' distance."""
+    """Intervals of a curved slot without positive drive, and the distance of its branches."""
 
     loose_deg: tuple[tuple[float, float], ...]  # input angles without the needed wall
-    share: float  # of the motion that they take
+    share: float  # fraction of the motion that these take
     gap_mm: float  # greatest distance of the two branches, along the wheel's circumference
     gap_at_deg: float
-    loose_gap_mm: float = 0.0  # the same where the needed wall is missing
+    loose_gap_mm: float = 0.0  # the greatest where the needed wall is missing
 
 
 class PositiveDrives(NamedTuple):
-    """The same of m designs, (m,) each; ``loose`` (m, k) says at which ``input_deg``."""
+    """Results of ``positive_drive`` for m designs, (m,) each.
+
+    ``loose`` (m, k) is a mask of the places ``input_deg`` without positive drive.
+    """
 
     share: Array
     gap_mm: Array
@@ -44,7 +47,7 @@ class PositiveDrives(NamedTuple):
 
 
 def positive_drive(mechanism: Mechanism) -> PositiveDrive | None:
-    """Where the slot drives the wheel under the spec's load; None for straight slots."""
+    """The positive drive of a slot under the spec's load; None for straight slots."""
     found = positive_drives(mechanism)
     if found is None:
         return None
@@ -55,17 +58,17 @@ def positive_drive(mechanism: Mechanism) -> PositiveDrive | None:
 
 
 def positive_drives(mechanism: Mechanism) -> PositiveDrives | None:
-    """Where the slots of m designs, or of one, drive their wheels; None for straight slots.
+    """The positive drive of m designs; None for straight slots.
 
-    The torque is inertia plus resistance. The wall ahead is needed where it is positive: the way
-    in keeps that wall where the roller leads the way out at the same radius, the way out where
-    it lags.
+    The torque is inertia plus resistance. The wall ahead is needed where the torque is positive. At
+    each radius, the entry branch keeps that wall where the roller leads the exit branch, and the
+    exit branch where it lags.
     """
     engagement, L = mechanism.engagements[0], mechanism.center_distance_mm
     if not engagement.slot.curved:
         return None
     given = setting(mechanism)
-    # Places between the samples of a grid that has mid-motion, where the branches meet.
+    # Midpoints of a grid that includes mid-motion, where the branches meet.
     x = np.atleast_2d(engagement.entry_deg * (1.0 - (np.arange(SAMPLES) + 0.5) / SAMPLES))
     (ax, ay), (bx, by) = engagement.slot(x, 0), engagement.slot(-x, 0)
     lead = np.arctan2(ay.c[0], ax.c[0]) - np.arctan2(by.c[0], bx.c[0])
@@ -94,7 +97,7 @@ def positive_drives(mechanism: Mechanism) -> PositiveDrives | None:
 
 
 def _intervals(places: list[float], step: float) -> list[tuple[float, float]]:
-    """Neighbouring places, each half a step wide on both sides, joined."""
+    """Adjacent places, each half a step wide on both sides, joined to intervals."""
     out: list[tuple[float, float]] = []
     for x in places:
         low, high = x - 0.5 * step, x + 0.5 * step

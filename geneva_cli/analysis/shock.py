@@ -21,7 +21,7 @@ from geneva_cli.machine.engagement import Anchor, Engagement
 from geneva_cli.machine.many import taken
 from geneva_cli.numerics.angles import DEGREE
 from geneva_cli.numerics.arrays import N, library, parameter
-from geneva_cli.numerics.roots_many import roots_many
+from geneva_cli.numerics.newton import find_roots
 
 if TYPE_CHECKING:
     from geneva_cli.numerics.arrays import Whole
@@ -136,5 +136,5 @@ def contact_after(axis: SlotAxis, offset: Array) -> Array:
         return (value - offset[there[which]])[:, 0], slope[:, 0]
 
     out = np.full(offset.shape, np.nan)
-    out[there, 0] = roots_many(less, *ends)
+    out[there, 0] = find_roots(less, *ends)
     return out

@@ -23,7 +23,7 @@ from geneva_cli.analysis.loads.forces import contact_modulus_GPa
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.numerics.angles import omega
 from geneva_cli.numerics.arrays import N, choose, size
-from geneva_cli.numerics.roots_many import roots_many
+from geneva_cli.numerics.newton import find_roots
 from geneva_cli.spec.tables import Material
 
 if TYPE_CHECKING:
@@ -65,7 +65,7 @@ def forces_N(mechanism: Mechanism, jump: Array) -> Array | None:
         pressed, bent = c[live] * POWER * force**POWER, k[live] * force
         return pressed * force / (1.0 + POWER) + 0.5 * bent * force - work[live], pressed + bent
 
-    force = roots_many(over, 0.0 * work, np.sqrt(2.0 * work / k))
+    force = find_roots(over, 0.0 * work, np.sqrt(2.0 * work / k))
     return np.where(heavy > 0.0, force, np.nan)
 
 

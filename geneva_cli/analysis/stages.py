@@ -1,6 +1,6 @@
-"""The smooth pieces of a cycle's curves: motions, cut where a curve breaks, and dwells.
+"""The smooth pieces of a cycle's curves: motions, divided where a curve breaks, and dwells.
 
-Of one design: curves are cut and thinned for a picture, each into as many points as it needs.
+They are of one design: each curve of a picture has its own number of points.
 """
 
 from __future__ import annotations
@@ -38,9 +38,10 @@ MOTION: dict[str, Callable[[Sequence[Array]], Array]] = {
 
 
 class Stage(NamedTuple):
-    """Input angles from ``start`` to ``end`` in which all curves are smooth.
+    """A range of input angles in which all curves are smooth.
 
-    ``of`` gives the curves at input angles, a row each; ``flat``: all are constant, as in a dwell.
+    ``of`` gives the curves at input angles, one row each. ``flat`` stages are constant, as in a
+    dwell.
     """
 
     start: float
@@ -66,7 +67,7 @@ def motion_stages(mechanism: Mechanism, names: Sequence[str]) -> Iterator[Stage]
 def load_stages(
     cycle: Cycle, names: Sequence[str], bounds: Mapping[str, tuple[float, float]]
 ) -> Iterator[Stage]:
-    """Stages of loads, cut back to ``bounds`` where they have some."""
+    """Stages of loads, limited to ``bounds`` if given."""
     for i, engagement in enumerate(cycle.mechanism.engagements):
         mid = engagement.mid_deg
         for owner, stretch in cycle.stretches:
@@ -78,7 +79,7 @@ def load_stages(
 
 
 def _inside(engagement: Engagement, start: float) -> float:
-    """The first angle of a piece: a break belongs to the piece before it, entry to the motion."""
+    """The first angle in a piece: a break belongs to the piece before it, entry to the motion."""
     return start if start == engagement.entry_deg else math.nextafter(start, math.inf)
 
 
@@ -133,10 +134,10 @@ def pieces(
     window: tuple[float, float],
     rise: Sequence[float],
 ) -> list[list[Piece]]:
-    """The pieces of each curve over a window, the period's stages repeated in it.
+    """The pieces of each curve over a window, with the period's stages repeated.
 
-    ``rise`` is by what each curve has risen after a period. What only touches the window is a
-    single point: there the curve jumps from it, or to it.
+    ``rise`` is the rise of each curve in a period. A stage that only touches the window is a
+    single point, at which the curve jumps.
     """
     placed = list(_repeated(stages, period, window))
     risen = np.array(rise)[:, None]
@@ -167,7 +168,7 @@ def _shifted(stage: Stage, shift: float, x: Array) -> Array:
 def _repeated(
     stages: Sequence[Stage], period: float, window: tuple[float, float]
 ) -> Iterator[tuple[Stage, float, float, float]]:
-    """The stages in a window: each with its shift, its beginning and its end there."""
+    """The stages in a window, with their shifts, starts and ends there."""
     start, end = window
     tiny, last = ROUNDED * period, -math.inf
     for number in range(

@@ -1,4 +1,4 @@
-"""How long each motion and each dwell lasts."""
+"""Timing of each motion and each dwell."""
 
 from __future__ import annotations
 
@@ -14,8 +14,8 @@ if TYPE_CHECKING:
 class Timing(NamedTuple):
     """One cycle: a motion and the dwell after it. Angles are of the input, index_deg of the wheel.
 
-    k = motion / dwell (the work coefficient), tau = motion / cycle. Of an array of designs each is
-    a number or an array (n, 1).
+    k = motion / dwell (the work coefficient), tau = motion / cycle. For a batch each is a number or
+    an array (n, 1).
     """
 
     motion_deg: float

@@ -1,9 +1,9 @@
-"""Undercut: where the roller is too large for the wall that it must run along.
+"""Undercut: a roller that is too large for the curvature of the wall along which it runs.
 
-A curved slot has two branches, the way in and the way out. Each keeps only its outer wall, the
-one away from the other branch; the inner walls vanish in what both cut. The outer wall is
-undercut where its centre of curvature lies on its own side of the pitch curve, nearer than the
-roller's radius: the flank then runs backwards, and the roller cuts away what it ran along before.
+A curved slot has two branches, one for entry and one for exit. Each keeps only its outer wall, the
+one away from the other branch; the inner walls lie in the area that both cut. The outer wall is
+undercut where its centre of curvature is on its own side of the pitch curve, nearer than the
+roller's radius. The flank then runs backwards, and the roller cuts away the wall before it.
 """
 
 from __future__ import annotations
@@ -20,38 +20,38 @@ from geneva_cli.numerics.tolerances import TIE
 if TYPE_CHECKING:
     from geneva_cli.numerics.arrays import Array, Mask, Number
 
-NEAR = 1e-3  # share of the half motion
-SAMPLES = 1024  # a half motion; the depth's error is then far below a micrometre a metre
-PAIRS = 1 << 15  # distances looked at at once: in the cache
-CLEARLY = 1.0 + 1e-14  # times a square: what is greater is so whatever the rounding
+NEAR = 1e-3  # fraction of the half motion
+SAMPLES = 1024  # of a half motion; the depth's error is then far below a micrometre per metre
+PAIRS = 1 << 15  # distances computed at once, which fit in the cache
+CLEARLY = 1.0 + 1e-14  # times a square: a greater one is greater whatever the rounding
 
 
 class Undercut(NamedTuple):
-    """The undercut outer wall: which flank, where, how sharp and how deep."""
+    """The undercut outer wall: its flank, place, curvature and depth."""
 
     wall: str
     from_deg: float
     to_deg: float
     at_deg: float
     radius_mm: float  # the pitch curve's least radius of curvature there
-    depth_mm: float  # by which the wall falls short of the roller at its deepest
-    to_cusp: bool  # whether it reaches a cusp at mid-motion, which no roller is small enough for
+    depth_mm: float  # the wall's greatest shortfall from the roller
+    to_cusp: bool  # whether it reaches a cusp at mid-motion, which is too sharp for any roller
 
 
 class Undercuts(NamedTuple):
-    """The same of m designs, (m,) each; NaN where none is undercut."""
+    """Undercuts of m designs, (m,) each; NaN where none is undercut."""
 
-    left: Array  # 1 where the wall is the left flank, 0 where it is the right one
+    left: Array  # 1 for the left flank, 0 for the right one
     from_deg: Array
     to_deg: Array
     at_deg: Array
     radius_mm: Array
     depth_mm: Array
-    to_cusp: Array  # 1 where it reaches a cusp at mid-motion, else 0
+    to_cusp: Array  # 1 if it reaches a cusp at mid-motion, else 0
 
 
 def undercut(mechanism: Mechanism, samples: int = SAMPLES) -> Undercut | None:
-    """The deepest undercut of an outer wall, on the way in or out; None if there is none."""
+    """The deepest undercut of an outer wall, at entry or exit; None if there is none."""
     found = undercuts(mechanism, samples)
     if found is None or None in (one := only_of(found)):
         return None
@@ -61,7 +61,7 @@ def undercut(mechanism: Mechanism, samples: int = SAMPLES) -> Undercut | None:
 
 
 def undercuts(mechanism: Mechanism, samples: int = SAMPLES) -> Undercuts | None:
-    """The deepest undercuts of m designs, or of one; None of straight slots, which have none."""
+    """The deepest undercuts of m designs; None for straight slots, which have none."""
     walls = outer_walls(mechanism, samples)
     if walls is None:
         return None
@@ -73,27 +73,28 @@ def undercuts(mechanism: Mechanism, samples: int = SAMPLES) -> Undercuts | None:
 
 
 class OuterWall(NamedTuple):
-    """The outer wall of one branch of m designs' slots for any roller, over L: at k places from
-    the branch's end to near mid-motion, (m, k) each.
+    """The outer wall of one branch of m designs' slots, for any roller; lengths over L.
+
+    It has k places from the branch's end to near mid-motion, (m, k) each.
     """
 
     degrees: Array  # input angles
     x: Array  # the pitch curve
     y: Array
-    normal_x: Array  # from it to the wall
+    normal_x: Array  # unit normal towards the wall
     normal_y: Array
     bend: Array  # the pitch curve's curvature towards the wall
-    left: Mask  # whether it is the left flank
-    retraces: Mask  # whether the branch ends in a cusp, at all places alike
+    left: Mask  # True for the left flank
+    retraces: Mask  # True if the branch ends in a cusp; equal at all places
 
     def of(self, design: int) -> OuterWall:
-        """That of one design."""
+        """The wall of one design."""
         here = slice(design, design + 1)
         return OuterWall(*(rows[here] for rows in self))  # type: ignore[arg-type]
 
 
 def outer_walls(mechanism: Mechanism, samples: int = SAMPLES) -> tuple[OuterWall, OuterWall] | None:
-    """The outer walls on the way in and on the way out; None of straight slots."""
+    """The outer walls at entry and at exit; None for straight slots."""
     engagement = mechanism.engagements[0]
     if not engagement.slot.curved:
         return None
@@ -123,13 +124,13 @@ def _wall(at: Pitch, degrees: Array, outer: Array, left: Mask, back: Mask) -> Ou
 
 
 def depths_mm(wall: OuterWall, roller_mm: Number, L: Number) -> Array:
-    """How deep a roller with its clearance cuts a wall, (m,); 0 where it does not."""
+    """Depth to which a roller with its clearance cuts a wall, (m,); 0 where it does not."""
     r = np.asarray(roller_mm / L)
     return np.ravel(L * np.maximum(0.0, r - _gap(wall, r)[:, None]))
 
 
 def _gap(wall: OuterWall, r: Array) -> Array:
-    """How near the pitch curve comes to places of the wall that are undercut, (m,)."""
+    """Least distance of the pitch curve from undercut places of the wall, (m,)."""
     gap = np.full(len(wall.bend), np.inf)
     design, place = np.nonzero(wall.bend * r > 1.0)
     step, many = PAIRS // wall.bend.shape[1], len(np.ravel(r)) > 1
@@ -137,9 +138,11 @@ def _gap(wall: OuterWall, r: Array) -> Array:
         d, k = design[i : i + step], place[i : i + step]
         own = r[d, 0] if many else r
         x, y = wall.x[d, k] + own * wall.normal_x[d, k], wall.y[d, k] + own * wall.normal_y[d, k]
-        own_wall = slice(None) if len(wall.bend) == 1 else d  # of one design no copy a place
+        # a single design needs no copy for each place
+        own_wall = slice(None) if len(wall.bend) == 1 else d
         x, y = x[:, None] - wall.x[own_wall], y[:, None] - wall.y[own_wall]
-        square = x * x + y * y  # in a fraction of hypot's time, which the nearest places take
+        # a fraction of the time of hypot, which is used for the nearest places only
+        square = x * x + y * y
         near = ~(square > CLEARLY * square.min(axis=1, keepdims=True))  # NaN stays NaN
         np.minimum.at(gap, d[np.nonzero(near)[0]], np.hypot(x[near], y[near]))
     return gap

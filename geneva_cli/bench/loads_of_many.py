@@ -17,11 +17,11 @@ import numpy as np
 from geneva_cli.analysis.loads.contact import mirrored
 from geneva_cli.analysis.loads.cycle import Cycle
 from geneva_cli.analysis.loads.forces import setting
-from geneva_cli.analysis.loads.loaded_many import NONE, Loaded, machine
-from geneva_cli.analysis.loads.many import greatest_of_many, summaries_of_many
-from geneva_cli.analysis.loads.means_many import means_of_many, powers
+from geneva_cli.analysis.loads.loaded import NONE, Loaded, machine
+from geneva_cli.analysis.loads.means import load_means, powers
 from geneva_cli.analysis.loads.quantities import SQUARED
 from geneva_cli.analysis.loads.stretches import spans_of
+from geneva_cli.analysis.loads.summaries import load_peaks, load_summaries
 from geneva_cli.analysis.loads.summary import summaries
 from geneva_cli.bench import load_truth
 from geneva_cli.bench.kinds import KINDS, QUICK, Kind, drawn, one_by_one, task_of_many, values_of
@@ -33,9 +33,9 @@ from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.machine.motion import Motion
 from geneva_cli.machine.spec import Spec
 from geneva_cli.machine.wheels.external import External
+from geneva_cli.numerics.adaptive_quadrature import NODES
 from geneva_cli.numerics.chebyshev import POINTS
 from geneva_cli.numerics.quadrature import rule
-from geneva_cli.numerics.quadrature_many import NODES
 from geneva_cli.spec.tables import Load
 
 if TYPE_CHECKING:
@@ -169,12 +169,12 @@ def _one(request: Request, machine: Mechanism) -> list[float]:
 
 def _together(request: Request, machine: Mechanism) -> Array:
     if not request.summed:
-        greatest = greatest_of_many(machine, request.loads).values()
+        greatest = load_peaks(machine, request.loads).values()
         return np.column_stack([one.max for one in greatest])
     if not request.sized:
-        means = means_of_many(machine, request.loads, told=("rms",)).values()
+        means = load_means(machine, request.loads, told=("rms",)).values()
         return np.column_stack([one.rms for one in means])
-    totals = summaries_of_many(machine, request.loads, told=("rms",)).values()
+    totals = load_summaries(machine, request.loads, told=("rms",)).values()
     sizes = [np.maximum(one.max, -one.min) for one in totals]
     return np.column_stack([*sizes, *[one.rms for one in totals if one.rms is not None]])
 

@@ -30,7 +30,7 @@ def run(
         ),
     ] = "-",
 ) -> None:
-    """A page that needs no network, on which the machine turns.
+    """Animate the machine on a page that needs no network.
 
     It shows parts, gears, contact force and curves, and plays or follows a slider. A .gif needs
     the extra plot; an .svg does not move. --open prints the page's path if there is no browser.
@@ -53,7 +53,7 @@ def run(
 
 
 def _open(place: str) -> None:
-    """Open a page in the browser of the desktop, and say where it is."""
+    """Open a page in the desktop's browser, and print its path."""
     import os
     import webbrowser
 
@@ -63,7 +63,7 @@ def _open(place: str) -> None:
 
 
 def _folder() -> str:
-    """The user's own folder for the page: the next run replaces it, so that none pile up."""
+    """The user's own folder for the page, which the next run replaces so that no pages pile up."""
     import os
     import stat
     import tempfile
@@ -75,4 +75,4 @@ def _folder() -> str:
     status = os.lstat(folder)
     if stat.S_ISDIR(status.st_mode) and status.st_uid == os.getuid():
         return folder
-    return tempfile.mkdtemp(prefix="geneva-")  # somebody else took the name in a shared folder
+    return tempfile.mkdtemp(prefix="geneva-")  # another user has taken the name in a shared folder

@@ -24,7 +24,7 @@ def run(
     output: Output = "-",
     format: Format = "",
 ) -> None:
-    """Does the design work? What fails and what to change, warnings, the tightest check.
+    """Check designs: failures with their remedies, warnings, and the tightest check.
 
     It checks the motion, the parts and the spec's own [limits]. The exit status is 1 if a check
     fails. If one spec cannot be read, the others are still checked.

@@ -1,17 +1,17 @@
-"""What the shell may put for an option's value: `geneva --install-completion` turns it on.
+"""Values that the shell offers for options, with `geneva --install-completion`.
 
-Each takes what is typed so far; where nothing is offered the shell offers files.
+Each function takes the text typed so far. Where none offers a word, the shell offers files.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable
 
-Offer = tuple[str, str]  # a word, and what it is
+Offer = tuple[str, str]  # a word, and its description
 
 
 def words(names: Callable[[], Iterable[str]]) -> Callable[[str], list[str]]:
-    """Offers some words."""
+    """Offer words that begin with the typed text."""
 
     def offer(typed: str) -> list[str]:
         return [name for name in names() if name.startswith(typed)]
@@ -20,7 +20,7 @@ def words(names: Callable[[], Iterable[str]]) -> Callable[[str], list[str]]:
 
 
 def listed(names: Callable[[], Iterable[str]]) -> Callable[[str], list[str]]:
-    """Offers one more word of a list with commas between."""
+    """Offer one more word of a list separated by commas."""
 
     def offer(typed: str) -> list[str]:
         before, comma, begun = typed.rpartition(",")
@@ -31,7 +31,7 @@ def listed(names: Callable[[], Iterable[str]]) -> Callable[[str], list[str]]:
 
 
 def keys(typed: str) -> list[Offer]:
-    """The keys of a spec as ``table.key=``; behind the sign, the words that it may be."""
+    """The keys of a spec as ``table.key=``; behind the sign, the words that the key may be."""
     from geneva_cli.specfile.keys import full_names, words_of
 
     key, given, begun = typed.partition("=")
@@ -41,7 +41,7 @@ def keys(typed: str) -> list[Offer]:
 
 
 def tables_and_keys() -> Iterable[str]:
-    """What ``geneva keys`` takes."""
+    """The arguments of ``geneva keys``."""
     from geneva_cli.specfile.keys import full_names
 
     names = full_names()
@@ -56,14 +56,14 @@ def laws() -> Iterable[str]:
 
 
 def kinds() -> Iterable[str]:
-    """What ``geneva new`` writes."""
+    """The kinds that ``geneva new`` writes."""
     from geneva_cli.specfile.template import KINDS
 
     return KINDS
 
 
 def designs() -> Iterable[str]:
-    """The designs that come with the program."""
+    """The designs in the package."""
     from geneva_cli.specfile.designs import titles
 
     return titles()
@@ -77,7 +77,7 @@ def topics() -> Iterable[str]:
 
 
 def explained() -> Iterable[str]:
-    """What ``geneva explain`` explains."""
+    """The words that ``geneva explain`` explains."""
     from geneva_cli.specfile.meanings import names
 
     return names()
@@ -91,7 +91,7 @@ def fields() -> Iterable[str]:
 
 
 def quantities() -> Iterable[str]:
-    """What ``geneva plot`` draws."""
+    """The quantities that ``geneva plot`` draws."""
     from geneva_cli.study.figures import QUANTITIES
 
     return QUANTITIES

@@ -25,7 +25,7 @@ def run(
     output: Output = "-",
     format: Format = "",
 ) -> None:
-    """Every key of a spec: its unit, what it may be, its default, and the machines it goes with."""
+    """List the keys of a spec: unit, allowed values, default, and the machines that have them."""
     from geneva_cli.output import show
     from geneva_cli.specfile.keys import Key, about
     from geneva_cli.table import Reading, rows_table

@@ -19,9 +19,10 @@ def run(
     output: Output = "-",
     format: Format = "",
 ) -> None:
-    """The motion laws and their characteristic values.
+    """List the motion laws and their characteristic values.
 
-    Greatest ds/du, d2s/du2, d3s/du3 and their product for power, with u and s from 0 to 1.
+    These are the greatest ds/du, d2s/du2 and d3s/du3, and the greatest product of the first two
+    (power), with u and s from 0 to 1.
     """
     from geneva_cli.analysis.law_values import laws_table
     from geneva_cli.output import show

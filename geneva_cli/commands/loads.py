@@ -25,7 +25,7 @@ def run(
     output: Output = "-",
     format: Format = "",
 ) -> None:
-    """What the motion costs: torque, forces, stress, power and bearings over a cycle.
+    """Loads of the motion: torque, forces, stress, power and bearings over a cycle.
 
     The recommended motor comes first, then a summary of each quantity: its greatest and least value
     over the motions with their input angles, its mean and root mean square over the whole period,

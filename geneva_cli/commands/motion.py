@@ -19,7 +19,7 @@ def run(
     output: Output = "-",
     format: Format = "",
 ) -> None:
-    """Position, velocity, acceleration and jerk, evenly in the input angle over a cycle from entry.
+    """Position, velocity, acceleration and jerk over a cycle from entry.
 
     If the engagements differ, it covers a whole period of the machine.
     """

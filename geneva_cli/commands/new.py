@@ -44,7 +44,7 @@ def run(
 ) -> None:
     """Write a short commented spec to start from; --all for every key.
 
-    A file that exists stays, unless --force is given. For editors: `geneva help spec`.
+    An existing file is kept, unless --force is given. For editors: `geneva help spec`.
     """
     from geneva_cli.output import show
     from geneva_cli.specfile.template import KINDS, example
@@ -68,7 +68,7 @@ def run(
 
 
 def _new(kind: str, output: str, whole: bool, force: bool) -> None:
-    """Write a kind's spec, which names the JSON Schema only where that stands beside it."""
+    """Write a kind's spec, which names the JSON Schema only if that stands beside it."""
     from geneva_cli.output import refuse_existing, show_text
     from geneva_cli.specfile.json_schema import FILE
     from geneva_cli.specfile.template import template

@@ -1,4 +1,4 @@
-"""The options that several commands share."""
+"""Options that several commands share."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Annotated, TypeAlias
 import typer
 
 from geneva_cli.commands import completion
-from geneva_cli.errors import Caution, clean
+from geneva_cli.errors import Notice, clean
 from geneva_cli.output.formats import FORMATS
 
 if TYPE_CHECKING:
@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
 
 def one_of(names: Iterable[str]) -> str:
-    """The words that an option may be, for its help."""
+    """The allowed words of an option, for its help."""
     *others, last = names
     return f"{', '.join(others)} or {last}."
 
@@ -61,11 +61,11 @@ def warn(design: Design) -> None:
 
 
 def say(path: str, warnings: Iterable[str]) -> None:
-    """Print warnings about a spec on standard error, a line each."""
+    """Print warnings about a spec on standard error, one a line."""
     for warning in warnings:
         print(clean(f"{path}: warning: {with_name(warning)}"), file=sys.stderr)
 
 
 def with_name(warning: str) -> str:
-    """A warning with the name by which ``geneva explain`` has it."""
-    return f"{warning} [{warning.name}]" if isinstance(warning, Caution) else warning
+    """A warning with its name for ``geneva explain``."""
+    return f"{warning} [{warning.name}]" if isinstance(warning, Notice) else warning

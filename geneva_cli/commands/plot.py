@@ -47,7 +47,7 @@ def run(
         ),
     ] = "",
 ) -> None:
-    """Curves over a cycle, exact at peaks and jumps; or columns of a csv, as of a sweep.
+    """Plot curves over a cycle, exact at peaks and jumps; or columns of a csv, such as a sweep's.
 
     Without -o it prints a chart in text. png and pdf need the extra geneva-cli[plot]. More:
     `geneva help plots`.
@@ -56,7 +56,7 @@ def run(
     from geneva_cli.output.formats import plotted_as
     from geneva_cli.study.figures import of_specs, of_table
 
-    plotted_as(output, format)  # what cannot be written is not worked out
+    plotted_as(output, format)  # refuse a wrong format before any computation
     tables = [path for path in specs if path.lower().endswith(".csv")]
     if tables:
         _refuse_beside(tables[0], specs, {"--pick": pick, "--set": given, "--vary": vary})
@@ -77,7 +77,7 @@ def _names(texts: str) -> list[str]:
 
 
 def _refuse_beside(table: str, specs: list[str], options: dict[str, object]) -> None:
-    """A csv is plotted by itself."""
+    """Refuse other files and options beside a csv, which is plotted by itself."""
     if len(specs) > 1:
         raise GenevaError(f"{cut(table, 300)}: a csv is plotted by itself, without other files")
     for option, value in options.items():

@@ -130,10 +130,10 @@ def run(
         ),
     ] = "",
 ) -> None:
-    """A part as a table of points, or as a drawing to cut: csv, dxf, svg, step or pdf.
+    """Write a part as a table of points, or as a drawing to cut: csv, dxf, svg, step or pdf.
 
-    A drawing is written only if its machine turns a whole turn. All parts, frames of reference
-    and layers: `geneva help parts`.
+    A drawing is written only if its machine completes a whole turn. All parts, frames of
+    reference and layers: `geneva help parts`.
     """
     from geneva_cli.design import load
 
@@ -154,24 +154,24 @@ def run(
         return
     if samples is not None:
         raise GenevaError("--samples is for tables of points; drawings take --tolerance")
-    proof = design.drawn(tolerance, part)
+    model = design.drawn(tolerance, part)
     if design.spec.has_parts:
-        _judge(design, design.judge(proof), force)
+        _judge(design, design.judge(model), force)
     if sheet:
         _refuse(units, kerf, cutter, center_marks)
         if fill is not None:
             raise GenevaError(
                 "--fill is for single parts and the assembly; a sheet has lines alone"
             )
-        draw_sheet(design.sheet(tolerance, curves, proof, part), output, format, files, **own)
+        draw_sheet(design.sheet(tolerance, curves, model, part), output, format, files, **own)
     else:
         if cutter is not None:
-            _judge(design, design.cutter(part, cutter, dog_bones, proof), force)
+            _judge(design, design.cutter(part, cutter, dog_bones, model), force)
         drawing = design.drawing(
             part,
             tolerance,
             curves,
-            proof,
+            model,
             kerf,
             cutter if dog_bones else None,
             center_marks,
@@ -181,7 +181,7 @@ def run(
 
 
 def _require(curves: str, units: str) -> None:
-    """Raise GenevaError for what no drawing can be written with."""
+    """Raise GenevaError for values with which no drawing can be written."""
     from geneva_cli.curves.pieces import UNITS
     from geneva_cli.design import CURVES
 
@@ -198,7 +198,7 @@ def _refuse(
     marks: bool,
     own: dict[str, str] | None = None,
 ) -> None:
-    """Raise GenevaError for options of parts to cut, where none is written."""
+    """Raise GenevaError for options of parts to cut, if none is written."""
     if units != "mm":
         raise GenevaError("--units is for parts to cut; tables and sheets are in millimetres")
     if kerf is not None:
@@ -212,7 +212,7 @@ def _refuse(
 
 
 def _judge(design: "Design", verdict: tuple[str, list[str]], force: bool) -> None:
-    """Exit status 1 for parts that overlap or cannot be made, unless forced; else warnings."""
+    """Exit with status 1 for parts that overlap or cannot be made, unless forced; else warn."""
     path = design.spec.path
     refused, warned = verdict
     if refused and not force:

@@ -30,13 +30,13 @@ def run(
         ),
     ] = "",
 ) -> None:
-    """One page on a design, for a person: failed checks, words, timing, peaks, loads, sizes.
+    """Report on a design for people: failed checks, words, timing, peaks, loads, sizes.
 
     As html, pdf or md it is a document to hand over: the verdict, drawings, all inputs with their
     defaults, curves and every check. It lists what is not known, and the key that would give it.
     As table, csv and json it has the values alone.
 
-    The exit status is 1 if a check fails.
+    The exit status is 1 if a check fails, as with `check`.
     """
     from geneva_cli.design import load
     from geneva_cli.output import hand_over, tell

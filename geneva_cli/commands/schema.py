@@ -6,7 +6,7 @@ EXAMPLES = ("geneva schema -o geneva.schema.json",)
 
 
 def run(output: Output = "-") -> None:
-    """JSON Schema (draft-07) of a spec: editors complete and check its keys with it."""
+    """Print a JSON Schema (draft-07) of specs, with which editors complete and check keys."""
     import json
 
     from geneva_cli.output import show_text

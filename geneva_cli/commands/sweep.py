@@ -135,7 +135,7 @@ def run(
     ] = "-",
     format: Format = "",
 ) -> None:
-    """One row for each design: the varied keys, then the quantities.
+    """Compute one row for each design: the varied keys, then the quantities.
 
     VALUES are 4,6,8, 3..12, 0..0.9:0.1 or words. With --random and --best, LOW..HIGH is the
     whole range between.
@@ -181,7 +181,7 @@ def run(
 
 
 def _write_rows(asked: "Request", outcome: "Outcome", output: str, resume: bool) -> None:
-    """All rows as they come, or the choice of them; to a person who has them in a file some."""
+    """Write all rows or the chosen ones as they come; show a person some rows of the file."""
     from geneva_cli.output import is_seen
     from geneva_cli.output.rows import Growth
     from geneva_cli.study.sweep.digest import Digest
@@ -206,7 +206,7 @@ def _write_rows(asked: "Request", outcome: "Outcome", output: str, resume: bool)
 
 
 def _show_rows(asked: "Request", outcome: "Outcome", output: str, format: str) -> None:
-    """The same as a table of another format, which is made when all rows are there."""
+    """Show the rows as a table of another format, once all are computed."""
     from geneva_cli.output import show
     from geneva_cli.table import rows_table
 
@@ -215,7 +215,7 @@ def _show_rows(asked: "Request", outcome: "Outcome", output: str, format: str) -
 
 
 def _show_some(asked: "Request", outcome: "Outcome") -> None:
-    """The first rows and the best, for a person."""
+    """Show a person the first rows and the best."""
     from geneva_cli.study.sweep.digest import Digest
 
     digest = Digest(asked)
@@ -232,7 +232,7 @@ def _show_digest(digest: "Digest | None") -> None:
 
 
 def _refuse_beside_best(output: str, format: str, resume: bool) -> None:
-    """What a search of the best cannot give, said before it begins."""
+    """Refuse options that do not go with --best, before the search begins."""
     if output != "-" and not output.endswith(".toml"):
         raise GenevaError(f'-o "{cut(output, 300)}": --best writes a spec: it must end in .toml')
     if format:

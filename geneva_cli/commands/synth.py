@@ -130,7 +130,7 @@ def run(
 ) -> None:
     """Find the machines that meet all requirements; the lowest peak comes first.
 
-    What is tried, and what the columns mean: `geneva help search`.
+    The machines tried, and the columns: `geneva help search`.
     """
     from geneva_cli.study.synthesis.reading import read_wish
 
@@ -171,7 +171,7 @@ def _frame(path: str, given: Sequence[str]) -> "Spec":
 
 
 def _inputs(wish: "Wish") -> Sequence[str]:
-    """The files that the wish was read from."""
+    """The files that the requirement was read from."""
     return wish.frame.files if wish.frame else ()
 
 

@@ -39,7 +39,8 @@ def run(
         return
     table = design.tolerance(samples, seed, radius)
     tell(of_tolerance(design, table), output, format, design.spec.files)
-    if output != "-" or table_as(output, format) in ("json", "csv"):  # of tolerances alone
+    # the warnings of tolerances only
+    if output != "-" or table_as(output, format) in ("json", "csv"):
         warn(design)
     if output != "-":
         say(design.spec.path, table.to_dict()["warnings"])

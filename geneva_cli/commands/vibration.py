@@ -23,7 +23,7 @@ def run(
     output: Output = "-",
     format: Format = "",
 ) -> None:
-    """The load on an elastic shaft: what each index leaves swinging, and the speeds to avoid.
+    """The load on an elastic shaft: vibration after each index, and the speeds to avoid.
 
     As csv the spectrum: residual and steady state from half to twice the design's speed. At a
     speed to avoid the residual has a local maximum of at least 0.0001 of the step. `avoid` says

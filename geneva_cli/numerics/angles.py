@@ -1,7 +1,7 @@
 """Angles and speeds: degrees for people, radians for formulas, and exact fractions of pi.
 
-Input angles are carried in degrees, in which a whole turn and the entry angles of the classic
-wheels are exact; trigonometry gets radians at the last moment.
+Input angles are in degrees, in which a whole turn and the entry angles of classic wheels are exact.
+They become radians in the argument of a trigonometric function only.
 """
 
 from __future__ import annotations
@@ -24,12 +24,12 @@ _DEGREE_REST = 2.9486522708701687e-19  # pi/180 - DEGREE
 def sin_cos_pi(p: int, q: int) -> tuple[float, float]:
     """sin(pi p/q) and cos(pi p/q) of whole numbers, correctly rounded; sin(pi/6) is 0.5.
 
-    ``math.sin(math.pi / q)`` sees an argument that was rounded, and a wheel of three slots
-    multiplies that by 12 on the way to its peak acceleration. Here the argument is an exact
-    fraction, reduced to an eighth of a turn, and both series are summed in integers of 128 bits.
+    ``math.sin(math.pi / q)`` takes a rounded argument. For a wheel of three slots, its error grows
+    twelvefold on the way to the peak acceleration. Here the argument is an exact fraction, reduced
+    to an eighth of a turn, and both series are summed in integers of 128 bits.
 
-    Of arrays (of designs) each fraction that occurs is worked out once. Where p is no whole number,
-    as an angle in degrees over 180 is none, each of an array is within 2 units in the last place.
+    In arrays (of designs) each distinct fraction is computed once. If p is not a whole number, such
+    as an angle in degrees with q = 180, arrays are within 2 units in the last place.
     """
     if isinstance(p, int) and isinstance(q, int):
         s, c = scaled_sin_cos(p, q)
@@ -41,7 +41,7 @@ def sin_cos_pi(p: int, q: int) -> tuple[float, float]:
 
 
 def one_minus_sin_pi(p: int, q: int) -> float:
-    """1 - sin(pi p/q), correctly rounded however near to 1 the sine is; arrays as above."""
+    """1 - sin(pi p/q), correctly rounded even near 0; arrays as in ``sin_cos_pi``."""
     if isinstance(p, int) and isinstance(q, int):
         return (_ONE - scaled_sin_cos(p, q)[0]) / _ONE
     if not _whole(p):
@@ -52,8 +52,8 @@ def one_minus_sin_pi(p: int, q: int) -> float:
 def cos_squared_less(p: int, q: int, x: float) -> float:
     """cos²(pi p/q) - x for an exact double x, to the last digit however near to 0 it is.
 
-    The square is rounded to 112 bits, which its series are exact to: cos² 30° is 3/4. Of arrays
-    the difference is rounded once more.
+    The square is rounded to 112 bits, to which its series are exact: cos² 30° is 3/4. In arrays the
+    difference is rounded once more.
     """
     if isinstance(p, int) and isinstance(q, int) and isinstance(x, float):
         n, d = x.as_integer_ratio()
@@ -69,7 +69,7 @@ def _cos_squared(p: int, q: int) -> int:
 
 
 def _cos_squared_parts(p: int, q: int) -> tuple[float, float]:
-    """cos²(pi p/q) as a double and what that leaves."""
+    """cos²(pi p/q) as a double, and the remainder."""
     square, scale = _cos_squared(p, q), 1 << 112
     high = square / scale
     return high, (square - int(high * 2.0**112)) / scale
@@ -80,13 +80,13 @@ def _whole(p: int) -> bool:
 
 
 def of_each(f: Callable[..., tuple[float, ...]], *numbers: float) -> list[float]:
-    """What a function of Python numbers says of arrays: asked once for each set that occurs.
+    """Apply a function of Python numbers to arrays, once for each distinct set of arguments.
 
-    ``f`` returns a tuple; the arrays are its members.
+    ``f`` returns a tuple; the result has one array for each of its members.
     """
     import numpy as np
 
-    # one number of NumPy's is a Python number too
+    # a NumPy number is treated as a Python number
     plain = [x if np.ndim(x) else np.asarray(x).item() for x in numbers]
     shaped = np.broadcast_arrays(*plain)
     varied = [i for i, x in enumerate(plain) if np.ndim(x)]
@@ -113,7 +113,7 @@ def of_each(f: Callable[..., tuple[float, ...]], *numbers: float) -> list[float]
 
 
 def _sin_cos_degrees(degrees: Array) -> tuple[Array, Array]:
-    """Sine and cosine of angles in degrees: reduced exactly, and put into radians in two parts."""
+    """Sine and cosine of angles in degrees: reduced exactly, converted to radians in two parts."""
     import numpy as np
 
     quarters = np.rint(degrees / 90.0)
@@ -155,7 +155,7 @@ def scaled_sin_cos(p: int, q: int) -> tuple[int, int]:
 
 
 def sin_cos_deg(degrees: float) -> tuple[float, float]:
-    """Sine and cosine of an angle given exactly in degrees; of arrays within 2 units as above."""
+    """Sine and cosine of an angle given exactly in degrees; arrays are within 2 units as above."""
     if isinstance(degrees, float):
         p, q = degrees.as_integer_ratio()
         return sin_cos_pi(p, 180 * q)

@@ -1,9 +1,9 @@
-"""Numbers that are floats or arrays: what a formula needs to be written once for both.
+"""Numbers that are floats or arrays, and helpers for formulas that serve both.
 
-One convention holds for arrays, in the whole program. The numbers of a machine (its ratio, its
-offset, ...) are floats, or arrays (n, 1) along a design axis; input angles are floats, or arrays
-(k,) or (n, k). What comes out is (k,) of one design, (n, k) of n designs, and (n, 1) where no array
-of angles went in. To the type checker the numbers of a machine are floats.
+One convention for arrays holds in the whole program. The numbers of a machine (its ratio, its
+offset) are floats, or arrays (n, 1) along a design axis. Input angles are floats, or arrays (k,) or
+(n, k). Results are (k,) for one design, (n, k) for n designs, and (n, 1) without an array of
+angles. To the type checker the numbers of a machine are floats.
 """
 
 from __future__ import annotations
@@ -22,13 +22,13 @@ if TYPE_CHECKING:
 Array: TypeAlias = "NDArray[np.float64]"
 Mask: TypeAlias = "NDArray[np.bool_]"
 Whole: TypeAlias = "NDArray[np.intp]"
-Which: TypeAlias = "slice | Mask | Whole"  # some of many designs
+Which: TypeAlias = "slice | Mask | Whole"  # some designs of a batch
 Complex: TypeAlias = "NDArray[np.complex128]"
-Long: TypeAlias = "NDArray[np.longdouble]"  # the longest floating-point numbers that there are
+Long: TypeAlias = "NDArray[np.longdouble]"  # the longest floating-point numbers of the machine
 Number: TypeAlias = "float | Array"
 Truth: TypeAlias = "bool | Mask"
 
-# One kind of number goes in, and the same kind comes out.
+# One kind of number as argument, and the same kind as result.
 N = TypeVar("N", float, "Array", "Number")
 Either = TypeVar("Either", "Array", "Whole")
 Real = TypeVar("Real", float, "Array", "Number", "Decimal")
@@ -39,7 +39,7 @@ _PLAIN = (float, int)
 
 
 class Library(Protocol):
-    """What ``math`` and ``numpy`` both have."""
+    """The functions that ``math`` and ``numpy`` share."""
 
     @property
     def pi(self) -> float: ...
@@ -87,7 +87,7 @@ def piece_of(x: Number, cuts: Sequence[float]) -> int:
 
 
 def library(x: Number, y: Number = 0.0, z: Number = 0.0) -> Library:
-    """The module whose sin and cos suit numbers: ``numpy`` where one of them is an array."""
+    """The module whose functions suit these numbers: ``numpy`` if one of them is an array."""
     if isinstance(x, _PLAIN) and isinstance(y, _PLAIN) and isinstance(z, _PLAIN):
         return PLAIN
     for one in (x, y, z):
@@ -99,7 +99,7 @@ def library(x: Number, y: Number = 0.0, z: Number = 0.0) -> Library:
 
 
 def choose(condition: Truth, yes: Real, no: Real) -> Real:
-    """One of two values, for a truth value, or element by element for an array of them."""
+    """One of two values, element by element for an array of conditions."""
     if isinstance(condition, bool):
         return yes if condition else no
     if yes is no:
@@ -112,7 +112,7 @@ def choose(condition: Truth, yes: Real, no: Real) -> Real:
 
 
 def choose_record(condition: Truth, yes: Record, no: Record) -> Record:
-    """One of two tuples of the same shape; for an array of truth values each number for itself."""
+    """One of two tuples of the same shape; element by element for an array of conditions."""
     if isinstance(condition, bool):
         return yes if condition else no
     parts = [_chosen(condition, a, b) for a, b in zip(yes, no, strict=True)]
@@ -120,7 +120,7 @@ def choose_record(condition: Truth, yes: Record, no: Record) -> Record:
 
 
 def _chosen(condition: Mask, yes: object, no: object) -> object:
-    """A member of a record: a number, a record, or what both have in common."""
+    """A member of a record: a number, a record, or an object that both share."""
     if yes is no:
         return yes
     if isinstance(yes, tuple) and isinstance(no, tuple):
@@ -161,7 +161,7 @@ def picked(index: Whole, records: Sequence[Record]) -> Record:
 
 
 def _picked(index: Whole, members: Sequence[object]) -> object:
-    """A member of each index's record: a number, a record, or what all have in common."""
+    """One member of each index's record: a number, a record, or an object that all share."""
     first = members[0]
     if isinstance(first, tuple):
         return picked(index, cast("Sequence[tuple[object, ...]]", members))
@@ -173,13 +173,13 @@ def _picked(index: Whole, members: Sequence[object]) -> object:
 
 
 def record_of(like: Record, parts: Sequence[object]) -> Record:
-    """A record of the kind of another."""
+    """A record of the type of ``like``."""
     make: Callable[..., object] = type(like)
     return cast("Record", tuple(parts) if make is tuple else make(*parts))
 
 
 def are_alike(records: Sequence[object]) -> bool:
-    """Whether records differ in numbers alone, so that ``picked`` can pick of them.
+    """Return True if records differ in numbers only, as ``picked`` requires.
 
     >>> are_alike(((1.0, len), (2.0, len))), are_alike(((1.0, len), (2.0, max)))
     (True, False)
@@ -193,18 +193,18 @@ def are_alike(records: Sequence[object]) -> bool:
 
 
 def are_designs(x: Number, *numbers: Number) -> bool:
-    """Whether angles are (n, k), or one of some numbers differs from design to design."""
+    """Return True if angles are (n, k), or if one of the numbers is an array."""
     plain = isinstance(x, ONE) or x.ndim < 2
     return not (plain and all(isinstance(one, float) for one in numbers))
 
 
 def all_true(condition: Truth) -> bool:
-    """Whether a truth value, or each of an array of them, is true."""
+    """Return True if a condition, or each element of it, is true."""
     return condition if isinstance(condition, bool) else bool(condition.all())
 
 
 def ascending(places: Sequence[float]) -> list[float]:
-    """Numbers in order, each once; of designs each one's in its own order, equal ones too."""
+    """Numbers in ascending order, without repeats; for batches sorted along each design."""
     if all(isinstance(x, float) for x in places):
         return sorted(set(places))
     import numpy
@@ -215,12 +215,12 @@ def ascending(places: Sequence[float]) -> list[float]:
 
 
 def size(x: N) -> N:
-    """Without its sign."""
+    """The absolute value."""
     return x.__abs__()
 
 
 def plus(total: Number, more: Number) -> Number:
-    """The sum of two numbers, of which the first is nobody else's: an array is added to in place.
+    """The sum of two numbers; the first, if an array, is changed in place.
 
     That takes half the time.
     """
@@ -231,7 +231,7 @@ def plus(total: Number, more: Number) -> Number:
 
 
 def minus(total: Number, less: Number) -> Number:
-    """Their difference, in place too."""
+    """The difference of two numbers, in place as in ``plus``."""
     if _are_alike(total, less):
         total -= less
         return total
@@ -239,7 +239,7 @@ def minus(total: Number, less: Number) -> Number:
 
 
 def _are_alike(one: Number, other: Number) -> bool:
-    """Whether both are arrays of one shape and kind."""
+    """Return True if both are arrays of one shape and kind."""
     if isinstance(one, _PLAIN) or isinstance(other, _PLAIN):
         return False
     import numpy
@@ -249,32 +249,32 @@ def _are_alike(one: Number, other: Number) -> bool:
 
 
 def designs_of(design: int) -> int:
-    """How many designs a batch has, by the numbers of its designs: (m, 1), or one number.
+    """The number of designs in a batch, from its designs' numbers: (m, 1), or one number.
 
-    A batch carries these numbers with it: what happens to vary does not tell how long it is.
+    A batch carries these numbers, as its varied values need not be arrays.
     """
     return 1 if isinstance(design, int) else len(design)
 
 
 def parameter(x: Number) -> float:
-    """A machine's number that comes of a jet: to the type checker a float, as all of them are."""
+    """A machine's number that was computed by a jet, with the type that all of them have: float."""
     return cast(float, x)
 
 
 def scalar(x: Number) -> float:
-    """A number that is known to be one. Raises TypeError for an array."""
+    """A number that is known to be a single one. Raises TypeError for an array."""
     return x if isinstance(x, float) else float(x)
 
 
 def array(x: Number) -> Array:
-    """A number that is known to be an array, or may be one number for all of them."""
+    """A number as an array."""
     import numpy
 
     return numpy.asarray(x)
 
 
 def read_only(x: T) -> T:
-    """Return a value of a cache: of arrays, in records too, views that cannot be written through.
+    """Return a cached value whose arrays, in records too, are views that cannot be written through.
 
     >>> import numpy as np
     >>> once, _ = read_only((np.zeros(2), "zeros"))
@@ -294,9 +294,9 @@ def read_only(x: T) -> T:
 
 
 def only_of(rows: Iterable[Number | None]) -> list[float | None]:
-    """Of answers (m,) those of the one design: None where there is none, or it is NaN.
+    """The results of a single design from arrays (1,): None for None and NaN.
 
-    Raises ValueError for answers of several designs.
+    Raises ValueError for results of several designs.
 
     >>> only_of([2.0, math.nan, None])
     [2.0, None, None]
@@ -306,7 +306,7 @@ def only_of(rows: Iterable[Number | None]) -> list[float | None]:
 
 
 def rows_of(values: Sequence[Number], count: int) -> Array:
-    """Rows of ``count`` numbers each, of arrays or of one number for all of them."""
+    """Rows of ``count`` numbers each, from arrays or single numbers."""
     import numpy
 
     out = numpy.empty((len(values), count))

@@ -1,7 +1,8 @@
 """Chebyshev series of functions that are sampled at the Chebyshev points of [-1, 1].
 
-A smooth function is its series to the last digits once the terms have fallen to rounding; the size
-of the last terms says how much is left. Each function is a row of values at ``POINTS``.
+Once its terms have fallen to rounding, the series of a smooth function equals it to the last
+digits. The size of the last terms estimates the error. Each function is a row of values at
+``POINTS``.
 
     >>> values = np.exp(POINTS)[None]
     >>> bool(abs(at(series(values), np.array([0.3]))[0] - np.exp(0.3)) < 1e-14)
@@ -9,7 +10,7 @@ of the last terms says how much is left. Each function is a row of values at ``P
     >>> float(remainder(values)[0]) < 1e-14
     True
 
-(L. N. Trefethen, "Approximation Theory and Approximation Practice", SIAM 2013.)
+Source: L. N. Trefethen, "Approximation Theory and Approximation Practice", SIAM 2013.
 """
 
 from __future__ import annotations
@@ -21,18 +22,19 @@ import numpy as np
 if TYPE_CHECKING:
     from geneva_cli.numerics.arrays import Array
 
-DEGREE = 16  # of the series: most loads between their cuts have ended by then
+DEGREE = 16  # of the series: for most loads, its terms have ended between two cuts
 CELLS = 32  # of the grid on which signs are compared: two for each point
-LAST = 3  # terms taken together: of an even or odd function every other one is 0
-FEW = 128  # rows, whose products with a matrix lie in the processor's cache
-STEPS = 5  # of Newton's, on a series from a secant of the grid: then the function itself is asked
+LAST = 3  # last terms taken together: every other term of an even or odd function is 0
+FEW = 128  # rows, whose products with a matrix fit in the processor's cache
+# of Newton's method on a series, from a secant on the grid; the function itself takes over
+STEPS = 5
 MIDDLE = DEGREE // 2
 
 _order = np.arange(DEGREE + 1)
 
 
 def _even_spread(cells: int) -> Array:
-    """Places -cos(pi k / cells), mirrored to the last bit."""
+    """Places -cos(pi k / cells), symmetric to the last bit."""
     half = np.cos(np.pi * np.arange(cells // 2) / cells)
     return np.concatenate((-half, [0.0], half[::-1]))
 
@@ -64,8 +66,8 @@ def _to_slopes() -> Array:
 def _product(values: Array, matrix: Array) -> Array:
     """Return values (..., k) times a matrix (k, n), n > 1, summed in order.
 
-    BLAS sums in an order that depends on the number of rows and on the processor, so that a design
-    alone would differ from one among others.
+    BLAS sums in an order that depends on the number of rows and on the processor. Then a single
+    design would differ from the same design in a batch.
     """
     rows = np.moveaxis(values, -1, 0)
     if rows[0].size <= FEW:
@@ -80,7 +82,7 @@ def _product(values: Array, matrix: Array) -> Array:
 
 def _sum(terms: Array) -> Array:
     """The sum over the first axis, in order."""
-    if terms[0].size == 1:  # of these alone NumPy would add pairs
+    if terms[0].size == 1:  # a single value, of which NumPy would add pairs
         return np.asarray(np.add.accumulate(terms)[-1])
     return np.asarray(np.add.reduce(terms))
 
@@ -104,7 +106,7 @@ def slopes(terms: Array) -> Array:
 
 
 def remainder(values: Array) -> Array:
-    """The greatest of the last terms: about what the series leaves of the function."""
+    """The greatest of the last terms, an estimate of the series' error."""
     found: Array = np.abs(_product(values, _SERIES[:, -LAST:])).max(axis=-1)
     return found
 
@@ -115,7 +117,7 @@ def on_grid(values: Array) -> tuple[Array, Array]:
 
 
 def at(terms: Array, t: Array) -> Array:
-    """Series (terms, ..., m) at a place each: (..., m)."""
+    """Values of series (terms, ..., m) at one place each: (..., m)."""
     return _sum(terms * _terms(t).reshape(len(terms), *[1] * (terms.ndim - 2), -1))
 
 

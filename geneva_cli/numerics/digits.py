@@ -1,4 +1,4 @@
-"""Numbers of 50 digits, for what must be exact before it is rounded to a double: sines, cosines."""
+"""Sines, cosines and angles with 50 digits, for values that must be exact before rounding."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ PI = Decimal("3.14159265358979323846264338327950288419716939937510582097494")
 
 
 def sin_cos(radians: Decimal) -> tuple[Decimal, Decimal]:
-    """Sine and cosine, in the current context: both series, of an eighth of a turn at most."""
+    """Sine and cosine in the current context, from the series of an eighth of a turn at most."""
     quarter = round(float(radians) / (0.5 * math.pi))
     x = radians - quarter * PI / 2
     sums = [Decimal(1), x]  # cosine, sine

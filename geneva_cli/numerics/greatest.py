@@ -1,4 +1,4 @@
-"""The greatest values of functions of many designs as they come to light, and where."""
+"""The greatest values of functions of many designs and their places, updated as values arrive."""
 
 from __future__ import annotations
 
@@ -16,9 +16,9 @@ if TYPE_CHECKING:
 class Greatest:
     """The greatest values of functions of n designs, and the first places that have them.
 
-    Where ``sized`` their greatest sizes; else their greatest values, and the greatest of minus the
-    functions. Values that differ by no more than rounding are one that occurs twice: its earlier
-    place counts.
+    With ``sized`` these are the greatest sizes; else the greatest values, and the greatest values
+    of the functions' negatives. Values that differ only by rounding are equal: the earlier place
+    counts.
     """
 
     def __init__(self, functions: int, n: int, sized: bool) -> None:
@@ -33,14 +33,14 @@ class Greatest:
         return np.abs(value) if self.sized else way * value
 
     def add(self, number: Whole, design: Whole, x: Array, value: Array) -> None:
-        """Ends and extremes of functions by their numbers: values at places, (m,) each."""
+        """Add values (m,) of functions, by their numbers, at ends and extremes."""
         for side, way in enumerate(self.ways):
             own = self._side(way, value)
             _raise(self.most[side], number, design, own)
             self.known.append((side, number, design, x, own))
 
     def add_samples(self, pieces: Pieces, x: Array) -> None:
-        """Samples of pieces at places (m, k), of which each has those within."""
+        """Add samples of pieces at places (m, k); only those within each piece count."""
         design, (a, b), every = pieces.rows.design, pieces.rows.x, np.arange(len(x))
         outside = (x < a[:, None]) | (x > b[:, None])
         first, number = outside.argmin(axis=1), np.arange(len(pieces.value))[:, None]
@@ -52,33 +52,34 @@ class Greatest:
             of, row = np.nonzero(top == self.most[side][:, design])
             self.sample[side, of, design[row]] = place[of, row]
             of, row = np.nonzero(top == np.inf)
-            if len(of):  # from the piece's start on, if its first sample is
+            if len(of):  # a pole at the first sample of a piece counts from the piece's start
                 start = np.where(best[of, row] == first[row], a[row], place[of, row])
                 self.known.append((side, of, design[row], start, top[of, row]))
 
     def add_sizes(self, pieces: Pieces) -> None:
-        """Sizes of functions by samples of whole spans, once it is known which have no bound."""
+        """Update the sizes of functions from samples of whole spans, unbounded ones known."""
         design, value = pieces.rows.design, pieces.value
         endless = np.isinf(self.most).any(axis=0)[:, design]
-        # cut at a pole, a piece has one end of any size
+        # a piece divided at a pole has one end of any size
         size = np.abs(value)
         top = size >= size.max(axis=2, keepdims=True)
         low, high = usual(np.where(top & endless[..., None], np.inf, value))
         _raise(self.size, np.arange(len(value))[:, None], design, np.fmax(-low, high))
 
     def least(self, side: int) -> Array:
-        """What a value must come to, to be one of the greatest: (functions, n)."""
+        """The least values that count as greatest: (functions, n)."""
         return bar(self.most[side], self.size)
 
     def may_pass(self, design: Whole, low: Array, high: Array) -> Mask:
-        """Whether functions between ``low`` and ``high`` may have one of the greatest values:
-        (functions, m). Nothing passes what has no bound.
+        """Masks of functions between ``low`` and ``high`` that may have one of the greatest values.
+
+        The shape is (functions, m). Nothing exceeds an unbounded value.
         """
         number = np.arange(len(low))[:, None]
         return self.may_be(number, design, low, high)
 
     def may_be(self, number: Whole, design: Whole, low: Array, high: Array) -> Mask:
-        """Likewise of functions by their numbers, of a design each."""
+        """Masks of functions, by number, whose range may reach their design's greatest value."""
         out = np.full(np.shape(low), False)
         for side, way in enumerate(self.ways):
             reach = np.maximum(high, -low) if self.sized else high if way > 0.0 else -low
@@ -97,6 +98,6 @@ class Greatest:
 
 
 def _raise(most: Array, number: Whole, design: Whole, value: Array) -> None:
-    """Set each of some greatest values (functions, n) to a value that is greater."""
-    index = number * most.shape[1] + design  # flat: so NumPy is ten times as fast
+    """Set greatest values (functions, n) to values that are greater."""
+    index = number * most.shape[1] + design  # flat indices: NumPy is ten times as fast with them
     np.fmax.at(most.reshape(-1), index.reshape(-1), value.reshape(-1))

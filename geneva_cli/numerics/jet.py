@@ -1,12 +1,11 @@
 """Jets: numbers that carry their first derivatives (truncated Taylor arithmetic).
 
-A jet of order n holds the Taylor coefficients c[0..n] of a function of one
-variable at a point, c[k] = f^(k)/k!. Coefficients are floats, or NumPy arrays
-of shapes that go together; the same formula then runs on one angle through ``math``,
-without NumPy being imported, or on a million through ``numpy``.
+A jet of order n holds the Taylor coefficients c[0..n] of a function of one variable at a point,
+c[k] = f^(k)/k!. Coefficients are floats, or NumPy arrays of compatible shapes. The same formula
+then runs on one angle with ``math``, without importing NumPy, or on a million with ``numpy``.
 
-The recurrences are the classical ones of automatic differentiation
-(Griewank and Walther, Evaluating Derivatives, 2nd ed., section 13.2).
+The recurrences are the classical ones of automatic differentiation (Griewank and Walther,
+Evaluating Derivatives, 2nd ed., section 13.2).
 """
 
 from __future__ import annotations
@@ -31,7 +30,7 @@ class Jet:
     """Taylor coefficients of a function at a point (float) or at many (arrays)."""
 
     __slots__ = ("c",)
-    __array_ufunc__ = None  # an array beside a jet leaves the arithmetic to the jet
+    __array_ufunc__ = None  # with an array as the other operand, the jet's arithmetic applies
 
     def __init__(self, coefficients: Sequence[Number]) -> None:
         self.c = tuple(coefficients)
@@ -106,35 +105,36 @@ class Jet:
         return Jet(q)
 
     def __rtruediv__(self, other: Number) -> Jet:
-        return Jet((other, *[0] * self.order)) / self  # from 0.0 no Decimal can be subtracted
+        # an int, as a float cannot be subtracted from a Decimal
+        return Jet((other, *[0] * self.order)) / self
 
 
-# What a formula of jets says of their values alone, too.
+# Jets, or their values: formulas that hold for both.
 V = TypeVar("V", Jet, "Array")
 
 
 def _is_constant(c: Sequence[Number]) -> bool:
-    """Whether all coefficients but the value are the number 0: no array of them is looked at."""
+    """Return True if all coefficients but the value are the number 0, not an array."""
     return len(c) > 1 and _are_zero(c[1:])
 
 
 def _are_zero(c: Sequence[Number]) -> bool:
-    """Whether all are the number 0."""
-    for a in c:  # noqa: SIM110 - asked at every product, and a generator takes twice as long
+    """Return True if all are the number 0, not an array."""
+    for a in c:  # noqa: SIM110 - runs at every product, and a generator takes twice as long
         if not isinstance(a, float) or a:
             return False
     return True
 
 
 def _sum(a: Number, b: Number) -> Number:
-    """a + b; what is added to the number 0 stays as it is."""
+    """a + b; if one of them is the number 0, the other unchanged."""
     if isinstance(a, float) and not a:
         return b
     return a if isinstance(b, float) and not b else a + b
 
 
 def _scaled(c: Sequence[Number], factor: Number) -> list[Number]:
-    """Coefficients times a number; those that are the number 0 stay it."""
+    """Coefficients times a factor; those that are the number 0 stay so."""
     if isinstance(factor, float) and not factor:
         return [c[0] * factor, *[0.0] * (len(c) - 1)]
     return [
@@ -154,7 +154,7 @@ def _convolve(
 
 
 def _square(a: Sequence[Number], k: int, first: int) -> Number:
-    """The sum of a[i] a[k - i] from the first i to k - first."""
+    """The sum of a[i] a[k - i] from i = first to k - first."""
     half = (k + 1) // 2
     if first == half:
         return a[half] * a[half]
@@ -166,7 +166,7 @@ def _square(a: Sequence[Number], k: int, first: int) -> Number:
 
 
 def sin_cos(x: Jet) -> tuple[Jet, Jet]:
-    """Sine and cosine together; each one's recurrence needs the other."""
+    """Sine and cosine of a jet, whose recurrences need each other."""
     m = library(x.c[0])
     return _circle([k * a for k, a in enumerate(x.c)], m.sin(x.c[0]), m.cos(x.c[0]))
 
@@ -174,7 +174,7 @@ def sin_cos(x: Jet) -> tuple[Jet, Jet]:
 def _circle(slope: Sequence[Number], sine: Number, cosine: Number) -> tuple[Jet, Jet]:
     """Sine and cosine of an angle with derivative series ``slope[1:]``, from their values."""
     s, c = [sine], [cosine]
-    if _are_zero(slope[2:]):  # an even turn, as the input's own
+    if _are_zero(slope[2:]):  # uniform rotation, such as the input's
         for k in range(1, len(slope)):
             step = slope[1] / k
             s, c = [*s, c[-1] * step], [*c, s[-1] * -step]
@@ -222,7 +222,7 @@ def _versine(sine: Number, cosine: Number) -> Number:
 
 
 def turned_at(rate: Jet, x: Number, y: Number, order: int) -> tuple[Jet, Jet]:
-    """A vector that is (x, y) and keeps its length, from the rate at which it turns."""
+    """A vector of constant length with the value (x, y), from the rate at which it turns."""
     sine, cosine = _circle([0.0, *rate.c][: order + 1], y, x)
     return cosine, sine
 
@@ -274,9 +274,9 @@ def _moment(x: Sequence[Number], y: Sequence[Number], k: int) -> Number:
 def piecewise(x: Number, cuts: Sequence[Number], pieces: Sequence[Callable[[Number], Jet]]) -> Jet:
     """``pieces[i](x)`` for x between ``cuts[i-1]`` and ``cuts[i]``, the upper end included.
 
-    Of one design each piece sees only its own part of an array of angles. Of many designs, whose
-    cuts may differ, each piece sees the columns in which it holds anywhere, and its own part of
-    them is chosen: so it pays to ask for angles that lie in one piece.
+    For one design each piece is evaluated at its own part of an array of angles. In a batch, whose
+    cuts may differ, a piece is evaluated at the columns where it applies anywhere. So it is faster
+    to request angles that lie in one piece.
     """
     if isinstance(x, ONE) and isinstance(cuts[0], float) and isinstance(cuts[-1], float):
         return pieces[piece_of(x, cast("Sequence[float]", cuts))](x)
@@ -296,7 +296,7 @@ def piecewise(x: Number, cuts: Sequence[Number], pieces: Sequence[Callable[[Numb
 def _by_columns(
     x: Array, index: NDArray[np.int8], pieces: Sequence[Callable[[Number], Jet]]
 ) -> Jet:
-    """Of angles (n, k) of designs: columns that lie in one piece are seen by no other."""
+    """Evaluate angles (n, k) column by column; columns in one piece are not evaluated by others."""
     import numpy as np
 
     low, high = index.min(axis=0), index.max(axis=0)
@@ -317,7 +317,7 @@ def _by_columns(
 def _by_choice(
     x: Number, index: NDArray[np.int8], pieces: Sequence[Callable[[Number], Jet]]
 ) -> Jet:
-    """Each piece that holds anywhere sees all angles, and its own part is chosen."""
+    """Evaluate each piece that applies anywhere at all angles, and choose its own part."""
     import numpy as np
 
     first, last = int(index.min(initial=len(pieces) - 1)), int(index.max(initial=0))
@@ -336,7 +336,7 @@ def _by_choice(
 
 
 def _by_parts(x: Array, index: Whole, pieces: Sequence[Callable[[Array], Jet]]) -> Jet:
-    """Of angles (k,), each piece's own; its numbers may be those of many designs."""
+    """Evaluate each piece at its own part of angles (k,), for one design or a batch."""
     import numpy as np
 
     if not x.size:
@@ -346,7 +346,7 @@ def _by_parts(x: Array, index: Whole, pieces: Sequence[Callable[[Array], Jet]]) 
     for i in np.flatnonzero(np.bincount(index.ravel())).tolist():
         here, piece = index == i, pieces[i]
         parts[piece] = parts[piece] | here if piece in parts else here
-    alone = len(parts) == 1  # the very array then, of which something may be known already
+    alone = len(parts) == 1  # the same array object, for which values may be cached
     found = [(where, piece(x if alone else x[where]).c) for piece, where in parts.items()]
     designs = np.broadcast_shapes(*[np.shape(c)[:-1] for _, jet in found for c in jet])
     out = [np.empty((*designs, *x.shape)) for _ in found[0][1]]

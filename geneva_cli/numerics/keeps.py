@@ -1,4 +1,4 @@
-"""The comparison of a value with its limit, which all checks share."""
+"""The comparison of a value with its limit, for all checks."""
 
 from __future__ import annotations
 
@@ -8,10 +8,10 @@ from geneva_cli.numerics.tolerances import ROUNDED
 
 
 def keeps(value: float, must_be: str, limit: float, noise: float = 0.0) -> bool:
-    """Whether a value is "at least", "at most" or "above" a limit, but for rounding.
+    """Return True if a value is "at least", "at most" or "above" a limit, apart from rounding.
 
-    ``noise`` is the rounding of the value itself, where that is larger than the limit's (a gap
-    that should be 0 is known as nearly as the outlines are). Raises ValueError for another word.
+    ``noise`` is the rounding error of the value itself, if larger than that of the limit: a gap
+    that should be 0 has the rounding error of its outlines. Raises ValueError for another word.
     """
     slack = max(ROUNDED * abs(limit), noise) if math.isfinite(limit) else 0.0
     if must_be == "at least":

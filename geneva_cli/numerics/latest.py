@@ -1,7 +1,7 @@
 """A cache of one entry for functions of an angle.
 
-Motion, path, slot and guide of one roller are built on each other, and each is evaluated at the
-same array of angles: what they have in common is then worked out once.
+Motion, path, slot and guide of one roller depend on each other, and each is evaluated at the same
+array of angles. The cache avoids computing their common parts again.
 """
 
 from __future__ import annotations
@@ -15,15 +15,15 @@ from geneva_cli.numerics.jet import Jet, Number
 if TYPE_CHECKING:
     from geneva_cli.numerics.jet import Array
 
-MOST = 1 << 16  # angles: of more nothing is held in memory
+MOST = 1 << 16  # angles: larger arrays are not kept in memory
 
 
 class Latest:
     """The jets of a function at the array of angles of its last call.
 
-    A call is served from the cache where it has the same array object with the same values, and no
-    higher order: a jet of lower order is the beginning of the kept one. The cache is not pickled.
-    Arrays that the cache holds are read-only: what a caller writes would change the next answer.
+    A call with the same array object, equal values and no higher order is served from the cache: a
+    jet of lower order is the beginning of the cached one. The cache is not pickled. Its arrays are
+    read-only, so that no caller can change the next result.
     """
 
     def __init__(self) -> None:
@@ -35,7 +35,7 @@ class Latest:
     def __call__(
         self, of: Callable[[Number, int], tuple[Jet, ...]], x: Number, order: int
     ) -> tuple[Jet, ...]:
-        """``of(x, order)``, from the cache where it has it."""
+        """``of(x, order)``, from the cache if possible."""
         if isinstance(x, ONE):
             return of(x, order)
         kept = self._kept

@@ -1,9 +1,9 @@
-"""Spans of many designs cut into pieces on which all functions are smooth.
+"""Division of many designs' spans into pieces on which all functions are smooth.
 
-A row, a part of a design's span, is sampled at the Chebyshev points with all signs held as they are
-in its middle: so every function is smooth on the whole row. Where a function whose sign counts is
-zero the row is cut, and beyond the cut the same samples are evaluated again with the other sign. A
-row on which a series does not tell where the zeros are is halved.
+A row is a part of a design's span. It is sampled at Chebyshev points with all signs held as in its
+middle, so that every function is smooth on the whole row. The row is cut where a function whose
+sign matters is zero. Beyond the cut the same samples are evaluated with the other sign. A row is
+halved if a series does not show where its zeros are.
 """
 
 from __future__ import annotations
@@ -24,56 +24,57 @@ if TYPE_CHECKING:
     Which: TypeAlias = slice | Whole
     Some: TypeAlias = slice | Whole | Mask
 
-NOISE = 1e-12  # share of a function's size on a row that has no sign
+NOISE = 1e-12  # fraction of a function's size on a row, below which it has no sign
 ROUNDING = 4e-15  # and of its greatest size in the design's whole motion: some roundings
-END = 1e-9  # share of a row: a zero so near to an end, as of a motion's, is the end's own
-SETTLED = 3e-3  # share of a size that a series may leave where a single zero is looked for
-DIGITS = 1e-9  # and where several places are as near to 0 as that
-NEAR = 0.05  # share of a size: nearer to 0 at a point, a function may be 0 beside it
-SAFE = 4.0  # times the last terms of a series: what all that follow them may come to
-STEPS = 6  # of Newton's, from the zero of a series
-CLOSE = 1e-8  # share of a half row: after so short a step, what is left is rounding
-FAR = 0.1  # and no step is longer: a series knows its zeros better
-NARROW = 1e-11  # share of a design's spans: no row is narrower
+END = 1e-9  # fraction of a row: a zero this near to an end, such as a motion's, is the end's own
+SETTLED = 3e-3  # fraction of a size: the allowed error of a series for a single zero
+DIGITS = 1e-9  # the same where several points are within the error of 0
+NEAR = 0.05  # fraction of a size: nearer to 0 at a point, a function may be 0 next to it
+SAFE = 4.0  # times the last terms of a series: a bound on all later terms
+STEPS = 6  # of Newton's method, from the zero of a series
+CLOSE = 1e-8  # fraction of a half row: after a step this short, the rest is rounding
+FAR = 0.1  # fraction of a half row: no step is longer, as a series knows its zeros better
+NARROW = 1e-11  # fraction of a design's spans: no row is narrower
 
 
 class Functions(Protocol):
-    """The functions of designs. The first are those whose signs count, each of them smooth while
-    those before it keep theirs; the others are wanted, and are smooth while all do.
+    """The functions of designs: first those whose signs matter, then the wanted ones.
+
+    Each of the first is smooth while those before it keep their signs. The wanted ones are smooth
+    while all do.
     """
 
-    signs: int  # how many of the functions have a sign that counts
-    wanted: int  # how many others are looked for
-    rooms: Sequence[int]  # of the first: which are above 0, and 0 where wanted ones have a pole
-    poled: Sequence[int]  # of the first: which go as 1/x at the place 0
+    signs: int  # number of the functions whose signs matter
+    wanted: int  # number of the wanted functions
+    rooms: Sequence[int]  # of the first: they are above 0, and 0 where wanted functions have a pole
+    poled: Sequence[int]  # of the first: they behave as 1/x at the place 0
 
     def at(self, x: Array, which: Which, order: int) -> Any:
-        """What the functions of some designs are made of, at places (m, k) in degrees."""
+        """All that the functions of some designs are computed from, at places (m, k) in degrees."""
 
     def column(self, at: Any, number: int) -> Any:
-        """The same at one place of each design: (m, 1)."""
+        """The part of ``at`` for one place of each design: (m, 1)."""
 
     def rows(self, at: Any, which: Whole) -> Any:
-        """The same of some of the designs, by their numbers among the m, which may repeat."""
+        """The part of ``at`` for some designs, by their numbers among the m, which may repeat."""
 
     def look(
         self, at: Any, forced: Array | None = None, asked: Sequence[int] | None = None
     ) -> tuple[Mask, list[Array]]:
-        """Which signs are positive, (signs, m, k), and Taylor coefficients (functions, m, k).
+        """Masks of positive signs, (signs, m, k), and Taylor coefficients (functions, m, k).
 
-        ``forced`` are signs that are known, 1.0 or -1.0; where it is NaN they are looked up. Of
-        the wanted functions only those ``asked`` are among the functions, if that is given. A
-        function without a bound is infinite, and its slope 0.
+        ``forced`` are known signs, 1.0 or -1.0; where it is NaN they are computed. ``asked``
+        restricts the wanted functions. A function without a bound is infinite, and its slope 0.
         """
 
 
 class Rows(NamedTuple):
-    """Parts of designs' spans, to be sampled."""
+    """Parts of designs' spans that are to be sampled."""
 
     design: Whole  # (m,)
     span: Whole
-    u: Array  # both ends as ``spread`` places, at which the samples are even: (2, m)
-    x: Array  # and as places, degrees
+    u: Array  # both ends as ``spread`` places, in which the samples are spaced: (2, m)
+    x: Array  # both ends as places, degrees
     edge: Mask  # whether each is an end of the span, or a cut: (2, m)
 
     def take(self, which: Some) -> Rows:
@@ -82,7 +83,7 @@ class Rows(NamedTuple):
         return Rows(design[which], span[which], u[:, which], x[:, which], edge[:, which])
 
     def at(self, t: Array) -> Array:
-        """The spread places of shares from -1 to 1."""
+        """The spread places at positions from -1 to 1 in the rows."""
         a, b = self.u
         return np.asarray(0.5 * (a + b) + 0.5 * (b - a) * t)
 
@@ -92,12 +93,12 @@ class Pieces(NamedTuple):
 
     rows: Rows
     sign: Array  # (signs, m)
-    part: Array  # both ends as shares of the row that was sampled, from -1 to 1: (2, m)
+    part: Array  # both ends as positions in the sampled row, from -1 to 1: (2, m)
     value: Array  # at the points of that row, with these signs: (wanted, m, points)
 
     @property
     def whole(self) -> Mask:
-        """Whether each is the row that was sampled."""
+        """Masks of the pieces that are whole rows."""
         return np.asarray((self.part[0] == -1.0) & (self.part[1] == 1.0))
 
     def take(self, which: Some) -> Pieces:
@@ -107,12 +108,12 @@ class Pieces(NamedTuple):
 
 
 class Sampled(NamedTuple):
-    """What became of sampled rows."""
+    """The pieces of sampled rows, and the parts that must be sampled again."""
 
     pieces: Pieces
     x: Array  # the places of their samples, (m, points)
-    room: Array  # the product of the functions that poles are zeros of: (m, points)
-    again: list[Rows]  # parts whose zeros are not known, to be sampled
+    room: Array  # the product of the functions that are zero at poles: (m, points)
+    again: list[Rows]  # parts whose zeros are not known
 
 
 class Places:
@@ -133,7 +134,7 @@ class Places:
         return gathered(u, w if u.ndim == 1 else w[:, None])[0]
 
     def halves(self, rows: Rows) -> list[Rows]:
-        """Rows in two each."""
+        """Both halves of rows."""
         u = rows.at(np.zeros(1))
         x = np.clip(self.gathered(u, rows.design), *rows.x)
         first, last = np.array([[True], [False]]), np.array([[False], [True]])
@@ -153,19 +154,20 @@ def rows_joined(parts: Sequence[Rows]) -> Rows:
 
 
 class Cutter:
-    """Cuts rows of designs into pieces."""
+    """Divides rows of designs into pieces."""
 
     def __init__(self, f: Functions, places: Places, n: int) -> None:
         self.f, self.places = f, places
-        self.size = np.zeros((f.signs, n))  # the greatest seen of each function whose sign counts
+        # the greatest size so far of each function whose sign matters
+        self.size = np.zeros((f.signs, n))
         self.width = np.zeros(n)  # of all spans, in spread places
 
     def is_narrow(self, rows: Rows) -> Mask:
-        """Whether rows are as narrow as any may be: no halves of them tell more."""
+        """Masks of the rows that are too narrow for halving."""
         return np.asarray(rows.u[1] - rows.u[0] <= NARROW * self.width[rows.design])
 
     def sampled(self, rows: Rows, which: Which) -> Sampled:
-        """Pieces of rows of the designs ``which``, each cut where a sign changes."""
+        """Pieces of rows of the designs ``which``, cut where a sign changes."""
         f = self.f
         # designs lie side by side in memory: each operation runs along all of them
         u = np.asfortranarray(rows.at(POINTS[:, None]).T)
@@ -182,7 +184,7 @@ class Cutter:
         own, again = np.arange(len(u)), []
         for kind in range(f.signs):
             here = rows.take(own)
-            # a pole is taken times the distance from it
+            # a pole is multiplied by the distance from it
             q = value[kind] * np.abs(x[own]) if kind in f.poled else value[kind]
             unsure, cut, t = self._zeros(kind, here, sign, part, q)
             unsure &= ~self.is_narrow(here)
@@ -201,7 +203,7 @@ class Cutter:
         return Sampled(pieces, x[own], np.abs(value[list(f.rooms)].prod(axis=0)), again)
 
     def _turn(self, kind: int, at: Any, own: Whole, pieces: Pieces, q: Array) -> None:
-        """Set a sign to what its function has in the middle of each piece, and the values to it."""
+        """Set each sign to its function's in the middle of each piece, and update the values."""
         sign, part, value = pieces[1:]
         some = np.flatnonzero(~pieces.whole)
         middle = chebyshev.at(chebyshev.series(q[some]), 0.5 * (part[0] + part[1])[some])
@@ -212,7 +214,7 @@ class Cutter:
             value[:, flip] = found[1][0]
 
     def _cut(self, rows: Rows, part: Array) -> Rows:
-        """Parts of rows, whose ends within are cuts."""
+        """Parts of rows, whose inner ends are cuts."""
         inner = np.abs(part) < 1.0
         if not inner.any():
             return rows
@@ -223,7 +225,7 @@ class Cutter:
         return rows._replace(u=u, x=np.clip(x, *rows.x), edge=rows.edge | inner)
 
     def _parts(self, rows: Rows, part: Array, which: Mask) -> Rows:
-        """What is to be sampled of those: halves of a whole row, or a part of one as its own."""
+        """The parts to sample next: both halves of a whole row, or a part as a row of its own."""
         whole = (part[0] == -1.0) & (part[1] == 1.0)
         cut = which & ~whole
         own = self._cut(rows.take(cut), part[:, cut])
@@ -232,9 +234,9 @@ class Cutter:
     def _zeros(
         self, kind: int, rows: Rows, sign: Array, part: Array, value: Array
     ) -> tuple[Mask, Whole, Array]:
-        """Of which parts the zeros of a function are not known; and the zeros of the others.
+        """A mask of parts with unknown zeros, and the zeros of the other parts.
 
-        These are the numbers of the parts, and places from -1 to 1 of their rows.
+        Zeros are the numbers of their parts, and positions from -1 to 1 in the rows.
         """
         unsure = np.zeros(len(value), dtype=bool)
         some, q, size, left = _may_cross(value, sign[kind])
@@ -269,12 +271,12 @@ class Cutter:
         return unsure, which[kept], t[kept]
 
     def _rounding(self, kind: int, design: Whole, size: Array) -> Array:
-        """What is rounding beside a function's greatest size in its design."""
+        """The rounding error of a function, from its greatest size in its design."""
         np.fmax.at(self.size[kind], design, np.where(np.isfinite(size), size, 0.0))
         return np.asarray(ROUNDING * self.size[kind, design])
 
     def _refined(self, kind: int, rows: Rows, sign: Array, t: Array) -> Array:
-        """Zeros by the function itself, from those of its series on."""
+        """Zeros of the functions themselves, from the zeros of their series."""
         if not len(t):
             return t
         middle, half = rows.at(np.zeros(1)), 0.5 * (rows.u[1] - rows.u[0])
@@ -296,8 +298,10 @@ class Cutter:
 
 
 def _may_cross(value: Array, sign: Array) -> tuple[Whole, Array, Array, Array]:
-    """The numbers of rows on which a function may change sign; its values times the sign that it
-    has in the middle, its size, and what its series leaves.
+    """Rows on which a function may change sign.
+
+    Returns their numbers, the values times the sign in the middle, the sizes, and the series'
+    errors.
     """
     size, left = np.abs(value).max(axis=1), chebyshev.remainder(value)
     q = value * sign[:, None]
@@ -306,9 +310,9 @@ def _may_cross(value: Array, sign: Array) -> tuple[Whole, Array, Array, Array]:
 
 
 def _crosses_twice(g: Array, d: Array, below: Mask, noise: Array, left: Array) -> Mask:
-    """Whether rows may have a pair of zeros between two places of the grid.
+    """Masks of rows that may have a pair of zeros between two places of the grid.
 
-    ``left`` is what their series may leave of the functions.
+    ``left`` is the error of their series.
     """
     before, after = d[:, :-1], d[:, 1:]
     turn = before / (before - after)
@@ -320,7 +324,7 @@ def _crosses_twice(g: Array, d: Array, below: Mask, noise: Array, left: Array) -
 
 
 def _between(cut: Whole, t: Array, part: Array) -> tuple[Whole, Array]:
-    """Parts between cuts: the numbers of those that were cut, or not, and their ends."""
+    """Parts between cuts: the numbers of the original parts, and both ends."""
     number = np.concatenate((np.arange(part.shape[1]), cut))
     start, end = np.concatenate((part[0], t)), np.concatenate((part[1], t))
     one, two = np.lexsort((start, number)), np.lexsort((end, number))

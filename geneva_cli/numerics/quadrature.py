@@ -1,4 +1,4 @@
-"""Places and weights of sums for integrals of smooth functions over [-1, 1].
+"""Nodes and weights of quadrature rules for smooth functions over [-1, 1].
 
 >>> x, weight = rule(4)
 >>> round(float(np.cos(x) @ weight - 2.0 * np.sin(1.0)), 6)
@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 
 @cache
 def rule(nodes: int) -> tuple[Array, Array]:
-    """Places in [-1, 1] and weights of Gauss and Legendre, by Newton on the polynomial."""
+    """Nodes in [-1, 1] and weights of Gauss-Legendre quadrature, by Newton's method."""
     x = np.cos(np.pi * (np.arange(nodes) + 0.75) / (nodes + 0.5))
     for _ in range(6):
         before, here = np.ones(nodes), x
@@ -33,7 +33,7 @@ def rule(nodes: int) -> tuple[Array, Array]:
 
 @cache
 def lobatto(nodes: int) -> tuple[Array, Array]:
-    """Places in [-1, 1], both ends among them, and weights of Lobatto, by Newton's steps."""
+    """Nodes in [-1, 1], both ends included, and weights of Lobatto quadrature."""
     x = np.cos(np.pi * np.arange(nodes) / (nodes - 1))
     for _ in range(8):
         before, here = np.ones(nodes), x

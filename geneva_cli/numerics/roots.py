@@ -1,6 +1,6 @@
 """Roots, minima and boundaries in one variable, to the last bit.
 
-``roots_many`` finds roots and ``extrema_many`` stationary points of a batch of functions.
+``newton`` finds roots and ``extrema`` stationary points of a batch of functions.
 """
 
 from __future__ import annotations
@@ -19,24 +19,22 @@ if TYPE_CHECKING:
 
 Real = TypeVar("Real", float, "Decimal")
 
-STEPS = 200  # towards a root, at most; halving comes to the last of 50 digits in 170
+STEPS = 200  # towards a root, at most; halving reaches the last of 50 digits in 170
 GOLDEN = (math.sqrt(5.0) - 1.0) / 2.0
 FLAT = 1e-8
 SCAN = 16  # intervals of the first scan
-DEEPEST = 50  # halvings of one of them: a feature 2**-50 of the interval wide is still seen
-PREDICTED = 1e-2  # share of the range by which a cubic may miss the middle of its interval
+DEEPEST = 50  # halvings of one interval: a feature 2**-50 of the interval wide is still found
+PREDICTED = 1e-2  # fraction of the range by which a cubic may miss the middle of its interval
 
 
 def root(
     slope: Callable[[float], tuple[float, float]], a: float, b: float, before: float | None = None
 ) -> float:
-    """Where ``slope`` (value, derivative) changes sign in [a, b]: Newton, kept in the bracket.
+    """The root of ``slope`` (value, derivative) in [a, b], by Newton's method within the bracket.
 
-    ``before`` has the sign just after a, where it is not that at a.
-
-    Falls back on bisection wherever Newton leaves the bracket or shrinks it too slowly, so at
-    most about a hundred steps, and stops where the bracket or the step is one unit in the last
-    place.
+    ``before`` has the sign just after a, if that differs from the sign at a. The search bisects
+    where Newton leaves the bracket or shrinks it too slowly, so it takes at most about a hundred
+    steps. It stops when the bracket or the step is one unit in the last place.
     """
     f_a = slope(a)[0] if before is None else before
     x, step = 0.5 * (a + b), b - a
@@ -59,10 +57,10 @@ def root(
 
 
 def boundary(holds: Callable[[Real], Truth], good: Real, bad: Real, looks: int = STEPS) -> Real:
-    """The last number from ``good`` towards ``bad`` for which something holds, by halving.
+    """The last number from ``good`` towards ``bad`` for which a condition holds, by halving.
 
-    ``good`` and ``bad`` are floats, arrays of designs, or Decimals of a context that is set. With
-    ``looks`` it is asked no more often, and the number is one for which it holds.
+    ``good`` and ``bad`` are floats, arrays of designs, or Decimals of the current context.
+    ``looks`` limits the evaluations; the condition holds for the result then too.
 
     >>> boundary(lambda x: x * x <= 2.0, 1.0, 2.0)
     1.414213562373095
@@ -79,7 +77,7 @@ def boundary(holds: Callable[[Real], Truth], good: Real, bad: Real, looks: int =
 def boundary_by_sections(
     holds: Callable[[Array], Mask], good: float, bad: float, sections: int = 64
 ) -> float:
-    """``boundary`` for a condition on arrays of numbers, in fewer calls.
+    """The result of ``boundary`` for a condition on arrays of numbers, in fewer calls.
 
     >>> boundary_by_sections(lambda x: x * x <= 2.0, 1.0, 2.0)
     1.414213562373095
@@ -99,11 +97,11 @@ def boundary_by_sections(
 
 
 class Falsi:
-    """Regula falsi with Illinois' halving, between a place that keeps a limit and one that does
-    not: ``left`` >= 0 is what is left of the limit at ``good``, and ``short`` < 0 at ``bad``.
+    """Regula falsi with Illinois halving, for the place where a limit is just kept.
 
-    The caller takes the next place from ``middle`` and adds what is left there. Where one of the
-    two values is infinite, the bracket is halved.
+    ``left`` >= 0 is the margin to the limit at ``good``, and ``short`` < 0 that at ``bad``. The
+    caller takes the next place from ``middle`` and adds the margin there. If one of the two values
+    is infinite, the bracket is halved.
     """
 
     def __init__(self, good: float, left: float, bad: float, short: float) -> None:
@@ -111,13 +109,13 @@ class Falsi:
         self._stayed = 0  # times in a row that the good end moved (> 0), or the bad one (< 0)
 
     def middle(self, margin: float = 0.0) -> float:
-        """The next place, no nearer to either end than a share of the bracket."""
+        """The next place, at least a fraction ``margin`` of the bracket from either end."""
         known = math.isfinite(self.left) and math.isfinite(self.short)
         share = self.left / (self.left - self.short) if known else 0.5
         return self.good + (self.bad - self.good) * min(max(share, margin), 1.0 - margin)
 
     def add(self, x: float, left: float) -> None:
-        """Narrow the bracket by what is left of the limit at a place in it."""
+        """Narrow the bracket by the margin at a place in it."""
         if left >= 0.0:
             self.good, self.left, self._stayed = x, left, max(self._stayed, 0) + 1
             self.short *= 0.5 if self._stayed > 1 else 1.0
@@ -127,8 +125,7 @@ class Falsi:
 
 
 def greatest_at(found: Sequence[tuple[float, float]]) -> tuple[float, float]:
-    """The greatest of some values, each with its place: of some that are one but for rounding, the
-    first has the place, whichever has the last digits.
+    """The greatest of some values, and the first place whose value equals it apart from rounding.
 
     >>> greatest_at([(1.0, 10.0), (3.0, 20.0), (3.0000000000000004, 30.0)])
     (3.0000000000000004, 20.0)
@@ -141,8 +138,8 @@ def greatest_at(found: Sequence[tuple[float, float]]) -> tuple[float, float]:
 def least(f: Callable[[float], float], a: float, b: float) -> tuple[float, float]:
     """Place and value of the one minimum of a function without slopes in [a, b]: golden section.
 
-    To a share of 1e-8 of the interval: a minimum is flat, and its value then exact to the last
-    digits.
+    The place is accurate to 1e-8 of the interval; as a minimum is flat, the value is then exact to
+    the last digits.
     """
     width = b - a
     left, right = b - GOLDEN * (b - a), a + GOLDEN * (b - a)

@@ -1,4 +1,4 @@
-"""Points on a curve, so near each other that the chords between them stand for it."""
+"""Adaptive sampling and thinning of curves for plots."""
 
 from __future__ import annotations
 
@@ -12,15 +12,15 @@ if TYPE_CHECKING:
 
 Curves: TypeAlias = "Callable[[Array], Array]"  # x (n,) -> a row a curve (q, n)
 
-FIRST = 33  # points that a piece begins with
-ROUNDS = 12  # of halving: a piece's shortest step is some hundred-thousandth of it
-MOST = 3000  # points of a piece
+FIRST = 33  # points of a piece at the start
+ROUNDS = 12  # halvings: the shortest step of a piece is about 1e-5 of it
+MOST = 3000  # points of a piece, at most
 ASPECT = 5.0  # width of a panel over its height
-MISS = 4e-4  # of a panel's height, by which a chord may miss: below 0.1 px of a panel of 200
+MISS = 4e-4  # error of a chord as a fraction of a panel's height: below 0.1 px of a panel of 200 px
 
 
 def places(start: float, end: float) -> Array:
-    """The first points between two x, closer together towards both, which belong to them."""
+    """The first points between two x, both included, denser towards both ends."""
     share = 0.5 - 0.5 * np.cos(np.linspace(0.0, np.pi, FIRST))
     x: Array = start + (end - start) * share
     x[-1] = end
@@ -28,15 +28,15 @@ def places(start: float, end: float) -> Array:
 
 
 def refined(of: Curves, start: float, end: float, width: float, heights: Array) -> Array:
-    """Places (n,) at which to take curves between two x, so that all chords stay within ``MISS``.
+    """Places (n,) at which to sample curves between two x, so that chords err by at most ``MISS``.
 
-    ``width`` and ``heights`` (q,) are what a panel shows of x and of each curve. A chord's error
-    is the curve's distance from it in the panel, measured half-way.
+    ``width`` and ``heights`` (q,) are the ranges of x and of each curve that a panel shows. A
+    chord's error is its distance from the curve in the panel, measured half-way.
     """
     x = places(start, end)
     y = of(x)
     scale = heights[:, None]
-    asked = np.arange(len(x) - 1)  # the chords that have not been measured
+    asked = np.arange(len(x) - 1)  # chords that are not measured yet
     for _ in range(ROUNDS):
         if not len(asked) or len(x) > MOST:
             break
@@ -44,7 +44,7 @@ def refined(of: Curves, start: float, end: float, width: float, heights: Array) 
         there = of(middle)
         before, after = y[:, asked], y[:, asked + 1]
         run = ASPECT / width * (x[asked + 1] - x[asked])
-        with np.errstate(invalid="ignore"):  # where a curve has no bound there is no chord
+        with np.errstate(invalid="ignore"):  # a curve without a bound has no chord
             rise = (after - before) / scale
             off = abs(there - 0.5 * (before + after)) / scale * run / np.hypot(run, rise)
             far = (off > MISS).any(axis=0)
@@ -58,7 +58,7 @@ def refined(of: Curves, start: float, end: float, width: float, heights: Array) 
 def thinned(x: Array, y: Array, miss: float) -> list[int]:
     """The numbers of the points (n,) whose polyline is within ``miss`` of all of them.
 
-    After Ramer (1972) and Douglas and Peucker (1973), in the unit of x and y.
+    ``miss`` has the unit of x and y. After Ramer (1972), and Douglas and Peucker (1973).
     """
     kept, stack = {0, len(x) - 1}, [(0, len(x) - 1)]
     while stack:

@@ -1,9 +1,9 @@
-"""Greatest and least values of functions of many designs, and where their signs change.
+"""Greatest and least values of functions of many designs, and the places where signs change.
 
-Functions are smooth only while some others keep their signs: a load jumps where the roller's
-sliding turns round, and has a kink where its torque does. Each design's spans are sampled at
-Chebyshev points and cut where signs change (``pieces``). The series of what is between say where
-a function may pass what is known of it; there the function itself is asked, by Newton's steps.
+Functions are smooth only while certain signs do not change: a load jumps where the roller's sliding
+reverses, and has a kink where its torque does. Each design's spans are sampled at Chebyshev points
+and cut where signs change (``pieces``). The series between cuts show where a function may exceed
+the known values; there the function itself is evaluated, by Newton steps.
 """
 
 from __future__ import annotations
@@ -32,18 +32,20 @@ if TYPE_CHECKING:
     from geneva_cli.numerics.arrays import Array, Mask, Whole
     from geneva_cli.numerics.pieces import Some, Which
 
-BLOCK = 2048  # rows sampled at a time: so many lie in the processor's cache
+BLOCK = 2048  # rows sampled at a time: that many fit in the processor's cache
 DEEPEST = 60  # halvings: a row is NARROW by then
-SIZED = 4  # halvings: shorter rows lie near a pole, and tell no size of a function
-ENDED = 1e-5  # share of a size that a series may leave where an extreme is looked for
-BEYOND = 0.15  # of the range of samples: by so much an extreme between them may pass it
-UNSURE = 16.0  # times the last terms: what a series that has not ended may leave
-TAME = 4.0  # times: a product that ranges over less is beside a pole its own limit, nearly
-LEVEL = 1e-13  # share of a size: a function that ranges over no more has no extreme within
-FLAT = 1e-3  # share of a size, over a piece: so flat a slope at its end a series does not tell
-BESIDE = 0.1  # share of a piece, of which 16 degrees tell that to the last digits
-NEAREST = 0.1  # of half a piece: cells crowd at its ends, where a series knows its turns no better
-CLOSE = 1e-5  # share of where a turn may be: after so short a step, a top's value is rounding
+SIZED = 4  # halvings: shorter rows lie near a pole, and say nothing about a function's size
+ENDED = 1e-5  # fraction of a size: the allowed error of a series near an extreme
+BEYOND = 0.15  # fraction of the range of samples, by which an extreme between them may exceed it
+UNSURE = 16.0  # times the last terms: the error of a series that has not ended
+TAME = 4.0  # times: a product with a smaller range is near its limit at a pole
+LEVEL = 1e-13  # fraction of a size: a function with no larger range has no extreme within
+# fraction of a size, over a piece: a series cannot tell the sign of a slope flatter than this
+FLAT = 1e-3
+BESIDE = 0.1  # fraction of a piece, on which 16 degrees are exact to the last digits
+# fraction of half a piece: cells crowd at its ends, where a series is no more precise
+NEAREST = 0.1
+CLOSE = 1e-5  # fraction of the search range: after a step this short, a maximum's value is exact
 
 
 class Stretches(NamedTuple):
@@ -56,7 +58,7 @@ class Stretches(NamedTuple):
 
 
 class Found(NamedTuple):
-    """Greatest values of n designs and where, a row a quantity, as of ``Greatest``."""
+    """Greatest values of n designs and their places, one row for each entry of ``Greatest``."""
 
     most: Array
     x: Array
@@ -64,24 +66,24 @@ class Found(NamedTuple):
 
 
 class Curves(NamedTuple):
-    """Functions on a piece each that may have one of the greatest values there."""
+    """Functions, on one piece each, that may have one of the greatest values there."""
 
     number: Whole  # of the function: (m,)
     rows: Rows  # the pieces
     sign: Array  # (signs, m)
-    part: Array  # both ends of the piece, as shares of the row that was sampled: (2, m)
+    part: Array  # both ends of the piece as positions in the sampled row: (2, m)
     value: Array  # at the Chebyshev points of that row: (m, points)
-    left: Array  # what the series may leave
+    left: Array  # the error of the series
 
     def take(self, which: Some) -> Curves:
-        """Some of them, by a mask or their numbers."""
+        """Some of the curves, by a mask or their numbers."""
         number, rows, sign, part, value, left = self
         some = number[which], rows.take(which), sign[:, which], part[:, which]
         return Curves(*some, value[which], left[which])
 
     @property
     def within(self) -> Mask:
-        """Which of the points lie in the piece: (m, points)."""
+        """Masks of the points that lie in the piece: (m, points)."""
         return np.asarray((self.part[0][:, None] <= POINTS) & (self.part[1][:, None] >= POINTS))
 
 
@@ -93,11 +95,11 @@ def search(
     known: Sequence[tuple[int, Array, Array]] = (),
     w: Array | None = None,
 ) -> Found:
-    """Of n designs over their spans, one after the other: (n, 1) the ends of each.
+    """The greatest values of n designs over their spans, whose ends are (n, 1).
 
-    A span that ends before it begins is none. ``known`` are values that no span reaches: a wanted
-    function's number, and of each design the place and the value, NaN where there is none.
-    ``sized`` is as of ``Greatest``. Samples are spread about 0 by ``w`` (n, 1), or even.
+    A span that ends before it begins is empty. ``known`` are values that no span reaches: the
+    number of a wanted function, and for each design the place and the value, or NaN. ``sized`` is
+    that of ``Greatest``. Samples are spread about 0 by ``w`` (n, 1), or evenly spaced.
     """
     with np.errstate(all="ignore"):
         found = _Search(f, n, sized, w)
@@ -139,14 +141,14 @@ class _Search:
             blocks = _blocks(rows_joined(again))
 
     def _rows(self, number: int, a: Array, b: Array) -> Rows:
-        """The rows of a span: one of each design that has it."""
+        """The rows of a span, one for each design that has it."""
         design = np.flatnonzero((b > a)[:, 0])
         x = np.stack((a[design, 0], b[design, 0]))
         u = np.stack([self.places.spread(end, design) for end in x])
         return Rows(design, np.full(len(design), number), u, x, np.full(x.shape, True))
 
     def _first_blocks(self, every: Sequence[Rows]) -> list[tuple[Rows, Which]]:
-        """The spans of a block of designs after each other: mirrored ones are worked out once."""
+        """The spans in blocks of designs, so that mirrored spans can share results."""
         if self.n * len(every) <= BLOCK:
             return _blocks(rows_joined(every))
         out: list[tuple[Rows, Which]] = []
@@ -160,7 +162,7 @@ class _Search:
         return out
 
     def _judged(self, found: Sampled) -> list[Rows]:
-        """Keep pieces whose series tell all that matters; what is to be sampled of the others."""
+        """Keep pieces with precise series, and return the rows to sample for the others."""
         pieces = found.pieces
         low, high = pieces.value.min(axis=2), pieces.value.max(axis=2)
         left = chebyshev.remainder(pieces.value)
@@ -182,7 +184,7 @@ class _Search:
         return [rows for rows in out if len(rows.design)]
 
     def _unsettled(self, curves: Curves, room: Array, x: Array) -> Whole:
-        """The numbers of curves whose series have not ended, and which may pass what is known."""
+        """The numbers of curves with unfinished series that may exceed the known values."""
         size = np.where(curves.within, np.abs(curves.value), 0.0).max(axis=1, initial=0.0)
         ended = (curves.left < np.inf) & (curves.left <= ENDED * size)
         some = np.flatnonzero(~ended)
@@ -199,17 +201,17 @@ class _Search:
         return some[may]
 
     def refine(self) -> None:
-        """Ends and extremes of functions that may be the greatest, by the functions themselves."""
+        """Evaluate the functions at ends and extremes that may be the greatest."""
         curves = _joined(self.curves)
         curves = _joined([curves, *[self._ends(curves, end) for end in (0, 1)]])
         turns = [self._turns(curves, way) for way in (1.0, -1.0)]
         self._refine(curves, *(np.concatenate(one) for one in zip(*turns, strict=True)))
 
     def _ends(self, curves: Curves, end: int) -> Curves:
-        """Take the limits at one end of pieces where they may be the greatest.
+        """Add the limits at one end of pieces where they may be the greatest.
 
-        Returns what is beside those ends, sampled anew, at which functions are so flat that the
-        series of a whole piece does not tell which way they go.
+        Returns the parts next to flat ends, sampled anew: there the series of a whole piece does
+        not tell the sign of the slope.
         """
         terms = chebyshev.series(curves.value)
         value, more = chebyshev.at(terms, curves.part[end]), SAFE * curves.left
@@ -223,7 +225,7 @@ class _Search:
         return self._beside(curves.take(np.abs(slope) * width <= FLAT * size), end)
 
     def _beside(self, curves: Curves, end: int) -> Curves:
-        """The part of pieces beside one end, as a piece of its own."""
+        """The part of pieces next to one end, as pieces of their own."""
         rows, other = curves.rows, 1 - end
         u = rows.u.copy()
         u[other] = u[end] + BESIDE * (u[other] - u[end])
@@ -239,8 +241,10 @@ class _Search:
         self.greatest.add(curves.number, curves.rows.design, x, value)
 
     def _turns(self, curves: Curves, way: float) -> tuple[Whole, Array, Array]:
-        """Maxima of ``way`` times functions: the numbers of the curves, places from -1 to 1, and
-        how far from there they are to be looked for.
+        """Maxima of ``way`` times the functions.
+
+        Returns the numbers of the curves, positions from -1 to 1, and the ranges of the search
+        there.
         """
         low, high = curves.value.min(axis=1), curves.value.max(axis=1)
         more = BEYOND * (high - low)
@@ -264,12 +268,12 @@ class _Search:
         kept = ~(chebyshev.at(terms, t) + left[which] < bar[which])
         a, b = curves.part[:, which]
         kept &= (a - cell[k] < t) & (t < b + cell[k])
-        # of the piece's own ends
+        # positions in the piece itself
         t = np.clip((2.0 * t - a - b) / (b - a), -1.0, 1.0)
         return own[which[kept]], t[kept], (2.0 * cell[k] / (b - a))[kept]
 
     def _refine(self, curves: Curves, which: Whole, t: Array, cell: Array) -> None:
-        """Extremes by the functions themselves, from where their series turn."""
+        """Add extremes of the functions themselves, from the maxima of their series."""
         curves = curves.take(which)
         rows = curves.rows
         x = self.places.gathered(rows.at(t), rows.design)
@@ -290,7 +294,7 @@ class _Search:
     def _jets(self, x: Array, curves: Curves, order: int) -> Array:
         """Value and derivatives by degrees of each curve's function at places (m, k)."""
         out = np.empty((order + 1, *x.shape))
-        # places of several functions together: what they are made of costs most
+        # several functions at once: their common parts cost most
         in_order = np.argsort(curves.number, kind="stable")
         for i in range(0, len(x), BLOCK):
             of = in_order[i : i + BLOCK]
@@ -304,10 +308,10 @@ class _Search:
 
 
 def _least_size(value: Array, weight: Array) -> Array:
-    """What sizes of functions (m, points) do not come below, by their products with weights; 0
-    where these do not tell it.
+    """Lower bounds of functions' sizes (m, points), from their products with weights; 0 if unknown.
 
-    Beside a pole the product hardly changes, and the size is no less than that over the weight.
+    Near a pole the product is nearly constant, and the size is at least the product over the
+    weight.
     """
     inner = (value * weight)[:, 1:-1]
     low, high = inner.min(axis=1), inner.max(axis=1)
@@ -331,7 +335,7 @@ def _joined(parts: Sequence[Curves]) -> Curves:
 
 
 def _stretches(rows: Rows, sign: Array) -> Stretches:
-    """Neighbouring pieces with the same signs as one."""
+    """Adjacent pieces with equal signs joined into one."""
     order = np.lexsort((rows.x[0], rows.span, rows.design))
     design, span, _, (a, b), _ = rows.take(order)
     positive = sign[:, order] > 0.0

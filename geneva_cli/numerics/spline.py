@@ -1,9 +1,9 @@
 """Quintic splines through points: four times continuously differentiable, at rest or periodic.
 
-SciPy has the B-splines. Their coefficients are solved for here, so that every processor gets the
-same bytes. A periodic spline is cut out of a long one. Rounding leaves an error in the jerk that
-grows with the third power of the number of points: 1e-9 of the jerk at 100 points. Points of six
-decimals leave far more unknown.
+SciPy provides the B-splines. Their coefficients are solved for here, so that every processor gives
+the same bytes. A periodic spline is the middle of a long one. Rounding leaves an error in the jerk
+that grows with the third power of the number of points: 1e-9 of the jerk at 100 points. Points of
+six decimals leave a far larger uncertainty.
 """
 
 from __future__ import annotations
@@ -19,8 +19,8 @@ import numpy as np
 from geneva_cli.numerics.arrays import ONE, Array, N, piece_of
 
 DEGREE = 5
-# Points of other periods on either side of a periodic spline: each one nearer to the end moves the
-# middle 0.43 times as much (the root of its equations), 50 of them by 5e-19.
+# Points of other periods on either side of a periodic spline: each point nearer to the end moves
+# the middle 0.43 times as much (the root of its equations), 50 of them by 5e-19.
 MARGIN = 50
 
 
@@ -60,10 +60,10 @@ class Pieces:
 
 
 class Doubt(NamedTuple):
-    """What the rounding of points leaves unknown of their spline."""
+    """The uncertainty of a spline's derivative from the rounding of its points."""
 
-    decimals: int  # with which the points are given
-    move: float  # by how much a derivative may be off, at its worst place
+    decimals: int  # of the points as they are given
+    move: float  # the derivative's uncertainty at its worst place
 
 
 def taylor(t: N, c: Sequence[N], order: int) -> list[N]:
@@ -100,8 +100,8 @@ def at_rest(x: Sequence[float], y: Sequence[float]) -> Pieces:
 def _pentadiagonal(bands: list[list[float]], values: list[float]) -> list[float]:
     """Solve a system whose row i holds columns i - 2 to i + 2.
 
-    Without pivots: B-splines' values are a totally positive matrix (C. de Boor, 1978), of which
-    elimination in order is stable. BLAS would round by the processor's instructions.
+    No pivots are needed: B-splines' values are a totally positive matrix (C. de Boor, 1978), for
+    which elimination in order is stable. BLAS would round by the processor's instructions.
     """
     n = len(values)
     for i in range(n):
@@ -117,7 +117,7 @@ def _pentadiagonal(bands: list[list[float]], values: list[float]) -> list[float]
 
 
 def periodic(x: Sequence[float], y: Sequence[float]) -> Pieces:
-    """The periodic spline through points, the last of which is the first a period later."""
+    """The periodic spline through points, whose last point is the first one a period later."""
     n, period = len(x) - 1, x[-1] - x[0]
     copies = math.ceil(MARGIN / n)
     every = np.add.outer(np.arange(-copies, copies + 1) * period, x[:-1]).ravel()
@@ -128,10 +128,10 @@ def periodic(x: Sequence[float], y: Sequence[float]) -> Pieces:
 
 
 def doubt(x: Sequence[float], y: Sequence[float], period: bool, order: int) -> Doubt:
-    """How far half a unit of the points' last decimal moves a derivative.
+    """The change of a derivative from half a unit of the points' last decimal.
 
-    The inverse of B-splines' values at points is a matrix of signs like a chessboard's (C. de Boor
-    and A. Pinkus, 1977): errors of alternating sign move a spline most. The first and last point
+    The inverse of the matrix of B-splines' values has signs like a chessboard (C. de Boor and A.
+    Pinkus, 1977), so errors of alternating sign move a spline most. The first and the last point
     are taken as exact.
     """
     exponents = [Decimal(repr(v)).normalize().as_tuple().exponent for v in y]

@@ -1,11 +1,11 @@
-"""Places spread about 0, near which functions have all their turns.
+"""A substitution that spreads samples about 0, near which functions change fastest.
 
-By an angle u of which the place is x = w sinh(u / w), what is done within w of 0 takes as much room
-as the rest, and so many places tell more digits: poles at x = i w and -i w are at u = i w pi/2 and
--i w pi/2. Near 0, u is x; and it is x throughout where w is large.
+The angle u with x = w sinh(u / w) gives the range within w of 0 as much length as the rest. So the
+same number of samples gives more digits: poles at x = i w and -i w move to u = i w pi/2 and -i w
+pi/2. Near 0, u is x; with a large w it is x everywhere.
 
-(D. Elliott, P. R. Johnston, "A sinh transformation for evaluating nearly singular boundary element
-integrals", Int. J. Numer. Meth. Engng 62 (2005).)
+Source: D. Elliott, P. R. Johnston, "A sinh transformation for evaluating nearly singular boundary
+element integrals", Int. J. Numer. Meth. Engng 62 (2005).
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""Records of many designs that differ in numbers alone, held so that some are picked at once."""
+"""Records of many designs that differ in numbers only, stacked for picking with one index."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ if TYPE_CHECKING:
 
 
 def can_stack(records: Sequence[object]) -> bool:
-    """Whether records differ in numbers alone, some of which are arrays (n, 1)."""
+    """Return True if records differ in numbers only, some of which are arrays (n, 1)."""
     return _differ_in_numbers(records) and any(True for _ in _columns(tuple(records)))
 
 
@@ -41,9 +41,9 @@ def _is_column(number: object) -> bool:
 
 
 class Stack(Generic[Record]):
-    """k records of floats and arrays (n, 1), which ``can_stack``.
+    """k records of floats and arrays (n, 1), for which ``can_stack`` is true.
 
-    What asks for them says of which designs: ``rows`` are their numbers (m, 1).
+    ``rows`` are the numbers (m, 1) of the requested designs.
 
     >>> import numpy as np
     >>> one, other = (1.0, np.array([[5.0], [7.0]])), (1.0, np.array([[6.0], [8.0]]))
@@ -66,7 +66,7 @@ class Stack(Generic[Record]):
         return self.count
 
     def one(self, i: int, rows: Whole) -> Record:
-        """The i-th record; from the end where i is negative. Its floats stay floats."""
+        """The i-th record, from the end if i is negative; its floats stay floats."""
         row = rows[:, 0]
 
         def taken(number: object) -> object:
@@ -93,7 +93,7 @@ class Stack(Generic[Record]):
 
 
 def _stacked(records: Sequence[Record]) -> Record:
-    """As one record: numbers that are alike in all, or arrays (n, k), or (k,) for all designs."""
+    """One record of all, whose numbers are equal in all, or arrays (n, k) or (k,)."""
     return record_of(records[0], [_members(one) for one in zip(*records, strict=True)])
 
 

@@ -1,7 +1,7 @@
-"""Which of several extremes are equal: of those the first is told.
+"""Equality of extremes: the first of several equal ones is reported.
 
-Searches of several functions and of one alone find the same extremes by other steps, and so with
-other last digits. What counts as equal is said here for all.
+Searches of several functions and of one function reach the same extremes by different steps, so
+their last digits differ. All use these tolerances.
 """
 
 from __future__ import annotations
@@ -13,13 +13,15 @@ import numpy as np
 if TYPE_CHECKING:
     from geneva_cli.numerics.arrays import Array
 
-TIE = 1e-12  # share of an extreme by which another may miss it and be its equal
-NOUGHT = 1e-13  # so it may by this share of the function's size: where a root was found it is not 0
-MIDDLE = 3.0  # of the quartiles' distance: what is further out is near a pole
+TIE = 1e-12  # fraction of an extreme within which another is its equal
+NOUGHT = 1e-13  # and fraction of the function's size: at a computed root it is not exactly 0
+MIDDLE = 3.0  # times the quartiles' distance: a value further out is near a pole
 
 
 def bar(most: Array, size: Array) -> Array:
-    """The least value that is the equal of a greatest one, of functions of a greatest ``size``.
+    """The least value that counts as equal to a greatest one.
+
+    ``size`` is the functions' greatest size.
 
     >>> bar(np.array([2.0, 0.0, np.inf]), np.array([2.0, 1.0, 1.0])).tolist()
     [1.999999999998, -1e-13, inf]
@@ -43,8 +45,8 @@ def first_greatest(value: Array, place: Array, size: Array) -> tuple[Array, Arra
 def usual(rows: Array) -> tuple[Array, Array]:
     """The least and the greatest finite value of rows (..., k), each of which has one.
 
-    Of a row with a pole those of its middle: near a pole values are of any size, and say nothing
-    of what is far from it.
+    In a row with a pole, outliers are left out: near a pole values are of any size, and say nothing
+    about values far from it.
     """
     finite = np.isfinite(rows)
     if finite.all():
@@ -60,9 +62,9 @@ def usual(rows: Array) -> tuple[Array, Array]:
 
 
 def quartiles(rows: Array) -> tuple[Array, Array]:
-    """First and third quartile of rows (m, k), of what is a number in each: (m,) both.
+    """First and third quartile of the numbers in each row (m, k), NaN left out: (m,) both.
 
-    As of ``np.nanquantile``, which takes one row after the other.
+    Equal to ``np.nanquantile``, which takes one row after the other.
     """
     ordered = np.sort(rows, axis=1)  # NaN comes last
     last = np.count_nonzero(~np.isnan(rows), axis=1) - 1

@@ -1,40 +1,40 @@
-"""How near is equal: the tolerances that files share, each with its unit and its reason.
+"""Tolerances that several files share, each with its unit and its reason.
 
-Doubles carry 2e-16. What a formula makes of that is some 1e-15 of a size, a search 1e-13, a chain
-of parts 1e-11. Drawings and tables show 1e-6 of a size. What is to be equal so lies between.
-A tolerance of one file's own method (a step of Newton's, a scan) stands in that file.
+Doubles carry 2e-16. The rounding of a formula is some 1e-15 of a size, that of a search 1e-13, that
+of a chain of parts 1e-11. Drawings and tables show 1e-6 of a size. Tolerances of equality lie
+between. The tolerance of one file's own method (a Newton step, a scan) stands in that file.
 """
 
-# Share of the centre distance, or of a sphere's radius: lengths and places nearer to each other are
-# one. 1e-7 mm of 100 mm is the size of an atom, and a hundred times the rounding of a chain.
+# Fraction of the centre distance, or of a sphere's radius: lengths and places nearer to each other
+# are equal. 1e-7 mm of 100 mm is the size of an atom, and a hundred times the rounding of a chain.
 SAME_LENGTH = 1e-9
 
-# Radians, or a cosine near 0: directions nearer to each other are one; SAME_LENGTH as an angle.
+# Radians, or a cosine near 0: directions nearer to each other are equal; SAME_LENGTH as an angle.
 SAME_ANGLE = 1e-9
 
-# Degrees: input angles nearer to each other are one position; angles are shown to 1e-6.
+# Degrees: input angles nearer to each other are equal; angles are shown to 1e-6.
 SAME_INPUT_DEG = 1e-9
 
-# Share of a quantity's greatest size, or of a limit: what differs by less is rounding. Values are
-# computed to 1e-12 or so, loads (by search) to 1e-10, and nobody can measure a billionth.
+# Fraction of a quantity's greatest size, or of a limit: smaller differences are rounding. Values
+# are computed to 1e-12 or so, loads (by search) to 1e-10, and nobody can measure a billionth.
 ROUNDED = 1e-9
 
-# Share of a peak's size: two that differ by less are one that occurs twice. Jets run up to 31 units
-# in the last place, 7e-15; of a power's two factors some ten times that is safe.
+# Fraction of a peak's size: two peaks that differ by less are equal. Jets err by up to 31 units in
+# the last place, 7e-15; for a product of two factors, ten times that is safe.
 TIE = 1e-13
 
-# Share of a limit by which a machine that is solved for stays on its good side: more than the
-# rounding of the peaks that are compared, less than is shown.
+# Fraction of a limit by which a solved machine stays within it: more than the rounding of the peaks
+# that are compared, less than is shown.
 MARGIN = 1e-12
 
-# Times a distance or a limit: what is beyond it is so whatever the rounding, in searches that may
-# leave the rest to a closer look.
+# Times a distance or a limit: a value beyond it exceeds the limit whatever the rounding. For
+# searches that leave doubtful cases to a finer test.
 CLEARLY = 1.0 + 1e-6
 
-# mm or radians of what a drawing sheet shows: lines, radii, centres and directions nearer to each
-# other are one; no plotter shows it.
+# mm or radians on a drawing sheet: lines, radii, centres and directions nearer to each other are
+# equal; no plotter shows the difference.
 SAME_ON_SHEET = 1e-6
 
-# mm: a cutter as wide as a slot enters it, and a path so near to a part leaves it whole: a
-# thousandth of what machines cut to.
+# mm: a cutter as wide as a slot by this much enters it, and a path this near to a part does not cut
+# it: a thousandth of a machine's accuracy.
 SAME_CUT_MM = 1e-5

@@ -1,4 +1,4 @@
-"""From a table or a drawing to text, on standard output or in a file; one file a format."""
+"""Output of tables, drawings, figures and documents to standard output or files, by format."""
 
 from __future__ import annotations
 
@@ -36,18 +36,18 @@ if TYPE_CHECKING:
 
 
 class Choice(NamedTuple):
-    """The columns of its tables that a run shows: some by name, or all in whatever width."""
+    """The columns that a run shows in its tables: some by name, or all whatever their width."""
 
     columns: tuple[str, ...] = ()
     wide: bool = False
 
 
-choice = Choice()  # what --columns and --wide say in this run
+choice = Choice()  # the options --columns and --wide of this run
 
 
 @contextmanager
 def choosing(made: Choice) -> Iterator[None]:
-    """Show tables by this choice meanwhile."""
+    """Show tables by this choice within the block."""
     global choice
     before, choice = choice, made
     try:
@@ -57,34 +57,34 @@ def choosing(made: Choice) -> Iterator[None]:
 
 
 def refuse_columns() -> None:
-    """Raise GenevaError where columns were chosen by name and no table is shown."""
+    """Raise GenevaError if columns were chosen by name and no table is shown."""
     if choice.columns:
         raise GenevaError("--columns is for tables, and this run prints none; leave it out")
 
 
 class Format(Protocol):
-    """What a format's module offers."""
+    """The interface of a table format's module."""
 
     def chunks(self, table: Table) -> Iterator[str]:
         """The text, in pieces."""
 
 
 class DrawnFormat(Protocol):
-    """What the module of a drawing's format offers."""
+    """The interface of a drawing format's module."""
 
     def chunks(self, drawing: Drawing, units: str, **own: Any) -> Iterator[str]:
         """The text, in pieces; ``units`` is mm or inch, ``own`` are the format's own options."""
 
 
 class SheetFormat(Protocol):
-    """What the module of a sheet's format offers."""
+    """The interface of a sheet format's module."""
 
     def chunks(self, sheet: Sheet, **own: Any) -> Iterator[str]:
         """The text, in pieces; ``own`` are the format's own options."""
 
 
 class DocumentFormat(Protocol):
-    """What the module of a document's format offers."""
+    """The interface of a document format's module."""
 
     def chunks(self, document: Document) -> Iterator[str]:
         """The text, in pieces."""
@@ -93,7 +93,7 @@ class DocumentFormat(Protocol):
 def show(table: Table, output: str = "-", format: str = "", inputs: Iterable[str] = ()) -> None:
     """Print the table, or write it to the file ``output``; ``inputs`` are never overwritten.
 
-    Raises GenevaError where the format is none of a table's or the file cannot be written.
+    Raises GenevaError if the format is not for tables, or if the file cannot be written.
     """
     _put(_chunks(table, output, table_as(output, format)), output, inputs)
 
@@ -129,7 +129,7 @@ def tell(answer: Answer, output: str = "-", format: str = "", inputs: Iterable[s
     if name not in READ:
         show(answer.data, output, format, inputs)
         return
-    if choice.columns:  # who names columns wants these alone
+    if choice.columns:  # with --columns, only those columns are wanted
         show(answer.page or answer.data, output, format, inputs)
         return
     from geneva_cli.output import summary
@@ -158,9 +158,9 @@ def draw(
 ) -> None:
     """Print the drawing, or write it to the file ``output``; ``inputs`` are never overwritten.
 
-    The formats of tables get the drawing's pieces. ``units`` is mm or inch; ``own`` are options of
-    one format, of OPTIONS. Raises GenevaError where a format or a unit is unknown, an option is
-    another format's, nothing is drawn or the file cannot be written.
+    Formats of tables get the drawing's pieces. ``units`` is mm or inch; ``own`` are options of one
+    format, from OPTIONS. Raises GenevaError for an unknown format or unit, for an option of another
+    format, if nothing is drawn, and if the file cannot be written.
     """
     name = drawn_as(output, format)
     require_own(own, name)
@@ -177,10 +177,10 @@ def draw(
 def draw_sheet(
     sheet: Sheet, output: str = "-", format: str = "", inputs: Iterable[str] = (), **own: Any
 ) -> None:
-    """Print the drawing sheet, or write it to a file; ``own`` as for ``draw``.
+    """Print the drawing sheet, or write it to a file; ``own`` as in ``draw``.
 
-    Raises GenevaError where the format is none of SHEETS, an option is another format's, or the
-    file cannot be written.
+    Raises GenevaError if the format is not one of SHEETS, for an option of another format, and if
+    the file cannot be written.
     """
     name = sheet_as(output, format)
     require_own(own, name)
@@ -193,8 +193,8 @@ def plot(figure: Figure, output: str = "-", format: str = "", inputs: Iterable[s
     """Print the figure, or write it to the file ``output``; ``inputs`` are never overwritten.
 
     ``table`` is a chart in text, as wide as the terminal; csv, json and md get the curves' points.
-    Raises GenevaError where a format is unknown, needs what is not installed, or the file cannot be
-    written.
+    Raises GenevaError for an unknown format, for one that needs a missing package, and if the file
+    cannot be written.
     """
     name = plotted_as(output, format)
     if name not in PLOTTED:
@@ -226,10 +226,10 @@ def plot(figure: Figure, output: str = "-", format: str = "", inputs: Iterable[s
 
 
 def animate(scene: Scene, output: str, inputs: Iterable[str] = ()) -> None:
-    """Write the scene as a page of HTML, ``-`` to standard output, a moving .gif, a still .svg.
+    """Write the scene as a page of HTML (``-`` prints it), a moving .gif, or a still .svg.
 
-    Raises GenevaError where the extension is another, Pillow is missing for a .gif, or the file
-    cannot be written.
+    Raises GenevaError for another extension, for a .gif without Pillow, and if the file cannot be
+    written.
     """
     extension = os.path.splitext(output)[1].lower()
     if output != "-" and extension not in MOVING:
@@ -251,7 +251,7 @@ def hand_over(
 ) -> None:
     """Print the document, or write it to the file ``output``; ``inputs`` are never overwritten.
 
-    Raises GenevaError where the format is none of DOCUMENTS, or the file cannot be written.
+    Raises GenevaError if the format is not one of DOCUMENTS, or if the file cannot be written.
     """
     name = format or format_of(output, DOCUMENTS)
     if name not in DOCUMENTS:
@@ -263,7 +263,7 @@ def hand_over(
 
 
 def _terminal(output: str) -> tuple[int, bool]:
-    """Columns of a chart, and whether it may have letters beyond ASCII: only where one looks."""
+    """The width of a chart in columns, and whether letters beyond ASCII are allowed."""
     if not is_seen(output):
         return 80, False
     import shutil
@@ -278,7 +278,7 @@ def show_text(text: str, output: str = "-", inputs: Iterable[str] = ()) -> None:
 
 
 def refuse_existing(output: str) -> None:
-    """Raise GenevaError where ``output`` is a file that exists: what a person wrote stays."""
+    """Raise GenevaError if ``output`` is an existing file, which may be a person's work."""
     if os.path.isfile(output):
         raise GenevaError(
             f"{cut(output, 300)}: this file exists; give another name, or --force to replace it"
@@ -286,7 +286,7 @@ def refuse_existing(output: str) -> None:
 
 
 def show_markdown(text: str) -> None:
-    """Print a text in Markdown, laid out where a person looks and as it is elsewhere."""
+    """Print a text in Markdown, laid out on a terminal and unchanged elsewhere."""
     refuse_columns()
     if not is_seen("-"):
         sys.stdout.write(text)

@@ -1,4 +1,4 @@
-"""A progress bar on standard error: how much is done, and the time that is left."""
+"""A progress bar on standard error, with the remaining time."""
 
 from __future__ import annotations
 
@@ -6,33 +6,33 @@ import os
 import sys
 import time
 
-AFTER_S = 1.0  # what is done sooner shows no bar
-EVERY_S = 0.1  # between two pictures of it: more are not seen
+AFTER_S = 1.0  # seconds: shorter work shows no bar
+EVERY_S = 0.1  # seconds between updates, faster than which nobody reads
 WIDTH_MAX = 30  # columns of the bar itself
-WIDTH_MIN = 8  # of less nothing is seen
+WIDTH_MIN = 8  # columns; a smaller bar shows nothing
 
 
 class TextBar:
-    """A bar of one line, which is overwritten, and gone at the end.
+    """A bar of one line, which is overwritten and finally removed.
 
-    Plain characters alone: it stands on any terminal, whatever TERM says.
+    It uses plain characters only, so it works on any terminal, whatever TERM says.
     """
 
     def __init__(self, what: str, total: int) -> None:
         self.what, self.total = what, total
         self.begun = self.next = time.monotonic()
         self.next += AFTER_S
-        self.length = 0  # characters that stand there
+        self.length = 0  # characters of the bar on the screen
 
     def update(self, done: int) -> None:
-        """Draw the bar where it is time to."""
+        """Draw the bar if it is time to."""
         now = time.monotonic()
         if now >= self.next:
             self.next = now + EVERY_S
             self._write(self._line(done, now - self.begun))
 
     def close(self) -> None:
-        """Leave nothing of it."""
+        """Remove the bar."""
         if self.length:
             self._write("")
             sys.stderr.write("\r")
@@ -62,7 +62,7 @@ def _columns() -> int:
 
 
 def _time(seconds: float) -> str:
-    """Minutes and seconds, with hours where there are some.
+    """Minutes and seconds, with hours if needed.
 
     >>> _time(75.2), _time(7384)
     ('1:15', '2:03:04')

@@ -1,4 +1,4 @@
-"""Columns that a user chooses by their names in csv."""
+"""Selection of columns by name, for csv."""
 
 from __future__ import annotations
 
@@ -10,9 +10,9 @@ from geneva_cli.table import Table
 
 
 def only(table: Table, names: Sequence[str]) -> Table:
-    """The columns of these names, in their order; of a record its values and its tables' columns.
+    """The columns with these names, in order; for a record its values and its tables' columns.
 
-    Raises GenevaError for a name that is not there.
+    Raises GenevaError for an unknown name.
     """
     inner = [v for v in next(table.rows(), ()) if isinstance(v, Table)] if table.record else []
     known = dict.fromkeys([*table.names, *(name for one in inner for name in one.names)])

@@ -28,12 +28,12 @@ def chunks(table: Table) -> Iterator[str]:
 
 
 def one_line(row: Iterable[Any]) -> str:
-    """One row."""
+    """The line of one row."""
     return ",".join(map(_field, row)) + "\n"
 
 
 def _numbers(table: Table) -> Iterator[str]:
-    """Arrays of numbers: rows are laid side by side by NumPy, and a block is one formatting."""
+    """Blocks of number arrays: NumPy joins the columns, and one formatting makes a whole block."""
     import numpy as np
 
     line = ",".join(["%r"] * len(table.columns)) + "\n"

@@ -1,6 +1,6 @@
-"""DXF, R2000 if nothing else is asked: one closed polyline a part, circles for bores.
+"""DXF, R2000 by default: one closed polyline for each part, circles for bores.
 
-The same bytes on every run.
+The output is equal on every run.
 """
 
 from __future__ import annotations

@@ -1,7 +1,7 @@
 """Contours as entities of a DXF file.
 
-One of lines and arcs is one polyline, whose bulges are true arcs. One with cubics, which a polyline
-cannot hold, is LINE, ARC and SPLINE entities end to end.
+A contour of lines and arcs is one polyline, whose bulges are true arcs. A polyline cannot hold
+cubics, so a contour with cubics is LINE, ARC and SPLINE entities end to end.
 """
 
 from __future__ import annotations
@@ -14,14 +14,14 @@ from geneva_cli.curves.shapes import Arc, Circle, Contour, Cubic, Line, Segment,
 from geneva_cli.errors import GenevaError
 from geneva_cli.output.ezdxf_alone import BaseLayout
 
-NEARLY_ROUND = 3.7  # bulge of 300 degrees; past it the chord says too little about the radius
-FLAT = 1e5  # radius past which centre and angles would not hold an arc's ends
-JOINT = 1e-9  # how far a spline may pass from the end that two of its cubics share
+NEARLY_ROUND = 3.7  # bulge of 300 degrees; beyond it the chord determines the radius badly
+FLAT = 1e5  # radius beyond which centre and angles are not precise enough for an arc's ends
+JOINT = 1e-9  # allowed distance of a spline from the joint of two of its cubics
 UNEVEN = 100.0  # greatest ratio of a spline's knot intervals to its first
 
 
 def draw(space: BaseLayout, shape: Shape) -> None:
-    """A circle or a contour on its layer.
+    """Draw a circle or a contour on its layer.
 
     Raises GenevaError for cubics in R12, which has no splines.
     """
@@ -54,7 +54,7 @@ def _polyline(space: BaseLayout, layer: str, segments: list[Segment], close: boo
     points = [(*s.start, s.bulge if isinstance(s, Arc) else 0.0) for s in segments]
     if not close:
         points.append((*segments[-1].end, 0.0))
-    if _is_r12(space):  # it knows no LWPOLYLINE
+    if _is_r12(space):  # R12 has no LWPOLYLINE
         space.add_polyline2d(points, format="xyb", close=close, dxfattribs={"layer": layer})
     else:
         space.add_lwpolyline(points, format="xyb", close=close, dxfattribs={"layer": layer})
@@ -90,7 +90,8 @@ def _entity(space: BaseLayout, layer: str, run: list[Segment]) -> None:
 def _knots(cubics: list[Cubic]) -> tuple[tuple[tuple[float, float], ...], list[float]]:
     """A run's first and last point, and its knots: two at each joint, so that it is smooth there.
 
-    A joint between its neighbours in the ratio of the knot intervals needs no point of its own.
+    A joint that divides the distance of its neighbours in the ratio of the knot intervals needs no
+    point of its own.
     """
     at, interval = 0.0, _size(cubics[0])
     knots = [at] * 4
@@ -103,9 +104,9 @@ def _knots(cubics: list[Cubic]) -> tuple[tuple[tuple[float, float], ...], list[f
 
 
 def _runs(segments: list[Segment]) -> Iterator[list[Segment]]:
-    """Segments one by one, but cubics that go on smoothly together."""
+    """Segments one by one, but smoothly connected cubics together."""
     run: list[Segment] = []
-    scale = 1.0  # of the knot interval, beside the run's first
+    scale = 1.0  # of the knot interval over that of the run's first
     for segment in segments:
         last = run[-1] if run else None
         if isinstance(last, Cubic) and isinstance(segment, Cubic) and _smooth(last, segment):
@@ -120,7 +121,7 @@ def _runs(segments: list[Segment]) -> Iterator[list[Segment]]:
 
 
 def _smooth(a: Cubic, b: Cubic) -> bool:
-    """Whether the common end lies on the line between its neighbours."""
+    """Return True if the common end lies on the line between its neighbours."""
     before, after = math.dist(a.second, a.end), math.dist(b.start, b.first)
     if not min(before, after) > JOINT:
         return False
@@ -130,7 +131,7 @@ def _smooth(a: Cubic, b: Cubic) -> bool:
 
 
 def _ratio(a: Cubic, b: Cubic) -> float:
-    """Of the knot intervals that make the speed the same on both sides of the joint."""
+    """The ratio of knot intervals that makes the speed equal on both sides of a joint."""
     return math.dist(b.start, b.first) / math.dist(a.second, a.end)
 
 

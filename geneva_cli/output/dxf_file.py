@@ -1,4 +1,4 @@
-"""A DXF file's text: with dates and numbers that do not change, and in plain ASCII."""
+"""The text of a DXF file, with fixed dates and numbers, in plain ASCII."""
 
 from __future__ import annotations
 
@@ -23,14 +23,14 @@ TITLE_MAX = 200  # characters; a line may have 255
 def written(
     title: str, units: str, version: str, fill: Callable[[Document, Modelspace], None]
 ) -> Iterator[str]:
-    """The text of a file whose document ``fill`` fills; R12 does not say its unit.
+    """The text of a file whose document ``fill`` fills; R12 has no unit.
 
     Raises GenevaError for a version that is not known.
     """
     lines = _document(units, version, fill).split("\n")
     title = clean(title)[:TITLE_MAX].strip()
     if title:
-        yield _ascii(f"999\n{title}\n")  # a comment: a text entity would be cut
+        yield _ascii(f"999\n{title}\n")  # a comment: a text entity would be cut by machines
     for start in range(0, len(lines) - 1, 2 * BLOCK):
         part = lines[start : start + 2 * BLOCK]
         pairs = zip(part[::2], part[1::2], strict=False)
@@ -59,19 +59,19 @@ def _document(units: str, version: str, fill: Callable[[Document, Modelspace], N
 
 
 def extents(document: Document, space: Modelspace, box: tuple[float, float, float, float]) -> None:
-    """What a reader shows first: x0, y0, x1, y1."""
+    """Set the extent that a reader shows first: x0, y0, x1, y1."""
     x0, y0, x1, y1 = box
     low, high = (x0, y0, 0.0), (x1, y1, 0.0)
     space.reset_extents(low, high)
     space.reset_limits(low[:2], high[:2])
-    # a corner at the origin counts as missing when ezdxf copies them here
+    # ezdxf treats a corner at the origin as missing when it copies them here
     document.header["$EXTMIN"], document.header["$EXTMAX"] = low, high
     middle = 0.5 * (x0 + x1), 0.5 * (y0 + y1)
     document.set_modelspace_vport(1.1 * max(x1 - x0, y1 - y0), middle)
 
 
 def linetype(document: Document, name: str, dashes: tuple[float, ...]) -> None:
-    """A pattern of dashes and gaps, once."""
+    """Define a pattern of dashes and gaps, once."""
     if name not in document.linetypes:
         pattern = [d * (1 if i % 2 == 0 else -1) for i, d in enumerate(dashes)]
         shown = "____ _ ____ _ ____" if len(dashes) > 2 else "__ __ __ __"
@@ -79,7 +79,7 @@ def linetype(document: Document, name: str, dashes: tuple[float, ...]) -> None:
 
 
 def _fixed(code: int, value: str) -> str:
-    """A value with its decimals fixed where it is a float: no exponent, no negative zero."""
+    """A value with fixed decimals if it is a float: no exponent, no negative zero."""
     if code not in FLOAT_CODES:
         return value
     text = f"{float(value):.{FINE if code in FINE_CODES else DECIMALS}f}"
@@ -87,7 +87,7 @@ def _fixed(code: int, value: str) -> str:
 
 
 def _ascii(text: str) -> str:
-    """Letters that not every code page has, as DXF writes them; past four digits it has no way."""
+    """Letters beyond ASCII as DXF escapes, or a question mark beyond four digits."""
     return "".join(
         c if c < "\x80" else f"\\U+{ord(c):04X}" if c < "\U00010000" else "?" for c in text
     )

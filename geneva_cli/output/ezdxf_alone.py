@@ -1,4 +1,4 @@
-"""What is needed of ezdxf, imported so that it reads no settings and leaves nothing behind.
+"""The parts of ezdxf that are needed, imported without reading settings or writing caches.
 
 On import it reads ``ezdxf.ini`` from the current folder and the user's, whatever they hold, and
 searches the system's fonts to write a cache of them into the user's home. Drawings here take no

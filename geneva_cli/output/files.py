@@ -1,4 +1,4 @@
-"""Writing a file whole or not at all."""
+"""Writing a file as a whole or not at all."""
 
 from __future__ import annotations
 
@@ -16,32 +16,32 @@ from typing import BinaryIO
 
 from geneva_cli.errors import GenevaError, cut
 
-# Left behind only by kill -9 or a power cut, until the next run that writes the same file.
+# Left behind only by kill -9 or a power failure, until the next run that writes this file.
 TEMPORARY = ".{name}.geneva-{number}.tmp"
-NAME_MAX = 200  # bytes of the file's own name in it: a folder takes 255
-STDIN = "<stdin>"  # among the inputs, where the spec was read from there
+NAME_MAX = 200  # bytes of the file's own name in it: a file system allows 255
+STDIN = "<stdin>"  # among the inputs, if the spec was read from standard input
 STOPS = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
 
 
 def write(path: str, chunks: Iterable[str], inputs: Iterable[str] = ()) -> None:
-    """Write text to ``path`` so that at every moment the old file or the new one is whole.
+    """Write text to ``path`` so that at every moment the old file or the new one is complete.
 
-    The text goes to a temporary file in the same folder, which then takes the old one's place,
-    owner and permissions. A device or a pipe is written to directly. Raises GenevaError where the
+    The text goes to a temporary file in the same folder, which then replaces the old one and takes
+    its owner and permissions. A device or a pipe is written to directly. Raises GenevaError if the
     file cannot be written, is read-only, or is one of ``inputs``.
     """
     write_bytes(path, (chunk.encode() for chunk in chunks), inputs)
 
 
 def write_bytes(path: str, chunks: Iterable[bytes], inputs: Iterable[str] = ()) -> None:
-    """The same for bytes."""
+    """Write bytes to ``path``, as ``write`` does for text."""
     with replacing(path, inputs) as file:
         file.writelines(chunks)
 
 
 @contextmanager
 def replacing(path: str, inputs: Iterable[str] = ()) -> Iterator[BinaryIO]:
-    """Open a file that takes the place of ``path`` where the block ends without an error."""
+    """Open a file that replaces ``path`` if the block ends without an error."""
     with write_errors(path):
         real, old = place(path, inputs)
         is_file = old is None or stat.S_ISREG(old.st_mode)
@@ -51,7 +51,7 @@ def replacing(path: str, inputs: Iterable[str] = ()) -> Iterator[BinaryIO]:
 
 @contextmanager
 def write_errors(path: str) -> Iterator[None]:
-    """What the system says against a file comes out as a GenevaError."""
+    """Turn system errors about a file into GenevaError."""
     try:
         yield
     except OSError as error:
@@ -61,9 +61,9 @@ def write_errors(path: str) -> Iterator[None]:
 
 
 def place(path: str, inputs: Iterable[str] = ()) -> tuple[str, os.stat_result | None]:
-    """The real path of a file that is to be written, and the status of what is there already.
+    """The real path of a file to write, and the status of the existing file.
 
-    Raises GenevaError, or OSError, where it must not or cannot be written.
+    Raises GenevaError, or OSError, if it must not or cannot be written.
     """
     if not path or "\0" in path:
         raise GenevaError(f'-o "{path}": not a file\'s name')
@@ -85,7 +85,7 @@ def place(path: str, inputs: Iterable[str] = ()) -> tuple[str, os.stat_result | 
 
 
 def _status(path: str) -> os.stat_result | None:
-    """The file's status, None where there is none yet; OSError for a place that has no files."""
+    """The file's status, None if there is none yet; OSError for a place that has no files."""
     try:
         return os.stat(path)
     except FileNotFoundError:
@@ -99,7 +99,7 @@ def _temporary_for(path: str, old: os.stat_result | None) -> Iterator[BinaryIO]:
     _remove_stale(folder, name)
     number = os.getpid()
     while os.path.lexists(temporary := _temporary(folder, name, number)):
-        number += 1  # another run's: not ours to touch
+        number += 1  # another run's file, which must not be touched
     with _stopping_cleanly():
         try:
             with open(temporary, "xb") as file:
@@ -117,14 +117,14 @@ def _temporary_for(path: str, old: os.stat_result | None) -> Iterator[BinaryIO]:
 
 @contextmanager
 def _stopping_cleanly() -> Iterator[None]:
-    """Signals that end a run raise SystemExit, which unwinds; ignored ones (nohup) stay ignored."""
+    """Make signals that end a run raise SystemExit, which cleans up; ignored ones stay so."""
 
     def stop(number: int, frame: FrameType | None) -> None:
         sys.exit(128 + number)
 
     handlers = {}
     for number in STOPS:
-        # A thread of a program that imports this has no say over signals.
+        # Only the main thread of a program may set signals.
         with suppress(ValueError):
             if signal.getsignal(number) is not signal.SIG_IGN:
                 handlers[number] = signal.signal(number, stop)
@@ -136,7 +136,7 @@ def _stopping_cleanly() -> Iterator[None]:
 
 
 def _take_after(descriptor: int, old: os.stat_result) -> None:
-    """Owner and permissions of the old file; who may not give a file away keeps it."""
+    """Copy owner and permissions of the old file; a user without that right keeps the file."""
     new = os.fstat(descriptor)
     if (new.st_uid, new.st_gid) != (old.st_uid, old.st_gid):
         with suppress(PermissionError):
@@ -149,10 +149,10 @@ def _temporary(folder: str, name: str, number: int) -> str:
 
 
 def _remove_stale(folder: str, name: str) -> None:
-    """Remove what killed runs left of this file.
+    """Remove temporary files of this file that killed runs have left.
 
-    The name holds the process's number, and a running process holds a lock on it: the number alone
-    may mean another process by now, or one on another machine that shares the folder.
+    The name holds the process's number, and a running process holds a lock on the file. The number
+    alone may belong to another process by now, or to one on another machine that shares the folder.
     """
     before, after = (re.escape(x) for x in TEMPORARY.format(name=name, number="\0").split("\0"))
     left = re.compile(rf"{before}(\d{{1,9}}){after}")
@@ -164,14 +164,14 @@ def _remove_stale(folder: str, name: str) -> None:
 
 
 def _runs(number: int) -> bool:
-    """Whether another process of this number is running."""
+    """Return True if another process with this number is running."""
     if number == os.getpid():
         return False
     try:
         os.kill(number, 0)
     except ProcessLookupError:
         return False
-    except OSError:  # somebody else's
+    except OSError:  # another user's process
         return True
     return True
 
@@ -193,15 +193,16 @@ def _lock(descriptor: int) -> None:
 
 
 def refuse_input(path: str, old: os.stat_result, inputs: Iterable[str]) -> None:
-    """Refuse to replace a regular file that the run has read; reading a terminal or a device is no
-    reason not to write to it.
+    """Refuse to replace a regular file that the run has read.
+
+    Terminals and devices may be both read and written.
     """
     if not stat.S_ISREG(old.st_mode):
         return
     for given in inputs:
         try:
             read = os.fstat(0) if given == STDIN else os.stat(given)
-        except (OSError, ValueError):  # ValueError: a word with a NUL, which is no file
+        except (OSError, ValueError):  # ValueError: a word with a NUL, which is not a file
             continue
         if os.path.samestat(read, old):
             name = f"{path} (standard input)" if given == STDIN else given

@@ -1,4 +1,4 @@
-"""The last line of defence: nothing that is not a number is written as one."""
+"""The last check of all output: no NaN is written, and infinity only where it is meaningful."""
 
 from __future__ import annotations
 
@@ -10,16 +10,16 @@ from geneva_cli.errors import GenevaError
 from geneva_cli.progress import Meter
 from geneva_cli.table import Column, Table, pieces
 
-# Where infinity is an answer: the radius of a straight line, a check's value that has no bound, and
-# motion over dwell where there is no dwell.
+# Where infinity is a valid result: the radius of a straight line, an unbounded value of a check,
+# and motion over dwell without a dwell.
 BOUNDLESS = {"curvature_radius_mm", "value", "k"}
 
 
 def checked(table: Table, is_seen: bool = False) -> Table:
-    """The table, looked at; one that is made while it is written is looked at then.
+    """The table, checked; a table that is computed while it is written is checked then.
 
-    Rows that are made piece by piece are reported, unless they are seen as they come. Raises
-    GenevaError as ``refuse_nonsense`` does.
+    Its progress is reported, unless the rows are seen as they come. Raises GenevaError as
+    ``refuse_nonsense`` does.
     """
     first = table.columns[0] if table.columns else None
     if not isinstance(first, Column):
@@ -40,9 +40,9 @@ def checked(table: Table, is_seen: bool = False) -> Table:
 
 
 def refuse_nonsense(names: Iterable[str], columns: Iterable[Any]) -> None:
-    """Raise GenevaError for columns, lists or arrays, with a NaN, or an infinity out of place.
+    """Raise GenevaError for columns, lists or arrays, with a NaN, or with infinity out of place.
 
-    Such a number is a fault of ours wherever it comes from, and a file that holds it misleads.
+    Such a number is always a fault of this program, and a file with it misleads.
     """
     for name, column in zip(names, columns, strict=True):
         boundless = name.rpartition(".")[2] in BOUNDLESS

@@ -1,4 +1,4 @@
-"""A table of rows in the window of a terminal, and what is left out of it."""
+"""A table of rows fitted to the window of a terminal, with a note on omitted columns."""
 
 from __future__ import annotations
 
@@ -23,16 +23,16 @@ from geneva_cli.output.values import NUMBER, aligned, bare, with_unit
 from geneva_cli.output.window import Window, paragraphs, styled
 from geneva_cli.table import Table
 
-HELD = 8192  # rows by which a table is laid out; later ones of a longer table follow that
-FEW = 3  # rows of a table that may be turned on its side
-BOUNDLESS = 1_000_000  # letters of a line where the window does not matter
+HELD = 8192  # rows that determine the layout; later rows of a longer table follow it
+FEW = 3  # rows of a table that may be transposed
+BOUNDLESS = 1_000_000  # letters of a line if the window does not matter
 NAMING = ("quantity", "dimension", "check")  # columns whose cells are names with units
 
 
 def rows_of(table: Table, window: Window, is_inner: bool = False) -> Iterator[str]:
-    """Rows under their headings: as many columns as fit, and what became of the others.
+    """Rows under their headings: as many columns as fit, and a note on the others.
 
-    A short table is turned on its side where that shows more: one row, few in a record.
+    A short table is transposed if that shows more: of one row, or of few rows in a record.
     """
     blocks = table.blocks(HELD)
     first = next(blocks, [])
@@ -76,12 +76,12 @@ def rows_of(table: Table, window: Window, is_inner: bool = False) -> Iterator[st
 
 
 def _order(table: Table) -> list[str]:
-    """The columns from the most important one."""
+    """The columns in order of importance."""
     return [*table.reading.first, *(n for n in table.names if n not in table.reading.first)]
 
 
 def _left_out(columns: Sequence[ShownColumn], window: Window) -> Iterator[str]:
-    """The line that says which columns are left out, and how to see them."""
+    """The line that names the omitted columns, and how to see them."""
     if not columns:
         return
     one = "1 more column" if len(columns) == 1 else f"{len(columns)} more columns"
@@ -109,7 +109,7 @@ def _columns(table: Table, block: list[tuple[Any, ...]]) -> list[ShownColumn]:
 
 
 def _sorted_out(columns: list[ShownColumn], table: Table) -> tuple[list[ShownColumn], list[str]]:
-    """The columns that differ from row to row, and what the others hold in every row."""
+    """The columns that differ between rows, and descriptions of the constant ones."""
     kept, once = [], []
     for column in columns:
         cells = set(column.cells)

@@ -1,4 +1,4 @@
-"""The formats, and which one is meant: by its name, or by the extension of a file."""
+"""The formats, and the choice of one by its name or by the extension of a file."""
 
 from __future__ import annotations
 
@@ -8,35 +8,35 @@ from typing import Any
 
 from geneva_cli.errors import GenevaError, cut
 
-# --format -> module; the extension of a file names a format too
+# module by --format; the extension of a file is a format's name too
 FORMATS = {
     "table": "text",
     "csv": "delimited",
     "json": "jsonfile",
     "md": "markdown",
 }
-READ = ("table", "md")  # by people: a summary stands above the table
-# of drawings only; they are written in FORMATS as tables
+READ = ("table", "md")  # formats for people: a summary stands above the table
+# for drawings only; in FORMATS they are written as tables
 DRAWN = {"dxf": "dxf", "svg": "svg", "step": "step"}
-SMOOTH = ("step",)  # in which a wall is one face where it is a spline, and a hundred of arcs
-SHEETS = ("dxf", "svg", "pdf")  # of drawing sheets
-MOVING = (".html", ".htm", ".gif", ".svg")  # of scenes only
-PICTURES = ("png", "pdf")  # of figures only
-# of documents; the other formats of tables get their values
+SMOOTH = ("step",)  # formats in which a wall is one face as a spline, and a hundred as arcs
+SHEETS = ("dxf", "svg", "pdf")  # for drawing sheets
+MOVING = (".html", ".htm", ".gif", ".svg")  # for scenes only
+PICTURES = ("png", "pdf")  # for figures only
+# for documents; the other formats of tables get their values
 DOCUMENTS = {"html": "html", "pdf": "pdf", "md": "markdown"}
-PLOTTED = ("table", "svg", *PICTURES)  # of figures; in the others, their points
+PLOTTED = ("table", "svg", *PICTURES)  # for figures; the others get their points
 EXTENSIONS = {"txt" if name == "table" else name: name for name in (*FORMATS, *DRAWN, *PICTURES)}
 EXTENSIONS |= {"stp": "step", "html": "html", "htm": "html"}
-# what ezdxf writes; R2000 is the first with LWPOLYLINE, SPLINE and a unit, and read by all
+# versions that ezdxf writes; R2000 is the first with LWPOLYLINE, SPLINE and a unit, and all read it
 DXF_VERSIONS = ("R12", "R2000", "R2004", "R2007", "R2010", "R2013", "R2018")
-# how plates are shown in .svg
+# appearance of plates in .svg
 FILLS = ("none", "tint", "hatch")
-# options that one format of drawings and sheets has -> as a user knows it, and the format
+# options of one format of drawings and sheets: the option as typed, and the format
 OPTIONS = {"version": ("--dxf-version", "dxf"), "fill": ("--fill", "svg")}
 
 
 def table_as(output: str, format: str) -> str:
-    """The format of a table. Raises GenevaError where it is none."""
+    """The format of a table. Raises GenevaError for an unknown one."""
     name = format or format_of(output)
     if name not in FORMATS:
         raise GenevaError(
@@ -46,7 +46,7 @@ def table_as(output: str, format: str) -> str:
 
 
 def drawn_as(output: str, format: str) -> str:
-    """The format of a drawing, or of a table of it. Raises GenevaError where it is none."""
+    """The format of a drawing, or of a table of it. Raises GenevaError for an unknown one."""
     formats = {**DRAWN, **FORMATS}
     name = format or format_of(output, formats)
     if name not in formats:
@@ -55,15 +55,15 @@ def drawn_as(output: str, format: str) -> str:
 
 
 def is_drawn(output: str, format: str) -> bool:
-    """Whether this file or format takes a drawing as lines and arcs, and no table.
+    """Return True if this file or format holds a drawing as lines and arcs, False for a table.
 
-    Raises GenevaError where it is neither.
+    Raises GenevaError if it is neither.
     """
     return drawn_as(output, format) in DRAWN
 
 
 def usual_curves(output: str, format: str) -> str:
-    """How curved walls are written unless a user says: as ``spline`` in solids, ``arcs`` elsewhere.
+    """The default form of curved walls: ``spline`` in solids, ``arcs`` elsewhere.
 
     >>> usual_curves("wheel.stp", ""), usual_curves("-", "dxf")
     ('spline', 'arcs')
@@ -73,7 +73,7 @@ def usual_curves(output: str, format: str) -> str:
 
 
 def sheet_as(output: str, format: str) -> str:
-    """The format of a drawing sheet. Raises GenevaError where it is none."""
+    """The format of a drawing sheet. Raises GenevaError for an unknown one."""
     if not format and output == "-":
         raise GenevaError(
             f"a drawing sheet is written as {', '.join(SHEETS)}: give -o FILE.pdf, say, or --format"
@@ -87,7 +87,7 @@ def sheet_as(output: str, format: str) -> str:
 
 
 def require_own(own: dict[str, Any], name: str) -> None:
-    """Raise GenevaError for an option of another format than the one that is written."""
+    """Raise GenevaError for an option of another format than ``name``."""
     for key in own:
         option, of = OPTIONS[key]
         if name != of:
@@ -95,9 +95,9 @@ def require_own(own: dict[str, Any], name: str) -> None:
 
 
 def is_document(output: str, format: str) -> bool:
-    """Whether this file or format takes a document, and no table.
+    """Return True if this file or format holds a document, False for a table.
 
-    Raises GenevaError where it is neither.
+    Raises GenevaError if it is neither.
     """
     formats = dict.fromkeys((*FORMATS, *DOCUMENTS))
     name = format or format_of(output, formats)
@@ -109,7 +109,7 @@ def is_document(output: str, format: str) -> bool:
 
 
 def plotted_as(output: str, format: str) -> str:
-    """The format of a figure. Raises GenevaError where it is none."""
+    """The format of a figure. Raises GenevaError for an unknown one."""
     formats = dict.fromkeys((*PLOTTED, *FORMATS))
     name = format or format_of(output, formats)
     if name not in formats:
@@ -118,9 +118,9 @@ def plotted_as(output: str, format: str) -> str:
 
 
 def format_of(output: str, formats: Collection[str] = FORMATS) -> str:
-    """The format that a file's extension names; for standard output, the one for people.
+    """The format of a file's extension; for standard output, the one for people.
 
-    Raises GenevaError where that is none of ``formats``, by default a table's.
+    Raises GenevaError if that is not one of ``formats``, by default those of tables.
     """
     if output == "-":
         return "table"

@@ -1,7 +1,7 @@
-"""A file that grows for hours: what is done is kept when the run is stopped, and gone on from.
+"""A file that grows for hours: a stopped run keeps its rows, and can be continued.
 
 The rows go to the state file ``FILE.geneva``; ``FILE`` is replaced at the end, in one step. A run
-that may be started again (``resume``) keeps the state file, which tells that ``FILE`` is whole.
+that may be repeated (``resume``) keeps the state file, which then records that ``FILE`` is whole.
 """
 
 from __future__ import annotations
@@ -20,11 +20,11 @@ from geneva_cli.output.state import SUFFIX, State
 
 
 class Closing(ABC):
-    """What is closed where its block is left, by whatever way."""
+    """A resource that is closed when its block is left in any way."""
 
     @abstractmethod
     def close(self) -> None:
-        """Let go of the file."""
+        """Close the file."""
 
     def __enter__(self) -> Self:
         return self
@@ -39,12 +39,12 @@ class Closing(ABC):
 
 
 class Growing(Closing):
-    """Lines appended to a file; ``done`` of them, below the header, are there already.
+    """Lines appended to a file, ``done`` of which exist already, below the header.
 
     ``key`` is all that the lines depend on. With ``resume`` a run continues one with the same key,
-    starts where there is none, and has nothing to do where the file ``is_whole``; ``found`` says
-    which of these. Raises GenevaError where the file cannot be written, another run writes it, or
-    the run to continue had another key.
+    starts if there is none, and does nothing if the file ``is_whole``; ``found`` says which. Raises
+    GenevaError if the file cannot be written, if another run writes it, or if the run to continue
+    had another key.
     """
 
     def __init__(
@@ -69,7 +69,7 @@ class Growing(Closing):
                 raise
 
     def _continue(self, key: str) -> bool:
-        """Whether the file is whole, or there are rows to continue."""
+        """Return True if the file is whole, or if there are rows to continue."""
         name = cut(os.path.basename(self.real))
         digest = self.state.whole_digest()
         if self.state.request == key and digest is not None and digest == _digest(self.real):
@@ -94,13 +94,13 @@ class Growing(Closing):
         return bool(blocks)
 
     def append(self, text: str) -> None:
-        """Add whole lines, which are with the system before the next are computed."""
+        """Add whole lines, and hand them to the system before the next are computed."""
         with write_errors(self.path):
             self.state.append(text.count("\n"), text.encode())
         self.done += text.count("\n")
 
     def finish(self, fill: Callable[[Iterator[bytes], BinaryIO], None] | None = None) -> None:
-        """Replace the file by the lines, or by what ``fill`` makes of them, in one step."""
+        """Replace the file by the lines, or by the output of ``fill`` for them, in one step."""
         with write_errors(self.path):
             with replacing(self.path, self.inputs) as file:
                 if fill:
@@ -126,12 +126,12 @@ class Growing(Closing):
             )
 
     def close(self) -> None:
-        """Close the state file, which stays there to be continued."""
+        """Close the state file, which remains to be continued."""
         self.state.close()
 
 
 def _digest(path: str) -> str | None:
-    """Return the digest of a file, None where there is none."""
+    """Return the digest of a file; None if there is no file."""
     try:
         with open(path, "rb") as file:
             return hashlib.file_digest(file, "sha256").hexdigest()

@@ -1,6 +1,6 @@
-"""Columns side by side in a window: what is narrowed, what is left out, and the lines of the rest.
+"""Columns side by side in a window: widths, omitted columns, and lines.
 
-Nothing is cut: a number is as wide as it is, and text is broken between its words alone.
+Nothing is cut: a number keeps its width, and text is broken between words only.
 """
 
 from __future__ import annotations
@@ -11,8 +11,8 @@ from collections.abc import Iterator, Sequence
 from typing import NamedTuple
 
 GAP = "  "  # between two columns
-PROSE = 28  # letters to which a column of prose is narrowed before another column is left out
-SIGN = re.compile(r"(?<=[/,=])|(?<=::)")  # behind which a long word may be broken
+PROSE = 28  # letters to which a column of prose is narrowed before another column is omitted
+SIGN = re.compile(r"(?<=[/,=])|(?<=::)")  # signs behind which a long word may be broken
 BOLD, DIM, PLAIN = "\x1b[1m", "\x1b[2m", "\x1b[0m"
 
 
@@ -26,7 +26,7 @@ class ShownColumn(NamedTuple):
     is_text: bool
 
     def least(self) -> int:
-        """Width in letters to which it can be narrowed."""
+        """Least width in letters to which it can be narrowed."""
         if not self.is_prose():
             return self.natural()
         return max([min(self.natural(), PROSE), *map(width_of, self._words())])
@@ -36,7 +36,7 @@ class ShownColumn(NamedTuple):
         return max([width_of(text) for text in (*self._words(), *self.cells)], default=0)
 
     def is_prose(self) -> bool:
-        """Whether its cells may be broken into several lines."""
+        """Return True if its cells may be broken into several lines."""
         return self.is_text and any(" " in text for text in self.cells)
 
     def _words(self) -> list[str]:
@@ -77,7 +77,7 @@ def wrapped(text: str, width: int) -> list[str]:
 
 
 def _parts(word: str, width: int) -> list[str]:
-    """The pieces between which a word may be broken if it has to be: most words are one."""
+    """The pieces between which a long word may be broken; most words are one piece."""
     if width_of(word) <= width:
         return [word]
     if not any(map(str.isalnum, word)):
@@ -86,7 +86,7 @@ def _parts(word: str, width: int) -> list[str]:
 
 
 def widths(columns: Sequence[ShownColumn], room: int) -> list[int] | None:
-    """The columns' widths, the widest prose narrowed first; None where ``room`` has not enough."""
+    """The columns' widths, the widest prose narrowed first; None if they do not fit in ``room``."""
     found = [column.natural() for column in columns]
     spare = room - len(GAP) * (len(columns) - 1) - sum(found)
     if spare >= 0:
@@ -115,7 +115,7 @@ def fitting(
 
 
 def heads(columns: Sequence[ShownColumn], sizes: Sequence[int], styled: bool) -> Iterator[str]:
-    """The lines of the headings, which stand on the units below them."""
+    """The lines of the headings, directly above the units."""
     texts = [wrapped(column.words, size) for column, size in zip(columns, sizes, strict=True)]
     high = max(map(len, texts))
     is_text = [column.is_text for column in columns]
@@ -126,14 +126,14 @@ def heads(columns: Sequence[ShownColumn], sizes: Sequence[int], styled: bool) ->
 
 
 def row(texts: Sequence[str], sizes: Sequence[int], is_text: Sequence[bool]) -> Iterator[str]:
-    """The lines of a row, one but for its prose."""
+    """The lines of a row, one except for prose."""
     cells = [wrapped(text, size) for text, size in zip(texts, sizes, strict=True)]
     for level in range(max(map(len, cells))):
         yield _line([cell[level] if level < len(cell) else "" for cell in cells], sizes, is_text)
 
 
 def turned(columns: Sequence[ShownColumn], room: int) -> list[str] | None:
-    """Columns as lines, a row beside the other; None where they do not fit so either."""
+    """Columns as lines, with rows side by side; None if these do not fit either."""
     labels = [f"{c.words}, {c.unit}" if c.unit else c.words for c in columns]
     rows = list(zip(*(column.cells for column in columns), strict=True))
     sides = [
@@ -152,7 +152,7 @@ def turned(columns: Sequence[ShownColumn], room: int) -> list[str] | None:
 
 
 def stacked(above: ShownColumn, below: ShownColumn, room: int) -> Iterator[str]:
-    """Two columns of which each cell of one stands below the other's."""
+    """Two columns combined, each cell of one below the other's."""
     for one, other in zip(above.cells, below.cells, strict=True):
         yield from wrapped(one, room)
         for line in wrapped(other, room - len(GAP)):

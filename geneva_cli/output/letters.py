@@ -1,15 +1,15 @@
-"""Letters: how wide they are in a font that we do not know, and those that some fonts have not."""
+"""Widths of letters in unknown fonts, and replacements for letters that some fonts lack."""
 
 from __future__ import annotations
 
 import re
 import unicodedata
 
-LETTER = 0.62  # width of a letter beside the height, with some to spare
+LETTER = 0.62  # width of a letter over its height, generous
 
 
 def width(text: str) -> float:
-    """A text's width beside its height, rather too great than too small."""
+    """A text's width over its height, an upper estimate."""
     return sum(1.1 if unicodedata.east_asian_width(c) in "WF" else LETTER for c in text)
 
 
@@ -19,7 +19,7 @@ SPELLED = {"≥": ">=", "≤": "<=", "−": "-", "→": "->", "√": "sqrt", "�
 
 
 def western(text: str) -> str:
-    """The text in letters that Windows' western fonts have; others are spelled in words or ASCII.
+    """The text in letters of Windows' western fonts; others are spelled in words or ASCII.
 
     >>> western("d²ψ/dθ² = 3 × 10⁻³"), western("Дα")
     ('d²psi/dtheta² = 3 × 10^-3', '[U+0414]alpha')

@@ -23,7 +23,7 @@ def chunks(table: Table) -> Iterator[str]:
         for name, value in zip(table.names, next(table.rows()), strict=True):
             yield f"| {escaped(name)} | {escaped(value)} |\n"
         return
-    if not table.names:  # nothing is left of it but what it says
+    if not table.names:  # only its title and prose are left
         return
     yield "| " + " | ".join(map(escaped, table.names)) + " |\n"
     yield "| " + " | ".join(["---:"] * len(table.names)) + " |\n"
@@ -32,5 +32,5 @@ def chunks(table: Table) -> Iterator[str]:
 
 
 def escaped(value: object) -> str:
-    """A value that means itself: a title is a user's text, and may look like HTML or Markdown."""
+    """A value without special meaning: a user's title may look like HTML or Markdown."""
     return "".join(ESCAPES.get(c, c) for c in cell(value))

@@ -1,4 +1,4 @@
-"""A scene as a moving GIF: one turn, again and again. Pillow draws it, which comes with `plot`."""
+"""A scene as a moving GIF that repeats one turn, drawn by Pillow (extra ``plot``)."""
 
 from __future__ import annotations
 
@@ -21,8 +21,8 @@ if TYPE_CHECKING:
 
 WIDE = 400  # px
 FRAMES = 60  # of a turn
-SECONDS = 6.0  # that a turn takes on the screen
-FINER = 3  # times: lines are smooth where they are drawn larger and made smaller
+SECONDS = 6.0  # of a turn on the screen
+FINER = 3  # times: lines become smooth when they are drawn larger and reduced
 MARGIN = 0.03  # of the greater side
 PIECES = 24  # chords of a curved segment
 ROUND = 96  # of a circle
@@ -30,7 +30,7 @@ LINK, GREY = "#a56752", "#5c6670"
 
 
 def written(scene: Scene) -> bytes:
-    """The file. Raises GenevaError where Pillow is not installed.
+    """The file. Raises GenevaError if Pillow is not installed.
 
     The same scene gives the same bytes, with the same Pillow.
     """
@@ -88,7 +88,7 @@ def _link(pen: Any, bar: Bar, t: float, on_paper: Callable[[Point], Point], scal
 
 
 def _plates(pen: Any, bar: Bar, t: float, on_paper: Callable[[Point], Point]) -> None:
-    """A link and its blocks, as they are cut."""
+    """Draw a link and its blocks with their outlines."""
     for plate in bar.plates:
         at = pose(bar, plate, t)
         for i, shape in enumerate(plate.shapes):
@@ -101,7 +101,7 @@ def _is_closed(shape: Shape) -> bool:
     return isinstance(shape, Circle) or shape.closed
 
 
-@lru_cache(maxsize=256)  # a link's in every frame
+@lru_cache(maxsize=256)  # a link's outline is needed in every frame
 def _points(shape: Shape) -> list[Point]:
     """A shape as a chain of points."""
     if isinstance(shape, Circle):

@@ -1,4 +1,4 @@
-"""A design as a notebook shows it: pictures, and the report under a fold."""
+"""A design in a notebook: pictures, and the report in a fold."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
 
 def shown(report: Table, verdict: str, drawing: Drawing | None, figure: Figure) -> str:
-    """HTML of a design: its words and verdict, the machine if it is flat, curves, the report."""
+    """HTML of a design: title, verdict, the machine if it is flat, curves, and the report."""
     pictures = [plot_svg.chunks(figure)]
     if drawing is not None:
         pictures.insert(0, svg.chunks(drawing, "mm"))
@@ -30,7 +30,7 @@ def shown(report: Table, verdict: str, drawing: Drawing | None, figure: Figure) 
 
 
 def _picture(chunks: Iterable[str]) -> str:
-    """As data: within the page its styles would be everybody's."""
+    """A picture as data, since its styles would affect the whole page otherwise."""
     data = base64.b64encode("".join(chunks).encode()).decode()
     return (
         f'<img src="data:image/svg+xml;base64,{data}" alt=""'

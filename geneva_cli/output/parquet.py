@@ -1,4 +1,4 @@
-"""Parquet, for tables of millions of rows: made of the finished csv by pyarrow, an extra."""
+"""Parquet, for tables of millions of rows, converted from csv by pyarrow (an extra)."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ BLOCK = 1 << 22  # bytes of csv at a time
 
 
 def refuse_without() -> None:
-    """Raise GenevaError where pyarrow is not installed."""
+    """Raise GenevaError if pyarrow is not installed."""
     if find_spec("pyarrow") is None:
         raise GenevaError(
             '.parquet needs pyarrow: pip install "geneva-cli[parquet]", or write a .csv'
@@ -25,7 +25,7 @@ def refuse_without() -> None:
 def convert(lines: Iterable[bytes], target: BinaryIO, texts: Collection[str] = ()) -> None:
     """Write the lines of a csv file as parquet, block by block: numbers, truth values or texts.
 
-    Columns named in ``texts`` are texts even where all their rows are empty, so that files of
+    Columns named in ``texts`` are texts even if all their rows are empty, so that the files of
     several shards have one schema.
     """
     import pyarrow as pa
@@ -33,7 +33,7 @@ def convert(lines: Iterable[bytes], target: BinaryIO, texts: Collection[str] = (
     from pyarrow import parquet
 
     types = {"number": pa.float64(), "truth": pa.bool_(), "text": pa.string()}
-    # The lines are read twice, so they go to a file without a name, where the result has room too.
+    # The lines are read twice, so they go to a file without a name, beside the result.
     with TemporaryFile(dir=os.path.dirname(target.name)) as source:
         source.writelines(lines)
         kinds = _kinds(source)
@@ -55,7 +55,7 @@ def convert(lines: Iterable[bytes], target: BinaryIO, texts: Collection[str] = (
 
 
 def _kinds(source: BinaryIO) -> dict[str, str]:
-    """What every column holds, of all its rows: one word among numbers makes them texts."""
+    """The type of every column from all its rows: one word among numbers makes it text."""
     source.seek(0)
     lines = csv.reader(line.decode() for line in source)
     names = next(lines)

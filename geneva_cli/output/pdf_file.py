@@ -1,8 +1,8 @@
-"""PDF 1.4: pages of lines, filled shapes and texts, and nothing else.
+"""PDF 1.4 with lines, filled shapes and texts only.
 
-The fonts are Helvetica and its bold, which every reader has; letters beyond Windows' western ones,
-which these have not, are question marks: ``western`` in output/letters.py spells them before. Plain
-ASCII, and the same bytes on every run.
+The fonts are Helvetica and its bold, which every reader has. They lack letters beyond Windows'
+western ones, which would be question marks, so ``western`` in output/letters.py spells those. The
+output is plain ASCII, and equal on every run.
 """
 
 from __future__ import annotations
@@ -17,8 +17,8 @@ from geneva_cli.curves.measure import halves
 from geneva_cli.curves.shapes import Arc, Circle, Contour, Cubic, Point, Segment, Shape, about
 from geneva_cli.errors import clean
 
-POINT = 72.0 / 25.4  # of PDF, in a millimetre
-QUARTER = 0.415  # bulge of an arc of 90 degrees, and a little: what one cubic stands for
+POINT = 72.0 / 25.4  # points per millimetre
+QUARTER = 0.415  # bulge of an arc of slightly more than 90 degrees, the most for one cubic
 # a power of ten is raised: its size and its height, over that of the text
 EXPONENT = re.compile(r"(?<=10)\^(-?\d+)")
 EXPONENT_SIZE, EXPONENT_RISE = 0.7, 0.33
@@ -31,7 +31,7 @@ class Page(NamedTuple):
     width: float
     height: float
     content: str
-    fonts: int = 1  # of FONTS, how many it uses
+    fonts: int = 1  # number of FONTS that it uses
 
 
 def written(title: str, pages: Sequence[Page]) -> Iterator[str]:
@@ -70,7 +70,7 @@ def written(title: str, pages: Sequence[Page]) -> Iterator[str]:
 
 
 def outline(shape: Shape) -> str:
-    """The operators that run along a shape; what is closed is closed."""
+    """The operators that trace a shape, closed if the shape is."""
     if isinstance(shape, Circle):
         pieces = tuple(
             about(shape.centre, shape.radius, start, math.pi) for start in (0.0, math.pi)
@@ -96,10 +96,9 @@ def _piece(segment: Segment) -> str:
 
 
 def _cubic(arc: Arc) -> Cubic:
-    """The cubic with the arc's ends, tangents and middle: at 90 degrees off by 3e-4 of its radius.
+    """The cubic with the arc's ends, tangents and middle, within 3e-4 of the radius at 90 degrees.
 
-    Its handles are 4/3 tan(sweep/4) of the radius long, which with the bulge b is (1 + b²)/3 of
-    the chord.
+    Its handles are 4/3 tan(sweep/4) of the radius long; with the bulge b, (1 + b²)/3 of the chord.
     """
     (x0, y0), (x1, y1) = arc.start, arc.end
     long = (1.0 + arc.bulge * arc.bulge) / 3.0
@@ -112,7 +111,7 @@ def _cubic(arc: Arc) -> Cubic:
 
 
 def text(words: str, at: Point, size: float, turn: float = 0.0, font: int = 1) -> str:
-    """A text from its first letter's base line on; ``turn`` is in radians."""
+    """A text that starts at a point on its base line; ``turn`` is in radians."""
     c, s = math.cos(turn), math.sin(turn)
     matrix = " ".join(number(v) for v in (c, s, -s, c, *at))
     first, *others = EXPONENT.split(words)
@@ -144,6 +143,6 @@ def point(p: Point) -> str:
 
 
 def number(value: float) -> str:
-    """Five decimals at the most; no negative zero."""
+    """A number with at most five decimals, without a negative zero."""
     found = f"{value:.5f}".rstrip("0").rstrip(".")
     return "0" if found == "-0" else found

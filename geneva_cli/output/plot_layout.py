@@ -1,6 +1,7 @@
-"""The layout of a figure: panels one below the other over one x axis, for any pen.
+"""The layout of a figure: panels stacked over one x axis, for any pen.
 
-Lengths are in px of a page 820 px wide, y downwards. A pen writes a format: SVG, PDF or a picture.
+Lengths are in px of a page 820 px wide, y downwards. Each format has its own pen: SVG, PDF and
+pictures.
 """
 
 from __future__ import annotations
@@ -19,15 +20,15 @@ Path: TypeAlias = Sequence[Point]
 PAGE = 820.0
 LEFT, RIGHT, MARKS = 72.0, 18.0, 192.0  # MARKS: the column of the peaks' values
 HEIGHTS = {1: 300.0, 2: 220.0, 3: 160.0}  # of a panel, by their number
-HEIGHT = 112.0  # where there are more
+HEIGHT = 112.0  # if there are more
 ABOVE, BELOW = 26.0, 44.0  # a panel's name; the last one's ticks and the axis' name
 TITLE, TEXT, SMALL = 15.0, 11.0, 10.0  # heights of letters
 LINE_HEIGHT = 14.0
 SAMPLE = 30.0  # of a curve, in the legend
 PAD = 0.05  # of a panel's span, above and below it
-APART = 24.0, 70.0  # of ticks, at the least: up and across
-SEEN = 0.05  # a shorter jump cannot be seen
-START, MIDDLE, END = "start", "middle", "end"  # where a text is held
+APART = 24.0, 70.0  # least distance of ticks: up and across
+SEEN = 0.05  # a shorter jump is invisible
+START, MIDDLE, END = "start", "middle", "end"  # anchor of a text
 
 
 class Frame(NamedTuple):
@@ -56,7 +57,7 @@ class Frame(NamedTuple):
 
 
 class Pen(Protocol):
-    """A surface to draw on. ``number`` is a curve's; its look follows from it."""
+    """A surface to draw on; ``number`` is a curve's, and determines its look."""
 
     def begin(self, name: str, frame: Frame) -> None:
         """Begin a panel."""
@@ -96,7 +97,7 @@ class Pen(Protocol):
 
 
 class Block(NamedTuple):
-    """A part of a figure that stands together: its height, and ``draw(pen, top)``."""
+    """An unbreakable part of a figure: its height, and ``draw(pen, top)``."""
 
     high: float
     draw: Callable[[Pen, float], None]

@@ -13,7 +13,7 @@ from geneva_cli.output.pdf_file import POINT, number
 from geneva_cli.output.plot_layout import END, PAGE, START, TEXT, Block, Frame, Path, Point, blocks
 from geneva_cli.output.strokes import LIGHT, colour, dashes
 
-INCH = 25.4 / 82.0  # mm a px of a figure's own page, which is ten inches wide
+INCH = 25.4 / 82.0  # mm per px of a figure's own page, which is ten inches wide
 
 
 def chunks(figure: Figure) -> Iterator[str]:
@@ -29,7 +29,7 @@ def chunks(figure: Figure) -> Iterator[str]:
 
 
 def items(figure: Figure) -> Iterator[Item]:
-    """Yield a figure's parts for a document: no title and no last panel stands alone."""
+    """Yield a figure's parts for a document, so that no title and no last panel stands alone."""
     scale = WIDE / PAGE
     made = list(blocks(figure))
     for i, block in enumerate(made):

@@ -11,18 +11,18 @@ from geneva_cli.figure import Figure
 from geneva_cli.output.plot_layout import PAGE, START, TEXT, Frame, Path, Point, blocks
 from geneva_cli.output.strokes import LIGHT, colour, dashes
 
-INCH = 82.0  # px of the layout: the page is ten inches wide
+INCH = 82.0  # px of the layout per inch: the page is ten inches wide
 DPI = 150
-PT = 72.0 / INCH  # points a px
+PT = 72.0 / INCH  # points per px
 HOLD = {"start": "left", "middle": "center", "end": "right"}
-# No line is moved to whole pixels, and dashes are points; no path is thinned out.
+# Lines are not moved to whole pixels, dashes are in points, and paths are not simplified.
 SETTINGS: Any = {"path.snap": False, "lines.scale_dashes": False, "path.simplify": False}
 
 
 def written(figure: Figure) -> bytes:
-    """Return the file's bytes; the same figure gives the same.
+    """Return the file's bytes, equal for equal figures.
 
-    Raises GenevaError where Matplotlib is not installed.
+    Raises GenevaError if Matplotlib is not installed.
     """
     try:
         import matplotlib as mpl
@@ -43,7 +43,7 @@ def written(figure: Figure) -> bytes:
             block.draw(_Pen(axes), top)
             top += block.high
         out = io.BytesIO()
-        # a file holds neither the day it was written nor the program's version
+        # a file holds neither its date nor the program's version
         page.savefig(out, format="png", dpi=DPI, metadata={"Software": None})
     return out.getvalue()
 
@@ -95,7 +95,7 @@ class _Pen:
         self._words(x, y, text, size=PT * size, weight="bold")
 
     def _words(self, x: float, y: float, text: str, **look: Any) -> None:
-        plain = text.replace("$", r"\$")  # no formula
+        plain = text.replace("$", r"\$")  # not a formula
         self.axes.text(x, y, plain, va="baseline", color=LIGHT.text, **look)
 
     def _dot(self, number: int, place: Point, size: float) -> None:

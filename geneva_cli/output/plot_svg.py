@@ -1,7 +1,6 @@
 """A figure as SVG, without another program.
 
-Texts are texts; colours follow the reader's light or dark mode. The same figure gives the same
-bytes.
+Texts remain texts; colours follow the reader's light or dark mode. Equal figures give equal bytes.
 """
 
 from __future__ import annotations
@@ -112,7 +111,7 @@ class _Pen:
         self._text(x, y, text, f'{_size(size)} font-weight="bold"')
 
     def _path(self, kind: str, paths: Iterable[Path]) -> None:
-        """Add paths; one that begins where the one before it ended goes on from there."""
+        """Add paths; one that begins at the end of the one before continues it."""
         words: list[str] = []
         last = ""
         for path in paths:
@@ -136,6 +135,6 @@ def _at(place: Point) -> str:
 
 
 def _n(value: float) -> str:
-    """Two decimals at the most; no negative zero."""
+    """A number with at most two decimals, without a negative zero."""
     text = f"{value:.2f}".rstrip("0").rstrip(".")
     return "0" if text == "-0" else text

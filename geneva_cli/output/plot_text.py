@@ -1,7 +1,7 @@
 """A figure as text: a compact chart for a terminal, or plain ASCII for a pipe or a file.
 
-One curve is drawn in Braille dots (two by four to a letter) where the encoding has them; several
-are told apart by letters of their own.
+One curve is drawn in Braille dots (two by four in a letter) if the encoding has them. Several
+curves have letters of their own.
 """
 
 from __future__ import annotations
@@ -13,13 +13,13 @@ from geneva_cli.figure import LINE, POINTS, Curve, Figure, Panel
 from geneva_cli.output.layout import width_of, wrapped
 from geneva_cli.output.ticks import labels, said, ticks
 
-MARKS = "*o+x#@%&=~^$"  # of curves that share a panel, and of one in ASCII
-WIDTH = 80  # where nobody looks
+MARKS = "*o+x#@%&=~^$"  # of curves that share a panel, and of one curve in ASCII
+WIDTH = 80  # of a pipe or a file
 NARROW, WIDE = 40, 140
 HIGH = {1: 16, 2: 12}  # lines of a panel, by their number
-LOW = 7  # where there are more
+LOW = 7  # if there are more
 LABEL = 10  # letters for the numbers of the upright axis
-# The bit of each dot of a letter of Braille, from above, left and right.
+# The bit of each dot of a Braille letter, from top to bottom, left and right.
 DOTS = ((0x01, 0x08), (0x02, 0x10), (0x04, 0x20), (0x40, 0x80))
 BRAILLE = 0x2800
 
@@ -50,7 +50,7 @@ def chunks(figure: Figure, columns: int = WIDTH, unicode: bool = False) -> Itera
 
 
 def _lines(text: str, columns: int) -> Iterator[str]:
-    """A text broken between words; a word that is wider than the chart is cut."""
+    """A text broken between words; a word wider than the chart is cut."""
     for line in wrapped(text, columns):
         while line and width_of(line) > columns:
             line = cut(line, len(line) - 1) if len(line) > 8 else ""
@@ -58,7 +58,7 @@ def _lines(text: str, columns: int) -> Iterator[str]:
 
 
 def _heading(panel: Panel, columns: int, several: bool, unit: str) -> Iterator[str]:
-    """The quantity by its name, and its peaks."""
+    """The name of the quantity, and its peaks."""
     name = panel.y.name
     if several:
         yield from _lines(name, columns)
@@ -99,7 +99,7 @@ def _grid(figure: Figure, panel: Panel, wide: int, high: int, unicode: bool) -> 
 
 
 def _braille(figure: Figure, curve: Curve, rows: list[list[str]], low: float, top: float) -> None:
-    """One curve in dots, twice as fine across as letters and four times as fine up."""
+    """Draw one curve in dots, with twice the resolution of letters across and four times up."""
     high, wide = len(rows), len(rows[0])
     step = (top - low) / (4 * high - 1)
     bits: dict[tuple[int, int], int] = {}
@@ -113,7 +113,7 @@ def _braille(figure: Figure, curve: Curve, rows: list[list[str]], low: float, to
 def _walk(
     curve: Curve, figure: Figure, wide: int, down: Callable[[float], float]
 ) -> Iterator[tuple[int, int]]:
-    """The cells that a curve goes through, its jumps too; of points alone only theirs."""
+    """The cells that a curve crosses, jumps included; only the points' cells for points."""
     last = None
     for xs, ys in curve.pieces:
         for x, y in zip(xs, ys, strict=True):
@@ -139,7 +139,7 @@ def _column(x: float, figure: Figure, wide: int) -> int:
 
 
 def _below(figure: Figure, wide: int) -> Iterator[str]:
-    """The numbers below the panels, and what they are."""
+    """The numbers below the panels, and the axis' name."""
     at = ticks(*figure.window, max(wide // 12, 2), figure.x.unit)
     line = [" "] * (wide + 1)
     free = 0

@@ -1,7 +1,7 @@
-"""A page of the manual on a terminal: its Markdown in the window's width.
+"""A page of the manual on a terminal: its Markdown, in the window's width.
 
-Of Markdown it knows what the pages have: headings, paragraphs, lists, tables, blocks of code, and
-in a line code, bold words and links.
+It supports the Markdown of the pages: headings, paragraphs, lists, tables and blocks of code, and
+within lines code, bold words and links.
 """
 
 from __future__ import annotations
@@ -18,8 +18,8 @@ INDENT = "  "  # of code
 CODED = 4 * " "  # before a line of code without fences
 LINK = re.compile(r"\[([^]]+)\]\([^)]*\)")
 CODE = re.compile(r"`([^`]+)`|\*\*([^*]+)\*\*")
-RULE = re.compile(r"\|[-:| ]+")  # below the heads of a table
-BLOCK = re.compile(r"(?=[-*] |#|\||```)")  # begins one, also without an empty line before it
+RULE = re.compile(r"\|[-:| ]+")  # below the headings of a table
+BLOCK = re.compile(r"(?=[-*] |#|\||```)")  # starts a block, even without an empty line before it
 
 
 def chunks(text: str, window: Window) -> Iterator[str]:
@@ -30,7 +30,7 @@ def chunks(text: str, window: Window) -> Iterator[str]:
 
 
 def _blocks(text: str) -> Iterator[list[str]]:
-    """The lines of each heading, paragraph, item, table and piece of code; empty ones between."""
+    """The lines of each heading, paragraph, item, table and code block, and empty ones between."""
     block: list[str] = []
     for line in text.splitlines():
         if block and block[0].startswith(FENCE):
@@ -74,7 +74,7 @@ def _shown(block: list[str], window: Window) -> Iterator[str]:
 
 
 def _broken(line: str, width: int) -> list[str]:
-    """A line of code, broken between words where the window is narrower; a rule ends there."""
+    """A line of code, broken between words in a narrow window; a rule is shortened."""
     if set(line) <= set("- "):
         return [line[:width].rstrip()]
     first, *more = wrapped(line, width)
@@ -83,7 +83,7 @@ def _broken(line: str, width: int) -> list[str]:
 
 
 def _table(block: list[str], window: Window) -> Iterator[str]:
-    """A table; where it is too wide, its rows one after the other."""
+    """A table; if it is too wide, its rows one after the other."""
     rows = [[_bare(cell.strip()) for cell in line.strip("|").split("|")] for line in block]
     names, *rows = [r for r, line in zip(rows, block, strict=True) if not RULE.fullmatch(line)]
     columns = [
@@ -102,12 +102,12 @@ def _table(block: list[str], window: Window) -> Iterator[str]:
 
 
 def _bare(text: str) -> str:
-    """Text of one line without marks of Markdown."""
+    """A line of text without Markdown."""
     return CODE.sub(lambda found: found[1] or found[2], LINK.sub(r"\1", text))
 
 
 def _marked(text: str, window: Window) -> str:
-    """Code and bold words in bold, also over the end of a line; as they are without bold."""
+    """Code and bold words in bold, also across lines; unchanged on a terminal without bold."""
     if not window.styled:
         return text
 

@@ -1,4 +1,4 @@
-"""Rows of a table that grows: csv on standard output or in a file, or a parquet made from it."""
+"""Rows of a growing table: csv on standard output or in a file, or parquet made from it."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ ENDINGS = (".csv", ".parquet")
 
 
 class Growth(Closing):
-    """Where the rows of ``names`` go; ``done`` of them are there already, or all (``is_whole``).
+    """The destination of the rows of ``names``, ``done`` of which exist already.
 
     ``key`` is all that they depend on, for ``resume``, which ``found`` says what of; a later share
     of a table has no ``header``.
@@ -43,7 +43,7 @@ class Growth(Closing):
             from geneva_cli.output.parquet import refuse_without
 
             refuse_without()
-            header = True  # a share is a file of its own
+            header = True  # a shard is a file of its own
         first = one_line(names) if header else ""
         if output != "-":
             self.file = Growing(output, first, key, resume, inputs)
@@ -55,7 +55,7 @@ class Growth(Closing):
             sys.stdout.write(first)
 
     def append(self, rows: Sequence[Sequence[Any]]) -> None:
-        """More rows. Raises GenevaError for a number that is none."""
+        """Add rows. Raises GenevaError for NaN."""
         refuse_nonsense(self.names, list(zip(*rows, strict=True)))
         text = "".join(map(one_line, rows))
         if self.file:
@@ -75,6 +75,6 @@ class Growth(Closing):
         self.file.finish(partial(convert, texts=texts))
 
     def close(self) -> None:
-        """A file that is not finished can be gone on from."""
+        """Close the file; an unfinished one can be continued."""
         if self.file:
             self.file.close()

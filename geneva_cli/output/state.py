@@ -1,9 +1,9 @@
-"""The state file of a run that grows a file: who writes it, for what request, and all rows so far.
+"""The state file of a run that grows a file: its lock, its request, and all rows so far.
 
 ``FILE.geneva`` stands beside ``FILE``. Its first line names the program and the request. Each block
 of rows follows a line with its numbers of rows and bytes and a digest. The digest covers the first
-line and all blocks so far, so that a block that is changed, lost or doubled is noticed. When the
-file is whole, a line with the digest of that file replaces the blocks.
+line and all blocks so far, so that a changed, lost or repeated block is noticed. Once the file is
+whole, a line with the digest of that file replaces the blocks.
 """
 
 from __future__ import annotations
@@ -23,16 +23,16 @@ from geneva_cli.output.files import refuse_input
 
 SUFFIX = ".geneva"
 TITLE = b"geneva sweep state 1 "
-LINE_MAX = 1000  # bytes of a line of ours; a foreign file may hold one of gigabytes
+LINE_MAX = 1000  # bytes of a line of ours; a foreign file may have one of gigabytes
 BLOCK_LINE = re.compile(rb"block (\d{1,18}) (\d{1,18}) ([0-9a-f]{64})\n")
 WHOLE_LINE = re.compile(rb"whole ([0-9a-f]{64})\n")
 
 
 class State:
-    """An open state file, locked: no second run writes it.
+    """An open state file, locked so that no second run writes it.
 
-    ``request`` is what an earlier run was asked for, None where there was none. Raises GenevaError
-    where something else has this name, or another run holds it.
+    ``request`` is that of an earlier run, None if there was none. Raises GenevaError if another
+    file has this name, or if another run holds the lock.
     """
 
     def __init__(self, path: str, inputs: Iterable[str]) -> None:
@@ -53,7 +53,7 @@ class State:
         self.digest = hashlib.sha256(first)
 
     def begin(self, request: str) -> None:
-        """Forget what an earlier run left, and write the first line."""
+        """Discard the rows of an earlier run, and write the first line."""
         self.file.seek(0)
         self.file.truncate()
         first = TITLE + request.encode() + b"\n"
@@ -83,7 +83,7 @@ class State:
             yield rows, data
 
     def append(self, rows: int, data: bytes) -> None:
-        """Write a block after the last one; it is with the system before the next is computed."""
+        """Write a block after the last one, handed to the system before the next is computed."""
         self.digest = self._digest_with(rows, data)
         self.file.seek(self.end)
         self.file.truncate()
@@ -100,17 +100,17 @@ class State:
 
     @property
     def is_damaged(self) -> bool:
-        """Whether something that is no block follows the last block that was read."""
+        """Return True if something other than a block follows the last block that was read."""
         return os.fstat(self.file.fileno()).st_size > self.end
 
     def whole_digest(self) -> str | None:
-        """Return the digest of the whole file, None where its rows are not yet whole."""
+        """Return the digest of the whole file, None if its rows are not complete yet."""
         self.file.seek(self.start)
         line = WHOLE_LINE.fullmatch(self.file.readline(LINE_MAX))
         return line[1].decode() if line else None
 
     def mark_whole(self, digest: str) -> None:
-        """Keep only the request and the digest of the file that its rows became."""
+        """Keep only the request and the digest of the finished file."""
         self.file.seek(self.start)
         self.file.truncate()
         self.file.write(f"whole {digest}\n".encode())
@@ -143,7 +143,7 @@ def _open_locked(path: str, inputs: Iterable[str]) -> BinaryIO:
         except BaseException:
             file.close()
             raise
-        file.close()  # the run that held the lock has removed it meanwhile
+        file.close()  # the run with the lock has removed the file meanwhile
 
 
 def _refuse_other(path: str, status: os.stat_result, inputs: Iterable[str]) -> None:
@@ -161,9 +161,9 @@ def _not_ours(path: str) -> GenevaError:
 
 
 def _lock(file: BinaryIO, path: str) -> None:
-    """Lock the file for this process alone, not for the workers that it starts.
+    """Lock the file for this process alone, not for its worker processes.
 
-    A worker may outlive a killed run for a moment, and would keep the next run out.
+    A worker may outlive a killed run for a moment, and would block the next run.
     """
     try:
         fcntl.lockf(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
@@ -174,7 +174,7 @@ def _lock(file: BinaryIO, path: str) -> None:
                 f"{name}: another run is writing this file; wait until it ends, "
                 "or give -o another name"
             ) from None
-        # A file system without locks: the digests tell where two runs have mixed their rows.
+        # A file system without locks: the digests reveal mixed rows of two runs.
 
 
 def _has_name(file: BinaryIO, path: str) -> bool:

@@ -1,4 +1,4 @@
-"""A scene as a picture of it at one input angle, for machines that no parts are drawn of too."""
+"""A scene as a picture at one input angle, also for machines without drawings."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
 WIDE = 640.0  # px
 MARGIN = 0.02  # of the greater side
-BETWEEN = 0.12  # of the turn: the first roller is in its slot
+BETWEEN = 0.12  # fraction of the turn: the first roller is in its slot
 STROKE, LINK, JOINT = 0.004, 0.012, 0.008  # of the greater side
 GREY, BROWN = "#757575", "#a56752"
 OPEN = ("PITCH", "GROOVE", "SLOT")  # layers of lines
@@ -25,7 +25,7 @@ HOLES = ("BORE", "HOLLOW")
 
 
 def chunks(scene: Scene) -> Iterator[str]:
-    """The file's text; it reads on light and on dark pages."""
+    """The file's text, legible on light and on dark pages."""
     x0, y0, x1, y1 = scene.box
     size = max(x1 - x0, y1 - y0)
     margin, t = MARGIN * size, BETWEEN * scene.turn_deg

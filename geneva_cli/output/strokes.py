@@ -1,7 +1,7 @@
-"""How the curves of a figure look: told apart by dashes, in colours for light and dark paper.
+"""Strokes of a figure's curves: different dashes, and colours for light and dark paper.
 
-The colours are apart for eyes that lack a cone too, after Okabe and Ito (2008), darkened or
-lightened to a contrast of at least 3 to the paper (tests/output/test_plot.py holds both).
+The colours differ for colour-blind readers too, after Okabe and Ito (2008), with a contrast of at
+least 3 to the paper (checked in tests/output/test_plot.py).
 """
 
 from __future__ import annotations
@@ -16,7 +16,7 @@ class Paper(NamedTuple):
     text: str
     axis: str
     grid: str
-    rest: str  # where the wheel rests
+    rest: str  # shade of stretches at rest
     curves: tuple[str, ...]
 
 
@@ -47,10 +47,10 @@ DASHES = (
 
 
 def colour(number: int, paper: Paper) -> str:
-    """The colour of a curve by its number; colours come round, but not with the same dashes."""
+    """The colour of a curve by its number; colours repeat, with other dashes."""
     return paper.curves[number % len(paper.curves)]
 
 
 def dashes(number: int) -> tuple[float, ...]:
-    """Dash and gap of a curve by its number, px; none for a full line."""
+    """Dash and gap of a curve by its number, px; none for a solid line."""
     return DASHES[(number + number // len(DASHES)) % len(DASHES)]

@@ -15,13 +15,13 @@ from geneva_cli.errors import clean
 from geneva_cli.output.document.values import RAISED, TIMES
 from geneva_cli.output.markdown import escaped
 
-WIDTH = 90  # letters of a line where nobody looks
-WIDEST = 100  # of a line in a wide window: longer ones are hard to read
+WIDTH = 90  # letters of a line in a file or a pipe
+WIDEST = 100  # letters of a line in a wide window: longer ones are hard to read
 LABEL = 20  # letters; a longer label stands above its text
 SIGNS = {PASSES: "✓", WARNS: "!", FAILS: "✗"}
 INKS = {PASSES: "\x1b[32m", WARNS: "\x1b[33m", FAILS: "\x1b[31m"}  # green, yellow, red
 DIM, PLAIN = "\x1b[2m", "\x1b[0m"
-# What stands for a letter that the terminal's encoding has not.
+# Replacements for letters that the terminal's encoding lacks.
 ASCII = {
     "✓": "ok",
     "✗": "x",
@@ -31,13 +31,13 @@ ASCII = {
     "Ø": "dia.",
 }
 UNICODE = "✓✗°²³⁻⁵"
-NO_BREAK = "\u00a0"  # the space at which no line is broken
+NO_BREAK = "\u00a0"  # a space without a line break
 POWER = re.compile(f"{TIMES}10([⁻⁰¹²³⁴⁵⁶⁷⁸⁹]+)")
 LOWERED = {raised: plain for plain, raised in RAISED.items()}
 
 
 class Look(NamedTuple):
-    """How a stream shows a summary."""
+    """The look of a summary on a stream."""
 
     width: int = WIDTH
     coloured: bool = False
@@ -60,7 +60,7 @@ def look_of(output: str) -> Look:
 
 
 def chunks(summaries: Iterable[Summary], look: Look) -> Iterator[str]:
-    """Each summary as text; an empty line is on both sides of one that has lines."""
+    """Each summary as text, with empty lines around one that has lines."""
     before: Summary | None = None
     for summary in summaries:
         if before and (before.lines or summary.lines):
@@ -97,14 +97,14 @@ def _lines(lines: Iterable[Line], look: Look) -> Iterator[str]:
 
 
 def _wrapped(text: str, room: int, look: Look) -> list[str]:
-    """A text in lines; a value is not broken from its power of ten."""
+    """A text in lines; a value is not separated from its power of ten."""
     text = _letters(NO_BREAK.join(map(clean, text.split(NO_BREAK))), look)
     lines = textwrap.wrap(text, max(room, 1), break_long_words=False, break_on_hyphens=False)
     return [line.replace(NO_BREAK, " ") for line in lines]
 
 
 def _letters(text: str, look: Look) -> str:
-    """A text in the letters that the stream has."""
+    """A text in the letters of the stream."""
     if look.unicode:
         return text
     text = POWER.sub(lambda power: f"e{power[1].translate(LOWERED)}", text)

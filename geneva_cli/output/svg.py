@@ -1,7 +1,7 @@
-"""SVG at true size: one path a part, circles for bores, in plain coordinates.
+"""SVG at true size: one path for each part, circles for bores, in plain coordinates.
 
-Drawings to cut have hairlines and nothing besides. Those to look at have lines that suit their
-size, plates that are filled, and notes; see ``svg_look``.
+Drawings to cut have hairlines only. Drawings to view have lines in proportion to their size, filled
+plates, and notes; see ``svg_look``.
 """
 
 from __future__ import annotations
@@ -19,21 +19,21 @@ from geneva_cli.output.svg_fill import filled
 from geneva_cli.output.svg_look import notes, style
 from geneva_cli.output.svg_paths import element, number
 
-# Of drawings to cut, in mm; of those to look at, in parts of SIZE that they are large
+# For drawings to cut, in mm; for drawings to view, in fractions of SIZE
 STROKE = 0.25
 MARGIN = 2.0
 SIZE = 250.0
-LOOKED = 1.6  # how much wider their lines are
-ROOM = 2.0  # and their margin
-FAINT = 0.6  # times the others: lines where rollers run, and what lies
-BELOW = {"FRAME"}  # all others
+LOOKED = 1.6  # ratio of line widths in drawings to view
+ROOM = 2.0  # ratio of their margins
+FAINT = 0.6  # ratio of widths: lines of rollers' paths and hidden lines
+BELOW = {"FRAME"}  # layers below all others
 
 
 def chunks(drawing: Drawing, units: str, fill: str = "") -> Iterator[str]:
     """The file's text; ``units`` is mm or inch, ``fill`` one of ``output.FILLS``.
 
-    Drawings to look at are filled with tints if nothing else is asked. Raises GenevaError for
-    another unit or fill, a coordinate that is not finite, or a drawing without shapes.
+    Drawings to view are filled with tints by default. Raises GenevaError for another unit or fill,
+    a coordinate that is not finite, or a drawing without shapes.
     """
     look, solid = drawing.look, drawing.solid
     fill = fill or ("tint" if look and solid else "none")

@@ -1,6 +1,6 @@
-"""Plates of an SVG, filled: with a light tint of their layer's colour, or hatched.
+"""Plates of an SVG, filled with a light tint of their layer's colour, or hatched.
 
-The lowest first, so that what lies above is seen; bores are left open.
+The lowest plates come first, so that the upper ones cover them; bores stay open.
 """
 
 from __future__ import annotations
@@ -14,16 +14,16 @@ from geneva_cli.curves.shapes import Contour, Point, Shape, about
 from geneva_cli.output.inks import INKS, inks
 from geneva_cli.output.svg_paths import number, path
 
-TINTS = {"ROLLER": 0.55}  # opaqueness; of other layers:
+TINTS = {"ROLLER": 0.55}  # opacity; of other layers:
 TINT = 0.16
-HATCH, RULE = 4.0, 0.25  # mm: between hatch lines, and their width
+HATCH, RULE = 4.0, 0.25  # mm: distance of hatch lines, and their width
 TURNS = (45, 135, 75, 105, 15, 165)  # degrees: of the hatches of layers, in turn
 
 Move = Callable[[Shape], Shape]
 
 
 def filled(solid: Part, fill: str, unit: float, mm: float) -> Iterator[str]:
-    """All plates; ``unit`` is the file's in mm, ``mm`` a millimetre of lines in that."""
+    """All plates; ``unit`` is the file's unit in mm, ``mm`` a millimetre of lines in that unit."""
     every = rings(solid, unit)
     here = dict.fromkeys(layer for layer, _ in every)
     layers = tuple(sorted(here, key=[*INKS, *here].index))  # the wheel's hatch first
@@ -49,7 +49,7 @@ def filled(solid: Part, fill: str, unit: float, mm: float) -> Iterator[str]:
 
 
 def rings(solid: Part, unit: float = 1.0) -> list[tuple[str, list[Contour]]]:
-    """The outline and the holes of each plate, and its layer; the lowest first."""
+    """The outline and holes of each plate, with its layer; the lowest plate first."""
     every = sorted(_placed(solid, lambda shape: shape), key=lambda p: (p[0].high, p[0].low))
     return [
         (
@@ -64,7 +64,7 @@ def rings(solid: Part, unit: float = 1.0) -> list[tuple[str, list[Contour]]]:
 
 
 def _placed(part: Part, move: Move) -> Iterator[tuple[Plate, Move]]:
-    """Each plate with what brings its outline to its place."""
+    """Each plate with the transformation of its outline to its place."""
     if isinstance(part, Plate):
         yield part, move
         return

@@ -1,6 +1,4 @@
-"""What an SVG to look at has besides its shapes: a page that is light or dark, distances, arrows of
-rotation, a scale bar and the title.
-"""
+"""Additions to an SVG to view: light or dark page, distances, arrows, scale bar and title."""
 
 from __future__ import annotations
 
@@ -16,18 +14,18 @@ from geneva_cli.output.letters import width
 from geneva_cli.output.strokes import DARK, LIGHT
 from geneva_cli.output.svg_paths import number, path, place, point
 
-# In mm, where the drawing is ``svg.SIZE`` large:
+# In mm, for a drawing of size ``svg.SIZE``:
 STROKE = 0.25
 GAP = 3.0
 TEXT = 5.0  # height of letters
 TICK = 1.5  # half a scale bar's end mark
 ARROW = 4.5, 0.9  # an arrow's length, and half its width
 GREY = "#757575"
-BRIGHTER = 0.45  # of the way to white: the inks in the dark
+BRIGHTER = 0.45  # fraction of the way to white, for inks on a dark page
 
 
 def style(layers: tuple[str, ...], frame: Box, margin: float) -> str:
-    """The page behind the drawing, and the colours of both; programs without CSS have the light."""
+    """The page behind the drawing, and its colours; programs without CSS show the light one."""
     dark = "".join(
         f"g[id='{layer}'] {{ stroke: {_brighter(ink.rgb)} }}\n"
         for layer, ink in inks(layers).items()
@@ -46,9 +44,9 @@ def style(layers: tuple[str, ...], frame: Box, margin: float) -> str:
 
 
 def notes(look: Annotations, box: Box, title: str, mm: float, units: str) -> tuple[list[str], Box]:
-    """Lines, arrows and texts beside the shapes, and the box around all.
+    """Lines, arrows and texts around the shapes, and the box around all.
 
-    Distances stand below the shapes, below them the scale bar and then the title.
+    Distances stand below the shapes; below them are the scale bar and the title.
     """
     lines: list[str] = []
     heads: list[str] = []
@@ -111,14 +109,14 @@ def _ends(span: LevelDistance, unit: float) -> tuple[float, float]:
 
 
 def _shown(span: LevelDistance, units: str) -> str:
-    """The name and the length, to four decimals in an inch and three in a millimetre."""
+    """The name and the length, to four decimals of an inch and three of a millimetre."""
     a, b = _ends(span, UNITS[units])
     value = f"{b - a:.{4 if units == 'inch' else 3}f}".rstrip("0").rstrip(".")
     return f"{span.name} = {value} {SUFFIX[units]}"
 
 
 def _span(span: LevelDistance, unit: float, low: float, gap: float) -> list[str]:
-    """The line of a distance, and from its ends down to it."""
+    """The path of a distance's line, and of the lines from its ends down to it."""
     (a, b) = _ends(span, unit)
     found = [f"M {point((a, low))} L {point((b, low))}"]
     for x, y in (span.start, span.end):
@@ -144,7 +142,7 @@ def _brighter(rgb: str) -> str:
 
 
 def round_length(length: float) -> float:
-    """1, 2 or 5 times a power of ten: the one that is nearest by ratio."""
+    """The number 1, 2 or 5 times a power of ten that is nearest by ratio."""
     power = 10.0 ** math.floor(math.log10(length))
     rounds = [float(f"{n * power:.0e}") for n in (1, 2, 5, 10)]
     return min(rounds, key=lambda r: abs(math.log(r / length)))

@@ -1,7 +1,7 @@
 """Shapes as elements of an SVG, in plain coordinates.
 
-y points up in a drawing and down there: coordinates are written negated, as programs of cutters
-read paths and pass over transforms.
+y points up in a drawing, and down in SVG. Coordinates are negated rather than transformed, since
+programs of cutting machines ignore transforms.
 """
 
 from __future__ import annotations
@@ -10,14 +10,14 @@ from geneva_cli.curves.measure import halves
 from geneva_cli.curves.shapes import Arc, Circle, Contour, Cubic, Line, Point, Segment, Shape
 
 DECIMALS = 9
-# Bulges of 150, 210 and 300 degrees. Near a half turn the radius says little about the centre,
-# near a whole one the chord does: such arcs are halved, until they are neither.
+# Bulges of 150, 210 and 300 degrees. Near a half turn the radius determines the centre badly, near
+# a whole turn the chord does. Such arcs are halved.
 HALF_TURN = (0.7673, 1.3032)
 NEARLY_ROUND = 3.7
 
 
 def element(shape: Shape) -> str:
-    """A circle or a path."""
+    """The element of a circle or a contour."""
     if isinstance(shape, Circle):
         (x, y), r = shape.centre, shape.radius
         return f'<circle cx="{number(x)}" cy="{number(-y)}" r="{number(r)}"/>\n'
@@ -29,7 +29,7 @@ def path(contour: Contour) -> str:
     segments = contour.segments
     words = [f"M {point(segments[0].start)}"]
     if contour.closed and isinstance(segments[-1], Line):
-        segments = segments[:-1]  # Z draws it: a line there besides would be one of no length
+        segments = segments[:-1]  # Z draws the last line; drawn here it would have no length there
     words += [_command(part) for segment in segments for part in _split(segment)]
     return " ".join(words) + (" Z" if contour.closed else "")
 
@@ -62,6 +62,6 @@ def point(p: Point) -> str:
 
 
 def number(value: float) -> str:
-    """Fixed decimals; no exponent, no negative zero."""
+    """A number with fixed decimals, without an exponent or a negative zero."""
     text = f"{value:.{DECIMALS}f}"
     return text if text.strip("-0.") else text.lstrip("-")

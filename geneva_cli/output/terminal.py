@@ -1,4 +1,4 @@
-"""Tables on a terminal: nothing is wider than the window, and what is left out is said."""
+"""Tables on a terminal: within the window's width, with a note on omitted columns."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from geneva_cli.output.values import bare, value
 from geneva_cli.output.window import Window, paragraphs, styled
 from geneva_cli.table import Table
 
-VALUE = 30  # letters that a value has beside its label; with fewer it stands below
+VALUE = 30  # letters for a value beside its label; with fewer it stands below
 
 
 def chunks(table: Table, window: Window) -> Iterator[str]:
@@ -27,7 +27,7 @@ def chunks(table: Table, window: Window) -> Iterator[str]:
 
 
 def _record(table: Table, window: Window) -> Iterator[str]:
-    """A line a value, under the groups of their names; tables in it as tables."""
+    """One line for each value, grouped by names; tables within it as tables."""
     is_first = True
     for name, part in apart(table):
         lines = list(_values(part, window) if part.record else rows_of(part, window, True))
@@ -67,7 +67,7 @@ def _said(found: Any, unit: str) -> list[str]:
 
 
 def _value(label: str, width: int, texts: list[str], window: Window) -> Iterator[str]:
-    """A label and its value, in several lines where it is long."""
+    """A label and its value, in several lines if it is long."""
     beside = window.columns - width - len(GAP)
     if len(texts) == 1 and (width_of(texts[0]) <= beside or beside >= VALUE):
         first, *more = wrapped(texts[0], beside)

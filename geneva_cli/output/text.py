@@ -1,4 +1,4 @@
-"""Tables as plain text, on a pipe or in a file: every column, whatever the width."""
+"""Tables as plain text, for a pipe or a file: every column, whatever the width."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from geneva_cli.table import Table, flat, in_digits, record_table
 
 WIDTH = 90
 NOISE = 1e-13
-DIGITS = 7  # significant digits for people; csv and json carry all
+DIGITS = 7  # significant digits for people; csv and json have all
 
 
 def chunks(table: Table) -> Iterator[str]:
@@ -51,7 +51,7 @@ def _headings(names: tuple[str, ...]) -> list[list[str]]:
 
 
 def _plain(table: Table) -> Iterator[str]:
-    """Rows under their headings; nothing where none are left of both."""
+    """Rows under their headings; empty if there are no columns."""
     if not table.names:
         return
     heads = _headings(table.names)
@@ -73,7 +73,7 @@ def _plain(table: Table) -> Iterator[str]:
 
 
 def without_noise(block: list[tuple[Any, ...]]) -> Iterator[list[Any]]:
-    """Rows in which a number that is only rounding beside its column's largest is shown as 0."""
+    """Rows in which numbers that are only rounding compared with their column's largest are 0."""
     scales = [
         max((abs(v) for v in column if isinstance(v, float) and v == v), default=0.0)
         for column in zip(*block, strict=True)
@@ -94,9 +94,9 @@ def _line(texts: list[str], widths: list[int], left: list[bool]) -> str:
 
 
 def apart(record: Table, plain_names: bool = False) -> Iterator[tuple[str, Table]]:
-    """A record in its order, piece by piece: each table in it by its name, between records.
+    """The parts of a record in order: each table with its name, and records between them.
 
-    With ``plain_names`` a table whose names are dotted stays in its record.
+    With ``plain_names`` a table with dotted names stays in its record.
     """
     values: dict[str, Any] = {}
     for name, value in zip(record.names, next(record.rows(), ()), strict=True):
@@ -111,7 +111,7 @@ def apart(record: Table, plain_names: bool = False) -> Iterator[tuple[str, Table
 
 
 def _record(table: Table) -> Iterator[str]:
-    """A line a value, and tables between them."""
+    """One line for each value, and tables between them."""
     for _, piece in apart(table, plain_names=True):
         if piece.record:
             yield from _lines(piece)
@@ -122,11 +122,11 @@ def _record(table: Table) -> Iterator[str]:
 
 
 def _lines(table: Table) -> Iterator[str]:
-    """One line a value, a heading where the first part of the dotted name changes."""
+    """One line for each value, and a heading where the first part of the dotted name changes."""
     if not table.names:
         return
     table = flat(table)
-    # What does not apply is no line for a person.
+    # A value that does not apply has no line.
     shown = [pair for pair in zip(table.names, next(table.rows()), strict=True) if _is(pair[1])]
     row = [value for _, value in shown]
     split = [name.rpartition(".") for name, _ in shown]

@@ -1,4 +1,4 @@
-"""Round numbers for an axis, and how they are written."""
+"""Round numbers for an axis, and their text."""
 
 from __future__ import annotations
 
@@ -8,13 +8,13 @@ from collections.abc import Sequence
 from geneva_cli.figure import Axis, Mark
 from geneva_cli.numerics.tolerances import ROUNDED
 
-DEGREES = (5.0, 10.0, 15.0, 30.0, 45.0, 60.0, 90.0, 180.0, 360.0)  # steps that people count in
+DEGREES = (5.0, 10.0, 15.0, 30.0, 45.0, 60.0, 90.0, 180.0, 360.0)  # steps that people use
 MANY = 1e5  # from here on a place is written with an exponent
 DIGITS = 6  # of a peak's value, and at first of an axis
 
 
 def ticks(low: float, high: float, most: int, unit: str = "") -> list[float]:
-    """Multiples of a round step from ``low`` to ``high``: about ``most`` of them, never more.
+    """Multiples of a round step from ``low`` to ``high``, about ``most`` and never more.
 
     >>> ticks(-0.3, 1.2, 5), ticks(-60.0, 300.0, 9, "deg")
     ([0.0, 0.5, 1.0], [-45.0, 0.0, 45.0, 90.0, 135.0, 180.0, 225.0, 270.0])
@@ -34,7 +34,7 @@ def ticks(low: float, high: float, most: int, unit: str = "") -> list[float]:
 
 
 def labels(at: Sequence[float]) -> list[str]:
-    """The numbers of an axis, with so many digits that no two read alike.
+    """The numbers of an axis, with enough digits that no two are equal.
 
     >>> labels([0.0, 0.5, 1.0]), labels([0.0, 2e9]), labels([1e7, 1e7 + 0.5])
     (['0', '0.5', '1'], ['0', '2e+09'], ['10000000', '10000000.5'])
@@ -48,12 +48,12 @@ def labels(at: Sequence[float]) -> list[str]:
 
 
 def named(axis: Axis) -> str:
-    """An axis with its unit, as ``Pin force (N)``."""
+    """An axis with its unit, such as ``Pin force (N)``."""
     return f"{axis.label} ({axis.unit.replace('deg', '°')})" if axis.unit else axis.label
 
 
 def said(mark: Mark, unit: str = "°") -> str:
-    """A mark in words: its value and where it is.
+    """A mark as text: its value and its place.
 
     >>> said(Mark("max", -22.903061866, 649.007123))
     'max 649.007 at -22.90°'

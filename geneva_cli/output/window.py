@@ -15,9 +15,9 @@ NARROWEST = 60  # columns of a window; a narrower one breaks lines itself
 
 
 class Window(NamedTuple):
-    """The terminal's width in letters, whether it shows bold ones, and what does not depend on it.
+    """The terminal's width in letters, whether it shows bold ones, and the options for all columns.
 
-    A ``whole`` table has every column, constant ones too; a ``wide`` one is wider than the window.
+    A ``whole`` table has every column, constant ones too; a ``wide`` one exceeds the window.
     """
 
     columns: int
@@ -27,7 +27,7 @@ class Window(NamedTuple):
 
 
 def window(whole: bool, is_wide: bool) -> Window:
-    """The window of standard output; COLUMNS says its width before the terminal does."""
+    """The window of standard output; COLUMNS has precedence over the terminal's own width."""
     styled = os.environ.get("TERM", "dumb") != "dumb" and not os.environ.get("NO_COLOR")
     columns = max(shutil.get_terminal_size().columns, NARROWEST)
     return Window(columns, styled, whole or is_wide, is_wide)
@@ -41,5 +41,5 @@ def paragraphs(text: str, window: Window, style: str = "") -> Iterator[str]:
 
 
 def styled(line: str, style: str, window: Window) -> str:
-    """A line in bold letters, say, where the terminal has them."""
+    """A line in a style such as bold, if the terminal supports it."""
     return f"{style}{line}{PLAIN}" if style and line and window.styled else line

@@ -21,10 +21,10 @@ from geneva_cli.parts.groove_plate import TOLERANCE
 from geneva_cli.parts.link_positions import links_at
 from geneva_cli.parts.link_sizes import places
 from geneva_cli.parts.links import Links, drawn_links
+from geneva_cli.parts.model import PartsModel
 from geneva_cli.parts.outlines import Outlines
 from geneva_cli.parts.placed import PlacedParts
 from geneva_cli.parts.plates import crank_group, roller_plates, wheel_part
-from geneva_cli.parts.proof import Proof
 from geneva_cli.parts.sizes import pin_radius, thicknesses
 
 
@@ -33,15 +33,15 @@ def link_gears(bars: Links) -> list[Member]:
     return [gear.member for gear in bars.gears]
 
 
-def link_members(proof: Proof) -> tuple[Member, ...]:
+def link_members(model: PartsModel) -> tuple[Member, ...]:
     """Return links and gears with shafts and frame, for a machine whose wheel is not drawn."""
-    mechanism = proof.mechanism
+    mechanism = model.mechanism
     bars = drawn_links(mechanism)
     carried = _carried(mechanism, bars)
-    members = (*bars.cut, *bars.joined, *carried, *link_gears(bars), *gear_members(proof))
+    members = (*bars.cut, *bars.joined, *carried, *link_gears(bars), *gear_members(model))
     if not mechanism.spec.wheel.FLAT:
         return members
-    frame = framed(proof, [], bars)
+    frame = framed(model, [], bars)
     return (*members, *frame.shafts, Member(frame.plate))
 
 
@@ -76,10 +76,10 @@ def built(
     mechanism, at = assembly.full, np.zeros(1)
     bars = drawn_links(mechanism, parts)
     arm = crank_arm(parts) if has_arm(parts) else None
-    proof = Proof(mechanism, parts)
+    model = PartsModel(mechanism, parts)
     fixed = groove_plates(parts, bars, tolerance, curves, fitted)
     first = tuple(first_members(mechanism, bars))
-    frame = framed(proof, fixed, bars, first)
+    frame = framed(model, fixed, bars, first)
     return PlacedParts(
         Member(wheel_part(parts, contour or parts.wheel), turn=float(assembly.wheel(at)[0])),
         Member(
@@ -90,7 +90,7 @@ def built(
         arm,
         frame.shafts,
         bars,
-        (*([] if first else link_gears(bars)), *(gear_members(proof) if pitch and fitted else ())),
+        (*([] if first else link_gears(bars)), *(gear_members(model) if pitch and fitted else ())),
         first,
         (*fixed, Member(frame.plate)),
     )

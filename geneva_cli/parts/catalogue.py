@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from geneva_cli.curves.drawing import Drawing
     from geneva_cli.curves.sheet import Sheet
     from geneva_cli.machine.mechanism import Mechanism
-    from geneva_cli.parts.proof import Proof
+    from geneva_cli.parts.model import PartsModel
 
 
 class Part(NamedTuple):
@@ -122,7 +122,7 @@ def machine_of(mechanism: Mechanism, part: str) -> Mechanism:
     return first
 
 
-def part_drawing(proof: Proof, part: str, tolerance_mm: float, curves: str) -> Drawing:
+def part_drawing(model: PartsModel, part: str, tolerance_mm: float, curves: str) -> Drawing:
     """Return a part's drawing: lines and arcs, or with ``curves`` = "cubics" also cubics.
 
     Raises GenevaError for a part that is not drawn, or that the machine does not have.
@@ -130,15 +130,15 @@ def part_drawing(proof: Proof, part: str, tolerance_mm: float, curves: str) -> D
     _require_known(part)
     if part in SHEETS:
         raise GenevaError(f"--part {part} is a drawing sheet, not a drawing to cut")
-    is_table(proof.mechanism, part, drawn=True)
-    own, in_plane = PARTS[part], _in_plane(proof.mechanism)
+    is_table(model.mechanism, part, drawn=True)
+    own, in_plane = PARTS[part], _in_plane(model.mechanism)
     by = own.drawing if in_plane else own.flat or own.drawing
-    of = proof if is_alone(proof.mechanism, part) else proof.outlines
+    of = model if is_alone(model.mechanism, part) else model.outlines
     drawing: Drawing = _loaded(by)(of, tolerance_mm, curves)
     return drawing
 
 
-def part_sheet(proof: Proof, part: str, tolerance_mm: float, curves: str) -> Sheet:
+def part_sheet(model: PartsModel, part: str, tolerance_mm: float, curves: str) -> Sheet:
     """Return a part, or all of them, as a drawing sheet with dimensions.
 
     Raises GenevaError for a part without a sheet, or that does not fit on one.
@@ -146,10 +146,10 @@ def part_sheet(proof: Proof, part: str, tolerance_mm: float, curves: str) -> She
     if not is_sheet(part):
         raise GenevaError(f"--part {part} is no drawing sheet; use {', '.join(SHEETS)}")
     own = PARTS[part]
-    if not is_alone(proof.mechanism, part):
-        sheet: Sheet = _loaded(own.sheet)(proof.outlines, tolerance_mm, curves)
+    if not is_alone(model.mechanism, part):
+        sheet: Sheet = _loaded(own.sheet)(model.outlines, tolerance_mm, curves)
         return sheet
-    alone: Sheet = _loaded(own.flat)(proof, tolerance_mm, curves)
+    alone: Sheet = _loaded(own.flat)(model, tolerance_mm, curves)
     return alone
 
 

@@ -24,8 +24,8 @@ from geneva_cli.parts.link_drawings import titled
 from geneva_cli.parts.link_positions import same
 from geneva_cli.parts.link_shafts import Ends, link_shafts, outside_links
 from geneva_cli.parts.links import Links, drawn_links, placed_holes
+from geneva_cli.parts.model import PartsModel
 from geneva_cli.parts.outlines import Outlines
-from geneva_cli.parts.proof import Proof
 from geneva_cli.parts.shafts import crank_shaft_radius, shafts, wheel_shaft_radius
 from geneva_cli.parts.sizes import even, thicknesses, wall_min
 from geneva_cli.parts.turn.planes import crank_stop
@@ -41,16 +41,16 @@ class FrameAndShafts(NamedTuple):
     shafts: tuple[Member, ...]
 
 
-def frame(proof: Proof, tolerance: float, curves: str) -> Drawing:
+def frame(model: PartsModel, tolerance: float, curves: str) -> Drawing:
     """Return the frame as it is drilled, with centre marks."""
-    plate = framed(proof).plate
+    plate = framed(model).plate
     holes = [hole for hole in plate.holes if isinstance(hole, Circle)]
     shapes = (plate.outline, *holes, *centre_marks(holes))
-    return Drawing(f"{titled(proof.mechanism)}: frame", shapes, solid=plate)
+    return Drawing(f"{titled(model.mechanism)}: frame", shapes, solid=plate)
 
 
 def framed(
-    proof: Proof,
+    model: PartsModel,
     fixed: Sequence[Member] | None = None,
     bars: Links | None = None,
     first: Sequence[Member] = (),
@@ -61,23 +61,23 @@ def framed(
     series. Raises GenevaError where wheel and crank do not stand in one plane, and where a
     shaft's lower end is not below its upper one.
     """
-    mechanism = proof.mechanism
+    mechanism = model.mechanism
     if not mechanism.spec.wheel.FLAT:
         raise GenevaError(
             f'--part frame: the shafts of gearing = "{mechanism.spec.wheel.NAME}" are not '
             "parallel, so one plate cannot hold them"
         )
-    outlines = proof.outlines if mechanism.spec.is_flat else None
+    outlines = model.outlines if mechanism.spec.is_flat else None
     bars = bars or drawn_links(mechanism, outlines)
     size, L = mechanism.spec.size, mechanism.center_distance_mm
     if fixed is None:
         fixed = groove_members(outlines, bars) if outlines else []
     lows = [one.part.low for one in fixed if isinstance(one.part, Plate)]
     if mechanism.spec.drive.gears:
-        lows.append(gear_span(proof)[0])
+        lows.append(gear_span(model)[0])
     top = min([_lowest(mechanism, outlines, bars), *lows]) - size.washer_mm
     bottom = top - thicknesses(size, L).arm
-    axles, places = list(_shafts(proof, bars, bottom, first)), list(_standing(mechanism, bars))
+    axles, places = list(_shafts(model, bars, bottom, first)), list(_standing(mechanism, bars))
     holes = [*_drilled(mechanism, axles, places, top), *_fixed(bars), *_mounted(fixed, L)]
     wall = wall_min(size, L)
     eye = max(L / 20.0, 3.0 * wall)
@@ -110,17 +110,19 @@ def groove_plates(
     return groove_members(parts, bars, tolerance, curves) if fitted else []
 
 
-def _shafts(proof: Proof, bars: Links, lowest: float, first: Sequence[Member]) -> Iterator[Member]:
+def _shafts(
+    model: PartsModel, bars: Links, lowest: float, first: Sequence[Member]
+) -> Iterator[Member]:
     """Yield all shafts at their positions; ``lowest`` is the frame's lower face."""
     stop, own = None, (False, False)
-    if proof.mechanism.spec.is_flat:
-        outlines = proof.outlines
+    if model.mechanism.spec.is_flat:
+        outlines = model.outlines
         stop = crank_stop(outlines, bars)
         own = crank_shaft_radius(outlines) > 0.0, wheel_shaft_radius(outlines) > 0.0
         yield from shafts(outlines, lowest, stop)
     ends = Ends(lowest, stop, *own)
-    yield from link_shafts(proof.mechanism, bars, ends, first)
-    yield from gear_shafts(proof, ends)
+    yield from link_shafts(model.mechanism, bars, ends, first)
+    yield from gear_shafts(model, ends)
 
 
 def _drilled(

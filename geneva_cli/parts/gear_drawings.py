@@ -26,7 +26,7 @@ from geneva_cli.parts.link_drawings import once, shapes, titled
 from geneva_cli.parts.link_shafts import Ends
 from geneva_cli.parts.link_sizes import LinkSizes, link_sizes
 from geneva_cli.parts.links import drawn_links
-from geneva_cli.parts.proof import Proof
+from geneva_cli.parts.model import PartsModel
 from geneva_cli.parts.shafts import shaft, shaft_ends
 from geneva_cli.parts.sizes import even
 
@@ -43,26 +43,26 @@ THIN = 1e-6  # of the axes' distance: a pitch curve nearer to its axis encloses 
 FINE = {"arcs": 8e-9, "cubics": 2e-9}
 
 
-def gears(proof: Proof, tolerance: float, curves: str) -> Drawing:
+def gears(model: PartsModel, tolerance: float, curves: str) -> Drawing:
     """Return all pitch curves with bores and bolts, in mesh, and the line of their centres.
 
     Raises GenevaError for a machine without gears.
     """
-    if proof.mechanism.spec.drive.TOOTHED:
-        return _round_gears(proof)
-    L, C = proof.mechanism.center_distance_mm, required_gears(proof.mechanism).distance_mm
-    bores = [Circle(BORE, (x - L, y), r) for (x, y), r in gear_bores(proof) if r]
+    if model.mechanism.spec.drive.TOOTHED:
+        return _round_gears(model)
+    L, C = model.mechanism.center_distance_mm, required_gears(model.mechanism).distance_mm
+    bores = [Circle(BORE, (x - L, y), r) for (x, y), r in gear_bores(model) if r]
     line = Contour(PITCH, (Line((0.0, 0.0), (C, 0.0)),), closed=False)
-    pitch = pitch_curves(proof.mechanism, min(tolerance, FINE[curves] * C), curves)
+    pitch = pitch_curves(model.mechanism, min(tolerance, FINE[curves] * C), curves)
     drawn: tuple[Shape, ...] = (*pitch, *bores, line, *centre_marks(bores))
-    title = f"{titled(proof.mechanism)}: pitch curves of the gears"
-    return Drawing(title, drawn, solid=Group(title, gear_members(proof)))
+    title = f"{titled(model.mechanism)}: pitch curves of the gears"
+    return Drawing(title, drawn, solid=Group(title, gear_members(model)))
 
 
-def _round_gears(proof: Proof) -> Drawing:
+def _round_gears(model: PartsModel) -> Drawing:
     """Return the blanks of gears with pitch circles, at their positions from the crank's axis."""
-    mechanism, L = proof.mechanism, proof.mechanism.center_distance_mm
-    bars = drawn_links(mechanism, proof.outlines if mechanism.spec.is_flat else None)
+    mechanism, L = model.mechanism, model.mechanism.center_distance_mm
+    bars = drawn_links(mechanism, model.outlines if mechanism.spec.is_flat else None)
     about = ((mapped(s, lambda p: (p[0] - L, p[1]))) for s in shapes(g.member for g in bars.gears))
     drawn = list(once(about))
     holes = [s for s in drawn if isinstance(s, Circle) and s.layer == BORE]
@@ -90,36 +90,36 @@ def crank_sense(mechanism: Mechanism) -> float:
     return -mechanism.spec.wheel.SIGN
 
 
-def gear_shapes(proof: Proof, tolerance: float, curves: str) -> list[Shape]:
+def gear_shapes(model: PartsModel, tolerance: float, curves: str) -> list[Shape]:
     """Return pitch curves and bores in the machine; none without noncircular gears."""
-    mechanism = proof.mechanism
+    mechanism = model.mechanism
     if mechanism.spec.drive.gears is None:
         return []
     L = mechanism.center_distance_mm
     pitch = pitch_curves(mechanism, tolerance, curves)
     moved = [mapped(curve, lambda p: (p[0] + L, p[1])) for curve in pitch]
-    return [*moved, *(Circle(BORE, at, r) for at, r in gear_bores(proof) if r)]
+    return [*moved, *(Circle(BORE, at, r) for at, r in gear_bores(model) if r)]
 
 
-def gear_span(proof: Proof) -> tuple[float, float]:
+def gear_span(model: PartsModel) -> tuple[float, float]:
     """Return lower and upper end of the gears along the axis: the plane below the arm is theirs."""
-    return _sizes(proof).span(2)
+    return _sizes(model).span(2)
 
 
-def gear_members(proof: Proof) -> tuple[Member, ...]:
+def gear_members(model: PartsModel) -> tuple[Member, ...]:
     """Return both gears as blanks up to their pitch curves; none without noncircular gears.
 
     Raises GenevaError for a bore larger than its gear.
     """
-    mechanism = proof.mechanism
+    mechanism = model.mechanism
     pair = mechanism.spec.drive.gears
     if pair is None:
         return ()
-    low, high = gear_span(proof)
+    low, high = gear_span(model)
     sense, tolerance = crank_sense(mechanism), FINE["cubics"] * pair.distance_mm
     members = []
     both = (driven_curve(pair, sense), driver_curve(pair, sense))
-    for name, curve, (at, bore) in zip(NAMES, both, gear_bores(proof), strict=True):
+    for name, curve, (at, bore) in zip(NAMES, both, gear_bores(model), strict=True):
         outline = closed(PITCH, fit.KINDS["cubics"](curve, -np.pi, np.pi, tolerance))
         holes = (Circle(BORE, (0.0, 0.0), bore),) if bore else ()
         members.append(Member(Plate(name, PITCH, outline, holes, low, high), at))
@@ -147,58 +147,58 @@ def pitch_radii(pair: Gears) -> tuple[tuple[float, float], tuple[float, float]]:
     )
 
 
-def gear_shafts(proof: Proof, ends: Ends) -> Iterator[Member]:
+def gear_shafts(model: PartsModel, ends: Ends) -> Iterator[Member]:
     """Yield the shafts that carry only gears, from the frame's lower face up; none without gears.
 
     The driver's shaft goes through it, or ends below one that is too small for a bore. The crank's
     is included if neither arm nor locking disc has one.
     """
-    mechanism = proof.mechanism
+    mechanism = model.mechanism
     if mechanism.spec.drive.gears is None:
         return
-    (on_crank, wide), (at, radius) = _shafts(proof)
-    low, high = gear_span(proof)
+    (on_crank, wide), (at, radius) = _shafts(model)
+    low, high = gear_span(model)
     if not ends.crank_has_one:
         reach = shaft_ends(mechanism.spec.size, "crank", ends.lowest, high)
         yield Member(shaft("crank", wide, reach), on_crank)
-    top = high if _driver_bore(proof) else low
+    top = high if _driver_bore(model) else low
     yield Member(shaft("driver gear", radius, (ends.lowest, top)), at)
 
 
-def _shafts(proof: Proof) -> list[tuple[Point, float]]:
+def _shafts(model: PartsModel) -> list[tuple[Point, float]]:
     """Return position and radius of the shafts of driven gear and driver.
 
     The first is the crank's. Raises GenevaError where a pitch curve is no gear.
     """
-    mechanism = proof.mechanism
+    mechanism = model.mechanism
     pair, L = required_gears(mechanism), mechanism.center_distance_mm
-    sizes, ((driven, _), _) = _sizes(proof), pitch_radii(pair)
+    sizes, ((driven, _), _) = _sizes(model), pitch_radii(pair)
     usual = even(L / 20.0)
     on_crank = sizes.crank_shaft or sizes.bore(driven, L) or usual
     ends = (L, 0.0), (L + pair.distance_mm, 0.0)
-    return list(zip(ends, (on_crank, _driver_bore(proof) or usual), strict=True))
+    return list(zip(ends, (on_crank, _driver_bore(model) or usual), strict=True))
 
 
-def _driver_bore(proof: Proof) -> float:
+def _driver_bore(model: PartsModel) -> float:
     """Return the radius of the driver's bore; 0 where driver and shaft are one piece."""
-    pair = required_gears(proof.mechanism)
-    return _sizes(proof).bore(pitch_radii(pair)[1][0], proof.mechanism.center_distance_mm)
+    pair = required_gears(model.mechanism)
+    return _sizes(model).bore(pitch_radii(pair)[1][0], model.mechanism.center_distance_mm)
 
 
-def _sizes(proof: Proof) -> LinkSizes:
-    mechanism = proof.mechanism
-    return link_sizes(mechanism, [], proof.outlines if mechanism.spec.is_flat else None)
+def _sizes(model: PartsModel) -> LinkSizes:
+    mechanism = model.mechanism
+    return link_sizes(mechanism, [], model.outlines if mechanism.spec.is_flat else None)
 
 
-def gear_bores(proof: Proof) -> list[tuple[Point, float]]:
+def gear_bores(model: PartsModel) -> list[tuple[Point, float]]:
     """Return position and radius of the bores of driven gear and driver; 0 for none.
 
     Raises GenevaError, naming the key, for a bore larger than its gear, and where a pitch curve is
     no gear.
     """
-    (driven, _), (driver, _) = pitch_radii(required_gears(proof.mechanism))
-    (axis, on_crank), (other, _) = _shafts(proof)
-    bores = on_crank, _driver_bore(proof)
+    (driven, _), (driver, _) = pitch_radii(required_gears(model.mechanism))
+    (axis, on_crank), (other, _) = _shafts(model)
+    bores = on_crank, _driver_bore(model)
     for name, bore, least, key in zip(
         NAMES, bores, (driven, driver), ("arm_bore_mm", "link_bore_mm"), strict=True
     ):

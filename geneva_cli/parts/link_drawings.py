@@ -11,16 +11,16 @@ from geneva_cli.curves.shapes import Circle, Point, Shape
 from geneva_cli.errors import GenevaError
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.parts.links import LAYER, Links, drawn_links
-from geneva_cli.parts.proof import Proof
+from geneva_cli.parts.model import PartsModel
 
 BETWEEN = 0.05  # of the centre distance: gap between links side by side
 PITCH = "PITCH"
 
 
-def links(proof: Proof, tolerance: float, curves: str) -> Drawing:
+def links(model: PartsModel, tolerance: float, curves: str) -> Drawing:
     """Return every link and sliding block once, one above the other, each in its own frame."""
-    mechanism = proof.mechanism
-    bars = drawn_links(mechanism, proof.outlines if mechanism.spec.is_flat else None)
+    mechanism = model.mechanism
+    bars = drawn_links(mechanism, model.outlines if mechanism.spec.is_flat else None)
     if not bars.cut:
         raise GenevaError(
             f'--part links: kind = "{mechanism.spec.drive.NAME}" has no links: '

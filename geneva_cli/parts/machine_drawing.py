@@ -26,9 +26,9 @@ from geneva_cli.parts.gear_drawings import gear_shapes
 from geneva_cli.parts.link_drawings import once, shapes, titled, together
 from geneva_cli.parts.link_positions import links_at
 from geneva_cli.parts.link_sizes import places
+from geneva_cli.parts.model import PartsModel
 from geneva_cli.parts.outlines import Outlines
 from geneva_cli.parts.placed import PlacedParts
-from geneva_cli.parts.proof import Proof
 
 BEYOND = 0.04  # of the centre distance: from a part to the arrow that shows how it turns
 
@@ -51,7 +51,7 @@ def machine_and_parts(
     drawn += [mapped(turned(s, angle), lambda p: (p[0] + assembly.L, p[1])) for s in carried]
     # a first wheel is drawn itself, not as its pitch circle
     drawn += together(whole.links._replace(gears=()) if whole.first else whole.links)
-    drawn += gear_shapes(Proof(assembly.full, parts), tolerance, curves)
+    drawn += gear_shapes(PartsModel(assembly.full, parts), tolerance, curves)
     drawn += shapes(whole.first)
     drawn += _standing(whole, drawn)
     drawn += _roller_lines(parts, psi, tolerance, curves)

@@ -15,7 +15,7 @@ from geneva_cli.curves.shapes import Arc, Contour, Line, Shape
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.numerics.tolerances import SAME_LENGTH
 from geneva_cli.parts.locking_rings import LAYER as CRANK
-from geneva_cli.parts.proof import Proof
+from geneva_cli.parts.model import PartsModel
 from geneva_cli.parts.sizes import wall_min
 from geneva_cli.parts.wheel import LAYER as WHEEL
 from geneva_cli.spec.rules import TOOL_MM, require_mm
@@ -34,16 +34,16 @@ def judged(drawing: Drawing, cutter_mm: float) -> tuple[str, list[str]]:
     return refused, [f"--cutter {cutter_mm:g}: {f.text}" for f in all_faults if not f.stops]
 
 
-def with_dog_bones(drawing: Drawing, proof: Proof, cutter_mm: float) -> Drawing:
+def with_dog_bones(drawing: Drawing, model: PartsModel, cutter_mm: float) -> Drawing:
     """Return a drawing with dog bones for a cutter of a diameter in its inner corners.
 
     Raises GenevaError where one does not fit.
     """
-    mechanism, solid = proof.mechanism, drawing.solid
+    mechanism, solid = model.mechanism, drawing.solid
     if solid is None:
         return drawing
     wall = wall_min(mechanism.spec.size, mechanism.center_distance_mm)
-    lock = proof.outlines.sizes.lock if mechanism.spec.is_flat else 0.0
+    lock = model.outlines.sizes.lock if mechanism.spec.is_flat else 0.0
 
     def works(piece: Line | Arc, layer: str) -> bool:
         return layer == WHEEL or (layer == CRANK and _locks(piece, lock, mechanism))

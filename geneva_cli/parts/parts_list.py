@@ -23,8 +23,8 @@ from geneva_cli.machine.rollers import places
 from geneva_cli.machine.spec import Spec
 from geneva_cli.parts.built import built, link_members
 from geneva_cli.parts.missing import Missing, or_missing
+from geneva_cli.parts.model import PartsModel
 from geneva_cli.parts.plates import crank_group, wheel_part
-from geneva_cli.parts.proof import Proof
 from geneva_cli.parts.sphere.built import built as built_ball
 from geneva_cli.parts.sphere.built import crank_group as ball_crank
 from geneva_cli.parts.sphere.built import wheel_shell
@@ -65,57 +65,57 @@ NAMES = ("row", *dict.fromkeys(name for names in KINDS.values() for name in name
 
 def parts_table(mechanism: Mechanism, tolerance_mm: float, samples: int | None) -> Table:
     """Return a table with a row for each part, pivot, dimension, and part that cannot be built."""
-    return parts_list(Proof(mechanism))
+    return parts_list(PartsModel(mechanism))
 
 
-def parts_list(proof: Proof) -> Table:
+def parts_list(model: PartsModel) -> Table:
     """Return the list of parts of a machine, whose outlines may already be computed."""
-    mechanism = proof.mechanism
-    entries = [*_parts(proof), *_pivots(mechanism), *_dimensions(proof)]
+    mechanism = model.mechanism
+    entries = [*_parts(model), *_pivots(mechanism), *_dimensions(model)]
     mappings = [{"row": "missing", **r._asdict()} if isinstance(r, Missing) else r for r in entries]
     rows = [[row.get(name) for name in NAMES] for row in mappings]
     table = rows_table(NAMES, rows, mechanism.spec.title, mixed=True)
     return table.replaced(reading=Reading(FIRST))
 
 
-def _parts(proof: Proof) -> Iterator[Row | Missing]:
+def _parts(model: PartsModel) -> Iterator[Row | Missing]:
     """Yield all parts; if they cannot all be built, wheel and crank alone, and the reason."""
-    spec = proof.mechanism.spec
+    spec = model.mechanism.spec
     if spec.is_flat or not spec.wheel.FLAT:
-        rows = list(or_missing("all other parts", lambda: _machine_rows(proof)))
+        rows = list(or_missing("all other parts", lambda: _machine_rows(model)))
         if any(isinstance(row, Missing) for row in rows):
-            yield from or_missing("wheel and crank", lambda: _bare_rows(proof))
+            yield from or_missing("wheel and crank", lambda: _bare_rows(model))
         yield from rows
     if not spec.is_flat:
-        yield from or_missing("links and frame", lambda: link_rows(proof))
+        yield from or_missing("links and frame", lambda: link_rows(model))
 
 
-def _machine_rows(proof: Proof) -> Iterator[Row]:
+def _machine_rows(model: PartsModel) -> Iterator[Row]:
     """Yield a row for each kind of part. Raises GenevaError where one cannot be built."""
-    if proof.mechanism.spec.wheel.FLAT:
-        yield from _rows(proof, built(proof.outlines).members)
+    if model.mechanism.spec.wheel.FLAT:
+        yield from _rows(model, built(model.outlines).members)
     else:
-        yield from _rows(proof, built_ball(proof.shells).members)
+        yield from _rows(model, built_ball(model.shells).members)
 
 
-def _bare_rows(proof: Proof) -> Iterator[Row]:
+def _bare_rows(model: PartsModel) -> Iterator[Row]:
     """Yield rows for wheel and crank without the arm; on a sphere without hub and bolts too."""
     wheel: Part
-    if proof.mechanism.spec.wheel.FLAT:
-        wheel, crank = wheel_part(proof.outlines, proof.outlines.wheel), crank_group(proof.outlines)
+    if model.mechanism.spec.wheel.FLAT:
+        wheel, crank = wheel_part(model.outlines, model.outlines.wheel), crank_group(model.outlines)
     else:
-        wheel, crank = wheel_shell(Size(), proof.shells.ball), ball_crank(proof.shells, None)
-    yield from _rows(proof, (Member(wheel), Member(crank)))
+        wheel, crank = wheel_shell(Size(), model.shells.ball), ball_crank(model.shells, None)
+    yield from _rows(model, (Member(wheel), Member(crank)))
 
 
-def link_rows(proof: Proof) -> Iterator[Row]:
+def link_rows(model: PartsModel) -> Iterator[Row]:
     """Yield rows for links, gears, shafts and frame, where the wheel is not drawn."""
-    yield from part_rows(proof.mechanism.spec, link_members(proof))
+    yield from part_rows(model.mechanism.spec, link_members(model))
 
 
-def _rows(proof: Proof, members: tuple[Member, ...]) -> Iterator[Row]:
-    spec = proof.mechanism.spec
-    outside = None if spec.wheel.FLAT else proof.shells.ball.span_mm[1]
+def _rows(model: PartsModel, members: tuple[Member, ...]) -> Iterator[Row]:
+    spec = model.mechanism.spec
+    outside = None if spec.wheel.FLAT else model.shells.ball.span_mm[1]
     yield from part_rows(spec, members, outside)
 
 
@@ -188,8 +188,8 @@ def _pivots(mechanism: Mechanism) -> Iterator[Row]:
         yield {"row": "pivot", **pivot._asdict()}
 
 
-def _dimensions(proof: Proof) -> Iterator[Row | Missing]:
-    mechanism = proof.mechanism
+def _dimensions(model: PartsModel) -> Iterator[Row | Missing]:
+    mechanism = model.mechanism
     spec, L = mechanism.spec, mechanism.center_distance_mm
     r, clear = mechanism.roller_radius_mm, spec.size.allowances.slot_clearance_mm
     entries: list[Dimension | Missing] = [
@@ -202,7 +202,7 @@ def _dimensions(proof: Proof) -> Iterator[Row | Missing]:
     ]
     entries += [d for d in spec.wheel.layout if isinstance(d, Dimension)]
     if not spec.wheel.FLAT:
-        entries += dimensions(proof)
+        entries += dimensions(model)
     if mechanism.law is None and spec.drive.CRANKED:
         entries += _straight(mechanism)
     elif spec.drive.CRANKED:

@@ -1,1 +1,1 @@
-"""Many designs: the table of wheels, sweeps, comparison, synthesis, and what shows one design."""
+"""Studies of one or many designs: survey, sweep, comparison, synthesis, figures and reports."""

@@ -1,4 +1,4 @@
-"""The checks of many specs, spread over the processor's cores."""
+"""Checks of many specs, spread over the processor's cores."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from functools import partial
 from typing import NamedTuple
 
 from geneva_cli.design import load
-from geneva_cli.errors import Caution, GenevaError
+from geneva_cli.errors import GenevaError, Notice
 from geneva_cli.progress import tracked
 from geneva_cli.study.pool import cores, mapped
 from geneva_cli.table import Table, record_table, rows_table
@@ -21,19 +21,19 @@ class Verdict(NamedTuple):
     """The checks and warnings of one spec, or why it could not be read."""
 
     path: str
-    files: tuple[str, ...] = ()  # all files from which the design was read
+    files: tuple[str, ...] = ()  # all files that the design was read from
     checks: tuple[Check, ...] = ()
-    warnings: tuple[Caution, ...] = ()
+    warnings: tuple[Notice, ...] = ()
     error: str = ""
 
     @property
     def passes(self) -> bool:
-        """Whether no check fails; what cannot be proved does not fail."""
+        """Return True if no check fails; a check without a proof does not fail."""
         return not self.error and all_pass(self.checks)
 
 
 def verdict(path: str, given: Sequence[str] = ()) -> Verdict:
-    """The verdict on one spec, with keys ``given`` set over its own; never raises GenevaError."""
+    """Return the verdict on one spec, with keys ``given`` set over its own."""
     try:
         design = load(path, given)
         checks, warnings = tuple(design.checks), tuple(design.warnings)
@@ -43,7 +43,7 @@ def verdict(path: str, given: Sequence[str] = ()) -> Verdict:
 
 
 def verdicts(paths: list[str], given: Sequence[str] = ()) -> Iterator[Verdict]:
-    """The verdicts on specs, in their order; standard input is read by this process."""
+    """The verdicts on specs, in their order; this process reads standard input itself."""
     judge = partial(verdict, given=given)
     files = [path for path in paths if path != "-"]
     found = mapped(judge, files, min(len(files), cores()), "specs")
@@ -52,7 +52,7 @@ def verdicts(paths: list[str], given: Sequence[str] = ()) -> Iterator[Verdict]:
 
 
 def checks_table(found: Sequence[Verdict]) -> Table:
-    """A row for each check, spec after spec."""
+    """A table with one row for each check of each spec."""
     rows = [
         (v.path, c.name, c.value, c.at_deg, c.must_be, c.limit, c.passes, c.nearest, c.why)
         for v in found
@@ -62,7 +62,7 @@ def checks_table(found: Sequence[Verdict]) -> Table:
 
 
 def checks_record(found: Sequence[Verdict]) -> Table:
-    """The checks, whether all of them pass, and the warnings: what json holds."""
+    """The checks, the overall result and the warnings, as json contains them."""
     warnings = [(v.path, w.name, str(w)) for v in found for w in v.warnings]
     return record_table(
         {

@@ -1,4 +1,4 @@
-"""Designs side by side: several specs, or one with keys varied through values."""
+"""Specs for a comparison: several files, or one spec with keys varied."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from geneva_cli.specfile.settings import setting
 from geneva_cli.study.names import short_name
 from geneva_cli.study.sweep.values import axis, refuse_twice
 
-MOST = 100  # designs that can be compared side by side
+MOST = 100  # designs in one comparison
 
 
 def beside(

@@ -1,4 +1,4 @@
-"""Designs side by side: a column a design, a row a quantity, the same rows for every machine."""
+"""Comparison of designs: one column for each design, one row for each quantity."""
 
 from __future__ import annotations
 
@@ -7,13 +7,13 @@ from collections.abc import Sequence
 
 from geneva_cli.machine.mechanism import Mechanism, build
 from geneva_cli.numerics.tolerances import ROUNDED
-from geneva_cli.parts.proof import Proof
+from geneva_cli.parts.model import PartsModel
 from geneva_cli.study.beside import beside
 from geneva_cli.study.fields import Cell, pick, values
 from geneva_cli.study.sweep.constraints import is_number
 from geneva_cli.table import Reading, Table, rows_table
 
-OWN = ("quantity", "differs")  # columns of the table itself: no design's name
+OWN = ("quantity", "differs")  # the table's own columns, which no design may be named for
 LEFT_OUT = "inputs."  # a spec's keys are not shown: they are in the spec, or in the columns' names
 
 
@@ -25,21 +25,21 @@ def compare(
     ratio: bool = False,
     alike: bool = True,
 ) -> Table:
-    """Columns ``quantity``, one for each design, and ``differs``; ``ratio``: over the first design.
+    """Return the comparison: ``quantity``, one column for each design, and ``differs``.
 
-    Numbers differ where they do by more than rounding.
+    Either one design is varied through values of keys (``vary``, texts ``KEY=VALUES``), or several
+    specs are compared. ``picks`` are the quantities to show; without them all that need no parts
+    are shown. ``ratio`` divides numbers by those of the first design. ``alike`` also shows
+    quantities that do not differ. Numbers differ if they do so by more than rounding.
 
-    One design is varied through values of keys (``vary``, ``KEY=VALUES``), or several are set side
-    by side. ``picks`` are the quantities to show, without them all for which no parts are made;
-    ``alike`` shows those that do not differ too. Raises GenevaError for a design that cannot be
-    read or built.
+    Raises GenevaError for a design that cannot be read or built.
     """
     names, machines = _columns(paths, given, vary)
     if picks:
         wanted = pick(picks)
         each = [dict(zip(wanted.names, wanted.of(m), strict=True)) for m in machines]
     else:
-        each = [values(Proof(m)) for m in machines]
+        each = [values(PartsModel(m)) for m in machines]
     rows = []
     for quantity in dict.fromkeys(name for found in each for name in found):
         if quantity.startswith(LEFT_OUT) and not picks:
@@ -53,14 +53,17 @@ def compare(
 
 
 def _same(cell: Cell, first: Cell) -> bool:
-    """Whether two cells are equal, numbers but for rounding."""
+    """Return True if two cells are equal, numbers apart from rounding."""
     if isinstance(cell, float) and isinstance(first, float):
         return math.isclose(cell, first, rel_tol=ROUNDED)
     return cell == first
 
 
 def _ratios(cells: Sequence[Cell]) -> list[Cell]:
-    """The first cell as it is, and the others over it: words as they are, None over none or 0."""
+    """The first cell, and the others divided by it.
+
+    Words stay as they are; a ratio to a missing value or to 0 is None.
+    """
     first, *others = cells
     return [first, *(_over(c, first) for c in others)]
 

@@ -10,7 +10,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from typing import NamedTuple, TypeAlias
 
 from geneva_cli.machine.mechanism import Mechanism
-from geneva_cli.parts.proof import Proof
+from geneva_cli.parts.model import PartsModel
 from geneva_cli.study.quantities import group_of, whole_name
 from geneva_cli.table import Table
 from geneva_cli.verdict.quantities.groups import MACHINE, REPORT, Group
@@ -18,16 +18,17 @@ from geneva_cli.verdict.quantities.groups import values as values_of
 
 Cell: TypeAlias = float | int | str | bool | None
 
-SHOWN = (MACHINE, *(group for group in REPORT if not group.makes_parts))  # where nothing is picked
+# the groups that are shown without --pick
+SHOWN = (MACHINE, *(group for group in REPORT if not group.makes_parts))
 
 
-def values(proof: Proof, groups: Iterable[Group] = SHOWN) -> dict[str, Cell]:
-    """The quantities of some groups, without tables and texts of several lines.
+def values(model: PartsModel, groups: Iterable[Group] = SHOWN) -> dict[str, Cell]:
+    """The quantities of some groups, without tables and multi-line texts.
 
     What nothing bounds is None, as in the report's json.
     """
     out: dict[str, Cell] = {}
-    for name, value in values_of(groups, proof).items():
+    for name, value in values_of(groups, model).items():
         if not isinstance(value, (tuple, Table)):
             endless = isinstance(value, float) and math.isinf(value)
             out[name] = None if endless else value
@@ -43,8 +44,8 @@ class Pick(NamedTuple):
     asked: tuple[str, ...] = ()
 
     def of(self, mechanism: Mechanism) -> list[Cell]:
-        """The quantities' values for a machine; None where one does not apply."""
-        found = values(Proof(mechanism), self.groups)
+        """The values of the quantities for a machine; None if one does not apply."""
+        found = values(PartsModel(mechanism), self.groups)
         return [found.get(name) for name in self.names]
 
 

@@ -1,4 +1,4 @@
-"""Figures of several designs, and of a table of many."""
+"""Figures of several designs, and of the columns of a CSV file."""
 
 from __future__ import annotations
 
@@ -15,11 +15,11 @@ from geneva_cli.specfile.columns import Columns, read_columns
 from geneva_cli.study.beside import beside
 from geneva_cli.study.quantities import whole_name
 
-QUANTITIES = tuple(OF_NAME)  # what may be drawn of a design
-FAMILY = 12  # curves of a panel that can be told apart by eye
-FEW = 40  # points of a curve that are marked
-RANDOM = "drawn at random"  # the name of rows whose other keys nearly all differ
-ROOM = 0.02  # of the x axis, beside points
+QUANTITIES = tuple(OF_NAME)  # quantities that can be plotted for a design
+FAMILY = 12  # curves of a panel that the eye can tell apart
+FEW = 40  # up to so many points of a curve are marked
+RANDOM = "drawn at random"  # the name of rows that nearly all differ in their other keys
+ROOM = 0.02  # margin of the x axis beside points, as a fraction
 TABLES = {field.name.partition("_")[0] for field in dataclasses.fields(Spec)}
 
 
@@ -29,7 +29,7 @@ def of_specs(
     pick: Sequence[str] = (),
     vary: Sequence[str] = (),
 ) -> tuple[Figure, list[Design], list[LeftOut]]:
-    """The cycles of some specs in one figure, the designs, and what the figure lacks of which.
+    """The cycles of some specs in one figure, the designs, and the quantities that it lacks.
 
     With ``vary``, texts ``KEY=VALUES``, there is one spec, drawn for each combination of values.
 
@@ -47,7 +47,7 @@ def of_specs(
 
 
 def _drawn_as(name: str) -> str:
-    """The curve of a quantity: of ``acceleration.max`` and ``pin_force_N_max`` what they are of."""
+    """The curve that shows a quantity: ``acceleration`` for ``acceleration.max``."""
     if name in OF_NAME:
         return name
     parts = (_quantity(name) or "").split(".")
@@ -55,12 +55,14 @@ def _drawn_as(name: str) -> str:
 
 
 def of_table(path: str, x: str, ys: Sequence[str]) -> Figure:
-    """Columns of a CSV file over another one, a panel each.
+    """Columns of a CSV file over another column, one panel for each.
 
-    Over a varied key of a sweep: a curve for each combination of the other varied keys, or points
-    where nearly every design has its own. Over another column: a curve where its numbers ascend,
-    as a spectrum's; else points, which are joined where none beats another, as on a Pareto front.
-    Raises GenevaError for a file that cannot be read, and a column without numbers.
+    Over a varied key of a sweep, each combination of the other varied keys has its own curve. If
+    nearly every design has its own combination, points are drawn. Over another column, ascending
+    numbers make a curve, such as a spectrum. Otherwise points are drawn, joined if they rise or
+    fall throughout, as on a Pareto front.
+
+    Raises GenevaError for a file that cannot be read, and for a column without numbers.
     """
     table = read_columns(path)
     if not x or not ys:
@@ -92,7 +94,7 @@ def of_table(path: str, x: str, ys: Sequence[str]) -> Figure:
 
 
 def _column(table: Columns, asked: str, option: str) -> str:
-    """A column's whole name: of a quantity by any of its names, of others as ``named`` has it."""
+    """A column's whole name, from any name of its quantity or from the nearest column name."""
     if asked in table.names or not (quantity := _quantity(asked)):
         return table.named(asked, option)
     same = [name for name in table.names if _quantity(name) == quantity]
@@ -100,7 +102,7 @@ def _column(table: Columns, asked: str, option: str) -> str:
 
 
 def _quantity(name: str) -> str | None:
-    """The whole name of a quantity; None for what is none, as a key or a column of other tables."""
+    """The whole name of a quantity; None for another column, such as a key."""
     try:
         return whole_name(name)
     except GenevaError:
@@ -118,7 +120,7 @@ def _keys(table: Columns) -> list[str]:
 
 
 def _families(table: Columns, x: str) -> dict[str, list[int]]:
-    """The row numbers of each curve, by the values of the other keys that its rows share."""
+    """The row numbers of each curve, by the values of the other varied keys."""
     keys = _keys(table)
     others = [key for key in keys if key != x]
     every = list(range(len(table.rows)))
@@ -141,7 +143,7 @@ def _families(table: Columns, x: str) -> dict[str, list[int]]:
 def _curve(
     number: int, name: str, pairs: Iterable[tuple[float | None, float | None]], is_key: bool
 ) -> Curve | None:
-    """A curve, or points; None where no row has both numbers."""
+    """A curve or points; None if no row has both numbers."""
     rows = list(pairs)
     some = [(x, y) for x, y in rows if x is not None and y is not None]
     if not some:
@@ -161,7 +163,7 @@ def _curve(
 
 
 def _without_gaps(rows: Sequence[tuple[float | None, float | None]]) -> list[Piece]:
-    """The rows in order of x, cut where one has no value."""
+    """The rows in order of x, divided where one has no value."""
     out: list[list[tuple[float, float]]] = [[]]
     for x, y in sorted((r for r in rows if r[0] is not None), key=lambda r: r[0] or 0.0):
         if x is None or y is None:

@@ -1,4 +1,4 @@
-"""Goals, as ``min:acceleration.max``: a quantity that should be small, or large."""
+"""Goals such as ``min:acceleration.max``: a quantity to minimise or to maximise."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ WORDS = {1.0: "least", -1.0: "greatest"}
 
 
 class Objective(NamedTuple):
-    """A quantity that should be small (sign 1) or large (-1)."""
+    """A quantity to minimise (sign 1) or to maximise (-1)."""
 
     sign: float
     name: str
@@ -22,7 +22,7 @@ class Objective(NamedTuple):
 
 
 def objective(text: str, option: str) -> Objective:
-    """The objective that ``min:acceleration.max`` means. Raises GenevaError for another text."""
+    """Return the objective of ``min:acceleration.max``. Raises GenevaError for another text."""
     sense, _, name = text.strip().partition(":")
     if sense not in SENSES or not name:
         raise GenevaError(
@@ -33,7 +33,7 @@ def objective(text: str, option: str) -> Objective:
 
 
 def refuse_opposites(given: Sequence[Objective]) -> None:
-    """Raise GenevaError for a quantity that should be small and large, which every row is."""
+    """Raise GenevaError for a quantity that is both minimised and maximised."""
     names = [o.name for o in dict.fromkeys(given)]
     twice = next((name for name in names if names.count(name) > 1), None)
     if twice:

@@ -1,4 +1,4 @@
-"""Short names of designs that are shown side by side."""
+"""Short names of designs that are compared."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from collections.abc import Collection, Sequence
 
 
 def short_name(path: str, paths: Sequence[str], taken: Collection[str] = ()) -> str:
-    """A file's name without folder and ending, where that tells it from the others.
+    """A file's name without folder and ending, if no other file shares it.
 
     >>> short_name("a/slow.toml", ["a/slow.toml", "b/quick.toml"])
     'slow'

@@ -1,4 +1,4 @@
-"""Work spread over processes, with its results in order."""
+"""Work spread over processes, with results in order."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 
 T = TypeVar("T")
 R = TypeVar("R")
-GARBAGE = 50_000  # new objects after which a worker looks for those in circles: work makes few
+GARBAGE = 50_000  # new objects before a worker collects cyclic garbage: the work makes little of it
 AHEAD = 4  # results that may wait for each worker, so that memory stays bounded
 
 
@@ -30,10 +30,12 @@ def mapped(
     what: str = "designs",
     meanwhile: Callable[[], None] | None = None,
 ) -> Iterator[R]:
-    """``work`` of each item, in order, by several processes, or by this one for 1 worker.
+    """Apply ``work`` to each item in several processes, or in this one for 1 worker; keep the
+    order.
 
-    Raises GenevaError if a process is ended from outside; ``what`` is the word for the items in it.
-    ``meanwhile`` is what this process does while others work, if there is work for all of them.
+    ``what`` is the plural noun for the items in messages. ``meanwhile`` is a task for this process,
+    run while the others work if there is work for all of them. Raises GenevaError if a process is
+    ended from outside.
     """
     if workers < 2:
         yield from map(work, items)
@@ -41,7 +43,7 @@ def mapped(
     from concurrent.futures import ProcessPoolExecutor
     from concurrent.futures.process import BrokenProcessPool
 
-    # A fork needs no second start of the program; where there is none, there is one.
+    # A fork does not start the program again; systems without it do.
     methods = multiprocessing.get_all_start_methods()
     context = multiprocessing.get_context("fork" if "fork" in methods else None)
     with ProcessPoolExecutor(workers, context, _attend) as pool:
@@ -49,7 +51,7 @@ def mapped(
         try:
             for item in items:
                 waiting.append(pool.submit(work, item))
-                if meanwhile and len(waiting) > workers:  # each has something to do
+                if meanwhile and len(waiting) > workers:  # each worker has something to do
                     meanwhile()
                     meanwhile = None
                 if len(waiting) > AHEAD * workers:
@@ -67,18 +69,19 @@ def cores() -> int:
     """The number of cores that this process may use."""
     try:
         return len(os.sched_getaffinity(0))
-    except AttributeError:  # a system that does not say
+    except AttributeError:  # a system without this call
         return os.cpu_count() or 1
 
 
 def _attend() -> None:
-    """Make a worker end with the program that started it, and silently by Ctrl-C where that ends
-    the program: one in the background of a script is told to ignore it.
+    """Set up a worker process, which ends with the program that started it.
+
+    It ends silently on Ctrl-C if that ends the program: a script's background program ignores it.
     """
     if signal.getsignal(signal.SIGINT) is not signal.SIG_IGN:
         signal.signal(signal.SIGINT, signal.SIG_DFL)
-    show_with(None)  # the process that waits shows how far all are
-    gc.freeze()  # what the program was made of stays
+    show_with(None)  # the parent process shows the progress of all
+    gc.freeze()  # the objects of the parent stay
     gc.set_threshold(GARBAGE)
     threading.Thread(target=_leave, daemon=True).start()
 

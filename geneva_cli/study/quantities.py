@@ -1,4 +1,4 @@
-"""The names of a design's quantities: which there are, and what a name that is typed stands for.
+"""Names of a design's quantities, and the resolution of a typed name.
 
 Every command that takes a quantity resolves its name here, without making a machine.
 """
@@ -13,13 +13,13 @@ from geneva_cli.verdict.quantities.groups import CHECKS, GROUPS, INPUTS, RATES, 
 
 SHOWN_MAX = 5  # candidates in a message
 
-# Names of columns and keys that neither the whole name nor its end spells.
+# Names of columns and keys that neither a whole name nor its end spells.
 SYNONYMS = {
     "acceleration_max_deg": "acceleration.at_deg",
     "drive": "drive.kind",
     "n_rpm": "inputs.drive.n_rpm",
 }
-# Quantities that are words, which have no order.
+# Quantities whose values are words, which have no order.
 WORDS = frozenset(
     {
         *("wheel.gearing", "drive.kind", "motion.law", "sizes.clearances_from", "checks.failed"),
@@ -37,12 +37,12 @@ def group_of() -> Mapping[str, Group]:
 
 @cache
 def _batched() -> frozenset[str]:
-    """The quantities that are known of a batch."""
+    """The quantities that a batch can compute."""
     return frozenset(name for group in GROUPS for name in group.batched)
 
 
 def in_batch(names: Iterable[str]) -> bool:
-    """Whether all these quantities can be computed for a batch of designs.
+    """Return True if all these quantities can be computed for a batch of designs.
 
     >>> in_batch(["timing.dwell_s", "jerk.max"]), in_batch(["sizes.ratio"])
     (True, False)
@@ -51,12 +51,12 @@ def in_batch(names: Iterable[str]) -> bool:
 
 
 def is_motion(name: str) -> bool:
-    """Whether a quantity follows from the wheel's motion alone."""
+    """Return True if a quantity follows from the wheel's motion alone."""
     return name.partition(".")[0] in ("timing", *RATES)
 
 
 def whole_name(asked: str, option: str = "--pick") -> str:
-    """The whole name of a quantity; ``option`` is what asks for it.
+    """The whole name of a quantity; ``option`` requests it.
 
     A whole name may be written with underscores, as a column of ``table`` and ``synth``, or
     shortened to its end. A key of the spec is named whole, and a check gives way to a quantity of
@@ -82,7 +82,7 @@ def whole_name(asked: str, option: str = "--pick") -> str:
 
 
 def _readings(asked: str) -> Iterator[list[str]]:
-    """What a name that is no whole name may mean, the nearest reading first."""
+    """The possible meanings of a name that is not a whole name, the nearest first."""
     yield [SYNONYMS[asked]] if asked in SYNONYMS else []
     others = [name for name in group_of() if not name.startswith(INPUTS)]
     quantities = [name for name in others if not name.startswith(CHECKS)]
@@ -93,7 +93,7 @@ def _readings(asked: str) -> Iterator[list[str]]:
 
 
 def _spelled(name: str) -> str:
-    """A name with underscores, as the columns of ``table`` and ``synth`` have it."""
+    """A name with underscores, as in the columns of ``table`` and ``synth``."""
     return name.replace(".", "_")
 
 
@@ -108,10 +108,10 @@ def _ends(name: str) -> list[str]:
 
 
 def _nearest(asked: str) -> str:
-    """`` (did you mean "..."?)``: by a whole name, or by the end of one, as dwell for dwell_s.
+    """A question `` (did you mean "..."?)`` with the nearest whole name or end of one.
 
-    A whole name behind a word too many, as velocity.max in peaks.velocity.max, comes first, and a
-    key of the spec by its own name.
+    A whole name behind an extra word (``peaks.velocity.max``) comes first, and a key of the spec by
+    its own name.
     """
     known = group_of()
     behind = [name for name in known if asked.endswith(f".{name}")]

@@ -1,4 +1,4 @@
-"""Ranges as text: ``LOW..HIGH`` and ``LOW..HIGH:STEP``, and lists with commas between."""
+"""Ranges as text: ``LOW..HIGH`` and ``LOW..HIGH:STEP``."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ FORM = "LOW..HIGH or LOW..HIGH:STEP, as 3..12 or 0..0.9:0.1"
 
 
 class RangeText(NamedTuple):
-    """The ends and the step of a range as they are typed; empty where they are left out."""
+    """The ends and the step of a range as they are typed; empty if left out."""
 
     low: str
     high: str

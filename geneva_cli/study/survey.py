@@ -24,15 +24,15 @@ NAMES = (
     "rollers_max",
     *CamFactors._fields,
 )
-# The columns from the most important one, for a window that has not room for all.
+# The columns in order of importance, for a window too narrow for all.
 FIRST = (
     *("z", "motion_deg", "dwell_deg", "acceleration_max", "velocity_max", "motion_s", "dwell_s"),
     *("index_deg", "acceleration_max_deg", "rollers_max", "acceleration_entry", "jerk_entry"),
 )
-SIGNS = {"external": 1.0, "internal": -1.0}  # the wheels with closed forms
+SIGNS = {"external": 1.0, "internal": -1.0}  # the gearings with closed forms
 Z_MIN = 3  # slots
 ROWS_MAX = 10_000
-SOLVED_MAX = 1_000  # of wheels without a closed form, whose peak is searched for: milliseconds each
+SOLVED_MAX = 1_000  # rows without a closed form, whose peaks take milliseconds each
 
 
 def survey(z: str, gearing: str, n_rpm: float, rollers: int, A: float) -> Table:
@@ -71,7 +71,7 @@ def survey(z: str, gearing: str, n_rpm: float, rollers: int, A: float) -> Table:
 
 
 def _title(gearing: str, n_rpm: float, rollers: int, A: float) -> str:
-    """What all wheels of the table have in common."""
+    """A phrase for what all wheels of the table have in common."""
     drive = f"side-crank A = {A:g}" if A else "one roller" if rollers == 1 else f"{rollers} rollers"
     indexes = "one index" if rollers == 1 else f"{rollers} indexes"
     cycle = f"cycle {60.0 / n_rpm / rollers:.5g} s"
@@ -79,7 +79,7 @@ def _title(gearing: str, n_rpm: float, rollers: int, A: float) -> str:
 
 
 def _classic(z: int, gearing: str, sign: float, n_rpm: float, rollers: int) -> tuple[object, ...]:
-    """A row in closed form, without the machinery of motions."""
+    """A row from closed forms, without building a machine."""
     motion = 2.0 * classic.half_motion_deg(sign, 1, z)
     classic.refuse_jam(rollers, motion, sign < 0.0)
     l, cos_b = sin_cos_pi(1, z)
@@ -106,7 +106,7 @@ def _classic(z: int, gearing: str, sign: float, n_rpm: float, rollers: int) -> t
 
 
 def _general(z: int, gearing: str, n_rpm: float, rollers: int, A: float) -> tuple[object, ...]:
-    """A row by the machinery of motions."""
+    """A row from a built machine, without closed forms."""
     from geneva_cli.analysis.peaks import peaks
     from geneva_cli.analysis.timing import timings
     from geneva_cli.machine import registry
@@ -136,7 +136,7 @@ def _general(z: int, gearing: str, n_rpm: float, rollers: int, A: float) -> tupl
 
 
 def parse_z(text: str) -> list[int]:
-    """The numbers of slots in ``6``, ``3..12``, ``4..12:2``, ``3,4,6`` or a mixture."""
+    """Return the numbers of slots in ``6``, ``3..12``, ``4..12:2``, ``3,4,6`` or a mixture."""
     out: list[int] = []
     said = f"--z {cut(text)}"
     for part in text.split(","):

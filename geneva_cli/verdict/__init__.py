@@ -1,1 +1,1 @@
-"""Is it good: checks, advice, cautions, the report."""
+"""The verdict on a design: checks, advice, warnings, the report."""

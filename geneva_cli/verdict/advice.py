@@ -1,9 +1,9 @@
 """The adviser: one change of the given spec with which all checks pass.
 
-It changes one value, builds the machine again and makes the checks. What it advises has been tried
-with the digits shown. It is the nearest value of its key, to ``NEARLY`` of the change. Trials are
-counted, not timed, so that the same spec gets the same advice on every machine; where their number
-is spent, or no single change helps, it says so.
+It changes one value, builds the machine again and makes the checks, so its advice has been tried
+with the digits shown. The advice is the nearest value of its key, to ``NEARLY`` of the change.
+Trials are counted, not timed, so that equal specs get equal advice on every machine. If no trials
+are left, or no single change helps, it says so.
 """
 
 from __future__ import annotations
@@ -23,7 +23,7 @@ from geneva_cli.verdict.failures import JAMS
 from geneva_cli.verdict.remedies import remedies
 
 if TYPE_CHECKING:
-    from geneva_cli.parts.proof import Proof
+    from geneva_cli.parts.model import PartsModel
 
 WHOLE = 40  # trials of all checks, for one piece of advice: about a second
 GLANCES = 150  # trials of the failing checks alone: each of some ten changes takes about twelve
@@ -45,21 +45,24 @@ APART = (
     ("shaft", "crank_overhang_mm"),
     ("material.roller", "dynamic_capacity_N"),
 )
-GAPS, LOOSE = ("gap_mm", "idle_roller_mm"), "hand_over_play_deg"  # told by a few positions
+# checks that a few positions can decide
+GAPS, LOOSE = ("gap_mm", "idle_roller_mm"), "hand_over_play_deg"
 # Checks that only a whole turn can answer.
 TURNED = (*JAMS, *GAPS, "dwell_hold", "dwell_play_deg", "motion_play_deg", "full_turn")
 
 
 class OutOfTrials(Exception):
-    """The adviser has made all its trials: not a fault of the spec, so not a GenevaError."""
+    """The adviser has no trials left: not a fault of the spec, so not a GenevaError."""
 
 
-def judged(mechanism: Mechanism, proof: Proof | None = None, parts: bool = True) -> list[Check]:
-    """Every check of a design, those that fail with one change with which all pass.
+def judged(
+    mechanism: Mechanism, model: PartsModel | None = None, parts: bool = True
+) -> list[Check]:
+    """Every check of a design; failing ones have one change with which all checks pass.
 
-    Where there is none, they say why, and which change each of them would pass with.
+    Without such a change they say why, and name a change with which they pass themselves.
     """
-    rows = checks(mechanism, proof, parts)
+    rows = checks(mechanism, model, parts)
     failing = [c for c in rows if c.passes is False]
     if not failing:
         return rows
@@ -69,9 +72,9 @@ def judged(mechanism: Mechanism, proof: Proof | None = None, parts: bool = True)
 
 
 class Adviser:
-    """Looks for one change of the spec with which failing checks pass.
+    """Search for one change of the spec with which failing checks pass.
 
-    ``failing`` are all the design's checks that fail; without ``parts`` those of its motion and its
+    ``failing`` are all failing checks of the design, or without ``parts`` those of its motion and
     limits.
     """
 
@@ -81,9 +84,9 @@ class Adviser:
         self.parts = parts
 
     def advised(self, check: Check, found: str, why: str) -> Check:
-        """A failing check with the change with which all checks pass, or why there is none.
+        """A failing check with the change that passes all checks, or the reason for its absence.
 
-        Where there is none, but one with which this check passes, that is said too.
+        The reason may name a change with which this check passes.
         """
         if found:
             return check._replace(nearest=found)
@@ -94,7 +97,7 @@ class Adviser:
     def advice(self, wanted: list[Check]) -> tuple[str, str]:
         """The change, a line of the spec, with which some failing checks pass and no other fails.
 
-        Without one: an empty text, and why.
+        Without one, an empty text and the reason.
         """
         search = _Search(self, wanted)
         try:
@@ -107,7 +110,7 @@ class Adviser:
         return "", NONE
 
     def _changes(self, wanted: list[Check]) -> Iterator[Change]:
-        """What may help any of some checks, each change once."""
+        """Changes that may help any of some checks, each change once."""
         seen = set()
         for check in wanted:
             for change in remedies(check.name, self.mechanism):
@@ -134,7 +137,7 @@ class _Search:
         self.short = min(left / unit for left, unit in zip(now, self.units, strict=True))
 
     def least(self, change: Change) -> str:
-        """The least of one key's changes that will do, as a line of the spec; else nothing."""
+        """The least sufficient change of one key, as a line of the spec; empty if there is none."""
         now = value_now(self.mechanism, change.table, change.key)
         bad, short = now, self.short
         for good in map(_as_written, change.values(now)):
@@ -158,7 +161,7 @@ class _Search:
         return ""
 
     def _edge(self, change: Change, now: float, found: Falsi) -> float:
-        """The value nearest to the present one with which the failing checks pass at a glance."""
+        """The nearest value to the present one that passes the failing checks in quick trials."""
         for _ in range(LOOKS):
             if abs(found.good - found.bad) <= NEARLY * abs(found.good - now):
                 break
@@ -167,7 +170,7 @@ class _Search:
         return found.good
 
     def _halved(self, change: Change, now: float, good: float, bad: float) -> float:
-        """The value nearest to the present one with which all checks pass, beyond a bad one."""
+        """The nearest value to the present one with which all checks pass, beyond a failing one."""
         end = good
         while abs(good - bad) > NEARLY * abs(good - now):
             middle = float(_as_written(0.5 * (good + bad)) or 0.0)
@@ -181,10 +184,9 @@ class _Search:
         return near if near != good and self._holds(change, near) else good
 
     def _glance(self, change: Change, value: Value) -> float:
-        """How far inside their limits the wanted checks are, the worst of them; negative outside.
+        """The worst margin of the wanted checks, relative to their present violation.
 
-        Times what each was outside. Only what is quick is made. It is minus infinity for a value
-        that makes no machine.
+        It is negative outside. Only quick checks are made. A value that makes no machine has -inf.
         """
         self.glances -= 1
         if self.glances < 0:
@@ -203,27 +205,27 @@ class _Search:
         return [_left(machine, check) for check in self.wanted]
 
     def _holds(self, change: Change, value: Value) -> bool:
-        """Whether, with a value, the wanted checks pass and no other fails that passed before."""
+        """Return True if the wanted checks pass with a value, and no other check begins to fail."""
         spec = changed(self.mechanism.spec, change.table, change.key, value)
         if spec is None:
             return False
-        from geneva_cli.parts.proof import Proof
-        from geneva_cli.parts.turn.gaps import NotProved
+        from geneva_cli.parts.model import PartsModel
+        from geneva_cli.parts.turn.gaps import WorkLimit
 
         turn = self.turned or (change.table, change.key) not in APART
         try:
             machine = build(spec)
-            proof = Proof(machine, advice=False) if self.parts and spec.has_parts else None
-            if not self._pass(checks_at_rest(machine, proof)):
+            model = PartsModel(machine, advice=False) if self.parts and spec.has_parts else None
+            if not self._pass(checks_at_rest(machine, model)):
                 return False
-            if proof is None or not turn:
+            if model is None or not turn:
                 return True
             self.whole -= 1
             if self.whole < 0:
                 raise OutOfTrials
-            return self._pass(checks_turning(proof))
-        except NotProved:
-            raise OutOfTrials from None  # a trial of some seconds: no more of them
+            return self._pass(checks_turning(model))
+        except WorkLimit:
+            raise OutOfTrials from None  # a trial of some seconds, which is not repeated
         except GenevaError:
             return False
 
@@ -232,18 +234,18 @@ class _Search:
 
 
 def _left(machine: Mechanism, check: Check) -> float:
-    """How far a machine is inside the limit of a check that fails now, negative outside.
+    """The margin of a machine to the limit of a check that fails now, negative outside.
 
-    A check of the turn is made about the input angle where it fails; where only a whole turn can
-    tell, it is infinity. It is minus infinity where there are no parts to check.
+    A check of the turn is made near the input angle where it fails. If only a whole turn can decide
+    it, the margin is infinite. Without parts to check, it is -inf.
     """
     try:
         if check.at_deg is not None and check.name in (*GAPS, LOOSE):
-            from geneva_cli.parts.proof import Proof
+            from geneva_cli.parts.model import PartsModel
             from geneva_cli.parts.turn.glance import gap_about, play_about
             from geneva_cli.verdict.checks.play import finds_slot
 
-            parts = Proof(machine, advice=False).parts
+            parts = PartsModel(machine, advice=False).parts
             if check.name in GAPS:
                 return gap_about(parts, check.at_deg) + parts.contact
             return finds_slot(parts) - play_about(parts, check.at_deg)
@@ -254,7 +256,7 @@ def _left(machine: Mechanism, check: Check) -> float:
 
 
 def _spare(check: Check) -> float:
-    """What is left of a check's limit, negative where it fails."""
+    """The margin of a check to its limit, negative if it fails."""
     if check.value is None or check.limit is None:
         return -math.inf if check.passes is False else math.inf
     left = check.limit - check.value
@@ -263,7 +265,7 @@ def _spare(check: Check) -> float:
 
 
 def _as_written(value: Value) -> Value:
-    """A value with the digits that are shown of it."""
+    """A value with the displayed digits only."""
     return float(f"{value:.12g}") if isinstance(value, float) else value
 
 
@@ -291,7 +293,7 @@ def changed(spec: Spec, table: str, key: str, value: Value) -> Spec | None:
 
 
 def line(key: str, value: Value) -> str:
-    """A change as it is written into the spec."""
+    """A change as a line of the spec."""
     if value is None:
         return f"leaving out {key}"
     return f'{key} = "{value}"' if isinstance(value, str) else f"{key} = {value:.12g}"

@@ -1,4 +1,4 @@
-"""A change of one key of a spec: which values to try, given the value that it has now."""
+"""A change of one key of a spec: the values to try, given its present value."""
 
 from __future__ import annotations
 
@@ -12,11 +12,11 @@ if TYPE_CHECKING:
     from geneva_cli.parts.sizes import Sizes
 
 Value: TypeAlias = float | int | str | None  # None: the key is left out
-# Keys that are not given by default, and take a word.
+# Keys without a default that take a word.
 WORDS = ("ratio", "held_by")
-# From the present value to the last one tried: beyond one that passes may be one that fails.
+# From the present value to the last one tried: values beyond a passing one may fail.
 STEPS = 24
-COARSE = 12  # of a size, whose trials take a whole turn
+COARSE = 12  # steps of a size, whose trials take a whole turn
 
 # The value of a key of [size], from the sizes that the machine's parts get.
 _SIZES: dict[str, Callable[[Sizes], float]] = {
@@ -37,7 +37,7 @@ _SIZES: dict[str, Callable[[Sizes], float]] = {
 class Change(NamedTuple):
     """A key to change, and the values to try as a function of its present one, nearest first.
 
-    Where one number passes and the next does not, the adviser searches between the two.
+    If one number passes and the next does not, the adviser searches between the two.
     """
 
     table: str
@@ -46,12 +46,12 @@ class Change(NamedTuple):
 
 
 def value_now(mechanism: Mechanism, table: str, key: str) -> Value:
-    """A key's present value: of a size that is not given its default; None where it has none."""
+    """A key's present value; for a size that is not given, its default; None if there is none."""
     spec = mechanism.spec
     value: Value = spec.table(table).get(key)
     if value is not None or table != "size":
         return value or ("" if key in WORDS else value)
-    allowed = spec.size.allowances._asdict()  # of the process, where a key is left out
+    allowed = spec.size.allowances._asdict()  # of the process, if a key is left out
     if key in allowed:
         return float(allowed[key])
     if key == "roller_radius_mm":
@@ -62,7 +62,7 @@ def value_now(mechanism: Mechanism, table: str, key: str) -> Value:
 
 
 def size_now(mechanism: Mechanism, key: str) -> float | None:
-    """A size of the parts by its key; None for a key that is no size, and where none can be cut."""
+    """A size of the parts by its key; None for another key, and if no parts can be cut."""
     if key not in _SIZES:
         return None
     from geneva_cli.parts.assembly import assembly
@@ -75,7 +75,7 @@ def size_now(mechanism: Mechanism, key: str) -> float | None:
 
 
 def scaled(table: str, key: str, factor: float) -> Change:
-    """Steps from the present value to a multiple of it: of one ratio, or even ones to 0."""
+    """Steps from the present value to a multiple of it: in one ratio, or evenly to 0."""
     if factor > 0.0:
         factors = [factor ** (i / COARSE) for i in range(1, COARSE + 1)]
     else:
@@ -84,17 +84,17 @@ def scaled(table: str, key: str, factor: float) -> Change:
 
 
 def sized(table: str, key: str) -> tuple[Change, ...]:
-    """A given value made smaller, made larger, and left out."""
+    """A given value made smaller, made larger, or left out."""
     return scaled(table, key, 0.3), scaled(table, key, 3.0), left_out(table, key)
 
 
 def fewer(table: str, key: str, least: int) -> Change:
-    """Fewer of what is counted, down to the least number."""
+    """Smaller values of a count, down to the least."""
     return Change(table, key, lambda now: list(range(now - 1, least - 1, -1)))
 
 
 def replaced(table: str, key: str, *values: Value) -> Change:
-    """Other values of a key that has one which is not 0."""
+    """Other values of a key whose value is not 0."""
     return Change(table, key, lambda now: list(values) if now else [])
 
 

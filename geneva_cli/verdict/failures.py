@@ -1,4 +1,4 @@
-"""The checks that a design fails, in words: those for which its parts cannot be cut, and others."""
+"""Failing checks in words: those that prevent the parts, and others."""
 
 from __future__ import annotations
 
@@ -8,18 +8,18 @@ from geneva_cli.table import in_digits
 from geneva_cli.verdict.checks.check import Check
 
 if TYPE_CHECKING:
-    from geneva_cli.parts.proof import Proof
+    from geneva_cli.parts.model import PartsModel
 
-# A roller that does not find its slot, or meets the rim beside it, jams.
+# A roller that does not find its slot, or meets the rim next to it, jams.
 JAMS = ("hand_over_play_deg", "hand_over_pressure_deg")
-# Below the wheel's plane: the wheel can be cut all the same.
+# Below the wheel's plane, so the wheel can be cut all the same.
 BELOW = ("link_wall_mm", "link_gap_mm", "gear_gap_mm")
 
 
-def failures(rows: list[Check], proof: Proof) -> tuple[str, list[str]]:
-    """Why the parts jam or cannot be cut, in words; and a sentence on each other failing check.
+def failures(rows: list[Check], model: PartsModel) -> tuple[str, list[str]]:
+    """The reason why the parts jam or cannot be cut, and a sentence on each other failing check.
 
-    The first text is empty where the parts can be written.
+    The first text is empty if the parts can be written.
     """
     turn = None
     refused, warned, advice = [], [], ""
@@ -28,7 +28,7 @@ def failures(rows: list[Check], proof: Proof) -> tuple[str, list[str]]:
             continue
         if c.name == "full_turn":
             refused.append(c.why)
-        elif c.name == "parts":  # why there are none
+        elif c.name == "parts":  # the reason why there are none
             warned.append(c.why)
         elif c.not_computed:
             warned.append(c.not_computed)
@@ -38,7 +38,7 @@ def failures(rows: list[Check], proof: Proof) -> tuple[str, list[str]]:
             and c.name.endswith("_mm")
             and (c.value or 0.0) < 0.0
         ):
-            turn = turn or proof.turn
+            turn = turn or model.turn
             refused.append(in_words(c, turn.smallest.parts))
             advice = advice or c.nearest
         else:
@@ -61,7 +61,7 @@ def _where(c: Check) -> str:
 
 
 def meaning(c: Check, parts: str = "parts") -> str:
-    """What it means that a check fails; empty where its value says it all."""
+    """The meaning of a failing check; empty if its value is enough."""
     from geneva_cli.verdict.checks.walls import NO_WALL
 
     where, value, limit = _where(c), c.value or 0.0, c.limit or 0.0

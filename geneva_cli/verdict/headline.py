@@ -1,23 +1,23 @@
-"""The verdict on a design in one line, and the lines of what fails, warns and is tightest."""
+"""The verdict on a design in one line, and lines for failures, warnings and the tightest check."""
 
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
 
 from geneva_cli.document import FAILS, PASSES, WARNS, Line
-from geneva_cli.errors import Caution, is_warning
+from geneva_cli.errors import Notice, is_warning
 from geneva_cli.names import spoken
 from geneva_cli.table import Table, record_table
 from geneva_cli.verdict.checks.check import Check
 from geneva_cli.verdict.failures import meaning
 from geneva_cli.verdict.measured import measured
 
-# Checks that a design passes or not: they have no margin.
+# Checks without a margin.
 YES_OR_NO = ("dwell_hold", "parts", "full_turn")
 
 
 def headline(checks: Sequence[Check], warnings: Sequence[str]) -> tuple[str, str]:
-    """State of a design, PASSES, WARNS or FAILS, and its checks and warnings counted in words.
+    """State of a design (PASSES, WARNS or FAILS), and counts of its checks and warnings in words.
 
     >>> headline([Check("jerk_max", 31.4, "at most", 30.0, False)], [])
     ('fails', '1 of 1 checks fails')
@@ -41,9 +41,9 @@ def headline(checks: Sequence[Check], warnings: Sequence[str]) -> tuple[str, str
 
 
 def below_summary(record: Table, *, said: Sequence[str] = ()) -> Table:
-    """A record as it stands below its summary, which says its warnings and the names ``said``.
+    """A record as it stands below its summary, without the warnings and the names ``said`` there.
 
-    Notes on what is not known stay, under that name.
+    Notes on unknown values remain, as ``not_known``.
     """
     values = dict(zip(record.names, next(record.rows()), strict=True))
     notes = tuple(text for text in values.pop("warnings") if not is_warning(text))
@@ -57,7 +57,7 @@ def failure_lines(checks: Iterable[Check]) -> list[Line]:
 
 
 def warning_lines(checks: Iterable[Check], warnings: Iterable[str]) -> list[Line]:
-    """A line for each check that is not proved, then for each warning."""
+    """A line for each check without a proof, then for each warning."""
     unproved = [check for check in checks if check.passes is None]
     lines = [Line("not proved", f"{spoken(c.name)[0]}: {c.why}", "", WARNS) for c in unproved]
     return lines + [warning(text) for text in warnings]
@@ -65,12 +65,12 @@ def warning_lines(checks: Iterable[Check], warnings: Iterable[str]) -> list[Line
 
 def warning(text: str) -> Line:
     """The line of a warning, and the command that explains it."""
-    explained = f"geneva explain {text.name}" if isinstance(text, Caution) else ""
+    explained = f"geneva explain {text.name}" if isinstance(text, Notice) else ""
     return Line("warning", text, explained, WARNS)
 
 
 def _failure(check: Check) -> Line:
-    """A check that fails: its value, its limit, and what to change."""
+    """The line of a failing check: its value, its limit, and the change."""
     label, unit = spoken(check.name)
     explained = f"geneva explain {check.name}"
     if check.value is None or check.limit is None:
@@ -81,7 +81,7 @@ def _failure(check: Check) -> Line:
 
 
 def compared_text(check: Check, unit: str) -> str:
-    """The value of a check, where it occurs, and its limit."""
+    """The value of a check, its place, and its limit."""
     assert check.value is not None
     assert check.limit is not None
     where = "" if check.at_deg is None else f" at {measured(check.at_deg, 'deg')}"
@@ -90,7 +90,7 @@ def compared_text(check: Check, unit: str) -> str:
 
 
 def tightest(checks: Iterable[Check]) -> Iterator[Line]:
-    """The line of the check that passes with the least margin, relative to its limit; or none."""
+    """The line of the passing check with the least relative margin, or none."""
     used = [(share, check) for check in checks if (share := _used(check)) is not None]
     if used:
         _, check = max(used, key=lambda pair: pair[0])
@@ -99,7 +99,7 @@ def tightest(checks: Iterable[Check]) -> Iterator[Line]:
 
 
 def _used(check: Check) -> float | None:
-    """Fraction of its limit that a check uses up, 1 at the limit; None where it has no such."""
+    """Fraction of its limit that a check uses, 1 at the limit; None if it has no such fraction."""
     value, limit = check.value, check.limit
     if not check.passes or not value or not limit or check.name in YES_OR_NO:
         return None

@@ -1,6 +1,6 @@
-"""The sizes that the strength of lock and horns goes by, of one machine and of many.
+"""The sizes of lock and horns that their strength depends on, for one machine or a batch.
 
-Parts are sized one design after the other, as their defaults look at whole paths of rollers.
+Parts are sized one design after the other, as their defaults depend on rollers' whole paths.
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ from geneva_cli.parts.sizes import Sizes, sized
 
 
 class LockSizes(NamedTuple):
-    """Sizes of slot and lock, mm; of m designs (m, 1), NaN of those without."""
+    """Sizes of slot and lock, mm; (m, 1) for m designs, NaN for those without."""
 
     half_width: float  # of the slot: roller and clearance
     lock: Lock  # in its narrowest sector
@@ -34,10 +34,10 @@ def lock_of(where: Assembly, found: Sizes) -> Lock:
     return Lock(where.L, where.sign, found.lock, found.recess, found.rim, half, edge)
 
 
-def lock_sizes_of_many(mechanism: Mechanism) -> LockSizes | None:
-    """The sizes of m designs; as numbers where no size differs, None where none has a lock."""
+def design_lock_sizes(mechanism: Mechanism) -> LockSizes | None:
+    """The sizes of m designs: numbers if they are equal in all, None if none has a lock."""
     given = mechanism.spec
-    # of what parts are sized by; designs that differ in loads alone are sized once
+    # the parts' sizes depend on these tables; designs that differ in loads only are sized once
     spec = Spec(given.wheel, given.drive, given.motion, given.size)
     m = designs_in(spec)
     rows = np.full((1 + len(Lock._fields), m, 1), np.nan)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from geneva_cli.output.document.values import shown
 
-DIGITS = 4  # significant, in a sentence
+DIGITS = 4  # significant digits in a sentence
 
 
 def measured(value: float, unit: str = "", digits: int = DIGITS) -> str:

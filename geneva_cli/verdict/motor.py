@@ -1,4 +1,4 @@
-"""The motor that a machine needs: one of the standard powers, and how it follows."""
+"""The motor that a machine needs, from the standard powers."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ import math
 from collections.abc import Mapping
 from typing import NamedTuple
 
-# Rated outputs of motors, kW, by IEC 60072-1; 3 and 4 kW, as catalogues have them, by EN 50347.
+# Rated outputs of motors, kW, by IEC 60072-1; 3 and 4 kW, common in catalogues, by EN 50347.
 RATED_kW = (
     *(0.06, 0.09, 0.12, 0.18, 0.25, 0.37, 0.55, 0.75, 1.1, 1.5, 2.2, 3.0, 4.0, 5.5, 7.5, 11.0),
     *(15.0, 18.5, 22.0, 30.0, 37.0, 45.0, 55.0, 75.0, 90.0, 110.0, 132.0, 160.0, 200.0, 250.0),
@@ -14,7 +14,7 @@ RATED_kW = (
 
 
 class RecommendedMotor(NamedTuple):
-    """A motor: what it must give, and the standard power that does."""
+    """A motor: the power needed from it, and the standard power that is enough."""
 
     form_W: float  # by the makers' form, with the service factor and both efficiencies
     peak_W: float  # greatest over the exact cycle, behind the reducer, without the service factor
@@ -32,7 +32,7 @@ class RecommendedMotor(NamedTuple):
 
     @property
     def rated_kW(self) -> float | None:
-        """The least standard power that gives it; None where there is none so great.
+        """The least standard power that is enough; None if even the greatest is not.
 
         >>> RecommendedMotor(118.3, 88.5, 1400.0, 22.8).rated_kW
         0.12
@@ -41,7 +41,7 @@ class RecommendedMotor(NamedTuple):
 
 
 def recommended_motor(sizing: Mapping[str, float | None]) -> RecommendedMotor | None:
-    """The motor for the values of ``sizing``; None without a load, or without a bound on it."""
+    """The motor for the values of ``sizing``; None without a load, or for an unbounded one."""
     names = ("power_W", "motor_torque_max_Nm", "motor_rpm", "input_torque_Nm")
     form, torque, rpm, with_factor = (sizing[name] for name in names)
     if form is None or torque is None or rpm is None or with_factor is None:

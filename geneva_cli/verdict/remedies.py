@@ -1,6 +1,6 @@
-"""What may help where a check fails: for each check the keys to change, and how far.
+"""Remedies for failing checks: the keys to change, and how far.
 
-These are only candidates, the likeliest first; the adviser tries them (see ``advice``).
+They are candidates only, the likeliest first; the adviser tries them (see ``advice``).
 """
 
 from __future__ import annotations
@@ -26,7 +26,7 @@ from geneva_cli.verdict.changes import (
 )
 from geneva_cli.verdict.checks.registry import LIMITS, MOTION
 
-# Sizes that, put back to their defaults, free a machine that jams.
+# Sizes whose defaults free a machine that jams.
 FREE = (
     "wheel_radius_mm",
     "lock_radius_mm",
@@ -36,8 +36,7 @@ FREE = (
     "wheel_outer_radius_mm",
     "roller_radius_mm",
 )
-# What the machine is made for: how large it is, how it is made, how thick its walls must be. No
-# advice asks for less.
+# Requirements on the machine's size, process and walls, which no advice reduces.
 REQUIRED = ("center_distance_mm", "face_width_mm", "process", "wall_min_mm")
 
 
@@ -63,14 +62,14 @@ def remedies(check: str, mechanism: Mechanism) -> Iterator[Change]:
 
 
 def _hub(mechanism: Mechanism, part: str) -> Iterator[Change]:
-    """A hub as thin as its bore, where it is thicker."""
+    """A hub as thin as its bore, if it is thicker."""
     bore, hub = (size_now(mechanism, f"{part}_{what}_mm") for what in ("bore", "hub"))
     if bore is not None and hub is not None and hub > bore:
         yield towards("size", f"{part}_hub_mm", bore, COARSE)
 
 
 def _given(mechanism: Mechanism) -> Iterator[Change]:
-    """Each given size made smaller, larger, and left out; fewer of what is counted."""
+    """Each given size made smaller, made larger, or left out; counts made smaller."""
     usual = Size().as_dict()
     for key, value in mechanism.spec.size.as_dict().items():
         if value == usual[key] or key in REQUIRED:
@@ -84,7 +83,7 @@ def _given(mechanism: Mechanism) -> Iterator[Change]:
 
 
 def _defaults(mechanism: Mechanism) -> Iterator[Change]:
-    """Each given size towards its default, and then left out."""
+    """Each given size moved towards its default, and then left out."""
     given, usual_sizes = mechanism.spec.size.as_dict(), Size().as_dict()
     for key in FREE:
         usual = usual_sizes[key]

@@ -1,4 +1,4 @@
-"""Strength and life of a single design: its values, and the keys that those missing need."""
+"""Strength and life of a single design: its values, and the keys that missing ones need."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ import numpy as np
 
 from geneva_cli.analysis.loads.quantities import PARALLEL
 from geneva_cli.analysis.strength import horn, lock, shafts
-from geneva_cli.errors import Caution
+from geneva_cli.errors import Notice
 from geneva_cli.parts.sizes import sized
 from geneva_cli.verdict.quantities.designs import single
 from geneva_cli.verdict.quantities.groups import REPORT, only
@@ -41,7 +41,7 @@ class Strength:
         self.load = under_load(self.design)
 
     def __getitem__(self, name: str) -> float | None:
-        """A value by its whole name, as ``strength.pin.stress_MPa``; None where it is not known."""
+        """A value by its whole name, such as ``strength.pin.stress_MPa``; None if unknown."""
         table, _, own = name.rpartition(".")
         columns = (GROUPS.get(name) or GROUPS[table]).columns(self.design)
         return only(columns.get(own))
@@ -51,8 +51,8 @@ class Strength:
         """The values of ``LIFE``, by these names."""
         return {name: self[f"life.{name}"] for name in LIFE}
 
-    def cautions(self) -> list[Caution]:
-        """What a stress that is known leaves out."""
+    def warnings(self) -> list[Notice]:
+        """A note on the limits of a known stress."""
         sizes = self.load.lock_sizes
         if sizes is None or self["strength.horn.stress_MPa"] is None:
             return []
@@ -61,7 +61,7 @@ class Strength:
         if stout <= horn.THICK:
             return []
         return [
-            Caution(
+            Notice(
                 "stout-horns",
                 "horn_stress_MPa is that of a slender beam, but the horns are thick: "
                 f"{stout:.3g} times their recess's radius ({recess:.4g} mm) at the mouth. The "
@@ -72,7 +72,7 @@ class Strength:
     def reason(self, name: str) -> str | None:
         """The keys that a value of ``REASONS`` needs, in words.
 
-        None for one that is known, or that a machine does not have, as a horn's without a lock.
+        None for a known value, or for one that the machine lacks, such as a horn's without a lock.
         """
         for keys in REASONS[name](self):
             missing = [words for there, words in keys if not there]
@@ -81,7 +81,7 @@ class Strength:
         return None
 
     def missing(self, among: Sequence[str]) -> list[str]:
-        """The keys that would give the values of ``among`` that are not known, in words."""
+        """The keys that the unknown values of ``among`` need, in words."""
         by_key: dict[str, list[str]] = {}
         for name in among:
             keys = self.reason(name)
@@ -107,7 +107,7 @@ class Strength:
         return math.isfinite(self.load.force_N[0]), "a force with a bound: see the warnings"
 
     def _cut(self) -> Sequence[Key]:
-        """What a value needs that is computed from the parts."""
+        """The needs of a value that is computed from the parts."""
         if not self.spec.is_flat:
             return [(False, "a wheel that is drawn as a flat outline")]
         return [(self._has_parts, "parts that can be cut: see `geneva check`")]
@@ -132,7 +132,7 @@ class Strength:
             yield self._wide, (held, "dwell_torque_Nm in [load]")
 
     def _contact(self) -> Keys:
-        """Of a lock that bears on a sharp edge the stress has no bound."""
+        """The needs of the lock's contact stress, which is unbounded on a sharp edge."""
         yield from self._lock()
         found = self.load.lock
         if found is not None and found.approach_deg is not None:
@@ -182,7 +182,7 @@ class Strength:
         yield [self._bounded]
 
 
-# What each value needs, step by step, under its name in checks and in ``life``.
+# The needs of each value, step by step, under its name in checks and in ``life``.
 REASONS: dict[str, Callable[[Strength], Keys]] = {
     "pin_stress_MPa": Strength._pin,
     "horn_stress_MPa": Strength._horn,
@@ -201,7 +201,7 @@ REASONS: dict[str, Callable[[Strength], Keys]] = {
     "slot_wear_mm_per_million": Strength._wear,
     "slot_wear_max_mm_per_million": Strength._wear,
 }
-# Those of ``life``, in the order in which `geneva loads` says what they need.
+# Values of ``life``, in the order in which `geneva loads` lists their needs.
 OF_LIFE = (
     "roller_life_turns",
     "roller_life_motions",
@@ -217,5 +217,5 @@ OF_LIFE = (
 
 @lru_cache(maxsize=16)
 def strength(mechanism: Mechanism) -> Strength:
-    """The strength of a machine, kept while it is checked, advised on and reported."""
+    """The strength of a machine, cached for its checks, advice and report."""
     return Strength(mechanism)

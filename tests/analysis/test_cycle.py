@@ -17,7 +17,7 @@ from geneva_cli.analysis.loads.summary import reversals_deg, summaries
 from geneva_cli.app import app
 from geneva_cli.machine.mechanism import build
 from geneva_cli.numerics.angles import omega
-from geneva_cli.verdict.cycle_cautions import back_driven_deg, cycle_cautions
+from geneva_cli.verdict.cycle_warnings import back_driven_deg, cycle_warnings
 
 DESIGNS = sorted(repo.DESIGNS.glob("*.toml"))
 TURRET = Spec(
@@ -270,6 +270,6 @@ def test_absurd_units_are_said(keys, said):
 @pytest.mark.parametrize("path", DESIGNS, ids=lambda p: p.stem)
 def test_no_design_of_ours_is_absurd(path):
     cycle = Cycle(load(str(path)))
-    said = " ".join(cycle_cautions(cycle, summaries(cycle)))
+    said = " ".join(cycle_warnings(cycle, summaries(cycle)))
     assert "kg cm²" not in said
     assert "sound" not in said

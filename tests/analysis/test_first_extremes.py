@@ -15,7 +15,7 @@ from witness import mp
 from geneva_cli import Crank, External, load
 from geneva_cli.analysis.loads import loads, summary
 from geneva_cli.analysis.loads.cycle import Cycle, cycle_of
-from geneva_cli.analysis.loads.many import greatest_of_many, summaries_of_many
+from geneva_cli.analysis.loads.summaries import load_peaks, load_summaries
 from geneva_cli.analysis.motion import derivatives
 from geneva_cli.analysis.peaks import QUANTITIES, worst
 from geneva_cli.machine.many import many
@@ -114,7 +114,7 @@ def test_of_two_zeros_the_first_is_told() -> None:
     assert least.min_at_deg == pytest.approx(first, abs=1e-9)
     batch = many(spec, {"drive.n_rpm": np.array([90.0, 91.0])}).machine
     for name in ("contact_stress_MPa", "wheel_bearing_N"):
-        by_sweep = summaries_of_many(batch, [name])[name].min_at_deg[0]
+        by_sweep = load_summaries(batch, [name])[name].min_at_deg[0]
         assert by_sweep == pytest.approx(first, abs=1e-9)
 
 
@@ -129,5 +129,5 @@ def test_a_stress_of_one_wall_is_not_that_of_the_other_half() -> None:
     (engagement,) = build(spec).engagements
     sharp = [loads.state(build(spec), engagement, x).contact_stress_MPa for x in (-0.02, 0.02)]
     assert np.isinf(sharp).tolist() == [False, True]
-    most = greatest_of_many(build(spec), ["contact_stress_MPa"])["contact_stress_MPa"]
+    most = load_peaks(build(spec), ["contact_stress_MPa"])["contact_stress_MPa"]
     assert 0.0 < most.at_deg[0] < 0.02

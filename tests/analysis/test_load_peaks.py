@@ -8,7 +8,7 @@ import pytest
 from witness import mp
 from words import Drive, Keys, Motion, Spec, Wheel
 
-from geneva_cli.analysis.loads import loaded_many, loads
+from geneva_cli.analysis.loads import loaded, loads
 from geneva_cli.analysis.loads.contact import contact
 from geneva_cli.analysis.loads.cycle import Cycle
 from geneva_cli.analysis.loads.forces import setting
@@ -18,7 +18,7 @@ from geneva_cli.design import Design, load
 from geneva_cli.errors import GenevaError
 from geneva_cli.machine.mechanism import build
 from geneva_cli.spec.tables import Limits, Load, Size
-from geneva_cli.verdict.load_cautions import load_cautions
+from geneva_cli.verdict.load_warnings import load_warnings
 
 OMEGA = 2.0 * math.pi
 BOTH = Load(0.02, 3.0, friction=0.1)
@@ -163,7 +163,7 @@ def test_a_bearing_wall_as_sharp_as_the_roller_ends_in_an_edge():
     first, second = mp.diff(pitch, at), mp.diff(pitch, at, 2)
     radius = abs(first) ** 3 / abs((mp.conj(first) * second).imag)
     assert float(radius) == pytest.approx(20.0 / 441.89, rel=1e-11)
-    assert any("without bound" in text for text in load_cautions(mechanism))
+    assert any("without bound" in text for text in load_warnings(mechanism))
 
 
 @pytest.mark.sampled(4)
@@ -203,7 +203,7 @@ def test_the_fastest_speed_where_the_load_is_rounding_at_rest(monkeypatch):
         looks.append(np.size(x))
         return contact(engagement, x, *more)
 
-    monkeypatch.setattr(loaded_many, "contact", counted)
+    monkeypatch.setattr(loaded, "contact", counted)
     drive, keys = Drive("epicyclic"), Keys("epicyclic", "shockless")
     limits = Limits(pin_force_max_N=55.0)
     mechanism = build(Spec(Wheel(4), drive, keys, load=Load(0.043), limits=limits))
@@ -217,7 +217,7 @@ def test_a_limit_that_no_speed_keeps():
     """The resistance alone takes 100 N at mid-motion."""
     mechanism = build(Spec(Wheel(6), load=Load(0.0, 5.0), limits=Limits(pin_force_max_N=20.0)))
     assert loads.fastest_rpm(mechanism) is None
-    assert any("no speed keeps pin_force_max_N = 20" in t for t in load_cautions(mechanism))
+    assert any("no speed keeps pin_force_max_N = 20" in t for t in load_warnings(mechanism))
     table = Design.of(mechanism.spec).report.table
     row = dict(zip(table.names, table.columns, strict=True))
     assert list(row["timing.shortest_motion_s"]) == [None]
@@ -232,11 +232,11 @@ def test_off_the_mid_condition_no_speed_keeps_a_force():
 def test_limits_that_any_speed_keeps():
     mechanism = build(Spec(Wheel(6), load=Load(0.0, 5.0), limits=Limits(pin_force_max_N=200.0)))
     assert math.isinf(loads.fastest_rpm(mechanism))
-    assert not load_cautions(mechanism)
+    assert not load_warnings(mechanism)
 
 
 def test_friction_that_holds_the_wheel():
-    """r f > rho at mid-motion: no pin force turns the wheel, and a caution says so."""
+    """r f > rho at mid-motion: no pin force turns the wheel, and a warning says so."""
     mechanism = build(crank(3, load=Load(0.0, 3.0, friction=3.0)))
     found = loads.greatest(mechanism, "pin_force_N")
     assert math.isinf(found.max)
@@ -245,7 +245,7 @@ def test_friction_that_holds_the_wheel():
     places = np.linspace(engagement.entry_deg, found.at_deg - 1e-6, 50)
     assert np.isfinite(loads.state(mechanism, engagement, places).pin_force_N).all()
     assert loads.state(mechanism, engagement, found.at_deg + 1e-6).pin_force_N == math.inf
-    assert any("friction of 3 holds the wheel" in text for text in load_cautions(mechanism))
+    assert any("friction of 3 holds the wheel" in text for text in load_warnings(mechanism))
 
 
 def test_a_setting_knows_no_stress_without_a_width():

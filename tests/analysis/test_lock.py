@@ -12,7 +12,7 @@ from geneva_cli import load
 from geneva_cli.analysis.locking import Lock
 from geneva_cli.analysis.strength.lock import bending, lock
 from geneva_cli.machine.mechanism import build
-from geneva_cli.parts.proof import Proof
+from geneva_cli.parts.model import PartsModel
 from geneva_cli.spec.tables import Load, Size
 from geneva_cli.verdict.strength import strength
 
@@ -22,7 +22,7 @@ SPEC = Spec(Wheel(8), size=SIZES, load=Load(torque_Nm=20.0))
 
 def answer(spec):
     mechanism = build(spec)
-    s = Proof(mechanism).outlines.sizes
+    s = PartsModel(mechanism).outlines.sizes
     return lock(mechanism, s.half_width, by(s, mechanism.spec)), s, mechanism
 
 
@@ -65,7 +65,7 @@ def test_the_play_is_that_of_the_parts(name, on):
     design = design.with_("size.face_width_mm", 20.0).with_("load.dwell_torque_Nm", 5.0)
     found = strength(design.mechanism).load.lock
     assert found.on == on
-    assert Proof(design.mechanism).turn.dwell.deg == pytest.approx(found.play_deg, rel=3e-6)
+    assert PartsModel(design.mechanism).turn.dwell.deg == pytest.approx(found.play_deg, rel=3e-6)
 
 
 def test_force_and_pressure_hold_the_torque():

@@ -14,16 +14,16 @@ from geneva_cli.analysis import change_of_sides, impacts, undercut
 from geneva_cli.analysis import positive_drive as positive
 from geneva_cli.analysis.loads import loads
 from geneva_cli.analysis.loads.cycle import Cycle
-from geneva_cli.analysis.loads.sizing import NAMES, sizing, sizings_of_many
+from geneva_cli.analysis.loads.sizing import NAMES, sizing, sizings
 from geneva_cli.analysis.locking import Lock
 from geneva_cli.analysis.strength import horn, lock, roller, shafts
 from geneva_cli.analysis.tolerance.dimensions import corners
-from geneva_cli.analysis.tolerance.many import entry_jumps_worst, motion_plays, used
 from geneva_cli.analysis.tolerance.motion_error import motion_errors
 from geneva_cli.analysis.tolerance.spread import spread
+from geneva_cli.analysis.tolerance.worst_effects import entry_jumps_worst, motion_plays, used
 from geneva_cli.analysis.vibration.answers import values
 from geneva_cli.analysis.vibration.oscillator import required_oscillator
-from geneva_cli.analysis.vibration.vibration import vibrations_of_many
+from geneva_cli.analysis.vibration.vibration import design_vibrations
 from geneva_cli.machine import registry
 from geneva_cli.machine.many import many
 from geneva_cli.spec.tables import (
@@ -40,7 +40,7 @@ ULPS = 16 * 2.0**-52
 # Searches under a load: 32 units, as for the loads themselves. Sums: what quadrature leaves.
 SEARCHED, SUMMED = 2 * ULPS, 1e-12
 PLACE = 1e-4 / 360.0  # of a top, which is flat: to the root of a rounding
-# Of the standard laws, which all test_peaks_many and test_loads_many compare one by one, that with
+# Of the standard laws, which test_peak_search and test_load_summaries compare one by one, that with
 # most pieces: what is answered here asks any motion for its derivatives, and nothing more.
 KINDS = [n for n in MACHINES if n not in registry.STANDARD_LAWS or n == "modified-trapezoid"]
 CARRIED = [
@@ -176,7 +176,7 @@ def test_shafts(name):
     if machine.spec.wheel.FLAT:
         asked.append((shafts.crank_shaft, on))
     for ends, loaded in asked:
-        found = shafts.shaft_of_many(machine, ends(shaft), loaded)
+        found = shafts.shafts_under_load(machine, ends(shaft), loaded)
         for i, one in each:
             alone_ = shafts.shaft(one, ends(one.spec.shaft), loaded)
             records(found, i, alone_, close=SEARCHED, places=PLACE)
@@ -200,7 +200,7 @@ def test_horns(name):
     machine, each = designs(name)
     half_width, recess = horn_sizes(machine)
     recess[0] = 0.0
-    found = horn.horn_of_many(machine, half_width, recess, machine.spec.size.face_width_mm)
+    found = horn.horn_stresses(machine, half_width, recess, machine.spec.size.face_width_mm)
     assert np.isnan(found.stress_MPa[0])
     x = np.broadcast_to(machine.engagements[0].entry_deg * np.linspace(1.0, 0.1, 5), (4, 5))
     walls = [
@@ -238,7 +238,7 @@ def test_locks(name):
     half = np.array([2.0, 2.0, 1.8, 2.0, 2.5, 0.5])[:, None]
     edge = np.array([0.5, 0.5, 0.0, 1.0, 0.1, 0.2])[:, None]
     by = Lock(L, sign, disc, disc + clear, 86.0, half, edge)
-    told = lock.lock_of_many(found.machine, 5.0, by)
+    told = lock.loaded_locks(found.machine, 5.0, by)
     kinds = {"corner", "disc's end"} if sign > 0.0 else {"recess", "disc's end"}
     assert set(np.ravel(told.on)) == kinds
     assert np.isnan(told.force_N[0])
@@ -286,7 +286,7 @@ def test_a_roller_that_turns_back_thrice_in_its_slot():
 def test_sizing(name):
     """The work that swings is a difference of sums: 1e-12 of the torque's, as its mean is."""
     machine, each = designs(name)
-    found = sizings_of_many(machine)
+    found = sizings(machine)
     for i, one in each:
         told, _ = sizing(Cycle(one))
         for field in NAMES:
@@ -324,7 +324,7 @@ def test_tolerances(name):
 def test_vibration(name):
     """A share is what is left of a swing many times as large: within 1e-13 of the step."""
     machine, each = designs(name)
-    found = vibrations_of_many(machine)
+    found = design_vibrations(machine)
     for i, one in each:
         told = values(one, required_oscillator(one))
         for field, value in found._asdict().items():

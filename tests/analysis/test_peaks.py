@@ -11,8 +11,8 @@ import pytest
 from witness import QUANTITIES, Geneva, mp, near
 from words import Drive, Keys, Spec, Wheel
 
+from geneva_cli.analysis.peak_search import searched
 from geneva_cli.analysis.peaks import ends, peaks, peaks_of, worst, worst_of
-from geneva_cli.analysis.peaks_many import searched
 from geneva_cli.machine.mechanism import build
 
 OFFSETS = (-0.9, -0.5, 0.0, 0.3, 0.6, 0.9, 0.99)

@@ -9,7 +9,7 @@ from words import Drive, Motion, Spec, Wheel
 from geneva_cli.analysis.positive_drive import positive_drive
 from geneva_cli.machine.mechanism import build
 from geneva_cli.spec.tables import Load, Size
-from geneva_cli.verdict.cautions import cautions
+from geneva_cli.verdict.motion_warnings import motion_warnings
 
 PRESS = Spec(Wheel(6), Drive(n_rpm=60.0), size=Size(441.89, 20.0))
 MIXED = Load(256.0 / (2.0 * math.pi) ** 2, 497.0)  # Krasniqi's: I w² = 256 and 497 N m
@@ -47,14 +47,14 @@ def test_straight_slots_always_drive():
     assert positive_drive(build(PRESS.replace(load=MIXED))) is None
 
 
-def test_the_caution_names_the_cam():
-    said = cautions(build(PRESS.replace(motion=Motion("cycloidal", ratio=0.5), load=MIXED)))
+def test_the_warning_names_the_cam():
+    said = motion_warnings(build(PRESS.replace(motion=Motion("cycloidal", ratio=0.5), load=MIXED)))
     assert any("not positively driven" in text and '"cam"' in text for text in said)
     cam = PRESS.replace(drive=Drive("cam"), motion=Motion("cycloidal"), load=MIXED)
-    assert not cautions(build(cam))
+    assert not motion_warnings(build(cam))
 
 
-def test_the_caution_s_gap_lies_where_it_says():
+def test_the_warning_s_gap_lies_where_it_says():
     """Between the branches at the places that lack the wall, not the slot's greatest elsewhere."""
     load = Load(4.0, 40.0)  # the wall is missing near mid-motion and mouth, not where most is cut
     mechanism = build(PRESS.replace(motion=Motion("sine-group", ratio=0.5), load=load))
@@ -70,5 +70,5 @@ def test_the_caution_s_gap_lies_where_it_says():
     # The intervals end half a step, a sixth of a degree, beyond the places that were tried.
     assert found.loose_gap_mm == pytest.approx(max(map(apart, places)), rel=0.02)
     assert found.loose_gap_mm < 0.95 * found.gap_mm
-    (said,) = [text for text in cautions(mechanism) if "not positively" in text]
+    (said,) = [text for text in motion_warnings(mechanism) if "not positively" in text]
     assert f"up to {found.loose_gap_mm:.3g} mm off" in said

@@ -23,7 +23,7 @@ from geneva_cli.analysis.vibration.vibration import Avoid
 from geneva_cli.app import app
 from geneva_cli.commands.options import say
 from geneva_cli.design import load
-from geneva_cli.errors import Caution, GenevaError
+from geneva_cli.errors import GenevaError, Notice
 from geneva_cli.machine import registry
 from geneva_cli.manual import TOPICS
 from geneva_cli.manual.explained import GROUPS, Entry, entries
@@ -71,16 +71,16 @@ def test_every_check_has_an_entry_and_no_entry_names_none():
 
 
 def test_every_warning_has_an_entry_and_no_entry_names_none():
-    made = named_in_calls("Caution")
+    made = named_in_calls("Notice")
     assert explained("warning") == made
 
 
 def test_a_warning_is_told_with_its_name(capsys):
-    say("a.toml", [Caution("turns-back", "the wheel turns back"), "other"])
+    say("a.toml", [Notice("turns-back", "the wheel turns back"), "other"])
     told = capsys.readouterr().err.splitlines()
     assert told[0] == "a.toml: warning: the wheel turns back [turns-back]"
     assert told[1] == "a.toml: warning: other"
-    copied = pickle.loads(pickle.dumps(Caution("undercut", "text")))
+    copied = pickle.loads(pickle.dumps(Notice("undercut", "text")))
     assert (copied, copied.name) == ("text", "undercut")
 
 
@@ -97,9 +97,9 @@ def test_every_part_has_an_entry_and_no_entry_names_none():
 @pytest.fixture(scope="module")
 def quantities() -> set[str]:
     """The fields and columns of all commands, as whole as the program has them."""
-    proof = load(str(repo.DESIGNS / "turret.toml")).proof
+    model = load(str(repo.DESIGNS / "turret.toml")).proof
     quick = [group for group in groups.GROUPS if not group.makes_parts]
-    out = {*groups.values(quick, proof)}
+    out = {*groups.values(quick, model)}
     out |= {*groups.own_names("parts"), *groups.own_names("tolerance"), "tolerance.warnings"}
     out |= {f"parts_list.{kind}" for kind in parts_list.KINDS} | {"checks.passes", "checks.failed"}
     out |= {"passes", "checks_failed", "not_proved", "warnings", "spec", "title"}  # the report's

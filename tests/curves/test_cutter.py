@@ -136,14 +136,14 @@ def test_a_bone_that_has_no_room_is_refused():
 def two_pins():
     """A locking disc whose sector reliefs have corners, and its dog bones."""
     design = load(str(repo.DESIGNS / "two-pins-z4.toml"))
-    proof = design.drawn(0.001, "crank")
-    return design, proof, design.drawing("crank", of=proof, dog_bones_mm=6.0)
+    model = design.drawn(0.001, "crank")
+    return design, model, design.drawing("crank", of=model, dog_bones_mm=6.0)
 
 
 def test_the_disc_locks_where_it_did(two_pins):
     """The arcs of the locking circle are the very same, and the solid is what is drawn."""
-    design, proof, freed_drawing = two_pins
-    lock = proof.outlines.sizes.lock
+    design, model, freed_drawing = two_pins
+    lock = model.outlines.sizes.lock
 
     def locking(drawing):
         (disc,) = (s for s in drawing.shapes if s.layer == "CRANK")
@@ -153,7 +153,7 @@ def test_the_disc_locks_where_it_did(two_pins):
             if isinstance(s, Arc) and abs(s.radius - lock) < 1e-9 and math.hypot(*s.centre) < 1e-9
         ]
 
-    plain, arcs = locking(design.drawing("crank", of=proof))
+    plain, arcs = locking(design.drawing("crank", of=model))
     disc, same = locking(freed_drawing)
     assert same == arcs
     assert len(disc.segments) == len(plain.segments) + 2
@@ -164,17 +164,17 @@ def test_the_disc_locks_where_it_did(two_pins):
 
 
 def test_the_verdict_on_a_part(two_pins):
-    design, proof, _ = two_pins
-    refused, left = design.cutter("crank", 6.0, of=proof)
+    design, model, _ = two_pins
+    refused, left = design.cutter("crank", 6.0, of=model)
     assert not refused
     corners = [text for text in left if "leaves a radius of 3 mm" in text]
     assert len(corners) == 2
-    assert design.cutter("crank", 6.0, dog_bones=True, of=proof) == (
+    assert design.cutter("crank", 6.0, dog_bones=True, of=model) == (
         "",
         [text for text in left if text not in corners],
     )
-    refused, _ = design.cutter("wheel", 30.0, of=proof)
-    width = 2.0 * proof.outlines.sizes.half_width
+    refused, _ = design.cutter("wheel", 30.0, of=model)
+    width = 2.0 * model.outlines.sizes.half_width
     assert refused.endswith(f"is narrower; use a cutter up to {width:g} mm")
 
 
@@ -200,10 +200,10 @@ def test_the_command(tmp_path):
 
 
 def test_what_is_no_part_to_cut(two_pins):
-    design, proof, _ = two_pins
+    design, model, _ = two_pins
     with pytest.raises(
         GenevaError, match="--cutter applies only to parts that are cut out of a plate"
     ):
-        design.cutter("assembly", 3.0, of=proof)
+        design.cutter("assembly", 3.0, of=model)
     with pytest.raises(GenevaError, match="--cutter 0: must be above 0, at most 1000 mm"):
-        design.cutter("crank", 0.0, of=proof)
+        design.cutter("crank", 0.0, of=model)

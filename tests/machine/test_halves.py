@@ -8,8 +8,8 @@ import pytest
 from witness import mp
 
 from geneva_cli import Cam, Design, External, Motion, NoncircularGears, SineGroup, Tuned
+from geneva_cli.analysis.peak_search import worst_peaks
 from geneva_cli.analysis.peaks import worst
-from geneva_cli.analysis.peaks_many import worst_of_many
 from geneva_cli.design import Size
 from geneva_cli.errors import GenevaError
 from geneva_cli.machine import registry
@@ -100,7 +100,7 @@ def test_peaks_behind_a_ratio_that_is_not_even(quantity):
     assert found.max == pytest.approx(size, rel=1e-4)
     assert found.at_deg == pytest.approx(at_deg, abs=0.01)
     batch = many(design.mechanism.spec, {"drive.n_rpm": np.array([60.0, 90.0])}).machine
-    assert worst_of_many(batch, [quantity])[quantity].max == pytest.approx(found.max, rel=4e-15)
+    assert worst_peaks(batch, [quantity])[quantity].max == pytest.approx(found.max, rel=4e-15)
 
 
 def test_a_curved_slot_behind_such_a_ratio_has_two_branches_of_its_own():

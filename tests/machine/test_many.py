@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 from witness import Geneva
 
+from geneva_cli.analysis.peak_search import motion_peaks, searched
 from geneva_cli.analysis.peaks import peak
-from geneva_cli.analysis.peaks_many import peaks_of_many, searched
 from geneva_cli.machine.drives.side_crank import SideCrank
 from geneva_cli.machine.many import many
 from geneva_cli.machine.registry import gearing as wheel_of
@@ -64,7 +64,7 @@ def test_none_is_missed(gearing, quantity):
     np.testing.assert_allclose(size[known], found.max[known], rtol=2 * EXACT)
     np.testing.assert_allclose(at_deg[known], found.at_deg[known], rtol=0.0, atol=1e-4)
     # what it leaves out the general search finds
-    whole = peaks_of_many(motion, [quantity])[quantity]
+    whole = motion_peaks(motion, [quantity])[quantity]
     np.testing.assert_allclose(whole.max, found.max, rtol=2 * EXACT)
 
 
@@ -96,7 +96,7 @@ def test_beyond_what_the_quick_way_is_sure_of(engagement, z):
     assert found.max == pytest.approx(float(exact), rel=1e-12)  # A is so near to 1
     spec = Spec(wheel_of("external")(z), SideCrank(A=0.1))
     motion = many(spec, {"drive.A": np.array([A])}).machine.engagements[0].motion
-    assert peaks_of_many(motion, ["acceleration"])["acceleration"].max[0] == found.max
+    assert motion_peaks(motion, ["acceleration"])["acceleration"].max[0] == found.max
 
 
 @pytest.mark.parametrize("quantity", PEAKS)

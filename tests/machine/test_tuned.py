@@ -135,7 +135,7 @@ def test_what_is_refused(tmp_path, own, said):
 
 
 def test_a_low_ratio_turns_the_wheel_back():
-    """As its caution says: below 0.78, where s' = y' + y'''/Omega² falls below 0 in the middle."""
+    """As its warning says: below 0.78, where s' = y' + y'''/Omega² falls below 0 in the middle."""
     low = 0.5 * math.sqrt(52.5 / 2.1875) / math.pi
     assert low == pytest.approx(0.7797, abs=1e-4)
     for ratio, back in ((0.99 * low, True), (1.01 * low, False)):

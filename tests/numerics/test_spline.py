@@ -10,7 +10,7 @@ from witness import mp
 from words import load
 
 from geneva_cli.numerics.spline import at_rest, doubt, periodic
-from geneva_cli.verdict.cautions import cautions
+from geneva_cli.verdict.motion_warnings import motion_warnings
 
 WHEEL = "[wheel]\nz = 6\n[motion]\nlaw = 'table'\nfile = 'law.csv'\n"
 GEARS = "[wheel]\nz = 6\n[drive]\nkind = 'noncircular-gears'\nratio_file = 'ratio.csv'\n"
@@ -101,7 +101,7 @@ def test_the_user_is_told(tmp_path, digits, warned):
     (tmp_path / "ratio.csv").write_text("\n".join(rows))
     for text in (WHEEL, GEARS):
         (tmp_path / "spec.toml").write_text(text)
-        said = [c for c in cautions(load(str(tmp_path / "spec.toml"))) if "decimals" in c]
+        said = [c for c in motion_warnings(load(str(tmp_path / "spec.toml"))) if "decimals" in c]
         assert bool(said) == warned
         if warned:
             assert f"have {digits} decimals, so the jerk is known only to about" in said[0]

@@ -8,7 +8,7 @@ from geneva_cli.curves.mass import mass_properties
 from geneva_cli.curves.plates import plates
 from geneva_cli.curves.shapes import Circle
 from geneva_cli.errors import GenevaError
-from geneva_cli.parts.proof import Proof
+from geneva_cli.parts.model import PartsModel
 
 
 @pytest.fixture(scope="module")
@@ -24,32 +24,32 @@ def bore(drawing):
 
 def test_it_is_a_plain_wheel_and_turns(pair):
     """Its outline is that of a machine of one wheel, which a whole turn shows to be free."""
-    design, proof = pair
+    design, model = pair
     first = design.spec.drive
     L = first.first_distance_mm or design.mechanism.center_distance_mm
     plain = Design(
         External(first.first_z),
-        size=Size(L, design.mechanism.roller_radius_mm, lock_radius_mm=proof.outlines.sizes.lock),
+        size=Size(L, design.mechanism.roller_radius_mm, lock_radius_mm=model.outlines.sizes.lock),
     )
-    assert design.drawing("first-wheel", of=proof).shapes[0] == plain.drawing("wheel").shapes[0]
-    assert design.judge(proof) == ("", [])
+    assert design.drawing("first-wheel", of=model).shapes[0] == plain.drawing("wheel").shapes[0]
+    assert design.judge(model) == ("", [])
 
 
 def test_its_shafts_are_those_of_the_second_crank_and_of_the_first_link(pair):
-    design, proof = pair
-    second = Proof(design.mechanism)
-    assert bore(design.drawing("first-wheel", of=proof)) == bore(design.drawing("crank", of=second))
+    design, model = pair
+    second = PartsModel(design.mechanism)
+    assert bore(design.drawing("first-wheel", of=model)) == bore(design.drawing("crank", of=second))
     links = design.drawing("links", of=second)
     (link,) = (plate for plate in plates(links.solid) if plate.name == "first crank")
     shaft = next(hole for hole in link.holes if hole.centre[0] == 0.0)
-    assert bore(design.drawing("first-crank", of=proof)) == shaft.radius
+    assert bore(design.drawing("first-crank", of=model)) == shaft.radius
 
 
 def test_it_is_in_the_list_below_the_second_cranks_arm(pair):
-    design, proof = pair
+    design, model = pair
     rows = {row["name"]: row for row in design.part_table("parts").to_rows()}
     for name, part in (("first wheel", "first-wheel"), ("first locking disc", "first-crank")):
-        row, drawing = rows[name], design.drawing(part, of=proof)
+        row, drawing = rows[name], design.drawing(part, of=model)
         plate = next(p for p in plates(drawing.solid) if p.layer in ("WHEEL", "CRANK"))
         assert row["mass_kg"] == mass_properties(plate, 7850.0).mass_kg
         # in the plane of the first crank's roller, between the arm and that crank

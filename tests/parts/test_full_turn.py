@@ -23,11 +23,11 @@ from words import LAWS, Motion, load
 from geneva_cli.curves.measure import turned as turned_contour
 from geneva_cli.curves.shapes import Arc, Contour, Line, Segment, about, closed
 from geneva_cli.errors import GenevaError
-from geneva_cli.parts import proof
+from geneva_cli.parts import model
 from geneva_cli.parts.outlines import Outlines
 from geneva_cli.parts.reliefs import reliefs
 from geneva_cli.parts.turn.full_turn import FullTurn, full_turn, turning
-from geneva_cli.parts.turn.gaps import Gaps, NotProved
+from geneva_cli.parts.turn.gaps import Gaps, WorkLimit
 from geneva_cli.parts.walls.straight import straight_walls
 from geneva_cli.parts.wheel import wheel_contour
 
@@ -129,7 +129,7 @@ FLAT = [path for path in DESIGNS if load(str(path)).spec.is_flat]
 @pytest.mark.parametrize("path", FLAT, ids=lambda p: p.stem)
 def test_every_flat_design_turns(path: Path) -> None:
     """As all commands have its parts and their turn."""
-    parts = proof.Proof(load(str(path)))
+    parts = model.PartsModel(load(str(path)))
     found, turn = parts.outlines, parts.turn
     assert passes(found, turn)
     assert not list(overlaps(found, 20))
@@ -465,12 +465,12 @@ def test_a_turn_that_is_not_proved_is_not_tried_again(monkeypatch):
 
     def unproved(found):
         tries.append(found)
-        raise NotProved("not within the budget")
+        raise WorkLimit("not within the budget")
 
-    monkeypatch.setattr(proof, "full_turn", unproved)
-    one = proof.Proof(made(6).assembly.mechanism)
+    monkeypatch.setattr(model, "full_turn", unproved)
+    one = model.PartsModel(made(6).assembly.mechanism)
     for _ in range(2):
-        with pytest.raises(NotProved):
+        with pytest.raises(WorkLimit):
             _ = one.turn
     assert len(tries) == 1
 

@@ -27,7 +27,7 @@ from geneva_cli.study.animation.turn import MachineTurn
 from geneva_cli.verdict.advice import judged
 from geneva_cli.verdict.checks import single_check
 from geneva_cli.verdict.checks.arrival import stopping_torque
-from geneva_cli.verdict.cycle_cautions import cycle_cautions
+from geneva_cli.verdict.cycle_warnings import cycle_warnings
 
 MACHINES = {
     "the design": (3, 60.0, {"roller_radius_mm": 8.0}),
@@ -273,7 +273,7 @@ def test_the_lag_and_where_the_wheel_is_struck():
 def test_what_is_said_of_a_wheel_that_lags():
     def of(torque, inertia=0.01):
         design = loaded(torque, inertia)
-        said = cycle_cautions(design.cycle, design.loads)
+        said = cycle_warnings(design.cycle, design.loads)
         return stopping_torque("", design.mechanism), {c.name: str(c) for c in said}
 
     check, said = of(0.0)

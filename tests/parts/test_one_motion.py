@@ -16,7 +16,7 @@ from geneva_cli.machine.spec import Spec
 from geneva_cli.machine.wheels.external import External
 from geneva_cli.machine.wheels.internal import Internal
 from geneva_cli.machine.wheels.spherical import Spherical
-from geneva_cli.parts.proof import Proof
+from geneva_cli.parts.model import PartsModel
 from geneva_cli.parts.turn.full_turn import full_turn
 from geneva_cli.parts.turn.one_motion import one_motion
 from geneva_cli.spec.tables import Size
@@ -38,7 +38,7 @@ SPECS = {
 @pytest.mark.parametrize("name", SPECS)
 def test_one_motion_stands_for_all(name):
     """The same gaps and plays, of a part of the turn; gaps to what their search leaves."""
-    parts = Proof(build(SPECS[name]), advice=False).parts
+    parts = PartsModel(build(SPECS[name]), advice=False).parts
     once = one_motion(parts)
     rollers = SPECS[name].drive.rollers
     assert once.assembly.span_deg * rollers == pytest.approx(parts.assembly.turn_deg)
@@ -62,13 +62,13 @@ UNLIKE = {
 
 @pytest.mark.parametrize("name", UNLIKE)
 def test_rollers_that_do_not_move_alike_are_all_looked_at(name):
-    parts = Proof(build(UNLIKE[name]), advice=False).parts
+    parts = PartsModel(build(UNLIKE[name]), advice=False).parts
     assert one_motion(parts) is parts
 
 
 def test_a_crank_or_wheel_that_is_not_alike_all_round_is_looked_at_all_round():
     """A disc with its relief turned by a degree on one side, and a slot askew."""
-    parts = Proof(build(SPECS["external"])).outlines
+    parts = PartsModel(build(SPECS["external"])).outlines
     assert one_motion(parts) is not parts
     (disc,) = parts.crank
     half = len(disc.segments) // 2
@@ -84,9 +84,9 @@ def test_a_crank_or_wheel_that_is_not_alike_all_round_is_looked_at_all_round():
 
 def test_sectors_that_are_not_alike_are_all_looked_at():
     """On a sphere: one of two sectors narrower."""
-    parts = Proof(build(SPECS["spherical"])).shells
+    parts = PartsModel(build(SPECS["spherical"])).shells
     assert parts.gaps.repeats(2)
     assert not parts.gaps.repeats(3)
-    narrow = Proof(build(SPECS["spherical"].with_("size.lock_clearance_mm", 0.3))).shells
+    narrow = PartsModel(build(SPECS["spherical"].with_("size.lock_clearance_mm", 0.3))).shells
     parts.gaps.sectors[1] = narrow.gaps.sectors[1]
     assert one_motion(parts) is parts

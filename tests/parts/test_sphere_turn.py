@@ -8,7 +8,7 @@ from scipy.spatial import cKDTree
 
 from geneva_cli import Crank, Design, External, Size, Spherical
 from geneva_cli.errors import GenevaError
-from geneva_cli.parts.proof import Proof
+from geneva_cli.parts.model import PartsModel
 from geneva_cli.parts.sphere.built import built
 from geneva_cli.parts.sphere.crank import at_mid_motion, sectors
 from geneva_cli.parts.sphere.gaps import BallGaps
@@ -61,9 +61,9 @@ def test_nearly_parallel_shafts_are_a_flat_machine():
     for curvature, and of the first order where the deepest roller is 3e-3 L farther in."""
     size = {**CLEAR, "slot_bottom_clearance_mm": 0.3}
     far = 100.0 / math.radians(0.2)
-    flat = Proof(Design(External(6), size=Size(100.0, 5.0, **size)).mechanism).turn
+    flat = PartsModel(Design(External(6), size=Size(100.0, 5.0, **size)).mechanism).turn
     ball = Design(Spherical(6, axes_deg=0.2), size=Size(far, 5.0, wheel_bore_mm=10.0, **size))
-    found = Proof(ball.mechanism).turn
+    found = PartsModel(ball.mechanism).turn
     for name in ("dwell", "hand_over", "motion", "push"):
         assert getattr(found, name).deg == pytest.approx(getattr(flat, name).deg, rel=2e-3)
     for name in ("driving", "lock"):

@@ -16,7 +16,7 @@ from geneva_cli.curves.shapes import Contour
 from geneva_cli.curves.sphere_arcs import Arcs
 from geneva_cli.errors import GenevaError
 from geneva_cli.output.step import chunks
-from geneva_cli.parts.proof import Proof
+from geneva_cli.parts.model import PartsModel
 from geneva_cli.parts.sphere.arm import crank_arm
 from geneva_cli.parts.sphere.arm_drawing import arm_cone
 from geneva_cli.parts.sphere.built import built, wheel_shell
@@ -266,7 +266,7 @@ def test_the_arm_laid_flat(name):
     """Rolled up again its edge is the arm's, but for the cut and the hub; each pin's hole is a
     round about its place on the rollers' circle."""
     design = MACHINES[name].with_("size.press_fit_mm", 0.01)
-    drawn = Proof(design.mechanism)
+    drawn = PartsModel(design.mechanism)
     made, found = crank_arm(drawn.shells), drawn.shells.ball
     outline, *holes = design.drawing("arm", 0.005).shapes
     cone = arm_cone(found)
@@ -298,7 +298,7 @@ def test_an_arm_with_bolts_keyway_and_hub_inside():
         100.0, 2.0, crank_bore_mm=8.0, crank_hub_mm=12.0, crank_keyway="DIN 6885-1", lock_bolts=2
     )
     design = Design(Spherical(4, axes_deg=40), size=size)
-    found = Proof(design.mechanism).shells
+    found = PartsModel(design.mechanism).shells
     whole = built(found)
     assert [hole.radius for hole in whole.arm.bolts] == [1.25, 1.25]
     names = Counter(one.name for one in solids(whole.crank.part))
@@ -335,7 +335,7 @@ def test_an_arm_with_bolts_keyway_and_hub_inside():
     ],
 )
 def test_no_arm_or_hub(size, said):
-    found = Proof(Design(Spherical(6), size=Size(80.0, 5.0, **size)).mechanism).shells
+    found = PartsModel(Design(Spherical(6), size=Size(80.0, 5.0, **size)).mechanism).shells
     with pytest.raises(GenevaError, match=said):
         built(found)
 
@@ -343,7 +343,7 @@ def test_no_arm_or_hub(size, said):
 def test_bolts_for_a_dial():
     """Holes to the centre, half-way from the hub's hole to the cap's edge, evenly amid slots."""
     design = Design(Spherical(6), size=Size(80.0, 5.0, dial_bolts=3, dial_bolt_mm=4.0))
-    found = Proof(design.mechanism).shells
+    found = PartsModel(design.mechanism).shells
     _, *holes = wheel_shell(design.spec.size, found.ball).holes
     hub = math.asin(found.ball.hub_mm / 76.0)
     far = 0.5 * (hub + found.ball.inner)
@@ -360,7 +360,7 @@ def test_bolts_for_a_dial():
         ("dial_bolt_circle_mm", 20.0, "they must lie between circles of"),
         ("wheel_bore_mm", 0.0, "the wheel is open about its axis"),
     ):
-        rows = standing_checks(Proof(design.with_(f"size.{key}", value).mechanism).shells)
+        rows = standing_checks(PartsModel(design.with_(f"size.{key}", value).mechanism).shells)
         (failing,) = (c for c in rows if not c.passes)
         assert failing.name == "dial_wall_mm"
         assert said in failing.why

@@ -8,7 +8,7 @@ import repo
 from words import load
 
 from geneva_cli.machine.mechanism import build
-from geneva_cli.parts.proof import Proof
+from geneva_cli.parts.model import PartsModel
 from geneva_cli.parts.turn.free_angles import free_angles, search_deg
 from geneva_cli.parts.turn.play import windows
 
@@ -31,7 +31,7 @@ def parts_of(name):
     if name in LOOSE:
         spec = machine.spec.with_("size.slot_clearance_mm", 0.05)
         machine = build(spec.with_("size.lock_clearance_mm", 0.04))
-    return Proof(machine).parts
+    return PartsModel(machine).parts
 
 
 def places(parts):

@@ -31,11 +31,11 @@ from geneva_cli.parts.assembly import assembly
 from geneva_cli.parts.parts_list import parts_table
 from geneva_cli.parts.sizes import sizes
 from geneva_cli.parts.walls.rings import taken
-from geneva_cli.verdict.carried_cautions import carried_cautions
+from geneva_cli.verdict.carried_warnings import carried_warnings
 
 
 def told(spec, plate):
-    return carried_cautions(build(spec), plate)
+    return carried_warnings(build(spec), plate)
 
 
 def polygon(points):
@@ -194,4 +194,4 @@ def test_a_material_in_another_unit_is_said():
 
 def test_no_design_of_ours_is_out_of_all_measure():
     for file in repo.DESIGNS.glob("*.toml"):
-        assert not carried_cautions(load(str(file)).mechanism, None), file.stem
+        assert not carried_warnings(load(str(file)).mechanism, None), file.stem

@@ -19,7 +19,7 @@ from geneva_cli.curves.pieces import pieces_table
 from geneva_cli.design import Design
 from geneva_cli.errors import GenevaError
 from geneva_cli.parts.catalogue import DRAWINGS, PARTS, is_table, part_drawing, part_table
-from geneva_cli.parts.proof import Proof
+from geneva_cli.parts.model import PartsModel
 from geneva_cli.study.batch import Verdict, checks_table
 from geneva_cli.table import flat
 from geneva_cli.verdict.advice import judged
@@ -58,7 +58,7 @@ def one(text):
         for part in PARTS:
             for samples in (None, 33, 50) if is_table(found, part, False) else ():
                 tried(part_table, found, part, tolerance, samples)
-        drawn = Proof(found)
+        drawn = PartsModel(found)
         try:
             drawn.parts  # noqa: B018 - made here, once for all parts
         except GenevaError as error:

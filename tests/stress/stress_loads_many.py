@@ -18,8 +18,8 @@ import numpy as np
 from loaded_arrays import beyond, loaded
 from many_options import options
 
-from geneva_cli.analysis.loads.many import greatest_of_many, summaries_of_many
 from geneva_cli.analysis.loads.quantities import known_quantities
+from geneva_cli.analysis.loads.summaries import load_peaks, load_summaries
 
 CHUNK = 4_096  # designs built together
 PLACES = 200
@@ -41,7 +41,7 @@ def stressed(name, count, seed=12, places=PLACES, seconds=math.inf):
         names = known_quantities(found.machine)
         over = beyond(found, places, seed, names=names)
         for one in [name for name in ALONE if name in names]:
-            together = summaries_of_many(found.machine, (one,), told=())
+            together = load_summaries(found.machine, (one,), told=())
             over = np.hstack((over, beyond(found, places, seed, together, (one,))))
             over = np.hstack((over, off(found.machine, one, together[one])))
         done += len(over)
@@ -53,7 +53,7 @@ def stressed(name, count, seed=12, places=PLACES, seconds=math.inf):
 def off(machine, name, ends):
     """By what share a greatest size, looked for another way, is off the greater extreme."""
     size = np.maximum(np.abs(ends.max), np.abs(ends.min))
-    found = greatest_of_many(machine, [name])[name].max
+    found = load_peaks(machine, [name])[name].max
     with np.errstate(invalid="ignore", divide="ignore"):
         return np.where(found == size, 0.0, np.abs(found / size - 1.0))[:, None]
 

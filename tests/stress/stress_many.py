@@ -25,7 +25,7 @@ from machine_witness import motions
 from many_options import options
 from witness import QUANTITIES as EXACT
 
-from geneva_cli.analysis.peaks_many import peaks_of_many
+from geneva_cli.analysis.peak_search import motion_peaks
 from geneva_cli.machine.many import many, taken
 
 NAMES = ("velocity", "acceleration")
@@ -73,7 +73,7 @@ def stressed(name, count, seed=12, places=PLACES, witnessed=WITNESSED, seconds=m
         which = found.which[: count - done]
         some = taken(found.machine, np.arange(len(which))[: len(found.which)])
         for j, engagement in enumerate(some.engagements):
-            peaks = peaks_of_many(engagement.motion, NAMES)
+            peaks = motion_peaks(engagement.motion, NAMES)
             over = beyond(engagement.motion, peaks, len(which), places, random)
             bar = np.maximum(MORE, MORE_OF_V * np.broadcast_to(peaks["velocity"].max, over.shape))
             missed += int((over > bar).sum())

@@ -5,7 +5,7 @@ import pytest
 from design_arrays import MACHINES
 from stress_many import stressed
 
-from geneva_cli.numerics import extrema_many
+from geneva_cli.numerics import extrema
 
 
 @pytest.mark.sampled(4)
@@ -17,9 +17,9 @@ def test_none_is_missed(name):
 
 def test_it_can_tell(monkeypatch):
     """A scan of two intervals that never looks again steps over peaks, and is found out."""
-    monkeypatch.setattr(extrema_many, "SCAN", 2)
-    monkeypatch.setattr(extrema_many, "_UNIT", np.arange(3) / 2.0)
-    monkeypatch.setattr(extrema_many, "unpredicted", lambda left, *_: np.zeros(left[0].shape, bool))
+    monkeypatch.setattr(extrema, "SCAN", 2)
+    monkeypatch.setattr(extrema, "_UNIT", np.arange(3) / 2.0)
+    monkeypatch.setattr(extrema, "unpredicted", lambda left, *_: np.zeros(left[0].shape, bool))
     row = stressed("spherical, slowed", 200, witnessed=0)
     assert row.missed > 0
     assert row.short > 1e-3

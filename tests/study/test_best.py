@@ -10,7 +10,7 @@ import tomli
 from scipy.optimize import brentq
 
 from geneva_cli import GenevaError, load
-from geneva_cli.parts.proof import Proof
+from geneva_cli.parts.model import PartsModel
 from geneva_cli.study.sweep.best_search import SweepSearch
 from geneva_cli.study.sweep.places import closer
 from geneva_cli.study.sweep.request import request
@@ -59,8 +59,10 @@ def test_a_bound_that_rounding_breaks_is_said_to_be_met_to_rounding(tmp_path):
 def test_of_the_best_alone_is_told_what_is_asked_for_beside(tmp_path, monkeypatch):
     """Its gaps take a full turn of the parts, which need not be made of a thousand designs."""
     turned = []
-    plain = Proof.turn.fget
-    monkeypatch.setattr(Proof, "turn", property(lambda proof: turned.append(proof) or plain(proof)))
+    plain = PartsModel.turn.fget
+    monkeypatch.setattr(
+        PartsModel, "turn", property(lambda model: turned.append(model) or plain(model))
+    )
     asked = {"pick": "smallest_gap_mm,drive.kind", "check": True, "best": "max:dwell_s"}
     lines, design = best(tmp_path, "drive.A=-0.2..0.5", **asked)
     assert len({*map(id, turned)}) == 1

@@ -123,7 +123,7 @@ LOADS = [
     ],
 )
 def test_loads_together_as_alone(spec, vary, some):
-    """Sizes within 1e-12 of themselves: the sums' tolerance (``summaries_of_many``)."""
+    """Sizes within 1e-12 of themselves: the sums' tolerance (``load_summaries``)."""
     given = vary if "inertia" in vary[-1] else [*vary, "load.inertia_kgm2=1"]
     together, alone, found = rows(spec, [*given, "size.face_width_mm=10,20"], LOADS)
     keys = [a.key for a in found.plan.axes]
@@ -152,7 +152,7 @@ OTHERS = [name for group in GROUPS if group.batch not in ABOVE for name in group
 
 @pytest.mark.parametrize("spec", ["side-crank-z6.toml", "modified-sine-matched.toml"])
 def test_parts_together_as_alone(spec):
-    """Every quantity of ``GROUPS``, within the tolerance of sums (``summaries_of_many``).
+    """Every quantity of ``GROUPS``, within the tolerance of sums (``load_summaries``).
 
     A design without a load is asked by itself, and what has no bound has no value.
     """

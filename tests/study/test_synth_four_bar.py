@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 from typer.testing import CliRunner
 
+from geneva_cli.analysis.peak_search import worst_peaks
 from geneva_cli.analysis.peaks import peak as peak_of
-from geneva_cli.analysis.peaks_many import worst_of_many
 from geneva_cli.app import app
 from geneva_cli.design import load
 from geneva_cli.machine.drives.crank import Crank
@@ -175,7 +175,7 @@ def brute(z, n=400):
         FourBar(**{k.removeprefix("drive."): float(v[i]) for k, v in varied.items()})
         for i in found.which
     ]
-    peak = worst_of_many(machine, ["acceleration"])["acceleration"].max
+    peak = worst_peaks(machine, ["acceleration"])["acceleration"].max
     motion = np.broadcast_to(machine.engagements[0].motion_deg, (len(peak), 1))[:, 0]
     return drives, motion, peak, machine.center_distance_mm[:, 0]
 

@@ -15,7 +15,7 @@ from geneva_cli.machine.spec import Spec
 from geneva_cli.machine.wheels.external import External
 from geneva_cli.machine.wheels.internal import Internal
 from geneva_cli.machine.wheels.spherical import Spherical
-from geneva_cli.parts.proof import Proof
+from geneva_cli.parts.model import PartsModel
 from geneva_cli.parts.turn.glance import gap_about, play_about
 from geneva_cli.study.synthesis import turns
 from geneva_cli.study.synthesis.built import built, built_together
@@ -70,7 +70,7 @@ def test_a_gap_that_fails_is_found_where_it_failed_before(four_bar):
     seen = known.failing(build(large))
     assert [one.name for one in seen] == ["gap_mm"]
     assert [one.name for one in Turns().first_failing(build(large))] == ["gap_mm"]
-    parts = Proof(build(same_turn(next_))).parts
+    parts = PartsModel(build(same_turn(next_))).parts
     assert gap_about(parts, seen[0].at_deg) < -parts.contact
     assert known.some_failing(build(next_), seen) == seen
     assert [c.name for c in checks(build(next_)) if c.passes is False] == ["gap_mm"]
@@ -84,7 +84,7 @@ def test_a_play_that_fails_is_found_where_it_failed_before():
     """
     rows = search(read_wish(motion_deg="180", z="6", external=True, rollers=1)).rows
     (spec,) = [row.spec for row in rows if row.candidate.drive == "cam"]
-    whole = Proof(build(same_turn(spec)))
+    whole = PartsModel(build(same_turn(spec)))
     largest = whole.turn.hand_over
     assert largest.deg > finds_slot(whole.parts)
     assert 0.9 < play_about(whole.parts, largest.at_deg) / largest.deg <= 1.0 + 1e-6
@@ -128,7 +128,7 @@ def test_a_lock_of_which_nothing_is_left_is_told_before_parts_are_drawn(monkeypa
 def test_the_gap_of_a_wheel_at_rest(four_bar, share):
     """Against the drawn wheel, at the same places of the roller."""
     L = build(four_bar).center_distance_mm
-    parts = Proof(build(with_roller(four_bar, share * L))).parts
+    parts = PartsModel(build(with_roller(four_bar, share * L))).parts
     (engagement,) = parts.assembly.kinds
     rest = engagement.exit_deg + (360.0 - engagement.motion_deg) * np.arange(720) / 720
     at = parts.assembly.start_deg + (rest - parts.assembly.start_deg) % 360.0

@@ -1,4 +1,4 @@
-"""Checks and cautions: each must be able to fail. Their advice is in test_advice."""
+"""Checks and motion_warnings: each must be able to fail. Their advice is in test_advice."""
 
 import math
 import re
@@ -15,14 +15,14 @@ from geneva_cli.errors import GenevaError
 from geneva_cli.machine import spec as machine_spec
 from geneva_cli.machine.mechanism import build
 from geneva_cli.numerics.keeps import keeps
+from geneva_cli.parts.model import PartsModel
 from geneva_cli.parts.outlines import outlines
-from geneva_cli.parts.proof import Proof
 from geneva_cli.parts.turn.full_turn import Most
 from geneva_cli.spec.tables import Limits, Load, Size
-from geneva_cli.verdict.cautions import cautions
 from geneva_cli.verdict.checks import Check, checks
 from geneva_cli.verdict.checks.registry import standing_checks
-from geneva_cli.verdict.turn_cautions import turn_cautions
+from geneva_cli.verdict.motion_warnings import motion_warnings
+from geneva_cli.verdict.turn_warnings import turn_warnings
 
 DESIGNS = repo.DESIGNS
 
@@ -38,8 +38,8 @@ def failing(spec: Spec) -> list[str]:
 def test_a_sound_design_passes() -> None:
     assert not failing(LOADED.replace(limits=Limits(acceleration_max=1.4, pin_force_max_N=1e4)))
     assert not failing(CURVED)
-    assert not cautions(build(LOADED))
-    assert not cautions(build(CURVED))
+    assert not motion_warnings(build(LOADED))
+    assert not motion_warnings(build(CURVED))
 
 
 @pytest.mark.parametrize(
@@ -53,12 +53,14 @@ def test_a_sound_design_passes() -> None:
         (CURVED.replace(size=Size(100.0, 20.0)), "undercut"),
     ],
 )
-def test_cautions(spec: Spec, said: str) -> None:
-    assert any(said in text for text in cautions(build(spec)))
+def test_warnings(spec: Spec, said: str) -> None:
+    assert any(said in text for text in motion_warnings(build(spec)))
 
 
 def test_constant_acceleration_shocks_at_mid_motion_too() -> None:
-    said = cautions(build(CURVED.replace(motion=machine_spec.Motion(law("scca", 0.0, 1.0, 0.0)))))
+    said = motion_warnings(
+        build(CURVED.replace(motion=machine_spec.Motion(law("scca", 0.0, 1.0, 0.0))))
+    )
     assert [c.name for c in said if "soft shock" in c] == [
         "soft-shock-at-ends",
         "soft-shock-at-mid",
@@ -68,7 +70,7 @@ def test_constant_acceleration_shocks_at_mid_motion_too() -> None:
 @pytest.mark.parametrize("shape", [-0.125, 0.0, 0.125])
 def test_the_sine_group_does_not_turn_back_up_to_an_eighth(shape: float) -> None:
     spec = CURVED.replace(motion=Motion("sine-group", shape, ratio="matched"))
-    assert not any("turns back" in text for text in cautions(build(spec)))
+    assert not any("turns back" in text for text in motion_warnings(build(spec)))
 
 
 def test_the_side_crank_moves_the_mid_condition() -> None:
@@ -77,7 +79,7 @@ def test_the_side_crank_moves_the_mid_condition() -> None:
     mechanism = build(spec)
     v = 2.0 * 60.0 / mechanism.engagements[0].motion_deg * 1.5
     assert mechanism.ratio == pytest.approx(v / (1.0 + v), rel=4e-16 * 4)
-    assert not cautions(mechanism)
+    assert not motion_warnings(mechanism)
 
 
 def rows(spec: Spec) -> dict[str, Check]:
@@ -89,8 +91,8 @@ def test_something_must_hold_the_wheel_in_the_dwell() -> None:
     assert rows(Spec(Wheel(6)))["dwell_hold"].passes
     assert rows(without)["dwell_hold"].passes is False
     assert rows(without.replace(wheel=Wheel(6, held_by="brake")))["dwell_hold"].passes
-    assert any("nothing holds the wheel" in said for said in cautions(build(without)))
-    assert not cautions(build(without.replace(wheel=Wheel(6, held_by="brake"))))
+    assert any("nothing holds the wheel" in said for said in motion_warnings(build(without)))
+    assert not motion_warnings(build(without.replace(wheel=Wheel(6, held_by="brake"))))
 
 
 def test_what_is_not_proved_is_said() -> None:
@@ -170,7 +172,7 @@ def test_a_fit_looser_than_any_is_said(radius: float, most: float) -> None:
     (text,) = said(slot_clearance_mm=1e-3 * most + 0.002)
     assert f"H11/c11, leaves at most {1e-3 * most:.4g} mm a side" in text
     assert said(slot_clearance_mm=5.0)
-    # the process's own clearance is no caution; more than that is one
+    # the process's own clearance is no warning; more than that is one
     assert said(process="print") == said(process="print", slot_clearance_mm=0.25) == []
     assert said(process="print", slot_clearance_mm=0.26)
     # a disc of Ø 120: (2 * 220 + 180) / 2
@@ -210,14 +212,14 @@ def test_a_roller_that_meets_the_rim_is_not_written(tmp_path: Path) -> None:
 
 def test_a_lock_that_lets_the_wheel_turn_holds_nothing() -> None:
     """What counts is what the turn shows, not that a lock is drawn: see test_full_turn."""
-    proof = Proof(build(Spec(Wheel(6))))
-    proof.__dict__["_turn"] = proof.turn._replace(dwell=Most(30.0, 180.0))
-    found = {c.name: c.passes for c in checks(proof.mechanism, proof)}
+    model = PartsModel(build(Spec(Wheel(6))))
+    model.__dict__["_turn"] = model.turn._replace(dwell=Most(30.0, 180.0))
+    found = {c.name: c.passes for c in checks(model.mechanism, model)}
     assert found["dwell_hold"] is False
 
 
 def test_a_slot_that_drives_from_one_wall_leaves_the_wheel_free() -> None:
     """Just inside an offset slot's mouth there is no wall yet on the roller's other side."""
-    (said,) = turn_cautions(Proof(load(str(DESIGNS / "offset-slots.toml"))))
+    (said,) = turn_warnings(PartsModel(load(str(DESIGNS / "offset-slots.toml"))))
     assert re.match(r"in its slot the wheel is free ahead by 6\.49\d* deg at -61\.\d+ deg", said)
-    assert not turn_cautions(Proof(load(str(DESIGNS / "limits.toml"))))
+    assert not turn_warnings(PartsModel(load(str(DESIGNS / "limits.toml"))))

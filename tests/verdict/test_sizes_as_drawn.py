@@ -9,7 +9,7 @@ from words import load
 
 from geneva_cli.curves.shapes import Circle
 from geneva_cli.parts.drawings import crank_shapes
-from geneva_cli.parts.proof import Proof
+from geneva_cli.parts.model import PartsModel
 from geneva_cli.parts.wheel import wheel_circles
 from geneva_cli.verdict.report.parts import cut_sizes
 from geneva_cli.verdict.report.sizes import sizes
@@ -39,19 +39,19 @@ def about_axis(shapes, layer):
 
 
 @pytest.fixture
-def proof(name, tmp_path):
+def model(name, tmp_path):
     """The parts of a design, or of one of those above."""
     file = repo.DESIGNS / f"{name}.toml"
     if name in GIVEN:
         file = tmp_path / "spec.toml"
         file.write_text(GIVEN[name])
-    return Proof(load(str(file)))
+    return PartsModel(load(str(file)))
 
 
 @pytest.mark.sampled(4)
 @pytest.mark.parametrize("name", [*FLAT, *GIVEN])
-def test_printed_sizes_are_those_of_the_outlines(proof):
-    found, size, part = proof.outlines, sizes(proof), cut_sizes(proof)
+def test_printed_sizes_are_those_of_the_outlines(model):
+    found, size, part = model.outlines, sizes(model), cut_sizes(model)
     low, high = min(far(found.wheel)), max(far(found.wheel))
     inside = found.assembly.sign < 0.0
     rim, end = (low, high) if inside else (high, low)
@@ -67,8 +67,8 @@ def test_printed_sizes_are_those_of_the_outlines(proof):
 
 
 @pytest.mark.parametrize("name", [*FLAT, *GIVEN])
-def test_printed_bores_and_rollers_are_those_drawn(proof):
-    found, size, part = proof.outlines, sizes(proof), cut_sizes(proof)
+def test_printed_bores_and_rollers_are_those_drawn(model):
+    found, size, part = model.outlines, sizes(model), cut_sizes(model)
     circles, shapes = wheel_circles(found.assembly, found.sizes), crank_shapes(found)
     assert part["parts.wheel_bore_mm"] == about_axis(circles, "BORE")
     assert part["parts.crank_bore_mm"] == about_axis(shapes, "BORE")

@@ -293,7 +293,7 @@ def test_different_materials(tmp_path: Path):
 def test_horns_that_are_no_slender_beams_are_said():
     """A locking disc of 40 mm leaves horns of 1.09 times that at the mouth; of 60 mm, less."""
     turret = str(DESIGNS / "turret.toml")
-    (said,) = design.load(turret, ["size.lock_radius_mm=40"]).strength.cautions()
+    (said,) = design.load(turret, ["size.lock_radius_mm=40"]).strength.warnings()
     assert said.name == "stout-horns"
     assert "1.09 times their recess's radius" in said
-    assert design.load(turret, ["size.lock_radius_mm=60"]).strength.cautions() == []
+    assert design.load(turret, ["size.lock_radius_mm=60"]).strength.warnings() == []

@@ -28,7 +28,7 @@ from geneva_cli.design import load
 from geneva_cli.errors import GenevaError
 from geneva_cli.machine.laws.standard import Cycloidal
 from geneva_cli.machine.motion import Motion
-from geneva_cli.parts.proof import Proof
+from geneva_cli.parts.model import PartsModel
 from geneva_cli.verdict.tolerance.recesses import locks, sphere_locks
 from tests.repo import ROOT
 
@@ -436,12 +436,12 @@ def test_the_parts_of_the_tightest_and_the_loosest_are_turned(monkeypatch):
 
     turned = []
 
-    class Seen(Proof):
+    class Seen(PartsModel):
         def __init__(self, mechanism):
             turned.append(mechanism.spec.size)
             super().__init__(mechanism)
 
-    monkeypatch.setattr(needed, "Proof", Seen)
+    monkeypatch.setattr(needed, "PartsModel", Seen)
     design = MACHINES[0].with_("size.slot_clearance_mm", 0.1)
     assert told(design)["clearances.turns"] is True
     tight, loose = turned

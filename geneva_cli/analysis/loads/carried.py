@@ -1,4 +1,4 @@
-"""What the wheel turns, at its own shaft: inertia, and the torque of what resists it."""
+"""Inertia and resisting torque of everything that the wheel turns, at the wheel's shaft."""
 
 from __future__ import annotations
 
@@ -15,22 +15,22 @@ MM = 1e-3  # metres
 
 
 def weight_kg(mass: Mass) -> float:
-    """The mass of one body of a ``[[mass]]``."""
+    """The mass of one body of a ``[[mass]]``, kg."""
     if mass.mass_kg is not None:
         return mass.mass_kg
-    assert mass.density_kgm3 is not None and mass.thickness_mm is not None  # held by Mass
+    assert mass.density_kgm3 is not None and mass.thickness_mm is not None  # Mass has checked this
     return mass.density_kgm3 * _face_m2(mass) * mass.thickness_mm * MM
 
 
 def _face_m2(mass: Mass) -> float:
-    """Area of its face, square to the wheel's axis."""
+    """Area of a body's face, perpendicular to the wheel's axis, m²."""
     D, d = (mass.diameter_mm or 0.0) * MM, (mass.bore_mm or 0.0) * MM
     a, c = (mass.length_mm or 0.0) * MM, (mass.width_mm or 0.0) * MM
     return a * c if a else 0.25 * math.pi * (D - d) * (D + d)
 
 
 def body_inertia_kgm2(mass: Mass) -> float:
-    """Inertia of one body about its own axis: m (D² + d²)/8, a block's m (a² + c²)/12."""
+    """Inertia of one body about its own axis: m (D² + d²)/8; of a block m (a² + c²)/12."""
     D, d = (mass.diameter_mm or 0.0) * MM, (mass.bore_mm or 0.0) * MM
     a, c = (mass.length_mm or 0.0) * MM, (mass.width_mm or 0.0) * MM
     return weight_kg(mass) * ((D * D + d * d) / 8.0 + (a * a + c * c) / 12.0)
@@ -45,14 +45,14 @@ def mass_inertia_kgm2(mass: Mass) -> float:
 def inertia_kgm2(spec: Spec) -> float:
     """Inertia of everything the wheel turns, at the wheel's shaft.
 
-    ``inertia_kgm2`` of [load], which is there already, and the masses behind the support's gears.
+    It is ``inertia_kgm2`` of [load], plus the masses behind the support's gears.
     """
     ratio = spec.support.gear_ratio
     return spec.load.inertia_kgm2 + ratio * ratio * sum(map(mass_inertia_kgm2, spec.mass))
 
 
 def carried_kg(spec: Spec) -> float:
-    """The mass of all bodies on the table."""
+    """The mass of all bodies on the table, kg."""
     return sum(mass.count * weight_kg(mass) for mass in spec.mass)
 
 
@@ -64,5 +64,5 @@ def support_torque_Nm(spec: Spec) -> float:
 
 
 def resisting_torque_Nm(spec: Spec) -> float:
-    """Torque that resists while the wheel turns: the load's, and the support's friction."""
+    """Torque that resists while the wheel turns: the load's plus the support's friction, N m."""
     return spec.load.torque_Nm + support_torque_Nm(spec)

@@ -19,14 +19,14 @@ if TYPE_CHECKING:
     from geneva_cli.numerics.arrays import Whole
     from geneva_cli.numerics.jet import Array
 
-NEAR = 1e-4  # share of a half motion: nearer to a cusp, what is left of its slopes is rounding
-# what a mirror at mid-motion turns round
+NEAR = 1e-4  # fraction of a half motion: nearer to a cusp, slopes are lost to rounding
+# quantities that change sign when mirrored at mid-motion
 ODD = ("acceleration", "aside", "along", "curvature")
-BENT = 1e-9  # rate of turning below which a slot at its cusp is as good as straight
+BENT = 1e-9  # rate of turning below which a slot at its cusp counts as straight
 
 
 class Contact(NamedTuple, Generic[V]):
-    """What the loads need of motion and slot, each a jet of one order, or its values."""
+    """The state of roller and slot that the loads depend on: jets of one order, or values."""
 
     velocity: V
     acceleration: V
@@ -34,7 +34,7 @@ class Contact(NamedTuple, Generic[V]):
     aside: V  # M x t: of the slot's tangent
     along: V  # the roller centre's speed along t
     curvature: V  # of the pitch curve, positive to the left of t: 0 in a straight slot
-    spin: V  # rate at which the body that carries the roller turns against the wheel
+    spin: V  # rate of the roller's body relative to the wheel
     arm: V  # of friction at the wall about the wheel's axis, beyond M's: over the radius
     touches: V  # 0 while gears drive and no roller does, else 1
     held: tuple[tuple[tuple[V, V], tuple[V, V]], ...] | None = None
@@ -43,8 +43,9 @@ class Contact(NamedTuple, Generic[V]):
 
 
 def contacts(engagement: Engagement, input_deg: Array) -> Contact[Array]:
-    """The contact at many ascending input angles, values alone: what is mirrored, or known in
-    closed form, is not worked out again.
+    """The contact at many ascending input angles, values only.
+
+    Mirrored values and those with a closed form are not computed again.
     """
     if is_straight(engagement):
         rates = Jet(engagement.motion.derivatives(input_deg, (1, 2)))
@@ -62,9 +63,9 @@ def valued(at: Contact[Jet]) -> Contact[Array]:
 
 
 def mirrored(at: Contact[Jet]) -> Contact[Jet]:
-    """The contact at the mirror images of places (n, k), in their order, without joints.
+    """The contact at the mirror images of places (n, k), in ascending order, without joints.
 
-    Of motion and slot that are symmetric.
+    Motion and slot must be symmetric.
     """
     jets = []
     for name, jet in zip(at._fields[:-1], at[:-1], strict=True):
@@ -83,12 +84,12 @@ def column(at: Contact[Jet], number: int) -> Contact[Jet]:
 
 
 def rows(at: Contact[Jet], which: Whole) -> Contact[Jet]:
-    """The contact of some of the designs, at all its places."""
+    """The contact of some designs, at all its places."""
     return _changed(at, lambda c: c[which] if len(c) > 1 else c)
 
 
 def _changed(at: Contact[Jet], change: Callable[[Array], Array]) -> Contact[Jet]:
-    """The contact with every array changed."""
+    """The contact with a change applied to every array."""
 
     def of(jet: Jet) -> Jet:
         return Jet([c if isinstance(c, float) else change(c) for c in jet.c])
@@ -113,10 +114,9 @@ def contact(
 ) -> Contact[Jet]:
     """The contact at input angles (degrees, one or an array) from an engagement's mid-motion.
 
-    Without ``reactions`` nothing is asked of what holds the roller's body, and without ``spins``
-    nothing of how that turns: ``spin`` is then 0, as suits whoever asks for no sliding. At
-    mid-motion of a curved slot only the values have a limit, that of the way in: there ``order``
-    must be 0.
+    Without ``reactions`` the joints are not computed, and without ``spins`` the roller body's
+    rotation is not: ``spin`` is then 0, which is enough if sliding is not needed. At mid-motion of
+    a curved slot only the values have a limit, that of entry: there ``order`` must be 0.
     """
     if is_straight(engagement) or all_true(input_deg != 0.0):
         return _beside(engagement, input_deg, order, reactions=reactions, spins=spins)
@@ -129,7 +129,7 @@ def contact(
         assert order == 0
         return Jet([x * 0.0 + c for c in _middle(engagement)])
 
-    # one piece each side of mid-motion, and mid-motion itself
+    # one piece on each side of mid-motion, and mid-motion itself
     every = piecewise(input_deg, (-5e-324, 0.0), (beside, middle, beside)).c
     jets = [Jet(every[i : i + order + 1]) for i in range(0, len(every), order + 1)]
     held = _held(engagement, input_deg, jets[2], jets[3]) if reactions else None
@@ -137,7 +137,7 @@ def contact(
 
 
 def is_straight(engagement: Engagement) -> bool:
-    """Whether the engagement's slot is a straight one."""
+    """Return True if the engagement's slot is straight."""
     return not engagement.slot.curved
 
 
@@ -149,9 +149,9 @@ def _beside(
     reactions: bool = True,
     spins: bool = True,
 ) -> Contact[Jet]:
-    """Wherever the pin moves in its slot, or the slot is straight.
+    """The contact where the pin moves in its slot, or where the slot is straight.
 
-    ``rates`` are the jet of the wheel's velocity, one order higher, where it is known.
+    ``rates`` is the jet of the wheel's velocity, one order higher, if known.
     """
     if rates is None:
         rates = engagement.motion.rate(x, order + 1)
@@ -174,11 +174,10 @@ def _beside(
 
 
 def _curved(engagement: Engagement, x: Number, order: int, rates: Jet) -> tuple[Jet, Jet, Jet, Jet]:
-    """Lever, aside, along and curvature of a curved slot: the path p as the wheel sees it.
+    """Lever, aside, along and curvature of a curved slot, from the path p relative to the wheel.
 
-    In axes that lie as the fixed ones do at the instant, where each vector's rate is its own less
-    the wheel's turning of it: products of two vectors are the same in all axes, and so the wheel's
-    angle does not matter.
+    The axes are the fixed ones at the instant. Each vector's rate is its own less the wheel's
+    rotation. Products of two vectors are equal in all axes, so the wheel's angle is not needed.
     """
     path = engagement.path(x, order + 2)
     dx, dy = (jet.derivative() for jet in path)
@@ -197,13 +196,13 @@ def _curved(engagement: Engagement, x: Number, order: int, rates: Jet) -> tuple[
 def _held(
     engagement: Engagement, x: Number, lever: Jet, aside: Jet
 ) -> tuple[tuple[Vector, Vector], ...] | None:
-    """The joints' reactions to three unit loads at the pin."""
+    """The reactions of joints to three unit loads at the pin."""
     if engagement.reactions is None:
         return None
     path = engagement.path(x, lever.order + 1)
     px, py = (_cut(jet, lever.order) for jet in path)
     square = px * px + py * py
-    # the tangent of which M . t and M x t are known
+    # the tangent, whose M . t and M x t are known
     tx, ty = (px * lever - py * aside) / square, (py * lever + px * aside) / square
     none = px * 0.0
     normal, tangent = (ty * -1.0, tx), (tx, ty)
@@ -216,19 +215,22 @@ def _held(
 
 
 def _middle(engagement: Engagement) -> list[Number]:
-    """Mid-motion of a curved slot: the pin crosses the radius, or stops and goes back in a cusp."""
+    """The contact at mid-motion of a curved slot, where the pin crosses the radius or reverses."""
     back = retraces(engagement)
     if isinstance(back, bool):
         return _cusp(engagement) if back else _crossing(engagement)
     import numpy as np
 
-    with np.errstate(all="ignore"):  # each holds for its own designs
+    with np.errstate(all="ignore"):  # each formula holds for its own designs
         both = zip(_cusp(engagement), _crossing(engagement), strict=True)
         return [choose(back, cusp, crossing) for cusp, crossing in both]
 
 
 def _crossing(engagement: Engagement) -> list[Number]:
-    """The lever is 0, and so it is rounding which way the tangent points; beside it, it is not."""
+    """The contact where the pin crosses the radius.
+
+    The lever is 0 there, so the sign of the tangent is rounding; next to it, the sign is known.
+    """
     values, before = (
         [jet.c[0] for jet in _beside(engagement, x, 0, reactions=False)[:-1]]
         for x in (0.0, NEAR * engagement.entry_deg)
@@ -250,7 +252,8 @@ def _cusp(engagement: Engagement) -> list[Number]:
     aside = way * (at.x * at.tangent_y - at.y * at.tangent_x)
     _, v, a = engagement.motion(0.0, 2).derivatives()
     spin = engagement.carrier(0.0).c[0] - v
-    # Where it hardly turns the way in and the way out are one: its curvature is that beside it.
+    # A slot that hardly turns has equal entry and exit paths: its curvature is that next to the
+    # cusp.
     curvature = choose(
         at.turning * at.turning > BENT * BENT,
         m.copysign(math.inf, way * at.turning),

@@ -1,8 +1,8 @@
-"""The whole cycle under load: its states at any input angle, its extremes, and its integrals.
+"""The whole cycle under load: states at any input angle, extremes and integrals.
 
-It is a period of the machine, from the first entry: every engagement, and the dwells between. In a
-dwell all loads are 0: nothing moves, the lock holds the wheel, and resistance to motion does not
-act at rest.
+The cycle is a period of the machine from the first entry: every engagement, and the dwells between.
+All loads are 0 in a dwell: nothing moves, the lock holds the wheel, and resistance to motion does
+not act at rest.
 """
 
 from __future__ import annotations
@@ -16,23 +16,23 @@ import numpy as np
 from geneva_cli.analysis.loads.contact import contact, contacts
 from geneva_cli.analysis.loads.forces import Setting, gain, setting, sliding
 from geneva_cli.analysis.loads.instant import NAMES, Instant, bounded, values
-from geneva_cli.analysis.loads.loaded_many import NONE, Loaded, machine
-from geneva_cli.analysis.loads.many import (
+from geneva_cli.analysis.loads.loaded import NONE, Loaded, machine
+from geneva_cli.analysis.loads.mid_motion import at_crossing
+from geneva_cli.analysis.loads.quantities import KINETIC, known_quantities, shares
+from geneva_cli.analysis.loads.stretches import Stretch, refuse_rounding, to_mid_motion, whole
+from geneva_cli.analysis.loads.summaries import (
+    LoadSummary,
     Searched,
-    SummaryOfMany,
     searched,
     shown,
     summed_up,
     sums_of,
 )
-from geneva_cli.analysis.loads.mid_motion import at_crossing
-from geneva_cli.analysis.loads.quantities import KINETIC, known_quantities, shares
-from geneva_cli.analysis.loads.stretches import Stretch, refuse_rounding, to_mid_motion, whole
 from geneva_cli.analysis.motion import local_deg, spans
 from geneva_cli.machine.engagement import Engagement
 from geneva_cli.machine.mechanism import Mechanism
+from geneva_cli.numerics.adaptive_quadrature import span_integrals
 from geneva_cli.numerics.angles import DEGREE
-from geneva_cli.numerics.quadrature_many import integrals_many
 from geneva_cli.numerics.search import Found
 
 if TYPE_CHECKING:
@@ -43,9 +43,9 @@ Integrand: TypeAlias = "Callable[[Instant[Array]], Array]"  # of values, at many
 
 
 class Extremes(NamedTuple):
-    """The greatest and least value over the motions, and their input angles as they are shown.
+    """The greatest and least value over the motions, and their input angles as shown.
 
-    A value is infinite where nothing bounds it.
+    An unbounded value is infinite.
     """
 
     max: float
@@ -57,7 +57,7 @@ class Extremes(NamedTuple):
 class Cycle:
     """A machine under its load, over one period.
 
-    ``given`` is what the loads depend on besides the motion. All values are exact to some units in
+    ``given`` holds the loads' parameters besides the motion. All values are exact to some units in
     the last place of a quantity's peak; none is taken from samples.
     """
 
@@ -67,7 +67,7 @@ class Cycle:
 
     @property
     def is_loaded(self) -> bool:
-        """Whether an inertia or a resisting torque is known."""
+        """Return True if an inertia or a resisting torque is known."""
         return self.mechanism.spec.is_loaded
 
     @property
@@ -78,8 +78,8 @@ class Cycle:
     def states(self, input_deg: Array) -> Instant[Array]:
         """Arrays at ascending input angles of a period from the first entry; 0 in the dwells.
 
-        Infinite where nothing bounds a force: where friction alone holds the wheel, and at
-        mid-motion of a curved slot that lies across the roller's path.
+        A force without a bound is infinite: where friction alone holds the wheel, and at mid-motion
+        of a curved slot that lies across the roller's path.
         """
         out: dict[str, Array | None] = {name: np.zeros(len(input_deg)) for name in NAMES}
         for span in spans(self.mechanism, input_deg):
@@ -123,7 +123,7 @@ class Cycle:
 
     @cached_property
     def _searches(self) -> list[tuple[Loaded, Found]]:
-        """The search of each engagement for the extremes of all known quantities, and its cuts."""
+        """For each engagement, the search for the extremes of known quantities, and its cuts."""
         names, out = [*known_quantities(self.mechanism), KINETIC], []
         for engagement in self.mechanism.engagements:
             every = machine(engagement, self.given, names, NONE)
@@ -135,8 +135,8 @@ class Cycle:
         return out
 
     @cached_property
-    def known(self) -> Mapping[str, SummaryOfMany]:
-        """The summaries of all quantities that have a value, of this one design."""
+    def known(self) -> Mapping[str, LoadSummary]:
+        """The summaries of all quantities that have a value, (1,) each."""
         names = [*known_quantities(self.mechanism), KINETIC]
         names += [
             name
@@ -174,8 +174,8 @@ class Cycle:
     def integrals(self, *of: Integrand) -> list[float]:
         """The integral of each function over a period by the input angle in radians.
 
-        Of a torque it is a work in joules; divided by ``period``, a mean over the cycle. Infinite
-        where the function is too near to a place without a bound.
+        For a torque it is work in joules; divided by ``period``, it is a mean over the cycle. The
+        integral of an unbounded function is infinite.
         """
         total = np.zeros((len(of), 1))
         for engagement in self.mechanism.engagements:
@@ -195,12 +195,12 @@ class Cycle:
             one = np.zeros(len(pieces), dtype=int)
             asked = np.full(total.shape, True)
             with np.errstate(all="ignore"):
-                total += integrals_many(rows, start, end, one, asked, ends=True)
+                total += span_integrals(rows, start, end, one, asked, ends=True)
         return [float(x) for x in total[:, 0] * DEGREE]
 
     @cached_property
     def stretches(self) -> list[tuple[Engagement, Stretch]]:
-        """The motions cut where torque, sliding or the input's torque change sign, or break."""
+        """The motions, divided at breaks and where torque, sliding or input torque change sign."""
         out = []
         for load, found in self._searches:
             engagement = load.machine[0]
@@ -211,5 +211,5 @@ class Cycle:
 
 @lru_cache(maxsize=16)
 def cycle_of(mechanism: Mechanism) -> Cycle:
-    """The cycle of a machine, cached for its loads, strength and cautions."""
+    """The cycle of a machine, cached for its loads, strength and warnings."""
     return Cycle(mechanism)

@@ -1,7 +1,7 @@
-"""How far the input's work swings about its mean: what a flywheel has to take up and give back.
+"""Fluctuation of the input's work about its mean, which a flywheel has to store and return.
 
-The work turns where the torque is its mean. Motions are cut there, too, and integrated between to
-the last digits.
+The work has its extremes where the torque equals its mean. Motions are divided there too, and
+integrated between to the last digits.
 
     >>> import numpy as np
     >>> from geneva_cli import External, Load
@@ -9,7 +9,7 @@ the last digits.
     >>> from geneva_cli.machine.spec import Spec
     >>> spec = Spec(External(4), load=Load(inertia_kgm2=2.0))
     >>> found = many(spec, {"wheel.z": np.array([4, 6])}).machine
-    >>> swings_of_many(found, np.zeros(2)).energy_J.round(6)  # I (w psi1max)²/2
+    >>> fluctuations(found, np.zeros(2)).energy_J.round(6)  # I (w psi1max)²/2
     array([230.09708 ,  39.478418])
 """
 
@@ -21,23 +21,23 @@ import numpy as np
 
 from geneva_cli.analysis.loads.contact import Contact
 from geneva_cli.analysis.loads.forces import Row, Setting, setting
-from geneva_cli.analysis.loads.groups_many import parts
+from geneva_cli.analysis.loads.groups import parts
 from geneva_cli.analysis.loads.instant import Instant
-from geneva_cli.analysis.loads.loaded_many import Loaded, Signs, look, machine
+from geneva_cli.analysis.loads.loaded import Loaded, Signs, look, machine
 from geneva_cli.analysis.loads.stretches import spans_of, to_mid_motion
 from geneva_cli.machine.engagement import Engagement
 from geneva_cli.machine.many import taken
 from geneva_cli.machine.mechanism import Mechanism
+from geneva_cli.numerics.adaptive_quadrature import span_integrals
 from geneva_cli.numerics.angles import DEGREE
 from geneva_cli.numerics.jet import Jet
-from geneva_cli.numerics.quadrature_many import integrals_many
 from geneva_cli.numerics.search import search
 
 if TYPE_CHECKING:
     from geneva_cli.numerics.arrays import Mask, Whole
     from geneva_cli.numerics.jet import Array
 
-NOUGHT = 1e-26  # a mean whose square is so small a share of the mean square is rounding
+NOUGHT = 1e-26  # a mean whose square is this fraction of the mean square is rounding
 UNEVEN = ("unevenness_Nm",)
 
 
@@ -47,19 +47,22 @@ class Unevenness(NamedTuple):
     mean: Array
 
     def __call__(self, i: Instant[Jet], at: Contact[Jet]) -> Row[Jet]:
-        """The quantity, and what bounds it."""
+        """The quantity, and the margin that bounds it."""
         return Row(i.input_torque_Nm - self.mean, i.held)
 
 
 class Swings(NamedTuple):
-    """Of m designs, (m,) each."""
+    """Fluctuation of m designs, (m,) each."""
 
     energy_J: Array  # greatest minus least of the cumulated work less its mean line
     returned: Array  # integral over the period of the torque's square where the wheel drives
 
 
-def swings_of_many(mechanism: Mechanism, mean: Array) -> Swings:
-    """Of designs the means (m,) of whose input torque are known; of one without a mean infinite."""
+def fluctuations(mechanism: Mechanism, mean: Array) -> Swings:
+    """The fluctuation of designs, from the means (m,) of their input torque.
+
+    The mean of an unbounded torque must be infinite.
+    """
     energy, returned = np.empty((2, len(mean)))
     for part in parts(setting(mechanism).friction, len(mean)):
         energy[part], returned[part] = _group(taken(mechanism, part), mean[part])
@@ -67,7 +70,7 @@ def swings_of_many(mechanism: Mechanism, mean: Array) -> Swings:
 
 
 def flywheel_kgm2(energy_J: float, speed_variation: float, w: float) -> float:
-    """Inertia that keeps a mean speed, rad/s, within a share of it: dE / (Cs w²).
+    """Inertia that keeps a mean speed, rad/s, within a given variation: dE / (Cs w²), kg m².
 
     >>> round(flywheel_kgm2(15125.0, 0.02, 1200.0 * DEGREE), 2)  # 1200 degrees a second
     1724.04
@@ -76,7 +79,7 @@ def flywheel_kgm2(energy_J: float, speed_variation: float, w: float) -> float:
 
 
 def _group(mechanism: Mechanism, mean: Array) -> Swings:
-    """The sums, in the order of the period, of the works between places of the mean."""
+    """The fluctuation from the works between places where the torque is its mean."""
     bounded = np.isfinite(mean)
     mean = np.where(bounded, mean, 0.0)[:, None]
     given, end = setting(mechanism), None
@@ -97,7 +100,7 @@ def _group(mechanism: Mechanism, mean: Array) -> Swings:
 def _works(
     engagement: Engagement, given: Setting, mean: Array, bounded: Mask
 ) -> tuple[Array, Array]:
-    """Works less the mean's in joules, a row a design with zeros at its end; and what returns."""
+    """Works less the mean's, J, a row for each design padded with zeros, and returned squares."""
     n = len(mean)
     every = machine(engagement, given, UNEVEN, {UNEVEN[0]: Unevenness(mean)})
     load = Loaded(every, UNEVEN, ("feeds", "wanted"))
@@ -115,7 +118,7 @@ def _works(
 
     asked = np.stack((bounded, bounded))
     with np.errstate(all="ignore"):
-        each = integrals_many(rows, a, b, design, asked, True, apart=True) * DEGREE
+        each = span_integrals(rows, a, b, design, asked, True, apart=True) * DEGREE
     first = np.searchsorted(design, np.arange(n))
     number = np.arange(len(design)) - first[design]
     works = np.zeros((n, int(number.max()) + 1))

@@ -1,13 +1,13 @@
-"""The forces between roller and slot, as formulas for jets of one angle or of many.
+"""Forces between roller and slot, as formulas for jets of one angle or of many.
 
-With the unit tangent t of the slot (away from the wheel's axis) and the normal n = d i t towards
-the wall that bears, d = 1 where the torque T drives the wheel and -1 where it holds it back, the
-contact point is C = M + r n and the wheel's balance about its axis
+t is the unit tangent of the slot, away from the wheel's axis. n = d i t is the normal towards the
+wall that bears; d = 1 if the torque T drives the wheel, and -1 if it holds the wheel back. The
+contact point is C = M + r n, and the wheel's balance about its axis is
 
     |T| = N |C x n + f s C x t| = N [M . t + f s (d (M x t) - r)]
 
-(M x t = 0 in a radial slot). s is the sign of the speed at which the roller, fixed to the body
-that carries it, rubs along the wall: v = M' . t - d r (rate of that body - rate of the wheel).
+(M x t = 0 in a radial slot). s is the sign of the speed at which the roller, fixed to its body,
+rubs along the wall: v = M' . t - d r (rate of that body - rate of the wheel).
 """
 
 from __future__ import annotations
@@ -25,30 +25,31 @@ from geneva_cli.numerics.angles import omega
 from geneva_cli.numerics.arrays import all_true, choose, designs_of, library
 from geneva_cli.numerics.jet import Jet, Number, V
 
-ZERO = 1e-12  # share of a torque, a motion, or a lever over L that is rounding
+ZERO = 1e-12  # fraction of a torque, of a motion, or of a lever over L that is rounding
 
 
 class Setting(NamedTuple):
-    """The data on which the loads depend besides the motion."""
+    """The data that the loads depend on besides the motion."""
 
     speed_rad_s: float  # of the input
     inertia_Nm: float  # inertia times the square of the input speed
     resists_Nm: float  # torque at the wheel that resists its motion
     L: float  # metres
     radius: float  # of the roller, over L
-    friction: float  # along the wall, over the force on it
+    friction: float  # ratio of the force along the wall to the force on it
     efficiency: float
-    hertz: float | None  # square of the stress on a flat wall, MPa² per newton; None: no width
-    design: int = 0  # the design's number in its batch: (m, 1) of a batch
+    # square of the stress on a flat wall, MPa² per newton; None without a face width
+    hertz: float | None
+    design: int = 0  # the design's number in its batch: (m, 1) in a batch
 
     @property
     def designs(self) -> int:
-        """How many designs it is the setting of."""
+        """The number of designs in the setting."""
         return designs_of(self.design)
 
     @property
     def rubs(self) -> bool:
-        """Whether there is friction along the wall, in any of the designs."""
+        """Return True if there is friction along the wall in any of the designs."""
         return not all_true(self.friction == 0.0)
 
 
@@ -76,14 +77,14 @@ def setting(mechanism: Mechanism) -> Setting:
 
 
 def rubbing(mechanism: Mechanism) -> float:
-    """The force along the wall over the force on it, where the roller moves along it.
+    """Ratio of the force along the wall to the force on it, for a roller that moves along it.
 
-    A roller that is fast on its pin rubs in the slot, at the coefficient itself. One that turns on
-    its pin rolls, held back by its pin: what it bears passes a circle of the pin's radius times
-    sin rho, tan rho being the coefficient (the friction circle of a journal), and so leaves the
-    wall at an angle whose sine is that of rho times pin over roller. It rubs on its pin as many
-    times more slowly as the pin is smaller, so the work is N times the speed along the wall times
-    what is returned here in either case.
+    A roller fixed to its pin rubs in the slot, with the coefficient itself. A roller that turns on
+    its pin rolls, held back by the pin. The load passes a circle with the pin's radius times sin
+    rho, tan rho being the coefficient (the friction circle of a journal). So its angle to the
+    wall's normal has the sine: sin rho times pin over roller. The sliding speed on the pin is
+    smaller in the same ratio. In either case the friction work is N times the speed along the wall
+    times the value returned here.
 
     >>> from geneva_cli import External, Load
     >>> from geneva_cli.machine.mechanism import build
@@ -110,16 +111,16 @@ def contact_modulus_GPa(spec: Spec) -> float:
 
 
 class Greatest(NamedTuple):
-    """A greatest load, infinite where nothing bounds it, and its input angle in degrees."""
+    """A greatest load, infinite if unbounded, and its input angle in degrees."""
 
     max: float
     at_deg: float
 
 
 class Row(NamedTuple, Generic[V]):
-    """A quantity, and ``room``, which must be positive for it to have a bound.
+    """A quantity and its ``room``, a margin that must be positive for the quantity to be bounded.
 
-    ``way`` is the sign of the infinity to which it goes where ``room`` is not positive.
+    ``way`` is the sign of the infinity that replaces an unbounded value.
     """
 
     value: V
@@ -128,7 +129,7 @@ class Row(NamedTuple, Generic[V]):
 
 
 def value(quantity: V) -> Number:
-    """A jet's value; a value as it is."""
+    """The value of a jet; a value unchanged."""
     return quantity.c[0] if isinstance(quantity, Jet) else quantity
 
 
@@ -138,12 +139,12 @@ def sliding(at: Contact[V], drives: Number, radius: float) -> V:
 
 
 def wheel_torque(given: Setting, at: Contact[V]) -> V:
-    """The torque that the wheel needs, N m: inertia and resistance; positive drives it on."""
+    """The torque that the wheel needs for inertia and resistance, N m."""
     return at.acceleration * given.inertia_Nm + given.resists_Nm
 
 
 def gain(given: Setting, at: Contact[V], drives: Number, slides: Number) -> V:
-    """The torque on the input shaft over the wheel's, times ``grip``, which is always finite."""
+    """Ratio of the input torque to the wheel's, times ``grip``, so that it is always finite."""
     lost = sliding(at, drives, given.radius) * at.touches * (given.friction * slides * drives)
     return at.velocity * _grip(given, at, drives, slides) + lost
 
@@ -156,18 +157,18 @@ def _grip(given: Setting, at: Contact[V], drives: Number, slides: Number) -> V:
 
 
 class Worked(NamedTuple, Generic[V]):
-    """What was worked out already, to tell the signs."""
+    """Values for the signs that were computed already."""
 
     torque: V | None = None
     sliding: V | None = None
 
 
 class Forces(Generic[V]):
-    """What acts for a torque of the sign ``drives`` and a sliding of the sign ``slides``.
+    """The forces for a wheel torque of the sign ``drives`` and a sliding of the sign ``slides``.
 
-    Jets, or their values; each is worked out when it is first asked for. Forces have no bound where
-    ``grip`` <= 0, stresses where ``edge`` is: there friction alone holds the wheel, or the wall is
-    more sharply curved than the roller.
+    They are jets, or their values, each computed at first use. Forces are unbounded where ``grip``
+    <= 0: there friction alone holds the wheel. Stresses are also unbounded where ``edge`` <= 0:
+    there the wall is more sharply curved than the roller.
     """
 
     at: Contact[V]
@@ -185,7 +186,7 @@ class Forces(Generic[V]):
 
     @cached_property
     def torque(self) -> V:
-        """That the wheel needs."""
+        """The torque that the wheel needs, N m."""
         torque = self.worked.torque
         return wheel_torque(self.given, self.at) if torque is None else torque
 
@@ -202,12 +203,12 @@ class Forces(Generic[V]):
 
     @cached_property
     def force(self) -> V:
-        """On the pin, along the wall's normal."""
+        """The force on the pin, along the wall's normal, N."""
         return self.torque * self.drives / (self.grip * self.given.L)
 
     @cached_property
     def shaft(self) -> V:
-        """Torque on the input shaft, before the efficiency."""
+        """Torque on the input shaft before the efficiency, N m."""
         shaft = self.torque * self.at.velocity
         if not self.given.rubs:
             return shaft
@@ -217,22 +218,22 @@ class Forces(Generic[V]):
     @cached_property
     def edge(self) -> V | None:
         """1 - curvature of the bearing wall's pitch curve times the roller's radius."""
-        # R_e of a wall at the roller's radius from its pitch curve, of curvature k towards the
-        # wall, is r (1 - k r): 1/r + k/(1 - k r) = 1/(r (1 - k r)).
+        # A wall at the roller's radius r from its pitch curve, of curvature k towards the wall, has
+        # 1/R_e = 1/r + k/(1 - k r) = 1/(r (1 - k r)).
         if self.given.hertz is None:
             return None
         return 1.0 - self.at.curvature * (self.drives * self.given.radius)
 
     @cached_property
     def square(self) -> V | None:
-        """Of the contact stress; None without a face width."""
+        """The square of the contact stress, MPa²; None without a face width."""
         if self.given.hertz is None or self.edge is None:
             return None
         return self.force * self.at.touches * self.given.hertz / self.edge
 
 
 def pressed(held: V | None, edge: V | None) -> V | None:
-    """What the contact stress needs to have a bound: the lesser of the two that are known."""
+    """The lesser of the known margins that the contact stress needs to be bounded."""
     return edge if held is None or edge is None else lesser(held, edge)
 
 

@@ -1,6 +1,6 @@
-"""What happens at an input angle while the wheel moves, with signs and in units.
+"""Motion and loads at an input angle while the wheel moves, with signs and in units.
 
-From the forces of ``forces``: everything that a table of the cycle shows and its summary sums up.
+They follow from the forces of ``forces``, and are the columns of the cycle's table and summary.
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ from geneva_cli.numerics.jet import Jet, Number, V, sqrt
 if TYPE_CHECKING:
     from geneva_cli.numerics.jet import Array
 
-# What is known of an instant.
+# Names of an instant's quantities.
 NAMES = (
     *("omega_rad_s", "alpha_rad_s2", "wheel_torque_Nm", "pin_force_N", "stress_squared"),
     *("sliding_m_s", "input_torque_Nm", "power_W", "friction_W", "wheel_bearing_N"),
@@ -28,16 +28,15 @@ NAMES = (
 
 
 class Instant(Generic[V]):
-    """What happens where wheel torque, sliding and input torque have known signs.
+    """Motion and loads for known signs of wheel torque, sliding and input torque.
 
-    Each quantity is a jet by the input angle in radians, or the jets' values: numbers or arrays. It
-    is worked out when it is first asked for.
+    Each quantity is a jet by the input angle in radians, or the jets' values (numbers or arrays).
+    It is computed at first use.
 
-    The wheel turns in the positive direction while it indexes, and a torque on it is positive
-    where it drives the wheel on. A pin force is positive on the wall that drives the wheel, and
-    negative on the one that holds it back. A speed of sliding is positive outwards, from the
-    wheel's axis. The input's torque and power are positive where the input drives, and negative
-    where the wheel drives it.
+    The wheel turns in the positive direction while it indexes, and a torque that drives it is
+    positive. A pin force is positive on the wall that drives the wheel, and negative on the wall
+    that holds it back. A sliding speed is positive away from the wheel's axis. The input's torque
+    and power are positive where the input drives the wheel, and negative where the wheel drives it.
     """
 
     at: Contact[V]
@@ -61,13 +60,13 @@ class Instant(Generic[V]):
 
     @classmethod
     def known(cls, quantities: Mapping[str, object]) -> Instant[Array]:
-        """An instant of which each of ``NAMES`` is known already."""
+        """An instant whose quantities ``NAMES`` are known already."""
         found: Instant[Array] = cls.__new__(Instant)
         vars(found).update(quantities)
         return found
 
     def quantities(self) -> dict[str, Number | V | None]:
-        """Each of ``NAMES``; None for what this machine has not."""
+        """Each of ``NAMES``; None for a quantity that the machine lacks."""
         return {name: getattr(self, name) for name in NAMES}
 
     @cached_property
@@ -83,40 +82,40 @@ class Instant(Generic[V]):
 
     @cached_property
     def wheel_torque_Nm(self) -> V:
-        """I alpha + what resists."""
+        """Torque at the wheel: I alpha plus resistance."""
         return self.forces.torque
 
     @cached_property
     def pin_force_N(self) -> V:
-        """On the wall that bears."""
+        """Pin force on the wall that bears, signed."""
         return self.forces.force * self.drives
 
     @cached_property
     def stress_squared(self) -> V | None:
-        """Of the contact, MPa²; None without a face width."""
+        """The square of the contact stress, MPa²; None without a face width."""
         return self.forces.square
 
     @cached_property
     def sliding_m_s(self) -> V:
-        """Of the roller, fixed to its pin, along the wall."""
+        """Sliding speed of the roller, fixed to its pin, along the wall."""
         return self._rubs * self.at.touches
 
     @cached_property
     def input_torque_Nm(self) -> V:
-        """Of the input shaft, its losses included."""
-        # The efficiency counts where the input drives; what the wheel gives back is not lessened
-        # by losses that are not known to be there: a brake must hold all of it.
+        """Torque of the input shaft, losses included."""
+        # The efficiency counts where the input drives. Where the wheel drives, the losses are not
+        # known to exist and reduce nothing: a brake must hold all of the torque.
         share = 0.5 * (1.0 + self.feeds) / self.given.efficiency + 0.5 * (1.0 - self.feeds)
         return self.forces.shaft * share
 
     @cached_property
     def power_W(self) -> V:
-        """Input torque times input speed."""
+        """Input power: input torque times input speed."""
         return self.input_torque_Nm * self.given.speed_rad_s
 
     @cached_property
     def friction_W(self) -> V:
-        """What the contact turns to heat."""
+        """Friction power of the contact."""
         return self.forces.force * self._rubs * (self._rub * self.slides)
 
     @cached_property
@@ -126,29 +125,29 @@ class Instant(Generic[V]):
 
     @cached_property
     def crank_bearing_squared(self) -> V:
-        """Of the reaction on the shaft whose crank carries the roller or link, N²."""
-        if self.at.held is None:  # the crank is the roller's body; what turns it gives it a couple
+        """The square of the reaction on the shaft whose crank carries the roller or link, N²."""
+        if self.at.held is None:  # the crank is the roller's body, and its drive gives it a couple
             return self.wheel_bearing_N * self.wheel_bearing_N
         return self._reaction(0)
 
     @cached_property
     def guide_squared(self) -> V | None:
-        """Of the reaction of rocker, slider, groove or fixed gear; None without."""
+        """The square of the reaction of rocker, slider, groove or fixed gear; None without one."""
         return None if self.at.held is None else self._reaction(1)
 
     @cached_property
     def grip(self) -> V:
-        """Where it is not above 0, friction alone holds the wheel: forces are endless."""
+        """Margin of forces: where it is not above 0, friction alone holds the wheel."""
         return self.forces.grip
 
     @cached_property
     def held(self) -> V | None:
-        """The same for what friction alone makes endless; None without."""
+        """Margin of quantities that only friction makes unbounded; None without friction."""
         return self.grip if self.given.rubs else None
 
     @cached_property
     def edge(self) -> V | None:
-        """The same for the stress alone: the wall is sharper than the roller."""
+        """Margin of the stress: where it is not above 0, the wall is sharper than the roller."""
         return self.forces.edge
 
     @property
@@ -163,30 +162,30 @@ class Instant(Generic[V]):
 
     @property
     def stress(self) -> Row[V]:
-        """The square of the contact stress, likewise."""
+        """The square of the contact stress, and its margin."""
         assert self.stress_squared is not None  # there is a face width
         return Row(self.stress_squared, pressed(self.held, self.edge))
 
     @property
     def pressure_speed(self) -> Row[V]:
-        """The square of p v, the greatest Hertz pressure times the sliding, likewise; W²/m⁴."""
+        """The square of p v, greatest Hertz pressure times sliding, W²/m⁴, and its margin."""
         pv = self.stress.value * (self.sliding_m_s * self.sliding_m_s * 1e12)
         return Row(pv, pressed(self.held, self.edge))
 
     @property
     def guide(self) -> Row[V]:
-        """The square of the guide's force, likewise."""
+        """The square of the guide's force, and its margin."""
         assert self.guide_squared is not None  # there is a guide
         return Row(self.guide_squared, self.grip)
 
     @property
     def pin_force(self) -> Row[V]:
-        """The pin force as a quantity that may have no bound, for ``Cycle.extremes``."""
+        """The pin force, and its margin and sign where unbounded."""
         return Row(self.pin_force_N, self.grip, self.drives)
 
     @property
     def shaft(self) -> Row[V]:
-        """The input's torque, which friction may leave without a bound."""
+        """The input's torque, and the margin that friction leaves."""
         return Row(self.input_torque_Nm, self.held)
 
     @cached_property
@@ -196,13 +195,14 @@ class Instant(Generic[V]):
 
     @property
     def _rub(self) -> Number:
-        """The force along the wall over the one on it."""
+        """Ratio of the force along the wall to the force on it."""
         return self.given.friction * value(self.at.touches)
 
     def _reaction(self, joint: int) -> V:
         """The square of the reaction of a joint that holds the roller's body.
 
-        The pin pushes the wall along d i t + f s t; about its centre that force has a couple too.
+        The pin pushes the wall along d i t + f s t; about the pin's centre that force also has a
+        couple.
         """
         assert self.at.held is not None
         normal, tangent, couple = self.at.held
@@ -221,12 +221,12 @@ def _root(square: V) -> V:
 
 
 def values(found: Instant[Jet]) -> Instant[Array]:
-    """The same of the values of an instant's jets."""
+    """The instant with values in place of jets."""
     return Instant(found.given, valued(found.at), found.drives, found.slides, found.feeds)
 
 
 def bounded(here: Instant[Array]) -> Instant[Array]:
-    """Values with infinity where nothing bounds a force, and 0 where none is needed there."""
+    """Values with infinity where a force is unbounded, and 0 where no force is needed there."""
     held = here.grip > 0.0
     bound = np.where(here.wheel_torque_Nm == 0.0, 0.0, np.inf)
     endless = ["wheel_bearing_N", "crank_bearing_squared"]

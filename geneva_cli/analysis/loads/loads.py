@@ -1,7 +1,7 @@
-"""What the motion costs: pin force, torque on the input shaft, contact stress, power.
+"""Loads of the motion: pin force, torque on the input shaft, contact stress, power.
 
-The wheel needs the torque T = I epsilon + M_r; the formulas are in ``forces``. Lengths in metres,
-forces in newtons.
+The wheel needs the torque T = I epsilon + M_r; the formulas are in ``forces``. Lengths are in
+metres, forces in newtons.
 """
 
 from __future__ import annotations
@@ -18,9 +18,9 @@ from geneva_cli.analysis.loads.contact import Contact, contact, is_straight
 from geneva_cli.analysis.loads.cycle import cycle_of
 from geneva_cli.analysis.loads.forces import Forces, Greatest, Row, Setting, setting, sliding
 from geneva_cli.analysis.loads.instant import Instant
-from geneva_cli.analysis.loads.loaded_many import Loaded, Wanted, machine
-from geneva_cli.analysis.loads.many import greatest_of_many, searched
+from geneva_cli.analysis.loads.loaded import Loaded, Wanted, machine
 from geneva_cli.analysis.loads.quantities import FORCE, SQUARED, STRESS, TORQUE
+from geneva_cli.analysis.loads.summaries import load_peaks, searched
 from geneva_cli.machine.engagement import Engagement
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.machine.pitch_curve import retraces
@@ -37,11 +37,11 @@ if TYPE_CHECKING:
 class State(NamedTuple):
     """The loads at one input angle, or at an array of them.
 
-    Force and stress are infinite where nothing bounds them: where friction alone holds the wheel,
-    at mid-motion of a slot across the way, and where the bearing wall ends in an edge.
+    Unbounded forces and stresses are infinite: where friction alone holds the wheel, at mid-motion
+    of a slot across the roller's path, and where the bearing wall ends in an edge.
     """
 
-    torque_Nm: Number  # that the wheel needs
+    torque_Nm: Number  # torque that the wheel needs
     pin_force_N: Number
     input_torque_Nm: Number
     contact_stress_MPa: Number | None  # None without a face width
@@ -51,7 +51,8 @@ class State(NamedTuple):
 def state(mechanism: Mechanism, engagement: Engagement, input_deg: Number) -> State:
     """An engagement's loads at an input angle from its mid-motion, or at an array of angles.
 
-    Of m designs at k angles (m, k), at one (m, 1); without the m what is alike in all.
+    For m designs at k angles the shape is (m, k), at one angle (m, 1); values equal in all designs
+    lack the m.
     """
     given = setting(mechanism)
     x = np.atleast_1d(np.asarray(input_deg, dtype=float))
@@ -82,7 +83,7 @@ def state(mechanism: Mechanism, engagement: Engagement, input_deg: Number) -> St
 def greatest(mechanism: Mechanism, name: str) -> Greatest:
     """The greatest size of a quantity of the cycle, and the first input angle that has it.
 
-    Without a load nothing presses: 0.
+    Without a load it is 0.
     """
     one = cycle_of(mechanism).extremes.get(name)
     if one is None:
@@ -103,7 +104,7 @@ class Slope(NamedTuple):
     """The square of the pressure angle's tangent."""
 
     def __call__(self, i: Instant[Jet], at: Contact[Jet]) -> Row[Jet]:
-        """The quantity; what may be 0 under it bounds it."""
+        """The quantity, which is bounded where its denominator is not 0."""
         slope = at.aside / at.lever
         return Row(slope * slope)
 
@@ -112,15 +113,15 @@ class Slope(NamedTuple):
 def greatest_pressure(mechanism: Mechanism) -> Greatest:
     """The greatest pressure angle, degrees, and its input angle.
 
-    It is 90 at mid-motion where the pin crosses the radius.
+    It is 90 at mid-motion if the pin crosses the radius there.
     """
     for engagement in mechanism.engagements:
         if not is_straight(engagement) and not retraces(engagement):
             return Greatest(90.0, mechanism.shown_deg(engagement.mid_deg))
     own: dict[str, Wanted] = {"slope": Slope()}
     given = setting(mechanism)._replace(inertia_Nm=0.0, friction=0.0, hertz=None, efficiency=1.0)
-    found = greatest_of_many(mechanism, tuple(own), own, given)["slope"]
-    if not found.max[0]:  # all along a radial slot
+    found = load_peaks(mechanism, tuple(own), own, given)["slope"]
+    if not found.max[0]:  # 0 throughout a radial slot
         return Greatest(0.0, 0.0)
     return Greatest(math.degrees(math.atan(math.sqrt(found.max[0]))), float(found.at_deg[0]))
 
@@ -129,7 +130,7 @@ def greatest_pressure(mechanism: Mechanism) -> Greatest:
 def fastest_rpm(mechanism: Mechanism) -> float | None:
     """The highest input speed at which the limits on force, torque and stress hold.
 
-    Infinite where they hold at any speed, or where there are none; None where no speed keeps them.
+    Infinite if they hold at any speed or there are none; None if no speed keeps them.
     """
     limits = load_limits(mechanism.spec.limits)
     given = {name: limit for name, limit in zip(LIMITED, limits, strict=True) if limit}
@@ -140,18 +141,19 @@ def fastest_rpm(mechanism: Mechanism) -> float | None:
         return math.inf
     least = max(_slowness(engagement, at_one, given) for engagement in mechanism.engagements)
     rpm = math.sqrt(1.0 / least) / omega(1.0) if least > 0.0 else math.inf
-    # Speeds below it may be too low where inertia helps against the resistance, and this one too.
+    # Lower speeds may break a limit where inertia helps against the resistance, and so may this
+    # speed.
     w = omega(mechanism.spec.drive.n_rpm if math.isinf(rpm) else rpm)
     tried = at_one._replace(inertia_Nm=at_one.inertia_Nm * w * w)
-    found = greatest_of_many(mechanism, tuple(given), given=tried)
+    found = load_peaks(mechanism, tuple(given), given=tried)
     kept = all(found[name].max[0] <= limit * KEPT for name, limit in given.items())
     return rpm if kept else None
 
 
 class Slowness(NamedTuple):
-    """1 / (highest speed that a place allows)², of a load at the wheel's torque of 1.
+    """1 / (highest speed that a place allows)², for a load with a factor per unit of wheel torque.
 
-    With the load q (T) = q1 T, of a factor q1 that no speed changes, and T = w² I a + M, the
+    With the load q (T) = q1 T, whose factor q1 does not depend on speed, and T = w² I a + M, the
     limit holds up to w² = (limit - q1 M) / (q1 I a).
     """
 
@@ -160,19 +162,19 @@ class Slowness(NamedTuple):
     given: Setting  # at 1 rad/s
 
     def __call__(self, i: Instant[Jet], at: Contact[Jet]) -> Row[Jet]:
-        """The quantity, which has no bound where the place allows no speed."""
+        """The quantity, which is unbounded where the place allows no speed."""
         unit = self.given._replace(inertia_Nm=0.0, resists_Nm=1.0)
         factor = self.of(Forces(unit, at, i.drives, i.slides))
         load = at.acceleration * self.given.inertia_Nm * factor
         left = self.limit - factor * self.given.resists_Nm
-        # Where it is not driven any speed keeps the limit: there is room, and as much as beside
-        # it, for at rest the load's sign is rounding.
+        # Where the wheel is not driven, any speed keeps the limit. The margin is then that next to
+        # it, as at rest the load's sign is rounding.
         over = (np.asarray(load.c[0]) <= 0.0) & (np.asarray(left.c[0]) < 0.0)
         return Row(load / left, Jet([np.where(over, -c, c) for c in left.c]))
 
 
 def _slowness(engagement: Engagement, given: Setting, limits: Mapping[str, float]) -> float:
-    """The greatest of 1 / (highest speed that a place allows)²; infinite where it allows none."""
+    """The greatest of 1 / (highest speed that a place allows)²; infinite if one allows no speed."""
 
     def square(found: Forces[Jet]) -> Jet:
         assert found.square is not None  # there is a face width
@@ -194,7 +196,7 @@ def _slowness(engagement: Engagement, given: Setting, limits: Mapping[str, float
     return max(0.0, float(found.most[: len(names)].max()))
 
 
-KEPT = 1.0 + 1e-9  # a limit met at the fastest speed may be missed by rounding
+KEPT = 1.0 + 1e-9  # a limit met at the highest speed may be exceeded by rounding
 LIMITED = (FORCE, TORQUE, STRESS)
 
 
@@ -204,7 +206,7 @@ def load_limits(limits: Limits) -> tuple[float | None, float | None, float | Non
 
 
 def kinetic_power_W(mechanism: Mechanism, power_invariant: float) -> float:
-    """Peak power that the inertia takes from the input: I epsilon omega / eta."""
+    """Peak power that the inertia takes from the input: I epsilon omega / eta, W."""
     spec = mechanism.spec
     w = omega(spec.drive.n_rpm)
     return inertia_kgm2(spec) * power_invariant * w**3 / spec.load.efficiency

@@ -1,7 +1,7 @@
-"""Sizing as makers of index drives do it: one form for any cam curve, and so for any Geneva.
+"""Sizing by the form of index-drive makers, for any cam curve, and so for any Geneva.
 
-The form takes the greatest torque on the wheel for the whole of the motion, and the curve's factor
-Qm for its way to the input; the exact cycle is in ``cycle``.
+The form assumes the greatest torque on the wheel during the whole motion, and the curve's factor Qm
+for its transfer to the input. The exact cycle is in ``cycle``.
 """
 
 from __future__ import annotations
@@ -13,7 +13,7 @@ from geneva_cli.numerics.angles import radians
 
 
 class ShaftLoad(NamedTuple):
-    """What the wheel's shaft carries: kg m², N m; and the service factor fc on all of it."""
+    """Load of the wheel's shaft: kg m², N m, and the service factor fc on all of it."""
 
     inertia: float
     friction: float

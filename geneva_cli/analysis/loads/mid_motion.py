@@ -1,6 +1,7 @@
-"""Mid-motion of curved slots, which no stretch reaches: what is beside it has slopes of rounding.
+"""Loads at mid-motion of curved slots, where slopes nearby are lost to rounding.
 
-There the pin stops and goes back in a cusp of its pitch curve, or crosses the radius.
+There the pin reverses in a cusp of its pitch curve, or crosses the radius. Stretches stop short of
+it.
 """
 
 from __future__ import annotations
@@ -23,7 +24,8 @@ if TYPE_CHECKING:
     from geneva_cli.numerics.arrays import Mask
     from geneva_cli.numerics.jet import Array
 
-STEPS = 2  # of Newton's, from a chord of a ten-thousandth of the motion: what is left is rounding
+# of Newton's method, from a chord of a ten-thousandth of the motion: the rest is rounding
+STEPS = 2
 
 # contact, signs of torque, of sliding and of the input's torque -> the quantities
 Rows: TypeAlias = Callable[[Contact[Jet], Number, Number, Number], list[Row[Jet]]]
@@ -34,16 +36,16 @@ class Known(NamedTuple):
 
     row: int  # the quantity's number
     x: Array
-    value: Array  # infinite without a bound; NaN where there is none
+    value: Array  # infinite if unbounded; NaN if undefined
 
 
 def at_mid_motion(engagement: Engagement, given: Setting, rows: Rows, n: int = 1) -> list[Known]:
-    """The values that ``rows`` have at mid-motion and nearer to it than any stretch comes.
+    """The values of ``rows`` at mid-motion, and nearer to it than any stretch.
 
-    Where the pin crosses the radius, its lever is 0 and a torque takes a force without a bound; of
-    0/0 it is the limit from both sides. At a cusp the wall turns away from the roller on one side:
-    what has no room on the other goes to 0 there. So does what goes with a torque that changes its
-    sign nearer to mid-motion than the stretches come.
+    Where the pin crosses the radius, its lever is 0 and a torque takes an unbounded force; 0/0 is
+    replaced by the limits from both sides. At a cusp the wall turns away from the roller on one
+    side. A quantity without margin on the other side goes to 0 there. So does a quantity of a
+    torque that changes sign nearer to mid-motion than the stretches.
     """
     middle, near = np.zeros(n), NEAR * np.reshape(engagement.entry_deg, (-1, 1))
     out = []
@@ -53,7 +55,7 @@ def at_mid_motion(engagement: Engagement, given: Setting, rows: Rows, n: int = 1
         loaded = _is_loaded(engagement, given, torque)
         beside = [np.broadcast_to(x, (n, 1)) for x in (near, -near)]
         limits = [_limits(engagement, given, rows, x) for x in beside]
-        # The tangent points away from the axis on the way in and out; at a cusp they are one.
+        # The tangent points away from the axis at entry and exit; at a cusp both are one.
         crosses = np.broadcast_to(~np.asarray(retraces(engagement)), (n, 1))
         for way in (1.0, -1.0):
             here = at._replace(
@@ -78,8 +80,9 @@ def at_mid_motion(engagement: Engagement, given: Setting, rows: Rows, n: int = 1
 
 
 def at_crossing(engagement: Engagement, given: Setting) -> dict[str, Array] | None:
-    """What ``Instant`` knows, at mid-motion of a slot that the pin crosses there without a torque:
-    arrays of one, the limits of the way in. None elsewhere.
+    """The quantities of ``Instant`` at mid-motion, where the pin crosses the slot without a torque.
+
+    They are arrays of one, with the limits of entry. None in all other cases.
     """
     if not engagement.slot.curved or retraces(engagement):
         return None
@@ -102,26 +105,26 @@ def at_crossing(engagement: Engagement, given: Setting) -> dict[str, Array] | No
 
 
 def _limit(jet: Jet, h: Array) -> Array:
-    """At mid-motion, of a quantity h radians after it."""
+    """The value at mid-motion of a quantity known h radians after it."""
     return array(jet.c[0] - h * (jet.c[1] - h * jet.c[2]))
 
 
 def _is_loaded(engagement: Engagement, given: Setting, torque: Number) -> Mask:
-    """Whether the wheel's torque at mid-motion is more than rounding."""
+    """Return True if the wheel's torque at mid-motion is more than rounding."""
     common = given.inertia_Nm * np.abs(engagement.motion(0.5 * engagement.entry_deg, 2).c[2])
     loaded: Mask = np.abs(torque) > ZERO * (common + given.resists_Nm)
     return loaded
 
 
 def _signs(given: Setting, at: Contact[Jet]) -> tuple[Array, Array, Array]:
-    """Of the wheel's torque, the sliding and the input's torque."""
+    """Signs of the wheel's torque, of the sliding and of the input's torque."""
     drives = np.copysign(1.0, value(wheel_torque(given, at)))
     slides = np.copysign(1.0, value(sliding(at, drives, given.radius)))
     return drives, slides, np.copysign(1.0, value(gain(given, at, drives, slides)) * drives)
 
 
 def _limits(engagement: Engagement, given: Setting, rows: Rows, x: Array) -> list[Array]:
-    """The limits of 0/0 at mid-motion, from beside it."""
+    """The limits of 0/0 at mid-motion, from values near it."""
     at = contact(engagement, x, 2)
     return [_limit(row.value, np.radians(x)) for row in rows(at, *_signs(given, at))]
 
@@ -129,7 +132,7 @@ def _limits(engagement: Engagement, given: Setting, rows: Rows, x: Array) -> lis
 def _without_torque(
     engagement: Engagement, given: Setting, rows: Rows, middle: Number, near: Array
 ) -> list[Known]:
-    """The values where the torque changes its sign between mid-motion and beside it."""
+    """The values where the torque changes sign between mid-motion and the nearest stretch."""
 
     def torque(x: Array) -> tuple[Array, Array]:
         _, _, acceleration, jerk = engagement.motion(x, 3).derivatives()
@@ -146,7 +149,7 @@ def _without_torque(
         x = np.clip(x - left / rise, np.minimum(near, 0.0), np.maximum(near, 0.0))
     at = contact(engagement, x)
     _, slides, feeds = _signs(given, at)
-    unforced = at._replace(lever=at.lever + np.inf)  # what is left of the torque takes no force
+    unforced = at._replace(lever=at.lever + np.inf)  # the rest of the torque takes no force
     out = []
     for drives in (1.0, -1.0):  # it is 0 on both sides
         pairs = zip(*(rows(here, drives, slides, feeds) for here in (at, unforced)), strict=True)

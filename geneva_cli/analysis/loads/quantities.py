@@ -1,4 +1,4 @@
-"""The quantities of a cycle by their names, and which of them a machine and its load have."""
+"""The quantities of a cycle by name, and those that a machine and its load have."""
 
 from __future__ import annotations
 
@@ -20,22 +20,22 @@ STRESS = "contact_stress_MPa"
 TORQUE = "input_torque_Nm"
 MOVES = ("omega_rad_s", "alpha_rad_s2", "sliding_m_s")  # known without a load
 PV = "pv_W_m2"  # greatest Hertz pressure times the speed of sliding
-KINETIC = "kinetic_rad2_s3"  # speed times acceleration of the wheel: the power of an inertia of 1
+KINETIC = "kinetic_rad2_s3"  # speed times acceleration of the wheel: the power of a unit inertia
 PRESSED = (STRESS, PV)  # known only with a face width
 # Searched by their squares: a root has no slope where it is 0, nor has the size of a vector.
 SQUARED = (*PRESSED, "crank_bearing_N", "guide_force_N")
-# Those that are never negative.
+# Quantities that are never negative.
 SIZES = (*SQUARED, "wheel_bearing_N")
-# Loads of which a report has the greatest size, and their names in the cycle.
+# Loads whose greatest size a report shows, and their names in the cycle.
 SIZED = {"torque_Nm": "wheel_torque_Nm", FORCE: FORCE, TORQUE: TORQUE, STRESS: STRESS}
 PARALLEL = "parallel shafts; on a sphere the force moves along them, and pushes along them too"
 
 
 class Quantity(Protocol):
-    """A quantity as a function of an instant, of jets or of their values."""
+    """A quantity as a function of an instant, of jets or of values."""
 
     def __call__(self, i: Instant[V], /) -> Row[V]:
-        """The quantity, and what bounds it."""
+        """The quantity, and the margin that bounds it."""
 
 
 QUANTITIES: dict[str, Quantity] = {
@@ -64,10 +64,11 @@ def known_quantities(mechanism: Mechanism) -> list[str]:
 
 
 def shares(mechanism: Mechanism) -> dict[str, tuple[str, float | None, str]]:
-    """What is another quantity times a number: which, and what gives the number.
+    """Quantities that are a multiple of another one: its name, the factor, and the keys it needs.
 
-    A shaft carries its load outside two bearings, the overhang a from the nearer and s between
-    them: the nearer bears (a + s)/s of it, the other a/s the other way.
+    A shaft carries its load outside two bearings, with the overhang a from the nearer one and the
+    distance s between them. The nearer bears (a + s)/s of the load, the other a/s in the opposite
+    direction.
     """
     shaft, flat = mechanism.spec.shaft, mechanism.spec.wheel.FLAT
     out: dict[str, tuple[str, float | None, str]] = {
@@ -86,23 +87,24 @@ def shares(mechanism: Mechanism) -> dict[str, tuple[str, float | None, str]]:
 
 
 def plain_of(i: Instant[Array], name: str) -> Array:
-    """A quantity at an instant of values, itself where its square is looked for."""
+    """The values of a quantity at an instant, not their squares."""
     return plain_values(QUANTITIES[name](i).value, name)
 
 
 def plain_values(values: Array, name: str) -> Array:
-    """Values of a quantity, of what is looked for."""
+    """Values of a quantity, from the values that are searched."""
     return np.sqrt(np.abs(values)) if name in SQUARED else values
 
 
 def square_of(values: Array, name: str) -> Array:
-    """The square of a quantity's values, or what is one already."""
+    """The square of a quantity, from the values that are searched."""
     return values if name in SQUARED else values * values
 
 
 def outermost(each: Array) -> Array:
-    """The extremes of all engagements of those of each, (engagements, 4, ...): of equal ones the
-    first.
+    """The extremes over all engagements, from those of each, (engagements, 4, ...).
+
+    The first of equal extremes is taken.
     """
     most, most_at_deg, least, least_at_deg = np.moveaxis(each, 1, 0)
     both = np.concatenate((most, least))

@@ -1,4 +1,4 @@
-"""What must be bought: the index-drive makers' form beside the exact cycle, motor and flywheel.
+"""Sizing of motor and flywheel: the form of index-drive makers, and the exact cycle.
 
 >>> import numpy as np
 >>> from geneva_cli import External, Load
@@ -6,7 +6,7 @@
 >>> from geneva_cli.machine.spec import Spec
 >>> spec = Spec(External(6), load=Load(inertia_kgm2=2.0, friction=0.1))
 >>> found = many(spec, {"load.torque_Nm": np.array([0.0, 20.0])})
->>> sizings_of_many(found.machine, ["motor_torque_rms_Nm"])["motor_torque_rms_Nm"].round(4)
+>>> sizings(found.machine, ["motor_torque_rms_Nm"])["motor_torque_rms_Nm"].round(4)
 array([26.8019, 28.3356])
 """
 
@@ -20,12 +20,12 @@ import numpy as np
 
 from geneva_cli.analysis.cam_factors import CamFactors, cam_factors
 from geneva_cli.analysis.loads.carried import inertia_kgm2, support_torque_Nm
-from geneva_cli.analysis.loads.fluctuation import NOUGHT, flywheel_kgm2, swings_of_many
+from geneva_cli.analysis.loads.fluctuation import NOUGHT, fluctuations, flywheel_kgm2
 from geneva_cli.analysis.loads.forces import setting
 from geneva_cli.analysis.loads.makers_form import MakersForm, ShaftLoad, makers_form
-from geneva_cli.analysis.loads.many import SummaryOfMany, summaries_of_many
 from geneva_cli.analysis.loads.quantities import TORQUE
-from geneva_cli.analysis.peaks_many import peaks_of_many
+from geneva_cli.analysis.loads.summaries import LoadSummary, load_summaries
+from geneva_cli.analysis.peak_search import motion_peaks
 from geneva_cli.machine.engagement import Engagement
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.numerics.angles import DEGREE
@@ -40,7 +40,7 @@ if TYPE_CHECKING:
     from geneva_cli.numerics.jet import Array
     from geneva_cli.spec.tables import Motor
 
-Peaks: TypeAlias = "tuple[float, ...]"  # of one engagement, as ``PEAKS``
+Peaks: TypeAlias = "tuple[float, ...]"  # of one engagement, in the order of ``PEAKS``
 CARRIED = ("inertia_kgm2", "motor_rpm")
 FACTORS = ("acceleration_rad_s2", "Am", "Vm", "Qm")
 UNLOADED = (*CARRIED, *FACTORS)  # known without a load
@@ -52,11 +52,11 @@ SUMS = ("energy_fluctuation_J", "flywheel_kgm2", "flywheel_to_add_kgm2", "motor_
 ENDS = ("motor_torque_max_Nm", "input_torque_ratio")
 PEAKS = ("velocity", "acceleration", "power")  # of each motion, for the makers' form
 ROTOR = ("inertia_ratio", "coasting_speed_share")
-# all but the wheel's own inertia, which is its outline's
+# all but the wheel's own inertia, which follows from its outline
 NAMES = (*CARRIED, *FACTORS, *FORM, *SUMS, *ENDS, *ROTOR)
-WHEEL = "wheel_inertia_kgm2"  # which parts know, and ``sizing`` does not
-# In the order shown: what the wheel turns at its shaft, and of it the wheel itself; the makers'
-# form, of the engagement with the greatest torque at the input; and the exact cycle.
+WHEEL = "wheel_inertia_kgm2"  # known from the parts, not from ``sizing``
+# In the order shown: the inertia at the wheel's shaft, and the wheel's own; the makers' form, for
+# the engagement with the greatest torque at the input; the exact cycle.
 SHOWN = (
     *("inertia_kgm2", WHEEL, "acceleration_rad_s2", "inertia_torque_Nm", "friction_torque_Nm"),
     *("total_torque_Nm", "design_torque_Nm", "input_torque_Nm", "power_W", "Am", "Vm", "Qm"),
@@ -67,10 +67,10 @@ SHOWN = (
 
 
 def sizing(cycle: Cycle) -> tuple[dict[str, float | None], list[str]]:
-    """The values of one design in the order shown, and what would give those that are None."""
+    """The values of one design in the order shown, and the keys that missing values need."""
     spec = cycle.mechanism.spec
     names, torque = (NAMES, cycle.known[TORQUE]) if cycle.is_loaded else (UNLOADED, None)
-    found = sizings_of_many(cycle.mechanism, names, torque, cycle.peaks)
+    found = sizings(cycle.mechanism, names, torque, cycle.peaks)
     values = {name: float(row[0]) for name, row in found.items()}
     out = {name: x if math.isfinite(x := values.get(name, math.nan)) else None for name in SHOWN}
     if torque is None:
@@ -89,17 +89,17 @@ def sizing(cycle: Cycle) -> tuple[dict[str, float | None], list[str]]:
     return out, needs
 
 
-def sizings_of_many(
+def sizings(
     mechanism: Mechanism,
     asked: Collection[str] = NAMES,
-    torque: SummaryOfMany | None = None,
+    torque: LoadSummary | None = None,
     peaks: Sequence[Peaks] | None = None,
 ) -> dict[str, Array]:
-    """Values of ``NAMES``, (m,) each, or (1,) of what is the same in all.
+    """Values of ``NAMES``, (m,) each, or (1,) for values equal in all designs; NaN if undefined.
 
-    NaN where a design has none. Those that are asked for are among them. ``torque`` is the summary
-    of the input's torque, and ``peaks`` each engagement's greatest velocity, acceleration and
-    power, as invariants, where they are known already.
+    ``asked`` are the requested names; others may be included. ``torque`` is the summary of the
+    input's torque, and ``peaks`` are each engagement's greatest velocity, acceleration and power,
+    as invariants, if known already.
     """
     spec, given, names = mechanism.spec, setting(mechanism), set(asked)
     loaded = np.ravel(given.inertia_Nm + given.resists_Nm > 0.0)
@@ -116,7 +116,7 @@ def sizings_of_many(
     if names & {*SUMS, *ENDS}:
         if torque is None:
             told = ("mean", "rms") if names & set(SUMS) else ()
-            torque = summaries_of_many(mechanism, [TORQUE], told)[TORQUE]
+            torque = load_summaries(mechanism, [TORQUE], told)[TORQUE]
         found |= _exact(mechanism, torque, found.get("input_torque_Nm"))
     if names & set(ROTOR):
         found |= _rotor(mechanism, [velocity for velocity, *_ in peaks])
@@ -127,13 +127,13 @@ def sizings_of_many(
 
 
 def _some(x: Number) -> Array:
-    """NaN for 0."""
+    """The number, with NaN in place of 0."""
     return np.where(np.asarray(x) > 0.0, x, np.nan)
 
 
 def _peaks(engagement: Engagement, names: Sequence[str]) -> Peaks:
-    """The greatest of these quantities, (m, 1) each."""
-    found = peaks_of_many(engagement.motion, names) if names else {}
+    """The greatest values of these quantities, (m, 1) each."""
+    found = motion_peaks(engagement.motion, names) if names else {}
     return tuple(parameter(found[name].max[:, None]) for name in names)
 
 
@@ -154,9 +154,9 @@ def _form(mechanism: Mechanism, peaks: Sequence[Peaks]) -> dict[str, Number]:
 
 
 def _exact(
-    mechanism: Mechanism, torque: SummaryOfMany, form_torque: Number | None
+    mechanism: Mechanism, torque: LoadSummary, form_torque: Number | None
 ) -> dict[str, Number]:
-    """What the exact cycle says of motor and flywheel; NaN where nothing bounds the torque."""
+    """Motor and flywheel from the exact cycle; NaN if the torque is unbounded."""
     motor, w = mechanism.spec.motor, setting(mechanism).speed_rad_s
     bounded = np.isfinite(torque.max) & np.isfinite(torque.min)
     most, least = (np.where(bounded, x, np.nan)[:, None] for x in (torque.max, torque.min))
@@ -167,9 +167,9 @@ def _exact(
     if torque.mean is None or torque.rms is None:
         return out
     square = np.where(bounded, torque.rms, np.nan) ** 2
-    # of inertia alone the mean is nothing but rounding
+    # for an inertia alone the mean is only rounding
     mean = np.where(torque.mean**2 > NOUGHT * square, torque.mean, 0.0 * square)
-    swings = swings_of_many(mechanism, mean)
+    swings = fluctuations(mechanism, mean)
     energy = np.where(bounded, swings.energy_J, np.nan)[:, None]
     returned = swings.returned / np.ravel(mechanism.period_deg * DEGREE)
     out["energy_fluctuation_J"] = energy
@@ -182,7 +182,7 @@ def _exact(
 
 
 def _rotor(mechanism: Mechanism, velocities: Sequence[float]) -> dict[str, Number]:
-    """The wheel's inertia against the motor's own, where that is known."""
+    """The ratio of the wheel's inertia to the motor's own, if the motor's is known."""
     own = mechanism.spec.motor.inertia_kgm2
     fastest = np.max(np.broadcast_arrays(*velocities), axis=0)
     with np.errstate(all="ignore"):
@@ -218,17 +218,21 @@ def greatest_form(mechanism: Mechanism, peaks: Sequence[Peaks]) -> tuple[MakersF
 
 
 def greatest_motor_torque_Nm(motor: Motor, most: N, least: N) -> N:
-    """Of the input's greatest and least torque that which is more at the motor.
+    """The greatest size of the motor's torque, from the input's greatest and least torque.
 
-    The reducer takes its share where it drives and where it is driven. At constant speed the
-    rotor's own inertia takes no torque.
+    The reducer's losses count whether it drives or is driven. At constant speed the rotor's own
+    inertia takes no torque.
     """
     eta = motor.gear_efficiency
     return larger(most / eta, -least * eta) / motor.gear_ratio
 
 
 def rms_motor_torque_Nm(motor: Motor, square: N, returned: N) -> N:
-    """Of the means of the square of the input's torque, and of that where the wheel drives it."""
+    """The root mean square of the motor's torque.
+
+    ``square`` is the mean square of the input's torque; ``returned`` is the part of it where the
+    wheel drives the input.
+    """
     eta = motor.gear_efficiency
     spent = larger(square - returned, 0.0 * square)
     mean = spent / eta**2 + returned * eta**2
@@ -236,16 +240,16 @@ def rms_motor_torque_Nm(motor: Motor, square: N, returned: N) -> N:
 
 
 def flywheel_to_add_kgm2(motor: Motor, whole: N) -> N:
-    """What the flywheel in all needs besides the motor's own inertia, seen at the input."""
+    """The flywheel's inertia less the motor's own, at the input shaft."""
     left = whole - motor.inertia_kgm2 * motor.gear_ratio**2
     return larger(left, 0.0 * left)
 
 
 def inertia_ratio(spec: Spec, fastest: N) -> tuple[N, N]:
-    """What the motor feels of the wheel's inertia where it turns fastest, against its own.
+    """The ratio of the wheel's inertia at its fastest to the motor's, and the coasting speed.
 
-    ``fastest`` is the greatest velocity psi1. Left to coast without losses, I_input w²/2 +
-    I psi1² w²/2 stays: w = w0/sqrt(1 + mu psi1²), which is the second number's w/w0.
+    ``fastest`` is the greatest velocity psi1. While coasting without losses, I_input w²/2 + I psi1²
+    w²/2 is constant: w = w0/sqrt(1 + mu psi1²), and the second number is w/w0.
     """
     turn = fastest / spec.motor.gear_ratio
     mu = inertia_kgm2(spec) * (turn * turn) / spec.motor.inertia_kgm2

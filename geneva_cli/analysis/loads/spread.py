@@ -1,4 +1,4 @@
-"""How far from mid-motion loads have their poles: about it their places are spread."""
+"""Distance of the loads' poles from mid-motion, which is the width of their spread samples."""
 
 from __future__ import annotations
 
@@ -15,21 +15,22 @@ if TYPE_CHECKING:
     from geneva_cli.machine.engagement import Engagement
     from geneva_cli.numerics.jet import Array
 
-BESIDE = 0.01  # of half a motion: at mid-motion itself a curved slot may have no slopes
-WIDEST = 10.0  # half motions: what has no pole is not spread
+BESIDE = 0.01  # fraction of half a motion: at mid-motion itself a curved slot may have no slopes
+WIDEST = 10.0  # half motions: a function without poles is not spread
 
 
 def spread_deg(engagement: Engagement, given: Setting) -> Array:
-    """The distance from mid-motion of the nearest pole of velocity and forces, nearly, in degrees.
+    """Approximate distance from mid-motion of the nearest pole of velocity and forces, degrees.
 
-    By how they begin beside it: a velocity as v / (1 + x²/w²), a wall's lever as l sqrt(1 + x²/w²).
-    Where friction holds a lever that vanishes there, w is how far behind mid-motion it fails to.
+    It follows from their behaviour near mid-motion: a velocity as v / (1 + x²/w²), a wall's lever
+    as l sqrt(1 + x²/w²). Where friction holds a lever that vanishes there, w is the distance from
+    mid-motion at which it no longer does.
     """
     x = BESIDE * array(engagement.exit_deg)
     _, _, lever, aside, *_ = at = contact(engagement, x, 2, reactions=False, spins=False)
     velocity = at.velocity
     with np.errstate(all="ignore"):
-        # arrays: of what does not vary a jet holds floats, whose quotient by 0 is an error
+        # arrays, as the quotient of a jet's floats by 0 is an error
         squares = [array(velocity.c[0]) / velocity.c[2], 0.5 * array(lever.c[0]) / lever.c[2]]
         w = np.sqrt(np.fmin(*map(np.abs, squares))) / DEGREE
         if given.rubs:

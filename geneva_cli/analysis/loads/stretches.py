@@ -1,8 +1,8 @@
-"""The motion cut into stretches in which its loads are smooth.
+"""Division of the motion into stretches in which its loads are smooth.
 
-They have a kink or a jump where the torque changes sign (the roller then bears on the other wall),
-where the sliding does (friction turns round), where the input's torque does, and where the motion
-itself has a break.
+Loads have a kink or a jump where the torque changes sign (the roller then bears on the other wall),
+where the sliding does (friction reverses), where the input's torque does, and at breaks of the
+motion itself.
 """
 
 from __future__ import annotations
@@ -26,8 +26,8 @@ if TYPE_CHECKING:
     from geneva_cli.numerics.arrays import Whole
     from geneva_cli.numerics.jet import Array
 
-COARSE = 1e-10  # share of a step that may lie between two neighbouring angles
-ALIKE = 1e-9  # share of a stretch by which the ends of its mirror image may be off
+COARSE = 1e-10  # fraction of a step that may lie between two adjacent angles
+ALIKE = 1e-9  # fraction of a stretch by which the ends of its mirror image may be off
 
 
 def spans_of(engagement: Engagement, n: int) -> list[tuple[Array, Array]]:
@@ -47,7 +47,7 @@ def spans_of(engagement: Engagement, n: int) -> list[tuple[Array, Array]]:
 
 
 def mirror_images(pieces: Stretches) -> Whole:
-    """Of each stretch of symmetric motions the number of its mirror image, or else its own."""
+    """The number of each stretch's mirror image in symmetric motions, or its own number."""
     design, (a, b), every = pieces.design, pieces.x, np.arange(len(pieces.design))
     count = np.bincount(design, minlength=1)
     start = np.cumsum(count) - count
@@ -59,7 +59,7 @@ def mirror_images(pieces: Stretches) -> Whole:
 
 
 def to_mid_motion(engagement: Engagement, stretches: Stretches, n: int) -> Stretches:
-    """Stretches of n designs up to the mid-motion of a curved slot; searches stop short of it."""
+    """Stretches extended to the mid-motion of a curved slot, where searches stop short."""
     if not engagement.slot.curved:
         return stretches
     x = stretches.x
@@ -74,22 +74,23 @@ class Stretch(NamedTuple):
 
     start: float
     end: float
-    drives: float  # of the wheel's torque
-    slides: float  # of the sliding
-    feeds: float  # of the input's torque: 1 where it drives the machine, -1 where it is driven
+    drives: float  # sign of the wheel's torque
+    slides: float  # sign of the sliding
+    feeds: float  # sign of the input's torque: 1 if it drives the machine, -1 if it is driven
 
 
 def whole(
     engagement: Engagement, given: Setting, kinds: Sequence[str], found: Stretches
 ) -> list[Stretch]:
-    """The stretches of one design's motion without gaps, by signs of ``kinds`` in those found."""
+    """The stretches of one design's motion without gaps, with the signs of those of a search."""
     signs = dict(zip(kinds, np.where(found.positive, 1.0, -1.0), strict=True))
     one = np.ones(len(found.design))
     of = (signs.get(kind, one).tolist() for kind in ("drives", "slides", "feeds"))
     every = [Stretch(*row) for row in zip(*found.x.tolist(), *of, strict=True)]
     pieces = every[:1]
     for piece, (last, span) in zip(every[1:], pairwise(found.span), strict=True):
-        if span == last and piece[2:] == pieces[-1][2:]:  # other signs cut them
+        # only signs that do not matter here divide them
+        if span == last and piece[2:] == pieces[-1][2:]:
             pieces[-1] = pieces[-1]._replace(end=piece.end)
         else:
             pieces.append(piece)
@@ -101,7 +102,7 @@ def whole(
 
 
 def _between(engagement: Engagement, given: Setting, before: Stretch, after: Stretch) -> float:
-    """Where one stretch ends and the next begins: a break, or a change of sign beside it."""
+    """The place between two stretches: a break, or a change of sign near it."""
     a, b = before.end, after.start
     if b - a > NEAR * engagement.motion_deg * 1e-3 and before.drives != after.drives:
 
@@ -115,7 +116,7 @@ def _between(engagement: Engagement, given: Setting, before: Stretch, after: Str
 
 
 def on_breaks(x: Array, engagement: Engagement) -> Array:
-    """Places of designs, or the breaks from which only rounding parts them: (..., n)."""
+    """Places of designs, replaced by the breaks that they equal apart from rounding: (..., n)."""
     near = ZERO * np.ravel(engagement.motion_deg)
     for place in engagement.motion.breaks_deg:
         at = np.ravel(place)
@@ -124,8 +125,9 @@ def on_breaks(x: Array, engagement: Engagement) -> Array:
 
 
 def refuse_rounding(engagement: Engagement, fastest: float) -> None:
-    """Raise GenevaError where angles are too coarse for a motion whose greatest velocity is
-    ``fastest``: no load has digits then.
+    """Raise GenevaError for a motion that is too fast for the digits of its angles.
+
+    ``fastest`` is its greatest velocity.
     """
     furthest = max(abs(engagement.entry_deg), abs(engagement.exit_deg))
     share = fastest * math.ulp(furthest) * DEGREE / (2.0 * engagement.half_step)

@@ -1,4 +1,4 @@
-"""The loads as they are printed: the cycle row by row, and its summary."""
+"""The loads as they are printed: a table of the cycle, and its summary."""
 
 from __future__ import annotations
 
@@ -11,7 +11,6 @@ import numpy as np
 
 from geneva_cli.analysis.loads.cycle import Cycle
 from geneva_cli.analysis.loads.instant import Instant
-from geneva_cli.analysis.loads.many import SummaryOfMany
 from geneva_cli.analysis.loads.quantities import (
     PRESSED,
     PV,
@@ -21,15 +20,16 @@ from geneva_cli.analysis.loads.quantities import (
     shares,
 )
 from geneva_cli.analysis.loads.sizing import WHEEL, sizing
+from geneva_cli.analysis.loads.summaries import LoadSummary
 from geneva_cli.analysis.motion import HELD, check_samples, derivatives, inputs, times_s
-from geneva_cli.errors import Caution
+from geneva_cli.errors import Notice
 from geneva_cli.table import Reading, Table, pieces, record_table, rows_table
 
 if TYPE_CHECKING:
     from geneva_cli.machine.spec import Spec
     from geneva_cli.numerics.jet import Array
 
-# The columns of the summary from the most important one, for a narrow window.
+# The columns of the summary in order of importance, for a narrow window.
 FIRST = ("quantity", "max", "rms", "max_at_deg", "min", "mean")
 PLACES = ("time_s", "input_deg", "wheel_deg")
 UNLOADED = (
@@ -57,9 +57,9 @@ SHOWN = (
 
 
 class Summary(NamedTuple):
-    """Greatest and least over the motions, mean and root of the mean square over a period.
+    """Greatest and least over the motions, mean and root mean square over a period.
 
-    None where nothing bounds the value, or what it needs is not known.
+    None for an unbounded value, or if its inputs are not known.
     """
 
     max: float | None = None
@@ -77,20 +77,20 @@ def summaries(cycle: Cycle) -> Mapping[str, Summary]:
     return {name: _summary(found[name]) if name in found else Summary() for name in SHOWN}
 
 
-def _summary(found: SummaryOfMany) -> Summary:
+def _summary(found: LoadSummary) -> Summary:
     every = [None if end is None else float(end[0]) for end in found]
     return Summary(*(x if x is not None and math.isfinite(x) else None for x in every))
 
 
 def plain(cycle: Cycle, states: Instant[Array], name: str) -> Array:
-    """A quantity of ``known``, or one that is its share, at states of the cycle."""
+    """A quantity of ``known``, or a multiple of one, at states of the cycle."""
     source, share, _ = shares(cycle.mechanism).get(name, (name, 1.0, ""))
-    assert share is not None  # of what is known
+    assert share is not None  # known quantities have a factor
     return plain_of(states, source) * share
 
 
 def reversals_deg(cycle: Cycle) -> list[float]:
-    """Input angles at which the wheel's torque changes sign: the roller changes walls."""
+    """Input angles at which the wheel's torque changes sign and the roller changes walls."""
     out = []
     for (one, before), (two, after) in zip(cycle.stretches, cycle.stretches[1:], strict=False):
         if one is two and before.drives != after.drives:
@@ -105,10 +105,10 @@ def loads_table(
     warnings: Sequence[str],
     for_people: bool = False,
 ) -> Table:
-    """The summary, with what must be bought, how long it lasts, and what else is to be said.
+    """The summary of the loads, with sizing, life and warnings.
 
     ``life`` and the wheel's own inertia are known from its parts. For people the quantities that
-    have a value are the rows of a table.
+    have a value are rows of a table.
     """
     spec = cycle.mechanism.spec
     values: dict[str, object] = {"spec": spec.path, "title": spec.title}
@@ -132,7 +132,7 @@ def loads_table(
 
 
 def _unweighed(spec: Spec) -> str:
-    """Why the wheel's own inertia is not known."""
+    """The reason why the wheel's own inertia is not known."""
     if not spec.is_flat:
         return "worked out of wheels that are drawn as flat outlines"
     if spec.size.face_width_mm is None and spec.size.wheel_thickness_mm is None:
@@ -140,10 +140,10 @@ def _unweighed(spec: Spec) -> str:
     return "no wheel can be cut, as `geneva profile` says"
 
 
-def missing(cycle: Cycle) -> list[Caution]:
-    """What keys would give the quantities that are None."""
+def missing(cycle: Cycle) -> list[Notice]:
+    """Notes on the keys that the missing quantities need."""
     if not cycle.is_loaded:
-        return [Caution("not-known", UNLOADED)]
+        return [Notice("not-known", UNLOADED)]
     wide = cycle.given.hertz is not None
     out = [] if wide else [f"{name}: needs face_width_mm in [size]" for name in PRESSED]
     spec, guide = cycle.mechanism.spec, "guide_force_N"
@@ -155,13 +155,13 @@ def missing(cycle: Cycle) -> list[Caution]:
         if share is None:
             unknown.setdefault(needs, []).append(name)
     out += [f"{', '.join(names)}: needs {needs}" for needs, names in unknown.items()]
-    return [Caution("not-known", text) for text in out]
+    return [Notice("not-known", text) for text in out]
 
 
 def cycle_table(cycle: Cycle, samples: int) -> Table:
-    """``samples`` rows, evenly in the input angle over one period from the first entry.
+    """``samples`` rows, evenly spaced in the input angle over one period from the first entry.
 
-    A value without a bound, or not known, is None.
+    A value that is unbounded or not known is None.
     """
     check_samples(samples)
     names = (*PLACES, *SHOWN)
@@ -191,7 +191,7 @@ def _rows(cycle: Cycle, samples: int, begin: int, end: int) -> list[Any]:
 
 
 def _cells(values: Array) -> Any:
-    """A column of a table: None where there is no bound."""
+    """A column of a table: None for unbounded values."""
     if np.isfinite(values).all():
         return values
     return [x if math.isfinite(x) else None for x in values.tolist()]

@@ -40,13 +40,13 @@ if TYPE_CHECKING:
     from geneva_cli.numerics.jet import Array
 
 THICK = 0.5  # thickness at the mouth over the recess's radius, beyond which a horn is no beam
-GRID = 61  # places and sections looked at first
-FINER = 33  # and around the best of them, time and again
+GRID = 61  # places and sections of the first sampling
+FINER = 33  # and of each finer one around the best of them
 SHARES = np.linspace(0.0, 1.0, FINER)
 ROUNDS = 3
 GROUP = 16  # designs at a time: their stresses stay in the cache
-NEAR = 1e-4  # share of a half motion: nearer to mid-motion a slot's direction is rounding
-SHEAR = 1.2  # of a rectangular section: energy of its shear stress over that of the mean one
+NEAR = 1e-4  # fraction of a half motion: nearer to mid-motion a slot's direction is rounding
+SHEAR = 1.2  # of a rectangular section: energy of its shear stress over that of the mean stress
 
 
 class HornStress(NamedTuple):
@@ -198,7 +198,7 @@ def horn(
     return None if math.isnan(one.stress_MPa) else one
 
 
-def horn_of_many(
+def horn_stresses(
     mechanism: Mechanism, half_width_mm: float, recess_mm: float, width_mm: float
 ) -> HornStress:
     """Greatest bending stress of m designs, whose sizes may be (m, 1).

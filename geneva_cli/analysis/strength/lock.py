@@ -88,14 +88,14 @@ def lock(mechanism: Mechanism, half_width_mm: float, by: Lock) -> LockUnderTorqu
 
     None without a torque to hold, or without a ``face_width_mm``.
     """
-    batch = lock_of_many(mechanism, half_width_mm, by)
+    batch = loaded_locks(mechanism, half_width_mm, by)
     if batch is None:
         return None
     on, *rows = batch
     return LockUnderTorque(on, *cast("list[float]", only_of(rows)))
 
 
-def lock_of_many(mechanism: Mechanism, half_width_mm: float, by: Lock) -> LockUnderTorque | None:
+def loaded_locks(mechanism: Mechanism, half_width_mm: float, by: Lock) -> LockUnderTorque | None:
     """Locks of m designs, whose sizes may be (m, 1); NaN for those without a torque or a lock.
 
     None if all are without a torque.

@@ -20,13 +20,13 @@ import numpy as np
 
 from geneva_cli.analysis.loads.contact import contact, is_straight
 from geneva_cli.analysis.loads.forces import Forces, setting, sliding
-from geneva_cli.analysis.loads.groups_many import of_groups
-from geneva_cli.analysis.loads.loaded_many import NONE, Loaded, Machine, Signs, machine
+from geneva_cli.analysis.loads.groups import of_groups
+from geneva_cli.analysis.loads.loaded import NONE, Loaded, Machine, Signs, machine
 from geneva_cli.analysis.loads.stretches import spans_of, to_mid_motion
 from geneva_cli.machine.many import taken
+from geneva_cli.numerics.adaptive_quadrature import span_integrals
 from geneva_cli.numerics.angles import DEGREE
 from geneva_cli.numerics.arrays import all_true, array, only_of, parameter
-from geneva_cli.numerics.quadrature_many import integrals_many
 from geneva_cli.numerics.search import search
 
 if TYPE_CHECKING:
@@ -41,7 +41,7 @@ if TYPE_CHECKING:
 
 EXPONENT = 10.0 / 3.0  # p, of line contact
 RATED = 1e6  # revolutions that C is rated for
-FORCE = ("pin_force_N",)  # whose bound says whether there is one of the integrals
+FORCE = ("pin_force_N",)  # the integrals are bounded where this quantity is
 
 
 class Passage(NamedTuple):
@@ -77,10 +77,10 @@ def passage(engagement: Engagement, given: Setting, half: float = 0.0) -> Passag
     >>> round(passage(m.engagements[0], setting(m)).travel_m, 12)  # 2 L (cos b - (1 - l))
     0.146410161514
     """
-    return Passage(*(array(x).item() for x in passage_of_many(engagement, given, half)))
+    return Passage(*(array(x).item() for x in passage_integrals(engagement, given, half)))
 
 
-def passage_of_many(engagement: Engagement, given: Setting, half: float = 0.0) -> Passage:
+def passage_integrals(engagement: Engagement, given: Setting, half: float = 0.0) -> Passage:
     """Integrals over one motion of m designs: (m,) each."""
     every = machine(engagement, given, FORCE, NONE)
     (rows,) = of_groups(every, lambda some, n: (_integrals(some, n, half),))
@@ -110,7 +110,7 @@ def _integrals(every: Machine, n: int, half: float) -> Array:
     every_one = np.full(n, True)
     requested = np.stack((every_one, every_one, bounded, bounded))
     with np.errstate(all="ignore"):
-        total = integrals_many(rows, a, b, design, requested, ends=True) * DEGREE
+        total = span_integrals(rows, a, b, design, requested, ends=True) * DEGREE
     return np.where(requested, total, np.inf)
 
 
@@ -152,7 +152,7 @@ def by_roller(mechanism: Mechanism) -> list[Passage]:
 def _passage(mechanism: Mechanism, engagement: Engagement, half: float) -> Passage:
     """Passage of a machine's engagement; for a single design it is cached."""
     single = isinstance(mechanism.design, int)
-    return (passage if single else passage_of_many)(engagement, setting(mechanism), half)
+    return (passage if single else passage_integrals)(engagement, setting(mechanism), half)
 
 
 def halves(engagement: Engagement) -> tuple[float, ...]:
@@ -196,7 +196,7 @@ def lives(mechanism: Mechanism, each: Sequence[Passage]) -> Life:
         force, turns, often = every[worst, :, np.arange(every.shape[2])].T
         lasts: list[float | None] = [None] * 3
         capacity = spec.material_roller.dynamic_capacity_N
-        if capacity is not None:  # without a force it lasts for ever
+        if capacity is not None:  # without a force the life is unlimited
             rated = RATED * (np.ravel(capacity) / force) ** EXPONENT
             lasts = [parameter(x) for x in (rated, rated / turns, rated / turns / often)]
     return Life(parameter(force), parameter(turns), *lasts)

@@ -21,14 +21,14 @@ import numpy as np
 
 from geneva_cli.analysis.loads.forces import Row
 from geneva_cli.analysis.loads.instant import Instant
-from geneva_cli.analysis.loads.many import greatest_of_many
+from geneva_cli.analysis.loads.summaries import load_peaks
 from geneva_cli.numerics.arrays import only_of, parameter
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
     from geneva_cli.analysis.loads.contact import Contact
-    from geneva_cli.analysis.loads.loaded_many import Wanted
+    from geneva_cli.analysis.loads.loaded import Wanted
     from geneva_cli.machine.mechanism import Mechanism
     from geneva_cli.numerics.arrays import N
     from geneva_cli.numerics.jet import Array, Jet, Number
@@ -38,7 +38,7 @@ if TYPE_CHECKING:
 
 
 class Turned(NamedTuple):
-    """A shaft under its cycle; None for values that are not known; (m,) each for m designs."""
+    """Results for a shaft over its cycle; None for unknown values; (m,) each for m designs."""
 
     moment_Nm: float  # greatest sqrt((Kb M)² + (Kt T)²)
     at_deg: float
@@ -100,7 +100,7 @@ def on_driven_crank(i: Instant[Jet], at: Contact[Jet]) -> tuple[Jet, Jet]:
 
 
 class Moment(NamedTuple):
-    """The square (Kb M)² + (Kt T)², as a row for ``greatest_of_many``; lever in metres."""
+    """The square (Kb M)² + (Kt T)², as a row for ``load_peaks``; lever in metres."""
 
     loaded: On
     lever: float
@@ -114,7 +114,7 @@ class Moment(NamedTuple):
 
 
 class Torque(NamedTuple):
-    """The squared torque, as a row for ``greatest_of_many``."""
+    """The squared torque, as a row for ``load_peaks``."""
 
     loaded: On
 
@@ -129,7 +129,7 @@ def shaft(mechanism: Mechanism, ends: GivenShaft, loaded: On) -> Turned | None:
 
     Moments are infinite if the force has no bound.
     """
-    batch = shaft_of_many(mechanism, ends, loaded)
+    batch = shafts_under_load(mechanism, ends, loaded)
     if batch is None:
         return None
     moment, at_deg, *rest = only_of(batch)
@@ -137,12 +137,12 @@ def shaft(mechanism: Mechanism, ends: GivenShaft, loaded: On) -> Turned | None:
     return Turned(moment, at_deg, *rest)
 
 
-def shaft_of_many(mechanism: Mechanism, ends: GivenShaft, loaded: On) -> Turned | None:
+def shafts_under_load(mechanism: Mechanism, ends: GivenShaft, loaded: On) -> Turned | None:
     """Shafts of m designs; None if none has an overhang or a load."""
     if ends.overhang_mm is None or not mechanism.spec.is_loaded:
         return None
     own = _wanted(mechanism, ends, loaded)
-    both, turned = greatest_of_many(mechanism, tuple(own), own).values()
+    both, turned = load_peaks(mechanism, tuple(own), own).values()
     return _turned(mechanism, ends, both.max, both.at_deg, turned.max)
 
 

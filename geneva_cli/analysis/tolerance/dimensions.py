@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from geneva_cli.numerics.jet import Array
 
 SIGMAS = 3.0  # standard deviations in the plus or minus of a normal distribution
-LEAST = 2.0**-53  # a share of 0 would be infinitely far out
+LEAST = 2.0**-53  # a fraction of 0 would be infinitely far out
 
 
 class Deviations(NamedTuple):

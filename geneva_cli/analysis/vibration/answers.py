@@ -20,7 +20,7 @@ from geneva_cli.analysis.vibration.vibration import (
     speeds_to_avoid,
     vibrations,
 )
-from geneva_cli.errors import Caution
+from geneva_cli.errors import Notice
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.table import Table, record_table, rows_table
 
@@ -38,7 +38,7 @@ def values(mechanism: Mechanism, load: Oscillator | None) -> dict[str, Any]:
     """Named values, with equal names for every machine; all None if no inertia is known."""
     if load is None:
         return dict.fromkeys((*NUMBERS, "avoid", "stations")) | {
-            "warnings": (Caution("not-known", f"all is null: {NO_INERTIA}"),)
+            "warnings": (Notice("not-known", f"all is null: {NO_INERTIA}"),)
         }
     loads = loads_of(mechanism, load)
     avoid = speeds_to_avoid(mechanism, load)
@@ -75,18 +75,18 @@ STATION = (
     "steady_share",
 )
 NUMBERS = (*Vibrations._fields, "speeds_to_avoid_rpm")
-OFF = 0.01  # share by which a tuned law may miss its period ratio without a word
+OFF = 0.01  # fraction by which a tuned law may miss its period ratio without a warning
 UNDAMPED = (
     "steady_share is not computed: without damping (damping_ratio in [shaft], or --damping) the "
     "vibration never dies out, and there is no steady state"
 )
 
 
-def _warnings(mechanism: Mechanism, load: Oscillator, least: float) -> list[Caution]:
+def _warnings(mechanism: Mechanism, load: Oscillator, least: float) -> list[Notice]:
     out = []
     if least < 1.0:
         out.append(
-            Caution(
+            Notice(
                 "short-motion",
                 f"a motion takes only {least:.4g} natural periods of the load, too few to follow: "
                 "use a stiffer shaft, less inertia or a lower speed",
@@ -97,7 +97,7 @@ def _warnings(mechanism: Mechanism, load: Oscillator, least: float) -> list[Caut
     if tuned and not math.isclose(load.ratio, tuned, rel_tol=OFF):
         n_rpm = mechanism.spec.drive.n_rpm * load.ratio / tuned
         out.append(
-            Caution(
+            Notice(
                 "off-tune",
                 f"the law is tuned to period ratio {tuned:g}, but this load has {load.ratio:.6g}: "
                 f"set n_rpm = {n_rpm:.6g}, or use {(tuned / load.ratio) ** 2:.4g} times the "
@@ -105,7 +105,7 @@ def _warnings(mechanism: Mechanism, load: Oscillator, least: float) -> list[Caut
             )
         )
     if not load.damping:
-        out.append(Caution("not-known", UNDAMPED))
+        out.append(Notice("not-known", UNDAMPED))
     return out
 
 

@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 legendre = np.polynomial.legendre
 REACH = 2.0  # greatest |p h|, h half a piece's width: a matter of a dozen terms
 BLOCK = 4096  # pieces at a time
-NEAR = 0.02  # share of the greatest sample by which a sample may miss its piece's maximum
+NEAR = 0.02  # fraction of the greatest sample by which a sample may be below its piece's maximum
 NEWTON = 8  # steps from the greatest sample of a piece to its maximum
 
 # values at the nodes -> integrals from -1 to each node, and to 1

@@ -22,12 +22,12 @@ if TYPE_CHECKING:
 NODES = 32  # of Gauss's rule on a panel
 TERMS = 20  # of Legendre's series that are kept
 TAIL = 6  # the last of them, which say whether the series has ended
-ENDED = 1e-13  # share of a derivative's greatest value, some hundred roundings of it
-JUMP = 1e-12  # share of a derivative's greatest value: less of a jump is rounding
-HIGHEST, LOWEST = 5, 2  # derivatives that are asked for, and that are needed
-PANELS = 20_000  # more are not made for the sake of a higher derivative
-SAME = 1e-13  # share of a width by which two may differ and be taken for one
-NARROW = 1e-12  # share of the motion: a panel is not halved further
+ENDED = 1e-13  # fraction of a derivative's greatest value, some hundred roundings of it
+JUMP = 1e-12  # fraction of a derivative's greatest value: a smaller jump is rounding
+HIGHEST, LOWEST = 5, 2  # order of the derivatives that are used at most, and at least
+PANELS = 20_000  # with more panels, a higher derivative does not pay
+SAME = 1e-13  # fraction of a width within which two widths are equal
+NARROW = 1e-12  # fraction of the motion: a panel is not halved further
 
 X = np.polynomial.legendre.leggauss(NODES)[0]
 

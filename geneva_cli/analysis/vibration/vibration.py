@@ -13,7 +13,7 @@ of the vibration after a motion that began at rest. Its share is the fraction of
     >>> from geneva_cli.machine.spec import Spec
     >>> spec = Spec(External(6), load=Load(inertia_kgm2=0.2), shaft=Shaft(stiffness_Nm_rad=5e3))
     >>> machine = many(spec, {"drive.n_rpm": np.array([60.0, 90.0])}).machine
-    >>> vibrations_of_many(machine).residual_share.round(6)
+    >>> design_vibrations(machine).residual_share.round(6)
     array([0.000708, 0.000695])
 """
 
@@ -27,7 +27,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from geneva_cli.analysis.loads.carried import inertia_kgm2
-from geneva_cli.analysis.peaks_many import peaks_of_many
+from geneva_cli.analysis.peak_search import motion_peaks
 from geneva_cli.analysis.timing import timings
 from geneva_cli.analysis.vibration.during import greatest_accelerations
 from geneva_cli.analysis.vibration.lobes import Lobes, highest_ratio, lobes
@@ -45,9 +45,9 @@ if TYPE_CHECKING:
     from geneva_cli.numerics.arrays import Array, Complex, Whole
 
 SOFTER, STIFFER = math.sqrt(0.8), math.sqrt(1.2)  # the natural frequency's at 20 % of stiffness
-SLOWER, FASTER = 0.5, 2.0  # the speeds looked at, over the design's
+SLOWER, FASTER = 0.5, 2.0  # range of speeds over the design's
 AVOIDED = 1e-4  # least share of the step that makes a speed one to avoid
-TIE = 1e-12  # share of a residual: a lobe that falls short of the greatest by less counts
+TIE = 1e-12  # fraction of a residual: a lobe lower than the greatest by less is equal
 GROUP = 32  # designs at a time: the panels of each are some 20 kB, and stay in the cache
 
 
@@ -149,7 +149,7 @@ class Loads:
         """I alpha / k at the wheel's greatest acceleration, degrees."""
         rows = []
         for index, bent in zip(self.indices, self._bent_deg, strict=True):
-            most = peaks_of_many(index.motion, ["acceleration"])["acceleration"].max
+            most = motion_peaks(index.motion, ["acceleration"])["acceleration"].max
             # by the fraction of the motion's time, over the step
             rows.append(np.ravel(most) * index.whole * index.whole / index.step * bent)
         return np.array(rows)
@@ -249,7 +249,7 @@ def vibrations(loads: Loads, requested: Collection[str] = Vibrations._fields) ->
     )
 
 
-def vibrations_of_many(
+def design_vibrations(
     mechanism: Mechanism, requested: Collection[str] = Vibrations._fields
 ) -> Vibrations | None:
     """Return the results of m designs; None if they have no ``stiffness_Nm_rad``.

@@ -13,8 +13,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from geneva_cli.analysis.peak_search import worst_peaks
 from geneva_cli.analysis.peaks import peak
-from geneva_cli.analysis.peaks_many import worst_of_many
 from geneva_cli.bench import loads_of_many
 from geneva_cli.bench.kinds import (
     CHECKED,
@@ -32,8 +32,8 @@ from geneva_cli.bench.method import Method, Subject, Task
 from geneva_cli.machine.many import many, taken
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.machine.spec import Spec
-from geneva_cli.numerics.extrema_many import BLOCK as SCANNED
-from geneva_cli.numerics.extrema_many import SCAN
+from geneva_cli.numerics.extrema import BLOCK as SCANNED
+from geneva_cli.numerics.extrema import SCAN
 
 if TYPE_CHECKING:
     from geneva_cli.machine.engagement import Motion
@@ -79,7 +79,7 @@ def _built_together(spec: Spec, varied: Mapping[str, Any]) -> Array:
 
 
 def _together(machine: Mechanism) -> Array:
-    peaks = worst_of_many(machine, NAMES)
+    peaks = worst_peaks(machine, NAMES)
     both: Array = np.column_stack([peaks[name].max for name in NAMES])
     return both
 

@@ -14,14 +14,14 @@ import numpy as np
 
 from geneva_cli.analysis import impacts
 from geneva_cli.analysis.loads.cycle import Cycle
-from geneva_cli.analysis.loads.sizing import sizing, sizings_of_many
+from geneva_cli.analysis.loads.sizing import sizing, sizings
 from geneva_cli.analysis.strength import horn, roller, shafts
 from geneva_cli.analysis.tolerance.dimensions import corners
-from geneva_cli.analysis.tolerance.many import motion_plays, used
 from geneva_cli.analysis.tolerance.motion_error import motion_errors
+from geneva_cli.analysis.tolerance.worst_effects import motion_plays, used
 from geneva_cli.analysis.vibration.oscillator import required_oscillator
 from geneva_cli.analysis.vibration.shape import shape
-from geneva_cli.analysis.vibration.vibration import loads_of, vibrations, vibrations_of_many
+from geneva_cli.analysis.vibration.vibration import design_vibrations, loads_of, vibrations
 from geneva_cli.bench.kinds import one_by_one, task_of_many
 from geneva_cli.bench.method import Method, Subject, Task
 from geneva_cli.machine.drives.side_crank import SideCrank
@@ -64,7 +64,7 @@ def _shaft(machine: Mechanism) -> float:
 
 def _shafts(machine: Mechanism) -> Any:
     ends = shafts.wheel_shaft(machine.spec.shaft)
-    result = shafts.shaft_of_many(machine, ends, shafts.on_wheel)
+    result = shafts.shafts_under_load(machine, ends, shafts.on_wheel)
     return result and result.moment_Nm
 
 
@@ -93,7 +93,7 @@ def _swing(machine: Mechanism) -> float:
 
 
 def _swings(machine: Mechanism) -> Any:
-    result = vibrations_of_many(machine, ("dynamic_factor",))
+    result = design_vibrations(machine, ("dynamic_factor",))
     return result and result.dynamic_factor
 
 
@@ -113,7 +113,7 @@ def _plays(machine: Mechanism) -> Any:
 
 ANSWERS = (
     Answer("moment in a shaft", _shaft, _shafts),
-    Answer("stress in a horn", _horn, lambda machine: horn.horn_of_many(machine, *HORN).stress_MPa),
+    Answer("stress in a horn", _horn, lambda many: horn.horn_stresses(many, *HORN).stress_MPa),
     Answer(
         "equivalent force of a roller",
         _force,
@@ -122,7 +122,7 @@ ANSWERS = (
     Answer(
         "motor and flywheel",
         _motor,
-        lambda machine: sizings_of_many(machine)["motor_torque_rms_Nm"],
+        lambda machine: sizings(machine)["motor_torque_rms_Nm"],
     ),
     Answer("dynamic factor", _swing, _swings),
     Answer(

@@ -1,1 +1,1 @@
-"""A document as pages: a format each, which knows headings, tables and figures and no machine."""
+"""Documents as pages: one module for each format, with headings, tables and figures."""

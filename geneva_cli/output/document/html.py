@@ -1,4 +1,4 @@
-"""A document as one page of HTML that needs nothing else: no script, no network, no font."""
+"""A document as one self-contained page of HTML: no script, no network, no font."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ from geneva_cli.output.document.inline import inline
 from geneva_cli.output.document.values import is_number, shown
 from geneva_cli.output.summary import SIGNS
 
-WIDE = 4  # columns that a phone has room for
+WIDE = 4  # columns that fit on a phone
 SHORT = 12  # letters that are not broken into lines
 NUMBER, BRIEF, WORST = ' class="n"', ' class="s"', ' class="bad"'
 
@@ -105,7 +105,7 @@ def _grid(grid: Grid) -> Iterator[str]:
 
 
 def _side(column: Row) -> str:
-    """How the cells of a column stand: numbers at its right, short words on a line."""
+    """The class of a column's cells: numbers are right-aligned, short words unbroken."""
     if all(map(is_number, column)):
         return NUMBER
     return BRIEF if all(len(shown(value)) <= SHORT for value in column) else ""

@@ -1,4 +1,4 @@
-"""An SVG of ours inside a page: what it names and how it looks is its own."""
+"""An SVG within a page, with ids and styles of its own."""
 
 from __future__ import annotations
 
@@ -7,12 +7,12 @@ from collections.abc import Iterable
 
 STYLE = re.compile(r"<style>\n(.*?)</style>\n", re.DOTALL)
 RULE = re.compile(r"([^{}\n]+?) \{")
-# as files of their own they say so on any medium; a page is printed light
+# a file's styles hold on any medium; a printed page is light
 DARK = re.compile(r"@media (?:screen and )?\(prefers-color-scheme: dark\)")
 
 
 def inline(chunks: Iterable[str], name: str) -> str:
-    """The element, its ids beginning with ``name`` and its styles meant for it alone."""
+    """The element with ids that begin with ``name``, and styles for it alone."""
     text = "".join(chunks)
     text = text[text.index("<svg") :]
     text = re.sub(r' id="([^"]+)"', rf' id="{name}-\1"', text)

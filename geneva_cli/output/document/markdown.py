@@ -1,4 +1,4 @@
-"""A document as Markdown: headings and tables; of its pictures what they say."""
+"""A document as Markdown: headings, tables, and descriptions of its pictures."""
 
 from __future__ import annotations
 
@@ -57,7 +57,7 @@ def _between(a: float, b: float) -> str:
 
 
 def _peaks(curves: Curves) -> Grid:
-    """The marks of a figure, which is what of its curves can be said."""
+    """The marks of a figure, which describe its curves."""
     rows = tuple(
         (named(panel.y), said(mark))
         for panel in curves.figure.panels
@@ -84,5 +84,5 @@ def _list(texts: tuple[str, ...]) -> Iterator[str]:
 
 
 def _text(text: str) -> str:
-    """A text that means itself, whatever it looks like."""
+    """A text without special meaning in Markdown."""
     return "".join(ESCAPES.get(c, c) for c in clean(text))

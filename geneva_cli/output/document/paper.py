@@ -1,4 +1,4 @@
-"""A4 pages: items of a height, one below the other, and their page numbers. Millimetres, y up."""
+"""A4 pages: items of a height, stacked, and page numbers. Millimetres, y up."""
 
 from __future__ import annotations
 
@@ -13,16 +13,16 @@ WIDTH, HEIGHT = 210.0, 297.0
 LEFT, TOP, BOTTOM = 16.0, 281.0, 20.0
 WIDE = WIDTH - 2.0 * LEFT
 BODY, SMALL = 3.4, 2.8  # sizes of letters
-LEADING = 1.32  # from line to line, over the letters' size
+LEADING = 1.32  # distance of lines over the letters' size
 INK, SOFT, LINE, BAND = "0.1 0.12 0.14", "0.35 0.39 0.43", "0.8 0.83 0.86", "0.95 0.96 0.97"
 RED, AMBER, GREEN = "0.7 0.15 0.12", "0.48 0.31 0", "0.1 0.42 0.2"
 
 
 class Item(NamedTuple):
-    """What stands on one page: ``draw(top)`` are the operators from a height downwards.
+    """An unbreakable part of a page; ``draw(top)`` are its operators from a height downwards.
 
-    One that ``keeps`` is on the page of the one after it; ``head`` is repeated above it where a
-    page begins with it.
+    An item that ``keeps`` is on the page of the next one; ``head`` is repeated above it if a page
+    begins with it.
     """
 
     high: float
@@ -81,12 +81,12 @@ def words(
     ink: str = INK,
     turn: float = 0,
 ) -> str:
-    """A text in a colour, from a point on along its base line."""
+    """A coloured text that starts at a point on its base line."""
     return f"{ink} rg\n" + pdf_file.text(western(text), at, size, turn, 2 if bold else 1)
 
 
 def rule(x: float, y: float, long: float, width: float = 0.15, ink: str = LINE) -> str:
-    """A level line."""
+    """A horizontal line."""
     ends = f"{number(x)} {number(y)} m {number(x + long)} {number(y)} l"
     return f"{ink} RG {number(width)} w [] 0 d {ends} S\n"
 
@@ -102,7 +102,7 @@ def wide(text: str, size: float, bold: bool = False) -> float:
 
 
 def lines(text: str, size: float, room: float, bold: bool = False) -> list[str]:
-    """A text broken into lines that fit a width; a word that is longer than one is cut."""
+    """A text broken into lines that fit a width; a longer word is cut."""
     out: list[str] = []
     line = ""
     for word in filter(None, text.split(" ")):
@@ -126,7 +126,7 @@ def fitting(text: str, size: float, room: float) -> str:
 
 
 def _fits(word: str, size: float, room: float, bold: bool) -> int:
-    """How many letters fit, after an underscore or a point if there is one among the last."""
+    """The number of letters that fit, up to a sign such as an underscore if one is near the end."""
     many = 1
     while many < len(word) and wide(word[: many + 1], size, bold) <= room:
         many += 1

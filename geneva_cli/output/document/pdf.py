@@ -1,4 +1,4 @@
-"""A document as PDF: A4 pages with numbers, headings that stand with what follows them."""
+"""A document as PDF: A4 pages with numbers; a heading is on the page of what follows it."""
 
 from __future__ import annotations
 
@@ -74,7 +74,7 @@ def _block(block: Block) -> Iterator[Item]:
         yield _heading(block.text)
     elif isinstance(block, Prose):
         found = _wrapped(block.text, WIDE)
-        for i, text in enumerate(found):  # no line of it alone on a page
+        for i, text in enumerate(found):  # no single line of it on a page
             yield _line(text, BODY)._replace(keeps=i in (0, len(found) - 2))
         yield _gap(2.5)
     elif isinstance(block, Listed):

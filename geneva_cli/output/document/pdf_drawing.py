@@ -1,4 +1,4 @@
-"""A drawing on paper, as large as it may be: plates in tints, lines in inks, its distances."""
+"""A drawing on paper at the largest scale: tinted plates, inked lines, distances."""
 
 from __future__ import annotations
 
@@ -15,8 +15,8 @@ from geneva_cli.output.pdf_file import number, outline, point
 from geneva_cli.output.svg_fill import TINT, TINTS, rings
 from geneva_cli.output.svg_look import round_length
 
-HIGH = 92.0  # at the most, of the shapes
-ROOM = 3.0  # around them
+HIGH = 92.0  # greatest height of the shapes
+ROOM = 3.0  # margin around them
 STROKE, THIN = 0.3, 0.16
 DASHES = "4 0.8 0.8 0.8"
 SPAN = 6.0  # from one distance to the next
@@ -27,7 +27,7 @@ Put: TypeAlias = Callable[[Point], Point]
 
 
 def drawing(made: Drawing) -> Item:
-    """The drawing in the middle of the page, below it distances and a scale bar."""
+    """The drawing centred on the page; below it distances and a scale bar."""
     box = extent(made)
     turns = [bounds(Contour("", (t,), closed=False)) for t in made.look.turns] if made.look else []
     x0, x1 = min(b.x0 for b in (box, *turns)), max(b.x1 for b in (box, *turns))
@@ -107,6 +107,6 @@ def _arrow(tip: Point, way: float) -> str:
 
 
 def _ink(rgb: str, share: float = 1.0) -> str:
-    """A colour, or so much of it on white."""
+    """A colour, or a fraction of it on white."""
     parts = (int(rgb[i : i + 2], 16) / 255.0 for i in (1, 3, 5))
     return " ".join(number(1.0 - share * (1.0 - p)) for p in parts)

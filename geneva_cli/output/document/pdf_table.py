@@ -1,4 +1,4 @@
-"""Tables on paper: columns as wide as they need to be, rows that break into lines."""
+"""Tables on paper: columns as wide as needed, rows that break into lines."""
 
 from __future__ import annotations
 
@@ -29,8 +29,8 @@ PAD = 1.3  # beside a cell's text
 SPACE = 0.55  # above and below it
 AFTER = 4.0  # below a table
 STEP = LEADING * SMALL
-NAMED = 0.62  # of a fact's width, for its name
-HEAD = 30.0  # what a head may want for itself, before it breaks
+NAMED = 0.62  # fraction of a fact's width for its name
+HEAD = 30.0  # width of a head before it breaks
 GAP = 6.0  # between facts side by side
 
 
@@ -77,7 +77,7 @@ def _space() -> Item:
 
 
 def _widths(heads: Sequence[str], rows: list[list[str]]) -> list[float]:
-    """What each column gets: all that it wants, or a share of it above its longest word."""
+    """The columns' widths: those that they want, or fractions above their longest words."""
     needs, wants = [], []
     for head, *cells in zip(heads, *rows, strict=True):
         longest = [max((wide(w, SMALL, True) for w in head.split()), default=0.0)]

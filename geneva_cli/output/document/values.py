@@ -1,4 +1,4 @@
-"""Values as people write them: six significant digits, powers of ten, and their unit."""
+"""Values for people: six significant digits, powers of ten, and their unit."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ RAISED = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 
 
 def shown(value: Value | Row, unit: str = "", digits: int = DIGITS) -> str:
-    """A value with its unit. Raises GenevaError for a number that is none, a fault of ours.
+    """A value with its unit. Raises GenevaError for NaN, a fault of this program.
 
     >>> shown(182.612895, "°"), shown(53.17, "W/m²"), shown(None), shown(True)
     ('182.613°', '53.17 W/m²', '–', 'yes')
@@ -28,7 +28,7 @@ def shown(value: Value | Row, unit: str = "", digits: int = DIGITS) -> str:
 
 
 def is_number(value: object) -> bool:
-    """Whether it stands at the right of its column."""
+    """Return True for a value that is right-aligned in its column."""
     return value is None or (isinstance(value, (int, float)) and not isinstance(value, bool))
 
 

@@ -1,4 +1,4 @@
-"""A scene as one page of HTML that needs no network: outlines that turn, curves, and a slider."""
+"""A scene as one page of HTML without network: moving outlines, curves, and a slider."""
 
 from __future__ import annotations
 
@@ -18,10 +18,10 @@ if TYPE_CHECKING:
     from geneva_cli.figure import Curve, Panel
     from geneva_cli.scene import Bar, Body, Push, Scene, Track
 
-DIGITS = 10  # significant, of angles and places: 1e-9 of a turn
-SEEN = 5  # of what only is looked at
+DIGITS = 10  # significant digits of angles and places: 1e-9 of a turn
+SEEN = 5  # significant digits of values that are only viewed
 SCALE, ANGLES = 4, 7  # numbers beside a curve, and below it
-SHORT = 120  # points of a curve that is looked at
+SHORT = 120  # points of a curve in a piece
 
 
 def chunks(scene: Scene) -> Iterator[str]:
@@ -39,7 +39,7 @@ def chunks(scene: Scene) -> Iterator[str]:
         "SCRIPT": _file("page.js"),
         "VIEW": _view(scene),
     }
-    # One pass: a title that holds the name of another part stays as it is.
+    # One pass: a title with the name of another part is not replaced.
     yield re.sub("%([A-Z]+)%", lambda place: parts[place[1]], _file("page.html"))
 
 
@@ -49,7 +49,7 @@ def _file(name: str) -> str:
 
 
 def _view(scene: Scene) -> str:
-    """What the drawing shows, with a margin; y points down."""
+    """The view box of the drawing with a margin; y points down."""
     x0, y0, x1, y1 = scene.box
     margin = 0.02 * max(x1 - x0, y1 - y0)
     found = (x0 - margin, -y1 - margin, x1 - x0 + 2.0 * margin, y1 - y0 + 2.0 * margin)
@@ -64,7 +64,7 @@ def _group(body: Body) -> str:
 
 
 def _links(number: int, bar: Bar) -> str:
-    """The plates of a link, each a group of its own."""
+    """The plates of a link, each as a group."""
     return "".join(
         f'<g id="link-{number}-{i}" class="link">'
         + "".join(
@@ -77,7 +77,7 @@ def _links(number: int, bar: Bar) -> str:
 
 
 def _data(scene: Scene) -> dict[str, Any]:
-    """What the page's script reads."""
+    """The data for the page's script."""
     x0, y0, x1, y1 = scene.box
     return {
         "start": scene.start_deg,
@@ -129,14 +129,14 @@ def _panel(panel: Panel) -> dict[str, Any]:
 
 
 def _ticks(low: float, high: float, most: int, unit: str = "") -> list[tuple[float, str]]:
-    """Round places of an axis, and how they are written."""
+    """Round places of an axis, and their labels."""
     places = ticks(low, high, most, unit)
     degree = "°" if unit == "deg" else ""
     return [(x, text + degree) for x, text in zip(places, labels(places), strict=True)]
 
 
 def _pieces(curve: Curve) -> Iterator[list[list[float]]]:
-    """The curve with at most some points a piece, its ends kept."""
+    """The curve with a limited number of points in each piece, its ends kept."""
     for x, y in curve.pieces:
         every = max(1, len(x) // SHORT)
         chosen = sorted({*range(0, len(x), every), len(x) - 1})

@@ -1,1 +1,1 @@
-"""Drawing sheets as files: a format each, which knows lines and texts and no machine."""
+"""Drawing sheets as files: one module for each format, with lines and texts."""

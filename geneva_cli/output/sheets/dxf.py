@@ -1,8 +1,8 @@
 """A drawing sheet as DXF, in millimetres on paper, its dimensions as DIMENSION entities.
 
-Each dimension has a block with the lines and the text that it is drawn by, so that every reader
-shows it as the other formats do; a style for each scale makes a CAD program that measures again
-find the part's own size.
+Each dimension has a block with its lines and its text, so that every reader shows it as the other
+formats do. Each scale has a style, with which a CAD program that measures again gets the part's own
+size.
 """
 
 from __future__ import annotations
@@ -31,7 +31,7 @@ OWN = 32 + 128
 
 
 def chunks(sheet: Sheet, version: str = USUAL) -> Iterator[str]:
-    """The file's text. Raises GenevaError for another version, or cubics in R12."""
+    """The file's text. Raises GenevaError for an unknown version, or for cubics in R12."""
 
     def fill(document: Document, space: Modelspace) -> None:
         _layers(document)
@@ -134,6 +134,6 @@ def _text(space: BaseLayout, label: Label, layer: str) -> None:
 
 
 def _signed(text: str) -> str:
-    """A text with DXF's own signs; what would be one by chance is none."""
+    """A text with DXF's own signs; accidental ones are separated."""
     shown = clean(text).replace("%%", "% %")
     return "".join(SIGNS.get(c, c) for c in shown)

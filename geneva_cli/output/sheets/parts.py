@@ -1,4 +1,4 @@
-"""What the formats of sheets share: which lines are on which layer."""
+"""Shared parts of the sheets' formats: the lines of each layer."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from geneva_cli.curves.sheet import DIMENSION, WIDTHS, Arrow, Sheet
 
 
 def by_layer(sheet: Sheet) -> Iterator[tuple[str, list[Shape]]]:
-    """The shapes of each layer, with the lines of the dimensions on theirs."""
+    """The shapes of each layer, including the lines of its dimensions."""
     for layer in WIDTHS:
         found = [shape for shape in sheet.shapes if shape.layer == layer]
         if layer == DIMENSION:
@@ -20,5 +20,5 @@ def by_layer(sheet: Sheet) -> Iterator[tuple[str, list[Shape]]]:
 
 
 def arrows(sheet: Sheet) -> list[Arrow]:
-    """All arrows."""
+    """All arrows of the sheet's dimensions."""
     return [arrow for measure in sheet.measures for arrow in measure.arrows]

@@ -1,4 +1,4 @@
-"""A drawing sheet as PDF: one page of the paper's size, lines and texts, and nothing else."""
+"""A drawing sheet as PDF: one page of the paper's size with lines and texts only."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""A drawing sheet as SVG, of the paper's size; black on white, or white on black in the dark."""
+"""A drawing sheet as SVG, of the paper's size; black on white, or white on black in dark mode."""
 
 from __future__ import annotations
 
@@ -57,7 +57,7 @@ def _arrow(arrow: Arrow) -> str:
 
 
 def _text(label: Label) -> str:
-    """As wide as the sheet knows it, whatever font is there."""
+    """The element of a text, stretched to the width that the sheet assumes, whatever the font."""
     turn = ""
     if label.turn:
         x, y = label.at

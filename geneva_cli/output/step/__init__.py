@@ -1,6 +1,6 @@
 """STEP AP214 (ISO 10303-214): the parts of a drawing as closed solids, with names and colours.
 
-The same bytes on every run: the time stamp that the standard asks for is always the same.
+The output is equal on every run, as its time stamp is constant.
 """
 
 from __future__ import annotations
@@ -19,8 +19,8 @@ BLOCK = 1024  # lines at a time
 def chunks(drawing: Drawing, units: str) -> Iterator[str]:
     """The file's text.
 
-    Raises GenevaError for a drawing without solids, another unit than mm, or a coordinate that is
-    not finite.
+    Raises GenevaError for a drawing without solids, for a unit other than mm, and for a coordinate
+    that is not finite.
     """
     whole = drawing.shells or drawing.solid
     if whole is None:

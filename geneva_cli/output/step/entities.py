@@ -6,7 +6,7 @@ from typing import NamedTuple
 
 from geneva_cli.curves.shapes import Point
 
-LENGTH = 12  # decimals of lengths in mm: with large coordinates more than a float has
+LENGTH = 12  # decimals of lengths in mm: with large coordinates more than a double has
 SHARE = 16  # decimals of directions, which act through a length
 
 
@@ -16,11 +16,11 @@ class WallFace(NamedTuple):
     face: str
     low: str
     high: str
-    along: bool  # whether the edges run as the contour does
+    along: bool  # whether the edges run in the contour's direction
 
 
 class Entities:
-    """The lines of a data section, in which an instance refers to others by their ``#numbers``."""
+    """The lines of a data section; instances refer to each other by their ``#numbers``."""
 
     def __init__(self) -> None:
         self.lines: list[str] = []
@@ -31,15 +31,15 @@ class Entities:
         self.origin = self.placement((0.0, 0.0), 0.0)
 
     def add(self, text: str) -> str:
-        """A new instance's number."""
+        """Add an instance and return its number."""
         number = f"#{len(self.lines) + 1}"
         self.lines.append(f"{number}={text};\n")
         return number
 
     def shared(self, text: str) -> str:
-        """The number of an instance that is written once, however often it is asked for.
+        """Return the number of an instance that is written once, however often it is requested.
 
-        For geometry alone: two solids may touch, and have no edge in common all the same.
+        Only for geometry: two solids may touch without sharing an edge.
         """
         found = self._shared.get(text)
         if found is None:
@@ -56,7 +56,7 @@ class Entities:
         return self.shared(f"DIRECTION('',({real(x, SHARE)},{real(y, SHARE)},{real(z, SHARE)}))")
 
     def placement(self, at: Point, z: float, axis: str = "", ahead: str = "") -> str:
-        """A frame at a point: its axis, up, and its x, ahead, unless others are given."""
+        """A frame at a point, with its axis up and its x ahead by default."""
         point = self.point(at, z)
         return self.shared(
             f"AXIS2_PLACEMENT_3D('',{point},{axis or self.up},{ahead or self.ahead})"
@@ -64,7 +64,7 @@ class Entities:
 
 
 def real(value: float, decimals: int = LENGTH) -> str:
-    """A number as the format has it, with a point and without an exponent."""
+    """A number in the format's notation, with a point and without an exponent."""
     text = f"{value:.{decimals}f}".rstrip("0")
     return text if text != "-0." else "0."
 
@@ -75,7 +75,7 @@ def listed(numbers: list[str]) -> str:
 
 
 def words(text: str) -> str:
-    """A text in quotation marks; letters that ASCII does not have by their code points."""
+    """A text in quotation marks; letters beyond ASCII by their code points."""
     out = ""
     for c in text:
         if " " <= c <= "~":
@@ -91,13 +91,13 @@ def edge(file: Entities, start: str, end: str, curve: str, along: bool) -> str:
 
 
 def loop(file: Entities, edges: list[tuple[str, bool]]) -> str:
-    """Edges end to end, each with whether it is run along as it was made."""
+    """A loop of edges end to end, each with its orientation."""
     sides = [file.add(f"ORIENTED_EDGE('',*,*,{edge},{_flag(along)})") for edge, along in edges]
     return file.add(f"EDGE_LOOP('',{listed(sides)})")
 
 
 def face(file: Entities, loops: list[str], surface: str, same: bool) -> str:
-    """A face on a surface, whose normal is the face's own where it is the ``same``."""
+    """A face on a surface; ``same`` means that the normals have the same direction."""
     first, *inner = loops
     bounds = [file.add(f"FACE_OUTER_BOUND('',{first},.T.)")]
     bounds += [file.add(f"FACE_BOUND('',{loop},.T.)") for loop in inner]

@@ -1,4 +1,4 @@
-"""Products: parts with their names and colours, and how they are put together."""
+"""Products: parts with their names and colours, and their assembly."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ class Product(NamedTuple):
 
 
 class Products:
-    """The products of one file; parts that are alike are one product, put in several places."""
+    """The products of one file; equal parts are one product in several places."""
 
     def __init__(self, file: Entities, whole: Part) -> None:
         self.file = file
@@ -44,7 +44,7 @@ class Products:
         )
 
     def product(self, part: Part) -> Product:
-        """The product of a part, made when it is first asked for."""
+        """The product of a part, made at its first use."""
         if part not in self.known:
             made = self._group(part) if isinstance(part, Group) else self._solid(part)
             self.known[part] = made
@@ -88,7 +88,7 @@ class Products:
         return self.file.placement(member.at, 0.0, ahead=self.file.direction(c, s))
 
     def _put(self, number: int, member: Member, part: Product, place: str, whole: Product) -> None:
-        """The use of a part in a group, at a place there."""
+        """Add the use of a part in a group, at a place there."""
         file = self.file
         use = file.add(
             f"NEXT_ASSEMBLY_USAGE_OCCURRENCE('{number}',{words(member.part.name)},'',"
@@ -117,7 +117,7 @@ class Products:
 
 
 def _space(file: Entities) -> str:
-    """Millimetres and radians, and how near to each other points are one."""
+    """The context of a file: millimetres and radians, and the tolerance of equal points."""
     length = file.add("(LENGTH_UNIT()NAMED_UNIT(*)SI_UNIT(.MILLI.,.METRE.))")
     angle = file.add("(NAMED_UNIT(*)PLANE_ANGLE_UNIT()SI_UNIT($,.RADIAN.))")
     solid_angle = file.add("(NAMED_UNIT(*)SI_UNIT($,.STERADIAN.)SOLID_ANGLE_UNIT())")

@@ -1,9 +1,9 @@
 """A shell of a sphere as a closed solid: parts of two spheres, cones between them, round holes.
 
-A region lies to the left of its arcs, seen from outside, so that its face on the outer sphere is
-bounded by them as they run. Over each arc that is the edge of one region alone stands a wall, a
-cone with its apex in the centre; arcs that two regions share are edges within a sphere. A round
-hole is a cylinder about a line through the centre, which meets both spheres in circles.
+A region lies to the left of its arcs, seen from outside, so they bound its face on the outer sphere
+in their own direction. An arc of one region only is the edge of a wall, a cone with its apex in the
+centre. Arcs that two regions share are edges within a sphere. A round hole is a cylinder about a
+line through the centre, which meets both spheres in circles.
 """
 
 from __future__ import annotations
@@ -32,14 +32,14 @@ AHEAD = (1.0, 0.0, 0.0)
 
 
 class ShellCorner(NamedTuple):
-    """Where arcs meet: a vertex on either sphere."""
+    """A common end of arcs: a vertex on each sphere."""
 
     low: str
     high: str
 
 
 class ShellEdges(NamedTuple):
-    """An arc's edges on both spheres, and whether it runs as they do."""
+    """An arc's edges on both spheres, and their orientation."""
 
     low: str
     high: str
@@ -59,7 +59,7 @@ def shell_solid(file: Entities, shell: Shell) -> str:
 
 
 class _Shell:
-    """One shell, being written."""
+    """One shell while it is written."""
 
     def __init__(self, file: Entities, shell: Shell) -> None:
         self.file, self.shell = file, shell
@@ -86,7 +86,7 @@ class _Shell:
         return [*found, *(hole.face for hole in bored)]
 
     def _hole(self, hole: RoundHole) -> WallFace:
-        """Its wall, and its edges, which run clockwise about its axis: the material is left."""
+        """A hole's wall and its edges, clockwise about its axis with the material on the left."""
         file, q, axis = self.file, hole.radius, hole.axis
         back, ahead = opposite(axis), square_to(axis)
         heights = [math.sqrt((r - q) * (r + q)) for r in (self.shell.inner, self.shell.outer)]
@@ -110,7 +110,7 @@ class _Shell:
         return WallFace(face(file, [bound], surface, False), low, high, True)
 
     def _side(self, arc: SphereArc) -> ShellEdges:
-        """The edges over an arc, which may be there already, from the region beside it."""
+        """The edges over an arc, perhaps known already from the adjacent region."""
         back = self.sides.get(_key(_back(arc)))
         if back is not None:
             return back._replace(along=False)
@@ -140,7 +140,10 @@ class _Shell:
         return self.rises[at]
 
     def _wall(self, arc: SphereArc, side: ShellEdges) -> str:
-        """Bounded, from outside, by the inner edge, up at its end, the outer one back, and down."""
+        """The wall over an arc.
+
+        From outside, its bound is the inner edge, up at its end, the outer edge back, and down.
+        """
         bound = loop(
             self.file,
             [
@@ -150,7 +153,7 @@ class _Shell:
                 (self._rise(arc.start), False),
             ],
         )
-        # a cone's own normal leads away from its axis, which lies on the material's side or not
+        # a cone's own normal points away from its axis, which may be on the material's side
         axis, angle = (opposite(arc.axis), math.pi - arc.angle) if _wide(arc) else arc[:2]
         if math.cos(angle) < FLAT:
             frame = self._frame((0.0, 0.0, 0.0), opposite(arc.axis), arc.ahead)
@@ -161,13 +164,13 @@ class _Shell:
         return face(self.file, [bound], self.file.add(surface), not _wide(arc))
 
     def _circle(self, arc: SphereArc, radius: float) -> str:
-        """About the axis that its cone has, which is the nearer one."""
+        """The circle of an arc, about the cone's axis, which is the nearer end."""
         axis, angle = (opposite(arc.axis), math.pi - arc.angle) if _wide(arc) else arc[:2]
         frame = self._frame(_times(axis, radius * math.cos(angle)), axis, arc.ahead)
         return f"CIRCLE('',{frame},{real(radius * math.sin(angle))})"
 
     def _sphere(self, middle: Vector, radius: float) -> str:
-        """A sphere whose poles and seam are away from a region about its middle."""
+        """A sphere whose poles and seam are away from a region about ``middle``."""
         sideways = cross(UP, middle)
         axis = unit(sideways) if math.hypot(*sideways) > FLAT else AHEAD
         frame = self._frame((0.0, 0.0, 0.0), axis, unit(opposite(middle)))
@@ -192,7 +195,7 @@ def _ahead(v: Vector, length: float, aside: Vector, by: float) -> Vector:
 
 
 def _wide(arc: SphereArc) -> bool:
-    """Whether its circle's middle is nearer to the other end of its axis."""
+    """Return True if the circle's middle is nearer to the other end of its axis."""
     return math.cos(arc.angle) < 0.0
 
 
@@ -201,6 +204,6 @@ def _back(arc: SphereArc) -> SphereArc:
 
 
 def _key(arc: SphereArc) -> tuple[Vector, Vector, Vector]:
-    """What tells an arc: its ends, and on which side its circle's middle lies."""
+    """The identity of an arc: its ends, and the side of its circle's middle."""
     x, y, z = (round(v, 9) + 0.0 for v in arc.axis)
     return arc.start, arc.end, (x, y, z)

@@ -1,7 +1,7 @@
-"""A plate as a closed solid: planes, cylinders and drawn-out splines between its two faces.
+"""A plate as a closed solid: planes, cylinders and extruded splines between its two faces.
 
-All contours run with the material on their left. Then, seen from outside, each wall is bounded
-counterclockwise by the lower edge, up at its end, the upper edge back, and down at its start.
+All contours have the material on their left. Seen from outside, each wall is then bounded
+counterclockwise: the lower edge, up at its end, the upper edge back, and down at its start.
 """
 
 from __future__ import annotations
@@ -62,7 +62,7 @@ def solid(file: Entities, plate: Plate) -> str:
 
 
 def _cleaned(plate: Plate) -> tuple[Contour | Circle, ...]:
-    """Its outline and holes without pieces that no file shows."""
+    """A plate's outline and holes without pieces too small for any file."""
     return prepared(Drawing(plate.name, (plate.outline, *plate.holes))).shapes
 
 
@@ -91,7 +91,7 @@ def _wall(
     low = edge(file, start.low, end.low, curves[0], along)
     high = edge(file, start.high, end.high, curves[1], along)
     sides = loop(file, [(low, True), (end.edge, True), (high, False), (start.edge, False)])
-    # a cylinder's own normal leads away from its axis, and that of the rest to the right
+    # a cylinder's own normal points away from its axis, that of the others to the right
     wall = face(file, [sides], _surface(file, piece, plate), along)
     return WallFace(wall, low, high, True)
 
@@ -110,7 +110,7 @@ def _round(file: Entities, plate: Plate, circle: Circle, outside: bool) -> WallF
 
 
 def _curve(file: Entities, piece: Piece, z: float) -> str:
-    """The text of the curve that a piece is on."""
+    """The text of a piece's curve."""
     if isinstance(piece, Line):
         vector = file.shared(f"VECTOR('',{file.direction(*_way(piece))},1.)")
         return f"LINE('',{file.point(piece.start, z)},{vector})"
@@ -129,7 +129,7 @@ def _spline(file: Entities, spline: Spline, z: float) -> str:
 
 
 def _knots(spline: Spline) -> tuple[str, str]:
-    """How often each knot counts, two where a cubic is once differentiable; and where they are."""
+    """The multiplicity of each knot, two where a cubic is once differentiable, and the knots."""
     count = listed(["4", *["2"] * (len(spline.knots) - 2), "4"])
     return count, listed([real(knot / spline.knots[-1], SHARE) for knot in spline.knots])
 
@@ -142,8 +142,8 @@ def _surface(file: Entities, piece: Piece, plate: Plate) -> str:
         return file.add(f"PLANE('',{file.placement(piece.start, plate.low, axis, ahead)})")
     if isinstance(piece, Arc):
         return _cylinder(file, piece.centre, piece.radius, plate.low)
-    # As a spline too: there kernels look for knots when they integrate, and not where a curve is
-    # drawn out.
+    # As a spline too: kernels integrate between knots, which they do not look for in an extruded
+    # curve.
     levels = plate.low, plate.high
     poles = listed([listed([file.point(p, z) for z in levels]) for p in piece.poles])
     count, knots = _knots(piece)

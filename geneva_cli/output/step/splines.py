@@ -1,9 +1,9 @@
-"""Cubics that go on in each other's direction as one B-spline, and so one face over all of them.
+"""Smoothly connected cubics as one B-spline, and so one face over all of them.
 
-Where two meet with a common tangent, a parameter that runs over each in proportion to its handles
-makes the whole once differentiable. Then no pole is needed where they meet: of n cubics there are
-2 n + 2, and the curve is the same. A short arc beside a cubic, as where a wall runs out of a mouth,
-is a cubic too, to rounding: no sliver of a face is left for it.
+Two cubics may meet with a common tangent. A parameter in proportion to their handles then makes the
+whole curve once differentiable. So no pole is needed at the joint: n cubics have 2 n + 2 poles, and
+the curve is the same. A short arc next to a cubic, such as at the end of a wall in a mouth, also
+becomes a cubic, within rounding, so that no sliver of a face is left for it.
 """
 
 from __future__ import annotations
@@ -16,26 +16,26 @@ from geneva_cli.curves.measure import directions
 from geneva_cli.curves.shapes import Arc, Cubic, Line, Point, Segment
 from geneva_cli.curves.sheet import polar
 
-# mm: by which the place where two meet may be moved, as the poles beside it give it again: rounding
+# mm: rounding by which a joint may move when the poles beside it determine it
 SAME = 1e-11
-SHORT = 0.0137  # tan(sweep/4) of an arc that is off its cubic by 4/27 of the sixth power: 1e-12 R
-UNEVEN = 1e3  # between neighbours' shares of the parameter; more than that is two splines
+SHORT = 0.0137  # tan(sweep/4) of an arc whose cubic errs by 4/27 of the sixth power: 1e-12 R
+UNEVEN = 1e3  # greatest ratio of adjacent parameter intervals in one spline
 
 
 class Spline(NamedTuple):
-    """A cubic B-spline: its poles, and where its pieces end on the parameter, from 0 up."""
+    """A cubic B-spline: its poles, and the ends of its pieces on the parameter, from 0 up."""
 
     poles: tuple[Point, ...]
     knots: tuple[float, ...]
 
     @property
     def start(self) -> Point:
-        """Where it begins."""
+        """The first point."""
         return self.poles[0]
 
     @property
     def end(self) -> Point:
-        """Where it ends."""
+        """The last point."""
         return self.poles[-1]
 
 
@@ -43,7 +43,7 @@ Piece: TypeAlias = Line | Arc | Spline
 
 
 def pieces(segments: Iterable[Segment]) -> list[Piece]:
-    """The segments, with cubics as few splines, of the same curve.
+    """The segments of a curve, with its cubics as few splines.
 
     >>> first = Cubic((0.0, 0.0), (1.0, 0.0), (2.0, 0.0), (3.0, 1.0))
     >>> after = Cubic((3.0, 1.0), (5.0, 3.0), (6.0, 3.0), (7.0, 3.0))
@@ -67,7 +67,7 @@ def pieces(segments: Iterable[Segment]) -> list[Piece]:
 
 
 def _softened(segments: list[Segment]) -> list[Segment]:
-    """The segments with short arcs as cubics, where they join one."""
+    """The segments, with short arcs as cubics where they join one."""
     found = list(segments)
     for i, arc in enumerate(segments):
         if not isinstance(arc, Arc) or abs(arc.bulge) > SHORT:
@@ -89,7 +89,7 @@ def _cubic(arc: Arc) -> Cubic:
 
 
 def _share(before: Cubic, after: Segment, share: float) -> float:
-    """How much of the parameter the next one has, by the one before it; 0 if it is no part."""
+    """The parameter interval of the next segment after ``before``; 0 if it does not continue it."""
     if not isinstance(after, Cubic):
         return 0.0
     back, on = math.dist(before.second, before.end), math.dist(after.start, after.first)

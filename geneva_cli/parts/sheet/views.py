@@ -13,10 +13,10 @@ from geneva_cli.parts.arm import CrankArm
 from geneva_cli.parts.first_pair import first_outlines
 from geneva_cli.parts.gear_drawings import gear_shapes
 from geneva_cli.parts.machine_drawing import machine_and_parts
+from geneva_cli.parts.model import PartsModel
 from geneva_cli.parts.outlines import Outlines
 from geneva_cli.parts.parts_list import part_rows
 from geneva_cli.parts.placed import PlacedParts
-from geneva_cli.parts.proof import Proof
 from geneva_cli.parts.sheet import wheel
 from geneva_cli.parts.sheet.crank import draw_arm, draw_assembly, draw_disc
 from geneva_cli.parts.sheet.linked import (
@@ -73,7 +73,7 @@ def shown_on_sheet(parts: Outlines, tolerance: float, curves: str) -> SheetConte
         built,
         first_outlines(mechanism, built.links),
         drawings.groove(parts, tolerance, curves).shapes if cam else (),
-        gear_shapes(Proof(mechanism, parts), tolerance, curves),
+        gear_shapes(PartsModel(mechanism, parts), tolerance, curves),
         max(sizes),
         sum((box.x1 - box.x0) * (box.y1 - box.y0) for box in boxes),
         tolerance,

@@ -10,7 +10,7 @@ from geneva_cli.curves.shapes import Contour, Line, Segment, closed
 from geneva_cli.curves.sphere import Region, SphereArc, place
 from geneva_cli.curves.sphere_hull import Cap
 from geneva_cli.parts.link_drawings import titled
-from geneva_cli.parts.proof import Proof
+from geneva_cli.parts.model import PartsModel
 from geneva_cli.parts.sphere.arm import CapArm, crank_arm
 from geneva_cli.parts.sphere.built import ARM, arm_solids
 from geneva_cli.parts.sphere.drawings import flat_region
@@ -20,18 +20,18 @@ from geneva_cli.parts.sphere.sizes import Ball
 HOLES = "BORE"
 
 
-def arm(proof: Proof, tolerance: float, curves: str) -> Drawing:
+def arm(model: PartsModel, tolerance: float, curves: str) -> Drawing:
     """Return the arm laid flat; its solid is the cap with its hub.
 
     Raises GenevaError without an arm.
     """
-    ball = proof.shells.ball
-    cap_arm, cone = crank_arm(proof.shells), arm_cone(ball)
+    ball = model.shells.ball
+    cap_arm, cone = crank_arm(model.shells), arm_cone(ball)
     shapes = arm_flat(ball, cap_arm, tolerance, curves)
     low, high = ball.arm_span_mm
     plate = Plate("arm", ARM, shapes[0], tuple(shapes[1:]), 0.0, high - low)
     solid = Group("arm", tuple(map(Member, arm_solids(ball, cap_arm))))
-    title = f"{titled(proof.mechanism)}: arm, flat: {cone.described('crank')}"
+    title = f"{titled(model.mechanism)}: arm, flat: {cone.described('crank')}"
     return Drawing(title, tuple(shapes), solid=plate, shells=solid)
 
 

@@ -9,7 +9,7 @@ from geneva_cli.curves.round_holes import RoundHole
 from geneva_cli.curves.sphere import Region
 from geneva_cli.machine.layout import Dimension
 from geneva_cli.parts.missing import Missing, or_missing
-from geneva_cli.parts.proof import Proof
+from geneva_cli.parts.model import PartsModel
 from geneva_cli.parts.sphere.arm import CapArm, crank_arm, has_arm
 from geneva_cli.parts.sphere.dial import dial_holes
 from geneva_cli.parts.sphere.drawings import crank_cone, wheel_cone
@@ -17,9 +17,9 @@ from geneva_cli.parts.sphere.shells import Shells
 from geneva_cli.parts.sphere.sizes import Ball
 
 
-def dimensions(proof: Proof) -> Iterator[Dimension | Missing]:
+def dimensions(model: PartsModel) -> Iterator[Dimension | Missing]:
     """Yield dimensions of shells, arm and cones; for parts that cannot be built, the reason."""
-    yield from or_missing("dimensions of the shells", lambda: _dimensions(proof.shells))
+    yield from or_missing("dimensions of the shells", lambda: _dimensions(model.shells))
 
 
 def _dimensions(shells: Shells) -> Iterator[Dimension | Missing]:

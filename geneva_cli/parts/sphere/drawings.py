@@ -13,7 +13,7 @@ from geneva_cli.curves.plates import Group, Member, Part, Plate
 from geneva_cli.curves.shapes import Contour, Line, Point, Segment, Shape, closed, joined
 from geneva_cli.curves.sphere import Region
 from geneva_cli.parts.link_drawings import titled
-from geneva_cli.parts.proof import Proof
+from geneva_cli.parts.model import PartsModel
 from geneva_cli.parts.sphere.built import built, wheel_group
 from geneva_cli.parts.sphere.crank import locked, rollers
 from geneva_cli.parts.sphere.laid_flat import Cone
@@ -25,35 +25,35 @@ PITCH = "PITCH"
 CUT = ("WHEEL", "CRANK")  # layers that are cut from sheet
 
 
-def wheel(proof: Proof, tolerance: float, curves: str) -> Drawing:
+def wheel(model: PartsModel, tolerance: float, curves: str) -> Drawing:
     """Return the wheel's cone, cut open between two slots; x is along the first slot."""
-    ball = proof.shells.ball
+    ball = model.shells.ball
     cone = wheel_cone(ball)
-    title = f"{titled(proof.mechanism)}: wheel, flat: {cone.described('wheel')}"
+    title = f"{titled(model.mechanism)}: wheel, flat: {cone.described('wheel')}"
     shapes = wheel_flat(ball, cone, tolerance, curves)
-    solid = wheel_group(proof.mechanism.spec.size, ball)
+    solid = wheel_group(model.mechanism.spec.size, ball)
     return _drawing(ball, title, shapes, solid)
 
 
-def crank(proof: Proof, tolerance: float, curves: str) -> Drawing:
+def crank(model: PartsModel, tolerance: float, curves: str) -> Drawing:
     """Return the crank's cone: locking sectors, and the rollers where they pass through it."""
-    ball, locks = proof.shells.ball, proof.shells.crank
+    ball, locks = model.shells.ball, model.shells.crank
     cone = crank_cone(ball)
-    title = f"{titled(proof.mechanism)}: crank, flat: {cone.described('crank')}"
+    title = f"{titled(model.mechanism)}: crank, flat: {cone.described('crank')}"
     shapes = crank_flat(ball, locks, cone, tolerance, curves)
-    return _drawing(ball, title, shapes, built(proof.shells).crank.part)
+    return _drawing(ball, title, shapes, built(model.shells).crank.part)
 
 
-def assembly(proof: Proof, tolerance: float, curves: str) -> Drawing:
+def assembly(model: PartsModel, tolerance: float, curves: str) -> Drawing:
     """Return both laid flat, side by side; the solid is the machine at input angle 0."""
-    ball, locks = proof.shells.ball, proof.shells.crank
-    title = titled(proof.mechanism)
+    ball, locks = model.shells.ball, model.shells.crank
+    title = titled(model.mechanism)
     left = wheel_flat(ball, wheel_cone(ball), tolerance, curves)
     right = crank_flat(ball, locks, crank_cone(ball), tolerance, curves)
     shift = APART * ball.radius_mm + max(bounds(shape).x1 for shape in left)
     shift -= min(bounds(shape).x0 for shape in right)
     moved = [mapped(shape, lambda p: (p[0] + shift, p[1])) for shape in right]
-    whole = Group(title, built(proof.shells).members)
+    whole = Group(title, built(model.shells).members)
     return _drawing(ball, title, [*left, *moved], whole)._replace(look=Annotations((), ()))
 
 

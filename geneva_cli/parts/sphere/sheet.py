@@ -19,9 +19,9 @@ from geneva_cli.curves.shapes import Arc, Contour, Line, Point, Segment, Shape
 from geneva_cli.curves.sheet import CENTRE, OUTLINE, Sheet
 from geneva_cli.machine.layout import Dimension
 from geneva_cli.numerics.tolerances import SAME_ANGLE
+from geneva_cli.parts.model import PartsModel
 from geneva_cli.parts.parts_list import part_rows
 from geneva_cli.parts.placed import PlacedParts
-from geneva_cli.parts.proof import Proof
 from geneva_cli.parts.sheet import sized
 from geneva_cli.parts.sheet.bores import bored, radius_of
 from geneva_cli.parts.sheet.composed import on_paper
@@ -60,16 +60,16 @@ COLUMNS = (80.0, 24.0, 14.0)  # mm, of the table of angles
 DECIMALS = 4  # of an angle in degrees: 0.2 um on 100 mm
 
 
-def sheet(proof: Proof, tolerance: float, curves: str) -> Sheet:
+def sheet(model: PartsModel, tolerance: float, curves: str) -> Sheet:
     """Return the drawing sheet of a machine. Raises GenevaError where no scale fits on one."""
-    ball, locks = proof.shells.ball, proof.shells.crank
+    ball, locks = model.shells.ball, model.shells.crank
     wheel = wheel_flat(ball, wheel_cone(ball), tolerance, curves)
     crank = crank_flat(ball, locks, crank_cone(ball), tolerance, curves)
-    whole = built(proof.shells)
+    whole = built(model.shells)
     arm = arm_flat(ball, whole.arm, tolerance, curves) if whole.arm else []
     rows = [
         (d.name, number(d.value, DECIMALS), d.unit)
-        for d in dimensions(proof)
+        for d in dimensions(model)
         if isinstance(d, Dimension) and isinstance(d.value, (int, float))
     ]
     fixed = [
@@ -79,25 +79,25 @@ def sheet(proof: Proof, tolerance: float, curves: str) -> Sheet:
 
     def blocks(scale: float) -> Iterator[list[Block]]:
         views = [
-            section(proof.shells, whole, scale),
+            section(model.shells, whole, scale),
             _flat("wheel", ball, wheel_cone(ball), wheel, scale),
             _flat("crank", ball, crank_cone(ball), crank, scale),
         ]
         if whole.arm:
-            views.append(_arm(proof, ball, whole.arm, arm, scale))
-        views += _axles(proof, whole, scale)
+            views.append(_arm(model, ball, whole.arm, arm, scale))
+        views += _axles(model, whole, scale)
         yield [*(view.block() for view in views), *fixed]
 
-    items = list(part_rows(proof.mechanism.spec, whole.members, ball.span_mm[1]))
-    return on_paper(proof.mechanism.spec, items, 2.0 * ball.span_mm[1], blocks)
+    items = list(part_rows(model.mechanism.spec, whole.members, ball.span_mm[1]))
+    return on_paper(model.mechanism.spec, items, 2.0 * ball.span_mm[1], blocks)
 
 
-def _arm(proof: Proof, ball: Ball, arm: CapArm, flat: list[Contour], scale: float) -> View:
+def _arm(model: PartsModel, ball: Ball, arm: CapArm, flat: list[Contour], scale: float) -> View:
     """Return the view of the arm laid flat, with notes on pins, hub and bolts."""
     view = _flat("crank", ball, arm_cone(ball), flat, scale)
     view.title = "arm, laid flat"
     hole, pin = arm.pins[0].radius, ball.pin_mm
-    text = f"{sized.pin_hole(proof.mechanism, hole)} through, to the sphere's centre"
+    text = f"{sized.pin_hole(model.mechanism, hole)} through, to the sphere's centre"
     view.remark(f"pins: {times(len(arm.pins), text)}; pin {sized.pin(pin)}")
     view.remark(f"hub: {sized.plain(2.0 * arm.hub, 'Ø ')} through, about the crank's axis")
     if arm.bolts:
@@ -106,9 +106,9 @@ def _arm(proof: Proof, ball: Ball, arm: CapArm, flat: list[Contour], scale: floa
     return view
 
 
-def _axles(proof: Proof, whole: PlacedParts[CapArm], scale: float) -> Iterator[View]:
+def _axles(model: PartsModel, whole: PlacedParts[CapArm], scale: float) -> Iterator[View]:
     """Yield views of hubs along their axes, with bores and keyways, and of shafts' sides."""
-    size = proof.mechanism.spec.size
+    size = model.mechanism.spec.size
     for part, standard in ((whole.wheel, size.wheel_keyway), (whole.crank, size.crank_keyway)):
         for hub in plates(part.part):
             if hub.layer == ROLLER:

@@ -75,7 +75,7 @@ class FullTurn(NamedTuple):
 def full_turn(parts: MachineParts) -> FullTurn:
     """Return the results of turning the parts through a whole turn of the crank.
 
-    Raises NotProved where that takes more work than ``gaps.WORK``.
+    Raises WorkLimit where that takes more work than ``gaps.WORK``.
     """
     *_, result = turning(parts)
     return result
@@ -85,7 +85,7 @@ def turning(parts: MachineParts) -> Iterator[FullTurn]:
     """Yield the results of a full turn in stages: gaps, plays at some positions, then all.
 
     From stage to stage gaps only become smaller and plays larger. Only the last stage has ``push``.
-    Raises NotProved where a full turn takes more work than ``gaps.WORK``.
+    Raises WorkLimit where a full turn takes more work than ``gaps.WORK``.
     """
     parts.gaps.begin()
     earlier = _earlier(parts)

@@ -33,7 +33,7 @@ BLOCK = 1 << 19  # points of the wheel that are computed together, so that they 
 LONGEST = 0.02  # of the centre distance: greatest distance of samples on a line
 
 
-class NotProved(GenevaError):
+class WorkLimit(GenevaError):
     """Error for a full turn that would take too long."""
 
 
@@ -56,13 +56,13 @@ class Gaps:
         return out
 
     def begin(self) -> None:
-        """Count work from here on; raise NotProved when it exceeds WORK."""
+        """Count work from here on; raise WorkLimit when it exceeds WORK."""
         self.left = WORK
 
     def _work(self, count: int) -> None:
         self.left -= count
         if self.left < 0.0:
-            raise NotProved(
+            raise WorkLimit(
                 f"the full turn is not proved: it takes more than {WORK:.0e} distances between "
                 "parts with so many pieces or such small features; a larger roller or horn takes "
                 "less"

@@ -37,7 +37,7 @@ class Clearances(Protocol):
         """The widest clearance that is distinguished from wider ones, mm."""
 
     def begin(self) -> None:
-        """Count work from here on; raise NotProved when it exceeds the limit."""
+        """Count work from here on; raise WorkLimit when it exceeds the limit."""
 
     def pose(self, input_deg: Array) -> Pose:
         """Return the positions at input angles (n,), degrees."""

@@ -23,9 +23,9 @@ from geneva_cli.parts.arm import CrankArm
 from geneva_cli.parts.built import built
 from geneva_cli.parts.gear_drawings import PITCH, gear_span, pitch_radii
 from geneva_cli.parts.link_drawings import placed
+from geneva_cli.parts.model import PartsModel
 from geneva_cli.parts.outlines import Outlines
 from geneva_cli.parts.placed import PlacedParts
-from geneva_cli.parts.proof import Proof
 from geneva_cli.parts.wheel_hub import HUB
 
 Measure = TypeVar("Measure", float, Array)  # one gap, or an array of one for each sphere
@@ -113,7 +113,7 @@ def _noncircular(parts: Outlines) -> Iterator[Ring]:
     if pair is None:
         return
     (_, driven), (_, driver) = pitch_radii(pair)
-    low, high = gear_span(Proof(mechanism, parts))
+    low, high = gear_span(PartsModel(mechanism, parts))
     yield Ring("driven gear", PITCH, (L, 0.0), 0.0, driven, low, high)
     yield Ring("driver gear", PITCH, (L + pair.distance_mm, 0.0), 0.0, driver, low, high)
 

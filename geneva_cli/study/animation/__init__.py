@@ -1,1 +1,1 @@
-"""A design as a scene: what turns, what is driven by whom, and the forces between."""
+"""A design as a scene: moving parts, links, and the forces between them."""

@@ -1,4 +1,4 @@
-"""The bodies of a scene: parts as they are cut, and symbols for parts that are not drawn."""
+"""Bodies of a scene: parts with their outlines, and symbols for machines without drawings."""
 
 from __future__ import annotations
 
@@ -20,14 +20,14 @@ if TYPE_CHECKING:
     from geneva_cli.numerics.jet import Array
 
 WHEEL, ROLLER, PITCH = "WHEEL", "ROLLER", "PITCH"
-HOLLOW = "HOLLOW"  # what is cut out of a plate, with the plate's edge
+HOLLOW = "HOLLOW"  # layer of what is cut out of a plate, together with the plate's edge
 GEAR = 241  # points of a gear's pitch curve
 
 
 def bodies(design: Design, turn: MachineTurn) -> Iterator[Body]:
-    """Wheel, crank with its arm, the cam's groove, gears: those that the machine has."""
+    """Wheel, crank with its arm, the cam's groove and gears, as far as the machine has them."""
     L, wheel, crank = turn.L, turn.wheel(), turn.crank()
-    # what is only laid flat does not turn so
+    # parts of a sphere are drawn laid flat: these outlines do not turn about the shaft
     shapes = _hollow(_shapes(design, "wheel")) if design.spec.wheel.FLAT else ()
     flat = bool(shapes)
     yield Body("wheel", (*(shapes or _slots(turn)), _mark(shapes, turn)), (0.0, 0.0), wheel)
@@ -41,14 +41,14 @@ def bodies(design: Design, turn: MachineTurn) -> Iterator[Body]:
 
 
 def _shapes(design: Design, part: str) -> tuple[Shape, ...]:
-    """A part's shapes in its own frame; none where the machine does not have it."""
+    """The shapes of a part in its own frame; none if the machine lacks it."""
     with suppress(GenevaError):
         return design.drawing(part).shapes
     return ()
 
 
 def _hollow(shapes: tuple[Shape, ...]) -> tuple[Shape, ...]:
-    """An internal wheel's shapes: its rim first, and then what is cut out of it."""
+    """The shapes of an internal wheel: its rim first, then its cut-outs."""
     rims = tuple(s for s in shapes if isinstance(s, Circle) and s.layer == WHEEL)
     if not rims:
         return shapes
@@ -59,7 +59,7 @@ def _hollow(shapes: tuple[Shape, ...]) -> tuple[Shape, ...]:
 
 
 def _slots(turn: MachineTurn) -> tuple[Shape, ...]:
-    """A wheel that is not drawn, as a disc with a line along each slot."""
+    """A symbol for a wheel without drawing: a disc with a line along each slot."""
     spec, one = turn.mechanism.spec, turn.passages[0]
     x, y = turn.pin(one, np.linspace(one.entry, one.exit, 181)).T
     reach = np.hypot(x, y)
@@ -75,19 +75,19 @@ def _at(r: float, a: float) -> tuple[float, float]:
 
 
 def _mark(shapes: tuple[Shape, ...], turn: MachineTurn) -> Shape:
-    """A dot behind the first slot's end, by which the slots can be told apart."""
+    """A dot behind the end of the first slot, which tells the slots apart."""
     one = turn.passages[0]
     least = float(np.hypot(*turn.pin(one, np.linspace(one.entry, one.exit, 181)).T).min())
     return Circle(PITCH, (0.78 * least if shapes else 1.01 * least, 0.0), 0.012 * turn.L)
 
 
 def _gears(design: Design, turn: MachineTurn) -> Iterator[Body]:
-    """Both pitch curves: the driven one is fast on the crank, the driver beyond it."""
+    """The pitch curves of both gears: the driven one is fixed to the crank."""
     table = design.part_table("gears", samples=GEAR).to_dict()
     sign = turn.mechanism.spec.wheel.SIGN
     gears = turn.mechanism.spec.drive.gears
     assert gears
-    # the table's frames have the driver before the driven gear, and an external wheel's senses
+    # the table puts the driver first, and turns as an external wheel does
     driver = _closed(-table["driver_x_mm"], -sign * table["driver_y_mm"])
     driven = _closed(-table["driven_x_mm"], -sign * table["driven_y_mm"])
     rate = sign * math.pi / 180.0

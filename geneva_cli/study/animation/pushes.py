@@ -1,4 +1,4 @@
-"""The rollers' forces on the wheel, at their points of contact."""
+"""Forces of the rollers on the wheel, at their points of contact."""
 
 from __future__ import annotations
 
@@ -14,8 +14,8 @@ from geneva_cli.study.animation.turn import MachineTurn, Passage
 if TYPE_CHECKING:
     from geneva_cli.numerics.jet import Array
 
-PLACES = 73  # of a motion
-INSIDE = 1e-6  # of a motion, from its ends
+PLACES = 73  # points of a motion
+INSIDE = 1e-6  # fraction of a motion that is left out at its ends, where forces may be undefined
 
 
 def pushes(cycle: Cycle, turn: MachineTurn) -> Iterator[Push]:
@@ -43,7 +43,7 @@ def pushes(cycle: Cycle, turn: MachineTurn) -> Iterator[Push]:
 
 
 def _normals(one: Passage, local: Array, turn: MachineTurn) -> Array:
-    """Unit normals of the slot in the fixed frame, of either sign; a sphere's in projection."""
+    """Unit normals of the slot in the fixed frame, of either sign; projected from a sphere."""
     if turn.mechanism.spec.wheel.FLAT:
         x, y = one.engagement.slot(local, 2)
         way = np.column_stack((x.c[1] + 0.0 * local, y.c[1] + 0.0 * local))
@@ -52,7 +52,7 @@ def _normals(one: Passage, local: Array, turn: MachineTurn) -> Array:
             np.hypot(*way.T) < 1e-6
         )  # at a cusp the roller turns back, in the direction of its second derivative
         way[slow] = bend[slow]
-        # of a pair of slots each is beside its middle
+        # each slot of a pair is offset from the middle between them
         psi = one.engagement.motion(local, 0).c[0] - np.sign(local) * one.engagement.apart
         c, s = np.cos(psi), np.sin(psi)
         way = np.column_stack((c * way[:, 0] - s * way[:, 1], s * way[:, 0] + c * way[:, 1]))

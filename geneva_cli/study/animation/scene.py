@@ -1,4 +1,4 @@
-"""A design as a scene."""
+"""The scene of a design: bodies, links, forces and states over one turn."""
 
 from __future__ import annotations
 
@@ -22,12 +22,12 @@ from geneva_cli.verdict.report.words import words
 if TYPE_CHECKING:
     from geneva_cli.figure import Figure
 
-LOOKS = 24  # at links, in a turn
+LOOKS = 24  # samples of a turn, for the bounding box of links
 SHOWN = ("velocity", "acceleration", "pin_force_N", "input_torque_Nm")
 
 
 def scene(design: Design) -> Scene:
-    """The machine over a whole turn of its crank, with curves, forces and what holds the wheel.
+    """The machine over a whole turn of its crank, with curves, forces and the wheel's states.
 
     Raises GenevaError for a spec that makes no machine.
 
@@ -64,7 +64,7 @@ def scene(design: Design) -> Scene:
 
 
 def _seen(design: Design, bars: tuple[Bar, ...]) -> str:
-    """A remark on what the picture simplifies."""
+    """A remark on simplifications in the picture."""
     if not design.spec.wheel.FLAT:
         return " Seen along the wheel's shaft."
     gears = any(bar.radius for bar in bars)
@@ -96,7 +96,7 @@ def _states(design: Design, turn: MachineTurn) -> Iterator[Phase]:
 
 
 def _held(design: Design) -> str:
-    """What holds the wheel at rest."""
+    """A phrase that names what holds the wheel at rest."""
     by = design.spec.wheel.held_by
     if by:
         return f"the wheel rests, held by a {by}"
@@ -114,7 +114,7 @@ def _box(
     radius: float,
     turn_deg: float,
 ) -> Box:
-    """The box of all bodies at any angle, and of all joints and rollers over the turn."""
+    """The bounding box of bodies at any angle, and of joints, rollers and links in the turn."""
     boxes = []
     for body in made:
         reach = max(map(_reach, body.shapes))
@@ -133,7 +133,7 @@ def _box(
 
 
 def _plates(bar: Bar, t: float) -> Box:
-    """The box of a link and its blocks at an input angle."""
+    """The bounding box of a link and its blocks at an input angle."""
     corners = []
     for plate in bar.plates:
         x, y, angle = pose(bar, plate, t)
@@ -148,7 +148,7 @@ def _plates(bar: Bar, t: float) -> Box:
 
 
 def _reach(shape: Shape) -> float:
-    """A shape's greatest distance from its own origin, approximately."""
+    """The greatest distance of a shape from its own origin, approximately."""
     if isinstance(shape, Circle):
         return math.hypot(*shape.centre) + shape.radius
     ends = (at(segment, t) for segment in shape.segments for t in (0.0, 0.25, 0.5, 0.75, 1.0))

@@ -16,10 +16,10 @@ if TYPE_CHECKING:
 # value and slope by the input in degrees, at input angles in degrees
 Moving: TypeAlias = "Callable[[Array], tuple[Array, Array]]"
 
-BEGUN = 4  # steps in a stretch, at the least
-NEAREST = 1e-3  # degrees: knots come no nearer to each other
-INSIDE = (0.2, 0.5, 0.8)  # where a cubic is held against the function
-DIFFERENCE = 1e-3  # degrees, of a slope that is not known
+BEGUN = 4  # least number of steps in a stretch
+NEAREST = 1e-3  # degrees: least distance of knots
+INSIDE = (0.2, 0.5, 0.8)  # places in a step where the cubic is compared with the function
+DIFFERENCE = 1e-3  # degrees: half the step of a numerical derivative
 
 
 def still(value: float) -> Track:
@@ -30,9 +30,9 @@ def still(value: float) -> Track:
 def track(
     pieces: Iterable[tuple[float, float, Moving]], error: float, start: float, gain: float = 0.0
 ) -> Track:
-    """The track of stretches that follow each other, each of one smooth function, within ``error``.
+    """The track of consecutive smooth functions, each on its own stretch, within ``error``.
 
-    ``start`` is the input angle from which the track counts.
+    ``start`` is the input angle at the track's 0.
 
     >>> from numpy import cos, radians, sin
     >>> from geneva_cli.study.animation.tracks import track
@@ -51,7 +51,7 @@ def track(
 
 
 def sampled(f: Callable[[Array], Array], a: float, b: float) -> Moving:
-    """A function without a derivative, on a stretch: its slopes are differences."""
+    """Add numerical slopes to a function on a stretch."""
 
     def moving(x: Array) -> tuple[Array, Array]:
         d = min(DIFFERENCE, 0.1 * (b - a))
@@ -67,7 +67,7 @@ def resting(value: float) -> Moving:
 
 
 def cut(a: float, b: float, places: Sequence[float]) -> list[tuple[float, float]]:
-    """A stretch cut at the places inside it: where a function's derivatives may jump."""
+    """Divide a stretch at the places inside it, where a function's derivatives may jump."""
     return list(pairwise([a, *sorted(x for x in set(places) if a < x < b), b]))
 
 

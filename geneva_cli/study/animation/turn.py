@@ -1,4 +1,4 @@
-"""The motion of wheel, crank, rollers and links over the turn after which a machine repeats."""
+"""Motion of wheel, crank, rollers and links over the turn after which a machine repeats."""
 
 from __future__ import annotations
 
@@ -24,12 +24,12 @@ if TYPE_CHECKING:
     from geneva_cli.numerics.jet import Array
     from geneva_cli.parts.outlines import Outlines
 
-ANGLE = 1e-7  # rad, of wheel and crank: a tenth of what the page keeps to
-SHARE = 2e-6  # of the centre distance, of joints and rollers: below what a screen shows
+ANGLE = 1e-7  # rad, of wheel and crank: a tenth of the page's own error
+SHARE = 2e-6  # fraction of the centre distance, for joints and rollers: below what a screen shows
 
 
 class Passage(NamedTuple):
-    """One roller's passage through a slot: its engagement, and its mid-motion's input angle."""
+    """One roller's passage through a slot: its engagement, and mid-motion's input angle."""
 
     engagement: Engagement
     mid: float
@@ -37,12 +37,12 @@ class Passage(NamedTuple):
 
     @property
     def entry(self) -> float:
-        """Input angle where the wheel begins to move."""
+        """Input angle at which the wheel begins to move, degrees."""
         return self.mid + self.engagement.entry_deg
 
     @property
     def exit(self) -> float:
-        """Input angle where it comes to rest."""
+        """Input angle at which the wheel comes to rest, degrees."""
         return self.mid + self.engagement.exit_deg
 
 
@@ -84,7 +84,7 @@ class MachineTurn:
         return track(pieces, ANGLE, self.start, turned + first)
 
     def crank(self) -> Track:
-        """The crank's direction about its axis, radians: that of what carries the first roller."""
+        """The direction of the crank arm of the first roller about the crank's axis, radians."""
         one, sign = self.passages[0], self.mechanism.spec.wheel.SIGN
         sense = one.engagement.crank_sense
         ahead = math.pi if sign > 0.0 else 0.0
@@ -106,7 +106,7 @@ class MachineTurn:
         return self._pin(one.engagement, one.mid, input_deg)
 
     def centre(self, number: int, input_deg: Array) -> Array:
-        """A roller's centre, mm, (n, 2)."""
+        """The centre of a roller by its number, mm, (n, 2)."""
         return self._pin(*self._carried[number], input_deg)
 
     def rollers(self) -> tuple[Place, ...]:
@@ -123,7 +123,7 @@ class MachineTurn:
         return self.L * np.column_stack((x, y))
 
     def bars(self, found: Outlines | None) -> tuple[Bar, ...]:
-        """The links as they are cut; ``found`` are the outlines of the other parts, if any."""
+        """The links with their outlines; ``found`` are the outlines of the other parts, if any."""
 
         def joint(i: int, j: int) -> Place:
             return self._place(
@@ -142,7 +142,7 @@ class MachineTurn:
         )
 
     def _links_at(self, input_deg: Array) -> tuple[Link, ...]:
-        """All links at input angles: kept, as each joint's x and y are sampled at the same ones."""
+        """All links at input angles, cached: each joint's x and y are sampled at equal angles."""
         key = input_deg.tobytes()
         if key not in self._links:
             half = 0.5 * self.whole
@@ -157,14 +157,14 @@ class MachineTurn:
         return along(0), along(1)
 
     def _sampled(self, f: Callable[[Array], Array], error: float, gain: float = 0.0) -> Track:
-        """Over the whole turn, cut where a roller enters and leaves."""
+        """A track over the whole turn, divided at entry, middle and exit of each passage."""
         places = [x for one in self.passages for x in (one.entry, one.mid, one.exit)]
         pieces = [(a, b, sampled(f, a, b)) for a, b in cut(self.start, self.end, places)]
         return track(pieces, error, self.start, gain)
 
 
 def _plates(mechanism: Mechanism, found: Outlines | None) -> dict[str, tuple[Carried, ...]]:
-    """The plates of each link by its name; nothing where its sizes leave none."""
+    """The plates of each link by its name; empty if the links' sizes allow none."""
     out: dict[str, tuple[Carried, ...]] = {}
     try:
         cut_ = [m.part for m in drawn_links(mechanism, found).cut if isinstance(m.part, Plate)]

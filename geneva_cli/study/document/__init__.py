@@ -1,7 +1,6 @@
-"""A design as a document: its verdict, and then everything about it, in one order for all.
+"""A design as a document: its verdict, and then everything about it, in a fixed order.
 
-Nothing is worked out here that a Design does not answer; what its report has and no section takes
-stands at the end.
+Every value is a result of the Design. Values of its report that no section takes stand at the end.
 """
 
 from __future__ import annotations
@@ -15,7 +14,7 @@ from geneva_cli.study.summary.named import title_of
 
 
 def document(design: Design) -> Document:
-    """What is handed over of a design. Raises GenevaError for a spec that makes no machine.
+    """The document of a design. Raises GenevaError for a spec that makes no machine.
 
     >>> from geneva_cli.study.document import document
     >>> page = document(Design(External(6)))

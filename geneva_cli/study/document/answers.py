@@ -13,7 +13,7 @@ from geneva_cli.study.document.left import Left, grid
 from geneva_cli.study.document.named import capital, fact, facts, unit_of
 from geneva_cli.table import Table
 
-BESIDE = 6  # engagements that a page is wide enough for
+BESIDE = 6  # engagements that fit on a page side by side
 # of the wheel's angle: by the input's angle in radians, and by time
 UNITS = {
     "velocity": "rad/s",
@@ -21,13 +21,13 @@ UNITS = {
     "jerk": "rad/s³",
     "power": "rad²/s³",
 }
-# those that end with a stroke are followed by the unit
+# names that end with a stroke are followed by the unit
 PEAKS = ("max", "at_deg", "max_", "entry", "entry_", "exit")
 STRONG = ("pin", "horn", "lock", "wheel_shaft", "crank_shaft")
 
 
 def timing(left: Left, n_rpm: float) -> Iterator[Block]:
-    """Timing and peaks; of engagements that differ what they share, the worst, and each."""
+    """Timing and peaks; if engagements differ, shared values, the worst, and each."""
     yield Heading("Timing")
     yield from facts("Timing of a cycle", left.take("timing"))
     yield Heading("Peaks")
@@ -54,7 +54,7 @@ def timing(left: Left, n_rpm: float) -> Iterator[Block]:
 
 
 def _each(stations: Table | None) -> Iterator[Block]:
-    """Engagements side by side."""
+    """Engagements in adjacent columns."""
     if stations is None:
         return
     rows = list(stations.rows())
@@ -108,7 +108,7 @@ def sizes(left: Left) -> Iterator[Block]:
 
 
 def strength(left: Left) -> Iterator[Block]:
-    """Whether the parts hold, and how long."""
+    """Strength and life of the parts."""
     found: list[Facts] = []
     for part in STRONG:
         found += facts(capital(part.replace("_", " ")), left.take(f"strength.{part}"))
@@ -119,7 +119,7 @@ def strength(left: Left) -> Iterator[Block]:
 
 
 def swinging(left: Left) -> Iterator[Block]:
-    """Vibration and tolerances, where they are given."""
+    """Vibration and tolerances, if they are given."""
     for text, group in (("Vibration", "vibration"), ("Tolerances", "tolerance")):
         said = left.one(f"{group}.warnings")
         found = facts(text, left.take(group))
@@ -136,7 +136,7 @@ CAPTIONS = {
     "dimension": "Dimensions",
     "missing": "Not built",
 }
-# The list of parts in two tables, each as wide as a page: what a part is, and where it is.
+# The list of parts in two tables, each as wide as a page: descriptions, and places.
 PLACED = (
     *("density_kgm3", "z_low_mm", "z_high_mm", "centroid_x_mm", "centroid_y_mm", "inertia_kgm2"),
 )

@@ -9,7 +9,7 @@ from geneva_cli.study.summary import report
 
 
 def key_figures(design: Design) -> Grid:
-    """The key figures as they stand in the summary of ``geneva report``."""
+    """The key figures of the summary of ``geneva report``."""
     rows: list[Row] = []
     for line in report.key_figures(design):
         note = f"; {line.note}" if line.note else ""

@@ -1,4 +1,4 @@
-"""The verdict on a design, each check, the warnings, and what is not known."""
+"""The verdict on a design, each check, the warnings, and unknown values."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ HEADS = (
 
 
 def verdict(design: Design, left: Left) -> tuple[str, str, tuple[str, ...]]:
-    """State of a design, its verdict in a line, and the checks that fail or are not proved."""
+    """State of a design, its verdict in a line, and the checks that fail or lack a proof."""
     state, text = headline(design.checks, design.warnings)
     left.one("passes")
     return state, capital(text), (*left.one("checks_failed"), *left.one("not_proved"))
@@ -51,8 +51,8 @@ def warned(left: Left) -> Iterator[Block]:
 
 
 def said(design: Design, left: Left) -> Iterator[Block]:
-    """What is not known and would be by which key, and sources."""
-    known = design.strength.missing(OF_LIFE)  # these, and more, are the report's own
+    """Unknown values with the keys that they need, and sources."""
+    known = design.strength.missing(OF_LIFE)  # the report lists these, and more, itself
     unknown: dict[str, None] = dict.fromkeys(missing(design.cycle))
     unknown |= dict.fromkeys(t for t in _notes(design) if t not in known)
     unknown |= dict.fromkeys(left.one("strength.needs"))
@@ -68,6 +68,6 @@ def said(design: Design, left: Left) -> Iterator[Block]:
 
 
 def _notes(design: Design) -> tuple[str, ...]:
-    """What sizing and life need."""
+    """The keys that sizing and life need."""
     notes: tuple[str, ...] = design.loads_page.to_dict().get("not_known", ())
     return notes

@@ -1,4 +1,4 @@
-"""The values of a report as they are taken, section by section, so that none is left out."""
+"""The values of a report that no section has shown yet, so that none is left out."""
 
 from __future__ import annotations
 
@@ -11,24 +11,24 @@ from geneva_cli.table import Table
 
 
 class Left:
-    """What has not been shown yet."""
+    """The values that have not been shown yet."""
 
     def __init__(self, values: dict[str, Any]) -> None:
         self.values = values
 
     def one(self, name: str) -> Any:
-        """A single value, which is shown with this."""
+        """A single value, which then counts as shown."""
         return self.values.pop(name, None)
 
     def take(self, group: str) -> dict[str, Any]:
-        """The values of a group by the rest of their names, which are shown with this."""
+        """The values of a group by the rest of their names, which then count as shown."""
         begin = f"{group}."
         found = {n: v for n, v in self.values.items() if n.startswith(begin)}
         self.values = {n: v for n, v in self.values.items() if n not in found}
         return {name.removeprefix(begin): value for name, value in found.items()}
 
     def rest(self) -> Iterator[Block]:
-        """Everything that no section has taken, as a section that is new may be."""
+        """All values that no section has taken, such as those of a new section."""
         groups = dict.fromkeys(name.rpartition(".")[0] for name in self.values)
         for group in groups:
             own = {n: v for n, v in self.values.items() if n.rpartition(".")[0] == group}
@@ -39,7 +39,7 @@ class Left:
 
 
 def grid(caption: str, table: Table) -> Grid:
-    """A table as it is, its columns with their units; those without a value are left out."""
+    """A table with units in its headings, without columns that have no value."""
     rows = list(table.rows())
     seen = [i for i in range(len(table.names)) if any(is_known(row[i]) for row in rows)]
     heads = [head(table.names[i]) for i in seen]

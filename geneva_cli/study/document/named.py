@@ -1,6 +1,6 @@
-"""The names of a report as people read them: ``slot_mouth_radius_mm`` is a slot mouth radius in mm.
+"""Names of a report's values for people: ``slot_mouth_radius_mm`` is a slot mouth radius in mm.
 
-A name carries its unit at its end, as in a spec.
+A name has its unit at its end, as in a spec.
 """
 
 from __future__ import annotations
@@ -11,10 +11,10 @@ from typing import Any
 from geneva_cli.document import Fact, Facts
 from geneva_cli.names import UNITS as OF_NAMES
 
-# What the ending of a name says of the unit, the longest first.
+# Units by the ending of a name, the longest first.
 OWN = {"_deg": "°", "_rpm": "rpm", "_mm_per_million": "mm per million motions"}
 UNITS = dict(sorted((OF_NAMES | OWN).items(), key=lambda item: -len(item[0])))
-# Names that do not speak for themselves.
+# Words for names that are not clear by themselves.
 WORDS = {
     "max": "greatest",
     "min": "least",
@@ -84,11 +84,11 @@ def fact(name: str, value: Any) -> Fact:
 
 
 def facts(caption: str, values: Mapping[str, Any]) -> list[Facts]:
-    """The values that are known, under a caption; nothing where none is."""
+    """The known values under a caption; empty without any."""
     known = tuple(fact(name, value) for name, value in values.items() if is_known(value))
     return [Facts(caption, known)] if known else []
 
 
 def is_known(value: object) -> bool:
-    """Whether there is a value to be shown."""
+    """Return True if there is a value to show."""
     return value is not None and value not in ("", ())

@@ -1,4 +1,4 @@
-"""What is looked at: the machine as it is drawn, and its curves."""
+"""Pictures of a document: the machine as drawn, and its curves."""
 
 from __future__ import annotations
 
@@ -10,11 +10,11 @@ from geneva_cli.errors import GenevaError
 
 SHOWN = ("velocity", "acceleration", "jerk", "pin_force_N", "input_torque_Nm")
 UNLOADED = SHOWN[:3]
-TOLERANCE_MM = 0.01  # of a drawing that is looked at
+TOLERANCE_MM = 0.01  # of a drawing that is only viewed
 
 
 def drawn(design: Design) -> Iterator[Block]:
-    """The machine put together at mid-motion, or a sphere's parts; or why it is not drawn."""
+    """The assembled machine at mid-motion, or a sphere's parts; or the reason for no drawing."""
     yield Heading("The machine")
     try:
         found = design.drawing("assembly", TOLERANCE_MM)
@@ -26,14 +26,14 @@ def drawn(design: Design) -> Iterator[Block]:
 
 
 def curves(design: Design) -> Iterator[Block]:
-    """The motion over a cycle, and under a load what it costs."""
+    """Curves of the motion over a cycle, and of its loads."""
     yield Heading("Curves over a cycle")
     found = design.figure(SHOWN if design.cycle.is_loaded else UNLOADED)
     yield Curves(found._replace(title="By the input's angle, from the first entry"))
 
 
 def _bare(design: Design, said: str) -> str:
-    """What is wrong, without the file and line at which it is given."""
+    """An error message without its file and line."""
     path = design.spec.path
     if path and said.startswith(path):
         return said.removeprefix(path).lstrip(":0123456789").lstrip()

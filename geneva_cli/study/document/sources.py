@@ -1,4 +1,4 @@
-"""Where the formulas of a report come from, in short; `geneva explain` has them value by value."""
+"""Sources of a report's formulas, in short; `geneva explain` gives them value by value."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ CITED = (
 
 
 def sources(spec: Spec) -> tuple[str, ...]:
-    """Those of the machine's kinds and its law, and what all share."""
+    """The sources of the machine's kinds and its law, and those that all share."""
     names = [spec.wheel.NAME, spec.drive.NAME, *([spec.motion.law.NAME] if spec.motion else [])]
     known = {n: e.source for e in entries() if e.group in ("kind", "law") for n in e.names}
     own = [f"{name[0].upper()}{name[1:]}: {known[name]}." for name in names if known.get(name)]

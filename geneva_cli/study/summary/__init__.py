@@ -1,1 +1,1 @@
-"""Summaries: what a designer tells a colleague about a design, in three to six lines."""
+"""Summaries of designs in three to six lines."""

@@ -1,4 +1,4 @@
-"""Summaries of ``geneva check``: which specs pass, what fails, what warns, what is tightest."""
+"""Summaries of ``geneva check``: passing specs, failures, warnings, the tightest check."""
 
 from __future__ import annotations
 
@@ -10,9 +10,9 @@ from geneva_cli.verdict.headline import failure_lines, headline, tightest, warni
 
 
 def of_checks(verdicts: Sequence[Verdict], page: bool, as_json: bool) -> Answer:
-    """The answer on specs that were read: a headline each, then what is to be done.
+    """The answer on specs that were read: a headline for each, then the changes.
 
-    The tightest check is shown of a single spec only; ``page`` shows all checks below.
+    The tightest check is shown for a single spec only; ``page`` shows all checks below.
     """
     table = checks_table(verdicts)
     data = checks_record(verdicts) if as_json else table
@@ -38,7 +38,7 @@ def _lines(verdict: Verdict) -> tuple[Line, ...]:
 
 
 def _count(verdicts: Sequence[Verdict]) -> Summary:
-    """How many specs pass."""
+    """The count of the specs that pass."""
     states = [headline(v.checks, v.warnings)[0] for v in verdicts]
     failed, warned = states.count(FAILS), states.count(WARNS)
     many = len(states)

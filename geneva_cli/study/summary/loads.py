@@ -32,7 +32,7 @@ def of_loads(design: Design) -> Answer:
 
 
 def load_lines(design: Design) -> Iterator[Line]:
-    """Motor, input, pin, wheel and flywheel of a machine; without a load, what would give them."""
+    """Motor, input, pin, wheel and flywheel of a machine; without a load, the needed keys."""
     if not design.cycle.is_loaded:
         yield Line("loads", f"not known: {UNLOADED}")
         return
@@ -46,7 +46,7 @@ def load_lines(design: Design) -> Iterator[Line]:
 
 
 def cycle_lines(design: Design) -> Iterator[Line]:
-    """What input, pin and wheel bear over the cycle."""
+    """The loads of input, pin and wheel over the cycle."""
     loads = design.loads
     torque, force, stress = (
         loads[name] for name in ("input_torque_Nm", "pin_force_N", "contact_stress_MPa")
@@ -89,7 +89,7 @@ def _sizing(design: Design) -> dict[str, Any]:
 
 
 def motor_line(design: Design) -> Line:
-    """The motor that is recommended, and how it follows."""
+    """The recommended motor, and its reason."""
     motor = recommended_motor(_sizing(design))
     if motor is None:
         return Line("motor", "none suffices: nothing bounds the input's torque", "", WARNS)
@@ -117,14 +117,14 @@ def _geared(motor: RecommendedMotor, gear_ratio: float) -> str:
 
 
 def _why(motor: RecommendedMotor, service_factor: float) -> str:
-    """Which of both powers decides."""
+    """The reason for the power: the makers' form or the exact cycle."""
     if motor.form_W >= motor.peak_W:
         return f"with service factor {measured(service_factor)} and all losses"
     return "at most over the exact cycle"
 
 
 def _powers(design: Design) -> Iterator[Line]:
-    """The powers of a machine from the greatest, each with its definition."""
+    """The powers of a machine in descending order, each with its definition."""
     motor = recommended_motor(_sizing(design))
     power = design.loads["power_W"]
     (inertia,) = pick(["loads.kinetic_power_W"]).of(design.mechanism)

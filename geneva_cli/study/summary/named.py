@@ -1,4 +1,4 @@
-"""A design's title, and the count of its warnings, as headlines have them."""
+"""A design's title and the count of its warnings, for headlines."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from geneva_cli.design import Design
 
 
 def title_of(design: Design) -> str:
-    """The title of a design, or what it is.
+    """The title of a design, or else its description.
 
     >>> title_of(Design(External(6)))
     'Geneva wheel of 6 slots'
@@ -17,7 +17,7 @@ def title_of(design: Design) -> str:
 
 
 def counted(warnings: Sequence[str]) -> str:
-    """The number of warnings behind a headline; empty where there is none.
+    """The number of warnings behind a headline; empty without any.
 
     >>> counted(["a", "b"]), counted([])
     (': 2 warnings', '')

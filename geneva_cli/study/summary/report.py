@@ -22,7 +22,7 @@ SAID = ("title", "passes", "checks_failed", "not_proved")  # by the summary
 
 
 def of_report(design: Design) -> Answer:
-    """The answer of ``geneva report``: the verdict, key figures, what fails and what warns."""
+    """The answer of ``geneva report``: the verdict, key figures, failures and warnings."""
     record = design.report.table
     state, text = headline(design.checks, design.warnings)
     checks, warnings = design.checks, design.warnings
@@ -32,7 +32,7 @@ def of_report(design: Design) -> Answer:
 
 
 def key_figures(design: Design) -> Iterator[Line]:
-    """Six figures of a machine and its motor; of one without a load its peaks instead."""
+    """Six figures of a machine and its motor; without a load its peaks instead."""
     values = design.report.table.to_dict()
     yield _cycle(design, values)
     yield _size(values)

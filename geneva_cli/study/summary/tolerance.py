@@ -1,4 +1,4 @@
-"""Summary of ``geneva tolerance``: place and play of the wheel, and what contributes most."""
+"""Summary of ``geneva tolerance``: place and play of the wheel, and the main contributions."""
 
 from __future__ import annotations
 

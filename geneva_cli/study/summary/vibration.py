@@ -1,4 +1,4 @@
-"""Summary of ``geneva vibration``: what an index leaves swinging, and the speeds to avoid."""
+"""Summary of ``geneva vibration``: vibration after an index, and the speeds to avoid."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from geneva_cli.table import Table
 from geneva_cli.verdict.headline import below_summary, warning
 from geneva_cli.verdict.measured import measured
 
-STILL = 1e-6  # share of a step: of a step of 90°, a third of an arc second
+STILL = 1e-6  # fraction of a step: of a step of 90°, a third of an arc second
 
 
 def of_vibration(design: Design, record: Table) -> Answer:

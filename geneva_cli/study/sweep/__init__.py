@@ -1,1 +1,1 @@
-"""Many designs: a grid or a random cloud of them, a row each."""
+"""Sweeps: one row for each design of a grid or of a random sample."""

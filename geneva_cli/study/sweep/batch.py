@@ -1,4 +1,4 @@
-"""The rows of many designs at once, where one machine can be all of them."""
+"""Rows of a sweep computed as arrays, for designs that one batch machine can represent."""
 
 from __future__ import annotations
 
@@ -14,17 +14,18 @@ from geneva_cli.study.fields import Cell
 from geneva_cli.study.sweep.columns import columns
 from geneva_cli.study.sweep.values import Value
 
-TRIED = 20  # designs of a group, one of which must be a spec, to know its kinds
+# designs of a group of which one must be a valid spec, so that the kind of machine is known
+TRIED = 20
 
 
 class Batch:
-    """Designs that differ in numbers alone: their own numbers, and the values that they share."""
+    """Rows that differ in numbers only, and the indices of those that belong to this group."""
 
     def __init__(self, rows: Sequence[Sequence[Value]], members: list[int]) -> None:
         self.rows, self.members = rows, members
 
     def spec(self, read: Callable[[Sequence[Value]], Spec]) -> Spec | None:
-        """The spec of the first that is one; None where none of the first is."""
+        """The first valid spec among the first members; None if there is none."""
         for i in self.members[:TRIED]:
             try:
                 return read(self.rows[i])
@@ -33,7 +34,7 @@ class Batch:
         return None
 
     def built(self, spec: Spec, keys: Sequence[str], wide: Sequence[int]) -> Many:
-        """The machine of all of them."""
+        """The batch machine of all members."""
         varied = {keys[k]: np.array([self.rows[i][k] for i in self.members]) for k in wide}
         return many(spec, varied)
 
@@ -55,7 +56,7 @@ def wide_keys(spec: Spec, keys: Sequence[str], rows: Sequence[Sequence[Value]]) 
 def _may(spec: Spec, key: str) -> bool:
     try:
         return may_vary(spec, key)
-    except GenevaError:  # a key of another kind
+    except GenevaError:  # the key belongs to another kind of machine
         return False
 
 
@@ -65,9 +66,9 @@ def table(
     names: Sequence[str],
     read: Callable[[Sequence[Value]], Spec],
 ) -> Mapping[int, list[Cell]]:
-    """Quantities of the designs that can be worked out as arrays, by their numbers in ``rows``.
+    """Quantities of the designs that can be computed as arrays, by their numbers in ``rows``.
 
-    ``read`` makes the spec of a row. Designs that are missing must be built alone, or cannot be.
+    ``read`` makes the spec of a row. A missing design must be computed alone, or cannot be built.
     """
     out: dict[int, list[Cell]] = {}
     words = [k for k in range(len(keys)) if any(isinstance(row[k], str) for row in rows)]

@@ -1,4 +1,4 @@
-"""The best of a sweep: found by looking everywhere, then refined where it was found."""
+"""The best design of a sweep: a scan of all designs, then a local refinement."""
 
 from __future__ import annotations
 
@@ -15,28 +15,28 @@ from geneva_cli.study.sweep.constraints import Constraint, Nearness, is_number
 from geneva_cli.study.sweep.places import Places, closer
 from geneva_cli.study.sweep.run import Sweep
 
-STARTS = 3  # of the best places, from each of which the optimiser sets out
+STARTS = 3  # number of the best places from which the optimiser starts
 
 
 class Asked(NamedTuple):
-    """What is wanted of the designs of a sweep: an objective, within bounds."""
+    """The objective of a search, and the bounds that a design must keep."""
 
     objective: Objective
     constraints: tuple[Constraint, ...]
 
 
 class Winner(NamedTuple):
-    """The best design: its numbers by name, its machine, and how it was found."""
+    """The best design: its numbers by name, its machine, and counts of the search."""
 
     values: dict[str, float]
     mechanism: Mechanism
     tried: int
     feasible: int
     binding: tuple[Constraint, ...]
-    beside: dict[str, Cell]  # quantities that were asked for beside
+    beside: dict[str, Cell]  # the quantities of --pick and --check, which do not steer the search
 
     def lines(self, asked: Asked) -> list[str]:
-        """The design as a spec, what it is the best of in a comment above it."""
+        """The design as the lines of a spec file, with the result in comments above it."""
         name = asked.objective.name
         word = "least" if asked.objective.sign > 0.0 else "greatest"
         notes = [
@@ -49,24 +49,25 @@ class Winner(NamedTuple):
             *[f"# {name}: {_said(value)}" for name, value in self.beside.items()],
         ]
         spec = self.mechanism.spec
-        # its title may tell what was varied
+        # the spec's own title may describe what was varied
         title = f"{word.capitalize()} {name}, varied from: {spec.title}" if spec.title else ""
         return [*notes, *([f"title = {quoted(title)}"] if title else []), *written(spec)]
 
 
 def winner(found: Sweep, every: Iterable[Sequence[Row]], asked: Asked) -> Winner:
-    """The best of the rows of a sweep, which come some at a time and are not kept.
+    """Return the best design of a sweep, whose rows come in blocks and are not kept.
 
-    The spec's own design is tried too, where it lies in what is varied. The best is refined over
-    those of its keys that were given as spans: from the best places by clouds of designs that draw
-    together, from the best of these by an optimiser. Raises GenevaError, saying how near the
-    designs come, where none keeps the bounds.
+    The spec's own design is tried too, if its values are among those varied. The keys that were
+    given as spans are refined: first by clouds of designs that shrink about the best places, then
+    by an optimiser from the best of these. Raises GenevaError if no design keeps the bounds; the
+    message says how near the designs come.
     """
     search = SweepSearch(found, asked.objective, asked.constraints)
     tally = Tally(search)
     for rows in every:
         tally.add(rows)
-    if search.free and found.given is not None:  # a cloud comes near the spec's design, not to it
+    # a random sample comes near the spec's own design, but does not contain it
+    if search.free and found.given is not None:
         tally.add([found.row(found.given)])
     places = closer(search, tally.places.best()) if search.free else tally.places.best()
     starts = [row for row in places if search.keeps(row)][:STARTS]
@@ -74,7 +75,7 @@ def winner(found: Sweep, every: Iterable[Sequence[Row]], asked: Asked) -> Winner
         raise GenevaError(tally.none(places[0]))
     best = min((search.refined(row) for row in starts), key=search.cost)
     best = search.refined(best, CLOSE)  # onto the bounds that bind
-    best = found.row(search.keys(best))  # built alone, which is what counts
+    best = found.row(search.keys(best))  # computed again as a single design: this row is the result
     assert search.keeps(best), best
     values = dict(zip(found.names, best, strict=True))
     numbers = {name: float(v) for name, v in values.items() if is_number(v)}
@@ -94,7 +95,7 @@ def _said(value: Cell) -> str:
 
 
 class Tally:
-    """What is kept of rows that go by: the best ``places``, and how near others come."""
+    """The best design of each place and the distance of all designs from the bounds, row by row."""
 
     def __init__(self, search: SweepSearch) -> None:
         self.search = search
@@ -103,14 +104,17 @@ class Tally:
         self.nearness = Nearness(search.bounds)
 
     def add(self, rows: Sequence[Row]) -> None:
-        """More rows."""
+        """Add rows."""
         self.tried += len(rows)
         self.feasible += sum(map(self.search.keeps, rows))
         self.places.add(rows)
         self.nearness.add(rows)
 
     def none(self, near: Row) -> str:
-        """What to say where no design keeps the bounds; ``near`` breaks them least."""
+        """The error message for a sweep in which no design keeps the bounds.
+
+        ``near`` is the row that breaks them least.
+        """
         why = self.nearness.said() or [f"no design has a value of {self.search.name}"]
         values = [(c.name, near[i]) for i, c in self.search.bounds]
         if len(values) > 1 and all(is_number(value) for _, value in values):

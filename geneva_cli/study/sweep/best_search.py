@@ -1,4 +1,4 @@
-"""The rows of a sweep as a search of the best sees them: costs, bounds, places between them."""
+"""Objective, bounds and free keys of a sweep, in the form that an optimiser takes."""
 
 from __future__ import annotations
 
@@ -18,16 +18,18 @@ if TYPE_CHECKING:
 
 Row: TypeAlias = Sequence[Cell]
 
-EVALUATIONS = 300  # of the optimiser, from each start
-WIDE, CLOSE = 0.05, 2e-3  # first steps, shares of the spans: from a place, and at the end
-FINEST = 1e-9  # share of a key's range to which it is refined
-# Share of a bound by which the optimiser stays inside, so that rounding does not leave it outside.
+EVALUATIONS = 300  # evaluations of the optimiser from each start
+# first steps as fractions of the spans: from a scanned design, and at the end
+WIDE, CLOSE = 0.05, 2e-3
+FINEST = 1e-9  # fraction of a key's range to which it is refined
+# Fraction of a bound by which the optimiser stays inside, so that rounding does not leave it
+# outside.
 INSIDE = 1e-13
-FAR = 1e3  # outside a bound, or above a cost: a design that cannot be built
+FAR = 1e3  # violation, or scaled cost, of a design that cannot be built
 
 
 class SweepSearch:
-    """The rows of a sweep as an optimiser sees them: shares of the free keys' spans."""
+    """The rows of a sweep for an optimiser, with free keys as fractions of their spans."""
 
     def __init__(
         self, found: Sweep, objective: Objective, constraints: Sequence[Constraint]
@@ -41,38 +43,40 @@ class SweepSearch:
         self.low, self.high = np.array(ends, dtype=float).reshape(-1, 2).T
 
     def keys(self, row: Row) -> list[Value]:
-        """The values of the keys of a row."""
+        """The values of the varied keys of a row."""
         return [v for v in row[: len(self.found.plan.axes)] if v is not None]
 
     def cost(self, row: Row) -> float:
-        """What is to be small; infinite for a design that does not have it."""
+        """The objective, signed so that it is minimised; infinite for a design that lacks it."""
         value = row[self.at]
         return self.sign * float(value) if is_number(value) else np.inf
 
     def keeps(self, row: Row) -> bool:
-        """Whether a design has the objective and keeps all bounds."""
+        """Return True if a design has the objective and keeps all bounds."""
         return np.isfinite(self.cost(row)) and all(c.kept(row[i]) for i, c in self.bounds)
 
     def rooms(self, row: Row) -> list[float]:
-        """How far inside each bound a design is; one without the quantity is far outside."""
+        """Margins to the bounds, relative and negative outside; -FAR for a design without the
+        quantity.
+        """
         return [c.room(float(v)) if is_number(v := row[i]) else -FAR for i, c in self.bounds]
 
     def merit(self, row: Row) -> tuple[float, float]:
-        """What is to be small of any design: how far it is outside the bounds, then its cost."""
+        """The violation of the bounds, then the cost: the smaller pair is the better design."""
         if self.keeps(row):
             return 0.0, self.cost(row)
         short = sum(max(0.0, -room) for room in self.rooms(row))
         return short + FAR * (self.cost(row) == np.inf) or FINEST, self.cost(row)
 
     def shares(self, row: Row) -> Array:
-        """Where a design is in the spans of the free keys: 0 at the low end, 1 at the high."""
+        """The free keys of a design as fractions of their spans: 0 is low, 1 is high."""
         keys = self.keys(row)
         here = np.array([float(keys[i]) for i in self.free])
         there: Array = (here - self.low) / (self.high - self.low)
         return there
 
     def moved(self, row: Row, x: Array) -> list[Value]:
-        """The values of the keys of a design, with the free ones at these shares."""
+        """The values of the keys of a design, with its free keys at the fractions ``x``."""
         keys = self.keys(row)
         values = self.low + np.clip(x, 0.0, 1.0) * (self.high - self.low)
         for i, value in zip(self.free, values.tolist(), strict=True):
@@ -80,7 +84,7 @@ class SweepSearch:
         return keys
 
     def refined(self, start: Row, reach: float = WIDE) -> Row:
-        """The best design that the optimiser comes by on its way from this one, or this one."""
+        """The best design among a start and all that the optimiser evaluates from there."""
         if not self.free:
             return start
         from scipy.optimize import NonlinearConstraint, minimize

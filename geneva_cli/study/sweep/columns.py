@@ -16,10 +16,10 @@ if TYPE_CHECKING:
 
 
 def columns(machine: Mechanism, names: Sequence[str], count: int) -> list[Array] | None:
-    """Quantities of ``count`` designs in one machine, (count,) each.
+    """Quantities of ``count`` designs in one batch machine, (count,) each.
 
-    A value is infinite where a design has none, and NaN where the design must be built alone. None
-    where one of the quantities is not known of these designs together.
+    A value is infinite where it is undefined, and NaN where the design must be computed alone.
+    Returns None if one of the quantities cannot be computed for a batch.
     """
     found = known_columns(machine, names)
     if not found.keys() >= set(names):
@@ -28,7 +28,7 @@ def columns(machine: Mechanism, names: Sequence[str], count: int) -> list[Array]
 
 
 def known_columns(machine: Mechanism, names: Sequence[str]) -> dict[str, Number]:
-    """Those of the quantities that are known of these designs together, (m,) or one number."""
+    """The quantities among ``names`` that a batch computes: (m,), or one number."""
     designs, out = Designs(machine, names), {}
     for name in filter(_is_batched, names):
         group = group_of()[name]

@@ -1,4 +1,4 @@
-"""Bounds on quantities, as ``dwell_s >= 0.8``: which rows of a sweep keep them, and which bind."""
+"""Bounds on quantities, such as ``dwell_s >= 0.8``: which rows keep them, and which bind."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from geneva_cli.study.quantities import WORDS
 
 _FORM = re.compile(r"\s*([A-Za-z][\w.\-]*)\s*(<=|>=)\s*(\S+)\s*")
 MUST_BE = {"<=": "at most", ">=": "at least"}
-BINDING = 1e-6  # share of a bound, nearer than which a quantity stands at it
+BINDING = 1e-6  # fraction of a bound, within which a quantity counts as being at it
 
 
 class Constraint(NamedTuple):
@@ -29,36 +29,36 @@ class Constraint(NamedTuple):
 
     @property
     def span(self) -> tuple[float, float]:
-        """The least and the greatest value that keeps it."""
+        """The least and the greatest value that keep the bound."""
         return (self.bound, math.inf) if self.sign == ">=" else (-math.inf, self.bound)
 
     def kept(self, value: object) -> bool:
-        """Whether a value keeps it, but for rounding; what does not apply to a design does not."""
+        """Return True for a number that keeps the bound, apart from rounding."""
         return is_number(value) and keeps(float(value), MUST_BE[self.sign], self.bound)
 
     def room(self, value: N) -> N:
-        """How far inside the bound values are, over the bound's size; negative outside."""
+        """The margin of values to the bound, relative to its size; negative outside."""
         room = value - self.bound if self.sign == ">=" else self.bound - value
         return room / (abs(self.bound) or 1.0)
 
     def binds(self, value: float) -> bool:
-        """Whether a value stands at the bound."""
+        """Return True if a value is at the bound."""
         return abs(self.room(value)) <= BINDING
 
     def standing(self, value: float) -> str:
-        """How a value that keeps the bound stands to it: nothing to say of one well inside."""
+        """A remark on a value that keeps the bound; empty for a value well inside."""
         if self.room(value) < 0.0:
             return " (binds, met to rounding)"
         return " (binds)" if self.binds(value) else ""
 
 
 def is_number(value: object) -> TypeGuard[float]:
-    """Whether a cell of a row holds a number; yes and no are 1 and 0."""
+    """Return True if a cell of a row holds a number; True and False are 1 and 0."""
     return isinstance(value, (int, float))
 
 
 def constraint(text: str) -> Constraint:
-    """What ``"dwell_s >= 0.8"`` demands. Raises GenevaError where it is no bound.
+    """Return the bound in a text such as ``"dwell_s >= 0.8"``. Raises GenevaError for another text.
 
     >>> constraint("dwell_s >= 0.8")
     Constraint(name='dwell_s', sign='>=', bound=0.8)
@@ -79,10 +79,10 @@ def constraint(text: str) -> Constraint:
 
 
 class Nearness:
-    """How near the designs of a sweep come to keeping some bounds, as their rows go by.
+    """The distance of a sweep's designs from some bounds, updated as their rows arrive.
 
-    ``kept`` and ``nearest`` are of each bound: how many designs keep it, and where none does the
-    value of the one that is nearest to it; None where none has the quantity.
+    For each bound ``kept`` counts the designs that keep it, and ``nearest`` is the value nearest to
+    it, or None if no design has the quantity.
     """
 
     def __init__(self, bounds: Sequence[tuple[int, Constraint]]) -> None:
@@ -91,7 +91,7 @@ class Nearness:
         self.nearest: list[float | None] = [None] * len(bounds)
 
     def add(self, rows: Sequence[Sequence[object]]) -> None:
-        """More rows."""
+        """Add rows."""
         for k, (i, c) in enumerate(self.bounds):
             values = [float(v) for row in rows if is_number(v := row[i])]
             self.kept[k] += sum(c.kept(v) for v in values)
@@ -101,7 +101,7 @@ class Nearness:
                 self.nearest[k] = max(values) if c.sign == ">=" else min(values)
 
     def said(self) -> list[str]:
-        """How near they come to each."""
+        """A phrase for each bound: how many designs keep it, or the nearest value."""
         return [
             f"no design has a value of {c.name}"
             if nearest is None
@@ -111,8 +111,10 @@ class Nearness:
 
 
 def refuse_words(options: Mapping[str, str], instead: str) -> None:
-    """Raise GenevaError for a quantity that is a word, of those that ``options`` ask for by their
-    names; ``instead`` says what would be right.
+    """Raise GenevaError for a quantity whose values are words.
+
+    ``options`` are the options that request quantities, by the quantities' names; ``instead`` says
+    what would be right.
     """
     for name, option in options.items():
         if name in WORDS:
@@ -120,7 +122,7 @@ def refuse_words(options: Mapping[str, str], instead: str) -> None:
 
 
 def refuse_contradictions(given: Sequence[Constraint]) -> None:
-    """Raise GenevaError for two bounds that nothing keeps."""
+    """Raise GenevaError for two bounds that no value keeps together."""
     for low in given:
         for high in given:
             apart = low.sign == ">=" and high.sign == "<=" and low.bound > high.bound

@@ -1,4 +1,4 @@
-"""The rows of a sweep that a person sees: the first and the best."""
+"""The rows of a sweep that a terminal shows: the first and the best."""
 
 from __future__ import annotations
 
@@ -12,16 +12,16 @@ from geneva_cli.study.sweep.request import Request
 from geneva_cli.table import Table, rows_table
 
 FIRST = 5  # rows from the top
-BEST = 5  # rows from the best on; of no more than both, all are shown
+BEST = 5  # best rows; up to FIRST + BEST rows are all shown
 
 Numbered = tuple[Cell, ...]  # a row behind its number, counted from 1
 
 
 class Digest:
-    """The first rows, the best and their count, as rows go by; memory stays bounded.
+    """The first rows, the best rows and their count, updated as rows arrive in bounded memory.
 
-    The best have the least, or the greatest, of the first goal of --pareto; without, the least of
-    the first quantity that is a number. ``place`` is where all rows are, or may be written.
+    The best have the least, or the greatest, of the first goal of --pareto; without --pareto, the
+    least of the first numeric quantity. ``place`` names the file with all rows.
     """
 
     def __init__(self, asked: Request, place: str = "-o FILE.csv") -> None:
@@ -34,7 +34,7 @@ class Digest:
         self.best: list[tuple[float, Numbered]] = []  # the best first
 
     def add(self, rows: Sequence[Sequence[Cell]]) -> None:
-        """More rows."""
+        """Add rows."""
         numbered = [(self.count + i, *row) for i, row in enumerate(rows, 1)]
         self.count += len(rows)
         self.first += numbered[: FIRST + BEST - len(self.first)]
@@ -47,7 +47,7 @@ class Digest:
             )
 
     def _goal(self, rows: Sequence[Sequence[Cell]]) -> Objective | None:
-        """The first quantity of which some row has a number, to be the least."""
+        """The first quantity that is a number in some row, to be minimised."""
         for name in self.quantities:
             at = self.names.index(name)
             if any(is_number(row[at]) and not isinstance(row[at], bool) for row in rows):
@@ -55,7 +55,7 @@ class Digest:
         return None
 
     def tables(self) -> Iterator[Table]:
-        """All rows where they are few; else the first, and the best."""
+        """One table with all rows if they are few; otherwise the first rows and the best."""
         if self.count <= FIRST + BEST:
             yield self._table(self.first, "")
             return
@@ -66,7 +66,7 @@ class Digest:
             yield self._table(best, f"The {len(best)} rows with the {self.goal}")
 
     def _table(self, rows: Sequence[Numbered], title: str) -> Table:
-        """Some rows, without columns that hold nothing."""
+        """A table of some rows, without empty columns."""
         names = ("row", *self.names)
         kept = [i for i in range(len(names)) if any(row[i] is not None for row in rows)]
         shown = [tuple(row[i] for i in kept) for row in rows]

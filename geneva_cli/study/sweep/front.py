@@ -1,4 +1,4 @@
-"""The rows of a sweep that no other beats: the Pareto front of some objectives."""
+"""The Pareto front of a sweep: rows that no other row beats."""
 
 from __future__ import annotations
 
@@ -16,9 +16,10 @@ if TYPE_CHECKING:
 def front(
     rows: Sequence[Sequence[Any]], columns: Sequence[int], signs: Sequence[float]
 ) -> list[int]:
-    """The numbers of the rows of which no other is as good in all objectives and better in one.
+    """The numbers of the rows on the Pareto front.
 
-    A row without one of the numbers is none of them. Equal rows stay together.
+    A row is on it if no other is as good in all objectives and better in one. Rows without one of
+    the numbers are left out. Equal rows stay together.
     """
     some = [i for i, row in enumerate(rows) if all(is_number(row[c]) for c in columns)]
     if not some:
@@ -29,7 +30,7 @@ def front(
 
 
 def best(costs: Array) -> list[int]:
-    """The rows of costs that no other row dominates, in their order.
+    """The numbers of the rows of costs that no other row dominates, ascending.
 
     Time grows as n log n for up to two costs, and as n times the rows that are kept for more.
     """

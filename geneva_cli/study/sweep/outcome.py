@@ -1,4 +1,4 @@
-"""What became of the designs of a sweep: how many there were, and why none is left."""
+"""Counts of a sweep's designs, and the reason why no row is left."""
 
 from __future__ import annotations
 
@@ -13,18 +13,18 @@ Rows: TypeAlias = list[list[Cell]]
 
 
 class Outcome:
-    """Counts of the rows that go by: all, those that cannot be built, those that are kept."""
+    """Counts of rows as they arrive: all, those that cannot be built, and those that are kept."""
 
     def __init__(self, asked: Request) -> None:
         self.asked = asked
         self.all = self.failed = self.left = 0
-        self._first = ""  # why the first that cannot be built cannot
+        self._first = ""  # reason why the first that cannot be built cannot
         names = asked.sweep.names
         self._nearness = Nearness([(names.index(c.name), c) for c in asked.constraints])
         self._unknown = {names.index(o.name): o.name for o in asked.objectives}
 
     def rows(self, every: Iterable[Rows]) -> Iterator[Rows]:
-        """The rows, or the choice of them, counted."""
+        """The rows of the request, counted: all of them, or those that it chooses."""
         counted = self.counted(every)
         for block in self.asked.chosen(counted) if self.asked.chooses else counted:
             self.left += len(block)
@@ -44,14 +44,14 @@ class Outcome:
             yield block
 
     def refused(self) -> Sequence[str]:
-        """How many designs cannot be built, and why, where no row says so."""
+        """The number of designs that cannot be built, with the first reason or where to find it."""
         if not self.failed:
             return []
         why = f"the first: {self._first}" if self.asked.chooses else "column error says why"
         return [f"{self.failed:,} of {self.all:,} designs cannot be built: {why}"]
 
     def notes(self) -> Sequence[str]:
-        """What a person should know besides the rows."""
+        """Notes for the user besides the rows."""
         said = [*self.refused()]
         if self.all and not self.left:
             unknown = [f"no design has a value of {name}" for name in self._unknown.values()]

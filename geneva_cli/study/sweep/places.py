@@ -1,4 +1,4 @@
-"""Where the best of a sweep may be: the best designs of different places, brought closer."""
+"""The best designs of different places in a sweep, and their refinement by shrinking clouds."""
 
 from __future__ import annotations
 
@@ -8,19 +8,22 @@ import numpy as np
 
 from geneva_cli.study.sweep.best_search import Row, SweepSearch
 
-MOST = 24  # places that are followed
-PARTS = 3  # of each free key's span, which makes places apart
+MOST = 24  # places that are kept and refined
+PARTS = 3  # parts of each free key's span; designs in different parts are different places
 ROUNDS = 16
 CLOUD = 48  # designs about each place in a round
-RIVAL = 0.01  # of the least cost, above which a place is not refined: clouds come far closer
-FIRST, LESS = 0.25, 0.6  # half the width of the first cloud, a share of the span; of each next one
+# fraction of the least cost; above it a place is not refined further, as clouds come far closer
+RIVAL = 0.01
+# half the width of the first cloud as a fraction of the span; ratio of each next width
+FIRST, LESS = 0.25, 0.6
 
 
 class Places:
-    """The best design of each place: of each choice of words and whole numbers, and part of spans.
+    """The best design of each place.
 
-    A scan has few designs for each of twenty numbers of slots, so that the best of them all may
-    have the wrong number; the best of each number, brought closer, tell which is right.
+    A place is one choice of words and whole numbers, with one part of each span. A scan has few
+    designs for each number of slots, so its best design may have the wrong number. Refining the
+    best design of each number tells which is right.
     """
 
     def __init__(self, search: SweepSearch) -> None:
@@ -28,7 +31,7 @@ class Places:
         self.found: dict[Hashable, Row] = {}
 
     def add(self, rows: Sequence[Row]) -> None:
-        """More rows; the first of equals stays."""
+        """Add rows; the first of equal rows stays."""
         for row in rows:
             place = self._place(row)
             before = self.found.get(place)
@@ -38,7 +41,7 @@ class Places:
             self.found = dict(sorted(self.found.items(), key=self._merit)[: 4 * MOST])
 
     def best(self) -> list[Row]:
-        """The best of them, the best first."""
+        """The best designs, the best first."""
         return [row for _, row in sorted(self.found.items(), key=self._merit)[:MOST]]
 
     def _merit(self, item: tuple[Hashable, Row]) -> tuple[float, float]:
@@ -46,7 +49,7 @@ class Places:
 
     def _place(self, row: Row) -> Hashable:
         free = self.search.free
-        if not free:  # nothing will be brought closer
+        if not free:  # no refinement follows
             return ()
         parts = np.minimum(self.search.shares(row) * PARTS, PARTS - 1).astype(int)
         keys = enumerate(self.search.keys(row))
@@ -54,9 +57,9 @@ class Places:
 
 
 def closer(search: SweepSearch, rows: Sequence[Row]) -> list[Row]:
-    """Of each design the best of clouds about it that draw together; those that are near the best.
+    """Refine each design by clouds that shrink about it, and return those near the best.
 
-    Only where many such designs are worked out at once; else all are given back as they are.
+    Returns all designs unchanged if their quantities cannot be computed for a batch.
     """
     best = list(rows)
     if not search.found.known([search.keys(row) for row in best]):

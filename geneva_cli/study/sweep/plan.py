@@ -1,4 +1,4 @@
-"""Which designs a sweep holds: all of a grid, or a cloud drawn in it; each by its number."""
+"""The designs of a sweep by number: all of a grid, or a random sample of it."""
 
 from __future__ import annotations
 
@@ -12,14 +12,14 @@ from geneva_cli.study.sweep.values import POINTS_MAX, Value, VariedKey
 if TYPE_CHECKING:
     from geneva_cli.numerics.jet import Array
 
-DIMENSIONS_MAX = 100  # keys that are drawn at once
-BLOCK = 4096  # designs that are worked on together; a power of two, for the Sobol sequence
+DIMENSIONS_MAX = 100  # keys of a random sample: that many dimensions of a Sobol sequence
+BLOCK = 4096  # designs of a batch; a power of two, which keeps a Sobol sequence balanced
 
 
 class SweepPlan(NamedTuple):
-    """The designs of a sweep, numbered from 0; the last key runs fastest in a grid.
+    """The designs of a sweep, numbered from 0; the last key varies fastest in a grid.
 
-    ``random`` is how many are drawn, 0 for the whole grid, and ``seed`` what they are drawn with.
+    ``random`` is the size of the random sample, 0 for the whole grid; ``seed`` is its seed.
     """
 
     axes: tuple[VariedKey, ...]
@@ -30,11 +30,11 @@ class SweepPlan(NamedTuple):
         return self.random or math.prod(len(a.values) for a in self.axes)
 
     def middle(self) -> tuple[Value, ...]:
-        """A design amid all: of each key the value in the middle."""
+        """The design with the middle value of each key."""
         return tuple(_at(a, 0.5) for a in self.axes)
 
     def some(self, most: int) -> Iterator[tuple[Value, ...]]:
-        """At most so many designs from all over, the first among them."""
+        """At most ``most`` designs spread over the sweep, the first one included."""
         if self.random:
             yield from self.rows(0, min(most, len(self)))
             return
@@ -44,7 +44,7 @@ class SweepPlan(NamedTuple):
             yield from self.rows(at, at + 1)
 
     def rows(self, start: int, stop: int) -> list[tuple[Value, ...]]:
-        """The values of the keys of the designs from ``start`` up to ``stop``, left out."""
+        """The values of the keys of the designs ``start`` to ``stop - 1``."""
         return list(self._drawn(start, stop) if self.random else self._grid(start, stop))
 
     def _grid(self, start: int, stop: int) -> Iterator[tuple[Value, ...]]:
@@ -62,7 +62,7 @@ class SweepPlan(NamedTuple):
 
 
 def _at(axis: VariedKey, x: float) -> Value:
-    """The value of a key at a share of its range, or of its list."""
+    """The value of a key at a fraction of its range, or of its list."""
     if axis.span:
         low, high = (float(v) for v in axis.values)
         return low + (high - low) * x
@@ -74,7 +74,8 @@ def _sobol(dimensions: int, seed: int, start: int, stop: int) -> Array:
     import numpy as np
     from scipy.stats import qmc
 
-    # Whole blocks are drawn: of other counts the sequence warns, and a share must not differ.
+    # Whole blocks are drawn: the sequence warns about other counts, and a shard must get the same
+    # points as the whole run.
     first = start - start % BLOCK
     count = -(-(stop - first) // BLOCK) * BLOCK
     sequence = qmc.Sobol(dimensions, rng=seed)
@@ -85,7 +86,7 @@ def _sobol(dimensions: int, seed: int, start: int, stop: int) -> Array:
 
 
 def plan(axes: Sequence[VariedKey], random: int | None, seed: int) -> SweepPlan:
-    """The plan of a sweep. Raises GenevaError, naming the option, where there is none."""
+    """Return the plan of a sweep. Raises GenevaError, naming the option, for an invalid one."""
     if not axes:
         raise GenevaError("--vary is missing; say what varies, as --vary drive.A=0..0.9:0.1")
     if random is not None and not 1 <= random <= POINTS_MAX:
@@ -105,13 +106,15 @@ def plan(axes: Sequence[VariedKey], random: int | None, seed: int) -> SweepPlan:
 
 
 class Shard(NamedTuple):
-    """One of several equal shares of a sweep, counted from 1."""
+    """One of several equal parts of a sweep, counted from 1."""
 
     number: int = 1
     of: int = 1
 
     def span(self, length: int) -> tuple[int, int]:
-        """The designs of this share; all shares together are all designs, in order."""
+        """The first design of this shard and the one after its last; all shards together are the
+        sweep.
+        """
         return length * (self.number - 1) // self.of, length * self.number // self.of
 
 
@@ -119,7 +122,7 @@ WHOLE = Shard()
 
 
 def shard(text: str) -> Shard:
-    """What ``3/16`` means. Raises GenevaError where it is no share."""
+    """Return the shard that ``3/16`` names. Raises GenevaError for another text."""
     number, _, of = text.partition("/")
     if not (number.isdecimal() and of.isdecimal() and 1 <= int(number) <= int(of) <= POINTS_MAX):
         raise GenevaError(f"--shard {cut(text)}: it must be NUMBER/OF from 1/OF to OF/OF, as 3/16")

@@ -1,4 +1,4 @@
-"""A sweep's request, read from the command line's options."""
+"""A request for a sweep, read from the options of the command line."""
 
 from __future__ import annotations
 
@@ -22,11 +22,11 @@ from geneva_cli.study.sweep.plan import shard as share
 from geneva_cli.study.sweep.run import DEFAULT, Sweep, blocks, sweep, with_values
 from geneva_cli.study.sweep.values import VariedKey, axis, refuse_twice
 
-DRAWN = 4096  # designs that --best looks at where nothing else is said
+DRAWN = 4096  # designs that --best scans without --random
 
 
 class Request(NamedTuple):
-    """A sweep, and what of it is to be kept."""
+    """A sweep, and the selection among its rows."""
 
     sweep: Sweep
     constraints: tuple[Constraint, ...]
@@ -36,30 +36,30 @@ class Request(NamedTuple):
 
     @property
     def chooses(self) -> bool:
-        """Whether only some of the rows are kept."""
+        """Return True if only some of the rows are kept."""
         return bool(self.constraints or self.objectives)
 
     @property
     def key(self) -> str:
-        """What the rows depend on, as one word: the sweep, and points in files."""
+        """A digest of all that the rows depend on: the sweep, and the files of points."""
         return f"{self.sweep.key} {digest(self.inputs[1:])}"
 
     @property
     def inputs(self) -> tuple[str, ...]:
-        """The files that are read: the spec, points that it names, and what a varied word names.
+        """The input files: the spec, the points that it names, and files named by a varied word.
 
-        A word that names no file is among them, and does no harm there.
+        A word that names no file is listed too, which is harmless.
         """
         folder = os.path.dirname(self.files[0])
         words = [v for a in self.sweep.plan.axes for v in a.values if isinstance(v, str)]
         return (*self.files, *(os.path.join(folder, word) for word in words))
 
     def blocks(self, done: int = 0) -> Iterator[list[list[Cell]]]:
-        """All rows, some at a time; ``done`` are there already."""
+        """All rows, in blocks; the first ``done`` rows are skipped."""
         return blocks(self.sweep, done, self.jobs)
 
     def chosen(self, every: Iterable[list[list[Cell]]]) -> Iterator[list[list[Cell]]]:
-        """The rows that keep all bounds and, of these, that no other beats."""
+        """The rows that keep all bounds and, of these, the Pareto front."""
         names = self.sweep.names
         bounds = [(names.index(c.name), c) for c in self.constraints]
         kept = ([r for r in block if all(c.kept(r[i]) for i, c in bounds)] for block in every)
@@ -71,7 +71,7 @@ class Request(NamedTuple):
         at = [names.index(o.name) for o in self.objectives]
         signs = [o.sign for o in self.objectives]
         found: list[list[Cell]] = []
-        for block in kept:  # what a row of an earlier block beats is kept no longer
+        for block in kept:  # the front so far is enough: a row that it dominates never returns
             rows = [*found, *block]
             found = [rows[i] for i in front(rows, at, signs)]
         if found:
@@ -100,13 +100,13 @@ def request(
     shard: str = "",
     jobs: int | None = None,
 ) -> Request:
-    """What these options ask for. Raises GenevaError, naming the option, for what cannot be."""
+    """Return the request of these options. Raises GenevaError, naming the option that is wrong."""
     if jobs is not None and jobs < 1:
         raise GenevaError(f"--jobs {cut(jobs)}: it must be at least 1")
     text = read(path, given)
     many = random is not None or bool(best)
     axes = [axis(words, many) for words in vary]
-    try:  # what is wrong with the file is said before what is asked of it
+    try:  # report an error in the file before errors in the options
         files = text.spec().files
     except GenevaError as error:
         files = _files(text, axes, error)
@@ -140,7 +140,7 @@ def request(
 
 
 def _files(text: Text, axes: Sequence[VariedKey], error: GenevaError) -> tuple[str, ...]:
-    """The files of a spec that is not valid alone: what it lacks may be a key that is varied."""
+    """The files of a spec that is invalid on its own, with varied keys at their middle values."""
     try:
         return with_values(text, axes, [a.values[len(a.values) // 2] for a in axes]).spec().files
     except GenevaError:

@@ -1,4 +1,4 @@
-"""A sweep: one row a design, its varied keys, then the quantities that are asked for."""
+"""The rows of a sweep: its varied keys, then the requested quantities."""
 
 from __future__ import annotations
 
@@ -25,44 +25,44 @@ from geneva_cli.study.sweep.values import Value, VariedKey
 DEFAULT = ("timing.motion_deg", "timing.dwell_s", "velocity.max", "acceleration.max", "jerk.max")
 CHECKED = ("checks.passes", "checks.failed")
 ERROR = "error"  # the column that says why a design cannot be built
-TEXTS = (ERROR, CHECKED[1])  # columns that hold no numbers, even where all is well
-TASK = 64  # designs that a process is given at a time
-FEW = 4  # and where their parts are drawn, which takes longer: what is stopped, loses little
-TRIED = 1000  # designs among which one must be built
+TEXTS = (ERROR, CHECKED[1])  # columns without numbers, even if no design fails
+TASK = 64  # designs of one task of a worker process
+FEW = 4  # designs of one task where parts are drawn, which is slow: an interrupted run loses less
+TRIED = 1000  # designs of a sample, of which at least one must be buildable
 
 
 class Sweep(NamedTuple):
-    """The designs of one spec with some keys varied, and the quantities to work out for each."""
+    """A spec, the plan of its varied keys, and the quantities to compute for each design."""
 
     text: Text
     plan: SweepPlan
     pick: Pick
     shard: Shard = WHOLE
-    of_best: Pick | None = None  # quantities that are worked out of the best design alone
+    of_best: Pick | None = None  # quantities that are computed for the best design only
 
     @property
     def names(self) -> tuple[str, ...]:
-        """The columns."""
+        """The names of the columns."""
         return (*(a.key for a in self.plan.axes), *self.pick.names, ERROR)
 
     @property
     def asked(self) -> tuple[str, ...]:
-        """The quantities in the order in which they were asked for, by their whole names."""
+        """The whole names of the requested quantities, in the order of the request."""
         return self.pick.asked
 
     @property
     def span(self) -> tuple[int, int]:
-        """The numbers of the designs of this share."""
+        """The first design of this shard, and the one after its last."""
         return self.shard.span(len(self.plan))
 
     @property
     def key(self) -> str:
-        """What its rows depend on, as one word."""
+        """A digest of all that the rows depend on."""
         said = repr((__version__, self.text, self.plan, self.pick.names, self.shard))
         return hashlib.sha256(said.encode()).hexdigest()
 
     def rows(self, start: int, stop: int) -> list[list[Cell]]:
-        """The rows of the designs from ``start`` up to ``stop``, left out."""
+        """The rows of the designs ``start`` to ``stop - 1``."""
         return self.rows_of(self.plan.rows(start, stop))
 
     def rows_of(self, every: Sequence[Sequence[Value]]) -> list[list[Cell]]:
@@ -74,20 +74,20 @@ class Sweep(NamedTuple):
         ]
 
     def known(self, every: Sequence[Sequence[Value]]) -> Mapping[int, list[Cell]]:
-        """The quantities, by their numbers, of those designs of which they are known together."""
+        """The quantities of the designs that a batch can compute, by their numbers."""
         keys = [a.key for a in self.plan.axes]
         return batch.table(every, keys, self.pick.names, self._spec) if self.together else {}
 
     @property
     def at_once(self) -> int:
-        """How many designs are worked on before their rows are there."""
+        """The number of designs in one task."""
         if self.together:
             return BLOCK
         return FEW if any(s.makes_parts for s in self.pick.groups) else TASK
 
     @property
     def together(self) -> bool:
-        """Whether the quantities are known for arrays of designs."""
+        """Return True if all quantities can be computed for a batch of designs."""
         return bool(self.pick.names) and in_batch(self.pick.names)
 
     def _spec(self, some: Sequence[Value]) -> Spec:
@@ -95,8 +95,8 @@ class Sweep(NamedTuple):
 
     @property
     def given(self) -> list[Value] | None:
-        """The spec's own values of the varied keys; None where one is not among those varied."""
-        with suppress(GenevaError):  # a spec may lack what is varied
+        """The spec's own values of the varied keys; None if one is not among those varied."""
+        with suppress(GenevaError):  # the spec may lack a varied key
             spec, own = self.text.spec(), list[Value]()
             for axis in self.plan.axes:
                 table, _, name = axis.key.rpartition(".")
@@ -113,7 +113,7 @@ class Sweep(NamedTuple):
             return [*some, *[None] * len(self.pick.names), str(error)]
 
     def machine(self, some: Sequence[Value]) -> Mechanism:
-        """The machine with these values. Raises GenevaError where there is none."""
+        """The machine with these values. Raises GenevaError if it cannot be built."""
         return _machine(self.text, self.plan, some)
 
 
@@ -125,26 +125,27 @@ def sweep(
     options: Mapping[str, str] | None = None,
     of_best: Sequence[str] | None = None,
 ) -> Sweep:
-    """The sweep of a spec. ``check`` adds whether each design passes every check; ``options`` says
-    which option asked for a quantity, where it was not --pick. Where one is to be chosen, only it
-    is checked, and asked for the quantities ``of_best``.
+    """Return the sweep of a spec.
 
-    Raises GenevaError for a quantity that does not exist, and where none of some designs can be
-    built.
+    ``check`` adds the result of the checks; ``options`` names the option that requested a quantity,
+    if it was not --pick. ``of_best`` is given for a search of the best design: these quantities,
+    and the checks, are then computed for that design only.
+
+    Raises GenevaError for an unknown quantity, and if no design of a sample can be built.
     """
     checked = CHECKED if check else ()
     later = None if of_best is None else pick([*of_best, *checked])
     found = pick([*picks, *([] if later else checked)], options=options)
     _refuse_hopeless(text, plan)
-    varied = [a.key for a in plan.axes]  # these have their columns: no name may stand twice
+    varied = [a.key for a in plan.axes]  # these have their columns already: no name may occur twice
     names = tuple(name for name in found.names if name not in varied)
     return Sweep(text, plan, found._replace(names=names), of_best=later)
 
 
 def _refuse_hopeless(text: Text, plan: SweepPlan) -> None:
-    """Raise GenevaError where neither the middle design nor any of some others can be built.
+    """Raise GenevaError if neither the middle design nor any of a sample can be built.
 
-    The middle one needs no drawing, for which SciPy would be loaded.
+    The middle design comes first: it needs no random numbers, for which SciPy would be loaded.
     """
     said = []
     for some in itertools.chain([plan.middle()], plan.some(TRIED)):
@@ -153,7 +154,7 @@ def _refuse_hopeless(text: Text, plan: SweepPlan) -> None:
             return
         except GenevaError as error:
             said.append(str(error))
-    del said[0]  # that of the middle design, which may be one of the others
+    del said[0]  # the middle design, which may be one of the others
     those = (
         f"{len(said)} designs from all over the range"
         if len(plan) > TRIED
@@ -164,7 +165,7 @@ def _refuse_hopeless(text: Text, plan: SweepPlan) -> None:
 
 
 def with_values(text: Text, axes: Sequence[VariedKey], some: Sequence[Value]) -> Text:
-    """The spec with the values of the keys set over its own."""
+    """The spec with the values of the varied keys set over its own."""
     changes = tuple(_changed(a.key, v) for a, v in zip(axes, some, strict=True))
     return text._replace(set_keys=(*text.set_keys, *changes))
 
@@ -183,7 +184,7 @@ def _changed(key: str, value: Value) -> Setting:
 
 
 def blocks(found: Sweep, done: int = 0, workers: int | None = None) -> Iterator[list[list[Cell]]]:
-    """The rows of a sweep's share, some at a time, in order; ``done`` are there already."""
+    """The rows of a sweep's shard, in blocks and in order; the first ``done`` rows are skipped."""
     start, stop = found.span
     starts = range(start + done, stop, found.at_once)
     count = min(len(starts), cores() if workers is None else workers)

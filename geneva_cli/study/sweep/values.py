@@ -1,4 +1,4 @@
-"""The values that a key is varied through: ``4,6,8``, ``3..12``, ``0..0.9:0.01``, words, a span."""
+"""Values of a varied key: ``4,6,8``, ``3..12``, ``0..0.9:0.01``, words, or a span."""
 
 from __future__ import annotations
 
@@ -14,20 +14,20 @@ from geneva_cli.specfile.settings import Setting, read_value
 from geneva_cli.study.ranges import RangeText, range_text
 
 Value: TypeAlias = float | int | str
-POINTS_MAX = 100_000_000  # rows of a sweep: some hours, some gigabytes
-MIXED_MAX = 1_000_000  # values of a list with ranges in it, all of which are in memory
+POINTS_MAX = 100_000_000  # rows of a sweep: some hours and some gigabytes
+MIXED_MAX = 1_000_000  # values of a list that contains ranges, all of which are in memory
 _WHOLE = re.compile(r"[+-]?\d{1,99}")
 
 
 class VariedKey(NamedTuple):
-    """A varied key, and its values in order; a ``span`` has two, and all between them."""
+    """A varied key and its values in order; a ``span`` means all numbers between two."""
 
     key: str  # table.key, as in the spec
     values: Sequence[Value]
     span: bool = False
 
     def __contains__(self, value: object) -> bool:
-        """Whether it is one of the values, or between the two ends of a span."""
+        """Return True for one of the values, or for a number between the ends of a span."""
         if not self.span:
             return value in self.values
         low, high = map(float, self.values)
@@ -35,10 +35,10 @@ class VariedKey(NamedTuple):
 
 
 def axis(text: str, random: bool = False) -> VariedKey:
-    """What ``KEY=VALUES`` varies; ``random`` where values are drawn, and LOW..HIGH of a key
-    that takes fractions is a span.
+    """Return the varied key and its values from a text ``KEY=VALUES``.
 
-    Raises GenevaError, naming the option, for what is none.
+    With ``random`` values are drawn, and LOW..HIGH of a key that takes fractions is a span. Raises
+    GenevaError, naming the option, for another text.
 
     >>> list(axis("drive.A=0..0.9:0.3").values)
     [0.0, 0.3, 0.6, 0.9]
@@ -51,9 +51,7 @@ def axis(text: str, random: bool = False) -> VariedKey:
 
 
 def refuse_twice(axes: Sequence[VariedKey], given: Sequence[Setting]) -> None:
-    """Raise GenevaError for a key that is varied twice, or varied and set: of both only one would
-    be looked at.
-    """
+    """Raise GenevaError for a key that is varied twice, or both varied and set."""
     keys = [a.key for a in axes]
     twice = next((k for k in keys if keys.count(k) > 1), None)
     if twice:
@@ -80,12 +78,12 @@ def _axis(key: str, text: str, said: str, random: bool) -> VariedKey:
 
 
 def _whole(parts: Iterable[str]) -> bool:
-    """Whether all these are whole numbers."""
+    """Return True if all these are whole numbers."""
     return all(_WHOLE.fullmatch(part) for part in parts)
 
 
 def _span(ends: RangeText, said: str) -> tuple[float, float]:
-    """The ends of all that is between two numbers."""
+    """The two ends of a span. Raises GenevaError if the first is not below the second."""
     low, high = float(_decimal(ends.low, said)), float(_decimal(ends.high, said))
     if low >= high:
         raise GenevaError(f"{said}: the first number must be below the second")
@@ -128,7 +126,7 @@ def _decimal(text: str, said: str) -> Decimal:
 class Steps(Sequence[float]):
     """LOW, LOW + STEP, ... in decimals: 0..0.9:0.1 holds 0.3 and ends with 0.9.
 
-    Ten million of them take no memory.
+    They are computed when read, so ten million of them take no memory.
     """
 
     def __init__(self, low: Decimal, step: Decimal, length: int) -> None:
@@ -153,7 +151,7 @@ class Steps(Sequence[float]):
 
 
 def _steps(low: Decimal, high: Decimal, step: Decimal, said: str) -> Steps:
-    """The values from LOW up to HIGH. Raises GenevaError where there are none, or too many."""
+    """The values from LOW up to HIGH. Raises GenevaError if there are none, or too many."""
     if not step or (high - low) / step < 0:
         raise GenevaError(
             f"{said}: a step of {step:g} does not lead from {low:g} to {high:g}; "

@@ -1,10 +1,9 @@
-"""Of each family one machine that keeps the wish's bounds: the best, or the nearest.
+"""The best machine of each family that keeps the bounds, or the one nearest to them.
 
-The best has the least peak acceleration, in rad/s² where the speed is asked for, or the least of
-what the wish sorts by; the nearest to the plain crank is taken where any motion will do. All
-families are looked at together: at places evenly between their ends, then nearer and nearer about
-those of each that are better than the places beside them, or about the place where a bound is just
-kept.
+The best has the least peak acceleration (in rad/s² if times are required), or the least of the
+goal's quantity. If any motion is allowed, it is the nearest to the plain crank. All families are
+sampled as batches: first evenly between their ends, then ever closer to the places of each that are
+better than their neighbours, or to the place where a bound is just kept.
 """
 
 from __future__ import annotations
@@ -22,19 +21,20 @@ from geneva_cli.study.synthesis.families.family import Family
 from geneva_cli.study.synthesis.together import numbers
 from geneva_cli.study.synthesis.wish import Wish
 
-PLACES = 24  # intervals of a family's span that are looked at first
-LOOKS, CLOSER = 8, 3  # times that the look is narrowed, and by how much: a least value is flat
-TRACKS = 3  # of a family: places better than those beside them that are looked about
-HOPELESS = 2.0  # times what bounds are broken by less than beside a place: more, nothing near mends
-TINY = 1e-300  # what a bound that is broken by no more than rounding counts
-FORGIVEN = 1e-200  # what rounding adds up to at most
-SAME = 1e-4  # share of a span, nearer than which the best is another family's machine
-CLOSE = 1e-12  # share of a span, between a place that keeps the bounds and one that does not
-ABOUT = 0.05  # share of what is between two such, on either side of where a straight line passes
+PLACES = 24  # intervals of a family's span that are sampled first
+LOOKS, CLOSER = 8, 3  # number of closer samplings, and their ratio of widths: a minimum is flat
+TRACKS = 3  # of a family: places better than their neighbours that are sampled more closely
+# ratio of the violation at a place to its decrease nearby: above this, no bound can be kept nearby
+HOPELESS = 2.0
+TINY = 1e-300  # violation of a bound that is broken by rounding only
+FORGIVEN = 1e-200  # sum of such violations, at most
+SAME = 1e-4  # fraction of a span, within which the best is another family's machine
+CLOSE = 1e-12  # fraction of a span, between a place that keeps the bounds and one that does not
+ABOUT = 0.05  # fraction of the interval between such places, on either side of the secant's root
 
 
 class Chosen(NamedTuple):
-    """A machine and the family that it is of."""
+    """A machine and its family."""
 
     spec: Spec
     family: Family
@@ -43,8 +43,9 @@ class Chosen(NamedTuple):
 def best(
     families: Sequence[Family], wish: Wish, how_near: bool = False
 ) -> tuple[list[Chosen], list[Chosen]]:
-    """One machine of each family that has one within the wish's bounds; of the others that which
-    breaks them least, with ``how_near`` to the last digit.
+    """The best machine of each family, divided into those that keep the bounds and the others.
+
+    The others break the bounds least, with ``how_near`` to the last digit.
     """
     free = [f for f in families if f.is_free and math.isnan(f.best)]
     chosen = {id(f): NONE for f in free}
@@ -64,7 +65,7 @@ def best(
 
 
 def _places(free: Sequence[Family], wish: Wish, how_near: bool) -> list[Candidate]:
-    """Of each family the best place; ``NONE`` where there is no machine."""
+    """The best place of each family; ``NONE`` where there is no machine."""
     search = Places(free, wish, how_near)
     if search.nearest:
         search.look([(i, f.plain) for i, f in enumerate(free) if f.low <= f.plain <= f.high])
@@ -76,14 +77,15 @@ def _places(free: Sequence[Family], wish: Wish, how_near: bool) -> list[Candidat
 
 
 def _first(f: Family) -> list[float]:
-    """The places of a family that are looked at first; the plain crank is among them."""
+    """The places of a family that are sampled first, including the plain crank."""
     plain = [f.plain] if f.low < f.plain < f.high else []
     return [*(f.low + _step(f) * j for j in range(PLACES)), f.high, *plain]
 
 
 class Candidate(NamedTuple):
-    """A machine of a family: by how much it breaks the bounds, how far it is from the best that
-    could be (what is to be the least, or its distance from the plain crank), and where it is.
+    """A machine of a family: its violation of the bounds, its cost, and its place.
+
+    ``far`` is the quantity to minimise, or the distance from the plain crank.
     """
 
     broken: float
@@ -92,7 +94,7 @@ class Candidate(NamedTuple):
 
     @property
     def keeps(self) -> bool:
-        """Whether it keeps the bounds, but for rounding."""
+        """Return True if the machine keeps the bounds apart from rounding."""
         return self.broken < FORGIVEN
 
 
@@ -100,7 +102,7 @@ NONE = Candidate(math.inf, math.inf, math.nan)
 
 
 class Tried(NamedTuple):
-    """A place of a family that was looked at, and the room that the bounds leave there."""
+    """A sampled place of a family, and its margin to the bounds."""
 
     x: float
     room: float
@@ -110,29 +112,28 @@ class Tried(NamedTuple):
 class Places:
     """The best place so far of each family, by its number.
 
-    Bounds, and what is to be the least or the greatest, are those of the wish that ``together``
-    knows.
+    The bounds and the goal are those quantities of the requirement that ``together`` computes.
     """
 
     def __init__(self, families: Sequence[Family], wish: Wish, patient: bool = False) -> None:
         self.families, self.bounds = families, known_bounds(wish)
-        self.patient = patient  # also about places that no step nearby makes keep the bounds
+        self.patient = patient  # also samples near places where no small step can keep the bounds
         least = wish.sort if wish.sort and in_batch([wish.sort.name]) else None
         self.nearest = wish.any_motion and not least
         self.peak = wish.peak
         self.sign, self.least = least or Objective(1.0, self.peak)
         self.found: dict[int, Candidate] = {}
-        # of each family all places looked at, in order
+        # for each family all sampled places, in order
         self.tried: list[list[Tried]] = [[] for _ in families]
         self.tracks: list[tuple[int, Candidate]] = []
 
     def done(self, i: int) -> bool:
-        """Whether a family's best place cannot be bettered."""
+        """Return True if a family's best place cannot be improved."""
         place = self.found.get(i, NONE)
         return self.nearest and not place.broken and place.far == 0.0
 
     def begin(self) -> None:
-        """Take of each family the best of the places that are better than those beside them."""
+        """Start tracks at the best places of each family that are better than their neighbours."""
         for i, tried in enumerate(self.tried):
             places = [one.candidate for one in tried]
             beside = zip(places, [NONE, *places], [*places[1:], NONE], strict=False)
@@ -140,7 +141,7 @@ class Places:
             self.tracks += [(i, at) for at in sorted(tops)[:TRACKS]]
 
     def nearer(self, look: int) -> None:
-        """Look beside the best of every track, nearer at each look."""
+        """Sample near the best place of every track, closer at each call."""
         places = [self._beside(i, at, look) for i, at in self.tracks]
         seen = iter(
             self.look([(i, x) for (i, _), xs in zip(self.tracks, places, strict=True) for x in xs])
@@ -151,7 +152,7 @@ class Places:
         ]
 
     def _beside(self, i: int, best: Candidate, look: int) -> list[float]:
-        """Places beside the best of a track; none where it can get no better."""
+        """Places near the best of a track; empty where it cannot improve."""
         f, (broken, _, x) = self.families[i], best
         if self.done(i):
             return []
@@ -164,7 +165,7 @@ class Places:
             beside = [one.candidate.broken for one in places[max(at - 1, 0) : at + 2]]
             if broken and not self.patient and broken > HOPELESS * (max(beside) - broken):
                 return []
-            # one that is still best at an end of its span, looked at nearer there, is best there
+            # a place at an end of its span that stays the best in close samples is the best
             if end and not any(beside):
                 return []
         step = _step(f) / CLOSER**look
@@ -172,7 +173,7 @@ class Places:
         return [at for at in near if f.low <= at <= f.high]
 
     def _crossing(self, i: int, x: float) -> list[float]:
-        """Places about the one where the bounds are just kept, on the way to the plain crank."""
+        """Places near the one where the bounds are just kept, on the way to the plain crank."""
         f, places = self.families[i], self.tried[i]
         at = bisect_left(places, (x, -math.inf))
         beside = at + (1 if f.plain > x else -1)
@@ -189,7 +190,7 @@ class Places:
         return [at for at in tried if low < at < high]
 
     def look(self, places: Sequence[tuple[int, float]]) -> list[Candidate]:
-        """Look at these places of the families too: what is there, ``NONE`` where nothing is."""
+        """Sample these places of the families: their machines, or ``NONE`` where there is none."""
         specs = [self.families[i].at(x) for i, x in places]
         rows = iter(self._numbers([spec for spec in specs if spec]))
         found = []
@@ -202,7 +203,7 @@ class Places:
         rows = numbers(specs, [self.least, *(b.name for b in self.bounds)])
         if (
             self.bounds or self.least != self.peak
-        ):  # what no array of machines has, is asked for later
+        ):  # quantities that no batch computes are requested later
             without = iter(
                 numbers([s for s, row in zip(specs, rows, strict=True) if not row], [self.peak])
             )
@@ -219,7 +220,7 @@ class Places:
         return candidate
 
     def _broken(self, values: Sequence[float]) -> tuple[float, float]:
-        """By how much the bounds are broken together, over their sizes; the least room."""
+        """The sum of the relative violations of the bounds, and the least margin."""
         total, least = 0.0, math.inf
         for b, value in zip(self.bounds, values, strict=False):
             room = b.room(value)

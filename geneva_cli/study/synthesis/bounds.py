@@ -1,4 +1,4 @@
-"""The bounds of a wish: those that are known of many machines together, and soonest."""
+"""The bounds of a requirement that a batch can test, or that follow from the motion."""
 
 from __future__ import annotations
 
@@ -8,16 +8,15 @@ from geneva_cli.study.synthesis.wish import Wish
 
 
 def known_bounds(wish: Wish) -> list[Constraint]:
-    """The bounds on quantities that ``together`` knows."""
+    """The bounds on quantities that a batch can compute."""
     return [b for b in wish.limits if in_batch([b.name])]
 
 
 def of_motion(wish: Wish) -> Wish | None:
-    """The wish with those of its bounds alone that follow from the motion, and any machine that
-    keeps them; None where they are all that it asks for, or most families keep them.
+    """The requirement reduced to its bounds on the motion, for a first search.
 
-    What loads a machine has takes ten times as long: it need not be asked of a family of which none
-    moves as wished.
+    Returns None if it has no other bounds, or if most families keep them. The loads of a machine
+    take ten times as long, so they are not computed for a family without the required motion.
     """
     moved = tuple(b for b in wish.bounds if is_motion(b.name))
     if not (wish.strict and moved) or all(map(is_motion, wish.named)):

@@ -1,4 +1,4 @@
-"""Sizes with which the parts of a chosen machine pass every check, by turning them."""
+"""Sizes with which the parts of a chosen machine pass every check in a full turn."""
 
 from __future__ import annotations
 
@@ -14,25 +14,25 @@ from geneva_cli.study.synthesis.turns import LOOSE, LOST, Failing, Turns
 from geneva_cli.verdict.checks import checks
 from geneva_cli.verdict.checks.registry import LIMITS, MOTION, motion_checks
 
-SHAFT = {"crank_shaft_mm", "crank_hub_mm", "crank_bore_wall_mm"}  # what a crank's bore asks for
+# keys that conflict with a crank's bore
+SHAFT = {"crank_shaft_mm", "crank_hub_mm", "crank_bore_wall_mm"}
 UNDERCUT = "undercut_mm"
 UNDERCUTS = {UNDERCUT: MOTION[UNDERCUT]}
 LARGER = (8.0, 10.0)  # % of L: rollers larger than usual
-UNSIZED = {*MOTION, *LIMITS} - {UNDERCUT}  # what no other roller helps
+UNSIZED = {*MOTION, *LIMITS} - {UNDERCUT}  # checks that no other roller can mend
 
 
 class Built(NamedTuple):
-    """A spec, and what is the matter with its parts in a few words, empty where nothing is."""
+    """A spec, and the checks that fail in its parts, empty if none does."""
 
     spec: Spec
     trouble: str
 
 
 def built(spec: Spec, fixed: frozenset[str] = frozenset()) -> Built:
-    """The spec turned through a whole turn, with the first of some sizes that pass every check.
+    """The spec with the first of some sizes with which its parts pass every check in a full turn.
 
-    ``fixed`` are keys of its [size] that must stay as they are. Where nothing passes, the spec as
-    it was.
+    ``fixed`` are keys of its [size] that must not change. If no sizes pass, the spec is unchanged.
     """
     return built_together([spec], fixed)[0]
 
@@ -40,15 +40,16 @@ def built(spec: Spec, fixed: frozenset[str] = frozenset()) -> Built:
 def built_together(
     specs: Sequence[Spec], fixed: frozenset[str] = frozenset(), turns: Turns | None = None
 ) -> list[Built]:
-    """The same of machines of which those that turn through the same positions are turned once;
-    ``turns`` are those that were turned before.
+    """The result of ``built`` for several specs; those with the same positions are turned once.
+
+    ``turns`` are the machines that were turned before.
     """
     turns = turns or Turns()
     return [_built(turns, spec, fixed) for spec in specs]
 
 
 def passes(spec: Spec, turns: Turns) -> bool:
-    """Whether the parts pass every check with the sizes that the spec has."""
+    """Return True if the parts pass every check with the sizes of the spec."""
     machine = build(spec)
     return not (_of_motion(machine) or turns.first_failing(machine))
 
@@ -61,7 +62,7 @@ def _built(turns: Turns, spec: Spec, fixed: frozenset[str]) -> Built:
     found = seen = [*motion, *turns.first_failing(machine)]
     if not found:
         return Built(spec, "")
-    if {one.name for one in found} <= SHAFT:  # is that all?
+    if {one.name for one in found} <= SHAFT:  # test whether other checks fail too
         found = seen = turns.failing(machine)
     for other in _others(spec, {one.name for one in found}, fixed):
         if any(one.looser(LOST) for one in found):
@@ -78,9 +79,11 @@ def _said(failing: Sequence[Failing]) -> str:
 
 
 def _others(spec: Spec, trouble: set[str], fixed: frozenset[str]) -> Iterator[Spec]:
-    """The same machine with other sizes: smaller rollers, the nearest first; then larger ones,
-    where only the wheel's play at the ends of a slot is the matter whose ways in and out are apart:
-    the less they are so beside the roller, the better is it held.
+    """The machine with other sizes: smaller rollers, the nearest first, then larger ones.
+
+    Larger ones are tried only if the sole failure is the wheel's play at the ends of a slot with
+    different entry and exit paths. The smaller their distance compared with the roller, the less
+    play.
     """
     overhung = "crank_bore_mm" not in fixed and trouble & SHAFT
     if overhung:
@@ -102,9 +105,9 @@ def _others(spec: Spec, trouble: set[str], fixed: frozenset[str]) -> Iterator[Sp
 
 
 def _other_failing(turns: Turns, spec: Spec, seen: Sequence[Failing]) -> list[Failing]:
-    """Some of the checks that fail with other sizes than those of which some have been ``seen`` to.
+    """Some of the checks that fail with other sizes, after those ``seen`` to fail before.
 
-    The sizes change nothing of the motion but the undercut, which a smaller roller has less of.
+    The sizes change nothing in the motion but the undercut, which a smaller roller reduces.
     """
     machine = build(spec)
     named = LIMITS if UNDERCUT not in {one.name for one in seen} else LIMITS | UNDERCUTS

@@ -1,4 +1,4 @@
-"""Quantities of machines whose motion a law gives: their peaks are the law's own, scaled."""
+"""Quantities of machines whose motion a law gives, from the scaled peaks of the law."""
 
 from __future__ import annotations
 
@@ -21,12 +21,12 @@ if TYPE_CHECKING:
 
 @cache
 def law_costs(law: Law) -> Characteristic:
-    """The greatest values of a law."""
+    """The greatest values of a law, cached."""
     return characteristic(law)
 
 
 def law_columns(machine: Mechanism, names: Sequence[str], count: int) -> list[Array] | None:
-    """As ``columns``, without a search for the peaks of a law's motion."""
+    """The result of ``columns``, without a search for the peaks of a law's motion."""
     known = law_peaks(machine)
     rest = [name for name in names if name not in known]
     found = columns(machine, rest, count) if rest else []
@@ -40,9 +40,9 @@ def law_columns(machine: Mechanism, names: Sequence[str], count: int) -> list[Ar
 
 
 def law_peaks(machine: Mechanism) -> dict[str, Any]:
-    """A law's greatest values, scaled to the step and to the motion angle; none without a law.
+    """A law's greatest values, scaled to the step and to the motion angle; empty without a law.
 
-    Of a machine of many designs arrays (n, 1).
+    For a batch they are arrays (n, 1).
     """
     if machine.law is None:
         return {}

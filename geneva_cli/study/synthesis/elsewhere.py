@@ -1,7 +1,7 @@
-"""Machines of a family whose parts can be built, where those of its best cannot.
+"""Machines of a family whose parts can be built, where those of its best machine cannot.
 
-A family is looked at all over its span. The best place whose machine can be built is taken; between
-it and the nearest better one, which cannot, it is looked at nearer and nearer.
+The whole span of a family is sampled. The best place whose machine can be built is chosen. The
+range between it and the nearest better place, which cannot be built, is then sampled ever closer.
 """
 
 from __future__ import annotations
@@ -19,23 +19,23 @@ from geneva_cli.study.synthesis.parts import nothing_in_the_way
 from geneva_cli.study.synthesis.rows import Row, limited, rows
 from geneva_cli.study.synthesis.wish import Wish
 
-EVENLY = 16  # parts of a span, between which it is looked at first
-AHEAD = 4  # places of a family, the best first, that are looked at together
+EVENLY = 16  # parts of a span, between which it is sampled first
+AHEAD = 4  # places of a family, the best first, that are tested as a batch
 Seen: TypeAlias = dict[int, list[Candidate]]  # places of families, by their numbers
-# The row of a machine whose parts were turned, None where they fail: with the sizes of another one
-# that passes, or where there is none yet with the first that do.
+# A function that turns a machine's parts and returns its row, None if they fail. It uses the sizes
+# of another row that passes or, without one, the first sizes that do.
 Turn: TypeAlias = Callable[[Row, Row | None], Row | None]
 
 
 class Nearer(NamedTuple):
-    """Into how many parts what is left is cut at each nearer look, and how many looks there are."""
+    """The number of parts of a range at each closer sampling, and the number of samplings."""
 
     parts: int
     looks: int
 
 
-LOOKED = Nearer(parts=4, looks=4)  # a look takes a fraction of a millisecond
-TURNED = Nearer(parts=2, looks=3)  # a turn some hundred times as long
+LOOKED = Nearer(parts=4, looks=4)  # a test takes a fraction of a millisecond
+TURNED = Nearer(parts=2, looks=3)  # a turn takes some hundred times as long
 
 
 class Place(NamedTuple):
@@ -46,8 +46,9 @@ class Place(NamedTuple):
 
 
 def standing_in(wish: Wish, first: Sequence[Row], found: Sequence[Row]) -> list[Row]:
-    """For those of the ``first`` of some rows that cannot be built the best machines of their
-    families that may be; where they break a limit of the frame, there is another search for such.
+    """Replacements for the ``first`` rows that cannot be built: the best of their families.
+
+    Rows that break a limit of the frame are left out; another search replaces them.
     """
     able = {row.family for row in found if not row.cannot_be}
     stuck = [row.family for row in first if row.cannot_be and not breaks_limit(row)]
@@ -58,10 +59,10 @@ def standing_in(wish: Wish, first: Sequence[Row], found: Sequence[Row]) -> list[
 
 
 def elsewhere(wish: Wish, families: Sequence[Family], turn: Turn | None = None) -> list[Row | None]:
-    """Of each family the row of its best machine that may be built, to some thousandths of its
-    span; None where none was found.
+    """For each family the row of its best machine that may be built; None if none was found.
 
-    With ``turn`` of the best that is found to pass a whole turn, of a few that are turned.
+    The place is precise to some thousandths of the span. With ``turn`` the machine passes a full
+    turn; only a few are turned.
     """
     search = _Elsewhere(wish, families, turn)
     search.first()
@@ -72,20 +73,18 @@ def elsewhere(wish: Wish, families: Sequence[Family], turn: Turn | None = None) 
 
 
 class _Elsewhere:
-    """Of each family, by its number, the best place so far that can be built, and the nearest
-    better one that cannot.
-    """
+    """For each family, by its number, the best buildable place and the nearest better place."""
 
     def __init__(self, wish: Wish, families: Sequence[Family], turn: Turn | None) -> None:
         self.wish, self.families, self.turn = wish, families, turn
         self.places = Places(families, wish)
         self.good: dict[int, Place] = {}
         self.bad: dict[int, Candidate] = {}
-        # of each family with straight slots the rows of its places
+        # for each family with straight slots, the rows of its places
         self.straight: dict[int, dict[Candidate, Row | None]] = {}
 
     def first(self) -> None:
-        """Look all over the spans."""
+        """Sample the whole spans."""
         seen = self._looked([(i, x) for i, f in enumerate(self.families) for x in f.places(EVENLY)])
         ranked = {i: sorted(places) for i, places in seen.items()}
         self.good = self._first_turned(ranked) if self.turn else self._first_built(ranked)
@@ -96,7 +95,7 @@ class _Elsewhere:
                 self.bad[i] = min(better, key=lambda one: abs(one.x - x))
 
     def nearer(self, parts: int) -> None:
-        """Look between what can be built and what is better."""
+        """Sample between the buildable place and the better one."""
         ends = {i: (self.good[i].candidate.x, bad.x) for i, bad in self.bad.items()}
         asked = [
             (i, a + (b - a) * k / parts) for i, (a, b) in ends.items() for k in range(1, parts)
@@ -110,7 +109,7 @@ class _Elsewhere:
             self.bad[i] = [*left, self.bad[i]][0]
 
     def _looked(self, asked: Sequence[tuple[int, float]]) -> Seen:
-        """The places of each family, in their order, that keep the bounds."""
+        """The places of each family, in order, that keep the bounds."""
         out: Seen = {}
         for (i, _), candidate in zip(asked, self.places.look(asked), strict=True):
             if candidate.keeps:
@@ -119,8 +118,9 @@ class _Elsewhere:
         return out
 
     def _look_at_straight(self, seen: Seen) -> None:
-        """Make the rows of places with straight slots, whose peaks are searched for: of all places
-        in about the time of one.
+        """Make the rows of places with straight slots, whose peaks are searched.
+
+        A batch takes about the time of one.
         """
         of = [
             (i, one, spec)
@@ -134,17 +134,17 @@ class _Elsewhere:
             self.straight.setdefault(i, {})[one] = row
 
     def _better_built(self, seen: Seen) -> dict[int, Place]:
-        """Of each family the best of some places, if it betters what it has."""
+        """For each family the best of some places, if it is better than the present one."""
         best = {i: self.good[i].candidate for i in seen}
         return self._first_built(
             {i: sorted(one for one in places if one < best[i]) for i, places in seen.items()}
         )
 
     def _first_built(self, places: Seen) -> dict[int, Place]:
-        """Of each family the first of its places that can be built, which is taken from them with
-        all before it.
+        """For each family the first of its places that can be built.
 
-        Most of those that cannot be are told by their parts, in a fraction of the time of a row.
+        It is removed from the places with all before it. Most places that cannot be built are
+        recognised by their parts, in a fraction of the time of a row.
         """
         found: dict[int, Place] = {}
         for i in self.straight.keys() & places.keys():
@@ -152,7 +152,7 @@ class _Elsewhere:
                 one = places[i].pop(0)
                 self._note(found, i, one, self.straight[i].get(one))
         left = [i for i in places if i not in self.straight]
-        with searches_kept():  # every machine is looked at with others first
+        with searches_kept():  # every machine is tested in a batch first
             while left:
                 asked = self._next_with_parts({i: places[i] for i in left})
                 made = rows(self.wish, [spec for _, spec in asked.values()], [])
@@ -166,7 +166,7 @@ class _Elsewhere:
             found[i] = Place(place, row._replace(family=self.families[i]))
 
     def _next_with_parts(self, places: Seen) -> dict[int, tuple[Candidate, Spec]]:
-        """Of each family the first of its next places with nothing in the way of its parts."""
+        """For each family the first of its next places without an obstacle to its parts."""
         ahead = {i: [(one, self._spec(i, one)) for one in own[:AHEAD]] for i, own in places.items()}
         look_at(spec for own in ahead.values() for _, spec in own if spec)
         found = {}
@@ -183,7 +183,7 @@ class _Elsewhere:
         return limited(self.wish, spec) if spec else None
 
     def _first_turned(self, places: Seen) -> dict[int, Place]:
-        """Of each family the first place that passes: of every second, or the one before."""
+        """For each family the first place that passes; every second one is turned first."""
         found = {}
         for i, own in places.items():
             before = None
@@ -195,7 +195,7 @@ class _Elsewhere:
         return found
 
     def _next_turned(self, places: Seen) -> dict[int, Place]:
-        """Of each family the last of its places that betters those before it and passes."""
+        """For each family the last of its places that is better than those before it and passes."""
         found: dict[int, Place] = {}
         for i, own in places.items():
             for candidate in own:
@@ -211,7 +211,7 @@ class _Elsewhere:
         return self._first_built({i: places}).get(i)
 
     def _turned(self, place: Place, passing: Place | None = None) -> Place | None:
-        """The place, where its parts pass a turn: one that is nearer than the best so far."""
+        """The place with its turned row if its parts pass, with sizes of ``passing`` if given."""
         assert self.turn
         row = self.turn(place.row, passing.row if passing else None)
         return Place(place.candidate, row) if row else None

@@ -1,4 +1,4 @@
-"""The limits of a wish's frame as bounds, and the rows that break them."""
+"""The limits of a requirement's frame as bounds, and the rows that break them."""
 
 from __future__ import annotations
 
@@ -10,8 +10,8 @@ from geneva_cli.study.synthesis.rows import PEAKS, Row
 from geneva_cli.study.synthesis.wish import Wish
 from geneva_cli.verdict.checks.load_limits import QUANTITIES
 
-# Keys of [limits], by which their checks are named, and the quantities that they limit; what the
-# lock bears is the same for all machines of a wheel.
+# Keys of [limits], which name their checks too, and the quantities that they limit. The lock's load
+# is equal in all machines of a wheel.
 MOST = {
     **PEAKS,
     **{key: f"loads.{load}.max" for key, load in QUANTITIES.items()},
@@ -33,23 +33,24 @@ def frame_limits(wish: Wish) -> tuple[Constraint, ...]:
 
 
 def breaks_limit(row: Row) -> bool:
-    """Whether a row breaks a limit of its frame."""
+    """Return True if a row breaks a limit of its frame."""
     return not {*MOST, *LEAST}.isdisjoint(row.trouble.split(", "))
 
 
 def family(row: Row) -> tuple[object, ...]:
-    """What machines of one family have in common."""
+    """A key that is equal for all machines of one family."""
     candidate, wheel = row.candidate, row.spec.wheel
     own = candidate.drive, candidate.law, candidate.fixed, candidate.rollers
     return (type(wheel), wheel.z, *own)
 
 
 def first_of_each(rows: Sequence[Row], linkages: bool = False) -> list[Row]:
-    """Of every family the first row, and where that cannot be built the first that may be; of
-    ``linkages`` alone, several of which stand for those that were searched.
+    """The first row of every family, or the first that may be built if that one cannot.
+
+    With ``linkages`` every linkage counts as a family, as several rows stand for those searched.
     """
     kept: list[Row] = []
-    can_be: dict[Any, bool] = {}  # of the families of which there is a row
+    can_be: dict[Any, bool] = {}  # by family, whether one of the kept rows may be built
     for i, row in enumerate(rows):
         apart = linkages and row.candidate.crank_mm is None
         own = i if apart else family(row)
@@ -60,7 +61,7 @@ def first_of_each(rows: Sequence[Row], linkages: bool = False) -> list[Row]:
 
 
 def giving_way(rows: Sequence[Row], kept: Sequence[Row]) -> list[Row]:
-    """The rows, where one breaks a limit with those of its family instead that are ``kept``."""
+    """The rows, with those that break a limit replaced by rows ``kept`` of their family."""
     broken = {family(row) for row in rows if breaks_limit(row)}
     instead = [row for row in kept if family(row) in broken and not breaks_limit(row)]
     mended = {family(row) for row in instead}

@@ -1,7 +1,7 @@
-"""What of a machine's parts no roller's size changes, told of many machines at once.
+"""Data of a machine's parts that do not depend on the roller's size, for many machines at once.
 
-A drive in front of a crank changes when its parts are where they are, and more rollers, all alike,
-run through the same slots: machines that differ in these only are looked at once.
+A drive in front of a crank changes when its parts reach a position, and equal rollers run through
+the same slots. Machines that differ in these only share the data.
 """
 
 from __future__ import annotations
@@ -26,30 +26,32 @@ from geneva_cli.study.synthesis.wish import USUAL_RPM
 if TYPE_CHECKING:
     from geneva_cli.numerics.arrays import Array
 
-PLACES = 720  # of a slot, and of a whole turn of the crank
-FEWER = 3  # times, where places of a slot are compared with each other, and once more
-LOOKS = 120  # places of half a motion, for the undercut
-MOST = 4096  # looks that are kept
+PLACES = 720  # samples of a slot, and of a whole turn of the crank
+# every third sample is used where places of a slot are compared, then every second of these
+FEWER = 3
+LOOKS = 120  # samples of half a motion, for the undercut
+MOST = 4096  # entries of the cache
 
 
 class PartsLook(NamedTuple):
-    """What no roller changes; lengths in mm."""
+    """Data of the parts that do not depend on the roller; lengths in mm."""
 
-    spec: Spec  # that stands for all whose parts look so
+    spec: Spec  # represents all specs with the same data
     paths: RollerPaths
-    between: float  # neighbouring slots' pitch curves
-    least: float  # the radius of the least roller that leaves no island of the wheel in its slot
+    between: float  # between the pitch curves of adjacent slots
+    least: float  # the radius of the smallest roller that leaves no island of the wheel in its slot
     pressure_deg: float  # the greatest in a cam's groove
     walls: tuple[OuterWall, OuterWall] | None  # of curved slots
     back: tuple[Array, Array] | None  # of a wheel without a lock, the roller's places at rest:
     # along the nearest slot, and beside its middle
-    tried: dict[float, str]  # radii of rollers and what is in their way, which ``parts`` finds
+    tried: dict[float, str]  # obstacles by roller radius, a cache of ``parts``
 
 
 def gap_at_rest(back: tuple[Array, Array], rim: float, half_width: float, r: float) -> float:
-    """The smallest gap, mm, of a roller and a wheel at rest, at the places that were looked at.
+    """The smallest gap between a roller and the wheel at rest, mm, at the sampled places.
 
-    A rim with straight slots: beside a slot the rim is nearest, before it a corner of its mouth.
+    The rim has straight slots. Next to a slot the rim is nearest; in front of it, a corner of its
+    mouth is.
     """
     along, aside = back
     level = math.sqrt(max(rim * rim - half_width * half_width, 0.0))
@@ -65,11 +67,11 @@ _kept: dict[Spec, PartsLook] = {}
 
 
 def look(spec: Spec) -> PartsLook:
-    """The look at a machine with flat parts. Raises GenevaError where there is no machine."""
+    """The data of a machine with flat parts. Raises GenevaError if it cannot be built."""
     own = _alike(spec)
     if own not in _kept:
         look_at([spec])
-    found = _kept.get(own)  # another thread may clear them
+    found = _kept.get(own)  # another thread may clear the cache
     if found is None:
         (found,) = _looks([own], build(own))
         _kept[own] = found
@@ -77,7 +79,7 @@ def look(spec: Spec) -> PartsLook:
 
 
 def look_at(specs: Iterable[Spec]) -> None:
-    """Look at many machines at once, which ``look`` then knows; at those that can be built."""
+    """Compute the data of many machines at once, for later calls of ``look``."""
     new = dict.fromkeys(
         own for spec in specs if spec.is_flat and (own := _alike(spec)) not in _kept
     )
@@ -91,7 +93,7 @@ def look_at(specs: Iterable[Spec]) -> None:
 
 @lru_cache(maxsize=MOST)
 def _alike(spec: Spec) -> Spec:
-    """The machine that stands for all those whose slots and rollers' paths are the same."""
+    """The machine that represents all with the same slots and rollers' paths."""
     drive = spec.drive
     if spec.motion is None and drive.CRANKED:
         return spec.replace(drive=Crank(n_rpm=USUAL_RPM))
@@ -101,7 +103,7 @@ def _alike(spec: Spec) -> Spec:
 
 
 def _looks(specs: Sequence[Spec], machine: Mechanism) -> list[PartsLook]:
-    """The looks at n specs that are one machine."""
+    """The data of n specs that form one batch machine."""
     engagement, *others = machine.engagements
     assert not others, "synth finds only machines whose rollers move alike"
     L = np.atleast_2d(array(machine.center_distance_mm))
@@ -115,7 +117,7 @@ def _looks(specs: Sequence[Spec], machine: Mechanism) -> list[PartsLook]:
     ends = reach.min(axis=1) if machine.spec.wheel.SIGN > 0.0 else reach.max(axis=1)
     arm = groove.nearest * L[:, 0] if groove else _arm(machine)
     half = np.atleast_2d(array(engagement.half_step))
-    for side in (-1.0, 1.0):  # the slots beside the crank's axis while the wheel rests
+    for side in (-1.0, 1.0):  # the slots next to the crank's axis while the wheel rests
         away = np.hypot(x - L * np.cos(half), y - side * L * np.sin(half))
         arm = np.minimum(arm, away.min(axis=1))
     fx, fy = x[:, ::FEWER], y[:, ::FEWER]
@@ -137,19 +139,19 @@ def _looks(specs: Sequence[Spec], machine: Mechanism) -> list[PartsLook]:
 
 
 def _back(machine: Mechanism) -> tuple[Array, Array]:
-    """The roller's places at rest of the wheel, mm along the nearest slot and beside it, (n, m)."""
+    """The roller's places at rest of the wheel, mm along the nearest slot and across, (n, m)."""
     (engagement,) = machine.engagements
     entry, wide = (np.atleast_2d(x) for x in (engagement.entry_deg, engagement.motion_deg))
     rest = 360.0 * machine.spec.drive.turns - wide
     x, y = (c.c[0] for c in engagement.path(entry + wide + rest * (np.arange(PLACES) / PLACES), 0))
     away, b = machine.center_distance_mm * np.hypot(x, y), np.atleast_2d(engagement.half_step)
     angle = np.arctan2(y, x)
-    angle = np.abs((angle - angle[:, :1] + b) % (2.0 * b) - b)  # it leaves along its slot
+    angle = np.abs((angle - angle[:, :1] + b) % (2.0 * b) - b)  # the roller leaves along its slot
     return away * np.cos(angle), away * np.sin(angle)
 
 
 def _arm(machine: Mechanism) -> Array:
-    """Least distance of the roller from the crank's axis over a turn of it, mm, (n,) or (1,)."""
+    """Least distance of the roller from the crank's axis over its turn, mm, (n,) or (1,)."""
     (engagement,) = machine.engagements
     turn = 360.0 * machine.spec.drive.turns
     at = turn * (np.arange(PLACES) / PLACES - 0.5)
@@ -159,7 +161,7 @@ def _arm(machine: Mechanism) -> Array:
 
 
 def _between(x: Array, y: Array, z: int) -> float:
-    """The least distance between the pitch curves of neighbouring slots, mm."""
+    """The least distance between the pitch curves of adjacent slots, mm."""
     b = math.tau / z
     u, v = math.cos(b) * x - math.sin(b) * y, math.sin(b) * x + math.cos(b) * y
     dx, dy = x[:, None] - u, y[:, None] - v

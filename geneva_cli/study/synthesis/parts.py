@@ -1,9 +1,9 @@
-"""Can the parts of a machine be built, and with which roller? Told in some milliseconds.
+"""A fast test whether the parts of a machine can be built, and the roller that suits them.
 
-A curved slot asks for a roller between two bounds. Where its way in and its way out are apart, a
-small roller leaves an island of the wheel between them, which falls out; a large one undercuts the
-outer walls. Neighbouring slots and the locking disc leave room for a roller up to some size. What
-only a whole turn of the parts can tell is left to ``geneva check``.
+A curved slot needs a roller between two limits. Where its entry and exit paths differ, a small
+roller leaves an island of the wheel between them, which falls out. A large roller undercuts the
+outer walls. Adjacent slots and the locking disc limit the roller too. The test takes some
+milliseconds; collisions in a whole turn are left to ``geneva check``.
 """
 
 from __future__ import annotations
@@ -24,15 +24,16 @@ from geneva_cli.parts.sizes import sizes, wall_min
 from geneva_cli.parts.sphere.sizes import ball
 from geneva_cli.spec.tables import Size
 from geneva_cli.study.synthesis.looks import PartsLook, gap_at_rest, look
-from geneva_cli.verdict.cautions import SHOWN_UNDERCUT
 from geneva_cli.verdict.checks.undercut import undercut_depth
+from geneva_cli.verdict.motion_warnings import SHOWN_UNDERCUT
 
 USUAL = (5.0, 4.0, 3.0, 2.5, 2.0, 1.5, 1.0, 0.8, 0.6, 0.5, 0.4, 0.3, 0.2, 0.1)  # % of L
-NEARLY = 0.98  # of the undercut that is let pass: more places tell more, seldom by two hundredths
-SPARE = 1.001  # times the least roller, for what lies between the places that are compared
-KEPT = 1024  # machines: those of more rollers are asked for twice
+# fraction of the allowed undercut below which samples suffice: they rarely miss more than 2 %
+NEARLY = 0.98
+SPARE = 1.001  # times the least roller, for what lies between the samples
+KEPT = 1024  # machines in the cache: those with more rollers are requested twice
 
-# Why parts cannot be built, in one word
+# Reasons why parts cannot be built, in one word each.
 ISLAND = "island"
 UNDERCUT = "undercut"
 WALLS = "walls"
@@ -41,15 +42,15 @@ LOCK = "lock"
 GAP = "gap"
 SIZES = "sizes"
 
-# What the table says of parts that were turned and pass, and of those that were not turned.
+# Entries of the table for parts that pass a full turn, and for parts that were not turned.
 YES = "yes"
 MAYBE = "maybe"
 
 
 class Parts(NamedTuple):
-    """A machine's spec with the roller that suits it, and what stands in the way of its parts.
+    """A machine's spec with the roller that suits it, and the obstacle to its parts.
 
-    ``why`` is empty where nothing does, and None for a wheel whose parts are not drawn.
+    ``why`` is empty without an obstacle, and None for a wheel whose parts are not drawn.
     """
 
     spec: Spec
@@ -57,7 +58,7 @@ class Parts(NamedTuple):
 
     @property
     def said(self) -> str | None:
-        """What the table's column says of parts that nobody has turned."""
+        """The entry in the table for parts that were not turned."""
         if self.why is None:
             return None
         return f"no: {self.why}" if self.why else MAYBE
@@ -65,7 +66,7 @@ class Parts(NamedTuple):
 
 @lru_cache(maxsize=KEPT)
 def suited(spec: Spec) -> tuple[Mechanism, Parts]:
-    """The machine of a spec and its parts.
+    """The machine of a spec, and its parts.
 
     Raises GenevaError for a spec that makes no machine.
     """
@@ -74,7 +75,7 @@ def suited(spec: Spec) -> tuple[Mechanism, Parts]:
 
 
 def nothing_in_the_way(spec: Spec) -> bool:
-    """Whether it makes a machine whose parts are drawn, and nothing stands in their way."""
+    """Return True if the spec makes a machine whose parts can be drawn without an obstacle."""
     try:
         return suited(spec)[1].why == ""
     except GenevaError:
@@ -82,9 +83,9 @@ def nothing_in_the_way(spec: Spec) -> bool:
 
 
 def parts(mechanism: Mechanism) -> Parts:
-    """The largest usual roller that does, up to L/20; a larger one where the slot needs it.
+    """The machine's parts with the largest usual roller up to L/20, or a larger one if needed.
 
-    Of a spec that gives its roller, whether that one does.
+    If the spec gives its roller, only that one is tested.
     """
     spec = mechanism.spec
     if not spec.has_parts:
@@ -93,7 +94,8 @@ def parts(mechanism: Mechanism) -> Parts:
         r, why = _of_shells(mechanism)
         return Parts(spec if r is None else with_roller(spec, r), why)
     at, m = look(spec), spec.drive.rollers
-    if spec.drive.CRANKED and not mechanism.law:  # the same whatever turns the crank
+    # the parts do not depend on the drive that turns the crank
+    if spec.drive.CRANKED and not mechanism.law:
         r, why = _of_crank(at.spec, m)
     else:
         r, why = _suiting(assembly(mechanism), at, m)
@@ -106,8 +108,9 @@ def _of_crank(spec: Spec, m: int) -> tuple[float | None, str]:
 
 
 def _suiting(where: Assembly, at: PartsLook, m: int) -> tuple[float | None, str]:
-    """The radius of the roller that suits m rollers, mm, None for the one that the spec has; and
-    what stands in the way.
+    """The radius in mm of the roller that suits m rollers, and the obstacle to the parts.
+
+    The radius is None for the roller of the spec, or the usual one.
     """
     mechanism, L = where.mechanism, where.L
     apart = math.inf if m == 1 else mechanism.ratio * L * math.sin(math.pi / m)
@@ -127,16 +130,17 @@ def _suiting(where: Assembly, at: PartsLook, m: int) -> tuple[float | None, str]
         return None, obstacle(r) or (ISLAND if r < at.least else "")
     radii = _radii(at.least / L)
     percent, why = _largest(radii, of_share)
-    if why == LOCK:  # the horns of a small roller are thin, and those of a larger one may do
+    # the horns of a small roller are thin; those of a larger one may be thick enough
+    if why == LOCK:
         percent, why = next(((r, "") for r in reversed(radii) if not of_share(r)), (None, LOCK))
     if percent is None and at.least > 0.01 * USUAL[-1] * L:
-        percent, _ = _largest(_radii(0.0), of_share)  # the island apart, nothing is in the way
+        percent, _ = _largest(_radii(0.0), of_share)  # there is no obstacle except the island
         why = ISLAND
     return (None if percent in (None, USUAL[0]) else exact(0.01 * percent * L)), why
 
 
 def _of_shells(mechanism: Mechanism) -> tuple[float | None, str]:
-    """The same of a machine on a sphere."""
+    """The radius of the roller that suits a machine on a sphere, and the obstacle to the parts."""
     L, given = mechanism.center_distance_mm, mechanism.spec.size
     least = wall_min(given, L) / L
 
@@ -154,7 +158,7 @@ def _of_shells(mechanism: Mechanism) -> tuple[float | None, str]:
 
 
 def with_roller(spec: Spec, radius_mm: float | None) -> Spec:
-    """The spec with another roller; None for the usual one."""
+    """The spec with another roller; None means the usual one."""
     return spec.replace(size=_size_with(spec.size, radius_mm))
 
 
@@ -164,12 +168,12 @@ def _size_with(size: Size, radius_mm: float | None) -> Size:
 
 
 def exact(x: float) -> float:
-    """A product of short decimals, without what rounding added to it."""
+    """A product of short decimals, without its rounding error."""
     return float(f"{x:.12g}")
 
 
 def _radii(least: float) -> list[float]:
-    """Radii to try, rising, in % of L: the usual ones, from a least one on."""
+    """Radii to try in ascending order, in % of L: the usual ones from a least one on."""
     percent = 100.0 * least * SPARE
     usual = [r for r in reversed(USUAL) if r >= percent]
     step = 10.0 ** (math.floor(math.log10(percent)) - 1) if percent > USUAL[-1] else USUAL[-1]
@@ -178,18 +182,19 @@ def _radii(least: float) -> list[float]:
 
 
 def _largest(radii: list[float], obstacle: Callable[[float], str]) -> tuple[float | None, str]:
-    """The largest radius that nothing stands in the way of, or what does so of the smallest.
+    """The largest radius without an obstacle, or else the obstacle of the smallest.
 
-    What stands in the way of a roller does so of a larger one too, but for a lock's thin horns.
+    An obstacle to a roller is one to larger rollers too, except for the thin horns of a lock.
     """
     if not obstacle(radii[-1]):
         return radii[-1], ""
-    count = bisect_left(radii, True, key=lambda r: bool(obstacle(r)))  # that nothing stops
+    # number of radii without an obstacle
+    count = bisect_left(radii, True, key=lambda r: bool(obstacle(r)))
     return (radii[count - 1], "") if count else (None, obstacle(radii[0]))
 
 
 def _obstacle(where: Assembly, at: PartsLook, r: float) -> str:
-    """What stands in the way of a roller; nothing if it does."""
+    """The obstacle to a roller; empty if there is none."""
     mechanism = where.mechanism
     mechanism = mechanism._replace(spec=with_roller(mechanism.spec, r))
     try:

@@ -1,4 +1,4 @@
-"""Quantities of a design that a wish names: those it sorts by and those it sets bounds on."""
+"""Quantities that a requirement names, in its goal and its bounds."""
 
 from __future__ import annotations
 
@@ -28,11 +28,11 @@ from geneva_cli.study.synthesis.wish import Wish
 if TYPE_CHECKING:
     from geneva_cli.study.fields import Pick
 
-Cells: TypeAlias = list[float | int | str | bool | None]  # of one machine
+Cells: TypeAlias = list[float | int | str | bool | None]  # values of one machine
 
 
 class Asked(NamedTuple):
-    """The quantities that a wish names, whole, and its bounds on them by these names."""
+    """The quantities that a requirement names, by whole names, and its bounds on them."""
 
     pick: Pick | None
     bounds: tuple[Constraint, ...]
@@ -40,23 +40,24 @@ class Asked(NamedTuple):
 
     @property
     def names(self) -> tuple[str, ...]:
-        """The columns beside those of every row."""
+        """The columns besides those of every row."""
         return self.pick.names if self.pick else ()
 
 
 def asked(wish: Wish, spec: Spec) -> Asked:
-    """Which quantities a wish names; ``spec`` is a design that has them.
+    """The quantities that a requirement names; ``spec`` is a design that has them.
 
-    Raises GenevaError, with the nearest name, for one that there is not.
+    Raises GenevaError, with the nearest name, for an unknown one.
     """
     wanted = [b.name for b in wish.bounds]
     machine = build(spec)
-    pick = load_named("study.fields:pick")  # with all that a report has: most wishes name nothing
+    # imports all that a report has: most requirements name no quantity
+    pick = load_named("study.fields:pick")
     of_sort: tuple[str, ...] = pick([wish.sort.name], "--sort").names if wish.sort else ()
     of_bounds = pick(wanted, "--subject-to").asked if wanted else ()
     found = pick([*of_sort, *of_bounds])
     bounds = tuple(b._replace(name=n) for b, n in zip(wish.bounds, of_bounds, strict=True))
-    refuse_contradictions(bounds)  # of two names for one quantity
+    refuse_contradictions(bounds)  # two names of one quantity may contradict each other
     by = {b.name: "--subject-to" for b in bounds}
     refuse_words(by, "only numbers are bound")
     loads = [name for name in found.names if name.startswith("loads.")]
@@ -69,17 +70,16 @@ def asked(wish: Wish, spec: Spec) -> Asked:
 
 
 def asked_together(names: Sequence[str], found: Sequence[Row]) -> list[Cells | None]:
-    """The quantities of these names of each row; None for one of which they are not known of many
-    machines together.
-    """
+    """The quantities of each row from batches; None for a row that needs its own machine."""
     if not (names and in_batch(names)):
         return [None] * len(found)
     return [*map(_cells, numbers([row.spec for row in found], names))]
 
 
 def bounded(wanted: Asked, found: Sequence[Row], together: Sequence[Cells | None]) -> list[Row]:
-    """The rows with the quantities that are asked for, of those that keep the bounds; ``together``
-    are the quantities that ``asked_together`` tells.
+    """The rows that keep the bounds, with the requested quantities.
+
+    ``together`` are the results of ``asked_together``.
     """
     assert wanted.pick
     names = wanted.names
@@ -104,9 +104,7 @@ def bounded(wanted: Asked, found: Sequence[Row], together: Sequence[Cells | None
 
 
 def _cells(row: Sequence[float] | None) -> Cells | None:
-    """The cells of a machine, empty where nothing bounds a value; None where one is not known of
-    many together.
-    """
+    """The cells of a machine, empty for unbounded values; None if a value is unknown."""
     if row is None or any(map(math.isnan, row)):
         return None
     return [None if math.isinf(value) else value for value in row]
@@ -115,7 +113,7 @@ def _cells(row: Sequence[float] | None) -> Cells | None:
 def _values(of: Pick, spec: Spec) -> Cells | None:
     try:
         return of.of(build(spec))
-    except GenevaError:  # parts that cannot be drawn have none of their quantities
+    except GenevaError:  # parts that cannot be drawn have no quantities
         return None
 
 

@@ -1,4 +1,4 @@
-"""A wish as it is typed: the options' texts, each checked, and what contradicts refused."""
+"""A requirement read from the options of the command line, with contradictions refused."""
 
 from __future__ import annotations
 
@@ -17,11 +17,11 @@ from geneva_cli.study.sweep.constraints import Constraint, constraint, refuse_co
 from geneva_cli.study.synthesis.spans import Interval
 from geneva_cli.study.synthesis.wish import GEARINGS, PEAK, SPACE, Wish
 
-WHEELS_MAX = 200  # numbers of slots in one call: each costs some hundredths of a second
+WHEELS_MAX = 200  # numbers of slots in one call: each takes some hundredths of a second
 CYCLE = Range(1e-6, 1e6)
 SPACES = Range(0.1, 100.0)
 
-# The wishes for a number or a range of it, each with what it may be, its name and unit in words.
+# The requirements for a number or a range: allowed values, and name and unit in words.
 SPANS = {
     "tau": (Range(0.0, 1.0, "()"), "tau", ""),
     "motion_deg": (Range(0.0, 360.0, "()"), "a motion of", " deg"),
@@ -51,11 +51,10 @@ def read_wish(
     subject_to: Sequence[str] = (),
     space: str = "",
 ) -> Wish:
-    """The wish that the command's options state, as text; an empty text is an option not given.
+    """Return the requirement that the options state as text; an empty text is an option not given.
 
     Numbers may be fractions (``1/3``), and those of ``SPANS`` ranges (``0.8..``). Raises
-    GenevaError, naming the option, for options that contradict each other and for values out of
-    reach.
+    GenevaError, naming the option, for contradictions and for values out of range.
     """
     texts = {
         "tau": tau,
@@ -123,13 +122,13 @@ def _laws(name: str) -> tuple[str, ...]:
 
 
 def _is_peak(bound: Constraint) -> bool:
-    """Whether a bound is a limit of the peak acceleration, which families keep in closed form."""
+    """Return True for an upper limit of peak acceleration, which families keep in closed form."""
     is_limit = bound.sign == "<=" and bound.bound > 0.0
     return is_limit and whole_name(bound.name, "--subject-to") == PEAK
 
 
 def span(option: str, text: str, rule: Range) -> Interval:
-    """What an option's text asks for. Raises GenevaError, naming the option, for anything else.
+    """Return the range in an option's text. Raises GenevaError, naming the option, for others.
 
     >>> span("--dwell-s", "0.8..", Range(0.0))
     Interval(low=0.8, high=inf)
@@ -151,7 +150,10 @@ def span(option: str, text: str, rule: Range) -> Interval:
 
 
 def number(option: str, text: str, rule: Range) -> float:
-    """A number, or a fraction of two; GenevaError, naming the option, for anything else."""
+    """Return a number or a fraction of two.
+
+    Raises GenevaError, naming the option, for another text.
+    """
     above, slash, below = text.partition("/")
     try:
         x = float(above) / float(below) if slash else float(text)

@@ -1,4 +1,4 @@
-"""The rows of what was found: what each machine is, and what it costs."""
+"""The rows of a synthesis: each machine's description and costs."""
 
 from __future__ import annotations
 
@@ -22,9 +22,9 @@ from geneva_cli.verdict.checks.groove import GROOVE_MAX_DEG, groove_pressure
 from geneva_cli.verdict.checks.registry import LIMITS, MOTION, motion_checks
 
 GROOVE = "groove_pressure_deg"
-NEAR_DEG = 3.0  # below its limit, within which the pressure angle is looked for between places
-SURE_DEG = 1e-6  # beyond it: what is seen there is no rounding, and there is no less between places
-PEAKS = {  # keys of [limits], and what they limit
+NEAR_DEG = 3.0  # below its limit, within which the pressure angle is searched between samples
+SURE_DEG = 1e-6  # above its limit: beyond rounding, and samples are never above the peak
+PEAKS = {  # keys of [limits], and the quantities that they limit
     "velocity_max": "velocity.max",
     "acceleration_max": "acceleration.max",
     "acceleration_entry_max": "acceleration.entry",
@@ -34,7 +34,7 @@ COSTS = ("velocity.max", "acceleration.max", "acceleration.entry", "jerk.max", "
 
 
 class Candidate(NamedTuple):
-    """One machine, and one row: what it is, then what it costs (invariants)."""
+    """One machine as a row: its description, then its costs (invariants)."""
 
     z: int
     gearing: str
@@ -58,7 +58,7 @@ class Candidate(NamedTuple):
     power_max: float
     n_rpm: float | None  # with a cycle time: the input speed, and the peak in rad/s²
     acceleration_max_rad_s2: float | None
-    parts: str | None  # whether they can be built; None: they are not drawn
+    parts: str | None  # whether they can be built; None if they are not drawn
     offset_mm: float | None
     planet_ratio: float | str | None
     fixed: str | None
@@ -76,25 +76,26 @@ class Candidate(NamedTuple):
 
     @property
     def is_driven(self) -> bool:
-        """Whether a side-crank or gears are before the crank."""
+        """Return True if a side-crank or gears drive the crank."""
         return self.A is not None or self.eccentricity is not None
 
     @property
     def peak(self) -> float:
-        """The greatest acceleration, in rad/s² where the speed is asked for."""
+        """The greatest acceleration, in rad/s² if the speed is required."""
         rate = self.acceleration_max_rad_s2
         return self.acceleration_max if rate is None else rate
 
     @property
     def of_two_numbers(self) -> bool:
-        """Whether both a drive before the crank and the wheel depart from the plain machine."""
+        """Return True if both the drive and the wheel differ from the plain machine."""
         return self.is_driven and bool(self.axes_deg not in (None, 90.0) or self.offset_mm)
 
 
 class Row(NamedTuple):
-    """A machine: its spec, what it is and costs, and the quantities asked for beside these; the
-    family of which it is the best, where that has others, and whether it stands in for a better one
-    that cannot be built.
+    """A machine: its spec, description and costs, and further requested quantities.
+
+    ``family`` is the family whose best it is, if that has other machines. ``stands_in`` is true for
+    a replacement of a better machine that cannot be built.
     """
 
     spec: Spec
@@ -104,23 +105,23 @@ class Row(NamedTuple):
     stands_in: bool = False
 
     def moves_as(self, other: Row) -> bool:
-        """Whether another is the same machine, but for sizes."""
+        """Return True if another row is the same machine apart from sizes."""
         one, two = self.spec, other.spec
         return (one.wheel, one.drive, one.motion) == (two.wheel, two.drive, two.motion)
 
     @property
     def cannot_be(self) -> bool:
-        """Whether it is known that its parts cannot be built."""
+        """Return True if its parts are known to be impossible."""
         return bool(self.trouble)
 
     @property
     def trouble(self) -> str:
-        """Why its parts cannot be built, empty where that is not known of them."""
+        """The reason why its parts cannot be built; empty if none is known."""
         return (self.candidate.parts or "").partition(": ")[2]
 
 
 def _failing(machine: Mechanism, costs: Sequence[float]) -> str:
-    """The checks that fail, of those that need no parts; the peaks are known."""
+    """The checks that fail among those that need no parts; the peaks are known."""
     limits, known = machine.spec.limits.as_dict(), dict(zip(COSTS, costs, strict=True))
     peaks = {limit: known[name] for limit, name in PEAKS.items() if limits[limit] is not None}
     over = [name for name, x in peaks.items() if not keeps(x, "at most", limits[name])]
@@ -133,7 +134,7 @@ def _failing(machine: Mechanism, costs: Sequence[float]) -> str:
 
 
 def _wedged(machine: Mechanism) -> str:
-    """The check of a cam's groove, where it fails: asked only where it is near its limit."""
+    """The name of the check of a cam's groove if it fails; evaluated only near its limit."""
     seen = look(machine.spec).pressure_deg
     if not -NEAR_DEG <= seen - GROOVE_MAX_DEG <= SURE_DEG:
         return GROOVE if seen > GROOVE_MAX_DEG else ""
@@ -142,23 +143,27 @@ def _wedged(machine: Mechanism) -> str:
 
 
 def rows(wish: Wish, specs: Sequence[Spec], errors: list[str]) -> list[Row | None]:
-    """The rows of the specs, None for one that moves otherwise than wished, or cannot be built: why
-    not goes to ``errors``.
+    """The rows of the specs; None for one that cannot be built or breaks the required motion.
+
+    The reasons are added to ``errors``.
     """
-    with searches_kept():  # every machine is looked at with others first
+    with searches_kept():  # every machine is tested in a batch first
         found = _rows(wish, [limited(wish, spec) for spec in specs], errors)
     return [row if row and _granted(wish, row) else None for row in found]
 
 
 def limited(wish: Wish, spec: Spec) -> Spec:
-    """The spec with the limit that the wish is, beside its own."""
+    """The spec with the required peak acceleration as a further limit."""
     if wish.acceleration_max is None:
         return spec
     return spec.replace(limits=spec.limits.replace(acceleration_max=wish.acceleration_max))
 
 
 def _granted(wish: Wish, row: Row) -> bool:
-    """Whether the machine as built moves as wished: a linkage may drive another wheel as well."""
+    """Return True if the built machine moves as required.
+
+    A linkage may drive the wheel otherwise.
+    """
     drive = row.spec.drive
     limit, motion = wish.acceleration_max, wish.motion_for(drive.rollers / drive.turns)
     if motion is not None and not holds(motion, row.candidate.motion_deg):
@@ -171,7 +176,7 @@ def _rows(wish: Wish, specs: Sequence[Spec], errors: list[str]) -> list[Row | No
     costs = iter(numbers(straight, COSTS))
     own = [None if spec.motion else next(costs) for spec in specs]
     out: list[Row | None] = []
-    # the limit that the wish itself is, ``search`` keeps
+    # ``search`` keeps the required limit itself
     limits = wish.frame.limits.as_dict().values() if wish.frame else ()
     limited = any(value is not None for value in limits)
     look_at(specs)

@@ -1,4 +1,4 @@
-"""From a wish to the machines that grant it, each with what it costs, the best first."""
+"""The search for machines that meet a requirement, with their costs, the best first."""
 
 from __future__ import annotations
 
@@ -34,25 +34,25 @@ from geneva_cli.study.synthesis.rows import Candidate, Row, rows
 from geneva_cli.study.synthesis.together import numbers
 from geneva_cli.study.synthesis.wish import TURNS, Wish
 
-LOOKED_INTO = 120  # machines of a kind that are asked for what is not known of many together
-WORTH = 0.01  # share by which a machine of two numbers must better one of one number
-TURNED = 20  # rows whose parts are turned where nothing is said
-WHEELS = 6  # times laws: a search of fewer is done before a second process has begun
+LOOKED_INTO = 120  # machines of a kind whose other quantities are computed one by one
+WORTH = 0.01  # fraction by which a machine of two numbers must be better than one of one number
+TURNED = 20  # rows whose parts are turned by default
+WHEELS = 6  # times laws: a smaller search ends before a second process has started
 
 
 class FoundRows(NamedTuple):
-    """The rows that grant a wish in their order, and what it asks for beside what every row has."""
+    """The rows that meet a requirement, in order, and the quantities that it requests."""
 
     rows: list[Row]
-    wish: Wish  # with its bounds on times as spans
+    wish: Wish  # with its bounds on times as ranges
     asked: Asked
 
     def rank(self, row: Row) -> tuple[object, ...]:
-        """What rows are put in order by."""
+        """The sort key of a row."""
         return _rank(self.wish, self.asked, row)
 
     def in_turn(self, row: Row) -> Row | None:
-        """A row with the quantities asked for, where it keeps the bounds on them."""
+        """A row with the requested quantities; None if it breaks a bound on them."""
         if not self.asked.pick:
             return row
         try:
@@ -63,35 +63,34 @@ class FoundRows(NamedTuple):
 
 
 class _Part(NamedTuple):
-    """What one kind of machine has for a wish, and whether some machine keeps the bounds."""
+    """The rows of one kind of machine, and whether one of its machines keeps the bounds."""
 
     rows: list[Row]
-    asked: list[Cells | None]  # of each row, as ``asked_together``
+    asked: list[Cells | None]  # of each row, from ``asked_together``
     keeps: bool
     reached: list[float]
     errors: list[str]
 
 
 def search(wish: Wish, meanwhile: Callable[[], None] | None = None) -> FoundRows:
-    """The machines that grant the wish in their order; no part has been turned yet.
+    """The machines that meet the requirement, in order; no part has been turned yet.
 
-    ``meanwhile`` is what this process does while others search.
-
-    Raises GenevaError, saying what is within reach, where there is none.
+    ``meanwhile`` is a task for this process while others search. Raises GenevaError, saying what is
+    within reach, if there is none.
     """
     wanted = _asked(wish)
     wish = wish._replace(bounds=wanted.bounds, sort=wanted.sort)
     narrowed = wish.with_times()
     narrowed.refuse_contradictions()
     parts = _parts(narrowed, wanted.names, meanwhile=meanwhile)
-    if not any(part.keeps for part in parts):  # a refusal says how near they come
+    if not any(part.keeps for part in parts):  # the error message says how near they come
         parts = _parts(wish, wanted.names, how_near=True)
     errors = [error for part in parts for error in part.errors]
     found = [row for part in parts for row in part.rows]
     if not found:
         reached = [peak for part in parts for peak in part.reached]
         if wish.acceleration_max is not None and not reached:
-            return search(wish.by_bounds)  # which says how near they come
+            return search(wish.by_bounds)  # its message says how near they come
         raise GenevaError(_out_of_reach(wish, reached, errors))
     together = [cells for part in parts for cells in part.asked]
     ranked = _ranked(wish, wanted, found, together)
@@ -108,7 +107,7 @@ def search(wish: Wish, meanwhile: Callable[[], None] | None = None) -> FoundRows
 def _ranked(
     wish: Wish, wanted: Asked, found: list[Row], together: Sequence[Cells | None]
 ) -> list[Row]:
-    """The rows that keep the bounds, in their order."""
+    """The rows that keep the bounds, in order."""
     if wanted.pick:
         found = bounded(wanted, found, together)
     found = _worth(wish, wanted, found)
@@ -117,7 +116,7 @@ def _ranked(
 
 
 def _within_limits(wish: Wish, wanted: Asked, which: Sequence[bool]) -> list[Row]:
-    """The rows, of ``which`` kinds, of machines that are to keep the frame's limits too."""
+    """The rows of those kinds whose machines keep the frame's limits too."""
     strict = wish._replace(bounds=(*wish.bounds, *frame_limits(wish)), strict=True)
     parts = _parts(strict, wanted.names, which=which)
     pairs = [pair for part in parts for pair in zip(part.rows, part.asked, strict=True)]
@@ -129,8 +128,9 @@ def _within_limits(wish: Wish, wanted: Asked, which: Sequence[bool]) -> list[Row
 
 
 def _known_together(wish: Wish) -> bool:
-    """Whether what the wish sorts by and its bounds are known of many machines together. Where not,
-    of each family several machines are asked for them, and the best of these is shown.
+    """Return True if a batch can compute the quantities of the goal and of the bounds.
+
+    If not, they are computed for several machines of each family, and the best of these is shown.
     """
     return in_batch(wish.named)
 
@@ -142,9 +142,7 @@ def _parts(
     meanwhile: Callable[[], None] | None = None,
     which: Sequence[bool] = (),
 ) -> list[_Part]:
-    """What each kind of machine has, by all cores, in the order of ``kinds``: of all kinds, or of
-    ``which``.
-    """
+    """The results of all kinds of machines, or of ``which``, in order, from all cores."""
     tasks = kinds(wish)
     order = [i for i in longest_first(wish) if not which or which[i]]
     many = which or len(wish.gearings) * len(wish.z) * len(wish.laws) > WHEELS
@@ -176,8 +174,10 @@ def _part(task: tuple[Kind, Wish], names: Sequence[str], how_near: bool) -> _Par
 
 
 def _asked(wish: Wish) -> Asked:
-    """The quantities that a wish names, by their whole names, as a plain crank of one roller has
-    them; where the frame's sizes let none be, as the frame itself.
+    """The quantities that a requirement names, by their whole names.
+
+    They are those of a plain crank with one roller or, if the frame's sizes allow none, of the
+    frame.
     """
     if not (wish.sort or wish.bounds):
         return Asked(None, (), None)
@@ -193,8 +193,9 @@ def _asked(wish: Wish) -> Asked:
 
 
 def _apart(bounds: Sequence[Constraint], specs: list[Spec]) -> tuple[bool, list[Spec], list[Spec]]:
-    """The specs without those that break a bound, whatever roller they get, and these; first,
-    whether there are any of which it is known that they break none.
+    """Divide specs by the bounds that do not depend on the roller.
+
+    Returns whether one of them is known to keep all, the specs that may keep them, and the others.
     """
     whatever = [b for b in bounds if not b.name.startswith("loads.")]
     if not whatever:
@@ -210,7 +211,10 @@ def _apart(bounds: Sequence[Constraint], specs: list[Spec]) -> tuple[bool, list[
 
 
 def _rank(wish: Wish, wanted: Asked, row: Row) -> tuple[object, ...]:
-    """The quantity asked for, then peaks; those that differ by rounding only are equal."""
+    """The sort key of a row: the goal's quantity, then peaks.
+
+    Numbers that differ only by rounding are equal.
+    """
     candidate = row.candidate
     first: list[object] = []
     if wanted.sort:
@@ -232,8 +236,9 @@ def _rank(wish: Wish, wanted: Asked, row: Row) -> tuple[object, ...]:
 
 
 def _worth(wish: Wish, wanted: Asked, found: list[Row]) -> list[Row]:
-    """The rows without machines of two numbers that one with either of them all but equals; where
-    the nearest to the plain crank is wished for, that there is.
+    """The rows without machines of two numbers that are hardly better than one of one number.
+
+    If the nearest machine to the plain crank is required, all of them are left out that have one.
     """
     one = [row for row in found if not row.candidate.of_two_numbers]
 
@@ -254,7 +259,7 @@ def _worth(wish: Wish, wanted: Asked, found: list[Row]) -> list[Row]:
 
 
 def _first(wanted: Asked, row: Row) -> float:
-    """What rows are put in order by first, the least being the first; NaN is none."""
+    """The first number of the sort key, least first; NaN if there is none."""
     if not wanted.sort:
         return row.candidate.peak
     value = row.asked[wanted.names.index(wanted.sort.name)]
@@ -262,15 +267,15 @@ def _first(wanted: Asked, row: Row) -> float:
 
 
 def synthesis(wish: Wish) -> list[tuple[Spec, Candidate]]:
-    """The machines that grant the wish, the lowest peak acceleration first, no part turned.
+    """The machines that meet the requirement, the lowest peak acceleration first, no part turned.
 
-    Raises GenevaError, saying what is within reach, where there is none.
+    Raises GenevaError, saying what is within reach, if there is none.
     """
     return [(row.spec, row.candidate) for row in search(wish).rows]
 
 
 def _out_of_reach(wish: Wish, reached: list[float], errors: list[str]) -> str:
-    """What to say where no machine was found: what would be within reach."""
+    """The error message if no machine was found: what would be within reach."""
     counts = wish.counts
     m = wish.rollers or next((int(m) for m in counts if m >= 1.0), 1)
     if wish.only_acceleration and reached:

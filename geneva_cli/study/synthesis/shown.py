@@ -1,4 +1,4 @@
-"""The rows of a synthesis as a person reads them: what is alike told once, in a hundred columns."""
+"""The rows of a synthesis for people: constant values in the title, within a hundred columns."""
 
 from __future__ import annotations
 
@@ -10,11 +10,11 @@ from geneva_cli.output.text import cell
 from geneva_cli.table import Reading, Table
 
 WIDTH = 100
-BETWEEN = 3  # columns a frame puts between two others; plain text 2
-DIGITS = 5  # significant ones; csv and json carry all
+BETWEEN = 3  # columns that a frame puts between two others; plain text has 2
+DIGITS = 5  # significant digits; csv and json have all
 REASON = 14  # characters of why parts cannot be built
 
-# Columns under a short name, those that are dropped last first; what is empty is left out.
+# Columns and their short names, the least important last; empty ones are left out.
 HEADS = {
     "no": "no",
     "z": "z",
@@ -45,7 +45,7 @@ ORDER = (
 )
 PEAK, RATE = "acceleration_max", "acceleration_max_rad_s2"
 CONSTANT = ("rollers", "motion_deg", "dwell_deg", "motion_s", "dwell_s", "tau", "k", "n_rpm")
-DESCRIBED = (  # columns that the machine's description stands for
+DESCRIBED = (  # columns that the machine's description replaces
     *("drive", "A", "eccentricity", "phase", "axes_deg", "alpha0_deg", "law"),
     *("offset_mm", "planet_ratio", "fixed"),
     *("crank_mm", "ground_mm", "coupler_mm", "rocker_mm", "point_mm", "point_deg", "entry_deg"),
@@ -54,7 +54,7 @@ DESCRIBED = (  # columns that the machine's description stands for
 
 
 class ShownColumn(NamedTuple):
-    """A column for people: where it comes from, its head and its cells."""
+    """A column for people: its source, its heading and its cells."""
 
     source: str
     head: str
@@ -62,12 +62,12 @@ class ShownColumn(NamedTuple):
 
     @property
     def width(self) -> int:
-        """How wide it is, its head broken at underscores."""
+        """The width in characters, with the heading broken at underscores."""
         return max(len(text) for text in (*self.head.split("_"), *map(cell, self.cells)))
 
 
 def for_terminal(table: Table) -> Table:
-    """What each machine is in words, and all its numbers; the first of HEADS matter the most."""
+    """A table with a description of each machine and all its numbers, in order of importance."""
     rows = table.to_rows()
     laws = {row["law"] for row in rows if row["law"]}
     every = _columns(rows, table.names, len(laws) > 1)
@@ -80,7 +80,7 @@ def for_terminal(table: Table) -> Table:
 
 
 def for_people(table: Table) -> Table:
-    """Without empty columns, those of one value told in the title, and no wider than a screen."""
+    """A table without empty columns, constant ones in its title, no wider than a screen."""
     rows = table.to_rows()
     laws = {row["law"] for row in rows if row["law"]}
     columns, once = [], [f"law {law}" for law in laws if len(laws) == 1]
@@ -120,7 +120,7 @@ def _columns(
 
 
 def _machine(row: dict[str, Any], several: bool) -> str:
-    """What the machine is, in a few words: its drive, and the number that makes the motion."""
+    """A short description of the machine: its drive, and the number that determines the motion."""
     own = [
         row["law"] if several and row["law"] else "",
         f"alpha0 {_number(row['alpha0_deg'])}" if row["law"] else "",
@@ -143,7 +143,7 @@ def _links(row: dict[str, Any]) -> str:
 
 
 def _fitting(columns: list[ShownColumn]) -> list[ShownColumn]:
-    """As many columns as stand side by side, the dearest dropped first."""
+    """As many columns as fit, the least important ones left out."""
     rank = _ranks(columns)
     wide = [c.width + BETWEEN for c in columns]
     kept = [*range(len(columns))]
@@ -153,9 +153,9 @@ def _fitting(columns: list[ShownColumn]) -> list[ShownColumn]:
 
 
 def _ranks(columns: list[ShownColumn]) -> dict[str, int]:
-    """The place of each column by how much it matters."""
+    """The rank of each column in importance."""
     rank = {source: i for i, source in enumerate(HEADS)}
-    if RATE in {c.source for c in columns}:  # rows are in its order
+    if RATE in {c.source for c in columns}:  # rows are sorted by it
         rank[PEAK], rank[RATE] = rank[RATE], rank[PEAK]
     return rank
 
@@ -169,7 +169,7 @@ def _number(value: Any) -> str:
 
 
 def _said(parts: str | None) -> str | None:
-    """Whether parts can be built; of several reasons the first, without its unit."""
+    """The entry about parts; of several reasons the first, without its unit."""
     no, colon, reasons = (parts or "").partition(": ")
     if not colon:
         return parts

@@ -1,4 +1,4 @@
-"""A number that is wished for, or a range of it: ``0.8``, ``1/3``, ``0.8..``, ``1..2``."""
+"""A required number, or a range of it: ``0.8``, ``1/3``, ``0.8..``, ``1..2``."""
 
 from __future__ import annotations
 
@@ -9,37 +9,37 @@ from geneva_cli.numerics.tolerances import ROUNDED
 
 
 class Interval(NamedTuple):
-    """All numbers from ``low`` to ``high``, both included; one number where they are equal."""
+    """All numbers from ``low`` to ``high``, both included; one number if they are equal."""
 
     low: float = -math.inf
     high: float = math.inf
 
     @property
     def exact(self) -> bool:
-        """Whether it is one number."""
+        """Return True for a single number."""
         return self.low == self.high
 
     @property
     def empty(self) -> bool:
-        """Whether no number is in it."""
+        """Return True if no number is in it."""
         return not self.low <= self.high
 
     def over(self, other: Interval) -> Interval:
-        """The span of a/b, for positive a of this one and b of the other."""
+        """The range of a/b, for positive a of this range and b of the other."""
         low = self.low / other.high if math.isfinite(other.high) else 0.0
         high = self.high / other.low if other.low > 0.0 else math.inf
         return Interval(max(low, 0.0), high)
 
     def mirrored(self, whole: float) -> Interval:
-        """The span of ``whole`` less a number."""
+        """The range of ``whole`` less a number."""
         return Interval(whole - self.high, whole - self.low)
 
     def times(self, factor: float) -> Interval:
-        """The span of a positive multiple."""
+        """The range of a positive multiple."""
         return Interval(self.low * factor, self.high * factor)
 
     def within(self, other: Interval) -> Interval:
-        """What both hold: of one number each, which differ by rounding only, that of this one.
+        """The common part of two ranges; numbers that differ only by rounding are equal.
 
         >>> Interval(1.0, 3.0).within(Interval(2.0, 4.0))
         Interval(low=2.0, high=3.0)
@@ -50,7 +50,7 @@ class Interval(NamedTuple):
         return Interval(low, high)
 
     def words(self, what: str, unit: str = "") -> str:
-        """A wish in words: ``a dwell of at least 0.8 s``."""
+        """The requirement in words: ``a dwell of at least 0.8 s``."""
         if self.exact:
             return f"{what} {self.low:.7g}{unit}"
         if not self.low > -math.inf:

@@ -1,4 +1,4 @@
-"""The rows with their parts turned, as a table."""
+"""The table of a synthesis, with the parts of its first rows turned."""
 
 from __future__ import annotations
 
@@ -25,8 +25,8 @@ NAMES = ("no", *Candidate._fields)
 def synthesis_table(
     wish: Wish, count: int = TURNED, buildable: bool = False, found: FoundRows | None = None
 ) -> Table:
-    """One row a machine, numbered from 1, as ``turned`` gives them."""
-    # what turning takes is imported while others search: the processes that turn then have it
+    """One row for each machine, numbered from 1, as ``turned`` returns them."""
+    # the processes that turn need these imports, which are loaded while others search
     found = found or search(wish, import_checks if count else None)
     rows = [(one.no, *one.row.candidate, *one.row.asked) for one in turned(found, count, buildable)]
     what = "1 machine" if len(rows) == 1 else f"{len(rows)} machines"
@@ -40,18 +40,18 @@ def synthesis_table(
 
 
 class Numbered(NamedTuple):
-    """A row and its number, which it keeps where others are hidden."""
+    """A row and its number, which does not change if others are hidden."""
 
     no: int
     row: Row
 
 
 def turned(found: FoundRows, count: int = TURNED, buildable: bool = False) -> list[Numbered]:
-    """The rows, the first ``count`` of them turned; ``buildable``: the first so many that pass.
+    """The rows, the first ``count`` of them turned; with ``buildable`` only those that pass.
 
-    A row that was turned says yes, with sizes that pass, or no; others maybe, or no where that is
-    plain without. For one that stands in for another, or of those that are to pass, the best of its
-    family that is found to pass is taken where it fails itself, under its number.
+    A turned row says yes, with sizes that pass, or no. Others say maybe, or no if that is known
+    without turning. A row that fails may be replaced, under its number, by the best machine of its
+    family that passes: if it stands in for another one, or if only passing rows are wanted.
     """
     every = [Numbered(i, row) for i, row in enumerate(found.rows, 1)]
     maybe = [one for one in every if one.row.candidate.parts == MAYBE]
@@ -80,13 +80,13 @@ def turned(found: FoundRows, count: int = TURNED, buildable: bool = False) -> li
 
 
 def _stuck(every: Sequence[Numbered], found: FoundRows) -> dict[int, Row]:
-    """Those of some rows that cannot be built, and for which no other stands in."""
+    """The rows that cannot be built, and for which no other stands in."""
     able = {row.family for row in found.rows if not row.cannot_be}
     return {no: row for no, row in every if row.cannot_be and row.family not in able}
 
 
 def _others(found: FoundRows, failing: dict[int, Row]) -> dict[int, Row]:
-    """Of rows that fail, by their numbers, the best of their families that pass."""
+    """For rows that fail, by their numbers, the best machines of their families that pass."""
     work = partial(other, found._replace(rows=[]))
     done = mapped(work, failing.values(), min(len(failing), cores()), "machines")
     done = tracked(done, "others looked for", len(failing))
@@ -94,9 +94,7 @@ def _others(found: FoundRows, failing: dict[int, Row]) -> dict[int, Row]:
 
 
 def other(found: FoundRows, row: Row) -> Row | None:
-    """The best machine of a row's family that is found to pass a whole turn, where the row's own
-    does not.
-    """
+    """The best machine of a row's family that passes a full turn, other than the row's own."""
     turns, given = Turns(), fixed(found.wish)
 
     def turn(maybe: Row, like: Row | None) -> Row | None:
@@ -113,9 +111,9 @@ def other(found: FoundRows, row: Row) -> Row | None:
 
 
 def _built(specs: Sequence[Spec], fixed: frozenset[str], in_order: bool) -> Iterator[Built]:
-    """The specs turned, by all cores; those with the same turn at once.
+    """The specs turned on all cores; those with the same turn are turned once.
 
-    Those of a law, which take longest, are turned first, or all ``in_order``.
+    Machines of a law, which take longest, are turned first, unless ``in_order``.
     """
     together: dict[Spec, list[int]] = {}
     for i, spec in enumerate(specs):
@@ -136,12 +134,12 @@ def _built(specs: Sequence[Spec], fixed: frozenset[str], in_order: bool) -> Iter
 
 
 def with_result(row: Row, result: Built) -> Row:
-    """A row whose parts were turned."""
+    """A row with the result of turning its parts."""
     said = f"no: {result.trouble}" if result.trouble else YES
     return row._replace(spec=result.spec, candidate=row.candidate._replace(parts=said))
 
 
 def fixed(wish: Wish) -> frozenset[str]:
-    """The sizes that the wish's frame gives, and that stay as they are."""
+    """The sizes that the requirement's frame gives, which do not change."""
     given = wish.frame.size.as_dict() if wish.frame else {}
     return frozenset(key for key, value in given.items() if value is not None)

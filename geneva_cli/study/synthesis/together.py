@@ -1,4 +1,4 @@
-"""Many specs at once: those that one machine of many designs can be are built as one."""
+"""Many specs at once, built as batch machines where possible."""
 
 from __future__ import annotations
 
@@ -13,13 +13,13 @@ from geneva_cli.machine.spec import Spec
 from geneva_cli.spec.schema import SpecTable, fields
 from geneva_cli.study.synthesis.by_law import law_columns
 
-TABLES = ("wheel", "drive", "motion")  # in which the machines of a wish differ
+TABLES = ("wheel", "drive", "motion")  # the tables in which the machines of a requirement differ
 
 
 def numbers(specs: Sequence[Spec], names: Sequence[str]) -> list[list[float] | None]:
-    """The quantities ``names``, as ``columns`` knows them, of each spec.
+    """The quantities ``names`` of each spec, as ``columns`` computes them.
 
-    None for one that cannot be built, or whose engagements have not one number for all.
+    None for a spec that cannot be built, or whose engagements have no common number.
     """
     out: list[list[float] | None] = [None] * len(specs)
     for members, machine in built_together(specs):
@@ -32,8 +32,9 @@ def numbers(specs: Sequence[Spec], names: Sequence[str]) -> list[list[float] | N
 
 
 def built_together(specs: Sequence[Spec]) -> Iterator[tuple[list[int], Mechanism]]:
-    """Machines of many designs each, with the numbers of the specs that are in them; a spec that
-    cannot be built is in none.
+    """Batch machines, each with the indices of its specs.
+
+    A spec that cannot be built is in none of them.
     """
     apart: dict[Any, list[int]] = {}
     wide: list[dict[str, float]] = []
@@ -51,7 +52,7 @@ def built_together(specs: Sequence[Spec]) -> Iterator[tuple[list[int], Mechanism
 
 
 class _Key(NamedTuple):
-    """A key of a kind of machine: where it is, and whether it may be an array."""
+    """A key of a kind of machine: its place, and whether it may be an array."""
 
     table: str
     attribute: str
@@ -60,9 +61,9 @@ class _Key(NamedTuple):
 
 
 def _split(spec: Spec, keys: dict[Any, list[_Key]]) -> tuple[Any, dict[str, float]]:
-    """What a machine must share with others to be one array with them, and its own numbers.
+    """The values that specs of one batch must share, and the spec's own numbers.
 
-    ``keys`` is filled with those of a kind.
+    ``keys`` caches the keys of each kind.
     """
     kinds = (type(spec.wheel), type(spec.drive), spec.motion and spec.motion.law)
     if kinds not in keys:
@@ -80,7 +81,7 @@ def _split(spec: Spec, keys: dict[Any, list[_Key]]) -> tuple[Any, dict[str, floa
 
 
 def _keys(spec: Spec) -> Iterator[_Key]:
-    """Those of the tables in which machines of one kind differ; a law is one with its keys."""
+    """The keys in which machines of one kind may differ; a law includes its own keys."""
     for table in TABLES:
         part: SpecTable | None = vars(spec)[table]
         for field in fields(type(part)) if part else ():

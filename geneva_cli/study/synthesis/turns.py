@@ -1,7 +1,7 @@
-"""What fails in the full turns of machines; those with the same parts are turned together.
+"""Checks that fail in full turns of machines; machines with equal positions are turned once.
 
-A drive in front of a crank changes when the parts come to a position, and not the positions that
-they go through: machines that differ in it, or in the speed, are turned once.
+A drive in front of a crank changes when the parts reach a position, and not the positions. So
+machines that differ in it, or in the speed, are turned once.
 """
 
 from __future__ import annotations
@@ -20,11 +20,11 @@ from geneva_cli.parts.all_round import leave_no_disc
 from geneva_cli.parts.assembly import Assembly, assembly
 from geneva_cli.parts.at_most import at_most
 from geneva_cli.parts.crank import rollers_gap
+from geneva_cli.parts.model import PartsModel
 from geneva_cli.parts.outlines import drawn
-from geneva_cli.parts.proof import Proof
 from geneva_cli.parts.sizes import Sizes, sizes
 from geneva_cli.parts.turn.full_turn import turning
-from geneva_cli.parts.turn.gaps import NotProved
+from geneva_cli.parts.turn.gaps import WorkLimit
 from geneva_cli.parts.turn.glance import gap_about, play_about, play_before_entry
 from geneva_cli.parts.turn.machine_parts import MachineParts
 from geneva_cli.parts.turn.one_motion import one_motion
@@ -33,19 +33,21 @@ from geneva_cli.verdict.checks.check import Check
 from geneva_cli.verdict.checks.play import finds_slot
 from geneva_cli.verdict.checks.registry import standing_checks, turn_checks
 
-GAPS, LOOSE = {"gap_mm", "idle_roller_mm"}, {"hand_over_play_deg"}  # told by a few positions
-# Times the play that lets a roller find its slot: where the wheel is as free as that between lock
-# and slot, no smaller roller helps. Of cams of 5 to 12 slots those with up to 3.1 were mended so,
-# and none with 8.4 or more.
+# checks that a few positions can decide
+GAPS, LOOSE = {"gap_mm", "idle_roller_mm"}, {"hand_over_play_deg"}
+# Times the play that lets a roller find its slot. If the wheel is this loose between lock and slot,
+# no smaller roller helps. Of cams with 5 to 12 slots those up to 3.1 were mended by one, and none
+# from 8.4 on.
 LOST = 6.0
-# From here on it may be so much, which a closer look or the drawn parts tell: of 108 wheels with a
-# law that outlines with more material had looser by less than this, none was by so much.
+# From here on the true play may exceed LOST, so it must be computed precisely. Of 108 wheels with a
+# law, outlines with more material had an error below this.
 NEARLY = 0.5 * LOST
 
 
 class Failing(NamedTuple):
-    """A check that fails: the input angle of its value in the machine of ``same_turn``, and the
-    value over its limit, 0 where there is no such share.
+    """A failing check: its name, its input angle in the machine of ``same_turn``, its ratio.
+
+    ``share`` is the value over its limit, 0 if there is no such ratio.
     """
 
     name: str
@@ -53,12 +55,12 @@ class Failing(NamedTuple):
     share: float = 0.0
 
     def looser(self, share: float) -> bool:
-        """Whether the wheel is so many times as free between lock and slot as it may be."""
+        """Return True if the play between lock and slot exceeds ``share`` times its limit."""
         return self.name in LOOSE and self.share > share
 
 
 def same_turn(spec: Spec) -> Spec:
-    """The machine that stands for all those whose parts go through the same positions."""
+    """The machine that represents all machines whose parts go through the same positions."""
     drive = spec.drive
     if spec.motion is None and drive.CRANKED:
         m, angles = drive.rollers, drive.roller_angles_deg
@@ -73,23 +75,17 @@ class Turns:
         self._turns: dict[Spec, _Turn] = {}
 
     def failing(self, machine: Mechanism) -> list[Failing]:
-        """The checks of a machine's parts that fail; for parts that cannot be made the key in the
-        way.
-        """
+        """The checks of a machine's parts that fail, or the key that prevents the parts."""
         turn = self._turn(machine)
         return [*turn.standing(machine), *turn.every()]
 
     def first_failing(self, machine: Mechanism) -> list[Failing]:
-        """Those that fail while the parts stand still; where none does, the first that are found
-        to in the turn.
-        """
+        """The checks that fail at rest, or else the first found to fail in the turn."""
         turn = self._turn(machine)
         return turn.undrawn() or turn.standing(machine) or turn.first()
 
     def some_failing(self, machine: Mechanism, seen: Iterable[Failing]) -> list[Failing]:
-        """The same, but the places where checks have been ``seen`` to fail with other sizes are
-        looked at before.
-        """
+        """Some checks that fail, tried first where checks were ``seen`` to fail."""
         turn = self._turn(machine)
         early = turn.undrawn() or turn.overlapping() or turn.loose() or turn.again(seen)
         return early or turn.standing(machine) or turn.first()
@@ -102,7 +98,7 @@ class Turns:
 
 
 class _Turn:
-    """The parts of a machine and their full turn, as far as it has been looked at."""
+    """The parts of a machine and their full turn, as far as it is checked."""
 
     def __init__(self, machine: Mechanism) -> None:
         self._machine = machine
@@ -111,9 +107,13 @@ class _Turn:
 
     @cached_property
     def _made(self) -> MachineParts | Failing:
-        """The parts, or the key in their way."""
+        """The parts, or the key that prevents them."""
         try:
-            return drawn(*self._sized) if self._sized else Proof(self._machine, advice=False).parts
+            return (
+                drawn(*self._sized)
+                if self._sized
+                else PartsModel(self._machine, advice=False).parts
+            )
         except GenevaError as error:
             return _in_the_way(error)
 
@@ -123,7 +123,7 @@ class _Turn:
 
     @cached_property
     def _sized(self) -> tuple[Assembly, Sizes] | None:
-        """The assembly and the sizes of flat parts, if they have any."""
+        """The assembly and the sizes of flat parts; None for other machines."""
         if not self._machine.spec.wheel.FLAT:
             return None
         try:
@@ -133,20 +133,22 @@ class _Turn:
             return None
 
     def undrawn(self) -> list[Failing]:
-        """The key that is in the way of the parts, where that is plain before they are drawn: where
-        nothing is left of the lock.
+        """The key that prevents the parts, if nothing is left of the locking disc.
+
+        This is known before the parts are drawn.
         """
         no_disc = self._sized is not None and leave_no_disc(*self._sized)
         return [Failing("roller_radius_mm")] if no_disc else []
 
     def overlapping(self) -> list[Failing]:
-        """The check of two rollers on one crank, where they overlap: told without any wall."""
+        """The check of two rollers on one crank that overlap, which needs no walls."""
         gap = rollers_gap(*self._sized) if self._sized else None
         return [] if gap is None or keeps(gap, "at least", 0.0) else [Failing("rollers_apart_mm")]
 
     def loose(self) -> list[Failing]:
-        """The play between lock and slot, or the key that is in the way of the parts, where
-        outlines tell so that have more material. One that may be given up on is drawn.
+        """The play between lock and slot from simpler outlines, or the key that prevents parts.
+
+        These have more material than the parts. A wheel near the limit LOST must be drawn.
         """
         try:
             more = at_most(*self._sized) if self._sized else None
@@ -157,38 +159,38 @@ class _Turn:
         return [found] if found.share > CLEARLY and not found.looser(NEARLY) else []
 
     def standing(self, machine: Mechanism) -> list[Failing]:
-        """The checks that fail of parts that stand still, of a machine that turns likewise."""
+        """The checks at rest that fail, for a machine with the same positions."""
         if isinstance(self._made, Failing):
             return [self._made]
         own = self._made.assembly._replace(full=machine, to_input=machine.spec.drive.input_deg)
         return _failing(standing_checks(self._made.over(own)))
 
     def every(self) -> list[Failing]:
-        """The checks of the turn that fail."""
+        """All checks of the turn that fail."""
         while self._look():
             pass
         return self._failing
 
     def first(self) -> list[Failing]:
-        """The first that are found to: looked at closer, gaps are no greater and plays no less."""
+        """The first checks found to fail; closer sampling only reduces gaps and increases play."""
         while not self._sure() and self._look():
             pass
         return self._failing
 
     def again(self, seen: Iterable[Failing]) -> list[Failing]:
-        """Those of some that fail where they did with other sizes, before it is looked at."""
+        """The checks among ``seen`` that fail at the same place, if the turn is not sampled yet."""
         parts = self._made
         if self._begun or isinstance(parts, Failing):
             return []
         return [one for one in seen if _fails_there(parts, one)]
 
     def _sure(self) -> bool:
-        """Whether some fail, and a play that is nearly enough to give up on is known."""
+        """Return True if a check fails, and the play is known to be below or above LOST."""
         nearly = any(one.looser(NEARLY) and not one.looser(LOST) for one in self._failing)
         return bool(self._failing) and not nearly
 
     def _look(self) -> bool:
-        """Look closer, if there is more to be seen."""
+        """Sample the turn more closely; return False if that is no longer possible."""
         found = next(self._closer, None)
         if found is None:
             return False
@@ -197,16 +199,16 @@ class _Turn:
 
 
 def _in_the_way(error: GenevaError) -> Failing:
-    """The key that a refusal of parts names."""
+    """The key that an error about parts names."""
     return Failing(str(error.key[-1]) if error.key else "outline")
 
 
 def _looks(parts: MachineParts) -> Iterator[list[Failing]]:
-    """The checks of a turn that are found to fail, as it is looked at ever closer."""
+    """The checks of a turn that fail, at ever closer sampling."""
     try:
         for turn in turning(one_motion(parts)):
             yield _failing(turn_checks(parts, turn))
-    except NotProved:
+    except WorkLimit:
         yield [Failing("full_turn")]
 
 
@@ -219,7 +221,7 @@ def _failing(checks: Iterable[Check]) -> list[Failing]:
 
 
 def _fails_there(parts: MachineParts, one: Failing) -> bool:
-    """Whether a check that fails with other sizes does so with these at the same place."""
+    """Return True if a check that failed with other sizes fails with these at the same place."""
     if one.at_deg is None:
         return False
     try:
@@ -227,6 +229,6 @@ def _fails_there(parts: MachineParts, one: Failing) -> bool:
             return gap_about(parts, one.at_deg) < -CLEARLY * parts.contact
         if one.name in LOOSE:
             return play_about(parts, one.at_deg) > CLEARLY * finds_slot(parts)
-    except NotProved:
+    except WorkLimit:
         return False
     return False

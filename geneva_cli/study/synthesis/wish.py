@@ -1,12 +1,12 @@
-"""A wish: what is asked of a machine that is not designed yet.
+"""A requirement for a machine that is not designed yet.
 
-Every wish about time or angle says something of the motion angle M of one engagement and of the
-cycle time T, for m motions in a turn of the input, one of each roller:
+Every requirement about time or angle restricts the motion angle M of one engagement and the cycle
+time T, for m motions in a turn of the input, one of each roller:
 
     tau = m M/360    k = tau/(1 - tau)    dwell_deg = 360/m - M    motion_s = tau T
     dwell_s = (1 - tau) T
 
-so that all of them together leave a span of M, and for each M in it a span of T.
+All of them together leave a range of M, and for each M in it a range of T.
 """
 
 from __future__ import annotations
@@ -26,15 +26,15 @@ GEARINGS = ("external", "internal", "spherical")
 USUAL_RPM = 60.0
 ANY = Interval(0.0, math.inf)
 PEAK, RATE = "acceleration.max", "acceleration.max_rad_s2"
-TIMES = ("tau", "k", "motion_deg", "dwell_deg")  # bounds on which say how long a motion may be
-SECONDS = ("motion_s", "dwell_s")  # and on which do where the cycle is known
-SPACE = 3.0  # centre distances that a linkage may take where nothing is said
+TIMES = ("tau", "k", "motion_deg", "dwell_deg")  # bounds on these restrict the motion angle
+SECONDS = ("motion_s", "dwell_s")  # and bounds on these do so if the cycle is known
+SPACE = 3.0  # centre distances that a linkage may take by default
 TURNS = (3, 4, 5, 6)  # of the input in a cycle behind a first wheel: its step is a crank's motion
-ROLLERS = 60  # that a machine may have where nothing is said: more run into each other
+ROLLERS = 60  # of a machine at most, by default: more run into each other
 
 
 class Wish(NamedTuple):
-    """All that is asked for: spans by their names in ``SPANS``, and what else a row must keep.
+    """All requirements: ranges by their names in ``SPANS``, and other conditions of a row.
 
     ``frame`` is a spec whose sizes, loads and limits every machine has.
     """
@@ -47,27 +47,25 @@ class Wish(NamedTuple):
     spans: dict[str, Interval] = {}  # noqa: RUF012 - a NamedTuple's default, never changed
     acceleration_max: float | None = None
     frame: Spec | None = None
-    sort: Objective | None = None  # what the first row has the least, or the greatest, of
+    sort: Objective | None = None  # the goal by which rows are sorted
     bounds: tuple[Constraint, ...] = ()
     space: float = SPACE  # of a linkage: its joints' distance from the crank's axis, over L
-    bounded: frozenset[str] = frozenset()  # the spans that bounds have narrowed
-    strict: bool = False  # whether its bounds are the frame's limits too: many families keep none
+    bounded: frozenset[str] = frozenset()  # names of the ranges that bounds have narrowed
+    strict: bool = False  # whether its bounds include the frame's limits, which many families break
 
     @property
     def timed(self) -> bool:
-        """Whether seconds are asked for, or given with the frame."""
+        """Return True if times in seconds are required, or given with the frame."""
         return self.frame is not None or not {"cycle", "motion_s", "dwell_s"}.isdisjoint(self.spans)
 
     @property
     def peak(self) -> str:
-        """The peak acceleration, which is to be least where nothing else is asked for; in rad/s²
-        where the speed is.
-        """
+        """The name of the peak acceleration, the default goal; in rad/s² if times are required."""
         return RATE if self.timed else PEAK
 
     @property
     def any_motion(self) -> bool:
-        """Whether any motion will do that keeps some bound."""
+        """Return True if any motion is allowed, and there is some bound."""
         bounded = bool(self.bounds) or self.acceleration_max is not None
         return bounded and self.asks_nothing(1)
 
@@ -79,7 +77,7 @@ class Wish(NamedTuple):
 
     @property
     def by_bounds(self) -> Wish:
-        """The same with the bound on the acceleration as any other bound."""
+        """The requirement with the limit on acceleration as an ordinary bound."""
         return self._replace(acceleration_max=None, bounds=self.limits)
 
     @property
@@ -89,12 +87,13 @@ class Wish(NamedTuple):
 
     @property
     def only_acceleration(self) -> bool:
-        """Whether a peak acceleration is all that is asked of the motion."""
+        """Return True if a peak acceleration is the only requirement on the motion."""
         return self.any_motion and not self.bounds
 
     def with_times(self) -> Wish:
-        """The wish with its bounds on times and angles of a motion, by their whole names, as the
-        spans that they are; itself where they leave any motion.
+        """The requirement with its bounds on times and angles of a motion turned into ranges.
+
+        Returned unchanged if those ranges allow any motion.
         """
         timed = self.frame is not None or "cycle" in self.spans
         names = {f"timing.{name}": name for name in (*TIMES, *(SECONDS if timed else ()))}
@@ -110,7 +109,7 @@ class Wish(NamedTuple):
         return self if narrowed.asks_nothing(1) else narrowed
 
     def cycle_s(self, m: float) -> Interval:
-        """The cycle times that are wished for; with a frame and no other wish its own."""
+        """The required cycle times; with a frame and no other requirement, the frame's own."""
         if "cycle" in self.spans:
             return self.spans["cycle"]
         if self.frame is not None:
@@ -119,7 +118,7 @@ class Wish(NamedTuple):
         return ANY
 
     def demands(self, m: float) -> Iterator[tuple[str, Interval]]:
-        """What each wish asks of the motion angle of m rollers, with the words for it."""
+        """The range of motion angles that each requirement leaves for m rollers, with its name."""
         spans, turn, cycle = self.spans, 360.0 / m, self.cycle_s(m)
         said = {name: f"{self._option(name)} {_typed(s)}" for name, s in spans.items()}
         beside = said.get("cycle", "the spec's n_rpm" if self.frame else "")
@@ -143,14 +142,14 @@ class Wish(NamedTuple):
             yield words, Interval(*(turn * _tau(x) for x in k))
 
     def asks_nothing(self, m: float) -> bool:
-        """Whether any motion angle will do."""
+        """Return True if any motion angle is allowed."""
         return not any(s.low > 0.0 or s.high < 360.0 / m for _, s in self.demands(m))
 
     def motion_for(self, m: float) -> Interval | None:
-        """The motion angles that the wish leaves m rollers; None where it asks for none.
+        """The motion angles allowed for m rollers; None if every angle is.
 
-        It may be empty, or reach to 0 or to a whole turn over m, where nothing is left to move
-        or to rest.
+        The range may be empty. It may include 0 or a whole turn over m, where no motion or no dwell
+        is left.
         """
         found = Interval(0.0, 360.0 / m)
         if self.asks_nothing(1) and self.asks_nothing(m):  # several rollers' motions are short
@@ -160,7 +159,7 @@ class Wish(NamedTuple):
         return found
 
     def n_rpm(self, m: float, motion_deg: float) -> float:
-        """The input speed, m cycles making a turn: the usual one, or the nearest that will do."""
+        """The input speed for m cycles in a turn: the usual one, or the nearest that is allowed."""
         share = m * motion_deg / 360.0
         usual = self.frame.drive.n_rpm if self.frame else USUAL_RPM
         if not self.timed:
@@ -176,25 +175,23 @@ class Wish(NamedTuple):
 
     @property
     def counts(self) -> Sequence[float]:
-        """The numbers of motions in a turn that a machine may have which grants the wish."""
+        """The numbers of motions in a turn that allow a machine."""
         return [m for m in self._every_count if not self._contradiction(m)]
 
     def refuse_contradictions(self) -> None:
-        """Raise GenevaError for wishes that no machine grants, alone or together."""
+        """Raise GenevaError for requirements that no machine meets, alone or together."""
         if all(map(self._contradiction, self._every_count)):
             raise GenevaError(self._contradiction(self._every_count[0]))
 
     @property
     def _every_count(self) -> Sequence[float]:
-        """The numbers of motions in a turn, whatever else is asked for: of rollers, or behind a
-        first wheel.
-        """
+        """All numbers of motions in a turn: of rollers, or of turns behind a first wheel."""
         several = (self.rollers,) if self.rollers else range(1, ROLLERS + 1)
         behind = [1.0 / turns for turns in TURNS] if self.rollers in (None, 1) else []
         return [*several, *behind]
 
     def _contradiction(self, m: float) -> str:
-        """What of the wishes no machine of m motions in a turn grants; empty where one may."""
+        """The contradiction in the requirements for m motions in a turn; empty if there is none."""
         for name, (low, high) in self.spans.items():
             if low > high:
                 return f"{self._option(name)}: nothing is at least {low:.7g} and at most {high:.7g}"
@@ -215,7 +212,7 @@ class Wish(NamedTuple):
         return ""
 
     def _option(self, name: str) -> str:
-        """The option by which a span is asked for."""
+        """The option that sets a range."""
         return f"--subject-to {name}" if name in self.bounded else f"--{name.replace('_', '-')}"
 
 
@@ -229,7 +226,7 @@ def _typed(s: Interval) -> str:
 
 
 def _angles(s: Interval, m: float) -> str:
-    """What a wish leaves of the motion, for a message."""
+    """The motion angles that a requirement leaves, for a message."""
     whole = 360.0 / m
     if s.high * m <= MOTION_MIN:
         return "no time to move"

@@ -1,4 +1,4 @@
-"""A machine found by synthesis as a spec to go on with: the wish, the machine and its costs."""
+"""A machine from synthesis as a spec file: the requirement, the machine and its costs."""
 
 from __future__ import annotations
 
@@ -14,11 +14,10 @@ COSTS = ("velocity_max", "acceleration_max", "acceleration_entry", "jerk_max", "
 
 
 def chosen(found: FoundRows, number: int, buildable: bool = False) -> tuple[Built, str]:
-    """Row ``number`` of what was found: the spec, and its text with comments; as ``turned`` shows
-    it.
+    """The spec of row ``number`` and its text with comments, as ``turned`` shows it.
 
-    The parts are turned through a whole turn, unless it is known that they cannot be built. Raises
-    GenevaError where there is no such row.
+    The parts are turned through a whole turn, unless they are known to be impossible. Raises
+    GenevaError if there is no such row.
     """
     if not 1 <= number <= len(found.rows):
         raise GenevaError(f"--write {cut(number)}: the table has rows 1 to {len(found.rows)}")
@@ -32,7 +31,7 @@ def chosen(found: FoundRows, number: int, buildable: bool = False) -> tuple[Buil
 
 
 def commented(wish: Wish, number: int, row: Candidate, found: Built) -> str:
-    """The text of a spec that synthesis found."""
+    """The text of a spec from synthesis, with comments."""
     return "\n".join([*_heading(wish, number, row, found), *written(found.spec)]) + "\n"
 
 

@@ -1,6 +1,6 @@
 """The checks of a design, each with its value and its limit.
 
-A check is one file, or a function in a file of like ones, and one line in ``registry``.
+A check is a file, or a function in a file of related ones, and one line in ``registry``.
 """
 
 from __future__ import annotations
@@ -25,42 +25,44 @@ from geneva_cli.verdict.checks.registry import (
 )
 
 if TYPE_CHECKING:
-    from geneva_cli.parts.proof import Proof
+    from geneva_cli.parts.model import PartsModel
 
 
-def checks(mechanism: Mechanism, proof: Proof | None = None, parts: bool = True) -> list[Check]:
+def checks(
+    mechanism: Mechanism, model: PartsModel | None = None, parts: bool = True
+) -> list[Check]:
     """Every check of one design: its motion, its parts unless left out, its own ``[limits]``."""
     motion = list(motion_checks(MOTION, mechanism))
-    shown = list(_parts(mechanism, proof)) if parts else []
+    shown = list(_parts(mechanism, model)) if parts else []
     return [*motion, *shown, *motion_checks(LIMITS, mechanism)]
 
 
-def checks_at_rest(mechanism: Mechanism, proof: Proof | None) -> Iterator[Check]:
-    """The checks of the motion and of the limits, then those of ``proof``'s parts at rest.
+def checks_at_rest(mechanism: Mechanism, model: PartsModel | None) -> Iterator[Check]:
+    """The checks of the motion and of the limits, then those of ``model``'s parts at rest.
 
-    Raises GenevaError where wheel or crank cannot be made.
+    Raises GenevaError if wheel or crank cannot be made.
     """
     yield from motion_checks(MOTION, mechanism)
     yield from motion_checks(LIMITS, mechanism)
-    if proof is not None:
-        yield from standing_checks(proof.parts)
+    if model is not None:
+        yield from standing_checks(model.parts)
 
 
-def checks_turning(proof: Proof) -> Iterator[Check]:
-    """The checks of the turn, several times, each time looked at closer.
+def checks_turning(model: PartsModel) -> Iterator[Check]:
+    """The checks of the turn, repeated with ever closer sampling.
 
-    What fails once, fails in the end. Raises NotProved where that takes too long.
+    A check that fails once fails in the end. Raises WorkLimit if the sampling takes too long.
     """
     from geneva_cli.parts.turn.full_turn import turning
 
-    for closer in turning(proof.parts):
-        yield from turn_checks(proof.parts, closer)
+    for closer in turning(model.parts):
+        yield from turn_checks(model.parts, closer)
 
 
 def single_check(mechanism: Mechanism, name: str) -> Check | None:
-    """The check of this name, without the others and the turn; None if there is no such check.
+    """The check with this name, without the others and the turn; None if there is no such check.
 
-    Raises GenevaError where it is of parts that cannot be made.
+    Raises GenevaError if its parts cannot be made.
     """
     for among in (MOTION, LIMITS):
         found = check_named(among, name, mechanism)
@@ -72,33 +74,33 @@ def single_check(mechanism: Mechanism, name: str) -> Check | None:
     return check_named(among, name, _proof(mechanism).parts)
 
 
-def _proof(mechanism: Mechanism) -> Proof:
-    from geneva_cli.parts.proof import Proof
+def _proof(mechanism: Mechanism) -> PartsModel:
+    from geneva_cli.parts.model import PartsModel
 
-    return Proof(mechanism)
+    return PartsModel(mechanism)
 
 
-def _parts(mechanism: Mechanism, proof: Proof | None = None) -> Iterator[Check]:
+def _parts(mechanism: Mechanism, model: PartsModel | None = None) -> Iterator[Check]:
     """Walls, shafts and the full turn of a machine whose parts are drawn.
 
-    Where wheel or crank cannot be made, or turned, one check says so in place of the rest.
+    If wheel or crank cannot be made, or turned, a single check says so instead.
     """
     if not mechanism.spec.has_parts:
         why = f"not proved: wheels of more than {Z_DRAWN} slots are not drawn"
         yield Check("parts", None, "proved", None, None, why)
         return
-    from geneva_cli.parts.turn.gaps import NotProved
+    from geneva_cli.parts.turn.gaps import WorkLimit
 
-    proof = proof or _proof(mechanism)
+    model = model or _proof(mechanism)
     try:
-        rows = list(standing_checks(proof.parts))
+        rows = list(standing_checks(model.parts))
     except GenevaError as error:
         yield refused("parts", error)
         return
     yield from rows
     try:
-        turn = proof.turn
-    except NotProved as error:
+        turn = model.turn
+    except WorkLimit as error:
         yield refused("full_turn", error)
         return
-    yield from turn_checks(proof.parts, turn)
+    yield from turn_checks(model.parts, turn)

@@ -1,4 +1,4 @@
-"""The crank arm: its walls, and its clearance to the wheel's hub. Made where its keys are given."""
+"""Checks of the crank arm if its keys are given: its walls, and its gap to the wheel's hub."""
 
 from __future__ import annotations
 
@@ -19,20 +19,20 @@ KEYS = (
 
 
 def arm_wall(name: str, found: Outlines) -> Check | None:
-    """The least wall round the arm's holes, and round bolts and keyway in the locking disc."""
+    """The least wall around the arm's holes, and around bolts and keyway in the locking disc."""
     return _asked(name, found, lambda made: walls(made, found), found.sizes.wall_min)
 
 
 def arm_to_hub(name: str, found: Outlines) -> Check | None:
-    """Between the arm's end, as it passes below the wheel, and the wheel's shaft or hub."""
-    inside = found.assembly.sign < 0.0  # where the wheel is open in the middle
+    """The gap between the arm's end, as it passes below the wheel, and the wheel's shaft or hub."""
+    inside = found.assembly.sign < 0.0  # an internal wheel is open in the middle
     return None if inside else _asked(name, found, lambda made: made.hub_gap, 0.0)
 
 
 def _asked(
     name: str, found: Outlines, value: Callable[[CrankArm], float], limit: float
 ) -> Check | None:
-    """The check, where a key of the arm is given: by default it has its walls and its room."""
+    """The check if a key of the arm is given: its default dimensions always pass."""
     size = found.assembly.mechanism.spec.size
     if not (any(vars(size)[key] for key in KEYS) and has_arm(found)):
         return None

@@ -1,4 +1,4 @@
-"""Whether the wheel comes to its dwell where a roller stops it from one wall alone."""
+"""Check that the wheel reaches its dwell if one wall alone stops it."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from geneva_cli.verdict.checks.check import Check, compared
 
 
 def stopping_torque(name: str, mechanism: Mechanism) -> Check | None:
-    """The torque that resists, against what the wheel's inertia overcomes; None with two walls."""
+    """The resisting torque, limited by the wheel's inertia; None for slots with two walls."""
     if not mechanism.engagements[0].paired:
         return None
     from geneva_cli.analysis.arrival import arrival

@@ -1,6 +1,6 @@
-"""The distance of a curved slot's two branches, the way in and the way out.
+"""The distance of a curved slot's entry and exit branches.
 
-Farther apart than the slot is wide, they leave an island between them, which falls out.
+If it exceeds the slot's width, an island between them falls out.
 """
 
 from __future__ import annotations
@@ -10,16 +10,16 @@ import numpy as np
 from geneva_cli.parts.outlines import Outlines
 from geneva_cli.verdict.checks.check import Check, compared
 
-LOOKS = 400  # places at which they are compared
+LOOKS = 400  # samples at which they are compared
 
 
 def apart(name: str, found: Outlines) -> Check | None:
-    """How far they are apart on the right side of each other."""
+    """The greatest distance where the branches are on their own sides."""
     return _greatest(name, found, 1.0)
 
 
 def crossed(name: str, found: Outlines) -> Check | None:
-    """How far they are apart where they have crossed."""
+    """The greatest distance where the branches have crossed."""
     return _greatest(name, found, -1.0)
 
 

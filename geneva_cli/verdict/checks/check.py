@@ -1,4 +1,4 @@
-"""A check: a value, the limit that it is held to, and whether it keeps it."""
+"""A check: a value, its limit, and whether the value keeps it."""
 
 from __future__ import annotations
 
@@ -11,19 +11,18 @@ from geneva_cli.numerics.keeps import keeps
 if TYPE_CHECKING:
     from geneva_cli.parts.turn.shaft_gap import ShaftGap
 
-# Why a failing check has no advice.
+# The reason why a failing check has no advice.
 NONE = "none of the changes of one value that were tried passes all checks"
 STOPPED = "no change found within the number of trials"
-ROUNDING = 1e-12  # of the centre distance, or the sphere's radius: of a gap
+ROUNDING = 1e-12  # of the centre distance, or the sphere's radius: rounding of a gap
 
 
 class Check(NamedTuple):
     """One check of one design.
 
-    ``passes`` is None where that is not known. ``why`` says why the value is not known, or why a
-    check that fails has no advice. ``at_deg`` is the input angle at which the value occurs, None
-    where it is not a value at one angle. ``nearest`` is one change of the spec with which all
-    checks pass.
+    ``passes`` is None if it is not known. ``why`` is the reason for an unknown value, or for
+    missing advice on a failing check. ``at_deg`` is the input angle of the value, None if it is not
+    a value at one angle. ``nearest`` is one change of the spec with which all checks pass.
     """
 
     name: str
@@ -37,7 +36,7 @@ class Check(NamedTuple):
 
     @property
     def not_computed(self) -> str:
-        """The reason why there is no value, in words; empty where there is one."""
+        """The reason why there is no value, in words; empty if there is one."""
         return f"{self.name} is not computed: {self.why}" if self.value is None else ""
 
 
@@ -51,7 +50,7 @@ def compared(
 ) -> Check:
     """The check that a value is "at least", "at most" or "above" a limit.
 
-    ``noise`` is the rounding error of the value, where that is larger than the limit's.
+    ``noise`` is the rounding error of the value, if it is larger than the limit's.
 
     >>> compared("jerk_max", 31.4, "at most", 30.0).passes
     False
@@ -61,12 +60,12 @@ def compared(
 
 
 def refused(name: str, error: GenevaError) -> Check:
-    """The check of what cannot be made: it fails, and says why."""
+    """A failing check for parts that cannot be made, with the reason."""
     return Check(name, 0.0, "at least", 1.0, False, str(error))
 
 
 def at_least(name: str, value: Callable[[], float], limit: float) -> Check:
-    """The check that a value is at least a limit; it fails where parts cannot be built."""
+    """The check that a value is at least a limit; it fails if parts cannot be built."""
     try:
         return compared(name, value(), "at least", limit)
     except GenevaError as error:
@@ -74,7 +73,7 @@ def at_least(name: str, value: Callable[[], float], limit: float) -> Check:
 
 
 def gap(name: str, least: Callable[[], ShaftGap | None], L: float) -> Check | None:
-    """The least gap beside shafts, if there is one; it fails where parts cannot be built."""
+    """The least gap at shafts, if there is one; it fails if parts cannot be built."""
     try:
         found = least()
     except GenevaError as error:
@@ -83,5 +82,5 @@ def gap(name: str, least: Callable[[], ShaftGap | None], L: float) -> Check | No
 
 
 def all_pass(rows: Iterable[Check]) -> bool:
-    """Whether no check fails; what cannot be proved does not fail."""
+    """Return True if no check fails; a check without a proof does not fail."""
     return all(check.passes is not False for check in rows)

@@ -1,4 +1,4 @@
-"""The convexity of noncircular gears: a hob cuts no hollow ones."""
+"""Convexity of noncircular gears, since a hob cannot cut hollow ones."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The wheel's walls round its keyway and the dial's bolts. Made where their keys are given."""
+"""The wheel's walls around its keyway and the dial's bolts, if their keys are given."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from geneva_cli.verdict.checks.check import Check, compared
 
 
 def wall(name: str, found: Outlines) -> Check | None:
-    """The least wall round the bore with its keyway and round the dial's bolts."""
+    """The least wall around the bore with its keyway and around the dial's bolts."""
     size = found.assembly.mechanism.spec.size
     if not (size.wheel_keyway or size.dial_bolts):
         return None

@@ -5,7 +5,7 @@ from __future__ import annotations
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.verdict.checks.check import Check, compared
 
-# Steeper, a roller is wedged in its groove rather than led by it; as where it enters a slot.
+# A steeper groove wedges its roller; the limit is that of a roller that enters a slot.
 GROOVE_MAX_DEG = 60.0
 
 

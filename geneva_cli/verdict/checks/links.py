@@ -1,4 +1,4 @@
-"""The links: their walls, and their clearance to what passes through their planes."""
+"""Checks of links: their walls, and their clearance to parts that pass through their planes."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ KEYS = ("link_pin_mm", "link_bore_mm", "link_width_mm", "press_fit_mm", "pin_mm"
 
 
 def wall(name: str, found: Outlines) -> Check | None:
-    """The least wall round the links' holes, where a key of theirs is given."""
+    """The least wall around the links' holes, if one of their keys is given."""
     given = vars(found.assembly.mechanism.spec.size)
     if not any(given[key] for key in KEYS):
         return None
@@ -25,7 +25,7 @@ def wall(name: str, found: Outlines) -> Check | None:
 
 
 def gap(name: str, found: Outlines) -> Check | None:
-    """Between links and what passes through their planes, in a whole turn: hub, shaft, pins."""
+    """The gap in a whole turn between links and hub, shaft and pins through their planes."""
     try:
         seen = planes(found)
     except GenevaError as error:

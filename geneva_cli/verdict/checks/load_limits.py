@@ -13,7 +13,7 @@ QUANTITIES = {
 
 
 def limited_load(name: str, mechanism: Mechanism) -> Check | None:
-    """The load that a key of ``[limits]`` bounds, and where it is greatest."""
+    """The load that a key of ``[limits]`` bounds, and its input angle."""
     limit = mechanism.spec.limits.as_dict()[name]
     if limit is None:
         return None

@@ -9,19 +9,20 @@ from geneva_cli.parts.turn.machine_parts import MachineParts
 from geneva_cli.verdict.checks.check import Check, compared
 
 PUSH_MAX_DEG = 60.0  # pressure angle at which a roller still pushes the wheel into line
-# Of a step, either way, in a slot: where the driving wall changes the wheel falls behind by twice
-# that, a tenth of its step, and strikes the other wall; a slot so wide does not set the motion.
+# Fraction of a step, to either side, in a slot. Where the driving wall changes, the wheel falls
+# behind by twice that, a tenth of its step, and strikes the other wall: such a slot does not
+# determine the motion.
 MOTION_PLAY_MAX = 0.05
 
 
 def dwell_hold(name: str, found: MachineParts, turn: FullTurn) -> Check:
-    """Whether something holds the wheel: its lock, or what the spec says."""
+    """Check that something holds the wheel: its lock, or the means given in the spec."""
     holds = found.assembly.full.spec.wheel.held_by is not None or turn.holds
     return Check(name, float(holds), "at least", 1.0, holds)
 
 
 def dwell(name: str, found: MachineParts, turn: FullTurn) -> Check | None:
-    """The play in the dwell: the next roller must still find its slot."""
+    """The play in the dwell, with which the next roller must still enter its slot."""
     return _at_most(name, turn.dwell, finds_slot(found)) if found.crank else None
 
 
@@ -31,7 +32,7 @@ def hand_over(name: str, found: MachineParts, turn: FullTurn) -> Check | None:
 
 
 def hand_over_pressure(name: str, found: MachineParts, turn: FullTurn) -> Check | None:
-    """The pressure angle at which the roller meets a wheel that has turned by that play."""
+    """The pressure angle at which the roller meets a wheel that has turned through that play."""
     return _at_most(name, turn.push, PUSH_MAX_DEG) if found.crank else None
 
 
@@ -41,7 +42,7 @@ def motion(name: str, found: MachineParts, turn: FullTurn) -> Check:
 
 
 def motion_play_max(found: MachineParts) -> float:
-    """The play, degrees either way, up to which a slot sets the wheel's motion."""
+    """The play, degrees to either side, up to which a slot determines the wheel's motion."""
     step = min(2.0 * math.degrees(engagement.half_step) for engagement in found.assembly.kinds)
     return MOTION_PLAY_MAX * step
 
@@ -51,5 +52,5 @@ def _at_most(name: str, found: Most, limit: float) -> Check:
 
 
 def finds_slot(found: MachineParts) -> float:
-    """The play, degrees, at which the roller would still meet the mouth of its slot."""
+    """The play, degrees, with which the roller would just meet the mouth of its slot."""
     return math.degrees(math.asin(min(1.0, found.sizes.half_width / found.sizes.rim)))

@@ -9,7 +9,7 @@ from geneva_cli.verdict.checks.check import Check
 
 
 def curved_slot_pressure(name: str, mechanism: Mechanism) -> Check | None:
-    """Curved slots without a limit of their own: the wall must drive at all."""
+    """The pressure angle of curved slots without a given limit: the wall must drive at all."""
     given = mechanism.spec.limits.pressure_angle_max_deg is not None
     if given or not mechanism.engagements[0].slot.curved:
         return None
@@ -17,7 +17,7 @@ def curved_slot_pressure(name: str, mechanism: Mechanism) -> Check | None:
 
 
 def limited_pressure(name: str, mechanism: Mechanism) -> Check | None:
-    """Any slots, with the limit that the spec gives."""
+    """The pressure angle of any slots, with the spec's limit."""
     limit = mechanism.spec.limits.pressure_angle_max_deg
     return None if limit is None else _greatest(name, mechanism, limit)
 

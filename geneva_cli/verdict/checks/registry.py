@@ -1,7 +1,7 @@
 """The list of checks, in the order shown; each is imported when it is made.
 
-A new check is one file, or a function in a file of related ones, and one line here. The function
-gets its name and the object that is checked, and returns None where the check does not apply.
+A new check is a file, or a function in a file of related ones, and one line here. The function gets
+its name and the object to check, and returns None if the check does not apply.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 
 Checks: TypeAlias = dict[str, str]  # name -> module:function in this folder
 
-# Of the machine: made for each that they apply to.
+# Checks of the machine, made if they apply.
 MOTION: Checks = {
     "dwell_deg": "dwell:shortest_dwell",
     "driver_gear_convexity": "convexity:gear_convexity",
@@ -32,7 +32,7 @@ MOTION: Checks = {
     "reversal_shock_N": "shocks:reversal_shock",
     "stopping_torque_Nm": "arrival:stopping_torque",
 }
-# Of the machine: made where the spec sets the limit.
+# Checks of the machine, made if the spec sets the limit.
 LIMITS: Checks = {
     "velocity_max": "invariants:limited_peak",
     "acceleration_max": "invariants:limited_peak",
@@ -98,7 +98,7 @@ TURNING: Checks = {
 }
 
 
-# Whether the turn of the parts can be proved: made where the parts are.
+# Checks that the parts can be turned, made if there are parts.
 THERE = ("parts", "full_turn")
 
 
@@ -136,7 +136,7 @@ def import_checks() -> None:
 
 
 def check_named(among: Checks, name: str, *of: object) -> Check | None:
-    """The check of this name; None where the list has none, or it does not apply."""
+    """The check with this name; None if it is not in the list, or does not apply."""
     found: Check | None = None
     if name in among:
         found = load_named(f"verdict.checks.{among[name]}")(name, *of)
@@ -144,7 +144,7 @@ def check_named(among: Checks, name: str, *of: object) -> Check | None:
 
 
 def _made(among: Checks, *of: object) -> Iterator[Check]:
-    """The checks that apply; of those that fail for one reason, the first."""
+    """The checks that apply; of those that fail for one reason, the first only."""
     reasons = set()
     for name in among:
         check = check_named(among, name, *of)

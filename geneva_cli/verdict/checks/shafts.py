@@ -1,4 +1,4 @@
-"""The clearance of shafts and hubs to what passes them."""
+"""Clearance of shafts and hubs to passing parts."""
 
 from __future__ import annotations
 
@@ -21,18 +21,18 @@ KEYS = (
 
 
 def crank_shaft(name: str, found: Outlines) -> Check | None:
-    """The crank's shaft or hub, whichever is thicker, and the wheel's rim."""
+    """The gap between the crank's shaft or hub, whichever is thicker, and the wheel's rim."""
     assembly, size = found.assembly, found.sizes
     shaft = _shaft(size)
     if not shaft:
         return None
-    # An internal wheel's horns sweep over the crank's axis, and there is no room at all.
+    # An internal wheel's horns sweep over the crank's axis, so there is no clearance at all.
     room = assembly.L - size.rim - shaft if assembly.sign > 0.0 else -shaft
     return compared(name, room, "at least", 0.0)
 
 
 def crank_hub(name: str, found: Outlines) -> Check | None:
-    """Between the crank's shaft or hub and the bottom of the locking disc's relief."""
+    """The gap between the crank's shaft or hub and the bottom of the locking disc's relief."""
     shaft = _shaft(found.sizes)
     if not (shaft and found.crank and is_whole(found.assembly, found.sizes)):
         return None
@@ -40,7 +40,7 @@ def crank_hub(name: str, found: Outlines) -> Check | None:
 
 
 def wheel_shaft(name: str, found: Outlines) -> Check | None:
-    """The wheel's shaft or hub and a roller at the bottom of its slot."""
+    """The gap between the wheel's shaft or hub and a roller at the bottom of its slot."""
     size = found.sizes
     hub = max(size.wheel_bore, size.wheel_hub)
     if not (hub and found.assembly.sign > 0.0):
@@ -49,9 +49,9 @@ def wheel_shaft(name: str, found: Outlines) -> Check | None:
 
 
 def beside(name: str, found: Outlines) -> Check | None:
-    """Between hubs and shafts and what turns beside them; made where a size of theirs is given.
+    """The gap between hubs or shafts and parts that turn past them, if a size of theirs is given.
 
-    By default they have their room, but for a first wheel's.
+    Default sizes always pass, except for a first wheel's.
     """
     given, drive = vars(found.assembly.mechanism.spec.size), found.assembly.full.spec.drive
     if not (drive.IN_SERIES or any(given[key] is not None for key in KEYS)):
@@ -60,7 +60,7 @@ def beside(name: str, found: Outlines) -> Check | None:
 
 
 def beside_noncircular(name: str, found: Outlines) -> Check | None:
-    """Between noncircular gears, by the farthest places of their pitch curves, and shafts."""
+    """The gap between shafts and noncircular gears, at their pitch curves' farthest places."""
     return gap(name, lambda: gear_gap(found), found.assembly.L)
 
 

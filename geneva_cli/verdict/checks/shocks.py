@@ -1,4 +1,4 @@
-"""The forces of shocks at the worst of the tolerances."""
+"""The forces of shocks with the worst of the tolerances."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 
 
 def entry_shock(name: str, mechanism: Mechanism) -> Check | None:
-    """The impact at entry where R/L is wrong, and the roller does not come in along its slot."""
+    """The impact at entry if R/L is wrong and the roller does not enter along its slot."""
     given = mechanism.spec.tolerance
     if not (given.crank_radius_mm or given.center_distance_mm):
         return None
@@ -31,7 +31,7 @@ def entry_shock(name: str, mechanism: Mechanism) -> Check | None:
 
 
 def reversal_shock(name: str, mechanism: Mechanism) -> Check | None:
-    """The impact where the roller leaves one wall of its slot for the other."""
+    """The impact where the roller changes from one wall of its slot to the other."""
     if mechanism.spec.tolerance == Tolerance(distribution=mechanism.spec.tolerance.distribution):
         return None
     from geneva_cli.analysis.impacts import reversal_impact
@@ -47,8 +47,10 @@ def reversal_shock(name: str, mechanism: Mechanism) -> Check | None:
 
 
 def drag_words(mechanism: Mechanism) -> str:
-    """What ends the change of sides; where one roller starts the wheel and another stops it, what
-    makes it less: a drag would take the wheel off the second one.
+    """The remedy for the change of sides, in words.
+
+    If one roller starts the wheel and another stops it, a drag would take the wheel off the second
+    one, so less clearance is advised.
     """
     if any(engagement.paired for engagement in mechanism.engagements):
         return "a smaller slot_clearance_mm reduces it"
@@ -59,7 +61,7 @@ def drag_words(mechanism: Mechanism) -> str:
 
 
 def _judged(name: str, mechanism: Mechanism, impact: Impact) -> Check:
-    """The impact's force, held to the pin's where that is limited."""
+    """The impact's force, compared with the limit of the pin force if there is one."""
     limit = mechanism.spec.limits.pin_force_max_N
     if impact.force_N is not None and limit is not None:
         return compared(name, impact.force_N, "at most", limit, impact.at_deg)
@@ -77,7 +79,7 @@ def _judged(name: str, mechanism: Mechanism, impact: Impact) -> Check:
 
 
 def _share(mechanism: Mechanism, limit: float) -> str:
-    """By how much the tolerances on R and L must be tighter: the force goes by their root."""
+    """The fraction to which the tolerances on R and L must shrink, whose root the force follows."""
     from geneva_cli.analysis.impacts import entry_impact
 
     def holds(share: float) -> bool:

@@ -1,4 +1,4 @@
-"""Walls, arm and shafts of a spherical machine, mm along the sphere."""
+"""Checks of walls, arm and shafts of a spherical machine, mm along the sphere."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from geneva_cli.verdict.checks.check import Check, at_least, compared, gap
 
 
 def between_slots(name: str, found: Shells) -> Check:
-    """Between a slot and the next one: at their ends, or at a rim past a quarter of the sphere."""
+    """The wall between adjacent slots: at their ends, or at a rim beyond a quarter sphere."""
     ball = found.ball
     apart = 2.0 * math.asin(math.sin(ball.bottom) * math.sin(ball.half_step))
     wall = apart - 2.0 * ball.half_width
@@ -26,15 +26,14 @@ def between_slots(name: str, found: Shells) -> Check:
 
 
 def wheel_bore(name: str, found: Shells) -> Check:
-    """Between the ends of the slots and the round hole about the wheel's axis, where its bore or
-    hub is; or where the wheel stays open about it."""
+    """The wall between the slots' ends and the bore, hub or opening about the wheel's axis."""
     ball = found.ball
     opening = RoundHole(POLE, ball.opening_mm).angle(ball.span_mm[0]) or ball.inner
     return _wall(name, ball.bottom - ball.half_width - opening, found)
 
 
 def dial(name: str, found: Shells) -> Check | None:
-    """The least wall round the holes for a dial."""
+    """The least wall around the holes for a dial."""
     size = found.assembly.full.spec.size
     if not size.dial_bolts:
         return None
@@ -42,27 +41,27 @@ def dial(name: str, found: Shells) -> Check | None:
 
 
 def crank_shaft(name: str, found: Shells) -> Check | None:
-    """The crank's shaft or hub within the arm, whichever is thicker, and the wheel's rim."""
+    """The gap between the crank's shaft or hub, whichever is thicker, and the wheel's rim."""
     ball = found.ball
     if not ball.about_crank_mm:
         return None
     shaft = RoundHole(POLE, ball.about_crank_mm).angle(ball.span_mm[0])
-    # a rim that lies beyond the crank's axis sweeps over it, and there is no room at all
+    # a rim beyond the crank's axis sweeps over it, so there is no clearance at all
     room = max(ball.axes - ball.rim, 0.0)
     return compared(name, (room - shaft) * ball.radius_mm, "at least", 0.0)
 
 
 def arm_wall(name: str, found: Shells) -> Check | None:
-    """The least wall round the holes of the crank arm, and of bolts in the locking sectors."""
+    """The least wall around the holes of the crank arm, and of bolts in the locking sectors."""
     if not has_arm(found):
         return None
     return at_least(name, lambda: crank_arm(found).wall, found.sizes.wall_min)
 
 
 def beside(name: str, found: Shells) -> Check | None:
-    """Between hubs and shafts and what turns about the other axis.
+    """The gap between hubs or shafts and parts that turn about the other axis.
 
-    The checks of walls say why there is no arm, or no place for the dial's bolts.
+    The checks of walls report a missing arm, or a dial's bolts without a place.
     """
     walls = [check(name, found) for check in (arm_wall, dial)]
     if any(row and row.value is None for row in walls):

@@ -1,4 +1,4 @@
-"""Stresses and life of pin, horn, lock, shafts and roller, where the spec gives limits."""
+"""Stresses and life of pin, horn, lock, shafts and roller, if the spec gives limits."""
 
 from __future__ import annotations
 
@@ -9,11 +9,11 @@ from geneva_cli.verdict.checks.check import Check, compared
 
 
 class Bound(NamedTuple):
-    """A limit of the spec, and the quantity that is held to it, by its whole name."""
+    """A limit of the spec, and the whole name of the limited quantity."""
 
     limit: str  # table.key
     quantity: str
-    place: str = ""  # the quantity that says at which input angle it is
+    place: str = ""  # the quantity with its input angle
     must_be: str = "at most"
 
 
@@ -34,7 +34,7 @@ BOUNDS = {
     ),
     # under the torque that the lock holds
     "lock_horn_stress_MPa": Bound("material.wheel.stress_max_MPa", "strength.lock.horn_stress_MPa"),
-    # between disc and recess: on the recess's end, or as the arcs lie
+    # between disc and recess: on the recess's end, or between the arcs
     "lock_stress_max_MPa": Bound("limits.lock_stress_max_MPa", "strength.lock.greatest_MPa"),
     # of the wheel: the lock's play, the contact's approach and the horn's bending
     "lock_deflection_max_deg": Bound(
@@ -55,16 +55,16 @@ BOUNDS = {
 
 
 def strength_limit(name: str, mechanism: Mechanism) -> Check | None:
-    """A value held to its limit; None without a limit, or of what the machine does not have.
+    """A limited value of strength or life; None without a limit, or without the part.
 
-    It is not proved where a key is missing.
+    It is not proved if a key is missing.
     """
     bound = BOUNDS[name]
     table, _, key = bound.limit.rpartition(".")
     limit = mechanism.spec.table(table)[key]
     if limit is None:
         return None
-    # A spec that says nothing of what its parts may bear is checked without NumPy.
+    # A spec without such limits is checked without NumPy.
     from geneva_cli.verdict.strength import strength
 
     of = strength(mechanism)

@@ -13,12 +13,12 @@ from geneva_cli.verdict.checks.check import Check, refused
 
 
 def plates(name: str, found: Outlines) -> Check | None:
-    """The check that fails where a plate of a flat machine cannot be built; else None."""
+    """The check that fails if a plate of a flat machine cannot be built; else None."""
     return _refusal(name, lambda: built(found, fitted=False))
 
 
 def solids(name: str, found: Shells) -> Check | None:
-    """The check that fails where a solid of a spherical machine cannot be built; else None."""
+    """The check that fails if a solid of a spherical machine cannot be built; else None."""
     return _refusal(name, lambda: built_ball(found))
 
 

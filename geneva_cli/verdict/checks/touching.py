@@ -8,14 +8,14 @@ from geneva_cli.verdict.checks.check import Check, compared
 
 
 def smallest_gap(name: str, found: MachineParts, turn: FullTurn) -> Check:
-    """The smallest gap of wheel and crank, mm, negative where they overlap."""
+    """The smallest gap between wheel and crank, mm, negative where they overlap."""
     smallest, touch = turn.smallest, found.contact
     value = 0.0 if abs(smallest.mm) <= touch else smallest.mm
     return compared(name, value, "at least", 0.0, smallest.at_deg, touch)
 
 
 def idle_roller(name: str, found: MachineParts, turn: FullTurn) -> Check | None:
-    """The smallest gap of the wheel and a roller that does not drive it."""
+    """The smallest gap between the wheel and a roller that does not drive it."""
     idle, touch = turn.idle, found.contact
     if idle is None:
         return None

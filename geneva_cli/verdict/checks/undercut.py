@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from geneva_cli.machine.mechanism import Mechanism
-from geneva_cli.verdict.cautions import SHOWN_UNDERCUT
 from geneva_cli.verdict.checks.check import Check, compared
+from geneva_cli.verdict.motion_warnings import SHOWN_UNDERCUT
 
 
 def undercut_depth(name: str, mechanism: Mechanism) -> Check | None:
-    """The depth of the undercut, mm, 0 where there is none."""
+    """The depth of the undercut, mm; 0 if there is none."""
     if not mechanism.engagements[0].slot.curved:
         return None
     from geneva_cli.analysis.undercut import undercut

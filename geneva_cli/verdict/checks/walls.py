@@ -1,4 +1,4 @@
-"""Walls of wheel and crank, each against ``wall_min_mm``."""
+"""Walls of wheel and crank, each compared with ``wall_min_mm``."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from geneva_cli.parts.sphere.shells import Shells
 from geneva_cli.parts.wheel_hub import wheel_hub
 from geneva_cli.verdict.checks.check import Check, compared
 
-NO_WALL = {  # what it means that a wall is less than nothing
+NO_WALL = {  # the meaning of a negative wall
     "wall_between_slots_mm": "neighbouring slots cut each other",
     "horn_mm": "the recess breaks into the slot",
     "wheel_bore_wall_mm": "the wheel's bore breaks into the slots",
@@ -25,7 +25,7 @@ NO_WALL = {  # what it means that a wall is less than nothing
 
 
 def between_slots(name: str, found: Outlines) -> Check:
-    """Between a slot and the next one, where it is thinnest; negative where they cut each other."""
+    """The wall between adjacent slots at its thinnest place; negative where they cut each other."""
     around, near = found.assembly.slots, math.inf
     for i, (engagement, direction) in enumerate(around):
         following, ahead = around[(i + 1) % len(around)]
@@ -43,7 +43,7 @@ def between_slots(name: str, found: Outlines) -> Check:
 
 
 def _mouth(start: Point, end: Point, wide: bool) -> Segment:
-    """What closes a slot; along the rim where it is a pair of slots, and a chord might cut it."""
+    """The segment that closes a slot; along the rim for a pair, which a chord might cut."""
     if not wide:
         return Line(start, end)
     back = (math.atan2(start[1], start[0]) - math.atan2(end[1], end[0])) % math.tau
@@ -51,18 +51,18 @@ def _mouth(start: Point, end: Point, wide: bool) -> Segment:
 
 
 def rollers_apart(name: str, found: Outlines) -> Check | None:
-    """Between the roller that starts the wheel and the one that stops it, on one crank."""
+    """The gap between the roller that starts the wheel and the one that stops it, on one crank."""
     gap = rollers_gap(found.assembly, found.sizes)
     return None if gap is None else compared(name, gap, "at least", 0.0)
 
 
 def horn(name: str, found: Outlines | Shells) -> Check | None:
-    """Between a slot and the recess that the locking disc or sectors run in."""
+    """The wall between a slot and the recess of the locking disc or sectors."""
     return _wall(name, found.sizes.horn, found) if found.crank else None
 
 
 def wheel_bore(name: str, found: Outlines) -> Check | None:
-    """Between the wheel's bore and the ends of its slots, and round it in a hub that is drawn."""
+    """The wall between the wheel's bore and its slots' ends, and around the bore in a drawn hub."""
     size = found.sizes
     if not size.wheel_bore:
         return None
@@ -72,7 +72,7 @@ def wheel_bore(name: str, found: Outlines) -> Check | None:
 
 
 def outside(name: str, found: Outlines) -> Check | None:
-    """Between the slots or recesses of an internal wheel and its outside."""
+    """The wall between the slots or recesses of an internal wheel and its outside."""
     size = found.sizes
     if not size.outer:
         return None
@@ -81,8 +81,9 @@ def outside(name: str, found: Outlines) -> Check | None:
 
 
 def crank_bore(name: str, found: Outlines) -> Check | None:
-    """Between the crank's bore and the bottom of the locking disc's relief, and round it in a hub
-    that is drawn.
+    """The wall between the crank's bore and the bottom of the locking disc's relief.
+
+    In a drawn hub it is also the wall around the bore.
     """
     size = found.sizes
     if not (size.crank_bore and found.crank and is_whole(found.assembly, size)):

@@ -1,1 +1,1 @@
-"""The quantities of a design: which there are, and the functions that compute them."""
+"""The quantities of a design: their registry, and the functions that compute them."""

@@ -1,4 +1,4 @@
-"""The designs whose quantities are computed: the m designs of a machine, or a single one."""
+"""The designs whose quantities are computed: the m designs of a batch, or a single one."""
 
 from __future__ import annotations
 
@@ -20,15 +20,15 @@ Columns: TypeAlias = "Mapping[str, Number | None]"
 
 
 class Designs:
-    """The m designs of a machine, and what several quantities need: (m,) each, computed once.
+    """The m designs of a machine, and shared values of their quantities, (m,), computed once.
 
-    A value is infinite where a design has none, and NaN where only the design built alone can tell.
+    A value is infinite if a design has none, and NaN if it must be computed for the design alone.
     """
 
     def __init__(self, machine: Mechanism, names: Collection[str] = ()) -> None:
         self.machine = machine
         self.spec = machine.spec
-        self.names = names  # of all quantities that are requested
+        self.names = names  # of all requested quantities
         self.single = isinstance(machine.design, int)  # its numbers are floats: m = 1
         self._kept: dict[object, object] = {}
 
@@ -38,7 +38,7 @@ class Designs:
         return {name.removeprefix(start) for name in self.names if name.startswith(start)}
 
     def once(self, compute: Callable[[Designs], T]) -> T:
-        """What a function of these designs gives, computed once."""
+        """The result of a function of these designs, computed once."""
         if compute not in self._kept:
             self._kept[compute] = compute(self)
         found: T = self._kept[compute]  # type: ignore[assignment]
@@ -46,19 +46,19 @@ class Designs:
 
     @cached_property
     def given(self) -> Setting:
-        """What the loads depend on besides the motion."""
+        """The loads' parameters besides the motion."""
         from geneva_cli.analysis.loads.forces import setting  # a wish without loads needs none
 
         return setting(self.machine)
 
     @cached_property
     def loaded(self) -> Array:
-        """1 where something resists the wheel, else NaN."""
+        """1 if something resists the wheel, else NaN."""
         loaded = self.given.inertia_Nm + self.given.resists_Nm > 0.0
         return np.ravel(np.where(loaded, 1.0, np.nan))
 
 
 @lru_cache(maxsize=16)
 def single(mechanism: Mechanism) -> Designs:
-    """A machine as a batch of one, kept while it is checked, advised on and reported."""
+    """A machine as a batch of one, cached for its checks, advice and report."""
     return Designs(mechanism)

@@ -1,4 +1,4 @@
-"""What disturbs designs: the swing of the load, impacts of the roller, and tolerances."""
+"""Disturbances of designs: vibration of the load, impacts of the roller, and tolerances."""
 
 from __future__ import annotations
 
@@ -9,8 +9,8 @@ import numpy as np
 from geneva_cli.analysis.change_of_sides import lasting_drag_Nm
 from geneva_cli.analysis.impacts import Impacts, entry_impacts, reversal_impacts
 from geneva_cli.analysis.loads.carried import inertia_kgm2
-from geneva_cli.analysis.tolerance.many import entry_jumps_worst, motion_plays, used
-from geneva_cli.analysis.vibration.vibration import Vibrations, vibrations_of_many
+from geneva_cli.analysis.tolerance.worst_effects import entry_jumps_worst, motion_plays, used
+from geneva_cli.analysis.vibration.vibration import Vibrations, design_vibrations
 
 if TYPE_CHECKING:
     from geneva_cli.numerics.arrays import Number
@@ -18,8 +18,8 @@ if TYPE_CHECKING:
 
 
 def vibration(of: Designs) -> Columns:
-    """The swing of a load on its elastic shaft."""
-    found = vibrations_of_many(of.machine, of.requested("vibration"))
+    """The vibration of a load on its elastic shaft."""
+    found = design_vibrations(of.machine, of.requested("vibration"))
     if found is None:
         return dict.fromkeys(Vibrations._fields)
     # without damping there is no steady state; without a period ratio the design says why
@@ -28,12 +28,12 @@ def vibration(of: Designs) -> Columns:
 
 
 def entry(of: Designs) -> Columns:
-    """The impact at entry where R/L is wrong."""
+    """The impact at entry if R/L is wrong."""
     return _impact(entry_impacts(of.machine))
 
 
 def reversal(of: Designs) -> Columns:
-    """The impact where the roller changes sides, and the drag that would keep it on one."""
+    """The impact at a change of sides, and the drag that would prevent it."""
     coasts = np.ravel(inertia_kgm2(of.spec)) > 0.0
     drag = np.where(coasts, np.ravel(lasting_drag_Nm(of.machine)), np.inf)
     return {**_impact(reversal_impacts(of.machine)), "drag_Nm": drag}
@@ -44,9 +44,10 @@ def _impact(found: Impacts) -> Columns:
 
 
 def tolerances(of: Designs) -> Columns:
-    """The worst that tolerances do to the motion, and to the velocity at entry.
+    """The worst effects of tolerances on the motion, and on the velocity at entry.
 
-    The jump at entry is known together of designs with tolerances, none of which is too wide.
+    The jump at entry is computed as a batch if all designs have tolerances, none of which is too
+    wide.
     """
     plays = motion_plays(of.machine)
     if plays is None:

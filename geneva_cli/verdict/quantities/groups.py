@@ -1,4 +1,4 @@
-"""The registry of quantities: every one by its whole name, and the functions that compute it.
+"""The registry of quantities: all whole names, and the functions that compute their values.
 
 A new quantity is a name in one group here, and a value of the group's function.
 """
@@ -16,12 +16,12 @@ from geneva_cli.verdict.checks.registry import every_check
 
 if TYPE_CHECKING:
     from geneva_cli.numerics.arrays import Number
-    from geneva_cli.parts.proof import Proof
+    from geneva_cli.parts.model import PartsModel
     from geneva_cli.verdict.quantities.designs import Columns, Designs
     from geneva_cli.verdict.report.values import Values
 
-INPUTS, CHECKS = "inputs.", "checks."  # how names of a spec's keys and of checks begin
-ECHOED = {  # keys that the numbers of a report rest on, besides the machine's own shape
+INPUTS, CHECKS = "inputs.", "checks."  # beginnings of the names of a spec's keys, and of checks
+ECHOED = {  # keys that the numbers of a report depend on, besides the machine's own shape
     "wheel": ("held_by",),
     "drive": ("n_rpm",),
     "size": (
@@ -40,7 +40,7 @@ ECHOED = {  # keys that the numbers of a report rest on, besides the machine's o
     "material.roller": tuple(key.key for key in fields(RollerMaterial)),
     "limits": tuple(key.key for key in fields(Limits)),
 }
-# Of each peak: the power of the input's speed that makes a rate of its invariant, and the rate.
+# For each peak: the power of the input speed that turns its invariant into a rate, and the rate.
 RATES = {
     "velocity": (1, "rad_s"),
     "acceleration": (2, "rad_s2"),
@@ -52,17 +52,17 @@ RATES = {
 class Group(NamedTuple):
     """Quantities that are computed together.
 
-    ``alone`` computes them for the machine of a Proof and ``batch`` for Designs, each as
-    module:function of this room, imported when it is used. Without ``alone`` a single design is a
-    batch of one, and what ``batch`` leaves out no design has. Groups may share a function. An
-    ``alone`` may give lists and tables besides.
+    ``alone`` computes them for the machine of a PartsModel and ``batch`` for Designs, each as
+    module:function of this folder, imported at its first use. Without ``alone`` a single design is
+    a batch of one, and no design has the values that ``batch`` leaves out. Groups may share a
+    function. ``alone`` may also give lists and tables.
     """
 
-    table: str  # what the whole names begin with; nothing where several tables are one group
+    table: str  # beginning of the whole names; empty if several tables are one group
     own: tuple[str, ...]
     alone: str = ""
     batch: str = ""
-    one_by_one: tuple[str, ...] = ()  # those of ``own`` that ``batch`` does not compute
+    one_by_one: tuple[str, ...] = ()  # names in ``own`` that ``batch`` does not compute
     makes_parts: bool = False  # it makes the machine's parts or turns them, which may take seconds
 
     @property
@@ -72,26 +72,25 @@ class Group(NamedTuple):
 
     @property
     def batched(self) -> tuple[str, ...]:
-        """The whole names of those that are known of a batch."""
+        """The whole names of the quantities that a batch can compute."""
         names = [name for name in self.own if self.batch and name not in self.one_by_one]
         return tuple(map(self._whole, names))
 
-    def values(self, proof: Proof) -> Values:
-        """The values of a single design; None of one that it does not have."""
+    def values(self, model: PartsModel) -> Values:
+        """The values of a single design; None for those that it lacks."""
         found: Values
         if self.alone:
-            found = load_named(f"verdict.{self.alone}")(proof)
+            found = load_named(f"verdict.{self.alone}")(model)
             return found
         from geneva_cli.verdict.quantities.designs import single
 
-        columns = self.columns(single(proof.mechanism))
+        columns = self.columns(single(model.mechanism))
         return {self._whole(name): only(columns[name]) for name in self.own}
 
     def columns(self, of: Designs) -> Columns:
-        """The values of a batch by the names without the table; None of what no design has.
+        """The values of a batch by the names without the table; None for values that no design has.
 
-        A name is left out where these designs have no such values together, and each must be built
-        alone.
+        A name is left out if the batch cannot compute it, and each design must be built alone.
         """
         compute: Callable[[Designs], Columns] = load_named(f"verdict.quantities.{self.batch}")
         found = of.once(compute)
@@ -102,7 +101,7 @@ class Group(NamedTuple):
 
 
 def only(column: Number | None) -> float | None:
-    """The value of the one design of a batch; None where there is none."""
+    """The value of the one design of a batch; None if there is none."""
     value = column if column is None or isinstance(column, int | float) else column.item()
     return value if value is not None and math.isfinite(value) else None
 
@@ -116,13 +115,13 @@ def own_names(table: str) -> tuple[str, ...]:
     return tuple(name for group in GROUPS if group.table == table for name in group.names)
 
 
-def values(groups: Iterable[Group], proof: Proof) -> Values:
-    """The values of several groups of a single design, in their order."""
+def values(groups: Iterable[Group], model: PartsModel) -> Values:
+    """The values of several groups of a single design, in order."""
     out: Values = {}
     called = set()
     for group in groups:
         if group.alone not in called:
-            out |= group.values(proof)
+            out |= group.values(model)
         called |= {group.alone} - {""}
     return out
 
@@ -146,7 +145,7 @@ def _group(
 MACHINE = _group(
     "", "wheel.z wheel.gearing drive.kind drive.rollers motion.law", "quantities.single:machine"
 )
-# Those of a report, in the order shown.
+# Quantities of a report, in the order shown.
 REPORT = (
     Group(
         "inputs",
@@ -269,7 +268,7 @@ REPORT = (
     ),
     _group("strength", "", "report.needs:needs"),
 )
-# Those that a study knows besides.
+# Further quantities, for studies.
 STUDY = (
     Group(
         "loads",
@@ -295,5 +294,5 @@ STUDY = (
         "checks", (*every_check(), "passes", "failed"), "quantities.single:judged", makes_parts=True
     ),
 )
-# All of them: those that make parts come last.
+# All quantities; those that make parts come last.
 GROUPS = tuple(sorted((MACHINE, *REPORT, *STUDY), key=lambda group: group.makes_parts))

@@ -1,4 +1,4 @@
-"""Loads of designs: greatest sizes, least values and means, and what must be bought."""
+"""Loads of designs: greatest sizes, least values and means, and sizing."""
 
 from __future__ import annotations
 
@@ -7,11 +7,11 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from geneva_cli.analysis.loads.loads import kinetic_power_W
-from geneva_cli.analysis.loads.many import greatest_of_many, summaries_of_many
-from geneva_cli.analysis.loads.means_many import means_of_many
+from geneva_cli.analysis.loads.means import load_means
 from geneva_cli.analysis.loads.quantities import SIZED, known_quantities, shares
-from geneva_cli.analysis.loads.sizing import sizings_of_many
-from geneva_cli.analysis.peaks_many import worst_of_many
+from geneva_cli.analysis.loads.sizing import sizings
+from geneva_cli.analysis.loads.summaries import load_peaks, load_summaries
+from geneva_cli.analysis.peak_search import worst_peaks
 from geneva_cli.analysis.positive_drive import positive_drives
 from geneva_cli.numerics.arrays import parameter
 
@@ -19,28 +19,28 @@ if TYPE_CHECKING:
     from geneva_cli.numerics.arrays import Number
     from geneva_cli.verdict.quantities.designs import Columns, Designs
 
-MEANS = {"mean", "rms"}  # of each quantity of the cycle, beside its least value
+MEANS = {"mean", "rms"}  # of each quantity of the cycle, besides its least value
 
 
 def greatest(of: Designs) -> Columns:
-    """The greatest sizes of loads and their input angles; infinite of one that no design has."""
+    """The greatest sizes of loads and their input angles; infinite if no design has the load."""
     known, requested = known_quantities(of.machine), of.requested("loads")
     names = [name for name in SIZED if {f"{name}.max", f"{name}.at_deg"} & requested]
     sought = [SIZED[name] for name in names if SIZED[name] in known]
-    found = greatest_of_many(of.machine, sought) if sought else {}
+    found = load_peaks(of.machine, sought) if sought else {}
     out: dict[str, Number | None] = {}
     for name in names:
         most, at_deg = found.get(SIZED[name], (np.inf, np.inf))
         out |= {f"{name}.max": most * of.loaded, f"{name}.at_deg": at_deg * of.loaded}
     if "kinetic_power_W" in requested:
-        power = worst_of_many(of.machine, ["power"])["power"].max
+        power = worst_peaks(of.machine, ["power"])["power"].max
         kinetic = np.ravel(kinetic_power_W(of.machine, parameter(power[:, None])))
         out["kinetic_power_W"] = np.where(np.ravel(of.given.inertia_Nm) > 0.0, kinetic, np.nan)
     return out
 
 
 def summaries(of: Designs) -> Columns:
-    """Least values, means and root mean squares of those loads that all these designs have."""
+    """Least values, means and root mean squares of the loads that all these designs have."""
     sources = {
         n: source for n, (source, share, _) in shares(of.machine).items() if share is not None
     }
@@ -54,7 +54,7 @@ def summaries(of: Designs) -> Columns:
         return {}
     out: dict[str, Number | None] = {}
     told = {end for some in ends.values() for end in some}
-    sums = summaries_of_many if told - MEANS else means_of_many
+    sums = load_summaries if told - MEANS else load_means
     for load, one in sums(of.machine, list(ends), told & MEANS).items():
         found = one._asdict()
         out |= {f"{load}.{end}": found[end] for end in ends[load]}
@@ -63,16 +63,16 @@ def summaries(of: Designs) -> Columns:
 
 
 def sizing(of: Designs) -> Columns:
-    """Motor, flywheel and the makers' form; None of what needs keys that no design has."""
+    """Motor, flywheel and the makers' form; None for values that need keys that no design has."""
     requested = of.requested("sizing")
     out: dict[str, Number | None] = dict.fromkeys(requested)
-    for name, row in sizings_of_many(of.machine, requested).items():
+    for name, row in sizings(of.machine, requested).items():
         out[name] = np.where(np.isnan(row), np.inf, row) * of.loaded
     return out
 
 
 def slot(of: Designs) -> Columns:
-    """Where the wall that must push is cut away, and the distance of the slot's two branches."""
+    """Intervals without the needed wall, and the distance of the slot's two branches."""
     found = positive_drives(of.machine)
     if found is None:
         return {}

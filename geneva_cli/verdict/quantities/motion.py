@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from geneva_cli.analysis.peaks_many import QUANTITIES, worst_of_many
+from geneva_cli.analysis.peak_search import QUANTITIES, worst_peaks
 from geneva_cli.analysis.timing import timings
 from geneva_cli.numerics.angles import omega
 from geneva_cli.verdict.quantities.groups import RATES
@@ -23,7 +23,7 @@ ENDS = {"acceleration": 2, "jerk": 3}  # derivatives of the wheel's angle
 
 
 def timing(of: Designs) -> Columns:
-    """The timing of machines whose engagements are alike; nothing of others."""
+    """The timing of machines whose engagements are alike; empty for others."""
     first, *others = timings(of.machine)
     return {} if others else first._asdict()
 
@@ -33,7 +33,7 @@ def peaks(of: Designs) -> Columns:
     requested = [name for name in QUANTITIES if of.requested(name)]
     w = np.ravel(omega(of.spec.drive.n_rpm))
     out: dict[str, Number | None] = {}
-    for name, peak in worst_of_many(of.machine, requested).items():
+    for name, peak in worst_peaks(of.machine, requested).items():
         ends = _ends(of.machine, ENDS[name]) if name in ENDS else ()
         out |= peak_values(name, w, tuple(peak), ends)
     return out
@@ -43,7 +43,7 @@ def peak_values(name: str, w: N, peak: Sequence[N], ends: Sequence[N]) -> dict[s
     """The quantities of a peak, by their whole names.
 
     ``w`` is the input's speed, ``peak`` the greatest size and its input angle, ``ends`` the sizes
-    just after entry and just before exit, where they are told.
+    just after entry and just before exit, if requested.
 
     >>> peak_values("velocity", 2.0, (1.0, 0.0), ())
     {'velocity.max': 1.0, 'velocity.at_deg': 0.0, 'velocity.max_rad_s': 2.0}

@@ -11,13 +11,13 @@ from geneva_cli.verdict.checks import checks
 from geneva_cli.verdict.checks.registry import every_check
 
 if TYPE_CHECKING:
-    from geneva_cli.parts.proof import Proof
+    from geneva_cli.parts.model import PartsModel
     from geneva_cli.verdict.report.values import Values
 
 
-def machine(proof: Proof) -> Values:
+def machine(model: PartsModel) -> Values:
     """The kind of machine."""
-    spec = proof.mechanism.spec
+    spec = model.mechanism.spec
     return {
         "wheel.z": spec.wheel.z,
         "wheel.gearing": spec.wheel.NAME,
@@ -27,23 +27,23 @@ def machine(proof: Proof) -> Values:
     }
 
 
-def judged(proof: Proof) -> Values:
-    """The value of each check, None of those that do not apply, and whether all pass."""
-    rows = checks(proof.mechanism, proof)
+def judged(model: PartsModel) -> Values:
+    """The value of each check, None for those that do not apply, and whether all pass."""
+    rows = checks(model.mechanism, model)
     values: Values = {f"checks.{name}": None for name in every_check()}
     values |= {f"checks.{c.name}": c.value for c in rows}
     failed = [c.name for c in rows if c.passes is False]
     return values | {"checks.passes": not failed, "checks.failed": " ".join(failed) or None}
 
 
-def cycle(proof: Proof) -> Values:
+def cycle(model: PartsModel) -> Values:
     """Least values, means and root mean squares of the loads."""
     names = ("min", "min_at_deg", "mean", "rms")
-    found = {load: one._asdict() for load, one in summaries(cycle_of(proof.mechanism)).items()}
+    found = {load: one._asdict() for load, one in summaries(cycle_of(model.mechanism)).items()}
     return {f"loads.{load}.{n}": one[n] for load, one in found.items() for n in names}
 
 
-def bought(proof: Proof) -> Values:
-    """Motor, flywheel and the makers' form; the wheel's own inertia is that of its parts."""
-    found, _ = sizing(cycle_of(proof.mechanism))
+def bought(model: PartsModel) -> Values:
+    """Motor, flywheel and the makers' form, without the wheel's own inertia."""
+    found, _ = sizing(cycle_of(model.mechanism))
     return {f"sizing.{name}": value for name, value in found.items() if name != WHEEL}

@@ -8,7 +8,7 @@ import numpy as np
 
 from geneva_cli.analysis.strength import pin as pins
 from geneva_cli.analysis.strength import roller, shafts
-from geneva_cli.analysis.strength.horn import horn_of_many
+from geneva_cli.analysis.strength.horn import horn_stresses
 from geneva_cli.verdict.quantities.under_load import under_load
 
 if TYPE_CHECKING:
@@ -18,9 +18,9 @@ if TYPE_CHECKING:
 
 
 def margin(stress: Number, allowed: Number | None) -> Array | None:
-    """How far a stress may still grow, as a share of it: 0 where it is what is allowed.
+    """The relative margin of a stress: 0 if it equals the allowable stress.
 
-    None where nothing is allowed; infinite of a stress that is 0 or has no bound.
+    None without an allowable stress; infinite for a stress that is 0 or unbounded.
 
     >>> margin(np.array([80.0, 0.0]), 120.0)
     array([0.5, inf])
@@ -55,7 +55,7 @@ def pin(of: Designs) -> Columns:
 
 
 def horn(of: Designs) -> Columns:
-    """The horn where the roller bends it most; it needs a face width."""
+    """The horn at the place where the roller bends it most; it needs a face width."""
     width, allowed = of.spec.size.face_width_mm, of.spec.material_wheel.stress_max_MPa
     out: dict[str, Number | None] = {"allowed_MPa": allowed}
     sizes = None if width is None else under_load(of).lock_sizes
@@ -64,7 +64,7 @@ def horn(of: Designs) -> Columns:
     force = under_load(of).force_N
     if not np.isfinite(force).any():
         return out | dict.fromkeys(("stress_MPa", "at_deg", "inwards_mm", "thickness_mm"), force)
-    found = horn_of_many(of.machine, sizes.half_width, sizes.lock.recess, width)
+    found = horn_stresses(of.machine, sizes.half_width, sizes.lock.recess, width)
     rows = {name: _known(row) for name, row in found._asdict().items()}
     stress = np.where(np.isfinite(force), rows["stress_MPa"], force)
     out["margin"] = margin(stress, allowed)
@@ -74,7 +74,7 @@ def horn(of: Designs) -> Columns:
 def lock(of: Designs) -> Columns:
     """The lock under the torque in the dwell; it needs a face width.
 
-    ``greatest_MPa`` is the stress between disc and recess, on an end or as the arcs lie.
+    ``greatest_MPa`` is the stress between disc and recess, on an end or between the arcs.
     """
     found, allowed = under_load(of).lock, of.spec.limits.lock_stress_max_MPa
     if found is None:
@@ -92,24 +92,24 @@ def lock(of: Designs) -> Columns:
 
 
 def _known(row: Number | None) -> Array:
-    """The row, infinite where a design has no value."""
+    """The row, infinite for designs without a value."""
     found = np.asarray(row)
     return np.where(np.isnan(found), np.inf, found)
 
 
 def wheel_shaft(of: Designs) -> Columns:
-    """The wheel's shaft, where it is parallel to the crank's."""
+    """The wheel's shaft, if it is parallel to the crank's."""
     return _shaft(of, shafts.wheel_shaft(of.spec.shaft), shafts.on_wheel)
 
 
 def crank_shaft(of: Designs) -> Columns:
-    """The crank's shaft, where it is parallel to the wheel's."""
+    """The crank's shaft, if it is parallel to the wheel's."""
     on = shafts.on_driven_crank if of.spec.drive.CRANKED else shafts.on_crank
     return _shaft(of, shafts.crank_shaft(of.spec.shaft), on)
 
 
 def _shaft(of: Designs, ends: shafts.GivenShaft, on: shafts.On) -> Columns:
-    """On a sphere the force's moment does not follow from an overhang."""
+    """A shaft; without results on a sphere, where an overhang does not determine the moment."""
     out: dict[str, Number | None] = {"diameter_mm": ends.diameter_mm}
     found = under_load(of).shaft(ends, on) if of.spec.wheel.FLAT else None
     if found is None:

@@ -1,4 +1,4 @@
-"""Designs under their loads: what strength and life need of the cycle, the parts and the roller."""
+"""Designs under their loads: values of cycle, parts and roller for strength and life."""
 
 from __future__ import annotations
 
@@ -10,11 +10,11 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from geneva_cli.analysis.loads.cycle import cycle_of
-from geneva_cli.analysis.loads.many import greatest_of_many
 from geneva_cli.analysis.loads.quantities import FORCE, PV
+from geneva_cli.analysis.loads.summaries import load_peaks
 from geneva_cli.analysis.strength import lock, roller, shafts
 from geneva_cli.parts.sizes import sized
-from geneva_cli.verdict.lock_sizes import LockSizes, lock_of, lock_sizes_of_many
+from geneva_cli.verdict.lock_sizes import LockSizes, design_lock_sizes, lock_of
 
 if TYPE_CHECKING:
     from geneva_cli.analysis.strength.lock import LockUnderTorque
@@ -33,12 +33,12 @@ class UnderLoad:
     @cached_property
     def force_N(self) -> Array:
         """The greatest force on a roller."""
-        return greatest_of_many(self.machine, [FORCE])[FORCE].max * self.loaded
+        return load_peaks(self.machine, [FORCE])[FORCE].max * self.loaded
 
     @cached_property
     def pv_W_m2(self) -> Array:
         """The greatest contact pressure times sliding speed; it needs a face width."""
-        return greatest_of_many(self.machine, [PV])[PV].max * self.loaded
+        return load_peaks(self.machine, [PV])[PV].max * self.loaded
 
     @cached_property
     def passages(self) -> Sequence[Passage]:
@@ -47,28 +47,28 @@ class UnderLoad:
 
     @cached_property
     def roller_passages(self) -> Sequence[Passage]:
-        """The passages of each roller; an engagement has two where one starts and one stops it."""
+        """The passages of each roller; an engagement has two if one starts and one stops it."""
         paired = any(one.paired for one in self.machine.engagements)
         return roller.by_roller(self.machine) if paired else self.passages
 
     @cached_property
     def lock_sizes(self) -> LockSizes | None:
-        """The sizes of horn and lock, (m, 1); None where no design has a lock."""
-        return lock_sizes_of_many(self.machine)
+        """The sizes of horn and lock, (m, 1); None if no design has a lock."""
+        return design_lock_sizes(self.machine)
 
     @cached_property
     def lock(self) -> LockUnderTorque | None:
-        """The lock under the torque that it holds in the dwell; None where no design has one."""
+        """The lock under the torque that it holds in the dwell; None if no design has one."""
         sizes = self.lock_sizes
-        return sizes and lock.lock_of_many(self.machine, sizes.half_width, sizes.lock)
+        return sizes and lock.loaded_locks(self.machine, sizes.half_width, sizes.lock)
 
     def shaft(self, ends: shafts.GivenShaft, loaded: shafts.On) -> shafts.Turned | None:
         """A shaft under its cycle; None without an overhang or a load."""
-        return shafts.shaft_of_many(self.machine, ends, loaded)
+        return shafts.shafts_under_load(self.machine, ends, loaded)
 
 
 class SingleUnderLoad(UnderLoad):
-    """A single design, m = 1: its loads are those of its cycle, which keeps them."""
+    """A single design, m = 1, whose loads are those of its cached cycle."""
 
     @cached_property
     def force_N(self) -> Array:
@@ -96,7 +96,7 @@ class SingleUnderLoad(UnderLoad):
         return self._bounded(roller.by_roller(self.machine))
 
     def _bounded(self, every: Sequence[Passage]) -> Sequence[Passage]:
-        """The passages, their work and load infinite where nothing bounds the force."""
+        """The passages, with infinite work and load if the force is unbounded."""
         if not math.isinf(self.force_N[0]):
             return every
         return [one._replace(work=math.inf, load=math.inf) for one in every]

@@ -1,4 +1,4 @@
-"""One page on a design, for a person: words, timing, peaks, loads, sizes, warnings.
+"""A report on a design for people: words, timing, peaks, loads, sizes, warnings.
 
 A section is a group of quantities in ``verdict.quantities.groups``, and its function.
 """
@@ -8,8 +8,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import NamedTuple
 
-from geneva_cli.errors import Caution
-from geneva_cli.parts.proof import Proof
+from geneva_cli.errors import Notice
+from geneva_cli.parts.model import PartsModel
 from geneva_cli.table import Table, in_digits, record_table
 from geneva_cli.verdict.checks.check import Check, all_pass
 from geneva_cli.verdict.quantities.groups import REPORT
@@ -19,19 +19,19 @@ from geneva_cli.verdict.report.words import words
 
 
 class Report(NamedTuple):
-    """A page on a design; ``passes`` as ``check`` has it."""
+    """A report on a design; ``passes`` is the result of ``check``."""
 
     table: Table
     passes: bool
 
 
-def report(proof: Proof, rows: Sequence[Check], warnings: Sequence[Caution]) -> Report:
+def report(model: PartsModel, rows: Sequence[Check], warnings: Sequence[Notice]) -> Report:
     """Everything about one design, as a tree of named values under a paragraph of words.
 
-    The names are the same for every machine; a value is None where it does not apply. ``rows`` and
-    ``warnings`` are the checks and the warnings of the machine of ``proof``.
+    The names are equal for every machine; a value is None if it does not apply. ``rows`` and
+    ``warnings`` are the checks and the warnings of the machine of ``model``.
     """
-    mechanism = proof.mechanism
+    mechanism = model.mechanism
     passes = all_pass(rows)
     title = mechanism.spec.title
     values: Values = {
@@ -41,12 +41,12 @@ def report(proof: Proof, rows: Sequence[Check], warnings: Sequence[Caution]) -> 
         "checks_failed": tuple(_said(c) for c in rows if c.passes is False),
         "not_proved": tuple(f"{c.name}: {c.why}" for c in rows if c.passes is None),
     }
-    values |= values_of(REPORT, proof) | {"warnings": tuple(warnings)}
+    values |= values_of(REPORT, model) | {"warnings": tuple(warnings)}
     return Report(record_table(values, title, words(mechanism)), passes)
 
 
 def _said(check: Check) -> str:
-    """A failing check in a line."""
+    """A failing check in one line."""
     if check.value is None or check.limit is None:
         return check.not_computed
     where = "" if check.at_deg is None else f" at {check.at_deg:.6g} deg"

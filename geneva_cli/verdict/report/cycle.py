@@ -1,18 +1,18 @@
-"""What the input has to give over a period: the cycle's torque and power, with their signs."""
+"""Torque and power of the input over a period, with their signs."""
 
 from __future__ import annotations
 
 from geneva_cli.analysis.loads.cycle import cycle_of
 from geneva_cli.analysis.loads.summary import reversals_deg, summaries
-from geneva_cli.parts.proof import Proof
+from geneva_cli.parts.model import PartsModel
 from geneva_cli.verdict.report.values import Values
 
 FIELDS = ("max", "min", "mean", "rms")
 
 
-def cycle(proof: Proof) -> Values:
+def cycle(model: PartsModel) -> Values:
     """Greatest and least over the motions, mean and rms over the period; None without a load."""
-    of = cycle_of(proof.mechanism)
+    of = cycle_of(model.mechanism)
     found = summaries(of)
     values: Values = {}
     for name in ("input_torque_Nm", "power_W", "crank_bearing_N"):

@@ -1,16 +1,16 @@
-"""What the numbers of a report rest on: speed, clearances, load and limits, as they are given."""
+"""Inputs that the numbers of a report depend on: speed, clearances, load and limits."""
 
 from __future__ import annotations
 
-from geneva_cli.parts.proof import Proof
+from geneva_cli.parts.model import PartsModel
 from geneva_cli.verdict.quantities.groups import ECHOED, INPUTS
 from geneva_cli.verdict.report.values import Values
 
 
-def inputs(proof: Proof) -> Values:
-    """What was asked."""
-    spec = proof.mechanism.spec
-    known = {  # where a key is left out
+def inputs(model: PartsModel) -> Values:
+    """The values of these keys."""
+    spec = model.mechanism.spec
+    known = {  # if a key is left out
         "wheel": {"held_by": spec.wheel.held_by},
         "size": spec.size.allowances._asdict(),
     }

@@ -8,13 +8,13 @@ from geneva_cli.analysis.loads import loads
 from geneva_cli.analysis.loads.carried import inertia_kgm2
 from geneva_cli.analysis.loads.quantities import SIZED, STRESS
 from geneva_cli.analysis.peaks import worst
-from geneva_cli.parts.proof import Proof
+from geneva_cli.parts.model import PartsModel
 from geneva_cli.verdict.report.values import Values
 
 
-def greatest_loads(proof: Proof) -> Values:
+def greatest_loads(model: PartsModel) -> Values:
     """The greatest loads and their input angles; None without a load, and for an unbounded one."""
-    mechanism = proof.mechanism
+    mechanism = model.mechanism
     loaded = mechanism.spec.is_loaded
     values: Values = {}
     for name, source in SIZED.items():

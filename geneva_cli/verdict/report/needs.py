@@ -1,12 +1,12 @@
-"""Which keys would give the values of strength and life that are not known."""
+"""The keys that unknown values of strength and life need."""
 
 from __future__ import annotations
 
-from geneva_cli.parts.proof import Proof
+from geneva_cli.parts.model import PartsModel
 from geneva_cli.verdict.report.values import Values
 from geneva_cli.verdict.strength import REASONS, strength
 
 
-def needs(proof: Proof) -> Values:
+def needs(model: PartsModel) -> Values:
     """A line for each set of keys."""
-    return {"strength.needs": tuple(strength(proof.mechanism).missing(tuple(REASONS)))}
+    return {"strength.needs": tuple(strength(model.mechanism).missing(tuple(REASONS)))}

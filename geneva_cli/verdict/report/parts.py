@@ -1,29 +1,29 @@
-"""Sizes that the parts are cut to, and what a whole turn of them shows."""
+"""Cut sizes of the parts, and results of their whole turn."""
 
 from __future__ import annotations
 
 from geneva_cli.errors import GenevaError
-from geneva_cli.parts.proof import Proof
+from geneva_cli.parts.model import PartsModel
 from geneva_cli.verdict.quantities.groups import own_names
 from geneva_cli.verdict.report.values import Values
 
 
-def parts(proof: Proof) -> Values:
-    """None where there are no parts; ``parts.none`` says why they cannot be made.
+def parts(model: PartsModel) -> Values:
+    """Sizes and results of the parts; None without parts, with the reason in ``parts.none``.
 
-    Of a sphere what a turn shows, and the horn: its sizes are angles, in the list of parts.
+    A sphere has results of the turn, and the horn; its sizes are angles, in the list of parts.
     """
     values: Values = dict.fromkeys(own_names("parts"))
-    if not proof.mechanism.spec.has_parts:
+    if not model.mechanism.spec.has_parts:
         return values
     try:
-        return values | _turned(proof) | (cut_sizes(proof) if proof.mechanism.spec.is_flat else {})
+        return values | _turned(model) | (cut_sizes(model) if model.mechanism.spec.is_flat else {})
     except GenevaError as error:
         return values | {"parts.none": str(error)}
 
 
-def _turned(proof: Proof) -> Values:
-    found, turn = proof.parts, proof.turn
+def _turned(model: PartsModel) -> Values:
+    found, turn = model.parts, model.turn
     gap, locked = turn.smallest, bool(found.crank)
     return {
         "parts.horn_mm": found.sizes.horn if locked else None,
@@ -33,9 +33,9 @@ def _turned(proof: Proof) -> Values:
     }
 
 
-def cut_sizes(proof: Proof) -> Values:
-    """Sizes of flat parts as they are cut."""
-    found, size = proof.outlines, proof.outlines.sizes
+def cut_sizes(model: PartsModel) -> Values:
+    """Cut sizes of flat parts."""
+    found, size = model.outlines, model.outlines.sizes
     locked = bool(found.crank)
     return {
         "parts.rim_radius_mm": size.rim,

@@ -2,15 +2,15 @@
 
 from __future__ import annotations
 
+from geneva_cli.parts.model import PartsModel
 from geneva_cli.parts.parts_list import FIRST, KINDS, parts_list
-from geneva_cli.parts.proof import Proof
 from geneva_cli.table import Reading, rows_table
 from geneva_cli.verdict.report.values import Values
 
 
-def parts_list_tables(proof: Proof) -> Values:
+def parts_list_tables(model: PartsModel) -> Values:
     """The three tables; None for one without rows, such as the pivots of a spherical wheel."""
-    rows = parts_list(proof).to_rows()
+    rows = parts_list(model).to_rows()
     values: Values = {}
     for kind, names in KINDS.items():
         own = [[row[name] for name in names] for row in rows if row["row"] == kind]

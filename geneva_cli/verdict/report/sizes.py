@@ -1,4 +1,4 @@
-"""The machine's own sizes, in millimetres; of a sphere, degrees too."""
+"""The machine's own sizes, in millimetres; for a sphere also in degrees."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from geneva_cli.errors import GenevaError
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.numerics.arrays import scalar
 from geneva_cli.parts.assembly import assembly
-from geneva_cli.parts.proof import Proof
+from geneva_cli.parts.model import PartsModel
 from geneva_cli.parts.roller_paths import roller_paths
 from geneva_cli.parts.sizes import sizes as part_sizes
 from geneva_cli.verdict.report.values import Values
@@ -41,12 +41,12 @@ _FLAT = [
 ]
 
 
-def sizes(proof: Proof) -> Values:
-    """Sizes of a flat wheel as it is cut, of a sphere's as it is turned.
+def sizes(model: PartsModel) -> Values:
+    """Sizes of a flat wheel as cut, or of a spherical wheel as turned.
 
-    The rim is None where the spec's sizes leave no wheel; the slots too where no wheel is drawn.
+    The rim is None if the spec's sizes leave no wheel; the slots too if no wheel is drawn.
     """
-    mechanism = proof.mechanism
+    mechanism = model.mechanism
     spec = mechanism.spec
     L, r = mechanism.center_distance_mm, mechanism.roller_radius_mm
     if not spec.wheel.FLAT:
@@ -68,7 +68,7 @@ def sizes(proof: Proof) -> Values:
 
 
 def _cut_radii(mechanism: Mechanism) -> Values:
-    """Radii of slots and rim as they are cut, mm."""
+    """Radii of slots and rim as cut, mm."""
     mouth = bottom = rim = None
     inside = mechanism.spec.wheel.SIGN < 0.0
     if mechanism.spec.is_flat:
@@ -76,7 +76,7 @@ def _cut_radii(mechanism: Mechanism) -> Values:
         path = roller_paths(where)
         mouth = max(where.L * scalar(s.entry_reach) for s in where.kinds)
         bottom = max(path.ends) if inside else min(path.ends)
-        with suppress(GenevaError):  # ``parts.none`` says why
+        with suppress(GenevaError):  # ``parts.none`` gives the reason
             rim = part_sizes(where, path).rim
     return {
         "sizes.slot_mouth_radius_mm": mouth,

@@ -1,13 +1,13 @@
-"""Whether curved slots drive the wheel positively under the spec's load."""
+"""Positive drive of curved slots under the spec's load."""
 
 from __future__ import annotations
 
 from geneva_cli.analysis.positive_drive import positive_drive
-from geneva_cli.parts.proof import Proof
+from geneva_cli.parts.model import PartsModel
 from geneva_cli.verdict.report.values import Values
 
 
-def slot(proof: Proof) -> Values:
-    """No where the wall that must push is cut away; None of straight slots."""
-    drive = positive_drive(proof.mechanism)
+def slot(model: PartsModel) -> Values:
+    """False if the wall that must push is cut away; None for straight slots."""
+    drive = positive_drive(model.mechanism)
     return {"slot.positively_driven": not drive.loose_deg if drive else None}

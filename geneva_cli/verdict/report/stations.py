@@ -1,4 +1,4 @@
-"""Timing and peaks: what all engagements share, the greatest, and a row for each."""
+"""Timing and peaks: shared values, the greatest, and a row for each engagement."""
 
 from __future__ import annotations
 
@@ -10,37 +10,37 @@ from geneva_cli.analysis.peaks import Peaks, placed, worst
 from geneva_cli.analysis.timing import timings
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.numerics.angles import omega
-from geneva_cli.parts.proof import Proof
+from geneva_cli.parts.model import PartsModel
 from geneva_cli.table import rows_table
 from geneva_cli.verdict.quantities.motion import peak_values
 from geneva_cli.verdict.report.values import Numbers, Values
 
-SAME = 1e-12  # share of a value by which rounding may make it differ between engagements
+SAME = 1e-12  # fraction of a value by which rounding may make it differ between engagements
 
 
-def timing(proof: Proof) -> Values:
-    """The timing that all engagements share; None of what they do not."""
-    mechanism = proof.mechanism
+def timing(model: PartsModel) -> Values:
+    """The timing that all engagements share; None for values that differ."""
+    mechanism = model.mechanism
     each = [_timing(mechanism, i) for i in range(len(mechanism.engagements))]
     return {name: _shared([one[name] for one in each]) for name in each[0]}
 
 
 def _shared(values: Sequence[float | None]) -> float | None:
-    """The value that all engagements share, but for rounding; None where they do not."""
+    """The value that all engagements share, apart from rounding; None if they differ."""
     known = [value for value in values if value is not None]
     if len(known) < len(values) or not math.isclose(min(known), max(known), rel_tol=SAME):
         return None
     return known[0]
 
 
-def peaks(proof: Proof) -> Values:
+def peaks(model: PartsModel) -> Values:
     """The greatest peaks over all engagements."""
-    return {**_peaks(proof.mechanism, worst(proof.mechanism))}
+    return {**_peaks(model.mechanism, worst(model.mechanism))}
 
 
-def stations(proof: Proof) -> Values:
-    """A row for each engagement, where they differ."""
-    mechanism = proof.mechanism
+def stations(model: PartsModel) -> Values:
+    """A row for each engagement, if they differ."""
+    mechanism = model.mechanism
     if len(mechanism.engagements) == 1:
         return {"stations": None}
     each = [
@@ -53,9 +53,9 @@ def stations(proof: Proof) -> Values:
 def _timing(mechanism: Mechanism, i: int) -> Numbers:
     timing = timings(mechanism)[i]
     values: Numbers = {f"timing.{k}": v for k, v in timing._asdict().items()}
-    # Krasniqi's (15) and (16): t = phi/omega, shortest at the highest speed that the limits on
-    # force, torque and stress allow (n itself where none bounds it; none where no speed keeps
-    # them), and the work coefficient of one roller, k_r = phi/(2 pi - phi).
+    # Krasniqi's (15) and (16): t = phi/omega is shortest at the highest speed that the limits on
+    # force, torque and stress allow. That is n itself without limits, and none if no speed keeps
+    # them. The work coefficient of one roller is k_r = phi/(2 pi - phi).
     motion = mechanism.engagements[i].motion_deg
     fastest = loads.fastest_rpm(mechanism)
     if fastest is not None and math.isinf(fastest):

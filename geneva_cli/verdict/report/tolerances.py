@@ -1,8 +1,8 @@
-"""What the deviations of ``[tolerance]`` do to the wheel's place, play and entry."""
+"""Effects of the deviations in ``[tolerance]`` on the wheel's place, play and entry."""
 
 from __future__ import annotations
 
-from geneva_cli.parts.proof import Proof
+from geneva_cli.parts.model import PartsModel
 from geneva_cli.spec.tables import Tolerance
 from geneva_cli.verdict.quantities.groups import own_names
 from geneva_cli.verdict.report.values import Values
@@ -10,15 +10,15 @@ from geneva_cli.verdict.report.values import Values
 SAMPLES = 65536
 
 
-def tolerances(proof: Proof) -> Values:
+def tolerances(model: PartsModel) -> Values:
     """The first lines of ``geneva tolerance``, and its warnings; None without tolerances."""
-    mechanism, names = proof.mechanism, (*own_names("tolerance"), "tolerance.warnings")
+    mechanism, names = model.mechanism, (*own_names("tolerance"), "tolerance.warnings")
     given = mechanism.spec.tolerance
     if given == Tolerance(distribution=given.distribution):
         return dict.fromkeys(names)
     from geneva_cli.verdict.tolerance.tables import tolerance_table
 
-    # at some radius: micrometres are not among them
+    # micrometres need a radius, which is not given here
     L = mechanism.center_distance_mm
-    answers = tolerance_table(mechanism, proof, SAMPLES, 0, L).to_dict()
+    answers = tolerance_table(mechanism, model, SAMPLES, 0, L).to_dict()
     return {name: answers[name.removeprefix("tolerance.")] for name in names}

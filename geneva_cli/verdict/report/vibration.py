@@ -5,16 +5,16 @@ from __future__ import annotations
 from geneva_cli.analysis.vibration.answers import NUMBERS, values
 from geneva_cli.analysis.vibration.oscillator import required_oscillator
 from geneva_cli.errors import GenevaError
-from geneva_cli.parts.proof import Proof
+from geneva_cli.parts.model import PartsModel
 from geneva_cli.verdict.report.values import Values
 
 
-def vibration(proof: Proof) -> Values:
+def vibration(model: PartsModel) -> Values:
     """None without a stiffness, and why where inertia is missing or its period is out of range.
 
     Bands, stations and warnings are those of ``geneva vibration``.
     """
-    mechanism = proof.mechanism
+    mechanism = model.mechanism
     out: Values = {"vibration.none": None} | dict.fromkeys(f"vibration.{n}" for n in NUMBERS)
     if mechanism.spec.shaft.stiffness_Nm_rad is None:
         return out

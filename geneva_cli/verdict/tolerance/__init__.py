@@ -1,1 +1,1 @@
-"""What the dimensions' deviations do to the wheel's place, play and entry."""
+"""Effects of the dimensions' deviations on the wheel's place, play and entry."""

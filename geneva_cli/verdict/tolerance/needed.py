@@ -1,12 +1,11 @@
 """The clearances with which every machine within the tolerances still turns.
 
 The tightest machine has the largest roller in the narrowest slot, and the largest disc in the
-smallest recess. Where the roller enters, the wheel rests in its lock, and the deviations of crank
-radius, centre distance and slot angle put the roller beside the slot. The wheel gives way by the
-least play of its lock; the slot's clearance must take the rest. The deviation of the centre
-distance reduces the lock's clearance. These sums are exact where the roller enters along the slot.
-Where the clearances suffice, the parts of that machine, and of the loosest, are turned through a
-whole turn.
+smallest recess. At entry the wheel rests in its lock. The deviations of crank radius, centre
+distance and slot angle then offset the roller from the slot. The wheel yields by the least play of
+its lock; the slot's clearance must take the rest. The deviation of the centre distance reduces the
+lock's clearance. These sums are exact if the roller enters along the slot. If the clearances
+suffice, the parts of the tightest and the loosest machine are turned through a whole turn.
 """
 
 from __future__ import annotations
@@ -20,13 +19,13 @@ from geneva_cli.errors import GenevaError
 from geneva_cli.machine.engagement import Engagement
 from geneva_cli.machine.mechanism import Mechanism, build
 from geneva_cli.machine.spec import Spec
+from geneva_cli.parts.model import PartsModel
 from geneva_cli.parts.outlines import Outlines
-from geneva_cli.parts.proof import Proof
 from geneva_cli.parts.sphere.sizes import Ball
 from geneva_cli.verdict.checks.registry import turn_checks
 
 WORDS = "largest roller and locking disc, narrowest slot and recess"
-# What the lock needs, None for none, and the spec of the tightest machine (-1) or the loosest (+1)
+# The lock's need, None for none, and the spec of the tightest machine (-1) or the loosest (+1)
 Corners: TypeAlias = tuple[float | None, Callable[[float], Spec]]
 LOOSE = "smallest roller and locking disc, widest slot and recess"
 
@@ -34,8 +33,8 @@ LOOSE = "smallest roller and locking disc, widest slot and recess"
 class Needed(NamedTuple):
     """The clearances needed, mm per side, and whether the parts turn within all tolerances.
 
-    ``lock_mm`` is None without a locking disc. ``turns`` is None where parts cannot be turned;
-    ``why`` says what fails, or why it cannot be told.
+    ``lock_mm`` is None without a locking disc. ``turns`` is None if parts cannot be turned. ``why``
+    names what fails, or the reason why it is unknown.
     """
 
     slot_mm: float
@@ -45,7 +44,7 @@ class Needed(NamedTuple):
 
 
 def needed(
-    mechanism: Mechanism, proof: Proof, sizes: dict[str, float], least_play: float
+    mechanism: Mechanism, model: PartsModel, sizes: dict[str, float], least_play: float
 ) -> Needed:
     """The clearances that the tolerances need, and a whole turn of the tightest and the loosest.
 
@@ -59,9 +58,9 @@ def needed(
         return Needed(slot, None, None, "there are no drawn parts to turn")
     try:
         lock, corner = (
-            _flat(spec, proof.outlines, sizes, slot)
+            _flat(spec, model.outlines, sizes, slot)
             if spec.wheel.FLAT
-            else _on_sphere(spec, proof.shells.ball, sizes, slot)
+            else _on_sphere(spec, model.shells.ball, sizes, slot)
         )
     except GenevaError as error:
         return Needed(slot, None, None, str(error))
@@ -82,14 +81,14 @@ def needed(
 def _across(
     mechanism: Mechanism, engagement: Engagement, sizes: dict[str, float], least_play: float
 ) -> float:
-    """The roller's greatest distance beside its slot at entry and exit, mm; at least 0."""
+    """The roller's greatest offset from its slot at entry and exit, mm; at least 0."""
     L, arm = mechanism.center_distance_mm, arm_mm(mechanism, engagement)
     share = sizes["crank_radius_mm"] / arm
     most = 0.0
     for at in (engagement.entry_deg, engagement.exit_deg):
         x, y = engagement.path(at, 1)
         (px, vx), (py, vy) = x.scalars(), y.scalars()
-        # there the roller runs along the slot, whose normal this is; on a sphere to the meridian
+        # the roller runs along the slot there, which gives its normal; on a sphere the meridian's
         tx, ty = (vx, vy) if engagement.slot.height is None else (px, py)
         far = math.hypot(tx, ty)
         nx, ny = -ty / far, tx / far
@@ -137,9 +136,9 @@ def corner(
 
 
 def _on_sphere(spec: Spec, found: Ball, sizes: dict[str, float], slot: float) -> Corners:
-    """The same on a sphere, whose radius is no distance of shafts: the lock's clearance is an arc.
+    """The clearance of a sphere's lock, an arc, and the specs of its tightest and loosest machine.
 
-    The radii that deviate are from the crank's axis, L times the sine of the angle from there.
+    The radii that deviate are from the crank's axis, L times the sine of the angle from it.
     """
     given, L = spec.size, found.radius_mm
     least = _wider(found.lock, sizes["lock_radius_mm"] + sizes["recess_radius_mm"], L)
@@ -166,15 +165,15 @@ def _on_sphere(spec: Spec, found: Ball, sizes: dict[str, float], slot: float) ->
 
 
 def _wider(angle: float, by: float, L: float) -> float:
-    """The arc, mm, by which an angle from an axis grows where its radius L sin(angle) does."""
+    """The arc, mm, by which an angle from an axis grows if its radius L sin(angle) grows ``by``."""
     return L * (math.asin(min(1.0, max(-1.0, math.sin(angle) + by / L))) - angle)
 
 
 def _fails(spec: Spec) -> tuple[bool | None, str] | None:
-    """Which check of a whole turn fails; None where all pass."""
+    """The check of a whole turn that fails; None if all pass."""
     try:
-        proof = Proof(build(spec))
-        rows = list(turn_checks(proof.parts, proof.turn))
+        model = PartsModel(build(spec))
+        rows = list(turn_checks(model.parts, model.turn))
     except GenevaError as error:
         return None, f"not proved: {error}"
     for row in rows:

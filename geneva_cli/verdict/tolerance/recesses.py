@@ -10,7 +10,7 @@ from geneva_cli.curves.shapes import Arc, Contour
 from geneva_cli.parts.outlines import Outlines
 from geneva_cli.parts.sphere.shells import Shells
 
-SAME = 1e-6  # of the centre distance, or radians: radii and angles nearer to each other are one
+SAME = 1e-6  # of the centre distance, or radians: radii and angles nearer to each other are equal
 
 
 def locks(found: Outlines) -> list[Lock]:
@@ -40,7 +40,7 @@ def locks(found: Outlines) -> list[Lock]:
 
 
 def sphere_locks(found: Shells) -> list[SphereLock]:
-    """A recess with each locking sector of a spherical crank; none without one."""
+    """A recess with each locking sector of a spherical crank; empty without one."""
     ball = found.ball
     halves = {
         round(edge.sweep / SAME): 0.5 * edge.sweep

@@ -1,4 +1,4 @@
-"""The effect of one machine's tolerances on its dwell, motion, entry and clearances."""
+"""The effects of one machine's tolerances on its dwell, motion, entry and clearances."""
 
 from __future__ import annotations
 
@@ -18,13 +18,13 @@ from geneva_cli.analysis.tolerance.dimensions import (
     without_effect,
 )
 from geneva_cli.analysis.tolerance.entry_jump import entry_jumps
-from geneva_cli.analysis.tolerance.many import entry_jumps_worst
 from geneva_cli.analysis.tolerance.motion_error import Worst, motion_errors
 from geneva_cli.analysis.tolerance.random_machines import random_machines
 from geneva_cli.analysis.tolerance.spread import Spread, spread
-from geneva_cli.errors import Caution, GenevaError, cut
+from geneva_cli.analysis.tolerance.worst_effects import entry_jumps_worst
+from geneva_cli.errors import GenevaError, Notice, cut
 from geneva_cli.machine.mechanism import Mechanism
-from geneva_cli.parts.proof import Proof
+from geneva_cli.parts.model import PartsModel
 from geneva_cli.verdict.tolerance.needed import Needed, needed
 from geneva_cli.verdict.tolerance.recesses import locks, sphere_locks
 
@@ -40,26 +40,26 @@ class EntryJumps(NamedTuple):
     worst: float
     mean: float
     std: float
-    missed: float  # share of the machines whose roller misses the slot's axis
-    mouth: float  # the worst on a mouth's corner; 0 where all have room
+    missed: float  # fraction of the machines whose roller misses the slot's axis
+    mouth: float  # the worst on a mouth's corner; 0 if no roller touches one
 
 
 class Study(NamedTuple):
-    """The effects of the tolerances; None where one does not exist, as ``warnings`` say."""
+    """The effects of the tolerances; None for those that do not exist, as ``warnings`` say."""
 
     dwell: Spread | None
     motion: Spread | None
     motion_at_deg: float | None
     entry: EntryJumps | None
     clearances: Needed
-    jams: float | None  # share of the machines that do not go together
-    warnings: tuple[Caution, ...]
+    jams: float | None  # fraction of the machines that do not fit together
+    warnings: tuple[Notice, ...]
 
 
-def study(mechanism: Mechanism, proof: Proof, samples: int, seed: int) -> Study:
+def study(mechanism: Mechanism, model: PartsModel, samples: int, seed: int) -> Study:
     """The study of a machine by its ``[tolerance]``.
 
-    Raises GenevaError where there is none, or for numbers of samples and seeds out of range.
+    Raises GenevaError without tolerances, and for numbers of samples and seeds out of range.
     """
     _refuse(mechanism, samples, seed)
     given = tolerances(mechanism.spec)
@@ -67,7 +67,7 @@ def study(mechanism: Mechanism, proof: Proof, samples: int, seed: int) -> Study:
     _refuse_wide(mechanism, use)
     sizes = list(use.values())
     ends = corners(sizes)
-    found = _locks(mechanism, proof, warnings)
+    found = _locks(mechanism, model, warnings)
     lock = max(found, key=lambda one: _most(one(ends).angle.arrays()[0]), default=None)
     least_play = min((float(np.min(one(ends).angle.c[0])) for one in found), default=0.0)
     errors = [(one, *_first(one.greatest(ends))) for one in motion_errors(mechanism)]
@@ -83,7 +83,7 @@ def study(mechanism: Mechanism, proof: Proof, samples: int, seed: int) -> Study:
         dwell = spread(lambda by: lock(by).angle + by.slot_angle_deg, sizes, worst, drawn.dwell)
     else:
         warnings.append(
-            Caution(
+            Notice(
                 "not-known",
                 "dwell_position is not known: no drawn locking disc holds the wheel at rest",
             )
@@ -94,7 +94,7 @@ def study(mechanism: Mechanism, proof: Proof, samples: int, seed: int) -> Study:
         at_deg = mechanism.shown_deg(one.engagement.mid_deg + at)
     else:
         warnings.append(
-            Caution(
+            Notice(
                 "not-known",
                 "motion_play is not known: curved slots are computed for a path without errors",
             )
@@ -108,15 +108,15 @@ def study(mechanism: Mechanism, proof: Proof, samples: int, seed: int) -> Study:
         entry = EntryJumps(float(worst_jump[0]), mean, deviation, drawn.missed, mouth)
     else:
         warnings.append(
-            Caution(
+            Notice(
                 "not-known",
                 "entry_jump is not known: the law, not the path, sets how the roller enters",
             )
         )
-    clearances = needed(mechanism, proof, use, least_play)
+    clearances = needed(mechanism, model, use, least_play)
     if clearances.turns is not True:
         what = "not every machine turns" if clearances.turns is False else "not proved to turn"
-        warnings.append(Caution("not-every-machine-turns", f"{what}: {clearances.why}"))
+        warnings.append(Notice("not-every-machine-turns", f"{what}: {clearances.why}"))
     return Study(dwell, motion, at_deg, entry, clearances, drawn.jams, tuple(warnings))
 
 
@@ -135,7 +135,7 @@ def _refuse(mechanism: Mechanism, samples: int, seed: int) -> None:
 
 
 def _refuse_wide(mechanism: Mechanism, use: dict[str, float]) -> None:
-    """Raise GenevaError where some machine's roller may reach the wheel's axis or the crank's.
+    """Raise GenevaError if some machine's roller may reach the wheel's axis or the crank's.
 
     A normal distribution has tails: deviations lie within three times the plus or minus.
     """
@@ -152,31 +152,31 @@ def _refuse_wide(mechanism: Mechanism, use: dict[str, float]) -> None:
 
 def _applicable(
     mechanism: Mechanism, given: dict[str, float]
-) -> tuple[dict[str, float], list[Caution]]:
-    """The tolerances, 0 for those without effect in this machine; and why they have none."""
-    use, warnings = dict(given), list[Caution]()
+) -> tuple[dict[str, float], list[Notice]]:
+    """The tolerances, 0 for those without effect in this machine, and the reasons."""
+    use, warnings = dict(given), list[Notice]()
     why = without_effect(mechanism.spec)
     for name, reason in why.items():
         if use[name]:
             use[name] = 0.0
-            warnings.append(Caution("tolerance-left-out", f"{name} is left out: {reason}"))
+            warnings.append(Notice("tolerance-left-out", f"{name} is left out: {reason}"))
     return use, warnings
 
 
 def _locks(
-    mechanism: Mechanism, proof: Proof, warnings: list[Caution]
+    mechanism: Mechanism, model: PartsModel, warnings: list[Notice]
 ) -> Sequence[Lock | SphereLock]:
     if not mechanism.spec.has_parts:
         return []
     try:
-        return locks(proof.outlines) if mechanism.spec.wheel.FLAT else sphere_locks(proof.shells)
+        return locks(model.outlines) if mechanism.spec.wheel.FLAT else sphere_locks(model.shells)
     except GenevaError as error:
-        warnings.append(Caution("not-known", f"no parts: {error}"))
+        warnings.append(Notice("not-known", f"no parts: {error}"))
         return []
 
 
 def _first(found: Worst) -> tuple[float, float, float]:
-    """Of the one design."""
+    """The values of the single design."""
     return float(found.error[0]), float(found.at_deg[0]), float(found.side[0])
 
 

@@ -1,4 +1,4 @@
-"""A study of tolerances as ``geneva tolerance`` prints it."""
+"""The results of a study of tolerances as ``geneva tolerance`` prints them."""
 
 from __future__ import annotations
 
@@ -7,9 +7,9 @@ from typing import Any
 
 from geneva_cli.analysis.tolerance.dimensions import Deviations, tolerances
 from geneva_cli.analysis.tolerance.spread import Spread
-from geneva_cli.errors import Caution, GenevaError
+from geneva_cli.errors import GenevaError, Notice
 from geneva_cli.machine.mechanism import Mechanism
-from geneva_cli.parts.proof import Proof
+from geneva_cli.parts.model import PartsModel
 from geneva_cli.spec.rules import POSITIVE, require_mm
 from geneva_cli.table import Table, record_table, rows_table
 from geneva_cli.verdict.tolerance.study import Study, study
@@ -19,12 +19,12 @@ ARCSEC = 3600.0  # in a degree
 
 
 def tolerance_table(
-    mechanism: Mechanism, proof: Proof, samples: int, seed: int, radius_mm: float | None = None
+    mechanism: Mechanism, model: PartsModel, samples: int, seed: int, radius_mm: float | None = None
 ) -> Table:
-    """The study as a record, with micrometres at ``radius_mm``, if that is given."""
+    """The study as a record, with micrometres if ``radius_mm`` is given."""
     if radius_mm is not None:
         require_mm("--radius", radius_mm, POSITIVE)
-    found = study(mechanism, proof, samples, seed)
+    found = study(mechanism, model, samples, seed)
     spec, given, entry = mechanism.spec, mechanism.spec.size, found.entry
     locked = found.clearances.lock_mm is not None
     values: dict[str, Any] = {"spec": spec.path, "title": spec.title}
@@ -51,12 +51,12 @@ def tolerance_table(
     return record_table(values, spec.title)
 
 
-def histogram_table(mechanism: Mechanism, proof: Proof, samples: int, seed: int) -> Table:
-    """Histograms of the machines: for each angle the middles of bins, and the share in each.
+def histogram_table(mechanism: Mechanism, model: PartsModel, samples: int, seed: int) -> Table:
+    """Histograms of the machines: for each angle the middles of bins, and the fraction in each.
 
-    Raises GenevaError where neither angle is known.
+    Raises GenevaError if neither angle is known.
     """
-    found = study(mechanism, proof, samples, seed)
+    found = study(mechanism, model, samples, seed)
     known = {"dwell_position": found.dwell, "motion_play": found.motion}
     columns: dict[str, list[float]] = {}
     for name, spread in known.items():
@@ -81,18 +81,18 @@ def _angles(name: str, spread: Spread | None, radius_mm: float | None) -> dict[s
     return out
 
 
-def _unscaled(found: Study, radius_mm: float | None) -> list[Caution]:
-    """What would give the micrometres, where there are angles and no radius."""
+def _unscaled(found: Study, radius_mm: float | None) -> list[Notice]:
+    """A note on the micrometres, if there are angles and no radius."""
     known = [
         name for name, of in (("dwell_position", found.dwell), ("motion_play", found.motion)) if of
     ]
     if radius_mm is not None or not known:
         return []
-    return [Caution("not-known", f"micrometres of {' and '.join(known)}: need --radius")]
+    return [Notice("not-known", f"micrometres of {' and '.join(known)}: need --radius")]
 
 
 def _contributions(mechanism: Mechanism, found: Study) -> Table:
-    """A row a dimension that deviates: its share of the squares, and its own plus or minus."""
+    """A row for each dimension that deviates: its fraction of the squares, its plus or minus."""
     names = ("dimension", "share", "dwell_position_deg", "motion_share", "motion_play_deg")
     rows = []
     for i, name in enumerate(Deviations._fields):

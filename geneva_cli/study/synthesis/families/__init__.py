@@ -1,6 +1,6 @@
-"""The machines that may grant a wish: families, each with one number left free, or none.
+"""Families of machines that may meet a requirement, each with one free number or none.
 
-``every`` lists them. ``family`` says what one is, and what the machines of a wish have in common;
-``straight`` and ``curved`` are named after the slots; ``below``, with ``limit``, is for a peak
-acceleration and no more; ``closed`` holds what is known in closed form.
+``every`` lists them. ``family`` defines a family and what all machines of a requirement share.
+``straight`` and ``curved`` are named after the slots. ``below``, with ``limit``, is for a
+requirement on peak acceleration only. ``closed`` holds closed forms.
 """

@@ -1,7 +1,7 @@
-"""A wish for a peak acceleration alone: the plain crank, or the least change that brings it down.
+"""Families for a limit of peak acceleration alone: the plain crank, or the least change from it.
 
-A drive's parameter is the one nearest to the plain crank that does; curved slots and cams get the
-motion on which their law's peak is the limit.
+A drive's parameter is the one nearest to the plain crank that keeps the limit. Curved slots and
+cams get the motion with which their law's peak is the limit.
 """
 
 from __future__ import annotations
@@ -31,14 +31,12 @@ from geneva_cli.study.synthesis.families.straight import (
 from geneva_cli.study.synthesis.families.two_stages import two_stages
 from geneva_cli.study.synthesis.wish import Wish
 
-# velocities at which curved slots inside cannot be, where R/L is 1, and can be: R/L is 9/11
+# velocities at which curved slots inside cannot exist (R/L is 1), and can (R/L is 9/11)
 PARALLEL, QUICK = 0.5, 0.45
 
 
 def straight(wish: Wish, wheels: Sequence[Gearing], reached: list[float]) -> Iterator[Family]:
-    """The families with straight slots; peaks that are as low as a drive brings them go to
-    ``reached``.
-    """
+    """The families with straight slots; the lowest peak of each drive is added to ``reached``."""
     for wheel in wheels:
         yield from map(only, _specs(wish, wheel, reached))
         for m in rollers(wish, natural_deg(wheel)):
@@ -68,7 +66,7 @@ def _specs(wish: Wish, wheel: Gearing, reached: list[float]) -> Iterator[Spec]:
 
 
 def _driven(wish: Wish, wheel: Gearing, limit: float, reached: list[float]) -> Iterator[Spec]:
-    """The drives in front of the crank that bring a peak acceleration down, if they do."""
+    """The drives in front of the crank that reduce a peak acceleration to the limit."""
     makes: tuple[tuple[limits.Ratio, Callable[[float], Spec]], ...] = (
         (limits.side_crank, partial(side_crank, wish, wheel)),
         (limits.elliptical_gears, partial(gears, wish, wheel)),
@@ -81,7 +79,7 @@ def _driven(wish: Wish, wheel: Gearing, limit: float, reached: list[float]) -> I
 
 
 def with_laws(wish: Wish, wheels: Sequence[Gearing], reached: list[float]) -> Iterator[Family]:
-    """Curved slots, and cams, over a motion so long that the law's peak is the limit."""
+    """Curved slots and cams, with a motion so long that the law's peak is the limit."""
     yield from map(only, _with_laws(wish, wheels, reached))
 
 
@@ -101,10 +99,11 @@ def _with_laws(wish: Wish, wheels: Sequence[Gearing], reached: list[float]) -> I
 def _lines(
     wish: Wish, wheel: Gearing, law: str, reached: list[float]
 ) -> Iterator[tuple[float, Callable[[int], Spec]]]:
-    """What makes curved slots, and cams, of so many rollers, with the plain crank's motion.
+    """Makers of curved slots and cams by their number of rollers, with the plain crank's motion.
 
-    Inside, the limit's own motion may be too quick for curved slots of any R/L: they, and cams too,
-    get the plain crank's, and curved slots a longer one where that is too quick as well.
+    Inside, the limit's own motion may be too quick for curved slots of any R/L. Cams and curved
+    slots then get the plain crank's motion too, and curved slots a longer one if that is also too
+    quick.
     """
     assert wish.acceleration_max is not None
     limit = wish.acceleration_max * (1.0 - MARGIN)

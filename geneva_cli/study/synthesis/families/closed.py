@@ -1,7 +1,7 @@
-"""What makes a motion longer or shorter, in closed form: A, an eccentricity, or alpha_0.
+"""Closed forms for parameters that lengthen or shorten a motion: A, eccentricity, alpha_0.
 
-A natural motion phi_2 is the one of the plain crank, 180 deg - 2b outside and 180 deg + 2b inside;
-phi_1 is the wanted one. All angles are input angles in degrees.
+A natural motion phi_2 is that of the plain crank, 180 deg - 2b outside and 180 deg + 2b inside;
+phi_1 is the required one. All angles are input angles in degrees.
 
 Source: the law of sines in the coulisse's triangle (formula (1) of Polyudov and Kandyak,
 "Kinematics of the Maltese cross mechanism with a side-crank drive"), and the focal property of
@@ -15,13 +15,13 @@ import math
 from geneva_cli.numerics.angles import DEGREE, sin_cos_pi
 
 AXES = 1.0  # least angle between the shafts of a spherical wheel, degrees
-MOST = 0.9999  # greatest |A| and eccentricity: beyond, the drive all but stands still or jumps
+MOST = 0.9999  # greatest |A| and eccentricity: beyond, the drive nearly stops or jumps
 
 
 def side_crank(natural_deg: float, motion_deg: float) -> float:
-    """A = sin((phi_1 - phi_2)/2) / sin(phi_2/2), which rises with the motion.
+    """A = sin((phi_1 - phi_2)/2) / sin(phi_2/2), which increases with the motion.
 
-    Infinite where no A makes so long (or short) a motion.
+    Infinite if no A makes a motion of this length.
     """
     turn = 0.5 * (motion_deg - natural_deg) * DEGREE  # angle between input crank and coulisse
     if not abs(turn) < 0.5 * math.pi:
@@ -37,10 +37,10 @@ def side_crank_motion(natural_deg: float, A: float) -> float:
 def axes(z: int, motion_deg: float) -> float:
     """Angle between a spherical wheel's shafts, degrees: cos S = cot b cot(phi_1/2).
 
-    From cos(phi_1/2) = tan th / tan S with sin th = sin S sin b (th: the crank's cone). Written
-    with sin S as well, -cos(phi_1/2 + b) cos(phi_1/2 - b) being the square of
-    sin S sin b sin(phi_1/2), so that small angles keep their digits. It rises with the motion, from
-    0 for the motion of parallel shafts outside, 180 deg - 2b, to 180 for that inside.
+    It follows from cos(phi_1/2) = tan th / tan S and sin th = sin S sin b (th: the crank's cone).
+    The code uses sin S as well, so that small angles keep their digits: -cos(phi_1/2 + b)
+    cos(phi_1/2 - b) is the square of sin S sin b sin(phi_1/2). The angle increases with the motion,
+    from 0 for that of parallel shafts outside, 180 deg - 2b, to 180 for that inside.
     """
     a, (b, (_, cos_b)) = 0.5 * motion_deg * DEGREE, (math.pi / z, sin_cos_pi(1, z))
     square = -math.cos(a + b) * math.cos(a - b)
@@ -56,10 +56,10 @@ def axes_motion(z: int, axes_deg: float) -> float:
 
 
 def eccentricity(natural_deg: float, motion_deg: float) -> float:
-    """Of equal ellipses: tan(phi_1/4) = (1+e)/(1-e) tan(phi_2/4), e < 0 being the quick phase.
+    """Eccentricity of equal ellipses: tan(phi_1/4) = (1+e)/(1-e) tan(phi_2/4).
 
-    Solved for e: sin((phi_1 - phi_2)/4) / sin((phi_1 + phi_2)/4), which holds for phi_2 above 180
-    as well.
+    It is negative in the quick phase. Solved for e: sin((phi_1 - phi_2)/4) / sin((phi_1 +
+    phi_2)/4), which holds for phi_2 above 180 too.
     """
     quarter = 0.25 * DEGREE
     return math.sin((motion_deg - natural_deg) * quarter) / math.sin(
@@ -68,23 +68,23 @@ def eccentricity(natural_deg: float, motion_deg: float) -> float:
 
 
 def gears_motion(natural_deg: float, e: float) -> float:
-    """The motion that equal ellipses make."""
+    """The motion that equal ellipses make, degrees."""
     tangent = (1.0 + e) / (1.0 - e) * math.tan(0.25 * natural_deg * DEGREE)
     return 4.0 * math.atan(tangent) / DEGREE
 
 
 def phased(e: float) -> tuple[float, str]:
-    """A signed eccentricity as the spec has it."""
+    """A signed eccentricity as the keys of a spec: its size and its phase."""
     return abs(e), "quick" if e < 0.0 else "slow"
 
 
 def law_motion_deg(step: float, C_a: float, acceleration: float) -> float:
-    """The motion on which a law reaches a given peak: step C_a / phi_1² (step in radians)."""
+    """The motion with which a law has a given peak: step C_a / phi_1² (step in radians)."""
     return math.sqrt(step * C_a / acceleration) / DEGREE
 
 
 def shortest(low: float, high: float) -> float:
-    """The number of fewest digits near the middle of an interval; 0 where that lies in it."""
+    """The number of fewest digits near the middle of an interval; 0 if that lies in it."""
     if low <= 0.0 <= high:
         return 0.0
     middle = 0.5 * (low + high)
@@ -98,7 +98,7 @@ def shortest(low: float, high: float) -> float:
 def sector_deg(z: int, b: float) -> float:
     """The crank angle that gears drive between slots of half angle b: D = (2 pi/z - 2b)/u.
 
-    For u = l/(1-l), l = sin b, at which they take over without a jump.
+    Here u = l/(1-l) and l = sin b, with which the gears take over without a jump.
     """
     short = 2.0 * math.sin(0.5 * (0.5 * math.pi - b)) ** 2  # 1 - l
     l = math.sin(b)

@@ -1,15 +1,15 @@
-"""The point of a coupler that drives a wheel for a given motion, in closed form.
+"""The point of a coupler that drives a wheel with a given motion, in closed form.
 
-A four-bar, the crank's angles at entry and exit, and the wheel's index angle 2b are given; sought
-is the roller's place w on the coupler, a complex number along it and aside. With the crank's pin A
-and the coupler's unit vector e the roller is at P = A + w e, and moves with V = A' + w e'. It
-enters and leaves slots of a wheel of sense s where the tangent has turned by pi - 2b against the
-wheel, and the chord stands half-way between both tangents:
+Given are a four-bar, the crank's angles at entry and exit, and the wheel's index angle 2b. Sought
+is the roller's place w on the coupler: a complex number, along it and across. With the crank's pin
+A and the coupler's unit vector e, the roller is at P = A + w e, and its velocity is V = A' + w e'.
+Between entry and exit of slots of a wheel of sense s, the tangent has turned by pi - 2b relative to
+the wheel. The chord is half-way between both tangents:
 
     Im(V2 V1* exp(i s (pi - 2b))) = 0 ,    Im((P2 - P1) V1* exp(i s (pi - 2b)/2)) = 0 .
 
-In the plane of w both are circles. They meet where the roller rests at entry, V1 = 0, which is no
-answer, and in one more point.
+In the plane of w both are circles. One intersection is where the roller rests at entry, V1 = 0,
+which is no solution; the other one is the solution.
 """
 
 from __future__ import annotations
@@ -24,9 +24,9 @@ from geneva_cli.numerics.jet import Jet, atan2, sin_cos, sqrt
 if TYPE_CHECKING:
     from geneva_cli.numerics.arrays import Array, Complex, Mask, Number, Whole
 
-BACK = 2  # places of the way back for one of the motion
-HALF_WALL = 1.0 / 400.0  # of the centre distance: half of what must stand between two slots
-TOUCH = 1e-6  # of a mouth's distance: a roller that leaves its slot stands this near to it
+BACK = 2  # samples of the way back for one of the motion
+HALF_WALL = 1.0 / 400.0  # fraction of the centre distance: half of the least wall between two slots
+TOUCH = 1e-6  # fraction of a mouth's distance: a roller that leaves its slot is this near to it
 
 
 class FourBarLinks(NamedTuple):
@@ -43,16 +43,14 @@ class FourBarLinks(NamedTuple):
 
 
 class Linked(NamedTuple):
-    """The crank's pin and the coupler's unit vector as complex numbers, with their derivatives
-    over the factorials (Taylor coefficients).
-    """
+    """The crank's pin and the coupler's unit vector as complex Taylor coefficients."""
 
     pin: list[Complex]
     along: list[Complex]
 
 
 class CouplerDrive(NamedTuple):
-    """What drives the wheel: entry and motion in radians, the wheel's sense, the roller's place."""
+    """The wheel's drive: entry and motion in radians, the wheel's sense, the roller's place."""
 
     entry: Array
     motion: Array
@@ -65,20 +63,21 @@ class CouplerDrive(NamedTuple):
 
 
 class Judged(NamedTuple):
-    """What becomes of wheels that are driven and let the roller pass on its way back: the numbers
-    ``which`` of these, (m,), derivatives of their angles by the input angle at places of the
-    motion, (m, places) each, the centre distance, and how far from the crank's axis a joint or the
-    roller comes, (m,) each.
+    """Wheels that are driven and let the roller pass on its way back.
+
+    ``which`` are their numbers, (m,). ``derivatives`` are those of their angles by the input angle
+    at places of the motion, (m, places) each. ``distance`` is the centre distance; ``reach`` is the
+    greatest distance of a joint or the roller from the crank's axis, (m,) each.
     """
 
     which: Whole
-    derivatives: list[Array]  # the angle itself, velocity, acceleration, and jerk where asked for
+    derivatives: list[Array]  # the angle itself, velocity, acceleration, and jerk if requested
     distance: Array
     reach: Array
 
 
 def linked(links: FourBarLinks, phi: Array, order: int) -> Linked:
-    """The linkage for crank angles in radians: as ``CouplerPath`` says it."""
+    """The linkage at crank angles in radians, as in ``CouplerPath``."""
     a, g, b, c = links
     sine, cosine = sin_cos(Jet.variable(phi, order))
     dx, dy = g - cosine * a, sine * -a
@@ -101,8 +100,9 @@ def _complex(x: Jet, y: Jet) -> list[Complex]:
 def driving(
     links: FourBarLinks, entry: Array, motion: Array, b: Number, sense: Array
 ) -> CouplerDrive:
-    """The roller's place that makes the motion, (n, 1); not a number where there is none, or where
-    the chord does not run from entry to exit.
+    """The roller's place that makes the motion, (n, 1).
+
+    NaN if there is none, or if the chord does not run from entry to exit.
     """
     one, two = (linked(links, phi, 1) for phi in (entry, entry + motion))
     turn = np.exp(1j * sense * (0.5 * math.pi - b))
@@ -130,9 +130,10 @@ def driving(
 def judged(
     links: FourBarLinks, drive: CouplerDrive, b: Array, roller: Array, order: int, places: int
 ) -> Judged:
-    """What becomes of the wheels, looked at in so many places of the motion and of the way back,
-    for a roller of that share of the centre distance, and derivatives up to that order. Half the
-    step and the roller are (n, 1).
+    """The wheels that pass the test at samples of the motion and of the way back.
+
+    ``b`` is half the step and ``roller`` the roller's radius over the centre distance, (n, 1) each.
+    ``order`` is that of the derivatives.
     """
     entry, motion, sense, w = drive
     way = linked(links, entry + motion * (np.arange(places + 1) / places), order)
@@ -146,7 +147,7 @@ def judged(
     drives = (turning[:, 1:-1] * sense > 0.0).all(axis=1) & (near[:, 1:-1] < rho).all(axis=1)
     drives &= (near.min(axis=1, keepdims=True) * np.sin(b) >= (roller + HALF_WALL) * L)[:, 0]
     which = np.flatnonzero(drives)
-    # only of these the way back is looked at
+    # the way back is tested for these only
     links, (entry, motion, sense, w) = links.taken(which), drive.taken(which)
     away = np.arange(1, BACK * places) / (BACK * places)
     rest = linked(links, entry + motion + (math.tau - motion) * away, 0)
@@ -164,11 +165,11 @@ def judged(
 
 
 def _passes(place: Complex, r: Array, b: Number) -> Mask:
-    """Whether a roller passes the wheel at rest without a touch.
+    """Masks of the rollers that pass the wheel at rest without touching it.
 
     Lengths are over the distance of the slots' mouths from the wheel's axis, and a slot points
     along the real axis. The wheel ends at hypot(1, r), where slots as wide as the roller leave
-    corners at (1, r): beside a slot the rim is nearest, before it a corner.
+    corners at (1, r). Next to a slot the rim is nearest; in front of it, a corner is.
     """
     d, angle = np.abs(place), np.abs((np.angle(place) + b) % (2.0 * b) - b)
     along, aside, rim = d * np.cos(angle), d * np.sin(angle), np.hypot(1.0, r)

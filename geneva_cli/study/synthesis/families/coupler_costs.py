@@ -1,4 +1,4 @@
-"""Quantities of four-bars that are searched for, from places of their motions."""
+"""Quantities of four-bars in a search, from samples of their motions."""
 
 from __future__ import annotations
 
@@ -17,14 +17,12 @@ if TYPE_CHECKING:
 
 ORDERS = {"velocity": 1, "acceleration": 2, "power": 2, "jerk": 3}
 UNITS = {f"{told}_{unit}": power for power, unit in RATES.values() for told in ("max", "entry")}
-ENDS = {"entry": 0, "exit": -1}  # at which place of the motion
-SPARE = 1e-4  # share by which bounds are kept, for what lies between the places
+ENDS = {"entry": 0, "exit": -1}  # index of the sample at each end of the motion
+SPARE = 1e-4  # margin to the bounds, relative, for errors between samples
 
 
 class Costs(NamedTuple):
-    """Of n machines the derivatives at places of the motion, (n, places), and the steps and the
-    motion angles, degrees, (n,).
-    """
+    """Samples of n motions: derivatives (n, places), steps and motion angles, degrees, (n,)."""
 
     wish: Wish
     index_deg: Array
@@ -32,7 +30,7 @@ class Costs(NamedTuple):
     motion_deg: Array
 
     def of(self, name: str) -> Array:
-        """A quantity that ``is_known`` knows, (n,)."""
+        """A quantity for which ``is_known`` is true, (n,)."""
         group, _, told = name.partition(".")
         if group == "timing":
             dwell = 360.0 - self.motion_deg
@@ -48,7 +46,7 @@ class Costs(NamedTuple):
         return size
 
     def broken(self, bounds: tuple[Constraint, ...]) -> Array:
-        """By how much bounds are broken together, over their sizes, (n,)."""
+        """The sum of the relative violations of the bounds, (n,)."""
         total = np.zeros(len(self.motion_deg))
         for b in bounds:
             exact = b.name.startswith("timing.")
@@ -62,7 +60,7 @@ class Costs(NamedTuple):
 
 
 def is_known(name: str) -> bool:
-    """Whether the search knows a quantity."""
+    """Return True if the search can compute a quantity."""
     group, _, told = name.partition(".")
     if group == "timing":
         return told in Timing._fields
@@ -72,17 +70,17 @@ def is_known(name: str) -> bool:
 
 
 def _end(told: str) -> int | None:
-    """The place of the motion at which a quantity is meant; None for its greatest."""
+    """The sample at which a quantity is taken; None for its greatest value."""
     return ENDS.get(told.partition("_")[0])
 
 
 def order(names: tuple[str, ...]) -> int:
-    """How many derivatives these quantities need, at least the acceleration."""
+    """The order of derivatives that these quantities need, at least that of the acceleration."""
     return max([2, *(ORDERS.get(name.partition(".")[0], 0) for name in names)])
 
 
 def top(values: Array) -> Array:
-    """The greatest of each row, that of the parabola through it and those beside it."""
+    """The greatest of each row, from the parabola through it and its neighbours."""
     rows = np.arange(len(values))
     at = np.clip(values.argmax(axis=1), 1, values.shape[1] - 2)
     low, middle, high = (values[rows, at + i] for i in (-1, 0, 1))

@@ -1,6 +1,6 @@
-"""Curved slots, and a cam along the crank: a law gives the motion, with an extra dwell alpha_0.
+"""Curved slots and cams along the crank: a law gives the motion, with an extra dwell alpha_0.
 
-Both take as many rollers as the plain wheel, and more for as long as their parts can be built.
+Both take as many rollers as the plain wheel, and more as long as their parts can be built.
 """
 
 from __future__ import annotations
@@ -35,18 +35,20 @@ from geneva_cli.study.synthesis.parts import nothing_in_the_way
 from geneva_cli.study.synthesis.spans import Interval
 from geneva_cli.study.synthesis.wish import Wish
 
-ROUNDING = 2e-15  # share of the natural motion: what a difference of two angles may be off by
+ROUNDING = 2e-15  # fraction of the natural motion: the rounding of a difference of two angles
 
 
 @cache
 def standard(law: str) -> Law:
-    """A law by its name."""
+    """A law by its name, with standard parameters."""
     return registry.law(law)()
 
 
 def with_laws(wish: Wish, wheels: Sequence[Gearing]) -> Iterator[Family]:
-    """Curved slots, and cams, with each law: of a range the longest motion, which is the gentlest,
-    and the plain crank's own; where the wish has bounds, or something else is to be least, any.
+    """Curved slots and cams with each law.
+
+    In a range of motions the longest is the gentlest, and the plain crank's own is added. With
+    bounds or another goal, every motion of the range is possible.
     """
     lines = [
         line
@@ -61,15 +63,16 @@ def with_laws(wish: Wish, wheels: Sequence[Gearing]) -> Iterator[Family]:
 
 
 def _lines(wish: Wish, wheel: Gearing, law: str) -> tuple[_Line, _Line]:
-    """Curved slots of a wheel and a law, and cams."""
+    """Curved slots, and cams, of a wheel and a law."""
     natural, until = natural_deg(wheel), partial(_until_parallel, wheel)
     make, grooved = partial(curved, wish, wheel, law), partial(cam, wish, wheel, law)
     return _Line(wish, natural, make, lambda motion: motion), _Line(wish, natural, grooved, until)
 
 
 class _Line(NamedTuple):
-    """Machines of one wheel and law: ``make`` makes that of so many rollers and such a motion,
-    and ``reached`` says which motions of a span there are.
+    """Machines of one wheel and law: ``make`` takes the number of rollers and the motion.
+
+    ``reached`` limits a range of motions to those that exist.
     """
 
     wish: Wish
@@ -78,7 +81,7 @@ class _Line(NamedTuple):
     reached: Callable[[Interval], Interval]
 
     def families(self, more: Sequence[Spec]) -> Iterator[Family]:
-        """The families, also those of ``more`` rollers than the plain wheel takes."""
+        """The families, including those with ``more`` rollers than the plain wheel takes."""
         for m in rollers(self.wish, self.natural):
             free = self._motions(m)
             if free is None:
@@ -93,7 +96,7 @@ class _Line(NamedTuple):
             yield self._free(m, self._motions(m) or Interval(self.natural, self.natural))
 
     def some(self, m: int) -> list[Spec]:
-        """The gentlest machine of m rollers, and of a range some others."""
+        """The gentlest machine of m rollers and, in a range, some others."""
         free = self._motions(m)
         if not free:
             return []
@@ -105,13 +108,13 @@ class _Line(NamedTuple):
         return self.reached(asked) if asked else None
 
     def _free(self, m: int, motion: Interval) -> Family:
-        """The machines of some motions, of which that of the longest is the gentlest."""
+        """The machines of a range of motions, the longest of which is the gentlest."""
         best = math.nan if self.wish.bounds or self.wish.sort else motion.high
         return Family(partial(self.make, m), *motion, plain=self.natural, best=best)
 
 
 def _until_parallel(wheel: Gearing, motion: Interval) -> Interval:
-    """Of a range the motions after which crank and slot are not yet parallel, where there are."""
+    """The range up to the motion at which crank and slot would be parallel."""
     parallel = (1.0 - SHORTEST) * (360.0 - wheel.SIGN * 360.0 / wheel.z)
     inside = not motion.exact and motion.low < parallel
     return Interval(motion.low, min(motion.high, parallel)) if inside else motion
@@ -120,10 +123,10 @@ def _until_parallel(wheel: Gearing, motion: Interval) -> Interval:
 def more_rollers(
     wish: Wish, lines: Sequence[tuple[float, Callable[[int], Sequence[Spec]]]]
 ) -> list[list[Spec]]:
-    """More rollers than the plain wheel takes, of each line while parts can be built.
+    """More rollers than the plain wheel takes, for each line as long as parts can be built.
 
-    A line is the plain crank's motion angle, degrees, and what makes machines of m rollers, of
-    which the first is taken if any may be built.
+    A line is the plain crank's motion angle, degrees, and a maker of machines with m rollers. The
+    first of these is taken if any may be built.
     """
     found: list[list[Spec]] = [[] for _ in lines]
     if wish.rollers is not None:
@@ -150,7 +153,7 @@ def curved(wish: Wish, wheel: Gearing, law: str, m: int, motion: float) -> Spec:
 
 
 def cam(wish: Wish, wheel: Gearing, law: str, m: int, motion: float) -> Spec:
-    """The same law with straight slots, made by a groove along the crank."""
+    """A cam: straight slots with the law's motion, made by a groove along the crank."""
     given = Motion(standard(law), alpha0_deg=_alpha0(wish, wheel, motion))
     return machine(wish, wheel, lambda n: Cam(n_rpm=n, rollers=m), m, motion, given)
 

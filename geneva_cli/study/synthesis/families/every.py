@@ -1,7 +1,7 @@
-"""The families that may grant a wish, for every number of slots, gearing and number of rollers.
+"""All families that may meet a requirement, for all numbers of slots, gearings and rollers.
 
-Where the wish is one motion angle, a family's free number follows in closed form. Where it is a
-range, the family's best is taken: what that is, is ``best``'s to say.
+If one motion angle is required, a family's free number has a closed form. If a range is required,
+``best`` chooses the family's best machine.
 """
 
 from __future__ import annotations
@@ -19,15 +19,12 @@ from geneva_cli.study.synthesis.families.straight import straight
 from geneva_cli.study.synthesis.families.two_numbers import two_numbers
 from geneva_cli.study.synthesis.wish import Wish
 
-# Of a wish for a peak acceleration alone, peaks that are as low as a drive brings them are added to
-# the list.
+# For a limit of peak acceleration alone, the lowest peak of each drive is added to the list.
 Kind: TypeAlias = Callable[[Wish, Sequence[Gearing], list[float]], Iterator[Family]]
 
 
 def kinds(wish: Wish) -> list[tuple[Kind, Wish]]:
-    """What may grant a wish, in parts that do not know each other: four-bars of all wheels, and of
-    each gearing straight slots and each law.
-    """
+    """Independent kinds of machines: all four-bars; straight slots, and laws, of each gearing."""
     first, last = (
         (below.straight, below.with_laws) if wish.only_acceleration else (_straight, _laws)
     )
@@ -40,8 +37,9 @@ def kinds(wish: Wish) -> list[tuple[Kind, Wish]]:
 
 
 def longest_first(wish: Wish) -> list[int]:
-    """The numbers of these parts in the order in which two processes are done with them soonest:
-    four-bars, the laws of the first gearing, and what takes least at last.
+    """The numbers of the kinds in the order in which two processes finish them soonest.
+
+    Four-bars come first, then the laws of the first gearing; the fastest come last.
     """
     wheels, laws = len(wish.gearings), len(wish.laws)
     straight = [1, *range(wheels, 1, -1)]
@@ -51,7 +49,7 @@ def longest_first(wish: Wish) -> list[int]:
 
 
 def families(kind: Kind, wish: Wish, reached: list[float]) -> Iterator[Family]:
-    """The families of one of these that may grant a wish."""
+    """The families of one kind that may meet the requirement."""
     wheels = [registry.gearing(gearing)(z) for gearing in wish.gearings for z in wish.z]
     yield from kind(wish, wheels, reached)
 

@@ -18,19 +18,20 @@ from geneva_cli.machine.wheels.gearing import Gearing
 from geneva_cli.study.synthesis.spans import Interval
 from geneva_cli.study.synthesis.wish import Wish
 
-EXACT = 1e-6  # share of the motion angle by which the plain crank may miss the wish
-SHORTEST = 0.01  # share of a turn over m that an open end of a wish leaves to motion and to dwell
+EXACT = 1e-6  # fraction of the motion angle by which the plain crank may miss the required one
+# fraction of a turn over m that an open end of a range leaves to motion and to dwell
+SHORTEST = 0.01
 PIECES = 8  # of a family, each with a best machine of its own
-BARE = Spec(registry.gearing("external")(3))  # the tables of a machine that has no frame
+BARE = Spec(registry.gearing("external")(3))  # the tables of a machine without a frame
 
 
 class Family(NamedTuple):
-    """Machines that differ in one number x from ``low`` to ``high``: ``make(x)`` is one's spec. Or
-    ``several`` machines, x being their numbers from 0 on.
+    """Machines that differ in one number x from ``low`` to ``high``, or a list of machines.
 
-    At ``plain`` it moves as the plain crank does; at ``known`` it is a machine of another family
-    that grants the wish; at ``best`` it is the best, where that is plain. All may be none. Of more
-    than one machine ``make`` can be handed to another process.
+    ``make(x)`` is the spec of one; it can be passed to another process. With ``several`` machines,
+    x is their number from 0 on. At ``plain`` the machine moves as the plain crank does. At
+    ``known`` it is a machine of another family that meets the requirement. At ``best`` it is the
+    best, if that is known. Each may be NaN.
     """
 
     make: Callable[[float], Spec | None]
@@ -40,22 +41,22 @@ class Family(NamedTuple):
     plain: float = math.nan
     best: float = math.nan
     several: int = 0
-    ends: tuple[float, float] | None = None  # of the whole family, of which it is a piece
+    ends: tuple[float, float] | None = None  # of the whole family, if this is a piece of it
 
     @property
     def is_free(self) -> bool:
-        """Whether it has more than one machine."""
+        """Return True if the family has more than one machine."""
         return self.low < self.high
 
     def at(self, x: float) -> Spec | None:
-        """The machine at a place, if there is one."""
+        """The machine at a place; None if it cannot be built."""
         try:
             return self.make(x)
         except GenevaError:
             return None
 
     def places(self, parts: int) -> list[float]:
-        """Places in order, evenly so many parts apart, the plain crank's too; all of a number."""
+        """Places in order, in equal steps and the plain crank's; or all numbers of a list."""
         if self.several:
             return [float(i) for i in range(self.several)]
         places = [self.low + (self.high - self.low) * k / parts for k in range(parts)]
@@ -64,14 +65,15 @@ class Family(NamedTuple):
 
     @property
     def whole(self) -> Family:
-        """The family that it is a piece of, or itself."""
+        """The family that this is a piece of, or itself."""
         low, high = self.ends or (self.low, self.high)
         return self._replace(low=low, high=high, ends=None)
 
 
 def pieces(families: Sequence[Family], most: int) -> list[Family]:
-    """The families, each with a free number cut into so many of even spans that there are about
-    ``most``, and no more than ``PIECES`` each.
+    """The families, with free ones divided into equal pieces, about ``most`` in all.
+
+    No family has more than ``PIECES``.
     """
     free = sum(f.is_free for f in families)
     count = max(1, min(PIECES, most // max(free, 1)))
@@ -100,10 +102,10 @@ def machine(
     motion_deg: float,
     motion: Motion | None = None,
 ) -> Spec:
-    """A machine with the sizes, loads and limits of the wish's frame.
+    """A machine with the sizes, loads and limits of the requirement's frame.
 
-    ``drive`` makes its drive for an input speed, which is the one that m motions of so many degrees
-    leave of the wish.
+    ``drive`` makes the drive for an input speed, which follows from the requirement for m motions
+    of ``motion_deg`` in a turn.
     """
     own = wish.frame or BARE
     found = drive(wish.n_rpm(m, motion_deg))
@@ -111,7 +113,7 @@ def machine(
 
 
 def can_be(spec: Spec) -> bool:
-    """Whether a drive goes with its wheel."""
+    """Return True if a drive is compatible with its wheel."""
     try:
         refuse_conflicts(spec)
     except GenevaError:
@@ -120,12 +122,12 @@ def can_be(spec: Spec) -> bool:
 
 
 def natural_deg(wheel: Gearing) -> float:
-    """The plain crank's motion angle."""
+    """The motion angle of the plain crank."""
     return 2.0 * wheel.half_motion_deg(wheel.step)
 
 
 def wanted(wish: Wish, m: float, natural: float) -> Interval:
-    """The motion angles for m motions in a turn; without a wish any, or the plain crank's own."""
+    """The allowed motion angles for m motions in a turn: required, any, or the plain one."""
     found = wish.motion_for(m)
     if found is None:
         return Interval(0.0, 360.0 / m) if wish.any_motion else Interval(natural, natural)
@@ -133,13 +135,13 @@ def wanted(wish: Wish, m: float, natural: float) -> Interval:
 
 
 def holds(motion: Interval, natural: float) -> bool:
-    """Whether a motion angle is wished for, but for what the plain crank may miss it by."""
+    """Return True if a motion angle is allowed, within the tolerance of the plain crank."""
     slack = EXACT * natural
     return motion.low - slack <= natural <= motion.high + slack
 
 
 def closed_span(motion: Interval, m: int) -> Interval | None:
-    """A wished span of which an open end is taken near its limit; None where nothing is in it."""
+    """The range with open ends replaced by values near their limits; None if it is empty."""
     whole = 360.0 / m
     low = motion.low if motion.low > 0.0 else SHORTEST * whole
     high = motion.high if motion.high < whole else (1.0 - SHORTEST) * whole
@@ -149,7 +151,7 @@ def closed_span(motion: Interval, m: int) -> Interval | None:
 
 
 def rollers(wish: Wish, natural: float) -> range:
-    """The numbers of rollers to look at: as many as the straight slots take, or those asked for."""
+    """The numbers of rollers to try: those that straight slots allow, or the required one."""
     if wish.rollers is not None:
         return range(wish.rollers, wish.rollers + 1)
     return range(1, rollers_max(natural) + 1)

@@ -1,7 +1,7 @@
-"""The search of four-bars: proportions, the crank's angle at entry, and in a range the motion.
+"""The search of four-bars: proportions, the crank's angle at entry and, in a range, the motion.
 
-Of several wheels at once, each for itself. First at places of a unit cube that are spread evenly,
-the same in every run; then nearer and nearer about the best.
+All wheels of a requirement are searched as a batch. The first samples are spread evenly in a unit
+cube, equal in every run. The next ones are ever closer to the best.
 """
 
 from __future__ import annotations
@@ -21,22 +21,23 @@ from geneva_cli.study.synthesis.wish import Wish
 if TYPE_CHECKING:
     from geneva_cli.numerics.arrays import Array, Whole
 
-SAMPLES = 6000  # four-bars that are looked at for all wheels of a wish together
+SAMPLES = 6000  # four-bars that are sampled for all wheels of a requirement in total
 FEWEST, MOST = 256, 2048  # and for one wheel
-PROPORTIONS = 4.0  # coupler and rocker over the ground link, at most, and at least its inverse
-CRANK = (0.05, 0.97)  # shares of the longest crank that turns all round
-LOOKS, FEW, MANY = 300, 14, 60  # nearer looks for all wheels together, and for one
-PARENTS, CHILDREN = 4, 12  # the best, and places about each, of a nearer look
-WIDEST, NARROWEST = 0.3, 3e-3  # the first look, of a side of the cube, and the last one over it
-COARSE, FINE = 16, 96  # places of a motion that are looked at
-WIDER = 1.15  # times the roller for which there is room at the coarse places
-OTHERS = 6  # that are offered where a bound or an order is on what this does not know
+PROPORTIONS = 4.0  # greatest ratio of coupler and rocker to the ground link, and of its inverse
+CRANK = (0.05, 0.97)  # fractions of the longest crank that turns fully
+LOOKS, FEW, MANY = 300, 14, 60  # closer samplings for all wheels in total, and for one
+PARENTS, CHILDREN = 4, 12  # the best places, and samples near each, of a closer sampling
+# fractions of the cube's side: the first such sampling, and the last one
+WIDEST, NARROWEST = 0.3, 3e-3
+COARSE, FINE = 16, 96  # sampled places of a motion
+WIDER = 1.15  # ratio of the required roller to the one in coarse samples
+OTHERS = 6  # further results if a bound or the goal is not computed here
 FINEST = PARENTS + OTHERS
-DIMENSIONS = 5  # of what is searched: two proportions, crank, angle, and the motion of a range
+DIMENSIONS = 5  # of the search: two proportions, crank, angle, and the motion in a range
 
 
 class Goal(NamedTuple):
-    """What is searched for: bounds to keep, and what is to be the least (``sign`` -1: greatest)."""
+    """The goal of the search: bounds, and a quantity to minimise (``sign`` -1: maximise)."""
 
     wish: Wish
     wheels: tuple[WheelGoal, ...]
@@ -46,9 +47,7 @@ class Goal(NamedTuple):
 
 
 class WheelGoal(NamedTuple):
-    """A wheel, the motions that it may have, and the roller that must have room, over the centre
-    distance.
-    """
+    """A wheel, its allowed motions, and the least roller as a fraction of the centre distance."""
 
     wheel: Gearing
     motion: Interval
@@ -56,18 +55,18 @@ class WheelGoal(NamedTuple):
 
 
 class Pool(NamedTuple):
-    """Places in the unit cube, and what becomes of them."""
+    """Places in the unit cube, and their linkages and costs."""
 
-    of: Whole  # (n,), the number of the wheel
+    of: Whole  # the number of the wheel, (n,)
     unit: Array  # (n, DIMENSIONS)
     links: FourBarLinks
     drive: CouplerDrive
-    broken: Array  # by how much the bounds are; infinite where there is no machine
-    cost: Array  # what is to be the least
+    broken: Array  # violation of the bounds; infinite without a machine
+    cost: Array  # the quantity to minimise
     distance: Array
 
     def best(self, count: int) -> Pool:
-        """The best of each wheel, of those that are machines."""
+        """The best places of each wheel that are machines."""
         order = np.lexsort((self.cost, self.broken, self.of))
         of = self.of[order]
         place = np.arange(len(of)) - np.searchsorted(of, of)
@@ -79,7 +78,7 @@ class Pool(NamedTuple):
 
 
 def searched(goal: Goal) -> list[Pool]:
-    """Of each wheel those that keep the bounds, the best first."""
+    """For each wheel the four-bars that keep the bounds, the best first."""
     wheels, asked = len(goal.wheels), len(goal.wish.z)
     count = min(max(SAMPLES // asked, FEWEST), MOST)
     looks = min(max(LOOKS // asked, FEW), MANY)
@@ -95,7 +94,7 @@ def searched(goal: Goal) -> list[Pool]:
             of, sense = (np.repeat(x, CHILDREN) for x in (found.of, found.drive.sense[:, 0]))
             found = _joined(found, _pool(goal, of, _inside(unit), sense, COARSE)).best(PARENTS)
             width *= NARROWEST ** (1.0 / looks)
-        # those that what lies between the places spares
+        # fine samples remove those that fail between the coarse ones
         several = _joined(found, first)
         sense = several.drive.sense[:, 0]
         fine = _pool(goal, several.of, several.unit, sense, FINE).best(FINEST)
@@ -104,8 +103,9 @@ def searched(goal: Goal) -> list[Pool]:
 
 
 def _spread(count: int, start: int = 0) -> Array:
-    """Points of the unit cube, spread evenly (Roberts' sequence: multiples of the powers of g,
-    g^6 = g + 1).
+    """Points spread evenly in the unit cube: Roberts' sequence, multiples of the powers of g.
+
+    g^6 = g + 1.
     """
     g = 1.1347241384015194
     powers = g ** -np.arange(1.0, 6.0)
@@ -116,14 +116,14 @@ def _spread(count: int, start: int = 0) -> Array:
 
 
 def _inside(unit: Array) -> Array:
-    """The angle goes round; what is beyond the other sides is at them."""
+    """Places with the angle wrapped and the other coordinates clipped to the cube."""
     inside = np.clip(unit, 0.0, 1.0)
     inside[:, 3] = unit[:, 3] % 1.0
     return inside
 
 
 def _pool(goal: Goal, of: Whole, unit: Array, sense: Array, places: int) -> Pool:
-    """The machines at places of the cube, with wheels by their numbers and of some sense."""
+    """The machines at places of the cube, for wheels by their numbers and senses."""
     half, low, high, room, slots = (row[of][:, None] for row in _rows(goal))
     u = unit.T[:, :, None]
     g = np.ones(u[0].shape)
@@ -136,7 +136,8 @@ def _pool(goal: Goal, of: Whole, unit: Array, sense: Array, places: int) -> Pool
     share = np.clip(1.5 * u[4] - 0.25, 0.0, 1.0)
     degrees = low + (high - low) * share
     drive = driving(links, math.tau * u[3], np.radians(degrees), half, sense[:, None])
-    at = np.flatnonzero((longest > 0.0) & np.isfinite(drive.w))  # what else is seen of few places
+    # the further tests run on few places
+    at = np.flatnonzero((longest > 0.0) & np.isfinite(drive.w))
     links, drive = links.taken(at), drive.taken(at)
     roller = room[at] * (WIDER if places < FINE else 1.0)
     names = (goal.least, *(bound.name for bound in goal.bounds))
@@ -151,7 +152,7 @@ def _pool(goal: Goal, of: Whole, unit: Array, sense: Array, places: int) -> Pool
 
 
 def _rows(goal: Goal) -> list[Array]:
-    """Half the step, the ends of the motions, the roller and the number of slots of each wheel."""
+    """Columns with half the step, the motion's ends, the roller and the slots of each wheel."""
     rows = [
         (task.wheel.step.b, *task.motion, task.roller, float(task.wheel.z)) for task in goal.wheels
     ]
@@ -159,7 +160,7 @@ def _rows(goal: Goal) -> list[Array]:
 
 
 def _joined(*pools: Any) -> Any:
-    """Several pools, or parts of them, one after the other."""
+    """Several pools, or parts of them, joined into one."""
     if isinstance(pools[0], tuple):
         return type(pools[0])(*map(_joined, *pools))
     return np.concatenate(pools)

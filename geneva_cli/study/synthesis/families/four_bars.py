@@ -1,8 +1,8 @@
-"""Four-bars whose coupler carries the roller: for every wheel the best over their proportions.
+"""Four-bars whose coupler carries the roller: for every wheel the one of the best proportions.
 
-The crank turns all round (Grashof), no joint goes farther from its axis than the wish allows, and a
-roller as large as most passes the wheel on its way back. For every four-bar and every crank angle
-at entry ``coupler`` knows the point that makes the motion; the rest is ``four_bar_search``.
+The crank turns fully (Grashof), no joint is farther from its axis than allowed, and a roller of
+usual size passes the wheel on its way back. For every four-bar and crank angle at entry,
+``coupler`` gives the point that makes the motion; ``four_bar_search`` does the rest.
 """
 
 from __future__ import annotations
@@ -45,16 +45,18 @@ from geneva_cli.study.synthesis.families.four_bar_search import (
 from geneva_cli.study.synthesis.spans import Interval
 from geneva_cli.study.synthesis.wish import Wish
 
-ROLLER = 0.025  # of the centre distance: the roller that has room, half the usual one,
-THIN = 1.0 / 3.0  # but no more than this share of sin b, which is the crank of a plain wheel
+# fraction of the centre distance: radius of the roller that must fit, half the usual one,
+ROLLER = 0.025
+THIN = 1.0 / 3.0  # but at most this fraction of sin b, which is the crank of a plain wheel
 LINKS = ("crank_mm", "ground_mm", "coupler_mm", "rocker_mm")
-EXACT = 2e-13  # share of a motion by which it may differ from the one wished for
-TRIED = 4  # times that rounding is mended
+EXACT = 2e-13  # fraction of a motion by which it may differ from the required one
+TRIED = 4  # corrections of rounding
 
 
 def four_bars(wish: Wish, wheels: Sequence[Gearing]) -> Iterator[Family]:
-    """The best four-bar of each wheel; some others as well, where the search does not know what is
-    to be least, or what is bounded.
+    """The best four-bar of each wheel, and some others.
+
+    Others are added if the search cannot compute the goal or a bound.
     """
     if wish.rollers not in (None, 1):
         return
@@ -70,7 +72,7 @@ def four_bars(wish: Wish, wheels: Sequence[Gearing]) -> Iterator[Family]:
 
 
 def _task(wish: Wish, wheel: Gearing) -> WheelGoal | None:
-    """What is searched for a wheel; None of one that no four-bar drives."""
+    """The goal of the search for a wheel; None for a wheel that no four-bar drives."""
     free = closed_span(wanted(wish, 1, natural_deg(wheel)), 1)
     if free is None:
         return None
@@ -83,9 +85,10 @@ def _task(wish: Wish, wheel: Gearing) -> WheelGoal | None:
 
 
 def _found(wish: Wish, tasks: tuple[WheelGoal, ...]) -> Sequence[Pool | None]:
-    """The best four-bars, if any, of each wheel. Where any motion will do and nothing is to be
-    least, the gentlest that move for as long as the plain crank; where none of these keeps the
-    bounds, of any motion.
+    """The best four-bars, if any, of each wheel.
+
+    If any motion is allowed and there is no goal, the gentlest ones with the plain crank's motion
+    are taken; if none of these keeps the bounds, those of any motion.
     """
     if not tasks:
         return []
@@ -106,13 +109,13 @@ def _found(wish: Wish, tasks: tuple[WheelGoal, ...]) -> Sequence[Pool | None]:
 
 
 def _as_plain(task: WheelGoal) -> WheelGoal:
-    """The same with the plain crank's motion."""
+    """The goal with the plain crank's motion."""
     natural = natural_deg(task.wheel)
     return task._replace(motion=Interval(natural, natural))
 
 
 def _in_time(wish: Wish, task: WheelGoal, bounds: Sequence[Constraint]) -> bool:
-    """Whether a motion keeps those bounds that follow from it alone."""
+    """Return True if a motion keeps the bounds that depend on it only."""
     step, motion = np.array([360.0 / task.wheel.z]), np.array([task.motion.low])
     of_time = tuple(b for b in bounds if b.name.startswith("timing."))
     return not Costs(wish, step, [], motion).broken(of_time).any()
@@ -122,9 +125,9 @@ _EXAMPLE: Any = FourBar.EXAMPLE.tables["drive"]
 
 
 def _spec(wish: Wish, wheel: Gearing, found: Pool, x: float) -> Spec | None:
-    """The machine of such a number, as large as the frame has it.
+    """The machine of a number in a pool, scaled to the frame's size.
 
-    None where links are too unlike each other, or the roller leaves its slot after all.
+    None if its links differ too much in length, or if the roller leaves its slot.
     """
     one = found.taken(np.array([int(x)]))
     links, (entry, motion, sense, _) = one.links, one.drive
@@ -150,7 +153,7 @@ def _spec(wish: Wish, wheel: Gearing, found: Pool, x: float) -> Spec | None:
         reached = float(np.diff(ends.at.phi + step)[0, 0])
         if abs(reached - wanted_) <= EXACT * wanted_:
             break
-        wide = wide + (wanted_ - reached)  # what rounding took
+        wide = wide + (wanted_ - reached)  # the part lost to rounding
     else:
         return None
     wheel_ = followed(path, ends.at.phi + step, sense[0])
@@ -158,7 +161,7 @@ def _spec(wish: Wish, wheel: Gearing, found: Pool, x: float) -> Spec | None:
 
 
 def _machine(wish: Wish, wheel: Gearing, drive: FourBar, motion_deg: float) -> Spec:
-    """A machine of the wish's frame; its centre distance follows from the links."""
+    """A machine with the requirement's frame; its centre distance follows from the links."""
     held = wheel.replace(held_by="detent")  # there is no locking disc
     spec = machine(wish, held, lambda n: drive.replace(n_rpm=n), 1, motion_deg)
     # the coupler passes below the wheel's axis, where a shaft without a hub ends in the wheel

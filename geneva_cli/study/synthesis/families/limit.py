@@ -1,11 +1,11 @@
-"""The least A or eccentricity that brings a wheel's peak acceleration down to a limit.
+"""The least A or eccentricity that reduces a wheel's peak acceleration to a limit.
 
 With f the crank's angle from mid-motion and f1(f) the drive's ratio, the wheel's acceleration is
 
     G2(f) f1² + G1(f) f1 df1/df
 
-with G the plain wheel. Over f, and not over the input angle, both drives have short forms, and
-even a ratio near its limits is tame.
+with G the plain wheel. As functions of f, not of the input angle, both drives have short forms,
+which are smooth even for ratios near their limits.
 """
 
 from __future__ import annotations
@@ -74,10 +74,10 @@ def peak_of(wheel: Gearing, ratio: Ratio) -> Peak:
 
 
 def least_parameter(peak: Peak, limit: float) -> tuple[float | None, float]:
-    """The parameter of least size with peak <= limit, and the least peak seen on the way.
+    """The parameter of least size with peak <= limit, and the lowest peak met in the search.
 
-    The plain crank (parameter 0) is above the limit. From it the walk goes to either side while
-    the peak falls; None where it turns up again before it has reached the limit.
+    The plain crank (parameter 0) is above the limit. The search goes from it to either side while
+    the peak decreases; None if the peak increases again before it reaches the limit.
     """
     found, lowest = None, math.inf
     for side in (1.0, -1.0):
@@ -102,7 +102,7 @@ def _walk(peak: Peak, limit: float) -> tuple[float | None, float]:
 
 
 def _crossing(peak: Peak, limit: float, above: float, below: float) -> float:
-    """Where the peak comes down to the limit, from below."""
+    """The parameter at which the peak reaches the limit, from below."""
     found = Falsi(below, limit - peak(below), above, limit - peak(above))
     while abs(found.bad - found.good) > CLOSE and found.left > 0.0:
         x = found.middle()

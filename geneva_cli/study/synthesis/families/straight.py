@@ -1,7 +1,7 @@
-"""Straight slots: the plain crank, also with slots beside the centre, and what drives a crank.
+"""Straight slots: the plain crank, also with offset slots, and drives in front of the crank.
 
-A side-crank, gears and a planet that carries the roller have one roller: several would move the
-wheel differently. On a sphere the angle between the shafts makes the motion.
+A side-crank, gears and a planet with the roller have one roller: several would move the wheel
+differently. On a sphere the angle between the shafts determines the motion.
 """
 
 from __future__ import annotations
@@ -34,7 +34,7 @@ from geneva_cli.study.synthesis.families.two_stages import two_stages
 from geneva_cli.study.synthesis.spans import Interval
 from geneva_cli.study.synthesis.wish import Wish
 
-ASIDE = 0.1  # of L, by which offset slots miss the wheel's centre
+ASIDE = 0.1  # fraction of L by which offset slots miss the wheel's centre
 PLANETS = ("sun", "ring")
 
 
@@ -59,8 +59,9 @@ def plain(wish: Wish, wheel: Gearing, m: int) -> Spec:
 
 
 def aside(wish: Wish, wheel: Gearing, m: int) -> Iterator[Family]:
-    """Slots that miss the wheel's centre by a tenth of the centre distance: a gentler entry. Where
-    the wish has bounds, or something else is to be least, also by any other part of it.
+    """Offset slots, which miss the wheel's centre by a tenth of L, for a gentler entry.
+
+    With bounds or another goal, every other offset is possible too.
     """
     if "offset_mm" not in wheel.as_dict():
         return
@@ -72,12 +73,12 @@ def aside(wish: Wish, wheel: Gearing, m: int) -> Iterator[Family]:
 
 
 def _offset(spec: Spec, share: float) -> Spec:
-    """Its slots so much of the centre distance beside the wheel's centre."""
+    """A spec with slots offset by a fraction of the centre distance."""
     return spec.with_("wheel.offset_mm", spec.given_distance_mm * share)
 
 
 def planets(wish: Wish, wheel: Gearing) -> Iterator[Family]:
-    """A roller on a planet: without a jump at entry, and with its planet's crank left free."""
+    """A roller on a planet: without a jump at entry, and with a free crank of the planet."""
     z = wheel.z
     if z not in (3, 4, 6):
         return
@@ -95,7 +96,7 @@ def planets(wish: Wish, wheel: Gearing) -> Iterator[Family]:
 
 
 def _on_planet(wish: Wish, wheel: Gearing, fixed: str, ratio: float | str) -> Spec:
-    """A roller on a planet of such a ratio."""
+    """A roller on a planet with a given ratio."""
 
     def drive(n: float) -> Epicyclic:
         return Epicyclic(planet_ratio=ratio, fixed=fixed, n_rpm=n)
@@ -104,7 +105,7 @@ def _on_planet(wish: Wish, wheel: Gearing, fixed: str, ratio: float | str) -> Sp
 
 
 def driven(wish: Wish, wheel: Gearing) -> Iterator[Family]:
-    """What changes the plain crank's motion: a drive in front of it, the angle of the shafts."""
+    """Changes of the plain crank's motion: a drive in front of it, or the angle of the shafts."""
     natural = natural_deg(wheel)
     motion = closed_span(wanted(wish, 1, natural), 1) if wish.rollers in (None, 1) else None
     if motion is not None and not (motion.exact and holds(motion, natural)):
@@ -124,7 +125,7 @@ def _between(
     natural: float,
     motion: Interval,
 ) -> Iterator[Family]:
-    """A drive whose parameter rises with its motion, as far as it goes."""
+    """A drive whose parameter increases with its motion, up to its limits."""
     low, high = (inverse(natural, x) for x in motion)
     if low <= closed.MOST and high >= -closed.MOST:
         plain_too = 0.0 if holds(motion, natural) else math.nan
@@ -132,7 +133,7 @@ def _between(
 
 
 def _inclined(wish: Wish, wheel: Gearing) -> Iterator[Family]:
-    """Plain cranks on shafts that meet at another angle than a right one."""
+    """Plain cranks on shafts that are not at right angles."""
     z = wheel.z
     least = 2.0 * half_motion_deg(1.0, 1, z)
     for m in [wish.rollers] if wish.rollers else range(1, rollers_max(least) + 1):
@@ -148,19 +149,19 @@ def _inclined(wish: Wish, wheel: Gearing) -> Iterator[Family]:
 
 
 def _on_axes(wish: Wish, wheel: Gearing, m: int, axes: float) -> Spec:
-    """A plain crank on shafts at such an angle."""
+    """A plain crank on shafts at a given angle, degrees."""
     inclined, motion = wheel.with_key("axes_deg", axes), closed.axes_motion(wheel.z, axes)
     return machine(wish, inclined, lambda n: Crank(n_rpm=n, rollers=m), m, motion)
 
 
 def side_crank(wish: Wish, wheel: Gearing, A: float) -> Spec:
-    """A side-crank in front of a wheel; it carries one roller."""
+    """A side-crank in front of a wheel, with one roller."""
     motion = closed.side_crank_motion(natural_deg(wheel), A)
     return machine(wish, wheel, lambda n: SideCrank(A=A, n_rpm=n), 1, motion)
 
 
 def gears(wish: Wish, wheel: Gearing, e: float) -> Spec:
-    """Elliptical gears in front of a wheel, of the phase that the sign of e says."""
+    """Elliptical gears in front of a wheel, in the phase given by the sign of e."""
     size, phase = closed.phased(e)
 
     def drive(n: float) -> EllipticalGears:

@@ -1,12 +1,12 @@
-"""Machines that two numbers make: a drive before the crank of a wheel on inclined shafts.
+"""Machines with two free numbers: a drive before the crank of a wheel on inclined shafts.
 
-A side-crank there is gentler than either alone. Elliptical gears move the wheel as they do on
-shafts at any other angle that move it for as long, the tangents of quarters of both angles keeping
-one ratio: they are looked at where something else than times and peaks is asked for.
+With a side-crank the result is gentler than with either alone. With elliptical gears the motion
+depends only on its length, not on the shafts' angle, as the tangents of the quarters of both angles
+have a constant ratio. They are tried only if more than times and peaks is required.
 
-A place is how long the motion is and the shafts' angle, each from 0 to 1 in its span; the drive's
-parameter follows. All wheels are looked at together, on a grid, then about the best places of each,
-nearer after every look that found no better.
+A place is the motion's length and the shafts' angle, each from 0 to 1 in its range; the drive's
+parameter follows. All wheels are sampled as a batch: on a grid, then near the best places of each,
+closer after every sampling without an improvement.
 """
 
 from __future__ import annotations
@@ -42,12 +42,13 @@ from geneva_cli.study.synthesis.families.family import (
 from geneva_cli.study.synthesis.spans import Interval
 from geneva_cli.study.synthesis.wish import Wish
 
-GRID = 10  # places of either number that are looked at first, in the middle of even shares
-TRACKS = 3  # places of a wheel that are looked about, where it is not only the gentlest
-LOOKS, ALONG = 14, 28  # times that the look goes on from there; along a bound
-CLOSER, FARTHER = 0.7, 1.4  # the next steps, of those that found no better and a better one
-AROUND = 16  # places about the best, half of them half as far
-TURNED = 0.382  # share of what is between two of them, by which they are turned from look to look
+GRID = 10  # places of either number that are sampled first, in the middle of equal parts
+TRACKS = 3  # places of a wheel to sample nearby, if more than the gentlest is sought
+LOOKS, ALONG = 14, 28  # number of further samplings; along a bound
+CLOSER, FARTHER = 0.7, 1.4  # factors of the next step, without and with an improvement
+AROUND = 16  # places around the best, half of them at half the distance
+# fraction of the angle between two of them, by which they are rotated at each sampling
+TURNED = 0.382
 
 
 class _InFront(NamedTuple):
@@ -72,7 +73,7 @@ AXES = Interval(closed.AXES, 180.0 - closed.AXES)
 
 
 def two_numbers(wish: Wish, wheels: Sequence[Gearing]) -> Iterator[Family]:
-    """Of each wheel and drive the best that two numbers make, where one keeps the bounds."""
+    """For each wheel and drive the best machine of two numbers, if one keeps the bounds."""
     inclined = [wheel for wheel in wheels if not wheel.FLAT]
     if wish.rollers not in (None, 1) or not inclined:
         return
@@ -123,9 +124,7 @@ class _Search:
             yield self.spec(wheel, x, motion)
 
     def _first(self) -> tuple[Array, Array, Array]:
-        """The best places of a grid that are better than those beside them, of each wheel as many
-        as are looked about: u, v, and how good they are, (2, n).
-        """
+        """The places of a grid that are better than their neighbours: u, v, and costs, (2, n)."""
         middles = (np.arange(GRID) + 0.5) / GRID
         lengths = np.array([1.0]) if all(m.exact for m in self.motions) else [0.0, *middles, 1.0]
         u, v = np.meshgrid(lengths, middles, indexing="ij")
@@ -145,7 +144,7 @@ class _Search:
         return u.ravel()[at], v.ravel()[at], seen[:, self.of, at]
 
     def _least(self, u: Array, v: Array) -> tuple[Array, Array, Array]:
-        """Of some places (n, k) the best of each row, how good it is, (2, n), and where."""
+        """For places (n, k), the best cost of each row, (2, n), and its place."""
         broken, far = self.cost(u, v)
         rows, at = np.arange(len(u)), np.lexsort((far, broken), axis=1)[:, 0]
         return np.array([broken[rows, at], far[rows, at]]), u[rows, at], v[rows, at]
@@ -159,14 +158,12 @@ class _Search:
         return motion, axes, self.drive.parameter(natural, motion)
 
     def spec(self, wheel: Gearing, x: float, motion: float) -> Spec:
-        """A machine of a wheel."""
+        """A machine of a wheel with the drive's parameter and a motion angle."""
         make = self.drive.make(x)
         return machine(self.wish, wheel, lambda n: make.replace(n_rpm=n), 1, motion)
 
     def cost(self, u: Array, v: Array) -> tuple[Array, Array]:
-        """By how much the machines of these places, (w, k), break the bounds together, over their
-        sizes, and how far they are from the best that could be; infinite where there is none.
-        """
+        """Violations of the bounds, and costs, at places (w, k); infinite without a machine."""
         rows = np.repeat(self.of, u.shape[1])
         broken, far = np.full(u.size, math.inf), np.full(u.size, math.inf)
         at, (least, *values) = self._values(rows, u.ravel(), v.ravel())
@@ -179,8 +176,9 @@ class _Search:
         return broken.reshape(u.shape), far.reshape(u.shape)
 
     def _values(self, rows: Whole, u: Array, v: Array) -> tuple[Whole, list[Array]]:
-        """What is to be least, and what is bounded, of the machines of some places of the wheels
-        ``rows``, all (n,); before it the numbers of the places that have a machine.
+        """The goal and the bounded quantities at places of the wheels ``rows``, all (n,).
+
+        The first result holds the numbers of the places that have a machine.
         """
         drive, names = self.drive, [self.least, *(b.name for b in self.bounds)]
         none = np.zeros(0, dtype=int), [np.zeros(0) for _ in names]
@@ -198,13 +196,13 @@ class _Search:
         middle = 0.5 * (drive.low + drive.high)
         try:
             made = many(self.spec(self.wheels[0], middle, float(motion[0])), varied)
-        except GenevaError:  # a frame of which there is no such machine
+        except GenevaError:  # a frame that allows no such machine
             return none
         values = columns(made.machine, names, len(made.which)) if made.machine else None
         return none if values is None else (which[made.which], values)
 
     def _far(self, row: Whole, u: Array, v: Array, least: Array) -> Array:
-        """What is to be least, or the distance from the plain crank."""
+        """The quantity to minimise, or the distance from the plain crank."""
         if not self.nearest:
             return self.sign * least
         natural = np.array([natural_deg(wheel) for wheel in self.wheels])

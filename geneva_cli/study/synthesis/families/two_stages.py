@@ -1,7 +1,7 @@
-"""Two stages that turn an external wheel: gears between two slots, a first wheel before the crank.
+"""Two stages that turn an external wheel: gears between two slots, or a first wheel.
 
-Each has a motion that no plain crank has: gear sectors make it longer, and behind a first wheel it
-is a small part of a cycle of several turns.
+Each has a motion that no plain crank has. Gear sectors make it longer. Behind a first wheel it is a
+small part of a cycle of several turns.
 """
 
 from __future__ import annotations
@@ -33,15 +33,16 @@ LONGEST, SHORTEST = 330.0, 1e-3  # crank angles that gear sectors drive, degrees
 
 
 def two_stages(wish: Wish, wheel: Gearing) -> Iterator[Family]:
-    """What gear sectors and first wheels make of a wheel, if it can have them."""
+    """The families with gear sectors and with first wheels for a wheel that can have them."""
     if wish.rollers in (None, 1):
         yield from sectors(wish, wheel)
         yield from pairs(wish, wheel)
 
 
 def sectors(wish: Wish, wheel: Gearing) -> Iterator[Family]:
-    """Gear sectors that take over without a jump: the slots' half angle b is left free, of which
-    that of the plain crank leaves the gears nothing to drive.
+    """Gear sectors that take over without a jump, with a free half angle b of the slots.
+
+    At the plain crank's b the gears have nothing to drive.
     """
     span = closed_span(wanted(wish, 1, natural_deg(wheel)), 1)
     if span is None or not can_be(BARE.replace(wheel=wheel, drive=GearSector(sector_deg=90.0))):
@@ -49,7 +50,7 @@ def sectors(wish: Wish, wheel: Gearing) -> Iterator[Family]:
     z = wheel.z
 
     def slot(angle: Callable[[int, float], float], least: float) -> float:
-        """Half the angle of the slots with which an angle, which falls with it, is ``least``."""
+        """The half angle of slots at which a decreasing angle reaches ``least``."""
         return boundary(lambda b: angle(z, b) >= least, 0.0, wheel.step.b)
 
     ends = (slot(closed.sector_motion, span.high), slot(closed.sector_motion, span.low))
@@ -67,8 +68,9 @@ def _with_sectors(wish: Wish, wheel: Gearing, b: float) -> Spec:
 
 
 def pairs(wish: Wish, wheel: Gearing) -> Iterator[Family]:
-    """First wheels of any number of slots, which turn the crank once in so many turns: those whose
-    step is as long as the crank's own motion.
+    """First wheels of any number of slots, which turn the crank once in ``first_z`` turns.
+
+    Their step must be as long as the crank's own motion.
     """
     for first_z in range(3, int(360.0 / natural_deg(wheel)) + 1):
         spec = BARE.replace(wheel=wheel, drive=GenevaPair(first_z=first_z))

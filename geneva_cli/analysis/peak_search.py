@@ -1,14 +1,14 @@
-"""The search for peaks: one scan and one Newton for a batch of designs, or for a batch of one.
+"""The search for peaks by one scan and Newton's method; a single design is a batch of one.
 
 A peak is a root of the next derivative, refined to the last bit, or an end of the motion, or a
-place where the law's derivative jumps; never the largest of a grid.
+place where the law's derivative jumps; never the largest sample of a grid.
 
 >>> import numpy as np
 >>> from geneva_cli import External, SideCrank
 >>> from geneva_cli.machine.many import many
 >>> from geneva_cli.machine.spec import Spec
 >>> found = many(Spec(External(6), SideCrank(A=0.0)), {"drive.A": np.array([0.0, 0.6, 2.0])})
->>> found.spread(worst_of_many(found.machine, ["velocity"])["velocity"].max)
+>>> found.spread(worst_peaks(found.machine, ["velocity"])["velocity"].max)
 array([1.   , 0.625,   nan])
 """
 
@@ -24,23 +24,23 @@ from geneva_cli.machine.many import designs_in, taken
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.numerics.angles import DEGREE
 from geneva_cli.numerics.arrays import Array, parameter
-from geneva_cli.numerics.extrema_many import GROUP, Rough, Stationary, extrema_many, peaks_many
+from geneva_cli.numerics.extrema import GROUP, Rough, Stationary, greatest_sizes, stationary_points
 from geneva_cli.numerics.tolerances import TIE
 
 if TYPE_CHECKING:
-    from geneva_cli.numerics.extrema_many import Which
+    from geneva_cli.numerics.extrema import Which
 
 ABOVE = {"velocity": 1, "acceleration": 2, "jerk": 3, "power": 2}  # derivatives in the quantity
 QUANTITIES = tuple(ABOVE)
 
 
-PeakOfMany: TypeAlias = Peak[Array]  # the peaks of m designs: (m,)
+PeakArray: TypeAlias = Peak[Array]  # the peaks of m designs: (m,)
 
 
 class _Samples:
     """A motion's speed and its derivatives, to ten digits, at angles in degrees.
 
-    All quantities are scanned at the same places, a block of designs after the other; these
+    All quantities are scanned at the same places, one block of designs after the other, so these
     samples are kept.
     """
 
@@ -66,7 +66,7 @@ class _Samples:
 
 
 class _Curve(NamedTuple):
-    """A quantity over the input angle in degrees, as ``extrema_many`` asks for it."""
+    """A quantity over the input angle in degrees, as a function for ``stationary_points``."""
 
     motion: Motion
     quantity: str
@@ -78,7 +78,7 @@ class _Curve(NamedTuple):
 
 
 class _Sampled(NamedTuple):
-    """The same to ten digits, from samples."""
+    """A quantity to ten digits, from samples."""
 
     samples: _Samples
     quantity: str
@@ -104,13 +104,13 @@ def _by_degrees(rates: Sequence[Array], x: Array, order: int) -> list[Array]:
     return [np.broadcast_to(v * DEGREE**k, x.shape) for k, v in enumerate(rates[: order + 1])]
 
 
-def peaks_of_many(motion: Motion, quantities: Sequence[str] = QUANTITIES) -> dict[str, PeakOfMany]:
+def motion_peaks(motion: Motion, quantities: Sequence[str] = QUANTITIES) -> dict[str, PeakArray]:
     """Greatest sizes over the motions of m designs, ends included, and their input angles."""
-    found: dict[str, PeakOfMany] = {}
+    found: dict[str, PeakArray] = {}
     for name in quantities:
         known = motion.closed_peak(name)
         if known is not None:
-            found[name] = PeakOfMany(*(np.ravel(v) for v in np.broadcast_arrays(*known)))
+            found[name] = PeakArray(*(np.ravel(v) for v in np.broadcast_arrays(*known)))
     sought = [name for name in quantities if name not in found]
     if sought:
         found |= searched(motion, sought)
@@ -123,9 +123,9 @@ def peaks_of_many(motion: Motion, quantities: Sequence[str] = QUANTITIES) -> dic
 
 
 def landmarks(motion: Motion, quantity: str, m: int) -> Stationary:
-    """Where a quantity of m designs is stationary, and the ends of its smooth parts: all in order.
+    """Stationary points of a quantity of m designs, and the ends of its smooth parts, in order.
 
-    Between two of them that follow each other it only rises or only falls.
+    Between two consecutive ones it only rises or only falls.
     """
     breaks = [np.broadcast_to(np.asarray(x, dtype=float), (m, 1)) for x in motion.breaks_deg]
     last = np.vstack(breaks[1:])
@@ -138,57 +138,57 @@ def landmarks(motion: Motion, quantity: str, m: int) -> Stationary:
 
     every = np.arange(len(last))
     ends = [Stationary(every, x[:, 0], curve(x, every, 0)[0][:, 0]) for x in (first, last)]
-    parts = zip(extrema_many(curve, first, last), *ends, strict=True)
+    parts = zip(stationary_points(curve, first, last), *ends, strict=True)
     which, x, value = (np.concatenate(part) for part in parts)
     which = which % m
     order = np.lexsort((x, which))
     return Stationary(which[order], x[order], value[order])
 
 
-def searched(motion: Motion, quantities: Sequence[str]) -> dict[str, PeakOfMany]:
-    """Return peaks as ``peaks_of_many``, without closed forms and other quicker ways."""
-    # mid-motion, where wheels have their narrowest peaks, is among them
+def searched(motion: Motion, quantities: Sequence[str]) -> dict[str, PeakArray]:
+    """The peaks from the search only, without closed forms."""
+    # mid-motion, where wheels have their narrowest peaks, is one of them
     breaks = [x for x in motion.breaks_deg if not motion.symmetric or np.all(x <= 0.0)]
     m = designs_in(motion)
     places = np.hstack([np.broadcast_to(x, (m, 1)) for x in breaks])
     parts = [_part(motion, places, slice(i, i + GROUP), quantities) for i in range(0, m, GROUP)]
     return {
-        name: PeakOfMany(*(np.concatenate(v) for v in zip(*[p[name] for p in parts], strict=True)))
+        name: PeakArray(*(np.concatenate(v) for v in zip(*[p[name] for p in parts], strict=True)))
         for name in quantities
     }
 
 
 def _part(
     motion: Motion, places: Array, which: slice, quantities: Sequence[str]
-) -> dict[str, PeakOfMany]:
-    """Of some of the designs, between their breaks."""
+) -> dict[str, PeakArray]:
+    """Peaks of some of the designs, between their breaks."""
     here = places[which]
     some = motion if len(here) == len(places) else taken(motion, which)
     samples, edges = _Samples(some, len(here), quantities), np.hsplit(here, here.shape[1])
     found = {}
     for name in quantities:
         curve, rough = _Curve(some, name), Rough(_Sampled(samples, name), some.ROUGH_TO)
-        found[name] = PeakOfMany(*peaks_many(curve, *edges, rough=rough))
+        found[name] = PeakArray(*greatest_sizes(curve, *edges, rough=rough))
     return found
 
 
-def greater(first: PeakOfMany, other: PeakOfMany) -> PeakOfMany:
-    """The greater of two sizes; of two that are one peak, where the first is."""
+def greater(first: PeakArray, other: PeakArray) -> PeakArray:
+    """The greater of two sizes; if they are equal, at the place of the first."""
     more = other.max > first.max * (1.0 + TIE)
-    return PeakOfMany(
+    return PeakArray(
         np.where(other.max > first.max, other.max, first.max),
         np.where(more, other.at_deg, first.at_deg),
     )
 
 
-def worst_of_many(
+def worst_peaks(
     mechanism: Mechanism, quantities: Sequence[str] = QUANTITIES
-) -> dict[str, PeakOfMany]:
+) -> dict[str, PeakArray]:
     """The greatest peaks over all engagements; angles are the machine's input angles."""
-    best: dict[str, PeakOfMany] = {}
+    best: dict[str, PeakArray] = {}
     for engagement in mechanism.engagements:
-        for name, found in peaks_of_many(engagement.motion, quantities).items():
+        for name, found in motion_peaks(engagement.motion, quantities).items():
             at_deg = engagement.mid_deg + parameter(found.at_deg[:, None])
-            here = PeakOfMany(found.max, np.ravel(mechanism.shown_deg(at_deg)))
+            here = PeakArray(found.max, np.ravel(mechanism.shown_deg(at_deg)))
             best[name] = greater(best[name], here) if name in best else here
     return best

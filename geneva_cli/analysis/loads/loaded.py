@@ -1,7 +1,7 @@
-"""Loads of many designs of one engagement, as searches and sums ask for them.
+"""Loads of a batch of one engagement, as functions for searches and sums.
 
-The formulas are those of one design (``contact``, ``forces``, ``instant``); here is what differs:
-what is wanted of the designs, and which signs count.
+The formulas are in ``contact``, ``forces`` and ``instant``. This file defines the wanted
+quantities, and the signs that matter.
 """
 
 from __future__ import annotations
@@ -30,22 +30,22 @@ if TYPE_CHECKING:
     from geneva_cli.numerics.pieces import Which
     from geneva_cli.numerics.search import Stretches
 
-# What needs the reactions of joints where links carry the roller.
+# Quantities that need the reactions of joints where links carry the roller.
 REACTIONS = ("crank_bearing_N", "guide_force_N")
-ROOMS = ("grip", "edge")  # without which a quantity has no bound
-SLIDING = ("sliding_m_s", PV)  # what hangs on it without friction
-# The setting, the contact, the shape of the places, and what is wanted of the designs there.
+ROOMS = ("grip", "edge")  # margins without which a quantity is unbounded
+SLIDING = ("sliding_m_s", PV)  # quantities that depend on sliding even without friction
+# The setting, the contact, the shape of the places, and the wanted quantities there.
 At: TypeAlias = "tuple[Setting, Contact[Jet], tuple[int, ...], Sequence[Wanted]]"
 
 
 class Wanted(Protocol):
-    """What is looked for at an instant, of the contact there.
+    """A quantity of an instant and its contact.
 
-    A tuple whose numbers may be arrays (m, 1), or what holds no numbers.
+    It is a tuple whose numbers may be arrays (m, 1), or holds no numbers.
     """
 
     def __call__(self, i: Instant[Jet], at: Contact[Jet], /) -> Row[Jet]:
-        """The quantity, and what bounds it."""
+        """The quantity, and the margin that bounds it."""
 
 
 class Named(NamedTuple):
@@ -54,35 +54,35 @@ class Named(NamedTuple):
     quantity: Quantity
 
     def __call__(self, i: Instant[Jet], at: Contact[Jet]) -> Row[Jet]:
-        """The quantity, and what bounds it."""
+        """The quantity, and the margin that bounds it."""
         return self.quantity(i)
 
 
-NONE: Mapping[str, Wanted] = MappingProxyType({})  # quantities of one's own
+NONE: Mapping[str, Wanted] = MappingProxyType({})  # no quantities besides the named ones
 
-# one of many designs: their engagement and setting, and the quantities that are wanted
+# a batch: its engagement and setting, and the wanted quantities
 Machine: TypeAlias = "tuple[Engagement, Setting, tuple[Wanted, ...]]"
 
 
 def machine(
     engagement: Engagement, given: Setting, names: Sequence[str], own: Mapping[str, Wanted]
 ) -> Machine:
-    """Designs of one engagement, and the quantities of these names: of ``own``, or of the cycle."""
+    """A batch of one engagement and its wanted quantities, from ``own`` or from the cycle."""
     wanted = [own[name] if name in own else Named(QUANTITIES[name]) for name in names]
     return engagement, given, tuple(wanted)
 
 
 class Loaded:
-    """Some designs of one engagement under their load, as ``search`` asks for their functions.
+    """Designs of one engagement under their load, with the functions that ``search`` takes.
 
-    ``kinds`` are those whose signs count besides what makes the quantities jump.
+    ``kinds`` are the signs that matter: those at which quantities jump, and those in ``more``.
     """
 
     def __init__(self, machine: Machine, names: Sequence[str], more: Sequence[str] = ()) -> None:
         self.machine = engagement, given, _ = machine
         self.names = names
         self.n = machine[1].designs
-        # p v is 0 where the sliding is, in a notch that may lie beside a pole
+        # p v is 0 where the sliding is, in a notch that may be near a pole
         self.kinds = kinds(engagement, given, (*more, "slides") if PV in names else more)
         self.signs, self.wanted = len(self.kinds), len(names)
         self.poled: Sequence[int] = [i for i, kind in enumerate(self.kinds) if kind == "edge"]
@@ -93,22 +93,22 @@ class Loaded:
         self.spins = own or "slides" in self.kinds or any(name in SLIDING for name in names)
         radial = all_true(engagement.slot.offset == 0.0)
         self.mirrored = radial and engagement.mirrored and not self.reactions
-        # of the block of designs that is sampled: which, their machine, and places and contact
+        # of the current block of designs: its slice, its machine, and the places with their contact
         self.kept: tuple[slice | None, Any] = (None, None)
         self.last: list[tuple[Array, Contact[Jet]]] = []
 
     @cached_property
     def spread(self) -> Array:
-        """How wide all happens about mid-motion, as of ``spread_deg``: (n, 1)."""
+        """Width of the loads' features about mid-motion, from ``spread_deg``: (n, 1)."""
         return np.broadcast_to(spread_deg(*self.machine[:2]), (self.n, 1))
 
     @property
     def repeats(self) -> bool:
-        """Whether the second half of the motion has no greater sizes than the first.
+        """Return True if the second half of the motion has no greater sizes than the first.
 
-        Without friction nor a torque, or nor an inertia, forces are as great in both, and what
-        the input gives is no less than what it gets back. A torque alone presses on one wall of a
-        curved slot all the way, whose two halves bend differently.
+        It is so without friction, and without a torque or without an inertia. Forces are then equal
+        in both halves, and the input gives at least as much as it gets back. In a curved slot a
+        torque alone presses on one wall throughout, whose two halves differ in curvature.
         """
         engagement, given, _ = self.machine
         alone = all_true(given.inertia_Nm == 0.0) and not engagement.slot.curved
@@ -116,7 +116,7 @@ class Loaded:
         return self.mirrored and alone and not given.rubs
 
     def at(self, x: Array, which: Which, order: int) -> At:
-        """Setting, contact, shape and what is wanted of some designs."""
+        """Setting, contact, shape and wanted quantities of some designs."""
         if self.n == 1:
             engagement, given, wanted = self.machine
             return given, self._contact(engagement, x, order), x.shape, wanted
@@ -138,7 +138,7 @@ class Loaded:
         return contact(engagement, x, order, self.reactions, self.spins)
 
     def at_mid_motion(self, n: int) -> list[Known]:
-        """What n designs' quantities are at mid-motion, which no span of curved slots reaches."""
+        """The quantities of n designs at mid-motion, which no span of curved slots reaches."""
         engagement, given, wanted = self.machine
 
         def rows(at: Contact[Jet], drives: Number, slides: Number, feeds: Number) -> list[Row[Jet]]:
@@ -148,8 +148,9 @@ class Loaded:
         return at_mid_motion(engagement, given, rows, n) if engagement.slot.curved else []
 
     def bounded(self, pieces: Stretches, n: int) -> Mask:
-        """Whether each quantity of n designs is bounded, whose signs are known in all pieces of
-        their motion: (names, n).
+        """Masks of the bounded quantities of n designs: (names, n).
+
+        ``pieces`` are all pieces of their motion, with known signs.
         """
         out = np.full((self.wanted, n), True)
         for k, _, value in self.at_mid_motion(n):
@@ -164,12 +165,12 @@ class Loaded:
         return out
 
     def column(self, at: At, number: int) -> At:
-        """The same at one place of each design: (m, 1)."""
+        """The part of ``at`` for one place of each design: (m, 1)."""
         given, found, shape, wanted = at
         return given, column(found, number), (*shape[:-1], 1), wanted
 
     def rows(self, at: At, which: Whole) -> At:
-        """The same of some of the designs, by their numbers among those that it is of."""
+        """The part of ``at`` for some designs, by their numbers in it."""
         given, found, shape, wanted = at
         if self.n > 1:
             given, wanted = taken((given, wanted), which)
@@ -197,10 +198,10 @@ class Loaded:
                 values[k][i] = row.value.c[k]
             if row.room is not None:
                 room = row.room.c[0]
-                # a lever that friction takes nothing from has all its digits, however short
+                # without friction a lever has all its digits, however short
                 whole = row.room is found.instant.grip and not given.rubs
                 lost = room <= (0.0 if whole else ZERO)
-                for kind in self.rooms:  # where it is known to end, a rounding may be left of it
+                for kind in self.rooms:  # a margin that is known to end may leave a rounding error
                     lost = lost | ((found.signs[kind] < 0.0) & (room == found.jets[kind].c[0]))
                 lost = np.broadcast_to(lost, shape)
                 if lost.any():
@@ -211,7 +212,7 @@ class Loaded:
 
 
 class Signs:
-    """Of designs under their load the functions alone whose signs count."""
+    """The functions of designs under load whose signs matter, without wanted quantities."""
 
     wanted = 0
     rooms: Sequence[int] = ()
@@ -224,12 +225,12 @@ class Signs:
     def look(
         self, at: At, forced: Array | None = None, asked: Sequence[int] | None = None
     ) -> tuple[Mask, list[Array]]:
-        """As of ``Loaded``, of no quantities."""
+        """The result of ``Loaded.look`` without quantities."""
         return self.load.look(at, forced, ())
 
 
 class Look(NamedTuple):
-    """Signs that count, the functions that have them, and all that happens."""
+    """Signs that matter, the functions that have them, and the instant."""
 
     signs: list[Array]
     jets: list[Jet]
@@ -237,9 +238,9 @@ class Look(NamedTuple):
 
 
 def kinds(engagement: Engagement, given: Setting, more: Sequence[str] = ()) -> list[str]:
-    """Whose signs count: of what changes nothing, none, but for those asked for as ``more``.
+    """The signs that matter for these loads, and those requested in ``more``.
 
-    ``wanted`` is the first quantity that is wanted.
+    ``wanted`` is the sign of the first wanted quantity.
     """
     out = []
     if not all_true(given.inertia_Nm == 0.0):
@@ -266,9 +267,10 @@ def look(
     forced: Array | None,
     wanted: Wanted | None = None,
 ) -> Look:
-    """What happens at a contact; ``forced`` are the signs of ``kinds`` that are known, else NaN.
+    """The instant of a contact, and the signs of ``kinds``.
 
-    ``wanted`` is the quantity whose sign may count too.
+    ``forced`` are known signs, NaN where unknown. ``wanted`` is a quantity whose sign may matter
+    too.
     """
     signs: list[Array] = []
     jets: list[Jet] = []

@@ -1,4 +1,4 @@
-"""Means of the loads of many designs: the sums of them and of their squares over a period."""
+"""Means of the loads of a batch: sums of them and of their squares over a period."""
 
 from __future__ import annotations
 
@@ -9,9 +9,9 @@ import numpy as np
 
 from geneva_cli.analysis.loads.contact import NEAR, mirrored
 from geneva_cli.analysis.loads.forces import setting
-from geneva_cli.analysis.loads.groups_many import of_groups
-from geneva_cli.analysis.loads.inertia_many import is_balanced, squares
-from geneva_cli.analysis.loads.loaded_many import (
+from geneva_cli.analysis.loads.groups import of_groups
+from geneva_cli.analysis.loads.inertia_means import is_balanced, squares
+from geneva_cli.analysis.loads.loaded import (
     NONE,
     At,
     Loaded,
@@ -23,9 +23,9 @@ from geneva_cli.analysis.loads.loaded_many import (
 from geneva_cli.analysis.loads.quantities import SQUARED, plain_values, shares, square_of
 from geneva_cli.analysis.loads.stretches import mirror_images, spans_of
 from geneva_cli.machine.mechanism import Mechanism
+from geneva_cli.numerics.adaptive_quadrature import span_integrals
 from geneva_cli.numerics.angles import DEGREE
 from geneva_cli.numerics.arrays import array
-from geneva_cli.numerics.quadrature_many import integrals_many
 from geneva_cli.numerics.search import search
 from geneva_cli.numerics.spread import gathered, spread
 
@@ -36,24 +36,24 @@ if TYPE_CHECKING:
 
 # The integral of a cubic from 0 to 1 by its values at AHEAD (Adams and Bashforth), next to a cusp.
 AHEAD, SHARES = np.array([1.0, 2.0, 3.0]), np.array([23.0, -16.0, 5.0]) / 12.0
-NOUGHT = 1e-30  # a mean whose square is so small a share of the mean square is rounding
+NOUGHT = 1e-30  # a mean whose square is this fraction of the mean square is rounding
 
 
-class MeansOfMany(NamedTuple):
-    """Means over a period of m designs, dwells included: (m,) each; infinite without a bound."""
+class LoadMeans(NamedTuple):
+    """Means over a period of m designs, dwells included: (m,) each; infinite if unbounded."""
 
-    mean: Array | None  # None where not asked for
+    mean: Array | None  # None if not requested
     rms: Array
 
-    def times(self, share: Array) -> MeansOfMany:
-        """The means of so many times the quantity."""
-        return MeansOfMany(None if self.mean is None else self.mean * share, self.rms * share)
+    def times(self, share: Array) -> LoadMeans:
+        """The means of a multiple of the quantity."""
+        return LoadMeans(None if self.mean is None else self.mean * share, self.rms * share)
 
 
-def means_of_many(
+def load_means(
     mechanism: Mechanism, names: Sequence[str], told: Collection[str] = ("mean", "rms")
-) -> dict[str, MeansOfMany]:
-    """The means alone, as ``summaries_of_many`` has them, where no extreme is looked for.
+) -> dict[str, LoadMeans]:
+    """The means of quantities over a period, without a search for extremes.
 
     >>> import numpy as np
     >>> from geneva_cli import External, Load
@@ -61,7 +61,7 @@ def means_of_many(
     >>> from geneva_cli.machine.spec import Spec
     >>> spec = Spec(External(6), load=Load(inertia_kgm2=2.0, friction=0.1))
     >>> found = many(spec, {"drive.n_rpm": np.array([60.0, 120.0])})
-    >>> means_of_many(found.machine, ["input_torque_Nm"])["input_torque_Nm"].rms.round(4)
+    >>> load_means(found.machine, ["input_torque_Nm"])["input_torque_Nm"].rms.round(4)
     array([ 26.8019, 107.2078])
     """
     given = setting(mechanism)
@@ -79,7 +79,7 @@ def means_of_many(
 def sources_of(
     mechanism: Mechanism, names: Sequence[str]
 ) -> tuple[dict[str, tuple[str, Array]], list[str]]:
-    """Of each name the quantity of which it is a share, and that share: (m,) or (1,)."""
+    """The source of each quantity, and its ratio to that source: (m,) or (1,)."""
     known = shares(mechanism)
     lent = {n: known.get(n, (n, 1.0, ""))[:2] for n in names}
     there = {
@@ -90,8 +90,8 @@ def sources_of(
 
 def means_from(
     mechanism: Mechanism, names: Sequence[str], sums: Array, plain: bool
-) -> dict[str, MeansOfMany]:
-    """The means of what was summed, as of ``sums``."""
+) -> dict[str, LoadMeans]:
+    """The means from the results of ``sums``."""
     every, out = sums / (np.ravel(mechanism.period_deg) * DEGREE), {}
     for i, name in enumerate(names):
         square, mean = every[i], None
@@ -99,12 +99,12 @@ def means_from(
             mean = every[len(names) + i]
             nought = np.isfinite(square) & (mean * mean <= NOUGHT * square)
             mean = np.where(nought, 0.0, mean)
-        out[name] = MeansOfMany(mean, np.sqrt(square))
+        out[name] = LoadMeans(mean, np.sqrt(square))
     return out
 
 
 def _sums_of(load: Loaded, n: int, plain: bool) -> Array:
-    """The integrals without a search for extremes: the designs are but cut where signs change."""
+    """The integrals without a search for extremes: designs are only divided where signs change."""
     if is_balanced(load) and not plain:
         return squares(load, n)
     spans, only = spans_of(load.machine[0], n), Signs(load)
@@ -115,16 +115,16 @@ def _sums_of(load: Loaded, n: int, plain: bool) -> Array:
 
 
 def sums(load: Loaded, pieces: Stretches, bounded: Mask, n: int, plain: bool) -> Array:
-    """The integrals by the angle in radians of the squares, and of the quantities where ``plain``:
-    infinite of those that are not ``bounded``, (names, n).
+    """The integrals by the angle in radians of the squares and, with ``plain``, of the quantities.
 
-    Only a quantity whose square is looked for goes with a root at the ends of its stretches.
+    The shape is (names, n) for each; integrals that are not ``bounded`` are infinite. Only
+    quantities that are searched by their squares behave as a root at the ends of their stretches.
     """
     every = np.arange(len(pieces.design))
-    # of a mirrored motion the second half goes with the first, as functions of their own
+    # the second half of a mirrored motion is evaluated with the first, as further functions
     other = mirror_images(pieces) if load.mirrored else every
     kept = np.flatnonzero(every <= other)
-    # those of one span together: a motion of several pieces is asked for one of them at a time
+    # pieces of one span together: a motion of several pieces is evaluated in one of them at a time
     kept = kept[np.argsort(pieces.span[kept], kind="stable")]
     design, (a, b), other = pieces.design[kept], pieces.x[:, kept], other[kept]
     signs = np.where(pieces.positive, 1.0, -1.0)
@@ -137,7 +137,7 @@ def sums(load: Loaded, pieces: Stretches, bounded: Mask, n: int, plain: bool) ->
         if not paired.any():
             return here
         image = given, mirrored(at), shape, wanted
-        # the images lie the other way round
+        # the images are in reverse order
         back = powers(load, image, sides[1][:, which, None], plain)[..., ::-1]
         back[:, ~paired[which]] = 0.0
         return np.concatenate((here, back))
@@ -154,11 +154,11 @@ def sums(load: Loaded, pieces: Stretches, bounded: Mask, n: int, plain: bool) ->
         asked = np.tile(bounded, (parts, 1))
         ends = spread(a, w), spread(b, w)
         poles = 0.5 * np.pi * w
-        total = integrals_many(by_spread, *ends, design, asked, rooted, poles=poles)
+        total = span_integrals(by_spread, *ends, design, asked, rooted, poles=poles)
         if paired.any():
             total = total[: len(total) // 2] + total[len(total) // 2 :]
         engagement = load.machine[0]
-        if engagement.slot.curved:  # the way to mid-motion, which no stretch reaches
+        if engagement.slot.curved:  # the rest up to mid-motion, which no stretch reaches
             for end in (engagement.entry_deg, engagement.exit_deg):
                 near = np.broadcast_to(np.reshape(NEAR * end, (-1, 1)), (n, 1))
                 beside = powers(load, load.at(near * AHEAD, np.arange(n), 0), None, plain)
@@ -168,7 +168,7 @@ def sums(load: Loaded, pieces: Stretches, bounded: Mask, n: int, plain: bool) ->
 
 
 def powers(load: Loaded, state: At, signs: Array | None, plain: bool) -> Array:
-    """The squares of the quantities, and where ``plain`` they themselves after those."""
+    """The squares of the quantities and, with ``plain``, the quantities themselves after them."""
     given, at, shape, wanted = state
     here = look(load.kinds, given, at, signs).instant
     count = len(load.names)

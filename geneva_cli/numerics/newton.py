@@ -1,7 +1,7 @@
-"""Roots as of ``roots`` for many designs at once: a function for each design.
+"""Roots of many functions, one for each design of a batch.
 
-Newton, kept in its bracket, works on the designs that are still open, and on nothing else. A design
-that is not a number anywhere has no number for an answer, and disturbs no other.
+Newton's method, within brackets, runs on the designs that are not finished yet only. A design that
+is NaN anywhere has NaN for a result, and disturbs no other.
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 
 
 class Brackets(NamedTuple):
-    """Ends of intervals, and what functions are there: NaN where that tells nothing."""
+    """Ends of intervals and the functions' values there, NaN where unknown."""
 
     a: Array
     b: Array
@@ -27,9 +27,7 @@ class Brackets(NamedTuple):
 
 
 class Roots(NamedTuple):
-    """Places of roots, what the functions' integrals gain by the last steps to them, and what the
-    functions were before those.
-    """
+    """Places of roots, gains of the functions' integrals in the last steps, last values."""
 
     x: Array
     rise: Array
@@ -43,26 +41,26 @@ def roots_between(
     ends: tuple[Array, Array],
     close: float,
 ) -> Roots:
-    """Roots as of ``roots_many`` of functions known at a and b, where their signs differ.
+    """Roots of functions known at a and b, where their signs differ.
 
-    ``f(x, which)`` begins with value and derivative; what follows is kept of its last call.
+    ``f(x, which)`` begins with value and derivative; all values of its last call are returned too.
     """
     with np.errstate(all="ignore"):
         chord = a + (b - a) * (ends[0] / (ends[0] - ends[1]))
         start = np.where((chord > a) & (chord < b), chord, 0.5 * (a + b))
-        return Roots(*newton_many(f, Brackets(a, b, *ends), start, ends[0] < 0.0, close))
+        return Roots(*newton_roots(f, Brackets(a, b, *ends), start, ends[0] < 0.0, close))
 
 
-def roots_many(
+def find_roots(
     slope: Callable[[Array, Whole], tuple[Array, Array]], a: Array, b: Array, close: float = 0.0
 ) -> Array:
-    """Where each function changes sign in [a, b], as ``roots.root``: shape (n,), to the last bit.
+    """The root of each function in [a, b], where its sign changes: shape (n,), to the last bit.
 
-    ``slope(x, which)`` gives value and derivative of the functions ``which`` at x, both (m,).
-    After a Newton step of ``close`` times the bracket a root is taken as found.
+    ``slope(x, which)`` gives value and derivative of the functions ``which`` at x, both (m,). A
+    Newton step shorter than ``close`` times the bracket is the last one.
 
     >>> A = np.array([2.0, 9.0])
-    >>> roots_many(lambda x, which: (x * x - A[which], 2.0 * x), 0.0 * A, A)
+    >>> find_roots(lambda x, which: (x * x - A[which], 2.0 * x), 0.0 * A, A)
     array([1.41421356, 3.        ])
     """
     if not len(a):
@@ -70,23 +68,22 @@ def roots_many(
     with np.errstate(all="ignore"):
         every = np.arange(len(a))
         rising = slope(a, every)[0] < 0.0
-        unknown = np.full(len(a), np.nan)
-        return newton_many(slope, Brackets(a, b, unknown, unknown), 0.5 * (a + b), rising, close)[0]
+        ends = Brackets(a, b, *np.full((2, len(a)), np.nan))
+        return newton_roots(slope, ends, 0.5 * (a + b), rising, close)[0]
 
 
-def newton_many(
+def newton_roots(
     f: Callable[[Array, Whole], tuple[Array, ...]],
     brackets: Brackets,
     x: Array,
     rising: Mask,
     close: float,
 ) -> tuple[Array, Array, list[Array]]:
-    """Roots in brackets from x on, what f's integral gains by the last steps to them, and what f
-    was a step before.
+    """Roots in brackets from x on, gains of f's integral in the last steps, and f before.
 
-    f begins with value and slope. Steps are Newton's, bent by f at the bracket's ends. A bracket
-    is done after a step of ``close`` times its width, or of two units in the last place; those that
-    are done drop out.
+    ``f`` begins with value and slope. Newton steps are corrected by the values at the bracket's
+    ends. A bracket is finished after a step of ``close`` times its width, or of two units in the
+    last place; finished ones drop out.
     """
     out, rises, live = x.copy(), np.zeros(len(x)), np.arange(len(x))
     last: list[Array] = []
@@ -120,7 +117,7 @@ def newton_many(
 
 
 def nearer(value: Array, slope: Array, brackets: Brackets, x: Array) -> Array:
-    """x after one step of ``newton_many``; as it is where that leaves its bracket."""
+    """x after one step of ``newton_roots``; unchanged if that step leaves its bracket."""
     a, b, f_a, f_b = brackets
     new = x + _bent_step(value, slope, (a - x, f_a), (b - x, f_b))[0]
     inside: Array = np.where((a < new) & (new < b), new, x)
@@ -130,18 +127,18 @@ def nearer(value: Array, slope: Array, brackets: Brackets, x: Array) -> Array:
 def _bent_step(
     f: Array, slope: Array, one: tuple[Array, Array], two: tuple[Array, Array]
 ) -> tuple[Array, Array]:
-    """The step to the root of a cubic through a value and slope and two values some way off, and
-    the cubic's integral over it; Newton's step where one of the two is not known.
+    """The step to the root of a cubic through two values, a third value and its slope.
 
-    What Newton's step leaves goes with its square, what this one leaves with that times the
-    bracket's third power: a scan's brackets are done after one step less.
+    Also returns the cubic's integral over the step. It is Newton's step where one of the two values
+    is unknown. The error of Newton's step is quadratic; this one's has the bracket's third power as
+    well, which saves one step in the brackets of a scan.
     """
     (s, f_s), (t, f_t) = one, two
     p, q = (f_s - f - slope * s) / (s * s), (f_t - f - slope * t) / (t * t)
     cubic = (q - p) / (t - s)
     square = p - cubic * s
     newton = -f / slope
-    # one step of Newton's on the cubic, of which the first two terms are 0 there
+    # one Newton step on the cubic, whose first two terms are 0 there
     more = newton * newton * (square + newton * cubic)
     step = newton - more / (slope + newton * (2.0 * square + 3.0 * newton * cubic))
     plain = ~np.isfinite(step)

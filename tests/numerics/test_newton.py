@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 from numpy.polynomial import polynomial
 
-from geneva_cli.numerics import extrema_many as extrema_module
-from geneva_cli.numerics import roots_many as many
-from geneva_cli.numerics.extrema_many import Rough, extrema_many, peaks_many
+from geneva_cli.numerics import extrema as extrema_module
+from geneva_cli.numerics import newton as many
+from geneva_cli.numerics.extrema import Rough, greatest_sizes, stationary_points
 from geneva_cli.numerics.roots import root
 
 pytestmark = pytest.mark.filterwarnings("error")  # nothing is said of designs that are no numbers
@@ -50,7 +50,7 @@ def extrema(f, a, b):
     def curves(x, which, order):
         return [v + 0.0 * x for v in f(x)[: order + 1]]
 
-    return extrema_many(curves, column([a]), column([b])).x.tolist()
+    return stationary_points(curves, column([a]), column([b])).x.tolist()
 
 
 @pytest.fixture(scope="module")
@@ -66,7 +66,7 @@ def test_stationary_points_of_polynomials(random_polynomials):
     """
     f = polynomials(random_polynomials)
     n = len(random_polynomials)
-    found = extrema_many(f, column([-1.5] * n), column([1.5] * n))
+    found = stationary_points(f, column([-1.5] * n), column([1.5] * n))
     assert (np.diff(found.which) >= 0).all()
     unseen = 0
     for i, c in enumerate(random_polynomials):
@@ -92,7 +92,7 @@ def test_greatest_size_of_polynomials(random_polynomials):
     """
     f = polynomials(random_polynomials)
     n = len(random_polynomials)
-    size, x = peaks_many(f, column([-1.5] * n), column([1.5] * n))
+    size, x = greatest_sizes(f, column([-1.5] * n), column([1.5] * n))
     for i, c in enumerate(random_polynomials):
         roots = polynomial.polyroots(polynomial.polyder(c)).real
         places = np.concatenate(([-1.5, 1.5], roots[abs(roots) < 1.5]))
@@ -108,8 +108,8 @@ def test_greatest_size_by_a_rough_scan(random_polynomials):
     wrong = polynomials(c * (1.0 + 1e-10 * np.sin(np.arange(c.size)).reshape(c.shape)))
     pieces = column([-1.5] * n), column([0.1] * n), column([1.5] * n)
     # the terms of one add up to a hundred times its greatest size at most
-    size, x = peaks_many(f, *pieces, rough=Rough(wrong, 1e-8))
-    assert size == pytest.approx(peaks_many(f, pieces[0], pieces[2])[0], rel=2e-14)
+    size, x = greatest_sizes(f, *pieces, rough=Rough(wrong, 1e-8))
+    assert size == pytest.approx(greatest_sizes(f, pieces[0], pieces[2])[0], rel=2e-14)
     own = abs(f(x[:, None], np.arange(n), 0)[0][:, 0])
     assert size == pytest.approx(own, rel=2e-14)
 
@@ -118,7 +118,9 @@ def test_greatest_size_by_a_rough_scan(random_polynomials):
 @pytest.mark.parametrize("middle", [0.3, 0.71828, -0.999])
 def test_narrow_peak(width, middle):
     """A peak a billionth of the interval wide, by its tails alone."""
-    found = extrema_many(lorentzians(column([middle]), column([width])), column([-1]), column([1]))
+    found = stationary_points(
+        lorentzians(column([middle]), column([width])), column([-1]), column([1])
+    )
     assert found.x == pytest.approx([middle], rel=0.0, abs=2.3e-16)  # one unit of 1
 
 
@@ -130,7 +132,7 @@ def test_narrow_peak_beside_a_broad_one():
         both = (peaks(x, np.full(len(x), i), order) for i in (0, 1))
         return [p + q for p, q in zip(*both, strict=True)]
 
-    found = extrema_many(f, column([-1.0]), column([1.0])).x
+    found = stationary_points(f, column([-1.0]), column([1.0])).x
     assert len(found) == 3  # two peaks and the valley between
     # each moves the other's top by the slope of its tail times width^2/2
     assert found[0] == pytest.approx(-0.5, abs=1e-6)
@@ -167,7 +169,7 @@ def test_monotone_and_constant():
     assert extrema(lambda x: (2.0, 0.0, 0.0), 0.0, 1.0) == []
 
 
-@pytest.mark.parametrize("solver", [extrema_many, peaks_many])
+@pytest.mark.parametrize("solver", [stationary_points, greatest_sizes])
 def test_blocks_and_groups_change_nothing(random_polynomials, monkeypatch, solver):
     f, n = polynomials(random_polynomials), len(random_polynomials)
     whole = solver(f, column([-1.5] * n), column([1.5] * n))
@@ -187,7 +189,7 @@ def test_narrow_peaks_among_broad_ones():
         calls.append(x.size)
         return lorentzians(middle, width)(x, which, order)
 
-    size, x = peaks_many(f, column([-1.0] * 181), column([1.0] * 181))
+    size, x = greatest_sizes(f, column([-1.0] * 181), column([1.0] * 181))
     assert x == pytest.approx(middle[:, 0], rel=0.0, abs=2.3e-16)  # one unit of 1
     assert size == pytest.approx(1.0, rel=2.3e-16)
     assert sum(calls) < 181 * 300  # 30 levels about one place, not 2^30 places
@@ -202,13 +204,13 @@ def test_designs_that_are_not_numbers():
         return [np.sin(a * x), a * np.cos(a * x), -a * a * np.sin(a * x)][: order + 1]
 
     a, b = np.zeros((5, 1)), np.ones((5, 1))
-    size, x = peaks_many(f, a, b)
+    size, x = greatest_sizes(f, a, b)
     assert np.isnan(size).tolist() == np.isnan(x).tolist() == [False, True, False, True, False]
     assert size[[0, 2, 4]].tolist() == [math.sin(1.0), 1.0, 1.0]
     assert x[[0, 2, 4]] == pytest.approx([1.0, math.pi / 6.0, math.pi / 4.0], rel=2.3e-16)
-    assert extrema_many(f, a, b).which.tolist() == [2, 4]
-    assert [found.shape for found in peaks_many(f, a[:0], b[:0])] == [(0,), (0,)]
-    assert extrema_many(f, a[:0], b[:0]).x.shape == (0,)
+    assert stationary_points(f, a, b).which.tolist() == [2, 4]
+    assert [found.shape for found in greatest_sizes(f, a[:0], b[:0])] == [(0,), (0,)]
+    assert stationary_points(f, a[:0], b[:0]).x.shape == (0,)
 
 
 def test_the_first_of_equals():
@@ -217,7 +219,7 @@ def test_the_first_of_equals():
 
     a = column([0.0, 1.0, -0.5 * math.pi, -1.0])
     b = column([7.0, 8.0, 0.5 * math.pi, 1.0])
-    size, x = peaks_many(f, a, b)
+    size, x = greatest_sizes(f, a, b)
     assert size == pytest.approx([1.0, 1.0, 1.0, math.sin(1.0)], rel=2.3e-16)
     assert x == pytest.approx([math.pi / 2, math.pi / 2, -math.pi / 2, -1.0], rel=2.3e-16)
 
@@ -230,7 +232,7 @@ def test_a_summit_beside_a_break_that_is_as_high():
         return [2.0 - (x - top[which]) ** 2, -2.0 * (x - top[which]), 0.0 * x - 2.0][: order + 1]
 
     ends = [column([end] * len(top)) for end in (-1.0, 0.0, 1.0)]
-    size, x = peaks_many(f, *ends)
+    size, x = greatest_sizes(f, *ends)
     assert size == pytest.approx(2.0, rel=2.3e-16)
     assert x.tolist() == [pytest.approx(1e-8), pytest.approx(-1e-8), 0.01, 0.0, 0.0, 0.0]
 
@@ -240,13 +242,13 @@ def test_a_stationary_end_hides_nothing(c):
     """Top at -c, valley at 0 where the span ends: the slope's sign beside 0 is the bend's."""
     curve = polynomials(np.array([[0.0, 0.0, 2.0 * c * c, 0.0, -1.0]]))
     # c exact, but for the two roundings of the slope's coefficients
-    found = extrema_many(curve, column([-1.0]), column([0.0]))
+    found = stationary_points(curve, column([-1.0]), column([0.0]))
     assert found.x == pytest.approx([-c, 0.0], rel=1e-15)
-    found = extrema_many(curve, column([0.0]), column([1.0]))
+    found = stationary_points(curve, column([0.0]), column([1.0]))
     assert found.x == pytest.approx([c], rel=1e-15)
 
 
-def test_roots_many():
+def test_newton():
     """Newton, a bend that misleads it, a slope that is none, and no number."""
     rate = np.array([1.0, 50.0, 1e3, math.nan])
     place = np.array([0.3, 0.1, -0.7, 0.0])
@@ -255,10 +257,10 @@ def test_roots_many():
         t = rate[which] * (x - place[which])
         return np.arctan(t), rate[which] / (1.0 + t * t)
 
-    found = many.roots_many(f, np.full(4, -9.0), np.full(4, 9.0))
+    found = many.find_roots(f, np.full(4, -9.0), np.full(4, 9.0))
     assert found[:3] == pytest.approx(place[:3], rel=2.3e-16)
     assert math.isnan(found[3])
-    flat = many.roots_many(lambda x, which: (x - 0.1, 0.0 * x), np.array([0.0]), np.array([1.0]))
+    flat = many.find_roots(lambda x, which: (x - 0.1, 0.0 * x), np.array([0.0]), np.array([1.0]))
     assert flat[0] == root(lambda x: (x - 0.1, 0.0), 0.0, 1.0)
-    falling = many.roots_many(lambda x, _: (0.25 - x, 0.0 * x - 1.0), np.zeros(2), np.ones(2))
+    falling = many.find_roots(lambda x, _: (0.25 - x, 0.0 * x - 1.0), np.zeros(2), np.ones(2))
     assert falling.tolist() == [0.25, 0.25]

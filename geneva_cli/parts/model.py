@@ -8,11 +8,11 @@ from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.parts.outlines import Outlines, outlines
 from geneva_cli.parts.sphere.shells import Shells, shells
 from geneva_cli.parts.turn.full_turn import FullTurn, full_turn
-from geneva_cli.parts.turn.gaps import NotProved
+from geneva_cli.parts.turn.gaps import WorkLimit
 from geneva_cli.parts.turn.machine_parts import MachineParts
 
 
-class Proof:
+class PartsModel:
     """The outlines and the full turn of one machine, shared by all who need them.
 
     Without ``advice`` an error does not name the roller that fits, which takes long to find.
@@ -42,15 +42,15 @@ class Proof:
 
     @property
     def turn(self) -> FullTurn:
-        """The full turn; raises NotProved where it takes too long."""
-        if isinstance(self._turn, NotProved):
+        """The full turn; raises WorkLimit where it takes too long."""
+        if isinstance(self._turn, WorkLimit):
             raise self._turn
         return self._turn
 
     @cached_property
-    def _turn(self) -> FullTurn | NotProved:
+    def _turn(self) -> FullTurn | WorkLimit:
         # That it takes too long is remembered too.
         try:
             return full_turn(self.parts)
-        except NotProved as error:
+        except WorkLimit as error:
             return error

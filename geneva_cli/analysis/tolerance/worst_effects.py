@@ -38,7 +38,7 @@ from geneva_cli.numerics.arrays import array, parameter
 if TYPE_CHECKING:
     from geneva_cli.numerics.arrays import Array
 
-MOST = 1 << 20  # places of machines with deviations looked at together
+MOST = 1 << 20  # places of machines with deviations that are computed together
 
 
 class MotionPlays(NamedTuple):

@@ -1,4 +1,4 @@
-"""Cautions about a machine's motion and slots: what is the matter, where, and what helps."""
+"""Warnings about a machine's motion and slots: the problem, its place, and a remedy."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from functools import lru_cache
 
 from geneva_cli.analysis.peaks import peak
-from geneva_cli.errors import Caution
+from geneva_cli.errors import Notice
 from geneva_cli.machine.engagement import Motion
 from geneva_cli.machine.law_motion import LawMotion
 from geneva_cli.machine.laws.law import Law
@@ -19,24 +19,24 @@ from geneva_cli.spec.processes import PROCESSES
 from geneva_cli.spec.tables import Z_USUAL
 
 SHOWN_LEAD = 1e-6  # degrees: less is rounding
-SHOWN_DOUBT = 0.01  # share of the greatest jerk: less is not mentioned
+SHOWN_DOUBT = 0.01  # fraction of the greatest jerk: less is not mentioned
 SHOWN_UNDERCUT = 0.005  # mm: a wall cut back by less is within a shop's tolerance
 
 
-def cautions(mechanism: Mechanism) -> list[Caution]:
-    """The cautions about a machine that need neither its loads nor its parts."""
-    out: list[Caution] = []
+def motion_warnings(mechanism: Mechanism) -> list[Notice]:
+    """The warnings about a machine that need neither its loads nor its parts."""
+    out: list[Notice] = []
     z = mechanism.spec.wheel.z
     if z > Z_USUAL:
         out.append(
-            Caution(
+            Notice(
                 "many-slots",
                 f"z = {z}: more than {Z_USUAL} slots leave little of the wheel between them",
             )
         )
     if mechanism.spec.wheel.held_by is None and _no_lock(mechanism):
         out.append(
-            Caution(
+            Notice(
                 "nothing-holds",
                 "nothing holds the wheel in the dwell, because there is no locking disc: set "
                 'held_by = "brake", "detent" or "pin" in [wheel]',
@@ -52,7 +52,7 @@ def cautions(mechanism: Mechanism) -> list[Caution]:
     back = turns_back(mechanism)
     if back:
         out.append(
-            Caution(
+            Notice(
                 "turns-back",
                 f"the wheel turns back: velocity {back[0]:.4g} at {back[1]:.4g} deg; "
                 f"{law.TURNS_BACK}",
@@ -62,7 +62,7 @@ def cautions(mechanism: Mechanism) -> list[Caution]:
         out.append(_off_the_mid_condition(mechanism))
     if max(abs(half(0.0, 2).scalars()[2]) for half in (law.first, law.second)) > 1e-9:
         out.append(
-            Caution(
+            Notice(
                 "soft-shock-at-ends",
                 f'the law "{law.NAME}" starts and stops with a jump in acceleration: a soft shock '
                 "at both ends",
@@ -70,7 +70,7 @@ def cautions(mechanism: Mechanism) -> list[Caution]:
         )
     if abs(law.first(0.5, 2).scalars()[2] + law.second(0.5, 2).scalars()[2]) > 1e-9:
         out.append(
-            Caution(
+            Notice(
                 "soft-shock-at-mid",
                 f'the law "{law.NAME}" jumps from acceleration to deceleration: a soft shock at '
                 "mid-motion",
@@ -82,10 +82,10 @@ def cautions(mechanism: Mechanism) -> list[Caution]:
     return out
 
 
-def _loose_fits(mechanism: Mechanism) -> Iterator[Caution]:
-    """Clearances that are given larger than the loosest running fit, or the process, needs.
+def _loose_fits(mechanism: Mechanism) -> Iterator[Notice]:
+    """Clearances larger than the loosest running fit, or the process, needs.
 
-    A locking disc that is not given is smaller than the crank, whose fit is looser.
+    A default locking disc is smaller than the crank, whose fit is looser.
     """
     size, disc = mechanism.spec.size, mechanism.spec.size.lock_radius_mm
     pairs = [("slot_clearance_mm", "roller", "slot", mechanism.roller_radius_mm)]
@@ -100,7 +100,7 @@ def _loose_fits(mechanism: Mechanism) -> Iterator[Caution]:
         most = max(0.5 * fit, own)
         if not keeps(given, "at most", most):
             helps = "" if size.process else ", or name the process that needs it"
-            yield Caution(
+            yield Notice(
                 "loose-fit",
                 f"{key} = {given:g}: the {part} is loose in its {mate}. At Ø {2.0 * radius:.4g} mm "
                 f"the loosest running fit of ISO 286, H11/c11, leaves at most {0.5 * fit:.4g} mm a "
@@ -108,13 +108,13 @@ def _loose_fits(mechanism: Mechanism) -> Iterator[Caution]:
             )
 
 
-def _overtaken(mechanism: Mechanism) -> list[Caution]:
-    """Where a roller presses into the wall that it drove, as gears turn the wheel more slowly."""
+def _overtaken(mechanism: Mechanism) -> list[Notice]:
+    """A warning for a roller that presses into the wall that it drove, as gears slow the wheel."""
     lead = mechanism.engagements[0].overtaking / DEGREE
     if not lead > SHOWN_LEAD:
         return []
     return [
-        Caution(
+        Notice(
             "roller-overtakes",
             f"the roller overtakes the wheel by {lead:.4g} deg while the gears drive. Near the "
             "line of centres its slot would turn the wheel faster than the gears do, so it presses "
@@ -127,10 +127,11 @@ def _no_lock(mechanism: Mechanism) -> bool:
     return mechanism.spec.size.lock_radius_mm == 0.0 or not mechanism.spec.drive.LOCKS
 
 
-def _rounded_points(mechanism: Mechanism) -> list[Caution]:
-    """How far the rounding of a file's points leaves the jerk unknown."""
+def _rounded_points(mechanism: Mechanism) -> list[Notice]:
+    """A warning about the uncertainty of the jerk from the rounding of a file's points."""
     engagement, law = mechanism.engagements[0], mechanism.law
-    top = peak(engagement.motion, "velocity")  # where the jerk of a ratio counts most
+    # the place where the jerk of a ratio has the greatest effect
+    top = peak(engagement.motion, "velocity")
     ratio = mechanism.spec.drive.doubt(engagement.mid_deg + top.at_deg)
     points = law.doubt() if law else None
     if ratio:
@@ -144,7 +145,7 @@ def _rounded_points(mechanism: Mechanism) -> list[Caution]:
     if share < SHOWN_DOUBT:
         return []
     return [
-        Caution(
+        Notice(
             "rounded-points",
             f"the points have {decimals} decimals, so the jerk is known only to about "
             f"{float(f'{100.0 * share:.2g}'):g} %: use more decimals, or fewer points",
@@ -163,13 +164,13 @@ def turns_back(mechanism: Mechanism) -> tuple[float, float] | None:
 
 @lru_cache(maxsize=128)
 def _law_turns_back(law: Law) -> bool:
-    """Whether a wheel turns back by a law, whatever its step and its motion angle."""
+    """Return True if a wheel turns back with a law, whatever its step and its motion angle."""
     return _least_velocity(LawMotion(-0.5, 0.5, 0.5, law)) is not None
 
 
 def _least_velocity(motion: Motion) -> tuple[float, float] | None:
-    """Return the least velocity of a motion where it is below 0, and its place; else None."""
-    from geneva_cli.analysis.peaks_many import landmarks
+    """The least velocity of a motion and its place if it is below 0; else None."""
+    from geneva_cli.analysis.peak_search import landmarks
 
     _, x, velocity = landmarks(motion, "velocity", 1)
     least = velocity.argmin()
@@ -178,14 +179,14 @@ def _least_velocity(motion: Motion) -> tuple[float, float] | None:
     return (velocity[least].item(), x[least].item()) if velocity[least] < -noise else None
 
 
-def _off_the_mid_condition(mechanism: Mechanism) -> Caution:
+def _off_the_mid_condition(mechanism: Mechanism) -> Notice:
     matched = mechanism.matched_ratio
     helps = (
         f'ratio = "matched" (R/L = {matched:.6g}) avoids it'
         if matched is not None
         else "no R/L avoids it with this law and motion angle"
     )
-    return Caution(
+    return Notice(
         "off-mid-condition",
         f"pressure angle 90 deg at mid-motion (0 deg), because R/L = {mechanism.ratio:.6g} does "
         "not meet the mid condition. Without friction the pin force there has no bound unless the "
@@ -193,7 +194,7 @@ def _off_the_mid_condition(mechanism: Mechanism) -> Caution:
     )
 
 
-def _loose(mechanism: Mechanism) -> list[Caution]:
+def _loose(mechanism: Mechanism) -> list[Notice]:
     from geneva_cli.analysis.positive_drive import positive_drive
 
     drive = positive_drive(mechanism)
@@ -201,7 +202,7 @@ def _loose(mechanism: Mechanism) -> list[Caution]:
         return []
     where = ", ".join(f"{round(a, 9):.4g} to {round(b, 9):.4g}" for a, b in drive.loose_deg)
     return [
-        Caution(
+        Notice(
             "not-positively-driven",
             f"not positively driven from {where} deg ({100.0 * drive.share:.3g} % of the motion): "
             f"the slot's other branch, up to {drive.loose_gap_mm:.3g} mm off, cuts away the wall "
@@ -211,7 +212,7 @@ def _loose(mechanism: Mechanism) -> list[Caution]:
     ]
 
 
-def _undercut(mechanism: Mechanism) -> list[Caution]:
+def _undercut(mechanism: Mechanism) -> list[Notice]:
     from geneva_cli.analysis.undercut import undercut
 
     found = undercut(mechanism)
@@ -225,7 +226,7 @@ def _undercut(mechanism: Mechanism) -> list[Caution]:
         else f"a roller radius below {free:.4g} mm avoids it"
     )
     return [
-        Caution(
+        Notice(
             "undercut",
             f"undercut of the {found.wall} flank from {found.from_deg:.4g} to {found.to_deg:.4g} "
             f"deg, by up to {found.depth_mm:.3g} mm. The roller's radius, {r:.4g} mm, exceeds the "

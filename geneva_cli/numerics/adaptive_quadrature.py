@@ -1,9 +1,9 @@
-"""Integrals of functions of designs: Gauss and Legendre, halved where a series says so.
+"""Integrals of functions of designs by Gauss-Legendre rules, halved where a series has not ended.
 
-The values at the rule's n places give the first n terms of a function's Legendre series. The rule
-leaves about as much as the term 2 n has, so the last of the n terms bound it, and no second rule is
-needed. How fast the terms fall until then does not tell how fast they fall from there: a narrow
-feature's terms are hidden below the larger ones of the rest, which fall sooner.
+The values at the rule's n nodes give the first n terms of a function's Legendre series. The error
+of the rule is about the size of term 2 n. So the last of the n terms bound it, and no second rule
+is needed. Their rate of decay proves nothing about later terms: those of a narrow feature are
+hidden below larger ones, which decay sooner.
 """
 
 from __future__ import annotations
@@ -22,17 +22,18 @@ if TYPE_CHECKING:
     from geneva_cli.numerics.jet import Array
 
 DEEPEST = 40
-BLOCK = 1024  # spans at a time: their places lie in the processor's cache
-NODES = 20  # of a load between its cuts most are settled by so many
-FEW = 12  # and by so many where the span is below a share of its design's widest
+BLOCK = 1024  # spans at a time: their nodes fit in the processor's cache
+NODES = 20  # nodes that settle most loads between two cuts
+FEW = 12  # nodes for a span below NARROW times its design's widest
 NARROW = 0.25
-MANY = 28  # and by so many where the span is so many times as wide as poles are far
+MANY = 28  # nodes for a span that is WIDE times as wide as its poles are far
 WIDE = 1.0
-TERMS = 2  # taken together: of an even or odd function every other one is 0
-LEFT = 2e-12  # share of a design's integral that the last terms may have; a tenth is left at most
+TERMS = 2  # last terms taken together: every other term of an even or odd function is 0
+# fraction of a design's integral that the last terms may have; the error is a tenth at most
+LEFT = 2e-12
 
 
-def integrals_many(
+def span_integrals(
     functions: Callable[[Array, Whole], Array],
     a: Array,
     b: Array,
@@ -44,14 +45,14 @@ def integrals_many(
 ) -> Array:
     """The integral of each function over all spans of each design: (functions, n).
 
-    ``asked`` says of which: others, as of functions without a bound, mean nothing; ``functions``
-    may narrow it, where that is seen no sooner.
+    ``asked`` (functions, n) selects the integrals that are needed; others, such as unbounded ones,
+    are meaningless. ``functions`` may narrow it later. ``functions(x, which)`` gives the functions
+    (functions, m, k) of the spans ``which`` at places (m, k).
 
-    ``functions(x, which)`` gives the functions (functions, m, k) of the spans ``which`` at places
-    (m, k). With ``ends`` they may go with the root of the distance from a span's ends: places are
-    then t² (3 - 2 t) of it. With ``apart`` the integral of each span is had: (functions, spans),
-    to the same share of its design's. ``poles`` (spans,) is how far from the real axis the nearest
-    are, if that is known.
+    With ``ends`` functions may behave as the root of the distance from a span's ends: nodes are
+    then at t² (3 - 2 t) of the span. With ``apart`` the result has one integral for each span:
+    (functions, spans), to the same fraction of its design's. ``poles`` (spans,) is the distance of
+    the nearest poles from the real axis, if known.
     """
     n = asked.shape[1]
     into = np.arange(len(a)) if apart else design
@@ -77,7 +78,7 @@ def integrals_many(
             total, size = (np.zeros((len(whole), v.shape[1])) for v in (total, size))
             unbounded = np.zeros(total.shape, dtype=bool)
             _add(size, design[of], sizes)
-        lost = ~np.isfinite(sizes)  # a function without a bound there is not halved for ever
+        lost = ~np.isfinite(sizes)  # a function without a bound is not halved for ever
         for own, gone, endless in zip(asked, lost, unbounded, strict=True):
             own[design[of[gone]]] = False
             endless[into[of[gone]]] = True
@@ -108,7 +109,7 @@ def _parts(
     nodes: int,
     ends: bool,
 ) -> tuple[Array, Array, Array]:
-    """Of shares of spans the integrals, their last terms, and those of the functions' sizes."""
+    """Integrals over fractions of spans, their last terms, and the integrals of the sizes."""
     node, terms = _rule(nodes, ends)
     half = 0.5 * (high - low)
     # designs lie side by side in memory
@@ -126,9 +127,9 @@ def _parts(
 
 @cache
 def _rule(nodes: int, ends: bool) -> tuple[Array, Array]:
-    """Places in [-1, 1], with both ends or not; and the weights, then those of the last terms.
+    """Nodes in [-1, 1], with both ends or without; the weights, and the weights of the last terms.
 
-    Beside an end a kink shows in no value of Gauss's rule; in Lobatto's the end's own tells it.
+    A kink near an end affects no node of a Gauss rule; a Lobatto rule has a node at the end.
     """
     node, weight = lobatto(nodes) if ends else rule(nodes)
     series = np.polynomial.legendre.legvander(node, nodes - 1) * (np.arange(nodes) + 0.5)

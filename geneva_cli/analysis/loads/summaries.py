@@ -1,7 +1,7 @@
-"""The greatest, least and mean loads of designs; a single one is a batch of one.
+"""The greatest, least and mean loads of designs; a single design is a batch of one.
 
-Every machine is answered for: friction, curved slots, linkages, several rollers. All stretches of
-the designs are found together, a block of designs after the other.
+Every machine is supported: friction, curved slots, linkages, several rollers. All stretches of the
+designs are searched together, one block of designs after the other.
 
     >>> import numpy as np
     >>> from geneva_cli import External, Load, SideCrank
@@ -9,7 +9,7 @@ the designs are found together, a block of designs after the other.
     >>> from geneva_cli.machine.spec import Spec
     >>> spec = Spec(External(6), SideCrank(A=0.0), load=Load(inertia_kgm2=2.0, friction=0.1))
     >>> found = many(spec, {"drive.A": np.array([0.0, 0.6])})
-    >>> greatest_of_many(found.machine, ["pin_force_N"])["pin_force_N"].max.round(4)
+    >>> load_peaks(found.machine, ["pin_force_N"])["pin_force_N"].max.round(4)
     array([1905.0702,  731.1404])
 """
 
@@ -21,9 +21,9 @@ from typing import TYPE_CHECKING, NamedTuple, cast
 import numpy as np
 
 from geneva_cli.analysis.loads.forces import Setting, setting
-from geneva_cli.analysis.loads.groups_many import of_groups
-from geneva_cli.analysis.loads.loaded_many import NONE, Loaded, Machine, Wanted, machine
-from geneva_cli.analysis.loads.means_many import means_from, sources_of, sums
+from geneva_cli.analysis.loads.groups import of_groups
+from geneva_cli.analysis.loads.loaded import NONE, Loaded, Machine, Wanted, machine
+from geneva_cli.analysis.loads.means import means_from, sources_of, sums
 from geneva_cli.analysis.loads.quantities import (
     FORCE,
     SIZES,
@@ -32,7 +32,7 @@ from geneva_cli.analysis.loads.quantities import (
     outermost,
 )
 from geneva_cli.analysis.loads.stretches import on_breaks, spans_of
-from geneva_cli.analysis.peaks_many import PeakOfMany, greater
+from geneva_cli.analysis.peak_search import PeakArray, greater
 from geneva_cli.machine.engagement import Engagement
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.numerics.search import Found, search
@@ -41,53 +41,52 @@ if TYPE_CHECKING:
     from geneva_cli.numerics.arrays import Number
     from geneva_cli.numerics.jet import Array
 
-ZERO = 1e-14  # share of a peak that is rounding
+ZERO = 1e-14  # fraction of a peak that is rounding
 
 
-class SummaryOfMany(NamedTuple):
-    """Greatest and least over the motions, mean and root of the mean square over a period.
+class LoadSummary(NamedTuple):
+    """Greatest and least over the motions, mean and root mean square over a period.
 
-    Of m designs, (m,) each; infinite where nothing bounds a value.
+    Each is (m,) for m designs, and infinite if unbounded.
     """
 
     max: Array
     max_at_deg: Array
     min: Array
     min_at_deg: Array
-    mean: Array | None = None  # None where not asked for
+    mean: Array | None = None  # None if not requested
     rms: Array | None = None
 
-    def times(self, share: Array) -> SummaryOfMany:
-        """The summary of so many times the quantity."""
+    def times(self, share: Array) -> LoadSummary:
+        """The summary of a multiple of the quantity."""
         mean, rms = (None if v is None else v * share for v in self[4:])
-        return SummaryOfMany(
+        return LoadSummary(
             self.max * share, self.max_at_deg, self.min * share, self.min_at_deg, mean, rms
         )
 
 
 class Searched(NamedTuple):
-    """Greatest values over one engagement, where, and the sums: a row a quantity, of m designs.
+    """Greatest values over one engagement, their places, and the sums; one row for each quantity.
 
-    Of extremes with their signs the greatest values of minus the quantities come after those.
+    For signed extremes, the greatest values of the quantities' negatives follow.
     """
 
     most: Array
     at_deg: Array  # as shown
-    total: Array | None  # as of ``sums``
+    total: Array | None  # the result of ``sums``
 
 
-def greatest_of_many(
+def load_peaks(
     mechanism: Mechanism,
     names: Sequence[str],
     own: Mapping[str, Wanted] = NONE,
     given: Setting | None = None,
-) -> dict[str, PeakOfMany]:
+) -> dict[str, PeakArray]:
     """The greatest sizes of quantities, and the first input angles that have them: (m,).
 
-    ``own`` are quantities that the cycle does not know, by their names; ``given`` is another
-    setting than the machine's.
+    ``own`` are further quantities by name; ``given`` replaces the machine's setting.
     """
-    given, best = given or setting(mechanism), dict[str, PeakOfMany]()
+    given, best = given or setting(mechanism), dict[str, PeakArray]()
     flat = all(e.slot.walls_flat for e in mechanism.engagements)
     lent = {n: FORCE if flat and n == STRESS and given.hertz is not None else n for n in names}
     sought = list(dict.fromkeys(lent.values()))
@@ -95,27 +94,26 @@ def greatest_of_many(
         every = machine(engagement, given, sought, own)
         found, at_deg, _ = _searched(mechanism, every, sought, sized=True)
         for name, most, at in zip(sought, found, at_deg, strict=True):
-            here = PeakOfMany(most, at)
+            here = PeakArray(most, at)
             best[name] = greater(best[name], here) if name in best else here
     out = {}
     for name, source in lent.items():
         one = best[source]
-        if source != name:  # the square of the stress on a flat wall goes with the force
+        if source != name:  # the square of the stress on a flat wall is proportional to the force
             assert given.hertz is not None
             one = one._replace(max=one.max * np.ravel(given.hertz))
         out[name] = one._replace(max=np.sqrt(one.max)) if name in SQUARED else one
     return out
 
 
-def summaries_of_many(
+def load_summaries(
     mechanism: Mechanism, names: Sequence[str], told: Collection[str] = ("mean", "rms")
-) -> dict[str, SummaryOfMany]:
+) -> dict[str, LoadSummary]:
     """The summaries of quantities over a period, by their names; signs kept.
 
-    Extremes are exact to some units in the last place of a quantity's greatest size; means, and
-    roots of the mean square, to 1e-12 of that size: both are sums of what quadrature leaves of
-    2e-13, over stretches that may cancel. ``told`` says which of the two are asked for; one that is
-    not told is None.
+    Extremes are exact to some units in the last place of a quantity's greatest size. Means and root
+    mean squares are within 1e-12 of that size: quadrature errors of 2e-13 add up over stretches
+    that may cancel. ``told`` selects mean and rms; the other is None.
     """
     _, sources = sources_of(mechanism, names)
     given = setting(mechanism)
@@ -126,30 +124,30 @@ def summaries_of_many(
 
 def summed_up(
     mechanism: Mechanism, names: Sequence[str], each: Sequence[Searched], plain: bool
-) -> dict[str, SummaryOfMany]:
-    """The summaries of quantities from what was found of their sources in each engagement.
+) -> dict[str, LoadSummary]:
+    """The summaries of quantities, from the results of their sources in each engagement.
 
-    ``plain``: the sums are those of the quantities too, besides those of their squares.
+    With ``plain`` the sums include those of the quantities, besides those of their squares.
     """
     lent, sources = sources_of(mechanism, names)
     totals = [one.total for one in each if one.total is not None]
     means = means_from(mechanism, sources, np.sum(totals, axis=0), plain) if totals else {}
-    best: dict[str, SummaryOfMany] = {}
+    best: dict[str, LoadSummary] = {}
     for i, name in enumerate(sources):
         k = i + len(sources)
         rows = [(one.most[i], one.at_deg[i], -one.most[k], one.at_deg[k]) for one in each]
         most, most_at, least, least_at = outermost(np.array(rows))
         most, least = _ends_told(name, most, least)
         mean, rms = means.get(name, (None, None))
-        best[name] = SummaryOfMany(most, most_at, least, least_at, mean, rms)
+        best[name] = LoadSummary(most, most_at, least, least_at, mean, rms)
     return {name: best[source].times(share) for name, (source, share) in lent.items()}
 
 
 def _ends_told(name: str, most: Array, least: Array) -> list[Array]:
-    """Greatest and least of a quantity from those of what is looked for.
+    """Greatest and least of a quantity, from those of its square or of itself.
 
-    Where the torque changes its sign, rounding may leave a size below 0. Of the two, 0 is told
-    where one is rounding of the other.
+    Where the torque changes sign, rounding may leave a size below 0. Either value is replaced by 0
+    if it is rounding compared with the other.
     """
     found = [np.maximum(x, 0.0) if name in SIZES else np.asarray(x) for x in (most, least)]
     found = [np.sqrt(x) if name in SQUARED else x for x in found]
@@ -164,7 +162,7 @@ def _searched(
     sized: bool = False,
     told: Collection[str] = (),
 ) -> Searched:
-    """What is found of one engagement of m designs, in groups of them."""
+    """The results of one engagement of m designs, computed in groups."""
 
     def found(some: Machine, n: int) -> Sequence[Array]:
         load = Loaded(some, names)
@@ -185,7 +183,7 @@ def searched(load: Loaded, n: int, sized: bool = False) -> Found:
 
 
 def sums_of(load: Loaded, found: Found, n: int, plain: bool) -> Array:
-    """The sums over the stretches found, as of ``sums``."""
+    """The result of ``sums`` over the stretches of a search."""
     bounded = np.asarray(np.isfinite(found.most).reshape(2, -1, n).all(axis=0))
     return sums(load, found.stretches, bounded, n, plain)
 

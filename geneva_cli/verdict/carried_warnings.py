@@ -1,6 +1,6 @@
-"""Cautions about what the wheel carries, and about what drives it.
+"""Warnings about the load that the wheel carries, and about its motor.
 
-The wheel's own inertia, unbalanced or distant masses, materials that there are not, and keys
+They are about the wheel's own inertia, unbalanced or distant masses, unlikely materials, and keys
 without effect.
 """
 
@@ -11,27 +11,29 @@ from collections.abc import Iterator
 
 from geneva_cli.analysis.loads.carried import G, inertia_kgm2, weight_kg
 from geneva_cli.curves.mass import MassProperties
-from geneva_cli.errors import Caution
+from geneva_cli.errors import Notice
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.machine.spec import Spec
 from geneva_cli.spec.tables import Motor
 
-NAME = "wheel"  # of the [[mass]] that is the wheel itself
-SHOWN = 0.01  # share of the given inertia: less of the wheel's own is not mentioned
+NAME = "wheel"  # name of the [[mass]] that is the wheel itself
+# fraction of the given inertia: a smaller inertia of the wheel itself is not mentioned
+SHOWN = 0.01
 FAR = 5.0  # centre distances to a body, beyond most tables
-# No material is stiffer than diamond, heavier than osmium, or as light as what is meant in g/cm3
+# No material is stiffer than diamond, heavier than osmium, or as light as a density in g/cm3
+# suggests
 DIAMOND_GPa, OSMIUM_KGM3, FOAM_KGM3 = 1220.0, 22590.0, 25.0
-FULL_CIRCLE = 2  # so many alike, or more, are taken to stand evenly around the axis
+FULL_CIRCLE = 2  # at least so many equal masses are assumed to be spaced evenly around the axis
 
 
-def carried_cautions(mechanism: Mechanism, plate: MassProperties | None) -> list[Caution]:
-    """Cautions about inertia left out, bodies off the axis, and keys with nothing to act on."""
+def carried_warnings(mechanism: Mechanism, plate: MassProperties | None) -> list[Notice]:
+    """Warnings about missing inertia, bodies off the axis, and keys without effect."""
     spec = mechanism.spec
     about = [*_itself(spec, plate), *_to_one_side(spec), *_far(mechanism), *_unheard_of(spec)]
     return [*about, *_for_nothing(spec)]
 
 
-def _itself(spec: Spec, plate: MassProperties | None) -> list[Caution]:
+def _itself(spec: Spec, plate: MassProperties | None) -> list[Notice]:
     given = inertia_kgm2(spec)
     if plate is None or not given or any(mass.name == NAME for mass in spec.mass):
         return []
@@ -46,7 +48,7 @@ def _itself(spec: Spec, plate: MassProperties | None) -> list[Caution]:
         else f"{own:.4g} on inertia_kgm2 in [load]"
     )
     return [
-        Caution(
+        Notice(
             "wheel-left-out",
             f"the wheel's own inertia, as drawn, is {own:.4g} kg m², {100.0 * own / given:.3g} % "
             f"of the {given:.4g} kg m² of the load: if the load leaves it out, add {helps}",
@@ -54,16 +56,16 @@ def _itself(spec: Spec, plate: MassProperties | None) -> list[Caution]:
     ]
 
 
-def _to_one_side(spec: Spec) -> list[Caution]:
-    """Masses to one side of a horizontal axis: the torque of gravity is not counted."""
+def _to_one_side(spec: Spec) -> list[Notice]:
+    """Warnings about masses to one side of a horizontal axis, whose gravity is not counted."""
     if spec.support.axis != "horizontal":
         return []
-    out: list[Caution] = []
+    out: list[Notice] = []
     for mass in spec.mass:
         if mass.radius_mm and mass.count < FULL_CIRCLE:
             torque = spec.support.gear_ratio * weight_kg(mass) * G * mass.radius_mm * 1e-3
             out.append(
-                Caution(
+                Notice(
                     "weight-to-one-side",
                     f"{mass.name or mass.shape} stands {mass.radius_mm:g} mm off a horizontal "
                     f"axis. Its weight puts up to {torque:.4g} N m on the wheel in either "
@@ -74,14 +76,14 @@ def _to_one_side(spec: Spec) -> list[Caution]:
     return out
 
 
-def _far(mechanism: Mechanism) -> list[Caution]:
-    """A mass farther off than any table reaches."""
+def _far(mechanism: Mechanism) -> list[Notice]:
+    """Warnings about a mass that is farther away than a table reaches."""
     far = max((mass.radius_mm for mass in mechanism.spec.mass), default=0.0)
     share = far / mechanism.center_distance_mm
     if share <= FAR:
         return []
     return [
-        Caution(
+        Notice(
             "far-mass",
             f"radius_mm = {far:g} in [[mass]] is {share:.3g} centre distances from the wheel's "
             "axis: check that it is in mm",
@@ -89,13 +91,13 @@ def _far(mechanism: Mechanism) -> list[Caution]:
     ]
 
 
-def _unheard_of(spec: Spec) -> Iterator[Caution]:
-    """Materials in another unit."""
+def _unheard_of(spec: Spec) -> Iterator[Notice]:
+    """Warnings about materials that seem to be in another unit."""
     parts = {"[material.wheel]": spec.material_wheel, "[material.roller]": spec.material_roller}
     for table, part in parts.items():
         if part.youngs_modulus_GPa > DIAMOND_GPa:
             E = part.youngs_modulus_GPa
-            yield Caution(
+            yield Notice(
                 "unlikely-material",
                 f"youngs_modulus_GPa = {E:g} in {table} is stiffer than diamond "
                 f"({DIAMOND_GPa:g} GPa): if it is in MPa, write {1e-3 * E:g}",
@@ -106,19 +108,19 @@ def _unheard_of(spec: Spec) -> Iterator[Caution]:
             what = "lighter than foam" if density < FOAM_KGM3 else "heavier than osmium"
             other = 1e3 * density if density < FOAM_KGM3 else 1e-3 * density
             unit = "g/cm³" if density < FOAM_KGM3 else "g/m³"
-            yield Caution(
+            yield Notice(
                 "unlikely-material",
                 f"density_kgm3 = {density:g} in {table} is {what}: if it is in {unit}, write "
                 f"{other:g}",
             )
 
 
-def _for_nothing(spec: Spec) -> list[Caution]:
-    """Keys without effect."""
-    out: list[Caution] = []
+def _for_nothing(spec: Spec) -> list[Notice]:
+    """Warnings about keys without effect."""
+    out: list[Notice] = []
     if not spec.is_loaded and spec.motor != Motor():
         out.append(
-            Caution(
+            Notice(
                 "nothing-to-act-on",
                 "[motor] has no load to drive, so no motor or flywheel is computed: set "
                 "inertia_kgm2 or torque_Nm in [load], or a [[mass]]",
@@ -130,7 +132,7 @@ def _for_nothing(spec: Spec) -> list[Caution]:
             ("friction", "radius_mm") if support.friction else ("radius_mm", "friction")
         )
         out.append(
-            Caution(
+            Notice(
                 "nothing-to-act-on",
                 f"{given} in [support] has no effect without {lacking}: set {lacking}, or remove "
                 f"{given}",
@@ -138,7 +140,7 @@ def _for_nothing(spec: Spec) -> list[Caution]:
         )
     elif support.friction and not (spec.mass or support.force_N):
         out.append(
-            Caution(
+            Notice(
                 "nothing-to-act-on",
                 "friction in [support] has no effect, because nothing presses on the support: set "
                 "force_N there, or give the weight as [[mass]]",

@@ -1,4 +1,4 @@
-"""Cautions about loads: those without a bound, and limits that no speed keeps."""
+"""Warnings about loads: unbounded ones, and limits that no speed keeps."""
 
 from __future__ import annotations
 
@@ -7,24 +7,24 @@ import math
 from geneva_cli.analysis.loads import loads
 from geneva_cli.analysis.loads.cycle import Cycle, cycle_of
 from geneva_cli.analysis.loads.quantities import FORCE, STRESS
-from geneva_cli.errors import Caution
+from geneva_cli.errors import Notice
 from geneva_cli.machine.mechanism import Mechanism
 
 
-def load_cautions(mechanism: Mechanism) -> list[Caution]:
-    """The cautions that need the loads; none without a load."""
+def load_warnings(mechanism: Mechanism) -> list[Notice]:
+    """The warnings that need the loads; none without a load."""
     if not mechanism.spec.is_loaded:
         return []
     cycle = cycle_of(mechanism)
     out = [*_jammed(cycle), *_on_an_edge(cycle)]
-    # a speed that keeps the limits need not be looked for where this one does
+    # the search for a speed is needed only if the present one breaks a limit
     if not _kept(cycle) and loads.fastest_rpm(mechanism) is None:
         out.append(_no_speed(mechanism))
     return out
 
 
 def _kept(cycle: Cycle) -> bool:
-    """Whether the limits on loads are kept at the speed as it is."""
+    """Return True if the limits on loads are kept at the present speed."""
     limits = zip(loads.LIMITED, loads.load_limits(cycle.mechanism.spec.limits), strict=True)
     given = {name: limit for name, limit in limits if limit}
     if not given.keys() <= cycle.extremes.keys():
@@ -33,7 +33,7 @@ def _kept(cycle: Cycle) -> bool:
     return all(max(one.max, -one.min) <= limit for one, limit in found)
 
 
-def _jammed(cycle: Cycle) -> list[Caution]:
+def _jammed(cycle: Cycle) -> list[Notice]:
     force = cycle.extremes[FORCE]
     friction = cycle.mechanism.spec.load.friction
     endless = [
@@ -44,7 +44,7 @@ def _jammed(cycle: Cycle) -> list[Caution]:
     if not friction or not endless:
         return []
     return [
-        Caution(
+        Notice(
             "friction-holds-the-wheel",
             f"friction of {friction:g} holds the wheel at {min(endless):.4g} deg, however hard the "
             "roller presses: it takes as much torque as the wall gives. Use a smaller roller or "
@@ -53,14 +53,14 @@ def _jammed(cycle: Cycle) -> list[Caution]:
     ]
 
 
-def _on_an_edge(cycle: Cycle) -> list[Caution]:
+def _on_an_edge(cycle: Cycle) -> list[Notice]:
     stress, force = cycle.extremes.get(STRESS), cycle.extremes[FORCE]
     if stress is None:
         return []
     if math.isfinite(stress.max) or math.isinf(force.max) or math.isinf(force.min):
         return []
     return [
-        Caution(
+        Notice(
             "sharp-wall",
             f"contact stress without bound at {stress.max_at_deg:.4g} deg: the roller bears on an "
             "edge there, where the undercut of the wall begins. A smaller roller bears on less of "
@@ -69,11 +69,11 @@ def _on_an_edge(cycle: Cycle) -> list[Caution]:
     ]
 
 
-def _no_speed(mechanism: Mechanism) -> Caution:
+def _no_speed(mechanism: Mechanism) -> Notice:
     keys = ("pin_force_max_N", "input_torque_max_Nm", "contact_stress_max_MPa")
     limits = loads.load_limits(mechanism.spec.limits)
     given = " and ".join(f"{k} = {v:g}" for k, v in zip(keys, limits, strict=True) if v)
-    return Caution(
+    return Notice(
         "no-speed",
         f"no speed keeps {given}, so there is no shortest motion: the resisting torque alone "
         "exceeds it, or nothing bounds the load. Use a larger machine or less torque_Nm",

@@ -1,8 +1,8 @@
-"""Mean squares of the loads of an inertia alone, in motions that are their own mirror image.
+"""Mean squares of the loads of an inertia alone, for motions that are symmetric.
 
-Mirrored at mid-motion, an inertia's torque turns round, and friction does what its negative did: at
-x and -x together it is there once with either sign, whichever way the roller slides. So the squares
-of the two, added up, are smooth where the sliding turns round, and that place need not be known.
+Mirrored at mid-motion, an inertia's torque changes sign. Friction then acts as its negative would:
+in the pair x and -x, it occurs once with either sign, whichever way the roller slides. So the sum
+of both squares is smooth where the sliding reverses, and that place is not needed.
 """
 
 from __future__ import annotations
@@ -13,12 +13,12 @@ import numpy as np
 
 from geneva_cli.analysis.loads.contact import mirrored
 from geneva_cli.analysis.loads.forces import ZERO
-from geneva_cli.analysis.loads.loaded_many import Loaded, Signs, look
+from geneva_cli.analysis.loads.loaded import Loaded, Signs, look
 from geneva_cli.analysis.loads.quantities import square_of
 from geneva_cli.analysis.loads.stretches import spans_of
+from geneva_cli.numerics.adaptive_quadrature import span_integrals
 from geneva_cli.numerics.angles import DEGREE
 from geneva_cli.numerics.arrays import all_true, array
-from geneva_cli.numerics.quadrature_many import integrals_many
 from geneva_cli.numerics.search import search
 from geneva_cli.numerics.spread import gathered, spread
 
@@ -28,7 +28,10 @@ if TYPE_CHECKING:
 
 
 def is_balanced(load: Loaded) -> bool:
-    """Whether it is so: no torque resists, nor is any lost but to friction in straight slots."""
+    """Return True if the method applies to these designs.
+
+    No torque may resist, and the only loss may be friction in straight slots.
+    """
     engagement, given, _ = load.machine
     alone = all_true(given.resists_Nm == 0.0) and all_true(given.efficiency == 1.0)
     return load.mirrored and alone and not engagement.slot.curved
@@ -59,11 +62,11 @@ def squares(load: Loaded, n: int) -> Array:
             for k, (name, quantity) in enumerate(zip(load.names, wanted, strict=True)):
                 row = quantity(found, here)
                 total[k] += square_of(array(row.value.c[0]), name)[:, ::way]
-                if row.room is not None:  # what has no bound is asked no more
+                if row.room is not None:  # an unbounded function is not evaluated again
                     lost = np.any(row.room.c[0] <= ZERO, axis=1)
                     bounded[k, design[which[lost]]] = False
         return total * rate
 
     with np.errstate(all="ignore"):
-        total = integrals_many(rows, spread(a, w), spread(b, w), design, bounded)
+        total = span_integrals(rows, spread(a, w), spread(b, w), design, bounded)
     return np.where(bounded, total * DEGREE, np.inf)

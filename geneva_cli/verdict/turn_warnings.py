@@ -1,30 +1,30 @@
-"""Cautions about a whole turn of the parts that breaks no limit."""
+"""Warnings about a whole turn of the parts that breaks no limit."""
 
 from __future__ import annotations
 
-from geneva_cli.errors import Caution, GenevaError
-from geneva_cli.parts.proof import Proof
+from geneva_cli.errors import GenevaError, Notice
+from geneva_cli.parts.model import PartsModel
 from geneva_cli.parts.turn.full_turn import SAME
 from geneva_cli.verdict.checks.play import motion_play_max
 
 
-def turn_cautions(proof: Proof) -> list[Caution]:
-    """Cautions of the parts' whole turn; none where there is no such turn."""
-    if not proof.mechanism.spec.has_parts:
+def turn_warnings(model: PartsModel) -> list[Notice]:
+    """Warnings about the parts' whole turn; none without such a turn."""
+    if not model.mechanism.spec.has_parts:
         return []
     try:
-        ahead, behind, limit = proof.turn.ahead, proof.turn.behind, motion_play_max(proof.parts)
+        ahead, behind, limit = model.turn.ahead, model.turn.behind, motion_play_max(model.parts)
     except GenevaError:
         return []
-    # Freedom both ways is play, which has a limit of its own.
+    # Play to both sides has a limit of its own.
     free = max(ahead.deg, behind.deg)
-    if free <= limit or proof.turn.motion.deg >= free * (1.0 - SAME):
+    if free <= limit or model.turn.motion.deg >= free * (1.0 - SAME):
         return []
     first = ahead.deg >= behind.deg * (1.0 - SAME)
     way, at_deg = ("ahead", ahead.at_deg) if first else ("behind", behind.at_deg)
-    if len(proof.parts.assembly.rollers) > len(proof.parts.assembly.motions):
+    if len(model.parts.assembly.rollers) > len(model.parts.assembly.motions):
         return [
-            Caution(
+            Notice(
                 "driven-by-one-wall",
                 f"in its slots the wheel is free ahead by {ahead.deg:.4g} deg at "
                 f"{ahead.at_deg:.4g} deg and behind by {behind.deg:.4g} deg at "
@@ -34,7 +34,7 @@ def turn_cautions(proof: Proof) -> list[Caution]:
         ]
     helps = "a load that overruns the roller" if first else "a load that holds back"
     return [
-        Caution(
+        Notice(
             "driven-by-one-wall",
             f"in its slot the wheel is free {way} by {free:.4g} deg at {at_deg:.4g} deg, where one "
             f"wall alone drives it: {helps} meets a corner. Friction or a brake keeps it on that "

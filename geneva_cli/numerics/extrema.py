@@ -1,11 +1,9 @@
 """Stationary points and greatest sizes of a batch of functions of one variable.
 
-Designs go through in blocks that stay in the processor's cache. All are scanned over their own
-spans; where a cubic through two neighbours' values and slopes does not predict the value midway,
-those designs alone are sampled again between them. Newton, kept in its bracket, then works on
-what is still open, and on nothing else.
-
-A design that is not a number anywhere has no number for an answer, and disturbs no other.
+Designs are processed in blocks that fit in the processor's cache. All are scanned over their own
+spans. Where a cubic through two neighbours' values and slopes misses the value midway, only those
+designs are sampled again between them. Newton's method, within brackets, then refines the rest. A
+design that is NaN anywhere has NaN for a result, and disturbs no other.
 """
 
 from __future__ import annotations
@@ -16,8 +14,8 @@ from typing import TYPE_CHECKING, NamedTuple, Protocol, TypeAlias
 
 import numpy as np
 
+from geneva_cli.numerics.newton import Brackets, nearer, newton_roots
 from geneva_cli.numerics.roots import DEEPEST, PREDICTED
-from geneva_cli.numerics.roots_many import Brackets, nearer, newton_many
 from geneva_cli.numerics.tolerances import TIE
 
 if TYPE_CHECKING:
@@ -27,21 +25,22 @@ if TYPE_CHECKING:
     Sample: TypeAlias = Array | tuple[Array, Array, Array]  # place, value, slope
 
 SCAN = 12  # intervals of the first scan, an even number
-BLOCK = 1024  # designs scanned at a time: 13 places of each are 110 kB a number of a formula
+# designs scanned at a time: 13 places of each take 110 kB for each number of a formula
+BLOCK = 1024
 GROUP = 16 * BLOCK  # designs refined together
-CLOSE = 1e-8  # of a bracket in which a cubic holds: after so short a step, the last bit
-ROUNDED = 1e-15  # of the span: places so near are one, as 0 and 1e-47
-BESIDE = 1e-12  # of the span: a summit so near an end of the same height may be rounding
-FLAT_TOP = 1e-6  # of the span, some root of TIE: as far a summit is as high as its top
-ROUNDING = 1e-13  # share of a value that no sampling makes any surer
+CLOSE = 1e-8  # of a bracket in which a cubic holds: a step this short reaches the last bit
+ROUNDED = 1e-15  # fraction of the span: places this near are equal, such as 0 and 1e-47
+BESIDE = 1e-12  # fraction of the span: a maximum this near to an equally high end may be rounding
+FLAT_TOP = 1e-6  # fraction of the span, some root of TIE: as far as this a maximum is level
+ROUNDING = 1e-13  # fraction of a value: the rounding that no sampling improves
 _UNIT = np.arange(SCAN + 1) / SCAN
 
 
 class Curves(Protocol):
-    """A function for each design. ``A[which]`` are the designs' own numbers, if A is all of them.
+    """A function for each design; ``A[which]`` selects numbers of designs, if A has those of all.
 
-    With ``which`` a slice or indices of m designs, ``x`` has the shape (m, k), and numbers of the
-    shape (n, 1) give ``A[which]`` of the shape (m, 1).
+    ``which`` is a slice or the indices of m designs. ``x`` then has the shape (m, k), and numbers
+    (n, 1) give ``A[which]`` of the shape (m, 1).
     """
 
     def __call__(self, x: Array, which: Which, order: int) -> Sequence[Array]:
@@ -49,14 +48,14 @@ class Curves(Protocol):
 
 
 class Stationary(NamedTuple):
-    """Stationary points, in order of design and place: one number of each for each point."""
+    """Stationary points, in order of design and place."""
 
     which: Whole  # the design's number
     x: Array
     value: Array
 
 
-def extrema_many(f: Curves, a: Array, b: Array) -> Stationary:
+def stationary_points(f: Curves, a: Array, b: Array) -> Stationary:
     """All stationary points between a and b, of the shape (n, 1), in order of design and place."""
     found = []
     with np.errstate(all="ignore"):
@@ -68,25 +67,24 @@ def extrema_many(f: Curves, a: Array, b: Array) -> Stationary:
 
 
 class Rough(NamedTuple):
-    """Functions for a scan, and the share of a greatest size by which they may be wrong."""
+    """Approximate functions for a scan, and their error as a fraction of a greatest size."""
 
     f: Curves
     wrong: float
 
 
-def peaks_many(f: Curves, *places: Array, rough: Rough | None = None) -> tuple[Array, Array]:
+def greatest_sizes(f: Curves, *places: Array, rough: Rough | None = None) -> tuple[Array, Array]:
     """Greatest sizes between the first and the last of some places (n, 1), and where: (n,) both.
 
-    From one place to the next the functions are smooth; a place itself belongs to what is before
-    it. The ends are included. Of places whose sizes differ by less than a share of 1e-13, the first
-    is told. ``rough`` are the same functions to fewer digits, where they are had in less time: by
-    these it is seen where to look.
+    Functions are smooth from one place to the next; a place itself belongs to the part before it.
+    Both ends are included. If sizes differ by less than a fraction of 1e-13, the first is returned.
+    ``rough`` are approximations that take less time, used to find where to search.
 
     >>> A = np.array([[1.0], [2.0]])
     >>> def waves(x, which, order):
     ...     sine, cosine = np.sin(A[which] * x), np.cos(A[which] * x)
     ...     return [sine, A[which] * cosine, -(A[which] ** 2) * sine][: order + 1]
-    >>> peaks_many(waves, 0.0 * A, 0.0 * A + 1.0)
+    >>> greatest_sizes(waves, 0.0 * A, 0.0 * A + 1.0)
     (array([0.84147098, 1.        ]), array([1.        , 0.78539816]))
     """
     with np.errstate(all="ignore"):
@@ -101,7 +99,7 @@ def peaks_many(f: Curves, *places: Array, rough: Rough | None = None) -> tuple[A
 def _greatest(
     f: Curves, rough: Rough | None, places: Sequence[Array], start: int
 ) -> tuple[Array, Array]:
-    """Of a group of designs, the first of which has the number ``start``."""
+    """Greatest sizes of a group of designs, the first of which has the number ``start``."""
     pieces = _pieces(places)
     scans = [_scanned(rough.f if rough else f, a, b, start) for a, b in pieces]
     size = np.abs(np.hstack([scan.ends for scan in scans]))
@@ -111,7 +109,7 @@ def _greatest(
     which, value = tops.which - start, np.abs(tops.value)
     x = _at_ends(tops.x, at[which])
     if rough and rough.wrong:
-        # samples that may be the greatest, as they are
+        # evaluate samples again that may be the greatest
         bar = (1.0 - rough.wrong) * _most(size, which, value)
         low = tops.sampled & (value < bar[which])
         again = np.flatnonzero(tops.sampled & ~low)
@@ -125,14 +123,14 @@ def _greatest(
     ends = np.fmin.reduce(np.where(size >= bar[:, None], at, np.nan), axis=1)
     high, tops_first = value >= bar[which], np.full(len(most), np.nan)
     np.fmin.at(tops_first, which[high], x[high])
-    # As high as its neighbour, an end so near before a summit is on its flat top.
+    # An end this near before an equally high maximum is part of its flat top.
     apart = (tops_first - ends) / (at[:, -1] - at[:, 0])
     flat = (apart > BESIDE) & (apart < FLAT_TOP)
     return most, np.where(flat, tops_first, np.fmin(ends, tops_first))
 
 
 def _at_ends(x: Array, ends: Array) -> Array:
-    """Places (k,), those that are ends (k, j) but for rounding replaced by them."""
+    """Places (k,), replaced by the ends (k, j) that they equal apart from rounding."""
     nearest = ends[np.arange(len(x)), np.abs(ends - x[:, None]).argmin(axis=1)]
     close = np.abs(nearest - x) < ROUNDED * (ends[:, -1] - ends[:, 0])
     return np.where(close, nearest, x)
@@ -146,16 +144,16 @@ def _most(size: Array, which: Whole, value: Array) -> Array:
 
 
 def _pieces(places: Sequence[Array]) -> list[tuple[Array, Array]]:
-    """Ends of the pieces between places: one begins a double behind the end of that before it."""
+    """Both ends of the pieces between places: each begins one double after its place."""
     pieces = list(pairwise(places))
     later = [(np.minimum(np.nextafter(a, np.inf), b), b) for a, b in pieces[1:]]
     return [*pieces[:1], *later]
 
 
 def _high_turns(scan: _Scan, sampled: Array, start: int) -> _Pairs:
-    """Pairs with a turn that may have more than ``sampled`` of their design."""
+    """Pairs around a maximum or minimum whose size may exceed ``sampled`` in their design."""
     here, left, right = scan.turns.which - start, scan.turns.left, scan.turns.right
-    # A cubic rises above its ends by 4/27 of this at most; and a cubic may miss.
+    # A cubic rises above its ends by at most 4/27 of this; and a cubic may miss.
     rise = (right[0] - left[0]) * np.abs(left[2] - right[2]) * (4.0 / 27.0)
     reach = np.maximum(np.abs(left[1]), np.abs(right[1])) + rise
     missed = PREDICTED * (scan.high - scan.low)
@@ -167,7 +165,7 @@ def _blocks(start: int, stop: int, size: int) -> list[slice]:
 
 
 class _Pairs(NamedTuple):
-    """Neighbouring samples of designs: place, value and slope in three rows, left and right."""
+    """Adjacent samples of designs: place, value and slope in three rows, left and right."""
 
     which: Whole
     left: Array
@@ -178,7 +176,7 @@ class _Pairs(NamedTuple):
 
 
 def _joined(pairs: Sequence[_Pairs]) -> _Pairs:
-    """_Pairs, one after the other."""
+    """Groups of pairs joined into one."""
     return _Pairs(*(np.concatenate(parts, axis=-1) for parts in zip(*pairs, strict=True)))
 
 
@@ -186,12 +184,12 @@ class _Scan(NamedTuple):
     ends: Array  # values at a and b, two columns
     low: Array  # the least and the greatest sample of each design
     high: Array
-    turns: _Pairs  # where the slope changes sign, or is zero at one end
-    missed: _Pairs  # where a cubic does not predict: to be halved
+    turns: _Pairs  # pairs whose slope changes sign, or is zero at one end
+    missed: _Pairs  # pairs where a cubic does not predict the middle: to be halved
 
 
 def _scanned(f: Curves, a: Array, b: Array, start: int) -> _Scan:
-    """A group of designs, the first of which has the number ``start``."""
+    """The scan of a group of designs, the first of which has the number ``start``."""
     scans = [_scan(f, a[part], b[part], start + part.start) for part in _blocks(0, len(a), BLOCK)]
     ends, low, high = (np.concatenate([s[i] for s in scans]) for i in range(3))
     turns, missed = (
@@ -225,7 +223,7 @@ def _scan(f: Curves, a: Array, b: Array, start: int) -> _Scan:
 
 
 def _refined(f: Curves, start: int, open_: _Pairs, low: Array, high: Array) -> _Pairs:
-    """Pairs with a turn, halved until a cubic predicts; low and high grow as it comes to light."""
+    """Pairs with a turn, halved until a cubic predicts the middle; updates ``low`` and ``high``."""
     settled = []
     for _ in range(DEEPEST):
         which, left, right = open_
@@ -247,9 +245,9 @@ def _refined(f: Curves, start: int, open_: _Pairs, low: Array, high: Array) -> _
 def unpredicted(
     left: Sample, middle: Sample, right: Sample, low: Array, high: Array, share: float = PREDICTED
 ) -> Mask:
-    """Whether the cubic through both neighbours misses the sample midway by a share of the range.
+    """Masks of the pairs whose cubic misses the sample midway by ``share`` of the range.
 
-    Or whether a cubic turns twice between samples whose slopes have the same sign.
+    Pairs are included whose cubic turns twice between slopes of the same sign.
     """
     width = right[0] - left[0]
     predicted = 0.5 * (left[1] + right[1]) + width * (left[2] - right[2]) / 8.0
@@ -260,11 +258,11 @@ def unpredicted(
 
 
 def goes_back(one: Sample, two: Sample, rounding: Array) -> Mask:
-    """Whether the cubic through two samples turns twice between slopes of the same sign."""
+    """Masks of the pairs whose cubic turns twice between slopes of the same sign."""
     width, rise = two[0] - one[0], two[1] - one[1]
     product, both = one[2] * two[2], (one[2] + two[2]) * width
-    # The slope is a parabola, below zero within where its mean is less than a third of the sum of
-    # the two slopes less the root of their product: of the sum alone, to begin with.
+    # The slope is a parabola. It is below zero somewhere if its mean is less than a third of:
+    # the sum of the two slopes less the root of their product. The sum alone is a first test.
     turns: Mask = (3.0 * rise * both < both * both) & (product > 0.0)
     if turns.any():
         where = np.nonzero(turns)  # few
@@ -276,13 +274,13 @@ def goes_back(one: Sample, two: Sample, rounding: Array) -> Mask:
 
 
 def _turns(left: Array, right: Array) -> Mask:
-    # both are zero where the function is a constant, or turns where a halving would have seen it
+    # both are zero for a constant, or at turns that a halving would have revealed
     turns: Mask = (np.sign(left) * np.sign(right) < 0.0) | ((left == 0.0) != (right == 0.0))
     return turns
 
 
 class _Tops(NamedTuple):
-    """Stationary points, and which of them are samples, with the value that they have there."""
+    """Stationary points, their values, and a mask of those that are samples."""
 
     which: Whole
     x: Array
@@ -291,11 +289,11 @@ class _Tops(NamedTuple):
 
 
 def _tops(f: Curves, pairs: _Pairs, rough: Rough | None = None) -> _Tops:
-    """The right neighbour, where it is stationary, and the stationary point between the two.
+    """Stationary points of pairs: right samples with slope 0, and the points within.
 
-    A stationary neighbour may hide another between the two: the slope beside it has its bend's
-    sign, and it is divided out of the slope that Newton sees. The first step is by ``rough``, which
-    as a rule leaves one for the functions themselves.
+    A stationary sample may hide another point within. The slope next to it has the sign of the
+    second derivative, and its zero is divided out of the slope for Newton's method. The first step
+    uses ``rough``, which usually leaves one step for the functions themselves.
     """
     which, left, right = pairs
     before, after = left[2], right[2]
@@ -321,18 +319,18 @@ def _tops(f: Curves, pairs: _Pairs, rough: Rough | None = None) -> _Tops:
     if rough:
         slope, bend, _ = slope_of(start, np.arange(len(start)), rough.f)
         start = nearer(slope, bend, brackets, start)
-    x, rise, (_, _, value) = newton_many(slope_of, brackets, start, before < 0.0, CLOSE)
+    x, rise, (_, _, value) = newton_roots(slope_of, brackets, start, before < 0.0, CLOSE)
     found = np.stack((x, value + rise))
     (x, value), which = (np.concatenate(p, axis=-1) for p in zip((found, which), flat, strict=True))
     return _Tops(which, x, value, np.arange(len(which)) >= len(rise))
 
 
 def turn_of_cubic(left: Array, right: Array) -> Array:
-    """Where the cubic through two neighbours' values and slopes is stationary between them."""
+    """The stationary place of the cubic through two neighbours' values and slopes."""
     width = right[0] - left[0]
     chord = (right[1] - left[1]) / width
     s, e = left[2], right[2]
-    # slope = s + q t + p t², which rises through its root where s < 0
+    # slope = s + q t + p t², which rises through its root if s < 0
     p, q = 3.0 * (s + e - 2.0 * chord), 2.0 * (3.0 * chord - 2.0 * s - e)
     rising = np.where(s < 0.0, 1.0, -1.0)
     root = rising * np.sqrt(np.maximum(q * q - 4.0 * p * s, 0.0))

@@ -1,4 +1,4 @@
-"""Cautions about a cycle: where the wheel drives the motor, and numbers of an unlikely size."""
+"""Warnings about a cycle: places where the wheel drives the motor, and unlikely numbers."""
 
 from __future__ import annotations
 
@@ -8,20 +8,20 @@ from collections.abc import Mapping
 from geneva_cli.analysis.arrival import arrival
 from geneva_cli.analysis.loads.cycle import Cycle
 from geneva_cli.analysis.loads.summary import Summary
-from geneva_cli.errors import Caution
+from geneva_cli.errors import Notice
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.numerics.tolerances import ROUNDED
 
 SOUND_M_S = 343.0
 STEEL_KGM3 = 7850.0
 # The largest table that a wheel of centre distance L is expected to turn: solid steel, 6 L across
-# and L/2 thick. A larger inertia is nearly always one in kg cm2.
+# and L/2 thick. A larger inertia is nearly always meant in kg cm2.
 ACROSS, THICK = 6.0, 0.5
-BRIEF = 1e-4  # share of a motion: next to a rest signs are rounding
+BRIEF = 1e-4  # fraction of a motion: next to a rest, signs are rounding
 
 
-def cycle_cautions(cycle: Cycle, loads: Mapping[str, Summary]) -> list[Caution]:
-    """The cautions, for the summaries of a cycle's loads."""
+def cycle_warnings(cycle: Cycle, loads: Mapping[str, Summary]) -> list[Notice]:
+    """The warnings, for the summaries of a cycle's loads."""
     lags = _lags(cycle.mechanism)
     return [*_back_driven(cycle, loads), *lags, *_heavy(cycle), *_fast(cycle.mechanism, loads)]
 
@@ -41,14 +41,14 @@ def back_driven_deg(cycle: Cycle) -> list[tuple[float, float]]:
     return out
 
 
-def _back_driven(cycle: Cycle, loads: Mapping[str, Summary]) -> list[Caution]:
+def _back_driven(cycle: Cycle, loads: Mapping[str, Summary]) -> list[Notice]:
     torque, alpha = loads["input_torque_Nm"], loads["alpha_rad_s2"]
     least, most = torque.min, torque.max
     if least is None or alpha.min is None or not least < -ROUNDED * abs(most or least):
         return []
     driven = back_driven_deg(cycle)
     where = ", ".join(f"{round(a, 9):.4g} to {round(b, 9):.4g}" for a, b in driven)
-    # With so much resistance the wheel is braked without the input even where it slows down most.
+    # With this resistance the wheel is braked without the input even at its greatest deceleration.
     inertia = cycle.given.inertia_Nm / cycle.given.speed_rad_s**2
     drag = -inertia * alpha.min
     helps = f"or add a drag to the wheel (with a resisting torque of {drag:.4g} N m in all, the "
@@ -56,7 +56,7 @@ def _back_driven(cycle: Cycle, loads: Mapping[str, Summary]) -> list[Caution]:
     if arrival(cycle.mechanism):
         helps = "but no drag on the wheel, which would take it off the roller that stops it"
     return [
-        Caution(
+        Notice(
             "drives-the-motor",
             f"the wheel drives the motor from {where} deg, with up to {-least:.4g} N m on the "
             "input. There the play of slot and reducer changes sides, and a self-locking worm "
@@ -65,14 +65,14 @@ def _back_driven(cycle: Cycle, loads: Mapping[str, Summary]) -> list[Caution]:
     ]
 
 
-def _lags(mechanism: Mechanism) -> list[Caution]:
-    """Where the wheel comes off the roller that stops it, and on again."""
+def _lags(mechanism: Mechanism) -> list[Notice]:
+    """A warning if the wheel leaves the roller that stops it, and meets it again."""
     found = arrival(mechanism)
     if found is None or found.lag is None:
         return []
     lag, at_deg, struck = found.lag
     return [
-        Caution(
+        Notice(
             "lags-behind",
             f"a torque of {found.torque_Nm:.4g} N m takes the wheel off the roller that stops it. "
             f"Once the gears let go the wheel lags, by up to {lag:.4g} deg at {at_deg:.4g} deg, "
@@ -82,7 +82,7 @@ def _lags(mechanism: Mechanism) -> list[Caution]:
     ]
 
 
-def _heavy(cycle: Cycle) -> list[Caution]:
+def _heavy(cycle: Cycle) -> list[Notice]:
     L = cycle.given.L
     inertia = cycle.given.inertia_Nm / cycle.given.speed_rad_s**2
     # a disc's J = pi rho h D^4 / 32
@@ -90,7 +90,7 @@ def _heavy(cycle: Cycle) -> list[Caution]:
     if not inertia > most:
         return []
     return [
-        Caution(
+        Notice(
             "heavy-inertia",
             f"an inertia of {inertia:.4g} kg m² is large for a centre distance of {1e3 * L:.4g} "
             f"mm: a solid steel table {1e3 * ACROSS * L:.4g} mm across and {1e3 * THICK * L:.4g} "
@@ -99,7 +99,7 @@ def _heavy(cycle: Cycle) -> list[Caution]:
     ]
 
 
-def _fast(mechanism: Mechanism, loads: Mapping[str, Summary]) -> list[Caution]:
+def _fast(mechanism: Mechanism, loads: Mapping[str, Summary]) -> list[Notice]:
     engagement = mechanism.engagements[0]
     x, y = engagement.path(engagement.entry_deg, 0)
     rim = math.hypot(x.c[0], y.c[0]) * mechanism.center_distance_mm / 1000.0
@@ -108,7 +108,7 @@ def _fast(mechanism: Mechanism, loads: Mapping[str, Summary]) -> list[Caution]:
         return []
     n = mechanism.spec.drive.n_rpm
     return [
-        Caution(
+        Notice(
             "faster-than-sound",
             f"the wheel's rim moves at up to {speed:.4g} m/s, faster than sound ({SOUND_M_S:g} "
             f"m/s): check n_rpm = {n:g}, the input's turns a minute",

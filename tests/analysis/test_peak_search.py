@@ -6,8 +6,8 @@ from design_arrays import MACHINES, alone, drawn, machine
 from machine_witness import motions
 from witness import QUANTITIES as EXACT
 
+from geneva_cli.analysis.peak_search import QUANTITIES, motion_peaks, worst_peaks
 from geneva_cli.analysis.peaks import worst
-from geneva_cli.analysis.peaks_many import QUANTITIES, peaks_of_many, worst_of_many
 from geneva_cli.machine.many import many
 
 # Both are within some 1e-15 of the true peak of the machine as it was built; near its limit a
@@ -35,7 +35,7 @@ def test_as_one_by_one(name):
     spec, rules = MACHINES[name]
     varied = drawn(rules, 24, 11)
     found = many(spec, varied)
-    peaks = worst_of_many(found.machine)
+    peaks = worst_peaks(found.machine)
     for engagement in found.machine.engagements:
         rough_is_near(engagement.motion, len(found.which))
     for row, i in list(enumerate(found.which))[::2]:
@@ -55,7 +55,7 @@ def test_against_50_digits(name):
     spec, rules = MACHINES[name]
     varied = drawn(rules, 12, 5)
     found = many(spec, varied)
-    peaks = peaks_of_many(found.machine.engagements[0].motion, ["velocity", "acceleration"])
+    peaks = motion_peaks(found.machine.engagements[0].motion, ["velocity", "acceleration"])
     for row, i in enumerate(found.which[:2]):
         engagement = alone(spec, varied, int(i)).engagements[0]
         exact = motions(alone(spec, varied, int(i)).spec)[0]
@@ -73,7 +73,7 @@ def test_against_50_digits(name):
 def test_of_designs_that_differ_in_nothing_the_motion_knows():
     """The speed changes no invariant: one number stands for all."""
     found = many(machine(6, "side-crank", A=0.6), {"drive.n_rpm": np.array([30.0, 60.0, 90.0])})
-    peaks = worst_of_many(found.machine, ["velocity"])["velocity"]
+    peaks = worst_peaks(found.machine, ["velocity"])["velocity"]
     assert found.spread(peaks.max).tolist() == [0.625] * 3
 
 
@@ -85,7 +85,7 @@ def test_a_pin_that_all_but_meets_the_wheels_centre():
     spec, _ = MACHINES["slider-crank"]
     keys = {"drive.rod_mm": 49.80315879003328, "drive.height_mm": 7.639635438006863, "wheel.z": 16}
     varied = {key: np.array([value]) for key, value in keys.items()}
-    found = worst_of_many(many(spec, varied).machine, ["velocity"])["velocity"].max[0]
+    found = worst_peaks(many(spec, varied).machine, ["velocity"])["velocity"].max[0]
     assert found == pytest.approx(worst(alone(spec, varied, 0)).velocity.max, rel=1e-10)
 
 
@@ -97,7 +97,7 @@ def test_what_comes_up_to_a_level_and_stays_there():
     spec, rules = MACHINES["gear sector, any ratio"]
     varied = drawn(rules, 400, 17)
     found = many(spec, varied)
-    peaks = worst_of_many(found.machine, ["velocity", "acceleration"])
+    peaks = worst_peaks(found.machine, ["velocity", "acceleration"])
     speed, acceleration = (peak.max for peak in peaks.values())
     ratio = varied["drive.gear_ratio"][found.which]
     assert len(speed) > 50

@@ -10,8 +10,8 @@ from loaded_arrays import CARRIED, LOAD, MISSED, NAMES, beyond, dense_means, loa
 from geneva_cli import design
 from geneva_cli.analysis.loads import loads
 from geneva_cli.analysis.loads.cycle import Cycle
-from geneva_cli.analysis.loads.many import greatest_of_many, summaries_of_many
-from geneva_cli.analysis.loads.means_many import means_of_many
+from geneva_cli.analysis.loads.means import load_means
+from geneva_cli.analysis.loads.summaries import load_peaks, load_summaries
 from geneva_cli.machine.many import many
 from geneva_cli.machine.mechanism import build
 from geneva_cli.numerics.search import BLOCK
@@ -31,7 +31,7 @@ def test_means_against_sums_of_many_places(name):
     """Beside poles 2e-12 of the size, as 80,000 places a stretch leave: elsewhere much less."""
     names = ("omega_rad_s", "power_W", *NAMES)
     spec, varied, found = loaded(name, 8, 3)
-    together = summaries_of_many(found.machine, names)
+    together = load_summaries(found.machine, names)
     row, i = 0, found.which[0]
     cycle = Cycle(alone(spec, varied, i))
     for load in names:
@@ -44,7 +44,7 @@ def test_means_against_sums_of_many_places(name):
         assert here.mean[row] == pytest.approx(mean, abs=size), load
         assert here.rms[row] == pytest.approx(rms, abs=size), load
     for told in (("mean", "rms"), ("rms",)):  # without a search for extremes
-        for load, alone_ in means_of_many(found.machine, names, told).items():
+        for load, alone_ in load_means(found.machine, names, told).items():
             assert alone_.rms == pytest.approx(together[load].rms, rel=1e-12)
             if "mean" in told:
                 # without a search the cuts are had from other rows, and by another rounding
@@ -99,8 +99,8 @@ def test_means_beside_narrow_features(case, told):
     _, dense = dense_means(Cycle(alone(spec, columns, 0)), name)
     found = many(spec, columns).machine
     for rms in (
-        summaries_of_many(found, [name], told)[name].rms,
-        means_of_many(found, [name], told)[name].rms,
+        load_summaries(found, [name], told)[name].rms,
+        load_means(found, [name], told)[name].rms,
     ):
         assert rms == pytest.approx(dense, rel=2e-12)
 
@@ -110,8 +110,8 @@ def test_means_beside_narrow_features(case, told):
 def test_an_inertia_alone_is_summed_in_pairs(name, friction):
     """As where the sliding's changes are cut, to rounding; some wheels are held by friction."""
     _, _, found = loaded(name, 60, 78, torque_Nm=0.0, efficiency=1.0, **friction)
-    together = summaries_of_many(found.machine, NAMES, told=("rms",))
-    for load, one in means_of_many(found.machine, NAMES, told=("rms",)).items():
+    together = load_summaries(found.machine, NAMES, told=("rms",))
+    for load, one in load_means(found.machine, NAMES, told=("rms",)).items():
         cut = together[load]
         size = np.maximum(np.abs(cut.max), np.abs(cut.min))
         assert np.array_equal(np.isinf(one.rms), np.isinf(cut.rms)), load
@@ -151,7 +151,7 @@ def test_a_least_value_far_from_a_pole_is_found():
     spec = MACHINES["sine-group"][0].replace(load=Load())
     columns = {key: np.array([value]) for key, value in varied.items()}
     found = many(spec, columns)
-    least = summaries_of_many(found.machine, ["crank_bearing_N"], told=())["crank_bearing_N"]
+    least = load_summaries(found.machine, ["crank_bearing_N"], told=())["crank_bearing_N"]
     assert (beyond(found, 3000, 5, ("crank_bearing_N",)) <= 1e-12).all()
     assert least.min_at_deg[0] == pytest.approx(89.72321, abs=1e-4)
 
@@ -165,7 +165,7 @@ def test_the_least_of_a_size_is_nothing():
     names = ("wheel_bearing_N", "crank_bearing_N")
     for torque, of_each in ((0.0, (0, 3, 6)), (10.0, (0,))):
         _, _, found = loaded("cycloidal", 12, 5, torque_Nm=torque)
-        together = summaries_of_many(found.machine, names, told=())
+        together = load_summaries(found.machine, names, told=())
         for row in of_each:
             for load in names:
                 assert 0.0 <= together[load].min[row] < 1e-10
@@ -177,10 +177,10 @@ def test_what_was_stepped_over_is_found(name):
     """Dense samples pass no extreme of designs of which one was missed."""
     _, _, found = missed(name)
     assert (beyond(found, 3000, 7) <= 1e-12).all()
-    for load, one in summaries_of_many(found.machine, NAMES, told=()).items():
+    for load, one in load_summaries(found.machine, NAMES, told=()).items():
         size = np.maximum(np.abs(one.max), np.abs(one.min))
         # where one is asked for alone, others' cuts bring nothing to light
-        alone_ = greatest_of_many(found.machine, [load])[load].max
+        alone_ = load_peaks(found.machine, [load])[load].max
         assert alone_ == pytest.approx(size, rel=1e-12), load
 
 
@@ -189,12 +189,12 @@ def test_no_friction_among_designs_with():
     spec = MACHINES["modified-sine"][0].replace(load=Load(inertia_kgm2=1.0, torque_Nm=5.0))
     found = many(spec, {"load.friction": np.array([0.1, 0.0, 0.2])})
     for one in (
-        greatest_of_many(found.machine, ["input_torque_Nm"])["input_torque_Nm"].max,
-        summaries_of_many(found.machine, ["input_torque_Nm"])["input_torque_Nm"].rms,
-        means_of_many(found.machine, ["power_W"])["power_W"].rms,
+        load_peaks(found.machine, ["input_torque_Nm"])["input_torque_Nm"].max,
+        load_summaries(found.machine, ["input_torque_Nm"])["input_torque_Nm"].rms,
+        load_means(found.machine, ["power_W"])["power_W"].rms,
     ):
         assert np.isinf(one).tolist() == [True, False, True]
-    here = summaries_of_many(found.machine, ["input_torque_Nm"])["input_torque_Nm"]
+    here = load_summaries(found.machine, ["input_torque_Nm"])["input_torque_Nm"]
     _, rms = dense_means(Cycle(build(spec)), "input_torque_Nm")
     assert here.max[1] == pytest.approx(28.93, abs=5e-3)
     assert here.rms[1] == pytest.approx(rms, rel=1e-12)
@@ -208,7 +208,7 @@ def test_greatest_against_bodies_cut_free(name):
     times as much.
     """
     spec, varied, found = loaded(name, 4, 8, friction=0.1, efficiency=1.0)
-    greatest = greatest_of_many(found.machine, ("pin_force_N", "input_torque_Nm"))
+    greatest = load_peaks(found.machine, ("pin_force_N", "input_torque_Nm"))
     i = int(found.which[0])
     machine = alone(spec, varied, i)
     parts = load_witness.machine(machine.spec)
@@ -230,7 +230,7 @@ def test_greatest_against_bodies_cut_free(name):
 def test_greatest_sizes_as_the_report_tells_them(name):
     spec, varied, found = loaded(name, 8, 11)
     names = {"torque_Nm": "wheel_torque_Nm"} | {q: q for q in NAMES if q != "sliding_m_s"}
-    together = greatest_of_many(found.machine, list(names.values()))
+    together = load_peaks(found.machine, list(names.values()))
     for row, i in list(enumerate(found.which))[:2]:
         machine = alone(spec, varied, i)
         for told, name_ in names.items():
@@ -249,7 +249,7 @@ def test_blocks_of_designs_answer_as_each_does(name):
     n, few = BLOCK + 40, 8
     varied = drawn([*rules, *CARRIED], n, 4)
     found = many(spec, {key: np.tile(values[:few], n // few) for key, values in varied.items()})
-    together = greatest_of_many(found.machine, names)
+    together = load_peaks(found.machine, names)
     repeated = len(found.which) // (n // few)
     for one in together.values():
         for values in one:
@@ -262,8 +262,8 @@ def test_sizes_of_half_a_motion_are_those_of_the_whole(name):
     """Without friction the second half has none greater, and greatest sizes do not look there."""
     names = ("pin_force_N", "input_torque_Nm", "contact_stress_MPa")
     _, _, found = loaded(name, 30, 9, friction=0.0, torque_Nm=0.0)
-    sizes = greatest_of_many(found.machine, names)
-    for load, whole in summaries_of_many(found.machine, names, told=()).items():
+    sizes = load_peaks(found.machine, names)
+    for load, whole in load_summaries(found.machine, names, told=()).items():
         most = np.maximum(whole.max, -whole.min)
         assert sizes[load].max == pytest.approx(most, rel=32 * ULP), load
 
@@ -273,7 +273,7 @@ def test_a_torque_alone_has_no_sign_that_counts():
     spec = MACHINES["side-crank"][0].replace(load=Load(torque_Nm=3.0))
     found = many(spec, {"drive.A": np.array([-0.2, 0.0, 0.6])})
     names = ("pin_force_N", "input_torque_Nm")
-    sizes = greatest_of_many(found.machine, names)
+    sizes = load_peaks(found.machine, names)
     for i, row in enumerate(found.which.tolist()):
         one = build(spec.replace(drive=spec.drive.replace(A=(-0.2, 0.0, 0.6)[row])))
         middle = loads.state(one, one.engagements[0], 0.0)
@@ -286,7 +286,7 @@ def test_the_inertia_alone_against_the_theory():
     spec, _ = MACHINES["crank"]
     spec = spec.replace(load=Load(inertia_kgm2=1.0))
     found = many(spec, {"wheel.z": np.array([6, 12]), "drive.n_rpm": np.array([60.0, 30.0])})
-    force = summaries_of_many(found.machine, ["pin_force_N"])["pin_force_N"]
+    force = load_summaries(found.machine, ["pin_force_N"])["pin_force_N"]
     L, w = 0.1, np.array([2.0 * np.pi, np.pi])
     assert force.max * L / w**2 == pytest.approx(
         [2.3911331461217286, 0.42187714544353779], rel=1e-14

@@ -1,4 +1,4 @@
-"""Many designs of one engagement in groups that are worked out together."""
+"""Batches of one engagement, divided into groups that are computed together."""
 
 from __future__ import annotations
 
@@ -7,22 +7,22 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from geneva_cli.analysis.loads.loaded_many import Machine
+from geneva_cli.analysis.loads.loaded import Machine
 from geneva_cli.machine.many import taken
 
 if TYPE_CHECKING:
     from geneva_cli.numerics.arrays import Array, Number, Whole
 
-GROUP = 4096  # designs whose stretches are found together
+GROUP = 4096  # designs that are computed together
 
 
 def of_groups(
     every: Machine, found: Callable[[Machine, int], Sequence[Array]]
 ) -> tuple[Array, ...]:
-    """Arrays (rows, n) that are found of n designs at a time, as those of all: (rows, m).
+    """Arrays (rows, n) that ``found`` gives for n designs at a time, joined for all: (rows, m).
 
-    Designs without friction are apart from those with: a torque whose force has no bound has
-    itself a bound without friction alone.
+    Designs without friction form groups of their own: their torque is bounded even where the force
+    is not.
     """
     m = every[1].designs
     out: list[Array] = []
@@ -35,7 +35,7 @@ def of_groups(
 
 
 def parts(friction: Number, m: int) -> Iterator[Whole]:
-    """The numbers of m designs in groups; those without friction are apart."""
+    """The numbers of m designs in groups; designs without friction have groups of their own."""
     rubs = np.broadcast_to(np.ravel(friction) != 0.0, (m,))
     for those in (np.flatnonzero(~rubs), np.flatnonzero(rubs)):
         for i in range(0, len(those), GROUP):
