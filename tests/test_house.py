@@ -224,7 +224,6 @@ MANY_PARAMETERS = {
     "design": {"__init__", "drawing"},
     "study.sweep.request": {"request"},
     "study.synthesis.reading": {"read_wish"},
-    "numerics.quadrature_many": {"integrals_many", "_parts"},  # the batch's integrals, to be cut
 }
 
 

@@ -32,7 +32,7 @@ from geneva_cli.analysis.motion import local_deg, spans
 from geneva_cli.machine.engagement import Engagement
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.numerics.angles import DEGREE
-from geneva_cli.numerics.quadrature_many import integrals_many
+from geneva_cli.numerics.quadrature_many import Integrands, integrals_many
 from geneva_cli.numerics.search import Found
 
 if TYPE_CHECKING:
@@ -195,7 +195,7 @@ class Cycle:
             one = np.zeros(len(pieces), dtype=int)
             asked = np.full(total.shape, True)
             with np.errstate(all="ignore"):
-                total += integrals_many(rows, start, end, one, asked, ends=True)
+                total += integrals_many(Integrands(rows, start, end, ends=True), one, asked)
         return [float(x) for x in total[:, 0] * DEGREE]
 
     @cached_property

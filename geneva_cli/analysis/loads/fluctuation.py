@@ -30,7 +30,7 @@ from geneva_cli.machine.many import taken
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.numerics.angles import DEGREE
 from geneva_cli.numerics.jet import Jet
-from geneva_cli.numerics.quadrature_many import integrals_many
+from geneva_cli.numerics.quadrature_many import Integrands, integrals_many
 from geneva_cli.numerics.search import search
 
 if TYPE_CHECKING:
@@ -115,7 +115,7 @@ def _works(
 
     asked = np.stack((bounded, bounded))
     with np.errstate(all="ignore"):
-        each = integrals_many(rows, a, b, design, asked, True, apart=True) * DEGREE
+        each = integrals_many(Integrands(rows, a, b, True), design, asked, apart=True) * DEGREE
     first = np.searchsorted(design, np.arange(n))
     number = np.arange(len(design)) - first[design]
     works = np.zeros((n, int(number.max()) + 1))

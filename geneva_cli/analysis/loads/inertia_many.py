@@ -18,7 +18,7 @@ from geneva_cli.analysis.loads.quantities import square_of
 from geneva_cli.analysis.loads.stretches import spans_of
 from geneva_cli.numerics.angles import DEGREE
 from geneva_cli.numerics.arrays import all_true, array
-from geneva_cli.numerics.quadrature_many import integrals_many
+from geneva_cli.numerics.quadrature_many import Integrands, integrals_many
 from geneva_cli.numerics.search import search
 from geneva_cli.numerics.spread import gathered, spread
 
@@ -65,5 +65,5 @@ def squares(load: Loaded, n: int) -> Array:
         return total * rate
 
     with np.errstate(all="ignore"):
-        total = integrals_many(rows, spread(a, w), spread(b, w), design, bounded)
+        total = integrals_many(Integrands(rows, spread(a, w), spread(b, w)), design, bounded)
     return np.where(bounded, total * DEGREE, np.inf)

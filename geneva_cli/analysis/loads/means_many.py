@@ -25,7 +25,7 @@ from geneva_cli.analysis.loads.stretches import mirror_images, spans_of
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.numerics.angles import DEGREE
 from geneva_cli.numerics.arrays import array
-from geneva_cli.numerics.quadrature_many import integrals_many
+from geneva_cli.numerics.quadrature_many import Integrands, integrals_many
 from geneva_cli.numerics.search import search
 from geneva_cli.numerics.spread import gathered, spread
 
@@ -154,7 +154,7 @@ def sums(load: Loaded, pieces: Stretches, bounded: Mask, n: int, plain: bool) ->
         asked = np.tile(bounded, (parts, 1))
         ends = spread(a, w), spread(b, w)
         poles = 0.5 * np.pi * w
-        total = integrals_many(by_spread, *ends, design, asked, rooted, poles=poles)
+        total = integrals_many(Integrands(by_spread, *ends, rooted), design, asked, poles=poles)
         if paired.any():
             total = total[: len(total) // 2] + total[len(total) // 2 :]
         engagement = load.machine[0]

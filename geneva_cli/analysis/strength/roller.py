@@ -26,7 +26,7 @@ from geneva_cli.analysis.loads.stretches import spans_of, to_mid_motion
 from geneva_cli.machine.many import taken
 from geneva_cli.numerics.angles import DEGREE
 from geneva_cli.numerics.arrays import all_true, array, only_of, parameter
-from geneva_cli.numerics.quadrature_many import integrals_many
+from geneva_cli.numerics.quadrature_many import Integrands, integrals_many
 from geneva_cli.numerics.search import search
 
 if TYPE_CHECKING:
@@ -110,7 +110,7 @@ def _integrals(every: Machine, n: int, half: float) -> Array:
     every_one = np.full(n, True)
     requested = np.stack((every_one, every_one, bounded, bounded))
     with np.errstate(all="ignore"):
-        total = integrals_many(rows, a, b, design, requested, ends=True) * DEGREE
+        total = integrals_many(Integrands(rows, a, b, ends=True), design, requested) * DEGREE
     return np.where(requested, total, np.inf)
 
 
