@@ -224,7 +224,6 @@ MANY_PARAMETERS = {
     "design": {"__init__", "drawing"},
     "study.sweep.request": {"request"},
     "study.synthesis.reading": {"read_wish"},
-    "numerics.adaptive_quadrature": {"span_integrals", "_parts"},  # to be cut
 }
 
 

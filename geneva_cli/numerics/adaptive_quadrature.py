@@ -10,7 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from functools import cache
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
@@ -33,13 +33,40 @@ TERMS = 2  # last terms taken together: every other term of an even or odd funct
 LEFT = 2e-12
 
 
+class Integrands(NamedTuple):
+    """Functions, and the spans from ``a`` to ``b`` over which each of them is integrated.
+
+    ``functions(x, which)`` gives the functions (functions, m, k) of the spans ``which`` at places
+    (m, k). With ``ends`` they may go with the root of the distance from a span's ends: places are
+    then t² (3 - 2 t) of it.
+    """
+
+    functions: Callable[[Array, Whole], Array]
+    a: Array
+    b: Array
+    ends: bool = False
+
+    def parts(self, of: Whole, low: Array, high: Array, nodes: int) -> tuple[Array, Array, Array]:
+        """Integrals over fractions of spans, their last terms, and integrals of the sizes."""
+        node, terms = _rule(nodes, self.ends)
+        half = 0.5 * (high - low)
+        # designs lie side by side in memory
+        t = np.asfortranarray((0.5 * (low + high))[:, None] + half[:, None] * node)
+        width = (self.b - self.a)[of, None]
+        rate = width * half[:, None]
+        if self.ends:
+            rate = rate * (6.0 * t * (1.0 - t))
+            t = t * t * (3.0 - 2.0 * t)
+        value = self.functions(self.a[of, None] + width * t, of) * rate
+        found = value @ terms
+        last = np.abs(found[..., 1:]).max(axis=-1)
+        return found[..., 0], last, np.abs(value) @ terms[:, 0]
+
+
 def span_integrals(
-    functions: Callable[[Array, Whole], Array],
-    a: Array,
-    b: Array,
+    integrands: Integrands,
     design: Whole,
     asked: Mask,
-    ends: bool = False,
     apart: bool = False,
     poles: Array | None = None,
 ) -> Array:
@@ -49,29 +76,27 @@ def span_integrals(
     are meaningless. ``functions`` may narrow it later. ``functions(x, which)`` gives the functions
     (functions, m, k) of the spans ``which`` at places (m, k).
 
-    With ``ends`` functions may behave as the root of the distance from a span's ends: nodes are
-    then at t² (3 - 2 t) of the span. With ``apart`` the result has one integral for each span:
-    (functions, spans), to the same fraction of its design's. ``poles`` (spans,) is the distance of
-    the nearest poles from the real axis, if known.
+    With ``apart`` the result is the integral of each span, (functions, spans), to the same
+    fraction of its design's. ``poles`` (spans,) is the distance of the nearest poles from the real
+    axis, if known.
     """
-    n = asked.shape[1]
-    into = np.arange(len(a)) if apart else design
-    total, size = np.zeros((0, len(a) if apart else n)), np.zeros((0, n))
+    n, width = asked.shape[1], integrands.b - integrands.a
+    into = np.arange(len(width)) if apart else design
+    total, size = np.zeros((0, len(width) if apart else n)), np.zeros((0, n))
     unbounded, widest = total != 0.0, np.zeros(n)
-    np.maximum.at(widest, design, b - a)
-    narrow = b - a <= NARROW * widest[design]
-    wide = ~narrow & (b - a > WIDE * (np.inf if poles is None else poles))
+    np.maximum.at(widest, design, width)
+    narrow = width <= NARROW * widest[design]
+    wide = ~narrow & (width > WIDE * (np.inf if poles is None else poles))
     groups = [(FEW, narrow), (NODES, ~(narrow | wide)), (MANY, wide)]
     of = np.concatenate([np.flatnonzero(which) for _, which in groups])
-    low, high = np.zeros(len(a)), np.ones(len(a))
+    low, high = np.zeros(len(width)), np.ones(len(width))
     counts = [(nodes, int(which.sum())) for nodes, which in groups]
     for _ in range(DEEPEST):
         found, start = [], 0
         for nodes, count in counts:
             for i in range(start, start + count, BLOCK):
                 part = slice(i, min(i + BLOCK, start + count))
-                spans = a, b, of[part], low[part], high[part]
-                found.append(_parts(functions, *spans, nodes, ends))
+                found.append(integrands.parts(of[part], low[part], high[part], nodes))
             start += count
         whole, last, sizes = (np.concatenate(v, axis=1) for v in zip(*found, strict=True))
         if not len(total):
@@ -97,32 +122,6 @@ def span_integrals(
 def _add(total: Array, design: Whole, rows: Array) -> None:
     for own, row in zip(total, rows, strict=True):
         own += np.bincount(design, row, len(own))
-
-
-def _parts(
-    functions: Callable[[Array, Whole], Array],
-    a: Array,
-    b: Array,
-    of: Whole,
-    low: Array,
-    high: Array,
-    nodes: int,
-    ends: bool,
-) -> tuple[Array, Array, Array]:
-    """Integrals over fractions of spans, their last terms, and the integrals of the sizes."""
-    node, terms = _rule(nodes, ends)
-    half = 0.5 * (high - low)
-    # designs lie side by side in memory
-    t = np.asfortranarray((0.5 * (low + high))[:, None] + half[:, None] * node)
-    width = (b - a)[of, None]
-    rate = width * half[:, None]
-    if ends:
-        rate = rate * (6.0 * t * (1.0 - t))
-        t = t * t * (3.0 - 2.0 * t)
-    value = functions(a[of, None] + width * t, of) * rate
-    found = value @ terms
-    last = np.abs(found[..., 1:]).max(axis=-1)
-    return found[..., 0], last, np.abs(value) @ terms[:, 0]
 
 
 @cache

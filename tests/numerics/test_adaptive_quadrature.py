@@ -6,7 +6,15 @@ import numpy as np
 import pytest
 
 from geneva_cli.numerics import adaptive_quadrature
-from geneva_cli.numerics.adaptive_quadrature import FEW, LEFT, MANY, NODES, WIDE, span_integrals
+from geneva_cli.numerics.adaptive_quadrature import (
+    FEW,
+    LEFT,
+    MANY,
+    NODES,
+    WIDE,
+    Integrands,
+    span_integrals,
+)
 
 
 def summed(f, n=1, ends=False):
@@ -18,7 +26,7 @@ def summed(f, n=1, ends=False):
         return f(x, which)[None]
 
     a, every = np.zeros(n), np.arange(n)
-    found = span_integrals(functions, a, a + 1.0, every, np.full((1, n), True), ends)
+    found = span_integrals(Integrands(functions, a, a + 1.0, ends), every, np.full((1, n), True))
     return found[0], sum(places)
 
 
@@ -66,8 +74,8 @@ def test_spans_with_poles_beside_them_begin_with_more_places():
         places.append(x.shape[1])
         return 1.0 / (x * x + s[which, None] ** 2)[None]
 
-    every, asked = (np.zeros(2), np.ones(2), np.arange(2)), np.full((1, 2), True)
-    found = span_integrals(functions, *every, asked, poles=s)[0]
+    ends, asked = (np.zeros(2), np.ones(2)), np.full((1, 2), True)
+    found = span_integrals(Integrands(functions, *ends), np.arange(2), asked, poles=s)[0]
     assert found == pytest.approx(np.arctan(1.0 / s) / s, rel=LEFT)
     assert places == [NODES, MANY]
 
@@ -81,7 +89,7 @@ def test_narrow_spans_begin_with_fewer_places():
         return np.exp(x)[None]
 
     a, b, design = np.array([0.0, 0.9]), np.array([0.9, 1.0]), np.zeros(2, dtype=int)
-    found = span_integrals(functions, a, b, design, np.full((1, 1), True))
+    found = span_integrals(Integrands(functions, a, b), design, np.full((1, 1), True))
     assert found[0] == pytest.approx(math.e - 1.0, rel=4e-16)
     assert places == [(1, FEW), (1, NODES)]
 
@@ -93,5 +101,5 @@ def test_spans_apart():
     def waves(x, which):
         return np.where((which == 1)[:, None], 1e-16 * np.sin(1e9 * x), np.cos(x))[None]
 
-    found = span_integrals(waves, a, b, design, np.full((1, 2), True), apart=True)
+    found = span_integrals(Integrands(waves, a, b), design, np.full((1, 2), True), apart=True)
     assert found[0] == pytest.approx(np.sin([1.0, 0.0, 3.0]), rel=4e-15, abs=1e-15)

@@ -7,7 +7,7 @@ import pytest
 
 from geneva_cli.machine.laws.standard import ModifiedSine
 from geneva_cli.machine.slot_and_motion import _sinc
-from geneva_cli.numerics.adaptive_quadrature import span_integrals
+from geneva_cli.numerics.adaptive_quadrature import Integrands, span_integrals
 from geneva_cli.numerics.jet import Jet
 from geneva_cli.numerics.latest import Latest
 from geneva_cli.numerics.quadrature import lobatto, rule
@@ -31,7 +31,7 @@ def test_roots_at_the_ends_cost_no_more_than_what_is_smooth(name):
         return f(x)[None]
 
     ends, one = (np.array([2.0]), np.array([5.0])), np.zeros(1, dtype=int)
-    (found,) = span_integrals(rows, *ends, one, np.full((1, 1), True), ends=True)[0]
+    (found,) = span_integrals(Integrands(rows, *ends, True), one, np.full((1, 1), True))[0]
     # beside an end x itself is rounded, to 4e-16 of 5: a root of that over so short a way is lost
     assert found == pytest.approx(exact, rel=1e-14)
     assert len(calls) <= 4, "an end is halved time and again"
@@ -42,7 +42,7 @@ def test_a_kink_beside_an_end_is_found(kink):
     """|x - kink| over 2..5: between an end and the nearest place of Gauss none would tell of it."""
     ends, one = (np.array([2.0]), np.array([5.0])), np.zeros(1, dtype=int)
     found = span_integrals(
-        lambda x, _: abs(x - kink)[None], *ends, one, np.full((1, 1), True), ends=True
+        Integrands(lambda x, _: abs(x - kink)[None], *ends, True), one, np.full((1, 1), True)
     )
     exact = 0.5 * ((kink - 2.0) ** 2 + (5.0 - kink) ** 2)
     assert found[0, 0] == pytest.approx(exact, rel=1e-12)  # what its last terms may leave

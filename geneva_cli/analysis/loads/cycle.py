@@ -31,7 +31,7 @@ from geneva_cli.analysis.loads.summaries import (
 from geneva_cli.analysis.motion import local_deg, spans
 from geneva_cli.machine.engagement import Engagement
 from geneva_cli.machine.mechanism import Mechanism
-from geneva_cli.numerics.adaptive_quadrature import span_integrals
+from geneva_cli.numerics.adaptive_quadrature import Integrands, span_integrals
 from geneva_cli.numerics.angles import DEGREE
 from geneva_cli.numerics.search import Found
 
@@ -195,7 +195,7 @@ class Cycle:
             one = np.zeros(len(pieces), dtype=int)
             asked = np.full(total.shape, True)
             with np.errstate(all="ignore"):
-                total += span_integrals(rows, start, end, one, asked, ends=True)
+                total += span_integrals(Integrands(rows, start, end, ends=True), one, asked)
         return [float(x) for x in total[:, 0] * DEGREE]
 
     @cached_property

@@ -28,7 +28,7 @@ from geneva_cli.analysis.loads.stretches import spans_of, to_mid_motion
 from geneva_cli.machine.engagement import Engagement
 from geneva_cli.machine.many import taken
 from geneva_cli.machine.mechanism import Mechanism
-from geneva_cli.numerics.adaptive_quadrature import span_integrals
+from geneva_cli.numerics.adaptive_quadrature import Integrands, span_integrals
 from geneva_cli.numerics.angles import DEGREE
 from geneva_cli.numerics.jet import Jet
 from geneva_cli.numerics.search import search
@@ -118,7 +118,7 @@ def _works(
 
     asked = np.stack((bounded, bounded))
     with np.errstate(all="ignore"):
-        each = span_integrals(rows, a, b, design, asked, True, apart=True) * DEGREE
+        each = span_integrals(Integrands(rows, a, b, True), design, asked, apart=True) * DEGREE
     first = np.searchsorted(design, np.arange(n))
     number = np.arange(len(design)) - first[design]
     works = np.zeros((n, int(number.max()) + 1))

@@ -16,7 +16,7 @@ from geneva_cli.analysis.loads.forces import ZERO
 from geneva_cli.analysis.loads.loaded import Loaded, Signs, look
 from geneva_cli.analysis.loads.quantities import square_of
 from geneva_cli.analysis.loads.stretches import spans_of
-from geneva_cli.numerics.adaptive_quadrature import span_integrals
+from geneva_cli.numerics.adaptive_quadrature import Integrands, span_integrals
 from geneva_cli.numerics.angles import DEGREE
 from geneva_cli.numerics.arrays import all_true, array
 from geneva_cli.numerics.search import search
@@ -68,5 +68,5 @@ def squares(load: Loaded, n: int) -> Array:
         return total * rate
 
     with np.errstate(all="ignore"):
-        total = span_integrals(rows, spread(a, w), spread(b, w), design, bounded)
+        total = span_integrals(Integrands(rows, spread(a, w), spread(b, w)), design, bounded)
     return np.where(bounded, total * DEGREE, np.inf)

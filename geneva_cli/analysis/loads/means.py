@@ -23,7 +23,7 @@ from geneva_cli.analysis.loads.loaded import (
 from geneva_cli.analysis.loads.quantities import SQUARED, plain_values, shares, square_of
 from geneva_cli.analysis.loads.stretches import mirror_images, spans_of
 from geneva_cli.machine.mechanism import Mechanism
-from geneva_cli.numerics.adaptive_quadrature import span_integrals
+from geneva_cli.numerics.adaptive_quadrature import Integrands, span_integrals
 from geneva_cli.numerics.angles import DEGREE
 from geneva_cli.numerics.arrays import array
 from geneva_cli.numerics.search import search
@@ -154,7 +154,7 @@ def sums(load: Loaded, pieces: Stretches, bounded: Mask, n: int, plain: bool) ->
         asked = np.tile(bounded, (parts, 1))
         ends = spread(a, w), spread(b, w)
         poles = 0.5 * np.pi * w
-        total = span_integrals(by_spread, *ends, design, asked, rooted, poles=poles)
+        total = span_integrals(Integrands(by_spread, *ends, rooted), design, asked, poles=poles)
         if paired.any():
             total = total[: len(total) // 2] + total[len(total) // 2 :]
         engagement = load.machine[0]

@@ -24,7 +24,7 @@ from geneva_cli.analysis.loads.groups import of_groups
 from geneva_cli.analysis.loads.loaded import NONE, Loaded, Machine, Signs, machine
 from geneva_cli.analysis.loads.stretches import spans_of, to_mid_motion
 from geneva_cli.machine.many import taken
-from geneva_cli.numerics.adaptive_quadrature import span_integrals
+from geneva_cli.numerics.adaptive_quadrature import Integrands, span_integrals
 from geneva_cli.numerics.angles import DEGREE
 from geneva_cli.numerics.arrays import all_true, array, only_of, parameter
 from geneva_cli.numerics.search import search
@@ -110,7 +110,7 @@ def _integrals(every: Machine, n: int, half: float) -> Array:
     every_one = np.full(n, True)
     requested = np.stack((every_one, every_one, bounded, bounded))
     with np.errstate(all="ignore"):
-        total = span_integrals(rows, a, b, design, requested, ends=True) * DEGREE
+        total = span_integrals(Integrands(rows, a, b, ends=True), design, requested) * DEGREE
     return np.where(requested, total, np.inf)
 
 
