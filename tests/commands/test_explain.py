@@ -34,6 +34,7 @@ from geneva_cli.specfile.template import EXAMPLES
 from geneva_cli.study import batch, survey
 from geneva_cli.study.sweep.run import ERROR
 from geneva_cli.study.synthesis.table import NAMES as SYNTH
+from geneva_cli.verdict.checks import checks
 from geneva_cli.verdict.checks.registry import LIMITS, MOTION, STATIC, TURNING
 from geneva_cli.verdict.quantities import groups
 from geneva_cli.verdict.tolerance.tables import ANGLES
@@ -161,6 +162,10 @@ def test_no_entry_names_no_quantity(quantities: set[str]):
 WITHOUT_RUN = {"rounded-points", "not-known"}
 WARNINGS = [e for e in entries() if e.group == "warning" and e.names[0] not in WITHOUT_RUN]
 
+# A spec with such a dwell or part is refused when it is read, or too fine for an example.
+WITHOUT_EXAMPLE = {"dwell_deg", "full_turn", "link_wall_mm", "parts"}
+CHECKED = [e for e in entries() if e.group == "check" and e.names[0] not in WITHOUT_EXAMPLE]
+
 
 @pytest.mark.parametrize("entry", entries(), ids=lambda e: e.names[0])
 def test_an_entry_is_whole(entry: Entry):
@@ -169,7 +174,7 @@ def test_an_entry_is_whole(entry: Entry):
         (found,) = [m for m in meanings(name) if m.group == entry.group and m.name == name]
         needed = {"meaning", "source", "manual"}
         needed |= {"to_do", "why"} if entry.group in ("check", "warning") else set()
-        needed |= {"bad", "good"} if entry.group == "warning" else set()
+        needed |= {"bad", "good"} if entry in (*WARNINGS, *CHECKED) else set()
         needed |= {"formula", "unit"} if entry.group in ("check", "quantity", "law") else set()
         if name.startswith("."):
             needed -= {"unit", "source"}  # those of what it ends
@@ -198,6 +203,22 @@ def test_a_warning_shows_in_its_bad_example_and_not_in_the_good_one(
     shutil.copytree(repo.DESIGNS, tmp_path, dirs_exist_ok=True)
     (name,) = entry.names
     assert [name in warned(example) for example in (entry.bad, entry.good)] == [True, False]
+
+
+@pytest.mark.parametrize("entry", CHECKED, ids=lambda e: e.names[0])
+def test_a_check_fails_in_its_bad_example_and_passes_in_the_good_one(entry: Entry):
+    bad, good = (passes(example) for example in (entry.bad, entry.good))
+    made = bad.keys() & good.keys() & set(entry.names)
+    assert made and all(good[name] for name in made)
+    assert any(bad[name] is False for name in made)
+
+
+def passes(command: str) -> dict[str, bool | None]:
+    """Whether each check passes that a command makes, without its advice, which takes seconds."""
+    geneva, check, spec, *given = shlex.split(command)
+    assert (geneva, check, *given[::2]) == ("geneva", "check", *["--set"] * (len(given) // 2))
+    design = load(str(repo.DESIGNS / spec), given[1::2])
+    return {row.name: row.passes for row in checks(design.mechanism)}
 
 
 def warned(example: str) -> set[str]:
