@@ -32,6 +32,8 @@ GROUPS: dict[str, dict[str, str]] = {
         "print": "print it",
         "drawing-sheet": "make a drawing with dimensions",
         "step-cad": "hand over a STEP to CAD",
+        "spherical-sheet": "cut a spherical wheel from sheet",
+        "write-report": "write a report",
         "plots": "plot curves and show the machine moving",
         "sweep-front": "sweep a million designs and plot the front",
         "cluster": "run a sweep on a cluster",
