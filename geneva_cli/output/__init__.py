@@ -137,7 +137,7 @@ def tell(answer: Answer, output: str = "-", format: str = "", inputs: Iterable[s
     if name == "md":
         first = summary.markdown(answer.summaries)
     else:
-        first = summary.chunks(answer.summaries, summary.look_of(output))
+        first = summary.chunks(answer.summaries, summary.look_of(output, is_seen(output)))
     page = answer.page
     rest = chain(["\n"] if name == "table" else (), _chunks(page, output, name)) if page else ()
     _put(chain(first, rest), output, inputs)

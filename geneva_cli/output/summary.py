@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-import os
 import re
-import shutil
 import sys
 import textwrap
 from collections.abc import Iterable, Iterator
@@ -14,6 +12,7 @@ from geneva_cli.document import FAILS, PASSES, WARNS, Line, Summary
 from geneva_cli.errors import clean
 from geneva_cli.output.document.values import RAISED, TIMES
 from geneva_cli.output.markdown import escaped
+from geneva_cli.output.window import window
 
 WIDTH = 90  # letters of a line in a file or a pipe
 WIDEST = 100  # letters of a line in a wide window: longer ones are hard to read
@@ -44,8 +43,8 @@ class Look(NamedTuple):
     unicode: bool = True
 
 
-def look_of(output: str) -> Look:
-    """The look for standard output, or for a file, which is always UTF-8."""
+def look_of(output: str, is_seen: bool) -> Look:
+    """The look for a terminal if ``is_seen``, a pipe, or a file, which is always UTF-8."""
     if output != "-":
         return Look()
     try:
@@ -53,10 +52,10 @@ def look_of(output: str) -> Look:
         unicode = True
     except (UnicodeEncodeError, LookupError):
         unicode = False
-    if not sys.stdout.isatty():
+    if not is_seen:
         return Look(unicode=unicode)
-    plain = "NO_COLOR" in os.environ or os.environ.get("TERM") == "dumb"
-    return Look(min(shutil.get_terminal_size().columns, WIDEST), not plain, unicode)
+    seen = window(False, False)
+    return Look(min(seen.columns, WIDEST), seen.styled, unicode)
 
 
 def chunks(summaries: Iterable[Summary], look: Look) -> Iterator[str]:

@@ -120,5 +120,5 @@ def test_signs_need_neither_colour_nor_unicode(monkeypatch: pytest.MonkeyPatch) 
 
     monkeypatch.setattr(sys, "stdout", Ascii)
     monkeypatch.setenv("TERM", "dumb")
-    look = look_of("-")
+    look = look_of("-", True)
     assert (look.coloured, look.unicode) == (False, False)

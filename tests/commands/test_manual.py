@@ -19,7 +19,6 @@ from geneva_cli import output
 from geneva_cli.app import COMMANDS, app
 from geneva_cli.commands import help
 from geneva_cli.manual import GROUPS, TITLES, TOPICS, page, path
-from geneva_cli.output import summary
 
 pytestmark = pytest.mark.usefixtures("made_once")
 ROOT = repo.ROOT
@@ -99,7 +98,6 @@ def test_the_examples_print_what_is_shown(
     text = text_of(file)
     if file in ALONE:
         monkeypatch.chdir(tmp_path)
-        monkeypatch.setattr(summary, "look_of", lambda output: summary.Look(COLUMNS))
         today = FENCE.sub(lambda m: f"```{m[1]}\n{do(m[1], m[2])}```", text)
     else:
         today = BLOCK.sub(lambda m: f"```console\n{replay(m[1])}```", text)
