@@ -224,7 +224,7 @@ MANY_PARAMETERS = {
     "design": {"__init__", "drawing"},
     "output.rows": {"__init__"},
     "study.sweep.request": {"request"},
-    "study.synthesis.reading": {"read_wish"},
+    "study.synthesis.reading": {"read_target"},
     "numerics.adaptive_quadrature": {"span_integrals", "_parts"},  # to be cut
 }
 
