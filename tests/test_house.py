@@ -223,7 +223,7 @@ MOST_PARAMETERS = 6
 MANY_PARAMETERS = {
     "design": {"__init__", "drawing"},
     "study.sweep.request": {"request"},
-    "study.synthesis.reading": {"read_wish"},
+    "study.synthesis.reading": {"read_target"},
 }
 
 

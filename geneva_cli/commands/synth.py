@@ -12,7 +12,7 @@ from geneva_cli.errors import GenevaError, clean, cut
 
 if TYPE_CHECKING:
     from geneva_cli.machine.spec import Spec
-    from geneva_cli.study.synthesis.wish import Wish
+    from geneva_cli.study.synthesis.target import Target
 
 EXAMPLES = (
     "geneva synth --motion-deg 180 --z 6 --check 0",
@@ -132,7 +132,7 @@ def run(
 
     The machines tried, and the columns: `geneva help search`.
     """
-    from geneva_cli.study.synthesis.reading import read_wish
+    from geneva_cli.study.synthesis.reading import read_target
 
     if given and not from_:
         raise GenevaError("--set goes with --from: it changes a key of that spec")
@@ -140,7 +140,7 @@ def run(
         raise GenevaError(f"--check {cut(check)}: it must be at least {int(buildable)}")
     if write is not None and write < 1:
         raise GenevaError(f"--write {cut(write)}: rows are numbered from 1")
-    wish = read_wish(
+    target = read_target(
         tau=tau,
         motion_deg=motion_deg,
         dwell_deg=dwell_deg,
@@ -159,9 +159,9 @@ def run(
         space=space,
     )
     if write is None:
-        _show(wish, check, buildable, output, format)
+        _show(target, check, buildable, output, format)
     else:
-        _write(wish, write, buildable, output, format)
+        _write(target, write, buildable, output, format)
 
 
 def _frame(path: str, given: Sequence[str]) -> "Spec":
@@ -170,12 +170,12 @@ def _frame(path: str, given: Sequence[str]) -> "Spec":
     return load(path, given).spec
 
 
-def _inputs(wish: "Wish") -> Sequence[str]:
+def _inputs(target: "Target") -> Sequence[str]:
     """The files that the requirement was read from."""
-    return wish.frame.files if wish.frame else ()
+    return target.frame.files if target.frame else ()
 
 
-def _show(wish: "Wish", check: int, buildable: bool, output: str, format: str) -> None:
+def _show(target: "Target", check: int, buildable: bool, output: str, format: str) -> None:
     from geneva_cli.output import is_seen, show
     from geneva_cli.output.formats import format_of
     from geneva_cli.study.synthesis.shown import for_people, for_terminal
@@ -184,15 +184,15 @@ def _show(wish: "Wish", check: int, buildable: bool, output: str, format: str) -
     if output.endswith(".toml") and not format:
         raise GenevaError(f"-o {cut(output, 300)}: a spec is one row of the table; add --write N")
     name = format or format_of(output)
-    table = synthesis_table(wish, check, buildable)
+    table = synthesis_table(target, check, buildable)
     if name == "table" and is_seen(output):
         table = for_terminal(table)
     elif name in ("table", "md"):
         table = for_people(table)
-    show(table, output, format, _inputs(wish))
+    show(table, output, format, _inputs(target))
 
 
-def _write(wish: "Wish", number: int, buildable: bool, output: str, format: str) -> None:
+def _write(target: "Target", number: int, buildable: bool, output: str, format: str) -> None:
     from geneva_cli.design import Design
     from geneva_cli.output import show_text
     from geneva_cli.study.synthesis.search import search
@@ -202,8 +202,8 @@ def _write(wish: "Wish", number: int, buildable: bool, output: str, format: str)
         raise GenevaError(f"--format {cut(format)}: --write writes a spec, which is TOML")
     if output != "-" and not output.endswith(".toml"):
         raise GenevaError(f'-o "{cut(output, 300)}": --write writes a spec: it must end in .toml')
-    found, text = chosen(search(wish), number, buildable)
-    show_text(text, output, _inputs(wish))
+    found, text = chosen(search(target), number, buildable)
+    show_text(text, output, _inputs(target))
     path = "<stdout>" if output == "-" else output
     if found.trouble:
         said = f"{path}: warning: its parts cannot be built: {found.trouble}"

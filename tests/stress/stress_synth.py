@@ -14,7 +14,7 @@ from typer.testing import CliRunner
 from geneva_cli.app import app
 from geneva_cli.design import load
 from geneva_cli.errors import GenevaError
-from geneva_cli.study.synthesis.reading import read_wish
+from geneva_cli.study.synthesis.reading import read_target
 from geneva_cli.study.synthesis.search import search
 from geneva_cli.study.synthesis.written import chosen
 
@@ -38,9 +38,9 @@ LAWS = ("modified-sine", "cycloidal", "modified-trapezoid", "3-4-5")
 def row(some, folder):
     """What became of one row: how it was said, and whether check and export agree."""
     options = {**some.choice(WISHES), "z": str(some.choice(SLOTS)), "law": some.choice(LAWS)}
-    wish = read_wish(**options)
+    target = read_target(**options)
     try:
-        found = search(wish)
+        found = search(target)
     except GenevaError:
         return "out of reach", ""
     number = some.randint(1, min(len(found.rows), 40))

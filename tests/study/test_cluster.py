@@ -20,8 +20,8 @@ def test_the_dask_example_makes_the_bytes_of_one_run(tmp_path):
         assert shown in example
         example = example.replace(shown, few)
     (tmp_path / "example.py").write_text(example)
-    wish = (repo.ROOT / "designs" / "side-crank-z6.toml").read_text(encoding="utf-8")
-    (tmp_path / "wish.toml").write_text(wish)
+    target = (repo.ROOT / "designs" / "side-crank-z6.toml").read_text(encoding="utf-8")
+    (tmp_path / "wish.toml").write_text(target)
     path = os.pathsep.join((os.path.dirname(sys.executable), os.environ["PATH"]))
     # small workers that talk to nobody but each other
     own = {"PATH": path, "DASK_DISTRIBUTED__DASHBOARD__LINK": "", "DASK_TEMPORARY_DIRECTORY": "."}

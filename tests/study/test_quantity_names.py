@@ -90,8 +90,8 @@ def test_compare_and_synth_read_the_same_names():
     told = geneva("compare", LIMITS, "--pick", "acceleration_max,n_rpm", "--format", "json")
     quantities = [row["quantity"] for row in json.loads(told)["rows"]]
     assert quantities == ["acceleration.max", "inputs.drive.n_rpm"]
-    wish = ("synth", "--motion-deg", "120", "--z", "6", "--check", "0", "--format", "csv")
-    told = geneva(*wish, "--sort", "min:acceleration_max_rad_s2")
+    target = ("synth", "--motion-deg", "120", "--z", "6", "--check", "0", "--format", "csv")
+    told = geneva(*target, "--sort", "min:acceleration_max_rad_s2")
     rows = csv.DictReader(io.StringIO(told))
     peaks = [float(f"{float(row['acceleration.max_rad_s2']):.12g}") for row in rows]
     assert len(peaks) > 5 and peaks == sorted(peaks)

@@ -24,7 +24,7 @@ from geneva_cli.study.synthesis.families import closed
 from geneva_cli.study.synthesis.families import limit as limits
 from geneva_cli.study.synthesis.families.family import EXACT
 from geneva_cli.study.synthesis.looks import look
-from geneva_cli.study.synthesis.reading import read_wish
+from geneva_cli.study.synthesis.reading import read_target
 from geneva_cli.study.synthesis.rows import NEAR_DEG, _wedged
 from geneva_cli.study.synthesis.search import search, synthesis
 from geneva_cli.study.synthesis.shown import for_people
@@ -40,12 +40,12 @@ COSTS = ("velocity_max", "acceleration_max", "acceleration_entry", "jerk_max", "
 
 @functools.cache
 def _searched(options):
-    wish = read_wish(**dict(options))
-    return wish, search(wish)
+    target = read_target(**dict(options))
+    return target, search(target)
 
 
 def searched(**options):
-    """A wish and what there is for it, searched for once."""
+    """A target and what there is for it, searched for once."""
     said = {k: tuple(v) if isinstance(v, list) else v for k, v in options.items()}
     return _searched(tuple(sorted(said.items())))
 
@@ -70,10 +70,10 @@ def costs(candidate):
     return tuple(getattr(candidate, name) for name in COSTS)
 
 
-def written(wish, found, number):
+def written(target, found, number):
     """A row as a spec, without turning its parts."""
     spec, candidate, *_ = found[number - 1]
-    return commented(wish, number, candidate, Built(spec, ""))
+    return commented(target, number, candidate, Built(spec, ""))
 
 
 def run(*words):
@@ -293,22 +293,22 @@ WISHES = [
 @pytest.mark.sampled(3)
 @pytest.mark.parametrize("options", WISHES, ids=str)
 def test_rows_are_sorted_and_numbered(options):
-    wish, found = searched(**options)
-    table = synthesis_table(wish, 0, found=found)
+    target, found = searched(**options)
+    table = synthesis_table(target, 0, found=found)
     assert table.names == NAMES
     columns = dict(zip(table.names, table.columns, strict=True))
     assert list(columns["no"]) == list(range(1, len(table) + 1))
-    peaks = columns["acceleration_max_rad_s2" if wish.timed else "acceleration_max"]
+    peaks = columns["acceleration_max_rad_s2" if target.timed else "acceleration_max"]
     assert all(a <= b * (1 + 1e-11) for a, b in zip(peaks, peaks[1:], strict=False))
 
 
 @pytest.mark.sampled(3)
 @pytest.mark.parametrize("options", WISHES, ids=str)
 def test_every_row_as_a_spec_is_the_row(options, tmp_path):
-    wish, found_rows = searched(**options)
+    target, found_rows = searched(**options)
     for number, (_, candidate, *_) in enumerate(found_rows.rows, 1):
         file = tmp_path / f"{number}.toml"
-        file.write_text(written(wish, found_rows.rows, number), encoding="utf-8")
+        file.write_text(written(target, found_rows.rows, number), encoding="utf-8")
         machine = load(str(file))
         # the machine is chosen by its motion; the sizes of its parts come after that
         found_checks = checks(machine, parts=False)
@@ -338,7 +338,7 @@ def test_every_row_as_a_spec_is_the_row(options, tmp_path):
         times = (machine.ratio, time.motion_deg, time.dwell_deg, time.tau, time.k)
         assert shown == pytest.approx(times, rel=1e-12)
         assert (spec.wheel.z, spec.wheel.NAME, spec.drive.rollers) == candidate[:3]
-        if wish.timed:
+        if target.timed:
             assert candidate.n_rpm == spec.drive.n_rpm
             rad_s = candidate.n_rpm * math.pi / 30.0
             size = candidate.acceleration_max * rad_s**2
@@ -513,8 +513,8 @@ def test_what_cannot_be_written(words, wants):
 
 
 def test_a_limit_comes_along():
-    wish = read_wish(subject_to=["acceleration.max <= 0.5"], z="6")
-    text = written(wish, synthesis(wish), 1)
+    target = read_target(subject_to=["acceleration.max <= 0.5"], z="6")
+    text = written(target, synthesis(target), 1)
     assert "[limits]\nacceleration_max = 0.5" in text
 
 
@@ -575,10 +575,10 @@ def test_the_angle_of_the_shafts_in_50_digits():
 
 def test_the_shortest_extra_dwell(tmp_path):
     """-33, not -32.99999999999997; and it still makes the motion."""
-    wish = read_wish(z="8", cycle="1.5", motion_s="0.7")
-    found = synthesis(wish)
+    target = read_target(z="8", cycle="1.5", motion_s="0.7")
+    found = synthesis(target)
     number = next(i for i, (_, w) in enumerate(found, 1) if w.law and w.gearing == "external")
-    text = written(wish, found, number)
+    text = written(target, found, number)
     assert "alpha0_deg = -33.0 " in text
     file = tmp_path / "spec.toml"
     file.write_text(text, encoding="utf-8")
@@ -603,7 +603,7 @@ def test_the_roller_that_fills_the_way_in_and_out():
     """z = 6, two rollers in 54 degrees each: the two ways are 10.97 mm apart, the slot as wide."""
     (spec, candidate) = next(
         (s, w)
-        for s, w in synthesis(read_wish(tau="0.3", z="6"))
+        for s, w in synthesis(read_target(tau="0.3", z="6"))
         if w.law and w.rollers == 2 and w.drive == "crank"
     )
     assert spec.size.roller_radius_mm == 5.5
@@ -635,7 +635,7 @@ def test_no_roller_fits_a_loop():
     ids=str,
 )
 def test_a_row_that_says_yes_passes_check_and_is_cut(options, number, tmp_path):
-    found = search(read_wish(**options))
+    found = search(read_target(**options))
     assert found.rows[number - 1].candidate.parts == "maybe"  # nobody has turned it yet
     made, text = chosen(found, number)
     assert made.trouble == ""
@@ -664,8 +664,8 @@ def test_rows_are_turned_in_their_order():
 def test_a_written_row_is_cut(tmp_path):
     """Once refused for a locking disc that nobody had asked for."""
     file, wheel = tmp_path / "spec.toml", tmp_path / "wheel.dxf"
-    wish = ["--subject-to", "acceleration.max <= 0.5", "--z", "6", "--external", "--rollers", "1"]
-    assert run(*wish, "--write", "1", "-o", str(file)).exit_code == 0
+    target = ["--subject-to", "acceleration.max <= 0.5", "--z", "6", "--external", "--rollers", "1"]
+    assert run(*target, "--write", "1", "-o", str(file)).exit_code == 0
     words = ["profile", str(file), "--part", "wheel", "-o", str(wheel)]
     assert CliRunner().invoke(app, words).exit_code == 0
     assert wheel.stat().st_size > 1000
@@ -692,7 +692,7 @@ def test_where_a_cycle_is_asked_for_rows_are_ranked_by_time():
     A law's peak is C_a step/t², so the longest motion in the cycle is the gentlest, whatever the
     rollers: all of it but a hundredth, with the modified sine's C_a = 4 pi²/(4 + pi).
     """
-    table = synthesis_table(read_wish(z="4", cycle="1/24", motion_deg="..90"), 0)
+    table = synthesis_table(read_target(z="4", cycle="1/24", motion_deg="..90"), 0)
     rows = table.to_rows()
     rates = [row["acceleration_max_rad_s2"] for row in rows]
     assert all(a <= b * (1.0 + 1e-11) for a, b in zip(rates, rates[1:], strict=False))
@@ -708,11 +708,11 @@ def test_the_lowest_of_a_range_is_the_lowest_in_time():
     """A motion of 0.2 s at any speed: in rad/s2 a side-crank's peak is least at another angle than
     as an invariant, of which the longest motion has the least."""
     asked = {"motion_s": "0.2", "motion_deg": "100..200", "z": "6", "external": True}
-    rows = search(read_wish(**asked)).rows
+    rows = search(read_target(**asked)).rows
     best = next(row for row in rows if row.candidate.A is not None).candidate
     scan = []
     for motion in range(100, 201, 8):
-        found = search(read_wish(**(asked | {"motion_deg": str(motion)}))).rows
+        found = search(read_target(**(asked | {"motion_deg": str(motion)}))).rows
         scan += [row.candidate for row in found if row.candidate.A is not None]
     assert len(scan) > 10
     assert best.peak <= min(one.peak for one in scan) * (1.0 + 1e-9)
@@ -725,8 +725,8 @@ def test_a_peak_that_nothing_reaches_is_said_with_the_nearest(more):
     """Issue: the motion was blamed, which all machines have."""
     asked = {"motion_deg": "120", "z": "6", **more}
     with pytest.raises(GenevaError) as error:
-        search(read_wish(subject_to=["acceleration.max <= 0.0001"], **asked))
+        search(read_target(subject_to=["acceleration.max <= 0.0001"], **asked))
     told = str(error.value)
-    least = min(row.candidate.acceleration_max for row in search(read_wish(**asked)).rows)
+    least = min(row.candidate.acceleration_max for row in search(read_target(**asked)).rows)
     assert told.startswith("--subject-to: none of ")
     assert f"(nearest {least:.6g})" in told and "R/L" not in told

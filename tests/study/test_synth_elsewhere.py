@@ -13,7 +13,7 @@ from geneva_cli.machine.motion import Motion
 from geneva_cli.study.synthesis.built import built
 from geneva_cli.study.synthesis.families import every
 from geneva_cli.study.synthesis.parts import suited
-from geneva_cli.study.synthesis.reading import read_wish
+from geneva_cli.study.synthesis.reading import read_target
 from geneva_cli.study.synthesis.search import search
 from geneva_cli.study.synthesis.table import turned
 from geneva_cli.verdict.checks import checks
@@ -31,7 +31,7 @@ def curved(found):
 @pytest.mark.parametrize("z", [6, 8, 11])
 def test_beside_a_row_that_cannot_be_built_is_the_best_that_may_be(z):
     """No motion of a dense sweep between the two has parts that may be built."""
-    first, other, *_ = curved(search(read_wish(motion_deg="100..200", z=str(z), **CURVED)))
+    first, other, *_ = curved(search(read_target(motion_deg="100..200", z=str(z), **CURVED)))
     assert first.candidate.parts == "no: island"
     assert first.candidate.motion_deg == pytest.approx(200.0)
     assert other.candidate.parts == "maybe"
@@ -57,8 +57,8 @@ def test_a_row_that_fails_in_its_turn_gives_way_to_the_best_that_passes(tmp_path
         "--law",
         "modified-sine",
     ]
-    wish = read_wish(motion_deg="100..160", z="8", external=True)
-    found = search(wish)
+    target = read_target(motion_deg="100..160", z="8", external=True)
+    found = search(target)
     plain = {one.no: one.row for one in turned(found)}
     shown = turned(found, buildable=True)
     numbers = [one.no for one in shown]
@@ -86,8 +86,8 @@ def test_a_row_that_fails_in_its_turn_gives_way_to_the_best_that_passes(tmp_path
 @pytest.mark.parametrize("bound", ["velocity.max >= 0.51", "sizes.slot_bottom_radius_mm >= 40"])
 def test_bounds_hold_elsewhere_too(bound):
     """On what is known of many designs together, and on what one is asked for alone."""
-    wish = read_wish(motion_deg="100..160", z="8", subject_to=[bound], **CURVED)
-    found = search(wish)
+    target = read_target(motion_deg="100..160", z="8", subject_to=[bound], **CURVED)
+    found = search(target)
     (whole,) = found.asked.bounds
     shown = turned(found, buildable=True)
     assert [one for one in shown if one.row.candidate.law and one.row.candidate.drive == "crank"]
@@ -99,8 +99,8 @@ def test_bounds_hold_elsewhere_too(bound):
 @pytest.mark.parametrize("z", [9, 10])
 def test_a_larger_roller_holds_the_wheel_better(z):
     """Curved slots with ways apart: those of the usual sizes leave too much play at their ends."""
-    wish = read_wish(motion_deg={9: "156.25", 10: "162.5"}[z], z=str(z), **CURVED)
-    (row,) = curved(search(wish))
+    target = read_target(motion_deg={9: "156.25", 10: "162.5"}[z], z=str(z), **CURVED)
+    (row,) = curved(search(target))
     assert row.spec.size.roller_radius_mm is None  # 5 mm
     usual = {c.name for c in checks(build(row.spec)) if c.passes is False}
     assert usual == {"hand_over_play_deg"}
@@ -124,9 +124,9 @@ def test_a_larger_roller_holds_the_wheel_better(z):
 )
 def test_families_go_to_other_processes(options):
     """What a row knows of its family makes the same machines there."""
-    wish = read_wish(**options)
+    target = read_target(**options)
     seen = 0
-    for kind, own in every.kinds(wish):
+    for kind, own in every.kinds(target):
         for family in every.families(kind, own, []):
             if family.is_free:
                 there = pickle.loads(pickle.dumps(family))
@@ -138,7 +138,7 @@ def test_families_go_to_other_processes(options):
 
 def test_more_rollers_where_only_shorter_motions_can_be_built():
     """Four rollers and more on four slots: at the longest motion each slot leaves an island."""
-    found = search(read_wish(motion_deg="20..120", z="4", external=True))
+    found = search(read_target(motion_deg="20..120", z="4", external=True))
     rows = [row for row in curved(found) if row.candidate.rollers == 4]
     assert [row.cannot_be for row in rows] == [True, False]
     assert rows[0].candidate.motion_deg > rows[1].candidate.motion_deg
@@ -147,7 +147,7 @@ def test_more_rollers_where_only_shorter_motions_can_be_built():
 
 def test_one_below_the_last_that_may_be_built_is_looked_for_too():
     """Of those that are to pass, where no other stands in for it."""
-    found = search(read_wish(motion_deg="100..200", z="8", **CURVED))
+    found = search(read_target(motion_deg="100..200", z="8", **CURVED))
     alone = found._replace(rows=curved(found)[:1])
     assert [row.candidate.parts for row in alone.rows] == ["no: island"]
     ((no, row),) = turned(alone, buildable=True)

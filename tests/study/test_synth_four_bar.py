@@ -20,7 +20,7 @@ from geneva_cli.machine.wheels.external import External
 from geneva_cli.spec.tables import Size
 from geneva_cli.study.synthesis.families import four_bars as families
 from geneva_cli.study.synthesis.parts import parts
-from geneva_cli.study.synthesis.reading import read_wish
+from geneva_cli.study.synthesis.reading import read_target
 from geneva_cli.study.synthesis.search import search
 from geneva_cli.study.synthesis.table import turned
 from geneva_cli.study.synthesis.written import chosen
@@ -32,7 +32,7 @@ KEYS = ("crank_mm", "ground_mm", "coupler_mm", "rocker_mm", "point_mm", "point_d
 @functools.cache
 def four_bars(**options):
     """The four-bars of a wish, with their rows, searched for once."""
-    found = search(read_wish(**options)).rows
+    found = search(read_target(**options)).rows
     return [row for row in found if row.candidate.drive == "four-bar"]
 
 
@@ -93,7 +93,7 @@ def test_the_same_in_every_run():
     one = four_bars(motion_deg="120", z="6")
     other = [
         r
-        for r in search(read_wish(motion_deg="120", z="6")).rows
+        for r in search(read_target(motion_deg="120", z="6")).rows
         if r.candidate.drive == "four-bar"
     ]
     assert [r.spec.drive for r in one] == [r.spec.drive for r in other]
@@ -103,7 +103,7 @@ def test_its_row_written_is_what_check_says_and_is_cut(tmp_path):
     """A long motion, whose gentlest four-bar without room for a roller ran into its wheel, and
     whose coupler passes below the wheel's axis.
     """
-    found = search(read_wish(motion_deg="168", z="6", external=True))
+    found = search(read_target(motion_deg="168", z="6", external=True))
     (number,) = [i for i, row in enumerate(found.rows, 1) if row.candidate.drive == "four-bar"]
     assert found.rows[number - 1].candidate.parts == "maybe"
     made, text = chosen(found, number)
@@ -146,9 +146,9 @@ def test_a_peak_alone_is_kept_in_the_plain_crank_s_motion_or_any():
 
 
 def test_what_it_sorts_by_is_the_least():
-    wish = {"motion_deg": "100..180", "z": "6", "external": True}
-    (gentle,) = four_bars(**wish)
-    (slow,) = four_bars(**wish, sort="min:velocity.max")
+    target = {"motion_deg": "100..180", "z": "6", "external": True}
+    (gentle,) = four_bars(**target)
+    (slow,) = four_bars(**target, sort="min:velocity.max")
     assert slow.candidate.velocity_max < gentle.candidate.velocity_max
     assert slow.candidate.acceleration_max >= gentle.candidate.acceleration_max
 
@@ -190,8 +190,8 @@ def test_what_brute_force_finds_is_there_or_better(z):
     gentlest = sorted(fits, key=lambda i: peak[i] * motion[i] ** 2)[:3]
     assert len(fits) > 20
     for i in gentlest:
-        wish = read_wish(motion_deg=repr(float(motion[i])), z=str(z))
-        (family,) = families.four_bars(wish, [External(z)])
+        target = read_target(motion_deg=repr(float(motion[i])), z=str(z))
+        (family,) = families.four_bars(target, [External(z)])
         found = build(family.make(0.0)).engagements[0]
         assert peak_of(found.motion, "acceleration").max <= peak[i]
 
@@ -214,7 +214,7 @@ def test_no_lock_is_in_the_way_where_there_is_none():
 
 def test_another_four_bar_passes_where_the_gentlest_fails():
     """Its coupler comes to the wheel's shaft; of those found with it, one that does not."""
-    found = search(read_wish(tau="..0.3", z="5", external=True, rollers=1))
+    found = search(read_target(tau="..0.3", z="5", external=True, rollers=1))
     plain, shown = turned(found), {one.no: one.row for one in turned(found, buildable=True)}
     (number, first), *_ = [one for one in plain if one.row.candidate.drive == "four-bar"]
     assert first.cannot_be

@@ -19,7 +19,7 @@ from geneva_cli.output.text import chunks
 from geneva_cli.spec.tables import Limits, Load, Size
 from geneva_cli.study.goals import Objective, objective
 from geneva_cli.study.sweep.columns import columns
-from geneva_cli.study.synthesis.reading import SPANS, read_wish, span
+from geneva_cli.study.synthesis.reading import SPANS, read_target, span
 from geneva_cli.study.synthesis.search import search
 from geneva_cli.study.synthesis.shown import for_people
 from geneva_cli.study.synthesis.spans import Interval
@@ -33,12 +33,12 @@ NEAR = 1e-8
 
 @functools.cache
 def _searched(options):
-    wish = read_wish(**dict(options))
-    return wish, search(wish)
+    target = read_target(**dict(options))
+    return target, search(target)
 
 
 def searched(**options):
-    """A wish and what there is for it, searched for once."""
+    """A target and what there is for it, searched for once."""
     said = {k: tuple(v) if isinstance(v, list) else v for k, v in options.items()}
     return _searched(tuple(sorted(said.items())))
 
@@ -77,7 +77,7 @@ def test_wishes_for_times_leave_motions_and_cycles():
 
 
 @pytest.mark.parametrize(
-    ("wish", "rollers"),
+    ("target", "rollers"),
     [
         ({"motion_deg": "54", "tau": "0.3"}, 2),
         ({"motion_deg": "90", "dwell_deg": "90"}, 2),
@@ -85,15 +85,15 @@ def test_wishes_for_times_leave_motions_and_cycles():
         ({"motion_deg": "80", "dwell_deg": "10", "z": "12"}, 4),  # more than the plain wheel takes
     ],
 )
-def test_what_one_roller_cannot_do_several_may(wish, rollers):
+def test_what_one_roller_cannot_do_several_may(target, rollers):
     """Motion and dwell make up a turn over the number of rollers, whatever else they are."""
-    found = rows(**{"z": "6..12", **wish})
+    found = rows(**{"z": "6..12", **target})
     assert found and {row.candidate.rollers for row in found} == {rollers}
     for row in found:
         c = row.candidate
         assert c.motion_deg + c.dwell_deg == pytest.approx(360.0 / rollers, rel=1e-12)
         assert c.tau == pytest.approx(c.motion_deg * rollers / 360.0, rel=1e-12)
-        assert all(abs(getattr(c, k) - float(v)) < 1e-9 for k, v in wish.items() if ".." not in v)
+        assert all(abs(getattr(c, k) - float(v)) < 1e-9 for k, v in target.items() if ".." not in v)
 
 
 def test_a_wheel_that_is_not_drawn_carries_no_more_rollers_than_the_plain_one():
@@ -106,8 +106,8 @@ def test_a_wheel_that_is_not_drawn_carries_no_more_rollers_than_the_plain_one():
 @pytest.mark.parametrize("format", ["table", "md", "csv", "json"])
 def test_where_none_is_buildable_that_is_said(format):
     """No part of so many slots is drawn."""
-    wish = ["--motion-deg", "150", "--z", "361", "--internal", "--buildable", "--format", format]
-    found = CliRunner().invoke(app, ["synth", *wish])
+    target = ["--motion-deg", "150", "--z", "361", "--internal", "--buildable", "--format", format]
+    found = CliRunner().invoke(app, ["synth", *target])
     assert (found.exit_code, found.stderr) == (0, "")
     title, _, rest = found.stdout.partition("machines is found to pass.\n")
     if format in ("table", "md"):
@@ -135,7 +135,7 @@ def test_rollers_that_leave_no_dwell_are_no_machines():
 def test_a_spec_alone_is_a_wish():
     """For machines of its wheel that move as a plain crank does, at its speed."""
     frame = load(os.path.join(DESIGNS, "three-rollers-z4.toml")).spec
-    table = synthesis_table(read_wish(frame=frame), 0)
+    table = synthesis_table(read_target(frame=frame), 0)
     assert table.title.startswith("The spec alone: ")
 
 
@@ -154,7 +154,7 @@ def test_a_dwell_of_several_turns_is_behind_a_first_wheel():
 
 
 @pytest.mark.parametrize(
-    ("wish", "bound", "said"),
+    ("target", "bound", "said"),
     [
         ({"cycle": "2"}, "dwell_s >= 3", "--subject-to dwell_s 3.. with --cycle 2: that leaves no"),
         ({"z": "6"}, "tau >= 1.2", "--subject-to tau 1.2..: that leaves no dwell"),
@@ -163,11 +163,11 @@ def test_a_dwell_of_several_turns_is_behind_a_first_wheel():
         ({"motion_deg": "70", "rollers": 3}, "dwell_deg >= 51", "no machine does both"),
     ],
 )
-def test_bounds_on_times_that_nothing_keeps_are_refused_at_once(wish, bound, said, monkeypatch):
+def test_bounds_on_times_that_nothing_keeps_are_refused_at_once(target, bound, said, monkeypatch):
     """As the options are that say the same, and before any machine is looked for."""
     monkeypatch.setattr("geneva_cli.study.synthesis.search.families", None)
     with pytest.raises(GenevaError) as error:
-        search(read_wish(**wish, subject_to=[bound]))
+        search(read_target(**target, subject_to=[bound]))
     assert said in str(error.value)
 
 
@@ -183,10 +183,10 @@ WISHES = [
 @pytest.mark.sampled(2)
 @pytest.mark.parametrize("options", WISHES, ids=str)
 def test_every_row_keeps_every_wish(options):
-    wish, (found, *_) = searched(**options)
+    target, (found, *_) = searched(**options)
     assert len(found) > 3
     for row in found:
-        for name, wanted in wish.spans.items():
+        for name, wanted in target.spans.items():
             value = (
                 row.candidate.motion_s + row.candidate.dwell_s
                 if name == "cycle"
@@ -196,8 +196,8 @@ def test_every_row_keeps_every_wish(options):
                 name,
                 row.candidate,
             )
-        if wish.acceleration_max:
-            assert row.candidate.acceleration_max <= wish.acceleration_max * (1 + 1e-9)
+        if target.acceleration_max:
+            assert row.candidate.acceleration_max <= target.acceleration_max * (1 + 1e-9)
         design = Design.of(row.spec)
         assert design.peaks.acceleration.max == pytest.approx(
             row.candidate.acceleration_max, rel=1e-12
@@ -271,7 +271,7 @@ def test_in_a_range_the_best_of_a_kind_is_what_the_order_asks_for(sort):
     frame = load(os.path.join(DESIGNS, "press-345.toml")).spec
     sign, name = objective(sort, "--sort")
     found = search(
-        read_wish(frame=frame, motion_deg="80..140", rollers=1, external=True, sort=sort)
+        read_target(frame=frame, motion_deg="80..140", rollers=1, external=True, sort=sort)
     ).rows
     (ours,) = [r for r in found if r.candidate.drive == "side-crank"]
     fine = many(ours.spec, {"drive.A": np.linspace(-0.9, 0.9, 1801)})
@@ -289,10 +289,10 @@ def test_a_drive_that_does_nothing_is_no_row():
 
 def test_bounds_are_kept_where_the_gentlest_of_a_kind_breaks_them():
     """In a range the machine of a kind is the gentlest of those that keep the bound."""
-    wish = {"motion_deg": "80..140", "z": "6", "external": True, "rollers": 1}
-    free = {r.candidate.drive: r.candidate for r in rows(**wish)}
+    target = {"motion_deg": "80..140", "z": "6", "external": True, "rollers": 1}
+    free = {r.candidate.drive: r.candidate for r in rows(**target)}
     assert free["side-crank"].velocity_max < 0.9
-    kept = rows(**wish, subject_to=["velocity.max >= 0.95"])
+    kept = rows(**target, subject_to=["velocity.max >= 0.95"])
     (side,) = [r.candidate for r in kept if r.candidate.drive == "side-crank"]
     assert side.velocity_max >= 0.95 * (1 - 1e-9)
     fine = np.linspace(-0.9, 0.9, 4001)
@@ -306,8 +306,8 @@ def test_bounds_are_kept_where_the_gentlest_of_a_kind_breaks_them():
 
 def test_a_bound_that_little_keeps_is_kept():
     """A band of a hundredth of the velocity: no place of a range is in it at first."""
-    wish = {"motion_deg": "60..270", "z": "6", "rollers": 1, "external": True}
-    found = rows(**wish, subject_to=["velocity.max >= 1.49", "velocity.max <= 1.5"])
+    target = {"motion_deg": "60..270", "z": "6", "rollers": 1, "external": True}
+    found = rows(**target, subject_to=["velocity.max >= 1.49", "velocity.max <= 1.5"])
     assert {r.candidate.drive for r in found} >= {"crank", "cam"}
     for row in found:
         assert 1.49 * (1 - 1e-9) <= Design.of(row.spec).peaks.velocity.max <= 1.5 * (1 + 1e-9)
@@ -329,17 +329,17 @@ def test_without_a_wish_for_a_motion_the_nearest_to_the_plain_crank_keeps_the_bo
 
 @pytest.mark.sampled(3)
 @pytest.mark.parametrize(
-    ("wish", "bounds", "same"),
+    ("target", "bounds", "same"),
     [
         ({"cycle": "1.5"}, ["dwell_s >= 0.8"], {"cycle": "1.5", "dwell_s": "0.8.."}),
         ({}, ["tau <= 0.45", "timing.tau >= 0.3"], {"tau": "0.3..0.45"}),
         ({"tau": "..0.45"}, ["dwell_deg <= 252"], {"tau": "0.3..0.45"}),
     ],
 )
-def test_a_bound_on_how_long_a_motion_is_is_a_wish_for_it(wish, bounds, same):
+def test_a_bound_on_how_long_a_motion_is_is_a_wish_for_it(target, bounds, same):
     """The same machines as of the option, each the gentlest; angles in seconds with a cycle."""
     usual = {"z": "6", "external": True, "rollers": 1}
-    found = rows(**usual, **wish, subject_to=bounds)
+    found = rows(**usual, **target, subject_to=bounds)
     theirs = rows(**usual, **same)
     timed = {"n_rpm", "acceleration_max_rad_s2", "motion_s", "dwell_s"}
     assert [c.drive for c in told(found)] == [c.drive for c in told(theirs)]
@@ -374,9 +374,9 @@ def test_limits_are_kept_on_a_sphere(limit, said):
 
 def test_what_no_array_has_is_asked_of_each_machine():
     """Curved slots have no loads as arrays: their rows stay, with the machine's own."""
-    wish = {"frame": load(os.path.join(DESIGNS, "press-345.toml")).spec, "motion_deg": "120"}
+    target = {"frame": load(os.path.join(DESIGNS, "press-345.toml")).spec, "motion_deg": "120"}
     found = search(
-        read_wish(**wish, external=True, rollers=1, sort="min:loads.pin_force_N.max")
+        read_target(**target, external=True, rollers=1, sort="min:loads.pin_force_N.max")
     ).rows
     (row,) = [r for r in found if r.candidate.law and r.candidate.drive == "crank"]
     greatest = Design.of(row.spec).loads["pin_force_N"].max
@@ -388,8 +388,8 @@ def test_of_what_no_array_has_several_machines_of_a_family_are_asked():
 
     The gentlest, of 200 deg, have 34.5 mm of 100. The modified sine's C_v is 4 pi/(4 + pi).
     """
-    wish = {"motion_deg": "100..200", "z": "6", "external": True, "rollers": 1}
-    found = rows(**wish, subject_to=["sizes.crank_radius_mm >= 48"])
+    target = {"motion_deg": "100..200", "z": "6", "external": True, "rollers": 1}
+    found = rows(**target, subject_to=["sizes.crank_radius_mm >= 48"])
     (slots,) = [r.candidate for r in found if r.candidate.law and r.candidate.drive == "crank"]
     V = 4.0 * math.pi / (4.0 + math.pi) * 60.0 / slots.motion_deg
     assert slots.motion_deg >= 100.0 and V / (1.0 + V) >= 0.48
@@ -400,16 +400,16 @@ def test_of_what_no_array_has_several_machines_of_a_family_are_asked():
 def test_a_frame_and_an_order():
     """Sizes, loads and speed of a spec in every row; each quantity is the built design's own."""
     frame = os.path.join(DESIGNS, "press-345.toml")
-    wish = read_wish(
+    target = read_target(
         frame=load(frame).spec,
         motion_deg="100..130",
         rollers=1,
         external=True,
         sort="min:loads.input_torque_Nm.rms",
     )
-    found = search(wish)
+    found = search(target)
     assert found.asked.names == ("loads.input_torque_Nm.rms",)
-    own = wish.frame
+    own = target.frame
     values = [row.asked[0] for row in found.rows]
     assert values == pytest.approx(sorted(values), rel=1e-11)  # those of rounding are equal
     for row in found.rows[:4]:
@@ -417,7 +417,7 @@ def test_a_frame_and_an_order():
         assert row.spec.drive.n_rpm == own.drive.n_rpm == row.candidate.n_rpm
         rms = Design.of(row.spec).loads["input_torque_Nm"].rms
         assert row.asked[0] == pytest.approx(rms, rel=1e-12)
-    turned_round = search(wish._replace(sort=Objective(-1.0, "acceleration.max"))).rows
+    turned_round = search(target._replace(sort=Objective(-1.0, "acceleration.max"))).rows
     peaks = [row.candidate.acceleration_max for row in turned_round]
     assert peaks == pytest.approx(sorted(peaks, reverse=True), rel=1e-11)
 
@@ -425,7 +425,7 @@ def test_a_frame_and_an_order():
 def test_a_frame_s_sizes_stay(tmp_path):
     file = tmp_path / "frame.toml"
     file.write_text("[wheel]\nz = 6\n[size]\nroller_radius_mm = 3\n[limits]\nvelocity_max = 0.9\n")
-    table = synthesis_table(read_wish(frame=load(file).spec, motion_deg="120", external=True), 20)
+    table = synthesis_table(read_target(frame=load(file).spec, motion_deg="120", external=True), 20)
     found = table.to_rows()
     assert found
     for row in found:
@@ -444,8 +444,8 @@ def test_a_frame_s_sizes_stay(tmp_path):
     ids=str,
 )
 def test_a_hundred_columns_hold_it(options):
-    wish, found = searched(**options)
-    table = for_people(synthesis_table(wish, 0, found=found))
+    target, found = searched(**options)
+    table = for_people(synthesis_table(target, 0, found=found))
     assert max(map(len, "".join(chunks(table)).splitlines())) <= 100
     assert {"no", "machine", "parts"} <= set(table.names)
 
@@ -458,14 +458,14 @@ def dense(spec, key, values, names):
 
 def test_slots_are_as_far_aside_as_a_bound_wants():
     """With e = cos b sin d the entry is sin b cos d / cos(b - d): a half where d = 30° - d."""
-    wish = {"motion_deg": "120", "z": "6", "external": True, "rollers": 1}
-    found = rows(**wish, subject_to=["acceleration.entry <= 0.5"])
+    target = {"motion_deg": "120", "z": "6", "external": True, "rollers": 1}
+    found = rows(**target, subject_to=["acceleration.entry <= 0.5"])
     (row,) = [r for r in found if r.spec.wheel.offset_mm]
     aside = 100.0 * math.cos(math.pi / 6.0) * math.sin(math.radians(15.0))
     assert row.spec.wheel.offset_mm == pytest.approx(aside, rel=1e-3)
     assert row.candidate.acceleration_entry <= 0.5 * (1 + 1e-12)
     # the other way aside the exit is the gentler end
-    found = rows(**wish, subject_to=["acceleration.exit <= 0.5"])
+    found = rows(**target, subject_to=["acceleration.exit <= 0.5"])
     (row,) = [r for r in found if r.spec.wheel.offset_mm]
     assert row.spec.wheel.offset_mm == pytest.approx(-aside, rel=1e-3)
 
@@ -534,9 +534,9 @@ def test_a_frame_s_limits_choose_the_machine_of_a_range(limit, field, most):
 
 def test_a_refusal_says_how_near_the_nearest_come():
     """What no machine keeps: the nearest value is the least of dense sweeps, not of some row's."""
-    wish = {"motion_deg": "..160", "z": "6", "spherical": True, "rollers": 1}
+    target = {"motion_deg": "..160", "z": "6", "spherical": True, "rollers": 1}
     with pytest.raises(GenevaError, match="nearest") as refused:
-        rows(**wish, subject_to=["power.max <= 0.2"])
+        rows(**target, subject_to=["power.max <= 0.2"])
     wheel, peaks = Wheel(6, "spherical"), []
     for drive, key, values in (
         ("side-crank", "drive.A", np.linspace(-0.9, 0.9, 1801)),

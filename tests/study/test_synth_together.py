@@ -27,7 +27,7 @@ from geneva_cli.study.synthesis import search as searching
 from geneva_cli.study.synthesis.by_law import law_columns
 from geneva_cli.study.synthesis.families.every import kinds
 from geneva_cli.study.synthesis.looks import LOOKS, _alike, _kept, look, look_at
-from geneva_cli.study.synthesis.reading import read_wish
+from geneva_cli.study.synthesis.reading import read_target
 from geneva_cli.study.synthesis.rows import COSTS
 from geneva_cli.study.synthesis.search import search
 from geneva_cli.study.synthesis.table import synthesis_table
@@ -94,14 +94,14 @@ def test_peaks_of_a_law_are_its_own_scaled(law):
 def test_what_nothing_bounds_is_told_last():
     """The wall of a matched slot is undercut, and ends in an edge: the loads say no stress."""
     frame = Spec(External(8), size=Size(face_width_mm=15.0), load=Load(inertia_kgm2=0.3))
-    wish = read_wish(
+    target = read_target(
         motion_deg="150",
         rollers=2,
         external=True,
         frame=frame,
         sort="min:loads.contact_stress_MPa.max",
     )
-    found = search(wish)
+    found = search(target)
     told = [row.asked[0] for row in found.rows]
     count = sum(value is not None for value in told)
     assert 0 < count < len(told)
@@ -111,7 +111,7 @@ def test_what_nothing_bounds_is_told_last():
         machine = build(row.spec)
         (alone,) = pick(found.asked.names).of(machine)
         assert alone == (value and pytest.approx(value, rel=1e-9))
-    rows = synthesis_table(wish, 0, found=found).to_rows()
+    rows = synthesis_table(target, 0, found=found).to_rows()
     assert [row["loads.contact_stress_MPa.max"] for row in rows] == told
 
 
@@ -128,13 +128,13 @@ def test_side_cranks_that_differ_in_the_wheel_alone():
 
 def test_bounds_hold_where_no_plain_crank_carries_the_rollers():
     """Three rollers of a plain crank jam on nine slots; curved slots rest for 50 degrees here."""
-    wish = {"motion_deg": "70", "z": "9", "rollers": 3, "external": True}
-    found = search(read_wish(**wish, subject_to=["dwell_deg >= 49"], sort="min:jerk.max"))
+    target = {"motion_deg": "70", "z": "9", "rollers": 3, "external": True}
+    found = search(read_target(**target, subject_to=["dwell_deg >= 49"], sort="min:jerk.max"))
     assert found.asked.names == ("jerk.max", "timing.dwell_deg")
     row = found.rows[0]
     assert row.asked == (pytest.approx(row.candidate.jerk_max), pytest.approx(50.0))
     with pytest.raises(GenevaError, match="none of 2 machines that keep the rest"):
-        search(read_wish(**wish, subject_to=["dwell_deg >= 49", "jerk.max <= 1"]))
+        search(read_target(**target, subject_to=["dwell_deg >= 49", "jerk.max <= 1"]))
 
 
 def test_cams_inside_are_as_quick_as_the_limit_lets_them():
@@ -142,7 +142,7 @@ def test_cams_inside_are_as_quick_as_the_limit_lets_them():
 
     The modified sine's C_a is 4 pi²/(4 + pi) = 5.5280, and its C_v 4 pi/(4 + pi) = 1.7596.
     """
-    rows = search(read_wish(subject_to=["acceleration.max <= 1"], z="6", internal=True)).rows
+    rows = search(read_target(subject_to=["acceleration.max <= 1"], z="6", internal=True)).rows
     quick = math.sqrt(4.0 * math.pi**2 / (4.0 + math.pi) * math.pi / 3.0)
     assert 4.0 * math.pi / (4.0 + math.pi) * math.pi / 3.0 / quick > 0.5
     cams = [row.candidate for row in rows if row.candidate.drive == "cam"]
@@ -155,11 +155,11 @@ def test_cams_inside_are_as_quick_as_the_limit_lets_them():
 @pytest.mark.parametrize("options", [{}, {"internal": True, "law": "all"}, {"law": "all"}])
 def test_a_search_gives_its_parts_in_their_order(options, monkeypatch):
     """They are begun in another, the longest first."""
-    wish = read_wish(motion_deg="100..200", **options)
+    target = read_target(motion_deg="100..200", **options)
     begun = []
     monkeypatch.setattr(searching, "cores", lambda: 1)
     monkeypatch.setattr(
         searching, "_part", lambda task, names, how_near: begun.append(task) or task
     )
-    assert searching._parts(wish, ()) == kinds(wish)
-    assert begun != kinds(wish)
+    assert searching._parts(target, ()) == kinds(target)
+    assert begun != kinds(target)

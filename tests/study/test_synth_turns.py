@@ -21,7 +21,7 @@ from geneva_cli.study.synthesis import turns
 from geneva_cli.study.synthesis.built import built, built_together
 from geneva_cli.study.synthesis.looks import gap_at_rest, look
 from geneva_cli.study.synthesis.parts import USUAL, exact, parts, with_roller
-from geneva_cli.study.synthesis.reading import read_wish
+from geneva_cli.study.synthesis.reading import read_target
 from geneva_cli.study.synthesis.search import search
 from geneva_cli.study.synthesis.turns import Failing, Turns, same_turn
 from geneva_cli.verdict.checks import checks
@@ -31,7 +31,7 @@ from geneva_cli.verdict.checks.play import finds_slot
 @pytest.fixture(scope="module")
 def four_bar():
     """A four-bar, whose roller comes past the wheel at rest."""
-    rows = search(read_wish(motion_deg="180", z="6", external=True, rollers=1)).rows
+    rows = search(read_target(motion_deg="180", z="6", external=True, rollers=1)).rows
     (spec,) = [row.spec for row in rows if row.candidate.drive == "four-bar"]
     return spec
 
@@ -82,7 +82,7 @@ def test_a_play_that_fails_is_found_where_it_failed_before():
 
     The play about a place is at most the whole turn's, but for what both searches leave: 1e-6.
     """
-    rows = search(read_wish(motion_deg="180", z="6", external=True, rollers=1)).rows
+    rows = search(read_target(motion_deg="180", z="6", external=True, rollers=1)).rows
     (spec,) = [row.spec for row in rows if row.candidate.drive == "cam"]
     whole = PartsModel(build(same_turn(spec)))
     largest = whole.turn.hand_over
@@ -142,7 +142,7 @@ def test_a_sphere_too_small_for_the_usual_roller_gets_one_that_fits():
     """Of shafts that nearly fall together; once it was never turned."""
     (row,) = [
         row
-        for row in search(read_wish(motion_deg="120.7", z="6", spherical=True, rollers=1)).rows
+        for row in search(read_target(motion_deg="120.7", z="6", spherical=True, rollers=1)).rows
         if row.candidate.axes_deg not in (None, 90.0)
     ]
     assert row.candidate.parts == "maybe"

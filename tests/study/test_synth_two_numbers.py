@@ -8,7 +8,7 @@ from words import Drive, Keys, Spec, Wheel
 
 from geneva_cli.machine.many import many
 from geneva_cli.study.sweep.columns import columns
-from geneva_cli.study.synthesis.reading import read_wish
+from geneva_cli.study.synthesis.reading import read_target
 from geneva_cli.study.synthesis.search import search
 
 pytestmark = pytest.mark.usefixtures("few_four_bars")
@@ -46,8 +46,8 @@ def both(found):
     ],
 )
 def test_no_dense_grid_of_two_numbers_finds_a_gentler_machine(z, low, high, bound):
-    wish = {"z": str(z), "spherical": True, "rollers": 1}
-    found = search(read_wish(**wish, motion_deg=f"{low}..{high}", subject_to=tuple(bound))).rows
+    target = {"z": str(z), "spherical": True, "rollers": 1}
+    found = search(read_target(**target, motion_deg=f"{low}..{high}", subject_to=tuple(bound))).rows
     peak, motion, velocity, jerk = grid(z)
     fits = (motion >= low) & (motion <= high)
     for text in bound:
@@ -67,7 +67,7 @@ def test_no_dense_grid_of_two_numbers_finds_a_gentler_machine(z, low, high, boun
 
 def test_what_one_number_brings_as_well_is_no_row():
     """Down to 120 deg inclined shafts alone are as gentle: the side-crank would add nothing."""
-    found = search(read_wish(z="4", spherical=True, rollers=1, motion_deg="100..120")).rows
+    found = search(read_target(z="4", spherical=True, rollers=1, motion_deg="100..120")).rows
     assert {row.candidate.drive for row in found} >= {"crank", "side-crank"}
     assert not any(row.candidate.of_two_numbers for row in found)
 
@@ -93,9 +93,9 @@ def test_elliptical_gears_move_alike_on_shafts_at_any_angle():
 
 def test_bounds_that_no_number_keeps_alone_two_may():
     """Without a wish for a motion two numbers are shown where one does not do."""
-    wish = {"z": "6", "spherical": True, "rollers": 1}
+    target = {"z": "6", "spherical": True, "rollers": 1}
     bounds = ("acceleration.max <= 0.3", "velocity.max <= 0.5", "timing.dwell_deg >= 110")
-    row = both(search(read_wish(**wish, subject_to=bounds)).rows)
+    row = both(search(read_target(**target, subject_to=bounds)).rows)
     assert row.candidate.acceleration_max <= 0.3 and row.candidate.dwell_deg >= 110.0 * (1 - 1e-12)
-    found = search(read_wish(**wish, subject_to=("velocity.max <= 0.5",))).rows
+    found = search(read_target(**target, subject_to=("velocity.max <= 0.5",))).rows
     assert not any(row.candidate.of_two_numbers for row in found)

@@ -5,14 +5,14 @@ import math
 import mpmath
 import pytest
 
-from geneva_cli.study.synthesis.reading import read_wish
+from geneva_cli.study.synthesis.reading import read_target
 from geneva_cli.study.synthesis.search import search
 
 NEAR = "0.1"  # joints so near to the crank that the search of four-bars is short
 
 
 def of_kind(kind, **options):
-    rows = search(read_wish(space=NEAR, **options)).rows
+    rows = search(read_target(space=NEAR, **options)).rows
     return [row for row in rows if row.candidate.drive == kind]
 
 

@@ -28,13 +28,13 @@ def subject(quick: bool) -> Subject:
     wishes, ways = ((QUICK,), {"search": "0"}) if quick else (WISHES, WAYS)
     tasks = [
         task(
-            f"geneva synth {wish}",
+            f"geneva synth {target}",
             {
-                way: ("synth", *wish.split(), "--check", count)
+                way: ("synth", *target.split(), "--check", count)
                 for way, count in ways.items()
-                if count != "0" or "--buildable" not in wish
+                if count != "0" or "--buildable" not in target
             },
         )
-        for wish in wishes
+        for target in wishes
     ]
     return Subject("From a wish to machines: whole runs, on all cores", "none", tasks)

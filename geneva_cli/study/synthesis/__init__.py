@@ -3,7 +3,7 @@
 Its steps, one file each:
 
     reading     typed options                         -> a requirement
-    wish        the allowed motion angles, cycles and speeds
+    target        the allowed motion angles, cycles and speeds
     families/   machines that may meet it, with one free number in each family
     best        the gentlest machine of each family   -> specs
     rows        description and costs of each; ``parts``: its roller, and obstacles

@@ -18,8 +18,8 @@ from geneva_cli.study.goals import Objective
 from geneva_cli.study.quantities import in_batch
 from geneva_cli.study.synthesis.bounds import known_bounds, of_motion
 from geneva_cli.study.synthesis.families.family import Family
+from geneva_cli.study.synthesis.target import Target
 from geneva_cli.study.synthesis.together import numbers
-from geneva_cli.study.synthesis.wish import Wish
 
 PLACES = 24  # intervals of a family's span that are sampled first
 LOOKS, CLOSER = 8, 3  # number of closer samplings, and their ratio of widths: a minimum is flat
@@ -41,7 +41,7 @@ class Chosen(NamedTuple):
 
 
 def best(
-    families: Sequence[Family], wish: Wish, how_near: bool = False
+    families: Sequence[Family], target: Target, how_near: bool = False
 ) -> tuple[list[Chosen], list[Chosen]]:
     """The best machine of each family, divided into those that keep the bounds and the others.
 
@@ -49,10 +49,10 @@ def best(
     """
     free = [f for f in families if f.is_free and math.isnan(f.best)]
     chosen = {id(f): NONE for f in free}
-    first = of_motion(wish) if not how_near else None
+    first = of_motion(target) if not how_near else None
     if first:
         free = [f for f, at in zip(free, _places(free, first, how_near), strict=True) if at.keeps]
-    chosen |= {id(f): at for f, at in zip(free, _places(free, wish, how_near), strict=True)}
+    chosen |= {id(f): at for f, at in zip(free, _places(free, target, how_near), strict=True)}
     kept: list[Chosen] = []
     broken: list[Chosen] = []
     for f in families:
@@ -64,9 +64,9 @@ def best(
     return kept, broken
 
 
-def _places(free: Sequence[Family], wish: Wish, how_near: bool) -> list[Candidate]:
+def _places(free: Sequence[Family], target: Target, how_near: bool) -> list[Candidate]:
     """The best place of each family; ``NONE`` where there is no machine."""
-    search = Places(free, wish, how_near)
+    search = Places(free, target, how_near)
     if search.nearest:
         search.look([(i, f.plain) for i, f in enumerate(free) if f.low <= f.plain <= f.high])
     search.look([(i, x) for i, f in enumerate(free) if not search.done(i) for x in _first(f)])
@@ -115,12 +115,12 @@ class Places:
     The bounds and the goal are those quantities of the requirement that ``together`` computes.
     """
 
-    def __init__(self, families: Sequence[Family], wish: Wish, patient: bool = False) -> None:
-        self.families, self.bounds = families, known_bounds(wish)
+    def __init__(self, families: Sequence[Family], target: Target, patient: bool = False) -> None:
+        self.families, self.bounds = families, known_bounds(target)
         self.patient = patient  # also samples near places where no small step can keep the bounds
-        least = wish.sort if wish.sort and in_batch([wish.sort.name]) else None
-        self.nearest = wish.any_motion and not least
-        self.peak = wish.peak
+        least = target.sort if target.sort and in_batch([target.sort.name]) else None
+        self.nearest = target.any_motion and not least
+        self.peak = target.peak
         self.sign, self.least = least or Objective(1.0, self.peak)
         self.found: dict[int, Candidate] = {}
         # for each family all sampled places, in order

@@ -4,21 +4,21 @@ from __future__ import annotations
 
 from geneva_cli.study.quantities import in_batch, is_motion
 from geneva_cli.study.sweep.constraints import Constraint
-from geneva_cli.study.synthesis.wish import Wish
+from geneva_cli.study.synthesis.target import Target
 
 
-def known_bounds(wish: Wish) -> list[Constraint]:
+def known_bounds(target: Target) -> list[Constraint]:
     """The bounds on quantities that a batch can compute."""
-    return [b for b in wish.limits if in_batch([b.name])]
+    return [b for b in target.limits if in_batch([b.name])]
 
 
-def of_motion(wish: Wish) -> Wish | None:
+def of_motion(target: Target) -> Target | None:
     """The requirement reduced to its bounds on the motion, for a first search.
 
     Returns None if it has no other bounds, or if most families keep them. The loads of a machine
     take ten times as long, so they are not computed for a family without the required motion.
     """
-    moved = tuple(b for b in wish.bounds if is_motion(b.name))
-    if not (wish.strict and moved) or all(map(is_motion, wish.named)):
+    moved = tuple(b for b in target.bounds if is_motion(b.name))
+    if not (target.strict and moved) or all(map(is_motion, target.named)):
         return None
-    return wish._replace(bounds=moved, sort=None)
+    return target._replace(bounds=moved, sort=None)

@@ -17,7 +17,7 @@ from geneva_cli.study.synthesis.limited import breaks_limit
 from geneva_cli.study.synthesis.looks import look_at
 from geneva_cli.study.synthesis.parts import nothing_in_the_way
 from geneva_cli.study.synthesis.rows import Row, limited, rows
-from geneva_cli.study.synthesis.wish import Wish
+from geneva_cli.study.synthesis.target import Target
 
 EVENLY = 16  # parts of a span, between which it is sampled first
 AHEAD = 4  # places of a family, the best first, that are tested as a batch
@@ -45,7 +45,7 @@ class Place(NamedTuple):
     row: Row
 
 
-def standing_in(wish: Wish, first: Sequence[Row], found: Sequence[Row]) -> list[Row]:
+def standing_in(target: Target, first: Sequence[Row], found: Sequence[Row]) -> list[Row]:
     """Replacements for the ``first`` rows that cannot be built: the best of their families.
 
     Rows that break a limit of the frame are left out; another search replaces them.
@@ -54,17 +54,19 @@ def standing_in(wish: Wish, first: Sequence[Row], found: Sequence[Row]) -> list[
     stuck = [row.family for row in first if row.cannot_be and not breaks_limit(row)]
     families = [*dict.fromkeys(family for family in stuck if family and family not in able)]
     known = {row.spec for row in found}
-    others = elsewhere(wish, families) if families else []
+    others = elsewhere(target, families) if families else []
     return [row._replace(stands_in=True) for row in others if row and row.spec not in known]
 
 
-def elsewhere(wish: Wish, families: Sequence[Family], turn: Turn | None = None) -> list[Row | None]:
+def elsewhere(
+    target: Target, families: Sequence[Family], turn: Turn | None = None
+) -> list[Row | None]:
     """For each family the row of its best machine that may be built; None if none was found.
 
     The place is precise to some thousandths of the span. With ``turn`` the machine passes a full
     turn; only a few are turned.
     """
-    search = _Elsewhere(wish, families, turn)
+    search = _Elsewhere(target, families, turn)
     search.first()
     nearer = TURNED if turn else LOOKED
     for _ in range(nearer.looks):
@@ -75,9 +77,9 @@ def elsewhere(wish: Wish, families: Sequence[Family], turn: Turn | None = None) 
 class _Elsewhere:
     """For each family, by its number, the best buildable place and the nearest better place."""
 
-    def __init__(self, wish: Wish, families: Sequence[Family], turn: Turn | None) -> None:
-        self.wish, self.families, self.turn = wish, families, turn
-        self.places = Places(families, wish)
+    def __init__(self, target: Target, families: Sequence[Family], turn: Turn | None) -> None:
+        self.target, self.families, self.turn = target, families, turn
+        self.places = Places(families, target)
         self.good: dict[int, Place] = {}
         self.bad: dict[int, Candidate] = {}
         # for each family with straight slots, the rows of its places
@@ -129,7 +131,7 @@ class _Elsewhere:
             for one in own
             if (spec := self._spec(i, one))
         ]
-        made = rows(self.wish, [spec for _, _, spec in of], [])
+        made = rows(self.target, [spec for _, _, spec in of], [])
         for (i, one, _), row in zip(of, made, strict=True):
             self.straight.setdefault(i, {})[one] = row
 
@@ -155,7 +157,7 @@ class _Elsewhere:
         with searches_kept():  # every machine is tested in a batch first
             while left:
                 asked = self._next_with_parts({i: places[i] for i in left})
-                made = rows(self.wish, [spec for _, spec in asked.values()], [])
+                made = rows(self.target, [spec for _, spec in asked.values()], [])
                 for (i, (candidate, _)), row in zip(asked.items(), made, strict=True):
                     self._note(found, i, candidate, row)
                 left = [i for i in left if places[i] and i not in found]
@@ -180,7 +182,7 @@ class _Elsewhere:
 
     def _spec(self, i: int, place: Candidate) -> Spec | None:
         spec = self.families[i].at(place.x)
-        return limited(self.wish, spec) if spec else None
+        return limited(self.target, spec) if spec else None
 
     def _first_turned(self, places: Seen) -> dict[int, Place]:
         """For each family the first place that passes; every second one is turned first."""

@@ -7,7 +7,7 @@ from typing import Any
 
 from geneva_cli.study.sweep.constraints import Constraint
 from geneva_cli.study.synthesis.rows import PEAKS, Row
-from geneva_cli.study.synthesis.wish import Wish
+from geneva_cli.study.synthesis.target import Target
 from geneva_cli.verdict.checks.load_limits import QUANTITIES
 
 # Keys of [limits], which name their checks too, and the quantities that they limit. The lock's load
@@ -21,9 +21,9 @@ MOST = {
 LEAST = {"roller_life_min_h": "life.roller_life_h"}
 
 
-def frame_limits(wish: Wish) -> tuple[Constraint, ...]:
+def frame_limits(target: Target) -> tuple[Constraint, ...]:
     """The frame's limits as bounds."""
-    given = wish.frame.limits.as_dict() if wish.frame else {}
+    given = target.frame.limits.as_dict() if target.frame else {}
     return tuple(
         Constraint(name, sign, float(given[key]))
         for names, sign in ((MOST, "<="), (LEAST, ">="))

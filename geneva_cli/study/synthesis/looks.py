@@ -20,8 +20,8 @@ from geneva_cli.machine.spec import Spec
 from geneva_cli.numerics.arrays import array
 from geneva_cli.parts.groove import seen
 from geneva_cli.parts.roller_paths import RollerPaths
+from geneva_cli.study.synthesis.target import USUAL_RPM
 from geneva_cli.study.synthesis.together import built_together
-from geneva_cli.study.synthesis.wish import USUAL_RPM
 
 if TYPE_CHECKING:
     from geneva_cli.numerics.arrays import Array

@@ -22,8 +22,8 @@ from geneva_cli.study.sweep.constraints import (
     refuse_words,
 )
 from geneva_cli.study.synthesis.rows import Row
+from geneva_cli.study.synthesis.target import Target
 from geneva_cli.study.synthesis.together import numbers
-from geneva_cli.study.synthesis.wish import Wish
 
 if TYPE_CHECKING:
     from geneva_cli.study.fields import Pick
@@ -44,19 +44,19 @@ class Asked(NamedTuple):
         return self.pick.names if self.pick else ()
 
 
-def asked(wish: Wish, spec: Spec) -> Asked:
+def asked(target: Target, spec: Spec) -> Asked:
     """The quantities that a requirement names; ``spec`` is a design that has them.
 
     Raises GenevaError, with the nearest name, for an unknown one.
     """
-    wanted = [b.name for b in wish.bounds]
+    wanted = [b.name for b in target.bounds]
     machine = build(spec)
     # imports all that a report has: most requirements name no quantity
     pick = load_named("study.fields:pick")
-    of_sort: tuple[str, ...] = pick([wish.sort.name], "--sort").names if wish.sort else ()
+    of_sort: tuple[str, ...] = pick([target.sort.name], "--sort").names if target.sort else ()
     of_bounds = pick(wanted, "--subject-to").asked if wanted else ()
     found = pick([*of_sort, *of_bounds])
-    bounds = tuple(b._replace(name=n) for b, n in zip(wish.bounds, of_bounds, strict=True))
+    bounds = tuple(b._replace(name=n) for b, n in zip(target.bounds, of_bounds, strict=True))
     refuse_contradictions(bounds)  # two names of one quantity may contradict each other
     by = {b.name: "--subject-to" for b in bounds}
     refuse_words(by, "only numbers are bound")
@@ -66,7 +66,7 @@ def asked(wish: Wish, spec: Spec) -> Asked:
             f"{loads[0]}: nothing resists the wheel, so no machine has a value of it; give a load "
             "with --from SPEC and its [load]"
         )
-    return Asked(found, bounds, wish.sort and wish.sort._replace(name=of_sort[0]))
+    return Asked(found, bounds, target.sort and target.sort._replace(name=of_sort[0]))
 
 
 def asked_together(names: Sequence[str], found: Sequence[Row]) -> list[Cells | None]:

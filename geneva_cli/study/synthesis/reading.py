@@ -15,7 +15,7 @@ from geneva_cli.study.ranges import range_text
 from geneva_cli.study.survey import parse_z
 from geneva_cli.study.sweep.constraints import Constraint, constraint, refuse_contradictions
 from geneva_cli.study.synthesis.spans import Interval
-from geneva_cli.study.synthesis.wish import GEARINGS, PEAK, SPACE, Wish
+from geneva_cli.study.synthesis.target import GEARINGS, PEAK, SPACE, Target
 
 WHEELS_MAX = 200  # numbers of slots in one call: each takes some hundredths of a second
 CYCLE = Range(1e-6, 1e6)
@@ -32,7 +32,7 @@ SPANS = {
 }
 
 
-def read_wish(
+def read_target(
     *,
     tau: str = "",
     motion_deg: str = "",
@@ -50,7 +50,7 @@ def read_wish(
     sort: str = "",
     subject_to: Sequence[str] = (),
     space: str = "",
-) -> Wish:
+) -> Target:
     """Return the requirement that the options state as text; an empty text is an option not given.
 
     Numbers may be fractions (``1/3``), and those of ``SPANS`` ranges (``0.8..``). Raises
@@ -84,7 +84,7 @@ def read_wish(
     peaks = [bound for bound in bounds if _is_peak(bound)]
     words = ", ".join(said) or "the spec alone"
     chosen = dict(zip(GEARINGS, (external, internal, spherical), strict=True))
-    wish = Wish(
+    target = Target(
         words if words.startswith(("tau", "k ")) else words[:1].upper() + words[1:],
         _slots(z, frame),
         tuple(g for g, asked in chosen.items() if asked) or GEARINGS,
@@ -97,8 +97,8 @@ def read_wish(
         tuple(bound for bound in bounds if bound not in peaks),
         number("--space", space, SPACES) if space else SPACE,
     )
-    wish.refuse_contradictions()
-    return wish
+    target.refuse_contradictions()
+    return target
 
 
 def _slots(text: str, frame: Spec | None) -> tuple[int, ...]:

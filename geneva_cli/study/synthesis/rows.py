@@ -16,8 +16,8 @@ from geneva_cli.study.synthesis.by_law import law_peaks
 from geneva_cli.study.synthesis.families.family import Family, holds
 from geneva_cli.study.synthesis.looks import look, look_at
 from geneva_cli.study.synthesis.parts import suited
+from geneva_cli.study.synthesis.target import Target
 from geneva_cli.study.synthesis.together import numbers
-from geneva_cli.study.synthesis.wish import Wish
 from geneva_cli.verdict.checks.groove import GROOVE_MAX_DEG, groove_pressure
 from geneva_cli.verdict.checks.registry import LIMITS, MOTION, motion_checks
 
@@ -142,42 +142,42 @@ def _wedged(machine: Mechanism) -> str:
     return GROOVE if check and check.passes is False else ""
 
 
-def rows(wish: Wish, specs: Sequence[Spec], errors: list[str]) -> list[Row | None]:
+def rows(target: Target, specs: Sequence[Spec], errors: list[str]) -> list[Row | None]:
     """The rows of the specs; None for one that cannot be built or breaks the required motion.
 
     The reasons are added to ``errors``.
     """
     with searches_kept():  # every machine is tested in a batch first
-        found = _rows(wish, [limited(wish, spec) for spec in specs], errors)
-    return [row if row and _granted(wish, row) else None for row in found]
+        found = _rows(target, [limited(target, spec) for spec in specs], errors)
+    return [row if row and _granted(target, row) else None for row in found]
 
 
-def limited(wish: Wish, spec: Spec) -> Spec:
+def limited(target: Target, spec: Spec) -> Spec:
     """The spec with the required peak acceleration as a further limit."""
-    if wish.acceleration_max is None:
+    if target.acceleration_max is None:
         return spec
-    return spec.replace(limits=spec.limits.replace(acceleration_max=wish.acceleration_max))
+    return spec.replace(limits=spec.limits.replace(acceleration_max=target.acceleration_max))
 
 
-def _granted(wish: Wish, row: Row) -> bool:
+def _granted(target: Target, row: Row) -> bool:
     """Return True if the built machine moves as required.
 
     A linkage may drive the wheel otherwise.
     """
     drive = row.spec.drive
-    limit, motion = wish.acceleration_max, wish.motion_for(drive.rollers / drive.turns)
+    limit, motion = target.acceleration_max, target.motion_for(drive.rollers / drive.turns)
     if motion is not None and not holds(motion, row.candidate.motion_deg):
         return False
     return limit is None or keeps(row.candidate.acceleration_max, "at most", limit)
 
 
-def _rows(wish: Wish, specs: Sequence[Spec], errors: list[str]) -> list[Row | None]:
+def _rows(target: Target, specs: Sequence[Spec], errors: list[str]) -> list[Row | None]:
     straight = [spec for spec in specs if spec.motion is None]
     costs = iter(numbers(straight, COSTS))
     own = [None if spec.motion else next(costs) for spec in specs]
     out: list[Row | None] = []
     # ``search`` keeps the required limit itself
-    limits = wish.frame.limits.as_dict().values() if wish.frame else ()
+    limits = target.frame.limits.as_dict().values() if target.frame else ()
     limited = any(value is not None for value in limits)
     look_at(specs)
     for spec, five in zip(specs, own, strict=True):
@@ -196,16 +196,16 @@ def _rows(wish: Wish, specs: Sequence[Spec], errors: list[str]) -> list[Row | No
             sized = machine._replace(spec=parts.spec)
             failed = _failing(sized, values) if limited else _wedged(machine)
             parts = parts._replace(why=failed or parts.why)
-        out.append(Row(parts.spec, _candidate(machine, wish, values, parts.said)))
+        out.append(Row(parts.spec, _candidate(machine, target, values, parts.said)))
     return out
 
 
 def _candidate(
-    machine: Mechanism, wish: Wish, costs: Sequence[float], parts: str | None
+    machine: Mechanism, target: Target, costs: Sequence[float], parts: str | None
 ) -> Candidate:
     spec, time, motion = machine.spec, timings(machine)[0], machine.spec.motion
     own = spec.wheel.as_dict() | spec.drive.as_dict()
-    n = spec.drive.n_rpm if wish.timed else None
+    n = spec.drive.n_rpm if target.timed else None
     velocity, acceleration, entry, jerk, power = costs
     return Candidate(
         z=spec.wheel.z,

@@ -31,8 +31,8 @@ from geneva_cli.study.synthesis.limited import (
 )
 from geneva_cli.study.synthesis.quantities import Asked, Cells, asked, asked_together, bounded
 from geneva_cli.study.synthesis.rows import Candidate, Row, rows
+from geneva_cli.study.synthesis.target import TURNS, Target
 from geneva_cli.study.synthesis.together import numbers
-from geneva_cli.study.synthesis.wish import TURNS, Wish
 
 LOOKED_INTO = 120  # machines of a kind whose other quantities are computed one by one
 WORTH = 0.01  # fraction by which a machine of two numbers must be better than one of one number
@@ -44,12 +44,12 @@ class FoundRows(NamedTuple):
     """The rows that meet a requirement, in order, and the quantities that it requests."""
 
     rows: list[Row]
-    wish: Wish  # with its bounds on times as ranges
+    target: Target  # with its bounds on times as ranges
     asked: Asked
 
     def rank(self, row: Row) -> tuple[object, ...]:
         """The sort key of a row."""
-        return _rank(self.wish, self.asked, row)
+        return _rank(self.target, self.asked, row)
 
     def in_turn(self, row: Row) -> Row | None:
         """A row with the requested quantities; None if it breaks a bound on them."""
@@ -72,31 +72,31 @@ class _Part(NamedTuple):
     errors: list[str]
 
 
-def search(wish: Wish, meanwhile: Callable[[], None] | None = None) -> FoundRows:
+def search(target: Target, meanwhile: Callable[[], None] | None = None) -> FoundRows:
     """The machines that meet the requirement, in order; no part has been turned yet.
 
     ``meanwhile`` is a task for this process while others search. Raises GenevaError, saying what is
     within reach, if there is none.
     """
-    wanted = _asked(wish)
-    wish = wish._replace(bounds=wanted.bounds, sort=wanted.sort)
-    narrowed = wish.with_times()
+    wanted = _asked(target)
+    target = target._replace(bounds=wanted.bounds, sort=wanted.sort)
+    narrowed = target.with_times()
     narrowed.refuse_contradictions()
     parts = _parts(narrowed, wanted.names, meanwhile=meanwhile)
     if not any(part.keeps for part in parts):  # the error message says how near they come
-        parts = _parts(wish, wanted.names, how_near=True)
+        parts = _parts(target, wanted.names, how_near=True)
     errors = [error for part in parts for error in part.errors]
     found = [row for part in parts for row in part.rows]
     if not found:
         reached = [peak for part in parts for peak in part.reached]
-        if wish.acceleration_max is not None and not reached:
-            return search(wish.by_bounds)  # its message says how near they come
-        raise GenevaError(_out_of_reach(wish, reached, errors))
+        if target.acceleration_max is not None and not reached:
+            return search(target.by_bounds)  # its message says how near they come
+        raise GenevaError(_out_of_reach(target, reached, errors))
     together = [cells for part in parts for cells in part.asked]
-    ranked = _ranked(wish, wanted, found, together)
-    if frame_limits(wish) and narrowed.motion_for(1) and any(map(breaks_limit, ranked)):
+    ranked = _ranked(target, wanted, found, together)
+    if frame_limits(target) and narrowed.motion_for(1) and any(map(breaks_limit, ranked)):
         within = _within_limits(narrowed, wanted, [any(map(breaks_limit, p.rows)) for p in parts])
-        ranked = sorted(giving_way(ranked, within), key=lambda row: _rank(wish, wanted, row))
+        ranked = sorted(giving_way(ranked, within), key=lambda row: _rank(target, wanted, row))
     found_rows = FoundRows(ranked, narrowed, wanted)
     others = map(found_rows.in_turn, standing_in(narrowed, ranked[:TURNED], ranked))
     ranked.extend(row for row in others if row)
@@ -105,47 +105,47 @@ def search(wish: Wish, meanwhile: Callable[[], None] | None = None) -> FoundRows
 
 
 def _ranked(
-    wish: Wish, wanted: Asked, found: list[Row], together: Sequence[Cells | None]
+    target: Target, wanted: Asked, found: list[Row], together: Sequence[Cells | None]
 ) -> list[Row]:
     """The rows that keep the bounds, in order."""
     if wanted.pick:
         found = bounded(wanted, found, together)
-    found = _worth(wish, wanted, found)
-    found.sort(key=lambda row: _rank(wish, wanted, row))
-    return first_of_each(found, linkages=_known_together(wish))
+    found = _worth(target, wanted, found)
+    found.sort(key=lambda row: _rank(target, wanted, row))
+    return first_of_each(found, linkages=_known_together(target))
 
 
-def _within_limits(wish: Wish, wanted: Asked, which: Sequence[bool]) -> list[Row]:
+def _within_limits(target: Target, wanted: Asked, which: Sequence[bool]) -> list[Row]:
     """The rows of those kinds whose machines keep the frame's limits too."""
-    strict = wish._replace(bounds=(*wish.bounds, *frame_limits(wish)), strict=True)
+    strict = target._replace(bounds=(*target.bounds, *frame_limits(target)), strict=True)
     parts = _parts(strict, wanted.names, which=which)
     pairs = [pair for part in parts for pair in zip(part.rows, part.asked, strict=True)]
     kept = [(row, cells) for row, cells in pairs if not breaks_limit(row)]
     try:
-        return _ranked(wish, wanted, [row for row, _ in kept], [cells for _, cells in kept])
+        return _ranked(target, wanted, [row for row, _ in kept], [cells for _, cells in kept])
     except GenevaError:  # none keeps the bounds as well
         return []
 
 
-def _known_together(wish: Wish) -> bool:
+def _known_together(target: Target) -> bool:
     """Return True if a batch can compute the quantities of the goal and of the bounds.
 
     If not, they are computed for several machines of each family, and the best of these is shown.
     """
-    return in_batch(wish.named)
+    return in_batch(target.named)
 
 
 def _parts(
-    wish: Wish,
+    target: Target,
     names: Sequence[str],
     how_near: bool = False,
     meanwhile: Callable[[], None] | None = None,
     which: Sequence[bool] = (),
 ) -> list[_Part]:
     """The results of all kinds of machines, or of ``which``, in order, from all cores."""
-    tasks = kinds(wish)
-    order = [i for i in longest_first(wish) if not which or which[i]]
-    many = which or len(wish.gearings) * len(wish.z) * len(wish.laws) > WHEELS
+    tasks = kinds(target)
+    order = [i for i in longest_first(target) if not which or which[i]]
+    many = which or len(target.gearings) * len(target.z) * len(target.laws) > WHEELS
     workers = min(len(order), cores()) if many else 1
     work = partial(_part, names=names, how_near=how_near)
     done = mapped(work, [tasks[i] for i in order], workers, "machines", meanwhile)
@@ -154,42 +154,44 @@ def _parts(
     return [found[i] for i in sorted(found)]
 
 
-def _part(task: tuple[Kind, Wish], names: Sequence[str], how_near: bool) -> _Part:
-    kind, wish = task
+def _part(task: tuple[Kind, Target], names: Sequence[str], how_near: bool) -> _Part:
+    kind, target = task
     reached: list[float] = []
     errors: list[str] = []
-    of_kind = [*families(kind, wish, reached)]
-    if not _known_together(wish):
+    of_kind = [*families(kind, target, reached)]
+    if not _known_together(target):
         of_kind = pieces(of_kind, LOOKED_INTO)
-    one_each, near = best(of_kind, wish, how_near)
+    one_each, near = best(of_kind, target, how_near)
     of = {one.spec: one.family for one in reversed([*one_each, *near])}
-    keeps, kept, broken = _apart(known_bounds(wish), [*dict.fromkeys(one.spec for one in one_each)])
+    keeps, kept, broken = _apart(
+        known_bounds(target), [*dict.fromkeys(one.spec for one in one_each)]
+    )
     shown = [*kept, *broken, *(one.spec for one in near)] if how_near else kept
     found = [
         row._replace(family=of[spec].whole) if of[spec].is_free else row
-        for spec, row in zip(shown, rows(wish, shown, errors), strict=True)
+        for spec, row in zip(shown, rows(target, shown, errors), strict=True)
         if row
     ]
     return _Part(found, asked_together(names, found), keeps, reached, errors)
 
 
-def _asked(wish: Wish) -> Asked:
+def _asked(target: Target) -> Asked:
     """The quantities that a requirement names, by their whole names.
 
     They are those of a plain crank with one roller or, if the frame's sizes allow none, of the
     frame.
     """
-    if not (wish.sort or wish.bounds):
+    if not (target.sort or target.bounds):
         return Asked(None, (), None)
-    for gearing in wish.gearings:
-        for z in wish.z:
+    for gearing in target.gearings:
+        for z in target.z:
             try:
-                spec = plain(wish, registry.gearing(gearing)(z), 1)
+                spec = plain(target, registry.gearing(gearing)(z), 1)
                 build(spec)
             except GenevaError:
                 continue
-            return asked(wish, spec)
-    return asked(wish, wish.frame or BARE)
+            return asked(target, spec)
+    return asked(target, target.frame or BARE)
 
 
 def _apart(bounds: Sequence[Constraint], specs: list[Spec]) -> tuple[bool, list[Spec], list[Spec]]:
@@ -210,7 +212,7 @@ def _apart(bounds: Sequence[Constraint], specs: list[Spec]) -> tuple[bool, list[
     return keeps, kept, [spec for spec, out in zip(specs, broken, strict=True) if out]
 
 
-def _rank(wish: Wish, wanted: Asked, row: Row) -> tuple[object, ...]:
+def _rank(target: Target, wanted: Asked, row: Row) -> tuple[object, ...]:
     """The sort key of a row: the goal's quantity, then peaks.
 
     Numbers that differ only by rounding are equal.
@@ -235,7 +237,7 @@ def _rank(wish: Wish, wanted: Asked, row: Row) -> tuple[object, ...]:
     )
 
 
-def _worth(wish: Wish, wanted: Asked, found: list[Row]) -> list[Row]:
+def _worth(target: Target, wanted: Asked, found: list[Row]) -> list[Row]:
     """The rows without machines of two numbers that are hardly better than one of one number.
 
     If the nearest machine to the plain crank is required, all of them are left out that have one.
@@ -254,7 +256,7 @@ def _worth(wish: Wish, wanted: Asked, found: list[Row]) -> list[Row]:
             )
         )
 
-    nearest = wish.with_times().any_motion and not wanted.sort
+    nearest = target.with_times().any_motion and not wanted.sort
     return [row for row in found if not (row.candidate.of_two_numbers and beaten(row))]
 
 
@@ -266,48 +268,48 @@ def _first(wanted: Asked, row: Row) -> float:
     return wanted.sort.sign * float(value) if is_number(value) else math.nan
 
 
-def synthesis(wish: Wish) -> list[tuple[Spec, Candidate]]:
+def synthesis(target: Target) -> list[tuple[Spec, Candidate]]:
     """The machines that meet the requirement, the lowest peak acceleration first, no part turned.
 
     Raises GenevaError, saying what is within reach, if there is none.
     """
-    return [(row.spec, row.candidate) for row in search(wish).rows]
+    return [(row.spec, row.candidate) for row in search(target).rows]
 
 
-def _out_of_reach(wish: Wish, reached: list[float], errors: list[str]) -> str:
+def _out_of_reach(target: Target, reached: list[float], errors: list[str]) -> str:
     """The error message if no machine was found: what would be within reach."""
-    counts = wish.counts
-    m = wish.rollers or next((int(m) for m in counts if m >= 1.0), 1)
-    if wish.only_acceleration and reached:
-        (limit,) = wish.limits
+    counts = target.counts
+    m = target.rollers or next((int(m) for m in counts if m >= 1.0), 1)
+    if target.only_acceleration and reached:
+        (limit,) = target.limits
         return (
             f"--subject-to {limit}: out of reach; with these wheels the limit "
             f"must be above {min(reached):.6g}, and more slots allow a lower one"
         )
-    motion = wish.motion_for(m)
+    motion = target.motion_for(m)
     most = max(
-        rollers_max(natural_deg(registry.gearing(g)(z))) for z in wish.z for g in wish.gearings
+        rollers_max(natural_deg(registry.gearing(g)(z))) for z in target.z for g in target.gearings
     )
     if motion is None:
         return f"--rollers {m}: they jam on every requested wheel; at most {most}"
-    if wish.rollers is None and m > most:
+    if target.rollers is None and m > most:
         return (
-            f"{wish.words}: out of reach: it takes {m} rollers, but straight slots carry at "
+            f"{target.words}: out of reach: it takes {m} rollers, but straight slots carry at "
             f"most {most} here, and no curved slots or cam with so many can be built"
         )
     if motion.low * m >= 360.0:
         return (
-            f"{wish.words}: {m} motions of {motion.low:.7g} deg leave no dwell in a turn of 360; "
+            f"{target.words}: {m} motions of {motion.low:.7g} deg leave no dwell in a turn of 360; "
             f"with {m} rollers a motion must be below {360.0 / m:.7g} deg (tau below 1)"
         )
     if max(counts) < 1.0:
         return (
-            f"{wish.words}: out of reach: a wheel rests so long only behind a first wheel, which "
+            f"{target.words}: out of reach: a wheel rests so long only behind a first wheel, which "
             f"turns the crank once in {TURNS[0]} to {TURNS[-1]} turns; none of these rests so long"
         )
     first = f"; the first says: {errors[0]}" if errors else ""
     return (
-        f"{wish.words}: out of reach with {'one roller' if m == 1 else f'{m} rollers'}: curved "
+        f"{target.words}: out of reach with {'one roller' if m == 1 else f'{m} rollers'}: curved "
         "slots turn an internal wheel at most half as fast as the crank"
         + (f", and no drive goes beyond A or eccentricity {closed.MOST}" if m == 1 else "")
         + f"; use more slots or a longer motion{first}"

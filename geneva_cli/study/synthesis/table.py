@@ -14,8 +14,8 @@ from geneva_cli.study.synthesis.elsewhere import elsewhere
 from geneva_cli.study.synthesis.parts import MAYBE, YES
 from geneva_cli.study.synthesis.rows import Candidate, Row
 from geneva_cli.study.synthesis.search import TURNED, FoundRows, search
+from geneva_cli.study.synthesis.target import Target
 from geneva_cli.study.synthesis.turns import Turns, same_turn
-from geneva_cli.study.synthesis.wish import Wish
 from geneva_cli.table import Table, rows_table
 from geneva_cli.verdict.checks.registry import import_checks
 
@@ -23,20 +23,20 @@ NAMES = ("no", *Candidate._fields)
 
 
 def synthesis_table(
-    wish: Wish, count: int = TURNED, buildable: bool = False, found: FoundRows | None = None
+    target: Target, count: int = TURNED, buildable: bool = False, found: FoundRows | None = None
 ) -> Table:
     """One row for each machine, numbered from 1, as ``turned`` returns them."""
     # the processes that turn need these imports, which are loaded while others search
-    found = found or search(wish, import_checks if count else None)
+    found = found or search(target, import_checks if count else None)
     rows = [(one.no, *one.row.candidate, *one.row.asked) for one in turned(found, count, buildable)]
     what = "1 machine" if len(rows) == 1 else f"{len(rows)} machines"
-    first = str(wish.sort or "") or f"lowest peak acceleration{' in rad/s2' * wish.timed}"
+    first = str(target.sort or "") or f"lowest peak acceleration{' in rad/s2' * target.timed}"
     title = f"{what}, {first} first" if len(rows) > 1 else what
     if buildable:
         title = f"{title}{',' * (len(rows) > 1)} of {len(found.rows)}"
     if not rows:
         title = f"none of {len(found.rows)} machines is found to pass"
-    return rows_table((*NAMES, *found.asked.names), rows, f"{wish.words}: {title}.")
+    return rows_table((*NAMES, *found.asked.names), rows, f"{target.words}: {title}.")
 
 
 class Numbered(NamedTuple):
@@ -57,7 +57,7 @@ def turned(found: FoundRows, count: int = TURNED, buildable: bool = False) -> li
     maybe = [one for one in every if one.row.candidate.parts == MAYBE]
     if not buildable:
         maybe = [one for one in maybe if one.no <= count]
-    built = _built([one.row.spec for one in maybe], fixed(found.wish), in_order=buildable)
+    built = _built([one.row.spec for one in maybe], fixed(found.target), in_order=buildable)
     results: dict[int, Row] = {}
     passed, last = 0, len(every)
     for one in maybe:
@@ -95,7 +95,7 @@ def _others(found: FoundRows, failing: dict[int, Row]) -> dict[int, Row]:
 
 def other(found: FoundRows, row: Row) -> Row | None:
     """The best machine of a row's family that passes a full turn, other than the row's own."""
-    turns, given = Turns(), fixed(found.wish)
+    turns, given = Turns(), fixed(found.target)
 
     def turn(maybe: Row, like: Row | None) -> Row | None:
         own = found.in_turn(maybe)
@@ -107,7 +107,7 @@ def other(found: FoundRows, row: Row) -> Row | None:
         (result,) = built_together([own.spec], given, turns)
         return None if result.trouble else with_result(own, result)
 
-    return elsewhere(found.wish, [row.family], turn)[0] if row.family else None
+    return elsewhere(found.target, [row.family], turn)[0] if row.family else None
 
 
 def _built(specs: Sequence[Spec], fixed: frozenset[str], in_order: bool) -> Iterator[Built]:
@@ -139,7 +139,7 @@ def with_result(row: Row, result: Built) -> Row:
     return row._replace(spec=result.spec, candidate=row.candidate._replace(parts=said))
 
 
-def fixed(wish: Wish) -> frozenset[str]:
+def fixed(target: Target) -> frozenset[str]:
     """The sizes that the requirement's frame gives, which do not change."""
-    given = wish.frame.size.as_dict() if wish.frame else {}
+    given = target.frame.size.as_dict() if target.frame else {}
     return frozenset(key for key, value in given.items() if value is not None)

@@ -28,7 +28,7 @@ from geneva_cli.parts.turn.gaps import WorkLimit
 from geneva_cli.parts.turn.glance import gap_about, play_about, play_before_entry
 from geneva_cli.parts.turn.machine_parts import MachineParts
 from geneva_cli.parts.turn.one_motion import one_motion
-from geneva_cli.study.synthesis.wish import USUAL_RPM
+from geneva_cli.study.synthesis.target import USUAL_RPM
 from geneva_cli.verdict.checks.check import Check
 from geneva_cli.verdict.checks.play import finds_slot
 from geneva_cli.verdict.checks.registry import standing_checks, turn_checks

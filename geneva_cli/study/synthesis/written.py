@@ -8,7 +8,7 @@ from geneva_cli.study.synthesis.built import Built, built
 from geneva_cli.study.synthesis.rows import Candidate
 from geneva_cli.study.synthesis.search import FoundRows
 from geneva_cli.study.synthesis.table import fixed, other, with_result
-from geneva_cli.study.synthesis.wish import Wish
+from geneva_cli.study.synthesis.target import Target
 
 COSTS = ("velocity_max", "acceleration_max", "acceleration_entry", "jerk_max", "power_max")
 
@@ -23,23 +23,23 @@ def chosen(found: FoundRows, number: int, buildable: bool = False) -> tuple[Buil
         raise GenevaError(f"--write {cut(number)}: the table has rows 1 to {len(found.rows)}")
     row = found.rows[number - 1]
     if not row.cannot_be:
-        row = with_result(row, built(row.spec, fixed(found.wish)))
+        row = with_result(row, built(row.spec, fixed(found.target)))
     if row.cannot_be and (buildable or row.stands_in):
         row = other(found, row) or row
     made = Built(row.spec, row.trouble)
-    return made, commented(found.wish, number, row.candidate, made)
+    return made, commented(found.target, number, row.candidate, made)
 
 
-def commented(wish: Wish, number: int, row: Candidate, found: Built) -> str:
+def commented(target: Target, number: int, row: Candidate, found: Built) -> str:
     """The text of a spec from synthesis, with comments."""
-    return "\n".join([*_heading(wish, number, row, found), *written(found.spec)]) + "\n"
+    return "\n".join([*_heading(target, number, row, found), *written(found.spec)]) + "\n"
 
 
-def _heading(wish: Wish, number: int, row: Candidate, found: Built) -> list[str]:
+def _heading(target: Target, number: int, row: Candidate, found: Built) -> list[str]:
     z = f"{row.z} slots, {row.gearing}"
     slots = f"{row.drive}, {row.law}" if row.law else row.drive
     lines = [
-        f"title = {quoted(f'{wish.words}: {z}, {slots}')}",
+        f"title = {quoted(f'{target.words}: {z}, {slots}')}",
         "",
         f"# Row {number} of `geneva synth`. It moves for {row.motion_deg:.7g} deg of the input and",
         f"# rests for {row.dwell_deg:.7g}: tau = {row.tau:.7g}, k = {row.k:.7g}.",

@@ -1,4 +1,4 @@
-"""What a section of a report gives."""
+"""Type of the values that a section of a report returns."""
 
 from __future__ import annotations
 

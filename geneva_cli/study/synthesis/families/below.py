@@ -29,47 +29,47 @@ from geneva_cli.study.synthesis.families.straight import (
     side_crank,
 )
 from geneva_cli.study.synthesis.families.two_stages import two_stages
-from geneva_cli.study.synthesis.wish import Wish
+from geneva_cli.study.synthesis.target import Target
 
 # velocities at which curved slots inside cannot exist (R/L is 1), and can (R/L is 9/11)
 PARALLEL, QUICK = 0.5, 0.45
 
 
-def straight(wish: Wish, wheels: Sequence[Gearing], reached: list[float]) -> Iterator[Family]:
+def straight(target: Target, wheels: Sequence[Gearing], reached: list[float]) -> Iterator[Family]:
     """The families with straight slots; the lowest peak of each drive is added to ``reached``."""
     for wheel in wheels:
-        yield from map(only, _specs(wish, wheel, reached))
-        for m in rollers(wish, natural_deg(wheel)):
-            yield from aside(wish, wheel, m)
+        yield from map(only, _specs(target, wheel, reached))
+        for m in rollers(target, natural_deg(wheel)):
+            yield from aside(target, wheel, m)
         if not wheel.FLAT:
-            yield from driven(wish, wheel)
-        if wish.rollers in (None, 1):
-            yield from planets(wish, wheel)
-        yield from two_stages(wish, wheel)
+            yield from driven(target, wheel)
+        if target.rollers in (None, 1):
+            yield from planets(target, wheel)
+        yield from two_stages(target, wheel)
 
 
-def _specs(wish: Wish, wheel: Gearing, reached: list[float]) -> Iterator[Spec]:
-    assert wish.acceleration_max is not None
+def _specs(target: Target, wheel: Gearing, reached: list[float]) -> Iterator[Spec]:
+    assert target.acceleration_max is not None
     natural = natural_deg(wheel)
-    every = rollers(wish, natural)
-    natural_peak = peak(build(plain(wish, wheel, 1)).engagements[0].motion, "acceleration").max
-    gentle = natural_peak <= wish.acceleration_max
+    every = rollers(target, natural)
+    natural_peak = peak(build(plain(target, wheel, 1)).engagements[0].motion, "acceleration").max
+    gentle = natural_peak <= target.acceleration_max
     if gentle:
-        yield from (plain(wish, wheel, m) for m in every)
-    elif not wish.rollers or natural * wish.rollers < 360.0:
+        yield from (plain(target, wheel, m) for m in every)
+    elif not target.rollers or natural * target.rollers < 360.0:
         reached.append(natural_peak)
     if not wheel.FLAT:
         return
-    limit = wish.acceleration_max * (1.0 - MARGIN)
+    limit = target.acceleration_max * (1.0 - MARGIN)
     if 1 in every and not gentle:
-        yield from _driven(wish, wheel, limit, reached)
+        yield from _driven(target, wheel, limit, reached)
 
 
-def _driven(wish: Wish, wheel: Gearing, limit: float, reached: list[float]) -> Iterator[Spec]:
+def _driven(target: Target, wheel: Gearing, limit: float, reached: list[float]) -> Iterator[Spec]:
     """The drives in front of the crank that reduce a peak acceleration to the limit."""
     makes: tuple[tuple[limits.Ratio, Callable[[float], Spec]], ...] = (
-        (limits.side_crank, partial(side_crank, wish, wheel)),
-        (limits.elliptical_gears, partial(gears, wish, wheel)),
+        (limits.side_crank, partial(side_crank, target, wheel)),
+        (limits.elliptical_gears, partial(gears, target, wheel)),
     )
     for ratio, make in makes:
         x, least = limits.least_parameter(limits.peak_of(wheel, ratio), limit)
@@ -78,26 +78,26 @@ def _driven(wish: Wish, wheel: Gearing, limit: float, reached: list[float]) -> I
             yield make(x)
 
 
-def with_laws(wish: Wish, wheels: Sequence[Gearing], reached: list[float]) -> Iterator[Family]:
+def with_laws(target: Target, wheels: Sequence[Gearing], reached: list[float]) -> Iterator[Family]:
     """Curved slots and cams, with a motion so long that the law's peak is the limit."""
-    yield from map(only, _with_laws(wish, wheels, reached))
+    yield from map(only, _with_laws(target, wheels, reached))
 
 
-def _with_laws(wish: Wish, wheels: Sequence[Gearing], reached: list[float]) -> Iterator[Spec]:
+def _with_laws(target: Target, wheels: Sequence[Gearing], reached: list[float]) -> Iterator[Spec]:
     lines: list[tuple[float, Callable[[int], Spec]]] = []
     for wheel in wheels:
         if wheel.FLAT:
-            for law in wish.laws:
-                lines += _lines(wish, wheel, law, reached)
+            for law in target.laws:
+                lines += _lines(target, wheel, law, reached)
     for natural, make in lines:
-        yield from map(make, rollers(wish, natural))
+        yield from map(make, rollers(target, natural))
     alone = [(natural, lambda m, make=make: [make(m)]) for natural, make in lines]
-    for more in more_rollers(wish, alone):
+    for more in more_rollers(target, alone):
         yield from more
 
 
 def _lines(
-    wish: Wish, wheel: Gearing, law: str, reached: list[float]
+    target: Target, wheel: Gearing, law: str, reached: list[float]
 ) -> Iterator[tuple[float, Callable[[int], Spec]]]:
     """Makers of curved slots and cams by their number of rollers, with the plain crank's motion.
 
@@ -105,13 +105,13 @@ def _lines(
     slots then get the plain crank's motion too, and curved slots a longer one if that is also too
     quick.
     """
-    assert wish.acceleration_max is not None
-    limit = wish.acceleration_max * (1.0 - MARGIN)
+    assert target.acceleration_max is not None
+    limit = target.acceleration_max * (1.0 - MARGIN)
     natural, step = natural_deg(wheel), 2.0 * math.pi / wheel.z
     cost = law_costs(standard(law))
     motion = closed.law_motion_deg(step, cost.acceleration, limit)
     inside, fast = wheel.SIGN < 0.0, cost.velocity * step
-    for m in rollers(wish, natural):
+    for m in rollers(target, natural):
         whole = 2.0 * math.pi / m
         if not inside or fast < PARALLEL * whole:
             reached.append(cost.acceleration * step / whole**2)
@@ -119,6 +119,6 @@ def _lines(
     if inside and fast >= PARALLEL * math.radians(motion):
         enough = fast < PARALLEL * math.radians(natural)
         slower = max(motion, natural if enough else math.degrees(fast / QUICK))
-        yield natural, lambda m: cam(wish, wheel, law, m, max(motion, natural))
-    yield natural, lambda m: curved(wish, wheel, law, m, slower)
-    yield natural, lambda m: cam(wish, wheel, law, m, motion)
+        yield natural, lambda m: cam(target, wheel, law, m, max(motion, natural))
+    yield natural, lambda m: curved(target, wheel, law, m, slower)
+    yield natural, lambda m: cam(target, wheel, law, m, motion)

@@ -9,7 +9,7 @@ import numpy as np
 
 from geneva_cli.analysis.timing import Timing, timing
 from geneva_cli.study.sweep.constraints import Constraint
-from geneva_cli.study.synthesis.wish import Wish
+from geneva_cli.study.synthesis.target import Target
 from geneva_cli.verdict.quantities.groups import RATES
 
 if TYPE_CHECKING:
@@ -24,7 +24,7 @@ SPARE = 1e-4  # margin to the bounds, relative, for errors between samples
 class Costs(NamedTuple):
     """Samples of n motions: derivatives (n, places), steps and motion angles, degrees, (n,)."""
 
-    wish: Wish
+    target: Target
     index_deg: Array
     derivatives: list[Array]
     motion_deg: Array
@@ -56,7 +56,7 @@ class Costs(NamedTuple):
         return total
 
     def _n_rpm(self) -> Array:
-        return np.array([self.wish.n_rpm(1, float(x)) for x in self.motion_deg])
+        return np.array([self.target.n_rpm(1, float(x)) for x in self.motion_deg])
 
 
 def is_known(name: str) -> bool:

@@ -33,7 +33,7 @@ from geneva_cli.study.synthesis.families.family import (
 from geneva_cli.study.synthesis.looks import look_at
 from geneva_cli.study.synthesis.parts import nothing_in_the_way
 from geneva_cli.study.synthesis.spans import Interval
-from geneva_cli.study.synthesis.wish import Wish
+from geneva_cli.study.synthesis.target import Target
 
 ROUNDING = 2e-15  # fraction of the natural motion: the rounding of a difference of two angles
 
@@ -44,7 +44,7 @@ def standard(law: str) -> Law:
     return registry.law(law)()
 
 
-def with_laws(wish: Wish, wheels: Sequence[Gearing]) -> Iterator[Family]:
+def with_laws(target: Target, wheels: Sequence[Gearing]) -> Iterator[Family]:
     """Curved slots and cams with each law.
 
     In a range of motions the longest is the gentlest, and the plain crank's own is added. With
@@ -54,19 +54,21 @@ def with_laws(wish: Wish, wheels: Sequence[Gearing]) -> Iterator[Family]:
         line
         for wheel in wheels
         if wheel.FLAT
-        for law in wish.laws
-        for line in _lines(wish, wheel, law)
+        for law in target.laws
+        for line in _lines(target, wheel, law)
     ]
-    several = more_rollers(wish, [(line.natural, line.some) for line in lines])
+    several = more_rollers(target, [(line.natural, line.some) for line in lines])
     for line, more in zip(lines, several, strict=True):
         yield from line.families(more)
 
 
-def _lines(wish: Wish, wheel: Gearing, law: str) -> tuple[_Line, _Line]:
+def _lines(target: Target, wheel: Gearing, law: str) -> tuple[_Line, _Line]:
     """Curved slots, and cams, of a wheel and a law."""
     natural, until = natural_deg(wheel), partial(_until_parallel, wheel)
-    make, grooved = partial(curved, wish, wheel, law), partial(cam, wish, wheel, law)
-    return _Line(wish, natural, make, lambda motion: motion), _Line(wish, natural, grooved, until)
+    make, grooved = partial(curved, target, wheel, law), partial(cam, target, wheel, law)
+    return _Line(target, natural, make, lambda motion: motion), _Line(
+        target, natural, grooved, until
+    )
 
 
 class _Line(NamedTuple):
@@ -75,14 +77,14 @@ class _Line(NamedTuple):
     ``reached`` limits a range of motions to those that exist.
     """
 
-    wish: Wish
+    target: Target
     natural: float
     make: Callable[[int, float], Spec]
     reached: Callable[[Interval], Interval]
 
     def families(self, more: Sequence[Spec]) -> Iterator[Family]:
         """The families, including those with ``more`` rollers than the plain wheel takes."""
-        for m in rollers(self.wish, self.natural):
+        for m in rollers(self.target, self.natural):
             free = self._motions(m)
             if free is None:
                 continue
@@ -104,12 +106,12 @@ class _Line(NamedTuple):
         return [self.make(m, x) for x in dict.fromkeys((high, 0.5 * (low + high), low))]
 
     def _motions(self, m: int) -> Interval | None:
-        asked = closed_span(wanted(self.wish, m, self.natural), m)
+        asked = closed_span(wanted(self.target, m, self.natural), m)
         return self.reached(asked) if asked else None
 
     def _free(self, m: int, motion: Interval) -> Family:
         """The machines of a range of motions, the longest of which is the gentlest."""
-        best = math.nan if self.wish.bounds or self.wish.sort else motion.high
+        best = math.nan if self.target.bounds or self.target.sort else motion.high
         return Family(partial(self.make, m), *motion, plain=self.natural, best=best)
 
 
@@ -121,7 +123,7 @@ def _until_parallel(wheel: Gearing, motion: Interval) -> Interval:
 
 
 def more_rollers(
-    wish: Wish, lines: Sequence[tuple[float, Callable[[int], Sequence[Spec]]]]
+    target: Target, lines: Sequence[tuple[float, Callable[[int], Sequence[Spec]]]]
 ) -> list[list[Spec]]:
     """More rollers than the plain wheel takes, for each line as long as parts can be built.
 
@@ -129,9 +131,9 @@ def more_rollers(
     first of these is taken if any may be built.
     """
     found: list[list[Spec]] = [[] for _ in lines]
-    if wish.rollers is not None:
+    if target.rollers is not None:
         return found
-    more = [int(m) for m in wish.counts if m >= 1.0]
+    more = [int(m) for m in target.counts if m >= 1.0]
     begin = [next((m for m in more if m > rollers_max(natural)), None) for natural, _ in lines]
     growing = {i: m for i, m in enumerate(begin) if m}
     while growing:
@@ -146,21 +148,21 @@ def more_rollers(
     return found
 
 
-def curved(wish: Wish, wheel: Gearing, law: str, m: int, motion: float) -> Spec:
+def curved(target: Target, wheel: Gearing, law: str, m: int, motion: float) -> Spec:
     """Curved slots, with the shortest alpha_0 that makes the motion."""
-    given = Motion(standard(law), alpha0_deg=_alpha0(wish, wheel, motion), ratio="matched")
-    return machine(wish, wheel, lambda n: Crank(n_rpm=n, rollers=m), m, motion, given)
+    given = Motion(standard(law), alpha0_deg=_alpha0(target, wheel, motion), ratio="matched")
+    return machine(target, wheel, lambda n: Crank(n_rpm=n, rollers=m), m, motion, given)
 
 
-def cam(wish: Wish, wheel: Gearing, law: str, m: int, motion: float) -> Spec:
+def cam(target: Target, wheel: Gearing, law: str, m: int, motion: float) -> Spec:
     """A cam: straight slots with the law's motion, made by a groove along the crank."""
-    given = Motion(standard(law), alpha0_deg=_alpha0(wish, wheel, motion))
-    return machine(wish, wheel, lambda n: Cam(n_rpm=n, rollers=m), m, motion, given)
+    given = Motion(standard(law), alpha0_deg=_alpha0(target, wheel, motion))
+    return machine(target, wheel, lambda n: Cam(n_rpm=n, rollers=m), m, motion, given)
 
 
-def _alpha0(wish: Wish, wheel: Gearing, motion: float) -> float:
+def _alpha0(target: Target, wheel: Gearing, motion: float) -> float:
     natural = natural_deg(wheel)
     alpha0, spare = natural - motion, ROUNDING * natural
     # A motion that is shorter, by however little, would break a limit that it just keeps.
-    most = alpha0 if wish.acceleration_max else alpha0 + spare
+    most = alpha0 if target.acceleration_max else alpha0 + spare
     return closed.shortest(alpha0 - spare, most)

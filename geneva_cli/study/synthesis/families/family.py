@@ -16,7 +16,7 @@ from geneva_cli.machine.spec import Spec
 from geneva_cli.machine.wheels.classic import rollers_max
 from geneva_cli.machine.wheels.gearing import Gearing
 from geneva_cli.study.synthesis.spans import Interval
-from geneva_cli.study.synthesis.wish import Wish
+from geneva_cli.study.synthesis.target import Target
 
 EXACT = 1e-6  # fraction of the motion angle by which the plain crank may miss the required one
 # fraction of a turn over m that an open end of a range leaves to motion and to dwell
@@ -95,7 +95,7 @@ def only(spec: Spec) -> Family:
 
 
 def machine(
-    wish: Wish,
+    target: Target,
     wheel: Gearing,
     drive: Callable[[float], Drive],
     m: float,
@@ -107,8 +107,8 @@ def machine(
     ``drive`` makes the drive for an input speed, which follows from the requirement for m motions
     of ``motion_deg`` in a turn.
     """
-    own = wish.frame or BARE
-    found = drive(wish.n_rpm(m, motion_deg))
+    own = target.frame or BARE
+    found = drive(target.n_rpm(m, motion_deg))
     return own.replace(wheel=wheel, drive=found, motion=motion, title="", path="", files=())
 
 
@@ -126,11 +126,11 @@ def natural_deg(wheel: Gearing) -> float:
     return 2.0 * wheel.half_motion_deg(wheel.step)
 
 
-def wanted(wish: Wish, m: float, natural: float) -> Interval:
+def wanted(target: Target, m: float, natural: float) -> Interval:
     """The allowed motion angles for m motions in a turn: required, any, or the plain one."""
-    found = wish.motion_for(m)
+    found = target.motion_for(m)
     if found is None:
-        return Interval(0.0, 360.0 / m) if wish.any_motion else Interval(natural, natural)
+        return Interval(0.0, 360.0 / m) if target.any_motion else Interval(natural, natural)
     return found
 
 
@@ -150,8 +150,8 @@ def closed_span(motion: Interval, m: int) -> Interval | None:
     return Interval(min(low, high), high) if not motion.exact else motion
 
 
-def rollers(wish: Wish, natural: float) -> range:
+def rollers(target: Target, natural: float) -> range:
     """The numbers of rollers to try: those that straight slots allow, or the required one."""
-    if wish.rollers is not None:
-        return range(wish.rollers, wish.rollers + 1)
+    if target.rollers is not None:
+        return range(target.rollers, target.rollers + 1)
     return range(1, rollers_max(natural) + 1)

@@ -16,7 +16,7 @@ from geneva_cli.study.sweep.constraints import Constraint
 from geneva_cli.study.synthesis.families.coupler import CouplerDrive, FourBarLinks, driving, judged
 from geneva_cli.study.synthesis.families.coupler_costs import Costs, order
 from geneva_cli.study.synthesis.spans import Interval
-from geneva_cli.study.synthesis.wish import Wish
+from geneva_cli.study.synthesis.target import Target
 
 if TYPE_CHECKING:
     from geneva_cli.numerics.arrays import Array, Whole
@@ -39,7 +39,7 @@ DIMENSIONS = 5  # of the search: two proportions, crank, angle, and the motion i
 class Goal(NamedTuple):
     """The goal of the search: bounds, and a quantity to minimise (``sign`` -1: maximise)."""
 
-    wish: Wish
+    target: Target
     wheels: tuple[WheelGoal, ...]
     bounds: tuple[Constraint, ...]
     least: str
@@ -79,7 +79,7 @@ class Pool(NamedTuple):
 
 def searched(goal: Goal) -> list[Pool]:
     """For each wheel the four-bars that keep the bounds, the best first."""
-    wheels, asked = len(goal.wheels), len(goal.wish.z)
+    wheels, asked = len(goal.wheels), len(goal.target.z)
     count = min(max(SAMPLES // asked, FEWEST), MOST)
     looks = min(max(LOOKS // asked, FEW), MANY)
     every = np.arange(wheels)
@@ -142,9 +142,9 @@ def _pool(goal: Goal, of: Whole, unit: Array, sense: Array, places: int) -> Pool
     roller = room[at] * (WIDER if places < FINE else 1.0)
     names = (goal.least, *(bound.name for bound in goal.bounds))
     told = judged(links, drive, half[at], roller, order(names), places)
-    within = told.reach <= goal.wish.space * told.distance
+    within = told.reach <= goal.target.space * told.distance
     at = at[told.which]
-    costs = Costs(goal.wish, (360.0 / slots[at])[:, 0], told.derivatives, degrees[at, 0])
+    costs = Costs(goal.target, (360.0 / slots[at])[:, 0], told.derivatives, degrees[at, 0])
     cost = goal.sign * costs.of(goal.least)
     broken = np.where(within & np.isfinite(cost), costs.broken(goal.bounds), np.inf)
     kept = links.taken(told.which), drive.taken(told.which)

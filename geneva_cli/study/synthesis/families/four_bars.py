@@ -43,7 +43,7 @@ from geneva_cli.study.synthesis.families.four_bar_search import (
     searched,
 )
 from geneva_cli.study.synthesis.spans import Interval
-from geneva_cli.study.synthesis.wish import Wish
+from geneva_cli.study.synthesis.target import Target
 
 # fraction of the centre distance: radius of the roller that must fit, half the usual one,
 ROLLER = 0.025
@@ -53,38 +53,38 @@ EXACT = 2e-13  # fraction of a motion by which it may differ from the required o
 TRIED = 4  # corrections of rounding
 
 
-def four_bars(wish: Wish, wheels: Sequence[Gearing]) -> Iterator[Family]:
+def four_bars(target: Target, wheels: Sequence[Gearing]) -> Iterator[Family]:
     """The best four-bar of each wheel, and some others.
 
     Others are added if the search cannot compute the goal or a bound.
     """
-    if wish.rollers not in (None, 1):
+    if target.rollers not in (None, 1):
         return
-    tasks = [task for wheel in wheels if (task := _task(wish, wheel))]
-    names = [wish.sort.name if wish.sort else wish.peak, *(b.name for b in wish.limits)]
+    tasks = [task for wheel in wheels if (task := _task(target, wheel))]
+    names = [target.sort.name if target.sort else target.peak, *(b.name for b in target.limits)]
     count = 1 if all(map(is_known, names)) else 1 + OTHERS
-    for task, found in zip(tasks, _found(wish, tuple(tasks)), strict=True):
+    for task, found in zip(tasks, _found(target, tuple(tasks)), strict=True):
         if found and (n := len(found.cost)):
-            every = Family(partial(_spec, wish, task.wheel, found), 0.0, n - 1.0, several=n)
+            every = Family(partial(_spec, target, task.wheel, found), 0.0, n - 1.0, several=n)
             machines = ((x, spec) for x in every.places(n) if (spec := every.at(x)))
             for x, spec in islice(machines, count):
                 yield every._replace(best=x) if count == 1 else only(spec)
 
 
-def _task(wish: Wish, wheel: Gearing) -> WheelGoal | None:
+def _task(target: Target, wheel: Gearing) -> WheelGoal | None:
     """The goal of the search for a wheel; None for a wheel that no four-bar drives."""
-    free = closed_span(wanted(wish, 1, natural_deg(wheel)), 1)
+    free = closed_span(wanted(target, 1, natural_deg(wheel)), 1)
     if free is None:
         return None
-    if not can_be(_machine(wish, wheel, FourBar(**_EXAMPLE), free.low)):
+    if not can_be(_machine(target, wheel, FourBar(**_EXAMPLE), free.low)):
         return None
-    frame = wish.frame or BARE
+    frame = target.frame or BARE
     given = frame.size.roller_radius_mm
     roller = min(ROLLER, THIN * math.sin(wheel.step.b))
     return WheelGoal(wheel, free, roller if given is None else given / frame.given_distance_mm)
 
 
-def _found(wish: Wish, tasks: tuple[WheelGoal, ...]) -> Sequence[Pool | None]:
+def _found(target: Target, tasks: tuple[WheelGoal, ...]) -> Sequence[Pool | None]:
     """The best four-bars, if any, of each wheel.
 
     If any motion is allowed and there is no goal, the gentlest ones with the plain crank's motion
@@ -92,15 +92,17 @@ def _found(wish: Wish, tasks: tuple[WheelGoal, ...]) -> Sequence[Pool | None]:
     """
     if not tasks:
         return []
-    bounds = tuple(b for b in wish.limits if is_known(b.name))
-    goal = Goal(wish, tasks, bounds, wish.peak)
-    if wish.sort:
-        sign, least = wish.sort
+    bounds = tuple(b for b in target.limits if is_known(b.name))
+    goal = Goal(target, tasks, bounds, target.peak)
+    if target.sort:
+        sign, least = target.sort
         return searched(goal._replace(least=least, sign=sign) if is_known(least) else goal)
-    if not wish.any_motion:
+    if not target.any_motion:
         return searched(goal)
     found: dict[int, Pool] = {}
-    same = {i: task for i, task in enumerate(map(_as_plain, tasks)) if _in_time(wish, task, bounds)}
+    same = {
+        i: task for i, task in enumerate(map(_as_plain, tasks)) if _in_time(target, task, bounds)
+    }
     for asked in (same, dict(enumerate(tasks))):
         left = {i: task for i, task in asked.items() if i not in found}
         pools = searched(goal._replace(wheels=tuple(left.values()))) if left else []
@@ -114,17 +116,17 @@ def _as_plain(task: WheelGoal) -> WheelGoal:
     return task._replace(motion=Interval(natural, natural))
 
 
-def _in_time(wish: Wish, task: WheelGoal, bounds: Sequence[Constraint]) -> bool:
+def _in_time(target: Target, task: WheelGoal, bounds: Sequence[Constraint]) -> bool:
     """Return True if a motion keeps the bounds that depend on it only."""
     step, motion = np.array([360.0 / task.wheel.z]), np.array([task.motion.low])
     of_time = tuple(b for b in bounds if b.name.startswith("timing."))
-    return not Costs(wish, step, [], motion).broken(of_time).any()
+    return not Costs(target, step, [], motion).broken(of_time).any()
 
 
 _EXAMPLE: Any = FourBar.EXAMPLE.tables["drive"]
 
 
-def _spec(wish: Wish, wheel: Gearing, found: Pool, x: float) -> Spec | None:
+def _spec(target: Target, wheel: Gearing, found: Pool, x: float) -> Spec | None:
     """The machine of a number in a pool, scaled to the frame's size.
 
     None if its links differ too much in length, or if the roller leaves its slot.
@@ -132,8 +134,8 @@ def _spec(wish: Wish, wheel: Gearing, found: Pool, x: float) -> Spec | None:
     one = found.taken(np.array([int(x)]))
     links, (entry, motion, sense, _) = one.links, one.drive
     b, wanted_, wide = wheel.step.b, float(motion[0, 0]), motion
-    own = _machine(wish, wheel, FourBar(**_EXAMPLE), math.degrees(wanted_))
-    scale = (wish.frame or BARE).given_distance_mm / float(one.distance[0])
+    own = _machine(target, wheel, FourBar(**_EXAMPLE), math.degrees(wanted_))
+    scale = (target.frame or BARE).given_distance_mm / float(one.distance[0])
     for _ in range(TRIED):
         w = complex(driving(links, entry, wide, b, sense).w[0, 0]) * scale
         lengths: Any = {k: float(x[0, 0]) * scale for k, x in zip(LINKS, links, strict=True)}
@@ -160,10 +162,10 @@ def _spec(wish: Wish, wheel: Gearing, found: Pool, x: float) -> Spec | None:
     return own.replace(drive=keys) if len(wheel_.which) else None
 
 
-def _machine(wish: Wish, wheel: Gearing, drive: FourBar, motion_deg: float) -> Spec:
+def _machine(target: Target, wheel: Gearing, drive: FourBar, motion_deg: float) -> Spec:
     """A machine with the requirement's frame; its centre distance follows from the links."""
     held = wheel.replace(held_by="detent")  # there is no locking disc
-    spec = machine(wish, held, lambda n: drive.replace(n_rpm=n), 1, motion_deg)
+    spec = machine(target, held, lambda n: drive.replace(n_rpm=n), 1, motion_deg)
     # the coupler passes below the wheel's axis, where a shaft without a hub ends in the wheel
     hub = 0.0 if spec.size.wheel_hub_mm is None else spec.size.wheel_hub_mm
     return spec.replace(size=spec.size.replace(center_distance_mm=None, wheel_hub_mm=hub))

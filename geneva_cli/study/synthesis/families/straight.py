@@ -32,42 +32,42 @@ from geneva_cli.study.synthesis.families.family import (
 )
 from geneva_cli.study.synthesis.families.two_stages import two_stages
 from geneva_cli.study.synthesis.spans import Interval
-from geneva_cli.study.synthesis.wish import Wish
+from geneva_cli.study.synthesis.target import Target
 
 ASIDE = 0.1  # fraction of L by which offset slots miss the wheel's centre
 PLANETS = ("sun", "ring")
 
 
-def straight(wish: Wish, wheel: Gearing) -> Iterator[Family]:
+def straight(target: Target, wheel: Gearing) -> Iterator[Family]:
     """The families with straight slots."""
     natural = natural_deg(wheel)
-    for m in rollers(wish, natural):
-        motion = wanted(wish, m, natural)
+    for m in rollers(target, natural):
+        motion = wanted(target, m, natural)
         if holds(motion, natural):
-            yield only(plain(wish, wheel, m))
-            yield from aside(wish, wheel, m)
+            yield only(plain(target, wheel, m))
+            yield from aside(target, wheel, m)
             if m == 1:
-                yield from planets(wish, wheel)
-    yield from driven(wish, wheel)
-    yield from two_stages(wish, wheel)
+                yield from planets(target, wheel)
+    yield from driven(target, wheel)
+    yield from two_stages(target, wheel)
 
 
-def plain(wish: Wish, wheel: Gearing, m: int) -> Spec:
+def plain(target: Target, wheel: Gearing, m: int) -> Spec:
     """The plain crank."""
     natural = natural_deg(wheel)
-    return machine(wish, wheel, lambda n: Crank(n_rpm=n, rollers=m), m, natural)
+    return machine(target, wheel, lambda n: Crank(n_rpm=n, rollers=m), m, natural)
 
 
-def aside(wish: Wish, wheel: Gearing, m: int) -> Iterator[Family]:
+def aside(target: Target, wheel: Gearing, m: int) -> Iterator[Family]:
     """Offset slots, which miss the wheel's centre by a tenth of L, for a gentler entry.
 
     With bounds or another goal, every other offset is possible too.
     """
     if "offset_mm" not in wheel.as_dict():
         return
-    make = partial(_offset, plain(wish, wheel, m))
+    make = partial(_offset, plain(target, wheel, m))
     yield Family(make, ASIDE, ASIDE)
-    if wish.limits or wish.sort:
+    if target.limits or target.sort:
         widest = closed.MOST * wheel.step.sin_cos[1] ** 2
         yield Family(make, -widest, widest, known=0.0, plain=ASIDE)
 
@@ -77,13 +77,13 @@ def _offset(spec: Spec, share: float) -> Spec:
     return spec.with_("wheel.offset_mm", spec.given_distance_mm * share)
 
 
-def planets(wish: Wish, wheel: Gearing) -> Iterator[Family]:
+def planets(target: Target, wheel: Gearing) -> Iterator[Family]:
     """A roller on a planet: without a jump at entry, and with a free crank of the planet."""
     z = wheel.z
     if z not in (3, 4, 6):
         return
     for fixed in PLANETS:
-        make = partial(_on_planet, wish, wheel, fixed)
+        make = partial(_on_planet, target, wheel, fixed)
         shockless = make("shockless")
         if not can_be(shockless):
             return
@@ -95,28 +95,28 @@ def planets(wish: Wish, wheel: Gearing) -> Iterator[Family]:
         yield Family(make, *inside, known=0.0)
 
 
-def _on_planet(wish: Wish, wheel: Gearing, fixed: str, ratio: float | str) -> Spec:
+def _on_planet(target: Target, wheel: Gearing, fixed: str, ratio: float | str) -> Spec:
     """A roller on a planet with a given ratio."""
 
     def drive(n: float) -> Epicyclic:
         return Epicyclic(planet_ratio=ratio, fixed=fixed, n_rpm=n)
 
-    return machine(wish, wheel, drive, 1, natural_deg(wheel))
+    return machine(target, wheel, drive, 1, natural_deg(wheel))
 
 
-def driven(wish: Wish, wheel: Gearing) -> Iterator[Family]:
+def driven(target: Target, wheel: Gearing) -> Iterator[Family]:
     """Changes of the plain crank's motion: a drive in front of it, or the angle of the shafts."""
     natural = natural_deg(wheel)
-    motion = closed_span(wanted(wish, 1, natural), 1) if wish.rollers in (None, 1) else None
+    motion = closed_span(wanted(target, 1, natural), 1) if target.rollers in (None, 1) else None
     if motion is not None and not (motion.exact and holds(motion, natural)):
-        yield from _in_front(wish, wheel, natural, motion)
+        yield from _in_front(target, wheel, natural, motion)
     if not wheel.FLAT:
-        yield from _inclined(wish, wheel)
+        yield from _inclined(target, wheel)
 
 
-def _in_front(wish: Wish, wheel: Gearing, natural: float, motion: Interval) -> Iterator[Family]:
-    yield from _between(partial(side_crank, wish, wheel), closed.side_crank, natural, motion)
-    yield from _between(partial(gears, wish, wheel), closed.eccentricity, natural, motion)
+def _in_front(target: Target, wheel: Gearing, natural: float, motion: Interval) -> Iterator[Family]:
+    yield from _between(partial(side_crank, target, wheel), closed.side_crank, natural, motion)
+    yield from _between(partial(gears, target, wheel), closed.eccentricity, natural, motion)
 
 
 def _between(
@@ -132,39 +132,39 @@ def _between(
         yield Family(make, max(low, -closed.MOST), min(high, closed.MOST), plain_too, 0.0)
 
 
-def _inclined(wish: Wish, wheel: Gearing) -> Iterator[Family]:
+def _inclined(target: Target, wheel: Gearing) -> Iterator[Family]:
     """Plain cranks on shafts that are not at right angles."""
     z = wheel.z
     least = 2.0 * half_motion_deg(1.0, 1, z)
-    for m in [wish.rollers] if wish.rollers else range(1, rollers_max(least) + 1):
-        free = closed_span(wanted(wish, m, 180.0), m)
+    for m in [target.rollers] if target.rollers else range(1, rollers_max(least) + 1):
+        free = closed_span(wanted(target, m, 180.0), m)
         if free is None or (free.exact and holds(free, 180.0)):
             continue
 
-        make = partial(_on_axes, wish, wheel, m)
+        make = partial(_on_axes, target, wheel, m)
         low, high = (closed.axes(z, x) for x in free)
         if low <= 180.0 - closed.AXES and high >= closed.AXES:
             right = 90.0 if holds(free, 180.0) else math.nan
             yield Family(make, max(low, closed.AXES), min(high, 180.0 - closed.AXES), right, 90.0)
 
 
-def _on_axes(wish: Wish, wheel: Gearing, m: int, axes: float) -> Spec:
+def _on_axes(target: Target, wheel: Gearing, m: int, axes: float) -> Spec:
     """A plain crank on shafts at a given angle, degrees."""
     inclined, motion = wheel.with_key("axes_deg", axes), closed.axes_motion(wheel.z, axes)
-    return machine(wish, inclined, lambda n: Crank(n_rpm=n, rollers=m), m, motion)
+    return machine(target, inclined, lambda n: Crank(n_rpm=n, rollers=m), m, motion)
 
 
-def side_crank(wish: Wish, wheel: Gearing, A: float) -> Spec:
+def side_crank(target: Target, wheel: Gearing, A: float) -> Spec:
     """A side-crank in front of a wheel, with one roller."""
     motion = closed.side_crank_motion(natural_deg(wheel), A)
-    return machine(wish, wheel, lambda n: SideCrank(A=A, n_rpm=n), 1, motion)
+    return machine(target, wheel, lambda n: SideCrank(A=A, n_rpm=n), 1, motion)
 
 
-def gears(wish: Wish, wheel: Gearing, e: float) -> Spec:
+def gears(target: Target, wheel: Gearing, e: float) -> Spec:
     """Elliptical gears in front of a wheel, in the phase given by the sign of e."""
     size, phase = closed.phased(e)
 
     def drive(n: float) -> EllipticalGears:
         return EllipticalGears(eccentricity=size, phase=phase, n_rpm=n)
 
-    return machine(wish, wheel, drive, 1, closed.gears_motion(natural_deg(wheel), e))
+    return machine(target, wheel, drive, 1, closed.gears_motion(natural_deg(wheel), e))

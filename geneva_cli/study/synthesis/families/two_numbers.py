@@ -40,7 +40,7 @@ from geneva_cli.study.synthesis.families.family import (
     wanted,
 )
 from geneva_cli.study.synthesis.spans import Interval
-from geneva_cli.study.synthesis.wish import Wish
+from geneva_cli.study.synthesis.target import Target
 
 GRID = 10  # places of either number that are sampled first, in the middle of equal parts
 TRACKS = 3  # places of a wheel to sample nearby, if more than the gentlest is sought
@@ -72,33 +72,33 @@ GEARS = (_gears("slow"), _gears("quick"))
 AXES = Interval(closed.AXES, 180.0 - closed.AXES)
 
 
-def two_numbers(wish: Wish, wheels: Sequence[Gearing]) -> Iterator[Family]:
+def two_numbers(target: Target, wheels: Sequence[Gearing]) -> Iterator[Family]:
     """For each wheel and drive the best machine of two numbers, if one keeps the bounds."""
     inclined = [wheel for wheel in wheels if not wheel.FLAT]
-    if wish.rollers not in (None, 1) or not inclined:
+    if target.rollers not in (None, 1) or not inclined:
         return
-    moved = all(map(is_motion, wish.named))
-    first = of_motion(wish)
+    moved = all(map(is_motion, target.named))
+    first = of_motion(target)
     for drive in (SIDE,) if moved else (SIDE, *GEARS):
         able = inclined
         if first:
             known = {spec.wheel.z for spec in _Search(first, inclined, drive).found()}
             able = [wheel for wheel in inclined if wheel.z in known]
-        yield from map(only, _Search(wish, able, drive).found())
+        yield from map(only, _Search(target, able, drive).found())
 
 
 class _Search:
     """The best place of every wheel so far."""
 
-    def __init__(self, wish: Wish, wheels: Sequence[Gearing], drive: _InFront) -> None:
-        spans = [closed_span(wanted(wish, 1, natural_deg(wheel)), 1) for wheel in wheels]
-        self.wish, self.drive = wish, drive
+    def __init__(self, target: Target, wheels: Sequence[Gearing], drive: _InFront) -> None:
+        spans = [closed_span(wanted(target, 1, natural_deg(wheel)), 1) for wheel in wheels]
+        self.target, self.drive = target, drive
         self.wheels = [w for w, span in zip(wheels, spans, strict=True) if span]
         self.motions = [span for span in spans if span]
-        self.bounds = known_bounds(wish)
-        known = wish.sort if wish.sort and in_batch([wish.sort.name]) else None
-        self.sign, self.least = known or Objective(1.0, wish.peak)
-        self.nearest = wish.any_motion and not wish.sort
+        self.bounds = known_bounds(target)
+        known = target.sort if target.sort and in_batch([target.sort.name]) else None
+        self.sign, self.least = known or Objective(1.0, target.peak)
+        self.nearest = target.any_motion and not target.sort
 
     def found(self) -> Iterator[Spec]:
         """The best machine of each wheel that has one."""
@@ -131,7 +131,7 @@ class _Search:
         shape, wheels = u.shape, len(self.wheels)
         self.of = np.arange(wheels)
         seen = np.array(self.cost(*(np.tile(x.ravel(), (wheels, 1)) for x in (u, v))))
-        tracks = TRACKS if self.bounds or self.least != self.wish.peak else 1
+        tracks = TRACKS if self.bounds or self.least != self.target.peak else 1
         starts = []
         for i in range(wheels):
             rank = np.empty(u.size, dtype=int)
@@ -160,7 +160,7 @@ class _Search:
     def spec(self, wheel: Gearing, x: float, motion: float) -> Spec:
         """A machine of a wheel with the drive's parameter and a motion angle."""
         make = self.drive.make(x)
-        return machine(self.wish, wheel, lambda n: make.replace(n_rpm=n), 1, motion)
+        return machine(self.target, wheel, lambda n: make.replace(n_rpm=n), 1, motion)
 
     def cost(self, u: Array, v: Array) -> tuple[Array, Array]:
         """Violations of the bounds, and costs, at places (w, k); infinite without a machine."""
@@ -191,7 +191,7 @@ class _Search:
             "wheel.z": np.array([wheel.z for wheel in self.wheels])[rows[which]],
             "wheel.axes_deg": axes,
             drive.key: abs(x) if drive.low * drive.high == 0.0 else x,
-            "drive.n_rpm": np.array([self.wish.n_rpm(1, m) for m in motion.tolist()]),
+            "drive.n_rpm": np.array([self.target.n_rpm(1, m) for m in motion.tolist()]),
         }
         middle = 0.5 * (drive.low + drive.high)
         try:

@@ -27,24 +27,24 @@ from geneva_cli.study.synthesis.families.family import (
     only,
     wanted,
 )
-from geneva_cli.study.synthesis.wish import Wish
+from geneva_cli.study.synthesis.target import Target
 
 LONGEST, SHORTEST = 330.0, 1e-3  # crank angles that gear sectors drive, degrees
 
 
-def two_stages(wish: Wish, wheel: Gearing) -> Iterator[Family]:
+def two_stages(target: Target, wheel: Gearing) -> Iterator[Family]:
     """The families with gear sectors and with first wheels for a wheel that can have them."""
-    if wish.rollers in (None, 1):
-        yield from sectors(wish, wheel)
-        yield from pairs(wish, wheel)
+    if target.rollers in (None, 1):
+        yield from sectors(target, wheel)
+        yield from pairs(target, wheel)
 
 
-def sectors(wish: Wish, wheel: Gearing) -> Iterator[Family]:
+def sectors(target: Target, wheel: Gearing) -> Iterator[Family]:
     """Gear sectors that take over without a jump, with a free half angle b of the slots.
 
     At the plain crank's b the gears have nothing to drive.
     """
-    span = closed_span(wanted(wish, 1, natural_deg(wheel)), 1)
+    span = closed_span(wanted(target, 1, natural_deg(wheel)), 1)
     if span is None or not can_be(BARE.replace(wheel=wheel, drive=GearSector(sector_deg=90.0))):
         return
     z = wheel.z
@@ -57,17 +57,17 @@ def sectors(wish: Wish, wheel: Gearing) -> Iterator[Family]:
     low = max(ends[0], slot(closed.sector_deg, LONGEST))
     high = min(ends[1], slot(closed.sector_deg, SHORTEST))
     if low <= high:
-        make = partial(_with_sectors, wish, wheel)
+        make = partial(_with_sectors, target, wheel)
         yield Family(make, low, high, wheel.step.b, wheel.step.b)
 
 
-def _with_sectors(wish: Wish, wheel: Gearing, b: float) -> Spec:
+def _with_sectors(target: Target, wheel: Gearing, b: float) -> Spec:
     """Gear sectors between slots of half angle b."""
     sector, motion = closed.sector_deg(wheel.z, b), closed.sector_motion(wheel.z, b)
-    return machine(wish, wheel, lambda n: GearSector(sector_deg=sector, n_rpm=n), 1, motion)
+    return machine(target, wheel, lambda n: GearSector(sector_deg=sector, n_rpm=n), 1, motion)
 
 
-def pairs(wish: Wish, wheel: Gearing) -> Iterator[Family]:
+def pairs(target: Target, wheel: Gearing) -> Iterator[Family]:
     """First wheels of any number of slots, which turn the crank once in ``first_z`` turns.
 
     Their step must be as long as the crank's own motion.
@@ -76,9 +76,9 @@ def pairs(wish: Wish, wheel: Gearing) -> Iterator[Family]:
         spec = BARE.replace(wheel=wheel, drive=GenevaPair(first_z=first_z))
         natural = build(spec).engagements[0].motion_deg
         m = 1.0 / first_z  # motions in a turn of the input
-        if holds(wanted(wish, m, natural), natural):
+        if holds(wanted(target, m, natural), natural):
 
             def drive(n: float, first_z: int = first_z) -> GenevaPair:
                 return GenevaPair(first_z=first_z, n_rpm=n)
 
-            yield only(machine(wish, wheel, drive, m, natural))
+            yield only(machine(target, wheel, drive, m, natural))

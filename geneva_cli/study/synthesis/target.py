@@ -33,7 +33,7 @@ TURNS = (3, 4, 5, 6)  # of the input in a cycle behind a first wheel: its step i
 ROLLERS = 60  # of a machine at most, by default: more run into each other
 
 
-class Wish(NamedTuple):
+class Target(NamedTuple):
     """All requirements: ranges by their names in ``SPANS``, and other conditions of a row.
 
     ``frame`` is a spec whose sizes, loads and limits every machine has.
@@ -76,7 +76,7 @@ class Wish(NamedTuple):
         return (*self.bounds, *([Constraint(PEAK, "<=", most)] if most is not None else []))
 
     @property
-    def by_bounds(self) -> Wish:
+    def by_bounds(self) -> Target:
         """The requirement with the limit on acceleration as an ordinary bound."""
         return self._replace(acceleration_max=None, bounds=self.limits)
 
@@ -90,7 +90,7 @@ class Wish(NamedTuple):
         """Return True if a peak acceleration is the only requirement on the motion."""
         return self.any_motion and not self.bounds
 
-    def with_times(self) -> Wish:
+    def with_times(self) -> Target:
         """The requirement with its bounds on times and angles of a motion turned into ranges.
 
         Returned unchanged if those ranges allow any motion.
