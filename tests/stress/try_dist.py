@@ -38,7 +38,7 @@ COMMANDS = (
     "new curved -o new.toml",
     "new --from-design table-law -o copy/spec.toml",
     "check copy/spec.toml",
-    "help family",
+    "help kinds",
     "keys drive.A",
     "laws",
 )
