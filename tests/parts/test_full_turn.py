@@ -28,6 +28,7 @@ from geneva_cli.parts.outlines import Outlines
 from geneva_cli.parts.reliefs import reliefs
 from geneva_cli.parts.turn.full_turn import FullTurn, full_turn, turning
 from geneva_cli.parts.turn.gaps import Gaps, WorkLimit
+from geneva_cli.parts.turn.smallest import positions
 from geneva_cli.parts.walls.straight import straight_walls
 from geneva_cli.parts.wheel import wheel_contour
 
@@ -457,6 +458,18 @@ def test_a_thin_horn_is_not_stepped_over() -> None:
     assert turn.lock.at_deg == pytest.approx(phi, abs=0.3)
     assert wrong.gaps.locking(wrong.gaps.pose(np.arange(-60.0, 300.0))).min() >= -found.close
     assert passes(found, full_turn(found))
+
+
+def test_the_positions_are_never_coarser_than_the_rule() -> None:
+    """A quarter of the roller between two positions; where that takes too many, nothing is said."""
+    found = made(6, roller_radius_mm=0.2)  # 8,097 by that rule
+    at = positions(found)
+    crank, wheel = (np.unwrap(turn(at)) for turn in (found.assembly.crank, found.assembly.wheel))
+    travel = found.sizes.arm * np.abs(np.diff(crank)) + found.sizes.rim * np.abs(np.diff(wheel))
+    # they are spaced by a table of 721 rows: one per cent more is its interpolation
+    assert travel.max() <= 0.25 * 0.2 * 1.01
+    with pytest.raises(WorkLimit, match=r"takes 16,\d+ positions, more than 10,000"):
+        full_turn(made(6, roller_radius_mm=0.1))
 
 
 def test_a_turn_that_is_not_proved_is_not_tried_again(monkeypatch):

@@ -12,6 +12,7 @@ import numpy as np
 
 from geneva_cli.numerics.arrays import rising
 from geneva_cli.numerics.tolerances import SAME_INPUT_DEG
+from geneva_cli.parts.turn.gaps import WorkLimit
 from geneva_cli.parts.turn.machine_parts import MachineParts
 
 if TYPE_CHECKING:
@@ -20,7 +21,7 @@ if TYPE_CHECKING:
     from geneva_cli.numerics.jet import Array
 
 SHARE = 0.25  # of the thinnest feature: parts move no farther between two positions
-POSITIONS = 4000  # at most
+POSITIONS = 10_000  # at most: about 0.1 s of the parts alone; a turn that needs more is not proved
 DIP = 1e-9  # mm: gaps that differ by less count as equal
 DIPS = 12  # smallest gaps that are refined
 FINER = 9  # positions in each refinement,
@@ -80,14 +81,22 @@ def smallest_gaps(parts: MachineParts, earlier: Earlier) -> Iterator[SmallestGap
 
 
 def positions(parts: MachineParts) -> Array:
-    """Return input angles of one turn, so dense that parts move less than the thinnest feature."""
+    """Return input angles of one turn, so dense that parts move less than the thinnest feature.
+
+    Raises WorkLimit where that takes more than ``POSITIONS``.
+    """
     assembly, sizes = parts.assembly, parts.sizes
     grid = np.linspace(assembly.start_deg, assembly.start_deg + assembly.span_deg, 721)
     crank = np.unwrap(assembly.crank(grid))
     travel = sizes.arm * np.abs(np.diff(crank)) + sizes.rim * np.abs(np.diff(assembly.wheel(grid)))
     feature = min(sizes.roller, max(sizes.horn, 0.2 * sizes.roller)) * SHARE
     total = np.concatenate(([0.0], np.cumsum(travel)))
-    count = min(math.ceil(total[-1] / feature), POSITIONS)
+    count = math.ceil(total[-1] / feature)
+    if count > POSITIONS:
+        raise WorkLimit(
+            f"the full turn is not proved: with so small a roller or horn it takes {count:,} "
+            f"positions, more than {POSITIONS:,}; a larger roller or horn takes fewer"
+        )
     grid_deg = np.interp(np.linspace(0.0, total[-1], count + 1), total, grid)
     # A rim that is too large collides for less than a degree about entry and exit.
     ends = np.array([b + e for s, b in assembly.motions for e in (s.entry_deg, s.exit_deg)])
