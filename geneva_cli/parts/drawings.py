@@ -44,12 +44,8 @@ def crank(parts: Outlines, tolerance: float, curves: str) -> Drawing:
 
 def arm(parts: Outlines, tolerance: float, curves: str) -> Drawing:
     """Return the crank arm below the wheel's plane: outline, bore, holes for pins and bolts."""
-    plate = crank_arm(parts)
-    return Drawing(
-        _title(parts, "arm"),
-        (plate.outline, plate.bore, *plate.pins, *plate.bolts),
-        solid=arm_plate(parts, plate),
-    )
+    solid = arm_plate(parts, crank_arm(parts))
+    return Drawing(_title(parts, "arm"), (solid.outline, *solid.holes), solid=solid)
 
 
 def slot(parts: Outlines, tolerance: float, curves: str) -> Drawing:

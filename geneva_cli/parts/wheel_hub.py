@@ -6,6 +6,7 @@ It is drawn if the spec has one of its sizes; otherwise only its space is kept f
 from __future__ import annotations
 
 import math
+from collections.abc import Iterable
 
 from geneva_cli.curves.plates import Plate
 from geneva_cli.curves.shapes import Circle, Shape
@@ -36,7 +37,7 @@ def wheel_hub_length(size: Size, sizes: Sizes) -> float:
     return size.pin_gap_mm + sizes.arm_thickness
 
 
-def about_axis(circles: list[Shape]) -> tuple[Shape, ...]:
+def about_axis(circles: Iterable[Shape]) -> tuple[Shape, ...]:
     """Return the bore among some shapes: the one about the axis, which may have a keyway."""
     bores = (shape for shape in circles if shape.layer == "BORE")
     return tuple(

@@ -5,37 +5,37 @@ from __future__ import annotations
 import math
 
 from geneva_cli.curves.measure import at, legs
+from geneva_cli.curves.plates import plates
 from geneva_cli.curves.shapes import Arc, Circle, Shape
 from geneva_cli.curves.sheet import CENTRE, HIDDEN, OUTLINE
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.numerics.tolerances import SAME_ON_SHEET
-from geneva_cli.parts.arm import CrankArm, bolts
-from geneva_cli.parts.crank import crank_circles, is_whole
+from geneva_cli.parts.arm import CrankArm
+from geneva_cli.parts.crank import is_whole
 from geneva_cli.parts.outlines import Outlines
-from geneva_cli.parts.shafts import crank_hub
+from geneva_cli.parts.plates import crank_group
 from geneva_cli.parts.sheet import sized
 from geneva_cli.parts.sheet.bores import bolted, bored, circle_of, radius_of
 from geneva_cli.parts.sheet.standing import draw_hub
 from geneva_cli.parts.sheet.view import View, number, times
 from geneva_cli.parts.sizes import pin_radius
+from geneva_cli.parts.wheel_hub import HUB, about_axis
 
 
 def draw_disc(view: View, parts: Outlines) -> None:
     """Draw the locking disc, or its sectors, about the crank's axis."""
     assembly, sizes = parts.assembly, parts.sizes
-    for contour in parts.crank:
-        view.draw(contour, OUTLINE)
-    screwed = bolts(parts)
-    whole = is_whole(assembly, sizes)
-    bores = [c for c in crank_circles(assembly, sizes) if c.layer == "BORE" and whole]
-    for shape in (*screwed, *bores):
+    own = plates(crank_group(parts))
+    discs, hubs = ([plate for plate in own if plate.layer == layer] for layer in ("CRANK", HUB))
+    holes = [hole for disc in discs for hole in disc.holes]
+    bores = about_axis(holes)
+    screwed = [hole for hole in holes if isinstance(hole, Circle) and hole not in bores]
+    round_ = *screwed, *bores, *(hub.outline for hub in hubs)
+    for shape in (*parts.crank, *round_):
         view.draw(shape, OUTLINE)
-    hub = crank_hub(parts)
-    if hub:
-        view.draw(hub.outline, OUTLINE)
     circle_of(view, screwed)
-    view.cross((0.0, 0.0), sizes.lock if whole else 0.2 * sizes.lock)
-    if hub:
+    view.cross((0.0, 0.0), sizes.lock if is_whole(assembly, sizes) else 0.2 * sizes.lock)
+    for hub in hubs:
         draw_hub(view, hub)
     bored(view, bores, sizes.crank_bore, assembly.mechanism.spec.size.crank_keyway)
     arcs = [s for contour in parts.crank for s in contour.segments if isinstance(s, Arc)]
