@@ -108,7 +108,7 @@ class Certificate(NamedTuple):
         a, b, below = self.open
         known = "no bound is known" if below is None else f"below {below:.6g}"
         return (
-            f"{self.quantity}.max at least {low}, not proved: open from {a:.9g} to {b:.9g} deg, "
+            f"{self.quantity}.max at least {low}, not proved: open from {a:.15g} to {b:.15g} deg, "
             f"{known} there, after {self.intervals} intervals"
         )
 

@@ -1,6 +1,6 @@
-"""Every peak is certified: all designs, then random machines, a thousand of each kind and more.
+"""Every peak is certified: all designs, then random machines, a thousand of each kind.
 
-`python tests/stress/certify.py --runs 26000`. A peak that its certificate does not confirm is a
+`python tests/stress/certify.py --runs 10500`. A peak that its certificate does not confirm is a
 bug. One that is `not proved` is counted: its peak may be narrower than balls can enclose.
 """
 
@@ -16,7 +16,8 @@ from geneva_cli.analysis.peaks import QUANTITIES, worst
 from geneva_cli.design import load
 from geneva_cli.machine.registry import DRIVES
 
-SECONDS = 300  # of one machine; most take 0.1 s, and 2,000 intervals of a four-bar 10 s
+SECONDS = 60  # of one machine; most take 0.1 s, and 2,000 intervals of a four-bar's four peaks 12 s
+TRIES = 100  # for a machine of a kind; two of three texts are refused, of epicyclic gears most
 
 
 def confirmed(mechanism):
@@ -32,8 +33,13 @@ def confirmed(mechanism):
 
 
 def text_of(rng):
-    """A machine of any kind, each as often."""
-    return machine_text(rng, rng.choice(list(DRIVES)))
+    """A machine of any kind, each as often; the last text if all are refused."""
+    kind = rng.choice(list(DRIVES))
+    texts = (machine_text(rng, kind) for _ in range(TRIES))
+    for text in texts:
+        if not isinstance(read(text.encode()), str):
+            break
+    return text
 
 
 def one(text):

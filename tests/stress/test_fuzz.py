@@ -13,6 +13,7 @@ import re
 import shlex
 import tempfile
 
+import certify
 import fuzz_parts
 import fuzz_sheets
 import numpy as np
@@ -58,6 +59,13 @@ SECONDS = 120  # advice on curved parts that fail takes some 10 s of CPU
 def here():
     with folder():
         yield
+
+
+@fuzz(8)
+@given(seeds)
+def test_random_machines_are_certified(seed):
+    """`make certify` is the long version."""
+    assert certify.one(certify.text_of(random.Random(seed))).endswith("proved")
 
 
 @fuzz(400)
