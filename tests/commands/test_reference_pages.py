@@ -1,6 +1,6 @@
 """Reference pages that are made from the code: each equals what is made today.
 
-``GENEVA_UPDATE=1 pytest tests/commands/test_reference.py`` writes them.
+``GENEVA_UPDATE=1 pytest tests/commands/test_reference_pages.py`` writes them.
 """
 
 import os
