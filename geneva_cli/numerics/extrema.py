@@ -33,6 +33,7 @@ ROUNDED = 1e-15  # fraction of the span: places this near are equal, such as 0 a
 BESIDE = 1e-12  # fraction of the span: a maximum this near to an equally high end may be rounding
 FLAT_TOP = 1e-6  # fraction of the span, some root of TIE: as far as this a maximum is level
 ROUNDING = 1e-13  # fraction of a value: the rounding that no sampling improves
+OPEN_MAX = 1 << 15  # pairs of a design that are halved at once: more are rounding, as of table laws
 _UNIT = np.arange(SCAN + 1) / SCAN
 
 
@@ -223,7 +224,10 @@ def _scan(f: Curves, a: Array, b: Array, start: int) -> _Scan:
 
 
 def _refined(f: Curves, start: int, open_: _Pairs, low: Array, high: Array) -> _Pairs:
-    """Pairs with a turn, halved until a cubic predicts the middle; updates ``low`` and ``high``."""
+    """Pairs with a turn, halved until a cubic predicts the middle; updates ``low`` and ``high``.
+
+    Halving ends for a design with more than ``OPEN_MAX`` pairs.
+    """
     settled = []
     for _ in range(DEEPEST):
         which, left, right = open_
@@ -236,6 +240,10 @@ def _refined(f: Curves, start: int, open_: _Pairs, low: Array, high: Array) -> _
         halves = [_Pairs(which, left, middle), _Pairs(which, middle, right)]
         settled += [half.taken(~missed) for half in halves]
         open_ = _joined([half.taken(missed) for half in halves])
+        if len(open_.which) > OPEN_MAX:
+            noisy = np.bincount(open_.which - start)[open_.which - start] > OPEN_MAX
+            settled.append(open_.taken(noisy))
+            open_ = open_.taken(~noisy)
         if not len(open_.which):
             break
     pairs = _joined([*settled, open_])
