@@ -110,7 +110,7 @@ def docstring_sentences(doc: Docstring) -> list[Sentence]:
         code = bare.startswith((">>>", "...")) or (code and bool(bare))
         if code or _ARGUMENTS.match(bare) or bare.endswith("::"):
             lines.append("")
-        elif re.match(r"(\w+|[-*]|``\w+``)( \([^)]*\))?: ", bare):
+        elif re.match(r"(\w+|[-*]|``\w+``)( \([^)]*\))?: |\S+ {2,}\S", bare):  # of a list
             lines += ["", bare]
         else:
             lines.append(bare)

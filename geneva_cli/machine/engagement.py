@@ -258,13 +258,12 @@ def mirror(first: Array, count: int, order: int) -> Array:
 
 
 class Carrier(NamedTuple):
-    """What carries and guides a roller: nothing but the crank's arm, or what is given.
+    """Body and guide of a roller; by default the crank's arm alone.
 
-    ``crank_sense`` says which way the crank turns where the roller is not on its arm: with the
-    wheel (-1) or against it (1); 0 where it is, and the pin's direction is the crank's. ``body``
-    carries the roller where the crank's arm does not, and ``reactions`` hold that body. ``groove``
-    is the path where a fixed groove guides the roller along the crank. ``hub`` is where the crank's
-    arm turns about, on the line of centres: 1 but on a sphere.
+    ``body`` carries the roller where the crank's arm does not, and ``reactions`` hold that body.
+    ``crank_sense`` is then the crank's direction: -1 with the wheel, 1 against it. It is 0 if the
+    roller is on the arm. ``groove`` is the path if a fixed groove guides the roller along the
+    crank. ``hub`` is the arm's centre of rotation on the line of centres: 1, except on a sphere.
     """
 
     crank_sense: float = 0.0

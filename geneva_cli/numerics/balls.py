@@ -89,7 +89,7 @@ class Ball(Enclosed):
         return (self.arb > 0) - (self.arb < 0)
 
     def meet(self, other: Ball) -> Ball:
-        """What two balls that hold one number have in common; of one without bounds the other."""
+        """Intersection of two balls that hold one number; an unbounded ball adds nothing."""
         if not other.is_finite:
             return self
         return Ball(self.arb.intersection(other.arb)) if self.is_finite else other

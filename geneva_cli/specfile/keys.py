@@ -92,7 +92,7 @@ def words_of(name: str) -> tuple[str, ...]:
 
 
 def is_whole(name: str) -> bool:
-    """Whether a key, as ``table.key``, takes whole numbers alone.
+    """Return True if a key, as ``table.key``, takes only whole numbers.
 
     >>> is_whole("wheel.z"), is_whole("drive.A")
     (True, False)

@@ -73,9 +73,10 @@ def acceleration_peak(l: float, gap: float) -> tuple[float, float]:
 def power_peak(l: float, gap: float) -> tuple[float, float]:
     """Peak of velocity times acceleration and its angle from mid-motion, degrees.
 
-    With g = ``gap`` and 1 - cos a = g² t, its slope vanishes at the least root t of
-    1 - (10 - 7 g + g²) t + (6 - 2 g - 2 g²) g t² - 2 (1 - g) g³ t³, which is nearly
-    (1 + 2 g) / 10 from g = 0 (l = 1 outside) to 2 (l = 1 inside).
+    Put g = ``gap`` and 1 - cos a = g² t. Then the slope vanishes at the least root t of the cubic
+    1 - (10 - 7 g + g²) t + (6 - 2 g - 2 g²) g t² - 2 (1 - g) g³ t³.
+
+    That root is nearly (1 + 2 g) / 10, from g = 0 (l = 1 outside) to 2 (l = 1 inside).
     """
     k = 1.0 - gap
     first, second = 10.0 - (7.0 - gap) * gap, (6.0 - 2.0 * gap * (1.0 + gap)) * gap
