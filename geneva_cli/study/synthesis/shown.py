@@ -12,7 +12,6 @@ from geneva_cli.table import Reading, Table
 WIDTH = 100
 BETWEEN = 3  # columns that a frame puts between two others; plain text has 2
 DIGITS = 5  # significant digits; csv and json have all
-REASON = 14  # characters of why parts cannot be built
 
 # Columns and their short names, the least important last; empty ones are left out.
 HEADS = {
@@ -175,7 +174,7 @@ def _said(parts: str | None) -> str | None:
         return parts
     first, *others = reasons.split(", ")
     name = first.removesuffix("_mm").removesuffix("_deg")
-    return f"{no}: {name[:REASON]}{' +' if others else ''}"
+    return f"{no}: {name}{' +' if others else ''}"
 
 
 def _same(a: Any, b: Any) -> bool:
