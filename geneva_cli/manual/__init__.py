@@ -94,10 +94,10 @@ class Hit(NamedTuple):
 
 
 def search(word: str) -> list[Hit]:
-    """The sections of all pages in which a word stands, capitals or not; a hit a section.
+    """Sections of all pages that contain a word, in any case; one hit for each section.
 
-    >>> {hit.topic for hit in search("Freudenstein")}
-    set()
+    >>> {hit.topic for hit in search("Whitworth")}
+    {'kinds'}
     """
     wanted = word.casefold()
     hits: dict[tuple[str, str], Hit] = {}
