@@ -147,7 +147,7 @@ def page(topic: str) -> str:
     Raises GenevaError where there is no such topic.
 
     >>> page("symbols").splitlines()[0]
-    '# Symbols'
+    '# Symbols and conventions'
     """
     if topic not in TOPICS:
         raise GenevaError(
