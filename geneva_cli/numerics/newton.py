@@ -26,31 +26,6 @@ class Brackets(NamedTuple):
     at_b: Array
 
 
-class Roots(NamedTuple):
-    """Places of roots, gains of the functions' integrals in the last steps, last values."""
-
-    x: Array
-    rise: Array
-    last: list[Array]
-
-
-def roots_between(
-    f: Callable[[Array, Whole], tuple[Array, ...]],
-    a: Array,
-    b: Array,
-    ends: tuple[Array, Array],
-    close: float,
-) -> Roots:
-    """Roots of functions known at a and b, where their signs differ.
-
-    ``f(x, which)`` begins with value and derivative; all values of its last call are returned too.
-    """
-    with np.errstate(all="ignore"):
-        chord = a + (b - a) * (ends[0] / (ends[0] - ends[1]))
-        start = np.where((chord > a) & (chord < b), chord, 0.5 * (a + b))
-        return Roots(*newton_roots(f, Brackets(a, b, *ends), start, ends[0] < 0.0, close))
-
-
 def find_roots(
     slope: Callable[[Array, Whole], tuple[Array, Array]], a: Array, b: Array, close: float = 0.0
 ) -> Array:

@@ -14,13 +14,14 @@ from geneva_cli.output.layout import (
     heads,
     row,
     stacked,
+    styled,
     turned,
     width_of,
     widths,
 )
 from geneva_cli.output.text import without_noise
 from geneva_cli.output.values import NUMBER, aligned, bare, with_unit
-from geneva_cli.output.window import Window, paragraphs, styled
+from geneva_cli.output.window import Window, paragraphs
 from geneva_cli.table import Table
 
 HELD = 8192  # rows that determine the layout; later rows of a longer table follow it
@@ -90,7 +91,7 @@ def _left_out(columns: Sequence[ShownColumn], window: Window) -> Iterator[str]:
         some += rest.pop(0) + ","
     line = f"{start}{some}..." if rest else start + some[:-1]
     yield ""
-    yield styled(line if some else f"{one}: --wide", DIM, window)
+    yield styled(line if some else f"{one}: --wide", DIM, window.styled)
 
 
 def _columns(table: Table, block: list[tuple[Any, ...]]) -> list[ShownColumn]:

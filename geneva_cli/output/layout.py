@@ -114,15 +114,16 @@ def fitting(
         kept.remove(max(kept, key=lambda column: rank[column.name]))
 
 
-def heads(columns: Sequence[ShownColumn], sizes: Sequence[int], styled: bool) -> Iterator[str]:
+def heads(columns: Sequence[ShownColumn], sizes: Sequence[int], is_styled: bool) -> Iterator[str]:
     """The lines of the headings, directly above the units."""
     texts = [wrapped(column.words, size) for column, size in zip(columns, sizes, strict=True)]
     high = max(map(len, texts))
     is_text = [column.is_text for column in columns]
     for line in zip(*([""] * (high - len(text)) + text for text in texts), strict=True):
-        yield _styled(_line(line, sizes, is_text), BOLD, styled)
+        yield styled(_line(line, sizes, is_text), BOLD, is_styled)
     if any(column.unit for column in columns):
-        yield _styled(_line([column.unit for column in columns], sizes, is_text), DIM, styled)
+        units = [column.unit for column in columns]
+        yield styled(_line(units, sizes, is_text), DIM, is_styled)
 
 
 def row(texts: Sequence[str], sizes: Sequence[int], is_text: Sequence[bool]) -> Iterator[str]:
@@ -167,5 +168,6 @@ def _line(texts: Sequence[str], sizes: Sequence[int], is_text: Sequence[bool]) -
     return GAP.join(cells).rstrip()
 
 
-def _styled(line: str, style: str, styled: bool) -> str:
-    return f"{style}{line}{PLAIN}" if styled else line
+def styled(text: str, style: str, is_styled: bool) -> str:
+    """A text in a style such as bold, if the terminal supports it; an empty one stays empty."""
+    return f"{style}{text}{PLAIN}" if is_styled and style and text else text

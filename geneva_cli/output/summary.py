@@ -11,6 +11,7 @@ from typing import NamedTuple
 from geneva_cli.document import FAILS, PASSES, WARNS, Line, Summary
 from geneva_cli.errors import clean
 from geneva_cli.output.document.values import RAISED, TIMES
+from geneva_cli.output.layout import DIM, styled
 from geneva_cli.output.markdown import escaped
 from geneva_cli.output.window import window
 
@@ -19,7 +20,6 @@ WIDEST = 100  # letters of a line in a wide window: longer ones are hard to read
 LABEL = 20  # letters; a longer label stands above its text
 SIGNS = {PASSES: "✓", WARNS: "!", FAILS: "✗"}
 INKS = {PASSES: "\x1b[32m", WARNS: "\x1b[33m", FAILS: "\x1b[31m"}  # green, yellow, red
-DIM, PLAIN = "\x1b[2m", "\x1b[0m"
 # Replacements for letters that the terminal's encoding lacks.
 ASCII = {
     "✓": "ok",
@@ -76,7 +76,8 @@ def _head(summary: Summary, look: Look) -> str:
     indent = " " * (len(sign) + 1) if sign else ""
     text = "\n".join(_wrapped(summary.head, look.width - len(indent), look))
     text = text.replace("\n", f"\n{indent}")
-    return f"{_ink(sign, INKS.get(summary.state, ''), look)} {text}\n" if sign else f"{text}\n"
+    sign = styled(sign, INKS.get(summary.state, ""), look.coloured)
+    return f"{sign} {text}\n" if sign else f"{text}\n"
 
 
 def _lines(lines: Iterable[Line], look: Look) -> Iterator[str]:
@@ -84,9 +85,9 @@ def _lines(lines: Iterable[Line], look: Look) -> Iterator[str]:
     wide = max((len(line.label) for line in lines if len(line.label) <= LABEL), default=0)
     room = look.width - wide - 4
     for line in lines:
-        label = _ink(clean(line.label), INKS.get(line.state, ""), look)
+        label = styled(clean(line.label), INKS.get(line.state, ""), look.coloured)
         texts = _wrapped(line.text, room, look)
-        notes = [_ink(note, DIM, look) for note in _wrapped(line.note, room, look)]
+        notes = [styled(note, DIM, look.coloured) for note in _wrapped(line.note, room, look)]
         first = f"  {label}{' ' * (wide - len(line.label))}  "
         if len(line.label) > wide:
             yield f"  {label}\n"
@@ -108,10 +109,6 @@ def _letters(text: str, look: Look) -> str:
         return text
     text = POWER.sub(lambda power: f"e{power[1].translate(LOWERED)}", text)
     return "".join(ASCII.get(letter, letter) for letter in text)
-
-
-def _ink(text: str, ink: str, look: Look) -> str:
-    return f"{ink}{text}{PLAIN}" if look.coloured and ink and text else text
 
 
 def markdown(summaries: Iterable[Summary]) -> Iterator[str]:

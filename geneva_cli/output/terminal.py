@@ -8,10 +8,10 @@ from typing import Any
 
 from geneva_cli.names import heading, spoken
 from geneva_cli.output.fitted import rows_of
-from geneva_cli.output.layout import BOLD, GAP, width_of, wrapped
+from geneva_cli.output.layout import BOLD, GAP, styled, width_of, wrapped
 from geneva_cli.output.text import WIDTH, apart
 from geneva_cli.output.values import bare, value
-from geneva_cli.output.window import Window, paragraphs, styled
+from geneva_cli.output.window import Window, paragraphs
 from geneva_cli.table import Table
 
 VALUE = 30  # letters for a value beside its label; with fewer it stands below
@@ -36,7 +36,7 @@ def _record(table: Table, window: Window) -> Iterator[str]:
         if not is_first:
             yield ""
         if name:
-            yield styled(heading(name), BOLD, window)
+            yield styled(heading(name), BOLD, window.styled)
         yield from lines
         is_first = False
 
@@ -52,7 +52,7 @@ def _values(record: Table, window: Window) -> Iterator[str]:
     current = ""
     for label, (group, last, found) in zip(labels, shown, strict=True):
         if group != current:
-            yield styled(heading(group), BOLD, window)
+            yield styled(heading(group), BOLD, window.styled)
             current = group
         yield from _value(label, width, _said(found, spoken(last)[1]), window)
 

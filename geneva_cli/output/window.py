@@ -8,7 +8,7 @@ from collections.abc import Iterator
 from typing import NamedTuple
 
 from geneva_cli.errors import clean
-from geneva_cli.output.layout import PLAIN, wrapped
+from geneva_cli.output.layout import styled, wrapped
 from geneva_cli.output.text import WIDTH
 
 NARROWEST = 60  # columns of a window; a narrower one breaks lines itself
@@ -37,9 +37,4 @@ def paragraphs(text: str, window: Window, style: str = "") -> Iterator[str]:
     """The lines of a text of one or more paragraphs."""
     for paragraph in text.split("\n") if text else ():
         for line in wrapped(clean(paragraph), min(window.columns, WIDTH)):
-            yield styled(line, style, window)
-
-
-def styled(line: str, style: str, window: Window) -> str:
-    """A line in a style such as bold, if the terminal supports it."""
-    return f"{style}{line}{PLAIN}" if style and line and window.styled else line
+            yield styled(line, style, window.styled)
