@@ -28,9 +28,7 @@ if TYPE_CHECKING:
     from geneva_cli.numerics.arrays import Whole
     from geneva_cli.numerics.jet import Array
 
-ROUNDING_DEG = 1e-12  # nearer to mid-motion, a change of sign is at mid-motion
 BLOCK = 256  # changes whose integrals are computed together, which fit in the cache
-CLOSE = 1e-9  # of a bracket: after a Newton step this short, the rest is rounding
 NODES, WEIGHTS = np.polynomial.legendre.leggauss(24)  # exact to a double over half a motion
 
 
@@ -75,8 +73,10 @@ def changes(engagement: Engagement, drag: Array) -> Changes:
         _, _, a, j = taken(motion, of[live])(place[:, None], 3).arrays()
         return (a + drag[of[live]])[:, 0], (j * DEGREE + 0.0 * place[:, None])[:, 0]
 
-    roots = find_roots(over, x[before], x[before + 1], CLOSE)
-    return Changes(of, np.where(abs(roots) < ROUNDING_DEG, 0.0, roots))
+    # of a bracket: after a Newton step this short, the rest is rounding
+    roots = find_roots(over, x[before], x[before + 1], 1e-9)
+    # nearer to mid-motion, a change of sign is at mid-motion
+    return Changes(of, np.where(abs(roots) < 1e-12, 0.0, roots))
 
 
 def impacts_of(engagement: Engagement, at: Changes, play: Array, drag: Array) -> WallImpacts:

@@ -51,7 +51,6 @@ AXES = (
 )
 OF_NAME = {axis.name: axis for axis in AXES}
 USUAL = (WHEEL, "velocity", "acceleration", "jerk", "pin_force_N", "input_torque_Nm", "power_W")
-SHOWN = 3.0  # times its typical size, the visible range of an unbounded load
 
 
 LeftOut: TypeAlias = tuple[str, str]  # a machine's name, and a sentence on what it lacks
@@ -229,7 +228,8 @@ def _bounds(cycle: Cycle, ends: Mapping[str, Extremes]) -> dict[str, tuple[float
             middle = np.array([0.5 * (stretch.start + stretch.end)])
             here = summary.plain(cycle, cycle.along(engagement, stretch, middle), name)
             sizes.append(abs(float(here[0])))
-        high = SHOWN * max((size for size in sizes if math.isfinite(size)), default=1.0)
+        # times its typical size, the visible range of an unbounded load
+        high = 3.0 * max((size for size in sizes if math.isfinite(size)), default=1.0)
         low, top = ends[name].min, ends[name].max
         out[name] = -high if math.isinf(low) else low, high if math.isinf(top) else top
     return out

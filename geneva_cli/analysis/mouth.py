@@ -35,8 +35,6 @@ if TYPE_CHECKING:
     from geneva_cli.numerics.arrays import Whole
     from geneva_cli.numerics.jet import Array
 
-ROUNDING = 1e-16  # of L²: with less, the roller is not too near to a corner
-
 
 class Corner(NamedTuple):
     """A corner of the mouth, and the roller that meets it with errors of R and L.
@@ -126,7 +124,8 @@ class Corner(NamedTuple):
         with np.errstate(all="ignore"):
             value = self.gap(far)[0]
             far = np.broadcast_to(far, value.shape)
-            meets = value <= -ROUNDING
+            # of L²: with less, the roller is not too near to a corner
+            meets = value <= -1e-16
         there, first = np.flatnonzero(meets.any(axis=1)), np.argmax(meets, axis=1)
         there = there[first[there] > 0]
         near = first[there]

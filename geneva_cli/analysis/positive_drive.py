@@ -19,7 +19,6 @@ if TYPE_CHECKING:
     from geneva_cli.numerics.arrays import Array, Mask
 
 SAMPLES = 720  # in a half motion
-PLAY_MM = 0.01  # branches nearer than this are one slot, as machined
 
 
 class PositiveDrive(NamedTuple):
@@ -77,7 +76,8 @@ def positive_drives(mechanism: Mechanism) -> PositiveDrives | None:
         engagement.motion(side * x, 2).arrays()[2] * given.inertia_Nm + given.resists_Nm
         for side in (1.0, -1.0)
     ]
-    played = gap > PLAY_MM + 2.0 * mechanism.spec.size.allowances.slot_clearance_mm
+    # branches nearer than this are one slot, as machined
+    played = gap > 0.01 + 2.0 * mechanism.spec.size.allowances.slot_clearance_mm
     missing = [
         played & (side * np.sign(lead) * turned < 0.0)
         for side, turned in zip((1.0, -1.0), torque, strict=True)

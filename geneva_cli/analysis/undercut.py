@@ -20,10 +20,7 @@ from geneva_cli.numerics.tolerances import TIE
 if TYPE_CHECKING:
     from geneva_cli.numerics.arrays import Array, Mask, Number
 
-NEAR = 1e-3  # fraction of the half motion
 SAMPLES = 1024  # of a half motion; the depth's error is then far below a micrometre per metre
-PAIRS = 1 << 15  # distances computed at once, which fit in the cache
-CLEARLY = 1.0 + 1e-14  # times a square: a greater one is greater whatever the rounding
 
 
 class Undercut(NamedTuple):
@@ -105,7 +102,8 @@ def outer_walls(mechanism: Mechanism, samples: int = SAMPLES) -> tuple[OuterWall
         inward, outward = pitch(engagement, x), pitch(engagement, -x)
         turn = np.atleast_2d(np.arctan2(inward.y, inward.x) - np.arctan2(outward.y, outward.x))
         # the branches meet at mid-motion, and near it their distance is rounding
-        far = int(np.flatnonzero(share >= NEAR)[-1])
+        # fraction of the half motion
+        far = int(np.flatnonzero(share >= 1e-3)[-1])
         turn[:, far + 1 :] = turn[:, far : far + 1]
         # Left (1) or right (-1) of the travel, on both branches. Outside, the pin travels inwards
         # first; inside, outwards.
@@ -133,7 +131,8 @@ def _gap(wall: OuterWall, r: Array) -> Array:
     """Least distance of the pitch curve from undercut places of the wall, (m,)."""
     gap = np.full(len(wall.bend), np.inf)
     design, place = np.nonzero(wall.bend * r > 1.0)
-    step, many = PAIRS // wall.bend.shape[1], len(np.ravel(r)) > 1
+    # distances computed at once, which fit in the cache
+    step, many = (1 << 15) // wall.bend.shape[1], len(np.ravel(r)) > 1
     for i in range(0, len(design), step):
         d, k = design[i : i + step], place[i : i + step]
         own = r[d, 0] if many else r
@@ -143,7 +142,8 @@ def _gap(wall: OuterWall, r: Array) -> Array:
         x, y = x[:, None] - wall.x[own_wall], y[:, None] - wall.y[own_wall]
         # a fraction of the time of hypot, which is used for the nearest places only
         square = x * x + y * y
-        near = ~(square > CLEARLY * square.min(axis=1, keepdims=True))  # NaN stays NaN
+        # times a square: a greater one is greater whatever the rounding
+        near = ~(square > (1.0 + 1e-14) * square.min(axis=1, keepdims=True))  # NaN stays NaN
         np.minimum.at(gap, d[np.nonzero(near)[0]], np.hypot(x[near], y[near]))
     return gap
 

@@ -22,8 +22,6 @@ if TYPE_CHECKING:
 
 INNER = np.linspace(0.0, 1.0, 34)[1:-1]  # where a piece is measured
 GRID = 40  # parts of a piece, among whose ends the nearest one is looked for
-NEWTON = 10  # steps from there
-SAMPLES = 20_001  # of the flank
 
 
 def left_flank(mechanism: Mechanism) -> tuple[Curve, float, float]:
@@ -86,7 +84,8 @@ def _halved(
 
 def stray(curve: Curve, a: float, b: float, pieces: Sequence[Line | Arc | Cubic]) -> float:
     """Greatest distance of many points of the curve from the pieces, mm."""
-    z = curve(np.linspace(a, b, SAMPLES))[0] @ np.array([1.0, 1j])
+    # of the flank
+    z = curve(np.linspace(a, b, 20_001))[0] @ np.array([1.0, 1j])
     return float(distances(z, pieces).max())
 
 
@@ -119,7 +118,8 @@ def _from_piece(points: Array, piece: Line | Arc | Cubic, u: Array) -> Array:
     cubic = cubic * np.poly1d([1.0, 0.0, 0.0]) + np.poly1d([3.0 * (first - p), p])
     rate, bend = cubic.deriv(), cubic.deriv(2)
     low, high = np.maximum(u - 1.0 / GRID, 0.0), np.minimum(u + 1.0 / GRID, 1.0)
-    for _ in range(NEWTON):
+    # steps from there
+    for _ in range(10):
         off, along = cubic(u) - points, rate(u)
         slope = np.abs(along) ** 2
         slope = np.maximum(slope + (off * bend(u).conj()).real, 0.5 * slope)

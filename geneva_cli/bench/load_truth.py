@@ -20,8 +20,6 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
 
 LOADS = ("pin_force_N", "input_torque_Nm", "contact_stress_MPa")
-PLACES = 64  # of a stretch, for its sum
-NEAR = 1e-12  # of a sliding: with so little of it both its signs have their limit there
 
 
 @cache
@@ -39,7 +37,8 @@ def greatest(machine: Mechanism, A: float) -> list[float]:
 @cache
 def roots(machine: Mechanism, A: float) -> list[float]:
     """Root mean square of each of ``LOADS`` over a period."""
-    node, weight = np.polynomial.legendre.leggauss(PLACES)
+    # of a stretch, for its sum
+    node, weight = np.polynomial.legendre.leggauss(64)
     total = [digits().mpf(0)] * len(LOADS)
     for _, (start, end, drives, slides, _) in Cycle(machine).stretches:
         half = 0.5 * (end - start)
@@ -55,7 +54,8 @@ def _limits(machine: Mechanism, A: float, deg: float) -> list[Sequence[Any]]:
     rows = []
     for drives, slides in product((1.0, -1.0), (1.0, -1.0)):
         rubs = _signs(machine, A, deg, drives)[1]
-        if torque * drives >= 0 and (rubs * slides >= 0 or abs(rubs) < NEAR):
+        # of a sliding: with so little of it both its signs have their limit there
+        if torque * drives >= 0 and (rubs * slides >= 0 or abs(rubs) < 1e-12):
             rows.append(_loads(machine, A, deg, drives, slides))
     return rows
 

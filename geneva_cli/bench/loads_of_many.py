@@ -41,7 +41,6 @@ from geneva_cli.spec.tables import Load
 if TYPE_CHECKING:
     from geneva_cli.numerics.jet import Array
 
-LOADS_OF = 4_096  # designs whose loads are had
 EXACT, QUICK_EXACT = 4, 1  # designs whose loads are had by 50 digits
 LOOP, QUICK_LOOP = 5, 2  # designs that are had one after the other
 BLOCK = 512
@@ -93,7 +92,8 @@ def tasks(quick: bool) -> list[Task]:
     """Requests to each machine, with friction and without."""
     out = []
     for loaded in LOADED[:1] if quick else LOADED:
-        count = QUICK if quick else min(LOADS_OF, loaded.kind.most)
+        # designs whose loads are had
+        count = QUICK if quick else min(4_096, loaded.kind.most)
         for friction in (0.1,) if quick else (0.0, 0.1):
             of = _designs(loaded, count, friction)
             out += [_task(request, *of) for request in (REQUESTS[2:] if quick else REQUESTS)]

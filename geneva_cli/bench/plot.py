@@ -13,7 +13,6 @@ from geneva_cli.errors import GenevaError
 OURS = "#c8102e"
 COLOURS = ("#1f5fa8", "#2e8540", "#b36b00", "#6b4fa0", "#00808a", "#555555", "#a83279", "#7a7a00")
 MARKERS = "os^Dv<>p"
-EXACT = 1e-17  # where an error of 0 is drawn
 TIME = "time / baseline"
 
 
@@ -97,7 +96,8 @@ def _curves(figure: Any, subject: Subject, panels: list[Panel], lines: int, colu
         for name in dict.fromkeys(row.method for row in rows):
             points = [row for row in rows if row.method == name]
             x = [getattr(row, what) for row in points]
-            y = [max(row.error or 0.0, EXACT) for row in points]
+            # where an error of 0 is drawn
+            y = [max(row.error or 0.0, 1e-17) for row in points]
             if points[0].ours:
                 marker = "*P"[own.index(name) % 2]
                 colour, size, above = OURS, 15.0 if marker == "*" else 10.0, 5

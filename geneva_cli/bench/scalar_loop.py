@@ -17,8 +17,6 @@ if TYPE_CHECKING:
     from geneva_cli.numerics.jet import Array
 
 SCAN = 10  # intervals
-STEPS = 40  # at most, in a bracket
-CLOSE = 1e-7  # radians: the peak is flat, so its value is then known to the last digit
 
 
 def looped(compiled: Callable[[Any], Any]) -> Callable[[Array, Array, Array, Array], None]:
@@ -65,7 +63,8 @@ def _root(compiled: Callable[[Any], Any], terms: Any) -> Any:
     def root(l: float, A: float, low: float, high: float, below: float, above: float) -> float:
         last, value = low, below
         x = low + (high - low) * below / (below - above)
-        for _ in range(STEPS):
+        # at most, in a bracket
+        for _ in range(40):
             here = terms(l, A, math.sin(x), math.cos(x), 1.0 - math.cos(x))[1]
             if here * below > 0.0:
                 low = x
@@ -75,7 +74,8 @@ def _root(compiled: Callable[[Any], Any], terms: Any) -> Any:
             if not low < new < high:
                 new = 0.5 * (low + high)
             last, value = x, here
-            if abs(new - x) < CLOSE:
+            # radians: the peak is flat, so its value is then known to the last digit
+            if abs(new - x) < 1e-7:
                 return new
             x = new
         return x

@@ -21,24 +21,19 @@ if TYPE_CHECKING:
     from geneva_cli.numerics.arrays import Mask, Whole
     from geneva_cli.numerics.jet import Array
 
-DEEPEST = 40
-BLOCK = 1024  # spans at a time: their nodes fit in the processor's cache
-NODES = 20  # nodes that settle most loads between two cuts
-FEW = 12  # nodes for a span below NARROW times its design's widest
-NARROW = 0.25
-MANY = 28  # nodes for a span that is WIDE times as wide as its poles are far
-WIDE = 1.0
-TERMS = 2  # last terms taken together: every other term of an even or odd function is 0
-# fraction of a design's integral that the last terms may have; the error is a tenth at most
-LEFT = 2e-12
+NODES = 20  # nodes of a rule that suffice for most loads between two cuts
+NARROW_NODES = 12  # nodes for a span that is narrow compared with its design's widest
+WIDE_NODES = 28  # nodes for a span that is wider than the distance of its poles
+# Fraction of a design's integral that the last terms may have; the error is a tenth at most.
+LAST_TERMS = 2e-12
 
 
 class Integrands(NamedTuple):
     """Functions, and the spans from ``a`` to ``b`` over which each of them is integrated.
 
-    ``functions(x, which)`` gives the functions (functions, m, k) of the spans ``which`` at places
-    (m, k). With ``ends`` they may go with the root of the distance from a span's ends: places are
-    then t² (3 - 2 t) of it.
+    ``functions(x, which)`` returns the functions (functions, m, k) of the spans ``which`` at places
+    (m, k). With ``ends`` they may behave as the root of the distance from a span's ends: places are
+    then at the fraction t² (3 - 2 t) of the span.
     """
 
     functions: Callable[[Array, Whole], Array]
@@ -58,56 +53,57 @@ class Integrands(NamedTuple):
             rate = rate * (6.0 * t * (1.0 - t))
             t = t * t * (3.0 - 2.0 * t)
         value = self.functions(self.a[of, None] + width * t, of) * rate
-        found = value @ terms
-        last = np.abs(found[..., 1:]).max(axis=-1)
-        return found[..., 0], last, np.abs(value) @ terms[:, 0]
+        sums = value @ terms
+        last = np.abs(sums[..., 1:]).max(axis=-1)
+        return sums[..., 0], last, np.abs(value) @ terms[:, 0]
 
 
 def span_integrals(
     integrands: Integrands,
     design: Whole,
-    asked: Mask,
+    needed: Mask,
     apart: bool = False,
     poles: Array | None = None,
 ) -> Array:
     """The integral of each function over all spans of each design: (functions, n).
 
-    ``asked`` (functions, n) selects the integrals that are needed; others, such as unbounded ones,
-    are meaningless. ``functions`` may narrow it later. ``functions(x, which)`` gives the functions
-    (functions, m, k) of the spans ``which`` at places (m, k).
+    ``design`` (spans,) is the design of each span. ``needed`` (functions, n) selects the integrals
+    that are needed; others, such as unbounded ones, are meaningless. The functions may clear
+    elements of it while they are evaluated. Unbounded integrals are infinite.
 
     With ``apart`` the result is the integral of each span, (functions, spans), to the same
     fraction of its design's. ``poles`` (spans,) is the distance of the nearest poles from the real
     axis, if known.
     """
-    n, width = asked.shape[1], integrands.b - integrands.a
+    n, width = needed.shape[1], integrands.b - integrands.a
     into = np.arange(len(width)) if apart else design
     total, size = np.zeros((0, len(width) if apart else n)), np.zeros((0, n))
     unbounded, widest = total != 0.0, np.zeros(n)
     np.maximum.at(widest, design, width)
-    narrow = width <= NARROW * widest[design]
-    wide = ~narrow & (width > WIDE * (np.inf if poles is None else poles))
-    groups = [(FEW, narrow), (NODES, ~(narrow | wide)), (MANY, wide)]
+    narrow = width <= 0.25 * widest[design]
+    wide = ~narrow & (width > (np.inf if poles is None else poles))
+    groups = [(NARROW_NODES, narrow), (NODES, ~(narrow | wide)), (WIDE_NODES, wide)]
     of = np.concatenate([np.flatnonzero(which) for _, which in groups])
     low, high = np.zeros(len(width)), np.ones(len(width))
     counts = [(nodes, int(which.sum())) for nodes, which in groups]
-    for _ in range(DEEPEST):
-        found, start = [], 0
+    block = 1024  # spans at a time: their nodes fit in the processor's cache
+    for _ in range(40):  # halvings: the narrowest spans are 1e-12 of their design's
+        rows, start = [], 0
         for nodes, count in counts:
-            for i in range(start, start + count, BLOCK):
-                part = slice(i, min(i + BLOCK, start + count))
-                found.append(integrands.parts(of[part], low[part], high[part], nodes))
+            for i in range(start, start + count, block):
+                part = slice(i, min(i + block, start + count))
+                rows.append(integrands.parts(of[part], low[part], high[part], nodes))
             start += count
-        whole, last, sizes = (np.concatenate(v, axis=1) for v in zip(*found, strict=True))
+        whole, last, sizes = (np.concatenate(v, axis=1) for v in zip(*rows, strict=True))
         if not len(total):
             total, size = (np.zeros((len(whole), v.shape[1])) for v in (total, size))
             unbounded = np.zeros(total.shape, dtype=bool)
             _add(size, design[of], sizes)
-        lost = ~np.isfinite(sizes)  # a function without a bound is not halved for ever
-        for own, gone, endless in zip(asked, lost, unbounded, strict=True):
-            own[design[of[gone]]] = False
-            endless[into[of[gone]]] = True
-        open_ = (~(last <= LEFT * size[:, design[of]]) & asked[:, design[of]]).any(axis=0)
+        lost = ~np.isfinite(sizes)  # spans of an unbounded function are not halved further
+        for row, endless, marks in zip(needed, lost, unbounded, strict=True):
+            row[design[of[endless]]] = False
+            marks[into[of[endless]]] = True
+        open_ = (~(last <= LAST_TERMS * size[:, design[of]]) & needed[:, design[of]]).any(axis=0)
         _add(total, into[of[~open_]], whole[:, ~open_])
         if not open_.any():
             return np.where(unbounded, np.inf, total)
@@ -132,5 +128,6 @@ def _rule(nodes: int, ends: bool) -> tuple[Array, Array]:
     """
     node, weight = lobatto(nodes) if ends else rule(nodes)
     series = np.polynomial.legendre.legvander(node, nodes - 1) * (np.arange(nodes) + 0.5)
-    sums = weight[:, None] * np.column_stack([np.ones(nodes), series[:, -TERMS:]])
+    # The last two terms together: every other term of an even or odd function is 0.
+    sums = weight[:, None] * np.column_stack([np.ones(nodes), series[:, -2:]])
     return read_only((node, sums))

@@ -13,12 +13,7 @@ from functools import lru_cache
 from geneva_cli.numerics.arrays import Array, Enclosed, N, parameter
 
 DEGREE = math.pi / 180.0
-_BITS = 128
-_ONE = 1 << _BITS
-_PI = 1069028584064966747859680373161870783300  # pi * 2**128, rounded down (OEIS A000796)
-
-
-_DEGREE_REST = 2.9486522708701687e-19  # pi/180 - DEGREE
+_ONE = 1 << 128  # 1 in numbers of 128 binary places
 
 
 def sin_cos_pi(p: int, q: int) -> tuple[float, float]:
@@ -41,7 +36,10 @@ def sin_cos_pi(p: int, q: int) -> tuple[float, float]:
 
 
 def one_minus_sin_pi(p: int, q: int) -> float:
-    """1 - sin(pi p/q), correctly rounded even near 0; arrays as in ``sin_cos_pi``."""
+    """1 - sin(pi p/q), correctly rounded even near 0.
+
+    Arrays of designs are within 2 units in the last place unless p is a whole number.
+    """
     if isinstance(p, int) and isinstance(q, int):
         return (_ONE - scaled_sin_cos(p, q)[0]) / _ONE
     if not _whole(p):
@@ -64,7 +62,7 @@ def cos_squared_less(p: int, q: int, x: float) -> float:
 
 def _cos_squared(p: int, q: int) -> int:
     """cos²(pi p/q) times 2**112."""
-    drop = 2 * _BITS - 112
+    drop = 2 * 128 - 112
     return (scaled_sin_cos(p, q)[1] ** 2 + (1 << drop - 1)) >> drop
 
 
@@ -100,15 +98,15 @@ def of_each(f: Callable[..., tuple[float, ...]], *numbers: float) -> list[float]
     else:
         values, index = np.unique(flat[0] if flat else np.ravel(plain[0]), return_inverse=True)
         rows = [(value,) for value in values.tolist()]
-    found = []
+    results = []
     for row in rows:
-        given = list(plain)
+        arguments = list(plain)
         for i, value in zip(varied or [0], row, strict=True):
-            given[i] = value
-        found.append(f(*given))
+            arguments[i] = value
+        results.append(f(*arguments))
     return [
         parameter(np.array(column)[index.ravel()].reshape(shaped[0].shape))
-        for column in zip(*found, strict=True)
+        for column in zip(*results, strict=True)
     ]
 
 
@@ -121,7 +119,8 @@ def _sin_cos_degrees(degrees: Array) -> tuple[Array, Array]:
     high = x * DEGREE
     # x DEGREE - high by Dekker's product of halves
     (a, b), (d, e) = _halves(x), _halves(DEGREE)
-    low = ((a * d - high) + a * e + b * d) + b * e + x * _DEGREE_REST
+    rest = 2.9486522708701687e-19  # pi/180 - DEGREE
+    low = ((a * d - high) + a * e + b * d) + b * e + x * rest
     s, c = np.sin(high), np.cos(high)
     s, c = s + low * c, c - low * s
     odd, past = quarters % 2.0 == 1.0, quarters % 4.0
@@ -141,7 +140,8 @@ def _halves(x: N) -> tuple[N, N]:
 def scaled_sin_cos(p: int, q: int) -> tuple[int, int]:
     """sin(pi p/q) and cos(pi p/q) times 2**128, each to its last digits."""
     quarter = (4 * p + q) // (2 * q)  # nearest number of quarter turns
-    x = _PI * (2 * p - quarter * q) // (2 * q)
+    pi = 1069028584064966747859680373161870783300  # pi * 2**128, rounded down (OEIS A000796)
+    x = pi * (2 * p - quarter * q) // (2 * q)
     sums = [_ONE, x]  # cosine, sine
     term, k = x, 1
     while term:
@@ -155,7 +155,10 @@ def scaled_sin_cos(p: int, q: int) -> tuple[int, int]:
 
 
 def sin_cos_deg(degrees: float) -> tuple[float, float]:
-    """Sine and cosine of an angle given exactly in degrees; arrays are within 2 units as above."""
+    """Sine and cosine of an angle in degrees, correctly rounded for a double.
+
+    Arrays are within 2 units in the last place.
+    """
     if isinstance(degrees, float):
         p, q = degrees.as_integer_ratio()
         return sin_cos_pi(p, 180 * q)

@@ -107,8 +107,8 @@ def choose(condition: Truth, yes: Real, no: Real) -> Real:
     import numpy
 
     both: object = (yes, no)
-    found: object = numpy.where(condition, *cast("tuple[Array, Array]", both))
-    return cast("Real", found)
+    chosen_value: object = numpy.where(condition, *cast("tuple[Array, Array]", both))
+    return cast("Real", chosen_value)
 
 
 def choose_record(condition: Truth, yes: Record, no: Record) -> Record:
@@ -301,8 +301,8 @@ def only_of(rows: Iterable[Number | None]) -> list[float | None]:
     >>> only_of([2.0, math.nan, None])
     [2.0, None, None]
     """
-    found = [None if row is None else array(row).item() for row in rows]
-    return [None if x is None or math.isnan(x) else x for x in found]
+    numbers = [None if row is None else array(row).item() for row in rows]
+    return [None if x is None or math.isnan(x) else x for x in numbers]
 
 
 def rows_of(values: Sequence[Number], count: int) -> Array:
@@ -337,5 +337,5 @@ def rising(x: Either) -> Either:
     ordered = numpy.sort(x, axis=None)
     once = numpy.ones(len(ordered), dtype=bool)
     once[1:] = ordered[1:] != ordered[:-1]
-    found: Either = ordered[once]
-    return found
+    distinct: Either = ordered[once]
+    return distinct

@@ -23,12 +23,7 @@ if TYPE_CHECKING:
     from geneva_cli.numerics.arrays import Array
 
 DEGREE = 16  # of the series: for most loads, its terms have ended between two cuts
-CELLS = 32  # of the grid on which signs are compared: two for each point
-LAST = 3  # last terms taken together: every other term of an even or odd function is 0
-FEW = 128  # rows, whose products with a matrix fit in the processor's cache
-# of Newton's method on a series, from a secant on the grid; the function itself takes over
-STEPS = 5
-MIDDLE = DEGREE // 2
+MIDDLE = DEGREE // 2  # number of the middle point
 
 _order = np.arange(DEGREE + 1)
 
@@ -70,7 +65,7 @@ def _product(values: Array, matrix: Array) -> Array:
     design would differ from the same design in a batch.
     """
     rows = np.moveaxis(values, -1, 0)
-    if rows[0].size <= FEW:
+    if rows[0].size <= 128:  # the products of so few fit in the processor's cache
         shape = *matrix.shape, *[1] * (rows.ndim - 1)
         out = _sum(matrix.reshape(shape) * rows[:, None])
     else:
@@ -87,8 +82,8 @@ def _sum(terms: Array) -> Array:
     return np.asarray(np.add.reduce(terms))
 
 
-POINTS = _even_spread(DEGREE)
-GRID = _even_spread(CELLS)
+POINTS = _even_spread(DEGREE)  # where functions are sampled
+GRID = _even_spread(32)  # where signs are compared: two cells for each point
 _SERIES = _to_series()
 _SLOPES = _to_slopes()
 _ON_GRID = _product(_SERIES, _terms(GRID))
@@ -107,8 +102,9 @@ def slopes(terms: Array) -> Array:
 
 def remainder(values: Array) -> Array:
     """The greatest of the last terms, an estimate of the series' error."""
-    found: Array = np.abs(_product(values, _SERIES[:, -LAST:])).max(axis=-1)
-    return found
+    # The last three terms together: every other term of an even or odd function is 0.
+    greatest: Array = np.abs(_product(values, _SERIES[:, -3:])).max(axis=-1)
+    return greatest
 
 
 def on_grid(values: Array) -> tuple[Array, Array]:
@@ -124,7 +120,8 @@ def at(terms: Array, t: Array) -> Array:
 def root(terms: Array, low: Array, high: Array, start: Array) -> Array:
     """The zero of each series (terms, m) between ``low`` and ``high``, where its signs differ."""
     both, rises, t = np.stack((terms, slopes(terms)), axis=1), at(terms, high) > 0.0, start
-    for _ in range(STEPS):
+    # Newton steps, from a secant on the grid; the function itself is evaluated afterwards
+    for _ in range(5):
         value, rate = at(both, t)
         below = (value < 0.0) == rises
         low, high = np.where(below, t, low), np.where(below, high, t)

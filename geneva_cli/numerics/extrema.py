@@ -15,7 +15,6 @@ from typing import TYPE_CHECKING, NamedTuple, Protocol, TypeAlias
 import numpy as np
 
 from geneva_cli.numerics.newton import Brackets, nearer, newton_roots
-from geneva_cli.numerics.roots import DEEPEST, PREDICTED
 from geneva_cli.numerics.tolerances import TIE
 
 if TYPE_CHECKING:
@@ -28,13 +27,7 @@ SCAN = 12  # intervals of the first scan, an even number
 # designs scanned at a time: 13 places of each take 110 kB for each number of a formula
 BLOCK = 1024
 GROUP = 16 * BLOCK  # designs refined together
-CLOSE = 1e-8  # of a bracket in which a cubic holds: a step this short reaches the last bit
-ROUNDED = 1e-15  # fraction of the span: places this near are equal, such as 0 and 1e-47
-BESIDE = 1e-12  # fraction of the span: a maximum this near to an equally high end may be rounding
-FLAT_TOP = 1e-6  # fraction of the span, some root of TIE: as far as this a maximum is level
-ROUNDING = 1e-13  # fraction of a value: the rounding that no sampling improves
-OPEN_MAX = 1 << 15  # pairs of a design that are halved at once: more are rounding, as of table laws
-_UNIT = np.arange(SCAN + 1) / SCAN
+PREDICTED = 1e-2  # fraction of the range by which a cubic may miss the middle of its interval
 
 
 class Curves(Protocol):
@@ -58,11 +51,11 @@ class Stationary(NamedTuple):
 
 def stationary_points(f: Curves, a: Array, b: Array) -> Stationary:
     """All stationary points between a and b, of the shape (n, 1), in order of design and place."""
-    found = []
+    groups = []
     with np.errstate(all="ignore"):
         for part in _blocks(0, len(a), GROUP):
-            found.append(_tops(f, _scanned(f, a[part], b[part], part.start).turns)[:3])
-    which, x, value = (np.concatenate(parts) for parts in zip(*found, strict=True))
+            groups.append(_tops(f, _scanned(f, a[part], b[part], part.start).turns)[:3])
+    which, x, value = (np.concatenate(parts) for parts in zip(*groups, strict=True))
     order = np.lexsort((x, which))
     return Stationary(which[order], x[order], value[order])
 
@@ -89,11 +82,11 @@ def greatest_sizes(f: Curves, *places: Array, rough: Rough | None = None) -> tup
     (array([0.84147098, 1.        ]), array([1.        , 0.78539816]))
     """
     with np.errstate(all="ignore"):
-        found = [
+        groups = [
             _greatest(f, rough, [place[part] for place in places], part.start)
             for part in _blocks(0, len(places[0]), GROUP)
         ]
-    size, x = (np.concatenate(parts) for parts in zip(*found, strict=True))
+    size, x = (np.concatenate(parts) for parts in zip(*groups, strict=True))
     return size, x
 
 
@@ -124,16 +117,18 @@ def _greatest(
     ends = np.fmin.reduce(np.where(size >= bar[:, None], at, np.nan), axis=1)
     high, tops_first = value >= bar[which], np.full(len(most), np.nan)
     np.fmin.at(tops_first, which[high], x[high])
-    # An end this near before an equally high maximum is part of its flat top.
+    # An end just before an equally high maximum is part of its flat top.
     apart = (tops_first - ends) / (at[:, -1] - at[:, 0])
-    flat = (apart > BESIDE) & (apart < FLAT_TOP)
+    # Nearer to the end the maximum may be rounding; farther than a root of TIE it is not level.
+    flat = (apart > 1e-12) & (apart < 1e-6)
     return most, np.where(flat, tops_first, np.fmin(ends, tops_first))
 
 
 def _at_ends(x: Array, ends: Array) -> Array:
     """Places (k,), replaced by the ends (k, j) that they equal apart from rounding."""
     nearest = ends[np.arange(len(x)), np.abs(ends - x[:, None]).argmin(axis=1)]
-    close = np.abs(nearest - x) < ROUNDED * (ends[:, -1] - ends[:, 0])
+    # Places nearer than this fraction of the span are equal, such as 0 and 1e-47.
+    close = np.abs(nearest - x) < 1e-15 * (ends[:, -1] - ends[:, 0])
     return np.where(close, nearest, x)
 
 
@@ -205,7 +200,7 @@ def _scan(f: Curves, a: Array, b: Array, start: int) -> _Scan:
     # Designs lie side by side in memory: each operation runs along all of them.
     samples = np.empty((3, SCAN + 1, len(a))).transpose(0, 2, 1)
     x, value, slope = samples
-    x[:] = a + (b - a) * _UNIT
+    x[:] = a + (b - a) * (np.arange(SCAN + 1) / SCAN)
     x[:, -1:] = b
     value[:], slope[:] = f(x, slice(start, start + len(a)), 1)
     low, high = value.min(axis=1), value.max(axis=1)
@@ -226,10 +221,11 @@ def _scan(f: Curves, a: Array, b: Array, start: int) -> _Scan:
 def _refined(f: Curves, start: int, open_: _Pairs, low: Array, high: Array) -> _Pairs:
     """Pairs with a turn, halved until a cubic predicts the middle; updates ``low`` and ``high``.
 
-    Halving ends for a design with more than ``OPEN_MAX`` pairs.
+    Halving ends for a design with more than 32,768 open pairs.
     """
     settled = []
-    for _ in range(DEEPEST):
+    most = 1 << 15  # open pairs of a design: more are rounding, as of table laws
+    for _ in range(50):  # a feature 2**-50 of the interval wide is still seen
         which, left, right = open_
         x = 0.5 * (left[0] + right[0])
         value, slope = (v[:, 0] for v in f(x[:, None], which, 1))
@@ -240,8 +236,8 @@ def _refined(f: Curves, start: int, open_: _Pairs, low: Array, high: Array) -> _
         halves = [_Pairs(which, left, middle), _Pairs(which, middle, right)]
         settled += [half.taken(~missed) for half in halves]
         open_ = _joined([half.taken(missed) for half in halves])
-        if len(open_.which) > OPEN_MAX:
-            noisy = np.bincount(open_.which - start)[open_.which - start] > OPEN_MAX
+        if len(open_.which) > most:
+            noisy = np.bincount(open_.which - start)[open_.which - start] > most
             settled.append(open_.taken(noisy))
             open_ = open_.taken(~noisy)
         if not len(open_.which):
@@ -251,16 +247,22 @@ def _refined(f: Curves, start: int, open_: _Pairs, low: Array, high: Array) -> _
 
 
 def unpredicted(
-    left: Sample, middle: Sample, right: Sample, low: Array, high: Array, share: float = PREDICTED
+    left: Sample,
+    middle: Sample,
+    right: Sample,
+    low: Array,
+    high: Array,
+    fraction: float = PREDICTED,
 ) -> Mask:
-    """Masks of the pairs whose cubic misses the sample midway by ``share`` of the range.
+    """Masks of the pairs whose cubic misses the sample midway by a ``fraction`` of the range.
 
     Pairs are included whose cubic turns twice between slopes of the same sign.
     """
     width = right[0] - left[0]
     predicted = 0.5 * (left[1] + right[1]) + width * (left[2] - right[2]) / 8.0
-    rounding = ROUNDING * np.maximum(np.abs(low), np.abs(high))
-    missed: Mask = np.abs(middle[1] - predicted) > share * (high - low) + rounding
+    # the rounding of a value, which no sampling improves
+    rounding = 1e-13 * np.maximum(np.abs(low), np.abs(high))
+    missed: Mask = np.abs(middle[1] - predicted) > fraction * (high - low) + rounding
     missed |= goes_back(left, middle, rounding)
     return missed | goes_back(middle, right, rounding)
 
@@ -327,9 +329,12 @@ def _tops(f: Curves, pairs: _Pairs, rough: Rough | None = None) -> _Tops:
     if rough:
         slope, bend, _ = slope_of(start, np.arange(len(start)), rough.f)
         start = nearer(slope, bend, brackets, start)
-    x, rise, (_, _, value) = newton_roots(slope_of, brackets, start, before < 0.0, CLOSE)
-    found = np.stack((x, value + rise))
-    (x, value), which = (np.concatenate(p, axis=-1) for p in zip((found, which), flat, strict=True))
+    # In a bracket where a cubic holds, a step of 1e-8 of the bracket reaches the last bit.
+    x, rise, (_, _, value) = newton_roots(slope_of, brackets, start, before < 0.0, 1e-8)
+    within = np.stack((x, value + rise))
+    (x, value), which = (
+        np.concatenate(p, axis=-1) for p in zip((within, which), flat, strict=True)
+    )
     return _Tops(which, x, value, np.arange(len(which)) >= len(rise))
 
 

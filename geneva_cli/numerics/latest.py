@@ -15,8 +15,6 @@ from geneva_cli.numerics.jet import Jet, Number
 if TYPE_CHECKING:
     from geneva_cli.numerics.jet import Array
 
-MOST = 1 << 16  # angles: larger arrays are not kept in memory
-
 
 class Latest:
     """The jets of a function at the array of angles of its last call.
@@ -41,10 +39,10 @@ class Latest:
         kept = self._kept
         if kept and kept[0] is x and kept[2] >= order and bool((kept[1] == x).all()):
             return tuple(Jet(jet.c[: order + 1]) for jet in kept[3])
-        found = of(x, order)
-        if x.size > MOST:
+        jets = of(x, order)
+        if x.size > 1 << 16:  # larger arrays are not kept in memory
             self._kept = None
-            return found
-        found = tuple(Jet([read_only(c) for c in jet.c]) for jet in found)
-        self._kept = x, x.copy(), order, found
-        return found
+            return jets
+        jets = tuple(Jet([read_only(c) for c in jet.c]) for jet in jets)
+        self._kept = x, x.copy(), order, jets
+        return jets

@@ -24,17 +24,9 @@ if TYPE_CHECKING:
     Which: TypeAlias = slice | Whole
     Some: TypeAlias = slice | Whole | Mask
 
-NOISE = 1e-12  # fraction of a function's size on a row, below which it has no sign
-ROUNDING = 4e-15  # and of its greatest size in the design's whole motion: some roundings
 END = 1e-9  # fraction of a row: a zero this near to an end, such as a motion's, is the end's own
-SETTLED = 3e-3  # fraction of a size: the allowed error of a series for a single zero
-DIGITS = 1e-9  # the same where several points are within the error of 0
-NEAR = 0.05  # fraction of a size: nearer to 0 at a point, a function may be 0 next to it
 SAFE = 4.0  # times the last terms of a series: a bound on all later terms
 STEPS = 6  # of Newton's method, from the zero of a series
-CLOSE = 1e-8  # fraction of a half row: after a step this short, the rest is rounding
-FAR = 0.1  # fraction of a half row: no step is longer, as a series knows its zeros better
-NARROW = 1e-11  # fraction of a design's spans: no row is narrower
 
 
 class Functions(Protocol):
@@ -164,7 +156,8 @@ class Cutter:
 
     def is_narrow(self, rows: Rows) -> Mask:
         """Masks of the rows that are too narrow for halving."""
-        return np.asarray(rows.u[1] - rows.u[0] <= NARROW * self.width[rows.design])
+        # no row is narrower than 1e-11 of its design's spans
+        return np.asarray(rows.u[1] - rows.u[0] <= 1e-11 * self.width[rows.design])
 
     def sampled(self, rows: Rows, which: Which) -> Sampled:
         """Pieces of rows of the designs ``which``, cut where a sign changes."""
@@ -210,8 +203,8 @@ class Cutter:
         flip = some[np.where(middle > 0.0, 1.0, -1.0) != sign[kind, some]]
         if len(flip):
             sign[kind, flip] *= -1.0
-            found = self.f.look(self.f.rows(at, own[flip]), sign[:, flip, None])
-            value[:, flip] = found[1][0]
+            values = self.f.look(self.f.rows(at, own[flip]), sign[:, flip, None])
+            value[:, flip] = values[1][0]
 
     def _cut(self, rows: Rows, part: Array) -> Rows:
         """Parts of rows, whose inner ends are cuts."""
@@ -245,7 +238,8 @@ class Cutter:
         if not len(some):
             return unsure, *none
         g, d = chebyshev.on_grid(q)
-        level = np.maximum(NOISE * size, rounding)
+        # below 1e-12 of its size on a row, a function has no sign
+        level = np.maximum(1e-12 * size, rounding)
         noise = np.repeat(level[:, None], len(GRID), axis=1)
         for end in (0, -1):
             noise[:, end] = np.maximum(noise[:, end], END * np.abs(d[:, end]))
@@ -254,8 +248,10 @@ class Cutter:
         twice = _crosses_twice(g, d, below, noise, SAFE * left[:, None])
         near = np.abs(g[:, 1:-1]) < SAFE * left[:, None]
         near &= (GRID[1:-1] >= part[0, some, None]) & (GRID[1:-1] <= part[1, some, None])
-        open_ = (left > SETTLED * size) & change.any(axis=1)
-        open_ |= (left > np.maximum(DIGITS * size, rounding)) & (near.sum(axis=1) > 1)
+        # The series may err by 3e-3 of a size for a single zero, and by 1e-9 if several points
+        # are within the error of 0.
+        open_ = (left > 3e-3 * size) & change.any(axis=1)
+        open_ |= (left > np.maximum(1e-9 * size, rounding)) & (near.sum(axis=1) > 1)
         open_ |= twice
         unsure[some] = open_
         own, cell = np.nonzero(change & ~open_[:, None])
@@ -273,7 +269,8 @@ class Cutter:
     def _rounding(self, kind: int, design: Whole, size: Array) -> Array:
         """The rounding error of a function, from its greatest size in its design."""
         np.fmax.at(self.size[kind], design, np.where(np.isfinite(size), size, 0.0))
-        return np.asarray(ROUNDING * self.size[kind, design])
+        # some roundings of its greatest size in the design's whole motion
+        return np.asarray(4e-15 * self.size[kind, design])
 
     def _refined(self, kind: int, rows: Rows, sign: Array, t: Array) -> Array:
         """Zeros of the functions themselves, from the zeros of their series."""
@@ -287,10 +284,12 @@ class Cutter:
             at = self.f.at(x[live, None], rows.design[live], 1)
             value, slope = (c[kind, :, 0] for c in self.f.look(at, held[:, live, None], ())[1])
             step = -value / (slope * DEGREE)
-            far = FAR * half[live]
+            # No step is longer than a tenth of a half row: the series knows its zeros better.
+            far = 0.1 * half[live]
             step = np.clip(np.where(np.isfinite(step), step, 0.0), -far, far)
             x[live] += step
-            live = live[np.abs(step) > CLOSE * half[live]]
+            # After a step of 1e-8 of a half row the rest is rounding.
+            live = live[np.abs(step) > 1e-8 * half[live]]
             if not len(live):
                 break
         t = (self.places.spread(x, rows.design) - middle) / half
@@ -305,7 +304,8 @@ def _may_cross(value: Array, sign: Array) -> tuple[Whole, Array, Array, Array]:
     """
     size, left = np.abs(value).max(axis=1), chebyshev.remainder(value)
     q = value * sign[:, None]
-    some = np.flatnonzero(~(q.min(axis=1) >= NEAR * size + SAFE * left))
+    # Where a point is below a twentieth of the size, the function may be 0 next to it.
+    some = np.flatnonzero(~(q.min(axis=1) >= 0.05 * size + SAFE * left))
     return some, q[some], size[some], left[some]
 
 

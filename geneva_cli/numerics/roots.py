@@ -20,11 +20,6 @@ if TYPE_CHECKING:
 Real = TypeVar("Real", float, "Decimal")
 
 STEPS = 200  # towards a root, at most; halving reaches the last of 50 digits in 170
-GOLDEN = (math.sqrt(5.0) - 1.0) / 2.0
-FLAT = 1e-8
-SCAN = 16  # intervals of the first scan
-DEEPEST = 50  # halvings of one interval: a feature 2**-50 of the interval wide is still found
-PREDICTED = 1e-2  # fraction of the range by which a cubic may miss the middle of its interval
 
 
 def root(
@@ -56,16 +51,18 @@ def root(
     return x
 
 
-def boundary(holds: Callable[[Real], Truth], good: Real, bad: Real, looks: int = STEPS) -> Real:
+def boundary(
+    holds: Callable[[Real], Truth], good: Real, bad: Real, evaluations: int = STEPS
+) -> Real:
     """The last number from ``good`` towards ``bad`` for which a condition holds, by halving.
 
     ``good`` and ``bad`` are floats, arrays of designs, or Decimals of the current context.
-    ``looks`` limits the evaluations; the condition holds for the result then too.
+    ``evaluations`` limits their number; the condition holds for the result then too.
 
     >>> boundary(lambda x: x * x <= 2.0, 1.0, 2.0)
     1.414213562373095
     """
-    for _ in range(looks):
+    for _ in range(evaluations):
         middle = (good + bad) / 2
         if all_true((middle == good) | (middle == bad) | (middle != middle)):
             break
@@ -124,15 +121,15 @@ class Falsi:
             self.left *= 0.5 if self._stayed < -1 else 1.0
 
 
-def greatest_at(found: Sequence[tuple[float, float]]) -> tuple[float, float]:
+def greatest_at(candidates: Sequence[tuple[float, float]]) -> tuple[float, float]:
     """The greatest of some values, and the first place whose value equals it apart from rounding.
 
     >>> greatest_at([(1.0, 10.0), (3.0, 20.0), (3.0000000000000004, 30.0)])
     (3.0000000000000004, 20.0)
     """
-    most = max(value for value, _ in found)
+    most = max(value for value, _ in candidates)
     bar = most - TIE * abs(most) if math.isfinite(most) else most
-    return most, next(place for value, place in found if value >= bar)
+    return most, next(place for value, place in candidates if value >= bar)
 
 
 def least(f: Callable[[float], float], a: float, b: float) -> tuple[float, float]:
@@ -142,15 +139,16 @@ def least(f: Callable[[float], float], a: float, b: float) -> tuple[float, float
     the last digits.
     """
     width = b - a
-    left, right = b - GOLDEN * (b - a), a + GOLDEN * (b - a)
+    golden = (math.sqrt(5.0) - 1.0) / 2.0
+    left, right = b - golden * (b - a), a + golden * (b - a)
     at_left, at_right = f(left), f(right)
-    while b - a > FLAT * width:
+    while b - a > 1e-8 * width:  # nearer to its minimum a function is flat to the last digits
         if at_left < at_right:
             b, right, at_right = right, left, at_left
-            left = b - GOLDEN * (b - a)
+            left = b - golden * (b - a)
             at_left = f(left)
         else:
             a, left, at_left = left, right, at_right
-            right = a + GOLDEN * (b - a)
+            right = a + golden * (b - a)
             at_right = f(right)
     return (left, at_left) if at_left < at_right else (right, at_right)

@@ -12,17 +12,14 @@ if TYPE_CHECKING:
 
 Curves: TypeAlias = "Callable[[Array], Array]"  # x (n,) -> a row a curve (q, n)
 
-FIRST = 33  # points of a piece at the start
-ROUNDS = 12  # halvings: the shortest step of a piece is about 1e-5 of it
-MOST = 3000  # points of a piece, at most
 ASPECT = 5.0  # width of a panel over its height
 MISS = 4e-4  # error of a chord as a fraction of a panel's height: below 0.1 px of a panel of 200 px
 
 
 def places(start: float, end: float) -> Array:
     """The first points between two x, both included, denser towards both ends."""
-    share = 0.5 - 0.5 * np.cos(np.linspace(0.0, np.pi, FIRST))
-    x: Array = start + (end - start) * share
+    fraction = 0.5 - 0.5 * np.cos(np.linspace(0.0, np.pi, 33))
+    x: Array = start + (end - start) * fraction
     x[-1] = end
     return x
 
@@ -36,22 +33,22 @@ def refined(of: Curves, start: float, end: float, width: float, heights: Array) 
     x = places(start, end)
     y = of(x)
     scale = heights[:, None]
-    asked = np.arange(len(x) - 1)  # chords that are not measured yet
-    for _ in range(ROUNDS):
-        if not len(asked) or len(x) > MOST:
+    unmeasured = np.arange(len(x) - 1)  # numbers of chords
+    for _ in range(12):  # halvings: the shortest step is about 1e-5 of the piece
+        if not len(unmeasured) or len(x) > 3000:
             break
-        middle = 0.5 * (x[asked] + x[asked + 1])
+        middle = 0.5 * (x[unmeasured] + x[unmeasured + 1])
         there = of(middle)
-        before, after = y[:, asked], y[:, asked + 1]
-        run = ASPECT / width * (x[asked + 1] - x[asked])
+        before, after = y[:, unmeasured], y[:, unmeasured + 1]
+        run = ASPECT / width * (x[unmeasured + 1] - x[unmeasured])
         with np.errstate(invalid="ignore"):  # a curve without a bound has no chord
             rise = (after - before) / scale
             off = abs(there - 0.5 * (before + after)) / scale * run / np.hypot(run, rise)
             far = (off > MISS).any(axis=0)
-        x = np.insert(x, asked + 1, middle)
-        y = np.insert(y, asked + 1, there, axis=1)
-        left = (asked + np.arange(len(asked)))[far]
-        asked = np.sort(np.concatenate((left, left + 1)))
+        x = np.insert(x, unmeasured + 1, middle)
+        y = np.insert(y, unmeasured + 1, there, axis=1)
+        left = (unmeasured + np.arange(len(unmeasured)))[far]
+        unmeasured = np.sort(np.concatenate((left, left + 1)))
     return x
 
 

@@ -33,19 +33,8 @@ if TYPE_CHECKING:
     from geneva_cli.numerics.pieces import Some, Which
 
 BLOCK = 2048  # rows sampled at a time: that many fit in the processor's cache
-DEEPEST = 60  # halvings: a row is NARROW by then
-SIZED = 4  # halvings: shorter rows lie near a pole, and say nothing about a function's size
-ENDED = 1e-5  # fraction of a size: the allowed error of a series near an extreme
 BEYOND = 0.15  # fraction of the range of samples, by which an extreme between them may exceed it
 UNSURE = 16.0  # times the last terms: the error of a series that has not ended
-TAME = 4.0  # times: a product with a smaller range is near its limit at a pole
-LEVEL = 1e-13  # fraction of a size: a function with no larger range has no extreme within
-# fraction of a size, over a piece: a series cannot tell the sign of a slope flatter than this
-FLAT = 1e-3
-BESIDE = 0.1  # fraction of a piece, on which 16 degrees are exact to the last digits
-# fraction of half a piece: cells crowd at its ends, where a series is no more precise
-NEAREST = 0.1
-CLOSE = 1e-5  # fraction of the search range: after a step this short, a maximum's value is exact
 
 
 class Stretches(NamedTuple):
@@ -129,11 +118,12 @@ class _Search:
         for rows in first:
             np.add.at(self.cutter.width, rows.design, rows.u[1] - rows.u[0])
         blocks = self._first_blocks(first)
-        for depth in range(DEEPEST):
+        for depth in range(60):  # halvings: all rows are too narrow for more by then
             every = [self.cutter.sampled(*block) for block in blocks]
             for found in every:
                 self.greatest.add_samples(found.pieces, found.x)
-            for found in every if depth < SIZED else ():
+            # Rows that were halved four times lie near a pole: their sizes are not typical.
+            for found in every if depth < 4 else ():
                 self.greatest.add_sizes(found.pieces)
             again = [rows for found in every for rows in (*found.again, *self._judged(found))]
             if not again:
@@ -186,7 +176,8 @@ class _Search:
     def _unsettled(self, curves: Curves, room: Array, x: Array) -> Whole:
         """The numbers of curves with unfinished series that may exceed the known values."""
         size = np.where(curves.within, np.abs(curves.value), 0.0).max(axis=1, initial=0.0)
-        ended = (curves.left < np.inf) & (curves.left <= ENDED * size)
+        # the allowed error of a series near an extreme: 1e-5 of a size
+        ended = (curves.left < np.inf) & (curves.left <= 1e-5 * size)
         some = np.flatnonzero(~ended)
         curves, more = curves.take(some), UNSURE * curves.left[some]
         low, high = curves.value.min(axis=1) - more, curves.value.max(axis=1) + more
@@ -222,13 +213,15 @@ class _Search:
         value, slope = self._jets(x[:, None], curves, 1)[..., 0]
         self._add(curves, x, value)
         width = curves.rows.x[1] - curves.rows.x[0]
-        return self._beside(curves.take(np.abs(slope) * width <= FLAT * size), end)
+        # a series does not tell the sign of a slope that changes the piece by less than 1e-3
+        return self._beside(curves.take(np.abs(slope) * width <= 1e-3 * size), end)
 
     def _beside(self, curves: Curves, end: int) -> Curves:
         """The part of pieces next to one end, as pieces of their own."""
         rows, other = curves.rows, 1 - end
         u = rows.u.copy()
-        u[other] = u[end] + BESIDE * (u[other] - u[end])
+        # on a tenth of a piece a series of degree 16 is exact to the last digits
+        u[other] = u[end] + 0.1 * (u[other] - u[end])
         rows = rows._replace(u=u, edge=np.full(u.shape, False))
         x = self.places.gathered(rows.at(POINTS[:, None]).T, rows.design)
         x = np.clip(x, rows.x[0][:, None], rows.x[1][:, None])
@@ -248,7 +241,8 @@ class _Search:
         """
         low, high = curves.value.min(axis=1), curves.value.max(axis=1)
         more = BEYOND * (high - low)
-        may = high - low > LEVEL * np.maximum(np.abs(low), np.abs(high))
+        # a function whose range is rounding has no extreme within
+        may = high - low > 1e-13 * np.maximum(np.abs(low), np.abs(high))
         may &= self.greatest.may_be(curves.number, curves.rows.design, low - more, high + more)
         own = np.flatnonzero(may)
         curves = curves.take(own)
@@ -277,7 +271,9 @@ class _Search:
         curves = curves.take(which)
         rows = curves.rows
         x = self.places.gathered(rows.at(t), rows.design)
-        near = 0.5 * (rows.x[1] - rows.x[0]) * np.maximum(cell, NEAREST)
+        # Cells crowd at the ends of a piece, where a series is no more precise: the range is at
+        # least a tenth of half a piece.
+        near = 0.5 * (rows.x[1] - rows.x[0]) * np.maximum(cell, 0.1)
         live, value = np.arange(len(x)), np.empty(len(x))
         for _ in range(STEPS):
             if not len(live):
@@ -288,7 +284,8 @@ class _Search:
             step = np.clip(x[live] + step, *rows.x[:, live]) - x[live]
             value[live] = v + 0.5 * slope * step
             x[live] += step
-            live = live[np.abs(step) > CLOSE * near[live]]
+            # after a step of 1e-5 of the search range, a maximum's value is exact
+            live = live[np.abs(step) > 1e-5 * near[live]]
         self._add(curves, x, value)
 
     def _jets(self, x: Array, curves: Curves, order: int) -> Array:
@@ -317,7 +314,8 @@ def _least_size(value: Array, weight: Array) -> Array:
     low, high = inner.min(axis=1), inner.max(axis=1)
     least = np.where(low > 0.0, low, -high)
     most = np.where(low > 0.0, high, -low)
-    tame = (least > 0.0) & (most < TAME * least)
+    # a product that varies by less than a factor of 4 is near its limit at a pole
+    tame = (least > 0.0) & (most < 4.0 * least)
     return np.where(tame, 0.5 * least / weight.max(axis=1), 0.0)
 
 

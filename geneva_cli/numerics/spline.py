@@ -19,9 +19,6 @@ import numpy as np
 from geneva_cli.numerics.arrays import ONE, Array, N, piece_of
 
 DEGREE = 5
-# Points of other periods on either side of a periodic spline: each point nearer to the end moves
-# the middle 0.43 times as much (the root of its equations), 50 of them by 5e-19.
-MARGIN = 50
 
 
 class Pieces:
@@ -119,7 +116,9 @@ def _pentadiagonal(bands: list[list[float]], values: list[float]) -> list[float]
 def periodic(x: Sequence[float], y: Sequence[float]) -> Pieces:
     """The periodic spline through points, whose last point is the first one a period later."""
     n, period = len(x) - 1, x[-1] - x[0]
-    copies = math.ceil(MARGIN / n)
+    # 50 points of other periods on either side: each point farther out moves the middle 0.43
+    # times as much (the root of its equations), 50 of them 5e-19 times.
+    copies = math.ceil(50 / n)
     every = np.add.outer(np.arange(-copies, copies + 1) * period, x[:-1]).ravel()
     tiled = np.tile(y[:-1], 2 * copies + 1)
     rows = at_rest(every.tolist(), tiled.tolist()).rows[copies * n :][:n]

@@ -13,10 +13,6 @@ import numpy as np
 if TYPE_CHECKING:
     from geneva_cli.numerics.arrays import Array
 
-TIE = 1e-12  # fraction of an extreme within which another is its equal
-NOUGHT = 1e-13  # and fraction of the function's size: at a computed root it is not exactly 0
-MIDDLE = 3.0  # times the quartiles' distance: a value further out is near a pole
-
 
 def bar(most: Array, size: Array) -> Array:
     """The least value that counts as equal to a greatest one.
@@ -27,7 +23,9 @@ def bar(most: Array, size: Array) -> Array:
     [1.999999999998, -1e-13, inf]
     """
     finite = np.isfinite(most)
-    tie = np.maximum(TIE * np.abs(np.where(finite, most, 0.0)), NOUGHT * size)
+    # Extremes within 1e-12 of their size are equal. So are values within 1e-13 of the function's
+    # size: at a computed root it is not exactly 0.
+    tie = np.maximum(1e-12 * np.abs(np.where(finite, most, 0.0)), 1e-13 * size)
     return np.where(finite, most - tie, most)
 
 
@@ -56,8 +54,9 @@ def usual(rows: Array) -> tuple[Array, Array]:
     lost = np.nonzero(~finite.all(axis=-1) & finite.any(axis=-1))
     if len(lost[0]):
         first, third = quartiles(np.where(finite[lost], rows[lost], np.nan))
-        low[lost] = np.maximum(low[lost], first - MIDDLE * (third - first))
-        high[lost] = np.minimum(high[lost], third + MIDDLE * (third - first))
+        beyond = 3.0 * (third - first)  # values farther out are near a pole
+        low[lost] = np.maximum(low[lost], first - beyond)
+        high[lost] = np.minimum(high[lost], third + beyond)
     return low, high
 
 

@@ -7,11 +7,10 @@ import pytest
 
 from geneva_cli.numerics import adaptive_quadrature
 from geneva_cli.numerics.adaptive_quadrature import (
-    FEW,
-    LEFT,
-    MANY,
+    LAST_TERMS,
+    NARROW_NODES,
     NODES,
-    WIDE,
+    WIDE_NODES,
     Integrands,
     span_integrals,
 )
@@ -40,8 +39,8 @@ def test_what_few_terms_tell_is_had_at_once(power):
 @pytest.mark.parametrize("pole", [0.05, 0.1, 0.2, 0.5, 1.0])
 def test_what_is_left_is_told_by_the_series(pole, monkeypatch):
     """∫ dx/(x + p) is log(1 + 1/p): whatever may be left, no more is."""
-    for left in (LEFT, 1e-9, 1e-6, 1e-3):
-        monkeypatch.setattr(adaptive_quadrature, "LEFT", left)
+    for left in (LAST_TERMS, 1e-9, 1e-6, 1e-3):
+        monkeypatch.setattr(adaptive_quadrature, "LAST_TERMS", left)
         found, _ = summed(lambda x, _: 1.0 / (x + pole))
         assert found == pytest.approx(math.log1p(1.0 / pole), rel=left + 4e-15)
 
@@ -52,7 +51,7 @@ def test_a_kink_is_no_series_that_falls(power):
     c = 1.0 / math.pi
     found, places = summed(lambda x, _: np.abs(x - c) ** power)
     exact = (c ** (power + 1) + (1.0 - c) ** (power + 1)) / (power + 1)
-    assert found == pytest.approx(exact, rel=LEFT)
+    assert found == pytest.approx(exact, rel=LAST_TERMS)
     assert places > 2 * NODES
 
 
@@ -67,7 +66,7 @@ def test_designs_that_need_more_are_halved(ends):
 def test_spans_with_poles_beside_them_begin_with_more_places():
     """∫ dx/(x² + s²) over [0, 1], with poles at i s and -i s."""
     s = np.array([0.9, 1.1])
-    assert (WIDE * s < 1.0).tolist() == [True, False]
+    assert (s < 1.0).tolist() == [True, False]
     places = []
 
     def functions(x, which):
@@ -76,8 +75,8 @@ def test_spans_with_poles_beside_them_begin_with_more_places():
 
     ends, asked = (np.zeros(2), np.ones(2)), np.full((1, 2), True)
     found = span_integrals(Integrands(functions, *ends), np.arange(2), asked, poles=s)[0]
-    assert found == pytest.approx(np.arctan(1.0 / s) / s, rel=LEFT)
-    assert places == [NODES, MANY]
+    assert found == pytest.approx(np.arctan(1.0 / s) / s, rel=LAST_TERMS)
+    assert places == [NODES, WIDE_NODES]
 
 
 def test_narrow_spans_begin_with_fewer_places():
@@ -91,7 +90,7 @@ def test_narrow_spans_begin_with_fewer_places():
     a, b, design = np.array([0.0, 0.9]), np.array([0.9, 1.0]), np.zeros(2, dtype=int)
     found = span_integrals(Integrands(functions, a, b), design, np.full((1, 1), True))
     assert found[0] == pytest.approx(math.e - 1.0, rel=4e-16)
-    assert places == [(1, FEW), (1, NODES)]
+    assert places == [(1, NARROW_NODES), (1, NODES)]
 
 
 def test_spans_apart():

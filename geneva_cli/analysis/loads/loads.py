@@ -89,7 +89,8 @@ def greatest(mechanism: Mechanism, name: str) -> Greatest:
     if one is None:
         return Greatest(0.0, 0.0)
     first = mechanism.engagements[0]
-    start, turn = first.mid_deg + first.entry_deg - TINY, 360.0 * mechanism.spec.drive.turns
+    # degrees: rounding of an input angle
+    start, turn = first.mid_deg + first.entry_deg - 1e-9, 360.0 * mechanism.spec.drive.turns
     ends = [(one.max, one.max_at_deg), (-one.min, one.min_at_deg)]
     ends.sort(key=lambda end: (end[1] - start) % turn)
     value, place = np.array(ends).T[..., None]
@@ -146,7 +147,8 @@ def fastest_rpm(mechanism: Mechanism) -> float | None:
     w = omega(mechanism.spec.drive.n_rpm if math.isinf(rpm) else rpm)
     tried = at_one._replace(inertia_Nm=at_one.inertia_Nm * w * w)
     found = load_peaks(mechanism, tuple(given), given=tried)
-    kept = all(found[name].max[0] <= limit * KEPT for name, limit in given.items())
+    # a limit met at the highest speed may be exceeded by rounding
+    kept = all(found[name].max[0] <= limit * (1.0 + 1e-9) for name, limit in given.items())
     return rpm if kept else None
 
 

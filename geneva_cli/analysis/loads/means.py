@@ -36,7 +36,6 @@ if TYPE_CHECKING:
 
 # The integral of a cubic from 0 to 1 by its values at AHEAD (Adams and Bashforth), next to a cusp.
 AHEAD, SHARES = np.array([1.0, 2.0, 3.0]), np.array([23.0, -16.0, 5.0]) / 12.0
-NOUGHT = 1e-30  # a mean whose square is this fraction of the mean square is rounding
 
 
 class LoadMeans(NamedTuple):
@@ -97,7 +96,8 @@ def means_from(
         square, mean = every[i], None
         if plain:
             mean = every[len(names) + i]
-            nought = np.isfinite(square) & (mean * mean <= NOUGHT * square)
+            # a mean whose square is this fraction of the mean square is rounding
+            nought = np.isfinite(square) & (mean * mean <= 1e-30 * square)
             mean = np.where(nought, 0.0, mean)
         out[name] = LoadMeans(mean, np.sqrt(square))
     return out

@@ -24,8 +24,6 @@ if TYPE_CHECKING:
     from geneva_cli.numerics.arrays import Mask
     from geneva_cli.numerics.jet import Array
 
-# of Newton's method, from a chord of a ten-thousandth of the motion: the rest is rounding
-STEPS = 2
 
 # contact, signs of torque, of sliding and of the input's torque -> the quantities
 Rows: TypeAlias = Callable[[Contact[Jet], Number, Number, Number], list[Row[Jet]]]
@@ -144,7 +142,8 @@ def _without_torque(
     if not changes.any():
         return []
     x = near * (middle / (middle - end))
-    for _ in range(STEPS):
+    # of Newton's method, from a chord of a ten-thousandth of the motion: the rest is rounding
+    for _ in range(2):
         left, rise = torque(x)
         x = np.clip(x - left / rise, np.minimum(near, 0.0), np.maximum(near, 0.0))
     at = contact(engagement, x)

@@ -15,9 +15,6 @@ if TYPE_CHECKING:
     from geneva_cli.machine.engagement import Engagement
     from geneva_cli.numerics.jet import Array
 
-BESIDE = 0.01  # fraction of half a motion: at mid-motion itself a curved slot may have no slopes
-WIDEST = 10.0  # half motions: a function without poles is not spread
-
 
 def spread_deg(engagement: Engagement, given: Setting) -> Array:
     """Approximate distance from mid-motion of the nearest pole of velocity and forces, degrees.
@@ -26,7 +23,8 @@ def spread_deg(engagement: Engagement, given: Setting) -> Array:
     as l sqrt(1 + x²/w²). Where friction holds a lever that vanishes there, w is the distance from
     mid-motion at which it no longer does.
     """
-    x = BESIDE * array(engagement.exit_deg)
+    # fraction of half a motion: at mid-motion itself a curved slot may have no slopes
+    x = 0.01 * array(engagement.exit_deg)
     _, _, lever, aside, *_ = at = contact(engagement, x, 2, reactions=False, spins=False)
     velocity = at.velocity
     with np.errstate(all="ignore"):
@@ -36,4 +34,5 @@ def spread_deg(engagement: Engagement, given: Setting) -> Array:
         if given.rubs:
             grip = np.abs(lever.c[0]) + given.friction * np.abs(aside.c[0])
             w = np.fmin(w, array(grip) / np.abs(lever.c[1]) / DEGREE)
-    return np.fmin(np.where(w > 0.0, w, np.inf), WIDEST * engagement.exit_deg)
+    # half motions: a function without poles is not spread
+    return np.fmin(np.where(w > 0.0, w, np.inf), 10.0 * engagement.exit_deg)

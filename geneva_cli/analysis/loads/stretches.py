@@ -26,9 +26,6 @@ if TYPE_CHECKING:
     from geneva_cli.numerics.arrays import Whole
     from geneva_cli.numerics.jet import Array
 
-COARSE = 1e-10  # fraction of a step that may lie between two adjacent angles
-ALIKE = 1e-9  # fraction of a stretch by which the ends of its mirror image may be off
-
 
 def spans_of(engagement: Engagement, n: int) -> list[tuple[Array, Array]]:
     """Ends of the smooth parts of a motion, one after the other: (n, 1) each."""
@@ -52,7 +49,8 @@ def mirror_images(pieces: Stretches) -> Whole:
     count = np.bincount(design, minlength=1)
     start = np.cumsum(count) - count
     other = 2 * start[design] + count[design] - 1 - every
-    close = ALIKE * (b - a)
+    # fraction of a stretch by which the ends of its mirror image may be off
+    close = 1e-9 * (b - a)
     alike = (np.abs(a + b[other]) <= close) & (np.abs(b + a[other]) <= close)
     images: Whole = np.where(alike & alike[other], other, every)
     return images
@@ -131,7 +129,8 @@ def refuse_rounding(engagement: Engagement, fastest: float) -> None:
     """
     furthest = max(abs(engagement.entry_deg), abs(engagement.exit_deg))
     share = fastest * math.ulp(furthest) * DEGREE / (2.0 * engagement.half_step)
-    if share > COARSE:
+    # fraction of a step that may lie between two adjacent angles
+    if share > 1e-10:
         raise GenevaError(
             f"the wheel moves {fastest:.2g} times as fast as the input, {share:.1g} of its step "
             "while the input's angle changes by its last digit: such loads would be rounding. Make "

@@ -41,8 +41,6 @@ if TYPE_CHECKING:
     from geneva_cli.numerics.arrays import Number
     from geneva_cli.numerics.jet import Array
 
-ZERO = 1e-14  # fraction of a peak that is rounding
-
 
 class LoadSummary(NamedTuple):
     """Greatest and least over the motions, mean and root mean square over a period.
@@ -151,7 +149,8 @@ def _ends_told(name: str, most: Array, least: Array) -> list[Array]:
     """
     found = [np.maximum(x, 0.0) if name in SIZES else np.asarray(x) for x in (most, least)]
     found = [np.sqrt(x) if name in SQUARED else x for x in found]
-    level = ZERO * np.maximum(*[np.where(np.isfinite(x), np.abs(x), 0.0) for x in found])
+    # fraction of a peak that is rounding
+    level = 1e-14 * np.maximum(*[np.where(np.isfinite(x), np.abs(x), 0.0) for x in found])
     return [np.where(np.abs(x) > level, x, 0.0) for x in found]
 
 

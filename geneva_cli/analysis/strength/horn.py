@@ -43,7 +43,6 @@ THICK = 0.5  # thickness at the mouth over the recess's radius, beyond which a h
 GRID = 61  # places and sections of the first sampling
 FINER = 33  # and of each finer one around the best of them
 SHARES = np.linspace(0.0, 1.0, FINER)
-ROUNDS = 3
 GROUP = 16  # designs at a time: their stresses stay in the cache
 NEAR = 1e-4  # fraction of a half motion: nearer to mid-motion a slot's direction is rounding
 SHEAR = 1.2  # of a rectangular section: energy of its shear stress over that of the mean stress
@@ -243,7 +242,7 @@ def _horns(
             some = taken(some, own)
             one = horns(*some[:3])[number]
             around = _Search(*(places[own] for places in around))
-        for _ in range(ROUNDS):  # the middle of the remaining places is the best so far
+        for _ in range(3):  # the middle of the remaining places is the best so far
             sample, around = _sampled(some[0], one, around, some[3])
             best[:, own] = np.where(np.isnan(sample[0]), best[:, own], sample)
         best[1, own] += np.ravel(one.whole.mid_deg - one.ahead_deg)

@@ -41,7 +41,6 @@ if TYPE_CHECKING:
     from geneva_cli.machine.mechanism import Mechanism
     from geneva_cli.numerics.jet import Array
 
-SECTIONS = 2001  # of a horn, summed by trapezoids: to a ten-thousandth at worst
 GROUP = 8  # designs at a time: their sections stay in the cache
 
 
@@ -169,7 +168,8 @@ def _weakest(mechanism: Mechanism, half_width: float, recess: float, phi: float)
     G = E / (2.0 * (1.0 + material.poisson_ratio))
     every = []
     for side in horns(mechanism, half_width, recess):
-        wall, normal = side.wall(side.places(SECTIONS))
+        # of a horn, summed by trapezoids: to a ten-thousandth at worst
+        wall, normal = side.wall(side.places(2001))
         thick, turned = side.feet(wall, normal)
         middle = wall + 0.5 * thick * normal
         towards = abs(product(side.centre, side.across)) / np.hypot(*side.centre)

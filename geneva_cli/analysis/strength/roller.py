@@ -40,7 +40,6 @@ if TYPE_CHECKING:
     from geneva_cli.numerics.jet import Array, Jet, Number
 
 EXPONENT = 10.0 / 3.0  # p, of line contact
-RATED = 1e6  # revolutions that C is rated for
 FORCE = ("pin_force_N",)  # the integrals are bounded where this quantity is
 
 
@@ -197,7 +196,8 @@ def lives(mechanism: Mechanism, each: Sequence[Passage]) -> Life:
         lasts: list[float | None] = [None] * 3
         capacity = spec.material_roller.dynamic_capacity_N
         if capacity is not None:  # without a force the life is unlimited
-            rated = RATED * (np.ravel(capacity) / force) ** EXPONENT
+            # revolutions that C is rated for
+            rated = 1e6 * (np.ravel(capacity) / force) ** EXPONENT
             lasts = [parameter(x) for x in (rated, rated / turns, rated / turns / often)]
     return Life(parameter(force), parameter(turns), *lasts)
 

@@ -20,9 +20,6 @@ from geneva_cli.numerics.jet import Jet, Number
 if TYPE_CHECKING:
     from geneva_cli.numerics.jet import Array
 
-SIGMAS = 3.0  # standard deviations in the plus or minus of a normal distribution
-LEAST = 2.0**-53  # a fraction of 0 would be infinitely far out
-
 
 class Deviations(NamedTuple):
     """Deviations of the dimensions in ``[tolerance]``, in their order."""
@@ -110,5 +107,7 @@ class Draws(NamedTuple):
             return 2.0 * quantile - 1.0
         from scipy.special import ndtri
 
-        out: Array = ndtri(np.maximum(quantile, LEAST)) / SIGMAS
+        # standard deviations in the plus or minus of a normal distribution
+        # a fraction of 0 would be infinitely far out
+        out: Array = ndtri(np.maximum(quantile, 2.0**-53)) / 3.0
         return out

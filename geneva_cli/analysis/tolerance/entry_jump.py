@@ -23,8 +23,6 @@ if TYPE_CHECKING:
 # Places on the path, in geometric progression from beside the true entry to half-way through the
 # motion: what is interpolated between two of them has a relative error of 1e-6 at most.
 PLACES = 8193
-FIRST = 1e-7  # of that span
-NOTHING = 3e-8  # the root of a distance from the axis, over L, that is rounding
 
 
 class Branch(NamedTuple):
@@ -88,11 +86,13 @@ def _branches(axis: SlotAxis) -> list[Branch]:
 def _branch(axis: SlotAxis, sense: float) -> Branch:
     anchor = axis.anchor
     span = 0.5 * axis.engagement.motion_deg * DEGREE
-    tau = sense * span * np.geomspace(FIRST, 1.0, PLACES)
+    # of that span
+    tau = sense * span * np.geomspace(1e-7, 1.0, PLACES)
     along, across = anchor.displacement(tau, 1)
     off, slope = across.arrays()
     root = np.sqrt(abs(off))
-    first = int(np.argmax(root > NOTHING))
+    # the root of a distance from the axis, over L, that is rounding
+    first = int(np.argmax(root > 3e-8))
     leaves = np.append(np.diff(root[first:]) > 0.0, False)
     part = slice(first, first + int(np.argmin(leaves)) + 1)  # as far as it leaves the axis
     side, root = float(np.sign(off[first])), root[part]

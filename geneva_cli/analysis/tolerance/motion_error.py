@@ -29,8 +29,6 @@ if TYPE_CHECKING:
 
 LOOKS = 361  # input angles at which a motion is sampled
 TAIL = 3.0  # plus or minuses: nine standard deviations
-FINER = 41  # and about the greatest of them
-CLOSER = 12  # samplings, each about the greatest of the last and a tenth as wide
 
 
 class MotionError(NamedTuple):
@@ -86,7 +84,9 @@ class MotionError(NamedTuple):
         best: Worst | None = None
         for side in (1.0, -1.0):
             low, high = entry, exit_
-            for looks in (LOOKS, *[FINER] * (CLOSER - 1)):
+            # and about the greatest of them
+            # samplings, each about the greatest of the last and a tenth as wide
+            for looks in (LOOKS, *[41] * (12 - 1)):
                 at = np.linspace(low, high, looks, axis=-1)
                 off = (array(self(each, at, side).c[0]) * side).max(axis=0)
                 at, every = np.broadcast_to(at, off.shape), np.arange(len(off))

@@ -17,7 +17,6 @@ if TYPE_CHECKING:
     from geneva_cli.numerics.jet import Array
 
 BLOCK = 32768  # machines at once: they stay in the processor's cache
-ROUNDING_MM = 1e-12
 
 
 class RandomMachines(NamedTuple):
@@ -55,7 +54,7 @@ def random_machines(
         if error:
             one, at, side = error
             motion[part] = one(by, at, side).c[0] * side
-            jam |= one.play_mm(by).c[0] < -ROUNDING_MM
+            jam |= one.play_mm(by).c[0] < -1e-12
         if entry:
             jump[part], misses = entry(by)
             missed += int(np.broadcast_to(misses, jam.shape).sum())

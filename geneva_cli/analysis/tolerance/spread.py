@@ -14,9 +14,6 @@ from geneva_cli.numerics.jet import Jet, Number
 if TYPE_CHECKING:
     from geneva_cli.numerics.jet import Array
 
-BINS = 60  # of a histogram
-MOST = 0.997  # of the machines are within p997
-
 
 class Spread(NamedTuple):
     """Error of the wheel's angle towards one side, degrees.
@@ -49,7 +46,8 @@ def spread(
     at_rest = _one(angle(deviations([0.0] * len(sizes))).c[0])
     parts = [_one(angle(slope_of(i)).c[1]) * size if size else 0.0 for i, size in enumerate(sizes)]
     rss = abs(at_rest) + math.sqrt(math.fsum(part * part for part in parts))
-    k = min(math.ceil(MOST * len(drawn)), len(drawn)) - 1
+    # of the machines are within p997
+    k = min(math.ceil(0.997 * len(drawn)), len(drawn)) - 1
     return Spread(
         math.degrees(worst),
         math.degrees(rss),
@@ -62,7 +60,8 @@ def spread(
 
 
 def _shape(drawn: Array) -> tuple[tuple[float, float], ...]:
-    counts, edges = np.histogram(np.degrees(drawn), BINS)
+    # of a histogram
+    counts, edges = np.histogram(np.degrees(drawn), 60)
     middles = 0.5 * (edges[:-1] + edges[1:])
     return tuple(zip(middles.tolist(), (counts / len(drawn)).tolist(), strict=True))
 

@@ -38,8 +38,6 @@ from geneva_cli.numerics.arrays import array, parameter
 if TYPE_CHECKING:
     from geneva_cli.numerics.arrays import Array
 
-MOST = 1 << 20  # places of machines with deviations that are computed together
-
 
 class MotionPlays(NamedTuple):
     """Greatest errors of wheels during a motion: (m,) each.
@@ -63,7 +61,8 @@ def motion_plays(mechanism: Mechanism) -> MotionPlays | None:
     if not errors:
         return None
     m, machines = mechanism.designs, 2 ** sum(bool(np.any(size)) for size in sizes)
-    group = max(1, MOST // (machines * LOOKS))
+    # places of machines with deviations that are computed together
+    group = max(1, (1 << 20) // (machines * LOOKS))
     parts = [
         _of(taken(mechanism, slice(i, i + group)), min(group, m - i)) for i in range(0, m, group)
     ]

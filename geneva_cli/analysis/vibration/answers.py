@@ -75,7 +75,6 @@ STATION = (
     "steady_share",
 )
 NUMBERS = (*Vibrations._fields, "speeds_to_avoid_rpm")
-OFF = 0.01  # fraction by which a tuned law may miss its period ratio without a warning
 UNDAMPED = (
     "steady_share is not computed: without damping (damping_ratio in [shaft], or --damping) the "
     "vibration never dies out, and there is no steady state"
@@ -94,7 +93,8 @@ def _warnings(mechanism: Mechanism, load: Oscillator, least: float) -> list[Noti
         )
     law = mechanism.law
     tuned = law.tuned_to if law else None
-    if tuned and not math.isclose(load.ratio, tuned, rel_tol=OFF):
+    # fraction by which a tuned law may miss its period ratio without a warning
+    if tuned and not math.isclose(load.ratio, tuned, rel_tol=0.01):
         n_rpm = mechanism.spec.drive.n_rpm * load.ratio / tuned
         out.append(
             Notice(

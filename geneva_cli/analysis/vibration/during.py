@@ -14,9 +14,6 @@ if TYPE_CHECKING:
 
 legendre = np.polynomial.legendre
 REACH = 2.0  # greatest |p h|, h half a piece's width: a matter of a dozen terms
-BLOCK = 4096  # pieces at a time
-NEAR = 0.02  # fraction of the greatest sample by which a sample may be below its piece's maximum
-NEWTON = 8  # steps from the greatest sample of a piece to its maximum
 
 # values at the nodes -> integrals from -1 to each node, and to 1
 _ENDS = np.append(X, 1.0)
@@ -42,7 +39,8 @@ def greatest_accelerations(panels: Panels, motion: Whole, swing: Swing) -> Array
     total = np.append(begin[1:], last[-1]) - begin
     active, start, z = np.arange(len(motion)), 0, np.zeros(len(motion), dtype=complex)
     while len(active):
-        wide = max(1, BLOCK // len(active))
+        # pieces at a time
+        wide = max(1, 4096 // len(active))
         at = start + np.arange(min(wide, int(total[active].max()) - start))
         there = at < total[active][:, None]
         number = (begin[active][:, None] + at)[there]
@@ -95,12 +93,14 @@ def _take_most(most: Array, load: Array, of: Whole) -> None:
     """
     size = np.abs(load)
     np.maximum.at(most, of, size.max(axis=1))
-    near = np.flatnonzero(size.max(axis=1) >= most[of] * (1.0 - NEAR))
+    # fraction of the greatest sample by which a sample may be below its piece's maximum
+    near = np.flatnonzero(size.max(axis=1) >= most[of] * (1.0 - 0.02))
     series = (load[near, :NODES] @ SERIES.T).T
     slope = legendre.legder(series)
     bend = legendre.legder(slope)
     x = X[size[near, :NODES].argmax(axis=1)]
-    for _ in range(NEWTON):
+    # steps from the greatest sample of a piece to its maximum
+    for _ in range(8):
         turn = legendre.legval(x, bend, tensor=False)
         step = np.divide(
             legendre.legval(x, slope, tensor=False), turn, out=np.zeros_like(x), where=turn != 0.0

@@ -18,11 +18,7 @@ from geneva_cli.analysis.vibration.panels import Panels
 if TYPE_CHECKING:
     from geneva_cli.numerics.arrays import Array, Whole
 
-PER_ONE = 16  # samples for each 1 of the period ratio
-FEWEST = 64
 DEGREE = 12  # of the polynomial between two samples about a maximum: exact to a double there
-NEWTON = 6
-SAMPLED = 1.02  # by which a variation may exceed that of its samples
 _chebyshev = np.polynomial.chebyshev
 
 
@@ -39,7 +35,8 @@ def lobes(share_at: Callable[[Whole, Array], Array], low: Array, high: Array) ->
 
     ``share_at(which, ratio)`` gives the residuals of the oscillators ``which``, (k,) each.
     """
-    count = np.maximum(FEWEST, np.ceil(PER_ONE * (high - low)).astype(np.intp))
+    # samples for each 1 of the period ratio
+    count = np.maximum(64, np.ceil(16 * (high - low)).astype(np.intp))
     maxima = []
     for number in np.unique(count).tolist():
         some = np.flatnonzero(count == number)
@@ -59,7 +56,7 @@ def lobes(share_at: Callable[[Whole, Array], Array], low: Array, high: Array) ->
     slope = _chebyshev.chebder(series)
     bend = _chebyshev.chebder(slope)
     x = np.zeros(len(which))
-    for _ in range(NEWTON):
+    for _ in range(6):
         turn = _chebyshev.chebval(x, bend, tensor=False)
         rate = _chebyshev.chebval(x, slope, tensor=False)
         step = np.divide(rate, turn, out=np.zeros_like(x), where=turn < 0.0)
@@ -76,6 +73,7 @@ def highest_ratio(panels: Panels, share: float, damping: float) -> float:
     """
     variation = panels.variation[: int(panels.smooth[0]) + 1, 0]
     orders = np.arange(1, len(variation) + 1)
-    most = SAMPLED * variation / math.sqrt(1.0 - damping * damping)
+    # by which a variation may exceed that of its samples
+    most = 1.02 * variation / math.sqrt(1.0 - damping * damping)
     omega = (most / share) ** (1.0 / orders)
     return float(omega.min()) / (2.0 * math.pi)

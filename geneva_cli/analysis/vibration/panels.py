@@ -21,13 +21,9 @@ if TYPE_CHECKING:
 
 NODES = 32  # of Gauss's rule on a panel
 TERMS = 20  # of Legendre's series that are kept
-TAIL = 6  # the last of them, which say whether the series has ended
-ENDED = 1e-13  # fraction of a derivative's greatest value, some hundred roundings of it
-JUMP = 1e-12  # fraction of a derivative's greatest value: a smaller jump is rounding
 HIGHEST, LOWEST = 5, 2  # order of the derivatives that are used at most, and at least
 PANELS = 20_000  # with more panels, a higher derivative does not pay
 SAME = 1e-13  # fraction of a width within which two widths are equal
-NARROW = 1e-12  # fraction of the motion: a panel is not halved further
 
 X = np.polynomial.legendre.leggauss(NODES)[0]
 
@@ -118,7 +114,8 @@ def panelled(derivatives: Derivatives, breaks: Array) -> Panels:
     jumps, variation = _jumps(motion, values, series, m)
     # the wheel starts and stops without a jump of velocity
     number = np.arange(1, HIGHEST)[:, None]
-    goes_on = (number < top - 1) & (jumps[1:] <= JUMP * greatest[1:])
+    # fraction of a derivative's greatest value: a smaller jump is rounding
+    goes_on = (number < top - 1) & (jumps[1:] <= 1e-12 * greatest[1:])
     smooth = 1 + np.cumprod(goes_on, axis=0).sum(axis=0)
     return Panels(motion, left, right, series[..., :TERMS], smooth, greatest, variation)
 
@@ -146,8 +143,11 @@ def _refined(
         rates = derivatives(left + width * (0.5 * (1.0 + X)), motion, order)
         for row, values in zip(greatest, np.abs(rates).max(axis=2), strict=True):
             np.maximum.at(row, motion, values)
-        tail = np.abs(rates @ SERIES[TERMS - TAIL :].T).max(axis=2)
-        ended = (tail <= ENDED * greatest[:, motion]).all(axis=0) | (width[:, 0] < NARROW)
+        # the last of them, which say whether the series has ended
+        tail = np.abs(rates @ SERIES[TERMS - 6 :].T).max(axis=2)
+        # fraction of a derivative's greatest value, some hundred roundings of it
+        # fraction of the motion: a panel is not halved further
+        ended = (tail <= 1e-13 * greatest[:, motion]).all(axis=0) | (width[:, 0] < 1e-12)
         closed.append(_Refined(motion[ended], open_[ended], rates[:, ended]))
         rest, of = open_[~ended], motion[~ended]
         middle = rest.mean(axis=1)

@@ -28,7 +28,6 @@ if TYPE_CHECKING:
 
     from geneva_cli.numerics.arrays import Array, Complex, Whole
 
-BLOCK = 1 << 14  # pairs of an oscillator and a panel at a time, so that they stay in the cache
 SMALL, POWERS = 0.5, 20  # up to this |q| a power series of so many terms
 LARGE = float(TERMS)  # above it the recurrence goes upwards
 SPLIT = 2.0**26  # half of a double's bits
@@ -91,7 +90,8 @@ def residual_swing(panels: Panels, motion: Whole, swing: Swing) -> Complex:
         start = 0
         while start < len(at):
             done = count[start - 1] if start else 0
-            stop = max(start + 1, int(np.searchsorted(count, done + BLOCK, side="right")))
+            # pairs of an oscillator and a panel at a time, so that they stay in the cache
+            stop = max(start + 1, int(np.searchsorted(count, done + (1 << 14), side="right")))
             part = at[start:stop]
             some = Swing(swing.ratio[part], swing.damping[part])
             p = some.p

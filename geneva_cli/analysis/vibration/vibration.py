@@ -47,7 +47,6 @@ if TYPE_CHECKING:
 SOFTER, STIFFER = math.sqrt(0.8), math.sqrt(1.2)  # the natural frequency's at 20 % of stiffness
 SLOWER, FASTER = 0.5, 2.0  # range of speeds over the design's
 AVOIDED = 1e-4  # least share of the step that makes a speed one to avoid
-TIE = 1e-12  # fraction of a residual: a lobe lower than the greatest by less is equal
 GROUP = 32  # designs at a time: the panels of each are some 20 kB, and stay in the cache
 
 
@@ -290,7 +289,8 @@ def speeds_to_avoid(mechanism: Mechanism, load: Oscillator) -> list[Avoid]:
             continue
         tops = own.lobes(index, np.array([low]), np.array([high]))
         most = np.abs(own.residuals(tops.ratio, tops.which)).max(axis=0)
-        kept = (tops.share >= AVOIDED) & (tops.share >= most * (1.0 - TIE))
+        # fraction of a residual: a lobe lower than the greatest by less is equal
+        kept = (tops.share >= AVOIDED) & (tops.share >= most * (1.0 - 1e-12))
         places += zip(tops.ratio[kept].tolist(), tops.share[kept].tolist(), strict=True)
     speeds = [(n_rpm * load.ratio / ratio, share) for ratio, share in places]
     return [Avoid(n, n * SOFTER, n * STIFFER, share) for n, share in sorted(speeds)]

@@ -18,12 +18,8 @@ from geneva_cli.bench.truth import acceleration_peak, relative
 from geneva_cli.machine.wheels.side_crank_arrays import acceleration_peaks, wheels
 from geneva_cli.numerics.angles import one_minus_sin_pi
 
-DESIGNS = 100_000
-QUICK = 2_000
-SAMPLE = 50  # designs of which a loop over single designs is run
 CHECKED = 200  # designs whose error is measured
 BLOCK = 4096  # designs at a time, for every vectorised method
-SECANTS = 6  # steps
 
 
 class Designs:
@@ -109,7 +105,8 @@ def secants(d: Proportions, n: int) -> Any:
 
     def root(part: Proportions, a: Any, b: Any) -> Any:
         x, value, last, before = b, jerk(np, part, b), a, jerk(np, part, a)
-        for _ in range(SECANTS):
+        # steps
+        for _ in range(6):
             fall = np.where(value == before, 1.0, value - before)
             x, last = np.clip(x - value * (x - last) / fall, a, b), x
             value, before = jerk(np, part, x), value
@@ -134,7 +131,7 @@ VECTORISED: list[tuple[str, Callable[[Proportions, int], Any], tuple[int, ...]]]
 
 def subject(quick: bool) -> Subject:
     """Every method on one set of designs."""
-    count = QUICK if quick else DESIGNS
+    count = 2_000 if quick else 100_000
     designs = Designs(count)
     methods = [
         Method(name, n, partial(designs.blocks, partial(_sized, method, n)))
@@ -142,7 +139,8 @@ def subject(quick: bool) -> Subject:
         if method is not find_root or _has_find_root()
         for n in (sizes[:2] if quick else sizes)
     ]
-    sample = 5 if quick else SAMPLE
+    # designs of which a loop over single designs is run
+    sample = 5 if quick else 50
     for numeric in () if quick else NUMERIC:
         size = numeric.sizes[2]
         methods.append(

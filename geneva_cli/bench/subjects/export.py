@@ -21,7 +21,6 @@ from geneva_cli.table import Table
 
 COUNTS = (1_000, 100_000, 1_000_000)
 TRACED = 100_000  # rows
-MEGABYTE = 1e6
 
 
 class Sink(io.TextIOBase):
@@ -138,7 +137,7 @@ def _memory(
         tracemalloc.start()
         try:
             run(table, Sink())
-            return tracemalloc.get_traced_memory()[1] / MEGABYTE
+            return tracemalloc.get_traced_memory()[1] / 1e6
         finally:
             tracemalloc.stop()
 

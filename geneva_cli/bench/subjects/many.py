@@ -39,7 +39,6 @@ if TYPE_CHECKING:
     from geneva_cli.machine.engagement import Motion
     from geneva_cli.numerics.jet import Array
 
-SECONDS = 0.2  # of a method's own time: there are two hundred of them
 GRID, BLOCK = 101, 512
 NAMES = ("velocity", "acceleration")
 
@@ -47,6 +46,7 @@ NAMES = ("velocity", "acceleration")
 def subject(quick: bool) -> Subject:
     """One task for each machine, and one for each request to the loads of some machines."""
     peaks = [_task(kind, QUICK if quick else kind.most) for kind in KINDS]
+    # of a method's own time: there are two hundred of them
     return Subject(
         "Peaks of velocity, acceleration and loads of many designs of every machine",
         f"greatest relative error of {QUICK_CHECKED if quick else CHECKED} designs' peaks against "
@@ -54,7 +54,7 @@ def subject(quick: bool) -> Subject:
         "side-cranks against 50 digits",
         [*peaks, *loads_of_many.tasks(quick)],
         floor=1e-14,
-        seconds=SECONDS,
+        seconds=0.2,
     )
 
 

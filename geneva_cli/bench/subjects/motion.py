@@ -22,7 +22,6 @@ if TYPE_CHECKING:
 Z = 3  # the wheel that is hardest for a formula
 COUNTS = (1_000, 1_000_000)
 BLOCK = 8192  # angles at a time
-CHECKED = 200  # angles whose error is measured, ends and middle among them
 
 
 def textbook(l: float, x: Array, orders: Sequence[int]) -> list[Array]:
@@ -161,8 +160,9 @@ def _task(count: int, what: str, orders: tuple[int, ...]) -> Task:
 def _error(results: Any, input_deg: Array, orders: Sequence[int]) -> float:
     """Greatest error at an even sample of the angles, with the ends and the two middle ones."""
     n = len(input_deg)
+    # angles whose error is measured, ends and middle among them
     sample = np.unique(
-        np.concatenate((np.linspace(0, n - 1, CHECKED).astype(int), [n // 2 - 1, n // 2]))
+        np.concatenate((np.linspace(0, n - 1, 200).astype(int), [n // 2 - 1, n // 2]))
     )
     exact = [_exact(float(input_deg[i])) for i in sample]
     worst = 0.0

@@ -21,7 +21,6 @@ from geneva_cli.machine.wheels import classic
 
 DESIGNS = ((3, "external", 0.0), (6, "external", 0.6), (4, "internal", 0.95))
 CHEBPY = "chebfun"  # the package name of chebpy in pip, as another package has that name
-QUICK = 2  # number of a method's sizes in a quick run
 
 
 def subject(quick: bool) -> Subject:
@@ -37,10 +36,11 @@ def subject(quick: bool) -> Subject:
 
 def _task(z: int, gearing: str, A: float, quick: bool) -> Task:
     d = Proportions.of(z, gearing, A)
+    # number of a method's sizes in a quick run
     methods = [
         Method(numeric.name, size, partial(_run, numeric.run, d, size))
         for numeric in NUMERIC
-        for size in (numeric.sizes[:QUICK] if quick else numeric.sizes)
+        for size in (numeric.sizes[:2] if quick else numeric.sizes)
     ]
     if not missing(CHEBPY):
         methods.append(Method("chebpy, roots of the slope", None, partial(by_chebpy, d)))

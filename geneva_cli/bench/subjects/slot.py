@@ -24,7 +24,6 @@ if TYPE_CHECKING:
     from geneva_cli.numerics.jet import Array
 
 TOLERANCES = (1e-2, 1e-3, 1e-4, 1e-5, 1e-6)  # mm
-QUICK = 2
 GREEDY_FINEST = 1e-4  # the greedy search takes minutes below
 STARTS = 17  # the first guess of the methods that refine one
 
@@ -168,7 +167,7 @@ def _methods(mechanism: Mechanism, shape: str, quick: bool) -> list[Method]:
             pieces=lambda answer: answer[0].pieces(answer[1]),
         )
         for way in PIECES
-        for tolerance in TOLERANCES[: QUICK if quick else None]
+        for tolerance in TOLERANCES[: 2 if quick else None]
         if way.shape == shape and tolerance >= way.finest and not (quick and way.run is greedy)
     ]
 
