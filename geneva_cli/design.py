@@ -42,7 +42,7 @@ from geneva_cli.spec.tables import (
 if TYPE_CHECKING:
     from geneva_cli.analysis.certificate import Certificate
     from geneva_cli.analysis.loads.cycle import Cycle
-    from geneva_cli.analysis.loads.summary import Summary
+    from geneva_cli.analysis.loads.summary import QuantitySummary
     from geneva_cli.analysis.peaks import Peaks
     from geneva_cli.analysis.timing import Timing
     from geneva_cli.curves.drawing import Drawing
@@ -347,7 +347,7 @@ class Design:
         return cycle_of(self.mechanism)
 
     @answer
-    def loads(self) -> Mapping[str, Summary]:
+    def loads(self) -> Mapping[str, QuantitySummary]:
         """Greatest, least, mean and root-mean-square of each load over a period, by its name.
 
         None for an unbounded value, or if its inputs are not given. Newtons, newton metres,

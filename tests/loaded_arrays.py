@@ -3,10 +3,10 @@
 import numpy as np
 from design_arrays import MACHINES, drawn
 
-from geneva_cli.analysis.loads.contact import NEAR, contact
-from geneva_cli.analysis.loads.forces import setting
-from geneva_cli.analysis.loads.loaded import Loaded, look
-from geneva_cli.analysis.loads.loaded import machine as of
+from geneva_cli.analysis.loads.contact import NEAR_CUSP, contact
+from geneva_cli.analysis.loads.forces import load_case
+from geneva_cli.analysis.loads.loaded import LoadFunctions, signed_instant
+from geneva_cli.analysis.loads.loaded import load_batch as of
 from geneva_cli.analysis.loads.quantities import QUANTITIES, SQUARED
 from geneva_cli.analysis.loads.summaries import LoadSummary, load_summaries
 from geneva_cli.analysis.loads.summary import plain
@@ -114,7 +114,7 @@ def dense_means(cycle, name, parts=2000):
     for engagement, stretch in cycle.stretches:
         a, b = stretch.start, stretch.end
         if engagement.slot.curved and 0.0 in (a, b):  # a parabola to mid-motion, as beside it
-            gap = NEAR * (engagement.exit_deg if b else engagement.entry_deg)
+            gap = NEAR_CUSP * (engagement.exit_deg if b else engagement.entry_deg)
             a, b = (gap if end == 0.0 else end for end in (a, b))
             beside = both(engagement, stretch, gap * np.array([1.0, 2.0, 3.0]))
             for k, values in enumerate(beside):
@@ -134,19 +134,19 @@ def beyond(found, places, seed, names=NAMES):
     """
     random = np.random.default_rng(seed)
     machine, n = found.machine, len(found.which)
-    together = load_summaries(machine, names, told=())
+    together = load_summaries(machine, names, requested=())
     out = np.full((n, len(names)), -np.inf)
     for engagement in machine.engagements:
         for i in range(0, n, BLOCK):
             part = slice(i, min(i + BLOCK, n))
-            some = taken(of(engagement, setting(machine), names, {}), part)
+            some = taken(of(engagement, load_case(machine), names, {}), part)
             here, given, _ = some
             a, b = (np.reshape(x, (-1, 1)) for x in (here.entry_deg, here.exit_deg))
             share = (np.arange(places) + random.random((part.stop - i, places))) / places
             x = np.asfortranarray(a + (b - a) * np.clip(share, 1e-9, 1.0 - 1e-9))
-            load = Loaded(some, names)
+            load = LoadFunctions(some, names)
             with np.errstate(all="ignore"):
-                found_ = look(
+                found_ = signed_instant(
                     load.kinds, given, contact(here, x, reactions=load.reactions), None
                 ).instant
             for k, name in enumerate(names):
@@ -158,7 +158,7 @@ def beyond(found, places, seed, names=NAMES):
 def _passed(here, name, one, shape):
     row = QUANTITIES[name](here)
     value = np.broadcast_to(row.value.c[0], shape)
-    lost = False if row.room is None else row.room.c[0] <= 0.0
+    lost = False if row.margin is None else row.margin.c[0] <= 0.0
     there = np.isfinite(value) & ~np.asarray(lost)
     if name in SQUARED:
         value = np.sqrt(np.maximum(value, 0.0))

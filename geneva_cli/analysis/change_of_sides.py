@@ -28,7 +28,6 @@ if TYPE_CHECKING:
     from geneva_cli.numerics.arrays import Whole
     from geneva_cli.numerics.jet import Array
 
-BLOCK = 256  # changes whose integrals are computed together, which fit in the cache
 NODES, WEIGHTS = np.polynomial.legendre.leggauss(24)  # exact to a double over half a motion
 
 
@@ -73,9 +72,9 @@ def changes(engagement: Engagement, drag: Array) -> Changes:
         _, _, a, j = taken(motion, of[live])(place[:, None], 3).arrays()
         return (a + drag[of[live]])[:, 0], (j * DEGREE + 0.0 * place[:, None])[:, 0]
 
-    # of a bracket: after a Newton step this short, the rest is rounding
+    # after a Newton step of 1e-9 of the bracket the rest is rounding
     roots = find_roots(over, x[before], x[before + 1], 1e-9)
-    # nearer to mid-motion, a change of sign is at mid-motion
+    # a change of sign within 1e-12 degrees of mid-motion is at mid-motion
     return Changes(of, np.where(abs(roots) < 1e-12, 0.0, roots))
 
 
@@ -94,9 +93,9 @@ def impacts_of(engagement: Engagement, at: Changes, play: Array, drag: Array) ->
     """
     if not len(at.x):
         return WallImpacts(at.x, at.x, at.x)
-    parts = []
-    for i in range(0, len(at.x), BLOCK):
-        part = slice(i, i + BLOCK)
+    parts, block = [], 256  # changes whose integrals are computed together, which fit in the cache
+    for i in range(0, len(at.x), block):
+        part = slice(i, i + block)
         parts.append(_impacts(engagement, Changes(at.which[part], at.x[part]), play[part], drag))
     return WallImpacts(*(np.concatenate(row) for row in zip(*parts, strict=True)))
 

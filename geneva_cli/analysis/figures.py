@@ -16,7 +16,7 @@ import numpy as np
 from geneva_cli.analysis import peaks
 from geneva_cli.analysis.loads import summary
 from geneva_cli.analysis.loads.cycle import Cycle, Extremes
-from geneva_cli.analysis.loads.quantities import known_quantities, shares
+from geneva_cli.analysis.loads.quantities import known_quantities, multiples
 from geneva_cli.analysis.motion import first_entry_deg
 from geneva_cli.analysis.stages import MOTION, WHEEL, Stage, load_stages, motion_stages, pieces
 from geneva_cli.errors import GenevaError, Notice, cut, few, nearest
@@ -24,8 +24,7 @@ from geneva_cli.figure import Axis, Curve, Figure, Mark, Panel, Piece
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.numerics.tolerances import ROUNDED, SAME_INPUT_DEG
 
-MOST = 6  # machines in one figure that the eye can tell apart
-INPUT = Axis("input_deg", "Input angle", "deg")
+MACHINES_MAX = 6  # machines in one figure that the eye can tell apart
 AXES = (
     Axis(WHEEL, "Wheel angle", "deg"),
     Axis("velocity", "Speed of the wheel, relative to the input"),
@@ -49,8 +48,16 @@ AXES = (
     Axis("crank_near_bearing_N", "Crank's nearer bearing", "N"),
     Axis("crank_far_bearing_N", "Crank's farther bearing", "N"),
 )
-OF_NAME = {axis.name: axis for axis in AXES}
-USUAL = (WHEEL, "velocity", "acceleration", "jerk", "pin_force_N", "input_torque_Nm", "power_W")
+AXIS_BY_NAME = {axis.name: axis for axis in AXES}
+USUAL_QUANTITIES = (
+    WHEEL,
+    "velocity",
+    "acceleration",
+    "jerk",
+    "pin_force_N",
+    "input_torque_Nm",
+    "power_W",
+)
 
 
 LeftOut: TypeAlias = tuple[str, str]  # a machine's name, and a sentence on what it lacks
@@ -67,26 +74,28 @@ class MachineCurves(NamedTuple):
 def figure(cycles: Mapping[str, Cycle], pick: Sequence[str] = ()) -> tuple[Figure, list[LeftOut]]:
     """The figure of machines by their names, and the curves that it lacks, with reasons.
 
-    ``pick`` are names of quantities; without it, those of ``USUAL`` that are known. Raises
+    ``pick`` are names of quantities; by default the known ones of ``USUAL_QUANTITIES``. Raises
     GenevaError for an unknown name, and for a requested quantity that no machine has.
 
     >>> from geneva_cli import Design, External
-    >>> found, left_out = figure({"six": Design(External(6)).cycle}, ["velocity"])
-    >>> found.panels[0].curves[0].marks
+    >>> velocities, left_out = figure({"six": Design(External(6)).cycle}, ["velocity"])
+    >>> velocities.panels[0].curves[0].marks
     (Mark(word='peak', x=0.0, y=1.0),)
     """
-    if len(cycles) > MOST:
-        raise GenevaError(f"{len(cycles)} designs in one figure; at most {MOST} can be told apart")
-    asked = tuple(dict.fromkeys(pick)) or USUAL
-    for name in asked:
-        if name not in OF_NAME:
+    if len(cycles) > MACHINES_MAX:
+        raise GenevaError(
+            f"{len(cycles)} designs in one figure; at most {MACHINES_MAX} can be told apart"
+        )
+    requested = tuple(dict.fromkeys(pick)) or USUAL_QUANTITIES
+    for name in requested:
+        if name not in AXIS_BY_NAME:
             raise GenevaError(
-                f"--pick {cut(name)}: no quantity of a cycle{nearest(name, OF_NAME)}; it must be "
-                f"one of {few(name, OF_NAME)}"
+                f"--pick {cut(name)}: no quantity of a cycle{nearest(name, AXIS_BY_NAME)}; "
+                f"it must be one of {few(name, AXIS_BY_NAME)}"
             )
     has = {design: _known(cycle) for design, cycle in cycles.items()}
-    shown = [name for name in asked if any(name in known for known in has.values())]
-    missing = [name for name in asked if name not in shown]
+    shown = [name for name in requested if any(name in known for known in has.values())]
+    missing = [name for name in requested if name not in shown]
     if missing and pick:
         raise GenevaError(f"--pick {missing[0]}: {_why(next(iter(cycles.values())), missing[0])}")
     machines = [cycle.mechanism for cycle in cycles.values()]
@@ -97,9 +106,15 @@ def figure(cycles: Mapping[str, Cycle], pick: Sequence[str] = ()) -> tuple[Figur
         for design, cycle in cycles.items()
     }
     panels = tuple(_panel(name, drawn) for name in shown)
-    made = Figure(_title(machines), INPUT, panels, window, tuple(_rests(machines, window)))
-    left = {d: [n for n in asked if n not in known] for d, known in has.items()}
-    return made, [(d, line) for d, names in left.items() for line in _left_out(cycles[d], names)]
+    picture = Figure(
+        _title(machines),
+        Axis("input_deg", "Input angle", "deg"),
+        panels,
+        window,
+        tuple(_rests(machines, window)),
+    )
+    left = {d: [n for n in requested if n not in known] for d, known in has.items()}
+    return picture, [(d, line) for d, names in left.items() for line in _left_out(cycles[d], names)]
 
 
 def _title(machines: Sequence[Mechanism]) -> str:
@@ -111,8 +126,8 @@ def _title(machines: Sequence[Mechanism]) -> str:
 
 def _known(cycle: Cycle) -> set[str]:
     loads = set(known_quantities(cycle.mechanism))
-    shared = shares(cycle.mechanism).items()
-    loads |= {name for name, (of, share, _) in shared if share is not None and of in loads}
+    shared = multiples(cycle.mechanism).items()
+    loads |= {name for name, (of, factor, _) in shared if factor is not None and of in loads}
     return {*MOTION, *loads}
 
 
@@ -127,10 +142,10 @@ def _left_out(cycle: Cycle, names: Sequence[str]) -> Iterator[str]:
 
 def _why(cycle: Cycle, name: str) -> str:
     """The reason why a machine does not have a quantity."""
-    said = summary.missing(cycle)
+    notices = summary.missing(cycle)
     if not cycle.is_loaded:
-        return said[0]
-    for line in said:
+        return notices[0]
+    for line in notices:
         names, _, why = line.partition(": ")
         if name in names.split(", "):
             return why
@@ -140,14 +155,14 @@ def _why(cycle: Cycle, name: str) -> str:
 def _panel(name: str, drawn: Mapping[str, MachineCurves]) -> Panel:
     curves: list[Curve] = []
     bounds: list[float] = []
-    for number, (design, found) in enumerate(drawn.items()):
-        if name in found.pieces:
-            marks = found.marks[name]
+    for number, (design, machine_curves) in enumerate(drawn.items()):
+        if name in machine_curves.pieces:
+            marks = machine_curves.marks[name]
             if len(drawn) > 1:  # one mark for each design: the greater in size
                 marks = tuple(sorted(marks, key=_size, reverse=True)[:1])
-            curves.append(Curve(number, design, tuple(found.pieces[name]), marks))
-            bounds += found.bounds.get(name, ())
-    return Panel(OF_NAME[name], tuple(curves), (min(bounds), max(bounds)) if bounds else None)
+            curves.append(Curve(number, design, tuple(machine_curves.pieces[name]), marks))
+            bounds += machine_curves.bounds.get(name, ())
+    return Panel(AXIS_BY_NAME[name], tuple(curves), (min(bounds), max(bounds)) if bounds else None)
 
 
 def _size(mark: Mark) -> float:
@@ -162,15 +177,15 @@ def _drawn(cycle: Cycle, names: Sequence[str], window: tuple[float, float]) -> M
     if moves:
         stages = list(motion_stages(machine, moves))
         rise = [step if n == WHEEL else 0.0 for n in moves]
-        found = pieces(stages, machine.period_deg, window, rise)
-        out.pieces.update(zip(moves, found, strict=True))
+        curves = pieces(stages, machine.period_deg, window, rise)
+        out.pieces.update(zip(moves, curves, strict=True))
         out.marks.update((n, _peak(machine, n, i, stages, window)) for i, n in enumerate(moves))
     if loads:
         ends = {name: cycle.extremes[name] for name in loads}
         out.bounds.update(_bounds(cycle, ends))
         stages = list(load_stages(cycle, loads, out.bounds))
-        found = pieces(stages, machine.period_deg, window, [0.0] * len(loads))
-        out.pieces.update(zip(loads, found, strict=True))
+        curves = pieces(stages, machine.period_deg, window, [0.0] * len(loads))
+        out.pieces.update(zip(loads, curves, strict=True))
         for name, bounds in out.bounds.items():
             out.pieces[name] = [cut for p in out.pieces[name] for cut in _within(p, bounds)]
         out.marks.update((n, tuple(_ends(machine, ends[n], window))) for n in loads)
@@ -187,17 +202,17 @@ def _peak(
     """The greatest size of a quantity of the motion, with its sign; none for the wheel's angle."""
     if name == WHEEL:
         return ()
-    found = peaks.worst_of(machine, name)
+    peak = peaks.worst_of(machine, name)
     first = first_entry_deg(machine)
-    x = _placed(machine, found.at_deg, (first, first))
+    x = _placed(machine, peak.at_deg, (first, first))
     values = [
         float(stage.of(np.array([x]))[row, 0])
         for stage in stages
         if stage.start - SAME_INPUT_DEG <= x <= stage.end + SAME_INPUT_DEG
     ]
-    nearest_to = min(values, key=lambda value: abs(abs(value) - found.max))
-    y = math.copysign(found.max, nearest_to)
-    return (Mark("peak", _placed(machine, found.at_deg, window), y),)
+    nearest_to = min(values, key=lambda value: abs(abs(value) - peak.max))
+    y = math.copysign(peak.max, nearest_to)
+    return (Mark("peak", _placed(machine, peak.at_deg, window), y),)
 
 
 def _ends(machine: Mechanism, ends: Extremes, window: tuple[float, float]) -> Iterator[Mark]:
@@ -228,7 +243,7 @@ def _bounds(cycle: Cycle, ends: Mapping[str, Extremes]) -> dict[str, tuple[float
             middle = np.array([0.5 * (stretch.start + stretch.end)])
             here = summary.plain(cycle, cycle.along(engagement, stretch, middle), name)
             sizes.append(abs(float(here[0])))
-        # times its typical size, the visible range of an unbounded load
+        # an unbounded load is visible up to three times its typical size
         high = 3.0 * max((size for size in sizes if math.isfinite(size)), default=1.0)
         low, top = ends[name].min, ends[name].max
         out[name] = -high if math.isinf(low) else low, high if math.isinf(top) else top

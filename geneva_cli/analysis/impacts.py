@@ -20,9 +20,6 @@ from geneva_cli.numerics.arrays import all_true, library, only_of, parameter
 if TYPE_CHECKING:
     from geneva_cli.numerics.jet import Array
 
-# of the centre distance: where the slot lies across the path, the play is unbounded
-NO_LEVER = 1e-6
-
 
 class Impact(NamedTuple):
     """A jump of the wheel's velocity over the input's, with its force and moment.
@@ -148,8 +145,9 @@ def _reversal(mechanism: Mechanism, engagement: Engagement) -> Array:
     if not len(at.x):
         return out
     lever = abs(touching(taken(engagement, at.which), at.x[:, None]).lever.arrays()[0][:, 0])
-    sine = clearance[at.which, 0] / (np.maximum(lever, NO_LEVER) * L[at.which, 0])
-    play = np.where(lever > NO_LEVER, 2.0 * np.arcsin(np.minimum(sine, 1.0)), 0.0)
+    least = 1e-6  # of the centre distance: where the slot lies across the path, play is unbounded
+    sine = clearance[at.which, 0] / (np.maximum(lever, least) * L[at.which, 0])
+    play = np.where(lever > least, 2.0 * np.arcsin(np.minimum(sine, 1.0)), 0.0)
     struck = impacts_of(engagement, at, play, drag)
     # hardest of each design; of equal ones the first
     order = np.lexsort((np.nan_to_num(-struck.speed, nan=np.inf), at.which))

@@ -17,8 +17,7 @@ from geneva_cli.machine.laws.law import Law
 from geneva_cli.spec.schema import REQUIRED, fields
 from geneva_cli.table import Reading, Table, rows_table
 
-NAMES = ("law", "C_v", "C_a", "C_j", "C_p", *CamFactors._fields, "about")
-FIRST = ("law", "about")  # columns that a narrow window keeps; the others follow in order
+LAW_COLUMNS = ("law", "C_v", "C_a", "C_j", "C_p", *CamFactors._fields, "about")
 
 
 class Characteristic(NamedTuple):
@@ -52,9 +51,10 @@ def laws_table(shape: float) -> Table:
         kind = registry.law(name)
         keys = fields(kind)
         if any(key.default is REQUIRED for key in keys):  # a user's own law has no values yet
-            rows.append((name, *[None] * (len(NAMES) - 2), kind.ABOUT))
+            rows.append((name, *[None] * (len(LAW_COLUMNS) - 2), kind.ABOUT))
             continue
         given = {key.attribute: shape for key in keys if key.key == "lambda"}
         found = characteristic(kind(**given))
         rows.append((name, *found, *found.factors, kind.ABOUT))
-    return rows_table(NAMES, rows).replaced(reading=Reading(FIRST))
+    # a narrow window keeps these columns first; the others follow in order
+    return rows_table(LAW_COLUMNS, rows).replaced(reading=Reading(("law", "about")))

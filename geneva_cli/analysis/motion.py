@@ -21,8 +21,8 @@ if TYPE_CHECKING:
     from geneva_cli.numerics.jet import Array
 
 SAMPLES_MAX = 1_000_000  # some seconds of writing, some 80 MB
-HELD = 100_000  # rows; longer tables are computed while they are written
-NAMES = ("time_s", "input_deg", "wheel_deg", "velocity", "acceleration", "jerk")
+WHOLE_ROWS = 100_000  # longer tables are computed while they are written
+MOTION_COLUMNS = ("time_s", "input_deg", "wheel_deg", "velocity", "acceleration", "jerk")
 
 
 def check_samples(samples: int) -> None:
@@ -38,11 +38,12 @@ def motion_table(mechanism: Mechanism, samples: int) -> Table:
     end of the last dwell.
     """
     check_samples(samples)
-    if samples > HELD:
+    if samples > WHOLE_ROWS:
         return Table(
-            NAMES, pieces(samples, len(NAMES), lambda i, j: _rows(mechanism, samples, i, j))
+            MOTION_COLUMNS,
+            pieces(samples, len(MOTION_COLUMNS), lambda i, j: _rows(mechanism, samples, i, j)),
         )
-    return Table(NAMES, _rows(mechanism, samples, 0, samples))
+    return Table(MOTION_COLUMNS, _rows(mechanism, samples, 0, samples))
 
 
 class Span(NamedTuple):

@@ -23,7 +23,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from geneva_cli.analysis.shock import SHARES, FirstContacts, SlotAxis
+from geneva_cli.analysis.shock import OCTAVES, FirstContacts, RestingAxis
 from geneva_cli.machine.many import taken
 from geneva_cli.numerics.angles import DEGREE, radians
 from geneva_cli.numerics.arrays import library, parameter
@@ -36,7 +36,7 @@ if TYPE_CHECKING:
     from geneva_cli.numerics.jet import Array
 
 
-class Corner(NamedTuple):
+class MouthCorner(NamedTuple):
     """A corner of the mouth, and the roller that meets it with errors of R and L.
 
     Positions are from the wheel's centre: along the slot outwards, across it, and along the wheel's
@@ -44,7 +44,7 @@ class Corner(NamedTuple):
     -1 for the other. Lengths are over L, on a sphere its arcs.
     """
 
-    axis: SlotAxis
+    axis: RestingAxis
     crank: float
     center: float
     roller: float
@@ -120,12 +120,11 @@ class Corner(NamedTuple):
         """
         span = 0.5 * self.axis.engagement.motion_deg * DEGREE
         out, speed = self.outside(np.atleast_2d(0.0 * span))
-        far = -out / speed - span * SHARES[::-1]
+        far = -out / speed - span * OCTAVES[::-1]
         with np.errstate(all="ignore"):
             value = self.gap(far)[0]
             far = np.broadcast_to(far, value.shape)
-            # of L²: with less, the roller is not too near to a corner
-            meets = value <= -1e-16
+            meets = value <= -1e-16  # of L²: nearer to 0 it is rounding
         there, first = np.flatnonzero(meets.any(axis=1)), np.argmax(meets, axis=1)
         there = there[first[there] > 0]
         near = first[there]
@@ -154,11 +153,11 @@ def mouth_contacts(
         >>> round(float(contact.jump[0]), 6)  # tan(30 deg) sqrt(2e-4) sqrt(9) is 0.024495
         0.024448
     """
-    axis = SlotAxis.of(engagement)
+    axis = RestingAxis.of(engagement)
     if axis is None:
         return None
     corners = [
-        Corner(axis, crank, center, roller, roller + clearance, side) for side in (1.0, -1.0)
+        MouthCorner(axis, crank, center, roller, roller + clearance, side) for side in (1.0, -1.0)
     ]
     with np.errstate(all="ignore"):
         one, other = (corner.contact() for corner in corners)

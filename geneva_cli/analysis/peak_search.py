@@ -37,7 +37,7 @@ QUANTITIES = tuple(ABOVE)
 PeakArray: TypeAlias = Peak[Array]  # the peaks of m designs: (m,)
 
 
-class _Samples:
+class _MotionSamples:
     """A motion's speed and its derivatives, to ten digits, at angles in degrees.
 
     All quantities are scanned at the same places, one block of designs after the other, so these
@@ -65,7 +65,7 @@ class _Samples:
         return motion.rough_rates(np.asfortranarray(x), order - 1)
 
 
-class _Curve(NamedTuple):
+class _QuantityCurve(NamedTuple):
     """A quantity over the input angle in degrees, as a function for ``stationary_points``."""
 
     motion: Motion
@@ -77,10 +77,10 @@ class _Curve(NamedTuple):
         return _by_degrees(_quantity(self.quantity, p[1:]), x, order)
 
 
-class _Sampled(NamedTuple):
+class _RoughCurve(NamedTuple):
     """A quantity to ten digits, from samples."""
 
-    samples: _Samples
+    samples: _MotionSamples
     quantity: str
 
     def __call__(self, x: Array, which: Which, order: int) -> list[Array]:
@@ -134,7 +134,7 @@ def landmarks(motion: Motion, quantity: str, m: int) -> Stationary:
     first = np.vstack((breaks[0], np.minimum(np.nextafter(inner, np.inf), last[m:])))
 
     def curve(x: Array, which: Which, order: int) -> list[Array]:
-        return _Curve(motion, quantity)(x, np.arange(len(last))[which] % m, order)
+        return _QuantityCurve(motion, quantity)(x, np.arange(len(last))[which] % m, order)
 
     every = np.arange(len(last))
     ends = [Stationary(every, x[:, 0], curve(x, every, 0)[0][:, 0]) for x in (first, last)]
@@ -164,10 +164,10 @@ def _part(
     """Peaks of some of the designs, between their breaks."""
     here = places[which]
     some = motion if len(here) == len(places) else taken(motion, which)
-    samples, edges = _Samples(some, len(here), quantities), np.hsplit(here, here.shape[1])
+    samples, edges = _MotionSamples(some, len(here), quantities), np.hsplit(here, here.shape[1])
     found = {}
     for name in quantities:
-        curve, rough = _Curve(some, name), Rough(_Sampled(samples, name), some.ROUGH_TO)
+        curve, rough = _QuantityCurve(some, name), Rough(_RoughCurve(samples, name), some.ROUGH_TO)
         found[name] = PeakArray(*greatest_sizes(curve, *edges, rough=rough))
     return found
 

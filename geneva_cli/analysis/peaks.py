@@ -16,7 +16,7 @@ from geneva_cli.numerics.roots import greatest_at
 from geneva_cli.table import Table, record_table, rows_table
 
 
-class Ends(NamedTuple):
+class EndSizes(NamedTuple):
     """Sizes of acceleration and jerk just after entry and just before exit."""
 
     acceleration_entry: float
@@ -32,7 +32,7 @@ class Peaks(NamedTuple):
     acceleration: Peak[float]
     jerk: Peak[float]
     power: Peak[float]
-    ends: Ends
+    ends: EndSizes
 
 
 QUANTITIES = Peaks._fields[:-1]
@@ -65,11 +65,11 @@ def velocity_peak(engagement: Engagement) -> Peak[float]:
     return peak(engagement.motion, "velocity")
 
 
-def ends(engagement: Engagement) -> Ends:
+def ends(engagement: Engagement) -> EndSizes:
     """Sizes at both ends, from inside the motion."""
     first = engagement.motion(engagement.entry_deg).scalars()
     last = engagement.motion(engagement.exit_deg).scalars()
-    return Ends(abs(first[2]), abs(last[2]), abs(first[3]), abs(last[3]))
+    return EndSizes(abs(first[2]), abs(last[2]), abs(first[3]), abs(last[3]))
 
 
 def peaks(engagement: Engagement) -> Peaks:
@@ -81,7 +81,9 @@ def worst(mechanism: Mechanism) -> Peaks:
     """Greatest peaks over all engagements; angles are the machine's input angles."""
     each = [placed(mechanism, s) for s in mechanism.engagements]
     greatest = [Peak(*greatest_at(same)) for same in zip(*[e[:-1] for e in each], strict=True)]
-    return Peaks._make((*greatest, Ends._make(map(max, zip(*[e.ends for e in each], strict=True)))))
+    return Peaks._make(
+        (*greatest, EndSizes._make(map(max, zip(*[e.ends for e in each], strict=True))))
+    )
 
 
 def worst_of(mechanism: Mechanism, quantity: str) -> Peak[float]:

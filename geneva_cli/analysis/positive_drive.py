@@ -12,13 +12,13 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from geneva_cli.analysis.loads.forces import setting
+from geneva_cli.analysis.loads.forces import load_case
 from geneva_cli.machine.mechanism import Mechanism
 
 if TYPE_CHECKING:
     from geneva_cli.numerics.arrays import Array, Mask
 
-SAMPLES = 720  # in a half motion
+SAMPLES = 720  # places in half a motion
 
 
 class PositiveDrive(NamedTuple):
@@ -66,17 +66,17 @@ def positive_drives(mechanism: Mechanism) -> PositiveDrives | None:
     engagement, L = mechanism.engagements[0], mechanism.center_distance_mm
     if not engagement.slot.curved:
         return None
-    given = setting(mechanism)
+    case = load_case(mechanism)
     # Midpoints of a grid that includes mid-motion, where the branches meet.
     x = np.atleast_2d(engagement.entry_deg * (1.0 - (np.arange(SAMPLES) + 0.5) / SAMPLES))
     (ax, ay), (bx, by) = engagement.slot(x, 0), engagement.slot(-x, 0)
     lead = np.arctan2(ay.c[0], ax.c[0]) - np.arctan2(by.c[0], bx.c[0])
     gap = L * np.hypot(ax.c[0], ay.c[0]) * np.abs(lead)
     torque = [
-        engagement.motion(side * x, 2).arrays()[2] * given.inertia_Nm + given.resists_Nm
+        engagement.motion(side * x, 2).arrays()[2] * case.inertia_Nm + case.resists_Nm
         for side in (1.0, -1.0)
     ]
-    # branches nearer than this are one slot, as machined
+    # branches nearer than 0.01 mm are one slot, as machined
     played = gap > 0.01 + 2.0 * mechanism.spec.size.allowances.slot_clearance_mm
     missing = [
         played & (side * np.sign(lead) * turned < 0.0)

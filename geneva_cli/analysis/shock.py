@@ -27,8 +27,8 @@ if TYPE_CHECKING:
     from geneva_cli.numerics.arrays import Whole
     from geneva_cli.numerics.jet import Array
 
-STEPS = 64  # halvings, every half an octave, in which a crossing is bracketed
-SHARES = 0.5 ** (0.5 * np.arange(STEPS, -1, -1))
+# Ascending fractions of a span, half an octave apart, which bracket a crossing.
+OCTAVES = 0.5 ** (0.5 * np.arange(64, -1, -1))
 
 
 class FirstContacts(NamedTuple):
@@ -41,7 +41,7 @@ class FirstContacts(NamedTuple):
     jump: Array  # of the wheel's velocity, over the input's; negative if struck backwards
 
 
-class SlotAxis(NamedTuple):
+class RestingAxis(NamedTuple):
     """The axis of the slot at rest, for a roller that meets it with errors of R and L.
 
     In the frame of the axis, from the wheel's centre outwards, the roller is at (1 + crank) p -
@@ -54,7 +54,7 @@ class SlotAxis(NamedTuple):
     along: float  # and its distance along that line
 
     @staticmethod
-    def of(engagement: Engagement) -> SlotAxis | None:
+    def of(engagement: Engagement) -> RestingAxis | None:
         """The axis of an engagement's straight slot; None for a slot that is solved for."""
         engagement = engagement.through
         if engagement.motion.entry is None:
@@ -64,7 +64,7 @@ class SlotAxis(NamedTuple):
         m = library(px)
         sense = m.copysign(1.0, px * u + py * v)
         hub, ahead = engagement.hub, engagement.half_step - m.atan2(sense * v, sense * u)
-        return SlotAxis(engagement, parameter(hub * m.sin(ahead)), parameter(hub * m.cos(ahead)))
+        return RestingAxis(engagement, parameter(hub * m.sin(ahead)), parameter(hub * m.cos(ahead)))
 
     def offset(self, crank: N, center: N) -> N:
         """Distance over L of the true path from the axis where the path with errors crosses it."""
@@ -106,7 +106,7 @@ def first_contacts(
         >>> first_contacts(Design(External(3)).mechanism.engagements[0], crank=1e-4)
         FirstContacts(at_deg=array([-30.81025092]), jump=array([-0.02390983]))
     """
-    axis = SlotAxis.of(engagement)
+    axis = RestingAxis.of(engagement)
     if axis is None:
         return None
     tau = contact_after(axis, np.atleast_2d(axis.offset(crank, center)))
@@ -114,7 +114,7 @@ def first_contacts(
     return FirstContacts(np.ravel(at_deg), np.ravel(jump))
 
 
-def contact_after(axis: SlotAxis, offset: Array) -> Array:
+def contact_after(axis: RestingAxis, offset: Array) -> Array:
     """Input radians after the true entry at which the rollers reach the axis, (m, 1); NaN if never.
 
     The roller comes from one side, ``before``. At a true entry it stays on that side (a circle) or
@@ -125,7 +125,7 @@ def contact_after(axis: SlotAxis, offset: Array) -> Array:
     offset = offset + 0.0 * before
     with np.errstate(all="ignore"):
         sense = np.where(offset * before > 0.0, -1.0, np.where(offset > 0.0, 1.0, np.nan))
-        far = span * sense * SHARES
+        far = span * sense * OCTAVES
         passed = abs(axis.distance(far)[0]) >= abs(offset)
     there, first = np.flatnonzero(passed.any(axis=1)), np.argmax(passed, axis=1)
     far = np.hstack((np.zeros((len(far), 1)), far))

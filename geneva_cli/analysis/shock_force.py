@@ -55,7 +55,7 @@ def forces_N(mechanism: Mechanism, jump: Array) -> Array | None:
     dw = jump * omega(spec.drive.n_rpm)
     energy = 0.5 * inertia * dw * dw / MM  # N mm
     soft = STEEL_GPa / contact_modulus_GPa(spec)
-    # mm, of 1 N on a line of 1 mm, steel on steel
+    # Palmgren's constant in mm, for 1 N on a line of 1 mm, steel on steel
     press = 3.84e-5 * soft**POWER / face**WIDTH
     bend = 1.0 / pin_stiffness_N_mm(mechanism, face)
     rows = np.broadcast_arrays(energy, press, bend, inertia)

@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from geneva_cli.analysis.loads import summary
-from geneva_cli.analysis.loads.contact import NEAR, is_straight
+from geneva_cli.analysis.loads.contact import NEAR_CUSP, is_straight
 from geneva_cli.figure import Piece
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.numerics.sampling import ASPECT, MISS, places, refined, thinned
@@ -87,7 +87,7 @@ def _beside_cusp(engagement: Engagement, stretch: Stretch) -> Stretch:
     """The stretch without its ends; next to a cusp it ends before values are rounding."""
     start, end = _inside(engagement, stretch.start), stretch.end
     if not is_straight(engagement):
-        before, after = NEAR * engagement.entry_deg, NEAR * engagement.exit_deg
+        before, after = NEAR_CUSP * engagement.entry_deg, NEAR_CUSP * engagement.exit_deg
         start = after if abs(start) < after else start
         end = before if abs(end) < -before else end
     return stretch._replace(start=start, end=end)

@@ -96,14 +96,13 @@ def outer_walls(mechanism: Mechanism, samples: int = SAMPLES) -> tuple[OuterWall
     if not engagement.slot.curved:
         return None
     # Squared spacing: close together at mid-motion, where the curve can have a cusp.
-    share = (1.0 - np.arange(samples) / samples) ** 2
-    x = np.atleast_2d(engagement.entry_deg * share)
+    fraction = (1.0 - np.arange(samples) / samples) ** 2
+    x = np.atleast_2d(engagement.entry_deg * fraction)
     with np.errstate(all="ignore"):
         inward, outward = pitch(engagement, x), pitch(engagement, -x)
         turn = np.atleast_2d(np.arctan2(inward.y, inward.x) - np.arctan2(outward.y, outward.x))
-        # the branches meet at mid-motion, and near it their distance is rounding
-        # fraction of the half motion
-        far = int(np.flatnonzero(share >= 1e-3)[-1])
+        # the branches meet at mid-motion, and within 1e-3 of it their distance is rounding
+        far = int(np.flatnonzero(fraction >= 1e-3)[-1])
         turn[:, far + 1 :] = turn[:, far : far + 1]
         # Left (1) or right (-1) of the travel, on both branches. Outside, the pin travels inwards
         # first; inside, outwards.
@@ -131,7 +130,7 @@ def _gap(wall: OuterWall, r: Array) -> Array:
     """Least distance of the pitch curve from undercut places of the wall, (m,)."""
     gap = np.full(len(wall.bend), np.inf)
     design, place = np.nonzero(wall.bend * r > 1.0)
-    # distances computed at once, which fit in the cache
+    # 32,768 distances at once fit in the cache
     step, many = (1 << 15) // wall.bend.shape[1], len(np.ravel(r)) > 1
     for i in range(0, len(design), step):
         d, k = design[i : i + step], place[i : i + step]
@@ -142,8 +141,8 @@ def _gap(wall: OuterWall, r: Array) -> Array:
         x, y = x[:, None] - wall.x[own_wall], y[:, None] - wall.y[own_wall]
         # a fraction of the time of hypot, which is used for the nearest places only
         square = x * x + y * y
-        # times a square: a greater one is greater whatever the rounding
-        near = ~(square > (1.0 + 1e-14) * square.min(axis=1, keepdims=True))  # NaN stays NaN
+        # beyond 1e-14 a square is greater whatever the rounding; NaN stays NaN
+        near = ~(square > (1.0 + 1e-14) * square.min(axis=1, keepdims=True))
         np.minimum.at(gap, d[np.nonzero(near)[0]], np.hypot(x[near], y[near]))
     return gap
 

@@ -16,8 +16,8 @@ import numpy as np
 
 from geneva_cli.analysis.loads.contact import mirrored
 from geneva_cli.analysis.loads.cycle import Cycle
-from geneva_cli.analysis.loads.forces import setting
-from geneva_cli.analysis.loads.loaded import NONE, Loaded, machine
+from geneva_cli.analysis.loads.forces import load_case
+from geneva_cli.analysis.loads.loaded import NO_MORE, LoadFunctions, load_batch
 from geneva_cli.analysis.loads.means import load_means, powers
 from geneva_cli.analysis.loads.quantities import SQUARED
 from geneva_cli.analysis.loads.stretches import spans_of
@@ -172,9 +172,9 @@ def _together(request: Request, machine: Mechanism) -> Array:
         greatest = load_peaks(machine, request.loads).values()
         return np.column_stack([one.max for one in greatest])
     if not request.sized:
-        means = load_means(machine, request.loads, told=("rms",)).values()
+        means = load_means(machine, request.loads, requested=("rms",)).values()
         return np.column_stack([one.rms for one in means])
-    totals = load_summaries(machine, request.loads, told=("rms",)).values()
+    totals = load_summaries(machine, request.loads, requested=("rms",)).values()
     sizes = [np.maximum(one.max, -one.min) for one in totals]
     return np.column_stack([*sizes, *[one.rms for one in totals if one.rms is not None]])
 
@@ -188,11 +188,11 @@ def _places(request: Request, machine: Mechanism, count: int) -> int:
 def _formulas(request: Request, mechanism: Mechanism, count: int) -> Array:
     """Results of samples and of Gauss's rule at as many places as the search starts with."""
     blocks = []
-    every = machine(mechanism.engagements[0], setting(mechanism), request.loads, NONE)
+    every = load_batch(mechanism.engagements[0], load_case(mechanism), request.loads, NO_MORE)
     period = np.broadcast_to(np.ravel(mechanism.period_deg), (count,))
     for i in range(0, count, BLOCK):
         n = min(BLOCK, count - i)
-        load = Loaded(taken(every, slice(i, i + n)), request.loads)
+        load = LoadFunctions(taken(every, slice(i, i + n)), request.loads)
         rows = [_sampled(load, n)] if request.sized else []
         if request.summed:
             rows.append(
@@ -202,29 +202,30 @@ def _formulas(request: Request, mechanism: Mechanism, count: int) -> Array:
     return np.concatenate(blocks, axis=1).T
 
 
-def _sampled(load: Loaded, n: int) -> Array:
+def _sampled(load: LoadFunctions, n: int) -> Array:
     """Greatest values of samples."""
-    spans = spans_of(load.machine[0], n)
+    spans = spans_of(load.engagement, n)
     spans = spans[: len(spans) // 2] if load.repeats else spans
     most = np.zeros((load.wanted, n))
     for a, b in spans:
         x = np.asfortranarray(0.5 * (a + b) + 0.5 * (b - a) * POINTS)
-        _, (value,) = load.look(load.at(x, slice(0, n), 0))
+        _, (value,) = load.evaluate(load.at(x, slice(0, n), 0))
         most = np.maximum(most, np.abs(value[load.signs :]).max(axis=2))
     squared = [name in SQUARED for name in load.names]
     most[squared] = np.sqrt(most[squared])
     return most
 
 
-def _summed(load: Loaded, n: int) -> Array:
+def _summed(load: LoadFunctions, n: int) -> Array:
     """Integrals of the squares, without a search for sign changes."""
     node, weight = rule(NODES)
-    spans, total = spans_of(load.machine[0], n), np.zeros((load.wanted, n))
+    spans, total = spans_of(load.engagement, n), np.zeros((load.wanted, n))
     for a, b in spans[: len(spans) // 2] if load.mirrored else spans:
         half = 0.5 * (b - a)
         x = np.asfortranarray(0.5 * (a + b) + half * node)
-        given, at, shape, wanted = state = load.at(x, np.arange(n), 0)
-        states = [state, (given, mirrored(at), shape, wanted)] if load.mirrored else [state]
+        state = load.at(x, np.arange(n), 0)
+        image = state._replace(contact=mirrored(state.contact))
+        states = [state, image] if load.mirrored else [state]
         for one in states:
             total += (powers(load, one, None, False) @ weight) * half[:, 0]
     return total

@@ -30,7 +30,7 @@ GROUP = 16 * BLOCK  # designs refined together
 PREDICTED = 1e-2  # fraction of the range by which a cubic may miss the middle of its interval
 
 
-class Curves(Protocol):
+class BatchFunction(Protocol):
     """A function for each design; ``A[which]`` selects numbers of designs, if A has those of all.
 
     ``which`` is a slice or the indices of m designs. ``x`` then has the shape (m, k), and numbers
@@ -49,7 +49,7 @@ class Stationary(NamedTuple):
     value: Array
 
 
-def stationary_points(f: Curves, a: Array, b: Array) -> Stationary:
+def stationary_points(f: BatchFunction, a: Array, b: Array) -> Stationary:
     """All stationary points between a and b, of the shape (n, 1), in order of design and place."""
     groups = []
     with np.errstate(all="ignore"):
@@ -63,11 +63,13 @@ def stationary_points(f: Curves, a: Array, b: Array) -> Stationary:
 class Rough(NamedTuple):
     """Approximate functions for a scan, and their error as a fraction of a greatest size."""
 
-    f: Curves
+    f: BatchFunction
     wrong: float
 
 
-def greatest_sizes(f: Curves, *places: Array, rough: Rough | None = None) -> tuple[Array, Array]:
+def greatest_sizes(
+    f: BatchFunction, *places: Array, rough: Rough | None = None
+) -> tuple[Array, Array]:
     """Greatest sizes between the first and the last of some places (n, 1), and where: (n,) both.
 
     Functions are smooth from one place to the next; a place itself belongs to the part before it.
@@ -91,7 +93,7 @@ def greatest_sizes(f: Curves, *places: Array, rough: Rough | None = None) -> tup
 
 
 def _greatest(
-    f: Curves, rough: Rough | None, places: Sequence[Array], start: int
+    f: BatchFunction, rough: Rough | None, places: Sequence[Array], start: int
 ) -> tuple[Array, Array]:
     """Greatest sizes of a group of designs, the first of which has the number ``start``."""
     pieces = _pieces(places)
@@ -146,7 +148,7 @@ def _pieces(places: Sequence[Array]) -> list[tuple[Array, Array]]:
     return [*pieces[:1], *later]
 
 
-def _high_turns(scan: _Scan, sampled: Array, start: int) -> _Pairs:
+def _high_turns(scan: _Scan, sampled: Array, start: int) -> _SamplePairs:
     """Pairs around a maximum or minimum whose size may exceed ``sampled`` in their design."""
     here, left, right = scan.turns.which - start, scan.turns.left, scan.turns.right
     # A cubic rises above its ends by at most 4/27 of this; and a cubic may miss.
@@ -160,31 +162,31 @@ def _blocks(start: int, stop: int, size: int) -> list[slice]:
     return [slice(i, min(i + size, stop)) for i in range(start, stop, size)] or [slice(0, 0)]
 
 
-class _Pairs(NamedTuple):
+class _SamplePairs(NamedTuple):
     """Adjacent samples of designs: place, value and slope in three rows, left and right."""
 
     which: Whole
     left: Array
     right: Array
 
-    def taken(self, where: Mask) -> _Pairs:
-        return _Pairs(self.which[where], self.left[:, where], self.right[:, where])
+    def taken(self, where: Mask) -> _SamplePairs:
+        return _SamplePairs(self.which[where], self.left[:, where], self.right[:, where])
 
 
-def _joined(pairs: Sequence[_Pairs]) -> _Pairs:
+def _joined(pairs: Sequence[_SamplePairs]) -> _SamplePairs:
     """Groups of pairs joined into one."""
-    return _Pairs(*(np.concatenate(parts, axis=-1) for parts in zip(*pairs, strict=True)))
+    return _SamplePairs(*(np.concatenate(parts, axis=-1) for parts in zip(*pairs, strict=True)))
 
 
 class _Scan(NamedTuple):
     ends: Array  # values at a and b, two columns
     low: Array  # the least and the greatest sample of each design
     high: Array
-    turns: _Pairs  # pairs whose slope changes sign, or is zero at one end
-    missed: _Pairs  # pairs where a cubic does not predict the middle: to be halved
+    turns: _SamplePairs  # pairs whose slope changes sign, or is zero at one end
+    missed: _SamplePairs  # pairs where a cubic does not predict the middle: to be halved
 
 
-def _scanned(f: Curves, a: Array, b: Array, start: int) -> _Scan:
+def _scanned(f: BatchFunction, a: Array, b: Array, start: int) -> _Scan:
     """The scan of a group of designs, the first of which has the number ``start``."""
     scans = [_scan(f, a[part], b[part], start + part.start) for part in _blocks(0, len(a), BLOCK)]
     ends, low, high = (np.concatenate([s[i] for s in scans]) for i in range(3))
@@ -196,7 +198,7 @@ def _scanned(f: Curves, a: Array, b: Array, start: int) -> _Scan:
     return _Scan(ends, low, high, turns, missed)
 
 
-def _scan(f: Curves, a: Array, b: Array, start: int) -> _Scan:
+def _scan(f: BatchFunction, a: Array, b: Array, start: int) -> _Scan:
     # Designs lie side by side in memory: each operation runs along all of them.
     samples = np.empty((3, SCAN + 1, len(a))).transpose(0, 2, 1)
     x, value, slope = samples
@@ -210,15 +212,17 @@ def _scan(f: Curves, a: Array, b: Array, start: int) -> _Scan:
     turn[:, ::2] &= ~missed
     turn[:, 1::2] &= ~missed
     column, row = np.nonzero(turn.T)
-    turns = _Pairs(row + start, samples[:, row, column], samples[:, row, column + 1])
+    turns = _SamplePairs(row + start, samples[:, row, column], samples[:, row, column + 1])
     column, row = np.nonzero(missed.T)
     left, middle, right = (s[:, row, column] for s in (left, middle, right))
     row += start
-    halves = _joined([_Pairs(row, left, middle), _Pairs(row, middle, right)])
+    halves = _joined([_SamplePairs(row, left, middle), _SamplePairs(row, middle, right)])
     return _Scan(value[:, [0, -1]], low, high, turns, halves)
 
 
-def _refined(f: Curves, start: int, open_: _Pairs, low: Array, high: Array) -> _Pairs:
+def _refined(
+    f: BatchFunction, start: int, open_: _SamplePairs, low: Array, high: Array
+) -> _SamplePairs:
     """Pairs with a turn, halved until a cubic predicts the middle; updates ``low`` and ``high``.
 
     Halving ends for a design with more than 32,768 open pairs.
@@ -233,7 +237,7 @@ def _refined(f: Curves, start: int, open_: _Pairs, low: Array, high: Array) -> _
         np.minimum.at(low, here, value)
         np.maximum.at(high, here, value)
         missed = unpredicted(left, middle, right, low[here], high[here])
-        halves = [_Pairs(which, left, middle), _Pairs(which, middle, right)]
+        halves = [_SamplePairs(which, left, middle), _SamplePairs(which, middle, right)]
         settled += [half.taken(~missed) for half in halves]
         open_ = _joined([half.taken(missed) for half in halves])
         if len(open_.which) > most:
@@ -298,7 +302,7 @@ class _Tops(NamedTuple):
     sampled: Mask
 
 
-def _tops(f: Curves, pairs: _Pairs, rough: Rough | None = None) -> _Tops:
+def _tops(f: BatchFunction, pairs: _SamplePairs, rough: Rough | None = None) -> _Tops:
     """Stationary points of pairs: right samples with slope 0, and the points within.
 
     A stationary sample may hide another point within. The slope next to it has the sign of the
@@ -319,7 +323,7 @@ def _tops(f: Curves, pairs: _Pairs, rough: Rough | None = None) -> _Tops:
     a, b = left[0], right[0]
     at_a, at_b = left[2] == 0.0, right[2] == 0.0
 
-    def slope_of(x: Array, live: Whole, f: Curves = f) -> tuple[Array, Array, Array]:
+    def slope_of(x: Array, live: Whole, f: BatchFunction = f) -> tuple[Array, Array, Array]:
         value, slope, bend = (v[:, 0] for v in f(x[:, None], which[live], 2))
         others = at_a[live] / (x - a[live]) - at_b[live] / (b[live] - x)
         return slope, bend - slope * others, value

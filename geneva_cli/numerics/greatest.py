@@ -10,10 +10,10 @@ from geneva_cli.numerics.ties import bar, usual
 
 if TYPE_CHECKING:
     from geneva_cli.numerics.arrays import Array, Mask, Whole
-    from geneva_cli.numerics.pieces import Pieces
+    from geneva_cli.numerics.pieces import SmoothPieces
 
 
-class Greatest:
+class GreatestValues:
     """The greatest values of functions of n designs, and the first places that have them.
 
     With ``sized`` these are the greatest sizes; else the greatest values, and the greatest values
@@ -22,30 +22,31 @@ class Greatest:
     """
 
     def __init__(self, functions: int, n: int, sized: bool) -> None:
-        self.ways = (1.0,) if sized else (1.0, -1.0)
+        self.senses = (1.0,) if sized else (1.0, -1.0)
         self.sized = sized
-        self.most = np.full((len(self.ways), functions, n), -np.inf)
+        self.most = np.full((len(self.senses), functions, n), -np.inf)
         self.size = np.zeros((functions, n))  # of samples, without those near poles
         self.sample = np.full(self.most.shape, np.nan)  # the place of a greatest sample
         self.known: list[tuple[int, Whole, Whole, Array, Array]] = []
 
-    def _side(self, way: float, value: Array) -> Array:
-        return np.abs(value) if self.sized else way * value
+    def _sided(self, sense: float, value: Array) -> Array:
+        """Sizes, or values times the sense: 1 for the greatest values, -1 for the least."""
+        return np.abs(value) if self.sized else sense * value
 
     def add(self, number: Whole, design: Whole, x: Array, value: Array) -> None:
         """Add values (m,) of functions, by their numbers, at ends and extremes."""
-        for side, way in enumerate(self.ways):
-            own = self._side(way, value)
+        for side, sense in enumerate(self.senses):
+            own = self._sided(sense, value)
             _raise(self.most[side], number, design, own)
             self.known.append((side, number, design, x, own))
 
-    def add_samples(self, pieces: Pieces, x: Array) -> None:
+    def add_samples(self, pieces: SmoothPieces, x: Array) -> None:
         """Add samples of pieces at places (m, k); only those within each piece count."""
         design, (a, b), every = pieces.rows.design, pieces.rows.x, np.arange(len(x))
         outside = (x < a[:, None]) | (x > b[:, None])
         first, number = outside.argmin(axis=1), np.arange(len(pieces.value))[:, None]
-        for side, way in enumerate(self.ways):
-            own = np.where(outside, -np.inf, self._side(way, pieces.value))
+        for side, sense in enumerate(self.senses):
+            own = np.where(outside, -np.inf, self._sided(sense, pieces.value))
             best = own.argmax(axis=2)
             top, place = own[number, every, best], x[every, best]
             _raise(self.most[side], number, design, top)
@@ -56,7 +57,7 @@ class Greatest:
                 start = np.where(best[of, row] == first[row], a[row], place[of, row])
                 self.known.append((side, of, design[row], start, top[of, row]))
 
-    def add_sizes(self, pieces: Pieces) -> None:
+    def add_sizes(self, pieces: SmoothPieces) -> None:
         """Update the sizes of functions from samples of whole spans, unbounded ones known."""
         design, value = pieces.rows.design, pieces.value
         endless = np.isinf(self.most).any(axis=0)[:, design]
@@ -81,8 +82,8 @@ class Greatest:
     def may_be(self, number: Whole, design: Whole, low: Array, high: Array) -> Mask:
         """Masks of functions, by number, whose range may reach their design's greatest value."""
         out = np.full(np.shape(low), False)
-        for side, way in enumerate(self.ways):
-            reach = np.maximum(high, -low) if self.sized else high if way > 0.0 else -low
+        for side, sense in enumerate(self.senses):
+            reach = np.maximum(high, -low) if self.sized else high if sense > 0.0 else -low
             bar = self.least(side)[number, design]
             out |= ~(reach < bar) & (bar < np.inf)
         return out
@@ -90,7 +91,7 @@ class Greatest:
     def places(self) -> Array:
         """The first places of the greatest values."""
         first = np.full(self.most.shape, np.inf)
-        least = [self.least(side) for side in range(len(self.ways))]
+        least = [self.least(side) for side in range(len(self.senses))]
         for side, number, design, x, value in self.known:
             near = value >= least[side][number, design]
             np.fmin.at(first[side], (number[near], design[near]), x[near])

@@ -38,7 +38,7 @@ class Functions(Protocol):
 
     signs: int  # number of the functions whose signs matter
     wanted: int  # number of the wanted functions
-    rooms: Sequence[int]  # of the first: they are above 0, and 0 where wanted functions have a pole
+    margins: Sequence[int]  # of the first: above 0, and 0 where wanted functions have a pole
     poled: Sequence[int]  # of the first: they behave as 1/x at the place 0
 
     def at(self, x: Array, which: Which, order: int) -> Any:
@@ -50,18 +50,19 @@ class Functions(Protocol):
     def rows(self, at: Any, which: Whole) -> Any:
         """The part of ``at`` for some designs, by their numbers among the m, which may repeat."""
 
-    def look(
-        self, at: Any, forced: Array | None = None, asked: Sequence[int] | None = None
+    def evaluate(
+        self, at: Any, forced: Array | None = None, requested: Sequence[int] | None = None
     ) -> tuple[Mask, list[Array]]:
         """Masks of positive signs, (signs, m, k), and Taylor coefficients (functions, m, k).
 
-        ``forced`` are known signs, 1.0 or -1.0; where it is NaN they are computed. ``asked``
-        restricts the wanted functions. A function without a bound is infinite, and its slope 0.
+        ``forced`` are known signs, 1.0 or -1.0; where it is NaN they are computed. ``requested``
+        are the numbers of the wanted functions to evaluate, all by default. A function without a
+        bound is infinite, and its slope 0.
         """
 
 
 class Rows(NamedTuple):
-    """Parts of designs' spans that are to be sampled."""
+    """Parts of designs' spans, m of them, for sampling."""
 
     design: Whole  # (m,)
     span: Whole
@@ -80,7 +81,7 @@ class Rows(NamedTuple):
         return np.asarray(0.5 * (a + b) + 0.5 * (b - a) * t)
 
 
-class Pieces(NamedTuple):
+class SmoothPieces(NamedTuple):
     """Parts of rows on which no sign changes, and the wanted functions there."""
 
     rows: Rows
@@ -93,22 +94,22 @@ class Pieces(NamedTuple):
         """Masks of the pieces that are whole rows."""
         return np.asarray((self.part[0] == -1.0) & (self.part[1] == 1.0))
 
-    def take(self, which: Some) -> Pieces:
+    def take(self, which: Some) -> SmoothPieces:
         """Some of the pieces, by a mask or their numbers."""
         sign, part = self.sign[:, which], self.part[:, which]
-        return Pieces(self.rows.take(which), sign, part, self.value[:, which])
+        return SmoothPieces(self.rows.take(which), sign, part, self.value[:, which])
 
 
-class Sampled(NamedTuple):
+class SampledRows(NamedTuple):
     """The pieces of sampled rows, and the parts that must be sampled again."""
 
-    pieces: Pieces
+    pieces: SmoothPieces
     x: Array  # the places of their samples, (m, points)
-    room: Array  # the product of the functions that are zero at poles: (m, points)
+    margin: Array  # the product of the functions that are zero at poles: (m, points)
     again: list[Rows]  # parts whose zeros are not known
 
 
-class Places:
+class SpreadPlaces:
     """Spread places u and places x of n designs, each with a width w of its own (n, 1)."""
 
     def __init__(self, w: Array | None) -> None:
@@ -148,7 +149,7 @@ def rows_joined(parts: Sequence[Rows]) -> Rows:
 class Cutter:
     """Divides rows of designs into pieces."""
 
-    def __init__(self, f: Functions, places: Places, n: int) -> None:
+    def __init__(self, f: Functions, places: SpreadPlaces, n: int) -> None:
         self.f, self.places = f, places
         # the greatest size so far of each function whose sign matters
         self.size = np.zeros((f.signs, n))
@@ -159,7 +160,7 @@ class Cutter:
         # no row is narrower than 1e-11 of its design's spans
         return np.asarray(rows.u[1] - rows.u[0] <= 1e-11 * self.width[rows.design])
 
-    def sampled(self, rows: Rows, which: Which) -> Sampled:
+    def sampled(self, rows: Rows, which: Which) -> SampledRows:
         """Pieces of rows of the designs ``which``, cut where a sign changes."""
         f = self.f
         # designs lie side by side in memory: each operation runs along all of them
@@ -170,9 +171,9 @@ class Cutter:
         at = f.at(x, which, 0)
         sign = np.ones((f.signs, len(u)))
         if f.signs:
-            middle = f.look(f.column(at, MIDDLE), None, ())[0][..., 0]
+            middle = f.evaluate(f.column(at, MIDDLE), None, ())[0][..., 0]
             sign = np.where(middle, 1.0, -1.0)
-        value = f.look(at, sign[..., None])[1][0]
+        value = f.evaluate(at, sign[..., None])[1][0]
         part = np.array([[-1.0], [1.0]]).repeat(len(u), axis=1)
         own, again = np.arange(len(u)), []
         for kind in range(f.signs):
@@ -191,11 +192,11 @@ class Cutter:
             if not kept.all():
                 own, q = own[kept], q[kept]
                 sign, part, value = sign[:, kept], part[:, kept], value[:, kept]
-            self._turn(kind, at, own, Pieces(rows.take(own), sign, part, value), q)
-        pieces = Pieces(self._cut(rows.take(own), part), sign, part, value[f.signs :])
-        return Sampled(pieces, x[own], np.abs(value[list(f.rooms)].prod(axis=0)), again)
+            self._turn(kind, at, own, SmoothPieces(rows.take(own), sign, part, value), q)
+        pieces = SmoothPieces(self._cut(rows.take(own), part), sign, part, value[f.signs :])
+        return SampledRows(pieces, x[own], np.abs(value[list(f.margins)].prod(axis=0)), again)
 
-    def _turn(self, kind: int, at: Any, own: Whole, pieces: Pieces, q: Array) -> None:
+    def _turn(self, kind: int, at: Any, own: Whole, pieces: SmoothPieces, q: Array) -> None:
         """Set each sign to its function's in the middle of each piece, and update the values."""
         sign, part, value = pieces[1:]
         some = np.flatnonzero(~pieces.whole)
@@ -203,7 +204,7 @@ class Cutter:
         flip = some[np.where(middle > 0.0, 1.0, -1.0) != sign[kind, some]]
         if len(flip):
             sign[kind, flip] *= -1.0
-            values = self.f.look(self.f.rows(at, own[flip]), sign[:, flip, None])
+            values = self.f.evaluate(self.f.rows(at, own[flip]), sign[:, flip, None])
             value[:, flip] = values[1][0]
 
     def _cut(self, rows: Rows, part: Array) -> Rows:
@@ -279,10 +280,10 @@ class Cutter:
         middle, half = rows.at(np.zeros(1)), 0.5 * (rows.u[1] - rows.u[0])
         x = self.places.gathered(rows.at(t), rows.design)
         number = np.arange(self.f.signs)[:, None]
-        held, live = np.where(number < kind, sign, np.nan), np.arange(len(t))
+        known, live = np.where(number < kind, sign, np.nan), np.arange(len(t))
         for _ in range(STEPS):
             at = self.f.at(x[live, None], rows.design[live], 1)
-            value, slope = (c[kind, :, 0] for c in self.f.look(at, held[:, live, None], ())[1])
+            value, slope = (c[kind, :, 0] for c in self.f.evaluate(at, known[:, live, None], ())[1])
             step = -value / (slope * DEGREE)
             # No step is longer than a tenth of a half row: the series knows its zeros better.
             far = 0.1 * half[live]

@@ -16,15 +16,15 @@ import numpy as np
 from geneva_cli.numerics import chebyshev
 from geneva_cli.numerics.angles import DEGREE
 from geneva_cli.numerics.chebyshev import GRID, MIDDLE, POINTS
-from geneva_cli.numerics.greatest import Greatest
+from geneva_cli.numerics.greatest import GreatestValues
 from geneva_cli.numerics.pieces import (
     SAFE,
     STEPS,
     Cutter,
     Functions,
-    Places,
     Rows,
-    Sampled,
+    SampledRows,
+    SpreadPlaces,
     rows_joined,
 )
 
@@ -46,15 +46,15 @@ class Stretches(NamedTuple):
     positive: Mask  # (signs, m)
 
 
-class Found(NamedTuple):
-    """Greatest values of n designs and their places, one row for each entry of ``Greatest``."""
+class SearchResult(NamedTuple):
+    """Greatest values of n designs and their places: a row for each side and each function."""
 
     most: Array
     x: Array
     stretches: Stretches
 
 
-class Curves(NamedTuple):
+class CandidateCurves(NamedTuple):
     """Functions, on one piece each, that may have one of the greatest values there."""
 
     number: Whole  # of the function: (m,)
@@ -64,11 +64,11 @@ class Curves(NamedTuple):
     value: Array  # at the Chebyshev points of that row: (m, points)
     left: Array  # the error of the series
 
-    def take(self, which: Some) -> Curves:
+    def take(self, which: Some) -> CandidateCurves:
         """Some of the curves, by a mask or their numbers."""
         number, rows, sign, part, value, left = self
         some = number[which], rows.take(which), sign[:, which], part[:, which]
-        return Curves(*some, value[which], left[which])
+        return CandidateCurves(*some, value[which], left[which])
 
     @property
     def within(self) -> Mask:
@@ -83,34 +83,35 @@ def search(
     sized: bool,
     known: Sequence[tuple[int, Array, Array]] = (),
     w: Array | None = None,
-) -> Found:
-    """The greatest values of n designs over their spans, whose ends are (n, 1).
+) -> SearchResult:
+    """The greatest values of n designs over their spans, whose ends are (n, 1) in degrees.
 
-    A span that ends before it begins is empty. ``known`` are values that no span reaches: the
-    number of a wanted function, and for each design the place and the value, or NaN. ``sized`` is
-    that of ``Greatest``. Samples are spread about 0 by ``w`` (n, 1), or evenly spaced.
+    A span that ends before it begins is empty. With ``sized`` the result has the greatest sizes,
+    else the greatest values of the functions and of their negatives. ``known`` are values that no
+    span reaches: the number of a wanted function, and for each design the place and the value, or
+    NaN. Samples are spread about 0 by ``w`` (n, 1), or evenly spaced.
     """
     with np.errstate(all="ignore"):
-        found = _Search(f, n, sized, w)
+        extremes = _ExtremeSearch(f, n, sized, w)
         for number, x, value in known:
             design = np.flatnonzero(~np.isnan(value))
             of = np.full(len(design), number)
-            found.greatest.add(of, design, x[design], value[design])
-        found.sample(spans)
-        found.refine()
-        most, x = found.greatest.most, found.greatest.places()
-        stretches = _stretches(rows_joined(found.rows), np.concatenate(found.signs, axis=1))
-        return Found(most.reshape(-1, n), x.reshape(-1, n), stretches)
+            extremes.greatest.add(of, design, x[design], value[design])
+        extremes.sample(spans)
+        extremes.refine()
+        most, x = extremes.greatest.most, extremes.greatest.places()
+        stretches = _stretches(rows_joined(extremes.rows), np.concatenate(extremes.signs, axis=1))
+        return SearchResult(most.reshape(-1, n), x.reshape(-1, n), stretches)
 
 
-class _Search:
+class _ExtremeSearch:
     def __init__(self, f: Functions, n: int, sized: bool, w: Array | None) -> None:
-        self.f, self.n, self.places = f, n, Places(w)
-        self.greatest = Greatest(f.wanted, n, sized)
+        self.f, self.n, self.places = f, n, SpreadPlaces(w)
+        self.greatest = GreatestValues(f.wanted, n, sized)
         self.cutter = Cutter(f, self.places, n)
         self.rows: list[Rows] = []  # the pieces on which no sign changes
         self.signs: list[Array] = []
-        self.curves: list[Curves] = []
+        self.curves: list[CandidateCurves] = []
 
     def sample(self, spans: Sequence[tuple[Array, Array]]) -> None:
         """Sample the spans until every function's series has ended where that matters."""
@@ -120,12 +121,12 @@ class _Search:
         blocks = self._first_blocks(first)
         for depth in range(60):  # halvings: all rows are too narrow for more by then
             every = [self.cutter.sampled(*block) for block in blocks]
-            for found in every:
-                self.greatest.add_samples(found.pieces, found.x)
+            for sampled in every:
+                self.greatest.add_samples(sampled.pieces, sampled.x)
             # Rows that were halved four times lie near a pole: their sizes are not typical.
-            for found in every if depth < 4 else ():
-                self.greatest.add_sizes(found.pieces)
-            again = [rows for found in every for rows in (*found.again, *self._judged(found))]
+            for sampled in every if depth < 4 else ():
+                self.greatest.add_sizes(sampled.pieces)
+            again = [rows for sampled in every for rows in (*sampled.again, *self._judged(sampled))]
             if not again:
                 break
             blocks = _blocks(rows_joined(again))
@@ -151,9 +152,9 @@ class _Search:
                     out.append((some, part if full else some.design))
         return out
 
-    def _judged(self, found: Sampled) -> list[Rows]:
+    def _judged(self, sampled: SampledRows) -> list[Rows]:
         """Keep pieces with precise series, and return the rows to sample for the others."""
-        pieces = found.pieces
+        pieces = sampled.pieces
         low, high = pieces.value.min(axis=2), pieces.value.max(axis=2)
         left = chebyshev.remainder(pieces.value)
         more = BEYOND * (high - low) + UNSURE * left
@@ -162,9 +163,9 @@ class _Search:
         number, own = np.nonzero(may)
         value = pieces.value[number, own]
         rows, sign, part = pieces.rows.take(own), pieces.sign[:, own], pieces.part[:, own]
-        curves = Curves(number, rows, sign, part, value, left[number, own])
+        curves = CandidateCurves(number, rows, sign, part, value, left[number, own])
         miss = np.full(len(pieces.rows.design), False)
-        miss[own[self._unsettled(curves, found.room[own], found.x[own])]] = True
+        miss[own[self._unsettled(curves, sampled.margin[own], sampled.x[own])]] = True
         miss &= ~self.cutter.is_narrow(pieces.rows)
         self.curves.append(curves.take(~miss[own]))
         self.rows.append(pieces.rows.take(~miss))
@@ -173,7 +174,7 @@ class _Search:
         out = [pieces.rows.take(miss & ~whole), *self.places.halves(pieces.rows.take(miss & whole))]
         return [rows for rows in out if len(rows.design)]
 
-    def _unsettled(self, curves: Curves, room: Array, x: Array) -> Whole:
+    def _unsettled(self, curves: CandidateCurves, margin: Array, x: Array) -> Whole:
         """The numbers of curves with unfinished series that may exceed the known values."""
         size = np.where(curves.within, np.abs(curves.value), 0.0).max(axis=1, initial=0.0)
         # the allowed error of a series near an extreme: 1e-5 of a size
@@ -182,12 +183,12 @@ class _Search:
         curves, more = curves.take(some), UNSURE * curves.left[some]
         low, high = curves.value.min(axis=1) - more, curves.value.max(axis=1) + more
         whole = (curves.part[0] == -1.0) & (curves.part[1] == 1.0)
-        for weight in (room[some], room[some] ** 2, np.abs(x[some]), x[some] ** 2):
+        for weight in (margin[some], margin[some] ** 2, np.abs(x[some]), x[some] ** 2):
             least = _least_size(curves.value, weight)
-            told = whole & (least > 0.0)
+            known = whole & (least > 0.0)
             rises, falls = curves.value[:, MIDDLE] > 0.0, curves.value[:, MIDDLE] < 0.0
-            low = np.where(told & rises & ~(least <= low), least, low)
-            high = np.where(told & falls & ~(-least >= high), -least, high)
+            low = np.where(known & rises & ~(least <= low), least, low)
+            high = np.where(known & falls & ~(-least >= high), -least, high)
         may = self.greatest.may_be(curves.number, curves.rows.design, low, high)
         return some[may]
 
@@ -195,10 +196,10 @@ class _Search:
         """Evaluate the functions at ends and extremes that may be the greatest."""
         curves = _joined(self.curves)
         curves = _joined([curves, *[self._ends(curves, end) for end in (0, 1)]])
-        turns = [self._turns(curves, way) for way in (1.0, -1.0)]
+        turns = [self._turns(curves, sign) for sign in (1.0, -1.0)]
         self._refine(curves, *(np.concatenate(one) for one in zip(*turns, strict=True)))
 
-    def _ends(self, curves: Curves, end: int) -> Curves:
+    def _ends(self, curves: CandidateCurves, end: int) -> CandidateCurves:
         """Add the limits at one end of pieces where they may be the greatest.
 
         Returns the parts next to flat ends, sampled anew: there the series of a whole piece does
@@ -214,9 +215,9 @@ class _Search:
         self._add(curves, x, value)
         width = curves.rows.x[1] - curves.rows.x[0]
         # a series does not tell the sign of a slope that changes the piece by less than 1e-3
-        return self._beside(curves.take(np.abs(slope) * width <= 1e-3 * size), end)
+        return self._next_to_end(curves.take(np.abs(slope) * width <= 1e-3 * size), end)
 
-    def _beside(self, curves: Curves, end: int) -> Curves:
+    def _next_to_end(self, curves: CandidateCurves, end: int) -> CandidateCurves:
         """The part of pieces next to one end, as pieces of their own."""
         rows, other = curves.rows, 1 - end
         u = rows.u.copy()
@@ -228,13 +229,15 @@ class _Search:
         rows = rows._replace(x=np.stack((x[:, 0], x[:, -1])))
         value = self._jets(x, curves, 0)[0]
         part = np.array([[-1.0], [1.0]]).repeat(len(value), axis=1)
-        return Curves(curves.number, rows, curves.sign, part, value, chebyshev.remainder(value))
+        return CandidateCurves(
+            curves.number, rows, curves.sign, part, value, chebyshev.remainder(value)
+        )
 
-    def _add(self, curves: Curves, x: Array, value: Array) -> None:
+    def _add(self, curves: CandidateCurves, x: Array, value: Array) -> None:
         self.greatest.add(curves.number, curves.rows.design, x, value)
 
-    def _turns(self, curves: Curves, way: float) -> tuple[Whole, Array, Array]:
-        """Maxima of ``way`` times the functions.
+    def _turns(self, curves: CandidateCurves, sign: float) -> tuple[Whole, Array, Array]:
+        """Maxima of ``sign`` times the functions.
 
         Returns the numbers of the curves, positions from -1 to 1, and the ranges of the search
         there.
@@ -246,17 +249,17 @@ class _Search:
         may &= self.greatest.may_be(curves.number, curves.rows.design, low - more, high + more)
         own = np.flatnonzero(may)
         curves = curves.take(own)
-        side = 0 if way > 0.0 or self.greatest.sized else 1
+        side = 0 if sign > 0.0 or self.greatest.sized else 1
         bar = self.greatest.least(side)[curves.number, curves.rows.design]
         left, cell = SAFE * curves.left, np.diff(GRID)
-        g, d = chebyshev.on_grid(way * curves.value)
+        g, d = chebyshev.on_grid(sign * curves.value)
         before, after = d[:, :-1], d[:, 1:]
         reach = np.maximum(g[:, :-1], g[:, 1:]) + 0.25 * cell * np.abs(before - after)
         may = (before > 0.0) & (after < 0.0) & ~(reach + left[:, None] < bar[:, None])
         may &= (GRID[1:] > curves.part[0][:, None]) & (GRID[:-1] < curves.part[1][:, None])
         which, k = np.nonzero(may & (bar < np.inf)[:, None])
         before, after = before[which, k], after[which, k]
-        terms = chebyshev.series(way * curves.value[which])
+        terms = chebyshev.series(sign * curves.value[which])
         start = GRID[k] + cell[k] * before / (before - after)
         t = chebyshev.root(chebyshev.slopes(terms), GRID[k], GRID[k + 1], start)
         kept = ~(chebyshev.at(terms, t) + left[which] < bar[which])
@@ -266,8 +269,8 @@ class _Search:
         t = np.clip((2.0 * t - a - b) / (b - a), -1.0, 1.0)
         return own[which[kept]], t[kept], (2.0 * cell[k] / (b - a))[kept]
 
-    def _refine(self, curves: Curves, which: Whole, t: Array, cell: Array) -> None:
-        """Add extremes of the functions themselves, from the maxima of their series."""
+    def _refine(self, curves: CandidateCurves, which: Whole, t: Array, cell: Array) -> None:
+        """Add extremes of the functions themselves, next to the maxima of their series."""
         curves = curves.take(which)
         rows = curves.rows
         x = self.places.gathered(rows.at(t), rows.design)
@@ -288,16 +291,16 @@ class _Search:
             live = live[np.abs(step) > 1e-5 * near[live]]
         self._add(curves, x, value)
 
-    def _jets(self, x: Array, curves: Curves, order: int) -> Array:
+    def _jets(self, x: Array, curves: CandidateCurves, order: int) -> Array:
         """Value and derivatives by degrees of each curve's function at places (m, k)."""
         out = np.empty((order + 1, *x.shape))
         # several functions at once: their common parts cost most
         in_order = np.argsort(curves.number, kind="stable")
         for i in range(0, len(x), BLOCK):
             of = in_order[i : i + BLOCK]
-            asked, own = np.unique(curves.number[of], return_inverse=True)
+            requested, own = np.unique(curves.number[of], return_inverse=True)
             at = self.f.at(x[of], curves.rows.design[of], order)
-            c = self.f.look(at, curves.sign[:, of, None], asked.tolist())[1]
+            c = self.f.evaluate(at, curves.sign[:, of, None], requested.tolist())[1]
             out[:, of] = [one[self.f.signs + own, np.arange(len(of))] for one in c]
         scale = np.array([1.0, DEGREE, 2.0 * DEGREE * DEGREE])[: order + 1]
         out *= scale[:, None, None]
@@ -325,11 +328,11 @@ def _blocks(rows: Rows) -> list[tuple[Rows, Which]]:
     return [(part, part.design) for part in parts]
 
 
-def _joined(parts: Sequence[Curves]) -> Curves:
+def _joined(parts: Sequence[CandidateCurves]) -> CandidateCurves:
     number, rows, *others = zip(*parts, strict=True)
     sign, part = (np.concatenate(one, axis=1) for one in others[:2])
     value, left = (np.concatenate(one) for one in others[2:])
-    return Curves(np.concatenate(number), rows_joined(rows), sign, part, value, left)
+    return CandidateCurves(np.concatenate(number), rows_joined(rows), sign, part, value, left)
 
 
 def _stretches(rows: Rows, sign: Array) -> Stretches:

@@ -21,7 +21,7 @@ from geneva_cli.numerics.arrays import ONE, Array, N, piece_of
 DEGREE = 5
 
 
-class Pieces:
+class PiecewisePolynomial:
     """A piecewise polynomial: piece i, in powers of x - origins[i], lies up to cuts[i].
 
     ``rows`` (n, degree + 1) are the pieces' coefficients, the constant first.
@@ -47,13 +47,13 @@ class Pieces:
         cuts: list[float] = self._scalars[0]
         return cuts
 
-    def integral(self) -> Pieces:
+    def integral(self) -> PiecewisePolynomial:
         """The integral from the first origin, for pieces that begin at their origins."""
         powers = np.arange(1, self.rows.shape[1] + 1)
         rows = np.column_stack((np.zeros(len(self.rows)), self.rows / powers))
         rise = taylor(np.diff(self.origins), list(rows[:-1].T), 0)[0]
         rows[1:, 0] = np.cumsum(rise)
-        return Pieces(self.cuts, self.origins, rows)
+        return PiecewisePolynomial(self.cuts, self.origins, rows)
 
 
 class Doubt(NamedTuple):
@@ -74,7 +74,7 @@ def taylor(t: N, c: Sequence[N], order: int) -> list[N]:
     return out
 
 
-def at_rest(x: Sequence[float], y: Sequence[float]) -> Pieces:
+def at_rest(x: Sequence[float], y: Sequence[float]) -> PiecewisePolynomial:
     """Return the spline through points whose first two derivatives are zero at both ends."""
     from scipy.interpolate import BSpline, PPoly
 
@@ -91,7 +91,7 @@ def at_rest(x: Sequence[float], y: Sequence[float]) -> Pieces:
     rows = PPoly.from_spline(spline).c[::-1, DEGREE : DEGREE + n].T.copy()
     rows[:, 0] = y[:-1]
     rows[0, 1:3] = 0.0
-    return Pieces(starts[1:], starts, rows)
+    return PiecewisePolynomial(starts[1:], starts, rows)
 
 
 def _pentadiagonal(bands: list[list[float]], values: list[float]) -> list[float]:
@@ -113,7 +113,7 @@ def _pentadiagonal(bands: list[list[float]], values: list[float]) -> list[float]
     return out[:n]
 
 
-def periodic(x: Sequence[float], y: Sequence[float]) -> Pieces:
+def periodic(x: Sequence[float], y: Sequence[float]) -> PiecewisePolynomial:
     """The periodic spline through points, whose last point is the first one a period later."""
     n, period = len(x) - 1, x[-1] - x[0]
     # 50 points of other periods on either side: each point farther out moves the middle 0.43
@@ -123,7 +123,7 @@ def periodic(x: Sequence[float], y: Sequence[float]) -> Pieces:
     tiled = np.tile(y[:-1], 2 * copies + 1)
     rows = at_rest(every.tolist(), tiled.tolist()).rows[copies * n :][:n]
     starts = np.array(x[:-1])
-    return Pieces(starts[1:], starts, rows)
+    return PiecewisePolynomial(starts[1:], starts, rows)
 
 
 def doubt(x: Sequence[float], y: Sequence[float], period: bool, order: int) -> Doubt:

@@ -6,7 +6,7 @@ import dataclasses
 from collections.abc import Iterable, Sequence
 from itertools import pairwise
 
-from geneva_cli.analysis.figures import OF_NAME, LeftOut, figure
+from geneva_cli.analysis.figures import AXIS_BY_NAME, LeftOut, figure
 from geneva_cli.design import Design
 from geneva_cli.errors import GenevaError, cut, few
 from geneva_cli.figure import JOINED, LINE, POINTS, Axis, Curve, Figure, Panel, Piece
@@ -15,7 +15,7 @@ from geneva_cli.specfile.columns import Columns, read_columns
 from geneva_cli.study.beside import beside
 from geneva_cli.study.quantities import whole_name
 
-QUANTITIES = tuple(OF_NAME)  # quantities that can be plotted for a design
+QUANTITIES = tuple(AXIS_BY_NAME)  # quantities that can be plotted for a design
 FAMILY = 12  # curves of a panel that the eye can tell apart
 FEW = 40  # up to so many points of a curve are marked
 RANDOM = "drawn at random"  # the name of rows that nearly all differ in their other keys
@@ -48,10 +48,10 @@ def of_specs(
 
 def _drawn_as(name: str) -> str:
     """The curve that shows a quantity: ``acceleration`` for ``acceleration.max``."""
-    if name in OF_NAME:
+    if name in AXIS_BY_NAME:
         return name
     parts = (_quantity(name) or "").split(".")
-    return next((part for part in parts if part in OF_NAME), name)
+    return next((part for part in parts if part in AXIS_BY_NAME), name)
 
 
 def of_table(path: str, x: str, ys: Sequence[str]) -> Figure:

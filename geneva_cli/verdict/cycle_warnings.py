@@ -7,7 +7,7 @@ from collections.abc import Mapping
 
 from geneva_cli.analysis.arrival import arrival
 from geneva_cli.analysis.loads.cycle import Cycle
-from geneva_cli.analysis.loads.summary import Summary
+from geneva_cli.analysis.loads.summary import QuantitySummary
 from geneva_cli.errors import Notice
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.numerics.tolerances import ROUNDED
@@ -20,7 +20,7 @@ ACROSS, THICK = 6.0, 0.5
 BRIEF = 1e-4  # fraction of a motion: next to a rest, signs are rounding
 
 
-def cycle_warnings(cycle: Cycle, loads: Mapping[str, Summary]) -> list[Notice]:
+def cycle_warnings(cycle: Cycle, loads: Mapping[str, QuantitySummary]) -> list[Notice]:
     """The warnings, for the summaries of a cycle's loads."""
     lags = _lags(cycle.mechanism)
     return [*_back_driven(cycle, loads), *lags, *_heavy(cycle), *_fast(cycle.mechanism, loads)]
@@ -41,7 +41,7 @@ def back_driven_deg(cycle: Cycle) -> list[tuple[float, float]]:
     return out
 
 
-def _back_driven(cycle: Cycle, loads: Mapping[str, Summary]) -> list[Notice]:
+def _back_driven(cycle: Cycle, loads: Mapping[str, QuantitySummary]) -> list[Notice]:
     torque, alpha = loads["input_torque_Nm"], loads["alpha_rad_s2"]
     least, most = torque.min, torque.max
     if least is None or alpha.min is None or not least < -ROUNDED * abs(most or least):
@@ -49,7 +49,7 @@ def _back_driven(cycle: Cycle, loads: Mapping[str, Summary]) -> list[Notice]:
     driven = back_driven_deg(cycle)
     where = ", ".join(f"{round(a, 9):.4g} to {round(b, 9):.4g}" for a, b in driven)
     # With this resistance the wheel is braked without the input even at its greatest deceleration.
-    inertia = cycle.given.inertia_Nm / cycle.given.speed_rad_s**2
+    inertia = cycle.case.inertia_Nm / cycle.case.speed_rad_s**2
     drag = -inertia * alpha.min
     helps = f"or add a drag to the wheel (with a resisting torque of {drag:.4g} N m in all, the "
     helps += "input always drives)"
@@ -83,8 +83,8 @@ def _lags(mechanism: Mechanism) -> list[Notice]:
 
 
 def _heavy(cycle: Cycle) -> list[Notice]:
-    L = cycle.given.L
-    inertia = cycle.given.inertia_Nm / cycle.given.speed_rad_s**2
+    L = cycle.case.L
+    inertia = cycle.case.inertia_Nm / cycle.case.speed_rad_s**2
     # a disc's J = pi rho h D^4 / 32
     most = math.pi * STEEL_KGM3 * THICK * L * (ACROSS * L) ** 4 / 32.0
     if not inertia > most:
@@ -99,7 +99,7 @@ def _heavy(cycle: Cycle) -> list[Notice]:
     ]
 
 
-def _fast(mechanism: Mechanism, loads: Mapping[str, Summary]) -> list[Notice]:
+def _fast(mechanism: Mechanism, loads: Mapping[str, QuantitySummary]) -> list[Notice]:
     engagement = mechanism.engagements[0]
     x, y = engagement.path(engagement.entry_deg, 0)
     rim = math.hypot(x.c[0], y.c[0]) * mechanism.center_distance_mm / 1000.0

@@ -25,7 +25,7 @@ def load_warnings(mechanism: Mechanism) -> list[Notice]:
 
 def _kept(cycle: Cycle) -> bool:
     """Return True if the limits on loads are kept at the present speed."""
-    limits = zip(loads.LIMITED, loads.load_limits(cycle.mechanism.spec.limits), strict=True)
+    limits = zip(loads.LIMITED_LOADS, loads.load_limits(cycle.mechanism.spec.limits), strict=True)
     given = {name: limit for name, limit in limits if limit}
     if not given.keys() <= cycle.extremes.keys():
         return False

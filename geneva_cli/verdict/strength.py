@@ -58,7 +58,7 @@ class Strength:
             return []
         recess = sizes.lock.recess
         stout = float(horn.stoutness(self.mechanism, sizes.half_width, recess)[0])
-        if stout <= horn.THICK:
+        if stout <= horn.STOUT:
             return []
         return [
             Notice(
@@ -149,7 +149,7 @@ class Strength:
     def _crank_shaft(self) -> Keys:
         yield from self._shaft("crank", shafts.crank_shaft(self.spec.shaft))
 
-    def _shaft(self, which: str, ends: shafts.GivenShaft) -> Keys:
+    def _shaft(self, which: str, ends: shafts.ShaftDimensions) -> Keys:
         yield [(self.spec.wheel.FLAT, PARALLEL)]
         if self.spec.is_loaded:
             yield [self._bounded]

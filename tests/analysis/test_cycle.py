@@ -62,7 +62,7 @@ def test_a_load_that_changes_walls():
     force = summaries(still)["pin_force_N"]
     assert force.max == pytest.approx(324.50370415267853, rel=1e-14)
     size = still.integrals(lambda i: i.pin_force_N * i.drives * i.sliding_m_s * i.slides)
-    per_second = still.given.speed_rad_s
+    per_second = still.case.speed_rad_s
     assert size[0] / per_second == pytest.approx(16.229000563314397, rel=1e-13)
     turns = still.integrals(lambda i: i.sliding_m_s * i.slides)[0] / per_second
     assert turns / (2.0 * math.pi * 0.008) == pytest.approx(2.6551484499207021, rel=1e-13)
@@ -77,7 +77,7 @@ def test_the_work_closes(path):
     mechanism = load(str(path))
     mechanism = mechanism._replace(spec=mechanism.spec.replace(load=Load(0.02, 3.0, friction=0.1)))
     cycle = Cycle(mechanism)
-    w = cycle.given.speed_rad_s
+    w = cycle.case.speed_rad_s
     paid, moved, rubbed, taken = cycle.integrals(
         lambda i: i.input_torque_Nm,
         lambda i: i.wheel_torque_Nm * i.omega_rad_s / w,
@@ -85,8 +85,8 @@ def test_the_work_closes(path):
         lambda i: i.alpha_rad_s2 * i.omega_rad_s / w,
     )
     step = sum(2.0 * engagement.half_step for engagement in mechanism.engagements)
-    assert moved == pytest.approx(cycle.given.resists_Nm * step, rel=1e-12)
-    assert paid == pytest.approx(cycle.given.resists_Nm * step + rubbed, rel=1e-12)
+    assert moved == pytest.approx(cycle.case.resists_Nm * step, rel=1e-12)
+    assert paid == pytest.approx(cycle.case.resists_Nm * step + rubbed, rel=1e-12)
     assert abs(taken) <= 1e-12 * w * w * step
 
 

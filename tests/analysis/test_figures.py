@@ -17,8 +17,8 @@ from geneva_cli import (
     Motion,
     load,
 )
-from geneva_cli.analysis.figures import MOST, OF_NAME, USUAL, figure
-from geneva_cli.analysis.loads.summary import SHOWN
+from geneva_cli.analysis.figures import AXIS_BY_NAME, MACHINES_MAX, USUAL_QUANTITIES, figure
+from geneva_cli.analysis.loads.summary import SHOWN_QUANTITIES
 from geneva_cli.errors import GenevaError
 from geneva_cli.numerics.sampling import ASPECT, MISS, refined, thinned
 
@@ -168,15 +168,15 @@ def test_what_cannot_be_shown():
         Design(External(6), load=LOADED).figure(["contact_stress_MPa"])
     with pytest.raises(GenevaError, match="no guide"):
         Design(External(6), load=LOADED).figure(["guide_force_N"])
-    with pytest.raises(GenevaError, match=f"at most {MOST}"):
-        figure({str(i): bare.cycle for i in range(MOST + 1)})
+    with pytest.raises(GenevaError, match=f"at most {MACHINES_MAX}"):
+        figure({str(i): bare.cycle for i in range(MACHINES_MAX + 1)})
     made, left = figure({"six": bare.cycle})
-    assert [p.y.name for p in made.panels] == list(USUAL[:4])
+    assert [p.y.name for p in made.panels] == list(USUAL_QUANTITIES[:4])
     assert len(left) == 1 and left[0][1].startswith("no curve of pin_force_N, input_torque_Nm, ")
 
 
 def test_every_load_can_be_asked_for():
-    assert set(SHOWN) < set(OF_NAME)
+    assert set(SHOWN_QUANTITIES) < set(AXIS_BY_NAME)
 
 
 # Points on a curve

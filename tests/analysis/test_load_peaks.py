@@ -11,7 +11,7 @@ from words import Drive, Keys, Motion, Spec, Wheel
 from geneva_cli.analysis.loads import loaded, loads
 from geneva_cli.analysis.loads.contact import contact
 from geneva_cli.analysis.loads.cycle import Cycle
-from geneva_cli.analysis.loads.forces import setting
+from geneva_cli.analysis.loads.forces import load_case
 from geneva_cli.analysis.loads.quantities import SIZED
 from geneva_cli.analysis.peaks import worst
 from geneva_cli.design import Design, load
@@ -249,7 +249,7 @@ def test_friction_that_holds_the_wheel():
 
 
 def test_a_setting_knows_no_stress_without_a_width():
-    assert setting(build(Spec(Wheel(6)))).hertz is None
+    assert load_case(build(Spec(Wheel(6)))).hertz is None
 
 
 def test_a_motion_between_two_angles_has_no_loads():

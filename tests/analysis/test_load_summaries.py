@@ -110,8 +110,8 @@ def test_means_beside_narrow_features(case, told):
 def test_an_inertia_alone_is_summed_in_pairs(name, friction):
     """As where the sliding's changes are cut, to rounding; some wheels are held by friction."""
     _, _, found = loaded(name, 60, 78, torque_Nm=0.0, efficiency=1.0, **friction)
-    together = load_summaries(found.machine, NAMES, told=("rms",))
-    for load, one in load_means(found.machine, NAMES, told=("rms",)).items():
+    together = load_summaries(found.machine, NAMES, requested=("rms",))
+    for load, one in load_means(found.machine, NAMES, requested=("rms",)).items():
         cut = together[load]
         size = np.maximum(np.abs(cut.max), np.abs(cut.min))
         assert np.array_equal(np.isinf(one.rms), np.isinf(cut.rms)), load
@@ -151,7 +151,7 @@ def test_a_least_value_far_from_a_pole_is_found():
     spec = MACHINES["sine-group"][0].replace(load=Load())
     columns = {key: np.array([value]) for key, value in varied.items()}
     found = many(spec, columns)
-    least = load_summaries(found.machine, ["crank_bearing_N"], told=())["crank_bearing_N"]
+    least = load_summaries(found.machine, ["crank_bearing_N"], requested=())["crank_bearing_N"]
     assert (beyond(found, 3000, 5, ("crank_bearing_N",)) <= 1e-12).all()
     assert least.min_at_deg[0] == pytest.approx(89.72321, abs=1e-4)
 
@@ -165,7 +165,7 @@ def test_the_least_of_a_size_is_nothing():
     names = ("wheel_bearing_N", "crank_bearing_N")
     for torque, of_each in ((0.0, (0, 3, 6)), (10.0, (0,))):
         _, _, found = loaded("cycloidal", 12, 5, torque_Nm=torque)
-        together = load_summaries(found.machine, names, told=())
+        together = load_summaries(found.machine, names, requested=())
         for row in of_each:
             for load in names:
                 assert 0.0 <= together[load].min[row] < 1e-10
@@ -177,7 +177,7 @@ def test_what_was_stepped_over_is_found(name):
     """Dense samples pass no extreme of designs of which one was missed."""
     _, _, found = missed(name)
     assert (beyond(found, 3000, 7) <= 1e-12).all()
-    for load, one in load_summaries(found.machine, NAMES, told=()).items():
+    for load, one in load_summaries(found.machine, NAMES, requested=()).items():
         size = np.maximum(np.abs(one.max), np.abs(one.min))
         # where one is asked for alone, others' cuts bring nothing to light
         alone_ = load_peaks(found.machine, [load])[load].max
@@ -263,7 +263,7 @@ def test_sizes_of_half_a_motion_are_those_of_the_whole(name):
     names = ("pin_force_N", "input_torque_Nm", "contact_stress_MPa")
     _, _, found = loaded(name, 30, 9, friction=0.0, torque_Nm=0.0)
     sizes = load_peaks(found.machine, names)
-    for load, whole in load_summaries(found.machine, names, told=()).items():
+    for load, whole in load_summaries(found.machine, names, requested=()).items():
         most = np.maximum(whole.max, -whole.min)
         assert sizes[load].max == pytest.approx(most, rel=32 * ULP), load
 

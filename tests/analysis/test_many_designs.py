@@ -14,7 +14,7 @@ from geneva_cli.analysis import change_of_sides, impacts, undercut
 from geneva_cli.analysis import positive_drive as positive
 from geneva_cli.analysis.loads import loads
 from geneva_cli.analysis.loads.cycle import Cycle
-from geneva_cli.analysis.loads.sizing import NAMES, sizing, sizings
+from geneva_cli.analysis.loads.sizing import SIZING_NAMES, sizing, sizings
 from geneva_cli.analysis.locking import Lock
 from geneva_cli.analysis.strength import horn, lock, roller, shafts
 from geneva_cli.analysis.tolerance.dimensions import corners
@@ -289,7 +289,7 @@ def test_sizing(name):
     found = sizings(machine)
     for i, one in each:
         told, _ = sizing(Cycle(one))
-        for field in NAMES:
+        for field in SIZING_NAMES:
             same(found.get(field), i, told[field], SUMMED)
 
 

@@ -11,8 +11,8 @@ from witness import mp
 from words import Drive, Keys, Motion, Spec, Wheel, load
 
 from geneva_cli.analysis.loads.cycle import Cycle
-from geneva_cli.analysis.loads.forces import setting
-from geneva_cli.analysis.strength.roller import EXPONENT, life, passage, passages, wear_mm
+from geneva_cli.analysis.loads.forces import load_case
+from geneva_cli.analysis.strength.roller import LIFE_EXPONENT, life, passage, passages, wear_mm
 from geneva_cli.machine.mechanism import build
 from geneva_cli.spec.tables import Load, RollerMaterial, Size, WheelMaterial
 
@@ -102,7 +102,7 @@ def test_work_and_turns_of_bodies_cut_free(name):
     """
     mechanism = build(MACHINES[name]) if name in MACHINES else load(str(DESIGNS / f"{name}.toml"))
     mechanism = mechanism._replace(spec=mechanism.spec.replace(load=RUBS))
-    engagement, given = mechanism.engagements[0], setting(mechanism)
+    engagement, given = mechanism.engagements[0], load_case(mechanism)
     machine = load_witness.machine(mechanism.spec, None)
     found = passage(engagement, given)
     node, weight = np.polynomial.legendre.leggauss(20)
@@ -126,7 +126,7 @@ def test_a_constant_force_is_its_own_mean():
     (one,) = passages(mechanism)
     assert (one.work / one.rolled_m) < life(mechanism).equivalent_force_N < 324.503703
     twice = build(CASE.with_("load.torque_Nm", 30.0).with_("load.inertia_kgm2", 0.8))
-    assert passages(twice)[0].load == pytest.approx(2.0**EXPONENT * one.load, rel=1e-13)
+    assert passages(twice)[0].load == pytest.approx(2.0**LIFE_EXPONENT * one.load, rel=1e-13)
 
 
 def test_the_mean_force_of_a_crank_that_runs_away():
@@ -171,7 +171,7 @@ def test_of_unequal_steps_the_worst_roller_counts():
     for way in passages(mechanism):
         force = (way.load / way.rolled_m) ** 0.3
         turns = way.rolled_m / (2.0 * math.pi * mechanism.roller_radius_mm / 1000.0)
-        hours.append(1e6 * (2000.0 / force) ** EXPONENT / turns / (60.0 * spec.drive.n_rpm))
+        hours.append(1e6 * (2000.0 / force) ** LIFE_EXPONENT / turns / (60.0 * spec.drive.n_rpm))
     assert life(mechanism).hours == pytest.approx(min(hours), rel=1e-12)
 
 
@@ -197,6 +197,6 @@ def test_a_force_without_a_bound_ends_the_integrals():
         Wheel(6), motion=motion, load=Load(0.5, friction=0.1), size=Size(face_width_mm=10.0)
     )
     machine = build(spec)
-    found = passage(machine.engagements[0], setting(machine))
+    found = passage(machine.engagements[0], load_case(machine))
     assert math.isinf(found.load)
     assert math.isfinite(found.travel_m) and math.isfinite(found.rolled_m)

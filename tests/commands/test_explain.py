@@ -17,7 +17,7 @@ from typer.testing import CliRunner
 from geneva_cli.analysis import figures, law_values, motion
 from geneva_cli.analysis.cam_factors import CamFactors
 from geneva_cli.analysis.loads import summary
-from geneva_cli.analysis.loads.sizing import SHOWN
+from geneva_cli.analysis.loads.sizing import SHOWN_SIZING
 from geneva_cli.analysis.vibration import answers
 from geneva_cli.analysis.vibration.vibration import Avoid
 from geneva_cli.app import app
@@ -104,20 +104,22 @@ def quantities() -> set[str]:
     out |= {*groups.own_names("parts"), *groups.own_names("tolerance"), "tolerance.warnings"}
     out |= {f"parts_list.{kind}" for kind in parts_list.KINDS} | {"checks.passes", "checks.failed"}
     out |= {"passes", "checks_failed", "not_proved", "warnings", "spec", "title"}  # the report's
-    of_loads = {f"{q}.{s}" for q in summary.SHOWN for s in summary.Summary._fields}
+    of_loads = {
+        f"{q}.{s}" for q in summary.SHOWN_QUANTITIES for s in summary.QuantitySummary._fields
+    }
     out |= {f"loads.{name}" for name in of_loads} | {"loads.reversals_deg"}
-    out |= {f"sizing.{name}" for name in SHOWN}
+    out |= {f"sizing.{name}" for name in SHOWN_SIZING}
     out |= {f"vibration.avoid.{name}" for name in Avoid._fields}
-    out |= {f"vibration.{name}" for name in (*answers.STATION, "avoid")}
+    out |= {f"vibration.{name}" for name in (*answers.STATION_COLUMNS, "avoid")}
     out |= {
-        *answers.SPECTRUM,
+        *answers.SPECTRUM_COLUMNS,
         *survey.NAMES,
-        *motion.NAMES,
-        *summary.PLACES,
-        *figures.OF_NAME,
+        *motion.MOTION_COLUMNS,
+        *summary.PLACE_COLUMNS,
+        *figures.AXIS_BY_NAME,
         *CamFactors._fields,
     }
-    out |= {"acceleration.exit", "jerk.exit", *law_values.NAMES, *SYNTH, ERROR, *batch.NAMES}
+    out |= {"acceleration.exit", "jerk.exit", *law_values.LAW_COLUMNS, *SYNTH, ERROR, *batch.NAMES}
     out |= {*slot_sampling.NAMES, *groove.NAMES, *gear_curves.NAMES, *parts_list.NAMES}
     out |= {"dwell_position_share", "motion_play_share"}  # of a histogram
     return out | {f"tolerance.{name}" for name in tolerance_names()}

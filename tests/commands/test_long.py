@@ -20,7 +20,7 @@ import repo
 from words import load
 
 from geneva_cli import progress
-from geneva_cli.analysis.motion import HELD, SAMPLES_MAX, motion_table
+from geneva_cli.analysis.motion import SAMPLES_MAX, WHOLE_ROWS, motion_table
 from geneva_cli.analysis.peaks import peaks
 from geneva_cli.errors import GenevaError
 from geneva_cli.output import show
@@ -49,9 +49,9 @@ ROLLERS = "[wheel]\nz = 5\n[drive]\nroller_angles_deg = [0, 150]\n"
 @pytest.mark.parametrize("text", ["[wheel]\nz = 6\n", ROLLERS], ids=["one", "two-rollers"])
 def test_a_long_table_is_the_same_as_a_held_one(text, monkeypatch):
     put("spec.toml", text)
-    samples = HELD + 12_345  # no multiple of a piece
+    samples = WHOLE_ROWS + 12_345  # no multiple of a piece
     found = motion_table(load("spec.toml"), samples)
-    monkeypatch.setattr("geneva_cli.analysis.motion.HELD", SAMPLES_MAX)
+    monkeypatch.setattr("geneva_cli.analysis.motion.WHOLE_ROWS", SAMPLES_MAX)
     held = motion_table(load("spec.toml"), samples)
     rows = np.array(list(found.rows()))
     assert len(rows) == len(found) == samples

@@ -12,7 +12,7 @@ WHOLE = 10.0
 class Waves:
     """sin(rate x), x in degrees."""
 
-    signs, wanted, rooms, poled = 0, 1, (), ()
+    signs, wanted, margins, poled = 0, 1, (), ()
 
     def __init__(self, rates):
         self.rates = rates
@@ -20,7 +20,7 @@ class Waves:
     def at(self, x, which, order):
         return x, self.rates[which], order
 
-    def look(self, at, forced=None, asked=None):
+    def evaluate(self, at, forced=None, requested=None):
         x, rate, order = at
         slope = rate / DEGREE
         rows = np.sin(rate * x), slope * np.cos(rate * x), -0.5 * slope**2 * np.sin(rate * x)
@@ -57,7 +57,7 @@ def test_no_design_hangs_on_how_its_neighbours_are_parted():
 class Bent(Waves):
     """|x - turn| of each design, by way of the sign of x - turn, and 1 / (x - turn) beside it."""
 
-    signs, wanted, rooms = 1, 2, (0,)
+    signs, wanted, margins = 1, 2, (0,)
 
     def column(self, at, number):
         x, rate, order = at
@@ -67,7 +67,7 @@ class Bent(Waves):
         x, rate, order = at
         return x[which], rate[which], order
 
-    def look(self, at, forced=None, asked=None):
+    def evaluate(self, at, forced=None, requested=None):
         x, turn, order = at
         way = x - turn
         sign = (
@@ -75,7 +75,7 @@ class Bent(Waves):
             if forced is None
             else np.where(np.isnan(forced[0]), np.sign(way), forced[0])
         )
-        asked = range(2) if asked is None else asked
+        requested = range(2) if requested is None else requested
         one = np.ones_like(way)
         with np.errstate(divide="ignore"):
             pole = np.where(sign * way > 0.0, 1.0 / way, np.inf)
@@ -83,7 +83,7 @@ class Bent(Waves):
         every = []
         for k, own in enumerate((way, one, 0.0 * one)[: order + 1]):
             scale = (1.0 / DEGREE) ** k
-            every.append(np.stack([own * scale, *[wanted[k][i] * scale for i in asked]]))
+            every.append(np.stack([own * scale, *[wanted[k][i] * scale for i in requested]]))
         return (way > 0.0)[None], every
 
 

@@ -19,10 +19,7 @@ if TYPE_CHECKING:
     from geneva_cli.numerics.arrays import Whole
     from geneva_cli.numerics.jet import Array
 
-NEAR = 1e-4  # fraction of a half motion: nearer to a cusp, slopes are lost to rounding
-# quantities that change sign when mirrored at mid-motion
-ODD = ("acceleration", "aside", "along", "curvature")
-BENT = 1e-9  # rate of turning below which a slot at its cusp counts as straight
+NEAR_CUSP = 1e-4  # fraction of a half motion: nearer to a cusp, slopes are lost to rounding
 
 
 class Contact(NamedTuple, Generic[V]):
@@ -31,15 +28,15 @@ class Contact(NamedTuple, Generic[V]):
     velocity: V
     acceleration: V
     lever: V  # M . t: of the walls' normal about the wheel's axis
-    aside: V  # M x t: of the slot's tangent
+    offset: V  # M x t: of the slot's tangent from the wheel's axis
     along: V  # the roller centre's speed along t
     curvature: V  # of the pitch curve, positive to the left of t: 0 in a straight slot
     spin: V  # rate of the roller's body relative to the wheel
     arm: V  # of friction at the wall about the wheel's axis, beyond M's: over the radius
     touches: V  # 0 while gears drive and no roller does, else 1
-    held: tuple[tuple[tuple[V, V], tuple[V, V]], ...] | None = None
-    # what holds the roller's body (the crank's shaft, a guide) against a force of 1 along the
-    # normal i t, one along t, and a couple of 1; None where only a shaft is known to
+    # Reactions of the joints of the roller's body (the crank's shaft, a guide) to a force of 1
+    # along the normal i t, to one along t, and to a couple of 1; None where there is only a shaft.
+    reactions: tuple[tuple[tuple[V, V], tuple[V, V]], ...] | None = None
 
 
 def contacts(engagement: Engagement, input_deg: Array) -> Contact[Array]:
@@ -49,17 +46,17 @@ def contacts(engagement: Engagement, input_deg: Array) -> Contact[Array]:
     """
     if is_straight(engagement):
         rates = Jet(engagement.motion.derivatives(input_deg, (1, 2)))
-        found = _beside(engagement, input_deg, 0, rates)
+        at = _moving(engagement, input_deg, 0, rates)
     else:
-        found = contact(engagement, input_deg)
-    return valued(found)
+        at = contact(engagement, input_deg)
+    return valued(at)
 
 
 def valued(at: Contact[Jet]) -> Contact[Array]:
     """The values of a contact's jets."""
-    *jets, holds = at
-    held = holds and [[(x.c[0], y.c[0]) for x, y in pair] for pair in holds]
-    return Contact._make([*[jet.c[0] for jet in jets], held])
+    *jets, joints = at
+    reactions = joints and [[(x.c[0], y.c[0]) for x, y in pair] for pair in joints]
+    return Contact._make([*[jet.c[0] for jet in jets], reactions])
 
 
 def mirrored(at: Contact[Jet]) -> Contact[Jet]:
@@ -67,10 +64,10 @@ def mirrored(at: Contact[Jet]) -> Contact[Jet]:
 
     Motion and slot must be symmetric.
     """
-    jets = []
+    jets, odd = [], ("acceleration", "offset", "along", "curvature")  # change their sign
     for name, jet in zip(at._fields[:-1], at[:-1], strict=True):
-        even = name not in ODD
-        jets.append(Jet([_turned(c, even ^ (k % 2 > 0)) for k, c in enumerate(jet.c)]))
+        even = name not in odd
+        jets.append(Jet([_mirror_image(c, even ^ (k % 2 > 0)) for k, c in enumerate(jet.c)]))
     return Contact._make([*jets, None])
 
 
@@ -94,12 +91,13 @@ def _changed(at: Contact[Jet], change: Callable[[Array], Array]) -> Contact[Jet]
     def of(jet: Jet) -> Jet:
         return Jet([c if isinstance(c, float) else change(c) for c in jet.c])
 
-    *jets, held = at
-    loads = held and tuple(((of(a), of(b)), (of(c), of(d))) for (a, b), (c, d) in held)
-    return Contact._make([*map(of, jets), loads])
+    *jets, joints = at
+    reactions = joints and tuple(((of(a), of(b)), (of(c), of(d))) for (a, b), (c, d) in joints)
+    return Contact._make([*map(of, jets), reactions])
 
 
-def _turned(c: Number, same: bool) -> Number:
+def _mirror_image(c: Number, same: bool) -> Number:
+    """Coefficients in reverse order of the places, and negative unless ``same``."""
     if not isinstance(c, float):
         c = c[:, ::-1]
     return c if same else -c
@@ -119,10 +117,10 @@ def contact(
     a curved slot only the values have a limit, that of entry: there ``order`` must be 0.
     """
     if is_straight(engagement) or all_true(input_deg != 0.0):
-        return _beside(engagement, input_deg, order, reactions=reactions, spins=spins)
+        return _moving(engagement, input_deg, order, reactions=reactions, spins=spins)
 
-    def beside(x: Number) -> Jet:
-        *jets, _ = _beside(engagement, x, order, reactions=False)
+    def moving(x: Number) -> Jet:
+        *jets, _ = _moving(engagement, x, order, reactions=False)
         return Jet([c for jet in jets for c in jet.c])
 
     def middle(x: Number) -> Jet:
@@ -130,10 +128,10 @@ def contact(
         return Jet([x * 0.0 + c for c in _middle(engagement)])
 
     # one piece on each side of mid-motion, and mid-motion itself
-    every = piecewise(input_deg, (-5e-324, 0.0), (beside, middle, beside)).c
+    every = piecewise(input_deg, (-5e-324, 0.0), (moving, middle, moving)).c
     jets = [Jet(every[i : i + order + 1]) for i in range(0, len(every), order + 1)]
-    held = _held(engagement, input_deg, jets[2], jets[3]) if reactions else None
-    return Contact._make([*jets, held])
+    joints = _reactions(engagement, input_deg, jets[2], jets[3]) if reactions else None
+    return Contact._make([*jets, joints])
 
 
 def is_straight(engagement: Engagement) -> bool:
@@ -141,7 +139,7 @@ def is_straight(engagement: Engagement) -> bool:
     return not engagement.slot.curved
 
 
-def _beside(
+def _moving(
     engagement: Engagement,
     x: Number,
     order: int,
@@ -155,37 +153,39 @@ def _beside(
     """
     if rates is None:
         rates = engagement.motion.rate(x, order + 1)
-    velocity, acceleration = _cut(rates, order), rates.derivative()
+    velocity, acceleration = _to_order(rates, order), rates.derivative()
     constant = Jet((velocity.c[0] * 0.0, *[0.0] * order))
     straight_axis = engagement.slot.axis(x, order)
     if straight_axis:
         lever, along = straight_axis
-        aside, curvature = constant + engagement.slot.offset, constant
+        offset, curvature = constant + engagement.slot.offset, constant
     else:
-        lever, aside, along, curvature = _curved(engagement, x, order, rates)
+        lever, offset, along, curvature = _curved(engagement, x, order, rates)
     upright = engagement.slot.upright(x, order)
     touches = constant + engagement.slot.touches(x)
     spin = constant
     if spins:
         spin = (engagement.carrier(x, order) - velocity * upright) * touches
     arm = (constant + upright) * touches
-    held = _held(engagement, x, lever, aside) if reactions else None
-    return Contact(velocity, acceleration, lever, aside, along, curvature, spin, arm, touches, held)
+    joints = _reactions(engagement, x, lever, offset) if reactions else None
+    return Contact(
+        velocity, acceleration, lever, offset, along, curvature, spin, arm, touches, joints
+    )
 
 
 def _curved(engagement: Engagement, x: Number, order: int, rates: Jet) -> tuple[Jet, Jet, Jet, Jet]:
-    """Lever, aside, along and curvature of a curved slot, from the path p relative to the wheel.
+    """Lever, offset, speed along and curvature of a curved slot, from the path p on the wheel.
 
     The axes are the fixed ones at the instant. Each vector's rate is its own less the wheel's
     rotation. Products of two vectors are equal in all axes, so the wheel's angle is not needed.
     """
     path = engagement.path(x, order + 2)
     dx, dy = (jet.derivative() for jet in path)
-    px, py = (_cut(jet, order + 1) for jet in path)
+    px, py = (_to_order(jet, order + 1) for jet in path)
     ux, uy = dx + py * rates, dy - px * rates
-    turn = _cut(rates, order)
+    turn = _to_order(rates, order)
     bend_x, bend_y = ux.derivative(), uy.derivative()
-    px, py, dx, dy, ux, uy = (_cut(jet, order) for jet in (px, py, dx, dy, ux, uy))
+    px, py, dx, dy, ux, uy = (_to_order(jet, order) for jet in (px, py, dx, dy, ux, uy))
     outward = px * dx + py * dy
     square = ux * ux + uy * uy
     along = sqrt(square) * library(outward.c[0]).copysign(1.0, outward.c[0])
@@ -193,17 +193,17 @@ def _curved(engagement: Engagement, x: Number, order: int, rates: Jet) -> tuple[
     return outward / along, (px * uy - py * ux) / along, along, curvature
 
 
-def _held(
-    engagement: Engagement, x: Number, lever: Jet, aside: Jet
+def _reactions(
+    engagement: Engagement, x: Number, lever: Jet, offset: Jet
 ) -> tuple[tuple[Vector, Vector], ...] | None:
     """The reactions of joints to three unit loads at the pin."""
     if engagement.reactions is None:
         return None
     path = engagement.path(x, lever.order + 1)
-    px, py = (_cut(jet, lever.order) for jet in path)
+    px, py = (_to_order(jet, lever.order) for jet in path)
     square = px * px + py * py
     # the tangent, whose M . t and M x t are known
-    tx, ty = (px * lever - py * aside) / square, (py * lever + px * aside) / square
+    tx, ty = (px * lever - py * offset) / square, (py * lever + px * offset) / square
     none = px * 0.0
     normal, tangent = (ty * -1.0, tx), (tx, ty)
     loads: tuple[tuple[Vector, Jet], ...] = (
@@ -232,12 +232,12 @@ def _crossing(engagement: Engagement) -> list[Number]:
     The lever is 0 there, so the sign of the tangent is rounding; next to it, the sign is known.
     """
     values, before = (
-        [jet.c[0] for jet in _beside(engagement, x, 0, reactions=False)[:-1]]
-        for x in (0.0, NEAR * engagement.entry_deg)
+        [jet.c[0] for jet in _moving(engagement, x, 0, reactions=False)[:-1]]
+        for x in (0.0, NEAR_CUSP * engagement.entry_deg)
     )
     lever, along = (Contact._fields.index(name) for name in ("lever", "along"))
     turned = values[along] * before[along] < 0.0
-    for name in ("aside", "along", "curvature"):
+    for name in ("offset", "along", "curvature"):
         i = Contact._fields.index(name)
         values[i] = choose(turned, -values[i], values[i])
     values[lever] = 0.0
@@ -245,22 +245,24 @@ def _crossing(engagement: Engagement) -> list[Number]:
 
 
 def _cusp(engagement: Engagement) -> list[Number]:
+    """The contact where the pin reverses in a cusp of its pitch curve."""
     at = pitch_at_retrace(engagement)
     m = library(at.x)
     lever = at.x * at.tangent_x + at.y * at.tangent_y
-    way = m.copysign(1.0, lever)
-    aside = way * (at.x * at.tangent_y - at.y * at.tangent_x)
+    sense = m.copysign(1.0, lever)
+    offset = sense * (at.x * at.tangent_y - at.y * at.tangent_x)
     _, v, a = engagement.motion(0.0, 2).derivatives()
     spin = engagement.carrier(0.0).c[0] - v
-    # A slot that hardly turns has equal entry and exit paths: its curvature is that next to the
-    # cusp.
+    # A slot that turns by less than 1e-9 has equal entry and exit paths: its curvature is that next
+    # to the cusp.
     curvature = choose(
-        at.turning * at.turning > BENT * BENT,
-        m.copysign(math.inf, way * at.turning),
-        _beside(engagement, NEAR * engagement.entry_deg, 0, reactions=False).curvature.c[0],
+        at.turning * at.turning > 1e-9 * 1e-9,
+        m.copysign(math.inf, sense * at.turning),
+        _moving(engagement, NEAR_CUSP * engagement.entry_deg, 0, reactions=False).curvature.c[0],
     )
-    return [v, a, way * lever, aside, 0.0, curvature, spin, 1.0, 1.0]
+    return [v, a, sense * lever, offset, 0.0, curvature, spin, 1.0, 1.0]
 
 
-def _cut(jet: Jet, order: int) -> Jet:
+def _to_order(jet: Jet, order: int) -> Jet:
+    """The jet without its derivatives above an order."""
     return Jet(jet.c[: order + 1])

@@ -14,15 +14,15 @@ from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 import numpy as np
 
 from geneva_cli.analysis.loads.contact import contact, contacts
-from geneva_cli.analysis.loads.forces import Setting, gain, setting, sliding
-from geneva_cli.analysis.loads.instant import NAMES, Instant, bounded, values
-from geneva_cli.analysis.loads.loaded import NONE, Loaded, machine
+from geneva_cli.analysis.loads.forces import LoadCase, gain, load_case, sliding
+from geneva_cli.analysis.loads.instant import INSTANT_QUANTITIES, Instant, bounded, values
+from geneva_cli.analysis.loads.loaded import NO_MORE, LoadFunctions, load_batch
 from geneva_cli.analysis.loads.mid_motion import at_crossing
-from geneva_cli.analysis.loads.quantities import KINETIC, known_quantities, shares
+from geneva_cli.analysis.loads.quantities import KINETIC, known_quantities, multiples
 from geneva_cli.analysis.loads.stretches import Stretch, refuse_rounding, to_mid_motion, whole
 from geneva_cli.analysis.loads.summaries import (
+    EngagementExtremes,
     LoadSummary,
-    Searched,
     searched,
     shown,
     summed_up,
@@ -33,7 +33,7 @@ from geneva_cli.machine.engagement import Engagement
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.numerics.adaptive_quadrature import Integrands, span_integrals
 from geneva_cli.numerics.angles import DEGREE
-from geneva_cli.numerics.search import Found
+from geneva_cli.numerics.search import SearchResult
 
 if TYPE_CHECKING:
     from geneva_cli.numerics.arrays import Whole
@@ -57,13 +57,13 @@ class Extremes(NamedTuple):
 class Cycle:
     """A machine under its load, over one period.
 
-    ``given`` holds the loads' parameters besides the motion. All values are exact to some units in
-    the last place of a quantity's peak; none is taken from samples.
+    ``case`` are the data that the loads depend on besides the motion. All values are exact to some
+    units in the last place of a quantity's peak; none is taken from samples.
     """
 
     def __init__(self, mechanism: Mechanism) -> None:
         self.mechanism = mechanism
-        self.given: Setting = setting(mechanism)
+        self.case: LoadCase = load_case(mechanism)
 
     @property
     def is_loaded(self) -> bool:
@@ -81,7 +81,9 @@ class Cycle:
         A force without a bound is infinite: where friction alone holds the wheel, and at mid-motion
         of a curved slot that lies across the roller's path.
         """
-        out: dict[str, Array | None] = {name: np.zeros(len(input_deg)) for name in NAMES}
+        out: dict[str, Array | None] = {
+            name: np.zeros(len(input_deg)) for name in INSTANT_QUANTITIES
+        }
         for span in spans(self.mechanism, input_deg):
             local = local_deg(span, input_deg)
             if not len(local):
@@ -96,20 +98,20 @@ class Cycle:
 
     def moving(self, engagement: Engagement, input_deg: Array) -> Instant[Array]:
         """Arrays (n,) at input angles of an engagement, degrees from its own mid-motion."""
-        given, at = self.given, contacts(engagement, input_deg)
-        torque = at.acceleration * given.inertia_Nm + given.resists_Nm
+        case, at = self.case, contacts(engagement, input_deg)
+        torque = at.acceleration * case.inertia_Nm + case.resists_Nm
         drives = np.copysign(1.0, torque)
-        slides = np.copysign(1.0, sliding(at, drives, given.radius))
-        feeds = np.copysign(1.0, drives * gain(given, at, drives, slides))
+        slides = np.copysign(1.0, sliding(at, drives, case.radius))
+        feeds = np.copysign(1.0, drives * gain(case, at, drives, slides))
         with np.errstate(all="ignore"):
-            found = bounded(Instant(given, at, drives, slides, feeds))
+            moving_values = bounded(Instant(case, at, drives, slides, feeds))
         middle = input_deg == 0.0
-        limits = at_crossing(engagement, given) if middle.any() else None
+        limits = at_crossing(engagement, case) if middle.any() else None
         if limits is None:
-            return found
-        every = dict[str, object](found.quantities())
+            return moving_values
+        every = dict[str, object](moving_values.quantities())
         for name, limit in limits.items():
-            every[name] = np.where(middle, limit, getattr(found, name))
+            every[name] = np.where(middle, limit, getattr(moving_values, name))
         return Instant.known(every)
 
     def along(self, engagement: Engagement, stretch: Stretch, input_deg: Array) -> Instant[Array]:
@@ -119,19 +121,19 @@ class Cycle:
         """
         with np.errstate(all="ignore"):
             at = contacts(engagement, input_deg)
-            return bounded(Instant(self.given, at, stretch.drives, stretch.slides, stretch.feeds))
+            return bounded(Instant(self.case, at, stretch.drives, stretch.slides, stretch.feeds))
 
     @cached_property
-    def _searches(self) -> list[tuple[Loaded, Found]]:
+    def _searches(self) -> list[tuple[LoadFunctions, SearchResult]]:
         """For each engagement, the search for the extremes of known quantities, and its cuts."""
         names, out = [*known_quantities(self.mechanism), KINETIC], []
         for engagement in self.mechanism.engagements:
-            every = machine(engagement, self.given, names, NONE)
-            load = Loaded(every, names, ("slides", "feeds"))
-            found = searched(load, 1)
-            fastest = found.most[names.index("omega_rad_s"), 0] / self.given.speed_rad_s
+            every = load_batch(engagement, self.case, names, NO_MORE)
+            load = LoadFunctions(every, names, ("slides", "feeds"))
+            result = searched(load, 1)
+            fastest = result.most[names.index("omega_rad_s"), 0] / self.case.speed_rad_s
             refuse_rounding(engagement, fastest)
-            out.append((load, found))
+            out.append((load, result))
         return out
 
     @cached_property
@@ -140,25 +142,25 @@ class Cycle:
         names = [*known_quantities(self.mechanism), KINETIC]
         names += [
             name
-            for name, (source, share, _) in shares(self.mechanism).items()
-            if share is not None and source in names
+            for name, (source, factor, _) in multiples(self.mechanism).items()
+            if factor is not None and source in names
         ]
         each = [
-            Searched(
-                found.most,
-                shown(self.mechanism, load.machine[0], found.x),
-                sums_of(load, found, 1, plain=True),
+            EngagementExtremes(
+                result.most,
+                shown(self.mechanism, load.engagement, result.x),
+                sums_of(load, result, 1, plain=True),
             )
-            for load, found in self._searches
+            for load, result in self._searches
         ]
         return summed_up(self.mechanism, names, each, plain=True)
 
     @cached_property
     def peaks(self) -> list[tuple[float, float, float]]:
         """Each engagement's greatest velocity, acceleration and product of both, as invariants."""
-        w, out = self.given.speed_rad_s, []
-        for load, found in self._searches:
-            most = found.most.reshape(2, -1).max(axis=0)
+        w, out = self.case.speed_rad_s, []
+        for load, result in self._searches:
+            most = result.most.reshape(2, -1).max(axis=0)
             places = [load.names.index(n) for n in ("omega_rad_s", "alpha_rad_s2", KINETIC)]
             v, a, p = (float(most[place]) / w**k for k, place in enumerate(places, 1))
             out.append((v, a, p))
@@ -189,23 +191,23 @@ class Cycle:
                 signs: list[Array] = signs,
             ) -> Array:
                 at = contact(engagement, x)
-                here = values(Instant(self.given, at, *(sign[which, None] for sign in signs)))
+                here = values(Instant(self.case, at, *(sign[which, None] for sign in signs)))
                 return np.stack([np.broadcast_to(f(here), x.shape) for f in of])
 
             one = np.zeros(len(pieces), dtype=int)
-            asked = np.full(total.shape, True)
+            needed = np.full(total.shape, True)
             with np.errstate(all="ignore"):
-                total += span_integrals(Integrands(rows, start, end, ends=True), one, asked)
+                total += span_integrals(Integrands(rows, start, end, ends=True), one, needed)
         return [float(x) for x in total[:, 0] * DEGREE]
 
     @cached_property
     def stretches(self) -> list[tuple[Engagement, Stretch]]:
         """The motions, divided at breaks and where torque, sliding or input torque change sign."""
         out = []
-        for load, found in self._searches:
-            engagement = load.machine[0]
-            pieces = to_mid_motion(engagement, found.stretches, 1)
-            out += [(engagement, one) for one in whole(engagement, self.given, load.kinds, pieces)]
+        for load, result in self._searches:
+            engagement = load.engagement
+            pieces = to_mid_motion(engagement, result.stretches, 1)
+            out += [(engagement, one) for one in whole(engagement, self.case, load.kinds, pieces)]
         return out
 
 

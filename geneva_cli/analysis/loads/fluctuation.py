@@ -8,8 +8,8 @@ integrated between to the last digits.
     >>> from geneva_cli.machine.many import many
     >>> from geneva_cli.machine.spec import Spec
     >>> spec = Spec(External(4), load=Load(inertia_kgm2=2.0))
-    >>> found = many(spec, {"wheel.z": np.array([4, 6])}).machine
-    >>> fluctuations(found, np.zeros(2)).energy_J.round(6)  # I (w psi1max)²/2
+    >>> batch = many(spec, {"wheel.z": np.array([4, 6])}).machine
+    >>> fluctuations(batch, np.zeros(2)).energy_J.round(6)  # I (w psi1max)²/2
     array([230.09708 ,  39.478418])
 """
 
@@ -20,10 +20,16 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from geneva_cli.analysis.loads.contact import Contact
-from geneva_cli.analysis.loads.forces import Row, Setting, setting
+from geneva_cli.analysis.loads.forces import LoadCase, QuantityValue, load_case
 from geneva_cli.analysis.loads.groups import parts
 from geneva_cli.analysis.loads.instant import Instant
-from geneva_cli.analysis.loads.loaded import Loaded, Signs, look, machine
+from geneva_cli.analysis.loads.loaded import (
+    LoadFunctions,
+    LoadQuantity,
+    SignFunctions,
+    load_batch,
+    signed_instant,
+)
 from geneva_cli.analysis.loads.stretches import spans_of, to_mid_motion
 from geneva_cli.machine.engagement import Engagement
 from geneva_cli.machine.many import taken
@@ -37,18 +43,15 @@ if TYPE_CHECKING:
     from geneva_cli.numerics.arrays import Mask, Whole
     from geneva_cli.numerics.jet import Array
 
-NOUGHT = 1e-26  # a mean whose square is this fraction of the mean square is rounding
-UNEVEN = ("unevenness_Nm",)
-
 
 class Unevenness(NamedTuple):
     """The input's torque less its mean, which is (m, 1)."""
 
     mean: Array
 
-    def __call__(self, i: Instant[Jet], at: Contact[Jet]) -> Row[Jet]:
+    def __call__(self, i: Instant[Jet], at: Contact[Jet]) -> QuantityValue[Jet]:
         """The quantity, and the margin that bounds it."""
-        return Row(i.input_torque_Nm - self.mean, i.held)
+        return QuantityValue(i.input_torque_Nm - self.mean, i.friction_margin)
 
 
 class Swings(NamedTuple):
@@ -64,13 +67,13 @@ def fluctuations(mechanism: Mechanism, mean: Array) -> Swings:
     The mean of an unbounded torque must be infinite.
     """
     energy, returned = np.empty((2, len(mean)))
-    for part in parts(setting(mechanism).friction, len(mean)):
+    for part in parts(load_case(mechanism).friction, len(mean)):
         energy[part], returned[part] = _group(taken(mechanism, part), mean[part])
     return Swings(energy, returned)
 
 
 def flywheel_kgm2(energy_J: float, speed_variation: float, w: float) -> float:
-    """Inertia that keeps a mean speed, rad/s, within a given variation: dE / (Cs w²), kg m².
+    """Inertia that keeps the variation of a mean speed, rad/s, within a limit: dE / (Cs w²), kg m².
 
     >>> round(flywheel_kgm2(15125.0, 0.02, 1200.0 * DEGREE), 2)  # 1200 degrees a second
     1724.04
@@ -82,13 +85,13 @@ def _group(mechanism: Mechanism, mean: Array) -> Swings:
     """The fluctuation from the works between places where the torque is its mean."""
     bounded = np.isfinite(mean)
     mean = np.where(bounded, mean, 0.0)[:, None]
-    given, end = setting(mechanism), None
+    case, end = load_case(mechanism), None
     each, returned = [0.0 * mean], np.zeros(len(mean))
     for engagement in mechanism.engagements:
         if end is not None:
             dwell = (engagement.mid_deg + engagement.entry_deg - end) * DEGREE
             each.append(-mean * dwell)
-        works, back = _works(engagement, given, mean, bounded)
+        works, back = _works(engagement, case, mean, bounded)
         each.append(works)
         returned += back
         end = engagement.mid_deg + engagement.exit_deg
@@ -98,27 +101,28 @@ def _group(mechanism: Mechanism, mean: Array) -> Swings:
 
 
 def _works(
-    engagement: Engagement, given: Setting, mean: Array, bounded: Mask
+    engagement: Engagement, case: LoadCase, mean: Array, bounded: Mask
 ) -> tuple[Array, Array]:
     """Works less the mean's, J, a row for each design padded with zeros, and returned squares."""
     n = len(mean)
-    every = machine(engagement, given, UNEVEN, {UNEVEN[0]: Unevenness(mean)})
-    load = Loaded(every, UNEVEN, ("feeds", "wanted"))
+    own: dict[str, LoadQuantity] = {"unevenness_Nm": Unevenness(mean)}
+    names = tuple(own)
+    load = LoadFunctions(load_batch(engagement, case, names, own), names, ("feeds", "wanted"))
     spans = spans_of(engagement, n)
-    found = search(Signs(load), spans, n, False)
-    whole = to_mid_motion(engagement, found.stretches, n)
+    result = search(SignFunctions(load), spans, n, False)
+    whole = to_mid_motion(engagement, result.stretches, n)
     design, _, (a, b), positive = whole
     signs = np.where(positive, 1.0, -1.0)
 
     def rows(x: Array, which: Whole) -> Array:
         some, at, _, (uneven,) = load.at(x, design[which], 0)
-        here = look(load.kinds, some, at, signs[:, which, None]).instant
+        here = signed_instant(load.kinds, some, at, signs[:, which, None]).instant
         back = 0.5 * (1.0 - here.feeds) * here.input_torque_Nm.c[0]
         return np.stack(np.broadcast_arrays(uneven(here, at).value.c[0], back * back))
 
-    asked = np.stack((bounded, bounded))
+    needed = np.stack((bounded, bounded))
     with np.errstate(all="ignore"):
-        each = span_integrals(Integrands(rows, a, b, True), design, asked, apart=True) * DEGREE
+        each = span_integrals(Integrands(rows, a, b, True), design, needed, apart=True) * DEGREE
     first = np.searchsorted(design, np.arange(n))
     number = np.arange(len(design)) - first[design]
     works = np.zeros((n, int(number.max()) + 1))

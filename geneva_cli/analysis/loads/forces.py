@@ -28,8 +28,8 @@ from geneva_cli.numerics.jet import Jet, Number, V
 ZERO = 1e-12  # fraction of a torque, of a motion, or of a lever over L that is rounding
 
 
-class Setting(NamedTuple):
-    """The data that the loads depend on besides the motion."""
+class LoadCase(NamedTuple):
+    """The data that the loads depend on besides the motion; floats, or (m, 1) for m designs."""
 
     speed_rad_s: float  # of the input
     inertia_Nm: float  # inertia times the square of the input speed
@@ -44,7 +44,7 @@ class Setting(NamedTuple):
 
     @property
     def designs(self) -> int:
-        """The number of designs in the setting."""
+        """The number of designs in the load case."""
         return designs_of(self.design)
 
     @property
@@ -53,8 +53,8 @@ class Setting(NamedTuple):
         return not all_true(self.friction == 0.0)
 
 
-def setting(mechanism: Mechanism) -> Setting:
-    """The setting of a machine's spec."""
+def load_case(mechanism: Mechanism) -> LoadCase:
+    """The load case of a machine's spec."""
     spec = mechanism.spec
     load, size = spec.load, spec.size
     w = omega(spec.drive.n_rpm)
@@ -63,7 +63,7 @@ def setting(mechanism: Mechanism) -> Setting:
         # p0² = N E* / (pi b R_e)
         modulus = contact_modulus_GPa(spec) * 1e3
         hertz = modulus / (math.pi * size.face_width_mm * mechanism.roller_radius_mm)
-    return Setting(
+    return LoadCase(
         w,
         inertia_kgm2(spec) * w * w,
         resisting_torque_Nm(spec),
@@ -96,11 +96,11 @@ def rubbing(mechanism: Mechanism) -> float:
     load = mechanism.spec.load
     if all_true(load.friction == 0.0) or load.rubs_in_slot:
         return load.friction
-    share = 0.5 * pin_diameter_mm(mechanism) / mechanism.roller_radius_mm
-    m = library(share, load.friction)
-    sine = share * load.friction / m.hypot(1.0, load.friction)
+    thickness = 0.5 * pin_diameter_mm(mechanism) / mechanism.roller_radius_mm
+    m = library(thickness, load.friction)
+    sine = thickness * load.friction / m.hypot(1.0, load.friction)
     turning = sine / m.sqrt((1.0 - sine) * (1.0 + sine))
-    coefficient: float = choose(share == 1.0, load.friction, turning)
+    coefficient: float = choose(thickness == 1.0, load.friction, turning)
     return coefficient
 
 
@@ -110,22 +110,16 @@ def contact_modulus_GPa(spec: Spec) -> float:
     return 1.0 / sum((1.0 - m.poisson_ratio**2) / m.youngs_modulus_GPa for m in both)
 
 
-class Greatest(NamedTuple):
-    """A greatest load, infinite if unbounded, and its input angle in degrees."""
+class QuantityValue(NamedTuple, Generic[V]):
+    """A quantity, and the margin that must be above 0 for the quantity to be bounded.
 
-    max: float
-    at_deg: float
-
-
-class Row(NamedTuple, Generic[V]):
-    """A quantity and its ``room``, a margin that must be positive for the quantity to be bounded.
-
-    ``way`` is the sign of the infinity that replaces an unbounded value.
+    Without a margin the quantity is always bounded. ``sign`` is that of the infinity that replaces
+    an unbounded value.
     """
 
     value: V
-    room: V | None = None
-    way: Number = 1.0
+    margin: V | None = None
+    sign: Number = 1.0
 
 
 def value(quantity: V) -> Number:
@@ -138,26 +132,26 @@ def sliding(at: Contact[V], drives: Number, radius: float) -> V:
     return at.along - at.spin * (drives * radius)
 
 
-def wheel_torque(given: Setting, at: Contact[V]) -> V:
+def wheel_torque(case: LoadCase, at: Contact[V]) -> V:
     """The torque that the wheel needs for inertia and resistance, N m."""
-    return at.acceleration * given.inertia_Nm + given.resists_Nm
+    return at.acceleration * case.inertia_Nm + case.resists_Nm
 
 
-def gain(given: Setting, at: Contact[V], drives: Number, slides: Number) -> V:
+def gain(case: LoadCase, at: Contact[V], drives: Number, slides: Number) -> V:
     """Ratio of the input torque to the wheel's, times ``grip``, so that it is always finite."""
-    lost = sliding(at, drives, given.radius) * at.touches * (given.friction * slides * drives)
-    return at.velocity * _grip(given, at, drives, slides) + lost
+    lost = sliding(at, drives, case.radius) * at.touches * (case.friction * slides * drives)
+    return at.velocity * _grip(case, at, drives, slides) + lost
 
 
-def _grip(given: Setting, at: Contact[V], drives: Number, slides: Number) -> V:
-    if not given.rubs:
+def _grip(case: LoadCase, at: Contact[V], drives: Number, slides: Number) -> V:
+    if not case.rubs:
         return at.lever
-    rub = at.touches * (given.friction * slides)
-    return at.lever + rub * (at.aside * drives - at.arm * given.radius)
+    rub = at.touches * (case.friction * slides)
+    return at.lever + rub * (at.offset * drives - at.arm * case.radius)
 
 
-class Worked(NamedTuple, Generic[V]):
-    """Values for the signs that were computed already."""
+class KnownValues(NamedTuple, Generic[V]):
+    """Torque and sliding, if they are known from the signs already."""
 
     torque: V | None = None
     sliding: V | None = None
@@ -175,66 +169,66 @@ class Forces(Generic[V]):
 
     def __init__(
         self,
-        given: Setting,
+        case: LoadCase,
         at: Contact[V],
         drives: Number,
         slides: Number,
-        worked: Worked[V] | None = None,
+        known: KnownValues[V] | None = None,
     ) -> None:
-        self.given, self.at, self.drives, self.slides = given, at, drives, slides
-        self.worked: Worked[V] = worked or Worked()
+        self.case, self.at, self.drives, self.slides = case, at, drives, slides
+        self.known: KnownValues[V] = known or KnownValues()
 
     @cached_property
     def torque(self) -> V:
         """The torque that the wheel needs, N m."""
-        torque = self.worked.torque
-        return wheel_torque(self.given, self.at) if torque is None else torque
+        torque = self.known.torque
+        return wheel_torque(self.case, self.at) if torque is None else torque
 
     @cached_property
     def sliding(self) -> V:
         """Speed at which the roller rubs along the wall, over L, per input radian."""
-        speed = self.worked.sliding
-        return sliding(self.at, self.drives, self.given.radius) if speed is None else speed
+        speed = self.known.sliding
+        return sliding(self.at, self.drives, self.case.radius) if speed is None else speed
 
     @cached_property
     def grip(self) -> V:
         """Torque on the wheel over L times the pin force."""
-        return _grip(self.given, self.at, self.drives, self.slides)
+        return _grip(self.case, self.at, self.drives, self.slides)
 
     @cached_property
     def force(self) -> V:
         """The force on the pin, along the wall's normal, N."""
-        return self.torque * self.drives / (self.grip * self.given.L)
+        return self.torque * self.drives / (self.grip * self.case.L)
 
     @cached_property
     def shaft(self) -> V:
         """Torque on the input shaft before the efficiency, N m."""
         shaft = self.torque * self.at.velocity
-        if not self.given.rubs:
+        if not self.case.rubs:
             return shaft
-        rub = self.at.touches * (self.given.friction * self.slides)
-        return shaft + self.force * rub * self.sliding * self.given.L
+        rub = self.at.touches * (self.case.friction * self.slides)
+        return shaft + self.force * rub * self.sliding * self.case.L
 
     @cached_property
     def edge(self) -> V | None:
         """1 - curvature of the bearing wall's pitch curve times the roller's radius."""
         # A wall at the roller's radius r from its pitch curve, of curvature k towards the wall, has
         # 1/R_e = 1/r + k/(1 - k r) = 1/(r (1 - k r)).
-        if self.given.hertz is None:
+        if self.case.hertz is None:
             return None
-        return 1.0 - self.at.curvature * (self.drives * self.given.radius)
+        return 1.0 - self.at.curvature * (self.drives * self.case.radius)
 
     @cached_property
     def square(self) -> V | None:
         """The square of the contact stress, MPa²; None without a face width."""
-        if self.given.hertz is None or self.edge is None:
+        if self.case.hertz is None or self.edge is None:
             return None
-        return self.force * self.at.touches * self.given.hertz / self.edge
+        return self.force * self.at.touches * self.case.hertz / self.edge
 
 
-def pressed(held: V | None, edge: V | None) -> V | None:
-    """The lesser of the known margins that the contact stress needs to be bounded."""
-    return edge if held is None or edge is None else lesser(held, edge)
+def stress_margin(friction: V | None, edge: V | None) -> V | None:
+    """The lesser of the known margins that bound the contact stress: of friction and of edges."""
+    return edge if friction is None or edge is None else lesser(friction, edge)
 
 
 def lesser(a: V, b: V) -> V:

@@ -7,19 +7,17 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from geneva_cli.analysis.loads.loaded import Machine
+from geneva_cli.analysis.loads.loaded import LoadBatch
 from geneva_cli.machine.many import taken
 
 if TYPE_CHECKING:
     from geneva_cli.numerics.arrays import Array, Number, Whole
 
-GROUP = 4096  # designs that are computed together
-
 
 def of_groups(
-    every: Machine, found: Callable[[Machine, int], Sequence[Array]]
+    every: LoadBatch, computed: Callable[[LoadBatch, int], Sequence[Array]]
 ) -> tuple[Array, ...]:
-    """Arrays (rows, n) that ``found`` gives for n designs at a time, joined for all: (rows, m).
+    """Arrays (rows, m), joined from those that ``computed`` returns for n designs at a time.
 
     Designs without friction form groups of their own: their torque is bounded even where the force
     is not.
@@ -27,7 +25,7 @@ def of_groups(
     m = every[1].designs
     out: list[Array] = []
     for part in parts(every[1].friction, m):
-        some = found(taken(every, part), len(part))
+        some = computed(taken(every, part), len(part))
         out = out or [np.empty((len(rows), m)) for rows in some]
         for whole, rows in zip(out, some, strict=True):
             whole[:, part] = rows
@@ -36,7 +34,8 @@ def of_groups(
 
 def parts(friction: Number, m: int) -> Iterator[Whole]:
     """The numbers of m designs in groups; designs without friction have groups of their own."""
+    group = 4096  # designs that are computed together
     rubs = np.broadcast_to(np.ravel(friction) != 0.0, (m,))
     for those in (np.flatnonzero(~rubs), np.flatnonzero(rubs)):
-        for i in range(0, len(those), GROUP):
-            yield those[i : i + GROUP]
+        for i in range(0, len(those), group):
+            yield those[i : i + group]

@@ -1,7 +1,7 @@
 """Mean squares of the loads of an inertia alone, for motions that are symmetric.
 
 Mirrored at mid-motion, an inertia's torque changes sign. Friction then acts as its negative would:
-in the pair x and -x, it occurs once with either sign, whichever way the roller slides. So the sum
+in the pair x and -x, it occurs once with either sign, whatever the roller's direction. So the sum
 of both squares is smooth where the sliding reverses, and that place is not needed.
 """
 
@@ -13,7 +13,7 @@ import numpy as np
 
 from geneva_cli.analysis.loads.contact import mirrored
 from geneva_cli.analysis.loads.forces import ZERO
-from geneva_cli.analysis.loads.loaded import Loaded, Signs, look
+from geneva_cli.analysis.loads.loaded import LoadFunctions, SignFunctions, signed_instant
 from geneva_cli.analysis.loads.quantities import square_of
 from geneva_cli.analysis.loads.stretches import spans_of
 from geneva_cli.numerics.adaptive_quadrature import Integrands, span_integrals
@@ -27,24 +27,25 @@ if TYPE_CHECKING:
     from geneva_cli.numerics.jet import Array
 
 
-def is_balanced(load: Loaded) -> bool:
+def is_balanced(load: LoadFunctions) -> bool:
     """Return True if the method applies to these designs.
 
     No torque may resist, and the only loss may be friction in straight slots.
     """
-    engagement, given, _ = load.machine
-    alone = all_true(given.resists_Nm == 0.0) and all_true(given.efficiency == 1.0)
+    engagement, case, _ = load.batch
+    alone = all_true(case.resists_Nm == 0.0) and all_true(case.efficiency == 1.0)
     return load.mirrored and alone and not engagement.slot.curved
 
 
-def squares(load: Loaded, n: int) -> Array:
+def squares(load: LoadFunctions, n: int) -> Array:
     """The integrals of the squares by the angle in radians, of ``is_balanced`` designs: (names, n).
 
     Infinite where friction holds the wheel.
     """
-    engagement, given, wanted = load.machine
-    rolling = Loaded((engagement, given._replace(friction=0.0), wanted), load.names)
-    spans, torque = spans_of(engagement, n), Signs(rolling)
+    engagement = load.engagement
+    frictionless = load.batch._replace(case=load.batch.case._replace(friction=0.0))
+    rolling = LoadFunctions(frictionless, load.names)
+    spans, torque = spans_of(engagement, n), SignFunctions(rolling)
     half = spans[: len(spans) // 2]
     pieces = search(torque, half, n, False, w=load.spread).stretches
     design, (a, b), w = pieces.design, pieces.x, load.spread[pieces.design, 0]
@@ -55,15 +56,15 @@ def squares(load: Loaded, n: int) -> Array:
     def rows(u: Array, which: Whole) -> Array:
         x, rate = gathered(u, w[which, None])
         x = np.clip(x, a[which, None], b[which, None])
-        given, at, shape, wanted = load.at(x, design[which], 0)
+        case, at, shape, wanted = load.at(x, design[which], 0)
         total = np.zeros((load.wanted, *shape[::-1])).swapaxes(1, 2)
-        for way, here in ((1, at), (-1, mirrored(at))):
-            found = look(load.kinds, given, here, way * signs[:, which]).instant
+        for step, here in ((1, at), (-1, mirrored(at))):
+            instant = signed_instant(load.kinds, case, here, step * signs[:, which]).instant
             for k, (name, quantity) in enumerate(zip(load.names, wanted, strict=True)):
-                row = quantity(found, here)
-                total[k] += square_of(array(row.value.c[0]), name)[:, ::way]
-                if row.room is not None:  # an unbounded function is not evaluated again
-                    lost = np.any(row.room.c[0] <= ZERO, axis=1)
+                row = quantity(instant, here)
+                total[k] += square_of(array(row.value.c[0]), name)[:, ::step]
+                if row.margin is not None:  # an unbounded function is not evaluated again
+                    lost = np.any(row.margin.c[0] <= ZERO, axis=1)
                     bounded[k, design[which[lost]]] = False
         return total * rate
 

@@ -12,18 +12,25 @@ from typing import TYPE_CHECKING, Generic
 import numpy as np
 
 from geneva_cli.analysis.loads.contact import Contact, valued
-from geneva_cli.analysis.loads.forces import Forces, Row, Setting, Worked, pressed, value
+from geneva_cli.analysis.loads.forces import (
+    Forces,
+    KnownValues,
+    LoadCase,
+    QuantityValue,
+    stress_margin,
+    value,
+)
 from geneva_cli.numerics.jet import Jet, Number, V, sqrt
 
 if TYPE_CHECKING:
     from geneva_cli.numerics.jet import Array
 
 # Names of an instant's quantities.
-NAMES = (
+INSTANT_QUANTITIES = (
     *("omega_rad_s", "alpha_rad_s2", "wheel_torque_Nm", "pin_force_N", "stress_squared"),
     *("sliding_m_s", "input_torque_Nm", "power_W", "friction_W", "wheel_bearing_N"),
     *("crank_bearing_squared", "guide_squared", "drives", "slides", "feeds"),
-    *("grip", "held", "edge"),
+    *("grip", "friction_margin", "edge"),
 )
 
 
@@ -44,40 +51,40 @@ class Instant(Generic[V]):
 
     def __init__(
         self,
-        given: Setting,
+        case: LoadCase,
         at: Contact[V],
         drives: Number,
         slides: Number,
         feeds: Number,
         *,
-        worked: Worked[V] | None = None,
+        known: KnownValues[V] | None = None,
     ) -> None:
-        self.given, self.at = given, at
+        self.case, self.at = case, at
         self.drives = drives  # sign of the wheel's torque
         self.slides = slides  # sign of the sliding
         self.feeds = feeds  # sign of the input's torque
-        self.forces = Forces(given, at, drives, slides, worked)
+        self.forces = Forces(case, at, drives, slides, known)
 
     @classmethod
     def known(cls, quantities: Mapping[str, object]) -> Instant[Array]:
-        """An instant whose quantities ``NAMES`` are known already."""
-        found: Instant[Array] = cls.__new__(Instant)
-        vars(found).update(quantities)
-        return found
+        """An instant whose quantities ``INSTANT_QUANTITIES`` are known already."""
+        known: Instant[Array] = cls.__new__(Instant)
+        vars(known).update(quantities)
+        return known
 
     def quantities(self) -> dict[str, Number | V | None]:
-        """Each of ``NAMES``; None for a quantity that the machine lacks."""
-        return {name: getattr(self, name) for name in NAMES}
+        """Each of ``INSTANT_QUANTITIES``; None for a quantity that the machine lacks."""
+        return {name: getattr(self, name) for name in INSTANT_QUANTITIES}
 
     @cached_property
     def omega_rad_s(self) -> V:
         """The wheel's speed."""
-        return self.at.velocity * self.given.speed_rad_s
+        return self.at.velocity * self.case.speed_rad_s
 
     @cached_property
     def alpha_rad_s2(self) -> V:
         """The wheel's acceleration."""
-        w = self.given.speed_rad_s
+        w = self.case.speed_rad_s
         return self.at.acceleration * (w * w)
 
     @cached_property
@@ -105,13 +112,13 @@ class Instant(Generic[V]):
         """Torque of the input shaft, losses included."""
         # The efficiency counts where the input drives. Where the wheel drives, the losses are not
         # known to exist and reduce nothing: a brake must hold all of the torque.
-        share = 0.5 * (1.0 + self.feeds) / self.given.efficiency + 0.5 * (1.0 - self.feeds)
-        return self.forces.shaft * share
+        factor = 0.5 * (1.0 + self.feeds) / self.case.efficiency + 0.5 * (1.0 - self.feeds)
+        return self.forces.shaft * factor
 
     @cached_property
     def power_W(self) -> V:
         """Input power: input torque times input speed."""
-        return self.input_torque_Nm * self.given.speed_rad_s
+        return self.input_torque_Nm * self.case.speed_rad_s
 
     @cached_property
     def friction_W(self) -> V:
@@ -126,14 +133,16 @@ class Instant(Generic[V]):
     @cached_property
     def crank_bearing_squared(self) -> V:
         """The square of the reaction on the shaft whose crank carries the roller or link, N²."""
-        if self.at.held is None:  # the crank is the roller's body, and its drive gives it a couple
+        if (
+            self.at.reactions is None
+        ):  # the crank is the roller's body, and its drive gives it a couple
             return self.wheel_bearing_N * self.wheel_bearing_N
         return self._reaction(0)
 
     @cached_property
     def guide_squared(self) -> V | None:
         """The square of the reaction of rocker, slider, groove or fixed gear; None without one."""
-        return None if self.at.held is None else self._reaction(1)
+        return None if self.at.reactions is None else self._reaction(1)
 
     @cached_property
     def grip(self) -> V:
@@ -141,9 +150,9 @@ class Instant(Generic[V]):
         return self.forces.grip
 
     @cached_property
-    def held(self) -> V | None:
+    def friction_margin(self) -> V | None:
         """Margin of quantities that only friction makes unbounded; None without friction."""
-        return self.grip if self.given.rubs else None
+        return self.grip if self.case.rubs else None
 
     @cached_property
     def edge(self) -> V | None:
@@ -161,42 +170,42 @@ class Instant(Generic[V]):
         return None if self.guide_squared is None else _root(self.guide_squared)
 
     @property
-    def stress(self) -> Row[V]:
+    def stress(self) -> QuantityValue[V]:
         """The square of the contact stress, and its margin."""
         assert self.stress_squared is not None  # there is a face width
-        return Row(self.stress_squared, pressed(self.held, self.edge))
+        return QuantityValue(self.stress_squared, stress_margin(self.friction_margin, self.edge))
 
     @property
-    def pressure_speed(self) -> Row[V]:
+    def pressure_speed(self) -> QuantityValue[V]:
         """The square of p v, greatest Hertz pressure times sliding, W²/m⁴, and its margin."""
         pv = self.stress.value * (self.sliding_m_s * self.sliding_m_s * 1e12)
-        return Row(pv, pressed(self.held, self.edge))
+        return QuantityValue(pv, stress_margin(self.friction_margin, self.edge))
 
     @property
-    def guide(self) -> Row[V]:
+    def guide(self) -> QuantityValue[V]:
         """The square of the guide's force, and its margin."""
         assert self.guide_squared is not None  # there is a guide
-        return Row(self.guide_squared, self.grip)
+        return QuantityValue(self.guide_squared, self.grip)
 
     @property
-    def pin_force(self) -> Row[V]:
+    def pin_force(self) -> QuantityValue[V]:
         """The pin force, and its margin and sign where unbounded."""
-        return Row(self.pin_force_N, self.grip, self.drives)
+        return QuantityValue(self.pin_force_N, self.grip, self.drives)
 
     @property
-    def shaft(self) -> Row[V]:
+    def shaft(self) -> QuantityValue[V]:
         """The input's torque, and the margin that friction leaves."""
-        return Row(self.input_torque_Nm, self.held)
+        return QuantityValue(self.input_torque_Nm, self.friction_margin)
 
     @cached_property
     def _rubs(self) -> V:
         """Speed at which the roller rubs along the wall, m/s."""
-        return self.forces.sliding * (self.given.L * self.given.speed_rad_s)
+        return self.forces.sliding * (self.case.L * self.case.speed_rad_s)
 
     @property
     def _rub(self) -> Number:
         """Ratio of the force along the wall to the force on it."""
-        return self.given.friction * value(self.at.touches)
+        return self.case.friction * value(self.at.touches)
 
     def _reaction(self, joint: int) -> V:
         """The square of the reaction of a joint that holds the roller's body.
@@ -204,10 +213,10 @@ class Instant(Generic[V]):
         The pin pushes the wall along d i t + f s t; about the pin's centre that force also has a
         couple.
         """
-        assert self.at.held is not None
-        normal, tangent, couple = self.at.held
+        assert self.at.reactions is not None
+        normal, tangent, couple = self.at.reactions
         rub = self._rub * self.slides
-        turn = rub * self.drives * self.given.radius
+        turn = rub * self.drives * self.case.radius
         x, y = (
             normal[joint][i] * self.drives + tangent[joint][i] * rub - couple[joint][i] * turn
             for i in (0, 1)
@@ -220,21 +229,21 @@ def _root(square: V) -> V:
     return sqrt(square) if isinstance(square, Jet) else np.sqrt(square)
 
 
-def values(found: Instant[Jet]) -> Instant[Array]:
+def values(instant: Instant[Jet]) -> Instant[Array]:
     """The instant with values in place of jets."""
-    return Instant(found.given, valued(found.at), found.drives, found.slides, found.feeds)
+    return Instant(instant.case, valued(instant.at), instant.drives, instant.slides, instant.feeds)
 
 
 def bounded(here: Instant[Array]) -> Instant[Array]:
     """Values with infinity where a force is unbounded, and 0 where no force is needed there."""
-    held = here.grip > 0.0
+    is_held = here.grip > 0.0
     bound = np.where(here.wheel_torque_Nm == 0.0, 0.0, np.inf)
     endless = ["wheel_bearing_N", "crank_bearing_squared"]
     endless += [] if here.guide_squared is None else ["guide_squared"]
-    endless += [] if here.held is None else ["input_torque_Nm", "power_W", "friction_W"]
+    endless += [] if here.friction_margin is None else ["input_torque_Nm", "power_W", "friction_W"]
     out = here.quantities()
-    out |= {name: np.where(held, getattr(here, name), bound) for name in endless}
-    out["pin_force_N"] = np.where(held, here.pin_force_N, bound * here.drives)
+    out |= {name: np.where(is_held, getattr(here, name), bound) for name in endless}
+    out["pin_force_N"] = np.where(is_held, here.pin_force_N, bound * here.drives)
     if here.edge is not None and here.stress_squared is not None:
-        out["stress_squared"] = np.where(held & (here.edge > 0.0), here.stress_squared, bound)
+        out["stress_squared"] = np.where(is_held & (here.edge > 0.0), here.stress_squared, bound)
     return Instant.known(out)

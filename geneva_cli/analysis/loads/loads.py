@@ -16,12 +16,12 @@ import numpy as np
 from geneva_cli.analysis.loads.carried import inertia_kgm2
 from geneva_cli.analysis.loads.contact import Contact, contact, is_straight
 from geneva_cli.analysis.loads.cycle import cycle_of
-from geneva_cli.analysis.loads.forces import Forces, Greatest, Row, Setting, setting, sliding
+from geneva_cli.analysis.loads.forces import Forces, LoadCase, QuantityValue, load_case, sliding
 from geneva_cli.analysis.loads.instant import Instant
-from geneva_cli.analysis.loads.loaded import Loaded, Wanted, machine
+from geneva_cli.analysis.loads.loaded import LoadFunctions, LoadQuantity, load_batch
 from geneva_cli.analysis.loads.quantities import FORCE, SQUARED, STRESS, TORQUE
 from geneva_cli.analysis.loads.summaries import load_peaks, searched
-from geneva_cli.machine.engagement import Engagement
+from geneva_cli.machine.engagement import Engagement, Peak
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.machine.pitch_curve import retraces
 from geneva_cli.numerics.angles import omega
@@ -34,7 +34,7 @@ if TYPE_CHECKING:
     from geneva_cli.numerics.jet import Array
 
 
-class State(NamedTuple):
+class LoadState(NamedTuple):
     """The loads at one input angle, or at an array of them.
 
     Unbounded forces and stresses are infinite: where friction alone holds the wheel, at mid-motion
@@ -48,54 +48,56 @@ class State(NamedTuple):
     pressure_deg: Number
 
 
-def state(mechanism: Mechanism, engagement: Engagement, input_deg: Number) -> State:
+def state(mechanism: Mechanism, engagement: Engagement, input_deg: Number) -> LoadState:
     """An engagement's loads at an input angle from its mid-motion, or at an array of angles.
 
     For m designs at k angles the shape is (m, k), at one angle (m, 1); values equal in all designs
     lack the m.
     """
-    given = setting(mechanism)
+    case = load_case(mechanism)
     x = np.atleast_1d(np.asarray(input_deg, dtype=float))
     at = contact(engagement, x, reactions=False)
-    torque = array(at.acceleration.c[0]) * given.inertia_Nm + given.resists_Nm
+    torque = array(at.acceleration.c[0]) * case.inertia_Nm + case.resists_Nm
     drives = np.copysign(1.0, torque)
-    slides = np.copysign(1.0, sliding(at, drives, given.radius).c[0])
+    slides = np.copysign(1.0, sliding(at, drives, case.radius).c[0])
     bound = np.where(torque == 0.0, 0.0, np.inf)
     with np.errstate(all="ignore"):
-        found = Forces(given, at, drives, slides)
-        held = found.grip.c[0] > 0.0
-        force = np.where(held, found.force.c[0], bound)
-        free = np.equal(given.friction, 0.0)
-        rubbed = np.where(held | free, found.shaft.c[0], bound)
-        shaft = rubbed / np.where(rubbed > 0.0, given.efficiency, 1.0)
+        forces = Forces(case, at, drives, slides)
+        is_held = forces.grip.c[0] > 0.0
+        force = np.where(is_held, forces.force.c[0], bound)
+        free = np.equal(case.friction, 0.0)
+        rubbed = np.where(is_held | free, forces.shaft.c[0], bound)
+        shaft = rubbed / np.where(rubbed > 0.0, case.efficiency, 1.0)
         stress = None
-        if found.edge is not None and found.square is not None:
-            square = np.where(held & (found.edge.c[0] > 0.0), found.square.c[0], bound)
+        if forces.edge is not None and forces.square is not None:
+            square = np.where(is_held & (forces.edge.c[0] > 0.0), forces.square.c[0], bound)
             stress = np.sqrt(square)
-    pressure: Array = np.degrees(np.arctan2(np.abs(at.aside.c[0]), at.lever.c[0])) + 0.0 * x
+    pressure: Array = np.degrees(np.arctan2(np.abs(at.offset.c[0]), at.lever.c[0])) + 0.0 * x
     every = (torque, force, shaft, pressure)
     if isinstance(input_deg, (int, float)) and all(value.ndim < 2 for value in every):
         one = None if stress is None else float(stress[0])
-        return State(float(torque[0]), float(force[0]), float(shaft[0]), one, float(pressure[0]))
-    return State(torque, force, shaft, stress, pressure)
+        return LoadState(
+            float(torque[0]), float(force[0]), float(shaft[0]), one, float(pressure[0])
+        )
+    return LoadState(torque, force, shaft, stress, pressure)
 
 
-def greatest(mechanism: Mechanism, name: str) -> Greatest:
+def greatest(mechanism: Mechanism, name: str) -> Peak[float]:
     """The greatest size of a quantity of the cycle, and the first input angle that has it.
 
     Without a load it is 0.
     """
     one = cycle_of(mechanism).extremes.get(name)
     if one is None:
-        return Greatest(0.0, 0.0)
+        return Peak(0.0, 0.0)
     first = mechanism.engagements[0]
-    # degrees: rounding of an input angle
-    start, turn = first.mid_deg + first.entry_deg - 1e-9, 360.0 * mechanism.spec.drive.turns
+    turn = 360.0 * mechanism.spec.drive.turns
+    start = first.mid_deg + first.entry_deg - 1e-9  # less the rounding of an input angle
     ends = [(one.max, one.max_at_deg), (-one.min, one.min_at_deg)]
     ends.sort(key=lambda end: (end[1] - start) % turn)
     value, place = np.array(ends).T[..., None]
     most, at_deg = first_greatest(value, place, np.zeros(1))
-    return Greatest(float(most[0]), float(at_deg[0]))
+    return Peak(float(most[0]), float(at_deg[0]))
 
 
 TINY = 1e-9  # degrees: rounding of an input angle
@@ -104,27 +106,27 @@ TINY = 1e-9  # degrees: rounding of an input angle
 class Slope(NamedTuple):
     """The square of the pressure angle's tangent."""
 
-    def __call__(self, i: Instant[Jet], at: Contact[Jet]) -> Row[Jet]:
+    def __call__(self, i: Instant[Jet], at: Contact[Jet]) -> QuantityValue[Jet]:
         """The quantity, which is bounded where its denominator is not 0."""
-        slope = at.aside / at.lever
-        return Row(slope * slope)
+        slope = at.offset / at.lever
+        return QuantityValue(slope * slope)
 
 
 @lru_cache(maxsize=16)
-def greatest_pressure(mechanism: Mechanism) -> Greatest:
+def greatest_pressure(mechanism: Mechanism) -> Peak[float]:
     """The greatest pressure angle, degrees, and its input angle.
 
     It is 90 at mid-motion if the pin crosses the radius there.
     """
     for engagement in mechanism.engagements:
         if not is_straight(engagement) and not retraces(engagement):
-            return Greatest(90.0, mechanism.shown_deg(engagement.mid_deg))
-    own: dict[str, Wanted] = {"slope": Slope()}
-    given = setting(mechanism)._replace(inertia_Nm=0.0, friction=0.0, hertz=None, efficiency=1.0)
-    found = load_peaks(mechanism, tuple(own), own, given)["slope"]
-    if not found.max[0]:  # 0 throughout a radial slot
-        return Greatest(0.0, 0.0)
-    return Greatest(math.degrees(math.atan(math.sqrt(found.max[0]))), float(found.at_deg[0]))
+            return Peak(90.0, mechanism.shown_deg(engagement.mid_deg))
+    own: dict[str, LoadQuantity] = {"slope": Slope()}
+    case = load_case(mechanism)._replace(inertia_Nm=0.0, friction=0.0, hertz=None, efficiency=1.0)
+    peak = load_peaks(mechanism, tuple(own), own, case)["slope"]
+    if not peak.max[0]:  # 0 throughout a radial slot
+        return Peak(0.0, 0.0)
+    return Peak(math.degrees(math.atan(math.sqrt(peak.max[0]))), float(peak.at_deg[0]))
 
 
 @lru_cache(maxsize=16)
@@ -134,21 +136,21 @@ def fastest_rpm(mechanism: Mechanism) -> float | None:
     Infinite if they hold at any speed or there are none; None if no speed keeps them.
     """
     limits = load_limits(mechanism.spec.limits)
-    given = {name: limit for name, limit in zip(LIMITED, limits, strict=True) if limit}
-    at_one = setting(mechanism)._replace(inertia_Nm=inertia_kgm2(mechanism.spec))  # at 1 rad/s
+    limited = {name: limit for name, limit in zip(LIMITED_LOADS, limits, strict=True) if limit}
+    at_one = load_case(mechanism)._replace(inertia_Nm=inertia_kgm2(mechanism.spec))  # at 1 rad/s
     if at_one.hertz is None:
-        given.pop(STRESS, None)
-    if not given:
+        limited.pop(STRESS, None)
+    if not limited:
         return math.inf
-    least = max(_slowness(engagement, at_one, given) for engagement in mechanism.engagements)
+    least = max(_slowness(engagement, at_one, limited) for engagement in mechanism.engagements)
     rpm = math.sqrt(1.0 / least) / omega(1.0) if least > 0.0 else math.inf
     # Lower speeds may break a limit where inertia helps against the resistance, and so may this
     # speed.
     w = omega(mechanism.spec.drive.n_rpm if math.isinf(rpm) else rpm)
     tried = at_one._replace(inertia_Nm=at_one.inertia_Nm * w * w)
-    found = load_peaks(mechanism, tuple(given), given=tried)
-    # a limit met at the highest speed may be exceeded by rounding
-    kept = all(found[name].max[0] <= limit * (1.0 + 1e-9) for name, limit in given.items())
+    peaks = load_peaks(mechanism, tuple(limited), case=tried)
+    # a limit that is reached at the highest speed may be exceeded by rounding
+    kept = all(peaks[name].max[0] <= limit * (1.0 + 1e-9) for name, limit in limited.items())
     return rpm if kept else None
 
 
@@ -161,49 +163,49 @@ class Slowness(NamedTuple):
 
     of: Callable[[Forces[Jet]], Jet]
     limit: float
-    given: Setting  # at 1 rad/s
+    case: LoadCase  # at 1 rad/s
 
-    def __call__(self, i: Instant[Jet], at: Contact[Jet]) -> Row[Jet]:
+    def __call__(self, i: Instant[Jet], at: Contact[Jet]) -> QuantityValue[Jet]:
         """The quantity, which is unbounded where the place allows no speed."""
-        unit = self.given._replace(inertia_Nm=0.0, resists_Nm=1.0)
+        unit = self.case._replace(inertia_Nm=0.0, resists_Nm=1.0)
         factor = self.of(Forces(unit, at, i.drives, i.slides))
-        load = at.acceleration * self.given.inertia_Nm * factor
-        left = self.limit - factor * self.given.resists_Nm
+        load = at.acceleration * self.case.inertia_Nm * factor
+        left = self.limit - factor * self.case.resists_Nm
         # Where the wheel is not driven, any speed keeps the limit. The margin is then that next to
         # it, as at rest the load's sign is rounding.
         over = (np.asarray(load.c[0]) <= 0.0) & (np.asarray(left.c[0]) < 0.0)
-        return Row(load / left, Jet([np.where(over, -c, c) for c in left.c]))
+        return QuantityValue(load / left, Jet([np.where(over, -c, c) for c in left.c]))
 
 
-def _slowness(engagement: Engagement, given: Setting, limits: Mapping[str, float]) -> float:
+def _slowness(engagement: Engagement, case: LoadCase, limits: Mapping[str, float]) -> float:
     """The greatest of 1 / (highest speed that a place allows)²; infinite if one allows no speed."""
 
-    def square(found: Forces[Jet]) -> Jet:
-        assert found.square is not None  # there is a face width
-        return found.square
+    def square(result: Forces[Jet]) -> Jet:
+        assert result.square is not None  # there is a face width
+        return result.square
 
-    eta = given.efficiency
+    eta = case.efficiency
     factors: dict[str, list[Callable[[Forces[Jet]], Jet]]] = {
-        FORCE: [lambda found: found.force],
-        TORQUE: [lambda found: found.shaft * (1.0 / eta), lambda found: -found.shaft],
+        FORCE: [lambda result: result.force],
+        TORQUE: [lambda result: result.shaft * (1.0 / eta), lambda result: -result.shaft],
         STRESS: [square],
     }
-    own: dict[str, Wanted] = {}
+    own: dict[str, LoadQuantity] = {}
     for name, limit in limits.items():
         most = limit * limit if name in SQUARED else limit
         for factor in factors[name]:
-            own[f"slowness {len(own)}"] = Slowness(factor, most, given)
-    names, still = tuple(own), given._replace(resists_Nm=0.0)
-    found = searched(Loaded(machine(engagement, still, names, own), names), 1)
-    return max(0.0, float(found.most[: len(names)].max()))
+            own[f"slowness {len(own)}"] = Slowness(factor, most, case)
+    names, still = tuple(own), case._replace(resists_Nm=0.0)
+    result = searched(LoadFunctions(load_batch(engagement, still, names, own), names), 1)
+    return max(0.0, float(result.most[: len(names)].max()))
 
 
 KEPT = 1.0 + 1e-9  # a limit met at the highest speed may be exceeded by rounding
-LIMITED = (FORCE, TORQUE, STRESS)
+LIMITED_LOADS = (FORCE, TORQUE, STRESS)
 
 
 def load_limits(limits: Limits) -> tuple[float | None, float | None, float | None]:
-    """The limits on the quantities in ``LIMITED``."""
+    """The limits on the quantities in ``LIMITED_LOADS``."""
     return limits.pin_force_max_N, limits.input_torque_max_Nm, limits.contact_stress_max_MPa
 
 

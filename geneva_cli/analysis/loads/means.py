@@ -7,20 +7,20 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from geneva_cli.analysis.loads.contact import NEAR, mirrored
-from geneva_cli.analysis.loads.forces import setting
+from geneva_cli.analysis.loads.contact import NEAR_CUSP, mirrored
+from geneva_cli.analysis.loads.forces import load_case
 from geneva_cli.analysis.loads.groups import of_groups
 from geneva_cli.analysis.loads.inertia_means import is_balanced, squares
 from geneva_cli.analysis.loads.loaded import (
-    NONE,
-    At,
-    Loaded,
-    Machine,
-    Signs,
-    look,
-    machine,
+    NO_MORE,
+    ContactState,
+    LoadBatch,
+    LoadFunctions,
+    SignFunctions,
+    load_batch,
+    signed_instant,
 )
-from geneva_cli.analysis.loads.quantities import SQUARED, plain_values, shares, square_of
+from geneva_cli.analysis.loads.quantities import SQUARED, multiples, plain_values, square_of
 from geneva_cli.analysis.loads.stretches import mirror_images, spans_of
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.numerics.adaptive_quadrature import Integrands, span_integrals
@@ -34,9 +34,6 @@ if TYPE_CHECKING:
     from geneva_cli.numerics.jet import Array
     from geneva_cli.numerics.search import Stretches
 
-# The integral of a cubic from 0 to 1 by its values at AHEAD (Adams and Bashforth), next to a cusp.
-AHEAD, SHARES = np.array([1.0, 2.0, 3.0]), np.array([23.0, -16.0, 5.0]) / 12.0
-
 
 class LoadMeans(NamedTuple):
     """Means over a period of m designs, dwells included: (m,) each; infinite if unbounded."""
@@ -44,13 +41,13 @@ class LoadMeans(NamedTuple):
     mean: Array | None  # None if not requested
     rms: Array
 
-    def times(self, share: Array) -> LoadMeans:
+    def times(self, factor: Array) -> LoadMeans:
         """The means of a multiple of the quantity."""
-        return LoadMeans(None if self.mean is None else self.mean * share, self.rms * share)
+        return LoadMeans(None if self.mean is None else self.mean * factor, self.rms * factor)
 
 
 def load_means(
-    mechanism: Mechanism, names: Sequence[str], told: Collection[str] = ("mean", "rms")
+    mechanism: Mechanism, names: Sequence[str], requested: Collection[str] = ("mean", "rms")
 ) -> dict[str, LoadMeans]:
     """The means of quantities over a period, without a search for extremes.
 
@@ -63,15 +60,15 @@ def load_means(
     >>> load_means(found.machine, ["input_torque_Nm"])["input_torque_Nm"].rms.round(4)
     array([ 26.8019, 107.2078])
     """
-    given = setting(mechanism)
+    case = load_case(mechanism)
     lent, sources = sources_of(mechanism, names)
-    every = [machine(engagement, given, sources, NONE) for engagement in mechanism.engagements]
+    every = [load_batch(engagement, case, sources, NO_MORE) for engagement in mechanism.engagements]
 
-    def found(some: Machine, n: int) -> tuple[Array]:
-        return (_sums_of(Loaded(some, sources), n, "mean" in told),)
+    def summed(some: LoadBatch, n: int) -> tuple[Array]:
+        return (_sums_of(LoadFunctions(some, sources), n, "mean" in requested),)
 
-    sums = sum(of_groups(one, found)[0] for one in every)
-    means = means_from(mechanism, sources, np.asarray(sums), "mean" in told)
+    sums = sum(of_groups(one, summed)[0] for one in every)
+    means = means_from(mechanism, sources, np.asarray(sums), "mean" in requested)
     return {name: means[source].times(share) for name, (source, share) in lent.items()}
 
 
@@ -79,7 +76,7 @@ def sources_of(
     mechanism: Mechanism, names: Sequence[str]
 ) -> tuple[dict[str, tuple[str, Array]], list[str]]:
     """The source of each quantity, and its ratio to that source: (m,) or (1,)."""
-    known = shares(mechanism)
+    known = multiples(mechanism)
     lent = {n: known.get(n, (n, 1.0, ""))[:2] for n in names}
     there = {
         n: (source, np.ravel(share)) for n, (source, share) in lent.items() if share is not None
@@ -96,25 +93,25 @@ def means_from(
         square, mean = every[i], None
         if plain:
             mean = every[len(names) + i]
-            # a mean whose square is this fraction of the mean square is rounding
+            # a mean whose square is so small a fraction of the mean square is rounding
             nought = np.isfinite(square) & (mean * mean <= 1e-30 * square)
             mean = np.where(nought, 0.0, mean)
         out[name] = LoadMeans(mean, np.sqrt(square))
     return out
 
 
-def _sums_of(load: Loaded, n: int, plain: bool) -> Array:
+def _sums_of(load: LoadFunctions, n: int, plain: bool) -> Array:
     """The integrals without a search for extremes: designs are only divided where signs change."""
     if is_balanced(load) and not plain:
         return squares(load, n)
-    spans, only = spans_of(load.machine[0], n), Signs(load)
+    spans, only = spans_of(load.engagement, n), SignFunctions(load)
     pieces = search(only, spans, n, False, w=load.spread).stretches
     with np.errstate(all="ignore"):
         bounded = load.bounded(pieces, n)
     return sums(load, pieces, bounded, n, plain)
 
 
-def sums(load: Loaded, pieces: Stretches, bounded: Mask, n: int, plain: bool) -> Array:
+def sums(load: LoadFunctions, pieces: Stretches, bounded: Mask, n: int, plain: bool) -> Array:
     """The integrals by the angle in radians of the squares and, with ``plain``, of the quantities.
 
     The shape is (names, n) for each; integrals that are not ``bounded`` are infinite. Only
@@ -132,11 +129,11 @@ def sums(load: Loaded, pieces: Stretches, bounded: Mask, n: int, plain: bool) ->
     paired = other != every[kept]
 
     def rows(x: Array, which: Whole) -> Array:
-        given, at, shape, wanted = state = load.at(x, design[which], 0)
+        state = load.at(x, design[which], 0)
         here = powers(load, state, sides[0][:, which, None], plain)
         if not paired.any():
             return here
-        image = given, mirrored(at), shape, wanted
+        image = state._replace(contact=mirrored(state.contact))
         # the images are in reverse order
         back = powers(load, image, sides[1][:, which, None], plain)[..., ::-1]
         back[:, ~paired[which]] = 0.0
@@ -151,26 +148,28 @@ def sums(load: Loaded, pieces: Stretches, bounded: Mask, n: int, plain: bool) ->
     rooted = plain and any(name in SQUARED for name in load.names)
     parts = (2 if plain else 1) * (2 if paired.any() else 1)
     with np.errstate(all="ignore"):
-        asked = np.tile(bounded, (parts, 1))
+        needed = np.tile(bounded, (parts, 1))
         ends = spread(a, w), spread(b, w)
         poles = 0.5 * np.pi * w
-        total = span_integrals(Integrands(by_spread, *ends, rooted), design, asked, poles=poles)
+        total = span_integrals(Integrands(by_spread, *ends, rooted), design, needed, poles=poles)
         if paired.any():
             total = total[: len(total) // 2] + total[len(total) // 2 :]
-        engagement = load.machine[0]
+        engagement = load.engagement
         if engagement.slot.curved:  # the rest up to mid-motion, which no stretch reaches
+            # the integral of a cubic from 0 to 1 by its values at 1, 2, 3 (Adams and Bashforth)
+            places, weights = np.array([1.0, 2.0, 3.0]), np.array([23.0, -16.0, 5.0]) / 12.0
             for end in (engagement.entry_deg, engagement.exit_deg):
-                near = np.broadcast_to(np.reshape(NEAR * end, (-1, 1)), (n, 1))
-                beside = powers(load, load.at(near * AHEAD, np.arange(n), 0), None, plain)
-                total += (beside @ SHARES) * np.abs(near[:, 0])
+                near = np.broadcast_to(np.reshape(NEAR_CUSP * end, (-1, 1)), (n, 1))
+                near_values = powers(load, load.at(near * places, np.arange(n), 0), None, plain)
+                total += (near_values @ weights) * np.abs(near[:, 0])
         total[~np.tile(bounded, (2 if plain else 1, 1))] = np.inf
     return total * DEGREE
 
 
-def powers(load: Loaded, state: At, signs: Array | None, plain: bool) -> Array:
+def powers(load: LoadFunctions, state: ContactState, signs: Array | None, plain: bool) -> Array:
     """The squares of the quantities and, with ``plain``, the quantities themselves after them."""
-    given, at, shape, wanted = state
-    here = look(load.kinds, given, at, signs).instant
+    case, at, shape, wanted = state
+    here = signed_instant(load.kinds, case, at, signs).instant
     count = len(load.names)
     out = np.empty((2 * count if plain else count, *shape[::-1])).swapaxes(1, 2)
     for i, (name, quantity) in enumerate(zip(load.names, wanted, strict=True)):

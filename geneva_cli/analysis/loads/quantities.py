@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Protocol
 
 import numpy as np
 
-from geneva_cli.analysis.loads.forces import Row, setting
+from geneva_cli.analysis.loads.forces import QuantityValue, load_case
 from geneva_cli.numerics.ties import first_greatest
 
 if TYPE_CHECKING:
@@ -18,7 +18,6 @@ if TYPE_CHECKING:
 FORCE = "pin_force_N"
 STRESS = "contact_stress_MPa"
 TORQUE = "input_torque_Nm"
-MOVES = ("omega_rad_s", "alpha_rad_s2", "sliding_m_s")  # known without a load
 PV = "pv_W_m2"  # greatest Hertz pressure times the speed of sliding
 KINETIC = "kinetic_rad2_s3"  # speed times acceleration of the wheel: the power of a unit inertia
 PRESSED = (STRESS, PV)  # known only with a face width
@@ -34,37 +33,38 @@ PARALLEL = "parallel shafts; on a sphere the force moves along them, and pushes 
 class Quantity(Protocol):
     """A quantity as a function of an instant, of jets or of values."""
 
-    def __call__(self, i: Instant[V], /) -> Row[V]:
+    def __call__(self, i: Instant[V], /) -> QuantityValue[V]:
         """The quantity, and the margin that bounds it."""
 
 
 QUANTITIES: dict[str, Quantity] = {
-    "omega_rad_s": lambda i: Row(i.omega_rad_s),
-    "alpha_rad_s2": lambda i: Row(i.alpha_rad_s2),
-    "wheel_torque_Nm": lambda i: Row(i.wheel_torque_Nm),
+    "omega_rad_s": lambda i: QuantityValue(i.omega_rad_s),
+    "alpha_rad_s2": lambda i: QuantityValue(i.alpha_rad_s2),
+    "wheel_torque_Nm": lambda i: QuantityValue(i.wheel_torque_Nm),
     FORCE: lambda i: i.pin_force,
     STRESS: lambda i: i.stress,
-    "sliding_m_s": lambda i: Row(i.sliding_m_s),
+    "sliding_m_s": lambda i: QuantityValue(i.sliding_m_s),
     TORQUE: lambda i: i.shaft,
-    "wheel_bearing_N": lambda i: Row(i.wheel_bearing_N, i.grip),
-    "crank_bearing_N": lambda i: Row(i.crank_bearing_squared, i.grip),
+    "wheel_bearing_N": lambda i: QuantityValue(i.wheel_bearing_N, i.grip),
+    "crank_bearing_N": lambda i: QuantityValue(i.crank_bearing_squared, i.grip),
     PV: lambda i: i.pressure_speed,
     "guide_force_N": lambda i: i.guide,
-    KINETIC: lambda i: Row(i.omega_rad_s * i.alpha_rad_s2),
+    KINETIC: lambda i: QuantityValue(i.omega_rad_s * i.alpha_rad_s2),
 }
 
 
 def known_quantities(mechanism: Mechanism) -> list[str]:
     """The names of the quantities that have a value for this machine and load."""
-    missing = {KINETIC} if setting(mechanism).hertz is not None else {KINETIC, *PRESSED}
+    missing = {KINETIC} if load_case(mechanism).hertz is not None else {KINETIC, *PRESSED}
     if not any(engagement.reactions for engagement in mechanism.engagements):
         missing.add("guide_force_N")
-    found = QUANTITIES if mechanism.spec.is_loaded else MOVES
-    return [name for name in found if name not in missing]
+    unloaded = ("omega_rad_s", "alpha_rad_s2", "sliding_m_s")
+    names = QUANTITIES if mechanism.spec.is_loaded else unloaded
+    return [name for name in names if name not in missing]
 
 
-def shares(mechanism: Mechanism) -> dict[str, tuple[str, float | None, str]]:
-    """Quantities that are a multiple of another one: its name, the factor, and the keys it needs.
+def multiples(mechanism: Mechanism) -> dict[str, tuple[str, float | None, str]]:
+    """Quantities that are multiples of others: the other's name, the factor, and the keys it needs.
 
     A shaft carries its load outside two bearings, with the overhang a from the nearer one and the
     distance s between them. The nearer bears (a + s)/s of the load, the other a/s in the opposite
@@ -72,7 +72,7 @@ def shares(mechanism: Mechanism) -> dict[str, tuple[str, float | None, str]]:
     """
     shaft, flat = mechanism.spec.shaft, mechanism.spec.wheel.FLAT
     out: dict[str, tuple[str, float | None, str]] = {
-        "power_W": (TORQUE, setting(mechanism).speed_rad_s, ""),
+        "power_W": (TORQUE, load_case(mechanism).speed_rad_s, ""),
     }
     for name, a, s in (
         ("wheel", shaft.wheel_overhang_mm, shaft.wheel_span_mm),

@@ -20,8 +20,8 @@ import numpy as np
 
 from geneva_cli.analysis.cam_factors import CamFactors, cam_factors
 from geneva_cli.analysis.loads.carried import inertia_kgm2, support_torque_Nm
-from geneva_cli.analysis.loads.fluctuation import NOUGHT, fluctuations, flywheel_kgm2
-from geneva_cli.analysis.loads.forces import setting
+from geneva_cli.analysis.loads.fluctuation import fluctuations, flywheel_kgm2
+from geneva_cli.analysis.loads.forces import load_case
 from geneva_cli.analysis.loads.makers_form import MakersForm, ShaftLoad, makers_form
 from geneva_cli.analysis.loads.quantities import TORQUE
 from geneva_cli.analysis.loads.summaries import LoadSummary, load_summaries
@@ -40,25 +40,36 @@ if TYPE_CHECKING:
     from geneva_cli.numerics.jet import Array
     from geneva_cli.spec.tables import Motor
 
-Peaks: TypeAlias = "tuple[float, ...]"  # of one engagement, in the order of ``PEAKS``
+Peaks: TypeAlias = "tuple[float, ...]"  # of one engagement, in the order of ``FORM_PEAKS``
 CARRIED = ("inertia_kgm2", "motor_rpm")
-FACTORS = ("acceleration_rad_s2", "Am", "Vm", "Qm")
-UNLOADED = (*CARRIED, *FACTORS)  # known without a load
-FORM = (
+CAM_FACTORS = ("acceleration_rad_s2", "Am", "Vm", "Qm")
+UNLOADED = (*CARRIED, *CAM_FACTORS)  # known without a load
+MAKERS_FORM = (
     *("inertia_torque_Nm", "friction_torque_Nm", "total_torque_Nm", "design_torque_Nm"),
     *("input_torque_Nm", "power_W"),
 )
-SUMS = ("energy_fluctuation_J", "flywheel_kgm2", "flywheel_to_add_kgm2", "motor_torque_rms_Nm")
-ENDS = ("motor_torque_max_Nm", "input_torque_ratio")
-PEAKS = ("velocity", "acceleration", "power")  # of each motion, for the makers' form
+CYCLE_SUMS = (
+    "energy_fluctuation_J",
+    "flywheel_kgm2",
+    "flywheel_to_add_kgm2",
+    "motor_torque_rms_Nm",
+)
+EXTREMES = ("motor_torque_max_Nm", "input_torque_ratio")
+FORM_PEAKS = ("velocity", "acceleration", "power")  # of each motion, for the makers' form
 ROTOR = ("inertia_ratio", "coasting_speed_share")
 # all but the wheel's own inertia, which follows from its outline
-NAMES = (*CARRIED, *FACTORS, *FORM, *SUMS, *ENDS, *ROTOR)
-WHEEL = "wheel_inertia_kgm2"  # known from the parts, not from ``sizing``
+SIZING_NAMES = (*CARRIED, *CAM_FACTORS, *MAKERS_FORM, *CYCLE_SUMS, *EXTREMES, *ROTOR)
+WHEEL_INERTIA = "wheel_inertia_kgm2"  # known from the parts, not from ``sizing``
 # In the order shown: the inertia at the wheel's shaft, and the wheel's own; the makers' form, for
 # the engagement with the greatest torque at the input; the exact cycle.
-SHOWN = (
-    *("inertia_kgm2", WHEEL, "acceleration_rad_s2", "inertia_torque_Nm", "friction_torque_Nm"),
+SHOWN_SIZING = (
+    *(
+        "inertia_kgm2",
+        WHEEL_INERTIA,
+        "acceleration_rad_s2",
+        "inertia_torque_Nm",
+        "friction_torque_Nm",
+    ),
     *("total_torque_Nm", "design_torque_Nm", "input_torque_Nm", "power_W", "Am", "Vm", "Qm"),
     *("energy_fluctuation_J", "flywheel_kgm2", "motor_rpm", "motor_torque_max_Nm"),
     *("motor_torque_rms_Nm", "inertia_ratio", "flywheel_to_add_kgm2", "coasting_speed_share"),
@@ -69,10 +80,12 @@ SHOWN = (
 def sizing(cycle: Cycle) -> tuple[dict[str, float | None], list[str]]:
     """The values of one design in the order shown, and the keys that missing values need."""
     spec = cycle.mechanism.spec
-    names, torque = (NAMES, cycle.known[TORQUE]) if cycle.is_loaded else (UNLOADED, None)
-    found = sizings(cycle.mechanism, names, torque, cycle.peaks)
-    values = {name: float(row[0]) for name, row in found.items()}
-    out = {name: x if math.isfinite(x := values.get(name, math.nan)) else None for name in SHOWN}
+    names, torque = (SIZING_NAMES, cycle.known[TORQUE]) if cycle.is_loaded else (UNLOADED, None)
+    rows = sizings(cycle.mechanism, names, torque, cycle.peaks)
+    values = {name: float(row[0]) for name, row in rows.items()}
+    out = {
+        name: x if math.isfinite(x := values.get(name, math.nan)) else None for name in SHOWN_SIZING
+    }
     if torque is None:
         return out, []
     needs = []
@@ -91,38 +104,38 @@ def sizing(cycle: Cycle) -> tuple[dict[str, float | None], list[str]]:
 
 def sizings(
     mechanism: Mechanism,
-    asked: Collection[str] = NAMES,
+    requested: Collection[str] = SIZING_NAMES,
     torque: LoadSummary | None = None,
     peaks: Sequence[Peaks] | None = None,
 ) -> dict[str, Array]:
-    """Values of ``NAMES``, (m,) each, or (1,) for values equal in all designs; NaN if undefined.
+    """Values of ``SIZING_NAMES``: (m,), or (1,) for values equal in all designs; NaN if undefined.
 
-    ``asked`` are the requested names; others may be included. ``torque`` is the summary of the
+    Names that are not ``requested`` may be included. ``torque`` is the summary of the
     input's torque, and ``peaks`` are each engagement's greatest velocity, acceleration and power,
     as invariants, if known already.
     """
-    spec, given, names = mechanism.spec, setting(mechanism), set(asked)
-    loaded = np.ravel(given.inertia_Nm + given.resists_Nm > 0.0)
-    found: dict[str, Number] = {}
+    spec, case, names = mechanism.spec, load_case(mechanism), set(requested)
+    loaded = np.ravel(case.inertia_Nm + case.resists_Nm > 0.0)
+    values: dict[str, Number] = {}
     if names & set(CARRIED):
         rpm = spec.drive.n_rpm * spec.motor.gear_ratio
-        found |= {"inertia_kgm2": _some(inertia_kgm2(spec)), "motor_rpm": rpm}
-    formed = bool(names & {*FACTORS, *FORM, "input_torque_ratio"})
+        values |= {"inertia_kgm2": _some(inertia_kgm2(spec)), "motor_rpm": rpm}
+    formed = bool(names & {*CAM_FACTORS, *MAKERS_FORM, "input_torque_ratio"})
     if peaks is None:
-        sought = PEAKS if formed else PEAKS[:1] if names & set(ROTOR) else ()
+        sought = FORM_PEAKS if formed else FORM_PEAKS[:1] if names & set(ROTOR) else ()
         peaks = [_peaks(engagement, sought) for engagement in mechanism.engagements]
     if formed:
-        found |= _form(mechanism, peaks)
-    if names & {*SUMS, *ENDS}:
+        values |= _form(mechanism, peaks)
+    if names & {*CYCLE_SUMS, *EXTREMES}:
         if torque is None:
-            told = ("mean", "rms") if names & set(SUMS) else ()
-            torque = load_summaries(mechanism, [TORQUE], told)[TORQUE]
-        found |= _exact(mechanism, torque, found.get("input_torque_Nm"))
+            means = ("mean", "rms") if names & set(CYCLE_SUMS) else ()
+            torque = load_summaries(mechanism, [TORQUE], means)[TORQUE]
+        values |= _exact(mechanism, torque, values.get("input_torque_Nm"))
     if names & set(ROTOR):
-        found |= _rotor(mechanism, [velocity for velocity, *_ in peaks])
+        values |= _rotor(mechanism, [velocity for velocity, *_ in peaks])
     return {
         name: np.ravel(row) if name in UNLOADED else np.where(loaded, np.ravel(row), np.nan)
-        for name, row in found.items()
+        for name, row in values.items()
     }
 
 
@@ -133,13 +146,13 @@ def _some(x: Number) -> Array:
 
 def _peaks(engagement: Engagement, names: Sequence[str]) -> Peaks:
     """The greatest values of these quantities, (m, 1) each."""
-    found = motion_peaks(engagement.motion, names) if names else {}
-    return tuple(parameter(found[name].max[:, None]) for name in names)
+    peaks = motion_peaks(engagement.motion, names) if names else {}
+    return tuple(parameter(peaks[name].max[:, None]) for name in names)
 
 
 def _form(mechanism: Mechanism, peaks: Sequence[Peaks]) -> dict[str, Number]:
     """The makers' form, for the engagement with the greatest torque at the input."""
-    spec, w = mechanism.spec, setting(mechanism).speed_rad_s
+    spec, w = mechanism.spec, load_case(mechanism).speed_rad_s
     form, factors = greatest_form(mechanism, peaks)
     return {
         "acceleration_rad_s2": form.alpha,
@@ -157,7 +170,7 @@ def _exact(
     mechanism: Mechanism, torque: LoadSummary, form_torque: Number | None
 ) -> dict[str, Number]:
     """Motor and flywheel from the exact cycle; NaN if the torque is unbounded."""
-    motor, w = mechanism.spec.motor, setting(mechanism).speed_rad_s
+    motor, w = mechanism.spec.motor, load_case(mechanism).speed_rad_s
     bounded = np.isfinite(torque.max) & np.isfinite(torque.min)
     most, least = (np.where(bounded, x, np.nan)[:, None] for x in (torque.max, torque.min))
     out: dict[str, Number] = {"motor_torque_max_Nm": greatest_motor_torque_Nm(motor, most, least)}
@@ -167,8 +180,9 @@ def _exact(
     if torque.mean is None or torque.rms is None:
         return out
     square = np.where(bounded, torque.rms, np.nan) ** 2
-    # for an inertia alone the mean is only rounding
-    mean = np.where(torque.mean**2 > NOUGHT * square, torque.mean, 0.0 * square)
+    # A mean whose square is less than 1e-26 of the mean square is rounding, as for an inertia
+    # alone.
+    mean = np.where(torque.mean**2 > 1e-26 * square, torque.mean, 0.0 * square)
     swings = fluctuations(mechanism, mean)
     energy = np.where(bounded, swings.energy_J, np.nan)[:, None]
     returned = swings.returned / np.ravel(mechanism.period_deg * DEGREE)
@@ -194,7 +208,7 @@ def _rotor(mechanism: Mechanism, velocities: Sequence[float]) -> dict[str, Numbe
 def greatest_form(mechanism: Mechanism, peaks: Sequence[Peaks]) -> tuple[MakersForm, CamFactors]:
     """The makers' form with the greatest torque at the input, and its motion's factors.
 
-    ``peaks`` are each engagement's ``PEAKS``, as invariants.
+    ``peaks`` are each engagement's ``FORM_PEAKS``, as invariants.
     """
     spec = mechanism.spec
     load = ShaftLoad(

@@ -14,8 +14,8 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from geneva_cli.analysis.loads.contact import NEAR
-from geneva_cli.analysis.loads.forces import ZERO, Setting
+from geneva_cli.analysis.loads.contact import NEAR_CUSP
+from geneva_cli.analysis.loads.forces import ZERO, LoadCase
 from geneva_cli.errors import GenevaError
 from geneva_cli.machine.engagement import Engagement
 from geneva_cli.numerics.angles import DEGREE
@@ -37,8 +37,8 @@ def spans_of(engagement: Engagement, n: int) -> list[tuple[Array, Array]]:
         start = np.nextafter(a, np.inf) if i else a
         end = np.nextafter(b, -np.inf) if i + 2 < len(places) else b
         if engagement.slot.curved:
-            start = np.where(a == 0.0, NEAR * engagement.exit_deg, start)
-            end = np.where(b == 0.0, NEAR * engagement.entry_deg, end)
+            start = np.where(a == 0.0, NEAR_CUSP * engagement.exit_deg, start)
+            end = np.where(b == 0.0, NEAR_CUSP * engagement.entry_deg, end)
         out.append((start, end))
     return out
 
@@ -49,7 +49,7 @@ def mirror_images(pieces: Stretches) -> Whole:
     count = np.bincount(design, minlength=1)
     start = np.cumsum(count) - count
     other = 2 * start[design] + count[design] - 1 - every
-    # fraction of a stretch by which the ends of its mirror image may be off
+    # the ends of a mirror image may be off by 1e-9 of the stretch, some rounding
     close = 1e-9 * (b - a)
     alike = (np.abs(a + b[other]) <= close) & (np.abs(b + a[other]) <= close)
     images: Whole = np.where(alike & alike[other], other, every)
@@ -62,7 +62,7 @@ def to_mid_motion(engagement: Engagement, stretches: Stretches, n: int) -> Stret
         return stretches
     x = stretches.x
     for end in (engagement.entry_deg, engagement.exit_deg):
-        near = np.broadcast_to(np.ravel(NEAR * end), n)[stretches.design]
+        near = np.broadcast_to(np.ravel(NEAR_CUSP * end), n)[stretches.design]
         x = np.where(x == near, 0.0, x)
     return stretches._replace(x=x)
 
@@ -78,35 +78,35 @@ class Stretch(NamedTuple):
 
 
 def whole(
-    engagement: Engagement, given: Setting, kinds: Sequence[str], found: Stretches
+    engagement: Engagement, case: LoadCase, kinds: Sequence[str], result: Stretches
 ) -> list[Stretch]:
     """The stretches of one design's motion without gaps, with the signs of those of a search."""
-    signs = dict(zip(kinds, np.where(found.positive, 1.0, -1.0), strict=True))
-    one = np.ones(len(found.design))
+    signs = dict(zip(kinds, np.where(result.positive, 1.0, -1.0), strict=True))
+    one = np.ones(len(result.design))
     of = (signs.get(kind, one).tolist() for kind in ("drives", "slides", "feeds"))
-    every = [Stretch(*row) for row in zip(*found.x.tolist(), *of, strict=True)]
+    every = [Stretch(*row) for row in zip(*result.x.tolist(), *of, strict=True)]
     pieces = every[:1]
-    for piece, (last, span) in zip(every[1:], pairwise(found.span), strict=True):
+    for piece, (last, span) in zip(every[1:], pairwise(result.span), strict=True):
         # only signs that do not matter here divide them
         if span == last and piece[2:] == pieces[-1][2:]:
             pieces[-1] = pieces[-1]._replace(end=piece.end)
         else:
             pieces.append(piece)
     cuts = [engagement.entry_deg]
-    cuts += [_between(engagement, given, *both) for both in pairwise(pieces)]
+    cuts += [_between(engagement, case, *both) for both in pairwise(pieces)]
     cuts.append(engagement.exit_deg)
     placed = zip(pieces, pairwise(cuts), strict=True)
     return [p._replace(start=a, end=b) for p, (a, b) in placed if a < b]
 
 
-def _between(engagement: Engagement, given: Setting, before: Stretch, after: Stretch) -> float:
+def _between(engagement: Engagement, case: LoadCase, before: Stretch, after: Stretch) -> float:
     """The place between two stretches: a break, or a change of sign near it."""
     a, b = before.end, after.start
-    if b - a > NEAR * engagement.motion_deg * 1e-3 and before.drives != after.drives:
+    if b - a > NEAR_CUSP * engagement.motion_deg * 1e-3 and before.drives != after.drives:
 
-        def torque(way: float) -> tuple[float, float]:
-            _, _, epsilon, rise = engagement.motion(a + way, 3).scalars()
-            return epsilon * given.inertia_Nm + given.resists_Nm, rise * given.inertia_Nm * DEGREE
+        def torque(travel: float) -> tuple[float, float]:
+            _, _, epsilon, rise = engagement.motion(a + travel, 3).scalars()
+            return epsilon * case.inertia_Nm + case.resists_Nm, rise * case.inertia_Nm * DEGREE
 
         if torque(0.0)[0] * torque(b - a)[0] < 0.0:
             return a + root(torque, 0.0, b - a)
@@ -128,11 +128,10 @@ def refuse_rounding(engagement: Engagement, fastest: float) -> None:
     ``fastest`` is its greatest velocity.
     """
     furthest = max(abs(engagement.entry_deg), abs(engagement.exit_deg))
-    share = fastest * math.ulp(furthest) * DEGREE / (2.0 * engagement.half_step)
-    # fraction of a step that may lie between two adjacent angles
-    if share > 1e-10:
+    fraction = fastest * math.ulp(furthest) * DEGREE / (2.0 * engagement.half_step)
+    if fraction > 1e-10:  # a step between two adjacent angles: the loads keep six digits
         raise GenevaError(
-            f"the wheel moves {fastest:.2g} times as fast as the input, {share:.1g} of its step "
+            f"the wheel moves {fastest:.2g} times as fast as the input, {fraction:.1g} of its step "
             "while the input's angle changes by its last digit: such loads would be rounding. Make "
             "the drive more even (elliptical gears: an eccentricity up to 0.999999)",
             ("drive", "kind"),

@@ -20,9 +20,15 @@ from typing import TYPE_CHECKING, NamedTuple, cast
 
 import numpy as np
 
-from geneva_cli.analysis.loads.forces import Setting, setting
+from geneva_cli.analysis.loads.forces import LoadCase, load_case
 from geneva_cli.analysis.loads.groups import of_groups
-from geneva_cli.analysis.loads.loaded import NONE, Loaded, Machine, Wanted, machine
+from geneva_cli.analysis.loads.loaded import (
+    NO_MORE,
+    LoadBatch,
+    LoadFunctions,
+    LoadQuantity,
+    load_batch,
+)
 from geneva_cli.analysis.loads.means import means_from, sources_of, sums
 from geneva_cli.analysis.loads.quantities import (
     FORCE,
@@ -35,7 +41,7 @@ from geneva_cli.analysis.loads.stretches import on_breaks, spans_of
 from geneva_cli.analysis.peak_search import PeakArray, greater
 from geneva_cli.machine.engagement import Engagement
 from geneva_cli.machine.mechanism import Mechanism
-from geneva_cli.numerics.search import Found, search
+from geneva_cli.numerics.search import SearchResult, search
 
 if TYPE_CHECKING:
     from geneva_cli.numerics.arrays import Number
@@ -55,15 +61,15 @@ class LoadSummary(NamedTuple):
     mean: Array | None = None  # None if not requested
     rms: Array | None = None
 
-    def times(self, share: Array) -> LoadSummary:
+    def times(self, factor: Array) -> LoadSummary:
         """The summary of a multiple of the quantity."""
-        mean, rms = (None if v is None else v * share for v in self[4:])
+        mean, rms = (None if v is None else v * factor for v in self[4:])
         return LoadSummary(
-            self.max * share, self.max_at_deg, self.min * share, self.min_at_deg, mean, rms
+            self.max * factor, self.max_at_deg, self.min * factor, self.min_at_deg, mean, rms
         )
 
 
-class Searched(NamedTuple):
+class EngagementExtremes(NamedTuple):
     """Greatest values over one engagement, their places, and the sums; one row for each quantity.
 
     For signed extremes, the greatest values of the quantities' negatives follow.
@@ -77,51 +83,51 @@ class Searched(NamedTuple):
 def load_peaks(
     mechanism: Mechanism,
     names: Sequence[str],
-    own: Mapping[str, Wanted] = NONE,
-    given: Setting | None = None,
+    own: Mapping[str, LoadQuantity] = NO_MORE,
+    case: LoadCase | None = None,
 ) -> dict[str, PeakArray]:
     """The greatest sizes of quantities, and the first input angles that have them: (m,).
 
-    ``own`` are further quantities by name; ``given`` replaces the machine's setting.
+    ``own`` are further quantities by name; ``case`` replaces the machine's own load case.
     """
-    given, best = given or setting(mechanism), dict[str, PeakArray]()
+    case, best = case or load_case(mechanism), dict[str, PeakArray]()
     flat = all(e.slot.walls_flat for e in mechanism.engagements)
-    lent = {n: FORCE if flat and n == STRESS and given.hertz is not None else n for n in names}
+    lent = {n: FORCE if flat and n == STRESS and case.hertz is not None else n for n in names}
     sought = list(dict.fromkeys(lent.values()))
     for engagement in mechanism.engagements:
-        every = machine(engagement, given, sought, own)
-        found, at_deg, _ = _searched(mechanism, every, sought, sized=True)
-        for name, most, at in zip(sought, found, at_deg, strict=True):
+        every = load_batch(engagement, case, sought, own)
+        sizes, at_deg, _ = _searched(mechanism, every, sought, sized=True)
+        for name, most, at in zip(sought, sizes, at_deg, strict=True):
             here = PeakArray(most, at)
             best[name] = greater(best[name], here) if name in best else here
     out = {}
     for name, source in lent.items():
         one = best[source]
         if source != name:  # the square of the stress on a flat wall is proportional to the force
-            assert given.hertz is not None
-            one = one._replace(max=one.max * np.ravel(given.hertz))
+            assert case.hertz is not None
+            one = one._replace(max=one.max * np.ravel(case.hertz))
         out[name] = one._replace(max=np.sqrt(one.max)) if name in SQUARED else one
     return out
 
 
 def load_summaries(
-    mechanism: Mechanism, names: Sequence[str], told: Collection[str] = ("mean", "rms")
+    mechanism: Mechanism, names: Sequence[str], requested: Collection[str] = ("mean", "rms")
 ) -> dict[str, LoadSummary]:
     """The summaries of quantities over a period, by their names; signs kept.
 
     Extremes are exact to some units in the last place of a quantity's greatest size. Means and root
     mean squares are within 1e-12 of that size: quadrature errors of 2e-13 add up over stretches
-    that may cancel. ``told`` selects mean and rms; the other is None.
+    that may cancel. ``requested`` selects mean and rms; the other is None.
     """
     _, sources = sources_of(mechanism, names)
-    given = setting(mechanism)
-    every = [machine(engagement, given, sources, NONE) for engagement in mechanism.engagements]
-    each = [_searched(mechanism, one, sources, told=told) for one in every]
-    return summed_up(mechanism, names, each, "mean" in told)
+    case = load_case(mechanism)
+    every = [load_batch(engagement, case, sources, NO_MORE) for engagement in mechanism.engagements]
+    each = [_searched(mechanism, one, sources, requested=requested) for one in every]
+    return summed_up(mechanism, names, each, "mean" in requested)
 
 
 def summed_up(
-    mechanism: Mechanism, names: Sequence[str], each: Sequence[Searched], plain: bool
+    mechanism: Mechanism, names: Sequence[str], each: Sequence[EngagementExtremes], plain: bool
 ) -> dict[str, LoadSummary]:
     """The summaries of quantities, from the results of their sources in each engagement.
 
@@ -135,56 +141,56 @@ def summed_up(
         k = i + len(sources)
         rows = [(one.most[i], one.at_deg[i], -one.most[k], one.at_deg[k]) for one in each]
         most, most_at, least, least_at = outermost(np.array(rows))
-        most, least = _ends_told(name, most, least)
+        most, least = _ends_of(name, most, least)
         mean, rms = means.get(name, (None, None))
         best[name] = LoadSummary(most, most_at, least, least_at, mean, rms)
     return {name: best[source].times(share) for name, (source, share) in lent.items()}
 
 
-def _ends_told(name: str, most: Array, least: Array) -> list[Array]:
+def _ends_of(name: str, most: Array, least: Array) -> list[Array]:
     """Greatest and least of a quantity, from those of its square or of itself.
 
     Where the torque changes sign, rounding may leave a size below 0. Either value is replaced by 0
     if it is rounding compared with the other.
     """
-    found = [np.maximum(x, 0.0) if name in SIZES else np.asarray(x) for x in (most, least)]
-    found = [np.sqrt(x) if name in SQUARED else x for x in found]
-    # fraction of a peak that is rounding
-    level = 1e-14 * np.maximum(*[np.where(np.isfinite(x), np.abs(x), 0.0) for x in found])
-    return [np.where(np.abs(x) > level, x, 0.0) for x in found]
+    ends = [np.maximum(x, 0.0) if name in SIZES else np.asarray(x) for x in (most, least)]
+    ends = [np.sqrt(x) if name in SQUARED else x for x in ends]
+    # below 1e-14 of the peak, a value is rounding
+    level = 1e-14 * np.maximum(*[np.where(np.isfinite(x), np.abs(x), 0.0) for x in ends])
+    return [np.where(np.abs(x) > level, x, 0.0) for x in ends]
 
 
 def _searched(
     mechanism: Mechanism,
-    every: Machine,
+    every: LoadBatch,
     names: Sequence[str],
     sized: bool = False,
-    told: Collection[str] = (),
-) -> Searched:
+    requested: Collection[str] = (),
+) -> EngagementExtremes:
     """The results of one engagement of m designs, computed in groups."""
 
-    def found(some: Machine, n: int) -> Sequence[Array]:
-        load = Loaded(some, names)
+    def extremes(some: LoadBatch, n: int) -> Sequence[Array]:
+        load = LoadFunctions(some, names)
         here = searched(load, n, sized)
         rows = here.most, here.x
-        return (*rows, sums_of(load, here, n, "mean" in told)) if told else rows
+        return (*rows, sums_of(load, here, n, "mean" in requested)) if requested else rows
 
-    most, x, *total = of_groups(every, found)
-    return Searched(most, shown(mechanism, every[0], x), *(total or (None,)))
+    most, x, *total = of_groups(every, extremes)
+    return EngagementExtremes(most, shown(mechanism, every[0], x), *(total or (None,)))
 
 
-def searched(load: Loaded, n: int, sized: bool = False) -> Found:
+def searched(load: LoadFunctions, n: int, sized: bool = False) -> SearchResult:
     """The extremes of n designs' loads over a motion, and its stretches."""
-    spans = spans_of(load.machine[0], n)
+    spans = spans_of(load.engagement, n)
     if sized and load.repeats:
         spans = spans[: len(spans) // 2]
     return search(load, spans, n, sized, load.at_mid_motion(n), load.spread)
 
 
-def sums_of(load: Loaded, found: Found, n: int, plain: bool) -> Array:
+def sums_of(load: LoadFunctions, result: SearchResult, n: int, plain: bool) -> Array:
     """The result of ``sums`` over the stretches of a search."""
-    bounded = np.asarray(np.isfinite(found.most).reshape(2, -1, n).all(axis=0))
-    return sums(load, found.stretches, bounded, n, plain)
+    bounded = np.asarray(np.isfinite(result.most).reshape(2, -1, n).all(axis=0))
+    return sums(load, result.stretches, bounded, n, plain)
 
 
 def shown(mechanism: Mechanism, engagement: Engagement, x: Array) -> Array:

@@ -16,12 +16,12 @@ from geneva_cli.analysis.loads.quantities import (
     PV,
     STRESS,
     known_quantities,
+    multiples,
     plain_of,
-    shares,
 )
-from geneva_cli.analysis.loads.sizing import WHEEL, sizing
+from geneva_cli.analysis.loads.sizing import WHEEL_INERTIA, sizing
 from geneva_cli.analysis.loads.summaries import LoadSummary
-from geneva_cli.analysis.motion import HELD, check_samples, derivatives, inputs, times_s
+from geneva_cli.analysis.motion import WHOLE_ROWS, check_samples, derivatives, inputs, times_s
 from geneva_cli.errors import Notice
 from geneva_cli.table import Reading, Table, pieces, record_table, rows_table
 
@@ -29,14 +29,12 @@ if TYPE_CHECKING:
     from geneva_cli.machine.spec import Spec
     from geneva_cli.numerics.jet import Array
 
-# The columns of the summary in order of importance, for a narrow window.
-FIRST = ("quantity", "max", "rms", "max_at_deg", "min", "mean")
-PLACES = ("time_s", "input_deg", "wheel_deg")
+PLACE_COLUMNS = ("time_s", "input_deg", "wheel_deg")
 UNLOADED = (
     "nothing resists the wheel, so no force is known: set inertia_kgm2 or torque_Nm in [load], or "
     "a [[mass]]"
 )
-SHOWN = (
+SHOWN_QUANTITIES = (
     "omega_rad_s",
     "alpha_rad_s2",
     "wheel_torque_Nm",
@@ -56,7 +54,7 @@ SHOWN = (
 )
 
 
-class Summary(NamedTuple):
+class QuantitySummary(NamedTuple):
     """Greatest and least over the motions, mean and root mean square over a period.
 
     None for an unbounded value, or if its inputs are not known.
@@ -71,22 +69,25 @@ class Summary(NamedTuple):
 
 
 @lru_cache(maxsize=16)
-def summaries(cycle: Cycle) -> Mapping[str, Summary]:
+def summaries(cycle: Cycle) -> Mapping[str, QuantitySummary]:
     """The summary of each quantity, by its name; None for each value that is not known."""
-    found = cycle.known
-    return {name: _summary(found[name]) if name in found else Summary() for name in SHOWN}
+    known = cycle.known
+    return {
+        name: _summary(known[name]) if name in known else QuantitySummary()
+        for name in SHOWN_QUANTITIES
+    }
 
 
-def _summary(found: LoadSummary) -> Summary:
-    every = [None if end is None else float(end[0]) for end in found]
-    return Summary(*(x if x is not None and math.isfinite(x) else None for x in every))
+def _summary(summary: LoadSummary) -> QuantitySummary:
+    every = [None if end is None else float(end[0]) for end in summary]
+    return QuantitySummary(*(x if x is not None and math.isfinite(x) else None for x in every))
 
 
 def plain(cycle: Cycle, states: Instant[Array], name: str) -> Array:
     """A quantity of ``known``, or a multiple of one, at states of the cycle."""
-    source, share, _ = shares(cycle.mechanism).get(name, (name, 1.0, ""))
-    assert share is not None  # known quantities have a factor
-    return plain_of(states, source) * share
+    source, factor, _ = multiples(cycle.mechanism).get(name, (name, 1.0, ""))
+    assert factor is not None  # known quantities have a factor
+    return plain_of(states, source) * factor
 
 
 def reversals_deg(cycle: Cycle) -> list[float]:
@@ -112,19 +113,21 @@ def loads_table(
     """
     spec = cycle.mechanism.spec
     values: dict[str, object] = {"spec": spec.path, "title": spec.title}
-    found = summaries(cycle)
+    loads = summaries(cycle)
     if for_people:
-        rows = [(name, *one) for name, one in found.items() if one != Summary()]
-        table = rows_table(("quantity", *Summary._fields), rows, mixed=True)
-        values["loads"] = table.replaced(reading=Reading(FIRST))
+        rows = [(name, *one) for name, one in loads.items() if one != QuantitySummary()]
+        table = rows_table(("quantity", *QuantitySummary._fields), rows, mixed=True)
+        # in order of importance, for a narrow window
+        first = ("quantity", "max", "rms", "max_at_deg", "min", "mean")
+        values["loads"] = table.replaced(reading=Reading(first))
     else:
-        for name, one in found.items():
+        for name, one in loads.items():
             values |= {f"{name}.{key}": value for key, value in one._asdict().items()}
     values["reversals_deg"] = tuple(reversals_deg(cycle)) if cycle.is_loaded else None
     bought, needed = sizing(cycle)
-    bought[WHEEL] = wheel_inertia_kgm2
+    bought[WHEEL_INERTIA] = wheel_inertia_kgm2
     if cycle.is_loaded and wheel_inertia_kgm2 is None:
-        needed = [*needed, f"{WHEEL}: {_unweighed(spec)}"]
+        needed = [*needed, f"{WHEEL_INERTIA}: {_unweighed(spec)}"]
     for group, answers in (("sizing", bought), ("life", life)):
         values |= {f"{group}.{key}": value for key, value in answers.items()}
     values["warnings"] = (*warnings, *needed)
@@ -144,15 +147,15 @@ def missing(cycle: Cycle) -> list[Notice]:
     """Notes on the keys that the missing quantities need."""
     if not cycle.is_loaded:
         return [Notice("not-known", UNLOADED)]
-    wide = cycle.given.hertz is not None
+    wide = cycle.case.hertz is not None
     out = [] if wide else [f"{name}: needs face_width_mm in [size]" for name in PRESSED]
     spec, guide = cycle.mechanism.spec, "guide_force_N"
     if spec.drive.LENGTH and spec.wheel.FLAT and guide not in known_quantities(cycle.mechanism):
         needs = f"needs {spec.drive.LENGTH} in [drive]"
         out.append(f"{guide}, and the share of it in the crank's bearings: {needs}")
     unknown: dict[str, list[str]] = {}
-    for name, (_, share, needs) in shares(cycle.mechanism).items():
-        if share is None:
+    for name, (_, factor, needs) in multiples(cycle.mechanism).items():
+        if factor is None:
             unknown.setdefault(needs, []).append(name)
     out += [f"{', '.join(names)}: needs {needs}" for needs, names in unknown.items()]
     return [Notice("not-known", text) for text in out]
@@ -164,12 +167,12 @@ def cycle_table(cycle: Cycle, samples: int) -> Table:
     A value that is unbounded or not known is None.
     """
     check_samples(samples)
-    names = (*PLACES, *SHOWN)
+    names = (*PLACE_COLUMNS, *SHOWN_QUANTITIES)
 
     def rows(begin: int, end: int) -> list[Any]:
         return _rows(cycle, samples, begin, end)
 
-    if samples > HELD:
+    if samples > WHOLE_ROWS:
         return Table(names, pieces(samples, len(names), rows, "object"))
     return Table(names, rows(0, samples))
 
@@ -177,16 +180,16 @@ def cycle_table(cycle: Cycle, samples: int) -> Table:
 def _rows(cycle: Cycle, samples: int, begin: int, end: int) -> list[Any]:
     input_deg = inputs(cycle.mechanism, samples, begin, end)
     states = cycle.states(input_deg)
-    found = {name: plain_of(states, name) for name in known_quantities(cycle.mechanism)}
-    for name, (source, share, _) in shares(cycle.mechanism).items():
-        if share is not None and source in found:
-            found[name] = found[source] * share
+    columns = {name: plain_of(states, name) for name in known_quantities(cycle.mechanism)}
+    for name, (source, factor, _) in multiples(cycle.mechanism).items():
+        if factor is not None and source in columns:
+            columns[name] = columns[source] * factor
     none = [None] * len(input_deg)
     return [
         times_s(cycle.mechanism, input_deg),
         input_deg,
         np.degrees(derivatives(cycle.mechanism, input_deg, (0,))[0]),
-        *[_cells(found[name]) if name in found else none for name in SHOWN],
+        *[_cells(columns[name]) if name in columns else none for name in SHOWN_QUANTITIES],
     ]
 
 

@@ -39,12 +39,8 @@ if TYPE_CHECKING:
     from geneva_cli.numerics.arrays import Number, Whole
     from geneva_cli.numerics.jet import Array
 
-THICK = 0.5  # thickness at the mouth over the recess's radius, beyond which a horn is no beam
-GRID = 61  # places and sections of the first sampling
-FINER = 33  # and of each finer one around the best of them
-SHARES = np.linspace(0.0, 1.0, FINER)
-GROUP = 16  # designs at a time: their stresses stay in the cache
-NEAR = 1e-4  # fraction of a half motion: nearer to mid-motion a slot's direction is rounding
+STOUT = 0.5  # thickness at the mouth over the recess's radius, beyond which a horn is no beam
+NEAR_MIDDLE = 1e-4  # fraction of a half motion: nearer to mid-motion a slot's direction is rounding
 SHEAR = 1.2  # of a rectangular section: energy of its shear stress over that of the mean stress
 
 
@@ -60,7 +56,7 @@ class HornStress(NamedTuple):
     thickness_mm: float
 
 
-class Side(NamedTuple):
+class Horn(NamedTuple):
     """One horn of a slot, in the wheel's frame: the one that bears torque forwards, or backwards.
 
     ``engagement`` is that of the roller in its slot. ``whole`` is the engagement of the motion,
@@ -127,7 +123,7 @@ class Side(NamedTuple):
 
     def places(self, count: int) -> Array:
         """Input angles from the mouth inwards."""
-        return self.mouth_deg * np.linspace(1.0, NEAR, count)
+        return self.mouth_deg * np.linspace(1.0, NEAR_MIDDLE, count)
 
     @property
     def stoutness(self) -> Array:
@@ -155,7 +151,7 @@ def product(a: Array, b: Array) -> Array:
     return products
 
 
-def horns(mechanism: Mechanism, half_width_mm: float, recess_mm: float) -> list[Side]:
+def horns(mechanism: Mechanism, half_width_mm: float, recess_mm: float) -> list[Horn]:
     """Both horns of each kind of slot."""
     L, sides = mechanism.center_distance_mm, []
     for whole in mechanism.engagements:
@@ -170,7 +166,7 @@ def horns(mechanism: Mechanism, half_width_mm: float, recess_mm: float) -> list[
             towards = L * vector(at.x, at.y) - centre
             across = across * np.copysign(1.0, product(across, towards))
             frame = centre, inwards, across
-            sides.append(Side(engagement, L, half_width_mm, recess_mm, end, *frame, whole, ahead))
+            sides.append(Horn(engagement, L, half_width_mm, recess_mm, end, *frame, whole, ahead))
     return sides
 
 
@@ -208,13 +204,14 @@ def horn_stresses(
     m = mechanism.designs
     if m == 1:
         return _horns(1, *every)
+    size = 16  # designs at a time: their stresses stay in the cache
     groups = [
-        _horns(min(GROUP, m - i), *taken(every, slice(i, i + GROUP))) for i in range(0, m, GROUP)
+        _horns(min(size, m - i), *taken(every, slice(i, i + size))) for i in range(0, m, size)
     ]
     return HornStress(*(parameter(np.concatenate(row)) for row in zip(*groups, strict=True)))
 
 
-class _Search(NamedTuple):
+class _SamplePlaces(NamedTuple):
     """Input angles of each design at which roller and section are sampled."""
 
     roller: Array  # (m, halves of the motion, places)
@@ -226,9 +223,9 @@ def _horns(
 ) -> HornStress:
     """Greatest bending stress of m designs that are searched together."""
     best, which = np.full((4, m), np.nan), np.zeros(m, dtype=int)
-    next_ = []
+    next_, count = [], 61  # places and sections of the first sampling
     for number, side in enumerate(horns(mechanism, half_width, recess)):
-        start = _Search(_from(_halves(side), GRID), _from([side.mouth_deg], GRID)[:, 0])
+        start = _SamplePlaces(_from(_halves(side), count), _from([side.mouth_deg], count)[:, 0])
         sample, around = _sampled(mechanism, side, start, width)
         better = ~(sample[0] <= best[0] * (1.0 + TIE)) & ~np.isnan(sample[0])
         best, which = np.where(better, sample, best), np.where(better, number, which)
@@ -241,7 +238,7 @@ def _horns(
         if len(own) < m:
             some = taken(some, own)
             one = horns(*some[:3])[number]
-            around = _Search(*(places[own] for places in around))
+            around = _SamplePlaces(*(places[own] for places in around))
         for _ in range(3):  # the middle of the remaining places is the best so far
             sample, around = _sampled(some[0], one, around, some[3])
             best[:, own] = np.where(np.isnan(sample[0]), best[:, own], sample)
@@ -250,7 +247,7 @@ def _horns(
     return HornStress(*map(parameter, (best[0], at_deg, *best[2:])))
 
 
-def _halves(side: Side) -> list[float]:
+def _halves(side: Horn) -> list[float]:
     """Input angles of the ends from which the roller runs along this horn's wall.
 
     It is the horn's own end for curved slots, and also if another roller leaves by another slot.
@@ -265,12 +262,12 @@ def _halves(side: Side) -> list[float]:
 def _from(ends: Sequence[float], count: int) -> Array:
     """Input angles from each of some ends to mid-motion: (m, ends, count)."""
     whole = np.hstack([np.atleast_2d(end) for end in ends])
-    return whole[..., None] * np.linspace(1.0, NEAR, count)
+    return whole[..., None] * np.linspace(1.0, NEAR_MIDDLE, count)
 
 
 def _sampled(
-    mechanism: Mechanism, side: Side, within: _Search, width: float
-) -> tuple[Array, _Search]:
+    mechanism: Mechanism, side: Horn, within: _SamplePlaces, width: float
+) -> tuple[Array, _SamplePlaces]:
     """Greatest stress at these places, (4, m), and places around it for the next step.
 
     The rows are those of ``HornStress``, NaN if there is no stress.
@@ -293,7 +290,7 @@ def _sampled(
     runs = roller[every, half]
     rows = (stress[every, first], runs[every, k], wall[0, every, j], thick[every, j])
     sample = np.where(most > 0.0, rows, np.nan)
-    return sample, _Search(_around(runs, k)[:, None], _around(u, j))
+    return sample, _SamplePlaces(_around(runs, k)[:, None], _around(u, j))
 
 
 def _around(places: Array, i: Whole) -> Array:
@@ -301,13 +298,13 @@ def _around(places: Array, i: Whole) -> Array:
     every, last = np.arange(len(places)), places.shape[1] - 1
     before = places[every, np.maximum(i - 1, 0), None]
     after = places[every, np.minimum(i + 1, last), None]
-    refined: Array = before + (after - before) * SHARES
+    refined: Array = before + (after - before) * np.linspace(0.0, 1.0, 33)
     return refined
 
 
 def _stress(
     mechanism: Mechanism,
-    side: Side,
+    side: Horn,
     width: float,
     x: Array,
     walls: tuple[Array, Array],

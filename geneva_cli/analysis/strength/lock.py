@@ -41,8 +41,6 @@ if TYPE_CHECKING:
     from geneva_cli.machine.mechanism import Mechanism
     from geneva_cli.numerics.jet import Array
 
-GROUP = 8  # designs at a time: their sections stay in the cache
-
 
 class LockUnderTorque(NamedTuple):
     """A lock under a torque; None for values that are not known.
@@ -68,7 +66,7 @@ class LockUnderTorque(NamedTuple):
         return self.play_deg + self.approach_deg + self.bending_deg
 
 
-class Bent(NamedTuple):
+class HornBending(NamedTuple):
     """Horns under 1 N per mm, (m, 1): an end's deflection, mm, stress, MPa, and thickness, mm."""
 
     deflection: Array
@@ -109,7 +107,7 @@ def loaded_locks(mechanism: Mechanism, half_width_mm: float, by: Lock) -> LockUn
     worn = touch.phi - sine * np.cos(touch.phi)
     pressure = 2e3 * known * sine / (width * by.lock * by.L * worn)
     arcs = np.equal(touch.on, "recess")  # no horn is bent
-    give, stress, thick = still = Bent(*map(np.atleast_2d, (0.0, 0.0, by.recess)))
+    give, stress, thick = still = HornBending(*map(np.atleast_2d, (0.0, 0.0, by.recess)))
     if not arcs.all():
         bent = bending(mechanism, half_width_mm, by.recess, touch.phi)
         give, stress, thick = (np.where(arcs, *both) for both in zip(still, bent, strict=True))
@@ -151,24 +149,25 @@ def _contact(
     return np.where(loose & ~sharp, stress, np.nan), np.where(sharp, np.nan, approach)
 
 
-def bending(mechanism: Mechanism, half_width: float, recess: float, phi: float) -> Bent:
+def bending(mechanism: Mechanism, half_width: float, recess: float, phi: float) -> HornBending:
     """The weakest horn of each of m designs."""
     every = (mechanism, half_width, recess, phi)
     m = mechanism.designs
     if m == 1:
         return _weakest(*every)
-    groups = [_weakest(*taken(every, slice(i, i + GROUP))) for i in range(0, m, GROUP)]
-    return Bent(*(np.concatenate(row) for row in zip(*groups, strict=True)))
+    size = 8  # designs at a time: their sections stay in the cache
+    groups = [_weakest(*taken(every, slice(i, i + size))) for i in range(0, m, size)]
+    return HornBending(*(np.concatenate(row) for row in zip(*groups, strict=True)))
 
 
-def _weakest(mechanism: Mechanism, half_width: float, recess: float, phi: float) -> Bent:
+def _weakest(mechanism: Mechanism, half_width: float, recess: float, phi: float) -> HornBending:
     """The weakest horn of designs that are computed together."""
     material = mechanism.spec.material_wheel
     E = 1e3 * material.youngs_modulus_GPa
     G = E / (2.0 * (1.0 + material.poisson_ratio))
     every = []
     for side in horns(mechanism, half_width, recess):
-        # of a horn, summed by trapezoids: to a ten-thousandth at worst
+        # sums by trapezoids over 2001 sections have an error of a ten-thousandth at worst
         wall, normal = side.wall(side.places(2001))
         thick, turned = side.feet(wall, normal)
         middle = wall + 0.5 * thick * normal
@@ -192,7 +191,7 @@ def _weakest(mechanism: Mechanism, half_width: float, recess: float, phi: float)
             np.where(length > 0.0, np.fmax(*stresses), 0.0).max(axis=1),
             np.where(own > 0.0, thick, np.inf).min(axis=1),
         )
-        every.append(Bent(*(row[:, None] for row in rows)))
+        every.append(HornBending(*(row[:, None] for row in rows)))
     return reduce(_weaker, every)
 
 
@@ -211,7 +210,7 @@ def _rises(of: Array) -> Array:
     return np.where(low >= 0.0, 0.0, fraction)
 
 
-def _weaker(one: Bent, other: Bent) -> Bent:
+def _weaker(one: HornBending, other: HornBending) -> HornBending:
     """The horn with the greater deflection, in each design."""
     more = other.deflection > one.deflection
-    return Bent(*(np.where(more, b, a) for a, b in zip(one, other, strict=True)))
+    return HornBending(*(np.where(more, b, a) for a, b in zip(one, other, strict=True)))

@@ -8,8 +8,6 @@ from typing import TYPE_CHECKING, NamedTuple, cast
 from geneva_cli.numerics.arrays import choose
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
-
     from geneva_cli.machine.mechanism import Mechanism
     from geneva_cli.numerics.jet import Number
 
@@ -38,7 +36,7 @@ class Pin(NamedTuple):
         return cast("Number", np.maximum(self.bending, math.sqrt(3.0) * self.shear))
 
 
-def moment_mm(held: str, width: Number, gap: Number) -> Number:
+def moment_mm(support: str, width: Number, gap: Number) -> Number:
     """Greatest bending moment per newton, N mm, spread evenly over the contact line.
 
     ``width`` is the line's length b and ``gap`` the free length g between it and a plate, mm. The
@@ -51,20 +49,12 @@ def moment_mm(held: str, width: Number, gap: Number) -> Number:
     >>> moment_mm("fixed", 24.0, 0.0)
     2.0
     """
-    return MOMENTS[held](width, gap)
-
-
-def _fixed(b: Number, g: Number) -> Number:
-    s = b + 2.0 * g
-    return (3.0 * s * s - b * b) / (24.0 * s)
-
-
-MOMENTS: dict[str, Callable[[Number, Number], Number]] = {
-    "cantilever": lambda b, g: g + b / 2.0,
-    "supported": lambda b, g: b / 8.0 + g / 2.0,
-    "fixed": _fixed,
-}
-PLATES = {"cantilever": 1.0, "supported": 2.0, "fixed": 2.0}  # that share the force
+    if support == "cantilever":
+        return gap + width / 2.0
+    if support == "supported":
+        return width / 8.0 + gap / 2.0
+    s = width + 2.0 * gap
+    return (3.0 * s * s - width * width) / (24.0 * s)
 
 
 def pin_diameter_mm(mechanism: Mechanism) -> float:
@@ -86,7 +76,8 @@ def pin(mechanism: Mechanism) -> Pin | None:
         return None
     d = pin_diameter_mm(mechanism)
     moment = moment_mm(size.pin_held, size.face_width_mm, size.pin_gap_mm)
-    shear = 16.0 / (3.0 * math.pi * d * d) / PLATES[size.pin_held]
+    plates = 1.0 if size.pin_held == "cantilever" else 2.0  # that share the force
+    shear = 16.0 / (3.0 * math.pi * d * d) / plates
     return Pin(d, 32.0 * moment / (math.pi * d**3), shear)
 
 

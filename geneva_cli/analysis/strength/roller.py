@@ -19,9 +19,16 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from geneva_cli.analysis.loads.contact import contact, is_straight
-from geneva_cli.analysis.loads.forces import Forces, setting, sliding
+from geneva_cli.analysis.loads.forces import Forces, load_case, sliding
 from geneva_cli.analysis.loads.groups import of_groups
-from geneva_cli.analysis.loads.loaded import NONE, Loaded, Machine, Signs, machine
+from geneva_cli.analysis.loads.loaded import (
+    NO_MORE,
+    LoadBatch,
+    LoadFunctions,
+    SignFunctions,
+    load_batch,
+)
+from geneva_cli.analysis.loads.quantities import FORCE
 from geneva_cli.analysis.loads.stretches import spans_of, to_mid_motion
 from geneva_cli.machine.many import taken
 from geneva_cli.numerics.adaptive_quadrature import Integrands, span_integrals
@@ -33,17 +40,16 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from geneva_cli.analysis.loads.contact import Contact
-    from geneva_cli.analysis.loads.forces import Setting
+    from geneva_cli.analysis.loads.forces import LoadCase
     from geneva_cli.machine.engagement import Engagement
     from geneva_cli.machine.mechanism import Mechanism
     from geneva_cli.numerics.arrays import Whole
     from geneva_cli.numerics.jet import Array, Jet, Number
 
-EXPONENT = 10.0 / 3.0  # p, of line contact
-FORCE = ("pin_force_N",)  # the integrals are bounded where this quantity is
+LIFE_EXPONENT = 10.0 / 3.0  # p, of line contact
 
 
-class Passage(NamedTuple):
+class SlotPassage(NamedTuple):
     """One roller's passage through one slot, in SI units; infinite if the force has no bound.
 
     (m,) each for m designs.
@@ -66,42 +72,45 @@ class Life(NamedTuple):
 
 
 @lru_cache(maxsize=256)
-def passage(engagement: Engagement, given: Setting, half: float = 0.0) -> Passage:
+def passage(engagement: Engagement, case: LoadCase, half: float = 0.0) -> SlotPassage:
     """Integrals over one motion; only before mid-motion for a ``half`` of -1, only after it for 1.
 
     >>> from geneva_cli import External, Load, Size
     >>> from geneva_cli.machine.mechanism import build
     >>> from geneva_cli.machine.spec import Spec
     >>> m = build(Spec(External(6), size=Size(200.0, 8.0), load=Load(torque_Nm=15.0)))
-    >>> round(passage(m.engagements[0], setting(m)).travel_m, 12)  # 2 L (cos b - (1 - l))
+    >>> round(passage(m.engagements[0], load_case(m)).travel_m, 12)  # 2 L (cos b - (1 - l))
     0.146410161514
     """
-    return Passage(*(array(x).item() for x in passage_integrals(engagement, given, half)))
+    return SlotPassage(*(array(x).item() for x in passage_integrals(engagement, case, half)))
 
 
-def passage_integrals(engagement: Engagement, given: Setting, half: float = 0.0) -> Passage:
+def passage_integrals(engagement: Engagement, case: LoadCase, half: float = 0.0) -> SlotPassage:
     """Integrals over one motion of m designs: (m,) each."""
-    every = machine(engagement, given, FORCE, NONE)
+    every = load_batch(engagement, case, (FORCE,), NO_MORE)
     (rows,) = of_groups(every, lambda some, n: (_integrals(some, n, half),))
-    return Passage(*map(parameter, rows))
+    return SlotPassage(*map(parameter, rows))
 
 
-def _integrals(every: Machine, n: int, half: float) -> Array:
+def _integrals(every: LoadBatch, n: int, half: float) -> Array:
     """Integrals of n designs, one row each; infinite if the force has no bound."""
     engagement = every[0]
-    load = Loaded(every, FORCE, ("slides", "along") if turns_back(engagement) else ("slides",))
-    pieces = search(Signs(load), spans_of(engagement, n), n, False, w=load.spread).stretches
+    # the integrals are bounded where the force is
+    load = LoadFunctions(
+        every, (FORCE,), ("slides", "along") if turns_back(engagement) else ("slides",)
+    )
+    pieces = search(SignFunctions(load), spans_of(engagement, n), n, False, w=load.spread).stretches
     design, _, (a, b), positive = to_mid_motion(engagement, pieces, n)
     own = np.flatnonzero(half * (a + b) >= 0.0)
     design, a, b, positive = design[own], a[own], b[own], positive[:, own]
     signs = dict(zip(load.kinds, np.where(positive, 1.0, -1.0)[..., None], strict=True))
 
     def rows(x: Array, which: Whole) -> Array:
-        some, given, _ = taken(every, design[which]) if n > 1 else every
+        some, case, _ = taken(every, design[which]) if n > 1 else every
         drives, slides = (
             signs[kind][which] if kind in signs else 1.0 for kind in ("drives", "slides")
         )
-        integrands = passing(given, contact(some, x, reactions=False), drives, slides)
+        integrands = passing(case, contact(some, x, reactions=False), drives, slides)
         return np.stack(np.broadcast_arrays(*integrands))
 
     with np.errstate(all="ignore"):
@@ -123,35 +132,35 @@ def turns_back(engagement: Engagement) -> bool:
     return is_straight(engagement) and not (on_arm and engagement.motion.symmetric)
 
 
-def passing(given: Setting, at: Contact[Jet], drives: Number, slides: Number) -> list[Array]:
+def passing(case: LoadCase, at: Contact[Jet], drives: Number, slides: Number) -> list[Array]:
     """Integrands of a passage, at places where torque and sliding have these signs."""
-    forces = Forces(given, at, drives, slides)
-    rubs = abs(sliding(at, drives, given.radius).arrays()[0]) * given.L
+    forces = Forces(case, at, drives, slides)
+    rubs = abs(sliding(at, drives, case.radius).arrays()[0]) * case.L
     with np.errstate(all="ignore"):
         # near the torque's change of sign the force may be slightly negative by rounding
         force = np.maximum(forces.force.c[0], 0.0)
         force = np.where(forces.grip.c[0] > 0.0, force, np.inf) * at.touches.c[0]
         # nothing presses on a wall if nothing must be turned
         force = np.where(forces.torque.c[0] == 0.0, 0.0, force)
-        along = abs(at.along.arrays()[0]) * given.L * at.touches.c[0]
-        return [along, rubs, force * rubs, force**EXPONENT * rubs]
+        along = abs(at.along.arrays()[0]) * case.L * at.touches.c[0]
+        return [along, rubs, force * rubs, force**LIFE_EXPONENT * rubs]
 
 
-def passages(mechanism: Mechanism) -> list[Passage]:
+def passages(mechanism: Mechanism) -> list[SlotPassage]:
     """Passage of each engagement of a period: (m,) each for m designs."""
     return [_passage(mechanism, engagement, 0.0) for engagement in mechanism.engagements]
 
 
-def by_roller(mechanism: Mechanism) -> list[Passage]:
+def by_roller(mechanism: Mechanism) -> list[SlotPassage]:
     """Passages of each roller; an engagement has two if one starts and another stops the wheel."""
     each = [(one, half) for one in mechanism.engagements for half in halves(one)]
     return [_passage(mechanism, *of) for of in each]
 
 
-def _passage(mechanism: Mechanism, engagement: Engagement, half: float) -> Passage:
+def _passage(mechanism: Mechanism, engagement: Engagement, half: float) -> SlotPassage:
     """Passage of a machine's engagement; for a single design it is cached."""
     single = isinstance(mechanism.design, int)
-    return (passage if single else passage_integrals)(engagement, setting(mechanism), half)
+    return (passage if single else passage_integrals)(engagement, load_case(mechanism), half)
 
 
 def halves(engagement: Engagement) -> tuple[float, ...]:
@@ -178,26 +187,26 @@ def life(mechanism: Mechanism) -> Life | None:
     return Life(force, turns, *lasts)
 
 
-def lives(mechanism: Mechanism, each: Sequence[Passage]) -> Life:
+def lives(mechanism: Mechanism, each: Sequence[SlotPassage]) -> Life:
     """Lives of m designs, (m,) each, or of one, from the passages of their rollers."""
     spec, m = mechanism.spec, rollers(mechanism)
     radius_m = np.ravel(mechanism.roller_radius_mm / 1000.0)
     rows = []
     for own in (each[i::m] for i in range(min(m, len(each)))):
         rolled = sum(one.rolled_m for one in own)
-        force = (sum(one.load for one in own) / rolled) ** (1.0 / EXPONENT)
+        force = (sum(one.load for one in own) / rolled) ** (1.0 / LIFE_EXPONENT)
         turns = rolled / len(own) / (2.0 * math.pi * radius_m)
         often = np.ravel(_periods_per_h(mechanism) * (len(own) if len(each) >= m else 1.0 / m))
         rows.append(np.stack(np.broadcast_arrays(force, turns, often)))
     with np.errstate(all="ignore"):
         every = np.stack(rows)
-        worst = np.argmax(every[:, 0] ** EXPONENT * every[:, 1] * every[:, 2], axis=0)
+        worst = np.argmax(every[:, 0] ** LIFE_EXPONENT * every[:, 1] * every[:, 2], axis=0)
         force, turns, often = every[worst, :, np.arange(every.shape[2])].T
         lasts: list[float | None] = [None] * 3
         capacity = spec.material_roller.dynamic_capacity_N
         if capacity is not None:  # without a force the life is unlimited
-            # revolutions that C is rated for
-            rated = 1e6 * (np.ravel(capacity) / force) ** EXPONENT
+            # C is rated for a million revolutions
+            rated = 1e6 * (np.ravel(capacity) / force) ** LIFE_EXPONENT
             lasts = [parameter(x) for x in (rated, rated / turns, rated / turns / often)]
     return Life(parameter(force), parameter(turns), *lasts)
 
@@ -217,7 +226,7 @@ def wear_mm(mechanism: Mechanism) -> float | None:
     return only_of([wears_mm(mechanism, passages(mechanism))])[0]
 
 
-def wears_mm(mechanism: Mechanism, each: Sequence[Passage]) -> Array | None:
+def wears_mm(mechanism: Mechanism, each: Sequence[SlotPassage]) -> Array | None:
     """Wear depths of m designs, (m,), or of one, from the passages of their engagements."""
     spec = mechanism.spec
     k, width = spec.material_wheel.wear_mm3_Nm, spec.size.face_width_mm

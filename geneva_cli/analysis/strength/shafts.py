@@ -19,7 +19,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from geneva_cli.analysis.loads.forces import Row
+from geneva_cli.analysis.loads.forces import QuantityValue
 from geneva_cli.analysis.loads.instant import Instant
 from geneva_cli.analysis.loads.summaries import load_peaks
 from geneva_cli.numerics.arrays import only_of, parameter
@@ -28,16 +28,16 @@ if TYPE_CHECKING:
     from collections.abc import Callable
 
     from geneva_cli.analysis.loads.contact import Contact
-    from geneva_cli.analysis.loads.loaded import Wanted
+    from geneva_cli.analysis.loads.loaded import LoadQuantity
     from geneva_cli.machine.mechanism import Mechanism
     from geneva_cli.numerics.arrays import N
     from geneva_cli.numerics.jet import Array, Jet, Number
     from geneva_cli.spec.tables import Shaft
 
-    On = Callable[[Instant[Jet], Contact[Jet]], tuple[Jet, Jet]]
+    ShaftForces = Callable[[Instant[Jet], Contact[Jet]], tuple[Jet, Jet]]
 
 
-class Turned(NamedTuple):
+class ShaftStress(NamedTuple):
     """Results for a shaft over its cycle; None for unknown values; (m,) each for m designs."""
 
     moment_Nm: float  # greatest sqrt((Kb M)² + (Kt T)²)
@@ -47,7 +47,7 @@ class Turned(NamedTuple):
     twist_deg: float | None  # greatest, over overhang and span
 
 
-class GivenShaft(NamedTuple):
+class ShaftDimensions(NamedTuple):
     """Dimensions of one shaft from ``[shaft]``."""
 
     diameter_mm: float | None
@@ -55,14 +55,14 @@ class GivenShaft(NamedTuple):
     span_mm: float | None
 
 
-def wheel_shaft(table: Shaft) -> GivenShaft:
+def wheel_shaft(table: Shaft) -> ShaftDimensions:
     """Dimensions of the wheel's shaft."""
-    return GivenShaft(table.wheel_diameter_mm, table.wheel_overhang_mm, table.wheel_span_mm)
+    return ShaftDimensions(table.wheel_diameter_mm, table.wheel_overhang_mm, table.wheel_span_mm)
 
 
-def crank_shaft(table: Shaft) -> GivenShaft:
+def crank_shaft(table: Shaft) -> ShaftDimensions:
     """Dimensions of the crank's shaft."""
-    return GivenShaft(table.crank_diameter_mm, table.crank_overhang_mm, table.crank_span_mm)
+    return ShaftDimensions(table.crank_diameter_mm, table.crank_overhang_mm, table.crank_span_mm)
 
 
 def shear_MPa(moment_Nm: N, diameter_mm: N) -> N:
@@ -102,29 +102,29 @@ def on_driven_crank(i: Instant[Jet], at: Contact[Jet]) -> tuple[Jet, Jet]:
 class Moment(NamedTuple):
     """The square (Kb M)² + (Kt T)², as a row for ``load_peaks``; lever in metres."""
 
-    loaded: On
+    loaded: ShaftForces
     lever: float
     torsion: float
 
-    def __call__(self, i: Instant[Jet], at: Contact[Jet]) -> Row[Jet]:
+    def __call__(self, i: Instant[Jet], at: Contact[Jet]) -> QuantityValue[Jet]:
         """The square, and the grip that bounds it."""
         square, torque = self.loaded(i, at)
         turned = torque * self.torsion
-        return Row(square * (self.lever * self.lever) + turned * turned, i.grip)
+        return QuantityValue(square * (self.lever * self.lever) + turned * turned, i.grip)
 
 
 class Torque(NamedTuple):
     """The squared torque, as a row for ``load_peaks``."""
 
-    loaded: On
+    loaded: ShaftForces
 
-    def __call__(self, i: Instant[Jet], at: Contact[Jet]) -> Row[Jet]:
+    def __call__(self, i: Instant[Jet], at: Contact[Jet]) -> QuantityValue[Jet]:
         """The squared torque, and the grip that bounds it."""
         _, torque = self.loaded(i, at)
-        return Row(torque * torque, i.grip)
+        return QuantityValue(torque * torque, i.grip)
 
 
-def shaft(mechanism: Mechanism, ends: GivenShaft, loaded: On) -> Turned | None:
+def shaft(mechanism: Mechanism, ends: ShaftDimensions, loaded: ShaftForces) -> ShaftStress | None:
     """A shaft under the force and torque of a cycle; None without an overhang or without a load.
 
     Moments are infinite if the force has no bound.
@@ -134,10 +134,12 @@ def shaft(mechanism: Mechanism, ends: GivenShaft, loaded: On) -> Turned | None:
         return None
     moment, at_deg, *rest = only_of(batch)
     assert moment is not None and at_deg is not None
-    return Turned(moment, at_deg, *rest)
+    return ShaftStress(moment, at_deg, *rest)
 
 
-def shafts_under_load(mechanism: Mechanism, ends: GivenShaft, loaded: On) -> Turned | None:
+def shafts_under_load(
+    mechanism: Mechanism, ends: ShaftDimensions, loaded: ShaftForces
+) -> ShaftStress | None:
     """Shafts of m designs; None if none has an overhang or a load."""
     if ends.overhang_mm is None or not mechanism.spec.is_loaded:
         return None
@@ -146,7 +148,9 @@ def shafts_under_load(mechanism: Mechanism, ends: GivenShaft, loaded: On) -> Tur
     return _turned(mechanism, ends, both.max, both.at_deg, turned.max)
 
 
-def _wanted(mechanism: Mechanism, ends: GivenShaft, loaded: On) -> dict[str, Wanted]:
+def _wanted(
+    mechanism: Mechanism, ends: ShaftDimensions, loaded: ShaftForces
+) -> dict[str, LoadQuantity]:
     """The squares of the equivalent moment and of the torque."""
     table = mechanism.spec.shaft
     assert ends.overhang_mm is not None
@@ -155,8 +159,12 @@ def _wanted(mechanism: Mechanism, ends: GivenShaft, loaded: On) -> dict[str, Wan
 
 
 def _turned(
-    mechanism: Mechanism, ends: GivenShaft, square: Array, at_deg: Number, torque_squared: Number
-) -> Turned:
+    mechanism: Mechanism,
+    ends: ShaftDimensions,
+    square: Array,
+    at_deg: Number,
+    torque_squared: Number,
+) -> ShaftStress:
     """Results from the greatest squares of moment and torque, (m,)."""
     table, d, span = mechanism.spec.shaft, ends.diameter_mm, ends.span_mm
     moment, allowed = np.sqrt(square), table.shear_stress_max_MPa
@@ -170,4 +178,4 @@ def _turned(
         rate = np.ravel((ends.overhang_mm + span) / (table.shear_modulus_GPa * polar))
         most = np.where(np.isfinite(torque_squared), np.sqrt(torque_squared), np.nan)
         twist = parameter(np.degrees(most * rate))
-    return Turned(parameter(moment), parameter(at_deg), stress, least, twist)
+    return ShaftStress(parameter(moment), parameter(at_deg), stress, least, twist)

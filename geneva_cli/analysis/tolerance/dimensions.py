@@ -107,7 +107,6 @@ class Draws(NamedTuple):
             return 2.0 * quantile - 1.0
         from scipy.special import ndtri
 
-        # standard deviations in the plus or minus of a normal distribution
-        # a fraction of 0 would be infinitely far out
+        # The plus or minus is three standard deviations; a quantile of 0 would be infinite.
         out: Array = ndtri(np.maximum(quantile, 2.0**-53)) / 3.0
         return out

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from geneva_cli.analysis.impacts import arm_mm
-from geneva_cli.analysis.shock import SlotAxis
+from geneva_cli.analysis.shock import RestingAxis
 from geneva_cli.analysis.tolerance.dimensions import Deviations
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.numerics.angles import DEGREE
@@ -19,10 +19,6 @@ from geneva_cli.numerics.arrays import array
 
 if TYPE_CHECKING:
     from geneva_cli.numerics.jet import Array
-
-# Places on the path, in geometric progression from beside the true entry to half-way through the
-# motion: what is interpolated between two of them has a relative error of 1e-6 at most.
-PLACES = 8193
 
 
 class Branch(NamedTuple):
@@ -37,10 +33,10 @@ class Branch(NamedTuple):
     lever: Array  # of the wheel, to the roller
 
 
-class EntryJumps(NamedTuple):
+class EntryJumpFunction(NamedTuple):
     """The jump at one engagement's entry as a function of deviations; lengths in millimetres."""
 
-    axis: SlotAxis
+    axis: RestingAxis
     L: float
     arm: float
     branches: tuple[Branch, ...]
@@ -64,35 +60,35 @@ class EntryJumps(NamedTuple):
         return jump, missed
 
 
-def entry_jumps(mechanism: Mechanism) -> list[EntryJumps]:
+def entry_jumps(mechanism: Mechanism) -> list[EntryJumpFunction]:
     """Entry jump of each engagement whose roller should enter along its slot's axis."""
     L = mechanism.center_distance_mm
     out = []
     for engagement in mechanism.engagements:
-        axis = SlotAxis.of(engagement)
+        axis = RestingAxis.of(engagement)
         if axis is not None:
             arm = arm_mm(mechanism, engagement)
-            out.append(EntryJumps(axis, L, arm, tuple(_branches(axis))))
+            out.append(EntryJumpFunction(axis, L, arm, tuple(_branches(axis))))
     return out
 
 
-def _branches(axis: SlotAxis) -> list[Branch]:
+def _branches(axis: RestingAxis) -> list[Branch]:
     """The path before the true entry, and the one after it if it is on the other side."""
     before = _branch(axis, -1.0)
     after = _branch(axis, 1.0)
     return [before] if before.side == after.side else [before, after]
 
 
-def _branch(axis: SlotAxis, sense: float) -> Branch:
+def _branch(axis: RestingAxis, sense: float) -> Branch:
     anchor = axis.anchor
     span = 0.5 * axis.engagement.motion_deg * DEGREE
-    # of that span
-    tau = sense * span * np.geomspace(1e-7, 1.0, PLACES)
+    # In geometric progression from next to the true entry to half-way through the motion: between
+    # two places, interpolation has a relative error of 1e-6 at most.
+    tau = sense * span * np.geomspace(1e-7, 1.0, 8193)
     along, across = anchor.displacement(tau, 1)
     off, slope = across.arrays()
     root = np.sqrt(abs(off))
-    # the root of a distance from the axis, over L, that is rounding
-    first = int(np.argmax(root > 3e-8))
+    first = int(np.argmax(root > 3e-8))  # the root of a distance that is not rounding
     leaves = np.append(np.diff(root[first:]) > 0.0, False)
     part = slice(first, first + int(np.argmin(leaves)) + 1)  # as far as it leaves the axis
     side, root = float(np.sign(off[first])), root[part]

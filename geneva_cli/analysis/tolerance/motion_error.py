@@ -27,8 +27,7 @@ from geneva_cli.numerics.jet import Jet, Number, atan2, sqrt
 if TYPE_CHECKING:
     from geneva_cli.numerics.jet import Array
 
-LOOKS = 361  # input angles at which a motion is sampled
-TAIL = 3.0  # plus or minuses: nine standard deviations
+SAMPLES = 361  # input angles at which a motion is sampled
 
 
 class MotionError(NamedTuple):
@@ -62,55 +61,55 @@ class MotionError(NamedTuple):
         """Greatest sum of errors of L and R that every random machine allows, mm.
 
         With larger errors the roller may reach the wheel's axis, or the crank's. A normal
-        distribution has tails: deviations lie within ``TAIL`` times the plus or minus.
+        distribution has tails: deviations lie within three times the plus or minus, which is nine
+        standard deviations.
         """
-        times = TAIL if spec.tolerance.distribution == "normal" else 1.0
+        times = 3.0 if spec.tolerance.distribution == "normal" else 1.0
         play = 0.5 * (use["roller_diameter_mm"] + use["slot_width_mm"])
         e = self.engagement
         entry, exit_ = (np.ravel(x) for x in (e.entry_deg, e.exit_deg))
-        x, y = e.path(np.linspace(entry, exit_, LOOKS, axis=-1), 0)
+        x, y = e.path(np.linspace(entry, exit_, SAMPLES, axis=-1), 0)
         near = np.atleast_2d(np.hypot(x.c[0], y.c[0])).min(axis=-1, keepdims=True)
         nearest = self.L * (near - size(e.slot.offset))
         margin = np.minimum((nearest - self.clearance) / times - play, self.arm / times)
         return parameter(margin if margin.size > 1 else float(margin[0, 0]))
 
-    def greatest(self, by: Deviations) -> Worst:
+    def greatest(self, by: Deviations) -> WorstErrors:
         """Greatest error of any of the machines: (n,) for n designs, or (1,) for one.
 
         The machines are a first axis of the deviations, (k,) or for n designs (k, n, 1).
         """
         each = Deviations(*[Jet([_machines_first(z) for z in jet.c]) for jet in by])
         entry, exit_ = (np.ravel(x) for x in (self.engagement.entry_deg, self.engagement.exit_deg))
-        best: Worst | None = None
+        best: WorstErrors | None = None
         for side in (1.0, -1.0):
             low, high = entry, exit_
-            # and about the greatest of them
-            # samplings, each about the greatest of the last and a tenth as wide
-            for looks in (LOOKS, *[41] * (12 - 1)):
-                at = np.linspace(low, high, looks, axis=-1)
+            # eleven more samplings, each about the greatest of the last and a tenth as wide
+            for count in (SAMPLES, *[41] * 11):
+                at = np.linspace(low, high, count, axis=-1)
                 off = (array(self(each, at, side).c[0]) * side).max(axis=0)
                 at, every = np.broadcast_to(at, off.shape), np.arange(len(off))
                 i = np.argmax(off, axis=1)
-                here = Worst(off[every, i], at[every, i], np.full(len(off), side))
+                here = WorstErrors(off[every, i], at[every, i], np.full(len(off), side))
                 best = here if best is None else here.beyond(best)
-                step = (at[:, 1] - at[:, 0]) * looks / 20.0
+                step = (at[:, 1] - at[:, 0]) * count / 20.0
                 low = np.maximum(entry, here.at_deg - step)
                 high = np.minimum(exit_, here.at_deg + step)
         assert best is not None
         return best
 
 
-class Worst(NamedTuple):
+class WorstErrors(NamedTuple):
     """Greatest errors of n designs, radians, with their input angles and sides: (n,) each."""
 
     error: Array
     at_deg: Array
     side: Array
 
-    def beyond(self, other: Worst) -> Worst:
+    def beyond(self, other: WorstErrors) -> WorstErrors:
         """Select the greater error of this and another result, in each design."""
         more = self.error > other.error
-        return Worst(*(np.where(more, a, b) for a, b in zip(self, other, strict=True)))
+        return WorstErrors(*(np.where(more, a, b) for a, b in zip(self, other, strict=True)))
 
 
 def _machines_first(z: Number) -> Array:

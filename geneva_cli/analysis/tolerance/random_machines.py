@@ -9,7 +9,7 @@ import numpy as np
 from geneva_cli.analysis.locking import Lock
 from geneva_cli.analysis.sphere_locking import SphereLock
 from geneva_cli.analysis.tolerance.dimensions import Draws
-from geneva_cli.analysis.tolerance.entry_jump import EntryJumps
+from geneva_cli.analysis.tolerance.entry_jump import EntryJumpFunction
 from geneva_cli.analysis.tolerance.motion_error import MotionError
 from geneva_cli.progress import tracked
 
@@ -34,7 +34,7 @@ def random_machines(
     samples: int,
     lock: Lock | SphereLock | None,
     error: tuple[MotionError, float, float] | None,
-    entry: EntryJumps | None,
+    entry: EntryJumpFunction | None,
 ) -> RandomMachines:
     """Errors of ``samples`` machines: the play of a lock, the error of a motion, the jump at entry.
 
@@ -54,7 +54,7 @@ def random_machines(
         if error:
             one, at, side = error
             motion[part] = one(by, at, side).c[0] * side
-            jam |= one.play_mm(by).c[0] < -1e-12
+            jam |= one.play_mm(by).c[0] < -1e-12  # mm: less is rounding
         if entry:
             jump[part], misses = entry(by)
             missed += int(np.broadcast_to(misses, jam.shape).sum())

@@ -46,7 +46,7 @@ def spread(
     at_rest = _one(angle(deviations([0.0] * len(sizes))).c[0])
     parts = [_one(angle(slope_of(i)).c[1]) * size if size else 0.0 for i, size in enumerate(sizes)]
     rss = abs(at_rest) + math.sqrt(math.fsum(part * part for part in parts))
-    # of the machines are within p997
+    # the place of p997 among the sizes in order
     k = min(math.ceil(0.997 * len(drawn)), len(drawn)) - 1
     return Spread(
         math.degrees(worst),
@@ -60,8 +60,7 @@ def spread(
 
 
 def _shape(drawn: Array) -> tuple[tuple[float, float], ...]:
-    # of a histogram
-    counts, edges = np.histogram(np.degrees(drawn), 60)
+    counts, edges = np.histogram(np.degrees(drawn), bins=60)
     middles = 0.5 * (edges[:-1] + edges[1:])
     return tuple(zip(middles.tolist(), (counts / len(drawn)).tolist(), strict=True))
 

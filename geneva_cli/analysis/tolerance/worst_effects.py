@@ -30,7 +30,12 @@ from geneva_cli.analysis.tolerance.dimensions import (
     tolerances,
     without_effect,
 )
-from geneva_cli.analysis.tolerance.motion_error import LOOKS, MotionError, Worst, motion_errors
+from geneva_cli.analysis.tolerance.motion_error import (
+    SAMPLES,
+    MotionError,
+    WorstErrors,
+    motion_errors,
+)
 from geneva_cli.machine.many import taken
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.numerics.arrays import array, parameter
@@ -61,8 +66,8 @@ def motion_plays(mechanism: Mechanism) -> MotionPlays | None:
     if not errors:
         return None
     m, machines = mechanism.designs, 2 ** sum(bool(np.any(size)) for size in sizes)
-    # places of machines with deviations that are computed together
-    group = max(1, (1 << 20) // (machines * LOOKS))
+    # a million places of machines with deviations are computed together
+    group = max(1, (1 << 20) // (machines * SAMPLES))
     parts = [
         _of(taken(mechanism, slice(i, i + group)), min(group, m - i)) for i in range(0, m, group)
     ]
@@ -72,11 +77,11 @@ def motion_plays(mechanism: Mechanism) -> MotionPlays | None:
 def _of(mechanism: Mechanism, n: int) -> MotionPlays:
     use = used(mechanism)
     sizes = list(use.values())
-    best = Worst(*np.full((3, n), -1.0))
+    best = WorstErrors(*np.full((3, n), -1.0))
     rss, shown = np.zeros((2, n))
     known = sum(sizes) > np.zeros((n, 1))
     for engagement, error in zip(mechanism.engagements, motion_errors(mechanism), strict=True):
-        worst = Worst(*(np.resize(row, n) for row in error.greatest(corners(sizes))))
+        worst = WorstErrors(*(np.resize(row, n) for row in error.greatest(corners(sizes))))
         more = worst.error > best.error
         best = worst.beyond(best)
         rss = np.where(more, _rss(error, sizes, worst), rss)
@@ -88,7 +93,7 @@ def _of(mechanism: Mechanism, n: int) -> MotionPlays:
     return MotionPlays(*(np.where(known[:, 0], row, np.nan) for row in rows))
 
 
-def _rss(error: MotionError, sizes: list[float], at: Worst) -> Array:
+def _rss(error: MotionError, sizes: list[float], at: WorstErrors) -> Array:
     """Root of the squared effects of each dimension, at these places."""
     x, side = at.at_deg[:, None], at.side[:, None]
     rest = error(deviations([0.0] * len(sizes)), x, side).c[0]

@@ -24,7 +24,7 @@ from geneva_cli.errors import Notice
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.table import Table, record_table, rows_table
 
-SPECTRUM = (
+SPECTRUM_COLUMNS = (
     "n_rpm",
     "period_ratio",
     "residual_share",
@@ -48,13 +48,13 @@ def values(mechanism: Mechanism, load: Oscillator | None) -> dict[str, Any]:
         **{name: _known(number) for name, number in numbers.items()},
         "speeds_to_avoid_rpm": tuple(a.rpm for a in avoid),
         "avoid": rows_table(Avoid._fields, avoid),
-        "stations": rows_table(STATION, each) if len(each) > 1 else None,
+        "stations": rows_table(STATION_COLUMNS, each) if len(each) > 1 else None,
         "warnings": tuple(_warnings(mechanism, load, float(loads.ratio.min()))),
     }
 
 
 def _stations(loads: Loads) -> list[tuple[float | None, ...]]:
-    """Return a row of ``STATION`` for each kind of index in a period."""
+    """Return a row of ``STATION_COLUMNS`` for each kind of index in a period."""
     factor = loads.swung_deg / loads.windup_deg
     every = (loads.ratio, loads.share, loads.residual_deg, factor, loads.windup_deg)
     rows = np.array([*every, loads.steady_share])[:, :, 0].T
@@ -66,7 +66,7 @@ def _known(number: float) -> float | None:
     return None if math.isnan(number) else number
 
 
-STATION = (
+STATION_COLUMNS = (
     "period_ratio",
     "residual_share",
     "residual_deg",
@@ -75,10 +75,6 @@ STATION = (
     "steady_share",
 )
 NUMBERS = (*Vibrations._fields, "speeds_to_avoid_rpm")
-UNDAMPED = (
-    "steady_share is not computed: without damping (damping_ratio in [shaft], or --damping) the "
-    "vibration never dies out, and there is no steady state"
-)
 
 
 def _warnings(mechanism: Mechanism, load: Oscillator, least: float) -> list[Notice]:
@@ -93,7 +89,7 @@ def _warnings(mechanism: Mechanism, load: Oscillator, least: float) -> list[Noti
         )
     law = mechanism.law
     tuned = law.tuned_to if law else None
-    # fraction by which a tuned law may miss its period ratio without a warning
+    # a tuned law may miss its period ratio by a hundredth
     if tuned and not math.isclose(load.ratio, tuned, rel_tol=0.01):
         n_rpm = mechanism.spec.drive.n_rpm * load.ratio / tuned
         out.append(
@@ -105,7 +101,13 @@ def _warnings(mechanism: Mechanism, load: Oscillator, least: float) -> list[Noti
             )
         )
     if not load.damping:
-        out.append(Notice("not-known", UNDAMPED))
+        out.append(
+            Notice(
+                "not-known",
+                "steady_share is not computed: without damping (damping_ratio in [shaft], or "
+                "--damping) the vibration never dies out, and there is no steady state",
+            )
+        )
     return out
 
 
@@ -125,4 +127,4 @@ def spectrum(mechanism: Mechanism, load: Oscillator, samples: int) -> Table:
     loads = Loads(mechanism, Swing(ratio, np.full(samples, load.damping)))
     settled: object = loads.steady_share.max(axis=0) if load.damping else [None] * samples
     share, turned = loads.share.max(axis=0), loads.residual_deg.max(axis=0)
-    return Table(SPECTRUM, [speed, ratio, share, turned, loads.worst_share, settled])
+    return Table(SPECTRUM_COLUMNS, [speed, ratio, share, turned, loads.worst_share, settled])

@@ -13,8 +13,6 @@ if TYPE_CHECKING:
     from geneva_cli.numerics.arrays import Array, Complex, Whole
 
 legendre = np.polynomial.legendre
-REACH = 2.0  # greatest |p h|, h half a piece's width: a matter of a dozen terms
-
 # values at the nodes -> integrals from -1 to each node, and to 1
 _ENDS = np.append(X, 1.0)
 _INTEGRALS = (
@@ -32,15 +30,14 @@ def greatest_accelerations(panels: Panels, motion: Whole, swing: Swing) -> Array
     """
     most, omega, p = np.zeros(len(motion)), 2.0 * np.pi * swing.ratio, swing.p
     of, panel, first = panels.paired(motion)
-    # panels are cut so that |p h| is at most REACH
-    count = np.maximum(np.ceil(omega[of] * panels.half[panel] / REACH), 1.0).astype(np.intp)
+    # Panels are cut so that |p h| is at most 2, with h half a piece's width: a dozen terms suffice.
+    count = np.maximum(np.ceil(omega[of] * panels.half[panel] / 2.0), 1.0).astype(np.intp)
     last = np.cumsum(count)
     begin = last[first] - count[first]
     total = np.append(begin[1:], last[-1]) - begin
     active, start, z = np.arange(len(motion)), 0, np.zeros(len(motion), dtype=complex)
     while len(active):
-        # pieces at a time
-        wide = max(1, 4096 // len(active))
+        wide = max(1, 4096 // len(active))  # 4096 pieces at a time fit in the cache
         at = start + np.arange(min(wide, int(total[active].max()) - start))
         there = at < total[active][:, None]
         number = (begin[active][:, None] + at)[there]
@@ -93,14 +90,13 @@ def _take_most(most: Array, load: Array, of: Whole) -> None:
     """
     size = np.abs(load)
     np.maximum.at(most, of, size.max(axis=1))
-    # fraction of the greatest sample by which a sample may be below its piece's maximum
+    # a sample may be 2 % below its piece's maximum
     near = np.flatnonzero(size.max(axis=1) >= most[of] * (1.0 - 0.02))
     series = (load[near, :NODES] @ SERIES.T).T
     slope = legendre.legder(series)
     bend = legendre.legder(slope)
     x = X[size[near, :NODES].argmax(axis=1)]
-    # steps from the greatest sample of a piece to its maximum
-    for _ in range(8):
+    for _ in range(8):  # Newton steps from the greatest sample of a piece to its maximum
         turn = legendre.legval(x, bend, tensor=False)
         step = np.divide(
             legendre.legval(x, slope, tensor=False), turn, out=np.zeros_like(x), where=turn != 0.0

@@ -18,7 +18,6 @@ from geneva_cli.analysis.vibration.panels import Panels
 if TYPE_CHECKING:
     from geneva_cli.numerics.arrays import Array, Whole
 
-DEGREE = 12  # of the polynomial between two samples about a maximum: exact to a double there
 _chebyshev = np.polynomial.chebyshev
 
 
@@ -35,7 +34,7 @@ def lobes(share_at: Callable[[Whole, Array], Array], low: Array, high: Array) ->
 
     ``share_at(which, ratio)`` gives the residuals of the oscillators ``which``, (k,) each.
     """
-    # samples for each 1 of the period ratio
+    # 16 samples for each 1 of the period ratio
     count = np.maximum(64, np.ceil(16 * (high - low)).astype(np.intp))
     maxima = []
     for number in np.unique(count).tolist():
@@ -46,17 +45,18 @@ def lobes(share_at: Callable[[Whole, Array], Array], low: Array, high: Array) ->
         row, at = np.nonzero((here >= before) & (here > after))
         maxima.append((some[row], ratio[row, at + 1], ((high - low) / count)[some[row]]))
     which, middle, reach = (np.concatenate(part) for part in zip(*maxima, strict=True))
-    nodes = np.cos(np.pi * (np.arange(DEGREE + 1) + 0.5) / (DEGREE + 1))
+    degree = 12  # of the polynomial between two samples about a maximum: exact to a double there
+    nodes = np.cos(np.pi * (np.arange(degree + 1) + 0.5) / (degree + 1))
     places = middle[:, None] + reach[:, None] * nodes
     square = share_at(np.repeat(which, len(nodes)), places.ravel()).reshape(places.shape) ** 2
     # at Chebyshev's nodes his coefficients are sums over them
-    vander = _chebyshev.chebvander(nodes, DEGREE)
-    series = (square @ vander * (2.0 / (DEGREE + 1))).T
+    vander = _chebyshev.chebvander(nodes, degree)
+    series = (square @ vander * (2.0 / (degree + 1))).T
     series[0] *= 0.5
     slope = _chebyshev.chebder(series)
     bend = _chebyshev.chebder(slope)
     x = np.zeros(len(which))
-    for _ in range(6):
+    for _ in range(6):  # Newton steps
         turn = _chebyshev.chebval(x, bend, tensor=False)
         rate = _chebyshev.chebval(x, slope, tensor=False)
         step = np.divide(rate, turn, out=np.zeros_like(x), where=turn < 0.0)
@@ -73,7 +73,7 @@ def highest_ratio(panels: Panels, share: float, damping: float) -> float:
     """
     variation = panels.variation[: int(panels.smooth[0]) + 1, 0]
     orders = np.arange(1, len(variation) + 1)
-    # by which a variation may exceed that of its samples
+    # a variation may exceed that of its samples by 2 %
     most = 1.02 * variation / math.sqrt(1.0 - damping * damping)
     omega = (most / share) ** (1.0 / orders)
     return float(omega.min()) / (2.0 * math.pi)

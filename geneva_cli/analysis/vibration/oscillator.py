@@ -12,14 +12,17 @@ from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.numerics.arrays import library
 from geneva_cli.spec.rules import Range
 
-RATIO = Range(1e-6, 1e5)  # period ratios that are computed
-DAMPING = Range(0.0, 1.0, "[)")
+PERIOD_RATIO = Range(1e-6, 1e5)  # the range that is computed
 STIFFNESS = ("shaft", "stiffness_Nm_rad")
-RATIO_SAID = f"{RATIO.low:g} to {RATIO.high:g}"
 NO_INERTIA = (
     "a load without inertia has no natural period; set inertia_kgm2 in [load] or a [[mass]], or "
     "use --period-ratio"
 )
+
+
+def _ratios() -> str:
+    """The range of period ratios, for messages."""
+    return f"{PERIOD_RATIO.low:g} to {PERIOD_RATIO.high:g}"
 
 
 class Oscillator(NamedTuple):
@@ -37,12 +40,13 @@ def oscillator(
     Raises GenevaError without a stiffness, and for values out of range.
     """
     shaft = mechanism.spec.shaft
-    if damping is not None and damping not in DAMPING:
-        raise GenevaError(f"--damping {damping:g}: must be {DAMPING}: at 1 nothing oscillates")
+    allowed = Range(0.0, 1.0, "[)")
+    if damping is not None and damping not in allowed:
+        raise GenevaError(f"--damping {damping:g}: must be {allowed}: at 1 nothing oscillates")
     zeta = shaft.damping_ratio if damping is None else damping
     if period_ratio is not None:
-        if period_ratio not in RATIO:
-            raise GenevaError(f"--period-ratio {period_ratio:g}: must be {RATIO_SAID}")
+        if period_ratio not in PERIOD_RATIO:
+            raise GenevaError(f"--period-ratio {period_ratio:g}: must be {_ratios()}")
         return Oscillator(period_ratio, zeta)
     if shaft.stiffness_Nm_rad is None:
         raise GenevaError(
@@ -54,10 +58,10 @@ def oscillator(
     if not inertia:
         return None
     ratio = period_ratio_of(mechanism, shaft.stiffness_Nm_rad, inertia)
-    if ratio not in RATIO:
+    if ratio not in PERIOD_RATIO:
         raise GenevaError(
             f"stiffness_Nm_rad = {shaft.stiffness_Nm_rad:g} with {inertia:g} kg m² gives a period "
-            f"ratio (motion time / natural period) of {ratio:.4g}: it must be {RATIO_SAID}",
+            f"ratio (motion time / natural period) of {ratio:.4g}: it must be {_ratios()}",
             STIFFNESS,
         )
     return Oscillator(ratio, zeta)

@@ -22,8 +22,6 @@ if TYPE_CHECKING:
 NODES = 32  # of Gauss's rule on a panel
 TERMS = 20  # of Legendre's series that are kept
 HIGHEST, LOWEST = 5, 2  # order of the derivatives that are used at most, and at least
-PANELS = 20_000  # with more panels, a higher derivative does not pay
-SAME = 1e-13  # fraction of a width within which two widths are equal
 
 X = np.polynomial.legendre.leggauss(NODES)[0]
 
@@ -114,7 +112,7 @@ def panelled(derivatives: Derivatives, breaks: Array) -> Panels:
     jumps, variation = _jumps(motion, values, series, m)
     # the wheel starts and stops without a jump of velocity
     number = np.arange(1, HIGHEST)[:, None]
-    # fraction of a derivative's greatest value: a smaller jump is rounding
+    # a jump of 1e-12 of a derivative's greatest value is rounding
     goes_on = (number < top - 1) & (jumps[1:] <= 1e-12 * greatest[1:])
     smooth = 1 + np.cumprod(goes_on, axis=0).sum(axis=0)
     return Panels(motion, left, right, series[..., :TERMS], smooth, greatest, variation)
@@ -134,19 +132,19 @@ def _refined(
     open_, motion = open_[wide], motion[wide]
     closed: list[_Refined] = []
     greatest, count, many = np.zeros((order, m)), np.zeros(m, dtype=int), np.zeros(m, dtype=bool)
+    most = 20_000  # panels: with more, a higher derivative does not pay
     while len(open_):
         np.add.at(count, motion, 1)
-        if order > LOWEST and (count > PANELS).any():
-            many = count > PANELS
+        if order > LOWEST and (count > most).any():
+            many = count > most
             open_, motion = open_[~many[motion]], motion[~many[motion]]
         left, width = open_[:, :1], open_[:, 1:] - open_[:, :1]
         rates = derivatives(left + width * (0.5 * (1.0 + X)), motion, order)
         for row, values in zip(greatest, np.abs(rates).max(axis=2), strict=True):
             np.maximum.at(row, motion, values)
-        # the last of them, which say whether the series has ended
+        # the last six terms show whether the series has ended
         tail = np.abs(rates @ SERIES[TERMS - 6 :].T).max(axis=2)
-        # fraction of a derivative's greatest value, some hundred roundings of it
-        # fraction of the motion: a panel is not halved further
+        # 1e-13 is some hundred roundings; panels narrower than 1e-12 of the motion are not halved
         ended = (tail <= 1e-13 * greatest[:, motion]).all(axis=0) | (width[:, 0] < 1e-12)
         closed.append(_Refined(motion[ended], open_[ended], rates[:, ended]))
         rest, of = open_[~ended], motion[~ended]

@@ -29,8 +29,6 @@ if TYPE_CHECKING:
     from geneva_cli.numerics.arrays import Array, Complex, Whole
 
 SMALL, POWERS = 0.5, 20  # up to this |q| a power series of so many terms
-LARGE = float(TERMS)  # above it the recurrence goes upwards
-SPLIT = 2.0**26  # half of a double's bits
 # moments of Legendre's polynomials with (x - 1)^k / k!, for e^(q (x - 1)): zero for k < n
 _MOMENTS = np.array(
     [
@@ -62,7 +60,8 @@ class Swing(NamedTuple):
     def after(self, v: float | Array) -> Complex:
         """e^(p v), with the angle reduced before it is rounded; elementwise for arrays."""
         whole = np.floor(self.ratio)
-        head = np.floor(v * SPLIT) / SPLIT
+        split = 2.0**26  # half of a double's bits
+        head = np.floor(v * split) / split
         turns = (whole * head) % 1.0 + whole * (v - head) + (self.ratio - whole) * v
         angle = 2.0 * np.pi * (turns - np.round(turns))
         zeta = self.damping
@@ -90,7 +89,7 @@ def residual_swing(panels: Panels, motion: Whole, swing: Swing) -> Complex:
         start = 0
         while start < len(at):
             done = count[start - 1] if start else 0
-            # pairs of an oscillator and a panel at a time, so that they stay in the cache
+            # 16,384 pairs of an oscillator and a panel at a time stay in the cache
             stop = max(start + 1, int(np.searchsorted(count, done + (1 << 14), side="right")))
             part = at[start:stop]
             some = Swing(swing.ratio[part], swing.damping[part])
@@ -124,7 +123,7 @@ def _integral(panels: Panels, order: int, motion: Whole, swing: Swing) -> Comple
     reduced: Array | Complex = -p * h if unit == 1.0 else size
     out: Complex = np.empty(len(of), dtype=complex)
     after = each.after(1.0 - panels.right[panel])
-    large = size >= LARGE
+    large = size >= TERMS  # there the upward recurrence is stable
     for here, moments in ((size < SMALL, _by_powers), ((size >= SMALL) & ~large, _by_recurrence)):
         if here.any():
             out[here] = moments(reduced[here], unit, series[here]) * h[here] * after[here]

@@ -31,7 +31,7 @@ from geneva_cli.analysis.peak_search import motion_peaks
 from geneva_cli.analysis.timing import timings
 from geneva_cli.analysis.vibration.during import greatest_accelerations
 from geneva_cli.analysis.vibration.lobes import Lobes, highest_ratio, lobes
-from geneva_cli.analysis.vibration.oscillator import RATIO, Oscillator, period_ratio_of
+from geneva_cli.analysis.vibration.oscillator import PERIOD_RATIO, Oscillator, period_ratio_of
 from geneva_cli.analysis.vibration.shape import law_shape, motion_shapes, shape
 from geneva_cli.analysis.vibration.swing import Swing, residual_swing
 from geneva_cli.machine.engagement import Engagement
@@ -46,8 +46,7 @@ if TYPE_CHECKING:
 
 SOFTER, STIFFER = math.sqrt(0.8), math.sqrt(1.2)  # the natural frequency's at 20 % of stiffness
 SLOWER, FASTER = 0.5, 2.0  # range of speeds over the design's
-AVOIDED = 1e-4  # least share of the step that makes a speed one to avoid
-GROUP = 32  # designs at a time: the panels of each are some 20 kB, and stay in the cache
+AVOIDED_SHARE = 1e-4  # least share of the step that makes a speed one to avoid
 
 
 class Vibrations(NamedTuple):
@@ -264,17 +263,18 @@ def design_vibrations(
         periods = period_ratio_of(mechanism, stiffness, inertia)
     damping = mechanism.spec.shaft.damping_ratio
     ratio, zeta = (np.broadcast_to(np.ravel(x), mechanism.designs) for x in (periods, damping))
-    known = np.flatnonzero(np.isfinite(ratio) & RATIO.holds(ratio))
+    known = np.flatnonzero(np.isfinite(ratio) & PERIOD_RATIO.holds(ratio))
     out = np.full((len(Vibrations._fields), len(ratio)), np.nan)
-    for i in range(0, len(known), GROUP):
-        part = known[i : i + GROUP]
+    size = 32  # designs at a time: the panels of each are some 20 kB, and stay in the cache
+    for i in range(0, len(known), size):
+        part = known[i : i + size]
         some = Loads(taken(mechanism, part), Swing(ratio[part], zeta[part]))
         out[:, part] = vibrations(some, requested)
     return Vibrations(*out)
 
 
 def speeds_to_avoid(mechanism: Mechanism, load: Oscillator) -> list[Avoid]:
-    """Return speeds at which the residual has a local maximum of at least ``AVOIDED`` of the step.
+    """Return speeds at which the residual has a local maximum above ``AVOIDED_SHARE`` of the step.
 
     They range from half to twice the design's, ascending. If engagements differ, the greatest
     residual of all counts.
@@ -283,14 +283,14 @@ def speeds_to_avoid(mechanism: Mechanism, load: Oscillator) -> list[Avoid]:
     places: list[tuple[float, float]] = []
     for index in own.indices:
         scale = float(index.scale[0])
-        high = highest_ratio(index.panels, AVOIDED, load.damping) / scale
+        high = highest_ratio(index.panels, AVOIDED_SHARE, load.damping) / scale
         low, high = load.ratio / FASTER, min(load.ratio / SLOWER, high)
         if low >= high:
             continue
         tops = own.lobes(index, np.array([low]), np.array([high]))
         most = np.abs(own.residuals(tops.ratio, tops.which)).max(axis=0)
-        # fraction of a residual: a lobe lower than the greatest by less is equal
-        kept = (tops.share >= AVOIDED) & (tops.share >= most * (1.0 - 1e-12))
+        # a lobe within 1e-12 of the greatest residual is equal to it
+        kept = (tops.share >= AVOIDED_SHARE) & (tops.share >= most * (1.0 - 1e-12))
         places += zip(tops.ratio[kept].tolist(), tops.share[kept].tolist(), strict=True)
     speeds = [(n_rpm * load.ratio / ratio, share) for ratio, share in places]
     return [Avoid(n, n * SOFTER, n * STIFFER, share) for n, share in sorted(speeds)]

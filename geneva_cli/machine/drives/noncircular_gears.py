@@ -27,7 +27,7 @@ from geneva_cli.machine.wheels.gearing import Gearing, RollerPlace
 from geneva_cli.numerics.arrays import library
 from geneva_cli.numerics.jet import Jet, Number, sine_versine_of
 from geneva_cli.numerics.roots import boundary
-from geneva_cli.numerics.spline import DEGREE, Doubt, Pieces, doubt, periodic
+from geneva_cli.numerics.spline import DEGREE, Doubt, PiecewisePolynomial, doubt, periodic
 from geneva_cli.spec.rules import POSITIVE, Csv, Range
 from geneva_cli.spec.schema import Points
 
@@ -125,7 +125,7 @@ class NoncircularGears(Transmission, kw_only=True):
 
 
 @lru_cache(4)  # advice builds one machine many times
-def _turned(points: tuple[tuple[float, float], ...]) -> Pieces:
+def _turned(points: tuple[tuple[float, float], ...]) -> PiecewisePolynomial:
     """Crank angle over a turn, scaled to close. GenevaError for an impossible ratio."""
     key = ("drive", "ratio_file")
     x, i = zip(*points, strict=True)
@@ -145,13 +145,13 @@ def _turned(points: tuple[tuple[float, float], ...]) -> Pieces:
             f"be 1; divide all ratios by {mean:.9g}",
             key,
         )
-    return Pieces(whole.cuts, whole.origins, whole.rows / mean)
+    return PiecewisePolynomial(whole.cuts, whole.origins, whole.rows / mean)
 
 
 class Since(NamedTuple):
     """The crank's rotation since a moment, by the input's since then."""
 
-    since: Pieces
+    since: PiecewisePolynomial
 
     def __call__(self, tau: Number, order: int) -> tuple[Jet, Jet]:
         """sin d and 1 - cos d of the crank's rotation d, ``tau`` input radians later."""
@@ -162,14 +162,14 @@ class Since(NamedTuple):
         return sine_versine_of(Jet(terms), m.sin(turn), m.cos(turn), order)
 
 
-def _through(crank: Pieces, crank_deg: float) -> About:
+def _through(crank: PiecewisePolynomial, crank_deg: float) -> About:
     turns, wanted = divmod(math.radians(crank_deg), math.tau)
     phi = boundary(lambda x: crank(x, 0)[0] < wanted, 0.0, math.tau)
     since = _since(crank, phi)
     return About(math.degrees(phi + turns * math.tau), Since(since), False, since.seams)
 
 
-def _since(crank: Pieces, phi: float) -> Pieces:
+def _since(crank: PiecewisePolynomial, phi: float) -> PiecewisePolynomial:
     """The crank's rotation since the input angle phi, by the input's since then, over three turns.
 
     The piece about phi is in powers of the input's rotation since then, so that the smallest angle
@@ -183,4 +183,4 @@ def _since(crank: Pieces, phi: float) -> Pieces:
     middle = len(crank.origins) + int(crank.cuts.searchsorted(phi))
     cuts = origins[1:].copy()
     origins[middle], rows[middle] = 0.0, [0.0, *here[1:]]
-    return Pieces(cuts, origins, rows)
+    return PiecewisePolynomial(cuts, origins, rows)

@@ -16,7 +16,7 @@ from geneva_cli.spec.rules import Csv
 from geneva_cli.spec.schema import Points
 
 if TYPE_CHECKING:
-    from geneva_cli.numerics.spline import Doubt, Pieces
+    from geneva_cli.numerics.spline import Doubt, PiecewisePolynomial
 
 
 class TableLaw(Law):
@@ -48,7 +48,7 @@ class TableLaw(Law):
             )
 
     @cached_property
-    def _halves(self) -> tuple[Pieces, Pieces]:
+    def _halves(self) -> tuple[PiecewisePolynomial, PiecewisePolynomial]:
         """The spline from its start; and from its end, as 1 - s by w = 1 - u."""
         return _halves(self.points.pairs)
 
@@ -76,11 +76,13 @@ class TableLaw(Law):
 
 
 @lru_cache(4)  # advice builds one machine many times
-def _halves(points: tuple[tuple[float, float], ...]) -> tuple[Pieces, Pieces]:
+def _halves(
+    points: tuple[tuple[float, float], ...],
+) -> tuple[PiecewisePolynomial, PiecewisePolynomial]:
     # a list of the laws needs no splines
     import numpy as np
 
-    from geneva_cli.numerics.spline import DEGREE, Pieces, at_rest, taylor
+    from geneva_cli.numerics.spline import DEGREE, PiecewisePolynomial, at_rest, taylor
 
     u, s = zip(*points, strict=True)
     spline = at_rest(u, s)
@@ -91,7 +93,7 @@ def _halves(points: tuple[tuple[float, float], ...]) -> tuple[Pieces, Pieces]:
     rows = np.array(left).T[::-1].copy()
     rows[0, :3] = 0.0  # at rest at the end
     starts = 1.0 - ends[::-1]
-    return spline, Pieces(starts[1:], starts, rows)
+    return spline, PiecewisePolynomial(starts[1:], starts, rows)
 
 
 @lru_cache(4)

@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import Any
 
-from geneva_cli.analysis.figures import OF_NAME
-from geneva_cli.analysis.loads.summary import Summary
+from geneva_cli.analysis.figures import AXIS_BY_NAME
+from geneva_cli.analysis.loads.summary import QuantitySummary
 from geneva_cli.design import Design
 from geneva_cli.document import Block, Facts, Grid, Heading, Listed, Row
 from geneva_cli.study.document.left import Left, grid
@@ -71,10 +71,10 @@ def loads(design: Design, left: Left) -> Iterator[Block]:
     own = {name: left.take(name) for name in ("loads", "cycle")}
     page = design.loads_page.to_dict()
     yield Heading("Loads")
-    heads = ("Quantity", "Unit", *map(_column, Summary._fields))
+    heads = ("Quantity", "Unit", *map(_column, QuantitySummary._fields))
     rows: list[Row] = []
     for row in page["loads"]:
-        axis = OF_NAME[row.pop("quantity")]
+        axis = AXIS_BY_NAME[row.pop("quantity")]
         rows.append((axis.label, axis.unit, *row.values()))
     yield Grid("Over the motions, and means over a whole period", heads, tuple(rows))
     more = {

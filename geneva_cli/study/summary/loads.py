@@ -5,8 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import Any
 
-from geneva_cli.analysis.loads.summary import UNLOADED
-from geneva_cli.analysis.loads.summary import Summary as Ends
+from geneva_cli.analysis.loads.summary import UNLOADED, QuantitySummary
 from geneva_cli.design import Design
 from geneva_cli.document import WARNS, Answer, Line, Summary
 from geneva_cli.numerics.tolerances import TIE
@@ -72,7 +71,7 @@ def cycle_lines(design: Design) -> Iterator[Line]:
     )
 
 
-def _greatest(ends: Ends, unit: str) -> str:
+def _greatest(ends: QuantitySummary, unit: str) -> str:
     """Greatest size of a load, and its input angle; the earlier one of two equal sizes."""
     if ends.max is None or ends.min is None:
         return NO_BOUND

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, TypeAlias, TypeVar
 import numpy as np
 
 if TYPE_CHECKING:
-    from geneva_cli.analysis.loads.forces import Setting
+    from geneva_cli.analysis.loads.forces import LoadCase
     from geneva_cli.machine.mechanism import Mechanism
     from geneva_cli.numerics.arrays import Number
     from geneva_cli.numerics.jet import Array
@@ -45,11 +45,11 @@ class Designs:
         return found
 
     @cached_property
-    def given(self) -> Setting:
+    def given(self) -> LoadCase:
         """The loads' parameters besides the motion."""
-        from geneva_cli.analysis.loads.forces import setting  # a wish without loads needs none
+        from geneva_cli.analysis.loads.forces import load_case  # a wish without loads needs none
 
-        return setting(self.machine)
+        return load_case(self.machine)
 
     @cached_property
     def loaded(self) -> Array:

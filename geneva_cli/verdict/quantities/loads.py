@@ -8,7 +8,7 @@ import numpy as np
 
 from geneva_cli.analysis.loads.loads import kinetic_power_W
 from geneva_cli.analysis.loads.means import load_means
-from geneva_cli.analysis.loads.quantities import SIZED, known_quantities, shares
+from geneva_cli.analysis.loads.quantities import SIZED, known_quantities, multiples
 from geneva_cli.analysis.loads.sizing import sizings
 from geneva_cli.analysis.loads.summaries import load_peaks, load_summaries
 from geneva_cli.analysis.peak_search import worst_peaks
@@ -42,7 +42,7 @@ def greatest(of: Designs) -> Columns:
 def summaries(of: Designs) -> Columns:
     """Least values, means and root mean squares of the loads that all these designs have."""
     sources = {
-        n: source for n, (source, share, _) in shares(of.machine).items() if share is not None
+        n: source for n, (source, factor, _) in multiples(of.machine).items() if factor is not None
     }
     known = known_quantities(of.machine)
     ends: dict[str, list[str]] = {}

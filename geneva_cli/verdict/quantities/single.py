@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from geneva_cli.analysis.loads.cycle import cycle_of
-from geneva_cli.analysis.loads.sizing import WHEEL, sizing
+from geneva_cli.analysis.loads.sizing import WHEEL_INERTIA, sizing
 from geneva_cli.analysis.loads.summary import summaries
 from geneva_cli.verdict.checks import checks
 from geneva_cli.verdict.checks.registry import every_check
@@ -46,4 +46,4 @@ def cycle(model: PartsModel) -> Values:
 def bought(model: PartsModel) -> Values:
     """Motor, flywheel and the makers' form, without the wheel's own inertia."""
     found, _ = sizing(cycle_of(model.mechanism))
-    return {f"sizing.{name}": value for name, value in found.items() if name != WHEEL}
+    return {f"sizing.{name}": value for name, value in found.items() if name != WHEEL_INERTIA}

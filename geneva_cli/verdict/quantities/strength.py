@@ -108,7 +108,7 @@ def crank_shaft(of: Designs) -> Columns:
     return _shaft(of, shafts.crank_shaft(of.spec.shaft), on)
 
 
-def _shaft(of: Designs, ends: shafts.GivenShaft, on: shafts.On) -> Columns:
+def _shaft(of: Designs, ends: shafts.ShaftDimensions, on: shafts.ShaftForces) -> Columns:
     """A shaft; without results on a sphere, where an overhang does not determine the moment."""
     out: dict[str, Number | None] = {"diameter_mm": ends.diameter_mm}
     found = under_load(of).shaft(ends, on) if of.spec.wheel.FLAT else None

@@ -18,7 +18,7 @@ from geneva_cli.verdict.lock_sizes import LockSizes, design_lock_sizes, lock_of
 
 if TYPE_CHECKING:
     from geneva_cli.analysis.strength.lock import LockUnderTorque
-    from geneva_cli.analysis.strength.roller import Passage
+    from geneva_cli.analysis.strength.roller import SlotPassage
     from geneva_cli.numerics.jet import Array
     from geneva_cli.verdict.quantities.designs import Designs
 
@@ -41,12 +41,12 @@ class UnderLoad:
         return load_peaks(self.machine, [PV])[PV].max * self.loaded
 
     @cached_property
-    def passages(self) -> Sequence[Passage]:
+    def passages(self) -> Sequence[SlotPassage]:
         """The passage of each engagement of a period."""
         return roller.passages(self.machine)
 
     @cached_property
-    def roller_passages(self) -> Sequence[Passage]:
+    def roller_passages(self) -> Sequence[SlotPassage]:
         """The passages of each roller; an engagement has two if one starts and one stops it."""
         paired = any(one.paired for one in self.machine.engagements)
         return roller.by_roller(self.machine) if paired else self.passages
@@ -62,7 +62,9 @@ class UnderLoad:
         sizes = self.lock_sizes
         return sizes and lock.loaded_locks(self.machine, sizes.half_width, sizes.lock)
 
-    def shaft(self, ends: shafts.GivenShaft, loaded: shafts.On) -> shafts.Turned | None:
+    def shaft(
+        self, ends: shafts.ShaftDimensions, loaded: shafts.ShaftForces
+    ) -> shafts.ShaftStress | None:
         """A shaft under its cycle; None without an overhang or a load."""
         return shafts.shafts_under_load(self.machine, ends, loaded)
 
@@ -86,16 +88,16 @@ class SingleUnderLoad(UnderLoad):
         return np.array([cycle_of(self.machine).extremes[PV].max])
 
     @cached_property
-    def passages(self) -> Sequence[Passage]:
+    def passages(self) -> Sequence[SlotPassage]:
         """The passage of each engagement of a period."""
         return self._bounded(roller.passages(self.machine))
 
     @cached_property
-    def roller_passages(self) -> Sequence[Passage]:
+    def roller_passages(self) -> Sequence[SlotPassage]:
         """The passages of each roller."""
         return self._bounded(roller.by_roller(self.machine))
 
-    def _bounded(self, every: Sequence[Passage]) -> Sequence[Passage]:
+    def _bounded(self, every: Sequence[SlotPassage]) -> Sequence[SlotPassage]:
         """The passages, with infinite work and load if the force is unbounded."""
         if not math.isinf(self.force_N[0]):
             return every
@@ -109,7 +111,9 @@ class SingleUnderLoad(UnderLoad):
             return None
         return LockSizes(found[1].half_width, lock_of(*found))
 
-    def shaft(self, ends: shafts.GivenShaft, loaded: shafts.On) -> shafts.Turned | None:
+    def shaft(
+        self, ends: shafts.ShaftDimensions, loaded: shafts.ShaftForces
+    ) -> shafts.ShaftStress | None:
         """A shaft under its cycle; None without an overhang or a load."""
         return shafts.shaft(self.machine, ends, loaded)
 

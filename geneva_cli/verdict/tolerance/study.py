@@ -18,7 +18,7 @@ from geneva_cli.analysis.tolerance.dimensions import (
     without_effect,
 )
 from geneva_cli.analysis.tolerance.entry_jump import entry_jumps
-from geneva_cli.analysis.tolerance.motion_error import Worst, motion_errors
+from geneva_cli.analysis.tolerance.motion_error import WorstErrors, motion_errors
 from geneva_cli.analysis.tolerance.random_machines import random_machines
 from geneva_cli.analysis.tolerance.spread import Spread, spread
 from geneva_cli.analysis.tolerance.worst_effects import entry_jumps_worst
@@ -175,7 +175,7 @@ def _locks(
         return []
 
 
-def _first(found: Worst) -> tuple[float, float, float]:
+def _first(found: WorstErrors) -> tuple[float, float, float]:
     """The values of the single design."""
     return float(found.error[0]), float(found.at_deg[0]), float(found.side[0])
 
