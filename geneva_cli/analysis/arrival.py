@@ -46,7 +46,10 @@ class Arrival(NamedTuple):
 
 
 def arrival(mechanism: Mechanism) -> Arrival | None:
-    """Arrival of a machine's wheel at its dwell; None if slots have both walls, or without a load.
+    """Arrival of a machine's wheel at its dwell.
+
+    None if the slots have both walls, or without a load.
+
 
     >>> design = Design(External(3), GearSector(sector_deg=60), load=Load(inertia_kgm2=0.01))
     >>> round(arrival(design.mechanism).most_Nm, 6)  # tan b = 0.57735 of I w²
@@ -58,12 +61,13 @@ def arrival(mechanism: Mechanism) -> Arrival | None:
     w = omega(spec.drive.n_rpm)
     unit, torque = inertia_kgm2(spec) * w * w, resisting_torque_Nm(spec)
     most = unit * greatest_drag(engagement)
-    held = 0.0 < torque <= most
-    return Arrival(torque, most, _lag(mechanism, engagement, torque / unit) if held else None)
+    reaches = 0.0 < torque <= most
+    lag = _lag(mechanism, engagement, torque / unit) if reaches else None
+    return Arrival(torque, most, lag)
 
 
 def greatest_drag(engagement: Engagement) -> float:
-    """Greatest M_r / (I w²) with which the wheel reaches its dwell."""
+    """Greatest M_r / (I w²), without a unit, with which the wheel reaches its dwell."""
     start, u = engagement.motion(_handover(engagement), 1).scalars()[:2]
     end, _, last = engagement.motion(engagement.exit_deg, 2).scalars()[:3]
     span = (engagement.exit_deg - _handover(engagement)) * DEGREE
@@ -77,6 +81,7 @@ def _handover(engagement: Engagement) -> float:
 
 
 def _lag(mechanism: Mechanism, engagement: Engagement, drag: float) -> Lag:
+    """Lag of a wheel that reaches its dwell with a drag M_r / (I w²)."""
     begin = _handover(engagement)
     start, u = engagement.motion(begin, 1).scalars()[:2]
 

@@ -10,19 +10,18 @@ from geneva_cli.numerics.angles import radians
 class CamFactors(NamedTuple):
     """Peaks of a motion that is scaled to a step of 1 in a time of 1.
 
-    Am is that of acceleration, Vm of velocity. Qm is that of velocity times acceleration, over Am:
-    the greatest inertia torque times Qm gives the greatest torque on the input.
+    The greatest inertia torque times Qm is the greatest torque on the input.
     """
 
-    Am: float
-    Vm: float
-    Qm: float
+    Am: float  # peak acceleration
+    Vm: float  # peak velocity
+    Qm: float  # peak of velocity times acceleration, over Am
 
 
 def cam_factors(
     velocity: float, acceleration: float, power: float, motion_deg: float, step_deg: float
 ) -> CamFactors:
-    """The factors from a motion's invariant peaks, its input angle and the wheel's step.
+    """The factors of a motion, from its invariant peaks, its input angle and the wheel's step.
 
     An external Geneva of four slots, whose motion angle and step are both a right angle:
 

@@ -79,7 +79,7 @@ def changes(engagement: Engagement, drag: Array) -> Changes:
 
 
 def impacts_of(engagement: Engagement, at: Changes, play: Array, drag: Array) -> WallImpacts:
-    """WallImpacts after the changes of sides ``at``, for the play of each, (k,) in radians.
+    """Impacts after the changes of sides ``at``, for the play of each, (k,) in radians.
 
     ``drag`` is M_r / (I w²), (m, 1). A wheel coasts from the place where psi2 = -drag, slowed only
     by the drag. It is struck when it is ahead of the slot by the play, or behind if the torque
@@ -140,7 +140,7 @@ def _gained(motion: Motion, start: Array, drag: Array, x: Array) -> tuple[Array,
 
 
 def drag_over(mechanism: Mechanism) -> float:
-    """M_r / (I w²) of the spec's load; infinite without an inertia, as nothing coasts."""
+    """M_r / (I w²) of the spec's load; infinite without an inertia, as then nothing coasts."""
     inertia = inertia_kgm2(mechanism.spec)
     w = omega(mechanism.spec.drive.n_rpm)
     heavy = inertia > 0.0

@@ -44,38 +44,38 @@ class Impacts(NamedTuple):
     @property
     def only(self) -> Impact | None:
         """Impact of a single design, or None."""
-        at_deg, jump, *cost = only_of(self)
-        return None if at_deg is None or jump is None else Impact(at_deg, jump, *cost)
+        at_deg, jump, *force = only_of(self)
+        return None if at_deg is None or jump is None else Impact(at_deg, jump, *force)
 
 
-def entry_impact(mechanism: Mechanism, share: float = 1.0) -> Impact | None:
-    """Impact at entry if the crank has its greatest error, times ``share``; None without an error.
+def entry_impact(mechanism: Mechanism, fraction: float = 1.0) -> Impact | None:
+    """Impact at entry with a ``fraction`` of the crank's greatest error; None without an error.
 
     It is on the slot's axis, or on a corner of the mouth if the slot is too narrow for the roller
-    to enter beside its axis. The jump is negative if the wheel is struck backwards.
+    to enter off its axis. The jump is negative if the wheel is struck backwards.
     """
-    return entry_impacts(mechanism, share).only
+    return entry_impacts(mechanism, fraction).only
 
 
-def entry_impacts(mechanism: Mechanism, share: float = 1.0) -> Impacts:
-    """Impacts at entry of m designs, as ``entry_impact`` of each."""
+def entry_impacts(mechanism: Mechanism, fraction: float = 1.0) -> Impacts:
+    """Impacts at entry of m designs with a ``fraction`` of the cranks' greatest errors."""
     best = np.full((2, 1), np.nan)
     for engagement in mechanism.engagements:
-        every = [first_contacts(engagement, *e) for e in _errors(mechanism, engagement, share)]
-        for contacts in (*every, *_on_mouth(mechanism, engagement, share)):
+        every = [first_contacts(engagement, *e) for e in _errors(mechanism, engagement, fraction)]
+        for contacts in (*every, *_on_mouth(mechanism, engagement, fraction)):
             if contacts is not None:
                 best = _harder(best, _shown(mechanism, engagement, *contacts))
-    return _with_cost(mechanism, best)
+    return _with_force(mechanism, best)
 
 
 def _errors(
-    mechanism: Mechanism, engagement: Engagement, share: float
+    mechanism: Mechanism, engagement: Engagement, fraction: float
 ) -> Iterator[tuple[float, float]]:
     """Greatest relative errors of R and L that act across the slot, in both directions."""
     spec, L = mechanism.spec, mechanism.center_distance_mm
     arm = arm_mm(mechanism, engagement)
-    crank = share * spec.tolerance.crank_radius_mm / arm if spec.drive.ONE_ARM else 0.0
-    center = share * spec.tolerance.center_distance_mm / L if spec.wheel.FLAT else 0.0
+    crank = fraction * spec.tolerance.crank_radius_mm / arm if spec.drive.ONE_ARM else 0.0
+    center = fraction * spec.tolerance.center_distance_mm / L if spec.wheel.FLAT else 0.0
     if not all_true((crank == 0.0) & (center == 0.0)):
         yield crank, -center
         yield -crank, center
@@ -91,15 +91,15 @@ def arm_mm(mechanism: Mechanism, engagement: Engagement) -> float:
 
 
 def _on_mouth(
-    mechanism: Mechanism, engagement: Engagement, share: float
+    mechanism: Mechanism, engagement: Engagement, fraction: float
 ) -> list[FirstContacts | None]:
     """First contacts with the mouth's corners, for the largest roller in the narrowest slot."""
     tolerance, L = mechanism.spec.tolerance, mechanism.center_distance_mm
     clear = mechanism.spec.size.allowances.slot_clearance_mm
-    lost = 0.5 * share * (tolerance.roller_diameter_mm + tolerance.slot_width_mm)
+    lost = 0.5 * fraction * (tolerance.roller_diameter_mm + tolerance.slot_width_mm)
     spare = parameter(np.maximum(clear - lost, 0.0)) / L
     roller = mechanism.roller_radius_mm / L
-    errors = _errors(mechanism, engagement, share)
+    errors = _errors(mechanism, engagement, fraction)
     return [mouth_contacts(engagement, *error, roller, spare) for error in errors]
 
 
@@ -133,7 +133,7 @@ def reversal_impacts(mechanism: Mechanism) -> Impacts:
     none = (drag_over(mechanism) == np.inf) | (clearance_mm(mechanism) == 0.0)
     for engagement in () if all_true(none) else mechanism.engagements:
         best = _harder(best, _reversal(mechanism, engagement))
-    return _with_cost(mechanism, best)
+    return _with_force(mechanism, best)
 
 
 def _reversal(mechanism: Mechanism, engagement: Engagement) -> Array:
@@ -168,7 +168,8 @@ def _harder(one: Array, other: Array) -> Array:
     return np.where(more, other, one)
 
 
-def _with_cost(mechanism: Mechanism, impacts: Array) -> Impacts:
+def _with_force(mechanism: Mechanism, impacts: Array) -> Impacts:
+    """Impacts with their forces and moments, from angles and jumps (2, m)."""
     at_deg, jump = impacts
     moment = np.ravel(impulse_Nms(mechanism, jump[:, None]))
     force = forces_N(mechanism, jump[:, None])

@@ -1,4 +1,4 @@
-"""The characteristic values of motion laws (C_v, C_a, C_j, C_p), and a cam form's factors.
+"""The characteristic values of motion laws (C_v, C_a, C_j, C_p), and a maker's form's factors.
 
 They are for the table of laws; the peaks of machines' motions are in ``peak_search``.
 """
@@ -43,7 +43,7 @@ def characteristic(law: Law) -> Characteristic:
 
 
 def laws_table(shape: float) -> Table:
-    """One row for each law; ``shape`` is the sine group's lambda."""
+    """One row for each law; ``shape`` is the sine group's lambda. Raises GenevaError beyond 10."""
     if not abs(shape) <= 10.0:
         raise GenevaError(f"--lambda {shape:g}: must be at least -10, at most 10")
     rows: list[tuple[object, ...]] = []
@@ -53,8 +53,8 @@ def laws_table(shape: float) -> Table:
         if any(key.default is REQUIRED for key in keys):  # a user's own law has no values yet
             rows.append((name, *[None] * (len(LAW_COLUMNS) - 2), kind.ABOUT))
             continue
-        given = {key.attribute: shape for key in keys if key.key == "lambda"}
-        found = characteristic(kind(**given))
-        rows.append((name, *found, *found.factors, kind.ABOUT))
+        arguments = {key.attribute: shape for key in keys if key.key == "lambda"}
+        values = characteristic(kind(**arguments))
+        rows.append((name, *values, *values.factors, kind.ABOUT))
     # a narrow window keeps these columns first; the others follow in order
     return rows_table(LAW_COLUMNS, rows).replaced(reading=Reading(("law", "about")))

@@ -1,7 +1,7 @@
 """The wheel's position, velocity, acceleration and jerk over a whole period of the machine.
 
-These tables are of one design, since each design has its own rows of motion and dwell. For batches
-there is the ``motion`` of an engagement.
+Tables are of one design, since each design has its own rows of motion and dwell. For a batch, call
+the ``motion`` of an engagement.
 """
 
 from __future__ import annotations
@@ -52,7 +52,7 @@ class Span(NamedTuple):
     engagement: Engagement
     moves: slice
     rests: slice
-    base: float  # the wheel's angle half-way through the step, radians from half-way the first
+    base: float  # the wheel's angle at mid-step, radians from the middle of the first step
 
 
 def inputs(mechanism: Mechanism, samples: int, begin: int, end: int) -> Array:
@@ -107,9 +107,9 @@ def derivatives(mechanism: Mechanism, input_deg: Array, orders: Sequence[int]) -
         local = local_deg(span, input_deg)
         rest = span.engagement.half_step
         if len(local):
-            found = span.engagement.motion.derivatives(local, orders)
-            for total, values in zip(out, found, strict=True):
-                total[span.moves] = values
+            rows = span.engagement.motion.derivatives(local, orders)
+            for total, row in zip(out, rows, strict=True):
+                total[span.moves] = row
         for order, total in zip(orders, out, strict=True):
             if order == 0:
                 total[span.rests] = rest

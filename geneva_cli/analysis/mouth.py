@@ -1,4 +1,4 @@
-"""The shock at the mouth: a roller that enters beside its slot and meets a corner.
+"""The shock at the mouth: a roller that misses its slot and meets a corner.
 
 If the errors of the crank's radius and of the centre distance exceed the slot's clearance, the
 roller meets the corner at the end of one of the slot's walls. The mouth lies across the slot where

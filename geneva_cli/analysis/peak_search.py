@@ -7,8 +7,8 @@ place where the law's derivative jumps; never the largest sample of a grid.
 >>> from geneva_cli import External, SideCrank
 >>> from geneva_cli.machine.many import many
 >>> from geneva_cli.machine.spec import Spec
->>> found = many(Spec(External(6), SideCrank(A=0.0)), {"drive.A": np.array([0.0, 0.6, 2.0])})
->>> found.spread(worst_peaks(found.machine, ["velocity"])["velocity"].max)
+>>> batch = many(Spec(External(6), SideCrank(A=0.0)), {"drive.A": np.array([0.0, 0.6, 2.0])})
+>>> batch.spread(worst_peaks(batch.machine, ["velocity"])["velocity"].max)
 array([1.   , 0.625,   nan])
 """
 
@@ -105,21 +105,24 @@ def _by_degrees(rates: Sequence[Array], x: Array, order: int) -> list[Array]:
 
 
 def motion_peaks(motion: Motion, quantities: Sequence[str] = QUANTITIES) -> dict[str, PeakArray]:
-    """Greatest sizes over the motions of m designs, ends included, and their input angles."""
-    found: dict[str, PeakArray] = {}
+    """Greatest sizes over the motions of m designs, ends included, and their input angles, degrees.
+
+    Closed forms are used where a motion has them.
+    """
+    peaks: dict[str, PeakArray] = {}
     for name in quantities:
         known = motion.closed_peak(name)
         if known is not None:
-            found[name] = PeakArray(*(np.ravel(v) for v in np.broadcast_arrays(*known)))
-    sought = [name for name in quantities if name not in found]
+            peaks[name] = PeakArray(*(np.ravel(v) for v in np.broadcast_arrays(*known)))
+    sought = [name for name in quantities if name not in peaks]
     if sought:
-        found |= searched(motion, sought)
-    for name, peak in found.items():
+        peaks |= searched(motion, sought)
+    for name, peak in peaks.items():
         open_ = np.flatnonzero(np.isnan(peak.max))
         if len(open_):
             rest = searched(taken(motion, open_), [name])[name]
             peak.max[open_], peak.at_deg[open_] = rest
-    return found
+    return peaks
 
 
 def landmarks(motion: Motion, quantity: str, m: int) -> Stationary:
@@ -165,11 +168,11 @@ def _part(
     here = places[which]
     some = motion if len(here) == len(places) else taken(motion, which)
     samples, edges = _MotionSamples(some, len(here), quantities), np.hsplit(here, here.shape[1])
-    found = {}
+    peaks = {}
     for name in quantities:
         curve, rough = _QuantityCurve(some, name), Rough(_RoughCurve(samples, name), some.ROUGH_TO)
-        found[name] = PeakArray(*greatest_sizes(curve, *edges, rough=rough))
-    return found
+        peaks[name] = PeakArray(*greatest_sizes(curve, *edges, rough=rough))
+    return peaks
 
 
 def greater(first: PeakArray, other: PeakArray) -> PeakArray:
@@ -187,8 +190,8 @@ def worst_peaks(
     """The greatest peaks over all engagements; angles are the machine's input angles."""
     best: dict[str, PeakArray] = {}
     for engagement in mechanism.engagements:
-        for name, found in motion_peaks(engagement.motion, quantities).items():
-            at_deg = engagement.mid_deg + parameter(found.at_deg[:, None])
-            here = PeakArray(found.max, np.ravel(mechanism.shown_deg(at_deg)))
+        for name, peak in motion_peaks(engagement.motion, quantities).items():
+            at_deg = engagement.mid_deg + parameter(peak.at_deg[:, None])
+            here = PeakArray(peak.max, np.ravel(mechanism.shown_deg(at_deg)))
             best[name] = greater(best[name], here) if name in best else here
     return best

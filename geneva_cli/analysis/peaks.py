@@ -43,16 +43,16 @@ def peaks_of(motion: Motion, names: Sequence[str]) -> list[Peak[float]]:
 
     Each has the signed input angle of its first occurrence, degrees from mid-motion.
     """
-    found = {name: motion.closed_peak(name) for name in names}
-    open_ = [name for name, known in found.items() if known is None]
+    peaks = {name: motion.closed_peak(name) for name in names}
+    open_ = [name for name, known in peaks.items() if known is None]
     if open_:
         from geneva_cli.analysis.peak_search import motion_peaks
 
-        found |= {
+        peaks |= {
             name: Peak(size.item(), at_deg.item())
             for name, (size, at_deg) in motion_peaks(motion, open_).items()
         }
-    return [known for known in found.values() if known is not None]
+    return [peak for peak in peaks.values() if peak is not None]
 
 
 def peak(motion: Motion, quantity: str) -> Peak[float]:
@@ -94,8 +94,8 @@ def worst_of(mechanism: Mechanism, quantity: str) -> Peak[float]:
 
 def placed(mechanism: Mechanism, engagement: Engagement) -> Peaks:
     """Peaks of an engagement at the machine's input angles."""
-    found = peaks(engagement)
-    return Peaks._make((*(_placed(mechanism, engagement, p) for p in found[:-1]), found.ends))
+    own = peaks(engagement)
+    return Peaks._make((*(_placed(mechanism, engagement, p) for p in own[:-1]), own.ends))
 
 
 def _placed(mechanism: Mechanism, engagement: Engagement, p: Peak[float]) -> Peak[float]:
@@ -103,7 +103,7 @@ def _placed(mechanism: Mechanism, engagement: Engagement, p: Peak[float]) -> Pea
 
 
 def peaks_table(mechanism: Mechanism) -> Table:
-    """The greatest peaks, then those of each engagement if they differ (else None)."""
+    """The greatest peaks, and a table of each engagement's peaks if there are several."""
     times = timings(mechanism)
     rows = [
         _record(placed(mechanism, engagement))
@@ -118,10 +118,10 @@ def peaks_table(mechanism: Mechanism) -> Table:
     return record_table(values | {"stations": each if differ else None})
 
 
-def _record(found: Peaks) -> dict[str, float]:
-    sizes = found.ends._asdict()
+def _record(peaks: Peaks) -> dict[str, float]:
+    sizes = peaks.ends._asdict()
     out: dict[str, float] = {}
-    for name, peak in zip(QUANTITIES, found[:-1], strict=True):
+    for name, peak in zip(QUANTITIES, peaks[:-1], strict=True):
         out |= {f"{name}.max": peak.max, f"{name}.at_deg": peak.at_deg}
         out |= {
             f"{name}.{end}": sizes[f"{name}_{end}"]

@@ -25,7 +25,7 @@ class PositiveDrive(NamedTuple):
     """Intervals of a curved slot without positive drive, and the distance of its branches."""
 
     loose_deg: tuple[tuple[float, float], ...]  # input angles without the needed wall
-    share: float  # fraction of the motion that these take
+    fraction: float  # of the motion that these take
     gap_mm: float  # greatest distance of the two branches, along the wheel's circumference
     gap_at_deg: float
     loose_gap_mm: float = 0.0  # the greatest where the needed wall is missing
@@ -37,7 +37,7 @@ class PositiveDrives(NamedTuple):
     ``loose`` (m, k) is a mask of the places ``input_deg`` without positive drive.
     """
 
-    share: Array
+    fraction: Array
     gap_mm: Array
     gap_at_deg: Array
     loose_gap_mm: Array
@@ -47,13 +47,13 @@ class PositiveDrives(NamedTuple):
 
 def positive_drive(mechanism: Mechanism) -> PositiveDrive | None:
     """The positive drive of a slot under the spec's load; None for straight slots."""
-    found = positive_drives(mechanism)
-    if found is None:
+    batch = positive_drives(mechanism)
+    if batch is None:
         return None
-    places = np.sort(found.input_deg[0][found.loose[0]]).tolist()
+    places = np.sort(batch.input_deg[0][batch.loose[0]]).tolist()
     step = abs(mechanism.engagements[0].entry_deg) / SAMPLES
-    share, gap, at, wide = (float(row[0]) for row in found[:4])
-    return PositiveDrive(tuple(_intervals(places, step)), share, gap, at, wide)
+    fraction, gap, at, wide = (float(row[0]) for row in batch[:4])
+    return PositiveDrive(tuple(_intervals(places, step)), fraction, gap, at, wide)
 
 
 def positive_drives(mechanism: Mechanism) -> PositiveDrives | None:

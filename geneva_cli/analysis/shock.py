@@ -1,4 +1,4 @@
-"""The shock at entry: a roller that meets its slot off its line.
+"""The shock at entry: a roller that meets its slot off the slot's axis.
 
 The crank's radius R and the centre distance L always have errors. The roller should enter the
 resting slot along its axis. If R/L is too large by a fraction eps, its path crosses that axis

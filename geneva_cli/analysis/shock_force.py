@@ -70,9 +70,9 @@ def forces_N(mechanism: Mechanism, jump: Array) -> Array | None:
 
 
 def pin_stiffness_N_mm(mechanism: Mechanism, face_mm: float) -> float:
-    """Stiffness of the pin as a cantilever that is loaded half-way along the roller."""
+    """Stiffness of the pin, a cantilever that is loaded in the middle of the roller, N/mm."""
     spec = mechanism.spec
-    given, r = spec.size.pin_mm, mechanism.roller_radius_mm
-    d = r if given is None else choose(given == 0.0, r, given)
+    pin, r = spec.size.pin_mm, mechanism.roller_radius_mm
+    d = r if pin is None else choose(pin == 0.0, r, pin)
     modulus = spec.material_roller.youngs_modulus_GPa * 1e3
     return 3.0 * modulus * math.pi * d**4 / 64.0 / (0.5 * face_mm) ** 3

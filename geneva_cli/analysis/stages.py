@@ -38,16 +38,12 @@ MOTION: dict[str, Callable[[Sequence[Array]], Array]] = {
 
 
 class Stage(NamedTuple):
-    """A range of input angles in which all curves are smooth.
-
-    ``of`` gives the curves at input angles, one row each. ``flat`` stages are constant, as in a
-    dwell.
-    """
+    """A range of input angles, degrees, in which all curves are smooth."""
 
     start: float
     end: float
-    of: Callable[[Array], Array]
-    flat: bool = False
+    of: Callable[[Array], Array]  # the curves at input angles (n,), one row each
+    flat: bool = False  # True if they are constant, as in a dwell
 
 
 def motion_stages(mechanism: Mechanism, names: Sequence[str]) -> Iterator[Stage]:
@@ -60,19 +56,19 @@ def motion_stages(mechanism: Mechanism, names: Sequence[str]) -> Iterator[Stage]
             inside = _inside(engagement, a), b
             yield Stage(mid + a, mid + b, partial(_moved, motion, names, mid, inside, up))
         base += 2.0 * engagement.half_step
-        held = [math.degrees(base) if name == WHEEL else 0.0 for name in names]
-        yield from _dwell(mechanism, i, held)
+        rest = [math.degrees(base) if name == WHEEL else 0.0 for name in names]
+        yield from _dwell(mechanism, i, rest)
 
 
 def load_stages(
     cycle: Cycle, names: Sequence[str], bounds: Mapping[str, tuple[float, float]]
 ) -> Iterator[Stage]:
-    """Stages of loads, limited to ``bounds`` if given."""
+    """Stages of loads over a period; those with ``bounds`` are limited to them."""
     for i, engagement in enumerate(cycle.mechanism.engagements):
         mid = engagement.mid_deg
         for owner, stretch in cycle.stretches:
             if owner is engagement:
-                inside = _beside_cusp(engagement, stretch)
+                inside = _clear_of_cusp(engagement, stretch)
                 of = partial(_loaded, cycle, engagement, names, inside, bounds)
                 yield Stage(mid + stretch.start, mid + stretch.end, of)
         yield from _dwell(cycle.mechanism, i, [0.0] * len(names))
@@ -83,8 +79,8 @@ def _inside(engagement: Engagement, start: float) -> float:
     return start if start == engagement.entry_deg else math.nextafter(start, math.inf)
 
 
-def _beside_cusp(engagement: Engagement, stretch: Stretch) -> Stretch:
-    """The stretch without its ends; next to a cusp it ends before values are rounding."""
+def _clear_of_cusp(engagement: Engagement, stretch: Stretch) -> Stretch:
+    """The stretch without its first angle; next to a cusp it ends before values are rounding."""
     start, end = _inside(engagement, stretch.start), stretch.end
     if not is_straight(engagement):
         before, after = NEAR_CUSP * engagement.entry_deg, NEAR_CUSP * engagement.exit_deg

@@ -49,8 +49,8 @@ class Undercuts(NamedTuple):
 
 def undercut(mechanism: Mechanism, samples: int = SAMPLES) -> Undercut | None:
     """The deepest undercut of an outer wall, at entry or exit; None if there is none."""
-    found = undercuts(mechanism, samples)
-    if found is None or None in (one := only_of(found)):
+    batch = undercuts(mechanism, samples)
+    if batch is None or None in (one := only_of(batch)):
         return None
     left, from_deg, to_deg, at_deg, radius, depth, to_cusp = cast("list[float]", one)
     wall = "left" if left else "right"

@@ -306,10 +306,10 @@ def _by_columns(
     out: list[Array] = []
     for i, j in pairwise([0, *new.tolist(), x.shape[1]]):
         part = (slice(None), slice(i, j))
-        found = _by_choice(x[part], index[part], pieces).c
+        coefficients = _by_choice(x[part], index[part], pieces).c
         # designs lie side by side in memory
-        out = out or [np.empty(x.shape[::-1]).T for _ in found]
-        for total, some in zip(out, found, strict=True):
+        out = out or [np.empty(x.shape[::-1]).T for _ in coefficients]
+        for total, some in zip(out, coefficients, strict=True):
             total[part] = some
     return Jet(out)
 
@@ -324,14 +324,14 @@ def _by_choice(
     if first >= last:
         return pieces[last](x)
     with np.errstate(all="ignore"):  # outside their own part formulas may have no value
-        found = {pieces[first]: pieces[first](x).c}
-        out = list(found[pieces[first]])
+        jets = {pieces[first]: pieces[first](x).c}
+        out = list(jets[pieces[first]])
         for i in range(first + 1, last + 1):
             here, piece = np.equal(index, i), pieces[i]
             if here.any():
-                if piece not in found:
-                    found[piece] = piece(x).c
-                out = [np.where(here, b, a) for a, b in zip(out, found[piece], strict=True)]
+                if piece not in jets:
+                    jets[piece] = piece(x).c
+                out = [np.where(here, b, a) for a, b in zip(out, jets[piece], strict=True)]
     return Jet(out)
 
 
@@ -347,10 +347,10 @@ def _by_parts(x: Array, index: Whole, pieces: Sequence[Callable[[Array], Jet]]) 
         here, piece = index == i, pieces[i]
         parts[piece] = parts[piece] | here if piece in parts else here
     alone = len(parts) == 1  # the same array object, for which values may be cached
-    found = [(where, piece(x if alone else x[where]).c) for piece, where in parts.items()]
-    designs = np.broadcast_shapes(*[np.shape(c)[:-1] for _, jet in found for c in jet])
-    out = [np.empty((*designs, *x.shape)) for _ in found[0][1]]
-    for where, jet in found:
+    jets = [(where, piece(x if alone else x[where]).c) for piece, where in parts.items()]
+    designs = np.broadcast_shapes(*[np.shape(c)[:-1] for _, jet in jets for c in jet])
+    out = [np.empty((*designs, *x.shape)) for _ in jets[0][1]]
+    for where, jet in jets:
         for total, part in zip(out, jet, strict=True):
             total[..., where] = part
     return Jet(out)

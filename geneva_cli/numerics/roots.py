@@ -81,9 +81,9 @@ def boundary_by_sections(
     """
     import numpy as np
 
-    share = np.arange(1, sections) / sections
+    fractions = np.arange(1, sections) / sections
     for _ in range(STEPS):
-        x = good + (bad - good) * share
+        x = good + (bad - good) * fractions
         yes = holds(x)
         i = sections - 1 if yes.all() else int(np.argmin(yes))
         ends = [good, *x.tolist(), bad]
@@ -108,8 +108,8 @@ class Falsi:
     def middle(self, margin: float = 0.0) -> float:
         """The next place, at least a fraction ``margin`` of the bracket from either end."""
         known = math.isfinite(self.left) and math.isfinite(self.short)
-        share = self.left / (self.left - self.short) if known else 0.5
-        return self.good + (self.bad - self.good) * min(max(share, margin), 1.0 - margin)
+        fraction = self.left / (self.left - self.short) if known else 0.5
+        return self.good + (self.bad - self.good) * min(max(fraction, margin), 1.0 - margin)
 
     def add(self, x: float, left: float) -> None:
         """Narrow the bracket by the margin at a place in it."""

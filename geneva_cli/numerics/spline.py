@@ -59,7 +59,7 @@ class PiecewisePolynomial:
 class Doubt(NamedTuple):
     """The uncertainty of a spline's derivative from the rounding of its points."""
 
-    decimals: int  # of the points as they are given
+    decimals: int  # of the points
     move: float  # the derivative's uncertainty at its worst place
 
 

@@ -201,10 +201,11 @@ def _loose(mechanism: Mechanism) -> list[Notice]:
     if drive is None or not drive.loose_deg:
         return []
     where = ", ".join(f"{round(a, 9):.4g} to {round(b, 9):.4g}" for a, b in drive.loose_deg)
+    percent = 100.0 * drive.fraction
     return [
         Notice(
             "not-positively-driven",
-            f"not positively driven from {where} deg ({100.0 * drive.share:.3g} % of the motion): "
+            f"not positively driven from {where} deg ({percent:.3g} % of the motion): "
             f"the slot's other branch, up to {drive.loose_gap_mm:.3g} mm off, cuts away the wall "
             "that the torque needs there. Less torque_Nm against the inertia shortens the "
             'interval; kind = "cam" drives any law through straight slots',

@@ -22,7 +22,7 @@ def drive(motion, load=MIXED):
 def test_krasniqis_law_lacks_the_wall_on_a_third_of_the_motion():
     """Published analysis: about 30 %; branches 0.091 L apart."""
     found = drive(Motion("sine-group", ratio=0.5))
-    assert found.share == pytest.approx(0.30, abs=0.05)
+    assert found.fraction == pytest.approx(0.30, abs=0.05)
     assert found.gap_mm / 441.89 == pytest.approx(0.091, abs=0.001)
 
 
@@ -33,14 +33,14 @@ def test_the_cycloid_s_branches():
 def test_inertia_alone_drives_a_slot_whose_way_in_leads():
     found = drive(Motion("cycloidal", ratio=0.5), Load(1.0, 0.0))
     assert found.loose_deg == ()
-    assert found.share == 0.0
+    assert found.fraction == 0.0
 
 
 def test_resistance_alone_leaves_one_way_loose():
     """The wall ahead is there on the way in only: half of the motion, less where branches meet."""
     found = drive(Motion("cycloidal", ratio=0.5), Load(0.0, 10.0))
     assert all(a >= 0.0 for a, _ in found.loose_deg)
-    assert 0.45 < found.share < 0.5
+    assert 0.45 < found.fraction < 0.5
 
 
 def test_straight_slots_always_drive():

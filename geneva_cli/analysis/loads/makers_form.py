@@ -42,8 +42,8 @@ def makers_form(
     A maker's example: six stops in 270 degrees at 80 rpm, modified trapezoid.
 
     >>> turret = ShaftLoad(inertia=0.319, friction=4.49, work=0.0, service_factor=2.0)
-    >>> found = makers_form(CamFactors(4.89, 2.0, 1.655), 60.0, 270.0, 80.0, turret)
-    >>> round(found.alpha, 3), round(found.Ti, 2), round(found.Tc, 2)
+    >>> form = makers_form(CamFactors(4.89, 2.0, 1.655), 60.0, 270.0, 80.0, turret)
+    >>> round(form.alpha, 3), round(form.Ti, 2), round(form.Tc, 2)
     (16.184, 5.16, 7.1)
     """
     t2 = motion_deg / (6.0 * n_rpm)

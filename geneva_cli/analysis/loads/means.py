@@ -56,12 +56,12 @@ def load_means(
     >>> from geneva_cli.machine.many import many
     >>> from geneva_cli.machine.spec import Spec
     >>> spec = Spec(External(6), load=Load(inertia_kgm2=2.0, friction=0.1))
-    >>> found = many(spec, {"drive.n_rpm": np.array([60.0, 120.0])})
-    >>> load_means(found.machine, ["input_torque_Nm"])["input_torque_Nm"].rms.round(4)
+    >>> batch = many(spec, {"drive.n_rpm": np.array([60.0, 120.0])})
+    >>> load_means(batch.machine, ["input_torque_Nm"])["input_torque_Nm"].rms.round(4)
     array([ 26.8019, 107.2078])
     """
     case = load_case(mechanism)
-    lent, sources = sources_of(mechanism, names)
+    multiple_of, sources = sources_of(mechanism, names)
     every = [load_batch(engagement, case, sources, NO_MORE) for engagement in mechanism.engagements]
 
     def summed(some: LoadBatch, n: int) -> tuple[Array]:
@@ -69,7 +69,7 @@ def load_means(
 
     sums = sum(of_groups(one, summed)[0] for one in every)
     means = means_from(mechanism, sources, np.asarray(sums), "mean" in requested)
-    return {name: means[source].times(share) for name, (source, share) in lent.items()}
+    return {name: means[source].times(factor) for name, (source, factor) in multiple_of.items()}
 
 
 def sources_of(
@@ -77,11 +77,11 @@ def sources_of(
 ) -> tuple[dict[str, tuple[str, Array]], list[str]]:
     """The source of each quantity, and its ratio to that source: (m,) or (1,)."""
     known = multiples(mechanism)
-    lent = {n: known.get(n, (n, 1.0, ""))[:2] for n in names}
-    there = {
-        n: (source, np.ravel(share)) for n, (source, share) in lent.items() if share is not None
+    every = {n: known.get(n, (n, 1.0, ""))[:2] for n in names}
+    multiple_of = {
+        n: (source, np.ravel(factor)) for n, (source, factor) in every.items() if factor is not None
     }
-    return there, list(dict.fromkeys(source for source, _ in lent.values()))
+    return multiple_of, list(dict.fromkeys(source for source, _ in every.values()))
 
 
 def means_from(

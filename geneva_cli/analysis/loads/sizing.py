@@ -5,8 +5,8 @@
 >>> from geneva_cli.machine.many import many
 >>> from geneva_cli.machine.spec import Spec
 >>> spec = Spec(External(6), load=Load(inertia_kgm2=2.0, friction=0.1))
->>> found = many(spec, {"load.torque_Nm": np.array([0.0, 20.0])})
->>> sizings(found.machine, ["motor_torque_rms_Nm"])["motor_torque_rms_Nm"].round(4)
+>>> batch = many(spec, {"load.torque_Nm": np.array([0.0, 20.0])})
+>>> sizings(batch.machine, ["motor_torque_rms_Nm"])["motor_torque_rms_Nm"].round(4)
 array([26.8019, 28.3356])
 """
 

@@ -131,8 +131,8 @@ def refuse_rounding(engagement: Engagement, fastest: float) -> None:
     fraction = fastest * math.ulp(furthest) * DEGREE / (2.0 * engagement.half_step)
     if fraction > 1e-10:  # a step between two adjacent angles: the loads keep six digits
         raise GenevaError(
-            f"the wheel moves {fastest:.2g} times as fast as the input, {fraction:.1g} of its step "
-            "while the input's angle changes by its last digit: such loads would be rounding. Make "
-            "the drive more even (elliptical gears: an eccentricity up to 0.999999)",
+            f"the wheel moves {fastest:.2g} times as fast as the input. The last digit of the "
+            f"input angle is {fraction:.1g} of its step, so the loads would be rounding. Make the "
+            "drive more even (elliptical gears: an eccentricity up to 0.999999)",
             ("drive", "kind"),
         )

@@ -8,8 +8,8 @@ designs are searched together, one block of designs after the other.
     >>> from geneva_cli.machine.many import many
     >>> from geneva_cli.machine.spec import Spec
     >>> spec = Spec(External(6), SideCrank(A=0.0), load=Load(inertia_kgm2=2.0, friction=0.1))
-    >>> found = many(spec, {"drive.A": np.array([0.0, 0.6])})
-    >>> load_peaks(found.machine, ["pin_force_N"])["pin_force_N"].max.round(4)
+    >>> batch = many(spec, {"drive.A": np.array([0.0, 0.6])})
+    >>> load_peaks(batch.machine, ["pin_force_N"])["pin_force_N"].max.round(4)
     array([1905.0702,  731.1404])
 """
 
@@ -92,8 +92,8 @@ def load_peaks(
     """
     case, best = case or load_case(mechanism), dict[str, PeakArray]()
     flat = all(e.slot.walls_flat for e in mechanism.engagements)
-    lent = {n: FORCE if flat and n == STRESS and case.hertz is not None else n for n in names}
-    sought = list(dict.fromkeys(lent.values()))
+    source_of = {n: FORCE if flat and n == STRESS and case.hertz is not None else n for n in names}
+    sought = list(dict.fromkeys(source_of.values()))
     for engagement in mechanism.engagements:
         every = load_batch(engagement, case, sought, own)
         sizes, at_deg, _ = _searched(mechanism, every, sought, sized=True)
@@ -101,7 +101,7 @@ def load_peaks(
             here = PeakArray(most, at)
             best[name] = greater(best[name], here) if name in best else here
     out = {}
-    for name, source in lent.items():
+    for name, source in source_of.items():
         one = best[source]
         if source != name:  # the square of the stress on a flat wall is proportional to the force
             assert case.hertz is not None
@@ -133,7 +133,7 @@ def summed_up(
 
     With ``plain`` the sums include those of the quantities, besides those of their squares.
     """
-    lent, sources = sources_of(mechanism, names)
+    multiple_of, sources = sources_of(mechanism, names)
     totals = [one.total for one in each if one.total is not None]
     means = means_from(mechanism, sources, np.sum(totals, axis=0), plain) if totals else {}
     best: dict[str, LoadSummary] = {}
@@ -144,7 +144,7 @@ def summed_up(
         most, least = _ends_of(name, most, least)
         mean, rms = means.get(name, (None, None))
         best[name] = LoadSummary(most, most_at, least, least_at, mean, rms)
-    return {name: best[source].times(share) for name, (source, share) in lent.items()}
+    return {name: best[source].times(factor) for name, (source, factor) in multiple_of.items()}
 
 
 def _ends_of(name: str, most: Array, least: Array) -> list[Array]:

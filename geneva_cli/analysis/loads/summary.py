@@ -137,10 +137,10 @@ def loads_table(
 def _unweighed(spec: Spec) -> str:
     """The reason why the wheel's own inertia is not known."""
     if not spec.is_flat:
-        return "worked out of wheels that are drawn as flat outlines"
+        return "computed for flat wheels only"
     if spec.size.face_width_mm is None and spec.size.wheel_thickness_mm is None:
         return "needs face_width_mm in [size]"
-    return "no wheel can be cut, as `geneva profile` says"
+    return "needs a wheel that can be cut; `geneva profile` shows why it cannot"
 
 
 def missing(cycle: Cycle) -> list[Notice]:

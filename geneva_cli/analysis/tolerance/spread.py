@@ -33,7 +33,7 @@ class Spread(NamedTuple):
     shape: tuple[tuple[float, float], ...] = ()
 
     @property
-    def shares(self) -> tuple[float, ...]:
+    def fractions(self) -> tuple[float, ...]:
         """Each dimension's fraction of the squares; 0 if nothing deviates."""
         total = math.fsum(part * part for part in self.parts)
         return tuple(part * part / total if total else 0.0 for part in self.parts)

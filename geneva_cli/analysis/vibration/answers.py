@@ -38,7 +38,7 @@ def values(mechanism: Mechanism, load: Oscillator | None) -> dict[str, Any]:
     """Named values, with equal names for every machine; all None if no inertia is known."""
     if load is None:
         return dict.fromkeys((*NUMBERS, "avoid", "stations")) | {
-            "warnings": (Notice("not-known", f"all is null: {NO_INERTIA}"),)
+            "warnings": (Notice("not-known", f"no value is computed: {NO_INERTIA}"),)
         }
     loads = loads_of(mechanism, load)
     avoid = speeds_to_avoid(mechanism, load)

@@ -77,7 +77,7 @@ def slot(of: Designs) -> Columns:
     if found is None:
         return {}
     return {
-        "not_driven_share": found.share,
+        "not_driven_share": found.fraction,
         "branch_gap_mm": found.gap_mm,
         "branch_gap_at_deg": found.gap_at_deg,
     }

@@ -99,7 +99,7 @@ def _contributions(mechanism: Mechanism, found: Study) -> Table:
         if tolerances(mechanism.spec)[name]:
             row: list[Any] = [name]
             for spread in (found.dwell, found.motion):
-                row += [spread.shares[i], spread.parts[i]] if spread else [None, None]
+                row += [spread.fractions[i], spread.parts[i]] if spread else [None, None]
             rows.append(tuple(row))
     rows.sort(key=lambda row: -(row[1] or 0.0))
     return rows_table(names, rows)
