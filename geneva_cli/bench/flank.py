@@ -20,8 +20,7 @@ if TYPE_CHECKING:
     Curve = Callable[[Array], tuple[Array, Array]]
     P = TypeVar("P", Arc, Cubic)
 
-INNER = np.linspace(0.0, 1.0, 34)[1:-1]  # where a piece is measured
-GRID = 40  # parts of a piece, among whose ends the nearest one is looked for
+PARTS = 40  # parts of a piece, at whose ends the search for the nearest place begins
 
 
 def left_flank(mechanism: Mechanism) -> tuple[Curve, float, float]:
@@ -72,7 +71,9 @@ def _halved(
     tolerance: float,
     fitted: Callable[[complex, complex, complex, complex], list[P]],
 ) -> list[P]:
-    z, t = (v @ np.array([1.0, 1j]) for v in curve(np.array([a, *(a + (b - a) * INNER), b])))
+    """Pieces of a curve from a to b, in halves where one piece misses the tolerance."""
+    inner: Array = np.linspace(0.0, 1.0, 34)[1:-1]  # where the distance is measured
+    z, t = (v @ np.array([1.0, 1j]) for v in curve(np.array([a, *(a + (b - a) * inner), b])))
     pieces = fitted(complex(z[0]), complex(z[-1]), complex(t[0]), complex(t[-1]))
     if distances(z[1:-1], pieces).max() <= tolerance:
         return pieces
@@ -83,24 +84,23 @@ def _halved(
 
 
 def stray(curve: Curve, a: float, b: float, pieces: Sequence[Line | Arc | Cubic]) -> float:
-    """Greatest distance of many points of the curve from the pieces, mm."""
-    # of the flank
+    """Greatest distance of 20,001 points of the curve from the pieces, mm."""
     z = curve(np.linspace(a, b, 20_001))[0] @ np.array([1.0, 1j])
     return float(distances(z, pieces).max())
 
 
 def distances(points: Array, pieces: Sequence[Line | Arc | Cubic]) -> Array:
     """Distances of points from pieces that are end to end."""
-    grid = np.array([at(piece, u) for piece in pieces for u in np.linspace(0.0, 1.0, GRID + 1)])
+    grid = np.array([at(piece, u) for piece in pieces for u in np.linspace(0.0, 1.0, PARTS + 1)])
     nearest = cKDTree(grid).query(np.column_stack((points.real, points.imag)))[1]
-    own, place = np.divmod(nearest, GRID + 1)
-    fraction, least = place / GRID, np.full(len(points), np.inf)
+    own, place = np.divmod(nearest, PARTS + 1)
+    fraction, least = place / PARTS, np.full(len(points), np.inf)
     for i, piece in enumerate(pieces):
         # The nearest of the sampled places may be shared by two pieces.
         for mine, u in (
             (own == i, fraction),
             ((own == i + 1) & (place == 0), np.ones(len(points))),
-            ((own == i - 1) & (place == GRID), np.zeros(len(points))),
+            ((own == i - 1) & (place == PARTS), np.zeros(len(points))),
         ):
             if mine.any():
                 least[mine] = np.minimum(least[mine], _from_piece(points[mine], piece, u[mine]))
@@ -117,9 +117,8 @@ def _from_piece(points: Array, piece: Line | Arc | Cubic, u: Array) -> Array:
     cubic = np.poly1d([q - p + 3.0 * (first - second), 3.0 * (p - 2.0 * first + second)])
     cubic = cubic * np.poly1d([1.0, 0.0, 0.0]) + np.poly1d([3.0 * (first - p), p])
     rate, bend = cubic.deriv(), cubic.deriv(2)
-    low, high = np.maximum(u - 1.0 / GRID, 0.0), np.minimum(u + 1.0 / GRID, 1.0)
-    # steps from there
-    for _ in range(10):
+    low, high = np.maximum(u - 1.0 / PARTS, 0.0), np.minimum(u + 1.0 / PARTS, 1.0)
+    for _ in range(10):  # Newton steps
         off, along = cubic(u) - points, rate(u)
         slope = np.abs(along) ** 2
         slope = np.maximum(slope + (off * bend(u).conj()).real, 0.5 * slope)

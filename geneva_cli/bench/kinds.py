@@ -24,11 +24,11 @@ from geneva_cli.machine.wheels.internal import Internal
 from geneva_cli.machine.wheels.spherical import Spherical
 from geneva_cli.spec.tables import Size
 
-DESIGNS, QUICK, FEW = 50_000, 100, 4_096
+QUICK = 100  # designs of a quick run
 CHECKED, QUICK_CHECKED = 20, 4  # designs whose error is measured
 
 
-class Kind(NamedTuple):
+class VariedMachine(NamedTuple):
     """A machine, and a key that varies between two values."""
 
     name: str
@@ -36,58 +36,72 @@ class Kind(NamedTuple):
     key: str
     low: float
     high: float
-    most: int = DESIGNS
+    designs: int = 50_000  # of a whole run
 
 
-FOUR_BAR = FourBar(
-    ground_mm=100.0, crank_mm=40.0, coupler_mm=90.0, rocker_mm=80.0, point_mm=60.0, point_deg=-40.0
-)
 KINDS = (
-    Kind("plain crank", Spec(External(6), Crank()), "wheel.z", 3.0, 24.0),
-    Kind("side-crank", Spec(External(6), SideCrank(A=0.0)), "drive.A", -0.9, 0.9),
-    Kind("side-crank inside", Spec(Internal(6), SideCrank(A=0.0)), "drive.A", -0.9, 0.9),
-    Kind(
+    VariedMachine("plain crank", Spec(External(6), Crank()), "wheel.z", 3.0, 24.0),
+    VariedMachine("side-crank", Spec(External(6), SideCrank(A=0.0)), "drive.A", -0.9, 0.9),
+    VariedMachine("side-crank inside", Spec(Internal(6), SideCrank(A=0.0)), "drive.A", -0.9, 0.9),
+    VariedMachine(
         "offset slots",
         Spec(External(6), size=Size(center_distance_mm=100.0)),
         "wheel.offset_mm",
         -40.0,
         40.0,
     ),
-    Kind("spherical", Spec(Spherical(6)), "wheel.axes_deg", 20.0, 160.0),
-    Kind(
+    VariedMachine("spherical", Spec(Spherical(6)), "wheel.axes_deg", 20.0, 160.0),
+    VariedMachine(
         "elliptical gears",
         Spec(External(6), EllipticalGears(eccentricity=0.1)),
         "drive.eccentricity",
         0.0,
         0.6,
     ),
-    Kind(
+    VariedMachine(
         "epicyclic",
         Spec(External(4), Epicyclic(planet_ratio=0.01)),
         "drive.planet_ratio",
         -0.05,
         0.02,
     ),
-    Kind(
+    VariedMachine(
         "curved slots",
         Spec(External(6), motion=Motion(ModifiedSine())),
         "motion.alpha0_deg",
         -60.0,
         60.0,
     ),
-    Kind(
+    VariedMachine(
         "curved slots of a tilted law",
         Spec(External(6), motion=Motion(SineGroup(0.01))),
         "motion.lambda",
         -0.12,
         0.12,
     ),
-    Kind("geneva pair", Spec(External(4), GenevaPair(first_z=4)), "wheel.z", 3.0, 5.0),
-    Kind("four-bar", Spec(External(4), FOUR_BAR), "drive.point_deg", -50.0, -35.0, FEW),
+    VariedMachine("geneva pair", Spec(External(4), GenevaPair(first_z=4)), "wheel.z", 3.0, 5.0),
+    VariedMachine(
+        "four-bar",
+        Spec(
+            External(4),
+            FourBar(
+                ground_mm=100.0,
+                crank_mm=40.0,
+                coupler_mm=90.0,
+                rocker_mm=80.0,
+                point_mm=60.0,
+                point_deg=-40.0,
+            ),
+        ),
+        "drive.point_deg",
+        -50.0,
+        -35.0,
+        4_096,
+    ),
 )
 
 
-def drawn(kind: Kind, spec: Spec, count: int) -> tuple[Mechanism, int, list[Mechanism]]:
+def drawn(kind: VariedMachine, spec: Spec, count: int) -> tuple[Mechanism, int, list[Mechanism]]:
     """Machine of a batch of designs, the number built, and the first of them one by one."""
     values = values_of(kind, count)
     batch = many(spec, {kind.key: values})
@@ -98,7 +112,7 @@ def drawn(kind: Kind, spec: Spec, count: int) -> tuple[Mechanism, int, list[Mech
     return batch.machine, len(batch.which), alone
 
 
-def values_of(kind: Kind, count: int) -> Any:
+def values_of(kind: VariedMachine, count: int) -> Any:
     """Random values of the varied key, always equal."""
     values = np.random.default_rng(12).uniform(kind.low, kind.high, count)
     return np.floor(values).astype(int) if kind.key == "wheel.z" else values

@@ -37,7 +37,6 @@ def greatest(machine: Mechanism, A: float) -> list[float]:
 @cache
 def roots(machine: Mechanism, A: float) -> list[float]:
     """Root mean square of each of ``LOADS`` over a period."""
-    # of a stretch, for its sum
     node, weight = np.polynomial.legendre.leggauss(64)
     total = [digits().mpf(0)] * len(LOADS)
     for _, (start, end, drives, slides, _) in Cycle(machine).stretches:
@@ -54,7 +53,7 @@ def _limits(machine: Mechanism, A: float, deg: float) -> list[Sequence[Any]]:
     rows = []
     for drives, slides in product((1.0, -1.0), (1.0, -1.0)):
         rubs = _signs(machine, A, deg, drives)[1]
-        # of a sliding: with so little of it both its signs have their limit there
+        # where a sliding is 0 but for rounding, both its signs have their limit
         if torque * drives >= 0 and (rubs * slides >= 0 or abs(rubs) < 1e-12):
             rows.append(_loads(machine, A, deg, drives, slides))
     return rows

@@ -24,7 +24,15 @@ from geneva_cli.analysis.loads.stretches import spans_of
 from geneva_cli.analysis.loads.summaries import load_peaks, load_summaries
 from geneva_cli.analysis.loads.summary import summaries
 from geneva_cli.bench import load_truth
-from geneva_cli.bench.kinds import KINDS, QUICK, Kind, drawn, one_by_one, task_of_many, values_of
+from geneva_cli.bench.kinds import (
+    KINDS,
+    QUICK,
+    VariedMachine,
+    drawn,
+    one_by_one,
+    task_of_many,
+    values_of,
+)
 from geneva_cli.bench.load_truth import LOADS
 from geneva_cli.bench.method import Method, Task
 from geneva_cli.machine.laws.standard import ModifiedSine
@@ -41,36 +49,36 @@ from geneva_cli.spec.tables import Load
 if TYPE_CHECKING:
     from geneva_cli.numerics.jet import Array
 
-EXACT, QUICK_EXACT = 4, 1  # designs whose loads are had by 50 digits
-LOOP, QUICK_LOOP = 5, 2  # designs that are had one after the other
-BLOCK = 512
+EXACT, QUICK_EXACT = 4, 1  # designs whose loads are computed with 50 digits
+LOOP, QUICK_LOOP = 5, 2  # designs that are computed one after the other
 
 
-class LoadedKind(NamedTuple):
+class LoadedMachine(NamedTuple):
     """A machine whose loads are computed, and the torque that resists in addition to friction."""
 
-    kind: Kind
+    kind: VariedMachine
     torque_Nm: float = 0.0
     A: Callable[[float], float] | None = None  # of a side-crank, from the varied value
 
 
-BY_NAME = {kind.name: kind for kind in KINDS}
-# At mid-motion the pin crosses the radius. Its force there is bounded without a torque, or if
-# friction holds it; and no wall is sharper than the roller.
-CURVED = Kind(
-    "curved slots", Spec(External(4), motion=Motion(ModifiedSine())), "motion.alpha0_deg", -110, -35
-)
-LOADED = (
-    LoadedKind(BY_NAME["side-crank"], A=lambda A: A),
-    LoadedKind(BY_NAME["plain crank"], A=lambda z: 0.0),
-    LoadedKind(BY_NAME["spherical"]),
-    LoadedKind(BY_NAME["elliptical gears"]),
-    LoadedKind(CURVED, torque_Nm=10.0),
-    LoadedKind(BY_NAME["four-bar"]),
-)
+def loaded_machines() -> tuple[LoadedMachine, ...]:
+    """The machines whose loads are computed; all of their loads are bounded."""
+    by_name = {kind.name: kind for kind in KINDS}
+    # At mid-motion the pin crosses the radius. Its force there is bounded without a torque, or if
+    # friction holds it; and no wall is sharper than the roller.
+    spec = Spec(External(4), motion=Motion(ModifiedSine()))
+    curved = VariedMachine("curved slots", spec, "motion.alpha0_deg", -110, -35)
+    return (
+        LoadedMachine(by_name["side-crank"], A=lambda A: A),
+        LoadedMachine(by_name["plain crank"], A=lambda z: 0.0),
+        LoadedMachine(by_name["spherical"]),
+        LoadedMachine(by_name["elliptical gears"]),
+        LoadedMachine(curved, torque_Nm=10.0),
+        LoadedMachine(by_name["four-bar"]),
+    )
 
 
-class Request(NamedTuple):
+class LoadRequest(NamedTuple):
     """Loads that are requested of each design."""
 
     name: str
@@ -79,29 +87,27 @@ class Request(NamedTuple):
     summed: bool  # their root mean squares
 
 
-REQUESTS = (
-    Request("greatest pin force", LOADS[:1], True, False),
-    Request("greatest input torque", LOADS[1:2], True, False),
-    Request("greatest contact stress", LOADS[2:], True, False),
-    Request("rms of the three loads", LOADS, False, True),
-    Request("extremes and rms of the three", LOADS, True, True),
-)
-
-
 def tasks(quick: bool) -> list[Task]:
     """Requests to each machine, with friction and without."""
+    requests = (
+        LoadRequest("greatest pin force", LOADS[:1], True, False),
+        LoadRequest("greatest input torque", LOADS[1:2], True, False),
+        LoadRequest("greatest contact stress", LOADS[2:], True, False),
+        LoadRequest("rms of the three loads", LOADS, False, True),
+        LoadRequest("extremes and rms of the three", LOADS, True, True),
+    )
+    machines = loaded_machines()
     out = []
-    for loaded in LOADED[:1] if quick else LOADED:
-        # designs whose loads are had
-        count = QUICK if quick else min(4_096, loaded.kind.most)
+    for loaded in machines[:1] if quick else machines:
+        count = QUICK if quick else min(4_096, loaded.kind.designs)
         for friction in (0.1,) if quick else (0.0, 0.1):
             of = _designs(loaded, count, friction)
-            out += [_task(request, *of) for request in (REQUESTS[2:] if quick else REQUESTS)]
+            out += [_task(request, *of) for request in (requests[2:] if quick else requests)]
     return out
 
 
-class Designs(NamedTuple):
-    """Designs of a machine: the whole batch, the first ones alone, and their A if they have it."""
+class LoadedDesigns(NamedTuple):
+    """Designs of a machine: the whole batch, the first ones alone, and the A of side-cranks."""
 
     name: str
     together: Mechanism
@@ -109,7 +115,7 @@ class Designs(NamedTuple):
     A: list[float]
 
 
-def _designs(loaded: LoadedKind, count: int, friction: float) -> tuple[Designs, int]:
+def _designs(loaded: LoadedMachine, count: int, friction: float) -> tuple[LoadedDesigns, int]:
     kind, torque = loaded.kind, loaded.torque_Nm if friction else 0.0
     load = Load(inertia_kgm2=1.0, torque_Nm=torque, friction=friction)
     spec = kind.spec.replace(load=load, size=kind.spec.size.replace(face_width_mm=10.0))
@@ -117,10 +123,10 @@ def _designs(loaded: LoadedKind, count: int, friction: float) -> tuple[Designs, 
     exact = values_of(kind, count)[: QUICK_EXACT if count <= QUICK else EXACT].tolist()
     A = [loaded.A(value) for value in exact] if loaded.A else []
     name = f"{built} {kind.name}" + (" with friction" if friction else "")
-    return Designs(name, together, alone, A), built
+    return LoadedDesigns(name, together, alone, A), built
 
 
-def _task(request: Request, of: Designs, built: int) -> Task:
+def _task(request: LoadRequest, of: LoadedDesigns, built: int) -> Task:
     most = LOOP if built > QUICK else QUICK_LOOP
     methods = [
         one_by_one(of.alone, built, partial(_one, request), most),
@@ -148,7 +154,7 @@ def first_errors(truth: Array, every: Sequence[Array] | Array) -> float:
     return float(wrong.max())
 
 
-def _exact(request: Request, machine: Mechanism, A: float) -> list[float]:
+def _exact(request: LoadRequest, machine: Mechanism, A: float) -> list[float]:
     """Loads of one design in 50 digits."""
     which = [LOADS.index(name) for name in request.loads]
     sizes = load_truth.greatest(machine, A) if request.sized else ()
@@ -156,7 +162,7 @@ def _exact(request: Request, machine: Mechanism, A: float) -> list[float]:
     return [every[k] for every in (sizes, sums) if every for k in which]
 
 
-def _one(request: Request, machine: Mechanism) -> list[float]:
+def _one(request: LoadRequest, machine: Mechanism) -> list[float]:
     """Loads of one design by its own search and sums."""
     cycle, out = Cycle(machine), []
     if request.sized:
@@ -167,7 +173,7 @@ def _one(request: Request, machine: Mechanism) -> list[float]:
     return out
 
 
-def _together(request: Request, machine: Mechanism) -> Array:
+def _together(request: LoadRequest, machine: Mechanism) -> Array:
     if not request.summed:
         greatest = load_peaks(machine, request.loads).values()
         return np.column_stack([one.max for one in greatest])
@@ -179,19 +185,19 @@ def _together(request: Request, machine: Mechanism) -> Array:
     return np.column_stack([*sizes, *[one.rms for one in totals if one.rms is not None]])
 
 
-def _places(request: Request, machine: Mechanism, count: int) -> int:
+def _places(request: LoadRequest, machine: Mechanism, count: int) -> int:
     """Mean number of places per motion at which the formulas are evaluated."""
     spans = spans_of(machine.engagements[0], count)
     return len(spans) * (len(POINTS) * request.sized + NODES * request.summed)
 
 
-def _formulas(request: Request, mechanism: Mechanism, count: int) -> Array:
+def _formulas(request: LoadRequest, mechanism: Mechanism, count: int) -> Array:
     """Results of samples and of Gauss's rule at as many places as the search starts with."""
-    blocks = []
+    blocks, block = [], 512  # designs at a time
     every = load_batch(mechanism.engagements[0], load_case(mechanism), request.loads, NO_MORE)
     period = np.broadcast_to(np.ravel(mechanism.period_deg), (count,))
-    for i in range(0, count, BLOCK):
-        n = min(BLOCK, count - i)
+    for i in range(0, count, block):
+        n = min(block, count - i)
         load = LoadFunctions(taken(every, slice(i, i + n)), request.loads)
         rows = [_sampled(load, n)] if request.sized else []
         if request.summed:

@@ -5,10 +5,6 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from typing import Any, NamedTuple
 
-SLACK = 0.1  # one method is faster than another if it takes less than 1 - SLACK of its time
-FLOOR = 1e-15  # relative errors below this are as good as each other
-SECONDS = 1.0  # of a method's own time, at least one run
-
 
 class Method(NamedTuple):
     """One way to do a task. ``size`` is its parameter: points, pieces or tolerance."""
@@ -37,15 +33,15 @@ class Task(NamedTuple):
 
 
 class Subject(NamedTuple):
-    """A subject of the bench, and the texts of its plot."""
+    """A subject of the bench: its tasks, and the texts of its plot."""
 
     title: str
     error: str  # kind of error, and its reference
     tasks: Sequence[Task]
     processes: bool = False  # runs are whole processes: times come from ``pairs`` of them
-    slack: float = SLACK
-    floor: float = FLOOR
-    seconds: float = SECONDS  # run time of each method
+    slack: float = 0.1  # a method is faster if it takes less than 1 - slack of another's time
+    floor: float = 1e-15  # relative errors below this count as equal
+    seconds: float = 1.0  # run time of each method, at least one run
     absent: Sequence[str] = ()  # libraries with methods that are not installed
 
 
@@ -63,7 +59,7 @@ def missing(*distributions: str) -> tuple[str, ...]:
     return tuple(name for name in distributions if not is_here(name))
 
 
-class Row(NamedTuple):
+class BenchRow(NamedTuple):
     """A line of the table."""
 
     subject: str
@@ -79,7 +75,7 @@ class Row(NamedTuple):
     designs_per_s: float | None = None  # of one core
 
 
-def beats(one: Row, other: Row, slack: float, floor: float) -> bool:
+def beats(one: BenchRow, other: BenchRow, slack: float, floor: float) -> bool:
     """True if ``one`` is faster and as accurate, with as few pieces if pieces count."""
     if one.error is None or other.error is None:
         return False
@@ -88,7 +84,7 @@ def beats(one: Row, other: Row, slack: float, floor: float) -> bool:
     return faster and fewer and max(one.error, floor) <= max(other.error, floor)
 
 
-def with_frontier(rows: Sequence[Row], slack: float, floor: float) -> list[Row]:
+def with_frontier(rows: Sequence[BenchRow], slack: float, floor: float) -> list[BenchRow]:
     """Rows of a task, each marked as on the frontier unless another method beats it.
 
     Ours are different functions or inputs, and do not compete with each other.

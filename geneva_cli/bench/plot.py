@@ -7,13 +7,11 @@ import math
 from collections.abc import Iterable, Sequence
 from typing import Any
 
-from geneva_cli.bench.method import Row, Subject
+from geneva_cli.bench.method import BenchRow, Subject
 from geneva_cli.errors import GenevaError
 
-OURS = "#c8102e"
+OUR_COLOUR = "#c8102e"
 COLOURS = ("#1f5fa8", "#2e8540", "#b36b00", "#6b4fa0", "#00808a", "#555555", "#a83279", "#7a7a00")
-MARKERS = "os^Dv<>p"
-TIME = "time / baseline"
 
 
 def require() -> None:
@@ -26,14 +24,14 @@ def require() -> None:
         ) from None
 
 
-def svg(subject: Subject, rows: Sequence[Row]) -> str:
+def svg(subject: Subject, rows: Sequence[BenchRow]) -> str:
     """SVG text of the plot; equal rows give equal bytes."""
     out = io.StringIO()
     save(subject, rows, out, "svg")
     return out.getvalue()
 
 
-def save(subject: Subject, rows: Sequence[Row], out: Any, format: str) -> None:
+def save(subject: Subject, rows: Sequence[BenchRow], out: Any, format: str) -> None:
     """Save the plot to an open file, in any format that matplotlib has."""
     require()
     import matplotlib as mpl
@@ -66,28 +64,32 @@ def save(subject: Subject, rows: Sequence[Row], out: Any, format: str) -> None:
         figure.savefig(out, format=format, metadata=metadata, dpi=80)
 
 
-Panel = tuple[str, str, list[Row], str]  # title, label of the x axis, rows, field of the x values
+# title, label of the x axis, rows, field of the x values
+Panel = tuple[str, str, list[BenchRow], str]
 
 
-def _panels(subject: Subject, rows: Sequence[Row]) -> list[Panel]:
+def _panels(subject: Subject, rows: Sequence[BenchRow]) -> list[Panel]:
     """One panel for each task; a second one if answers have pieces."""
     panels: list[Panel] = []
     for task in subject.tasks:
         own = [r for r in rows if r.task == task.name and r.error is not None]
         if own and all(r.pieces for r in own):
             panels.append((task.name, "pieces", own, "pieces"))
-        panels.append((task.name, f"{TIME}: {task.baseline}", own, "time_ratio"))
+        panels.append((task.name, f"time / baseline: {task.baseline}", own, "time_ratio"))
     return panels
 
 
 def _styles(panels: Iterable[Panel]) -> dict[str, tuple[str, str]]:
+    """Colour and marker of each method that is not ours."""
+    markers = "os^Dv<>p"
     names = dict.fromkeys(row.method for _, _, rows, _ in panels for row in rows if not row.ours)
     return {
-        name: (COLOURS[i % len(COLOURS)], MARKERS[i % len(MARKERS)]) for i, name in enumerate(names)
+        name: (COLOURS[i % len(COLOURS)], markers[i % len(markers)]) for i, name in enumerate(names)
     }
 
 
 def _curves(figure: Any, subject: Subject, panels: list[Panel], lines: int, columns: int) -> None:
+    """Draw panels of errors over times or numbers of pieces, a curve for each method."""
     styles = _styles(panels)
     curves: dict[str, Any] = {}
     own = list(dict.fromkeys(r.method for p in panels for r in p[2] if r.ours))
@@ -96,11 +98,10 @@ def _curves(figure: Any, subject: Subject, panels: list[Panel], lines: int, colu
         for name in dict.fromkeys(row.method for row in rows):
             points = [row for row in rows if row.method == name]
             x = [getattr(row, what) for row in points]
-            # where an error of 0 is drawn
-            y = [max(row.error or 0.0, 1e-17) for row in points]
+            y = [max(row.error or 0.0, 1e-17) for row in points]  # also for an error of 0
             if points[0].ours:
                 marker = "*P"[own.index(name) % 2]
-                colour, size, above = OURS, 15.0 if marker == "*" else 10.0, 5
+                colour, size, above = OUR_COLOUR, 15.0 if marker == "*" else 10.0, 5
             else:
                 colour, marker = styles[name]
                 size, above = 6.0, 3
@@ -135,7 +136,7 @@ def _bars(axes: Any, panels: list[Panel]) -> None:
     place, ticks, labels = 0.0, [], []
     for title, _, rows, _ in panels:
         for row in rows:
-            colour = OURS if row.ours else "#9db7d5"
+            colour = OUR_COLOUR if row.ours else "#9db7d5"
             axes.barh(place, row.time_ratio, color=colour, height=0.8)
             axes.annotate(
                 f"{row.time_ratio:.2f}  {row.method}",
@@ -144,7 +145,7 @@ def _bars(axes: Any, panels: list[Panel]) -> None:
                 textcoords="offset points",
                 va="center",
                 fontsize=7.5,
-                color=OURS if row.ours else "#333333",
+                color=OUR_COLOUR if row.ours else "#333333",
             )
             if row is rows[0]:
                 ticks.append(place + 0.5 * (len(rows) - 1))

@@ -1,8 +1,8 @@
 """Run time against error, subject by subject, as one table.
 
 Times are ratios to a baseline in the same run: the median over rounds in which baseline and methods
-take turns. A method is on the frontier if no other one of its task is both faster and as accurate,
-with as few pieces if the answer has pieces. A tenth of the time counts as noise.
+take turns. A method is on the frontier unless another one of its task is faster, as accurate, and
+needs no more pieces where answers have pieces. A tenth of the time counts as noise.
 """
 
 from __future__ import annotations
@@ -11,12 +11,12 @@ import importlib
 from collections.abc import Iterator
 from typing import cast
 
-from geneva_cli.bench.method import Row, Subject, Task, with_frontier
+from geneva_cli.bench.method import BenchRow, Subject, Task, with_frontier
 from geneva_cli.bench.timing_pairs import ratios
 from geneva_cli.errors import GenevaError, cut, few, nearest
 from geneva_cli.table import Table, rows_table
 
-# The registry: a subject is a module ``bench_<name>`` with ``subject(quick)``.
+# The registry: a subject is a module of ``bench.subjects`` with a function ``subject(quick)``.
 SUBJECTS = (
     "peaks",
     "cranks",
@@ -32,22 +32,21 @@ SUBJECTS = (
     "start",
     "export",
 )
-QUICK_SECONDS = 0.01
 
 
-def names(asked: str) -> tuple[str, ...]:
-    """Subjects that a word names: one, or all."""
-    if asked == "all":
+def names(word: str) -> tuple[str, ...]:
+    """The subject of this name, or all subjects for "all". Raises GenevaError for other words."""
+    if word == "all":
         return SUBJECTS
-    if asked not in SUBJECTS:
-        known = few(asked, ("all", *SUBJECTS))
+    if word not in SUBJECTS:
+        known = few(word, ("all", *SUBJECTS))
         raise GenevaError(
-            f'SUBJECT "{cut(asked)}": unknown{nearest(asked, SUBJECTS)}; it must be one of {known}'
+            f'SUBJECT "{cut(word)}": unknown{nearest(word, SUBJECTS)}; it must be one of {known}'
         )
-    return (asked,)
+    return (word,)
 
 
-def measure(name: str, quick: bool) -> tuple[Subject, list[Row]]:
+def measure(name: str, quick: bool) -> tuple[Subject, list[BenchRow]]:
     """One subject with its rows."""
     module = importlib.import_module(f"geneva_cli.bench.subjects.{name}")
     subject = cast(Subject, module.subject(quick))
@@ -55,15 +54,17 @@ def measure(name: str, quick: bool) -> tuple[Subject, list[Row]]:
     return subject, rows
 
 
-def _rows(name: str, subject: Subject, task: Task, quick: bool) -> Iterator[Row]:
-    yield Row(name, task.name, f"baseline: {task.baseline}", None, None, None, 1.0, None, False)
+def _rows(name: str, subject: Subject, task: Task, quick: bool) -> Iterator[BenchRow]:
+    yield BenchRow(
+        name, task.name, f"baseline: {task.baseline}", None, None, None, 1.0, None, False
+    )
     answers, times = ratios(
         task.baseline_run,
         [m.run for m in task.methods],
-        QUICK_SECONDS if quick else subject.seconds,
+        0.01 if quick else subject.seconds,
     )
     rows = [
-        Row(
+        BenchRow(
             name,
             task.name,
             method.name,
@@ -80,18 +81,18 @@ def _rows(name: str, subject: Subject, task: Task, quick: bool) -> Iterator[Row]
     yield from with_frontier(rows, subject.slack, subject.floor)
 
 
-def bench_table(rows: list[Row], for_people: bool) -> Table:
+def bench_table(rows: list[BenchRow], for_people: bool) -> Table:
     """Rows as ``geneva bench`` writes them, without columns that are all empty.
 
     People get errors in powers of ten. A table for them shows numbers as 0 that are small compared
     with the column's largest, and here the smallest ones count.
     """
-    shown = rows_table(Row._fields, [_spelled(row) if for_people else row for row in rows])
+    shown = rows_table(BenchRow._fields, [_spelled(row) if for_people else row for row in rows])
     kept = [i for i, c in enumerate(shown.columns) if any(v is not None for v in c)]
     return Table(tuple(shown.names[i] for i in kept), [list(shown.columns[i]) for i in kept])
 
 
-def _spelled(row: Row) -> tuple[object, ...]:
+def _spelled(row: BenchRow) -> tuple[object, ...]:
     error = None if row.error is None else f"{row.error:.1e}" if row.error else "0"
     size = None if row.size is None else f"{row.size:g}"
     many = row.designs_per_s and f"{row.designs_per_s:.3g}"

@@ -16,8 +16,6 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from geneva_cli.numerics.jet import Array
 
-SCAN = 10  # intervals
-
 
 def looped(compiled: Callable[[Any], Any]) -> Callable[[Array, Array, Array, Array], None]:
     """Return the loop from sign, l and A of designs to the size of their peaks.
@@ -63,8 +61,7 @@ def _root(compiled: Callable[[Any], Any], terms: Any) -> Any:
     def root(l: float, A: float, low: float, high: float, below: float, above: float) -> float:
         last, value = low, below
         x = low + (high - low) * below / (below - above)
-        # at most, in a bracket
-        for _ in range(40):
+        for _ in range(40):  # secants in a bracket, at most
             here = terms(l, A, math.sin(x), math.cos(x), 1.0 - math.cos(x))[1]
             if here * below > 0.0:
                 low = x
@@ -74,7 +71,7 @@ def _root(compiled: Callable[[Any], Any], terms: Any) -> Any:
             if not low < new < high:
                 new = 0.5 * (low + high)
             last, value = x, here
-            # radians: the peak is flat, so its value is then known to the last digit
+            # nearer than 1e-7 radians the peak is flat: its value is exact to the last digit
             if abs(new - x) < 1e-7:
                 return new
             x = new
@@ -85,12 +82,13 @@ def _root(compiled: Callable[[Any], Any], terms: Any) -> Any:
 
 def _peak(compiled: Callable[[Any], Any], terms: Any, root: Any) -> Any:
     def peak(l: float, A: float) -> float:
-        step = math.acos(l) / SCAN
+        intervals = 10
+        step = math.acos(l) / intervals
         best: float = terms(l, A, math.sqrt((1.0 - l) * (1.0 + l)), l, 1.0 - l)[0]
         turn = 2.0 * math.cos(step)
         c, following = 1.0, 0.5 * turn
         before = terms(l, A, 0.0, 1.0, 0.0)[1]
-        for i in range(SCAN):
+        for i in range(intervals):
             c, following = following, turn * following - c
             here = terms(l, A, math.sqrt((1.0 - c) * (1.0 + c)), c, 1.0 - c)[1]
             if before * here < 0.0:

@@ -21,7 +21,7 @@ def finished(code: str, words: tuple[str, ...] = ()) -> None:
 def task(name: str, runs: dict[str, tuple[str, ...]]) -> Task:
     """Task of ``geneva`` runs with some arguments, by name; it has no error."""
     methods = [
-        Method(way, None, lambda words=words: finished(RUN, words), ours=True)  # type: ignore[misc]
-        for way, words in runs.items()
+        Method(run, None, lambda words=words: finished(RUN, words), ours=True)  # type: ignore[misc]
+        for run, words in runs.items()
     ]
     return Task(name, BASELINE, lambda: finished(IMPORT), lambda _: 0.0, methods)

@@ -22,7 +22,7 @@ def in_wheel(machine, t):
 
 
 def wanted(machine, t):
-    """Lever, aside, along and curvature, by derivatives of that one complex number."""
+    """Lever, offset, along and curvature, by derivatives of that one complex number."""
     m, u, b = mp.diffs(lambda s: in_wheel(machine, s), t, 2)
     inner, outer = (mp.conj(m) * u).real, (mp.conj(m) * u).imag
     along = mp.sign(inner) * abs(u)
@@ -35,6 +35,6 @@ def test_a_curved_slot_against_50_digits(z, alpha0):
     x = np.array(SHARES) * machine.engagements[0].exit_deg
     found = contact(machine.engagements[0], x)
     every = zip(*[wanted(machine, to_radians(at)) for at in x], strict=True)
-    for name, row in zip(("lever", "aside", "along", "curvature"), every, strict=True):
+    for name, row in zip(("lever", "offset", "along", "curvature"), every, strict=True):
         exact = np.array([float(one) for one in row])
         np.testing.assert_allclose(getattr(found, name).c[0], exact, rtol=2e-13)

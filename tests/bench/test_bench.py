@@ -14,15 +14,14 @@ from typer.testing import CliRunner
 
 from geneva_cli.app import app
 from geneva_cli.bench.formulas import Proportions
-from geneva_cli.bench.method import Row, beats, missing, with_frontier
+from geneva_cli.bench.method import BenchRow, beats, missing, with_frontier
 from geneva_cli.bench.numeric import by_chebpy
 from geneva_cli.bench.run import SUBJECTS, measure
 from geneva_cli.bench.scalar_loop import looped
 from geneva_cli.bench.subjects import export as bench_export
-from geneva_cli.bench.subjects import motion as bench_motion
 from geneva_cli.bench.subjects import start as bench_start
-from geneva_cli.bench.subjects.cranks import Designs
-from geneva_cli.bench.subjects.motion import EXPRESSIONS, stable
+from geneva_cli.bench.subjects.cranks import CrankDesigns
+from geneva_cli.bench.subjects.motion import blocks, stable, stable_texts
 from geneva_cli.bench.timing_pairs import median_ratio, ratios
 from geneva_cli.bench.truth import acceleration_peak, relative
 
@@ -95,7 +94,7 @@ def test_no_even_or_halved_pieces_are_as_few(measured):
 
 
 def row(error, time, pieces=None):
-    return Row("s", "t", "m", None, pieces, error, time, None, False)
+    return BenchRow("s", "t", "m", None, pieces, error, time, None, False)
 
 
 def test_frontier():
@@ -184,7 +183,6 @@ def test_exports_of_more_rows_than_are_held_are_compared_too(monkeypatch):
     """A longer table makes its rows while it is written: the other writers want whole arrays."""
     monkeypatch.setattr("geneva_cli.analysis.motion.WHOLE_ROWS", 1000)
     monkeypatch.setattr(bench_export, "COUNTS", (3000,))
-    monkeypatch.setattr(bench_export, "TRACED", 0)
     (task,) = bench_export.subject(False).tasks
     assert task.name == "3000 rows x 6"
     task.baseline_run()
@@ -210,7 +208,7 @@ def test_a_library_takes_part_or_is_said_to_be_missing(measured, name, library, 
 
 def test_the_loop_for_numba_finds_the_peaks():
     """Run as it is written, not compiled; against 50 digits."""
-    designs = Designs(300)
+    designs = CrankDesigns(300)
     sign, l, A, _ = designs.arrays
     found = np.zeros(300)
     looped(lambda function: function)(sign, l, A, found)
@@ -219,15 +217,14 @@ def test_the_loop_for_numba_finds_the_peaks():
 
 def test_the_expressions_for_numexpr_are_the_stable_formula():
     l, x = math.sin(math.pi / 3.0), np.linspace(-0.5, 0.5, 101)
-    for text, exact in zip(EXPRESSIONS, stable(l, x, range(4)), strict=True):
+    for text, exact in zip(stable_texts(), stable(l, x, range(4)), strict=True):
         found = eval(text, {**vars(np), "l": l, "x": x})
         assert np.abs(found - exact).max() < 4e-15 * np.abs(exact).max()
 
 
-def test_blocks_are_the_whole(monkeypatch):
-    monkeypatch.setattr(bench_motion, "BLOCK", 7)
+def test_blocks_are_the_whole():
     x = np.linspace(-0.5, 0.5, 101)
-    whole, parts = (formula(0.5, x, (1, 3)) for formula in (stable, bench_motion.blocks))
+    whole, parts = stable(0.5, x, (1, 3)), blocks(0.5, x, (1, 3), size=7)
     assert np.array_equal(whole, parts)
 
 

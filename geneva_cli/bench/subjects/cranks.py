@@ -19,10 +19,9 @@ from geneva_cli.machine.wheels.side_crank_arrays import acceleration_peaks, whee
 from geneva_cli.numerics.angles import one_minus_sin_pi
 
 CHECKED = 200  # designs whose error is measured
-BLOCK = 4096  # designs at a time, for every vectorised method
 
 
-class Designs:
+class CrankDesigns:
     """Random side-cranks: z from 3 to 24, both gearings, A from -0.9 to 0.9; always equal."""
 
     def __init__(self, count: int) -> None:
@@ -41,10 +40,11 @@ class Designs:
 
     def blocks(self, method: Callable[[Proportions], Any]) -> Any:
         """Results of a vectorised method, in blocks that stay in the cache."""
+        size = 4096
         return np.concatenate(
             [
-                method(Proportions(*[v[i : i + BLOCK] for v in self.arrays]))
-                for i in range(0, len(self.A), BLOCK)
+                method(Proportions(*[v[i : i + size] for v in self.arrays]))
+                for i in range(0, len(self.A), size)
             ]
         )
 
@@ -79,7 +79,7 @@ def parabola(d: Proportions, n: int) -> Any:
 
 
 def scanned(d: Proportions, n: int, solve: Callable[[Proportions, Any, Any], Any]) -> Any:
-    """Greatest value at the end and at the slope's zeros, which ``solve`` finds between points."""
+    """Greatest value at the end and at the slope's zeros between points, by ``solve``."""
     best = np.abs(acceleration(np, d, d.half))
     nodes = [d.half * (i / (n - 1)) for i in range(n)]
     slopes = np.array([jerk(np, d, x) for x in nodes])
@@ -101,11 +101,10 @@ def find_root(d: Proportions, n: int) -> Any:
 
 
 def secants(d: Proportions, n: int) -> Any:
-    """Peak by steps of the secant method between the points of a scan, in NumPy only."""
+    """Peak by six steps of the secant method between the points of a scan, in NumPy only."""
 
     def root(part: Proportions, a: Any, b: Any) -> Any:
         x, value, last, before = b, jerk(np, part, b), a, jerk(np, part, a)
-        # steps
         for _ in range(6):
             fall = np.where(value == before, 1.0, value - before)
             x, last = np.clip(x - value * (x - last) / fall, a, b), x
@@ -120,27 +119,24 @@ def _has_find_root() -> bool:
     return find_spec("scipy.optimize.elementwise") is not None
 
 
-# The registry of vectorised methods: name, function of a block of designs, sizes.
-VECTORISED: list[tuple[str, Callable[[Proportions, int], Any], tuple[int, ...]]] = [
-    ("vectorised grid", grid, (33, 101, 1001)),
-    ("vectorised grid + parabola", parabola, (9, 17, 33, 101, 301)),
-    ("vectorised scan + SciPy find_root", find_root, (17, 33)),
-    ("vectorised scan + secants", secants, (17, 33)),
-]
-
-
 def subject(quick: bool) -> Subject:
     """Every method on one set of designs."""
+    # name, function of a block of designs, sizes
+    vectorised: list[tuple[str, Callable[[Proportions, int], Any], tuple[int, ...]]] = [
+        ("vectorised grid", grid, (33, 101, 1001)),
+        ("vectorised grid + parabola", parabola, (9, 17, 33, 101, 301)),
+        ("vectorised scan + SciPy find_root", find_root, (17, 33)),
+        ("vectorised scan + secants", secants, (17, 33)),
+    ]
     count = 2_000 if quick else 100_000
-    designs = Designs(count)
+    designs = CrankDesigns(count)
     methods = [
         Method(name, n, partial(designs.blocks, partial(_sized, method, n)))
-        for name, method, sizes in VECTORISED
+        for name, method, sizes in vectorised
         if method is not find_root or _has_find_root()
         for n in (sizes[:2] if quick else sizes)
     ]
-    # designs of which a loop over single designs is run
-    sample = 5 if quick else 50
+    sample = 5 if quick else 50  # designs of which a loop is run
     for numeric in () if quick else NUMERIC:
         size = numeric.sizes[2]
         methods.append(
@@ -174,7 +170,7 @@ def subject(quick: bool) -> Subject:
     )
 
 
-def _compiled(designs: Designs) -> Any:
+def _compiled(designs: CrankDesigns) -> Any:
     sign, l, A, _ = designs.arrays
     out = np.empty(len(A))
     by_numba()(sign, l, A, out)
@@ -186,6 +182,6 @@ def _sized(method: Callable[[Proportions, int], Any], n: int, d: Proportions) ->
 
 
 def _loop(
-    designs: Designs, method: Callable[[Proportions, Any], float], size: float, sample: int
+    designs: CrankDesigns, method: Callable[[Proportions, Any], float], size: float, sample: int
 ) -> list[float]:
     return [method(designs.one(i), size) for i in range(sample)]

@@ -19,8 +19,7 @@ from geneva_cli.machine.wheels.external import External
 from geneva_cli.output import delimited
 from geneva_cli.table import Table
 
-COUNTS = (1_000, 100_000, 1_000_000)
-TRACED = 100_000  # rows
+COUNTS = (1_000, 100_000, 1_000_000)  # rows
 
 
 class Sink(io.TextIOBase):
@@ -83,13 +82,6 @@ def ours(table: Table, out: Sink) -> None:
     out.writelines(delimited.chunks(table))
 
 
-SAVETXT = "np.savetxt, %.17g"
-# The registry: name, writer, True for ours.
-WRITERS: list[tuple[str, Callable[[Table, Sink], None], bool]] = [
-    ("csv module", with_csv, False),
-    (SAVETXT, savetxt, False),
-    ("ours", ours, True),
-]
 # Libraries that take part if they are installed.
 LIBRARIES = {"orjson": with_orjson, "polars": with_polars, "pyarrow": with_pyarrow}
 
@@ -97,6 +89,12 @@ LIBRARIES = {"orjson": with_orjson, "polars": with_polars, "pyarrow": with_pyarr
 def subject(quick: bool) -> Subject:
     """Every writer at every number of rows."""
     mechanism = build(Spec(External(6)))
+    numpy_s = "np.savetxt, %.17g"
+    writers: list[tuple[str, Callable[[Table, Sink], None], bool]] = [
+        ("csv module", with_csv, False),
+        (numpy_s, savetxt, False),
+        ("ours", ours, True),
+    ]
     absent = [name for name in LIBRARIES if importlib.util.find_spec(name) is None]
     libraries = [(name, run, False) for name, run in LIBRARIES.items() if name not in absent]
     tasks = []
@@ -106,10 +104,10 @@ def subject(quick: bool) -> Subject:
         table = Table(tuple(columns), list(columns.values()))
         methods = [
             Method(name, count, _call(run, table), is_ours, memory=_memory(run, table, count))
-            for name, run, is_ours in (*libraries, *WRITERS)
+            for name, run, is_ours in (*libraries, *writers)
         ]
         base = _call(savetxt, table)
-        tasks.append(Task(f"{count} rows x 6", SAVETXT, base, _error(table), methods))
+        tasks.append(Task(f"{count} rows x 6", numpy_s, base, _error(table), methods))
     return Subject(
         "Export with every digit", "numbers that read back differently", tasks, absent=absent
     )
@@ -130,14 +128,14 @@ def _memory(
 
     It is Python's memory: for a library with its own allocator, only its result counts.
     """
-    if count > TRACED:
+    if count > 100_000:  # it would take minutes
         return None
 
     def peak() -> float:
         tracemalloc.start()
         try:
             run(table, Sink())
-            return tracemalloc.get_traced_memory()[1] / 1e6
+            return tracemalloc.get_traced_memory()[1] / 1e6  # MB
         finally:
             tracemalloc.stop()
 

@@ -20,10 +20,9 @@ if TYPE_CHECKING:
     from geneva_cli.numerics.jet import Array
 
 Z = 8
-COUNT = 360
-GIVEN = Spec(External(Z), size=Size(250.0, 12.0), load=Load(1.2, 20.0, friction=0.05))
+COUNT = 360  # input angles
 L, RADIUS, FRICTION = 0.25, 0.012, 0.05
-SPEED = 2.0 * math.pi
+SPEED = 2.0 * math.pi  # of the input, rad/s
 
 
 def script(x: Array) -> tuple[Array, ...]:
@@ -53,7 +52,8 @@ def differences(x: Array) -> tuple[Array, ...]:
 
 def subject(quick: bool) -> Subject:
     """The handbook's formulas for this wheel, compared with the cycle of any machine."""
-    cycle = Cycle(build(GIVEN))
+    spec = Spec(External(Z), size=Size(250.0, 12.0), load=Load(1.2, 20.0, friction=0.05))
+    cycle = Cycle(build(spec))
     (engagement,) = cycle.mechanism.engagements
     degrees = np.linspace(engagement.entry_deg, engagement.exit_deg, COUNT)
     x = np.radians(degrees)

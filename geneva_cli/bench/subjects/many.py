@@ -21,7 +21,7 @@ from geneva_cli.bench.kinds import (
     KINDS,
     QUICK,
     QUICK_CHECKED,
-    Kind,
+    VariedMachine,
     drawn,
     one_by_one,
     task_of_many,
@@ -39,14 +39,12 @@ if TYPE_CHECKING:
     from geneva_cli.machine.engagement import Motion
     from geneva_cli.numerics.jet import Array
 
-GRID, BLOCK = 101, 512
-NAMES = ("velocity", "acceleration")
+PEAK_QUANTITIES = ("velocity", "acceleration")
 
 
 def subject(quick: bool) -> Subject:
     """One task for each machine, and one for each request to the loads of some machines."""
-    peaks = [_task(kind, QUICK if quick else kind.most) for kind in KINDS]
-    # of a method's own time: there are two hundred of them
+    peaks = [_task(kind, QUICK if quick else kind.designs) for kind in KINDS]
     return Subject(
         "Peaks of velocity, acceleration and loads of many designs of every machine",
         f"greatest relative error of {QUICK_CHECKED if quick else CHECKED} designs' peaks against "
@@ -54,16 +52,16 @@ def subject(quick: bool) -> Subject:
         "side-cranks against 50 digits",
         [*peaks, *loads_of_many.tasks(quick)],
         floor=1e-14,
-        seconds=0.2,
+        seconds=0.2,  # for each of two hundred methods
     )
 
 
-def _task(kind: Kind, count: int) -> Task:
+def _task(kind: VariedMachine, count: int) -> Task:
     machine, built, alone = drawn(kind, kind.spec, count)
     varied = {kind.key: values_of(kind, count)}
     methods = [
         one_by_one(alone, built, _one, LOOP if built > QUICK else QUICK_LOOP),
-        Method("grid of all", GRID, partial(_grid, machine, built)),
+        Method("grid of all", 101, partial(_grid, machine, built, 101)),
         *_formulas_alone(machine, built),
         Method("together", None, partial(_together, machine), True),
         Method("built and together", None, partial(_built_together, kind.spec, varied), True),
@@ -79,8 +77,8 @@ def _built_together(spec: Spec, varied: Mapping[str, Any]) -> Array:
 
 
 def _together(machine: Mechanism) -> Array:
-    peaks = worst_peaks(machine, NAMES)
-    both: Array = np.column_stack([peaks[name].max for name in NAMES])
+    peaks = worst_peaks(machine, PEAK_QUANTITIES)
+    both: Array = np.column_stack([peaks[name].max for name in PEAK_QUANTITIES])
     return both
 
 
@@ -90,7 +88,7 @@ def _formulas_alone(machine: Mechanism, count: int) -> list[Method]:
     None for machines whose peaks are computed in another way.
     """
     motion = machine.engagements[0].motion
-    if motion.closed_peak(NAMES[0]) is not None:
+    if motion.closed_peak(PEAK_QUANTITIES[0]) is not None:
         return []
     pieces = list(pairwise(motion.breaks_deg))
     pieces = pieces[: len(pieces) // 2] if motion.symmetric else pieces
@@ -101,27 +99,27 @@ def _formulas_alone(machine: Mechanism, count: int) -> list[Method]:
 
 def _at_places(motion: Motion, count: int, pieces: list[tuple[float, float]]) -> Array:
     """Greatest of the values at the places."""
-    most = np.zeros((count, len(NAMES)))
+    most = np.zeros((count, len(PEAK_QUANTITIES)))
     for piece in pieces:
         a, b = (np.broadcast_to(np.reshape(end, (-1, 1)), (count, 1)) for end in piece)
         for i in range(0, count, SCANNED):
             which = slice(i, i + SCANNED)
             x = a[which] + (b - a)[which] * (np.arange(SCAN + 1) / SCAN)
-            rates = taken(motion, which).rough_rates(np.asfortranarray(x), len(NAMES))
-            for k, rate in enumerate(rates[: len(NAMES)]):
+            rates = taken(motion, which).rough_rates(np.asfortranarray(x), len(PEAK_QUANTITIES))
+            for k, rate in enumerate(rates[: len(PEAK_QUANTITIES)]):
                 np.maximum(most[which, k], np.abs(rate).max(axis=1), out=most[which, k])
     return most
 
 
-def _grid(machine: Mechanism, count: int) -> Array:
-    """Greatest values on a grid, in blocks of designs."""
+def _grid(machine: Mechanism, count: int, places: int) -> Array:
+    """Greatest values on a grid of places, in blocks of designs that stay in the cache."""
     motion = machine.engagements[0].motion
     ends = [np.broadcast_to(np.ravel(x), (count,)) for x in (motion.entry_deg, motion.exit_deg)]
-    rows = []
-    for i in range(0, count, BLOCK):
-        which = slice(i, i + BLOCK)
+    rows, block = [], 512
+    for i in range(0, count, block):
+        which = slice(i, i + block)
         a, b = (side[which, None] for side in ends)
-        x = a + (b - a) * np.linspace(0.0, 1.0, GRID)
+        x = a + (b - a) * np.linspace(0.0, 1.0, places)
         p = taken(motion, which)(x, 2).derivatives()
         rows.append(
             np.column_stack([np.abs(np.broadcast_to(p[k], x.shape)).max(axis=1) for k in (1, 2)])
@@ -133,4 +131,4 @@ def _grid(machine: Mechanism, count: int) -> Array:
 def _one(machine: Mechanism) -> list[float]:
     """Peaks of one design, by its own search."""
     motion = machine.engagements[0].motion
-    return [peak(motion, name).max for name in NAMES]
+    return [peak(motion, name).max for name in PEAK_QUANTITIES]

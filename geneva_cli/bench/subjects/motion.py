@@ -20,8 +20,6 @@ if TYPE_CHECKING:
     from geneva_cli.numerics.jet import Array
 
 Z = 3  # the wheel that is hardest for a formula
-COUNTS = (1_000, 1_000_000)
-BLOCK = 8192  # angles at a time
 
 
 def textbook(l: float, x: Array, orders: Sequence[int]) -> list[Array]:
@@ -68,24 +66,26 @@ def differences(l: float, x: Array, orders: Sequence[int]) -> list[Array]:
     return [values[k] for k in orders]
 
 
-def blocks(l: float, x: Array, orders: Sequence[int]) -> list[Array]:
-    """The stable formula in blocks that stay in the cache."""
+def blocks(l: float, x: Array, orders: Sequence[int], size: int = 8192) -> list[Array]:
+    """The stable formula in blocks of ``size`` angles, which stay in the cache."""
     out = [np.empty(len(x)) for _ in orders]
-    for i in range(0, len(x), BLOCK):
-        for whole, part in zip(out, stable(l, x[i : i + BLOCK], orders), strict=True):
-            whole[i : i + BLOCK] = part
+    for i in range(0, len(x), size):
+        for whole, part in zip(out, stable(l, x[i : i + size], orders), strict=True):
+            whole[i : i + size] = part
     return out
 
 
-HALF = "2 * sin(x / 2)**2"
-DISTANCE = f"((1 - l)**2 + 2 * l * {HALF})"
-EXPRESSIONS = (
-    f"arctan2(l * sin(x), (1 - l) + l * {HALF})",
-    f"l * ((1 - l) - {HALF}) / {DISTANCE}",
-    f"-l * (1 - l) * (1 + l) * sin(x) / {DISTANCE}**2",
-    f"l * (1 - l) * (1 + l) * ({HALF} * (1 + 4 * l + l * l - 2 * l * {HALF}) - (1 - l)**2)"
-    f" / {DISTANCE}**3",
-)  # of the stable formula, by order
+def stable_texts() -> list[str]:
+    """The stable formula of each order as text, for numexpr."""
+    versine = "2 * sin(x / 2)**2"
+    distance = f"((1 - l)**2 + 2 * l * {versine})"
+    return [
+        f"arctan2(l * sin(x), (1 - l) + l * {versine})",
+        f"l * ((1 - l) - {versine}) / {distance}",
+        f"-l * (1 - l) * (1 + l) * sin(x) / {distance}**2",
+        f"l * (1 - l) * (1 + l) * ({versine} * (1 + 4 * l + l * l - 2 * l * {versine})"
+        f" - (1 - l)**2) / {distance}**3",
+    ]
 
 
 def expressions(l: float, x: Array, orders: Sequence[int]) -> list[Array]:
@@ -93,32 +93,23 @@ def expressions(l: float, x: Array, orders: Sequence[int]) -> list[Array]:
     import numexpr
 
     numexpr.set_num_threads(1)
-    return [numexpr.evaluate(EXPRESSIONS[k], {"l": l, "x": x}) for k in orders]
-
-
-# The registry of formulas: name, function of l, angles in radians and orders.
-FORMULAS: list[tuple[str, Callable[[float, Array, Sequence[int]], list[Array]]]] = [
-    ("textbook formula", textbook),
-    ("stable formula, whole arrays", stable),
-    ("stable formula, in blocks", blocks),
-    ("numerical differentiation of the position", differences),
-]
-LIBRARIES = {"numexpr": ("stable formula, numexpr", expressions)}  # where they are installed
-WANTED = {"velocity and acceleration": (1, 2), "position to jerk": (0, 1, 2, 3)}
+    texts = stable_texts()
+    return [numexpr.evaluate(texts[k], {"l": l, "x": x}) for k in orders]
 
 
 def subject(quick: bool) -> Subject:
     """Every formula for velocity and acceleration, and for position to jerk."""
+    wanted = {"velocity and acceleration": (1, 2), "position to jerk": (0, 1, 2, 3)}
     tasks = [
         _task(count, what, orders)
-        for count in (COUNTS[:1] if quick else COUNTS)
-        for what, orders in WANTED.items()
+        for count in ((1_000,) if quick else (1_000, 1_000_000))
+        for what, orders in wanted.items()
     ]
     return Subject(
         f"Motion of a wheel of {Z} slots at N angles",
         "greatest error, in units of each quantity's peak",
         tasks,
-        absent=missing(*LIBRARIES),
+        absent=missing("numexpr"),
     )
 
 
@@ -131,12 +122,15 @@ def _task(count: int, what: str, orders: tuple[int, ...]) -> Task:
     skew[1] = math.nextafter(skew[1], 0.0)  # no longer its own mirror image
     x = np.radians(skew)
 
-    absent = missing(*LIBRARIES)
-    libraries = [LIBRARIES[name] for name in LIBRARIES if name not in absent]
-    methods = [
-        Method(name, count, partial(formula, l, x, orders))
-        for name, formula in (*FORMULAS, *libraries)
+    formulas: list[tuple[str, Callable[[float, Array, Sequence[int]], list[Array]]]] = [
+        ("textbook formula", textbook),
+        ("stable formula, whole arrays", stable),
+        ("stable formula, in blocks", blocks),
+        ("numerical differentiation of the position", differences),
     ]
+    if not missing("numexpr"):
+        formulas.append(("stable formula, numexpr", expressions))
+    methods = [Method(name, count, partial(formula, l, x, orders)) for name, formula in formulas]
     methods += [
         Method(
             "jets, whole arrays",
@@ -160,7 +154,6 @@ def _task(count: int, what: str, orders: tuple[int, ...]) -> Task:
 def _error(results: Any, input_deg: Array, orders: Sequence[int]) -> float:
     """Greatest error at an even sample of the angles, with the ends and the two middle ones."""
     n = len(input_deg)
-    # angles whose error is measured, ends and middle among them
     sample = np.unique(
         np.concatenate((np.linspace(0, n - 1, 200).astype(int), [n // 2 - 1, n // 2]))
     )

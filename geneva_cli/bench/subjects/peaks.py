@@ -19,13 +19,13 @@ from geneva_cli.machine.mechanism import build
 from geneva_cli.machine.spec import Spec
 from geneva_cli.machine.wheels import classic
 
-DESIGNS = ((3, "external", 0.0), (6, "external", 0.6), (4, "internal", 0.95))
 CHEBPY = "chebfun"  # the package name of chebpy in pip, as another package has that name
 
 
 def subject(quick: bool) -> Subject:
     """Every method on a few designs."""
-    tasks = [_task(*design, quick) for design in DESIGNS[: 2 if quick else None]]
+    designs = ((3, "external", 0.0), (6, "external", 0.6), (4, "internal", 0.95))
+    tasks = [_task(*design, quick) for design in designs[: 2 if quick else None]]
     return Subject(
         "Peak acceleration of one design",
         "relative error of the peak",
@@ -36,7 +36,6 @@ def subject(quick: bool) -> Subject:
 
 def _task(z: int, gearing: str, A: float, quick: bool) -> Task:
     d = Proportions.of(z, gearing, A)
-    # number of a method's sizes in a quick run
     methods = [
         Method(numeric.name, size, partial(_run, numeric.run, d, size))
         for numeric in NUMERIC

@@ -23,14 +23,10 @@ from geneva_cli.spec.tables import Size
 if TYPE_CHECKING:
     from geneva_cli.numerics.jet import Array
 
-TOLERANCES = (1e-2, 1e-3, 1e-4, 1e-5, 1e-6)  # mm
-GREEDY_FINEST = 1e-4  # the greedy search takes minutes below
-STARTS = 17  # the first guess of the methods that refine one
-
 
 def even(mechanism: Mechanism, tolerance: float) -> Array:
     """Even input angles, as many as needed: the number follows the square root of the error."""
-    engagement, count = mechanism.engagements[0], STARTS - 1
+    engagement, count = mechanism.engagements[0], 16
     while True:
         angles = np.linspace(engagement.entry_deg, engagement.exit_deg, count + 1)
         worst = chord_errors(mechanism, angles).max()
@@ -52,7 +48,7 @@ def greedy(mechanism: Mechanism, tolerance: float) -> Array:
     """Input angles of the longest chords within the tolerance, one by one: the fewest possible."""
     engagement = mechanism.engagements[0]
     angles = [engagement.entry_deg]
-    guess = engagement.motion_deg / STARTS
+    guess = engagement.motion_deg / 17
     while (a := angles[-1]) < engagement.exit_deg:
         far = 0.0 if a < 0.0 else engagement.exit_deg
 
@@ -73,11 +69,8 @@ def greedy(mechanism: Mechanism, tolerance: float) -> Array:
     return np.array(angles)
 
 
-class Pieces(NamedTuple):
-    """A way to write a slot in pieces: functions for the answer, its count and its error.
-
-    Ways with equal ``shape`` compete.
-    """
+class PieceMethod(NamedTuple):
+    """A method that writes a slot in pieces: functions for the answer, its count and its error."""
 
     shape: str
     name: str
@@ -85,7 +78,7 @@ class Pieces(NamedTuple):
     pieces: Callable[[Any], int]
     error: Callable[[Mechanism, Any], float]
     ours: bool = False
-    finest: float = 0.0  # mm; the method is not shown at finer tolerances
+    finest: float = 0.0  # mm; at finer tolerances the method would take minutes
 
 
 def chords(angles: Array) -> int:
@@ -122,22 +115,25 @@ def flank_error(mechanism: Mechanism, pieces: list[Any]) -> float:
     return flank.stray(*flank.left_flank(mechanism), pieces)
 
 
-SLOT, ARCS, CUBICS = "", ": left flank in arcs", ": left flank in cubics"
-# The registry: one line for each way.
-PIECES = [
-    Pieces(SLOT, "even input angles", even, chords, chord_error),
-    Pieces(SLOT, "recursive bisection", bisection, chords, chord_error),
-    Pieces(SLOT, "greedy longest chords", greedy, chords, chord_error, finest=GREEDY_FINEST),
-    Pieces(SLOT, "ours: polyline", nodes, chords, chord_error, True),
-    Pieces(ARCS, "biarcs by bisection", on_flank(flank.biarcs), len, flank_error),
-    Pieces(ARCS, "ours: arcs", on_flank(fit.arcs), len, flank_error, True),
-    Pieces(CUBICS, "Hermite cubics by bisection", on_flank(flank.hermite_cubics), len, flank_error),
-    Pieces(CUBICS, "ours: cubics", on_flank(fit.cubics), len, flank_error, True),
-]
+def piece_methods() -> list[PieceMethod]:
+    """All methods, one line each; those of one shape compete."""
+    chain, arcs, cubics = "", ": left flank in arcs", ": left flank in cubics"
+    return [
+        PieceMethod(chain, "even input angles", even, chords, chord_error),
+        PieceMethod(chain, "recursive bisection", bisection, chords, chord_error),
+        PieceMethod(chain, "greedy longest chords", greedy, chords, chord_error, finest=1e-4),
+        PieceMethod(chain, "ours: polyline", nodes, chords, chord_error, True),
+        PieceMethod(arcs, "biarcs by bisection", on_flank(flank.biarcs), len, flank_error),
+        PieceMethod(arcs, "ours: arcs", on_flank(fit.arcs), len, flank_error, True),
+        PieceMethod(
+            cubics, "Hermite cubics by bisection", on_flank(flank.hermite_cubics), len, flank_error
+        ),
+        PieceMethod(cubics, "ours: cubics", on_flank(fit.cubics), len, flank_error, True),
+    ]
 
 
 def subject(quick: bool) -> Subject:
-    """Every way at every tolerance, for a wheel of 8 slots and the cycloidal law."""
+    """Every method at every tolerance, for a wheel of 8 slots and the cycloidal law."""
     size = Size(center_distance_mm=200.0, roller_radius_mm=9.0, slot_clearance_mm=0.25)
     mechanism = build(Spec(External(8), motion=Motion(Cycloidal(), ratio="matched"), size=size))
     engagement = mechanism.engagements[0]
@@ -150,7 +146,7 @@ def subject(quick: bool) -> Subject:
             lambda answer: answer[0].error(mechanism, answer[1]),
             _methods(mechanism, shape, quick),
         )
-        for shape in dict.fromkeys(way.shape for way in PIECES)
+        for shape in dict.fromkeys(method.shape for method in piece_methods())
     ]
     return Subject(
         "A curved slot in pieces", "greatest distance from the curve, mm", tasks, floor=0.0
@@ -158,19 +154,21 @@ def subject(quick: bool) -> Subject:
 
 
 def _methods(mechanism: Mechanism, shape: str, quick: bool) -> list[Method]:
+    tolerances = (1e-2, 1e-3) if quick else (1e-2, 1e-3, 1e-4, 1e-5, 1e-6)  # mm
     return [
         Method(
-            way.name,
+            method.name,
             tolerance,
-            partial(_run, way, mechanism, tolerance),
-            way.ours,
+            partial(_run, method, mechanism, tolerance),
+            method.ours,
             pieces=lambda answer: answer[0].pieces(answer[1]),
         )
-        for way in PIECES
-        for tolerance in TOLERANCES[: 2 if quick else None]
-        if way.shape == shape and tolerance >= way.finest and not (quick and way.run is greedy)
+        for method in piece_methods()
+        for tolerance in tolerances
+        if method.shape == shape and tolerance >= method.finest
+        if not (quick and method.run is greedy)
     ]
 
 
-def _run(way: Pieces, mechanism: Mechanism, tolerance: float) -> tuple[Pieces, Any]:
-    return way, way.run(mechanism, tolerance)
+def _run(method: PieceMethod, mechanism: Mechanism, tolerance: float) -> tuple[PieceMethod, Any]:
+    return method, method.run(mechanism, tolerance)

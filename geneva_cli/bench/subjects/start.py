@@ -12,32 +12,6 @@ from geneva_cli.bench.timing_pairs import process_seconds
 from geneva_cli.bench.whole_runs import BASELINE, IMPORT, RUN, finished
 from geneva_cli.specfile.template import template
 
-# Arguments of commands, with a spec on standard input. Other commands run with --help.
-ARGUMENTS = {
-    "table": ("--z", "6"),
-    "peaks": ("-",),
-    "motion": ("-",),
-    "profile": ("-",),
-    "report": ("-",),
-    "check": ("-",),
-    "laws": (),
-    "new": ("external",),
-}
-SPEC = "curved"  # the template that needs most
-QUICK = ("table",)
-# A wheel to cut: its outline computed, turned against the crank, and written. Templates and keys.
-EXPORT = ("profile", "-", "--part", "wheel", "--format", "dxf")
-CUT = {
-    "6 straight slots": ("external", ()),
-    "6 curved slots": ("curved", ()),
-    "24 straight slots": ("external", ("wheel.z=24", "size.roller_radius_mm=2")),
-    "4 slots, 3 rollers": ("external", ("wheel.z=4", "drive.rollers=3")),
-}
-EAGER = (
-    "import importlib, numpy, scipy.optimize, scipy.interpolate, rich.table\n"
-    "from geneva_cli.app import COMMANDS\n"
-    "for name in COMMANDS: importlib.import_module('geneva_cli.commands.' + name)\n"
-)
 # A user's own script instead: a row of the table as in handbooks.
 ROW = """
 def row(z):
@@ -72,19 +46,43 @@ def commands() -> list[str]:
 
 def subject(quick: bool) -> Subject:
     """Bare Python, every command in both ways, and exports to cut; one task each."""
-    spec = template(SPEC)
+    spec = template("curved")  # the template that needs most
+    eager = (
+        "import importlib, numpy, scipy.optimize, scipy.interpolate, rich.table\n"
+        "from geneva_cli.app import COMMANDS\n"
+        "for name in COMMANDS: importlib.import_module('geneva_cli.commands.' + name)\n"
+    )
+    # arguments of commands, with a spec on standard input; other commands run with --help
+    arguments: dict[str, tuple[str, ...]] = {
+        "table": ("--z", "6"),
+        "peaks": ("-",),
+        "motion": ("-",),
+        "profile": ("-",),
+        "report": ("-",),
+        "check": ("-",),
+        "laws": (),
+        "new": ("external",),
+    }
     tasks = [_task("python", {"python -c pass": ("pass", ())}, None)]
-    for name in QUICK if quick else ("--help", *commands()):
-        words = (name, *ARGUMENTS.get(name, ("--help",) if name != "--help" else ()))
+    for name in ("table",) if quick else ("--help", *commands()):
+        words = (name, *arguments.get(name, ("--help",) if name != "--help" else ()))
         runs = {
             "ours: lazy imports": (RUN, words),
-            "everything imported first": (EAGER + RUN, words),
+            "everything imported first": (eager + RUN, words),
         }
         if name == "table":
-            runs |= {way: (code, words) for way, code in SCRIPTS.items()}
+            runs |= {script: (code, words) for script, code in SCRIPTS.items()}
         tasks.append(_task("geneva " + " ".join(words), runs, spec))
-    for name, (kind, keys) in () if quick else CUT.items():
-        words = (*EXPORT, *(word for key in keys for word in ("--set", key)))
+    # Wheels to cut: outlines computed, turned against the crank, and written. Templates and keys.
+    wheels: dict[str, tuple[str, tuple[str, ...]]] = {
+        "6 straight slots": ("external", ()),
+        "6 curved slots": ("curved", ()),
+        "24 straight slots": ("external", ("wheel.z=24", "size.roller_radius_mm=2")),
+        "4 slots, 3 rollers": ("external", ("wheel.z=4", "drive.rollers=3")),
+    }
+    export = ("profile", "-", "--part", "wheel", "--format", "dxf")
+    for name, (kind, keys) in () if quick else wheels.items():
+        words = (*export, *(word for key in keys for word in ("--set", key)))
         runs = {"ours: lazy imports": (RUN, words)}
         tasks.append(_task(f"geneva profile as dxf: {name}", runs, template(kind)))
     return Subject("Start-up of whole runs", "none", tasks)
@@ -92,8 +90,8 @@ def subject(quick: bool) -> Subject:
 
 def _task(name: str, runs: dict[str, tuple[str, tuple[str, ...]]], spec: str | None) -> Task:
     methods = [
-        Method(way, None, partial(_run, (sys.executable, "-c", code, *words), spec), "ours" in way)
-        for way, (code, words) in runs.items()
+        Method(run, None, partial(_run, (sys.executable, "-c", code, *words), spec), "ours" in run)
+        for run, (code, words) in runs.items()
     ]
     base = partial(finished, IMPORT)
     return Task(name, BASELINE, base, lambda _: 0.0, methods)

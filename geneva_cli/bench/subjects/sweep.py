@@ -34,21 +34,10 @@ from geneva_cli.spec.tables import Load, Shaft, Size, Tolerance
 if TYPE_CHECKING:
     from geneva_cli.numerics.jet import Array
 
-DESIGNS, QUICK = 4096, 100
-LOOP, QUICK_LOOP = 5, 2  # designs that are had one after the other
-CHECKED, QUICK_CHECKED = 20, 4  # designs whose error is measured
 HORN = (5.01, 40.0, 10.0)  # half the slot's width, radius of the recess, the wheel's thickness: mm
-GIVEN = Spec(
-    External(6),
-    SideCrank(A=0.0),
-    size=Size(face_width_mm=10.0, slot_clearance_mm=0.01),
-    load=Load(inertia_kgm2=1.0, friction=0.1),
-    shaft=Shaft(stiffness_Nm_rad=5e3, damping_ratio=0.02, wheel_overhang_mm=30.0),
-    tolerance=Tolerance(crank_radius_mm=0.02, slot_width_mm=0.02),
-)
 
 
-class Answer(NamedTuple):
+class BatchQuantity(NamedTuple):
     """A quantity: its function of one design, and of a batch."""
 
     name: str
@@ -111,64 +100,75 @@ def _plays(machine: Mechanism) -> Any:
     return result and result.worst_deg
 
 
-ANSWERS = (
-    Answer("moment in a shaft", _shaft, _shafts),
-    Answer("stress in a horn", _horn, lambda many: horn.horn_stresses(many, *HORN).stress_MPa),
-    Answer(
+QUANTITIES = (
+    BatchQuantity("moment in a shaft", _shaft, _shafts),
+    BatchQuantity(
+        "stress in a horn", _horn, lambda many: horn.horn_stresses(many, *HORN).stress_MPa
+    ),
+    BatchQuantity(
         "equivalent force of a roller",
         _force,
         lambda machine: roller.lives(machine, roller.passages(machine)).equivalent_force_N,
     ),
-    Answer(
+    BatchQuantity(
         "motor and flywheel",
         _motor,
         lambda machine: sizings(machine)["motor_torque_rms_Nm"],
     ),
-    Answer("dynamic factor", _swing, _swings),
-    Answer(
+    BatchQuantity("dynamic factor", _swing, _swings),
+    BatchQuantity(
         "jump at entry",
         lambda machine: _jump(impacts.entry_impact(machine)),
         lambda machine: abs(impacts.entry_impacts(machine).jump),
     ),
-    Answer(
+    BatchQuantity(
         "jump at a change of sides",
         lambda machine: _jump(impacts.reversal_impact(machine)),
         lambda machine: np.nan_to_num(abs(impacts.reversal_impacts(machine).jump)),
     ),
-    Answer("play of a motion", _play, _plays),
+    BatchQuantity("play of a motion", _play, _plays),
 )
 
 
 def subject(quick: bool) -> Subject:
     """One task for each quantity."""
-    count, checked = (QUICK, QUICK_CHECKED) if quick else (DESIGNS, CHECKED)
+    count, checked = (100, 4) if quick else (4096, 20)
+    spec = Spec(
+        External(6),
+        SideCrank(A=0.0),
+        size=Size(face_width_mm=10.0, slot_clearance_mm=0.01),
+        load=Load(inertia_kgm2=1.0, friction=0.1),
+        shaft=Shaft(stiffness_Nm_rad=5e3, damping_ratio=0.02, wheel_overhang_mm=30.0),
+        tolerance=Tolerance(crank_radius_mm=0.02, slot_width_mm=0.02),
+    )
     A = np.random.default_rng(12).uniform(-0.9, 0.9, count)
-    machine = many(GIVEN, {"drive.A": A}).machine
+    machine = many(spec, {"drive.A": A}).machine
     assert machine is not None
-    alone = [build(GIVEN.with_("drive.A", a)) for a in A[:checked].tolist()]
+    alone = [build(spec.with_("drive.A", a)) for a in A[:checked].tolist()]
     return Subject(
         "Results of a sweep for a batch of designs",
-        f"greatest relative error of {checked} designs, against the answer of one design",
-        [_task(answer, machine, count, alone) for answer in ANSWERS],
+        f"greatest relative error of {checked} designs, against the result of one design",
+        [_task(quantity, machine, count, alone) for quantity in QUANTITIES],
         floor=1e-12,
     )
 
 
-def _task(answer: Answer, machine: Mechanism, count: int, alone: list[Mechanism]) -> Task:
-    most, truth = LOOP if count > QUICK else QUICK_LOOP, np.array([answer.one(m) for m in alone])
+def _task(quantity: BatchQuantity, machine: Mechanism, count: int, alone: list[Mechanism]) -> Task:
+    truth = np.array([quantity.one(m) for m in alone])
+    most = 5 if len(alone) > 4 else 2  # designs that are computed one after the other
     methods = [
-        one_by_one(alone, count, partial(_again, answer), most),
-        Method("together", None, lambda: answer.together(machine), True),
+        one_by_one(alone, count, partial(_again, quantity), most),
+        Method("together", None, lambda: quantity.together(machine), True),
     ]
-    name = f"{answer.name} of {count} side-cranks"
+    name = f"{quantity.name} of {count} side-cranks"
     return task_of_many(name, count, partial(_error, truth), methods)
 
 
-def _again(answer: Answer, machine: Mechanism) -> float:
-    """Answer for a design with empty caches."""
+def _again(quantity: BatchQuantity, machine: Mechanism) -> float:
+    """The quantity of a design, with empty caches."""
     roller.passage.cache_clear()
     horn.horn.cache_clear()
-    return answer.one(machine)
+    return quantity.one(machine)
 
 
 def _error(truth: Array, values: Any) -> float:

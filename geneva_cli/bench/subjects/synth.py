@@ -5,36 +5,35 @@ from __future__ import annotations
 from geneva_cli.bench.method import Subject
 from geneva_cli.bench.whole_runs import task
 
-WISHES = (
-    "--motion-deg 180 --z 6",
-    "--motion-deg 100..200",
-    "--motion-deg 100..200 --internal",
-    "--motion-deg 100..170 --rollers 2",
-    "--motion-deg 150..200 --spherical",
-    "--motion-deg 100..200 --law all",
-    "--motion-deg 120.. --sort min:jerk.max",
-    "--tau 1/3 --buildable",
-    "--dwell-s 0.8.. --cycle 1.5 --motion-deg ..180",
-    "--cycle 1.5 --subject-to dwell_s>=0.8",
-    "--subject-to timing.tau<=0.3 --subject-to velocity.max<=2",
-    "--subject-to acceleration.max<=0.5",
-)
-QUICK = "--motion-deg 180 --z 6 --external --rollers 1"
-WAYS = {"search": "0", "search, twenty turned": "20"}  # rows whose parts are turned
-
 
 def subject(quick: bool) -> Subject:
     """One task for each set of requirements."""
-    wishes, ways = ((QUICK,), {"search": "0"}) if quick else (WISHES, WAYS)
+    targets: tuple[str, ...] = (
+        "--motion-deg 180 --z 6",
+        "--motion-deg 100..200",
+        "--motion-deg 100..200 --internal",
+        "--motion-deg 100..170 --rollers 2",
+        "--motion-deg 150..200 --spherical",
+        "--motion-deg 100..200 --law all",
+        "--motion-deg 120.. --sort min:jerk.max",
+        "--tau 1/3 --buildable",
+        "--dwell-s 0.8.. --cycle 1.5 --motion-deg ..180",
+        "--cycle 1.5 --subject-to dwell_s>=0.8",
+        "--subject-to timing.tau<=0.3 --subject-to velocity.max<=2",
+        "--subject-to acceleration.max<=0.5",
+    )
+    checked = {"search": "0", "search, twenty turned": "20"}  # rows whose parts are turned
+    if quick:
+        targets, checked = ("--motion-deg 180 --z 6 --external --rollers 1",), {"search": "0"}
     tasks = [
         task(
             f"geneva synth {target}",
             {
-                way: ("synth", *target.split(), "--check", count)
-                for way, count in ways.items()
+                name: ("synth", *target.split(), "--check", count)
+                for name, count in checked.items()
                 if count != "0" or "--buildable" not in target
             },
         )
-        for target in wishes
+        for target in targets
     ]
-    return Subject("From a wish to machines: whole runs, on all cores", "none", tasks)
+    return Subject("From requirements to machines: whole runs, on all cores", "none", tasks)

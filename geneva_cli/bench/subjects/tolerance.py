@@ -23,7 +23,6 @@ from geneva_cli.spec.tables import Size
 if TYPE_CHECKING:
     from geneva_cli.numerics.jet import Array
 
-MACHINES, QUICK, LOOP = 1_000_000, 20_000, 200
 Z, L, AT_DEG = 6, 100.0, 20.0
 # centre distance, crank, roller, slot, slot's angle, disc, recess: mm and radians
 SIZES = (0.02, 0.02, 0.01, 0.01, 3e-4, 0.01, 0.01)
@@ -40,7 +39,7 @@ class Means(NamedTuple):
 
 def subject(quick: bool) -> Subject:
     """Ours, compared with plain NumPy and a plain loop, with pseudo-random machines."""
-    count = QUICK if quick else MACHINES
+    count, sample = 20_000 if quick else 1_000_000, 200
     angles = np.linspace(0.0, 1.0, count)
     true = _ours(1 << 16 if quick else 1 << 22)()
     task = Task(
@@ -51,10 +50,10 @@ def subject(quick: bool) -> Subject:
         [
             Method("NumPy, pseudo-random", None, partial(_plain, count)),
             Method(
-                f"plain loop (extrapolated from {LOOP})",
+                f"plain loop (extrapolated from {sample})",
                 None,
-                partial(_loop, LOOP),
-                times=count / LOOP,
+                partial(_loop, sample),
+                times=count / sample,
             ),
             Method("ours", None, _ours(count), True),
         ],

@@ -6,7 +6,6 @@ Times are in units of one sine and cosine of a million numbers, about 15 ms.
 from __future__ import annotations
 
 from functools import partial
-from typing import NamedTuple
 
 import numpy as np
 
@@ -21,40 +20,29 @@ from geneva_cli.parts.outlines import outlines
 from geneva_cli.parts.turn.full_turn import full_turn
 from geneva_cli.spec.tables import Size
 
-NUMBERS, QUICK = 1_000_000, 10_000
-
-
-class Kind(NamedTuple):
-    """A machine without clearance."""
-
-    name: str
-    spec: Spec
-
-
-SIZE = Size(center_distance_mm=100.0, roller_radius_mm=5.0)
-KINDS = (
-    Kind("6 straight slots", Spec(External(6), size=SIZE)),
-    Kind("6 curved slots", Spec(External(6), motion=Motion(ModifiedSine()), size=SIZE)),
-    Kind("24 straight slots", Spec(External(24), size=SIZE.replace(roller_radius_mm=2.0))),
-    Kind("4 slots, 3 rollers", Spec(External(4), Crank(rollers=3), size=SIZE)),
-)
-
 
 def subject(quick: bool) -> Subject:
-    """One task for each machine."""
+    """One task for each machine, all without clearance."""
+    size = Size(center_distance_mm=100.0, roller_radius_mm=5.0)
+    specs = {
+        "6 straight slots": Spec(External(6), size=size),
+        "6 curved slots": Spec(External(6), motion=Motion(ModifiedSine()), size=size),
+        "24 straight slots": Spec(External(24), size=size.replace(roller_radius_mm=2.0)),
+        "4 slots, 3 rollers": Spec(External(4), Crank(rollers=3), size=size),
+    }
+    count = 10_000 if quick else 1_000_000
     return Subject(
         "Outlines and full turn of a machine",
         "gap between roller and slot, over the centre distance: without clearance it is 0",
-        [_task(kind, QUICK if quick else NUMBERS) for kind in KINDS],
+        [_task(name, build(spec), count) for name, spec in specs.items()],
         floor=2e-6,  # accuracy of curved walls
     )
 
 
-def _task(kind: Kind, count: int) -> Task:
-    machine = build(kind.spec)
+def _task(name: str, machine: Mechanism, count: int) -> Task:
     angles = np.linspace(0.0, 1.0, count)
     return Task(
-        kind.name,
+        name,
         f"one np.sin + np.cos over {count} numbers",
         lambda: (np.sin(angles), np.cos(angles)),
         lambda gap: abs(gap) / machine.center_distance_mm,
