@@ -51,8 +51,8 @@ class Impacts(NamedTuple):
 def entry_impact(mechanism: Mechanism, fraction: float = 1.0) -> Impact | None:
     """Impact at entry with a ``fraction`` of the crank's greatest error; None without an error.
 
-    It is on the slot's axis, or on a corner of the mouth if the slot is too narrow for the roller
-    to enter off its axis. The jump is negative if the wheel is struck backwards.
+    The roller meets the slot's axis. If the slot is too narrow for it to enter off the axis, it
+    meets a corner of the mouth. The jump is negative if the wheel is struck backwards.
     """
     return entry_impacts(mechanism, fraction).only
 

@@ -1,17 +1,17 @@
 """The shock at the mouth: a roller that misses its slot and meets a corner.
 
-If the errors of the crank's radius and of the centre distance exceed the slot's clearance, the
-roller meets the corner at the end of one of the slot's walls. The mouth lies across the slot where
+The roller meets the corner at the end of one of the slot's walls if the errors of the crank's
+radius and of the centre distance exceed the slot's clearance. The mouth lies across the slot where
 the roller should enter, at the foot of the perpendicular from a crank's axis. An arm that is too
 short strikes the corner on the side of the crank's axis, forwards. An arm that is too long strikes
 the other corner, backwards. On a sharp corner the impact is about
 
     jump / omega = tan b sqrt(2 eps) sqrt((R -+ r)/r),
 
-less if the arm is too short. eps is the error of R beyond the clearance, as a fraction of R, and r
-the roller's radius. With r = R/10 this is about three times the first contact with the slot's axis
-(``shock``), in which the walls would extend past the mouth. A corner rounded by c acts like a sharp
-one on a roller of radius r + c.
+less if the arm is too short. Here eps is the error of R beyond the clearance, as a fraction of R. r
+is the roller's radius. With r = R/10 this is about three times the first contact with the slot's
+axis (``shock``), in which the walls would extend past the mouth. A corner rounded by c acts like a
+sharp one on a roller of radius r + c.
 
 The roller's centre P and the corner C keep their distance if the wheel turns at the speed (P - C) .
 P' / (P - C) . (z x C), for any path of the roller. On a sphere P and C are directions.

@@ -1,7 +1,7 @@
 """The search for peaks by one scan and Newton's method; a single design is a batch of one.
 
-A peak is a root of the next derivative, refined to the last bit, or an end of the motion, or a
-place where the law's derivative jumps; never the largest sample of a grid.
+A peak is at a root of the next derivative, at an end of the motion, or where the law's derivative
+jumps. It is refined to the last bit, and never the largest sample of a grid.
 
 >>> import numpy as np
 >>> from geneva_cli import External, SideCrank
@@ -30,8 +30,8 @@ from geneva_cli.numerics.tolerances import TIE
 if TYPE_CHECKING:
     from geneva_cli.numerics.extrema import Which
 
-ABOVE = {"velocity": 1, "acceleration": 2, "jerk": 3, "power": 2}  # derivatives in the quantity
-QUANTITIES = tuple(ABOVE)
+ORDERS = {"velocity": 1, "acceleration": 2, "jerk": 3, "power": 2}  # derivatives in the quantity
+QUANTITIES = tuple(ORDERS)
 
 
 PeakArray: TypeAlias = Peak[Array]  # the peaks of m designs: (m,)
@@ -47,7 +47,7 @@ class _MotionSamples:
     def __init__(self, motion: Motion, m: int, quantities: Sequence[str]) -> None:
         self.motion = motion
         self.every = slice(0, m)
-        self.order = 1 + max(ABOVE[name] for name in quantities)
+        self.order = 1 + max(ORDERS[name] for name in quantities)
         self.kept: dict[tuple[int, float], tuple[Array, ...]] = {}
 
     def __call__(self, x: Array, which: Which, order: int) -> tuple[Array, ...]:
@@ -73,7 +73,7 @@ class _QuantityCurve(NamedTuple):
 
     def __call__(self, x: Array, which: Which, order: int) -> list[Array]:
         motion: Motion = taken(self.motion, which)
-        p = motion(np.asfortranarray(x), ABOVE[self.quantity] + order).arrays()
+        p = motion(np.asfortranarray(x), ORDERS[self.quantity] + order).arrays()
         return _by_degrees(_quantity(self.quantity, p[1:]), x, order)
 
 
@@ -84,14 +84,14 @@ class _RoughCurve(NamedTuple):
     quantity: str
 
     def __call__(self, x: Array, which: Which, order: int) -> list[Array]:
-        p = self.samples(x, which, ABOVE[self.quantity] + order)
+        p = self.samples(x, which, ORDERS[self.quantity] + order)
         return _by_degrees(_quantity(self.quantity, p), x, order)
 
 
 def _quantity(quantity: str, p: tuple[Array, ...]) -> list[Array]:
     """A quantity and its derivatives from the wheel's speed and its derivatives."""
     if quantity != "power":
-        return list(p[ABOVE[quantity] - 1 :])
+        return list(p[ORDERS[quantity] - 1 :])
     out = [p[0] * p[1]]
     if len(p) > 2:
         out.append(p[1] ** 2 + p[0] * p[2])

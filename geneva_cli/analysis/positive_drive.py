@@ -18,7 +18,7 @@ from geneva_cli.machine.mechanism import Mechanism
 if TYPE_CHECKING:
     from geneva_cli.numerics.arrays import Array, Mask
 
-SAMPLES = 720  # places in half a motion
+HALF_SAMPLES = 720  # places in half a motion
 
 
 class PositiveDrive(NamedTuple):
@@ -51,7 +51,7 @@ def positive_drive(mechanism: Mechanism) -> PositiveDrive | None:
     if batch is None:
         return None
     places = np.sort(batch.input_deg[0][batch.loose[0]]).tolist()
-    step = abs(mechanism.engagements[0].entry_deg) / SAMPLES
+    step = abs(mechanism.engagements[0].entry_deg) / HALF_SAMPLES
     fraction, gap, at, wide = (float(row[0]) for row in batch[:4])
     return PositiveDrive(tuple(_intervals(places, step)), fraction, gap, at, wide)
 
@@ -68,7 +68,7 @@ def positive_drives(mechanism: Mechanism) -> PositiveDrives | None:
         return None
     case = load_case(mechanism)
     # Midpoints of a grid that includes mid-motion, where the branches meet.
-    x = np.atleast_2d(engagement.entry_deg * (1.0 - (np.arange(SAMPLES) + 0.5) / SAMPLES))
+    x = np.atleast_2d(engagement.entry_deg * (1.0 - (np.arange(HALF_SAMPLES) + 0.5) / HALF_SAMPLES))
     (ax, ay), (bx, by) = engagement.slot(x, 0), engagement.slot(-x, 0)
     lead = np.arctan2(ay.c[0], ax.c[0]) - np.arctan2(by.c[0], bx.c[0])
     gap = L * np.hypot(ax.c[0], ay.c[0]) * np.abs(lead)

@@ -6,7 +6,7 @@ force Q the roller is pressed into the wall and its pin is bent, together by
     d = c Q^0.9 + Q / k,    c = 3.84e-5 mm / N^0.9 / b^0.8    (b: contact line, mm).
 
 The force is greatest where c Q^1.9 0.9 / 1.9 + Q² / (2 k) equals the energy I dw² / 2. For a spring
-only, it is dv sqrt(k m), for any lever. c is Palmgren's value for steel on steel (Ball and Roller
+only, it is dv sqrt(k m), for any lever. Palmgren measured c for steel on steel (Ball and Roller
 Bearing Engineering, 3rd ed., 1959). It is proportional to the 0.9th power of the materials'
 softness. The pin is a cantilever, 3 E pi d⁴ / (64 (b/2)³), loaded in the middle of its roller.
 """

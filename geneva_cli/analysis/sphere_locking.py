@@ -8,8 +8,8 @@ A corner of a recess, at p from the wheel's axis, meets the sector:
 
     d = chi(p, rho) - chi(p, k) ,    cos a = cos S cos p + sin S sin p cos chi .
 
-Here chi(p, a) is the azimuth about the wheel's axis, from the crank's, of a point at p from the
-wheel's axis and at a from the crank's.
+Here chi(p, a) is an azimuth about the wheel's axis, from the crank's axis. It is that of a point at
+p from the wheel's axis and at a from the crank's.
 
 An end of the sector, at q from the wheel's axis, meets the recess, if the recess reaches farther
 round. Then d is chi(q, rho) minus the azimuth of the end.

@@ -17,7 +17,7 @@ from geneva_cli.analysis.loads import summary
 from geneva_cli.analysis.loads.contact import NEAR_CUSP, is_straight
 from geneva_cli.figure import Piece
 from geneva_cli.machine.mechanism import Mechanism
-from geneva_cli.numerics.sampling import ASPECT, MISS, places, refined, thinned
+from geneva_cli.numerics.sampling import ASPECT, CHORD_ERROR, places, refined, thinned
 from geneva_cli.numerics.tolerances import ROUNDED
 
 if TYPE_CHECKING:
@@ -152,7 +152,7 @@ def pieces(
         if not stage.flat and b > a:
             x = refined(partial(_shifted, stage, shift), a, b, width, heights)
         for curve, y, height in zip(out, stage.of(x - shift) + up, heights, strict=True):
-            some = thinned(ASPECT / width * x, y / height, MISS / 4.0)
+            some = thinned(ASPECT / width * x, y / height, CHORD_ERROR / 4.0)
             curve.append((x[some].tolist(), (y[some] + 0.0).tolist()))
     return out
 

@@ -20,7 +20,7 @@ from geneva_cli.numerics.tolerances import TIE
 if TYPE_CHECKING:
     from geneva_cli.numerics.arrays import Array, Mask, Number
 
-SAMPLES = 1024  # of a half motion; the depth's error is then far below a micrometre per metre
+HALF_SAMPLES = 1024  # of a half motion; the depth's error is then far below a micrometre per metre
 
 
 class Undercut(NamedTuple):
@@ -47,7 +47,7 @@ class Undercuts(NamedTuple):
     to_cusp: Array  # 1 if it reaches a cusp at mid-motion, else 0
 
 
-def undercut(mechanism: Mechanism, samples: int = SAMPLES) -> Undercut | None:
+def undercut(mechanism: Mechanism, samples: int = HALF_SAMPLES) -> Undercut | None:
     """The deepest undercut of an outer wall, at entry or exit; None if there is none."""
     batch = undercuts(mechanism, samples)
     if batch is None or None in (one := only_of(batch)):
@@ -57,7 +57,7 @@ def undercut(mechanism: Mechanism, samples: int = SAMPLES) -> Undercut | None:
     return Undercut(wall, from_deg, to_deg, at_deg, radius, depth, bool(to_cusp))
 
 
-def undercuts(mechanism: Mechanism, samples: int = SAMPLES) -> Undercuts | None:
+def undercuts(mechanism: Mechanism, samples: int = HALF_SAMPLES) -> Undercuts | None:
     """The deepest undercuts of m designs; None for straight slots, which have none."""
     walls = outer_walls(mechanism, samples)
     if walls is None:
@@ -90,7 +90,9 @@ class OuterWall(NamedTuple):
         return OuterWall(*(rows[here] for rows in self))  # type: ignore[arg-type]
 
 
-def outer_walls(mechanism: Mechanism, samples: int = SAMPLES) -> tuple[OuterWall, OuterWall] | None:
+def outer_walls(
+    mechanism: Mechanism, samples: int = HALF_SAMPLES
+) -> tuple[OuterWall, OuterWall] | None:
     """The outer walls at entry and at exit; None for straight slots."""
     engagement = mechanism.engagements[0]
     if not engagement.slot.curved:

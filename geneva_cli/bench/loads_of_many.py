@@ -1,9 +1,9 @@
 """Loads of a large batch of designs, compared with single designs and with the formulas alone.
 
-Some loads of a machine are computed one by one: the greatest pin force, input torque and contact
-stress, and the root mean squares of the three. Others are computed all at once with both extremes.
-All designs have bounded loads. No search can be faster than the formulas alone, at as few places as
-give the answer. That is a row of its own, ``formulas alone``.
+The loads are the greatest pin force, input torque and contact stress, and the root mean squares of
+the three. They are computed one by one, and all at once with both extremes. All designs have
+bounded loads. No search can be faster than the formulas alone, at as few places as give the answer.
+That is a row of its own, ``formulas alone``.
 """
 
 from __future__ import annotations

@@ -9,7 +9,7 @@ from itertools import pairwise
 from typing import TYPE_CHECKING, TypeAlias
 
 from geneva_cli.machine.engagement import Anchor
-from geneva_cli.numerics.arrays import ONE, are_alike, are_designs, array, chosen, picked
+from geneva_cli.numerics.arrays import SINGLE, are_alike, are_designs, array, chosen, picked
 from geneva_cli.numerics.jet import Jet, Number, piecewise
 from geneva_cli.numerics.stacks import Stack, can_stack
 
@@ -78,7 +78,7 @@ class EachAnchor(Anchors):
         """Jet of ``solve(anchor, angles)``, with the anchor that serves each angle in degrees."""
         if are_designs(input_deg, self.cuts[0], self.cuts[-1]) and self.alike:
             return solve(chosen(input_deg, self.cuts, self.each), input_deg)
-        if not isinstance(input_deg, ONE) and input_deg.size and self.alike:
+        if not isinstance(input_deg, SINGLE) and input_deg.size and self.alike:
             import numpy as np
 
             # one call for the anchors that serve an angle

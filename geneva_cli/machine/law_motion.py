@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 from geneva_cli.errors import GenevaError, refuse
 from geneva_cli.machine.engagement import Motion
 from geneva_cli.machine.laws.law import Law, remaining
-from geneva_cli.numerics.arrays import ONE, all_true, ascending, library
+from geneva_cli.numerics.arrays import SINGLE, all_true, ascending, library
 from geneva_cli.numerics.jet import Jet, Number, piecewise
 from geneva_cli.numerics.latest import Latest
 
@@ -66,7 +66,7 @@ class LawMotion(Motion):
             rest = self.law.near_end((self.exit_deg - x) / whole, order)
             return remaining(rest * step, self.half_step)
 
-        if not isinstance(input_deg, ONE) and input_deg.ndim == 1 and self._halves_alike:
+        if not isinstance(input_deg, SINGLE) and input_deg.ndim == 1 and self._halves_alike:
             s = self._at_once(input_deg, middle, order)
         else:
             s = piecewise(input_deg, (middle,), (first, second))

@@ -32,7 +32,7 @@ class Integrands(NamedTuple):
     """Functions, and the spans from ``a`` to ``b`` over which each of them is integrated.
 
     ``functions(x, which)`` returns the functions (functions, m, k) of the spans ``which`` at places
-    (m, k). With ``ends`` they may behave as the root of the distance from a span's ends: places are
+    (m, k). With ``ends`` they may behave as the root of the distance from a span's ends. Places are
     then at the fraction t² (3 - 2 t) of the span.
     """
 

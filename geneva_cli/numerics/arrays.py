@@ -57,9 +57,6 @@ class Library(Protocol):
     def copysign(self, x: N, y: N, /) -> N: ...
 
 
-PLAIN = cast("Library", math)
-
-
 class Enclosed:
     """A single number that is known by two bounds (``balls.Ball``); it brings its own functions.
 
@@ -74,7 +71,7 @@ class Enclosed:
         raise NotImplementedError
 
 
-ONE = (float, int, Enclosed)  # the kinds of a single number; any other is an array
+SINGLE = (float, int, Enclosed)  # the kinds of a single number; any other is an array
 
 
 def piece_of(x: Number, cuts: Sequence[float]) -> int:
@@ -89,7 +86,7 @@ def piece_of(x: Number, cuts: Sequence[float]) -> int:
 def library(x: Number, y: Number = 0.0, z: Number = 0.0) -> Library:
     """The module whose functions suit these numbers: ``numpy`` if one of them is an array."""
     if isinstance(x, _PLAIN) and isinstance(y, _PLAIN) and isinstance(z, _PLAIN):
-        return PLAIN
+        return cast("Library", math)
     for one in (x, y, z):
         if isinstance(one, Enclosed):
             return one.library
@@ -194,7 +191,7 @@ def are_alike(records: Sequence[object]) -> bool:
 
 def are_designs(x: Number, *numbers: Number) -> bool:
     """Return True if angles are (n, k), or if one of the numbers is an array."""
-    plain = isinstance(x, ONE) or x.ndim < 2
+    plain = isinstance(x, SINGLE) or x.ndim < 2
     return not (plain and all(isinstance(one, float) for one in numbers))
 
 

@@ -22,10 +22,10 @@ import numpy as np
 if TYPE_CHECKING:
     from geneva_cli.numerics.arrays import Array
 
-DEGREE = 16  # of the series: for most loads, its terms have ended between two cuts
-MIDDLE = DEGREE // 2  # number of the middle point
+SERIES_DEGREE = 16  # of the series: for most loads, its terms have ended between two cuts
+MIDDLE = SERIES_DEGREE // 2  # number of the middle point
 
-_order = np.arange(DEGREE + 1)
+_order = np.arange(SERIES_DEGREE + 1)
 
 
 def _even_spread(cells: int) -> Array:
@@ -36,7 +36,7 @@ def _even_spread(cells: int) -> Array:
 
 def _terms(t: Array) -> Array:
     """The Chebyshev polynomials at places of any shape: (terms, ...)."""
-    out = np.empty((DEGREE + 1, *t.shape))
+    out = np.empty((SERIES_DEGREE + 1, *t.shape))
     out[0], out[1] = 1.0, t
     for m in (1, 2, 4, 8):  # T(m + n) = 2 T(m) T(n) - T(m - n)
         out[m + 1 : 2 * m + 1] = 2.0 * out[m] * out[1 : m + 1] - out[:m][::-1]
@@ -46,9 +46,9 @@ def _terms(t: Array) -> Array:
 def _to_series() -> Array:
     """The matrix from values at the points, a row, to the terms of the series."""
     # the discrete cosine transform of the second kind of points: ends count half
-    weight = np.where((_order == 0) | (_order == DEGREE), 0.5, 1.0)
-    cosines = np.cos(np.pi * np.outer(DEGREE - _order, _order) / DEGREE)
-    return np.asarray(2.0 / DEGREE * weight[:, None] * cosines * weight)
+    weight = np.where((_order == 0) | (_order == SERIES_DEGREE), 0.5, 1.0)
+    cosines = np.cos(np.pi * np.outer(SERIES_DEGREE - _order, _order) / SERIES_DEGREE)
+    return np.asarray(2.0 / SERIES_DEGREE * weight[:, None] * cosines * weight)
 
 
 def _to_slopes() -> Array:
@@ -82,7 +82,7 @@ def _sum(terms: Array) -> Array:
     return np.asarray(np.add.reduce(terms))
 
 
-POINTS = _even_spread(DEGREE)  # where functions are sampled
+POINTS = _even_spread(SERIES_DEGREE)  # where functions are sampled
 GRID = _even_spread(32)  # where signs are compared: two cells for each point
 _SERIES = _to_series()
 _SLOPES = _to_slopes()

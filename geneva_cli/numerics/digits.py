@@ -5,12 +5,12 @@ from __future__ import annotations
 import math
 from decimal import Context, Decimal
 
-FIFTY = Context(prec=50)
+FIFTY = Context(prec=50)  # digits
 PI = Decimal("3.14159265358979323846264338327950288419716939937510582097494")
 
 
 def sin_cos(radians: Decimal) -> tuple[Decimal, Decimal]:
-    """Sine and cosine in the current context, from the series of an eighth of a turn at most."""
+    """Sine and cosine of an angle, to the digits of the current context."""
     quarter = round(float(radians) / (0.5 * math.pi))
     x = radians - quarter * PI / 2
     sums = [Decimal(1), x]  # cosine, sine
@@ -24,7 +24,7 @@ def sin_cos(radians: Decimal) -> tuple[Decimal, Decimal]:
 
 
 def of_degrees(degrees: float) -> Decimal:
-    """Exact degrees to radians."""
+    """Degrees, taken as exact, to radians."""
     return Decimal(degrees) * PI / 180
 
 

@@ -23,7 +23,7 @@ if TYPE_CHECKING:
     Which: TypeAlias = slice | Whole
     Sample: TypeAlias = Array | tuple[Array, Array, Array]  # place, value, slope
 
-SCAN = 12  # intervals of the first scan, an even number
+SCAN_INTERVALS = 12  # intervals of the first scan, an even number
 # designs scanned at a time: 13 places of each take 110 kB for each number of a formula
 BLOCK = 1024
 GROUP = 16 * BLOCK  # designs refined together
@@ -200,9 +200,9 @@ def _scanned(f: BatchFunction, a: Array, b: Array, start: int) -> _Scan:
 
 def _scan(f: BatchFunction, a: Array, b: Array, start: int) -> _Scan:
     # Designs lie side by side in memory: each operation runs along all of them.
-    samples = np.empty((3, SCAN + 1, len(a))).transpose(0, 2, 1)
+    samples = np.empty((3, SCAN_INTERVALS + 1, len(a))).transpose(0, 2, 1)
     x, value, slope = samples
-    x[:] = a + (b - a) * (np.arange(SCAN + 1) / SCAN)
+    x[:] = a + (b - a) * (np.arange(SCAN_INTERVALS + 1) / SCAN_INTERVALS)
     x[:, -1:] = b
     value[:], slope[:] = f(x, slice(start, start + len(a)), 1)
     low, high = value.min(axis=1), value.max(axis=1)

@@ -15,7 +15,7 @@ from itertools import pairwise
 from math import factorial
 from typing import TYPE_CHECKING, TypeVar, cast
 
-from geneva_cli.numerics.arrays import ONE, Enclosed, library, minus, piece_of, plus, size
+from geneva_cli.numerics.arrays import SINGLE, Enclosed, library, minus, piece_of, plus, size
 from geneva_cli.numerics.arrays import Array as Array
 from geneva_cli.numerics.arrays import Number as Number
 
@@ -278,7 +278,7 @@ def piecewise(x: Number, cuts: Sequence[Number], pieces: Sequence[Callable[[Numb
     cuts may differ, a piece is evaluated at the columns where it applies anywhere. So it is faster
     to request angles that lie in one piece.
     """
-    if isinstance(x, ONE) and isinstance(cuts[0], float) and isinstance(cuts[-1], float):
+    if isinstance(x, SINGLE) and isinstance(cuts[0], float) and isinstance(cuts[-1], float):
         return pieces[piece_of(x, cast("Sequence[float]", cuts))](x)
     import numpy as np
 

@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import TYPE_CHECKING
 
-from geneva_cli.numerics.arrays import ONE, read_only
+from geneva_cli.numerics.arrays import SINGLE, read_only
 from geneva_cli.numerics.jet import Jet, Number
 
 if TYPE_CHECKING:
@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 class Latest:
     """The jets of a function at the array of angles of its last call.
 
-    A call with the same array object, equal values and no higher order is served from the cache: a
+    A call with the same array object, equal values and no higher order is served from the cache. A
     jet of lower order is the beginning of the cached one. The cache is not pickled. Its arrays are
     read-only, so that no caller can change the next result.
     """
@@ -34,7 +34,7 @@ class Latest:
         self, of: Callable[[Number, int], tuple[Jet, ...]], x: Number, order: int
     ) -> tuple[Jet, ...]:
         """``of(x, order)``, from the cache if possible."""
-        if isinstance(x, ONE):
+        if isinstance(x, SINGLE):
             return of(x, order)
         kept = self._kept
         if kept and kept[0] is x and kept[2] >= order and bool((kept[1] == x).all()):

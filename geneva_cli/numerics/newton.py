@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from geneva_cli.numerics.roots import STEPS
+from geneva_cli.numerics.roots import MOST_STEPS
 
 if TYPE_CHECKING:
     from geneva_cli.numerics.arrays import Array, Mask, Whole
@@ -64,7 +64,7 @@ def newton_roots(
     last: list[Array] = []
     a, b, f_a, f_b = brackets
     near, step = close * (b - a), b - a
-    for _ in range(STEPS):
+    for _ in range(MOST_STEPS):
         values = f(x, live)
         if not last:
             last = [v.copy() for v in values]
@@ -105,8 +105,8 @@ def _bent_step(
     """The step to the root of a cubic through two values, a third value and its slope.
 
     Also returns the cubic's integral over the step. It is Newton's step where one of the two values
-    is unknown. The error of Newton's step is quadratic; this one's has the bracket's third power as
-    well, which saves one step in the brackets of a scan.
+    is unknown. The error of Newton's step is quadratic. This one's also has the bracket's third
+    power, which saves one step in the brackets of a scan.
     """
     (s, f_s), (t, f_t) = one, two
     p, q = (f_s - f - slope * s) / (s * s), (f_t - f - slope * t) / (t * t)

@@ -24,9 +24,9 @@ if TYPE_CHECKING:
     Which: TypeAlias = slice | Whole
     Some: TypeAlias = slice | Whole | Mask
 
-END = 1e-9  # fraction of a row: a zero this near to an end, such as a motion's, is the end's own
-SAFE = 4.0  # times the last terms of a series: a bound on all later terms
-STEPS = 6  # of Newton's method, from the zero of a series
+AT_END = 1e-9  # fraction of a row: a zero this near to an end, such as a motion's, is the end's own
+LATER_TERMS = 4.0  # times the last terms of a series: a bound on all later terms
+NEWTON_STEPS = 6  # of Newton's method, from the zero of a series
 
 
 class Functions(Protocol):
@@ -243,11 +243,11 @@ class Cutter:
         level = np.maximum(1e-12 * size, rounding)
         noise = np.repeat(level[:, None], len(GRID), axis=1)
         for end in (0, -1):
-            noise[:, end] = np.maximum(noise[:, end], END * np.abs(d[:, end]))
+            noise[:, end] = np.maximum(noise[:, end], AT_END * np.abs(d[:, end]))
         below = g < -noise
         change = below[:, 1:] != below[:, :-1]
-        twice = _crosses_twice(g, d, below, noise, SAFE * left[:, None])
-        near = np.abs(g[:, 1:-1]) < SAFE * left[:, None]
+        twice = _crosses_twice(g, d, below, noise, LATER_TERMS * left[:, None])
+        near = np.abs(g[:, 1:-1]) < LATER_TERMS * left[:, None]
         near &= (GRID[1:-1] >= part[0, some, None]) & (GRID[1:-1] <= part[1, some, None])
         # The series may err by 3e-3 of a size for a single zero, and by 1e-9 if several points
         # are within the error of 0.
@@ -261,7 +261,7 @@ class Cutter:
         low, high, a, b = GRID[cell], GRID[cell + 1], g[own, cell], g[own, cell + 1]
         t = chebyshev.root(chebyshev.series(q[own]), low, high, low + (high - low) * a / (a - b))
         which = some[own]
-        kept = (t > part[0, which] + END) & (t < part[1, which] - END)
+        kept = (t > part[0, which] + AT_END) & (t < part[1, which] - AT_END)
         which, t = which[kept], t[kept]
         t = self._refined(kind, rows.take(which), sign[:, which], t)
         kept = (t > part[0, which]) & (t < part[1, which])
@@ -281,7 +281,7 @@ class Cutter:
         x = self.places.gathered(rows.at(t), rows.design)
         number = np.arange(self.f.signs)[:, None]
         known, live = np.where(number < kind, sign, np.nan), np.arange(len(t))
-        for _ in range(STEPS):
+        for _ in range(NEWTON_STEPS):
             at = self.f.at(x[live, None], rows.design[live], 1)
             value, slope = (c[kind, :, 0] for c in self.f.evaluate(at, known[:, live, None], ())[1])
             step = -value / (slope * DEGREE)
@@ -306,7 +306,7 @@ def _may_cross(value: Array, sign: Array) -> tuple[Whole, Array, Array, Array]:
     size, left = np.abs(value).max(axis=1), chebyshev.remainder(value)
     q = value * sign[:, None]
     # Where a point is below a twentieth of the size, the function may be 0 next to it.
-    some = np.flatnonzero(~(q.min(axis=1) >= 0.05 * size + SAFE * left))
+    some = np.flatnonzero(~(q.min(axis=1) >= 0.05 * size + LATER_TERMS * left))
     return some, q[some], size[some], left[some]
 
 

@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 
 Real = TypeVar("Real", float, "Decimal")
 
-STEPS = 200  # towards a root, at most; halving reaches the last of 50 digits in 170
+MOST_STEPS = 200  # towards a root, at most; halving reaches the last of 50 digits in 170
 
 
 def root(
@@ -33,7 +33,7 @@ def root(
     """
     f_a = slope(a)[0] if before is None else before
     x, step = 0.5 * (a + b), b - a
-    for _ in range(STEPS):
+    for _ in range(MOST_STEPS):
         f, d = slope(x)
         if f == 0.0:
             return x
@@ -52,7 +52,7 @@ def root(
 
 
 def boundary(
-    holds: Callable[[Real], Truth], good: Real, bad: Real, evaluations: int = STEPS
+    holds: Callable[[Real], Truth], good: Real, bad: Real, evaluations: int = MOST_STEPS
 ) -> Real:
     """The last number from ``good`` towards ``bad`` for which a condition holds, by halving.
 
@@ -82,7 +82,7 @@ def boundary_by_sections(
     import numpy as np
 
     fractions = np.arange(1, sections) / sections
-    for _ in range(STEPS):
+    for _ in range(MOST_STEPS):
         x = good + (bad - good) * fractions
         yes = holds(x)
         i = sections - 1 if yes.all() else int(np.argmin(yes))

@@ -13,7 +13,7 @@ if TYPE_CHECKING:
 Curves: TypeAlias = "Callable[[Array], Array]"  # x (n,) -> a row a curve (q, n)
 
 ASPECT = 5.0  # width of a panel over its height
-MISS = 4e-4  # error of a chord as a fraction of a panel's height: below 0.1 px of a panel of 200 px
+CHORD_ERROR = 4e-4  # of a panel's height: less than 0.1 px of a panel of 200 px
 
 
 def places(start: float, end: float) -> Array:
@@ -25,7 +25,7 @@ def places(start: float, end: float) -> Array:
 
 
 def refined(of: Curves, start: float, end: float, width: float, heights: Array) -> Array:
-    """Places (n,) at which to sample curves between two x, so that chords err by at most ``MISS``.
+    """Places (n,) at which to sample curves between two x, so that chords err by ``CHORD_ERROR``.
 
     ``width`` and ``heights`` (q,) are the ranges of x and of each curve that a panel shows. A
     chord's error is its distance from the curve in the panel, measured half-way.
@@ -44,7 +44,7 @@ def refined(of: Curves, start: float, end: float, width: float, heights: Array) 
         with np.errstate(invalid="ignore"):  # a curve without a bound has no chord
             rise = (after - before) / scale
             off = abs(there - 0.5 * (before + after)) / scale * run / np.hypot(run, rise)
-            far = (off > MISS).any(axis=0)
+            far = (off > CHORD_ERROR).any(axis=0)
         x = np.insert(x, unmeasured + 1, middle)
         y = np.insert(y, unmeasured + 1, there, axis=1)
         left = (unmeasured + np.arange(len(unmeasured)))[far]

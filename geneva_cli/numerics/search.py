@@ -1,9 +1,9 @@
 """Greatest and least values of functions of many designs, and the places where signs change.
 
-Functions are smooth only while certain signs do not change: a load jumps where the roller's sliding
-reverses, and has a kink where its torque does. Each design's spans are sampled at Chebyshev points
-and cut where signs change (``pieces``). The series between cuts show where a function may exceed
-the known values; there the function itself is evaluated, by Newton steps.
+Functions are smooth only while certain signs do not change. For example, a load jumps where the
+roller's sliding reverses, and has a kink where the torque does. Each design's spans are sampled at
+Chebyshev points and cut where signs change (``pieces``). The series between cuts show where a
+function may exceed the known values; there the function itself is evaluated, by Newton steps.
 """
 
 from __future__ import annotations
@@ -18,8 +18,8 @@ from geneva_cli.numerics.angles import DEGREE
 from geneva_cli.numerics.chebyshev import GRID, MIDDLE, POINTS
 from geneva_cli.numerics.greatest import GreatestValues
 from geneva_cli.numerics.pieces import (
-    SAFE,
-    STEPS,
+    LATER_TERMS,
+    NEWTON_STEPS,
     Cutter,
     Functions,
     Rows,
@@ -33,8 +33,8 @@ if TYPE_CHECKING:
     from geneva_cli.numerics.pieces import Some, Which
 
 BLOCK = 2048  # rows sampled at a time: that many fit in the processor's cache
-BEYOND = 0.15  # fraction of the range of samples, by which an extreme between them may exceed it
-UNSURE = 16.0  # times the last terms: the error of a series that has not ended
+OVERSHOOT = 0.15  # fraction of the range of samples, by which an extreme between them may exceed it
+UNFINISHED = 16.0  # times the last terms: the error of a series that has not ended
 
 
 class Stretches(NamedTuple):
@@ -157,7 +157,7 @@ class _ExtremeSearch:
         pieces = sampled.pieces
         low, high = pieces.value.min(axis=2), pieces.value.max(axis=2)
         left = chebyshev.remainder(pieces.value)
-        more = BEYOND * (high - low) + UNSURE * left
+        more = OVERSHOOT * (high - low) + UNFINISHED * left
         may = self.greatest.may_pass(pieces.rows.design, low - more, high + more)
         may &= (low != np.inf) & (high != -np.inf)  # it has a bound somewhere
         number, own = np.nonzero(may)
@@ -180,7 +180,7 @@ class _ExtremeSearch:
         # the allowed error of a series near an extreme: 1e-5 of a size
         ended = (curves.left < np.inf) & (curves.left <= 1e-5 * size)
         some = np.flatnonzero(~ended)
-        curves, more = curves.take(some), UNSURE * curves.left[some]
+        curves, more = curves.take(some), UNFINISHED * curves.left[some]
         low, high = curves.value.min(axis=1) - more, curves.value.max(axis=1) + more
         whole = (curves.part[0] == -1.0) & (curves.part[1] == 1.0)
         for weight in (margin[some], margin[some] ** 2, np.abs(x[some]), x[some] ** 2):
@@ -206,7 +206,7 @@ class _ExtremeSearch:
         not tell the sign of the slope.
         """
         terms = chebyshev.series(curves.value)
-        value, more = chebyshev.at(terms, curves.part[end]), SAFE * curves.left
+        value, more = chebyshev.at(terms, curves.part[end]), LATER_TERMS * curves.left
         low, high = value - more, value + more
         may = self.greatest.may_be(curves.number, curves.rows.design, low, high)
         curves = curves.take(may & curves.rows.edge[end])
@@ -243,7 +243,7 @@ class _ExtremeSearch:
         there.
         """
         low, high = curves.value.min(axis=1), curves.value.max(axis=1)
-        more = BEYOND * (high - low)
+        more = OVERSHOOT * (high - low)
         # a function whose range is rounding has no extreme within
         may = high - low > 1e-13 * np.maximum(np.abs(low), np.abs(high))
         may &= self.greatest.may_be(curves.number, curves.rows.design, low - more, high + more)
@@ -251,7 +251,7 @@ class _ExtremeSearch:
         curves = curves.take(own)
         side = 0 if sign > 0.0 or self.greatest.sized else 1
         bar = self.greatest.least(side)[curves.number, curves.rows.design]
-        left, cell = SAFE * curves.left, np.diff(GRID)
+        left, cell = LATER_TERMS * curves.left, np.diff(GRID)
         g, d = chebyshev.on_grid(sign * curves.value)
         before, after = d[:, :-1], d[:, 1:]
         reach = np.maximum(g[:, :-1], g[:, 1:]) + 0.25 * cell * np.abs(before - after)
@@ -278,7 +278,7 @@ class _ExtremeSearch:
         # least a tenth of half a piece.
         near = 0.5 * (rows.x[1] - rows.x[0]) * np.maximum(cell, 0.1)
         live, value = np.arange(len(x)), np.empty(len(x))
-        for _ in range(STEPS):
+        for _ in range(NEWTON_STEPS):
             if not len(live):
                 break
             v, slope, bend = self._jets(x[live, None], curves.take(live), 2)[..., 0]

@@ -16,9 +16,9 @@ from typing import NamedTuple
 
 import numpy as np
 
-from geneva_cli.numerics.arrays import ONE, Array, N, piece_of
+from geneva_cli.numerics.arrays import SINGLE, Array, N, piece_of
 
-DEGREE = 5
+SPLINE_DEGREE = 5
 
 
 class PiecewisePolynomial:
@@ -34,7 +34,7 @@ class PiecewisePolynomial:
 
     def __call__(self, x: N, order: int) -> list[N]:
         """Taylor coefficients 0 to ``order`` at a number or an array of numbers."""
-        if isinstance(x, ONE):
+        if isinstance(x, SINGLE):
             cuts, origins, rows = self._scalars
             i = piece_of(x, cuts)
             return taylor(x - origins[i], rows[i], order)
@@ -79,16 +79,20 @@ def at_rest(x: Sequence[float], y: Sequence[float]) -> PiecewisePolynomial:
     from scipy.interpolate import BSpline, PPoly
 
     starts, n = np.array(x[:-1]), len(x) - 1
-    knots = np.concatenate((np.repeat(x[0], DEGREE + 1), x[1:-1], np.repeat(x[-1], DEGREE + 1)))
+    knots = np.concatenate(
+        (np.repeat(x[0], SPLINE_DEGREE + 1), x[1:-1], np.repeat(x[-1], SPLINE_DEGREE + 1))
+    )
     # At a knot five B-splines are not zero. At rest, three coefficients are the end's value.
-    bands = BSpline.design_matrix(x[1:-1], knots, DEGREE).data.reshape(-1, DEGREE + 1)[:, :DEGREE]
+    bands = BSpline.design_matrix(x[1:-1], knots, SPLINE_DEGREE).data.reshape(
+        -1, SPLINE_DEGREE + 1
+    )[:, :SPLINE_DEGREE]
     values = np.array(y[1:-1])
     for k in range(min(2, n - 1)):
         values[k] -= y[0] * bands[k, : 2 - k].sum()
         values[-1 - k] -= y[-1] * bands[-1 - k, 3 + k :].sum()
     inner = _pentadiagonal(bands.tolist(), values.tolist())
-    spline = BSpline(knots, [*[y[0]] * 3, *inner, *[y[-1]] * 3], DEGREE)
-    rows = PPoly.from_spline(spline).c[::-1, DEGREE : DEGREE + n].T.copy()
+    spline = BSpline(knots, [*[y[0]] * 3, *inner, *[y[-1]] * 3], SPLINE_DEGREE)
+    rows = PPoly.from_spline(spline).c[::-1, SPLINE_DEGREE : SPLINE_DEGREE + n].T.copy()
     rows[:, 0] = y[:-1]
     rows[0, 1:3] = 0.0
     return PiecewisePolynomial(starts[1:], starts, rows)

@@ -1,8 +1,8 @@
 """A substitution that spreads samples about 0, near which functions change fastest.
 
-The angle u with x = w sinh(u / w) gives the range within w of 0 as much length as the rest. So the
-same number of samples gives more digits: poles at x = i w and -i w move to u = i w pi/2 and -i w
-pi/2. Near 0, u is x; with a large w it is x everywhere.
+The angle u with x = w sinh(u / w) gives the range within w of 0 as much length as the rest. Poles
+at x = i w and -i w move to u = i w pi/2 and -i w pi/2. So the same number of samples gives more
+digits. Near 0, u is x; with a large w it is x everywhere.
 
 Source: D. Elliott, P. R. Johnston, "A sinh transformation for evaluating nearly singular boundary
 element integrals", Int. J. Numer. Meth. Engng 62 (2005).

@@ -43,7 +43,7 @@ def first_greatest(value: Array, place: Array, size: Array) -> tuple[Array, Arra
 def usual(rows: Array) -> tuple[Array, Array]:
     """The least and the greatest finite value of rows (..., k), each of which has one.
 
-    In a row with a pole, outliers are left out: near a pole values are of any size, and say nothing
+    In a row with a pole, outliers are left out. Near a pole values are of any size, and say nothing
     about values far from it.
     """
     finite = np.isfinite(rows)

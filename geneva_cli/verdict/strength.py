@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, TypeAlias
 
 import numpy as np
 
-from geneva_cli.analysis.loads.quantities import PARALLEL
+from geneva_cli.analysis.loads.quantities import PARALLEL_SHAFTS
 from geneva_cli.analysis.strength import horn, lock, shafts
 from geneva_cli.errors import Notice
 from geneva_cli.parts.sizes import sized
@@ -150,7 +150,7 @@ class Strength:
         yield from self._shaft("crank", shafts.crank_shaft(self.spec.shaft))
 
     def _shaft(self, which: str, ends: shafts.ShaftDimensions) -> Keys:
-        yield [(self.spec.wheel.FLAT, PARALLEL)]
+        yield [(self.spec.wheel.FLAT, PARALLEL_SHAFTS)]
         if self.spec.is_loaded:
             yield [self._bounded]
         placed = (ends.overhang_mm is not None, f"{which}_overhang_mm in [shaft]")

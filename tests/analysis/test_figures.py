@@ -20,7 +20,7 @@ from geneva_cli import (
 from geneva_cli.analysis.figures import AXIS_BY_NAME, MACHINES_MAX, USUAL_QUANTITIES, figure
 from geneva_cli.analysis.loads.summary import SHOWN_QUANTITIES
 from geneva_cli.errors import GenevaError
-from geneva_cli.numerics.sampling import ASPECT, MISS, refined, thinned
+from geneva_cli.numerics.sampling import ASPECT, CHORD_ERROR, refined, thinned
 
 DESIGNS = sorted(repo.DESIGNS.glob("*.toml"))
 LOADED = Load(inertia_kgm2=0.4, torque_Nm=15)
@@ -193,7 +193,9 @@ def test_chords_stay_within_the_miss():
     for row, height in zip(range(3), heights, strict=True):
         off = np.abs(np.interp(fine, x, of(x)[row]) - of(fine)[row]) / height
         slope = np.gradient(of(fine)[row], fine) / height * 6.0 / ASPECT
-        assert (off / np.hypot(1.0, slope)).max() < 1.5 * MISS  # a chord's middle is not its worst
+        assert (
+            off / np.hypot(1.0, slope)
+        ).max() < 1.5 * CHORD_ERROR  # a chord's middle is not its worst
     assert len(x) < 500
 
 

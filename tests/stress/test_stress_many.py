@@ -17,7 +17,7 @@ def test_none_is_missed(name):
 
 def test_it_can_tell(monkeypatch):
     """A scan of two intervals that never looks again steps over peaks, and is found out."""
-    monkeypatch.setattr(extrema, "SCAN", 2)
+    monkeypatch.setattr(extrema, "SCAN_INTERVALS", 2)
     monkeypatch.setattr(extrema, "unpredicted", lambda left, *_: np.zeros(left[0].shape, bool))
     row = stressed("spherical, slowed", 200, witnessed=0)
     assert row.missed > 0

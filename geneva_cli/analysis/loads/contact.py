@@ -40,9 +40,9 @@ class Contact(NamedTuple, Generic[V]):
 
 
 def contacts(engagement: Engagement, input_deg: Array) -> Contact[Array]:
-    """The contact at many ascending input angles, values only.
+    """The values of the contact at ascending input angles (k,), degrees from mid-motion.
 
-    Mirrored values and those with a closed form are not computed again.
+    Mirrored values are computed once, and closed forms are used.
     """
     if is_straight(engagement):
         rates = Jet(engagement.motion.derivatives(input_deg, (1, 2)))
@@ -110,11 +110,11 @@ def contact(
     reactions: bool = True,
     spins: bool = True,
 ) -> Contact[Jet]:
-    """The contact at input angles (degrees, one or an array) from an engagement's mid-motion.
+    """The contact at input angles, degrees from an engagement's mid-motion, one or an array.
 
-    Without ``reactions`` the joints are not computed, and without ``spins`` the roller body's
-    rotation is not: ``spin`` is then 0, which is enough if sliding is not needed. At mid-motion of
-    a curved slot only the values have a limit, that of entry: there ``order`` must be 0.
+    Without ``reactions`` those of the joints are None. Without ``spins`` the rotation of the
+    roller's body is 0, which is enough if sliding is not needed. At mid-motion of a curved slot
+    only the values have a limit, that of entry: there ``order`` must be 0.
     """
     if is_straight(engagement) or all_true(input_deg != 0.0):
         return _moving(engagement, input_deg, order, reactions=reactions, spins=spins)

@@ -78,8 +78,8 @@ class Cycle:
     def states(self, input_deg: Array) -> Instant[Array]:
         """Arrays at ascending input angles of a period from the first entry; 0 in the dwells.
 
-        A force without a bound is infinite: where friction alone holds the wheel, and at mid-motion
-        of a curved slot that lies across the roller's path.
+        A force without a bound is infinite. It is so where friction alone holds the wheel, and at
+        mid-motion of a curved slot that lies across the roller's path.
         """
         out: dict[str, Array | None] = {
             name: np.zeros(len(input_deg)) for name in INSTANT_QUANTITIES

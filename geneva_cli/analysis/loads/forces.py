@@ -1,13 +1,15 @@
 """Forces between roller and slot, as formulas for jets of one angle or of many.
 
-t is the unit tangent of the slot, away from the wheel's axis. n = d i t is the normal towards the
-wall that bears; d = 1 if the torque T drives the wheel, and -1 if it holds the wheel back. The
-contact point is C = M + r n, and the wheel's balance about its axis is
+t is the unit tangent of the slot, away from the wheel's axis. The normal n = d i t points towards
+the wall that bears: d is 1 if the torque T drives the wheel, and -1 if it holds the wheel back. The
+contact point is C = M + r n. The wheel's balance about its axis is
 
     |T| = N |C x n + f s C x t| = N [M . t + f s (d (M x t) - r)]
 
-(M x t = 0 in a radial slot). s is the sign of the speed at which the roller, fixed to its body,
-rubs along the wall: v = M' . t - d r (rate of that body - rate of the wheel).
+with M x t = 0 in a radial slot. s is the sign of v, the speed at which the roller, fixed to its
+body, rubs along the wall:
+
+    v = M' . t - d r (rate of that body - rate of the wheel).
 """
 
 from __future__ import annotations
@@ -25,7 +27,7 @@ from geneva_cli.numerics.angles import omega
 from geneva_cli.numerics.arrays import all_true, choose, designs_of, library
 from geneva_cli.numerics.jet import Jet, Number, V
 
-ZERO = 1e-12  # fraction of a torque, of a motion, or of a lever over L that is rounding
+NEGLIGIBLE = 1e-12  # fraction of a torque, of a motion, or of a lever over L that is rounding
 
 
 class LoadCase(NamedTuple):

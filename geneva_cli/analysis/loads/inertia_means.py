@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from geneva_cli.analysis.loads.contact import mirrored
-from geneva_cli.analysis.loads.forces import ZERO
+from geneva_cli.analysis.loads.forces import NEGLIGIBLE
 from geneva_cli.analysis.loads.loaded import LoadFunctions, SignFunctions, signed_instant
 from geneva_cli.analysis.loads.quantities import square_of
 from geneva_cli.analysis.loads.stretches import spans_of
@@ -64,7 +64,7 @@ def squares(load: LoadFunctions, n: int) -> Array:
                 row = quantity(instant, here)
                 total[k] += square_of(array(row.value.c[0]), name)[:, ::step]
                 if row.margin is not None:  # an unbounded function is not evaluated again
-                    lost = np.any(row.margin.c[0] <= ZERO, axis=1)
+                    lost = np.any(row.margin.c[0] <= NEGLIGIBLE, axis=1)
                     bounded[k, design[which[lost]]] = False
         return total * rate
 

@@ -15,7 +15,7 @@ import numpy as np
 
 from geneva_cli.analysis.loads.contact import Contact, column, contact, mirrored, rows
 from geneva_cli.analysis.loads.forces import (
-    ZERO,
+    NEGLIGIBLE,
     KnownValues,
     LoadCase,
     QuantityValue,
@@ -226,7 +226,7 @@ class LoadFunctions:
                 margin = row.margin.c[0]
                 # without friction a lever has all its digits, however short
                 whole = row.margin is signed.instant.grip and not case.rubs
-                lost = margin <= (0.0 if whole else ZERO)
+                lost = margin <= (0.0 if whole else NEGLIGIBLE)
                 # a margin that is known to be negative may have a rounding error above 0
                 for kind in self.margins:
                     own = margin == signed.jets[kind].c[0]

@@ -37,8 +37,8 @@ if TYPE_CHECKING:
 class LoadState(NamedTuple):
     """The loads at one input angle, or at an array of them.
 
-    Unbounded forces and stresses are infinite: where friction alone holds the wheel, at mid-motion
-    of a slot across the roller's path, and where the bearing wall ends in an edge.
+    Forces and stresses are infinite where they have no bound. It is so where friction alone holds
+    the wheel, where the bearing wall ends in an edge, and where a slot lies across the path.
     """
 
     torque_Nm: Number  # torque that the wheel needs
@@ -100,11 +100,8 @@ def greatest(mechanism: Mechanism, name: str) -> Peak[float]:
     return Peak(float(most[0]), float(at_deg[0]))
 
 
-TINY = 1e-9  # degrees: rounding of an input angle
-
-
 class Slope(NamedTuple):
-    """The square of the pressure angle's tangent."""
+    """The square of the pressure angle's tangent, as a quantity of ``load_peaks``."""
 
     def __call__(self, i: Instant[Jet], at: Contact[Jet]) -> QuantityValue[Jet]:
         """The quantity, which is bounded where its denominator is not 0."""
@@ -157,8 +154,8 @@ def fastest_rpm(mechanism: Mechanism) -> float | None:
 class Slowness(NamedTuple):
     """1 / (highest speed that a place allows)², for a load with a factor per unit of wheel torque.
 
-    With the load q (T) = q1 T, whose factor q1 does not depend on speed, and T = w² I a + M, the
-    limit holds up to w² = (limit - q1 M) / (q1 I a).
+    The load is q1 T, with T = w² I a + M, and its factor q1 does not depend on speed. So the limit
+    holds up to w² = (limit - q1 M) / (q1 I a).
     """
 
     of: Callable[[Forces[Jet]], Jet]
@@ -200,7 +197,6 @@ def _slowness(engagement: Engagement, case: LoadCase, limits: Mapping[str, float
     return max(0.0, float(result.most[: len(names)].max()))
 
 
-KEPT = 1.0 + 1e-9  # a limit met at the highest speed may be exceeded by rounding
 LIMITED_LOADS = (FORCE, TORQUE, STRESS)
 
 

@@ -13,7 +13,7 @@ import numpy as np
 
 from geneva_cli.analysis.loads.contact import NEAR_CUSP, Contact, contact
 from geneva_cli.analysis.loads.forces import (
-    ZERO,
+    NEGLIGIBLE,
     LoadCase,
     QuantityValue,
     gain,
@@ -50,9 +50,9 @@ def at_mid_motion(
 ) -> list[MidMotionValues]:
     """The values of ``rows`` at mid-motion, and nearer to it than any stretch.
 
-    Where the pin crosses the radius, its lever is 0 and a torque takes an unbounded force; 0/0 is
-    replaced by the limits from both sides. At a cusp the wall turns away from the roller on one
-    side. A quantity without margin on the other side goes to 0 there. So does a quantity of a
+    Where the pin crosses the radius, its lever is 0 and a torque takes an unbounded force. Instead
+    of 0/0 the limits from both sides are returned. At a cusp the wall turns away from the roller on
+    one side. A quantity without margin on the other side goes to 0 there. So does a quantity of a
     torque that changes sign nearer to mid-motion than the stretches.
     """
     middle, near = np.zeros(n), NEAR_CUSP * np.reshape(engagement.entry_deg, (-1, 1))
@@ -72,10 +72,11 @@ def at_mid_motion(
             for k, row in enumerate(rows(here, *_signs(case, here))):
                 known = np.broadcast_to(value(row.value), (n, 1))
                 margin = np.inf if row.margin is None else value(row.margin)
-                there = (margin > ZERO) & np.isfinite(known)
+                there = (margin > NEGLIGIBLE) & np.isfinite(known)
                 away = np.isinf(margin) & np.isfinite(known)
                 out.append(MidMotionValues(k, middle, np.where(away, known, np.nan)[:, 0]))
-                by_friction = margin < -ZERO  # on this side by friction alone, whatever the torque
+                # on this side friction alone holds the wheel, whatever the torque
+                by_friction = margin < -NEGLIGIBLE
                 for limit in limits:
                     none = np.where(by_friction, np.nan, limit[k])
                     none = np.where(loaded, np.inf * row.sign, none)
@@ -101,7 +102,7 @@ def at_crossing(engagement: Engagement, case: LoadCase) -> dict[str, Array] | No
             return None
         # the torque's own sign is rounding, and where friction leaves no lever its force is 0/0
         here, jets = (Instant(case, x, *_signs(case, before)) for x in (at, before))
-        open_ = np.abs(value(here.grip)) <= ZERO
+        open_ = np.abs(value(here.grip)) <= NEGLIGIBLE
         known, near_values = bounded(values(here)), bounded(values(jets))
         out = {}
         for name, jet in jets.quantities().items():
@@ -120,7 +121,7 @@ def _limit(jet: Jet, h: Array) -> Array:
 def _is_loaded(engagement: Engagement, case: LoadCase, torque: Number) -> Mask:
     """Return True if the wheel's torque at mid-motion is more than rounding."""
     common = case.inertia_Nm * np.abs(engagement.motion(0.5 * engagement.entry_deg, 2).c[2])
-    loaded: Mask = np.abs(torque) > ZERO * (common + case.resists_Nm)
+    loaded: Mask = np.abs(torque) > NEGLIGIBLE * (common + case.resists_Nm)
     return loaded
 
 
@@ -164,6 +165,10 @@ def _without_torque(
         for k, (row, none) in enumerate(pairs):
             known = np.broadcast_to(value(none.value), near.shape)[:, 0]
             margin = np.inf if row.margin is None else value(row.margin)
-            there = np.broadcast_to(margin > ZERO, near.shape)[:, 0] & np.isfinite(known) & changes
+            there = (
+                np.broadcast_to(margin > NEGLIGIBLE, near.shape)[:, 0]
+                & np.isfinite(known)
+                & changes
+            )
             out.append(MidMotionValues(k, x[:, 0], np.where(there, known, np.nan)))
     return out

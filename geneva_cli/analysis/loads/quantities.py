@@ -24,10 +24,12 @@ PRESSED = (STRESS, PV)  # known only with a face width
 # Searched by their squares: a root has no slope where it is 0, nor has the size of a vector.
 SQUARED = (*PRESSED, "crank_bearing_N", "guide_force_N")
 # Quantities that are never negative.
-SIZES = (*SQUARED, "wheel_bearing_N")
+NEVER_NEGATIVE = (*SQUARED, "wheel_bearing_N")
 # Loads whose greatest size a report shows, and their names in the cycle.
-SIZED = {"torque_Nm": "wheel_torque_Nm", FORCE: FORCE, TORQUE: TORQUE, STRESS: STRESS}
-PARALLEL = "parallel shafts; on a sphere the force moves along them, and pushes along them too"
+REPORTED_PEAKS = {"torque_Nm": "wheel_torque_Nm", FORCE: FORCE, TORQUE: TORQUE, STRESS: STRESS}
+PARALLEL_SHAFTS = (
+    "parallel shafts; on a sphere the force moves along them, and pushes along them too"
+)
 
 
 class Quantity(Protocol):
@@ -78,7 +80,7 @@ def multiples(mechanism: Mechanism) -> dict[str, tuple[str, float | None, str]]:
         ("wheel", shaft.wheel_overhang_mm, shaft.wheel_span_mm),
         ("crank", shaft.crank_overhang_mm, shaft.crank_span_mm),
     ):
-        needs = f"{name}_overhang_mm and {name}_span_mm in [shaft]" if flat else PARALLEL
+        needs = f"{name}_overhang_mm and {name}_span_mm in [shaft]" if flat else PARALLEL_SHAFTS
         far = a / s if flat and a is not None and s is not None else None
         near = None if far is None else 1.0 + far
         out[f"{name}_near_bearing_N"] = (f"{name}_bearing_N", near, needs)

@@ -196,7 +196,7 @@ def _exact(
 
 
 def _rotor(mechanism: Mechanism, velocities: Sequence[float]) -> dict[str, Number]:
-    """The ratio of the wheel's inertia to the motor's own, if the motor's is known."""
+    """The values of ``ROTOR``; NaN for designs whose motor's own inertia is not known."""
     own = mechanism.spec.motor.inertia_kgm2
     fastest = np.max(np.broadcast_arrays(*velocities), axis=0)
     with np.errstate(all="ignore"):

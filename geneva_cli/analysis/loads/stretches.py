@@ -1,8 +1,8 @@
 """Division of the motion into stretches in which its loads are smooth.
 
-Loads have a kink or a jump where the torque changes sign (the roller then bears on the other wall),
-where the sliding does (friction reverses), where the input's torque does, and at breaks of the
-motion itself.
+Loads have a kink or a jump where a sign changes, and at breaks of the motion itself. The signs are
+those of the torque (the roller then bears on the other wall), of the sliding (friction reverses)
+and of the input's torque.
 """
 
 from __future__ import annotations
@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from geneva_cli.analysis.loads.contact import NEAR_CUSP
-from geneva_cli.analysis.loads.forces import ZERO, LoadCase
+from geneva_cli.analysis.loads.forces import NEGLIGIBLE, LoadCase
 from geneva_cli.errors import GenevaError
 from geneva_cli.machine.engagement import Engagement
 from geneva_cli.numerics.angles import DEGREE
@@ -115,7 +115,7 @@ def _between(engagement: Engagement, case: LoadCase, before: Stretch, after: Str
 
 def on_breaks(x: Array, engagement: Engagement) -> Array:
     """Places of designs, replaced by the breaks that they equal apart from rounding: (..., n)."""
-    near = ZERO * np.ravel(engagement.motion_deg)
+    near = NEGLIGIBLE * np.ravel(engagement.motion_deg)
     for place in engagement.motion.breaks_deg:
         at = np.ravel(place)
         x = np.where(np.abs(x - at) <= near, at, x)

@@ -32,7 +32,7 @@ from geneva_cli.analysis.loads.loaded import (
 from geneva_cli.analysis.loads.means import means_from, sources_of, sums
 from geneva_cli.analysis.loads.quantities import (
     FORCE,
-    SIZES,
+    NEVER_NEGATIVE,
     SQUARED,
     STRESS,
     outermost,
@@ -153,7 +153,7 @@ def _ends_of(name: str, most: Array, least: Array) -> list[Array]:
     Where the torque changes sign, rounding may leave a size below 0. Either value is replaced by 0
     if it is rounding compared with the other.
     """
-    ends = [np.maximum(x, 0.0) if name in SIZES else np.asarray(x) for x in (most, least)]
+    ends = [np.maximum(x, 0.0) if name in NEVER_NEGATIVE else np.asarray(x) for x in (most, least)]
     ends = [np.sqrt(x) if name in SQUARED else x for x in ends]
     # below 1e-14 of the peak, a value is rounding
     level = 1e-14 * np.maximum(*[np.where(np.isfinite(x), np.abs(x), 0.0) for x in ends])

@@ -1,17 +1,18 @@
 """The horn, the wall between a slot and the recess of the lock, as a tapered cantilever.
 
-Its sections are perpendicular to the slot's wall, from there to the recess. At a distance s inwards
-from the mouth a straight slot's section is t(s) = h + R - sqrt(R² - s²) thick, with the thickness h
-at the mouth and the recess's radius R. The roller presses on the wall with N at s0. The section at
-s then carries, over the face width b, the bending stress 6 N (s - s0)/(b t²), a tension at the
-slot's wall. On a curved wall N also has a part along the section's beam, which pushes or pulls
-evenly.
+Its sections are perpendicular to the slot's wall, from there to the recess. h is the thickness at
+the mouth, and R the recess's radius. At a distance s inwards from the mouth, a straight slot's
+section is t(s) = h + R - sqrt(R² - s²) thick. The roller presses on the wall with N at s0. The
+section at s then carries, over the face width b, the bending stress 6 N (s - s0)/(b t²), a tension
+at the slot's wall. On a curved wall N also has a part along the section's beam, which pushes or
+pulls evenly.
 
-The result is the greatest stress at the wall over all places of the roller and all sections up to
-half-way along the recess, where another horn begins. In the middle of a section shear adds 3/2 N/(b
-t), at its faces nothing. The body that carries the horn is rigid, and notches are neglected.
+The result is the greatest stress at the wall, over all places of the roller and all sections.
+Sections end half-way along the recess, where another horn begins. In the middle of a section shear
+adds 3/2 N/(b t), at its faces nothing. The body that carries the horn is rigid, and notches are
+neglected.
 
-Compared with plane stress by finite elements (in the tests), for external and internal wheels with
+The tests compare it with plane stress by finite elements. For external and internal wheels with
 straight slots, the stress is 0.7 % lower to 2 % higher if h < R/6. It is 4 % higher at h = 2 R/7
 and 7 % higher at R/2; beyond that a horn is not a beam. For curved slots it is 3 % lower to 2 %
 higher if h < R/6, and 5 % lower to 7 % higher at R/2.

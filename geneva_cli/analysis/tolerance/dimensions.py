@@ -1,7 +1,7 @@
 """The dimensions that deviate: sizes and distribution of deviations, and random machines.
 
-Deviations are in millimetres and radians. They are jets, so that one formula gives a value for a
-million machines at once (order 0) and its exact slope by one dimension (order 1).
+Deviations are in millimetres and radians. They are jets. So one formula gives the values of a
+million machines at once (order 0), or the exact slope by one dimension (order 1).
 """
 
 from __future__ import annotations

@@ -1,8 +1,8 @@
 """The error of the wheel's angle during a motion of a straight slot, for any deviations.
 
 Deviations dL of the centre distance and dR of the crank's radius move the roller's centre from p to
-p + (dL, 0) + dR/R (p - hub). The slot follows it, off by the error of its own angle and by the
-clearance c between roller and wall, on one side or the other:
+p + (dL, 0) + dR/R (p - hub). The slot follows it, off by the error of its own angle. It is also off
+by the clearance c between roller and wall, on one side or the other:
 
     psi = arg p + asin((e + c) / |p|),    dpsi/dR = L sin(phi) / |p|²,  dpsi/dL = -R sin(phi) / |p|²
 
@@ -27,7 +27,7 @@ from geneva_cli.numerics.jet import Jet, Number, atan2, sqrt
 if TYPE_CHECKING:
     from geneva_cli.numerics.jet import Array
 
-SAMPLES = 361  # input angles at which a motion is sampled
+MOTION_SAMPLES = 361  # input angles at which a motion is sampled
 
 
 class MotionError(NamedTuple):
@@ -68,7 +68,7 @@ class MotionError(NamedTuple):
         play = 0.5 * (use["roller_diameter_mm"] + use["slot_width_mm"])
         e = self.engagement
         entry, exit_ = (np.ravel(x) for x in (e.entry_deg, e.exit_deg))
-        x, y = e.path(np.linspace(entry, exit_, SAMPLES, axis=-1), 0)
+        x, y = e.path(np.linspace(entry, exit_, MOTION_SAMPLES, axis=-1), 0)
         near = np.atleast_2d(np.hypot(x.c[0], y.c[0])).min(axis=-1, keepdims=True)
         nearest = self.L * (near - size(e.slot.offset))
         margin = np.minimum((nearest - self.clearance) / times - play, self.arm / times)
@@ -85,7 +85,7 @@ class MotionError(NamedTuple):
         for side in (1.0, -1.0):
             low, high = entry, exit_
             # eleven more samplings, each about the greatest of the last and a tenth as wide
-            for count in (SAMPLES, *[41] * 11):
+            for count in (MOTION_SAMPLES, *[41] * 11):
                 at = np.linspace(low, high, count, axis=-1)
                 off = (array(self(each, at, side).c[0]) * side).max(axis=0)
                 at, every = np.broadcast_to(at, off.shape), np.arange(len(off))

@@ -31,7 +31,7 @@ from geneva_cli.analysis.tolerance.dimensions import (
     without_effect,
 )
 from geneva_cli.analysis.tolerance.motion_error import (
-    SAMPLES,
+    MOTION_SAMPLES,
     MotionError,
     WorstErrors,
     motion_errors,
@@ -67,7 +67,7 @@ def motion_plays(mechanism: Mechanism) -> MotionPlays | None:
         return None
     m, machines = mechanism.designs, 2 ** sum(bool(np.any(size)) for size in sizes)
     # a million places of machines with deviations are computed together
-    group = max(1, (1 << 20) // (machines * SAMPLES))
+    group = max(1, (1 << 20) // (machines * MOTION_SAMPLES))
     parts = [
         _of(taken(mechanism, slice(i, i + group)), min(group, m - i)) for i in range(0, m, group)
     ]

@@ -29,8 +29,8 @@ X = np.polynomial.legendre.leggauss(NODES)[0]
 def _series() -> Array:
     """Matrix from values at the nodes to coefficients of Legendre's series, to the last digits.
 
-    It is the inverse of the polynomials' values at the rounded nodes, after one step of Newton's
-    method in longer numbers, if the processor has them.
+    It is the inverse of the polynomials' values at the rounded nodes. One step of Newton's method
+    in longer numbers improves it, if the processor has them.
     """
     values = np.polynomial.legendre.legvander(X.astype(np.longdouble), NODES - 1)
     inverse = np.linalg.inv(values.astype(float)).astype(np.longdouble)

@@ -33,7 +33,7 @@ from geneva_cli.machine.many import many, taken
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.machine.spec import Spec
 from geneva_cli.numerics.extrema import BLOCK as SCANNED
-from geneva_cli.numerics.extrema import SCAN
+from geneva_cli.numerics.extrema import SCAN_INTERVALS
 
 if TYPE_CHECKING:
     from geneva_cli.machine.engagement import Motion
@@ -92,7 +92,7 @@ def _formulas_alone(machine: Mechanism, count: int) -> list[Method]:
         return []
     pieces = list(pairwise(motion.breaks_deg))
     pieces = pieces[: len(pieces) // 2] if motion.symmetric else pieces
-    places = len(pieces) * (SCAN + 1)
+    places = len(pieces) * (SCAN_INTERVALS + 1)
     run = partial(_at_places, motion, count, pieces)
     return [Method("formulas alone, nothing searched", places, run)]
 
@@ -104,7 +104,7 @@ def _at_places(motion: Motion, count: int, pieces: list[tuple[float, float]]) ->
         a, b = (np.broadcast_to(np.reshape(end, (-1, 1)), (count, 1)) for end in piece)
         for i in range(0, count, SCANNED):
             which = slice(i, i + SCANNED)
-            x = a[which] + (b - a)[which] * (np.arange(SCAN + 1) / SCAN)
+            x = a[which] + (b - a)[which] * (np.arange(SCAN_INTERVALS + 1) / SCAN_INTERVALS)
             rates = taken(motion, which).rough_rates(np.asfortranarray(x), len(PEAK_QUANTITIES))
             for k, rate in enumerate(rates[: len(PEAK_QUANTITIES)]):
                 np.maximum(most[which, k], np.abs(rate).max(axis=1), out=most[which, k])

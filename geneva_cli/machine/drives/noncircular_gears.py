@@ -27,7 +27,7 @@ from geneva_cli.machine.wheels.gearing import Gearing, RollerPlace
 from geneva_cli.numerics.arrays import library
 from geneva_cli.numerics.jet import Jet, Number, sine_versine_of
 from geneva_cli.numerics.roots import boundary
-from geneva_cli.numerics.spline import DEGREE, Doubt, PiecewisePolynomial, doubt, periodic
+from geneva_cli.numerics.spline import SPLINE_DEGREE, Doubt, PiecewisePolynomial, doubt, periodic
 from geneva_cli.spec.rules import POSITIVE, Csv, Range
 from geneva_cli.spec.schema import Points
 
@@ -175,7 +175,7 @@ def _since(crank: PiecewisePolynomial, phi: float) -> PiecewisePolynomial:
     The piece about phi is in powers of the input's rotation since then, so that the smallest angle
     has all its digits.
     """
-    here = crank(phi, DEGREE + 1)
+    here = crank(phi, SPLINE_DEGREE + 1)
     turns = math.tau * np.arange(-1.0, 2.0)
     origins = np.add.outer(turns, crank.origins - phi).ravel()
     rows = np.tile(crank.rows, (3, 1))

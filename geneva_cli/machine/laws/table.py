@@ -82,12 +82,12 @@ def _halves(
     # a list of the laws needs no splines
     import numpy as np
 
-    from geneva_cli.numerics.spline import DEGREE, PiecewisePolynomial, at_rest, taylor
+    from geneva_cli.numerics.spline import SPLINE_DEGREE, PiecewisePolynomial, at_rest, taylor
 
     u, s = zip(*points, strict=True)
     spline = at_rest(u, s)
     ends = np.array(u[1:])
-    columns = taylor(ends - spline.origins, list(spline.rows.T), DEGREE)
+    columns = taylor(ends - spline.origins, list(spline.rows.T), SPLINE_DEGREE)
     # 1 - s changes the sign of every coefficient, and w = 1 - u that of the odd ones
     left = [1.0 - np.array(s[1:]), *[c if k % 2 else -c for k, c in enumerate(columns) if k]]
     rows = np.array(left).T[::-1].copy()

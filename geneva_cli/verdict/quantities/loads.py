@@ -8,7 +8,7 @@ import numpy as np
 
 from geneva_cli.analysis.loads.loads import kinetic_power_W
 from geneva_cli.analysis.loads.means import load_means
-from geneva_cli.analysis.loads.quantities import SIZED, known_quantities, multiples
+from geneva_cli.analysis.loads.quantities import REPORTED_PEAKS, known_quantities, multiples
 from geneva_cli.analysis.loads.sizing import sizings
 from geneva_cli.analysis.loads.summaries import load_peaks, load_summaries
 from geneva_cli.analysis.peak_search import worst_peaks
@@ -25,12 +25,12 @@ MEANS = {"mean", "rms"}  # of each quantity of the cycle, besides its least valu
 def greatest(of: Designs) -> Columns:
     """The greatest sizes of loads and their input angles; infinite if no design has the load."""
     known, requested = known_quantities(of.machine), of.requested("loads")
-    names = [name for name in SIZED if {f"{name}.max", f"{name}.at_deg"} & requested]
-    sought = [SIZED[name] for name in names if SIZED[name] in known]
+    names = [name for name in REPORTED_PEAKS if {f"{name}.max", f"{name}.at_deg"} & requested]
+    sought = [REPORTED_PEAKS[name] for name in names if REPORTED_PEAKS[name] in known]
     found = load_peaks(of.machine, sought) if sought else {}
     out: dict[str, Number | None] = {}
     for name in names:
-        most, at_deg = found.get(SIZED[name], (np.inf, np.inf))
+        most, at_deg = found.get(REPORTED_PEAKS[name], (np.inf, np.inf))
         out |= {f"{name}.max": most * of.loaded, f"{name}.at_deg": at_deg * of.loaded}
     if "kinetic_power_W" in requested:
         power = worst_peaks(of.machine, ["power"])["power"].max

@@ -6,7 +6,7 @@ import math
 
 from geneva_cli.analysis.loads import loads
 from geneva_cli.analysis.loads.carried import inertia_kgm2
-from geneva_cli.analysis.loads.quantities import SIZED, STRESS
+from geneva_cli.analysis.loads.quantities import REPORTED_PEAKS, STRESS
 from geneva_cli.analysis.peaks import worst
 from geneva_cli.parts.model import PartsModel
 from geneva_cli.verdict.report.values import Values
@@ -17,7 +17,7 @@ def greatest_loads(model: PartsModel) -> Values:
     mechanism = model.mechanism
     loaded = mechanism.spec.is_loaded
     values: Values = {}
-    for name, source in SIZED.items():
+    for name, source in REPORTED_PEAKS.items():
         wide = source != STRESS or mechanism.spec.size.face_width_mm is not None
         found = loads.greatest(mechanism, source) if loaded and wide else None
         bounded = found is not None and math.isfinite(found.max)
