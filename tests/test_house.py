@@ -189,8 +189,7 @@ CORE = {"numerics", "machine", "curves", "analysis", "parts"}
 # table, a key's value of any type, a class that is found by its name.
 ANY = {
     # jets and values alike; what the searches of numerics hand back to whom they ask, unread
-    "analysis.loads.loaded": {"self.kept"},
-    "numerics.pieces": {"at", "column", "rows", "look", "_turn"},
+    "numerics.pieces": {"at", "column", "rows", "evaluate", "_turn"},
     "analysis.loads.summary": {"rows", "_rows", "_cells"},
     "analysis.vibration.answers": {"values"},
     "machine.registry": {"_load_kind"},
