@@ -20,7 +20,7 @@ from geneva_cli.machine.engagement import Engagement, Motion
 from geneva_cli.machine.many import designs_in, taken
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.numerics.angles import DEGREE, omega
-from geneva_cli.numerics.arrays import choose, larger
+from geneva_cli.numerics.arrays import choose, joined, larger
 from geneva_cli.numerics.newton import find_roots
 from geneva_cli.numerics.tolerances import ROUNDED
 
@@ -97,7 +97,7 @@ def impacts_of(engagement: Engagement, at: Changes, play: Array, drag: Array) ->
     for i in range(0, len(at.x), block):
         part = slice(i, i + block)
         parts.append(_impacts(engagement, Changes(at.which[part], at.x[part]), play[part], drag))
-    return WallImpacts(*(np.concatenate(row) for row in zip(*parts, strict=True)))
+    return joined(parts)
 
 
 def _impacts(engagement: Engagement, at: Changes, play: Array, drag: Array) -> WallImpacts:

@@ -82,7 +82,7 @@ class Lock(NamedTuple):
 
     @property
     def on_corner(self) -> Truth:
-        """True if the disc reaches as far round as the recess, so that a corner meets the disc."""
+        """Return True if the disc reaches as far round as the recess: a corner meets the disc."""
         return _truth(self.reach <= self.half)
 
     def __call__(self, by: Deviations) -> LockPlay:

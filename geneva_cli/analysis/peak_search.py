@@ -23,7 +23,7 @@ from geneva_cli.machine.engagement import Motion, Peak
 from geneva_cli.machine.many import designs_in, taken
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.numerics.angles import DEGREE
-from geneva_cli.numerics.arrays import Array, parameter
+from geneva_cli.numerics.arrays import Array, joined, parameter
 from geneva_cli.numerics.extrema import GROUP, Rough, Stationary, greatest_sizes, stationary_points
 from geneva_cli.numerics.tolerances import TIE
 
@@ -141,8 +141,7 @@ def landmarks(motion: Motion, quantity: str, m: int) -> Stationary:
 
     every = np.arange(len(last))
     ends = [Stationary(every, x[:, 0], curve(x, every, 0)[0][:, 0]) for x in (first, last)]
-    parts = zip(stationary_points(curve, first, last), *ends, strict=True)
-    which, x, value = (np.concatenate(part) for part in parts)
+    which, x, value = joined([stationary_points(curve, first, last), *ends])
     which = which % m
     order = np.lexsort((x, which))
     return Stationary(which[order], x[order], value[order])
@@ -155,10 +154,7 @@ def searched(motion: Motion, quantities: Sequence[str]) -> dict[str, PeakArray]:
     m = designs_in(motion)
     places = np.hstack([np.broadcast_to(x, (m, 1)) for x in breaks])
     parts = [_part(motion, places, slice(i, i + GROUP), quantities) for i in range(0, m, GROUP)]
-    return {
-        name: PeakArray(*(np.concatenate(v) for v in zip(*[p[name] for p in parts], strict=True)))
-        for name in quantities
-    }
+    return {name: joined([part[name] for part in parts]) for name in quantities}
 
 
 def _part(

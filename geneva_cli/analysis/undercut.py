@@ -14,7 +14,7 @@ import numpy as np
 
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.machine.pitch_curve import Pitch, pitch, retraces
-from geneva_cli.numerics.arrays import only_of
+from geneva_cli.numerics.arrays import choose_record, only_of
 from geneva_cli.numerics.tolerances import TIE
 
 if TYPE_CHECKING:
@@ -66,7 +66,7 @@ def undercuts(mechanism: Mechanism, samples: int = HALF_SAMPLES) -> Undercuts | 
     with np.errstate(all="ignore"):
         one, other = (_undercut(wall, roller, mechanism.center_distance_mm) for wall in walls)
     deeper = (other.depth_mm > one.depth_mm * (1.0 + TIE)) | np.isnan(one.depth_mm)
-    return Undercuts(*(np.where(deeper, b, a) for a, b in zip(one, other, strict=True)))
+    return choose_record(deeper, other, one)
 
 
 class OuterWall(NamedTuple):

@@ -76,7 +76,7 @@ class BenchRow(NamedTuple):
 
 
 def beats(one: BenchRow, other: BenchRow, slack: float, floor: float) -> bool:
-    """True if ``one`` is faster and as accurate, with as few pieces if pieces count."""
+    """Return True if ``one`` is faster and as accurate, with as few pieces if pieces count."""
     if one.error is None or other.error is None:
         return False
     faster = one.time_ratio < (1.0 - slack) * other.time_ratio

@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from geneva_cli.numerics.arrays import read_only
+from geneva_cli.numerics.arrays import joined, read_only
 from geneva_cli.numerics.quadrature import lobatto, rule
 
 if TYPE_CHECKING:
@@ -94,7 +94,7 @@ def span_integrals(
                 part = slice(i, min(i + block, start + count))
                 rows.append(integrands.parts(of[part], low[part], high[part], nodes))
             start += count
-        whole, last, sizes = (np.concatenate(v, axis=1) for v in zip(*rows, strict=True))
+        whole, last, sizes = joined(rows)
         if not len(total):
             total, size = (np.zeros((len(whole), v.shape[1])) for v in (total, size))
             unbounded = np.zeros(total.shape, dtype=bool)

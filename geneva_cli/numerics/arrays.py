@@ -175,6 +175,19 @@ def record_of(like: Record, parts: Sequence[object]) -> Record:
     return cast("Record", tuple(parts) if make is tuple else make(*parts))
 
 
+def joined(records: Sequence[Record]) -> Record:
+    """Several records of arrays as one, each array joined along its last axis.
+
+    >>> import numpy as np
+    >>> joined([(np.zeros(1), np.ones((2, 1))), (np.zeros(2), np.ones((2, 2)))])[1].shape
+    (2, 3)
+    """
+    import numpy
+
+    columns = cast("Iterable[tuple[Array, ...]]", zip(*records, strict=True))
+    return record_of(records[0], [numpy.concatenate(arrays, axis=-1) for arrays in columns])
+
+
 def are_alike(records: Sequence[object]) -> bool:
     """Return True if records differ in numbers only, as ``picked`` requires.
 

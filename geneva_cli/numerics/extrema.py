@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING, NamedTuple, Protocol, TypeAlias
 
 import numpy as np
 
+from geneva_cli.numerics.arrays import joined
 from geneva_cli.numerics.newton import Brackets, nearer, newton_roots
 from geneva_cli.numerics.tolerances import TIE
 
@@ -55,7 +56,7 @@ def stationary_points(f: BatchFunction, a: Array, b: Array) -> Stationary:
     with np.errstate(all="ignore"):
         for part in _blocks(0, len(a), GROUP):
             groups.append(_tops(f, _scanned(f, a[part], b[part], part.start).turns)[:3])
-    which, x, value = (np.concatenate(parts) for parts in zip(*groups, strict=True))
+    which, x, value = joined(groups)
     order = np.lexsort((x, which))
     return Stationary(which[order], x[order], value[order])
 
@@ -88,8 +89,7 @@ def greatest_sizes(
             _greatest(f, rough, [place[part] for place in places], part.start)
             for part in _blocks(0, len(places[0]), GROUP)
         ]
-    size, x = (np.concatenate(parts) for parts in zip(*groups, strict=True))
-    return size, x
+    return joined(groups)
 
 
 def _greatest(
@@ -101,7 +101,7 @@ def _greatest(
     size = np.abs(np.hstack([scan.ends for scan in scans]))
     at = np.hstack([end for piece in pieces for end in piece])
     sampled = np.maximum.reduce([np.abs(x) for scan in scans for x in (scan.low, scan.high)])
-    tops = _tops(f, _joined([_high_turns(scan, sampled, start) for scan in scans]), rough)
+    tops = _tops(f, joined([_high_turns(scan, sampled, start) for scan in scans]), rough)
     which, value = tops.which - start, np.abs(tops.value)
     x = _at_ends(tops.x, at[which])
     if rough and rough.wrong:
@@ -173,11 +173,6 @@ class _SamplePairs(NamedTuple):
         return _SamplePairs(self.which[where], self.left[:, where], self.right[:, where])
 
 
-def _joined(pairs: Sequence[_SamplePairs]) -> _SamplePairs:
-    """Groups of pairs joined into one."""
-    return _SamplePairs(*(np.concatenate(parts, axis=-1) for parts in zip(*pairs, strict=True)))
-
-
 class _Scan(NamedTuple):
     ends: Array  # values at a and b, two columns
     low: Array  # the least and the greatest sample of each design
@@ -191,10 +186,10 @@ def _scanned(f: BatchFunction, a: Array, b: Array, start: int) -> _Scan:
     scans = [_scan(f, a[part], b[part], start + part.start) for part in _blocks(0, len(a), BLOCK)]
     ends, low, high = (np.concatenate([s[i] for s in scans]) for i in range(3))
     turns, missed = (
-        _joined(pairs) for pairs in ([s.turns for s in scans], [s.missed for s in scans])
+        joined(pairs) for pairs in ([s.turns for s in scans], [s.missed for s in scans])
     )
     if len(missed.which):
-        turns = _joined([turns, _refined(f, start, missed, low, high)])
+        turns = joined([turns, _refined(f, start, missed, low, high)])
     return _Scan(ends, low, high, turns, missed)
 
 
@@ -216,7 +211,7 @@ def _scan(f: BatchFunction, a: Array, b: Array, start: int) -> _Scan:
     column, row = np.nonzero(missed.T)
     left, middle, right = (s[:, row, column] for s in (left, middle, right))
     row += start
-    halves = _joined([_SamplePairs(row, left, middle), _SamplePairs(row, middle, right)])
+    halves = joined([_SamplePairs(row, left, middle), _SamplePairs(row, middle, right)])
     return _Scan(value[:, [0, -1]], low, high, turns, halves)
 
 
@@ -239,14 +234,14 @@ def _refined(
         missed = unpredicted(left, middle, right, low[here], high[here])
         halves = [_SamplePairs(which, left, middle), _SamplePairs(which, middle, right)]
         settled += [half.taken(~missed) for half in halves]
-        open_ = _joined([half.taken(missed) for half in halves])
+        open_ = joined([half.taken(missed) for half in halves])
         if len(open_.which) > most:
             noisy = np.bincount(open_.which - start)[open_.which - start] > most
             settled.append(open_.taken(noisy))
             open_ = open_.taken(~noisy)
         if not len(open_.which):
             break
-    pairs = _joined([*settled, open_])
+    pairs = joined([*settled, open_])
     return pairs.taken(_turns(pairs.left[2], pairs.right[2]))
 
 

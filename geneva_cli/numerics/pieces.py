@@ -15,6 +15,7 @@ import numpy as np
 
 from geneva_cli.numerics import chebyshev
 from geneva_cli.numerics.angles import DEGREE
+from geneva_cli.numerics.arrays import joined
 from geneva_cli.numerics.chebyshev import GRID, MIDDLE, POINTS
 from geneva_cli.numerics.spread import gathered, spread
 
@@ -141,11 +142,6 @@ class SpreadPlaces:
         ]
 
 
-def rows_joined(parts: Sequence[Rows]) -> Rows:
-    """Several groups of rows as one."""
-    return Rows(*(np.concatenate(one, axis=-1) for one in zip(*parts, strict=True)))
-
-
 class Cutter:
     """Divides rows of designs into pieces."""
 
@@ -223,7 +219,7 @@ class Cutter:
         whole = (part[0] == -1.0) & (part[1] == 1.0)
         cut = which & ~whole
         own = self._cut(rows.take(cut), part[:, cut])
-        return rows_joined([own, *self.places.halves(rows.take(which & whole))])
+        return joined([own, *self.places.halves(rows.take(which & whole))])
 
     def _zeros(
         self, kind: int, rows: Rows, sign: Array, part: Array, value: Array

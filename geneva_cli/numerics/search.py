@@ -15,6 +15,7 @@ import numpy as np
 
 from geneva_cli.numerics import chebyshev
 from geneva_cli.numerics.angles import DEGREE
+from geneva_cli.numerics.arrays import joined
 from geneva_cli.numerics.chebyshev import GRID, MIDDLE, POINTS
 from geneva_cli.numerics.greatest import GreatestValues
 from geneva_cli.numerics.pieces import (
@@ -25,7 +26,6 @@ from geneva_cli.numerics.pieces import (
     Rows,
     SampledRows,
     SpreadPlaces,
-    rows_joined,
 )
 
 if TYPE_CHECKING:
@@ -100,7 +100,7 @@ def search(
         extremes.sample(spans)
         extremes.refine()
         most, x = extremes.greatest.most, extremes.greatest.places()
-        stretches = _stretches(rows_joined(extremes.rows), np.concatenate(extremes.signs, axis=1))
+        stretches = _stretches(joined(extremes.rows), np.concatenate(extremes.signs, axis=1))
         return SearchResult(most.reshape(-1, n), x.reshape(-1, n), stretches)
 
 
@@ -129,7 +129,7 @@ class _ExtremeSearch:
             again = [rows for sampled in every for rows in (*sampled.again, *self._judged(sampled))]
             if not again:
                 break
-            blocks = _blocks(rows_joined(again))
+            blocks = _blocks(joined(again))
 
     def _rows(self, number: int, a: Array, b: Array) -> Rows:
         """The rows of a span, one for each design that has it."""
@@ -141,7 +141,7 @@ class _ExtremeSearch:
     def _first_blocks(self, every: Sequence[Rows]) -> list[tuple[Rows, Which]]:
         """The spans in blocks of designs, so that mirrored spans can share results."""
         if self.n * len(every) <= BLOCK:
-            return _blocks(rows_joined(every))
+            return _blocks(joined(every))
         out: list[tuple[Rows, Which]] = []
         for i in range(0, self.n, BLOCK):
             part = slice(i, min(i + BLOCK, self.n))
@@ -194,8 +194,8 @@ class _ExtremeSearch:
 
     def refine(self) -> None:
         """Evaluate the functions at ends and extremes that may be the greatest."""
-        curves = _joined(self.curves)
-        curves = _joined([curves, *[self._ends(curves, end) for end in (0, 1)]])
+        curves = _curves_joined(self.curves)
+        curves = _curves_joined([curves, *[self._ends(curves, end) for end in (0, 1)]])
         turns = [self._turns(curves, sign) for sign in (1.0, -1.0)]
         self._refine(curves, *(np.concatenate(one) for one in zip(*turns, strict=True)))
 
@@ -328,11 +328,12 @@ def _blocks(rows: Rows) -> list[tuple[Rows, Which]]:
     return [(part, part.design) for part in parts]
 
 
-def _joined(parts: Sequence[CandidateCurves]) -> CandidateCurves:
+def _curves_joined(parts: Sequence[CandidateCurves]) -> CandidateCurves:
+    """Several groups of curves as one; their values have the points as last axis."""
     number, rows, *others = zip(*parts, strict=True)
     sign, part = (np.concatenate(one, axis=1) for one in others[:2])
     value, left = (np.concatenate(one) for one in others[2:])
-    return CandidateCurves(np.concatenate(number), rows_joined(rows), sign, part, value, left)
+    return CandidateCurves(np.concatenate(number), joined(rows), sign, part, value, left)
 
 
 def _stretches(rows: Rows, sign: Array) -> Stretches:

@@ -266,7 +266,7 @@ def test_rollers(name):
         for way, passage in zip(ways, roller.passages(one), strict=True):
             records(way, i, passage, close=SUMMED)
         records(life, i, roller.life(one), close=SUMMED)
-        same(worn, i, roller.wear_mm(one), SUMMED)
+        same(worn, i, roller.wears_mm(one, roller.passages(one)).item(), SUMMED)
 
 
 def test_a_roller_that_turns_back_thrice_in_its_slot():

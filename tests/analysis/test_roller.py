@@ -12,7 +12,7 @@ from words import Drive, Keys, Motion, Spec, Wheel, load
 
 from geneva_cli.analysis.loads.cycle import Cycle
 from geneva_cli.analysis.loads.forces import load_case
-from geneva_cli.analysis.strength.roller import LIFE_EXPONENT, life, passage, passages, wear_mm
+from geneva_cli.analysis.strength.roller import LIFE_EXPONENT, life, passage, passages, wears_mm
 from geneva_cli.machine.mechanism import build
 from geneva_cli.spec.tables import Load, RollerMaterial, Size, WheelMaterial
 
@@ -177,12 +177,12 @@ def test_of_unequal_steps_the_worst_roller_counts():
 
 def test_wear():
     """k 1e-6 mm³/(N m): a million passages wear off k W 1e6 of 20 mm by the travel."""
-    assert wear_mm(build(CASE)) is None
+    each = (way,) = passages(build(CASE))
+    assert wears_mm(build(CASE), each) is None
     spec = CASE.replace(material_wheel=WheelMaterial(wear_mm3_Nm=1e-6))
-    (way,) = passages(build(CASE))
     volume_mm3 = 1e-6 * way.work * 1e6
     expected = volume_mm3 / (20.0 * 1000.0 * way.travel_m)
-    assert wear_mm(build(spec)) == pytest.approx(expected, rel=1e-14)
+    assert wears_mm(build(spec), each) == pytest.approx([expected], rel=1e-14)
 
 
 def test_what_is_not_known_is_none():

@@ -29,7 +29,7 @@ import numpy as np
 from geneva_cli.analysis.loads.loads import state
 from geneva_cli.machine.many import taken
 from geneva_cli.machine.pitch_curve import pitch
-from geneva_cli.numerics.arrays import array, parameter
+from geneva_cli.numerics.arrays import array, joined, parameter
 from geneva_cli.numerics.tolerances import TIE
 
 if TYPE_CHECKING:
@@ -209,7 +209,7 @@ def horn_stresses(
     groups = [
         _horns(min(size, m - i), *taken(every, slice(i, i + size))) for i in range(0, m, size)
     ]
-    return HornStress(*(parameter(np.concatenate(row)) for row in zip(*groups, strict=True)))
+    return joined(groups)
 
 
 class _SamplePlaces(NamedTuple):

@@ -35,7 +35,7 @@ from geneva_cli.analysis.loads.forces import contact_modulus_GPa
 from geneva_cli.analysis.locking import Lock
 from geneva_cli.analysis.strength.horn import SHEAR, horns, product
 from geneva_cli.machine.many import taken
-from geneva_cli.numerics.arrays import all_true, only_of, parameter
+from geneva_cli.numerics.arrays import all_true, choose_record, only_of, parameter
 
 if TYPE_CHECKING:
     from geneva_cli.machine.mechanism import Mechanism
@@ -213,4 +213,4 @@ def _rises(of: Array) -> Array:
 def _weaker(one: HornBending, other: HornBending) -> HornBending:
     """The horn with the greater deflection, in each design."""
     more = other.deflection > one.deflection
-    return HornBending(*(np.where(more, b, a) for a, b in zip(one, other, strict=True)))
+    return choose_record(more, other, one)

@@ -123,7 +123,7 @@ def _integrals(every: LoadBatch, n: int, half: float) -> Array:
 
 
 def turns_back(engagement: Engagement) -> bool:
-    """True if a roller may turn back in its slot elsewhere than at mid-motion.
+    """Return True if a roller may turn back in its slot elsewhere than at mid-motion.
 
     A roller on a crank's arm turns back on the line of centres, unless its motion is tilted. In a
     curved slot both branches begin at mid-motion.
@@ -215,19 +215,13 @@ def _periods_per_h(mechanism: Mechanism) -> float:
     return 60.0 * mechanism.spec.drive.n_rpm * 360.0 / mechanism.period_deg
 
 
-def wear_mm(mechanism: Mechanism) -> float | None:
-    """Mean wear depth of a slot's walls in a million passages of a pin that does not turn, mm.
+def wears_mm(mechanism: Mechanism, each: Sequence[SlotPassage]) -> Array | None:
+    """Mean wear depths of slots' walls in a million passages of a pin that does not turn: mm, (m,).
 
     Archard: a volume of k ∫ N |v_s| dt per passage, over the face that the contact sweeps, for the
-    slot with the most wear. None without ``wear_mm3_Nm`` or ``face_width_mm``.
+    slot with the most wear. ``each`` are the passages of the engagements. None without
+    ``wear_mm3_Nm`` or ``face_width_mm``.
     """
-    if not mechanism.spec.is_loaded:
-        return None
-    return only_of([wears_mm(mechanism, passages(mechanism))])[0]
-
-
-def wears_mm(mechanism: Mechanism, each: Sequence[SlotPassage]) -> Array | None:
-    """Wear depths of m designs, (m,), or of one, from the passages of their engagements."""
     spec = mechanism.spec
     k, width = spec.material_wheel.wear_mm3_Nm, spec.size.face_width_mm
     if k is None or width is None:

@@ -21,7 +21,7 @@ from geneva_cli.analysis.tolerance.dimensions import Deviations
 from geneva_cli.machine.engagement import Engagement
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.machine.spec import Spec
-from geneva_cli.numerics.arrays import array, choose, parameter, size
+from geneva_cli.numerics.arrays import array, choose, choose_record, parameter, size
 from geneva_cli.numerics.jet import Jet, Number, atan2, sqrt
 
 if TYPE_CHECKING:
@@ -109,7 +109,7 @@ class WorstErrors(NamedTuple):
     def beyond(self, other: WorstErrors) -> WorstErrors:
         """Select the greater error of this and another result, in each design."""
         more = self.error > other.error
-        return WorstErrors(*(np.where(more, a, b) for a, b in zip(self, other, strict=True)))
+        return choose_record(more, self, other)
 
 
 def _machines_first(z: Number) -> Array:

@@ -38,7 +38,7 @@ from geneva_cli.analysis.tolerance.motion_error import (
 )
 from geneva_cli.machine.many import taken
 from geneva_cli.machine.mechanism import Mechanism
-from geneva_cli.numerics.arrays import array, parameter
+from geneva_cli.numerics.arrays import array, joined, parameter
 
 if TYPE_CHECKING:
     from geneva_cli.numerics.arrays import Array
@@ -71,7 +71,7 @@ def motion_plays(mechanism: Mechanism) -> MotionPlays | None:
     parts = [
         _of(taken(mechanism, slice(i, i + group)), min(group, m - i)) for i in range(0, m, group)
     ]
-    return MotionPlays(*(np.concatenate(rows) for rows in zip(*parts, strict=True)))
+    return joined(parts)
 
 
 def _of(mechanism: Mechanism, n: int) -> MotionPlays:

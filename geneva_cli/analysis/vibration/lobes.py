@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from geneva_cli.analysis.vibration.panels import Panels
+from geneva_cli.numerics.arrays import joined
 
 if TYPE_CHECKING:
     from geneva_cli.numerics.arrays import Array, Whole
@@ -44,7 +45,7 @@ def lobes(share_at: Callable[[Whole, Array], Array], low: Array, high: Array) ->
         before, here, after = share[:, :-2], share[:, 1:-1], share[:, 2:]
         row, at = np.nonzero((here >= before) & (here > after))
         maxima.append((some[row], ratio[row, at + 1], ((high - low) / count)[some[row]]))
-    which, middle, reach = (np.concatenate(part) for part in zip(*maxima, strict=True))
+    which, middle, reach = joined(maxima)
     degree = 12  # of the polynomial between two samples about a maximum: exact to a double there
     nodes = np.cos(np.pi * (np.arange(degree + 1) + 0.5) / (degree + 1))
     places = middle[:, None] + reach[:, None] * nodes
