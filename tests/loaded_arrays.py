@@ -5,8 +5,8 @@ from design_arrays import MACHINES, drawn
 
 from geneva_cli.analysis.loads.contact import NEAR_CUSP, contact
 from geneva_cli.analysis.loads.forces import load_case
-from geneva_cli.analysis.loads.loaded import LoadFunctions, signed_instant
-from geneva_cli.analysis.loads.loaded import load_batch as of
+from geneva_cli.analysis.loads.load_functions import LoadFunctions, signed_instant
+from geneva_cli.analysis.loads.load_functions import load_batch as of
 from geneva_cli.analysis.loads.quantities import QUANTITIES, SQUARED
 from geneva_cli.analysis.loads.summaries import LoadSummary, load_summaries
 from geneva_cli.analysis.loads.summary import plain

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from geneva_cli.analysis.vibration.during import greatest_accelerations
+from geneva_cli.analysis.vibration.load_acceleration import greatest_accelerations
 from geneva_cli.analysis.vibration.swing import Swing, residual_swing
 
 

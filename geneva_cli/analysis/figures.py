@@ -18,7 +18,14 @@ from geneva_cli.analysis.loads import summary
 from geneva_cli.analysis.loads.cycle import Cycle, Extremes
 from geneva_cli.analysis.loads.quantities import known_quantities, multiples
 from geneva_cli.analysis.motion import first_entry_deg
-from geneva_cli.analysis.stages import MOTION, WHEEL, Stage, load_stages, motion_stages, pieces
+from geneva_cli.analysis.stages import (
+    MOTION_QUANTITIES,
+    WHEEL_ANGLE,
+    Stage,
+    load_stages,
+    motion_stages,
+    pieces,
+)
 from geneva_cli.errors import GenevaError, Notice, cut, few, nearest
 from geneva_cli.figure import Axis, Curve, Figure, Mark, Panel, Piece
 from geneva_cli.machine.mechanism import Mechanism
@@ -26,7 +33,7 @@ from geneva_cli.numerics.tolerances import ROUNDED, SAME_INPUT_DEG
 
 MACHINES_MAX = 6  # machines in one figure that the eye can tell apart
 AXES = (
-    Axis(WHEEL, "Wheel angle", "deg"),
+    Axis(WHEEL_ANGLE, "Wheel angle", "deg"),
     Axis("velocity", "Speed of the wheel, relative to the input"),
     Axis("acceleration", "Acceleration of the wheel, relative to the input"),
     Axis("jerk", "Jerk of the wheel, relative to the input"),
@@ -50,7 +57,7 @@ AXES = (
 )
 AXIS_BY_NAME = {axis.name: axis for axis in AXES}
 USUAL_QUANTITIES = (
-    WHEEL,
+    WHEEL_ANGLE,
     "velocity",
     "acceleration",
     "jerk",
@@ -128,7 +135,7 @@ def _known(cycle: Cycle) -> set[str]:
     loads = set(known_quantities(cycle.mechanism))
     shared = multiples(cycle.mechanism).items()
     loads |= {name for name, (of, factor, _) in shared if factor is not None and of in loads}
-    return {*MOTION, *loads}
+    return {*MOTION_QUANTITIES, *loads}
 
 
 def _left_out(cycle: Cycle, names: Sequence[str]) -> Iterator[str]:
@@ -171,12 +178,15 @@ def _size(mark: Mark) -> float:
 
 def _drawn(cycle: Cycle, names: Sequence[str], window: tuple[float, float]) -> MachineCurves:
     machine = cycle.mechanism
-    moves, loads = [n for n in names if n in MOTION], [n for n in names if n not in MOTION]
+    moves, loads = (
+        [n for n in names if n in MOTION_QUANTITIES],
+        [n for n in names if n not in MOTION_QUANTITIES],
+    )
     step = math.degrees(sum(2.0 * e.half_step for e in machine.engagements))
     out = MachineCurves({}, {}, {})
     if moves:
         stages = list(motion_stages(machine, moves))
-        rise = [step if n == WHEEL else 0.0 for n in moves]
+        rise = [step if n == WHEEL_ANGLE else 0.0 for n in moves]
         curves = pieces(stages, machine.period_deg, window, rise)
         out.pieces.update(zip(moves, curves, strict=True))
         out.marks.update((n, _peak(machine, n, i, stages, window)) for i, n in enumerate(moves))
@@ -200,7 +210,7 @@ def _peak(
     window: tuple[float, float],
 ) -> tuple[Mark, ...]:
     """The greatest size of a quantity of the motion, with its sign; none for the wheel's angle."""
-    if name == WHEEL:
+    if name == WHEEL_ANGLE:
         return ()
     peak = peaks.worst_of(machine, name)
     first = first_entry_deg(machine)
@@ -269,7 +279,7 @@ def _rests(
     """The stretches in which all machines rest."""
     common = [window]
     for machine in machines:
-        dwells = [(s.start, s.end) for s in motion_stages(machine, [WHEEL]) if s.flat]
+        dwells = [(s.start, s.end) for s in motion_stages(machine, [WHEEL_ANGLE]) if s.flat]
         period = machine.period_deg
         turns = range(-1, 2 + int((window[1] - window[0]) // period))
         own = [(a + k * period, b + k * period) for k in turns for a, b in dwells]

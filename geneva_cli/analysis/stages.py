@@ -26,10 +26,10 @@ if TYPE_CHECKING:
     from geneva_cli.machine.engagement import Engagement, Motion
     from geneva_cli.numerics.jet import Array
 
-WHEEL = "wheel_deg"
+WHEEL_ANGLE = "wheel_deg"
 # derivatives 0..3 of the wheel's angle -> the quantity
-MOTION: dict[str, Callable[[Sequence[Array]], Array]] = {
-    WHEEL: lambda p: np.degrees(p[0]),
+MOTION_QUANTITIES: dict[str, Callable[[Sequence[Array]], Array]] = {
+    WHEEL_ANGLE: lambda p: np.degrees(p[0]),
     "velocity": lambda p: p[1],
     "acceleration": lambda p: p[2],
     "jerk": lambda p: p[3],
@@ -47,7 +47,7 @@ class Stage(NamedTuple):
 
 
 def motion_stages(mechanism: Mechanism, names: Sequence[str]) -> Iterator[Stage]:
-    """Stages of quantities of ``MOTION`` over a period from the first entry."""
+    """Stages of quantities of ``MOTION_QUANTITIES`` over a period from the first entry."""
     base = -mechanism.engagements[0].half_step  # the wheel's angle before the step
     for i, engagement in enumerate(mechanism.engagements):
         mid, motion = engagement.mid_deg, engagement.motion
@@ -56,7 +56,7 @@ def motion_stages(mechanism: Mechanism, names: Sequence[str]) -> Iterator[Stage]
             inside = _inside(engagement, a), b
             yield Stage(mid + a, mid + b, partial(_moved, motion, names, mid, inside, up))
         base += 2.0 * engagement.half_step
-        rest = [math.degrees(base) if name == WHEEL else 0.0 for name in names]
+        rest = [math.degrees(base) if name == WHEEL_ANGLE else 0.0 for name in names]
         yield from _dwell(mechanism, i, rest)
 
 
@@ -98,7 +98,7 @@ def _moved(
     x: Array,
 ) -> Array:
     wheel, *rates = motion.derivatives(np.clip(x - mid, *inside))
-    return np.array([MOTION[name]([wheel + up, *rates]) for name in names])
+    return np.array([MOTION_QUANTITIES[name]([wheel + up, *rates]) for name in names])
 
 
 def _loaded(

@@ -17,7 +17,7 @@ import numpy as np
 from geneva_cli.analysis.loads.contact import mirrored
 from geneva_cli.analysis.loads.cycle import Cycle
 from geneva_cli.analysis.loads.forces import load_case
-from geneva_cli.analysis.loads.loaded import NO_MORE, LoadFunctions, load_batch
+from geneva_cli.analysis.loads.load_functions import NO_MORE, LoadFunctions, load_batch
 from geneva_cli.analysis.loads.means import load_means, powers
 from geneva_cli.analysis.loads.quantities import SQUARED
 from geneva_cli.analysis.loads.stretches import spans_of

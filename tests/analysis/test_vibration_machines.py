@@ -15,7 +15,7 @@ from geneva_cli.analysis.vibration.lobes import highest_ratio, lobes
 from geneva_cli.analysis.vibration.oscillator import Oscillator
 from geneva_cli.analysis.vibration.shape import law_shape, shape
 from geneva_cli.analysis.vibration.vibration import (
-    loads_of,
+    oscillators_of,
     speeds_to_avoid,
 )
 from geneva_cli.bench import truth
@@ -213,7 +213,7 @@ def test_steady_state_is_where_marching_ends(damping):
             back = (y[1] + damping * wn * y[0]) / wd
             found[i] = math.hypot(y[0], back) / engagement.half_step
             y = free(y, machine.dwell_deg(i))
-    assert loads_of(machine, load_).steady_share[:, 0] == pytest.approx(found, rel=1e-9)
+    assert oscillators_of(machine, load_).steady_share[:, 0] == pytest.approx(found, rel=1e-9)
 
 
 def test_a_lobe_is_where_the_slope_of_the_closed_form_vanishes():
@@ -262,7 +262,7 @@ def test_the_worst_stiffness_within_a_fifth():
     form = shape(machine.engagements[0])
     for ratio in (0.4, 2.9, 10.0, 10.5):
         fine = ratio * np.sqrt(np.linspace(0.8, 1.2, 4001))
-        found = loads_of(machine, Oscillator(ratio, 0.0)).worst_share[0]
+        found = oscillators_of(machine, Oscillator(ratio, 0.0)).worst_share[0]
         assert found == pytest.approx(shares(form, fine, 0.0).max(), rel=1e-6)
 
 
@@ -286,6 +286,6 @@ def test_units_and_the_shaft():
 
 def test_stations_that_differ():
     machine = build(Spec(External(6, steps_deg=(72.0, 48.0))))
-    found = loads_of(machine, Oscillator(4.0, 0.0))
+    found = oscillators_of(machine, Oscillator(4.0, 0.0))
     assert found.ratio[:, 0] == pytest.approx([4.0, 4.0 * 132.0 / 108.0])
     assert np.isnan(found.steady_share).all()

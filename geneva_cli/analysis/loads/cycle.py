@@ -16,7 +16,7 @@ import numpy as np
 from geneva_cli.analysis.loads.contact import contact, contacts
 from geneva_cli.analysis.loads.forces import LoadCase, gain, load_case, sliding
 from geneva_cli.analysis.loads.instant import INSTANT_QUANTITIES, Instant, bounded, values
-from geneva_cli.analysis.loads.loaded import NO_MORE, LoadFunctions, load_batch
+from geneva_cli.analysis.loads.load_functions import NO_MORE, LoadFunctions, load_batch
 from geneva_cli.analysis.loads.mid_motion import at_crossing
 from geneva_cli.analysis.loads.quantities import KINETIC, known_quantities, multiples
 from geneva_cli.analysis.loads.stretches import Stretch, refuse_rounding, to_mid_motion, whole

@@ -23,7 +23,7 @@ from geneva_cli.analysis.loads.contact import Contact
 from geneva_cli.analysis.loads.forces import LoadCase, QuantityValue, load_case
 from geneva_cli.analysis.loads.groups import parts
 from geneva_cli.analysis.loads.instant import Instant
-from geneva_cli.analysis.loads.loaded import (
+from geneva_cli.analysis.loads.load_functions import (
     LoadFunctions,
     LoadQuantity,
     SignFunctions,

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from geneva_cli.analysis.loads.loaded import LoadBatch
+from geneva_cli.analysis.loads.load_functions import LoadBatch
 from geneva_cli.machine.many import taken
 
 if TYPE_CHECKING:

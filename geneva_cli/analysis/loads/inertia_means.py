@@ -13,7 +13,7 @@ import numpy as np
 
 from geneva_cli.analysis.loads.contact import mirrored
 from geneva_cli.analysis.loads.forces import NEGLIGIBLE
-from geneva_cli.analysis.loads.loaded import LoadFunctions, SignFunctions, signed_instant
+from geneva_cli.analysis.loads.load_functions import LoadFunctions, SignFunctions, signed_instant
 from geneva_cli.analysis.loads.quantities import square_of
 from geneva_cli.analysis.loads.stretches import spans_of
 from geneva_cli.numerics.adaptive_quadrature import Integrands, span_integrals

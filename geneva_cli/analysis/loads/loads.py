@@ -18,7 +18,7 @@ from geneva_cli.analysis.loads.contact import Contact, contact, is_straight
 from geneva_cli.analysis.loads.cycle import cycle_of
 from geneva_cli.analysis.loads.forces import Forces, LoadCase, QuantityValue, load_case, sliding
 from geneva_cli.analysis.loads.instant import Instant
-from geneva_cli.analysis.loads.loaded import LoadFunctions, LoadQuantity, load_batch
+from geneva_cli.analysis.loads.load_functions import LoadFunctions, LoadQuantity, load_batch
 from geneva_cli.analysis.loads.quantities import FORCE, SQUARED, STRESS, TORQUE
 from geneva_cli.analysis.loads.summaries import load_peaks, searched
 from geneva_cli.machine.engagement import Engagement, Peak

@@ -11,7 +11,7 @@ from geneva_cli.analysis.loads.contact import NEAR_CUSP, mirrored
 from geneva_cli.analysis.loads.forces import load_case
 from geneva_cli.analysis.loads.groups import of_groups
 from geneva_cli.analysis.loads.inertia_means import is_balanced, squares
-from geneva_cli.analysis.loads.loaded import (
+from geneva_cli.analysis.loads.load_functions import (
     NO_MORE,
     ContactState,
     LoadBatch,

@@ -43,7 +43,7 @@ if TYPE_CHECKING:
 Peaks: TypeAlias = "tuple[float, ...]"  # of one engagement, in the order of ``FORM_PEAKS``
 CARRIED = ("inertia_kgm2", "motor_rpm")
 CAM_FACTORS = ("acceleration_rad_s2", "Am", "Vm", "Qm")
-UNLOADED = (*CARRIED, *CAM_FACTORS)  # known without a load
+KNOWN_UNLOADED = (*CARRIED, *CAM_FACTORS)  # known without a load
 MAKERS_FORM = (
     *("inertia_torque_Nm", "friction_torque_Nm", "total_torque_Nm", "design_torque_Nm"),
     *("input_torque_Nm", "power_W"),
@@ -80,7 +80,9 @@ SHOWN_SIZING = (
 def sizing(cycle: Cycle) -> tuple[dict[str, float | None], list[str]]:
     """The values of one design in the order shown, and the keys that missing values need."""
     spec = cycle.mechanism.spec
-    names, torque = (SIZING_NAMES, cycle.known[TORQUE]) if cycle.is_loaded else (UNLOADED, None)
+    names, torque = (
+        (SIZING_NAMES, cycle.known[TORQUE]) if cycle.is_loaded else (KNOWN_UNLOADED, None)
+    )
     rows = sizings(cycle.mechanism, names, torque, cycle.peaks)
     values = {name: float(row[0]) for name, row in rows.items()}
     out = {
@@ -134,7 +136,7 @@ def sizings(
     if names & set(ROTOR):
         values |= _rotor(mechanism, [velocity for velocity, *_ in peaks])
     return {
-        name: np.ravel(row) if name in UNLOADED else np.where(loaded, np.ravel(row), np.nan)
+        name: np.ravel(row) if name in KNOWN_UNLOADED else np.where(loaded, np.ravel(row), np.nan)
         for name, row in values.items()
     }
 

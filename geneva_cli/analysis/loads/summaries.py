@@ -22,7 +22,7 @@ import numpy as np
 
 from geneva_cli.analysis.loads.forces import LoadCase, load_case
 from geneva_cli.analysis.loads.groups import of_groups
-from geneva_cli.analysis.loads.loaded import (
+from geneva_cli.analysis.loads.load_functions import (
     NO_MORE,
     LoadBatch,
     LoadFunctions,

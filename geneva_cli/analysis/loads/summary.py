@@ -30,7 +30,7 @@ if TYPE_CHECKING:
     from geneva_cli.numerics.jet import Array
 
 PLACE_COLUMNS = ("time_s", "input_deg", "wheel_deg")
-UNLOADED = (
+NO_LOAD = (
     "nothing resists the wheel, so no force is known: set inertia_kgm2 or torque_Nm in [load], or "
     "a [[mass]]"
 )
@@ -146,7 +146,7 @@ def _unweighed(spec: Spec) -> str:
 def missing(cycle: Cycle) -> list[Notice]:
     """Notes on the keys that the missing quantities need."""
     if not cycle.is_loaded:
-        return [Notice("not-known", UNLOADED)]
+        return [Notice("not-known", NO_LOAD)]
     wide = cycle.case.hertz is not None
     out = [] if wide else [f"{name}: needs face_width_mm in [size]" for name in PRESSED]
     spec, guide = cycle.mechanism.spec, "guide_force_N"

@@ -26,6 +26,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
+from geneva_cli.analysis.loads.contact import NEAR_CUSP
 from geneva_cli.analysis.loads.loads import state
 from geneva_cli.machine.many import taken
 from geneva_cli.machine.pitch_curve import pitch
@@ -41,7 +42,6 @@ if TYPE_CHECKING:
     from geneva_cli.numerics.jet import Array
 
 STOUT = 0.5  # thickness at the mouth over the recess's radius, beyond which a horn is no beam
-NEAR_MIDDLE = 1e-4  # fraction of a half motion: nearer to mid-motion a slot's direction is rounding
 SHEAR = 1.2  # of a rectangular section: energy of its shear stress over that of the mean stress
 
 
@@ -124,7 +124,7 @@ class Horn(NamedTuple):
 
     def places(self, count: int) -> Array:
         """Input angles from the mouth inwards."""
-        return self.mouth_deg * np.linspace(1.0, NEAR_MIDDLE, count)
+        return self.mouth_deg * np.linspace(1.0, NEAR_CUSP, count)
 
     @property
     def stoutness(self) -> Array:
@@ -263,7 +263,7 @@ def _halves(side: Horn) -> list[float]:
 def _from(ends: Sequence[float], count: int) -> Array:
     """Input angles from each of some ends to mid-motion: (m, ends, count)."""
     whole = np.hstack([np.atleast_2d(end) for end in ends])
-    return whole[..., None] * np.linspace(1.0, NEAR_MIDDLE, count)
+    return whole[..., None] * np.linspace(1.0, NEAR_CUSP, count)
 
 
 def _sampled(

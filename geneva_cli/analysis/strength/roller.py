@@ -21,7 +21,7 @@ import numpy as np
 from geneva_cli.analysis.loads.contact import contact, is_straight
 from geneva_cli.analysis.loads.forces import Forces, load_case, sliding
 from geneva_cli.analysis.loads.groups import of_groups
-from geneva_cli.analysis.loads.loaded import (
+from geneva_cli.analysis.loads.load_functions import (
     NO_MORE,
     LoadBatch,
     LoadFunctions,

@@ -28,7 +28,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable
 
     from geneva_cli.analysis.loads.contact import Contact
-    from geneva_cli.analysis.loads.loaded import LoadQuantity
+    from geneva_cli.analysis.loads.load_functions import LoadQuantity
     from geneva_cli.machine.mechanism import Mechanism
     from geneva_cli.numerics.arrays import N
     from geneva_cli.numerics.jet import Array, Jet, Number

@@ -14,9 +14,9 @@ from geneva_cli.analysis.vibration.vibration import (
     FASTER,
     SLOWER,
     Avoid,
-    Loads,
+    Oscillators,
     Vibrations,
-    loads_of,
+    oscillators_of,
     speeds_to_avoid,
     vibrations,
 )
@@ -40,24 +40,30 @@ def values(mechanism: Mechanism, load: Oscillator | None) -> dict[str, Any]:
         return dict.fromkeys((*NUMBERS, "avoid", "stations")) | {
             "warnings": (Notice("not-known", f"no value is computed: {NO_INERTIA}"),)
         }
-    loads = loads_of(mechanism, load)
+    oscillators = oscillators_of(mechanism, load)
     avoid = speeds_to_avoid(mechanism, load)
-    numbers = {name: float(x[0]) for name, x in vibrations(loads)._asdict().items()}
-    each = _stations(loads)
+    numbers = {name: float(x[0]) for name, x in vibrations(oscillators)._asdict().items()}
+    each = _stations(oscillators)
     return {
         **{name: _known(number) for name, number in numbers.items()},
         "speeds_to_avoid_rpm": tuple(a.rpm for a in avoid),
         "avoid": rows_table(Avoid._fields, avoid),
         "stations": rows_table(STATION_COLUMNS, each) if len(each) > 1 else None,
-        "warnings": tuple(_warnings(mechanism, load, float(loads.ratio.min()))),
+        "warnings": tuple(_warnings(mechanism, load, float(oscillators.ratio.min()))),
     }
 
 
-def _stations(loads: Loads) -> list[tuple[float | None, ...]]:
+def _stations(oscillators: Oscillators) -> list[tuple[float | None, ...]]:
     """Return a row of ``STATION_COLUMNS`` for each kind of index in a period."""
-    factor = loads.swung_deg / loads.windup_deg
-    every = (loads.ratio, loads.share, loads.residual_deg, factor, loads.windup_deg)
-    rows = np.array([*every, loads.steady_share])[:, :, 0].T
+    factor = oscillators.swung_deg / oscillators.windup_deg
+    every = (
+        oscillators.ratio,
+        oscillators.share,
+        oscillators.residual_deg,
+        factor,
+        oscillators.windup_deg,
+    )
+    rows = np.array([*every, oscillators.steady_share])[:, :, 0].T
     return [tuple(_known(x) for x in row) for row in rows.tolist()]
 
 
@@ -124,7 +130,7 @@ def spectrum(mechanism: Mechanism, load: Oscillator, samples: int) -> Table:
     n_rpm = mechanism.spec.drive.n_rpm
     speed = n_rpm * np.geomspace(SLOWER, FASTER, samples)
     ratio = load.ratio * (n_rpm / speed)
-    loads = Loads(mechanism, Swing(ratio, np.full(samples, load.damping)))
-    settled: object = loads.steady_share.max(axis=0) if load.damping else [None] * samples
-    share, turned = loads.share.max(axis=0), loads.residual_deg.max(axis=0)
-    return Table(SPECTRUM_COLUMNS, [speed, ratio, share, turned, loads.worst_share, settled])
+    oscillators = Oscillators(mechanism, Swing(ratio, np.full(samples, load.damping)))
+    settled: object = oscillators.steady_share.max(axis=0) if load.damping else [None] * samples
+    share, turned = oscillators.share.max(axis=0), oscillators.residual_deg.max(axis=0)
+    return Table(SPECTRUM_COLUMNS, [speed, ratio, share, turned, oscillators.worst_share, settled])

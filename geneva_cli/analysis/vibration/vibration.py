@@ -29,7 +29,7 @@ import numpy as np
 from geneva_cli.analysis.loads.carried import inertia_kgm2
 from geneva_cli.analysis.peak_search import motion_peaks
 from geneva_cli.analysis.timing import timings
-from geneva_cli.analysis.vibration.during import greatest_accelerations
+from geneva_cli.analysis.vibration.load_acceleration import greatest_accelerations
 from geneva_cli.analysis.vibration.lobes import Lobes, highest_ratio, lobes
 from geneva_cli.analysis.vibration.oscillator import PERIOD_RATIO, Oscillator, period_ratio_of
 from geneva_cli.analysis.vibration.shape import law_shape, motion_shapes, shape
@@ -100,7 +100,7 @@ class Index:
         return residual_swing(self.panels, self.shapes(which), Swing(ratio * scale, damping))
 
 
-class Loads:
+class Oscillators:
     """n oscillators on a machine: each on one of its n designs, or all on one design.
 
     Arrays (stations, n) have a row for each kind of index in a period. The load is at rest before
@@ -222,27 +222,29 @@ class Loads:
         return out
 
 
-def loads_of(mechanism: Mechanism, load: Oscillator) -> Loads:
-    """Return the load of one design."""
-    return Loads(mechanism, Swing(np.array([load.ratio]), np.array([load.damping])))
+def oscillators_of(mechanism: Mechanism, load: Oscillator) -> Oscillators:
+    """Return the oscillator of one design."""
+    return Oscillators(mechanism, Swing(np.array([load.ratio]), np.array([load.damping])))
 
 
-def vibrations(loads: Loads, requested: Collection[str] = Vibrations._fields) -> Vibrations:
+def vibrations(
+    oscillators: Oscillators, requested: Collection[str] = Vibrations._fields
+) -> Vibrations:
     """Return the results of each oscillator; of several motions the greatest.
 
     The worst residual and the dynamic factor take time: they are NaN unless ``requested``.
     """
-    swing, none = loads.swing, np.full(len(loads.every), np.nan)
-    windup = loads.windup_deg.max(axis=0)
+    swing, none = oscillators.swing, np.full(len(oscillators.every), np.nan)
+    windup = oscillators.windup_deg.max(axis=0)
     return Vibrations(
         swing.ratio,
         swing.damping,
-        swing.ratio / np.ravel(timings(loads.mechanism)[0].motion_s),
-        loads.share.max(axis=0),
-        loads.residual_deg.max(axis=0),
-        loads.worst_share if "residual_share_worst" in requested else none,
-        loads.steady_share.max(axis=0),
-        loads.swung_deg.max(axis=0) / windup if "dynamic_factor" in requested else none,
+        swing.ratio / np.ravel(timings(oscillators.mechanism)[0].motion_s),
+        oscillators.share.max(axis=0),
+        oscillators.residual_deg.max(axis=0),
+        oscillators.worst_share if "residual_share_worst" in requested else none,
+        oscillators.steady_share.max(axis=0),
+        oscillators.swung_deg.max(axis=0) / windup if "dynamic_factor" in requested else none,
         windup,
     )
 
@@ -268,7 +270,7 @@ def design_vibrations(
     size = 32  # designs at a time: the panels of each are some 20 kB, and stay in the cache
     for i in range(0, len(known), size):
         part = known[i : i + size]
-        some = Loads(taken(mechanism, part), Swing(ratio[part], zeta[part]))
+        some = Oscillators(taken(mechanism, part), Swing(ratio[part], zeta[part]))
         out[:, part] = vibrations(some, requested)
     return Vibrations(*out)
 
@@ -279,7 +281,7 @@ def speeds_to_avoid(mechanism: Mechanism, load: Oscillator) -> list[Avoid]:
     They range from half to twice the design's, ascending. If engagements differ, the greatest
     residual of all counts.
     """
-    n_rpm, own = mechanism.spec.drive.n_rpm, loads_of(mechanism, load)
+    n_rpm, own = mechanism.spec.drive.n_rpm, oscillators_of(mechanism, load)
     places: list[tuple[float, float]] = []
     for index in own.indices:
         scale = float(index.scale[0])

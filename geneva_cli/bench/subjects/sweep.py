@@ -21,7 +21,7 @@ from geneva_cli.analysis.tolerance.motion_error import motion_errors
 from geneva_cli.analysis.tolerance.worst_effects import motion_plays, used
 from geneva_cli.analysis.vibration.oscillator import required_oscillator
 from geneva_cli.analysis.vibration.shape import shape
-from geneva_cli.analysis.vibration.vibration import design_vibrations, loads_of, vibrations
+from geneva_cli.analysis.vibration.vibration import design_vibrations, oscillators_of, vibrations
 from geneva_cli.bench.kinds import one_by_one, task_of_many
 from geneva_cli.bench.method import Method, Subject, Task
 from geneva_cli.machine.drives.side_crank import SideCrank
@@ -77,8 +77,8 @@ def _motor(machine: Mechanism) -> float:
 
 def _swing(machine: Mechanism) -> float:
     shape.cache_clear()
-    loads = loads_of(machine, required_oscillator(machine))
-    return float(vibrations(loads, ("dynamic_factor",)).dynamic_factor[0])
+    oscillators = oscillators_of(machine, required_oscillator(machine))
+    return float(vibrations(oscillators, ("dynamic_factor",)).dynamic_factor[0])
 
 
 def _swings(machine: Mechanism) -> Any:
@@ -100,7 +100,7 @@ def _plays(machine: Mechanism) -> Any:
     return result and result.worst_deg
 
 
-QUANTITIES = (
+BATCH_QUANTITIES = (
     BatchQuantity("moment in a shaft", _shaft, _shafts),
     BatchQuantity(
         "stress in a horn", _horn, lambda many: horn.horn_stresses(many, *HORN).stress_MPa
@@ -148,7 +148,7 @@ def subject(quick: bool) -> Subject:
     return Subject(
         "Results of a sweep for a batch of designs",
         f"greatest relative error of {checked} designs, against the result of one design",
-        [_task(quantity, machine, count, alone) for quantity in QUANTITIES],
+        [_task(quantity, machine, count, alone) for quantity in BATCH_QUANTITIES],
         floor=1e-12,
     )
 

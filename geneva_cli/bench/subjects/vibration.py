@@ -26,7 +26,7 @@ CHECKED = 200  # ratios whose error is measured
 LEAST_SHARE = 1e-3  # of the step: errors are over the residual, or over this where it is less
 PEAK = 4.0 * math.pi**2 / (4.0 + math.pi)  # C_a, the greatest acceleration
 # The pieces of its acceleration: from, to, rate and phase of the sine.
-PIECES = (
+LAW_PIECES = (
     (0.0, 0.125, 4.0, 0.0),
     (0.125, 0.875, 4.0 / 3.0, 1.0 / 3.0),
     (0.875, 1.0, 4.0, -2.0),
@@ -35,7 +35,7 @@ PIECES = (
 
 def acceleration(u: float) -> float:
     """The law's acceleration at one place, as in a script."""
-    _, _, rate, phase = next(piece for piece in PIECES if u <= piece[1])
+    _, _, rate, phase = next(piece for piece in LAW_PIECES if u <= piece[1])
     return PEAK * math.sin(math.pi * (rate * u + phase))
 
 
@@ -52,7 +52,7 @@ def solved(ratio: Array, damping: float, tolerance: float) -> list[float]:
             return [y[1], -acceleration(u) - swing]
 
         y = [0.0, 0.0]
-        for a, b, *_ in PIECES:
+        for a, b, *_ in LAW_PIECES:
             run = solve_ivp(slope, (a, b), y, "DOP853", rtol=tolerance, atol=tolerance * 1e-2)
             y = run.y[:, -1]
         back = (y[1] + damping * omega * y[0]) / (omega * math.sqrt(1.0 - damping * damping))
@@ -94,7 +94,7 @@ def _exponentials(m: Any, pi: Any, p: Any) -> Any:
 
 def _thirds() -> list[tuple[tuple[int, int], ...]]:
     """The pieces in whole numbers: a quotient each."""
-    return [tuple((round(24 * v), 24) for v in piece) for piece in PIECES]
+    return [tuple((round(24 * v), 24) for v in piece) for piece in LAW_PIECES]
 
 
 def _fraction(pi: Any, value: tuple[int, int]) -> Any:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import Any
 
-from geneva_cli.analysis.loads.summary import UNLOADED, QuantitySummary
+from geneva_cli.analysis.loads.summary import NO_LOAD, QuantitySummary
 from geneva_cli.design import Design
 from geneva_cli.document import WARNS, Answer, Line, Summary
 from geneva_cli.numerics.tolerances import TIE
@@ -33,7 +33,7 @@ def of_loads(design: Design) -> Answer:
 def load_lines(design: Design) -> Iterator[Line]:
     """Motor, input, pin, wheel and flywheel of a machine; without a load, the needed keys."""
     if not design.cycle.is_loaded:
-        yield Line("loads", f"not known: {UNLOADED}")
+        yield Line("loads", f"not known: {NO_LOAD}")
         return
     yield motor_line(design)
     yield from cycle_lines(design)
