@@ -8,7 +8,7 @@ import pytest
 from witness import mp
 from words import Drive, Keys, Motion, Spec, Wheel
 
-from geneva_cli.analysis.loads import loaded, loads
+from geneva_cli.analysis.loads import load_functions, loads
 from geneva_cli.analysis.loads.contact import contact
 from geneva_cli.analysis.loads.cycle import Cycle
 from geneva_cli.analysis.loads.forces import load_case
@@ -203,7 +203,7 @@ def test_the_fastest_speed_where_the_load_is_rounding_at_rest(monkeypatch):
         looks.append(np.size(x))
         return contact(engagement, x, *more)
 
-    monkeypatch.setattr(loaded, "contact", counted)
+    monkeypatch.setattr(load_functions, "contact", counted)
     drive, keys = Drive("epicyclic"), Keys("epicyclic", "shockless")
     limits = Limits(pin_force_max_N=55.0)
     mechanism = build(Spec(Wheel(4), drive, keys, load=Load(0.043), limits=limits))
