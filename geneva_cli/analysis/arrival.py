@@ -35,7 +35,7 @@ class Lag(NamedTuple):
 
 
 class Arrival(NamedTuple):
-    """The torque that resists, and the greatest with which the wheel reaches its dwell.
+    """The resisting torque, and the greatest with which the wheel reaches its dwell.
 
     ``lag`` is None if the wheel does not reach it, or nothing resists.
     """

@@ -65,7 +65,7 @@ def inputs(mechanism: Mechanism, samples: int, begin: int, end: int) -> Array:
 
 
 def first_entry_deg(mechanism: Mechanism) -> float:
-    """The input angle at which a period begins."""
+    """The input angle at which a period begins, degrees."""
     return mechanism.engagements[0].mid_deg + mechanism.engagements[0].entry_deg
 
 
@@ -87,7 +87,7 @@ def spans(mechanism: Mechanism, input_deg: Array) -> Iterator[Span]:
 
 
 def local_deg(span: Span, input_deg: Array) -> Array:
-    """The input angles of a motion, from its own mid-motion."""
+    """The input angles of a motion, degrees from its own mid-motion."""
     engagement = span.engagement
     here = input_deg[span.moves] - engagement.mid_deg
     return np.clip(here, engagement.entry_deg, engagement.exit_deg)

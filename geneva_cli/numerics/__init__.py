@@ -1,1 +1,1 @@
-"""Jets, roots and angles."""
+"""Numerics: jets, roots, extremes, quadrature, angles and tolerances."""

@@ -241,7 +241,7 @@ def plus(total: Number, more: Number) -> Number:
 
 
 def minus(total: Number, less: Number) -> Number:
-    """The difference of two numbers, in place as in ``plus``."""
+    """The difference of two numbers; the first, if an array, is changed in place."""
     if _are_alike(total, less):
         total -= less
         return total

@@ -19,7 +19,7 @@ from geneva_cli.analysis.cam_factors import CamFactors
 from geneva_cli.analysis.loads import summary
 from geneva_cli.analysis.loads.sizing import SHOWN_SIZING
 from geneva_cli.analysis.vibration import answers
-from geneva_cli.analysis.vibration.vibration import Avoid
+from geneva_cli.analysis.vibration.vibration import SpeedToAvoid
 from geneva_cli.app import app
 from geneva_cli.commands.options import say
 from geneva_cli.design import load
@@ -109,7 +109,7 @@ def quantities() -> set[str]:
     }
     out |= {f"loads.{name}" for name in of_loads} | {"loads.reversals_deg"}
     out |= {f"sizing.{name}" for name in SHOWN_SIZING}
-    out |= {f"vibration.avoid.{name}" for name in Avoid._fields}
+    out |= {f"vibration.avoid.{name}" for name in SpeedToAvoid._fields}
     out |= {f"vibration.{name}" for name in (*answers.STATION_COLUMNS, "avoid")}
     out |= {
         *answers.SPECTRUM_COLUMNS,

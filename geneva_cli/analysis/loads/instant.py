@@ -78,23 +78,23 @@ class Instant(Generic[V]):
 
     @cached_property
     def omega_rad_s(self) -> V:
-        """The wheel's speed."""
+        """The wheel's speed, rad/s."""
         return self.at.velocity * self.case.speed_rad_s
 
     @cached_property
     def alpha_rad_s2(self) -> V:
-        """The wheel's acceleration."""
+        """The wheel's acceleration, rad/s²."""
         w = self.case.speed_rad_s
         return self.at.acceleration * (w * w)
 
     @cached_property
     def wheel_torque_Nm(self) -> V:
-        """Torque at the wheel: I alpha plus resistance."""
+        """Torque at the wheel, N m: I alpha plus resistance."""
         return self.forces.torque
 
     @cached_property
     def pin_force_N(self) -> V:
-        """Pin force on the wall that bears, signed."""
+        """Pin force on the wall that bears, N, with its sign."""
         return self.forces.force * self.drives
 
     @cached_property
@@ -104,12 +104,12 @@ class Instant(Generic[V]):
 
     @cached_property
     def sliding_m_s(self) -> V:
-        """Sliding speed of the roller, fixed to its pin, along the wall."""
+        """Sliding speed along the wall of a roller that is fixed to its pin, m/s."""
         return self._rubs * self.at.touches
 
     @cached_property
     def input_torque_Nm(self) -> V:
-        """Torque of the input shaft, losses included."""
+        """Torque of the input shaft, N m, losses included."""
         # The efficiency counts where the input drives. Where the wheel drives, the losses are not
         # known to exist and reduce nothing: a brake must hold all of the torque.
         factor = 0.5 * (1.0 + self.feeds) / self.case.efficiency + 0.5 * (1.0 - self.feeds)
@@ -117,17 +117,17 @@ class Instant(Generic[V]):
 
     @cached_property
     def power_W(self) -> V:
-        """Input power: input torque times input speed."""
+        """Power of the input, W: its torque times its speed."""
         return self.input_torque_Nm * self.case.speed_rad_s
 
     @cached_property
     def friction_W(self) -> V:
-        """Friction power of the contact."""
+        """Friction power of the contact, W."""
         return self.forces.force * self._rubs * (self._rub * self.slides)
 
     @cached_property
     def wheel_bearing_N(self) -> V:
-        """Size of the force on the wheel, and so of its shaft's reaction."""
+        """Size of the force on the wheel, and so of its shaft's reaction, N."""
         return self.forces.force * (1.0 + self._rub * self._rub) ** 0.5
 
     @cached_property
@@ -141,7 +141,7 @@ class Instant(Generic[V]):
 
     @cached_property
     def guide_squared(self) -> V | None:
-        """The square of the reaction of rocker, slider, groove or fixed gear; None without one."""
+        """The square of the guide's reaction (rocker, slider, groove, fixed gear), N²; or None."""
         return None if self.at.reactions is None else self._reaction(1)
 
     @cached_property
@@ -161,17 +161,17 @@ class Instant(Generic[V]):
 
     @property
     def crank_bearing_N(self) -> V:
-        """Size of the force on the crank's shaft, and so of its bearings' reaction."""
+        """Size of the force on the crank's shaft, and so of its bearings' reaction, N."""
         return _root(self.crank_bearing_squared)
 
     @property
     def guide_force_N(self) -> V | None:
-        """Size of the guide's force; None without one."""
+        """Size of the guide's force, N; None without a guide."""
         return None if self.guide_squared is None else _root(self.guide_squared)
 
     @property
     def stress(self) -> QuantityValue[V]:
-        """The square of the contact stress, and its margin."""
+        """The square of the contact stress, MPa², and its margin."""
         assert self.stress_squared is not None  # there is a face width
         return QuantityValue(self.stress_squared, stress_margin(self.friction_margin, self.edge))
 
@@ -183,18 +183,18 @@ class Instant(Generic[V]):
 
     @property
     def guide(self) -> QuantityValue[V]:
-        """The square of the guide's force, and its margin."""
+        """The square of the guide's force, N², and its margin."""
         assert self.guide_squared is not None  # there is a guide
         return QuantityValue(self.guide_squared, self.grip)
 
     @property
     def pin_force(self) -> QuantityValue[V]:
-        """The pin force, and its margin and sign where unbounded."""
+        """The pin force, N, and its margin and sign where unbounded."""
         return QuantityValue(self.pin_force_N, self.grip, self.drives)
 
     @property
     def shaft(self) -> QuantityValue[V]:
-        """The input's torque, and the margin that friction leaves."""
+        """The input's torque, N m, and the margin that friction leaves."""
         return QuantityValue(self.input_torque_Nm, self.friction_margin)
 
     @cached_property

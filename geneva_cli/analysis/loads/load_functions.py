@@ -240,7 +240,7 @@ class LoadFunctions:
 
 
 class SignFunctions:
-    """The functions of designs under load whose signs matter, without wanted quantities."""
+    """The functions of designs under load whose signs matter; it has no wanted quantities."""
 
     wanted = 0
     margins: Sequence[int] = ()
@@ -253,7 +253,7 @@ class SignFunctions:
     def evaluate(
         self, at: ContactState, forced: Array | None = None, requested: Sequence[int] | None = None
     ) -> tuple[Mask, list[Array]]:
-        """The result of ``LoadFunctions.evaluate`` without quantities."""
+        """Signs, and Taylor coefficients of the functions that have them."""
         return self.load.evaluate(at, forced, ())
 
 

@@ -83,7 +83,7 @@ def state(mechanism: Mechanism, engagement: Engagement, input_deg: Number) -> Lo
 
 
 def greatest(mechanism: Mechanism, name: str) -> Peak[float]:
-    """The greatest size of a quantity of the cycle, and the first input angle that has it.
+    """The greatest size of a quantity of the cycle, and its first input angle in degrees.
 
     Without a load it is 0.
     """

@@ -87,7 +87,7 @@ def sources_of(
 def means_from(
     mechanism: Mechanism, names: Sequence[str], sums: Array, plain: bool
 ) -> dict[str, LoadMeans]:
-    """The means from the results of ``sums``."""
+    """The means of quantities over a period, from their integrals ``sums``: (m,) each."""
     every, out = sums / (np.ravel(mechanism.period_deg) * DEGREE), {}
     for i, name in enumerate(names):
         square, mean = every[i], None

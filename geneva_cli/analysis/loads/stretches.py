@@ -80,7 +80,7 @@ class Stretch(NamedTuple):
 def whole(
     engagement: Engagement, case: LoadCase, kinds: Sequence[str], result: Stretches
 ) -> list[Stretch]:
-    """The stretches of one design's motion without gaps, with the signs of those of a search."""
+    """The stretches of one design's motion without gaps, from those of a search."""
     signs = dict(zip(kinds, np.where(result.positive, 1.0, -1.0), strict=True))
     one = np.ones(len(result.design))
     of = (signs.get(kind, one).tolist() for kind in ("drives", "slides", "feeds"))

@@ -188,7 +188,7 @@ def searched(load: LoadFunctions, n: int, sized: bool = False) -> SearchResult:
 
 
 def sums_of(load: LoadFunctions, result: SearchResult, n: int, plain: bool) -> Array:
-    """The result of ``sums`` over the stretches of a search."""
+    """The integrals of n designs' quantities over the stretches of a search: (rows, n)."""
     bounded = np.asarray(np.isfinite(result.most).reshape(2, -1, n).all(axis=0))
     return sums(load, result.stretches, bounded, n, plain)
 

@@ -13,8 +13,8 @@ from geneva_cli.analysis.vibration.swing import Swing
 from geneva_cli.analysis.vibration.vibration import (
     FASTER,
     SLOWER,
-    Avoid,
     Oscillators,
+    SpeedToAvoid,
     Vibrations,
     oscillators_of,
     speeds_to_avoid,
@@ -47,7 +47,7 @@ def values(mechanism: Mechanism, load: Oscillator | None) -> dict[str, Any]:
     return {
         **{name: _known(number) for name, number in numbers.items()},
         "speeds_to_avoid_rpm": tuple(a.rpm for a in avoid),
-        "avoid": rows_table(Avoid._fields, avoid),
+        "avoid": rows_table(SpeedToAvoid._fields, avoid),
         "stations": rows_table(STATION_COLUMNS, each) if len(each) > 1 else None,
         "warnings": tuple(_warnings(mechanism, load, float(oscillators.ratio.min()))),
     }

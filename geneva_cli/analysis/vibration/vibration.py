@@ -63,7 +63,7 @@ class Vibrations(NamedTuple):
     windup_deg: Array
 
 
-class Avoid(NamedTuple):
+class SpeedToAvoid(NamedTuple):
     """A speed with a local maximum of the residual, and its range for a stiffness of +-20 %."""
 
     rpm: float
@@ -275,7 +275,7 @@ def design_vibrations(
     return Vibrations(*out)
 
 
-def speeds_to_avoid(mechanism: Mechanism, load: Oscillator) -> list[Avoid]:
+def speeds_to_avoid(mechanism: Mechanism, load: Oscillator) -> list[SpeedToAvoid]:
     """Return speeds at which the residual has a local maximum above ``AVOIDED_SHARE`` of the step.
 
     They range from half to twice the design's, ascending. If engagements differ, the greatest
@@ -295,4 +295,4 @@ def speeds_to_avoid(mechanism: Mechanism, load: Oscillator) -> list[Avoid]:
         kept = (tops.share >= AVOIDED_SHARE) & (tops.share >= most * (1.0 - 1e-12))
         places += zip(tops.ratio[kept].tolist(), tops.share[kept].tolist(), strict=True)
     speeds = [(n_rpm * load.ratio / ratio, share) for ratio, share in places]
-    return [Avoid(n, n * SOFTER, n * STIFFER, share) for n, share in sorted(speeds)]
+    return [SpeedToAvoid(n, n * SOFTER, n * STIFFER, share) for n, share in sorted(speeds)]

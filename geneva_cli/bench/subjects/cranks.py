@@ -115,7 +115,7 @@ def secants(d: Proportions, n: int) -> Any:
 
 
 def _has_find_root() -> bool:
-    """True with SciPy 1.15 or later."""
+    """Return True if SciPy is 1.15 or later."""
     return find_spec("scipy.optimize.elementwise") is not None
 
 
