@@ -20,7 +20,7 @@ from geneva_cli.machine.engagement import Engagement, Motion
 from geneva_cli.machine.many import designs_in, taken
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.numerics.angles import DEGREE, omega
-from geneva_cli.numerics.arrays import choose, joined, larger
+from geneva_cli.numerics.arrays import blocks, choose, joined, larger
 from geneva_cli.numerics.newton import find_roots
 from geneva_cli.numerics.tolerances import ROUNDED
 
@@ -93,9 +93,8 @@ def impacts_of(engagement: Engagement, at: Changes, play: Array, drag: Array) ->
     """
     if not len(at.x):
         return WallImpacts(at.x, at.x, at.x)
-    parts, block = [], 256  # changes whose integrals are computed together, which fit in the cache
-    for i in range(0, len(at.x), block):
-        part = slice(i, i + block)
+    parts = []
+    for part in blocks(len(at.x), 256):  # the integrals of so many fit in the cache
         parts.append(_impacts(engagement, Changes(at.which[part], at.x[part]), play[part], drag))
     return joined(parts)
 

@@ -23,7 +23,7 @@ from geneva_cli.machine.engagement import Motion, Peak
 from geneva_cli.machine.many import designs_in, taken
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.numerics.angles import DEGREE
-from geneva_cli.numerics.arrays import Array, joined, parameter
+from geneva_cli.numerics.arrays import Array, blocks, joined, parameter
 from geneva_cli.numerics.extrema import GROUP, Rough, Stationary, greatest_sizes, stationary_points
 from geneva_cli.numerics.tolerances import TIE
 
@@ -153,7 +153,7 @@ def searched(motion: Motion, quantities: Sequence[str]) -> dict[str, PeakArray]:
     breaks = [x for x in motion.breaks_deg if not motion.symmetric or np.all(x <= 0.0)]
     m = designs_in(motion)
     places = np.hstack([np.broadcast_to(x, (m, 1)) for x in breaks])
-    parts = [_part(motion, places, slice(i, i + GROUP), quantities) for i in range(0, m, GROUP)]
+    parts = [_part(motion, places, block, quantities) for block in blocks(m, GROUP)]
     return {name: joined([part[name] for part in parts]) for name in quantities}
 
 

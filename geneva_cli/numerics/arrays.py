@@ -188,6 +188,17 @@ def joined(records: Sequence[Record]) -> Record:
     return record_of(records[0], [numpy.concatenate(arrays, axis=-1) for arrays in columns])
 
 
+def blocks(count: int, size: int) -> list[slice]:
+    """Adjacent slices of at most ``size`` numbers that divide ``count`` numbers.
+
+    >>> blocks(5, 2)
+    [slice(0, 2, None), slice(2, 4, None), slice(4, 5, None)]
+    >>> blocks(0, 2)
+    [slice(0, 0, None)]
+    """
+    return [slice(i, min(i + size, count)) for i in range(0, count, size)] or [slice(0, 0)]
+
+
 def are_alike(records: Sequence[object]) -> bool:
     """Return True if records differ in numbers only, as ``picked`` requires.
 

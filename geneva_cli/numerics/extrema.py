@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, NamedTuple, Protocol, TypeAlias
 
 import numpy as np
 
-from geneva_cli.numerics.arrays import joined
+from geneva_cli.numerics.arrays import blocks, joined
 from geneva_cli.numerics.newton import Brackets, nearer, newton_roots
 from geneva_cli.numerics.tolerances import TIE
 
@@ -54,7 +54,7 @@ def stationary_points(f: BatchFunction, a: Array, b: Array) -> Stationary:
     """All stationary points between a and b, of the shape (n, 1), in order of design and place."""
     groups = []
     with np.errstate(all="ignore"):
-        for part in _blocks(0, len(a), GROUP):
+        for part in blocks(len(a), GROUP):
             groups.append(_tops(f, _scanned(f, a[part], b[part], part.start).turns)[:3])
     which, x, value = joined(groups)
     order = np.lexsort((x, which))
@@ -87,7 +87,7 @@ def greatest_sizes(
     with np.errstate(all="ignore"):
         groups = [
             _greatest(f, rough, [place[part] for place in places], part.start)
-            for part in _blocks(0, len(places[0]), GROUP)
+            for part in blocks(len(places[0]), GROUP)
         ]
     return joined(groups)
 
@@ -158,10 +158,6 @@ def _high_turns(scan: _Scan, sampled: Array, start: int) -> _SamplePairs:
     return scan.turns.taken(reach + missed[here] >= sampled[here])
 
 
-def _blocks(start: int, stop: int, size: int) -> list[slice]:
-    return [slice(i, min(i + size, stop)) for i in range(start, stop, size)] or [slice(0, 0)]
-
-
 class _SamplePairs(NamedTuple):
     """Adjacent samples of designs: place, value and slope in three rows, left and right."""
 
@@ -183,7 +179,7 @@ class _Scan(NamedTuple):
 
 def _scanned(f: BatchFunction, a: Array, b: Array, start: int) -> _Scan:
     """The scan of a group of designs, the first of which has the number ``start``."""
-    scans = [_scan(f, a[part], b[part], start + part.start) for part in _blocks(0, len(a), BLOCK)]
+    scans = [_scan(f, a[part], b[part], start + part.start) for part in blocks(len(a), BLOCK)]
     ends, low, high = (np.concatenate([s[i] for s in scans]) for i in range(3))
     turns, missed = (
         joined(pairs) for pairs in ([s.turns for s in scans], [s.missed for s in scans])

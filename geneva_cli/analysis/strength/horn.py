@@ -30,7 +30,7 @@ from geneva_cli.analysis.loads.contact import NEAR_CUSP
 from geneva_cli.analysis.loads.loads import state
 from geneva_cli.machine.many import taken
 from geneva_cli.machine.pitch_curve import pitch
-from geneva_cli.numerics.arrays import array, joined, parameter
+from geneva_cli.numerics.arrays import array, blocks, joined, parameter
 from geneva_cli.numerics.tolerances import TIE
 
 if TYPE_CHECKING:
@@ -205,11 +205,8 @@ def horn_stresses(
     m = mechanism.designs
     if m == 1:
         return _horns(1, *every)
-    size = 16  # designs at a time: their stresses stay in the cache
-    groups = [
-        _horns(min(size, m - i), *taken(every, slice(i, i + size))) for i in range(0, m, size)
-    ]
-    return joined(groups)
+    # the stresses of 16 designs stay in the cache
+    return joined([_horns(b.stop - b.start, *taken(every, b)) for b in blocks(m, 16)])
 
 
 class _SamplePlaces(NamedTuple):

@@ -35,7 +35,7 @@ from geneva_cli.analysis.loads.forces import contact_modulus_GPa
 from geneva_cli.analysis.locking import Lock
 from geneva_cli.analysis.strength.horn import SHEAR, horns, product
 from geneva_cli.machine.many import taken
-from geneva_cli.numerics.arrays import all_true, choose_record, only_of, parameter
+from geneva_cli.numerics.arrays import all_true, blocks, choose_record, only_of, parameter
 
 if TYPE_CHECKING:
     from geneva_cli.machine.mechanism import Mechanism
@@ -155,8 +155,8 @@ def bending(mechanism: Mechanism, half_width: float, recess: float, phi: float) 
     m = mechanism.designs
     if m == 1:
         return _weakest(*every)
-    size = 8  # designs at a time: their sections stay in the cache
-    groups = [_weakest(*taken(every, slice(i, i + size))) for i in range(0, m, size)]
+    # the sections of 8 designs stay in the cache
+    groups = [_weakest(*taken(every, block)) for block in blocks(m, 8)]
     return HornBending(*(np.concatenate(row) for row in zip(*groups, strict=True)))
 
 

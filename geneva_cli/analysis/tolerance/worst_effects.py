@@ -38,7 +38,7 @@ from geneva_cli.analysis.tolerance.motion_error import (
 )
 from geneva_cli.machine.many import taken
 from geneva_cli.machine.mechanism import Mechanism
-from geneva_cli.numerics.arrays import array, joined, parameter
+from geneva_cli.numerics.arrays import array, blocks, joined, parameter
 
 if TYPE_CHECKING:
     from geneva_cli.numerics.arrays import Array
@@ -68,10 +68,7 @@ def motion_plays(mechanism: Mechanism) -> MotionPlays | None:
     m, machines = mechanism.designs, 2 ** sum(bool(np.any(size)) for size in sizes)
     # a million places of machines with deviations are computed together
     group = max(1, (1 << 20) // (machines * MOTION_SAMPLES))
-    parts = [
-        _of(taken(mechanism, slice(i, i + group)), min(group, m - i)) for i in range(0, m, group)
-    ]
-    return joined(parts)
+    return joined([_of(taken(mechanism, b), b.stop - b.start) for b in blocks(m, group)])
 
 
 def _of(mechanism: Mechanism, n: int) -> MotionPlays:
