@@ -190,8 +190,8 @@ def _write_rows(asked: "Request", outcome: "Outcome", output: str, resume: bool)
     found = asked.sweep
     first = found.shard.number == 1
     with Growth(found.names, asked.key, first, output, resume, asked.inputs) as rows:
-        if rows.found:
-            print(rows.found, file=sys.stderr)
+        if rows.message:
+            print(rows.message, file=sys.stderr)
         if rows.is_whole:
             return
         shows_all = is_seen(output)

@@ -14,22 +14,22 @@ from contextlib import contextmanager
 from typing import Any
 
 __all__ = ["BaseLayout", "Document", "Modelspace", "options"]
-CACHE = "XDG_CACHE_HOME"
 
 
 @contextmanager
 def _alone() -> Iterator[None]:
-    read, folder = ConfigParser.read, os.environ.get(CACHE)
+    cache = "XDG_CACHE_HOME"
+    read, folder = ConfigParser.read, os.environ.get(cache)
     setattr(ConfigParser, "read", _read_nothing)  # noqa: B010  # mypy lets no method be assigned
-    os.environ[CACHE] = os.path.join(os.path.dirname(os.path.abspath(__file__)), "no_fonts")
+    os.environ[cache] = os.path.join(os.path.dirname(os.path.abspath(__file__)), "no_fonts")
     try:
         yield
     finally:
         setattr(ConfigParser, "read", read)  # noqa: B010
         if folder is None:
-            del os.environ[CACHE]
+            del os.environ[cache]
         else:
-            os.environ[CACHE] = folder
+            os.environ[cache] = folder
 
 
 def _read_nothing(self: ConfigParser, *arguments: Any, **settings: Any) -> list[str]:

@@ -11,8 +11,6 @@ from typing import BinaryIO
 
 from geneva_cli.errors import GenevaError
 
-BLOCK = 1 << 22  # bytes of csv at a time
-
 
 def refuse_without() -> None:
     """Raise GenevaError if pyarrow is not installed."""
@@ -45,7 +43,7 @@ def convert(lines: Iterable[bytes], target: BinaryIO, texts: Collection[str] = (
             quoted_strings_can_be_null=False,
         )
         source.seek(0)
-        read = arrow.ReadOptions(block_size=BLOCK)
+        read = arrow.ReadOptions(block_size=1 << 22)  # bytes of csv at a time
         with (
             arrow.open_csv(source, read_options=read, convert_options=options) as rows,
             parquet.ParquetWriter(target, rows.schema) as out,

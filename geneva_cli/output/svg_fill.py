@@ -17,7 +17,6 @@ from geneva_cli.output.svg_paths import number, path
 TINTS = {"ROLLER": 0.55}  # opacity; of other layers:
 TINT = 0.16
 HATCH, RULE = 4.0, 0.25  # mm: distance of hatch lines, and their width
-TURNS = (45, 135, 75, 105, 15, 165)  # degrees: of the hatches of layers, in turn
 
 Move = Callable[[Shape], Shape]
 
@@ -27,9 +26,10 @@ def filled(solid: Part, fill: str, unit: float, mm: float) -> Iterator[str]:
     every = rings(solid, unit)
     here = dict.fromkeys(layer for layer, _ in every)
     layers = tuple(sorted(here, key=[*INKS, *here].index))  # the wheel's hatch first
+    turns_deg = (45, 135, 75, 105, 15, 165)  # of the layers' hatches, in turn
     if fill == "hatch":
         yield "<defs>\n"
-        for turn, (layer, ink) in zip(TURNS * len(layers), inks(layers).items(), strict=False):
+        for turn, (layer, ink) in zip(turns_deg * len(layers), inks(layers).items(), strict=False):
             step = number(mm * HATCH)
             yield (
                 f'<pattern id="hatch-{layer}" width="{step}" height="{step}"'

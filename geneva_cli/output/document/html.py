@@ -25,7 +25,6 @@ from geneva_cli.output.document.inline import inline
 from geneva_cli.output.document.values import is_number, shown
 from geneva_cli.output.summary import SIGNS
 
-WIDE = 4  # columns that fit on a phone
 SHORT = 12  # letters that are not broken into lines
 NUMBER, BRIEF, WORST = ' class="n"', ' class="s"', ' class="bad"'
 
@@ -91,7 +90,7 @@ def _grid(grid: Grid) -> Iterator[str]:
         for head, side in zip(grid.heads, sides, strict=True)
     )
     head = f"<thead><tr>{heads}</tr></thead>\n" if any(grid.heads) else ""
-    wide = " wide" if len(grid.heads) > WIDE else ""
+    wide = " wide" if len(grid.heads) > 4 else ""  # four columns fit on a phone
     yield (
         f'<div class="grid{wide}" tabindex="0">\n'
         f"<table>\n<caption>{_text(grid.caption)}</caption>\n{head}<tbody>\n"
