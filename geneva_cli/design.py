@@ -431,7 +431,7 @@ class Design:
         """
         from geneva_cli.verdict.headline import below_summary
 
-        return below_summary(self._loads(for_people=True), said=("title",))
+        return below_summary(self._loads(for_people=True), without=("title",))
 
     @answer
     def load_warnings(self) -> list[Notice]:

@@ -12,8 +12,6 @@ if TYPE_CHECKING:
     from geneva_cli.parts.sizes import Sizes
 
 Value: TypeAlias = float | int | str | None  # None: the key is left out
-# Keys without a default that take a word.
-WORDS = ("ratio", "held_by")
 # From the present value to the last one tried: values beyond a passing one may fail.
 STEPS = 24
 COARSE = 12  # steps of a size, whose trials take a whole turn
@@ -50,7 +48,8 @@ def value_now(mechanism: Mechanism, table: str, key: str) -> Value:
     spec = mechanism.spec
     value: Value = spec.table(table).get(key)
     if value is not None or table != "size":
-        return value or ("" if key in WORDS else value)
+        # These keys take a word, and have no default.
+        return value or ("" if key in ("ratio", "held_by") else value)
     allowed = spec.size.allowances._asdict()  # of the process, if a key is left out
     if key in allowed:
         return float(allowed[key])

@@ -12,9 +12,6 @@ from geneva_cli.verdict.checks.check import Check
 from geneva_cli.verdict.failures import meaning
 from geneva_cli.verdict.measured import measured
 
-# Checks without a margin.
-YES_OR_NO = ("dwell_hold", "parts", "full_turn")
-
 
 def headline(checks: Sequence[Check], warnings: Sequence[str]) -> tuple[str, str]:
     """State of a design (PASSES, WARNS or FAILS), and counts of its checks and warnings in words.
@@ -40,14 +37,14 @@ def headline(checks: Sequence[Check], warnings: Sequence[str]) -> tuple[str, str
     return state, text
 
 
-def below_summary(record: Table, *, said: Sequence[str] = ()) -> Table:
-    """A record as it stands below its summary, without the warnings and the names ``said`` there.
+def below_summary(record: Table, *, without: Sequence[str] = ()) -> Table:
+    """A record as it stands below its summary, without the warnings and the names shown there.
 
     Notes on unknown values remain, as ``not_known``.
     """
     values = dict(zip(record.names, next(record.rows()), strict=True))
     notes = tuple(text for text in values.pop("warnings") if not is_warning(text))
-    left = {name: value for name, value in values.items() if name not in said}
+    left = {name: value for name, value in values.items() if name not in without}
     return record_table(left | ({"not_known": notes} if notes else {}), prose=record.prose)
 
 
@@ -91,7 +88,7 @@ def compared_text(check: Check, unit: str) -> str:
 
 def tightest(checks: Iterable[Check]) -> Iterator[Line]:
     """The line of the passing check with the least relative margin, or none."""
-    used = [(share, check) for check in checks if (share := _used(check)) is not None]
+    used = [(fraction, check) for check in checks if (fraction := _used(check)) is not None]
     if used:
         _, check = max(used, key=lambda pair: pair[0])
         label, unit = spoken(check.name)
@@ -101,6 +98,7 @@ def tightest(checks: Iterable[Check]) -> Iterator[Line]:
 def _used(check: Check) -> float | None:
     """Fraction of its limit that a check uses, 1 at the limit; None if it has no such fraction."""
     value, limit = check.value, check.limit
-    if not check.passes or not value or not limit or check.name in YES_OR_NO:
+    has_margin = check.name not in ("dwell_hold", "parts", "full_turn")
+    if not (check.passes and value and limit and has_margin):
         return None
     return value / limit if check.must_be == "at most" else limit / value

@@ -28,7 +28,7 @@ def of_report(design: Design) -> Answer:
     checks, warnings = design.checks, design.warnings
     lines = (*failure_lines(checks), *key_figures(design), *warning_lines(checks, warnings))
     summary = Summary(f"{title_of(design)}: {text}", lines, state)
-    return Answer((summary,), below_summary(record, said=SAID), record)
+    return Answer((summary,), below_summary(record, without=SAID), record)
 
 
 def key_figures(design: Design) -> Iterator[Line]:

@@ -23,7 +23,7 @@ def of_tolerance(design: Design, record: Table) -> Answer:
     lines = (*_lines(values), *map(warning, warnings))
     state = WARNS if warnings else ""
     summary = Summary(f"{title_of(design)}{counted(warnings)}", lines, state)
-    return Answer((summary,), below_summary(record, said=("title",)), record)
+    return Answer((summary,), below_summary(record, without=("title",)), record)
 
 
 def _lines(values: dict[str, Any]) -> Iterator[Line]:

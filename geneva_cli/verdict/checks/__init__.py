@@ -65,9 +65,9 @@ def single_check(mechanism: Mechanism, name: str) -> Check | None:
     Raises GenevaError if its parts cannot be made.
     """
     for among in (MOTION, LIMITS):
-        found = check_named(among, name, mechanism)
-        if found:
-            return found
+        check = check_named(among, name, mechanism)
+        if check:
+            return check
     among = standing(mechanism)
     if not mechanism.spec.has_parts or name not in among:
         return None

@@ -78,10 +78,10 @@ class Group(NamedTuple):
 
     def values(self, model: PartsModel) -> Values:
         """The values of a single design; None for those that it lacks."""
-        found: Values
+        computed: Values
         if self.alone:
-            found = load_named(f"verdict.{self.alone}")(model)
-            return found
+            computed = load_named(f"verdict.{self.alone}")(model)
+            return computed
         from geneva_cli.verdict.quantities.designs import single
 
         columns = self.columns(single(model.mechanism))
@@ -93,8 +93,8 @@ class Group(NamedTuple):
         A name is left out if the batch cannot compute it, and each design must be built alone.
         """
         compute: Callable[[Designs], Columns] = load_named(f"verdict.quantities.{self.batch}")
-        found = of.once(compute)
-        return found if self.alone else {**dict.fromkeys(self.own), **found}
+        columns = of.once(compute)
+        return columns if self.alone else {**dict.fromkeys(self.own), **columns}
 
     def _whole(self, name: str) -> str:
         return f"{self.table}.{name}" if self.table else name
