@@ -89,13 +89,13 @@ def _copy(name: str, output: str, force: bool) -> None:
         raise GenevaError(
             f"--from-design {name}: it needs {', '.join(files)} in its folder; give -o FILE"
         )
-    beside = {os.path.join(os.path.dirname(output), file): files[file] for file in files}
+    named_files = {os.path.join(os.path.dirname(output), file): files[file] for file in files}
     if not force:
         refuse_existing(output)
-        for place, content in beside.items():
+        for place, content in named_files.items():
             if not _holds(place, content):
                 refuse_existing(place)
-    for place, content in beside.items():
+    for place, content in named_files.items():
         show_text(content, place)
     show_text(text, output)
 

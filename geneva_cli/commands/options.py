@@ -25,7 +25,7 @@ def one_of(names: Iterable[str]) -> str:
 SpecPath: TypeAlias = Annotated[
     str, typer.Argument(metavar="SPEC", help="The spec, a TOML file; - reads standard input.")
 ]
-Given: TypeAlias = Annotated[
+Settings: TypeAlias = Annotated[
     list[str] | None,
     typer.Option(
         "--set",
