@@ -19,7 +19,7 @@ from typer.main import get_command
 
 from geneva_cli import __version__
 from geneva_cli.errors import GenevaError, clean, cut
-from geneva_cli.progress import Bar, close, show_with
+from geneva_cli.progress import ProgressBar, close, show_with
 from geneva_cli.streams import leave, open_streams
 
 # The registry by task: the module in geneva_cli.commands, and its line in --help.
@@ -149,8 +149,7 @@ class Command(PlainValues, TyperCommand):
         for param in self.get_params(ctx):
             record = param.get_help_record(ctx)
             is_argument = param.param_type_name == "argument"
-            # Typer keeps an option's heading in this attribute.
-            heading = "Arguments" if is_argument else getattr(param, "rich_help_panel", None)
+            heading = "Arguments" if is_argument else vars(param).get("rich_help_panel")
             if record and is_argument:
                 record = _placeholder(param), record[1]
             if record:
@@ -238,7 +237,7 @@ class LazyGroup(PlainValues, TyperGroup):
             _fail("out of memory; ask for fewer samples or a coarser tolerance")
 
 
-def _bar(what: str, total: int) -> Bar | None:
+def _bar(what: str, total: int) -> ProgressBar | None:
     """A progress bar, if standard error is a terminal."""
     if not sys.stderr.isatty():
         return None

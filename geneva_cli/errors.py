@@ -56,7 +56,7 @@ def is_warning(text: str) -> bool:
     return isinstance(text, Notice) and text.name != "not-known"
 
 
-_MARKS: list[ContextVar[list[Any]]] = []  # at most one, created at the first use of ``marking``
+_marks: list[ContextVar[list[Any]]] = []  # at most one, created at the first use of ``marking``
 
 
 def refuse(where: Any, error: Callable[[], GenevaError]) -> None:
@@ -69,7 +69,7 @@ def refuse(where: Any, error: Callable[[], GenevaError]) -> None:
         if where:
             raise error()
         return
-    marks = _MARKS[0].get(None) if _MARKS else None
+    marks = _marks[0].get(None) if _marks else None
     if marks is None:
         raise GenevaError("an array of designs is built by geneva_cli.machine.many")
     marks.append(where)
@@ -80,14 +80,14 @@ def marking() -> Iterator[list[Any]]:
     """Collect the masks of designs that ``refuse`` marks within the block."""
     from contextvars import ContextVar  # not at the start of every run
 
-    if not _MARKS:
-        _MARKS.append(ContextVar("marks"))
+    if not _marks:
+        _marks.append(ContextVar("marks"))
     marks: list[Any] = []
-    token = _MARKS[0].set(marks)
+    token = _marks[0].set(marks)
     try:
         yield marks
     finally:
-        _MARKS[0].reset(token)
+        _marks[0].reset(token)
 
 
 def clean(text: str) -> str:

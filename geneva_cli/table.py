@@ -202,7 +202,7 @@ def _whole(column: Any) -> Any:
     return np.concatenate([column[start : start + PIECE] for start in starts])
 
 
-class _Pieces:
+class _ColumnPieces:
     """Rows of a table too long for memory; the last computed piece is kept."""
 
     def __init__(self, length: int, make: Callable[[int, int], Sequence[Any]]) -> None:
@@ -225,7 +225,7 @@ class _Pieces:
 class Column:
     """One column of such a table, with a length and slices within a piece."""
 
-    def __init__(self, pieces: _Pieces, number: int, dtype: str = "float64") -> None:
+    def __init__(self, pieces: _ColumnPieces, number: int, dtype: str = "float64") -> None:
         self.pieces, self.number, self.dtype = pieces, number, dtype
 
     def __len__(self) -> int:
@@ -244,7 +244,7 @@ def pieces(
     ``dtype`` is "object" for columns that may be lists with None. The table takes the memory of one
     piece, however many rows are written.
     """
-    rows = _Pieces(length, make)
+    rows = _ColumnPieces(length, make)
     return [Column(rows, number, dtype) for number in range(count)]
 
 

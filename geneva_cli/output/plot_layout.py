@@ -23,7 +23,6 @@ ABOVE, BELOW = 26.0, 44.0  # a panel's name; the last one's ticks and the axis' 
 TITLE, TEXT, SMALL = 15.0, 11.0, 10.0  # heights of letters
 LINE_HEIGHT = 14.0
 SAMPLE = 30.0  # of a curve, in the legend
-APART = 24.0, 70.0  # least distance of ticks: up and across
 START, MIDDLE, END = "start", "middle", "end"  # anchor of a text
 
 
@@ -92,19 +91,19 @@ class Pen(Protocol):
         """Write a text in bold letters."""
 
 
-class Block(NamedTuple):
+class FigureBlock(NamedTuple):
     """An unbreakable part of a figure: its height, and ``draw(pen, top)``."""
 
     high: float
     draw: Callable[[Pen, float], None]
 
 
-def blocks(figure: Figure) -> Iterator[Block]:
+def blocks(figure: Figure) -> Iterator[FigureBlock]:
     """Yield the title with the legend, then each panel; the last panel has the axis."""
     known = figure.curves()
     several = len(known) > 1
     legend = _legend(known.values()) if several else []
-    yield Block(
+    yield FigureBlock(
         (legend[-1][2] if legend else TITLE + 14.0), lambda pen, top: _head(figure, legend, pen)
     )
     # a panel's height, by the number of panels
@@ -122,7 +121,7 @@ def blocks(figure: Figure) -> Iterator[Block]:
             is_last: bool = is_last,
         ) -> None:
             frame = Frame(top + ABOVE, wide, high, figure.window, padded(panel))
-            across = ticks(*figure.window, int(wide / APART[1]), figure.x.unit)
+            across = ticks(*figure.window, int(wide / 70.0), figure.x.unit)
             pen.begin(panel.y.name, frame)
             _panel(figure, panel, frame, across, pen)
             _marks(figure, panel, frame, several, pen)
@@ -132,7 +131,7 @@ def blocks(figure: Figure) -> Iterator[Block]:
             if is_first:
                 _dwell(figure, frame, pen)
 
-        yield Block(ABOVE + high + (BELOW if is_last else 0.0), draw)
+        yield FigureBlock(ABOVE + high + (BELOW if is_last else 0.0), draw)
 
 
 def padded(panel: Panel) -> tuple[float, float]:
@@ -173,7 +172,7 @@ def _sample(curve: Curve, x: float, y: float, long: float, pen: Pen) -> None:
 
 def _panel(figure: Figure, panel: Panel, frame: Frame, across: list[float], pen: Pen) -> None:
     """Draw dwells, grid, axes and curves."""
-    up = ticks(*frame.span, int(frame.high / APART[0]), panel.y.unit)
+    up = ticks(*frame.span, int(frame.high / 24.0), panel.y.unit)
     right = LEFT + frame.wide
     for a, b in figure.shaded:
         pen.rest(frame.x(a), frame.top, frame.x(b) - frame.x(a), frame.high)

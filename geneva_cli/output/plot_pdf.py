@@ -10,7 +10,17 @@ from geneva_cli.output import pdf_file
 from geneva_cli.output.document.paper import INK, LEFT, WIDE, Item, box, wide, words
 from geneva_cli.output.letters import western
 from geneva_cli.output.pdf_file import POINT, number
-from geneva_cli.output.plot_layout import END, PAGE, START, TEXT, Block, Frame, Path, Point, blocks
+from geneva_cli.output.plot_layout import (
+    END,
+    PAGE,
+    START,
+    TEXT,
+    FigureBlock,
+    Frame,
+    Path,
+    Point,
+    blocks,
+)
 from geneva_cli.output.strokes import LIGHT, colour, dashes
 
 INCH = 25.4 / 82.0  # mm per px of a figure's own page, which is ten inches wide
@@ -37,7 +47,7 @@ def items(figure: Figure) -> Iterator[Item]:
         yield Item(scale * block.high, draw, keeps=i in (0, len(parts) - 2))
 
 
-def _drawn(block: Block, left: float, scale: float, top: float) -> str:
+def _drawn(block: FigureBlock, left: float, scale: float, top: float) -> str:
     pen = _PdfPen(left, scale, top)
     block.draw(pen, 0.0)
     return "".join(pen.out)

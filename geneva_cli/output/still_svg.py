@@ -16,7 +16,6 @@ if TYPE_CHECKING:
     from geneva_cli.scene import Bar, Body, Place, Scene
 
 BETWEEN = 0.12  # fraction of the turn: the first roller is in its slot
-STROKE, LINK, JOINT = 0.004, 0.012, 0.008  # of the greater side
 GREY, BROWN = "#757575", "#a56752"
 
 
@@ -32,7 +31,7 @@ def chunks(scene: Scene) -> Iterator[str]:
         '<?xml version="1.0" encoding="UTF-8"?>\n'
         f'<svg xmlns="http://www.w3.org/2000/svg" width="{width_px:g}" '
         f'height="{width_px * high / wide:.6g}" viewBox="{view}" fill="none" '
-        f'stroke-width="{STROKE * size:.6g}" stroke-linejoin="round" stroke-linecap="round">\n'
+        f'stroke-width="{0.004 * size:.6g}" stroke-linejoin="round" stroke-linecap="round">\n'
         f"<title>{escape(clean(scene.title))}</title>\n"
     )
     for body in scene.bodies:
@@ -76,10 +75,10 @@ def _bar(bar: Bar, t: float, size: float) -> Iterator[str]:
         points = " ".join(f"{x:.6g},{y:.6g}" for x, y in joints)
         yield (
             f'<polygon points="{points}" stroke="{BROWN}" fill="{BROWN}33" '
-            f'stroke-width="{LINK * size:.6g}"/>\n'
+            f'stroke-width="{0.012 * size:.6g}"/>\n'
         )
     for joint in joints:
-        yield _circle(joint, JOINT * size, f'stroke="{GREY}" fill="#ffffff"')
+        yield _circle(joint, 0.008 * size, f'stroke="{GREY}" fill="#ffffff"')
 
 
 def _circle(at: tuple[float, float], r: float, paint: str) -> str:

@@ -8,7 +8,7 @@ import textwrap
 from collections.abc import Iterable, Iterator
 from typing import NamedTuple
 
-from geneva_cli.document import FAILS, PASSES, WARNS, Line, Summary
+from geneva_cli.document import FAILS, PASSES, WARNS, Summary, SummaryLine
 from geneva_cli.errors import clean
 from geneva_cli.output.document.values import RAISED, TIMES
 from geneva_cli.output.layout import DIM, styled
@@ -65,7 +65,7 @@ def _head(summary: Summary, look: Look) -> str:
     return f"{sign} {text}\n" if sign else f"{text}\n"
 
 
-def _lines(lines: Iterable[Line], look: Look) -> Iterator[str]:
+def _lines(lines: Iterable[SummaryLine], look: Look) -> Iterator[str]:
     lines = list(lines)
     label_max = 20  # letters; a longer label stands above its text
     wide = max((len(line.label) for line in lines if len(line.label) <= label_max), default=0)

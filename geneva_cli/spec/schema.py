@@ -199,24 +199,24 @@ def without_hash(record: object) -> dict[str, object]:
     return {name: value for name, value in vars(record).items() if name != HASH}
 
 
+_names_of: dict[type, tuple[str, ...]] = {}
+
+
 def _names(kind: type) -> tuple[str, ...]:
     """Names of a dataclass's fields."""
-    if kind not in _NAMES_OF:
-        _NAMES_OF[kind] = tuple(one.name for one in dataclasses.fields(kind))
-    return _NAMES_OF[kind]
+    if kind not in _names_of:
+        _names_of[kind] = tuple(one.name for one in dataclasses.fields(kind))
+    return _names_of[kind]
 
 
-_NAMES_OF: dict[type, tuple[str, ...]] = {}
+_fields_of: dict[type[SpecTable], tuple[Field, ...]] = {}
 
 
 def fields(table: type[SpecTable]) -> tuple[Field, ...]:
     """Keys of a table, in their order."""
-    if table not in _FIELDS:
-        _FIELDS[table] = _fields(table)
-    return _FIELDS[table]
-
-
-_FIELDS: dict[type[SpecTable], tuple[Field, ...]] = {}
+    if table not in _fields_of:
+        _fields_of[table] = _fields(table)
+    return _fields_of[table]
 
 
 def _fields(table: type[SpecTable]) -> tuple[Field, ...]:

@@ -100,15 +100,15 @@ def _sine(now: float) -> list[Value]:
 
 
 _SLOTS = Change("wheel", "z", lambda z: list(range(z + 1, Z_USUAL + 1)))
-_FEWER = fewer("drive", "rollers", 1)
 _MOTION = (increased("motion", "alpha0_deg", -180.0), increased("motion", "alpha0_deg", 180.0))
-_DRIVE = (
+_MILDER = (
     towards("drive", "A", 0.99),
     towards("drive", "A", -0.99),
     towards("drive", "eccentricity", 0.99),
     towards("drive", "eccentricity", 0.0),
+    *_MOTION,
+    _SLOTS,
 )
-_MILDER = (*_DRIVE, *_MOTION, _SLOTS)
 _SLOWER = scaled("drive", "n_rpm", 1e-3)
 _LARGER = scaled("size", "center_distance_mm", 20.0)
 _SMALLER = scaled("size", "roller_radius_mm", 0.2)
@@ -194,7 +194,7 @@ REMEDIES: dict[str, tuple[Change, ...]] = {
     "pressure_angle_deg": (set_to("motion", "ratio", "matched"), *_MOTION, _SLOTS),
     "undercut_mm": (_SMALLER, *_MOTION),
     "velocity_min": (Change("motion", "lambda", _sine),),
-    "dwell_deg": (_FEWER, *_MOTION),
+    "dwell_deg": (fewer("drive", "rollers", 1), *_MOTION),
     "driver_gear_convexity": _CONVEX,
     "driven_gear_convexity": _CONVEX,
     "dwell_hold": (

@@ -26,7 +26,7 @@ from geneva_cli.output.document.values import is_number, shown
 from geneva_cli.output.summary import SIGNS
 
 SHORT = 12  # letters that are not broken into lines
-NUMBER, BRIEF, WORST = ' class="n"', ' class="s"', ' class="bad"'
+NUMBER = ' class="n"'
 
 
 def chunks(document: Document) -> Iterator[str]:
@@ -98,7 +98,8 @@ def _grid(grid: Grid) -> Iterator[str]:
     for first, *rest in grid.rows:
         yield f'<tr><th scope="row">{_text(shown(first))}</th>'
         for value, side in zip(rest, sides[1:], strict=True):
-            yield f"<td{WORST if value == BAD else side}>{_text(shown(value))}</td>"
+            attribute = ' class="bad"' if value == BAD else side
+            yield f"<td{attribute}>{_text(shown(value))}</td>"
         yield "</tr>\n"
     yield "</tbody>\n</table>\n</div>\n"
 
@@ -107,7 +108,7 @@ def _side(column: Row) -> str:
     """The class of a column's cells: numbers are right-aligned, short words unbroken."""
     if all(map(is_number, column)):
         return NUMBER
-    return BRIEF if all(len(shown(value)) <= SHORT for value in column) else ""
+    return ' class="s"' if all(len(shown(value)) <= SHORT for value in column) else ""
 
 
 def _list(texts: tuple[str, ...]) -> Iterator[str]:

@@ -42,7 +42,6 @@ from geneva_cli.output.document.pdf_table import facts, grid
 from geneva_cli.output.letters import western
 
 TITLE, HEAD, VERDICT = 6.4, 4.4, 4.2
-STEP = LEADING * BODY
 MARK = 4.0  # before a text of a list
 
 

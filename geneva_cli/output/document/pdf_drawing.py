@@ -12,7 +12,7 @@ from geneva_cli.curves.shapes import Arc, Contour, Point, Shape
 from geneva_cli.output.document.paper import INK, LEFT, SMALL, SOFT, WIDE, Item, rule, wide, words
 from geneva_cli.output.inks import CENTRE_LINES, inks
 from geneva_cli.output.pdf_file import number, outline, point
-from geneva_cli.output.svg_fill import TINT, TINTS, rings
+from geneva_cli.output.svg_fill import opacity, rings
 from geneva_cli.output.svg_look import round_length
 
 STROKE, THIN = 0.3, 0.16
@@ -61,8 +61,7 @@ def _fills(shown: Drawing, placed: Move) -> Iterator[str]:
     every = rings(shown.solid)
     inked = inks(tuple(dict.fromkeys(layer for layer, _ in every)))
     for layer, contours in every:
-        fraction = TINTS.get(layer, TINT)
-        yield f"{_ink(inked[layer].rgb, fraction)} rg\n"
+        yield f"{_ink(inked[layer].rgb, opacity(layer))} rg\n"
         yield "".join(outline(placed(contour)) for contour in contours) + "f*\n"
 
 
