@@ -109,7 +109,7 @@ class Command(PlainValues, TyperCommand):
     def parse_args(self, ctx: Any, args: list[str]) -> list[str]:
         """Parse arguments, and refuse an option that would have no effect.
 
-        Such an option is empty, as a script's unset variable makes it, or is given twice.
+        Such an option is empty, as with an unset variable of a script, or stands there twice.
         """
         typed = list(args)
         rest = super().parse_args(ctx, args)

@@ -209,7 +209,7 @@ class Design:
 
     @answer
     def size(self) -> Size:
-        """The sizes, with the machine's values for those that are not given; mm.
+        """The sizes, with the machine's values for those that the spec leaves out; mm.
 
         None remains for sizes that the machine lacks, and for a few details that only its parts
         know.
@@ -352,7 +352,7 @@ class Design:
     def loads(self) -> Mapping[str, Summary]:
         """Greatest, least, mean and root-mean-square of each load over a period, by its name.
 
-        None for an unbounded value, or if its inputs are not given. Newtons, newton metres,
+        None for an unbounded value, or if the spec lacks its inputs. Newtons, newton metres,
         megapascals, watts; input angles in degrees.
 
         >>> loaded = Design(External(6), load=Load(inertia_kgm2=0.4, torque_Nm=15))
@@ -462,9 +462,9 @@ class Design:
     def vibration(self, period_ratio: float | None = None, damping: float | None = None) -> Table:
         """The load on an elastic shaft: a record of the vibration after an index.
 
-        The oscillator is that of [shaft], or has the given period ratio (motion time over natural
-        period) and damping ratio. Shares are fractions of the wheel's step. Raises GenevaError if
-        no stiffness is known.
+        The oscillator is that of [shaft]. ``period_ratio`` (motion time over natural period) and
+        ``damping`` (ratio) replace its values. Shares are fractions of the wheel's step. Raises
+        GenevaError if no stiffness is known.
 
         >>> found = Design(External(3)).vibration(0.5, damping=0.02).to_dict()
         >>> round(found["residual_share"], 12)
@@ -676,7 +676,7 @@ class Design:
         ``part`` is one of its parts. Without it, the file's name decides (``wheel.dxf``,
         ``sheet.pdf``, ``slot.csv``), else the assembly is written. ``tolerance_mm`` is the greatest
         distance from the true curve. Raises GenevaError if the part cannot be drawn, or the file
-        cannot be written. Also raises it if the machine jams, unless ``force`` is given.
+        cannot be written. Also raises it if the machine jams, unless ``force``.
 
         >>> import tempfile
         >>> with tempfile.TemporaryDirectory() as folder:

@@ -39,7 +39,7 @@ WORDS = {
     "acceleration_max": "peak acceleration",
     "jerk_max": "peak jerk",
     "power_max": "peak power",
-    "acceleration_max_deg": "peak at",  # in the survey of wheels, beside that peak
+    "acceleration_max_deg": "peak at",  # the place of that peak, in the survey of wheels
     "rollers_max": "most rollers",
     "n": "input speed",
     "youngs_modulus": "Young's modulus",

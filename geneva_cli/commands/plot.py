@@ -28,8 +28,12 @@ def run(
             autocompletion=completion.listed(completion.quantities),
         ),
     ] = "",
-    x: Annotated[str, typer.Option("--x", metavar="COLUMN", help="Column along, of a csv.")] = "",
-    y: Annotated[str, typer.Option("--y", metavar="COLUMN,...", help="Columns up, of a csv.")] = "",
+    x: Annotated[
+        str, typer.Option("--x", metavar="COLUMN", help="Column of a csv for the x axis.")
+    ] = "",
+    y: Annotated[
+        str, typer.Option("--y", metavar="COLUMN,...", help="Columns of a csv for the y axis.")
+    ] = "",
     vary: Annotated[
         list[str] | None,
         typer.Option(
@@ -77,7 +81,7 @@ def _names(texts: str) -> list[str]:
 
 
 def _refuse_with_csv(table: str, specs: list[str], options: dict[str, object]) -> None:
-    """Refuse other files and options beside a csv, which is plotted by itself."""
+    """Refuse other files and options with a csv, which is plotted by itself."""
     if len(specs) > 1:
         raise GenevaError(f"{cut(table, 300)}: a csv is plotted by itself, without other files")
     for option, value in options.items():

@@ -212,7 +212,7 @@ def _refuse(
 
 
 def _judge(design: "Design", verdict: tuple[str, list[str]], force: bool) -> None:
-    """Exit with status 1 for parts that overlap or cannot be made, unless forced; else warn."""
+    """Exit with status 1 for parts that overlap or cannot be built, unless forced; else warn."""
     path = design.spec.path
     refused, warned = verdict
     if refused and not force:

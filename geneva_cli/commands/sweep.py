@@ -110,7 +110,7 @@ def run(
         bool,
         typer.Option(
             "--resume",
-            help="Go on where it was stopped.",
+            help="Continue a stopped run.",
             rich_help_panel=LONG,
         ),
     ] = False,
@@ -168,7 +168,7 @@ def run(
         _write_best(plan, spec, output)
         return
     if resume and (plan.chooses or format not in ("", "csv")):
-        raise GenevaError("--resume goes on with all rows of a sweep, as csv or parquet")
+        raise GenevaError("--resume continues all rows of a sweep, as csv or parquet")
     outcome = Outcome(plan)
     if format not in ("", "csv"):
         _show_rows(plan, outcome, output, format)
@@ -238,7 +238,7 @@ def _refuse_with_best(output: str, format: str, resume: bool) -> None:
     if format:
         raise GenevaError(f"--format {format}: --best writes a spec, as TOML")
     if resume:
-        raise GenevaError("--resume goes on with rows; --best has none to go on with")
+        raise GenevaError("--resume continues rows, and --best writes none; leave one out")
 
 
 def _write_best(plan: "Request", spec: str, output: str) -> None:

@@ -75,7 +75,9 @@ def run(
     ] = False,
     rollers: Annotated[
         int | None,
-        typer.Option(metavar="M", help="Rollers; any without.", rich_help_panel=MACHINES),
+        typer.Option(
+            metavar="M", help="Rollers; without it, any number.", rich_help_panel=MACHINES
+        ),
     ] = None,
     law: Annotated[
         str,

@@ -1,8 +1,8 @@
 """The parts of ezdxf that are needed, imported without reading settings or writing caches.
 
 On import it reads ``ezdxf.ini`` from the current folder and the user's, whatever they hold, and
-searches the system's fonts to write a cache of them into the user's home. Drawings here take no
-settings, and measure no text: a cache without fonts lies beside this file.
+searches the system's fonts to write a cache of them into the user's home. Drawings here need no
+settings and no widths of texts, so an empty cache lies in the folder of this file.
 """
 
 from __future__ import annotations

@@ -72,7 +72,7 @@ def sheet_as(output: str, format: str) -> str:
     """The format of a drawing sheet. Raises GenevaError for an unknown one."""
     if not format and output == "-":
         raise GenevaError(
-            f"a drawing sheet is written as {', '.join(SHEETS)}: give -o FILE.pdf, say, or --format"
+            f"a drawing sheet is written as {', '.join(SHEETS)}: give -o FILE.pdf, or --format pdf"
         )
     name = format or format_of(output, SHEETS)
     if name not in SHEETS:

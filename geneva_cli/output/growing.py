@@ -20,7 +20,7 @@ from geneva_cli.output.state import SUFFIX, StateFile
 
 
 class Closing(ABC):
-    """A resource that is closed when its block is left in any way."""
+    """A resource that is closed at the end of its block, also after an error."""
 
     @abstractmethod
     def close(self) -> None:
@@ -81,7 +81,7 @@ class Growing(Closing):
             return False
         if self.state.request != key:
             raise GenevaError(
-                f"--resume: {name}{SUFFIX} was begun for something else "
+                f"--resume: {name}{SUFFIX} has the rows of another run "
                 "(another spec, other options or another version); start without --resume"
             )
         blocks = [rows for rows, _ in self.state.blocks()]

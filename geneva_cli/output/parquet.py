@@ -31,7 +31,7 @@ def convert(lines: Iterable[bytes], target: BinaryIO, texts: Collection[str] = (
     from pyarrow import parquet
 
     types = {"number": pa.float64(), "truth": pa.bool_(), "text": pa.string()}
-    # The lines are read twice, so they go to a file without a name, beside the result.
+    # The lines are read twice, so they go to a file without a name, in the folder of the result.
     with TemporaryFile(dir=os.path.dirname(target.name)) as source:
         source.writelines(lines)
         kinds = _kinds(source)

@@ -205,7 +205,7 @@ def _curve(curve: Curve, frame: Frame, pen: Pen) -> None:
 
 
 def _marks(figure: Figure, panel: Panel, frame: Frame, several: bool, pen: Pen) -> None:
-    """Draw a dot at each peak; write its value and place beside the panel."""
+    """Draw a dot at each peak; write its value and place to the right of the panel."""
     x, y = LEFT + frame.wide + 12.0, frame.top + 0.8 * TEXT
     for curve in panel.curves:
         for mark in curve.marks:

@@ -25,8 +25,8 @@ def written(figure: Figure) -> bytes:
         from matplotlib.figure import Figure as Page
     except ImportError:
         raise GenevaError(
-            "png needs matplotlib, which is not here: pip install 'geneva-cli[plot]', or write "
-            "an .svg or a .pdf"
+            "png needs matplotlib, which is not installed: pip install 'geneva-cli[plot]', or "
+            "write an .svg or a .pdf"
         ) from None
     parts = list(blocks(figure))
     tall = sum(block.high for block in parts)

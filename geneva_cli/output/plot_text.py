@@ -13,7 +13,7 @@ from geneva_cli.figure import LINE, POINTS, Curve, Figure, Panel
 from geneva_cli.output.layout import width_of, wrapped
 from geneva_cli.output.ticks import labels, mark_text, ticks
 
-MARKS = "*o+x#@%&=~^$"  # of curves that share a panel, and of one curve in ASCII
+MARKS = "*o+x#@%&=~^$"  # of several curves in a panel, and of one curve in ASCII
 LABEL = 10  # letters for the numbers of the upright axis
 
 

@@ -1,4 +1,4 @@
-"""Rows of a growing table: csv on standard output or in a file, or parquet made from it."""
+"""Rows of a growing table: csv on standard output or in a file, or parquet."""
 
 from __future__ import annotations
 
@@ -48,7 +48,7 @@ class Growth(Closing):
             self.done = self.file.done
             self.is_whole, self.message = self.file.is_whole, self.file.message
         elif resume:
-            raise GenevaError("--resume goes on with a file: give -o FILE")
+            raise GenevaError("--resume continues a file: give -o FILE")
         else:
             sys.stdout.write(first)
 

@@ -1,9 +1,9 @@
 """The state file of a run that grows a file: its lock, its request, and all rows so far.
 
-``FILE.geneva`` stands beside ``FILE``. Its first line names the program and the request. Each block
-of rows follows a line with its numbers of rows and bytes and a digest. The digest covers the first
-line and all blocks so far, so that a changed, lost or repeated block is noticed. Once the file is
-whole, a line with the digest of that file replaces the blocks.
+``FILE.geneva`` is in the folder of ``FILE``. Its first line names the program and the request. Each
+block of rows follows a line with its numbers of rows and bytes and a digest. The digest covers the
+first line and all blocks so far, so that a changed, lost or repeated block is noticed. Once the
+file is whole, a line with the digest of that file replaces the blocks.
 """
 
 from __future__ import annotations

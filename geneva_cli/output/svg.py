@@ -36,7 +36,7 @@ def chunks(drawing: Drawing, units: str, fill: str = "") -> Iterator[str]:
     if fill not in FILLS:
         raise GenevaError(f"--fill {cut(fill)}: it must be one of {', '.join(FILLS)}")
     if fill != "none" and solid is None:
-        raise GenevaError("--fill: nothing here is a plate; leave it out")
+        raise GenevaError("--fill: this drawing has no plates; leave it out")
     drawing = prepared(drawing, units)
     box, suffix = extent(drawing), SUFFIX[units]
     size = max(box.x1 - box.x0, box.y1 - box.y0)

@@ -1,4 +1,4 @@
-"""Values for people at a terminal: five digits, and the unit beside a number."""
+"""Values for people at a terminal: five digits, and the unit behind a number."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Tables of a spec: frozen records whose fields are their keys, checked when they are made.
+"""Tables of a spec: frozen records whose fields are their keys, checked when they are created.
 
 A field is annotated with its type, its rule and its meaning. The reader, the writer, the template
 and Python users all use that line:

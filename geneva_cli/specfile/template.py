@@ -1,4 +1,4 @@
-"""A commented spec to start from, made from the keys that the reader knows."""
+"""A commented spec to start from, with the keys that the reader knows."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""A change of one key of a spec: the values to try, given its present value."""
+"""Changes of one key of a spec: the values to try, from its present value on."""
 
 from __future__ import annotations
 
@@ -44,7 +44,7 @@ class Change(NamedTuple):
 
 
 def value_now(mechanism: Mechanism, table: str, key: str) -> Value:
-    """A key's present value; for a size that is not given, its default; None if there is none."""
+    """A key's present value; the default of a size that the spec leaves out; else None."""
     spec = mechanism.spec
     value: Value = spec.table(table).get(key)
     if value is not None or table != "size":
@@ -83,7 +83,7 @@ def scaled(table: str, key: str, factor: float) -> Change:
 
 
 def sized(table: str, key: str) -> tuple[Change, ...]:
-    """A given value made smaller, made larger, or left out."""
+    """Smaller values, larger values, and the default."""
     return scaled(table, key, 0.3), scaled(table, key, 3.0), left_out(table, key)
 
 

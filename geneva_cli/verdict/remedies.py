@@ -56,7 +56,7 @@ def _hub(mechanism: Mechanism, part: str) -> Iterator[Change]:
 
 
 def _own_sizes(mechanism: Mechanism) -> Iterator[Change]:
-    """Each given size made smaller, made larger, or left out; counts made smaller."""
+    """Smaller values, larger values and the default of each size that the spec sets."""
     usual = Size().as_dict()
     # Requirements on the machine's size, process and walls, which no advice reduces.
     required = ("center_distance_mm", "face_width_mm", "process", "wall_min_mm")
@@ -72,7 +72,7 @@ def _own_sizes(mechanism: Mechanism) -> Iterator[Change]:
 
 
 def _defaults(mechanism: Mechanism) -> Iterator[Change]:
-    """Each given size moved towards its default, and then left out."""
+    """Steps from each size that the spec sets to its default, then the default."""
     present, usual_sizes = mechanism.spec.size.as_dict(), Size().as_dict()
     # Sizes whose defaults free a machine that jams.
     keys = (

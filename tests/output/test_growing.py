@@ -222,7 +222,7 @@ def test_without_resume_it_begins_again(path):
 
 def test_it_does_not_go_on_for_another_request(path):
     begun(path, "1,2\n")
-    with pytest.raises(GenevaError, match="begun for something else"):
+    with pytest.raises(GenevaError, match="has the rows of another run"):
         Growing(path, HEADER, "another", True)
     assert read(path + ".geneva").endswith("\n1,2\n")
 

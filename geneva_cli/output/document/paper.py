@@ -121,7 +121,7 @@ def lines(text: str, size: float, width_mm: float, bold: bool = False) -> list[s
 
 
 def fitting(text: str, size: float, width_mm: float) -> str:
-    """As much of a text as fits a width."""
+    """The beginning of a text that fits a width."""
     return (
         text
         if wide(text, size) <= width_mm

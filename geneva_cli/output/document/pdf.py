@@ -121,7 +121,7 @@ def _heading(text: str) -> Item:
 
 
 def _barred(text: str, size: float, ink: str, bold: bool = False, mark: str = "") -> Item:
-    """A line of the verdict, or of a reason, beside a bar in the verdict's colour."""
+    """A line of the verdict, or of a reason, with a bar in the verdict's colour."""
     high = LEADING * size
     x = LEFT + MARK + (0.0 if bold else MARK)
 

@@ -24,7 +24,7 @@ from geneva_cli.output.document.paper import (
 )
 from geneva_cli.output.document.values import is_number, shown
 
-PAD = 1.3  # beside a cell's text
+PAD = 1.3  # left and right of a cell's text
 SPACE = 0.55  # above and below it
 STEP = LEADING * SMALL
 

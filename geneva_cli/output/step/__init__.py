@@ -22,11 +22,11 @@ def chunks(drawing: Drawing, units: str) -> Iterator[str]:
     whole = drawing.shells or drawing.solid
     if whole is None:
         raise GenevaError(
-            "no solid to write as STEP: --part wheel, crank, arm and assembly are solids, in "
-            "their own size; other drawings, and paths with --kerf, are .dxf or .svg"
+            "no solid to write as STEP: solids are --part wheel, crank, arm and assembly. Write "
+            "other drawings, and paths with --kerf, as .dxf or .svg"
         )
     if units != "mm":
-        raise GenevaError("--units: a STEP file is in mm, and says so to the program that reads it")
+        raise GenevaError("--units: a STEP file is always in mm; leave it out")
     file = Entities()
     Products(file, whole)
     yield (

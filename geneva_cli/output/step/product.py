@@ -44,7 +44,7 @@ class Products:
         )
 
     def product(self, part: Part) -> Product:
-        """The product of a part, made at its first use."""
+        """The product of a part, written at its first use."""
         if part not in self.known:
             product = self._group(part) if isinstance(part, Group) else self._solid(part)
             self.known[part] = product

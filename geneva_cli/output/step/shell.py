@@ -2,7 +2,7 @@
 
 A region lies to the left of its arcs, seen from outside, so they bound its face on the outer sphere
 in their own direction. An arc of one region only is the edge of a wall, a cone with its apex in the
-centre. Arcs that two regions share are edges within a sphere. A round hole is a cylinder about a
+centre. Common arcs of two regions are edges within a sphere. A round hole is a cylinder about a
 line through the centre, which meets both spheres in circles.
 """
 

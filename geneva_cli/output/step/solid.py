@@ -43,7 +43,9 @@ def solid(file: Entities, plate: Plate) -> str:
     Raises GenevaError for a coordinate that is not finite, or a plate without thickness.
     """
     if not plate.thickness > 0.0:
-        raise GenevaError(f"{plate.name}: a solid must be thick, not {plate.thickness:g} mm")
+        raise GenevaError(
+            f"{plate.name}: a solid of {plate.thickness:g} mm; it must be thicker than 0"
+        )
     faces, lower, upper = [], [], []
     outside = True
     for shape in _cleaned(plate):

@@ -1,4 +1,4 @@
-"""Checks of the crank arm if its keys are given: its walls, and its gap to the wheel's hub."""
+"""Checks of a crank arm whose keys the spec sets: its walls, and its gap to the wheel's hub."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ def arm_to_hub(name: str, outlines: Outlines) -> Check | None:
 def _arm_check(
     name: str, outlines: Outlines, value: Callable[[CrankArm], float], limit: float
 ) -> Check | None:
-    """The check if a key of the arm is given: its default dimensions always pass."""
+    """The check, if the spec sets a key of the arm: its default dimensions always pass."""
     size = outlines.assembly.mechanism.spec.size
     keys = (
         "arm_bore_mm",

@@ -59,7 +59,7 @@ def compared(
 
 
 def refused(name: str, error: GenevaError) -> Check:
-    """A failing check for parts that cannot be made, with the reason."""
+    """A failing check for parts that cannot be built, with the reason."""
     return Check(name, 0.0, "at least", 1.0, False, str(error))
 
 

@@ -1,4 +1,4 @@
-"""The wheel's walls around its keyway and the dial's bolts, if their keys are given."""
+"""The wheel's walls around its keyway and the dial's bolts, if the spec sets their keys."""
 
 from __future__ import annotations
 

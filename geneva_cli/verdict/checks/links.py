@@ -10,7 +10,7 @@ from geneva_cli.verdict.checks.check import Check, compared
 
 
 def wall(name: str, outlines: Outlines) -> Check | None:
-    """The least wall around the links' holes, if one of their keys is given."""
+    """The least wall around the links' holes, if the spec sets one of their keys."""
     size = vars(outlines.assembly.mechanism.spec.size)
     keys = ("link_pin_mm", "link_bore_mm", "link_width_mm", "press_fit_mm", "pin_mm")
     if not any(size[key] for key in keys):

@@ -10,7 +10,7 @@ from geneva_cli.verdict.checks.check import Check, compared
 
 
 def dwell_hold(name: str, parts: MachineParts, turn: FullTurn) -> Check:
-    """Check that something holds the wheel: its lock, or the means given in the spec."""
+    """Check that something holds the wheel: its lock, or ``held_by`` of the spec."""
     holds = parts.assembly.full.spec.wheel.held_by is not None or turn.holds
     return Check(name, float(holds), "at least", 1.0, holds)
 

@@ -9,7 +9,7 @@ from geneva_cli.verdict.checks.check import Check
 
 
 def curved_slot_pressure(name: str, mechanism: Mechanism) -> Check | None:
-    """The pressure angle of curved slots without a given limit: the wall must drive at all."""
+    """The pressure angle of curved slots, below 90 degrees if the spec sets no limit."""
     has_limit = mechanism.spec.limits.pressure_angle_max_deg is not None
     if has_limit or not mechanism.engagements[0].slot.curved:
         return None

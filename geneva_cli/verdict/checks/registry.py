@@ -1,4 +1,4 @@
-"""The list of checks, in the order shown; each is imported when it is made.
+"""The list of checks, in the order shown; each is imported at its first use.
 
 A new check is a file, or a function in a file of related ones, and one line here. The function gets
 its name and the object to check, and returns None if the check does not apply.
@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 
 Checks: TypeAlias = dict[str, str]  # name -> module:function in this folder
 
-# Checks of the machine, made if they apply.
+# Checks of the motion, if they apply.
 MOTION: Checks = {
     "dwell_deg": "dwell:shortest_dwell",
     "driver_gear_convexity": "convexity:gear_convexity",
@@ -32,7 +32,7 @@ MOTION: Checks = {
     "reversal_shock_N": "shocks:reversal_shock",
     "stopping_torque_Nm": "arrival:stopping_torque",
 }
-# Checks of the machine, made if the spec sets the limit.
+# Checks of limits that the spec sets.
 LIMITS: Checks = {
     "velocity_max": "invariants:limited_peak",
     "acceleration_max": "invariants:limited_peak",
@@ -53,7 +53,7 @@ LIMITS: Checks = {
     "wheel_shaft_stress_MPa": "strength:strength_limit",
     "crank_shaft_stress_MPa": "strength:strength_limit",
 }
-# Of flat parts, without turning them.
+# Checks of flat parts at rest.
 STATIC: Checks = {
     "wall_between_slots_mm": "walls:between_slots",
     "horn_mm": "walls:horn",
@@ -75,7 +75,7 @@ STATIC: Checks = {
     "branches_crossed_mm": "branches:crossed",
     "parts": "there:plates",
 }
-# Of the shells of a sphere, without turning them.
+# Checks of the shells of a sphere at rest.
 SPHERE: Checks = {
     "wall_between_slots_mm": "sphere:between_slots",
     "horn_mm": "walls:horn",
@@ -86,7 +86,7 @@ SPHERE: Checks = {
     "arm_wall_mm": "sphere:arm_wall",
     "parts": "there:solids",
 }
-# Of plates or shells in a whole turn.
+# Checks of plates or shells in a whole turn.
 TURNING: Checks = {
     "dwell_hold": "play:dwell_hold",
     "gap_mm": "touching:smallest_gap",
@@ -100,7 +100,7 @@ TURNING: Checks = {
 
 def every_check() -> tuple[str, ...]:
     """The names of all checks."""
-    # Checks that the parts can be turned, made if there are parts.
+    # parts and full_turn: the parts can be built and turned
     lists = (MOTION, LIMITS, ("parts", "full_turn"), STATIC, SPHERE, TURNING)
     return tuple(dict.fromkeys(name for names in lists for name in names))
 
@@ -121,7 +121,7 @@ def standing_checks(parts: MachineParts) -> Iterator[Check]:
 
 
 def turn_checks(parts: MachineParts, turn: FullTurn) -> Iterator[Check]:
-    """The checks of a whole turn: no parts overlap; the wheel is held and led."""
+    """The checks of a whole turn: no parts overlap, and lock and slots leave little play."""
     yield from _applicable(TURNING, parts, turn)
 
 

@@ -38,7 +38,7 @@ def wheel_shaft(name: str, outlines: Outlines) -> Check | None:
 
 
 def passing_parts(name: str, outlines: Outlines) -> Check | None:
-    """The gap between hubs or shafts and parts that turn past them, if a size of theirs is given.
+    """The gap between hubs or shafts and parts that turn past them, if the spec sets their sizes.
 
     Default sizes always pass, except for a first wheel's.
     """

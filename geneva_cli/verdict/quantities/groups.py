@@ -54,8 +54,8 @@ class QuantityGroup(NamedTuple):
 
     ``alone`` computes them for the machine of a PartsModel and ``batch`` for Designs, each as
     module:function of this folder, imported at its first use. Without ``alone`` a single design is
-    a batch of one, and no design has the values that ``batch`` leaves out. Groups may share a
-    function. ``alone`` may also give lists and tables.
+    a batch of one, and no design has the values that ``batch`` leaves out. Groups may have
+    one function. ``alone`` may also return lists and tables.
     """
 
     table: str  # beginning of the whole names; empty if several tables are one group

@@ -17,14 +17,14 @@ from geneva_cli.verdict.report.values import Numbers, Values
 
 
 def timing(model: PartsModel) -> Values:
-    """The timing that all engagements share; None for values that differ."""
+    """The timing that is equal in all engagements; None for values that differ."""
     mechanism = model.mechanism
     each = [_timing(mechanism, i) for i in range(len(mechanism.engagements))]
     return {name: _shared([one[name] for one in each]) for name in each[0]}
 
 
 def _shared(values: Sequence[float | None]) -> float | None:
-    """The value that all engagements share, apart from rounding; None if they differ."""
+    """The value that is equal in all engagements, apart from rounding; None if they differ."""
     known = [value for value in values if value is not None]
     # Rounding makes a value differ between engagements by up to 1e-12 of it.
     if len(known) < len(values) or not math.isclose(min(known), max(known), rel_tol=1e-12):

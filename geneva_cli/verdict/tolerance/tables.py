@@ -20,7 +20,7 @@ ANGLES = ("worst", "rss", "mean", "std", "p997")
 def tolerance_table(
     mechanism: Mechanism, model: PartsModel, samples: int, seed: int, radius_mm: float | None = None
 ) -> Table:
-    """The study as a record, with micrometres if ``radius_mm`` is given."""
+    """The study as a record, with micrometres at ``radius_mm``, if not None."""
     if radius_mm is not None:
         require_mm("--radius", radius_mm, POSITIVE)
     results = study(mechanism, model, samples, seed)
