@@ -2,8 +2,8 @@
 
     from geneva_cli import load, Design, External, SideCrank
 
-What is imported from here is loaded when it is first asked for. The examples in docstrings take
-it as imported.
+Each name is loaded at its first use. The examples in docstrings assume that these names are
+imported.
 """
 
 from __future__ import annotations

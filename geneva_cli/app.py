@@ -19,7 +19,7 @@ from typer.main import get_command
 
 from geneva_cli import __version__
 from geneva_cli.errors import GenevaError, clean, cut
-from geneva_cli.progress import Bar, close, show_with
+from geneva_cli.progress import ProgressBar, close, show_with
 from geneva_cli.streams import leave, open_streams
 
 # The registry by task: the module in geneva_cli.commands, and its line in --help.
@@ -59,13 +59,8 @@ GROUPS = {
 COMMANDS = {name: line for group in GROUPS.values() for name, line in group.items()}
 
 
-WIDEST = max(map(len, COMMANDS))
-MESSAGE_MAX = 1000  # characters
-NO_TABLE = {"animate", "schema"}  # commands without the options of `_table_options`
 HELP = {"help_option_names": ["-h", "--help"]}
 USAGE: Any = typer.BadParameter.__base__  # Typer's error for arguments that no command takes
-PANEL = "rich_help_panel"  # the attribute in which Typer keeps an option's heading
-NUMBERS = {float: "a number", int: "a whole number"}
 
 
 class PlainValues:
@@ -95,13 +90,14 @@ def _value(param: Any, kind: Any, refuse: Any, ctx: Any, typed: Any) -> Any:
     if param.required and not typed and not ctx.resilient_parsing:
         return refuse(ctx, typed)
     value = () if typed is None and (param.multiple or param.nargs == -1) else typed
-    for number, meaning in NUMBERS.items():
+    numbers = {float: "a number", int: "a whole number"}
+    for number, meaning in numbers.items():
         if isinstance(typed, str) and kind in (number, number | None):
             try:
                 value = number(typed)
             except ValueError:
-                said = f"{typed!r} is not {meaning}"
-                raise typer.BadParameter(said, ctx=ctx, param=param) from None
+                message = f"{typed!r} is not {meaning}"
+                raise typer.BadParameter(message, ctx=ctx, param=param) from None
     return param.callback(ctx, param, value) if param.callback else value
 
 
@@ -113,7 +109,7 @@ class Command(PlainValues, TyperCommand):
     def parse_args(self, ctx: Any, args: list[str]) -> list[str]:
         """Parse arguments, and refuse an option that would have no effect.
 
-        Such an option is empty, as a script's unset variable makes it, or is given twice.
+        Such an option is empty, as with an unset variable of a script, or stands there twice.
         """
         typed = list(args)
         rest = super().parse_args(ctx, args)
@@ -153,7 +149,7 @@ class Command(PlainValues, TyperCommand):
         for param in self.get_params(ctx):
             record = param.get_help_record(ctx)
             is_argument = param.param_type_name == "argument"
-            heading = "Arguments" if is_argument else getattr(param, PANEL, None)
+            heading = "Arguments" if is_argument else vars(param).get("rich_help_panel")
             if record and is_argument:
                 record = _placeholder(param), record[1]
             if record:
@@ -202,9 +198,10 @@ class LazyGroup(PlainValues, TyperGroup):
 
     def format_commands(self, ctx: Any, formatter: Any) -> None:
         """Write the commands by task."""
+        widest = max(map(len, COMMANDS))
         for name, group in GROUPS.items():
             with formatter.section(name):
-                formatter.write_dl([(name.ljust(WIDEST), line) for name, line in group.items()])
+                formatter.write_dl([(name.ljust(widest), line) for name, line in group.items()])
         from geneva_cli.manual import TOPICS
 
         with formatter.section("Manual, geneva help TOPIC or WORD"):
@@ -219,7 +216,7 @@ class LazyGroup(PlainValues, TyperGroup):
         module = importlib.import_module(f"geneva_cli.commands.{name}")
         command = _command(name, module.run)
         command.examples = module.EXAMPLES
-        if name not in NO_TABLE:
+        if name not in {"animate", "schema"}:  # these print no table
             command.params += _command(name, _table_options).params
         return name, command, rest
 
@@ -232,15 +229,15 @@ class LazyGroup(PlainValues, TyperGroup):
             _fail(str(error))
         except USAGE as error:
             path = f"geneva {ctx.invoked_subcommand}" if ctx.invoked_subcommand else "geneva"
-            said = error.format_message().rstrip(".")
-            _fail(f"{path}: {said[:1].lower()}{said[1:]}; see {path} -h")
+            message = error.format_message().rstrip(".")
+            _fail(f"{path}: {message[:1].lower()}{message[1:]}; see {path} -h")
         except OSError as error:
             _fail(f"{error.filename or 'system'}: {error.strerror}")
         except MemoryError:
             _fail("out of memory; ask for fewer samples or a coarser tolerance")
 
 
-def _bar(what: str, total: int) -> Bar | None:
+def _bar(what: str, total: int) -> ProgressBar | None:
     """A progress bar, if standard error is a terminal."""
     if not sys.stderr.isatty():
         return None
@@ -276,12 +273,12 @@ def _command(name: str, run: Any) -> Any:
 
 def _fail(message: str) -> None:
     close()
-    print(cut(clean(message), MESSAGE_MAX), file=sys.stderr)
+    print(cut(clean(message), 1000), file=sys.stderr)  # at most 1000 characters
     raise typer.Exit(2) from None
 
 
-def _version(asked: bool) -> None:
-    if asked:
+def _version(is_requested: bool) -> None:
+    if is_requested:
         print(f"geneva {__version__}")
         raise typer.Exit
 

@@ -93,11 +93,11 @@ def question(ask: Callable[Concatenate[Any, P], T]) -> Callable[Concatenate[Any,
     known = [name for name in ask.__annotations__ if name != "return"]
 
     @wraps(ask)
-    def asked(design: Any, /, *given: P.args, **named: P.kwargs) -> T:
+    def method(design: Any, /, *values: P.args, **named: P.kwargs) -> T:
         refuse_keywords(f"{ask.__name__}()", named, known)
-        return ask(design, *map(plain, given), **{k: plain(v) for k, v in named.items()})
+        return ask(design, *map(plain, values), **{k: plain(v) for k, v in named.items()})
 
-    return asked
+    return method
 
 
 class Design:
@@ -112,9 +112,9 @@ class Design:
     0.5072580347148502
     """
 
-    def __new__(cls, *_: object, **given: object) -> Self:
+    def __new__(cls, *_: object, **named: object) -> Self:
         """Refuse an unknown keyword, with the nearest known one."""
-        refuse_keywords(cls.__name__, given, [*cls.__init__.__annotations__][:-1])
+        refuse_keywords(cls.__name__, named, [*cls.__init__.__annotations__][:-1])
         return super().__new__(cls)
 
     def __init__(
@@ -171,13 +171,15 @@ class Design:
         Design(External(z=6), SideCrank(A=0.6), title='feed')
         """
         spec = self.spec
-        said = [shortly(one) for one in (spec.wheel, spec.drive, spec.motion) if one is not None]
+        arguments = [
+            shortly(one) for one in (spec.wheel, spec.drive, spec.motion) if one is not None
+        ]
         for name in [*type(self).__init__.__annotations__][3:-1]:
             value = vars(spec)[name]
             text = f"{value!r}" if isinstance(value, (str, tuple)) else shortly(value)
             if value and not text.endswith("()"):
-                said.append(f"{name}={cut(text, SHOWN_MAX)}")
-        return f"Design({', '.join(said)})"
+                arguments.append(f"{name}={cut(text, SHOWN_MAX)}")
+        return f"Design({', '.join(arguments)})"
 
     @question
     def with_(self, key: str, value: Any) -> Design:
@@ -207,7 +209,7 @@ class Design:
 
     @answer
     def size(self) -> Size:
-        """The sizes, with the machine's values for those that are not given; mm.
+        """The sizes, with the machine's values for those that the spec leaves out; mm.
 
         None remains for sizes that the machine lacks, and for a few details that only its parts
         know.
@@ -350,7 +352,7 @@ class Design:
     def loads(self) -> Mapping[str, QuantitySummary]:
         """Greatest, least, mean and root-mean-square of each load over a period, by its name.
 
-        None for an unbounded value, or if its inputs are not given. Newtons, newton metres,
+        None for an unbounded value, or if the spec lacks its inputs. Newtons, newton metres,
         megapascals, watts; input angles in degrees.
 
         >>> loaded = Design(External(6), load=Load(inertia_kgm2=0.4, torque_Nm=15))
@@ -377,9 +379,9 @@ class Design:
         _ = self.loads  # all quantities at once, some of which the life needs
         # without a load every quantity needs one, and that is reported already
         needed = self.strength.missing(OF_LIFE) if self.cycle.is_loaded else []
-        said = (*self.warnings, *missing(self.cycle), *needed)
+        notes = (*self.warnings, *missing(self.cycle), *needed)
         own = self.wheel_plate and self.wheel_plate.inertia_kgm2
-        return loads_table(self.cycle, self.life, own, said, for_people)
+        return loads_table(self.cycle, self.life, own, notes, for_people)
 
     @answer
     def wheel_plate(self) -> MassProperties | None:
@@ -431,7 +433,7 @@ class Design:
         """
         from geneva_cli.verdict.headline import below_summary
 
-        return below_summary(self._loads(for_people=True), said=("title",))
+        return below_summary(self._loads(for_people=True), without=("title",))
 
     @answer
     def load_warnings(self) -> list[Notice]:
@@ -460,9 +462,9 @@ class Design:
     def vibration(self, period_ratio: float | None = None, damping: float | None = None) -> Table:
         """The load on an elastic shaft: a record of the vibration after an index.
 
-        The oscillator is that of [shaft], or has the given period ratio (motion time over natural
-        period) and damping ratio. Shares are fractions of the wheel's step. Raises GenevaError if
-        no stiffness is known.
+        The oscillator is that of [shaft]. ``period_ratio`` (motion time over natural period) and
+        ``damping`` (ratio) replace its values. Shares are fractions of the wheel's step. Raises
+        GenevaError if no stiffness is known.
 
         >>> found = Design(External(3)).vibration(0.5, damping=0.02).to_dict()
         >>> round(found["residual_share"], 12)
@@ -574,8 +576,8 @@ class Design:
         require_tolerance(mechanism, tolerance_mm)
         if not mechanism.spec.is_flat and is_alone(mechanism, part):
             return PartsModel(mechanism)
-        made = self._located(lambda: outlines(mechanism, tolerance_mm))
-        return PartsModel(mechanism, made)
+        cut_parts = self._located(lambda: outlines(mechanism, tolerance_mm))
+        return PartsModel(mechanism, cut_parts)
 
     @question
     def drawing(
@@ -603,22 +605,22 @@ class Design:
         if curves not in CURVES:
             raise GenevaError(f"--curves {cut(curves)}: it must be arcs or spline")
         model, of_curves = of or self.drawn(tolerance_mm, part), CURVES[curves]
-        made = self._located(lambda: part_drawing(model, part, tolerance_mm, of_curves))
+        picture = self._located(lambda: part_drawing(model, part, tolerance_mm, of_curves))
         if dog_bones_mm is not None:
             from geneva_cli.parts.milling import with_dog_bones
 
-            made = self._located(lambda: with_dog_bones(made, model, dog_bones_mm))
+            picture = self._located(lambda: with_dog_bones(picture, model, dog_bones_mm))
         if centre_marks:
             from geneva_cli.parts.centre_marks import with_centre_marks
 
-            made = with_centre_marks(made)
+            picture = with_centre_marks(picture)
         if kerf_mm is None:
-            return made
+            return picture
         from geneva_cli.curves.kerf import paths
         from geneva_cli.parts.catalogue import require_cut
 
         require_cut(part)
-        return self._located(lambda: paths(made, kerf_mm))
+        return self._located(lambda: paths(picture, kerf_mm))
 
     @question
     def cutter(
@@ -674,7 +676,7 @@ class Design:
         ``part`` is one of its parts. Without it, the file's name decides (``wheel.dxf``,
         ``sheet.pdf``, ``slot.csv``), else the assembly is written. ``tolerance_mm`` is the greatest
         distance from the true curve. Raises GenevaError if the part cannot be drawn, or the file
-        cannot be written. Also raises it if the machine jams, unless ``force`` is given.
+        cannot be written. Also raises it if the machine jams, unless ``force``.
 
         >>> import tempfile
         >>> with tempfile.TemporaryDirectory() as folder:

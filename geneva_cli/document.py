@@ -15,7 +15,7 @@ BAD = "FAILS"  # a cell that must be noticed
 PASSES, WARNS, FAILS = "passes", "warns", "fails"  # the state of a design
 
 
-class Line(NamedTuple):
+class SummaryLine(NamedTuple):
     """One answer about a design: its label, the answer, and its reason."""
 
     label: str
@@ -31,7 +31,7 @@ class Summary(NamedTuple):
     """
 
     head: str
-    lines: tuple[Line, ...] = ()
+    lines: tuple[SummaryLine, ...] = ()
     state: str = ""
 
 

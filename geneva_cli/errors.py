@@ -9,9 +9,6 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from contextvars import ContextVar
 
-DECIMAL_BITS = 10_000  # of the whole numbers that are shown in decimal
-SUGGESTED_MAX = 5  # words in a message: nobody reads more
-
 
 class GenevaError(Exception):
     """A wrong spec, file or value: shown as ``FILE:LINE: message``, with exit code 2.
@@ -40,16 +37,13 @@ class Notice(str):
 
     def __new__(cls, name: str, text: str) -> Notice:
         """The text, with its name."""
-        made = super().__new__(cls, text)
-        made.name = name
-        return made
+        notice = super().__new__(cls, text)
+        notice.name = name
+        return notice
 
     def __getnewargs__(self) -> tuple[str, str]:  # type: ignore[override]
         """The arguments for a copy in another process."""
         return self.name, str(self)
-
-
-NOT_KNOWN = "not-known"  # the name of a note on a value that needs a key, which is not a warning
 
 
 def is_warning(text: str) -> bool:
@@ -58,10 +52,11 @@ def is_warning(text: str) -> bool:
     >>> is_warning(Notice("turns-back", "")), is_warning(Notice("not-known", ""))
     (True, False)
     """
-    return isinstance(text, Notice) and text.name != NOT_KNOWN
+    # A note of this name, on a value that needs a key, is not a warning.
+    return isinstance(text, Notice) and text.name != "not-known"
 
 
-_MARKS: list[ContextVar[list[Any]]] = []  # at most one, created at the first use of ``marking``
+_marks: list[ContextVar[list[Any]]] = []  # at most one, created at the first use of ``marking``
 
 
 def refuse(where: Any, error: Callable[[], GenevaError]) -> None:
@@ -74,7 +69,7 @@ def refuse(where: Any, error: Callable[[], GenevaError]) -> None:
         if where:
             raise error()
         return
-    marks = _MARKS[0].get(None) if _MARKS else None
+    marks = _marks[0].get(None) if _marks else None
     if marks is None:
         raise GenevaError("an array of designs is built by geneva_cli.machine.many")
     marks.append(where)
@@ -85,14 +80,14 @@ def marking() -> Iterator[list[Any]]:
     """Collect the masks of designs that ``refuse`` marks within the block."""
     from contextvars import ContextVar  # not at the start of every run
 
-    if not _MARKS:
-        _MARKS.append(ContextVar("marks"))
+    if not _marks:
+        _marks.append(ContextVar("marks"))
     marks: list[Any] = []
-    token = _MARKS[0].set(marks)
+    token = _marks[0].set(marks)
     try:
         yield marks
     finally:
-        _MARKS[0].reset(token)
+        _marks[0].reset(token)
 
 
 def clean(text: str) -> str:
@@ -105,7 +100,7 @@ def cut(value: str | int, most: int = 60) -> str:
 
     Whole numbers of more than some thousand digits are hexadecimal, as Python writes no others.
     """
-    if isinstance(value, int) and value.bit_length() > DECIMAL_BITS:
+    if isinstance(value, int) and value.bit_length() > 10_000:
         value = hex(value)
     text = str(value)
     if len(text) <= most:
@@ -136,7 +131,8 @@ def few(word: Any, known: Iterable[str]) -> str:
     'circle, line, spline, arc, text and 2 more'
     """
     words = list(known)
-    if len(words) > SUGGESTED_MAX:
+    most = 5  # words in a message: nobody reads more
+    if len(words) > most:
         from difflib import SequenceMatcher
 
         matcher = SequenceMatcher(b=cut(word).casefold())
@@ -145,6 +141,6 @@ def few(word: Any, known: Iterable[str]) -> str:
             matcher.set_seq1(one.casefold())
             return -matcher.ratio()
 
-        more = len(words) - SUGGESTED_MAX
-        return f"{', '.join(sorted(words, key=unlike)[:SUGGESTED_MAX])} and {more} more"
+        more = len(words) - most
+        return f"{', '.join(sorted(words, key=unlike)[:most])} and {more} more"
     return ", ".join(words)

@@ -79,8 +79,8 @@ class Figure(NamedTuple):
 
     def curves(self) -> dict[int, Curve]:
         """One curve of each number, in the order of the numbers."""
-        found = {c.number: c for panel in reversed(self.panels) for c in panel.curves}
-        return dict(sorted(found.items()))
+        by_number = {c.number: c for panel in reversed(self.panels) for c in panel.curves}
+        return dict(sorted(by_number.items()))
 
     def table(self) -> Table:
         """The points as rows: panel, curve, piece (counted from 1), x and y.

@@ -32,8 +32,6 @@ UNITS = {
     "_h": "h",
     "_s": "s",
 }
-# Shorter forms of units, for people at a terminal.
-SHORT_UNITS = {"1/min": "rpm", "arc seconds": "arcsec"}
 # Words for names that are not clear by themselves, with or without their units.
 WORDS = {
     "z": "slots",
@@ -41,7 +39,7 @@ WORDS = {
     "acceleration_max": "peak acceleration",
     "jerk_max": "peak jerk",
     "power_max": "peak power",
-    "acceleration_max_deg": "peak at",  # in the survey of wheels, beside that peak
+    "acceleration_max_deg": "peak at",  # the place of that peak, in the survey of wheels
     "rollers_max": "most rollers",
     "n": "input speed",
     "youngs_modulus": "Young's modulus",
@@ -53,7 +51,6 @@ WORDS = {
     "p997": "99.7 % of machines",
     "rss": "root of squares",
 }
-SYMBOL = "C_v"  # a name with no more letters is a symbol with its index
 
 
 def unit_of(name: str) -> str | None:
@@ -76,10 +73,12 @@ def spoken(name: str) -> tuple[str, str]:
     for part in name.split("."):
         end = next((end for end in UNITS if part.endswith(end)), "")
         bare = part.removesuffix(end)
-        plain = bare if len(bare) <= len(SYMBOL) else bare.replace("_", " ")
+        # A name as short as C_v is a symbol with its index.
+        plain = bare if len(bare) <= 3 else bare.replace("_", " ")
         words.append(WORDS.get(part) or WORDS.get(bare, plain))
         unit = UNITS.get(end) or unit
-    return " ".join(words), SHORT_UNITS.get(unit, unit)
+    short_units = {"1/min": "rpm", "arc seconds": "arcsec"}  # for people at a terminal
+    return " ".join(words), short_units.get(unit, unit)
 
 
 def heading(name: str) -> str:

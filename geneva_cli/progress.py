@@ -11,7 +11,7 @@ from typing import Protocol, TypeAlias, TypeVar
 T = TypeVar("T")
 
 
-class Bar(Protocol):
+class ProgressBar(Protocol):
     """A display of the progress of one piece of work."""
 
     def update(self, done: int) -> None:
@@ -22,9 +22,9 @@ class Bar(Protocol):
 
 
 # Makes a bar from the word for the items and their number; None if nobody watches.
-BarMaker: TypeAlias = Callable[[str, int], Bar | None]
+BarMaker: TypeAlias = Callable[[str, int], ProgressBar | None]
 _maker: list[BarMaker] = []  # at most one
-_shown: list[Bar] = []  # at most one: work within other work is not shown
+_shown: list[ProgressBar] = []  # at most one: work within other work is not shown
 
 
 def show_with(maker: BarMaker | None) -> None:

@@ -14,9 +14,6 @@ from typing import Any, NoReturn, TextIO
 
 from geneva_cli.errors import cut
 
-SIGPIPE = 13
-LINE_MAX = 4000  # characters of a line on standard error
-MOVES = {"\r", "\x1b"}  # characters that begin a movement of the cursor
 NARROWEST = 60  # characters of a line that is never broken
 
 
@@ -72,7 +69,7 @@ class _Ending(io.FileIO):
         try:
             return super().write(data)
         except BrokenPipeError:
-            os._exit(128 + SIGPIPE)
+            os._exit(128 + 13)  # 13 is SIGPIPE's number
         except OSError as error:
             print(f"<stdout>: cannot write: {error.strerror}; try -o FILE", file=sys.stderr)
             os._exit(2)
@@ -95,8 +92,9 @@ class _Messages(io.TextIOWrapper):
     """
 
     def write(self, text: str, /) -> int:
-        lines = [cut(line, LINE_MAX) for line in text.split("\n")]
-        if max(map(len, lines)) > NARROWEST and self.isatty() and not MOVES & set(text):
+        lines = [cut(line, 4000) for line in text.split("\n")]
+        # A carriage return or an escape begins a movement of the cursor.
+        if max(map(len, lines)) > NARROWEST and self.isatty() and not {"\r", "\x1b"} & set(text):
             lines = [part for line in lines for part in _broken(line, _columns())]
         super().write("\n".join(lines))
         return len(text)
@@ -104,8 +102,8 @@ class _Messages(io.TextIOWrapper):
 
 def _columns() -> int:
     """The width of the terminal that shows messages."""
-    told = os.environ.get("COLUMNS", "")
-    return int(told) if told.isdigit() else os.get_terminal_size(2).columns
+    columns = os.environ.get("COLUMNS", "")
+    return int(columns) if columns.isdigit() else os.get_terminal_size(2).columns
 
 
 def _broken(line: str, width: int) -> list[str]:

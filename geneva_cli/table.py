@@ -10,9 +10,7 @@ from typing import Any, NamedTuple
 from geneva_cli.errors import GenevaError, cut, few, nearest
 
 PIECE = 65536  # rows of a long table that are computed at once; a multiple of a block
-HTML_ROWS = 60  # rows that a notebook shows
 SHOWN_ROWS = 10  # rows that the interpreter shows
-SHOWN_WIDTH = 100  # characters of these
 NO_BOUND = "no bound"  # an infinity, for people
 
 
@@ -20,13 +18,13 @@ class Reading(NamedTuple):
     """Hints for showing a table at a terminal if its columns do not all fit.
 
     ``first`` are its columns in order of importance; others follow in their order. ``title`` stands
-    above it, and replaces the columns ``said`` if they are constant. With ``designs`` the columns
-    are named for designs, not for quantities.
+    above it, and replaces the constant columns ``in_title``. With ``designs`` the columns are named
+    for designs, not for quantities.
     """
 
     first: tuple[str, ...] = ()
     title: str = ""
-    said: tuple[str, ...] = ()
+    in_title: tuple[str, ...] = ()
     designs: bool = False
 
 
@@ -91,7 +89,7 @@ class Table(NamedTuple):
         columns = list(zip(self.names, *rows, strict=True))
         widths = [max(map(len, column)) + 2 for column in columns]
         ends = accumulate(widths)
-        fit = max(1, sum(end <= SHOWN_WIDTH + 2 for end in ends))
+        fit = max(1, sum(end <= 102 for end in ends))  # of 100 characters, without two spaces
         padded = [
             [cell.rjust(width) for cell in column]
             for column, width in zip(columns[:fit], widths, strict=False)
@@ -154,7 +152,8 @@ class Table(NamedTuple):
         """HTML for a notebook: the first rows, and their number."""
         from html import escape  # nothing else needs it, and it takes 5 ms
 
-        names, rows = self.names, list(islice(self.rows(), HTML_ROWS))
+        html_rows = 60  # rows that a notebook shows
+        names, rows = self.names, list(islice(self.rows(), html_rows))
         if self.record:
             values = flat(self)
             names = ("name", "value")
@@ -163,7 +162,7 @@ class Table(NamedTuple):
         body = "".join(
             "<tr>" + "".join(f"<td>{escape(_shown(v))}</td>" for v in row) + "</tr>" for row in rows
         )
-        more = "" if self.record or len(self) <= HTML_ROWS else f"<p>{len(self)} rows</p>"
+        more = "" if self.record or len(self) <= html_rows else f"<p>{len(self)} rows</p>"
         title = f"<caption>{escape(self.title)}</caption>" if self.title else ""
         return f"<table>{title}<thead><tr>{head}</tr></thead><tbody>{body}</tbody></table>{more}"
 
@@ -203,7 +202,7 @@ def _whole(column: Any) -> Any:
     return np.concatenate([column[start : start + PIECE] for start in starts])
 
 
-class _Pieces:
+class _ColumnPieces:
     """Rows of a table too long for memory; the last computed piece is kept."""
 
     def __init__(self, length: int, make: Callable[[int, int], Sequence[Any]]) -> None:
@@ -226,7 +225,7 @@ class _Pieces:
 class Column:
     """One column of such a table, with a length and slices within a piece."""
 
-    def __init__(self, pieces: _Pieces, number: int, dtype: str = "float64") -> None:
+    def __init__(self, pieces: _ColumnPieces, number: int, dtype: str = "float64") -> None:
         self.pieces, self.number, self.dtype = pieces, number, dtype
 
     def __len__(self) -> int:
@@ -245,8 +244,8 @@ def pieces(
     ``dtype`` is "object" for columns that may be lists with None. The table takes the memory of one
     piece, however many rows are written.
     """
-    made = _Pieces(length, make)
-    return [Column(made, number, dtype) for number in range(count)]
+    rows = _ColumnPieces(length, make)
+    return [Column(rows, number, dtype) for number in range(count)]
 
 
 def is_floats(column: Any) -> bool:

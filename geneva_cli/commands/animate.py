@@ -4,7 +4,7 @@ from typing import Annotated
 
 import typer
 
-from geneva_cli.commands.options import Given, SpecPath, warn
+from geneva_cli.commands.options import Settings, SpecPath, warn
 from geneva_cli.errors import GenevaError
 
 EXAMPLES = (
@@ -16,7 +16,7 @@ EXAMPLES = (
 
 def run(
     spec: SpecPath,
-    given: Given = None,
+    settings: Settings = None,
     open_: Annotated[
         bool, typer.Option("--open", help="Open the page in the desktop's browser.")
     ] = False,
@@ -43,10 +43,10 @@ def run(
 
     if open_ and output != "-" and not output.endswith(".html"):
         raise GenevaError(f'-o "{output}": --open opens a page: it must end in .html')
-    design = load(spec, given or ())
-    made = scene(design)
+    design = load(spec, settings or ())
+    machine = scene(design)
     place = os.path.join(_folder(), "machine.html") if open_ and output == "-" else output
-    animate(made, place, design.spec.files)
+    animate(machine, place, design.spec.files)
     warn(design)
     if open_:
         _open(os.path.abspath(place))
@@ -57,8 +57,8 @@ def _open(place: str) -> None:
     import os
     import webbrowser
 
-    seen = "DISPLAY" in os.environ or "WAYLAND_DISPLAY" in os.environ or os.name != "posix"
-    opened = (seen or os.uname().sysname == "Darwin") and webbrowser.open(f"file://{place}")
+    has_display = "DISPLAY" in os.environ or "WAYLAND_DISPLAY" in os.environ or os.name != "posix"
+    opened = (has_display or os.uname().sysname == "Darwin") and webbrowser.open(f"file://{place}")
     print(place if opened else f"{place}\nno browser was opened: open this page in one")
 
 

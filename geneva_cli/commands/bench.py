@@ -47,13 +47,13 @@ def run(
     people = (format or format_of(output)) in ("table", "md")
     rows, absent = [], {}
     for name in names(subject):
-        about, found = measure(name, quick)
-        rows += found
+        about, results = measure(name, quick)
+        rows += results
         absent[name] = ", ".join(about.absent)
         if plots:
-            write(os.path.join(plots, f"{name}.svg"), [svg(about, found)])
+            write(os.path.join(plots, f"{name}.svg"), [svg(about, results)])
     show(bench_table(rows, people), output, format)
     for name, libraries in absent.items():
         if libraries:
-            said = f"{name}: {libraries} not measured, as not installed"
-            print(f"{said}; pip install 'geneva-cli[bench]'", file=sys.stderr)
+            note = f"{name}: {libraries} not measured, as not installed"
+            print(f"{note}; pip install 'geneva-cli[bench]'", file=sys.stderr)

@@ -5,7 +5,7 @@ from typing import Annotated
 
 import typer
 
-from geneva_cli.commands.options import Format, Given, Output, say
+from geneva_cli.commands.options import Format, Output, Settings, say
 from geneva_cli.errors import clean
 
 EXAMPLES = (
@@ -20,7 +20,7 @@ def run(
     verbose: Annotated[
         bool, typer.Option("-v", "--verbose", help="Every check, also on a terminal.")
     ] = False,
-    given: Given = None,
+    settings: Settings = None,
     output: Output = "-",
     format: Format = "",
 ) -> None:
@@ -35,18 +35,18 @@ def run(
     from geneva_cli.study.summary.checks import of_checks
 
     name = table_as(output, format)
-    found = list(verdicts(specs, given or ()))
-    judged = [v for v in found if not v.error]
+    results = list(verdicts(specs, settings or ()))
+    judged = [v for v in results if not v.error]
     if judged:
         is_short = is_watched(output, format) and not verbose
         answer = of_checks(judged, not is_short, name == "json")
         tell(answer, output, format, [file for v in judged for file in v.files])
-    for v in found:
+    for v in results:
         if v.error:
             print(clean(v.error), file=sys.stderr)
         elif output != "-" or name == "csv":
             say(v.path, v.warnings)
-    if len(judged) < len(found):
+    if len(judged) < len(results):
         raise typer.Exit(2)
-    if not all(v.passes for v in found) or (strict and any(v.warnings for v in found)):
+    if not all(v.passes for v in results) or (strict and any(v.warnings for v in results)):
         raise typer.Exit(1)

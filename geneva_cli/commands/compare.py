@@ -5,7 +5,7 @@ from typing import Annotated
 import typer
 
 from geneva_cli.commands import completion
-from geneva_cli.commands.options import Format, Given, Output
+from geneva_cli.commands.options import Format, Output, Settings
 
 EXAMPLES = ("geneva compare spec.toml --vary wheel.z=4,6,8 --pick dwell_s,acceleration.max",)
 
@@ -32,7 +32,7 @@ def run(
         bool, typer.Option("--ratio", help="Numbers over the first design's.")
     ] = False,
     differing: Annotated[bool, typer.Option("--differing", help="Only what differs.")] = False,
-    given: Given = None,
+    settings: Settings = None,
     output: Output = "-",
     format: Format = "",
 ) -> None:
@@ -41,5 +41,5 @@ def run(
     from geneva_cli.study.compare import compare
 
     picks = [name.strip() for name in pick.split(",")] if pick else []
-    table = compare(specs, given or (), vary or (), picks, ratio, not differing)
+    table = compare(specs, settings or (), vary or (), picks, ratio, not differing)
     show(table, output, format, specs)

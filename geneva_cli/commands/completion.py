@@ -34,8 +34,8 @@ def keys(typed: str) -> list[Offer]:
     """The keys of a spec as ``table.key=``; behind the sign, the words that the key may be."""
     from geneva_cli.specfile.keys import full_names, words_of
 
-    key, given, begun = typed.partition("=")
-    if given:
+    key, sign, begun = typed.partition("=")
+    if sign:
         return [(f"{key}={word}", "") for word in words_of(key) if word.startswith(begun)]
     return [(f"{name}=", about) for name, about in full_names().items() if name.startswith(typed)]
 

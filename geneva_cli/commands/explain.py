@@ -38,10 +38,10 @@ def run(
         table = rows_table(("group", "name", "about"), listed()).replaced(reading=reading)
         show(table, output, format)
         return
-    found = meanings(word)
+    entries = meanings(word)
     if (format or format_of(output)) not in ("table", "md"):
-        show(rows_table(Meaning._fields, found), output, format)
+        show(rows_table(Meaning._fields, entries), output, format)
     elif output == "-":
-        show_markdown(as_markdown(found))
+        show_markdown(as_markdown(entries))
     else:
-        show_text(as_markdown(found), output)
+        show_text(as_markdown(entries), output)

@@ -42,4 +42,6 @@ def run(
     elif hits := search(topic):
         show(rows_table(Hit._fields, hits, f"{topic}: `geneva help TOPIC` shows a page."))
     else:
-        raise GenevaError(f'"{cut(topic)}" is no page and stands in none{nearest(topic, TOPICS)}')
+        raise GenevaError(
+            f'"{cut(topic)}" is no page of the manual, and on no page{nearest(topic, TOPICS)}'
+        )

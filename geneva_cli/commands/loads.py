@@ -4,7 +4,7 @@ from typing import Annotated
 
 import typer
 
-from geneva_cli.commands.options import Format, Given, Output, SpecPath, say
+from geneva_cli.commands.options import Format, Output, Settings, SpecPath, say
 
 ROWS = 361
 
@@ -21,7 +21,7 @@ def run(
         int | None,
         typer.Option(metavar="N", help=f"The cycle in N rows instead (csv: {ROWS})."),
     ] = None,
-    given: Given = None,
+    settings: Settings = None,
     output: Output = "-",
     format: Format = "",
 ) -> None:
@@ -47,7 +47,7 @@ def run(
     from geneva_cli.output.formats import format_of
     from geneva_cli.study.summary.loads import of_loads
 
-    design = load(spec, given or ())
+    design = load(spec, settings or ())
     name = format or format_of(output)
     by_rows = name == "csv" or (samples is not None and name != "json")
     if by_rows:

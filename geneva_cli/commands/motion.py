@@ -4,7 +4,7 @@ from typing import Annotated
 
 import typer
 
-from geneva_cli.commands.options import Format, Given, Output, SpecPath, warn
+from geneva_cli.commands.options import Format, Output, Settings, SpecPath, warn
 
 EXAMPLES = (
     "geneva motion spec.toml --samples 13",
@@ -15,7 +15,7 @@ EXAMPLES = (
 def run(
     spec: SpecPath,
     samples: Annotated[int, typer.Option(metavar="N", help="Rows, both ends included.")] = 361,
-    given: Given = None,
+    settings: Settings = None,
     output: Output = "-",
     format: Format = "",
 ) -> None:
@@ -26,6 +26,6 @@ def run(
     from geneva_cli.design import load
     from geneva_cli.output import show
 
-    design = load(spec, given or ())
+    design = load(spec, settings or ())
     show(design.motion(samples), output, format, design.spec.files)
     warn(design)

@@ -68,7 +68,7 @@ def run(
 
 
 def _new(kind: str, output: str, whole: bool, force: bool) -> None:
-    """Write a kind's spec, which names the JSON Schema only if that stands beside it."""
+    """Write a kind's spec, which names the JSON Schema only if that is in its folder."""
     from geneva_cli.output import refuse_existing, show_text
     from geneva_cli.specfile.json_schema import FILE
     from geneva_cli.specfile.template import template
@@ -80,7 +80,7 @@ def _new(kind: str, output: str, whole: bool, force: bool) -> None:
 
 
 def _copy(name: str, output: str, force: bool) -> None:
-    """Write a design's spec, and beside it the files that it names."""
+    """Write a design's spec, and the files that it names into its folder."""
     from geneva_cli.output import refuse_existing, show_text
     from geneva_cli.specfile.designs import design
 
@@ -89,13 +89,13 @@ def _copy(name: str, output: str, force: bool) -> None:
         raise GenevaError(
             f"--from-design {name}: it needs {', '.join(files)} in its folder; give -o FILE"
         )
-    beside = {os.path.join(os.path.dirname(output), file): files[file] for file in files}
+    named_files = {os.path.join(os.path.dirname(output), file): files[file] for file in files}
     if not force:
         refuse_existing(output)
-        for place, content in beside.items():
+        for place, content in named_files.items():
             if not _holds(place, content):
                 refuse_existing(place)
-    for place, content in beside.items():
+    for place, content in named_files.items():
         show_text(content, place)
     show_text(text, output)
 

@@ -1,4 +1,4 @@
-"""Options that several commands share."""
+"""Options of several commands."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ def one_of(names: Iterable[str]) -> str:
 SpecPath: TypeAlias = Annotated[
     str, typer.Argument(metavar="SPEC", help="The spec, a TOML file; - reads standard input.")
 ]
-Given: TypeAlias = Annotated[
+Settings: TypeAlias = Annotated[
     list[str] | None,
     typer.Option(
         "--set",

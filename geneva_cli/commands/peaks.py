@@ -4,7 +4,7 @@ from typing import Annotated
 
 import typer
 
-from geneva_cli.commands.options import Format, Given, Output, SpecPath, warn
+from geneva_cli.commands.options import Format, Output, Settings, SpecPath, warn
 
 EXAMPLES = (
     "geneva peaks spec.toml",
@@ -18,7 +18,7 @@ def run(
     certify: Annotated[
         bool, typer.Option("--certify", help="Prove each peak between two bounds.")
     ] = False,
-    given: Given = None,
+    settings: Settings = None,
     output: Output = "-",
     format: Format = "",
 ) -> None:
@@ -34,7 +34,7 @@ def run(
     from geneva_cli.output import show
     from geneva_cli.output.formats import table_as
 
-    design = load(spec, given or ())
+    design = load(spec, settings or ())
     table = design.peaks_table
     if certify:
         data = table_as(output, format) in ("json", "csv")

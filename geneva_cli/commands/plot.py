@@ -5,7 +5,7 @@ from typing import Annotated
 import typer
 
 from geneva_cli.commands import completion
-from geneva_cli.commands.options import Given, Output, say, warn
+from geneva_cli.commands.options import Output, Settings, say, warn
 from geneva_cli.errors import GenevaError, cut
 
 EXAMPLES = (
@@ -28,8 +28,12 @@ def run(
             autocompletion=completion.listed(completion.quantities),
         ),
     ] = "",
-    x: Annotated[str, typer.Option("--x", metavar="COLUMN", help="Column along, of a csv.")] = "",
-    y: Annotated[str, typer.Option("--y", metavar="COLUMN,...", help="Columns up, of a csv.")] = "",
+    x: Annotated[
+        str, typer.Option("--x", metavar="COLUMN", help="Column of a csv for the x axis.")
+    ] = "",
+    y: Annotated[
+        str, typer.Option("--y", metavar="COLUMN,...", help="Columns of a csv for the y axis.")
+    ] = "",
     vary: Annotated[
         list[str] | None,
         typer.Option(
@@ -38,7 +42,7 @@ def run(
             autocompletion=completion.keys,
         ),
     ] = None,
-    given: Given = None,
+    settings: Settings = None,
     output: Output = "-",
     format: Annotated[
         str,
@@ -59,13 +63,13 @@ def run(
     plotted_as(output, format)  # refuse a wrong format before any computation
     tables = [path for path in specs if path.lower().endswith(".csv")]
     if tables:
-        _refuse_beside(tables[0], specs, {"--pick": pick, "--set": given, "--vary": vary})
+        _refuse_with_csv(tables[0], specs, {"--pick": pick, "--set": settings, "--vary": vary})
         plot(of_table(tables[0], x, _names(y)), output, format, tables)
         return
     if x or y:
         raise GenevaError(f"--x and --y are for a .csv; for {cut(specs[0], 300)} give --pick")
-    found, designs, left_out = of_specs(specs, given or (), _names(pick), vary or ())
-    plot(found, output, format, [file for d in designs for file in d.spec.files])
+    figure, designs, left_out = of_specs(specs, settings or (), _names(pick), vary or ())
+    plot(figure, output, format, [file for d in designs for file in d.spec.files])
     for design in designs:
         warn(design)
     for path, text in left_out:
@@ -76,8 +80,8 @@ def _names(texts: str) -> list[str]:
     return [name.strip() for name in texts.split(",") if name.strip()]
 
 
-def _refuse_beside(table: str, specs: list[str], options: dict[str, object]) -> None:
-    """Refuse other files and options beside a csv, which is plotted by itself."""
+def _refuse_with_csv(table: str, specs: list[str], options: dict[str, object]) -> None:
+    """Refuse other files and options with a csv, which is plotted by itself."""
     if len(specs) > 1:
         raise GenevaError(f"{cut(table, 300)}: a csv is plotted by itself, without other files")
     for option, value in options.items():

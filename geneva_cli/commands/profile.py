@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from geneva_cli.commands import completion
-from geneva_cli.commands.options import Given, Output, SpecPath, one_of, warn
+from geneva_cli.commands.options import Output, Settings, SpecPath, one_of, warn
 from geneva_cli.errors import GenevaError, clean, cut
 from geneva_cli.output import draw, draw_sheet, show
 from geneva_cli.output.formats import (
@@ -118,7 +118,7 @@ def run(
         ),
     ] = None,
     force: Annotated[bool, typer.Option("--force", help="Draw even a machine that jams.")] = False,
-    given: Given = None,
+    settings: Settings = None,
     output: Output = "-",
     format: Annotated[
         str,
@@ -143,9 +143,9 @@ def run(
         raise GenevaError("--dog-bones needs the cutter's diameter: --cutter MM")
     sheet = is_sheet(part)
     drawn = bool(sheet_as(output, format)) if sheet else is_drawn(output, format)
-    design = load(spec, given or ())
-    asked = {"version": dxf_version, "fill": fill}
-    own = {key: value for key, value in asked.items() if value is not None}
+    design = load(spec, settings or ())
+    options = {"version": dxf_version, "fill": fill}
+    own = {key: value for key, value in options.items() if value is not None}
     files = design.spec.files
     if not sheet and design.is_table(part, drawn):
         _refuse(units, kerf, cutter, center_marks, own)
@@ -212,7 +212,7 @@ def _refuse(
 
 
 def _judge(design: "Design", verdict: tuple[str, list[str]], force: bool) -> None:
-    """Exit with status 1 for parts that overlap or cannot be made, unless forced; else warn."""
+    """Exit with status 1 for parts that overlap or cannot be built, unless forced; else warn."""
     path = design.spec.path
     refused, warned = verdict
     if refused and not force:

@@ -5,7 +5,7 @@ from typing import Annotated
 import typer
 
 from geneva_cli.commands import completion
-from geneva_cli.commands.options import Given, Output, SpecPath, one_of, say
+from geneva_cli.commands.options import Output, Settings, SpecPath, one_of, say
 from geneva_cli.output.formats import DOCUMENTS, FORMATS
 
 EXAMPLES = (
@@ -19,7 +19,7 @@ WRITTEN = tuple(dict.fromkeys((*FORMATS, *DOCUMENTS)))
 
 def run(
     spec: SpecPath,
-    given: Given = None,
+    settings: Settings = None,
     output: Output = "-",
     format: Annotated[
         str,
@@ -44,7 +44,7 @@ def run(
     from geneva_cli.study.summary.report import of_report
 
     is_whole = is_document(output, format)
-    design = load(spec, given or ())
+    design = load(spec, settings or ())
     if is_whole:
         from geneva_cli.study.document import document
 

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Annotated, Any, TypeAlias
 import typer
 
 from geneva_cli.commands import completion
-from geneva_cli.commands.options import Format, Given, SpecPath
+from geneva_cli.commands.options import Format, Settings, SpecPath
 from geneva_cli.errors import GenevaError, cut
 from geneva_cli.progress import tracked
 
@@ -110,7 +110,7 @@ def run(
         bool,
         typer.Option(
             "--resume",
-            help="Go on where it was stopped.",
+            help="Continue a stopped run.",
             rich_help_panel=LONG,
         ),
     ] = False,
@@ -122,7 +122,7 @@ def run(
             rich_help_panel=LONG,
         ),
     ] = None,
-    given: Given = None,
+    settings: Settings = None,
     output: Annotated[
         str,
         typer.Option(
@@ -149,11 +149,11 @@ def run(
     if format and format not in FORMATS:
         raise GenevaError(f"--format {cut(format)}: it must be one of {', '.join(FORMATS)}")
     if best:
-        _refuse_beside_best(output, format, resume)
-    asked = request(
+        _refuse_with_best(output, format, resume)
+    plan = request(
         spec,
         vary or (),
-        given or (),
+        settings or (),
         pick=pick,
         random=random,
         seed=seed,
@@ -165,38 +165,38 @@ def run(
         jobs=jobs,
     )
     if best:
-        _write_best(asked, spec, output)
+        _write_best(plan, spec, output)
         return
-    if resume and (asked.chooses or format not in ("", "csv")):
-        raise GenevaError("--resume goes on with all rows of a sweep, as csv or parquet")
-    outcome = Outcome(asked)
+    if resume and (plan.chooses or format not in ("", "csv")):
+        raise GenevaError("--resume continues all rows of a sweep, as csv or parquet")
+    outcome = Outcome(plan)
     if format not in ("", "csv"):
-        _show_rows(asked, outcome, output, format)
+        _show_rows(plan, outcome, output, format)
     elif format or not is_seen(output):
-        _write_rows(asked, outcome, output, resume)
+        _write_rows(plan, outcome, output, resume)
     else:
-        _show_some(asked, outcome)
+        _show_some(plan, outcome)
     for note in outcome.notes():
         print(f"{spec}: {note}", file=sys.stderr)
 
 
-def _write_rows(asked: "Request", outcome: "Outcome", output: str, resume: bool) -> None:
+def _write_rows(plan: "Request", outcome: "Outcome", output: str, resume: bool) -> None:
     """Write all rows or the chosen ones as they come; show a person some rows of the file."""
     from geneva_cli.output import is_seen
     from geneva_cli.output.rows import Growth
     from geneva_cli.study.sweep.digest import Digest
     from geneva_cli.study.sweep.run import TEXTS
 
-    found = asked.sweep
-    first = found.shard.number == 1
-    with Growth(found.names, asked.key, first, output, resume, asked.inputs) as rows:
-        if rows.found:
-            print(rows.found, file=sys.stderr)
+    sweep = plan.sweep
+    first = sweep.shard.number == 1
+    with Growth(sweep.names, plan.key, first, output, resume, plan.inputs) as rows:
+        if rows.message:
+            print(rows.message, file=sys.stderr)
         if rows.is_whole:
             return
         shows_all = is_seen(output)
-        digest = Digest(asked, output) if is_seen("-") and not (shows_all or rows.done) else None
-        blocks = asked.blocks(rows.done) if shows_all else _shown(asked, rows.done)
+        digest = Digest(plan, output) if is_seen("-") and not (shows_all or rows.done) else None
+        blocks = plan.blocks(rows.done) if shows_all else _tracked(plan, rows.done)
         for block in outcome.rows(blocks):
             rows.append(block)
             if digest:
@@ -205,21 +205,21 @@ def _write_rows(asked: "Request", outcome: "Outcome", output: str, resume: bool)
     _show_digest(digest)
 
 
-def _show_rows(asked: "Request", outcome: "Outcome", output: str, format: str) -> None:
+def _show_rows(plan: "Request", outcome: "Outcome", output: str, format: str) -> None:
     """Show the rows as a table of another format, once all are computed."""
     from geneva_cli.output import show
     from geneva_cli.table import rows_table
 
-    rows = [row for block in outcome.rows(_shown(asked, 0)) for row in block]
-    show(rows_table(asked.sweep.names, rows), output, format, asked.inputs)
+    rows = [row for block in outcome.rows(_tracked(plan, 0)) for row in block]
+    show(rows_table(plan.sweep.names, rows), output, format, plan.inputs)
 
 
-def _show_some(asked: "Request", outcome: "Outcome") -> None:
+def _show_some(plan: "Request", outcome: "Outcome") -> None:
     """Show a person the first rows and the best."""
     from geneva_cli.study.sweep.digest import Digest
 
-    digest = Digest(asked)
-    for block in outcome.rows(_shown(asked, 0)):
+    digest = Digest(plan)
+    for block in outcome.rows(_tracked(plan, 0)):
         digest.add(block)
     _show_digest(digest)
 
@@ -231,27 +231,27 @@ def _show_digest(digest: "Digest | None") -> None:
         show(table)
 
 
-def _refuse_beside_best(output: str, format: str, resume: bool) -> None:
+def _refuse_with_best(output: str, format: str, resume: bool) -> None:
     """Refuse options that do not go with --best, before the search begins."""
     if output != "-" and not output.endswith(".toml"):
         raise GenevaError(f'-o "{cut(output, 300)}": --best writes a spec: it must end in .toml')
     if format:
         raise GenevaError(f"--format {format}: --best writes a spec, as TOML")
     if resume:
-        raise GenevaError("--resume goes on with rows; --best has none to go on with")
+        raise GenevaError("--resume continues rows, and --best writes none; leave one out")
 
 
-def _write_best(asked: "Request", spec: str, output: str) -> None:
+def _write_best(plan: "Request", spec: str, output: str) -> None:
     from geneva_cli.output import show_text
     from geneva_cli.study.sweep.outcome import Outcome
 
-    outcome = Outcome(asked)
-    show_text("\n".join(asked.best(outcome.counted(_shown(asked, 0)))) + "\n", output, asked.inputs)
+    outcome = Outcome(plan)
+    show_text("\n".join(plan.best(outcome.counted(_tracked(plan, 0)))) + "\n", output, plan.inputs)
     for note in outcome.refused():
         print(f"{spec}: {note}", file=sys.stderr)
 
 
-def _shown(asked: "Request", done: int) -> Iterator[Rows]:
+def _tracked(plan: "Request", done: int) -> Iterator[Rows]:
     """The rows, with a progress bar."""
-    start, stop = asked.sweep.span
-    return tracked(asked.blocks(done), "designs", stop - start - done, len)
+    start, stop = plan.sweep.span
+    return tracked(plan.blocks(done), "designs", stop - start - done, len)

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from geneva_cli.commands import completion
-from geneva_cli.commands.options import Format, Given, Output, warn
+from geneva_cli.commands.options import Format, Output, Settings, warn
 from geneva_cli.errors import GenevaError, clean, cut
 
 if TYPE_CHECKING:
@@ -75,7 +75,9 @@ def run(
     ] = False,
     rollers: Annotated[
         int | None,
-        typer.Option(metavar="M", help="Rollers; any without.", rich_help_panel=MACHINES),
+        typer.Option(
+            metavar="M", help="Rollers; without it, any number.", rich_help_panel=MACHINES
+        ),
     ] = None,
     law: Annotated[
         str,
@@ -104,7 +106,7 @@ def run(
             rich_help_panel=MACHINES,
         ),
     ] = "",
-    given: Given = None,
+    settings: Settings = None,
     sort: Annotated[
         str,
         typer.Option(
@@ -134,7 +136,7 @@ def run(
     """
     from geneva_cli.study.synthesis.reading import read_target
 
-    if given and not from_:
+    if settings and not from_:
         raise GenevaError("--set goes with --from: it changes a key of that spec")
     if check < 0 or (buildable and not check):
         raise GenevaError(f"--check {cut(check)}: it must be at least {int(buildable)}")
@@ -153,7 +155,7 @@ def run(
         spherical=spherical,
         rollers=rollers,
         law=law,
-        frame=_frame(from_, given or ()) if from_ else None,
+        frame=_frame(from_, settings or ()) if from_ else None,
         sort=sort,
         subject_to=subject_to or (),
         space=space,
@@ -164,10 +166,10 @@ def run(
         _write(target, write, buildable, output, format)
 
 
-def _frame(path: str, given: Sequence[str]) -> "Spec":
+def _frame(path: str, settings: Sequence[str]) -> "Spec":
     from geneva_cli.design import load
 
-    return load(path, given).spec
+    return load(path, settings).spec
 
 
 def _inputs(target: "Target") -> Sequence[str]:
@@ -202,10 +204,10 @@ def _write(target: "Target", number: int, buildable: bool, output: str, format: 
         raise GenevaError(f"--format {cut(format)}: --write writes a spec, which is TOML")
     if output != "-" and not output.endswith(".toml"):
         raise GenevaError(f'-o "{cut(output, 300)}": --write writes a spec: it must end in .toml')
-    found, text = chosen(search(target), number, buildable)
+    row, text = chosen(search(target), number, buildable)
     show_text(text, output, _inputs(target))
     path = "<stdout>" if output == "-" else output
-    if found.trouble:
-        said = f"{path}: warning: its parts cannot be built: {found.trouble}"
-        print(clean(said), file=sys.stderr)
-    warn(Design.of(found.spec.replace(path=path)))
+    if row.trouble:
+        note = f"{path}: warning: its parts cannot be built: {row.trouble}"
+        print(clean(note), file=sys.stderr)
+    warn(Design.of(row.spec.replace(path=path)))

@@ -4,7 +4,7 @@ from typing import Annotated
 
 import typer
 
-from geneva_cli.commands.options import Format, Given, Output, SpecPath, say, warn
+from geneva_cli.commands.options import Format, Output, Settings, SpecPath, say, warn
 
 EXAMPLES = ("geneva tolerance spec.toml --set tolerance.slot_angle_deg=0.01",)
 
@@ -19,7 +19,7 @@ def run(
     histogram: Annotated[
         bool, typer.Option("--histogram", help="Distribution of the drawn machines, a row a bin.")
     ] = False,
-    given: Given = None,
+    settings: Settings = None,
     output: Output = "-",
     format: Format = "",
 ) -> None:
@@ -33,7 +33,7 @@ def run(
     from geneva_cli.output.formats import table_as
     from geneva_cli.study.summary.tolerance import of_tolerance
 
-    design = load(spec, given or ())
+    design = load(spec, settings or ())
     if histogram:
         show(design.tolerance_histogram(samples, seed), output, format, design.spec.files)
         return

@@ -4,7 +4,7 @@ from typing import Annotated
 
 import typer
 
-from geneva_cli.commands.options import Format, Given, Output, SpecPath, say
+from geneva_cli.commands.options import Format, Output, Settings, SpecPath, say
 
 EXAMPLES = ("geneva vibration spec.toml --period-ratio 5.5 --damping 0.02",)
 
@@ -19,7 +19,7 @@ def run(
         float | None, typer.Option(metavar="Z", help="Damping ratio, in place of [shaft]'s.")
     ] = None,
     samples: Annotated[int, typer.Option(metavar="N", help="Number of speeds in the csv.")] = 401,
-    given: Given = None,
+    settings: Settings = None,
     output: Output = "-",
     format: Format = "",
 ) -> None:
@@ -34,12 +34,12 @@ def run(
     from geneva_cli.output.formats import format_of
     from geneva_cli.study.summary.vibration import of_vibration
 
-    design = load(spec, given or ())
+    design = load(spec, settings or ())
     if (format or format_of(output)) == "csv":
         table = design.spectrum(samples, period_ratio, damping)
         show(table, output, format, design.spec.files)
         return
-    found = design.vibration(period_ratio, damping)
-    tell(of_vibration(design, found), output, format, design.spec.files)
+    result = design.vibration(period_ratio, damping)
+    tell(of_vibration(design, result), output, format, design.spec.files)
     if output != "-":
-        say(design.spec.path, found.to_dict()["warnings"])
+        say(design.spec.path, result.to_dict()["warnings"])

@@ -80,10 +80,6 @@ TITLES = {
 }
 TOPICS = {topic: about for pages in GROUPS.values() for topic, about in pages.items()}
 
-AROUND = 24  # characters of a line on each side of a word that was searched for
-_COMMENT = re.compile(r"<!--.*?-->\n*", re.DOTALL)
-_PICTURE = re.compile(r"<img [^>]*>(<br>|\n)?")
-
 
 class Hit(NamedTuple):
     """A section of a page in which a word stands, and the first line with it."""
@@ -115,8 +111,9 @@ def _around(line: str, wanted: str) -> str:
     """The part of a line that has a word in it."""
     plain = " ".join(line.replace("`", "").replace("*", "").lstrip("# ").split())
     at = max(plain.casefold().find(wanted), 0)
-    start = max(0, plain.rfind(" ", 0, max(0, at - AROUND)) + 1) if at > AROUND else 0
-    end = plain.find(" ", at + len(wanted) + AROUND)
+    around = 24  # characters on each side of the word
+    start = max(0, plain.rfind(" ", 0, max(0, at - around)) + 1) if at > around else 0
+    end = plain.find(" ", at + len(wanted) + around)
     return plain[start : end if end > 0 else len(plain)]
 
 
@@ -156,4 +153,5 @@ def page(topic: str) -> str:
         )
     with open(path(topic), encoding="utf-8") as file:
         text = file.read()
-    return _PICTURE.sub("", _COMMENT.sub("", text))
+    without_comments = re.sub(r"<!--.*?-->\n*", "", text, flags=re.DOTALL)
+    return re.sub(r"<img [^>]*>(<br>|\n)?", "", without_comments)

@@ -21,9 +21,6 @@ GROUPS = {  # a page each, and what one of its entries is
     "parts": "part",
     "choices": "choice",
 }
-_ITEM = re.compile(r"^- ([A-Z][a-z ]*): (.*(?:\n  .*)*)", re.MULTILINE)
-_PICTURE = re.compile(r"<!--.*?-->|<img [^>]*>", re.DOTALL)
-_LINK = re.compile(r"\[([a-z-]+)\]\([^)]*\)")
 
 
 class Entry(NamedTuple):
@@ -49,7 +46,7 @@ class Entry(NamedTuple):
     @property
     def topics(self) -> tuple[str, ...]:
         """Pages of the manual that have it: its own, then those for the reasons."""
-        return (self.page, *_LINK.findall(self.see))
+        return (self.page, *re.findall(r"\[([a-z-]+)\]\([^)]*\)", self.see))
 
 
 @cache
@@ -65,13 +62,15 @@ def entries() -> tuple[Entry, ...]:
 def _read(page: str) -> list[Entry]:
     place = os.path.join(os.path.dirname(__file__), "reference", f"{page}.md")
     with open(place, encoding="utf-8") as file:
-        _, *sections = re.split(r"^## ", _PICTURE.sub("", file.read()), flags=re.MULTILINE)
+        text = re.sub(r"<!--.*?-->|<img [^>]*>", "", file.read(), flags=re.DOTALL)
+    _, *sections = re.split(r"^## ", text, flags=re.MULTILINE)
     return [_entry(page, section) for section in sections]
 
 
 def _entry(page: str, section: str) -> Entry:
     heading, _, text = section.partition("\n")
     meaning = text.strip().partition("\n\n")[0]
-    items = {label.lower().replace(" ", "_"): words for label, words in _ITEM.findall(text)}
+    item = re.compile(r"^- ([A-Z][a-z ]*): (.*(?:\n  .*)*)", re.MULTILINE)
+    items = {label.lower().replace(" ", "_"): words for label, words in item.findall(text)}
     texts = {label: " ".join(words.split()).strip("`") for label, words in items.items()}
     return Entry(page, tuple(heading.split(", ")), " ".join(meaning.split()), **texts)

@@ -15,9 +15,7 @@ from geneva_cli.output.formats import (
     DOCUMENTS,
     DRAWN,
     FORMATS,
-    MOVING,
     PLOTTED,
-    READ,
     drawn_as,
     format_of,
     plotted_as,
@@ -46,10 +44,10 @@ choice = Choice()  # the options --columns and --wide of this run
 
 
 @contextmanager
-def choosing(made: Choice) -> Iterator[None]:
-    """Show tables by this choice within the block."""
+def choosing(columns: Choice) -> Iterator[None]:
+    """Show tables by this choice of columns within the block."""
     global choice
-    before, choice = choice, made
+    before, choice = choice, columns
     try:
         yield
     finally:
@@ -126,7 +124,7 @@ def tell(answer: Answer, output: str = "-", format: str = "", inputs: Iterable[s
     Raises GenevaError as ``show`` does.
     """
     name = table_as(output, format)
-    if name not in READ:
+    if name not in ("table", "md"):  # formats for people have a summary above the table
         show(answer.data, output, format, inputs)
         return
     if choice.columns:  # with --columns, only those columns are wanted
@@ -232,8 +230,8 @@ def animate(scene: Scene, output: str, inputs: Iterable[str] = ()) -> None:
     written.
     """
     extension = os.path.splitext(output)[1].lower()
-    if output != "-" and extension not in MOVING:
-        raise GenevaError(f'-o "{cut(output)}": it must end in {" or ".join(MOVING)}')
+    if output != "-" and extension not in (".html", ".htm", ".gif", ".svg"):
+        raise GenevaError(f'-o "{cut(output)}": it must end in .html or .htm or .gif or .svg')
     if extension == ".gif":
         from geneva_cli.output.files import write_bytes
         from geneva_cli.output.moving_gif import written

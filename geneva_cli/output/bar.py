@@ -6,11 +6,6 @@ import os
 import sys
 import time
 
-AFTER_S = 1.0  # seconds: shorter work shows no bar
-EVERY_S = 0.1  # seconds between updates, faster than which nobody reads
-WIDTH_MAX = 30  # columns of the bar itself
-WIDTH_MIN = 8  # columns; a smaller bar shows nothing
-
 
 class TextBar:
     """A bar of one line, which is overwritten and finally removed.
@@ -21,14 +16,14 @@ class TextBar:
     def __init__(self, what: str, total: int) -> None:
         self.what, self.total = what, total
         self.begun = self.next = time.monotonic()
-        self.next += AFTER_S
+        self.next += 1.0  # seconds: shorter work shows no bar
         self.length = 0  # characters of the bar on the screen
 
     def update(self, done: int) -> None:
         """Draw the bar if it is time to."""
         now = time.monotonic()
         if now >= self.next:
-            self.next = now + EVERY_S
+            self.next = now + 0.1  # seconds: nobody reads faster updates
             self._write(self._line(done, now - self.begun))
 
     def close(self) -> None:
@@ -42,11 +37,11 @@ class TextBar:
         left = seconds * (self.total - done) / done if done else None
         text = f"{done:,} of {self.total:,} {self.what}"
         text += f", {_time(left)} left" if left is not None else ""
-        room = min(WIDTH_MAX, _columns() - len(text) - len(" []") - 1)
-        if room < WIDTH_MIN:
+        width = min(30, _columns() - len(text) - len(" []") - 1)  # columns of the bar itself
+        if width < 8:  # a smaller bar shows nothing
             return text[: _columns() - 1]
-        full = room * done // self.total
-        return f"[{'#' * full}{'-' * (room - full)}] {text}"
+        full = width * done // self.total
+        return f"[{'#' * full}{'-' * (width - full)}] {text}"
 
     def _write(self, line: str) -> None:
         sys.stderr.write(f"\r{line.ljust(self.length)}")

@@ -8,8 +8,6 @@ from typing import Any
 from geneva_cli.errors import clean
 from geneva_cli.table import Table, flat, is_floats
 
-BLOCK = 1024  # rows at a time
-
 
 def chunks(table: Table) -> Iterator[str]:
     """The header, then blocks of rows."""
@@ -37,8 +35,10 @@ def _numbers(table: Table) -> Iterator[str]:
     import numpy as np
 
     line = ",".join(["%r"] * len(table.columns)) + "\n"
-    for start in range(0, len(table), BLOCK):
-        block = np.column_stack([c[start : start + BLOCK] for c in table.columns]) + 0.0  # no -0.0
+    block_rows = 1024
+    for start in range(0, len(table), block_rows):
+        block = np.column_stack([c[start : start + block_rows] for c in table.columns])
+        block = block + 0.0  # no -0.0
         yield line * len(block) % tuple(block.ravel().tolist())
 
 

@@ -14,11 +14,6 @@ from geneva_cli.curves.shapes import Arc, Circle, Contour, Cubic, Line, Segment,
 from geneva_cli.errors import GenevaError
 from geneva_cli.output.ezdxf_alone import BaseLayout
 
-NEARLY_ROUND = 3.7  # bulge of 300 degrees; beyond it the chord determines the radius badly
-FLAT = 1e5  # radius beyond which centre and angles are not precise enough for an arc's ends
-JOINT = 1e-9  # allowed distance of a spline from the joint of two of its cubics
-UNEVEN = 100.0  # greatest ratio of a spline's knot intervals to its first
-
 
 def draw(space: BaseLayout, shape: Shape) -> None:
     """Draw a circle or a contour on its layer.
@@ -45,7 +40,8 @@ def _contour(space: BaseLayout, contour: Contour) -> None:
 
 
 def _split(segment: Segment) -> tuple[Segment, ...]:
-    if isinstance(segment, Arc) and abs(segment.bulge) > NEARLY_ROUND:
+    # The bulge of 300 degrees: beyond it the chord determines the radius badly.
+    if isinstance(segment, Arc) and abs(segment.bulge) > 3.7:
         return halves(segment)
     return (segment,)
 
@@ -71,7 +67,8 @@ def _entity(space: BaseLayout, layer: str, run: list[Segment]) -> None:
     if isinstance(first, Line):
         space.add_line(first.start, first.end, dxfattribs=attributes)
     elif isinstance(first, Arc):
-        if first.radius > FLAT:
+        # Centre and angles of a larger arc are not precise enough for its ends.
+        if first.radius > 1e5:
             _polyline(space, layer, run, False)
             return
         start, end = (_direction(first.centre, p) for p in (first.start, first.end))
@@ -107,11 +104,12 @@ def _runs(segments: list[Segment]) -> Iterator[list[Segment]]:
     """Segments one by one, but smoothly connected cubics together."""
     run: list[Segment] = []
     scale = 1.0  # of the knot interval over that of the run's first
+    uneven = 100.0  # greatest ratio of a spline's knot intervals to its first
     for segment in segments:
         last = run[-1] if run else None
         if isinstance(last, Cubic) and isinstance(segment, Cubic) and _smooth(last, segment):
             scale *= _ratio(last, segment)
-            if 1.0 / UNEVEN < scale < UNEVEN:
+            if 1.0 / uneven < scale < uneven:
                 run.append(segment)
                 continue
         if run:
@@ -123,11 +121,12 @@ def _runs(segments: list[Segment]) -> Iterator[list[Segment]]:
 def _smooth(a: Cubic, b: Cubic) -> bool:
     """Return True if the common end lies on the line between its neighbours."""
     before, after = math.dist(a.second, a.end), math.dist(b.start, b.first)
-    if not min(before, after) > JOINT:
+    joint_mm = 1e-9  # allowed distance of a spline from the joint of two of its cubics
+    if not min(before, after) > joint_mm:
         return False
-    share = before / (before + after)
-    x, y = (p + share * (q - p) for p, q in zip(a.second, b.first, strict=True))
-    return math.dist((x, y), a.end) < JOINT
+    fraction = before / (before + after)
+    x, y = (p + fraction * (q - p) for p, q in zip(a.second, b.first, strict=True))
+    return math.dist((x, y), a.end) < joint_mm
 
 
 def _ratio(a: Cubic, b: Cubic) -> float:

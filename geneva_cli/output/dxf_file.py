@@ -10,14 +10,17 @@ from geneva_cli.output.ezdxf_alone import Document, Modelspace, options
 from geneva_cli.output.formats import DXF_VERSIONS
 
 USUAL = "R2000"
-INSUNITS = {"mm": 4, "inch": 1}
-DECIMALS = 12  # of lengths: with large coordinates more than a float has, and no exponent
-FINE = 15  # decimals of bulges and angles, which act through a radius
-FINE_CODES = {42, 50, 51}
-FLOATS = (range(10, 60), range(110, 150), range(210, 240), range(460, 470), range(1010, 1060))
-FLOAT_CODES = {code for codes in FLOATS for code in codes}
-BLOCK = 1024  # values at a time
-TITLE_MAX = 200  # characters; a line may have 255
+FLOAT_CODES = {
+    code
+    for codes in (
+        range(10, 60),
+        range(110, 150),
+        range(210, 240),
+        range(460, 470),
+        range(1010, 1060),
+    )
+    for code in codes
+}
 
 
 def written(
@@ -28,11 +31,12 @@ def written(
     Raises GenevaError for a version that is not known.
     """
     lines = _document(units, version, fill).split("\n")
-    title = clean(title)[:TITLE_MAX].strip()
+    title = clean(title)[:200].strip()  # a line may have 255 characters
     if title:
         yield _ascii(f"999\n{title}\n")  # a comment: a text entity would be cut by machines
-    for start in range(0, len(lines) - 1, 2 * BLOCK):
-        part = lines[start : start + 2 * BLOCK]
+    block = 1024  # values at a time
+    for start in range(0, len(lines) - 1, 2 * block):
+        part = lines[start : start + 2 * block]
         pairs = zip(part[::2], part[1::2], strict=False)
         yield _ascii("".join(f"{code}\n{_fixed(int(code), value)}\n" for code, value in pairs))
 
@@ -48,7 +52,7 @@ def _document(units: str, version: str, fill: Callable[[Document, Modelspace], N
     try:
         document = Document.new(version)
         if version != "R12":
-            document.units = INSUNITS[units]
+            document.units = {"mm": 4, "inch": 1}[units]
             document.header["$MEASUREMENT"] = 1 if units == "mm" else 0
         fill(document, document.modelspace())
         stream = io.StringIO()
@@ -82,7 +86,9 @@ def _fixed(code: int, value: str) -> str:
     """A value with fixed decimals if it is a float: no exponent, no negative zero."""
     if code not in FLOAT_CODES:
         return value
-    text = f"{float(value):.{FINE if code in FINE_CODES else DECIMALS}f}"
+    # Bulges and angles (codes 42, 50 and 51) act through a radius, so they have more decimals. The
+    # decimals of a length are more than a float has with large coordinates.
+    text = f"{float(value):.{15 if code in {42, 50, 51} else 12}f}"
     return text if text.strip("-0.") else text.lstrip("-")
 
 

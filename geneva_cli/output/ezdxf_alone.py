@@ -1,8 +1,8 @@
 """The parts of ezdxf that are needed, imported without reading settings or writing caches.
 
 On import it reads ``ezdxf.ini`` from the current folder and the user's, whatever they hold, and
-searches the system's fonts to write a cache of them into the user's home. Drawings here take no
-settings, and measure no text: a cache without fonts lies beside this file.
+searches the system's fonts to write a cache of them into the user's home. Drawings here need no
+settings and no widths of texts, so an empty cache lies in the folder of this file.
 """
 
 from __future__ import annotations
@@ -14,22 +14,22 @@ from contextlib import contextmanager
 from typing import Any
 
 __all__ = ["BaseLayout", "Document", "Modelspace", "options"]
-CACHE = "XDG_CACHE_HOME"
 
 
 @contextmanager
 def _alone() -> Iterator[None]:
-    read, folder = ConfigParser.read, os.environ.get(CACHE)
+    cache = "XDG_CACHE_HOME"
+    read, folder = ConfigParser.read, os.environ.get(cache)
     setattr(ConfigParser, "read", _read_nothing)  # noqa: B010  # mypy lets no method be assigned
-    os.environ[CACHE] = os.path.join(os.path.dirname(os.path.abspath(__file__)), "no_fonts")
+    os.environ[cache] = os.path.join(os.path.dirname(os.path.abspath(__file__)), "no_fonts")
     try:
         yield
     finally:
         setattr(ConfigParser, "read", read)  # noqa: B010
         if folder is None:
-            del os.environ[CACHE]
+            del os.environ[cache]
         else:
-            os.environ[CACHE] = folder
+            os.environ[cache] = folder
 
 
 def _read_nothing(self: ConfigParser, *arguments: Any, **settings: Any) -> list[str]:

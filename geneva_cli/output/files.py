@@ -18,9 +18,6 @@ from geneva_cli.errors import GenevaError, cut
 
 # Left behind only by kill -9 or a power failure, until the next run that writes this file.
 TEMPORARY = ".{name}.geneva-{number}.tmp"
-NAME_MAX = 200  # bytes of the file's own name in it: a file system allows 255
-STDIN = "<stdin>"  # among the inputs, if the spec was read from standard input
-STOPS = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
 
 
 def write(path: str, chunks: Iterable[str], inputs: Iterable[str] = ()) -> None:
@@ -95,7 +92,8 @@ def _status(path: str) -> os.stat_result | None:
 @contextmanager
 def _temporary_for(path: str, old: os.stat_result | None) -> Iterator[BinaryIO]:
     folder, name = os.path.split(path)
-    name = name.encode(errors="surrogateescape")[:NAME_MAX].decode(errors="replace")
+    # The temporary name holds 200 bytes of it: a file system allows 255 in all.
+    name = name.encode(errors="surrogateescape")[:200].decode(errors="replace")
     _remove_stale(folder, name)
     number = os.getpid()
     while os.path.lexists(temporary := _temporary(folder, name, number)):
@@ -123,7 +121,7 @@ def _stopping_cleanly() -> Iterator[None]:
         sys.exit(128 + number)
 
     handlers = {}
-    for number in STOPS:
+    for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
         # Only the main thread of a program may set signals.
         with suppress(ValueError):
             if signal.getsignal(number) is not signal.SIG_IGN:
@@ -158,8 +156,8 @@ def _remove_stale(folder: str, name: str) -> None:
     left = re.compile(rf"{before}(\d{{1,9}}){after}")
     with suppress(OSError):  # a folder that can be written but not listed
         for entry in os.listdir(folder):
-            found = left.fullmatch(entry)
-            if found and not _runs(int(found[1])):
+            stale = left.fullmatch(entry)
+            if stale and not _runs(int(stale[1])):
                 _remove_unlocked(os.path.join(folder, entry))
 
 
@@ -199,13 +197,14 @@ def refuse_input(path: str, old: os.stat_result, inputs: Iterable[str]) -> None:
     """
     if not stat.S_ISREG(old.st_mode):
         return
-    for given in inputs:
+    stdin = "<stdin>"  # among the inputs, if the spec was read from standard input
+    for source in inputs:
         try:
-            read = os.fstat(0) if given == STDIN else os.stat(given)
+            read = os.fstat(0) if source == stdin else os.stat(source)
         except (OSError, ValueError):  # ValueError: a word with a NUL, which is not a file
             continue
         if os.path.samestat(read, old):
-            name = f"{path} (standard input)" if given == STDIN else given
+            name = f"{path} (standard input)" if source == stdin else source
             raise GenevaError(
                 f"{name}: this file is an input, and would be overwritten; give -o another name"
             )

@@ -10,10 +10,6 @@ from geneva_cli.errors import GenevaError
 from geneva_cli.progress import Meter
 from geneva_cli.table import Column, Table, pieces
 
-# Where infinity is a valid result: the radius of a straight line, an unbounded value of a check,
-# and motion over dwell without a dwell.
-BOUNDLESS = {"curvature_radius_mm", "value", "k"}
-
 
 def checked(table: Table, is_seen: bool = False) -> Table:
     """The table, checked; a table that is computed while it is written is checked then.
@@ -29,11 +25,11 @@ def checked(table: Table, is_seen: bool = False) -> Table:
     meter = None if is_seen else Meter("rows", source.length)
 
     def make(start: int, stop: int) -> Sequence[Any]:
-        found = source.make(start, stop)
-        refuse_nonsense(table.names, found)
+        rows = source.make(start, stop)
+        refuse_nonsense(table.names, rows)
         if meter:
             meter.report(stop)
-        return found
+        return rows
 
     columns = pieces(source.length, len(table.columns), make, first.dtype)
     return table.replaced(columns=columns)
@@ -45,7 +41,9 @@ def refuse_nonsense(names: Iterable[str], columns: Iterable[Any]) -> None:
     Such a number is always a fault of this program, and a file with it misleads.
     """
     for name, column in zip(names, columns, strict=True):
-        boundless = name.rpartition(".")[2] in BOUNDLESS
+        # Infinity is a valid radius of a straight line, a valid value of a check without a bound,
+        # and valid as motion over dwell without a dwell.
+        boundless = name.rpartition(".")[2] in {"curvature_radius_mm", "value", "k"}
         if not isinstance(column, (list, tuple)):
             wrong = (column != column).any() if boundless else _any_endless(column)
         else:

@@ -15,7 +15,7 @@ from geneva_cli.output.layout import (
     row,
     stacked,
     styled,
-    turned,
+    transposed,
     width_of,
     widths,
 )
@@ -24,18 +24,14 @@ from geneva_cli.output.values import NUMBER, aligned, bare, with_unit
 from geneva_cli.output.window import Window, paragraphs
 from geneva_cli.table import Table
 
-HELD = 8192  # rows that determine the layout; later rows of a longer table follow it
-FEW = 3  # rows of a table that may be transposed
-BOUNDLESS = 1_000_000  # letters of a line if the window does not matter
-NAMING = ("quantity", "dimension", "check")  # columns whose cells are names with units
-
 
 def rows_of(table: Table, window: Window, is_inner: bool = False) -> Iterator[str]:
     """Rows under their headings: as many columns as fit, and a note on the others.
 
     A short table is transposed if that shows more: of one row, or of few rows in a record.
     """
-    blocks = table.blocks(HELD)
+    layout_rows = 8192  # rows that determine the layout; later rows of a longer table follow it
+    blocks = table.blocks(layout_rows)
     first = next(blocks, [])
     if not first:
         yield from ["no rows"] if table.names else []
@@ -45,26 +41,28 @@ def rows_of(table: Table, window: Window, is_inner: bool = False) -> Iterator[st
     if once:
         yield from paragraphs(f"In every row: {'; '.join(once)}.", window)
         yield ""
-    if len(table) > HELD:
+    if len(table) > layout_rows:
         columns = [c if c.is_text else c._replace(cells=[*c.cells, "0" * NUMBER]) for c in columns]
-    order, room = _order(table), BOUNDLESS if window.wide else window.columns
-    kept, sizes = fitting(columns, order, room)
+    order = _order(table)
+    width = 1_000_000 if window.wide else window.columns  # a million letters: without a limit
+    kept, sizes = fitting(columns, order, width)
     lost = [
         column
         for column in sorted(columns, key=lambda c: order.index(c.name))
         if column not in kept
     ]
-    few = FEW if is_inner or 3 * len(kept) < len(columns) else 1
-    other = turned(columns, window.columns) if lost and len(first) <= few else None
-    if not other and lost and len(kept) == 1 and len(table) <= HELD:
+    # rows of a table that may be transposed
+    few = 3 if is_inner or 3 * len(kept) < len(columns) else 1
+    other = transposed(columns, window.columns) if lost and len(first) <= few else None
+    if not other and lost and len(kept) == 1 and len(table) <= layout_rows:
         other = list(stacked(kept[0], lost.pop(0), window.columns))
         other += _left_out(lost, window)
     if other:
         yield from other
         return
-    if len(table) <= HELD and not table.mixed:
+    if len(table) <= layout_rows and not table.mixed:
         pointed = [column._replace(cells=aligned(column.cells)) for column in kept]
-        sizes, kept = (found, pointed) if (found := widths(pointed, room)) else (sizes, kept)
+        sizes, kept = (wider, pointed) if (wider := widths(pointed, width)) else (sizes, kept)
     yield from heads(kept, sizes, window.styled)
     is_text, names = [column.is_text for column in kept], {column.name for column in kept}
     for texts in zip(*(column.cells[: len(first)] for column in kept), strict=True):
@@ -97,16 +95,17 @@ def _left_out(columns: Sequence[ShownColumn], window: Window) -> Iterator[str]:
 def _columns(table: Table, block: list[tuple[Any, ...]]) -> list[ShownColumn]:
     """All columns of some rows."""
     rows = block if table.mixed else without_noise(block)
-    found = []
+    columns = []
+    naming = ("quantity", "dimension", "check")  # columns whose cells are names with units
     for name, values in zip(table.names, zip(*rows, strict=True), strict=True):
-        literal = table.reading.designs and name not in NAMING
+        literal = table.reading.designs and name not in naming
         words, unit = (name, "") if literal else spoken(name)
         is_text = any(isinstance(v, (str, bool)) for v in values)
         texts = [bare(v, unit) for v in values]
-        if name in NAMING:
+        if name in naming:
             texts = [clean(heading(text)) for text in texts]
-        found.append(ShownColumn(name, clean(words), unit, texts, is_text))
-    return found
+        columns.append(ShownColumn(name, clean(words), unit, texts, is_text))
+    return columns
 
 
 def _sorted_out(columns: list[ShownColumn], table: Table) -> tuple[list[ShownColumn], list[str]]:
@@ -118,6 +117,6 @@ def _sorted_out(columns: list[ShownColumn], table: Table) -> tuple[list[ShownCol
             continue
         if len(cells) > 1 or len(column.cells) == 1 or table.reading.designs:
             kept.append(column)
-        elif column.name not in table.reading.said:
+        elif column.name not in table.reading.in_title:
             once.append(f"{column.words} {with_unit(cells.pop(), column.unit)}")
     return kept or columns[:1], once

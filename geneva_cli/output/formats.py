@@ -15,12 +15,9 @@ FORMATS = {
     "json": "jsonfile",
     "md": "markdown",
 }
-READ = ("table", "md")  # formats for people: a summary stands above the table
 # for drawings only; in FORMATS they are written as tables
 DRAWN = {"dxf": "dxf", "svg": "svg", "step": "step"}
-SMOOTH = ("step",)  # formats in which a wall is one face as a spline, and a hundred as arcs
 SHEETS = ("dxf", "svg", "pdf")  # for drawing sheets
-MOVING = (".html", ".htm", ".gif", ".svg")  # for scenes only
 PICTURES = ("png", "pdf")  # for figures only
 # for documents; the other formats of tables get their values
 DOCUMENTS = {"html": "html", "pdf": "pdf", "md": "markdown"}
@@ -31,8 +28,6 @@ EXTENSIONS |= {"stp": "step", "html": "html", "htm": "html"}
 DXF_VERSIONS = ("R12", "R2000", "R2004", "R2007", "R2010", "R2013", "R2018")
 # appearance of plates in .svg
 FILLS = ("none", "tint", "hatch")
-# options of one format of drawings and sheets: the option as typed, and the format
-OPTIONS = {"version": ("--dxf-version", "dxf"), "fill": ("--fill", "svg")}
 
 
 def table_as(output: str, format: str) -> str:
@@ -69,14 +64,15 @@ def usual_curves(output: str, format: str) -> str:
     ('spline', 'arcs')
     """
     extension = os.path.splitext(output)[1].lower().lstrip(".")
-    return "spline" if (format or EXTENSIONS.get(extension)) in SMOOTH else "arcs"
+    # In a solid, a wall is one face as a spline, and a hundred faces as arcs.
+    return "spline" if (format or EXTENSIONS.get(extension)) == "step" else "arcs"
 
 
 def sheet_as(output: str, format: str) -> str:
     """The format of a drawing sheet. Raises GenevaError for an unknown one."""
     if not format and output == "-":
         raise GenevaError(
-            f"a drawing sheet is written as {', '.join(SHEETS)}: give -o FILE.pdf, say, or --format"
+            f"a drawing sheet is written as {', '.join(SHEETS)}: give -o FILE.pdf, or --format pdf"
         )
     name = format or format_of(output, SHEETS)
     if name not in SHEETS:
@@ -88,8 +84,10 @@ def sheet_as(output: str, format: str) -> str:
 
 def require_own(own: dict[str, Any], name: str) -> None:
     """Raise GenevaError for an option of another format than ``name``."""
+    # options of one format of drawings and sheets: the option as typed, and the format
+    options = {"version": ("--dxf-version", "dxf"), "fill": ("--fill", "svg")}
     for key in own:
-        option, of = OPTIONS[key]
+        option, of = options[key]
         if name != of:
             raise GenevaError(f"{option} is for .{of}, and this is {name}; leave it out")
 

@@ -16,11 +16,11 @@ from typing import BinaryIO, Self
 
 from geneva_cli.errors import GenevaError, cut
 from geneva_cli.output.files import place, replacing, write_errors
-from geneva_cli.output.state import SUFFIX, State
+from geneva_cli.output.state import SUFFIX, StateFile
 
 
 class Closing(ABC):
-    """A resource that is closed when its block is left in any way."""
+    """A resource that is closed at the end of its block, also after an error."""
 
     @abstractmethod
     def close(self) -> None:
@@ -42,23 +42,23 @@ class Growing(Closing):
     """Lines appended to a file, ``done`` of which exist already, below the header.
 
     ``key`` is all that the lines depend on. With ``resume`` a run continues one with the same key,
-    starts if there is none, and does nothing if the file ``is_whole``; ``found`` says which. Raises
-    GenevaError if the file cannot be written, if another run writes it, or if the run to continue
-    had another key.
+    starts if there is none, and does nothing if the file ``is_whole``; ``message`` says which.
+    Raises GenevaError if the file cannot be written, if another run writes it, or if the run to
+    continue had another key.
     """
 
     def __init__(
         self, path: str, header: str, key: str, resume: bool, inputs: Iterable[str] = ()
     ) -> None:
         self.path, self.inputs, self.resume, self.done = path, tuple(inputs), resume, 0
-        self.is_whole, self.found = False, ""
+        self.is_whole, self.message = False, ""
         with write_errors(path):
             self.real, old = place(path, self.inputs)
             if old is not None and not stat.S_ISREG(old.st_mode):
                 raise GenevaError(
                     f"{path}: not a file that can grow; print to it with -o - instead"
                 )
-            self.state = State(self.real + SUFFIX, self.inputs)
+            self.state = StateFile(self.real + SUFFIX, self.inputs)
             try:
                 if not (resume and self._continue(key)):
                     self.state.begin(key)
@@ -74,20 +74,20 @@ class Growing(Closing):
         digest = self.state.whole_digest()
         if self.state.request == key and digest is not None and digest == _digest(self.real):
             self.is_whole = True
-            self.found = f"--resume: {name} is whole already"
+            self.message = f"--resume: {name} is whole already"
             return True
         if self.state.request is None or digest is not None:
-            self.found = f"--resume: there is nothing to continue for {name}; from the first row"
+            self.message = f"--resume: there is nothing to continue for {name}; from the first row"
             return False
         if self.state.request != key:
             raise GenevaError(
-                f"--resume: {name}{SUFFIX} was begun for something else "
+                f"--resume: {name}{SUFFIX} has the rows of another run "
                 "(another spec, other options or another version); start without --resume"
             )
         blocks = [rows for rows, _ in self.state.blocks()]
         self.done = sum(blocks)
         if self.state.is_damaged:
-            self.found = (
+            self.message = (
                 f"--resume: {name}{SUFFIX} is incomplete or damaged after row {self.done}; "
                 "continues there"
             )

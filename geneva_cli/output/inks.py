@@ -35,7 +35,7 @@ DASHES = (8.0, 1.5, 1.5, 1.5)  # mm: dash, gap, dash, gap of a centre line
 
 
 def inks(layers: tuple[str, ...]) -> dict[str, Ink]:
-    """The ink of each layer; layers without one of their own share the others in turn."""
+    """The ink of each layer; layers without one of their own get the others in turn."""
     unknown = [layer for layer in layers if layer not in INKS]
     return {
         layer: INKS.get(layer) or OTHERS[unknown.index(layer) % len(OTHERS)] for layer in layers

@@ -11,8 +11,6 @@ from collections.abc import Iterator, Sequence
 from typing import NamedTuple
 
 GAP = "  "  # between two columns
-PROSE = 28  # letters to which a column of prose is narrowed before another column is omitted
-SIGN = re.compile(r"(?<=[/,=])|(?<=::)")  # signs behind which a long word may be broken
 BOLD, DIM, PLAIN = "\x1b[1m", "\x1b[2m", "\x1b[0m"
 
 
@@ -29,7 +27,8 @@ class ShownColumn(NamedTuple):
         """Least width in letters to which it can be narrowed."""
         if not self.is_prose():
             return self.natural()
-        return max([min(self.natural(), PROSE), *map(width_of, self._words())])
+        # A column of prose is narrowed to 28 letters before another column is omitted.
+        return max([min(self.natural(), 28), *map(width_of, self._words())])
 
     def natural(self) -> int:
         """Width in letters of its longest cell, and of its heading broken between words."""
@@ -82,35 +81,35 @@ def _parts(word: str, width: int) -> list[str]:
         return [word]
     if not any(map(str.isalnum, word)):
         return [word[i : i + width] for i in range(0, len(word), width)]
-    return SIGN.split(word)
+    return re.split(r"(?<=[/,=])|(?<=::)", word)  # behind a sign
 
 
-def widths(columns: Sequence[ShownColumn], room: int) -> list[int] | None:
-    """The columns' widths, the widest prose narrowed first; None if they do not fit in ``room``."""
-    found = [column.natural() for column in columns]
-    spare = room - len(GAP) * (len(columns) - 1) - sum(found)
+def widths(columns: Sequence[ShownColumn], width: int) -> list[int] | None:
+    """The columns' widths, the widest prose narrowed first; None if they exceed ``width``."""
+    sizes = [column.natural() for column in columns]
+    spare = width - len(GAP) * (len(columns) - 1) - sum(sizes)
     if spare >= 0:
-        return found
+        return sizes
     least = [column.least() for column in columns]
-    if sum(least) - sum(found) > spare:
+    if sum(least) - sum(sizes) > spare:
         return None
     while spare < 0:
-        widest = max((i for i, w in enumerate(found) if w > least[i]), key=lambda i: found[i])
-        found[widest] -= 1
+        widest = max((i for i, w in enumerate(sizes) if w > least[i]), key=lambda i: sizes[i])
+        sizes[widest] -= 1
         spare += 1
-    return found
+    return sizes
 
 
 def fitting(
-    columns: Sequence[ShownColumn], order: Sequence[str], room: int
+    columns: Sequence[ShownColumn], order: Sequence[str], width: int
 ) -> tuple[list[ShownColumn], list[int]]:
     """The columns that fit, the first of ``order`` kept the longest, and their widths."""
     rank = {name: i for i, name in enumerate(order)}
     kept = list(columns)
     while True:
-        found = widths(kept, room)
-        if found is not None or len(kept) == 1:
-            return kept, found or [column.least() for column in kept]
+        sizes = widths(kept, width)
+        if sizes is not None or len(kept) == 1:
+            return kept, sizes or [column.least() for column in kept]
         kept.remove(max(kept, key=lambda column: rank[column.name]))
 
 
@@ -133,7 +132,7 @@ def row(texts: Sequence[str], sizes: Sequence[int], is_text: Sequence[bool]) -> 
         yield _line([cell[level] if level < len(cell) else "" for cell in cells], sizes, is_text)
 
 
-def turned(columns: Sequence[ShownColumn], room: int) -> list[str] | None:
+def transposed(columns: Sequence[ShownColumn], width: int) -> list[str] | None:
     """Columns as lines, with rows side by side; None if these do not fit either."""
     labels = [f"{c.words}, {c.unit}" if c.unit else c.words for c in columns]
     rows = list(zip(*(column.cells for column in columns), strict=True))
@@ -141,7 +140,7 @@ def turned(columns: Sequence[ShownColumn], room: int) -> list[str] | None:
         ShownColumn("", "", "", labels, True),
         *(ShownColumn("", "", "", cells, True) for cells in rows),
     ]
-    sizes = widths(sides, room)
+    sizes = widths(sides, width)
     if sizes is None:
         return None
     texts = zip(*(side.cells for side in sides), strict=True)
@@ -152,11 +151,11 @@ def turned(columns: Sequence[ShownColumn], room: int) -> list[str] | None:
     ]
 
 
-def stacked(above: ShownColumn, below: ShownColumn, room: int) -> Iterator[str]:
+def stacked(above: ShownColumn, below: ShownColumn, width: int) -> Iterator[str]:
     """Two columns combined, each cell of one below the other's."""
     for one, other in zip(above.cells, below.cells, strict=True):
-        yield from wrapped(one, room)
-        for line in wrapped(other, room - len(GAP)):
+        yield from wrapped(one, width)
+        for line in wrapped(other, width - len(GAP)):
             yield GAP + line
 
 

@@ -8,14 +8,12 @@ import unicodedata
 LETTER = 0.62  # width of a letter over its height, generous
 
 
+SPELLED = {"≥": ">=", "≤": "<=", "−": "-", "→": "->", "√": "sqrt", "∞": "infinite"}
+
+
 def width(text: str) -> float:
     """A text's width over its height, an upper estimate."""
     return sum(1.1 if unicodedata.east_asian_width(c) in "WF" else LETTER for c in text)
-
-
-RAISED = str.maketrans("⁻⁰¹²³⁴⁵⁶⁷⁸⁹", "-0123456789")
-POWER = re.compile("[⁻⁰¹²³⁴⁵⁶⁷⁸⁹]+")
-SPELLED = {"≥": ">=", "≤": "<=", "−": "-", "→": "->", "√": "sqrt", "∞": "infinite"}
 
 
 def western(text: str) -> str:
@@ -24,12 +22,14 @@ def western(text: str) -> str:
     >>> western("d²ψ/dθ² = 3 × 10⁻³"), western("Дα")
     ('d²psi/dtheta² = 3 × 10^-3', '[U+0414]alpha')
     """
-    return "".join(map(_spelled, POWER.sub(_power, text)))
+    return "".join(map(_spelled, re.sub("[⁻⁰¹²³⁴⁵⁶⁷⁸⁹]+", _power, text)))
 
 
-def _power(found: re.Match[str]) -> str:
-    raised = found[0]
-    return raised if all(map(_is_western, raised)) else f"^{raised.translate(RAISED)}"
+def _power(match: re.Match[str]) -> str:
+    raised = match[0]
+    if all(map(_is_western, raised)):
+        return raised
+    return "^" + raised.translate(str.maketrans("⁻⁰¹²³⁴⁵⁶⁷⁸⁹", "-0123456789"))
 
 
 def _spelled(letter: str) -> str:

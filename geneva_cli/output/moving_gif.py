@@ -21,11 +21,7 @@ if TYPE_CHECKING:
 
 WIDE = 400  # px
 FRAMES = 60  # of a turn
-SECONDS = 6.0  # of a turn on the screen
 FINER = 3  # times: lines become smooth when they are drawn larger and reduced
-MARGIN = 0.03  # of the greater side
-PIECES = 24  # chords of a curved segment
-ROUND = 96  # of a circle
 LINK, GREY = "#a56752", "#5c6670"
 
 
@@ -39,7 +35,7 @@ def written(scene: Scene) -> bytes:
     except ImportError:
         raise GenevaError("a .gif needs Pillow: pip install 'geneva-cli[plot]'") from None
     x0, y0, x1, y1 = scene.box
-    margin = MARGIN * max(x1 - x0, y1 - y0)
+    margin = 0.03 * max(x1 - x0, y1 - y0)
     scale = FINER * WIDE / (x1 - x0 + 2.0 * margin)
     high = round((y1 - y0 + 2.0 * margin) * scale / FINER)
 
@@ -70,7 +66,7 @@ def written(scene: Scene) -> bytes:
         colours = {"palette": frames[0]} if frames else {"colors": 48}  # one palette for all
         frames.append(small.quantize(**colours, dither=Image.Dither.NONE))
     out = io.BytesIO()
-    each = round(1000.0 * SECONDS / FRAMES)
+    each = round(1000.0 * 6.0 / FRAMES)  # ms: a turn takes six seconds on the screen
     frames[0].save(
         out, "GIF", save_all=True, append_images=frames[1:], duration=each, loop=0, optimize=False
     )
@@ -105,12 +101,13 @@ def _is_closed(shape: Shape) -> bool:
 def _points(shape: Shape) -> list[Point]:
     """A shape as a chain of points."""
     if isinstance(shape, Circle):
+        chords = 96
         (x, y), r = shape.centre, shape.radius
-        angles = (math.tau * i / ROUND for i in range(ROUND + 1))
+        angles = (math.tau * i / chords for i in range(chords + 1))
         return [(x + r * math.cos(a), y + r * math.sin(a)) for a in angles]
     points = [shape.segments[0].start]
     for segment in shape.segments:
-        n = 1 if isinstance(segment, Line) else PIECES
+        n = 1 if isinstance(segment, Line) else 24  # chords
         points += [at(segment, (i + 1) / n) for i in range(n)]
     return points
 

@@ -11,8 +11,6 @@ from typing import BinaryIO
 
 from geneva_cli.errors import GenevaError
 
-BLOCK = 1 << 22  # bytes of csv at a time
-
 
 def refuse_without() -> None:
     """Raise GenevaError if pyarrow is not installed."""
@@ -33,7 +31,7 @@ def convert(lines: Iterable[bytes], target: BinaryIO, texts: Collection[str] = (
     from pyarrow import parquet
 
     types = {"number": pa.float64(), "truth": pa.bool_(), "text": pa.string()}
-    # The lines are read twice, so they go to a file without a name, beside the result.
+    # The lines are read twice, so they go to a file without a name, in the folder of the result.
     with TemporaryFile(dir=os.path.dirname(target.name)) as source:
         source.writelines(lines)
         kinds = _kinds(source)
@@ -45,7 +43,7 @@ def convert(lines: Iterable[bytes], target: BinaryIO, texts: Collection[str] = (
             quoted_strings_can_be_null=False,
         )
         source.seek(0)
-        read = arrow.ReadOptions(block_size=BLOCK)
+        read = arrow.ReadOptions(block_size=1 << 22)  # bytes of csv at a time
         with (
             arrow.open_csv(source, read_options=read, convert_options=options) as rows,
             parquet.ParquetWriter(target, rows.schema) as out,

@@ -18,11 +18,9 @@ from geneva_cli.curves.shapes import Arc, Circle, Contour, Cubic, Point, Segment
 from geneva_cli.errors import clean
 
 POINT = 72.0 / 25.4  # points per millimetre
-QUARTER = 0.415  # bulge of an arc of slightly more than 90 degrees, the most for one cubic
 # a power of ten is raised: its size and its height, over that of the text
 EXPONENT = re.compile(r"(?<=10)\^(-?\d+)")
 EXPONENT_SIZE, EXPONENT_RISE = 0.7, 0.33
-FONTS = ("Helvetica", "Helvetica-Bold")  # F1 and F2
 
 
 class Page(NamedTuple):
@@ -31,12 +29,12 @@ class Page(NamedTuple):
     width: float
     height: float
     content: str
-    fonts: int = 1  # number of FONTS that it uses
+    fonts: int = 1  # number of fonts that it uses
 
 
 def written(title: str, pages: Sequence[Page]) -> Iterator[str]:
     """The file's text."""
-    fonts = FONTS[: max(page.fonts for page in pages)]
+    fonts = ("Helvetica", "Helvetica-Bold")[: max(page.fonts for page in pages)]
     first = 3 + 2 * len(pages)  # the number of the first font
     known = " ".join(f"/F{i + 1} {first + i} 0 R" for i in range(len(fonts)))
     kids = " ".join(f"{3 + 2 * i} 0 R" for i in range(len(pages)))
@@ -82,7 +80,8 @@ def outline(shape: Shape) -> str:
 
 
 def _quarters(segment: Segment) -> list[Segment]:
-    if isinstance(segment, Arc) and abs(segment.bulge) > QUARTER:
+    # The bulge of slightly more than 90 degrees: a longer arc needs more than one cubic.
+    if isinstance(segment, Arc) and abs(segment.bulge) > 0.415:
         return [part for half in halves(segment) for part in _quarters(half)]
     return [segment]
 
@@ -144,5 +143,5 @@ def point(p: Point) -> str:
 
 def number(value: float) -> str:
     """A number with at most five decimals, without a negative zero."""
-    found = f"{value:.5f}".rstrip("0").rstrip(".")
-    return "0" if found == "-0" else found
+    text = f"{value:.5f}".rstrip("0").rstrip(".")
+    return "0" if text == "-0" else text

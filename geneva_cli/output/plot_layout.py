@@ -12,22 +12,17 @@ from typing import NamedTuple, Protocol, TypeAlias
 from geneva_cli.errors import clean, cut
 from geneva_cli.figure import LINE, POINTS, Curve, Figure, Panel
 from geneva_cli.output.letters import LETTER, width
-from geneva_cli.output.ticks import labels, named, said, ticks
+from geneva_cli.output.ticks import labels, mark_text, named, ticks
 
 Point: TypeAlias = tuple[float, float]
 Path: TypeAlias = Sequence[Point]
 
 PAGE = 820.0
 LEFT, RIGHT, MARKS = 72.0, 18.0, 192.0  # MARKS: the column of the peaks' values
-HEIGHTS = {1: 300.0, 2: 220.0, 3: 160.0}  # of a panel, by their number
-HEIGHT = 112.0  # if there are more
 ABOVE, BELOW = 26.0, 44.0  # a panel's name; the last one's ticks and the axis' name
 TITLE, TEXT, SMALL = 15.0, 11.0, 10.0  # heights of letters
 LINE_HEIGHT = 14.0
 SAMPLE = 30.0  # of a curve, in the legend
-PAD = 0.05  # of a panel's span, above and below it
-APART = 24.0, 70.0  # least distance of ticks: up and across
-SEEN = 0.05  # a shorter jump is invisible
 START, MIDDLE, END = "start", "middle", "end"  # anchor of a text
 
 
@@ -96,22 +91,23 @@ class Pen(Protocol):
         """Write a text in bold letters."""
 
 
-class Block(NamedTuple):
+class FigureBlock(NamedTuple):
     """An unbreakable part of a figure: its height, and ``draw(pen, top)``."""
 
     high: float
     draw: Callable[[Pen, float], None]
 
 
-def blocks(figure: Figure) -> Iterator[Block]:
+def blocks(figure: Figure) -> Iterator[FigureBlock]:
     """Yield the title with the legend, then each panel; the last panel has the axis."""
     known = figure.curves()
     several = len(known) > 1
     legend = _legend(known.values()) if several else []
-    yield Block(
+    yield FigureBlock(
         (legend[-1][2] if legend else TITLE + 14.0), lambda pen, top: _head(figure, legend, pen)
     )
-    high = HEIGHTS.get(len(figure.panels), HEIGHT)
+    # a panel's height, by the number of panels
+    high = {1: 300.0, 2: 220.0, 3: 160.0}.get(len(figure.panels), 112.0)
     marked = any(curve.marks for panel in figure.panels for curve in panel.curves)
     wide = PAGE - LEFT - (MARKS if marked else RIGHT)
     for panel in figure.panels:
@@ -125,7 +121,7 @@ def blocks(figure: Figure) -> Iterator[Block]:
             is_last: bool = is_last,
         ) -> None:
             frame = Frame(top + ABOVE, wide, high, figure.window, padded(panel))
-            across = ticks(*figure.window, int(wide / APART[1]), figure.x.unit)
+            across = ticks(*figure.window, int(wide / 70.0), figure.x.unit)
             pen.begin(panel.y.name, frame)
             _panel(figure, panel, frame, across, pen)
             _marks(figure, panel, frame, several, pen)
@@ -135,13 +131,13 @@ def blocks(figure: Figure) -> Iterator[Block]:
             if is_first:
                 _dwell(figure, frame, pen)
 
-        yield Block(ABOVE + high + (BELOW if is_last else 0.0), draw)
+        yield FigureBlock(ABOVE + high + (BELOW if is_last else 0.0), draw)
 
 
 def padded(panel: Panel) -> tuple[float, float]:
     """Return a panel's span with some space above and below."""
     low, high = panel.span()
-    space = PAD * (high - low) or 0.5 * abs(high) or 1.0
+    space = 0.05 * (high - low) or 0.5 * abs(high) or 1.0
     return low - space, high + space
 
 
@@ -176,7 +172,7 @@ def _sample(curve: Curve, x: float, y: float, long: float, pen: Pen) -> None:
 
 def _panel(figure: Figure, panel: Panel, frame: Frame, across: list[float], pen: Pen) -> None:
     """Draw dwells, grid, axes and curves."""
-    up = ticks(*frame.span, int(frame.high / APART[0]), panel.y.unit)
+    up = ticks(*frame.span, int(frame.high / 24.0), panel.y.unit)
     right = LEFT + frame.wide
     for a, b in figure.shaded:
         pen.rest(frame.x(a), frame.top, frame.x(b) - frame.x(a), frame.high)
@@ -201,15 +197,15 @@ def _curve(curve: Curve, frame: Frame, pen: Pen) -> None:
     if curve.style != POINTS:
         pen.curve(curve.number, pieces)
     jumps = [((frame.x(x), frame.y(a)), (frame.x(x), frame.y(b))) for x, a, b in curve.jumps()]
-    seen = [jump for jump in jumps if abs(jump[1][1] - jump[0][1]) > SEEN]
-    if seen and curve.style == LINE:
-        pen.jumps(curve.number, seen)
+    visible = [jump for jump in jumps if abs(jump[1][1] - jump[0][1]) > 0.05]  # px
+    if visible and curve.style == LINE:
+        pen.jumps(curve.number, visible)
     if curve.style != LINE:
         pen.points(curve.number, [place for piece in pieces for place in piece])
 
 
 def _marks(figure: Figure, panel: Panel, frame: Frame, several: bool, pen: Pen) -> None:
-    """Draw a dot at each peak; write its value and place beside the panel."""
+    """Draw a dot at each peak; write its value and place to the right of the panel."""
     x, y = LEFT + frame.wide + 12.0, frame.top + 0.8 * TEXT
     for curve in panel.curves:
         for mark in curve.marks:
@@ -217,7 +213,7 @@ def _marks(figure: Figure, panel: Panel, frame: Frame, several: bool, pen: Pen) 
                 pen.dot(curve.number, (frame.x(mark.x), frame.y(mark.y)))
             if several:
                 _sample(curve, x, y, 0.8 * SAMPLE, pen)
-            words = said(mark, "°" if figure.x.unit else "")
+            words = mark_text(mark, "°" if figure.x.unit else "")
             pen.text(x + (SAMPLE if several else 0.0), y, words)
             y += LINE_HEIGHT
 

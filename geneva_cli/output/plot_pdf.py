@@ -10,7 +10,17 @@ from geneva_cli.output import pdf_file
 from geneva_cli.output.document.paper import INK, LEFT, WIDE, Item, box, wide, words
 from geneva_cli.output.letters import western
 from geneva_cli.output.pdf_file import POINT, number
-from geneva_cli.output.plot_layout import END, PAGE, START, TEXT, Block, Frame, Path, Point, blocks
+from geneva_cli.output.plot_layout import (
+    END,
+    PAGE,
+    START,
+    TEXT,
+    FigureBlock,
+    Frame,
+    Path,
+    Point,
+    blocks,
+)
 from geneva_cli.output.strokes import LIGHT, colour, dashes
 
 INCH = 25.4 / 82.0  # mm per px of a figure's own page, which is ten inches wide
@@ -18,10 +28,10 @@ INCH = 25.4 / 82.0  # mm per px of a figure's own page, which is ten inches wide
 
 def chunks(figure: Figure) -> Iterator[str]:
     """Yield the text of a file with the figure alone."""
-    made = list(blocks(figure))
-    tall = INCH * sum(block.high for block in made)
+    parts = list(blocks(figure))
+    tall = INCH * sum(block.high for block in parts)
     content, top = f"{POINT:.9f} 0 0 {POINT:.9f} 0 0 cm\n1 J 1 j\n", tall
-    for block in made:
+    for block in parts:
         content += _drawn(block, 0.0, INCH, top)
         top -= INCH * block.high
     page = pdf_file.Page(INCH * PAGE, tall, content, fonts=2)
@@ -31,19 +41,19 @@ def chunks(figure: Figure) -> Iterator[str]:
 def items(figure: Figure) -> Iterator[Item]:
     """Yield a figure's parts for a document, so that no title and no last panel stands alone."""
     scale = WIDE / PAGE
-    made = list(blocks(figure))
-    for i, block in enumerate(made):
+    parts = list(blocks(figure))
+    for i, block in enumerate(parts):
         draw = partial(_drawn, block, LEFT, scale)
-        yield Item(scale * block.high, draw, keeps=i in (0, len(made) - 2))
+        yield Item(scale * block.high, draw, keeps=i in (0, len(parts) - 2))
 
 
-def _drawn(block: Block, left: float, scale: float, top: float) -> str:
-    pen = _Pen(left, scale, top)
+def _drawn(block: FigureBlock, left: float, scale: float, top: float) -> str:
+    pen = _PdfPen(left, scale, top)
     block.draw(pen, 0.0)
     return "".join(pen.out)
 
 
-class _Pen:
+class _PdfPen:
     """Operators of a page, in mm; y upwards."""
 
     def __init__(self, left: float, scale: float, top: float) -> None:

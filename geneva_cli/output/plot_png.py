@@ -12,11 +12,7 @@ from geneva_cli.output.plot_layout import PAGE, START, TEXT, Frame, Path, Point,
 from geneva_cli.output.strokes import LIGHT, colour, dashes
 
 INCH = 82.0  # px of the layout per inch: the page is ten inches wide
-DPI = 150
 PT = 72.0 / INCH  # points per px
-HOLD = {"start": "left", "middle": "center", "end": "right"}
-# Lines are not moved to whole pixels, dashes are in points, and paths are not simplified.
-SETTINGS: Any = {"path.snap": False, "lines.scale_dashes": False, "path.simplify": False}
 
 
 def written(figure: Figure) -> bytes:
@@ -29,26 +25,27 @@ def written(figure: Figure) -> bytes:
         from matplotlib.figure import Figure as Page
     except ImportError:
         raise GenevaError(
-            "png needs matplotlib, which is not here: pip install 'geneva-cli[plot]', or write "
-            "an .svg or a .pdf"
+            "png needs matplotlib, which is not installed: pip install 'geneva-cli[plot]', or "
+            "write an .svg or a .pdf"
         ) from None
-    made = list(blocks(figure))
-    tall = sum(block.high for block in made)
-    with mpl.rc_context(SETTINGS):
+    parts = list(blocks(figure))
+    tall = sum(block.high for block in parts)
+    # Lines are not moved to whole pixels, dashes are in points, and paths are not simplified.
+    with mpl.rc_context({"path.snap": False, "lines.scale_dashes": False, "path.simplify": False}):
         page = Page(figsize=(PAGE / INCH, tall / INCH))
         axes = page.add_axes((0.0, 0.0, 1.0, 1.0), xlim=(0.0, PAGE), ylim=(tall, 0.0))
         axes.set_axis_off()
         top = 0.0
-        for block in made:
-            block.draw(_Pen(axes), top)
+        for block in parts:
+            block.draw(_PngPen(axes), top)
             top += block.high
         out = io.BytesIO()
         # a file holds neither its date nor the program's version
-        page.savefig(out, format="png", dpi=DPI, metadata={"Software": None})
+        page.savefig(out, format="png", dpi=150, metadata={"Software": None})
     return out.getvalue()
 
 
-class _Pen:
+class _PngPen:
     """Lines and texts on axes as large as the page, in px."""
 
     def __init__(self, axes: Any) -> None:
@@ -89,7 +86,8 @@ class _Pen:
         self._dot(number, place, 5.6)
 
     def text(self, x: float, y: float, text: str, size: float = TEXT, hold: str = START) -> None:
-        self._words(x, y, text, size=PT * size, ha=HOLD[hold])
+        alignment = {"start": "left", "middle": "center", "end": "right"}
+        self._words(x, y, text, size=PT * size, ha=alignment[hold])
 
     def bold(self, x: float, y: float, text: str, size: float = TEXT) -> None:
         self._words(x, y, text, size=PT * size, weight="bold")

@@ -17,7 +17,7 @@ from geneva_cli.output.ticks import named
 
 def chunks(figure: Figure) -> Iterator[str]:
     """Yield the file's text."""
-    known, pen, tall = figure.curves(), _Pen(), 0.0
+    known, pen, tall = figure.curves(), _SvgPen(), 0.0
     for block in blocks(figure):
         block.draw(pen, tall)
         tall += block.high
@@ -49,8 +49,8 @@ def _style(paper: Paper, known: Iterable[int]) -> str:
 
 
 def _dashes(known: Iterable[int]) -> str:
-    given = [(n, " ".join(map(_n, dashes(n)))) for n in known]
-    own = "".join(f".c{n} {{ stroke-dasharray: {d} }}\n" for n, d in given if d)
+    patterns = [(n, " ".join(map(_n, dashes(n)))) for n in known]
+    own = "".join(f".c{n} {{ stroke-dasharray: {d} }}\n" for n, d in patterns if d)
     return (
         "path { fill: none } .curve { stroke-width: 1.6; stroke-linejoin: round }\n"
         f"{own}.jump {{ stroke-width: 0.8; stroke-dasharray: none }}\n"
@@ -58,7 +58,7 @@ def _dashes(known: Iterable[int]) -> str:
     )
 
 
-class _Pen:
+class _SvgPen:
     """Elements of an SVG."""
 
     def __init__(self) -> None:

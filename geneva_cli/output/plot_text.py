@@ -11,22 +11,15 @@ from collections.abc import Callable, Iterator
 from geneva_cli.errors import clean, cut
 from geneva_cli.figure import LINE, POINTS, Curve, Figure, Panel
 from geneva_cli.output.layout import width_of, wrapped
-from geneva_cli.output.ticks import labels, said, ticks
+from geneva_cli.output.ticks import labels, mark_text, ticks
 
-MARKS = "*o+x#@%&=~^$"  # of curves that share a panel, and of one curve in ASCII
-WIDTH = 80  # of a pipe or a file
-NARROW, WIDE = 40, 140
-HIGH = {1: 16, 2: 12}  # lines of a panel, by their number
-LOW = 7  # if there are more
+MARKS = "*o+x#@%&=~^$"  # of several curves in a panel, and of one curve in ASCII
 LABEL = 10  # letters for the numbers of the upright axis
-# The bit of each dot of a Braille letter, from top to bottom, left and right.
-DOTS = ((0x01, 0x08), (0x02, 0x10), (0x04, 0x20), (0x40, 0x80))
-BRAILLE = 0x2800
 
 
-def chunks(figure: Figure, columns: int = WIDTH, unicode: bool = False) -> Iterator[str]:
+def chunks(figure: Figure, columns: int = 80, unicode: bool = False) -> Iterator[str]:
     """The chart's lines, none longer than ``columns``."""
-    columns = min(max(columns, NARROW), WIDE)
+    columns = min(max(columns, 40), 140)
     wide = columns - LABEL - 3
     known = figure.curves()
     yield from _lines(clean(figure.title).strip(), columns)
@@ -34,10 +27,11 @@ def chunks(figure: Figure, columns: int = WIDTH, unicode: bool = False) -> Itera
         for curve in known.values():
             yield from _lines(f"  {MARKS[curve.number]}  {clean(curve.name)}", columns)
     ground, dwell = ("─", "░") if unicode else ("-", ":")
+    lines = {1: 16, 2: 12}.get(len(figure.panels), 7)  # of a panel, by the number of panels
     for panel in figure.panels:
         yield "\n"
         yield from _heading(panel, columns, len(known) > 1, figure.x.unit)
-        grid = _grid(figure, panel, wide, HIGH.get(len(figure.panels), LOW), unicode)
+        grid = _grid(figure, panel, wide, lines, unicode)
         yield from grid
     rests = [_column(x, figure, wide) for pair in figure.shaded for x in pair]
     foot = [ground] * wide
@@ -64,9 +58,11 @@ def _heading(panel: Panel, columns: int, several: bool, unit: str) -> Iterator[s
         yield from _lines(name, columns)
         for curve in panel.curves:
             for mark in curve.marks:
-                yield from _lines(f"  {MARKS[curve.number]}  {said(mark, f' {unit}')}", columns)
+                yield from _lines(
+                    f"  {MARKS[curve.number]}  {mark_text(mark, f' {unit}')}", columns
+                )
         return
-    peaks = ", ".join(said(m, f" {unit}".rstrip()) for c in panel.curves for m in c.marks)
+    peaks = ", ".join(mark_text(m, f" {unit}".rstrip()) for c in panel.curves for m in c.marks)
     yield from _lines(f"{name}: {peaks}" if peaks else name, columns)
 
 
@@ -80,10 +76,10 @@ def _grid(figure: Figure, panel: Panel, wide: int, high: int, unicode: bool) -> 
     def row(y: float) -> int:
         return min(max(round((top - y) / step), 0), high - 1)
 
-    beside = [""] * high
+    numbers = [""] * high
     at = ticks(low, top, max(high // 2, 2))
     for value, label in zip(at, labels(at), strict=True):
-        beside[row(value)] = label
+        numbers[row(value)] = label
     rows = [[" "] * wide for _ in range(high)]
     if low <= 0.0 <= top:
         rows[row(0.0)] = list(("·" if unicode else ".") * wide)
@@ -94,7 +90,7 @@ def _grid(figure: Figure, panel: Panel, wide: int, high: int, unicode: bool) -> 
             for x, y in _walk(curve, figure, wide, lambda y: (top - y) / step):
                 rows[min(max(y, 0), high - 1)][min(max(x, 0), wide - 1)] = MARKS[curve.number]
     bar = "│" if unicode else "|"
-    for label, cells in zip(beside, rows, strict=True):
+    for label, cells in zip(numbers, rows, strict=True):
         yield f"{label:>{LABEL}} {bar}{''.join(cells)}".rstrip() + "\n"
 
 
@@ -102,12 +98,14 @@ def _braille(figure: Figure, curve: Curve, rows: list[list[str]], low: float, to
     """Draw one curve in dots, with twice the resolution of letters across and four times up."""
     high, wide = len(rows), len(rows[0])
     step = (top - low) / (4 * high - 1)
+    # The bit of each dot of a Braille letter, from top to bottom, left and right.
+    dots = ((0x01, 0x08), (0x02, 0x10), (0x04, 0x20), (0x40, 0x80))
     bits: dict[tuple[int, int], int] = {}
     for x, y in _walk(curve, figure, 2 * wide, lambda y: (top - y) / step):
         x, y = min(max(x, 0), 2 * wide - 1), min(max(y, 0), 4 * high - 1)
-        bits[y // 4, x // 2] = bits.get((y // 4, x // 2), 0) | DOTS[y % 4][x % 2]
-    for (y, x), found in bits.items():
-        rows[y][x] = chr(BRAILLE + found)
+        bits[y // 4, x // 2] = bits.get((y // 4, x // 2), 0) | dots[y % 4][x % 2]
+    for (y, x), letter_bits in bits.items():
+        rows[y][x] = chr(0x2800 + letter_bits)  # Unicode's Braille patterns
 
 
 def _walk(
@@ -123,8 +121,8 @@ def _walk(
                 steps = max(1, *(2 * round(abs(a - b)) for a, b in zip(here, last, strict=True)))
             a, b = last or here
             for i in range(1, steps + 1):
-                share = i / steps
-                yield round(a + share * (here[0] - a)), round(b + share * (here[1] - b))
+                fraction = i / steps
+                yield round(a + fraction * (here[0] - a)), round(b + fraction * (here[1] - b))
             last = here
         last = last if curve.style == LINE else None
 

@@ -15,11 +15,8 @@ from geneva_cli.output.window import Window
 
 FENCE = "```"
 INDENT = "  "  # of code
-CODED = 4 * " "  # before a line of code without fences
 LINK = re.compile(r"\[([^]]+)\]\([^)]*\)")
 CODE = re.compile(r"`([^`]+)`|\*\*([^*]+)\*\*")
-RULE = re.compile(r"\|[-:| ]+")  # below the headings of a table
-BLOCK = re.compile(r"(?=[-*] |#|\||```)")  # starts a block, even without an empty line before it
 
 
 def chunks(text: str, window: Window) -> Iterator[str]:
@@ -31,6 +28,7 @@ def chunks(text: str, window: Window) -> Iterator[str]:
 
 def _blocks(text: str) -> Iterator[list[str]]:
     """The lines of each heading, paragraph, item, table and code block, and empty ones between."""
+    start = re.compile(r"(?=[-*] |#|\||```)")  # of a block, even without an empty line before it
     block: list[str] = []
     for line in text.splitlines():
         if block and block[0].startswith(FENCE):
@@ -41,7 +39,7 @@ def _blocks(text: str) -> Iterator[list[str]]:
                 block.append(line)
             continue
         is_row = line.startswith("|") and block and block[0].startswith("|")
-        if block and not is_row and (not line or BLOCK.match(line) or block[0].startswith("#")):
+        if block and not is_row and (not line or start.match(line) or block[0].startswith("#")):
             yield block
             block = []
         if line:
@@ -57,7 +55,7 @@ def _shown(block: list[str], window: Window) -> Iterator[str]:
     if first.startswith(FENCE):
         for line in block[1:]:
             yield from (INDENT + part for part in _broken(line, window.columns - len(INDENT)))
-    elif first.startswith(CODED):
+    elif first.startswith(4 * " "):  # code without fences
         for line in block:
             yield from _broken(line, window.columns)
     elif first.startswith("|"):
@@ -85,7 +83,8 @@ def _broken(line: str, width: int) -> list[str]:
 def _table(block: list[str], window: Window) -> Iterator[str]:
     """A table; if it is too wide, its rows one after the other."""
     rows = [[_bare(cell.strip()) for cell in line.strip("|").split("|")] for line in block]
-    names, *rows = [r for r, line in zip(rows, block, strict=True) if not RULE.fullmatch(line)]
+    rule = re.compile(r"\|[-:| ]+")  # the line below the headings
+    names, *rows = [r for r, line in zip(rows, block, strict=True) if not rule.fullmatch(line)]
     columns = [
         ShownColumn(name, name, "", cells, True) for name, *cells in zip(names, *rows, strict=True)
     ]
@@ -103,7 +102,7 @@ def _table(block: list[str], window: Window) -> Iterator[str]:
 
 def _bare(text: str) -> str:
     """A line of text without Markdown."""
-    return CODE.sub(lambda found: found[1] or found[2], LINK.sub(r"\1", text))
+    return CODE.sub(lambda match: match[1] or match[2], LINK.sub(r"\1", text))
 
 
 def _marked(text: str, window: Window) -> str:
@@ -111,8 +110,8 @@ def _marked(text: str, window: Window) -> str:
     if not window.styled:
         return text
 
-    def bold(found: re.Match[str]) -> str:
-        words = found[1] or found[2]
+    def bold(match: re.Match[str]) -> str:
+        words = match[1] or match[2]
         return BOLD + words.replace("\n", f"{PLAIN}\n{BOLD}") + PLAIN
 
     return CODE.sub(bold, text)

@@ -1,4 +1,4 @@
-"""Rows of a growing table: csv on standard output or in a file, or parquet made from it."""
+"""Rows of a growing table: csv on standard output or in a file, or parquet."""
 
 from __future__ import annotations
 
@@ -13,14 +13,12 @@ from geneva_cli.output.delimited import one_line
 from geneva_cli.output.finite import refuse_nonsense
 from geneva_cli.output.growing import Closing, Growing
 
-ENDINGS = (".csv", ".parquet")
-
 
 class Growth(Closing):
     """The destination of the rows of ``names``, ``done`` of which exist already.
 
-    ``key`` is all that they depend on, for ``resume``, which ``found`` says what of; a later share
-    of a table has no ``header``.
+    ``key`` is all that they depend on, for ``resume``; ``message`` says what that does. A later
+    shard of a table has no ``header``.
     """
 
     def __init__(
@@ -34,11 +32,11 @@ class Growth(Closing):
     ) -> None:
         refuse_columns()
         self.names, self.output, self.done = names, output, 0
-        self.is_whole, self.found = False, ""
+        self.is_whole, self.message = False, ""
         self.file: Growing | None = None
         self.parquet = output.endswith(".parquet")
-        if output != "-" and not output.endswith(ENDINGS):
-            raise GenevaError(f'-o "{cut(output, 300)}": it must end in {" or ".join(ENDINGS)}')
+        if output != "-" and not output.endswith((".csv", ".parquet")):
+            raise GenevaError(f'-o "{cut(output, 300)}": it must end in .csv or .parquet')
         if self.parquet:
             from geneva_cli.output.parquet import refuse_without
 
@@ -48,9 +46,9 @@ class Growth(Closing):
         if output != "-":
             self.file = Growing(output, first, key, resume, inputs)
             self.done = self.file.done
-            self.is_whole, self.found = self.file.is_whole, self.file.found
+            self.is_whole, self.message = self.file.is_whole, self.file.message
         elif resume:
-            raise GenevaError("--resume goes on with a file: give -o FILE")
+            raise GenevaError("--resume continues a file: give -o FILE")
         else:
             sys.stdout.write(first)
 

@@ -1,9 +1,9 @@
 """The state file of a run that grows a file: its lock, its request, and all rows so far.
 
-``FILE.geneva`` stands beside ``FILE``. Its first line names the program and the request. Each block
-of rows follows a line with its numbers of rows and bytes and a digest. The digest covers the first
-line and all blocks so far, so that a changed, lost or repeated block is noticed. Once the file is
-whole, a line with the digest of that file replaces the blocks.
+``FILE.geneva`` is in the folder of ``FILE``. Its first line names the program and the request. Each
+block of rows follows a line with its numbers of rows and bytes and a digest. The digest covers the
+first line and all blocks so far, so that a changed, lost or repeated block is noticed. Once the
+file is whole, a line with the digest of that file replaces the blocks.
 """
 
 from __future__ import annotations
@@ -24,11 +24,9 @@ from geneva_cli.output.files import refuse_input
 SUFFIX = ".geneva"
 TITLE = b"geneva sweep state 1 "
 LINE_MAX = 1000  # bytes of a line of ours; a foreign file may have one of gigabytes
-BLOCK_LINE = re.compile(rb"block (\d{1,18}) (\d{1,18}) ([0-9a-f]{64})\n")
-WHOLE_LINE = re.compile(rb"whole ([0-9a-f]{64})\n")
 
 
-class State:
+class StateFile:
     """An open state file, locked so that no second run writes it.
 
     ``request`` is that of an earlier run, None if there was none. Raises GenevaError if another
@@ -71,7 +69,8 @@ class State:
         self.file.seek(0)
         self.digest = hashlib.sha256(self.file.read(self.start))
         self.end = self.start
-        while line := BLOCK_LINE.fullmatch(self.file.readline(LINE_MAX)):
+        head = re.compile(rb"block (\d{1,18}) (\d{1,18}) ([0-9a-f]{64})\n")
+        while line := head.fullmatch(self.file.readline(LINE_MAX)):
             rows, length = int(line[1]), int(line[2])
             if length > size - self.file.tell():
                 return
@@ -106,7 +105,7 @@ class State:
     def whole_digest(self) -> str | None:
         """Return the digest of the whole file, None if its rows are not complete yet."""
         self.file.seek(self.start)
-        line = WHOLE_LINE.fullmatch(self.file.readline(LINE_MAX))
+        line = re.fullmatch(rb"whole ([0-9a-f]{64})\n", self.file.readline(LINE_MAX))
         return line[1].decode() if line else None
 
     def mark_whole(self, digest: str) -> None:

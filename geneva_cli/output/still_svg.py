@@ -15,27 +15,23 @@ from geneva_cli.scene import place_at, pose, value_at
 if TYPE_CHECKING:
     from geneva_cli.scene import Bar, Body, Place, Scene
 
-WIDE = 640.0  # px
-MARGIN = 0.02  # of the greater side
 BETWEEN = 0.12  # fraction of the turn: the first roller is in its slot
-STROKE, LINK, JOINT = 0.004, 0.012, 0.008  # of the greater side
 GREY, BROWN = "#757575", "#a56752"
-OPEN = ("PITCH", "GROOVE", "SLOT")  # layers of lines
-HOLES = ("BORE", "HOLLOW")
 
 
 def chunks(scene: Scene) -> Iterator[str]:
     """The file's text, legible on light and on dark pages."""
     x0, y0, x1, y1 = scene.box
     size = max(x1 - x0, y1 - y0)
-    margin, t = MARGIN * size, BETWEEN * scene.turn_deg
+    margin, t = 0.02 * size, BETWEEN * scene.turn_deg
     wide, high = x1 - x0 + 2.0 * margin, y1 - y0 + 2.0 * margin
     view = " ".join(f"{v:.6g}" for v in (x0 - margin, -y1 - margin, wide, high))
+    width_px = 640.0
     yield (
         '<?xml version="1.0" encoding="UTF-8"?>\n'
-        f'<svg xmlns="http://www.w3.org/2000/svg" width="{WIDE:g}" '
-        f'height="{WIDE * high / wide:.6g}" viewBox="{view}" fill="none" '
-        f'stroke-width="{STROKE * size:.6g}" stroke-linejoin="round" stroke-linecap="round">\n'
+        f'<svg xmlns="http://www.w3.org/2000/svg" width="{width_px:g}" '
+        f'height="{width_px * high / wide:.6g}" viewBox="{view}" fill="none" '
+        f'stroke-width="{0.004 * size:.6g}" stroke-linejoin="round" stroke-linecap="round">\n'
         f"<title>{escape(clean(scene.title))}</title>\n"
     )
     for body in scene.bodies:
@@ -55,7 +51,8 @@ def _body(body: Body, t: float) -> Iterator[str]:
         ink = INKS[shape.layer].rgb if shape.layer in INKS else GREY
         if shape.layer == "HOLLOW":
             ink = INKS["WHEEL"].rgb
-        fill = "none" if shape.layer in (*OPEN, *HOLES) else f"{ink}26"
+        is_open = shape.layer in ("PITCH", "GROOVE", "SLOT", "BORE", "HOLLOW")  # lines and holes
+        fill = "none" if is_open else f"{ink}26"
         yield f'<g stroke="{ink}" fill="{fill}">{element(shape).strip()}</g>\n'
     yield "</g>\n"
 
@@ -78,10 +75,10 @@ def _bar(bar: Bar, t: float, size: float) -> Iterator[str]:
         points = " ".join(f"{x:.6g},{y:.6g}" for x, y in joints)
         yield (
             f'<polygon points="{points}" stroke="{BROWN}" fill="{BROWN}33" '
-            f'stroke-width="{LINK * size:.6g}"/>\n'
+            f'stroke-width="{0.012 * size:.6g}"/>\n'
         )
     for joint in joints:
-        yield _circle(joint, JOINT * size, f'stroke="{GREY}" fill="#ffffff"')
+        yield _circle(joint, 0.008 * size, f'stroke="{GREY}" fill="#ffffff"')
 
 
 def _circle(at: tuple[float, float], r: float, paint: str) -> str:

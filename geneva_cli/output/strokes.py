@@ -36,14 +36,6 @@ DARK = Paper(
     "#22272d",
     ("#56b4e9", "#ff8a3c", "#1fc79b", "#e79ac9", "#d0d0d0", "#f0d94a"),
 )
-DASHES = (
-    (),
-    (7.0, 3.0),
-    (2.0, 2.5),
-    (10.0, 3.0, 2.0, 3.0),
-    (14.0, 5.0),
-    (7.0, 2.5, 2.0, 2.5, 2.0, 2.5),
-)
 
 
 def colour(number: int, paper: Paper) -> str:
@@ -53,4 +45,12 @@ def colour(number: int, paper: Paper) -> str:
 
 def dashes(number: int) -> tuple[float, ...]:
     """Dash and gap of a curve by its number, px; none for a solid line."""
-    return DASHES[(number + number // len(DASHES)) % len(DASHES)]
+    patterns = (
+        (),
+        (7.0, 3.0),
+        (2.0, 2.5),
+        (10.0, 3.0, 2.0, 3.0),
+        (14.0, 5.0),
+        (7.0, 2.5, 2.0, 2.5, 2.0, 2.5),
+    )
+    return patterns[(number + number // len(patterns)) % len(patterns)]

@@ -8,37 +8,21 @@ import textwrap
 from collections.abc import Iterable, Iterator
 from typing import NamedTuple
 
-from geneva_cli.document import FAILS, PASSES, WARNS, Line, Summary
+from geneva_cli.document import FAILS, PASSES, WARNS, Summary, SummaryLine
 from geneva_cli.errors import clean
 from geneva_cli.output.document.values import RAISED, TIMES
 from geneva_cli.output.layout import DIM, styled
 from geneva_cli.output.markdown import escaped
 from geneva_cli.output.window import window
 
-WIDTH = 90  # letters of a line in a file or a pipe
-WIDEST = 100  # letters of a line in a wide window: longer ones are hard to read
-LABEL = 20  # letters; a longer label stands above its text
 SIGNS = {PASSES: "✓", WARNS: "!", FAILS: "✗"}
 INKS = {PASSES: "\x1b[32m", WARNS: "\x1b[33m", FAILS: "\x1b[31m"}  # green, yellow, red
-# Replacements for letters that the terminal's encoding lacks.
-ASCII = {
-    "✓": "ok",
-    "✗": "x",
-    "°": " deg",
-    "²": "2",
-    "³": "3",
-    "Ø": "dia.",
-}
-UNICODE = "✓✗°²³⁻⁵"
-NO_BREAK = "\u00a0"  # a space without a line break
-POWER = re.compile(f"{TIMES}10([⁻⁰¹²³⁴⁵⁶⁷⁸⁹]+)")
-LOWERED = {raised: plain for plain, raised in RAISED.items()}
 
 
 class Look(NamedTuple):
     """The look of a summary on a stream."""
 
-    width: int = WIDTH
+    width: int = 90  # letters of a line
     coloured: bool = False
     unicode: bool = True
 
@@ -48,14 +32,15 @@ def look_of(output: str, is_seen: bool) -> Look:
     if output != "-":
         return Look()
     try:
-        UNICODE.encode(sys.stdout.encoding or "ascii")
+        "✓✗°²³⁻⁵".encode(sys.stdout.encoding or "ascii")
         unicode = True
     except (UnicodeEncodeError, LookupError):
         unicode = False
     if not is_seen:
         return Look(unicode=unicode)
-    seen = window(False, False)
-    return Look(min(seen.columns, WIDEST), seen.styled, unicode)
+    terminal = window(False, False)
+    # Lines of more than 100 letters are hard to read.
+    return Look(min(terminal.columns, 100), terminal.styled, unicode)
 
 
 def chunks(summaries: Iterable[Summary], look: Look) -> Iterator[str]:
@@ -80,14 +65,15 @@ def _head(summary: Summary, look: Look) -> str:
     return f"{sign} {text}\n" if sign else f"{text}\n"
 
 
-def _lines(lines: Iterable[Line], look: Look) -> Iterator[str]:
+def _lines(lines: Iterable[SummaryLine], look: Look) -> Iterator[str]:
     lines = list(lines)
-    wide = max((len(line.label) for line in lines if len(line.label) <= LABEL), default=0)
-    room = look.width - wide - 4
+    label_max = 20  # letters; a longer label stands above its text
+    wide = max((len(line.label) for line in lines if len(line.label) <= label_max), default=0)
+    width = look.width - wide - 4
     for line in lines:
         label = styled(clean(line.label), INKS.get(line.state, ""), look.coloured)
-        texts = _wrapped(line.text, room, look)
-        notes = [styled(note, DIM, look.coloured) for note in _wrapped(line.note, room, look)]
+        texts = _wrapped(line.text, width, look)
+        notes = [styled(note, DIM, look.coloured) for note in _wrapped(line.note, width, look)]
         first = f"  {label}{' ' * (wide - len(line.label))}  "
         if len(line.label) > wide:
             yield f"  {label}\n"
@@ -96,19 +82,23 @@ def _lines(lines: Iterable[Line], look: Look) -> Iterator[str]:
             yield f"{' ' * (wide + 4) if number else first}{text}".rstrip() + "\n"
 
 
-def _wrapped(text: str, room: int, look: Look) -> list[str]:
+def _wrapped(text: str, width: int, look: Look) -> list[str]:
     """A text in lines; a value is not separated from its power of ten."""
-    text = _letters(NO_BREAK.join(map(clean, text.split(NO_BREAK))), look)
-    lines = textwrap.wrap(text, max(room, 1), break_long_words=False, break_on_hyphens=False)
-    return [line.replace(NO_BREAK, " ") for line in lines]
+    no_break = "\u00a0"  # a space without a line break
+    text = _letters(no_break.join(map(clean, text.split(no_break))), look)
+    lines = textwrap.wrap(text, max(width, 1), break_long_words=False, break_on_hyphens=False)
+    return [line.replace(no_break, " ") for line in lines]
 
 
 def _letters(text: str, look: Look) -> str:
     """A text in the letters of the stream."""
     if look.unicode:
         return text
-    text = POWER.sub(lambda power: f"e{power[1].translate(LOWERED)}", text)
-    return "".join(ASCII.get(letter, letter) for letter in text)
+    lowered = {raised: plain for plain, raised in RAISED.items()}
+    power = f"{TIMES}10([⁻⁰¹²³⁴⁵⁶⁷⁸⁹]+)"
+    text = re.sub(power, lambda match: f"e{match[1].translate(lowered)}", text)
+    ascii_letters = {"✓": "ok", "✗": "x", "°": " deg", "²": "2", "³": "3", "Ø": "dia."}
+    return "".join(ascii_letters.get(letter, letter) for letter in text)
 
 
 def markdown(summaries: Iterable[Summary]) -> Iterator[str]:

@@ -23,10 +23,6 @@ from geneva_cli.output.svg_paths import element, number
 STROKE = 0.25
 MARGIN = 2.0
 SIZE = 250.0
-LOOKED = 1.6  # ratio of line widths in drawings to view
-ROOM = 2.0  # ratio of their margins
-FAINT = 0.6  # ratio of widths: lines of rollers' paths and hidden lines
-BELOW = {"FRAME"}  # layers below all others
 
 
 def chunks(drawing: Drawing, units: str, fill: str = "") -> Iterator[str]:
@@ -40,25 +36,25 @@ def chunks(drawing: Drawing, units: str, fill: str = "") -> Iterator[str]:
     if fill not in FILLS:
         raise GenevaError(f"--fill {cut(fill)}: it must be one of {', '.join(FILLS)}")
     if fill != "none" and solid is None:
-        raise GenevaError("--fill: nothing here is a plate; leave it out")
+        raise GenevaError("--fill: this drawing has no plates; leave it out")
     drawing = prepared(drawing, units)
     box, suffix = extent(drawing), SUFFIX[units]
     size = max(box.x1 - box.x0, box.y1 - box.y0)
     mm = size / SIZE if look else 1.0 / UNITS[units]
     title = clean(drawing.title).strip()
     noted, frame = notes(look, box, title, mm, units) if look else ([], box)
-    margin = mm * (ROOM * MARGIN if look else MARGIN + STROKE)
+    margin = mm * (2.0 * MARGIN if look else MARGIN + STROKE)
     yield _head(frame, margin, title, suffix)
     if look:
         yield style(drawing.layers, frame, margin)
     if solid is not None and fill != "none":
         yield from filled(solid, fill, UNITS[units], mm)
     for layer, ink in inks(drawing.layers).items():
-        dashes, stroke = "", mm * STROKE * (LOOKED if look else 1.0)
+        dashes, stroke = "", mm * STROKE * (1.6 if look else 1.0)  # wider lines to view
         if layer in CENTRE_LINES:
             dashes = f' stroke-dasharray="{" ".join(number(mm * d) for d in DASHES)}"'
-        if look and layer in (*CENTRE_LINES, *BELOW):
-            stroke *= FAINT
+        if look and layer in (*CENTRE_LINES, "FRAME"):  # rollers' paths, and the lowest layer
+            stroke *= 0.6
         yield (
             f'<g id={quoteattr(layer)} stroke="{ink.rgb}" stroke-width="{number(stroke)}"{dashes}>'
             "\n"

@@ -14,11 +14,6 @@ from geneva_cli.curves.shapes import Contour, Point, Shape, about
 from geneva_cli.output.inks import INKS, inks
 from geneva_cli.output.svg_paths import number, path
 
-TINTS = {"ROLLER": 0.55}  # opacity; of other layers:
-TINT = 0.16
-HATCH, RULE = 4.0, 0.25  # mm: distance of hatch lines, and their width
-TURNS = (45, 135, 75, 105, 15, 165)  # degrees: of the hatches of layers, in turn
-
 Move = Callable[[Shape], Shape]
 
 
@@ -27,15 +22,16 @@ def filled(solid: Part, fill: str, unit: float, mm: float) -> Iterator[str]:
     every = rings(solid, unit)
     here = dict.fromkeys(layer for layer, _ in every)
     layers = tuple(sorted(here, key=[*INKS, *here].index))  # the wheel's hatch first
+    turns_deg = (45, 135, 75, 105, 15, 165)  # of the layers' hatches, in turn
     if fill == "hatch":
         yield "<defs>\n"
-        for turn, (layer, ink) in zip(TURNS * len(layers), inks(layers).items(), strict=False):
-            step = number(mm * HATCH)
+        for turn, (layer, ink) in zip(turns_deg * len(layers), inks(layers).items(), strict=False):
+            step = number(mm * 4.0)  # distance of hatch lines
             yield (
                 f'<pattern id="hatch-{layer}" width="{step}" height="{step}"'
                 f' patternUnits="userSpaceOnUse" patternTransform="rotate({turn})">'
                 f'<path d="M 0,0 L {step},0" stroke="{ink.rgb}"'
-                f' stroke-width="{number(mm * RULE)}"/></pattern>\n'
+                f' stroke-width="{number(mm * 0.25)}"/></pattern>\n'
             )
         yield "</defs>\n"
     yield '<g id="FILL" stroke="none" fill-rule="evenodd">\n'
@@ -43,9 +39,14 @@ def filled(solid: Part, fill: str, unit: float, mm: float) -> Iterator[str]:
         if fill == "hatch":
             how = f'fill="url(#hatch-{layer})"'
         else:
-            how = f'fill="{inks(layers)[layer].rgb}" fill-opacity="{TINTS.get(layer, TINT)}"'
+            how = f'fill="{inks(layers)[layer].rgb}" fill-opacity="{opacity(layer)}"'
         yield f'<path {how} d="{" ".join(map(path, contours))}"/>\n'
     yield "</g>\n"
+
+
+def opacity(layer: str) -> float:
+    """Opacity of a layer's tint, from 0 to 1."""
+    return 0.55 if layer == "ROLLER" else 0.16
 
 
 def rings(solid: Part, unit: float = 1.0) -> list[tuple[str, list[Contour]]]:

@@ -14,14 +14,8 @@ from geneva_cli.output.letters import width
 from geneva_cli.output.strokes import DARK, LIGHT
 from geneva_cli.output.svg_paths import number, path, place, point
 
-# In mm, for a drawing of size ``svg.SIZE``:
-STROKE = 0.25
-GAP = 3.0
-TEXT = 5.0  # height of letters
-TICK = 1.5  # half a scale bar's end mark
-ARROW = 4.5, 0.9  # an arrow's length, and half its width
-GREY = "#757575"
-BRIGHTER = 0.45  # fraction of the way to white, for inks on a dark page
+TEXT = 5.0  # height of letters, mm in a drawing of size ``svg.SIZE``
+ARROW = 4.5, 0.9  # an arrow's length, and half its width, mm in that drawing
 
 
 def style(layers: tuple[str, ...], frame: Box, margin: float) -> str:
@@ -51,7 +45,8 @@ def notes(look: Annotations, box: Box, title: str, mm: float, units: str) -> tup
     lines: list[str] = []
     heads: list[str] = []
     texts: list[tuple[Point, str]] = []
-    unit, text, gap = UNITS[units], mm * TEXT, mm * GAP
+    # All lengths are in mm, for a drawing of size ``svg.SIZE``.
+    unit, text, gap, grey = UNITS[units], mm * TEXT, mm * 3.0, "#757575"
     left, right, low, high = box.x0, box.x1, box.y0, box.y1
     for turn in look.turns:
         arc = mapped(Contour("", (turn,), closed=False), lambda p: (p[0] / unit, p[1] / unit))
@@ -61,8 +56,8 @@ def notes(look: Annotations, box: Box, title: str, mm: float, units: str) -> tup
         back = 0.5 * mm * ARROW[0] / piece.radius  # of the arc under the arrow's head
         x, y = piece.centre
         end = math.atan2(piece.end[1] - y, piece.end[0] - x)
-        way = math.copysign(1.0, piece.bulge)
-        heads.append(_head(at(piece, 1.0), end + way * (0.5 * math.pi - back), mm))
+        sense = math.copysign(1.0, piece.bulge)
+        heads.append(_head(at(piece, 1.0), end + sense * (0.5 * math.pi - back), mm))
         around = bounds(arc)
         left, right = min(left, around.x0), max(right, around.x1)
         low, high = min(low, around.y0), max(high, around.y1)
@@ -74,7 +69,7 @@ def notes(look: Annotations, box: Box, title: str, mm: float, units: str) -> tup
         start = 0.5 * (a + b - width(shown) * text)
         texts.append(((start, low + 0.35 * text), shown))
         left, right = min(left, start), max(right, start + width(shown) * text)
-    tick = mm * TICK
+    tick = mm * 1.5  # half a scale bar's end mark
     bar = round_length(0.2 * (box.x1 - box.x0 or box.y1 - box.y0))
     y = low - gap - max(tick, 0.5 * text)
     marks = (left, left + bar)
@@ -88,13 +83,13 @@ def notes(look: Annotations, box: Box, title: str, mm: float, units: str) -> tup
         texts.append(((left, low - 1.2 * text), title))
         right = max(right, left + width(title) * text)
         low -= 1.5 * text
-    thin = number(mm * STROKE)
+    thin = number(mm * 0.25)
     ruler = " ".join([*scale, lines.pop()])
     return [
-        f'<g id="NOTES" stroke="{GREY}" stroke-width="{thin}">\n',
+        f'<g id="NOTES" stroke="{grey}" stroke-width="{thin}">\n',
         *(f'<path d="{d}"/>\n' for d in lines),
         f'<path id="SCALE_BAR" d="{ruler}"/>\n</g>\n',
-        f'<g id="ARROWS" fill="{GREY}">\n',
+        f'<g id="ARROWS" fill="{grey}">\n',
         *heads,
         f'</g>\n<g id="TEXT" fill="{LIGHT.text}" font-family="sans-serif"'
         f' font-size="{number(text)}">\n',
@@ -118,17 +113,17 @@ def _shown(span: LevelDistance, units: str) -> str:
 def _span(span: LevelDistance, unit: float, low: float, gap: float) -> list[str]:
     """The path of a distance's line, and of the lines from its ends down to it."""
     (a, b) = _ends(span, unit)
-    found = [f"M {point((a, low))} L {point((b, low))}"]
+    lines = [f"M {point((a, low))} L {point((b, low))}"]
     for x, y in (span.start, span.end):
         here = x / unit
-        found.append(f"M {point((here, y / unit))} L {point((here, low - 0.4 * gap))}")
-    return found
+        lines.append(f"M {point((here, y / unit))} L {point((here, low - 0.4 * gap))}")
+    return lines
 
 
-def _head(tip: Point, way: float, mm: float) -> str:
+def _head(tip: Point, angle: float, mm: float) -> str:
     """An arrow's head."""
     long, half = mm * ARROW[0], mm * ARROW[1]
-    c, s = math.cos(way), math.sin(way)
+    c, s = math.cos(angle), math.sin(angle)
     left, right = (
         (tip[0] - long * c - side * half * s, tip[1] - long * s + side * half * c)
         for side in (1.0, -1.0)
@@ -137,8 +132,9 @@ def _head(tip: Point, way: float, mm: float) -> str:
 
 
 def _brighter(rgb: str) -> str:
+    """An ink for a dark page: 0.45 of the step to white is added."""
     parts = (int(rgb[i : i + 2], 16) for i in (1, 3, 5))
-    return "#" + "".join(f"{round(p + BRIGHTER * (255 - p)):02x}" for p in parts)
+    return "#" + "".join(f"{round(p + 0.45 * (255 - p)):02x}" for p in parts)
 
 
 def round_length(length: float) -> float:

@@ -9,12 +9,6 @@ from __future__ import annotations
 from geneva_cli.curves.measure import halves
 from geneva_cli.curves.shapes import Arc, Circle, Contour, Cubic, Line, Point, Segment, Shape
 
-DECIMALS = 9
-# Bulges of 150, 210 and 300 degrees. Near a half turn the radius determines the centre badly, near
-# a whole turn the chord does. Such arcs are halved.
-HALF_TURN = (0.7673, 1.3032)
-NEARLY_ROUND = 3.7
-
 
 def element(shape: Shape) -> str:
     """The element of a circle or a contour."""
@@ -37,7 +31,9 @@ def path(contour: Contour) -> str:
 def _split(segment: Segment) -> list[Segment]:
     if isinstance(segment, Arc):
         bulge = abs(segment.bulge)
-        if HALF_TURN[0] < bulge < HALF_TURN[1] or bulge > NEARLY_ROUND:
+        # Bulges of 150, 210 and 300 degrees. Near a half turn the radius determines the centre
+        # badly, near a whole turn the chord does. Such arcs are halved.
+        if 0.7673 < bulge < 1.3032 or bulge > 3.7:
             return [part for half in halves(segment) for part in _split(half)]
     return [segment]
 
@@ -63,5 +59,5 @@ def point(p: Point) -> str:
 
 def number(value: float) -> str:
     """A number with fixed decimals, without an exponent or a negative zero."""
-    text = f"{value:.{DECIMALS}f}"
+    text = f"{value:.9f}"
     return text if text.strip("-0.") else text.lstrip("-")

@@ -14,8 +14,6 @@ from geneva_cli.output.values import bare, value
 from geneva_cli.output.window import Window, paragraphs
 from geneva_cli.table import Table
 
-VALUE = 30  # letters for a value beside its label; with fewer it stands below
-
 
 def chunks(table: Table, window: Window) -> Iterator[str]:
     """The table as text, line by line."""
@@ -43,34 +41,35 @@ def _record(table: Table, window: Window) -> Iterator[str]:
 
 def _values(record: Table, window: Window) -> Iterator[str]:
     shown = []
-    for name, found in zip(record.names, next(record.rows(), ()), strict=True):
-        if found is not None and found != "":
+    for name, cell in zip(record.names, next(record.rows(), ()), strict=True):
+        if cell is not None and cell != "":
             group, _, last = name.rpartition(".")
-            shown.append((group, last, found))
+            shown.append((group, last, cell))
     labels = [("  " if group else "") + spoken(last)[0] for group, last, _ in shown]
     width = max(map(width_of, labels), default=0)
     current = ""
-    for label, (group, last, found) in zip(labels, shown, strict=True):
+    for label, (group, last, cell) in zip(labels, shown, strict=True):
         if group != current:
             yield styled(heading(group), BOLD, window.styled)
             current = group
-        yield from _value(label, width, _said(found, spoken(last)[1]), window)
+        yield from _value(label, width, _paragraphs(cell, spoken(last)[1]), window)
 
 
-def _said(found: Any, unit: str) -> list[str]:
+def _paragraphs(cell: Any, unit: str) -> list[str]:
     """The paragraphs of a value."""
-    if not isinstance(found, tuple):
-        return [value(found, unit)]
-    if all(isinstance(one, (int, float)) for one in found) and found:
-        return [f"{', '.join(bare(one, '') for one in found)} {unit}".rstrip()]
-    return [value(one) for one in found] or ["none"]
+    if not isinstance(cell, tuple):
+        return [value(cell, unit)]
+    if all(isinstance(one, (int, float)) for one in cell) and cell:
+        return [f"{', '.join(bare(one, '') for one in cell)} {unit}".rstrip()]
+    return [value(one) for one in cell] or ["none"]
 
 
 def _value(label: str, width: int, texts: list[str], window: Window) -> Iterator[str]:
     """A label and its value, in several lines if it is long."""
-    beside = window.columns - width - len(GAP)
-    if len(texts) == 1 and (width_of(texts[0]) <= beside or beside >= VALUE):
-        first, *more = wrapped(texts[0], beside)
+    free = window.columns - width - len(GAP)
+    # A long value stands below its label if fewer than 30 letters are free behind it.
+    if len(texts) == 1 and (width_of(texts[0]) <= free or free >= 30):
+        first, *more = wrapped(texts[0], free)
         yield f"{label}{' ' * (width - width_of(label))}{GAP}{first}"
         for line in more:
             yield " " * (width + len(GAP)) + line

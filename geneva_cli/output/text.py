@@ -10,9 +10,7 @@ from typing import Any
 from geneva_cli.errors import clean
 from geneva_cli.table import Table, flat, in_digits, record_table
 
-WIDTH = 90
-NOISE = 1e-13
-DIGITS = 7  # significant digits for people; csv and json have all
+WIDTH = 90  # letters of a line in a file or a pipe
 
 
 def chunks(table: Table) -> Iterator[str]:
@@ -31,7 +29,7 @@ def cell(value: Any) -> str:
     if isinstance(value, bool):
         return "yes" if value else "no"
     if isinstance(value, float):
-        return in_digits(value, DIGITS)
+        return in_digits(value, 7)  # enough for people; csv and json have all digits
     return clean(str(value))
 
 
@@ -73,14 +71,14 @@ def _plain(table: Table) -> Iterator[str]:
 
 
 def without_noise(block: list[tuple[Any, ...]]) -> Iterator[list[Any]]:
-    """Rows in which numbers that are only rounding compared with their column's largest are 0."""
+    """Rows in which numbers below 1e-13 of their column's largest, which are rounding, are 0."""
     scales = [
         max((abs(v) for v in column if isinstance(v, float) and v == v), default=0.0)
         for column in zip(*block, strict=True)
     ]
     for row in block:
         yield [
-            0.0 if isinstance(v, float) and abs(v) < NOISE * scale < math.inf else v
+            0.0 if isinstance(v, float) and abs(v) < 1e-13 * scale < math.inf else v
             for v, scale in zip(row, scales, strict=True)
         ]
 

@@ -8,8 +8,6 @@ from collections.abc import Sequence
 from geneva_cli.figure import Axis, Mark
 from geneva_cli.numerics.tolerances import ROUNDED
 
-DEGREES = (5.0, 10.0, 15.0, 30.0, 45.0, 60.0, 90.0, 180.0, 360.0)  # steps that people use
-MANY = 1e5  # from here on a place is written with an exponent
 DIGITS = 6  # of a peak's value, and at first of an axis
 
 
@@ -25,7 +23,8 @@ def ticks(low: float, high: float, most: int, unit: str = "") -> list[float]:
     power = 10.0 ** math.floor(math.log10(width / most))
     steps = [n * power for n in (1.0, 2.0, 2.5, 5.0, 10.0, 20.0, 25.0, 50.0, 100.0)]
     if unit == "deg" and width > 40.0:
-        steps = [*DEGREES, *(360.0 * 2**n for n in range(1, 60))]
+        steps = [5.0, 10.0, 15.0, 30.0, 45.0, 60.0, 90.0, 180.0]  # degrees that people use
+        steps += [360.0 * 2**n for n in range(60)]
     for step in steps:
         first, last = math.ceil(low / step - ROUNDED), math.floor(high / step + ROUNDED)
         if last - first < most:
@@ -52,13 +51,14 @@ def named(axis: Axis) -> str:
     return f"{axis.label} ({axis.unit.replace('deg', '°')})" if axis.unit else axis.label
 
 
-def said(mark: Mark, unit: str = "°") -> str:
+def mark_text(mark: Mark, unit: str = "°") -> str:
     """A mark as text: its value and its place.
 
-    >>> said(Mark("max", -22.903061866, 649.007123))
+    >>> mark_text(Mark("max", -22.903061866, 649.007123))
     'max 649.007 at -22.90°'
     """
-    at = f"{mark.x:.2f}" if abs(mark.x) < MANY else f"{mark.x:.{DIGITS}g}"
+    # A larger place is written with an exponent.
+    at = f"{mark.x:.2f}" if abs(mark.x) < 1e5 else f"{mark.x:.{DIGITS}g}"
     at = "0.00" if at == "-0.00" else at
     value = "no bound" if mark.y is None else f"{mark.word} {mark.y + 0.0:.{DIGITS}g}"
     return f"{value} at {at}{unit}"

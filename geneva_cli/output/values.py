@@ -1,4 +1,4 @@
-"""Values for people at a terminal: five digits, and the unit beside a number."""
+"""Values for people at a terminal: five digits, and the unit behind a number."""
 
 from __future__ import annotations
 
@@ -9,12 +9,7 @@ from typing import Any
 from geneva_cli.output.text import cell
 from geneva_cli.table import in_digits
 
-DIGITS = 5  # significant digits; csv and json have all
-NUMBER = 11  # letters of the widest number with these digits, -1.2345e-10
-HOURS = 1e6  # of a life, 114 years of running day and night: longer ones are meaningless
-ENDLESS = "practically unlimited"
-NUMERIC = re.compile(r"-?[\d.]+|-")  # without a power of ten; or no value
-SPARE = 3  # letters by which a column may be wider to align its decimal points
+NUMBER = 11  # letters of the widest number with five digits, -1.2345e-10
 
 
 def value(number: Any, unit: str = "") -> str:
@@ -35,17 +30,20 @@ def bare(number: Any, unit: str) -> str:
     """A value without its unit, which identifies times too long to be meaningful."""
     if not isinstance(number, float):
         return cell(number)
-    if unit == "h" and number > HOURS:
-        return ENDLESS
-    digits, e, power = in_digits(number, DIGITS).partition("e")
+    # A life of more than 114 years of running day and night is meaningless.
+    if unit == "h" and number > 1e6:
+        return "practically unlimited"
+    digits, e, power = in_digits(number, 5).partition("e")
     return f"{digits}e{int(power)}" if e else digits
 
 
 def aligned(texts: Sequence[str]) -> Sequence[str]:
     """Numbers with aligned decimal points, if that takes little more width."""
-    if not all(NUMERIC.fullmatch(text) for text in texts):
+    numeric = re.compile(r"-?[\d.]+|-")  # without a power of ten; or no value
+    if not all(numeric.fullmatch(text) for text in texts):
         return texts
     tails = [len(text) - text.find(".") if "." in text else 0 for text in texts]
     most = max(tails)
-    found = [text + " " * (most - tail) for text, tail in zip(texts, tails, strict=True)]
-    return found if max(map(len, found)) <= max(map(len, texts)) + SPARE else texts
+    padded = [text + " " * (most - tail) for text, tail in zip(texts, tails, strict=True)]
+    # A column may become three letters wider.
+    return padded if max(map(len, padded)) <= max(map(len, texts)) + 3 else texts

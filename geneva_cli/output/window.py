@@ -11,8 +11,6 @@ from geneva_cli.errors import clean
 from geneva_cli.output.layout import styled, wrapped
 from geneva_cli.output.text import WIDTH
 
-NARROWEST = 60  # columns of a window; a narrower one breaks lines itself
-
 
 class Window(NamedTuple):
     """The terminal's width in letters, whether it shows bold ones, and the options for all columns.
@@ -29,7 +27,8 @@ class Window(NamedTuple):
 def window(whole: bool, is_wide: bool) -> Window:
     """The window of standard output; COLUMNS has precedence over the terminal's own width."""
     styled = os.environ.get("TERM", "dumb") != "dumb" and not os.environ.get("NO_COLOR")
-    columns = max(shutil.get_terminal_size().columns, NARROWEST)
+    # A window of fewer than 60 columns breaks lines itself.
+    columns = max(shutil.get_terminal_size().columns, 60)
     return Window(columns, styled, whole or is_wide, is_wide)
 
 

@@ -1,4 +1,4 @@
-"""Tables of a spec: frozen records whose fields are their keys, checked when they are made.
+"""Tables of a spec: frozen records whose fields are their keys, checked when they are created.
 
 A field is annotated with its type, its rule and its meaning. The reader, the writer, the template
 and Python users all use that line:
@@ -32,7 +32,6 @@ from geneva_cli.spec.rules import Csv, OneOf, Words, is_array, plain
 LIST: TypeAlias = tuple[float, ...]
 LIST_MAX = 1000
 SHOWN_MAX = 200  # characters of a value in a record that is shown shortly
-EXACT = 2.0**53  # up to it, a float that is whole is that whole number
 REQUIRED = dataclasses.MISSING
 _NAMES: dict[Any, str] = {
     LIST: "a list of numbers",
@@ -77,9 +76,9 @@ class SpecTable:
     def __init_subclass__(cls, kw_only: bool = False) -> None:
         dataclasses.dataclass(frozen=True, eq=False, repr=False, kw_only=kw_only)(cls)
 
-    def __new__(cls, *_: object, **given: object) -> Self:
+    def __new__(cls, *_: object, **named: object) -> Self:
         """Refuse a keyword that is no field, with the nearest."""
-        refuse_keywords(cls.__name__, given, _names(cls))
+        refuse_keywords(cls.__name__, named, _names(cls))
         return super().__new__(cls)
 
     def __post_init__(self) -> None:
@@ -160,9 +159,9 @@ def copied(record: T, changes: dict[str, Any]) -> T:
     return new
 
 
-def refuse_keywords(what: str, given: Iterable[str], known: Sequence[str]) -> None:
+def refuse_keywords(what: str, names: Iterable[str], known: Sequence[str]) -> None:
     """Raise GenevaError for a keyword that ``what`` does not take, with the nearest one."""
-    for name in given:
+    for name in names:
         if name not in known:
             hint = nearest(name, known)
             raise GenevaError(f"{what} has no {cut(name)}{hint}; it takes {few(name, known)}")
@@ -174,15 +173,15 @@ def shortly(record: object) -> str:
     >>> shortly(SideCrank(A=0.6))
     'SideCrank(A=0.6)'
     """
-    said = []
+    arguments = []
     for one in dataclasses.fields(record):  # type: ignore[arg-type]
         value = getattr(record, one.name)
-        made = one.default_factory
-        default = one.default if made is dataclasses.MISSING else made()
+        factory = one.default_factory
+        default = one.default if factory is dataclasses.MISSING else factory()
         if value != default:
             text = shortly(value) if dataclasses.is_dataclass(value) else repr(value)
-            said.append(f"{one.name}={cut(text, SHOWN_MAX)}")
-    return f"{type(record).__name__}({', '.join(said)})"
+            arguments.append(f"{one.name}={cut(text, SHOWN_MAX)}")
+    return f"{type(record).__name__}({', '.join(arguments)})"
 
 
 def hash_once(record: object) -> int:
@@ -200,24 +199,24 @@ def without_hash(record: object) -> dict[str, object]:
     return {name: value for name, value in vars(record).items() if name != HASH}
 
 
+_names_of: dict[type, tuple[str, ...]] = {}
+
+
 def _names(kind: type) -> tuple[str, ...]:
     """Names of a dataclass's fields."""
-    if kind not in _NAMES_OF:
-        _NAMES_OF[kind] = tuple(one.name for one in dataclasses.fields(kind))
-    return _NAMES_OF[kind]
+    if kind not in _names_of:
+        _names_of[kind] = tuple(one.name for one in dataclasses.fields(kind))
+    return _names_of[kind]
 
 
-_NAMES_OF: dict[type, tuple[str, ...]] = {}
+_fields_of: dict[type[SpecTable], tuple[Field, ...]] = {}
 
 
 def fields(table: type[SpecTable]) -> tuple[Field, ...]:
     """Keys of a table, in their order."""
-    if table not in _FIELDS:
-        _FIELDS[table] = _fields(table)
-    return _FIELDS[table]
-
-
-_FIELDS: dict[type[SpecTable], tuple[Field, ...]] = {}
+    if table not in _fields_of:
+        _fields_of[table] = _fields(table)
+    return _fields_of[table]
 
 
 def _fields(table: type[SpecTable]) -> tuple[Field, ...]:
@@ -364,7 +363,7 @@ def shown(value: Any) -> str:
 
 def _whole(value: float) -> str:
     """Hint for a number that is not whole: the adjacent whole numbers, or how to write it."""
-    if not abs(value) < EXACT:
+    if not abs(value) < 2.0**53:  # beyond it, a float may be rounded to a whole number
         return ""
     if value == math.floor(value):
         return f": write {value:.0f}"

@@ -7,8 +7,6 @@ from typing import NamedTuple
 
 from geneva_cli.errors import GenevaError, cut, nearest
 
-BYTES_MAX = 1 << 28
-
 
 class Columns(NamedTuple):
     """Columns of a CSV file as texts, by name; a missing value is an empty text."""
@@ -69,14 +67,15 @@ def read_columns(path: str) -> Columns:
     file, or has no rows.
     """
     shown = cut(path, 300)
+    bytes_max = 1 << 28  # of a sweep's csv: some million designs
     try:
         with open(path, "rb") as file:
-            data = file.read(BYTES_MAX + 1)
+            data = file.read(bytes_max + 1)
     except (OSError, ValueError) as error:
         reason = error.strerror if isinstance(error, OSError) else error
         raise GenevaError(f"{shown}: cannot read: {reason}") from None
-    if len(data) > BYTES_MAX:
-        raise GenevaError(f"{shown}: larger than {BYTES_MAX} bytes: sweep fewer designs")
+    if len(data) > bytes_max:
+        raise GenevaError(f"{shown}: larger than {bytes_max} bytes: sweep fewer designs")
     try:
         text = data.decode("utf-8-sig")
     except UnicodeDecodeError:

@@ -8,10 +8,6 @@ import tomli
 
 from geneva_cli.errors import GenevaError, cut, nearest
 
-# in the source tree next to the package, in an installation inside it
-_PACKAGE = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
-_PLACES = (os.path.join(_PACKAGE, "designs"), os.path.join(os.path.dirname(_PACKAGE), "designs"))
-
 
 def titles() -> dict[str, str]:
     """Names of the designs, with their titles.
@@ -41,7 +37,10 @@ def design(name: str) -> tuple[str, dict[str, str]]:
 
 
 def _folder() -> str:
-    return next(place for place in _PLACES if os.path.isdir(place))
+    """The folder of the designs: in the package if installed, else adjacent to it."""
+    package = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
+    inside = os.path.join(package, "designs")
+    return inside if os.path.isdir(inside) else os.path.join(os.path.dirname(package), "designs")
 
 
 def _text(file: str) -> str:

@@ -18,7 +18,6 @@ from geneva_cli.spec.schema import LIST, LIST_MAX, REQUIRED, Field, SpecTable, f
 from geneva_cli.spec.tables import LISTS, PLAIN
 from geneva_cli.specfile.writer import GEARING, KIND, LAW
 
-DRAFT = "http://json-schema.org/draft-07/schema#"
 FILE = "geneva.schema.json"  # where the first line of a new spec looks for it
 Schema = dict[str, Any]
 
@@ -45,7 +44,10 @@ def schema() -> Schema:
             properties.setdefault(whole, _closed({}))["properties"][part] = one
         else:
             properties[name] = {"type": "array", "items": one} if name in LISTS else one
-    head = {"$schema": DRAFT, "title": "A Geneva mechanism: a spec of geneva"}
+    head = {
+        "$schema": "http://json-schema.org/draft-07/schema#",
+        "title": "A Geneva mechanism: a spec of geneva",
+    }
     return {**head, **_closed(properties), "required": ["wheel"]}
 
 

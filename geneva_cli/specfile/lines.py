@@ -8,8 +8,6 @@ from typing import Any
 
 import tomli
 
-TRIES = 10  # lines that look like setting a key, before its table is named instead
-
 
 def line_of(text: str, path: tuple[str | int, ...]) -> int:
     """Line on which a key (or else its table) is set; 0 if it is not set.
@@ -25,7 +23,7 @@ def line_of(text: str, path: tuple[str | int, ...]) -> int:
         likely = (
             i for i, x in enumerate(lines) if sets.search(x) and not x.lstrip().startswith("#")
         )
-        for i in islice(likely, TRIES + before):
+        for i in islice(likely, 10 + before):  # else its table is named
             if _holds(lines, i + 1, path):
                 return i + 1
         path = path[:-1]

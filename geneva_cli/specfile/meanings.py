@@ -13,7 +13,6 @@ from geneva_cli.manual.explained import Entry, entries
 from geneva_cli.names import unit_of
 from geneva_cli.specfile.keys import Key, every
 
-WIDTH = 90  # width of a page of text
 CHECKS, INPUTS = "checks.", "inputs."  # what a report's names of checks and of keys begin with
 
 
@@ -85,7 +84,7 @@ def _page(one: Meaning) -> str:
 def _wrapped(text: str) -> list[str]:
     indent = "  " if text.startswith("- ") else ""
     return textwrap.wrap(
-        text, WIDTH, subsequent_indent=indent, break_long_words=False, break_on_hyphens=False
+        text, 90, subsequent_indent=indent, break_long_words=False, break_on_hyphens=False
     )
 
 

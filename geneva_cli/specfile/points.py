@@ -9,8 +9,6 @@ from collections.abc import Iterable
 from geneva_cli.errors import GenevaError, cut
 from geneva_cli.spec.rules import Csv
 
-BYTES_MAX = 1 << 24
-
 
 def read_pairs(path: str, rule: Csv, key: tuple[str, ...]) -> list[tuple[float, float]]:
     """Pairs in a file, the first number of each ascending; a header and ``#`` lines are skipped.
@@ -50,17 +48,18 @@ def digest(paths: Iterable[str]) -> str:
 
 
 def _text(path: str, key: tuple[str, ...]) -> str:
+    bytes_max = 1 << 24  # of a file of points, whose rows a machine keeps in memory
     try:
         with open(path, "rb") as file:
-            data = file.read(BYTES_MAX + 1)
+            data = file.read(bytes_max + 1)
     except OSError as error:
         raise GenevaError(
             f"cannot read the points in {cut(path, 300)}: {error.strerror}", key
         ) from None
     except ValueError as error:  # a NUL in the name
         raise GenevaError(f"cannot read the points in {cut(path, 300)}: {error}", key) from None
-    if len(data) > BYTES_MAX:
-        raise GenevaError(f"{path}: larger than {BYTES_MAX} bytes: use fewer points")
+    if len(data) > bytes_max:
+        raise GenevaError(f"{path}: larger than {bytes_max} bytes: use fewer points")
     try:
         return data.decode("utf-8-sig")
     except UnicodeDecodeError:

@@ -14,10 +14,8 @@ import tomli
 from geneva_cli.errors import GenevaError, cut
 from geneva_cli.machine.spec import Spec
 from geneva_cli.specfile.lines import line_of
-from geneva_cli.specfile.settings import Setting, applied, said_of, settings
+from geneva_cli.specfile.settings import Setting, applied, option_of, settings
 from geneva_cli.specfile.tree import spec_of
-
-BYTES_MAX = 1 << 20  # a spec is a page; a megabyte of it is a mistake
 
 
 class Text(NamedTuple):
@@ -35,7 +33,7 @@ class Text(NamedTuple):
         except GenevaError as error:
             if not error.key:
                 raise
-            where = said_of(self.set_keys, error.key)
+            where = option_of(self.set_keys, error.key)
             if not where:
                 line = line_of(self.text, error.key)
                 where = f"{self.name}:{line}" if line else self.name
@@ -75,12 +73,13 @@ def shown_name(path: str) -> str:
 
 
 def _read(path: str, name: str) -> str:
+    bytes_max = 1 << 20  # a spec is a page; a megabyte of it is a mistake
     try:
         if path == "-":
-            data = sys.stdin.buffer.read(BYTES_MAX + 1)
+            data = sys.stdin.buffer.read(bytes_max + 1)
         else:
             with open(path, "rb") as file:
-                data = file.read(BYTES_MAX + 1)
+                data = file.read(bytes_max + 1)
     except OSError as error:
         advice = "; `geneva new external -o spec.toml` writes an example"
         what = "this is a folder, not a file" if os.path.isdir(path) else str(error.strerror)
@@ -88,8 +87,8 @@ def _read(path: str, name: str) -> str:
         raise GenevaError(f"{name}: cannot read: {what}{advice if missing else ''}") from None
     except ValueError as error:  # a NUL in the name
         raise GenevaError(f"{name!r}: cannot read: {error}") from None
-    if len(data) > BYTES_MAX:
-        raise GenevaError(f"{name}: larger than {BYTES_MAX} bytes, too large for a spec")
+    if len(data) > bytes_max:
+        raise GenevaError(f"{name}: larger than {bytes_max} bytes, too large for a spec")
     try:
         # Some editors put a byte order mark before the text.
         return data.decode("utf-8-sig").replace("\r\n", "\n")

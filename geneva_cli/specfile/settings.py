@@ -13,7 +13,7 @@ from geneva_cli.errors import GenevaError, cut
 class Setting(NamedTuple):
     """One key that an option sets: the option as typed, the key's path, and its value."""
 
-    said: str
+    option: str
     path: tuple[str | int, ...]
     value: Any
 
@@ -27,30 +27,32 @@ def setting(text: str, option: str = "--set") -> Setting:
     """One ``table.key=value`` setting; a word's quotation marks are optional.
 
     >>> setting("drive.A=0.6")
-    Setting(said='--set drive.A=0.6', path=('drive', 'A'), value=0.6)
+    Setting(option='--set drive.A=0.6', path=('drive', 'A'), value=0.6)
     """
     key, sign, value = text.partition("=")
     parts = key.strip().split(".")
-    said = f"{option} {cut(text.strip())}"
+    typed = f"{option} {cut(text.strip())}"
     if not sign or not value.strip():
-        raise GenevaError(f"{said}: it must be KEY=VALUE, as in {option} drive.n_rpm=90")
+        raise GenevaError(f"{typed}: it must be KEY=VALUE, as in {option} drive.n_rpm=90")
     if not all(parts) or (len(parts) == 1 and parts != ["title"]):
-        raise GenevaError(f"{said}: a key is written with its table, as in {option} drive.n_rpm=90")
+        raise GenevaError(
+            f"{typed}: a key is written with its table, as in {option} drive.n_rpm=90"
+        )
     path = tuple(int(p) if i and p.isdecimal() else p for i, p in enumerate(parts))
-    return Setting(said, path, read_value(value, said))
+    return Setting(typed, path, read_value(value, typed))
 
 
-def read_value(text: str, said: str) -> Any:
+def read_value(text: str, option: str) -> Any:
     """Return the value as TOML reads it; anything else is a word.
 
-    Raises GenevaError, which begins with ``said``, if other keys follow the value.
+    Raises GenevaError, which begins with ``option``, if other keys follow the value.
     """
     try:
         tree = tomli.loads(f"x = {text.strip()}")
     except (tomli.TOMLDecodeError, RecursionError, ValueError):
         return _number(text.strip())
     if len(tree) > 1:
-        raise GenevaError(f"{said}: it sets more than one key; use one option for each")
+        raise GenevaError(f"{option}: it sets more than one key; use one option for each")
     return tree["x"]
 
 
@@ -80,14 +82,16 @@ def _with(node: Any, path: tuple[str | int, ...], one: Setting) -> Any:
         several = list(node) if isinstance(node, list) else []
         if not head < len(several):
             name = ".".join(map(str, one.path[: one.path.index(head)]))
-            raise GenevaError(f"{one.said}: the spec has {len(several)} [[{name}]], counted from 0")
+            raise GenevaError(
+                f"{one.option}: the spec has {len(several)} [[{name}]], counted from 0"
+            )
         several[head] = _with(several[head], tuple(rest), one)
         return several
     table = dict(node) if isinstance(node, dict) else {}
     return table | {head: _with(table.get(head), tuple(rest), one)}
 
 
-def said_of(set_keys: Sequence[Setting], key: tuple[str | int, ...]) -> str:
+def option_of(set_keys: Sequence[Setting], key: tuple[str | int, ...]) -> str:
     """Option that set the key of an error, or a key in its table; empty if none did."""
-    options = (one.said for one in reversed(set_keys) if one.path[: len(key)] == key)
+    options = (one.option for one in reversed(set_keys) if one.path[: len(key)] == key)
     return next(options, "")

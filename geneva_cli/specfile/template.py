@@ -1,4 +1,4 @@
-"""A commented spec to start from, made from the keys that the reader knows."""
+"""A commented spec to start from, with the keys that the reader knows."""
 
 from __future__ import annotations
 
@@ -59,13 +59,6 @@ EXAMPLES = {
         },
     ),
 }
-# Keys that most people set, and usual values of them.
-USUAL: dict[str, dict[str, float]] = {
-    "drive": {"n_rpm": 60, "rollers": 1},
-    "size": {"center_distance_mm": 160, "roller_radius_mm": 9, "face_width_mm": 16},
-    "load": {"inertia_kgm2": 0.05, "torque_Nm": 2},
-    "limits": {"acceleration_max": 1.5, "pin_force_max_N": 600},
-}
 # the plain crank is in all of them
 DRIVES = tuple(name for name in registry.DRIVES if name != Crank.NAME)
 KINDS = (*registry.GEARINGS, *EXAMPLES, *DRIVES)
@@ -108,7 +101,14 @@ def template(kind: str, schema: bool = True, whole: bool = True) -> str:
 
 def _usual(name: str, table: list[Field], values: dict[str, Any]) -> list[str]:
     """The lines of the keys that an example sets, or that most people do."""
-    usual = USUAL.get(name, {})
+    # keys that most people set
+    usual_tables: dict[str, dict[str, float]] = {
+        "drive": {"n_rpm": 60, "rollers": 1},
+        "size": {"center_distance_mm": 160, "roller_radius_mm": 9, "face_width_mm": 16},
+        "load": {"inertia_kgm2": 0.05, "torque_Nm": 2},
+        "limits": {"acceleration_max": 1.5, "pin_force_max_N": 600},
+    }
+    usual = usual_tables.get(name, {})
     shown = [field for field in table if field.key in values or field.key in usual]
     settings = [
         f"{field.key} = {quoted(values[field.key])}"

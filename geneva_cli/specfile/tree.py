@@ -32,10 +32,6 @@ class _Kinds(NamedTuple):
         return ((f'{self.word} = "{name}"', self.find(name)) for name in self.names)
 
 
-WHEELS = _Kinds("wheel", "gearing", "external", registry.GEARINGS, registry.gearing)
-DRIVES = _Kinds("drive", "kind", "crank", registry.DRIVES, registry.drive)
-
-
 class _Files:
     """The files that a spec names; ``read`` lists those read so far, the spec first."""
 
@@ -78,9 +74,11 @@ def spec_of(tree: dict[str, Any], name: str) -> Spec:
             f"{name}: no [wheel] table; the shortest spec is [wheel] and, on the next line, z = 6"
         )
     files = _Files(name)
+    gearings = _Kinds("wheel", "gearing", "external", registry.GEARINGS, registry.gearing)
+    drives = _Kinds("drive", "kind", "crank", registry.DRIVES, registry.drive)
     return Spec(
-        wheel=_kind(tree["wheel"], WHEELS, files),
-        drive=_kind(tree.get("drive", {}), DRIVES, files),
+        wheel=_kind(tree["wheel"], gearings, files),
+        drive=_kind(tree.get("drive", {}), drives, files),
         motion=_motion(tree["motion"], files) if "motion" in tree else None,
         **_plain(tree, files),
         title=clean(title),

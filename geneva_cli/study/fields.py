@@ -13,7 +13,7 @@ from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.parts.model import PartsModel
 from geneva_cli.study.quantities import group_of, whole_name
 from geneva_cli.table import Table
-from geneva_cli.verdict.quantities.groups import MACHINE, REPORT, Group
+from geneva_cli.verdict.quantities.groups import MACHINE, REPORT, QuantityGroup
 from geneva_cli.verdict.quantities.groups import values as values_of
 
 Cell: TypeAlias = float | int | str | bool | None
@@ -22,7 +22,7 @@ Cell: TypeAlias = float | int | str | bool | None
 SHOWN = (MACHINE, *(group for group in REPORT if not group.makes_parts))
 
 
-def values(model: PartsModel, groups: Iterable[Group] = SHOWN) -> dict[str, Cell]:
+def values(model: PartsModel, groups: Iterable[QuantityGroup] = SHOWN) -> dict[str, Cell]:
     """The quantities of some groups, without tables and multi-line texts.
 
     What nothing bounds is None, as in the report's json.
@@ -39,7 +39,7 @@ class Pick(NamedTuple):
     """Quantities to show, and the groups that contain them."""
 
     names: tuple[str, ...]
-    groups: tuple[Group, ...]
+    groups: tuple[QuantityGroup, ...]
     # the whole names in the order of the request, in which one may stand twice
     asked: tuple[str, ...] = ()
 

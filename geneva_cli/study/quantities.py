@@ -9,7 +9,7 @@ from collections.abc import Iterable, Iterator, Mapping
 from functools import cache
 
 from geneva_cli.errors import GenevaError, cut, nearest
-from geneva_cli.verdict.quantities.groups import CHECKS, GROUPS, INPUTS, RATES, Group
+from geneva_cli.verdict.quantities.groups import CHECKS, GROUPS, INPUTS, RATES, QuantityGroup
 
 SHOWN_MAX = 5  # candidates in a message
 
@@ -30,7 +30,7 @@ WORDS = frozenset(
 
 
 @cache
-def group_of() -> Mapping[str, Group]:
+def group_of() -> Mapping[str, QuantityGroup]:
     """The group of each quantity, by its whole name."""
     return {name: group for group in GROUPS for name in group.names}
 

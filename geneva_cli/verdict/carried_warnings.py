@@ -16,14 +16,9 @@ from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.machine.spec import Spec
 from geneva_cli.spec.tables import Motor
 
-NAME = "wheel"  # name of the [[mass]] that is the wheel itself
-# fraction of the given inertia: a smaller inertia of the wheel itself is not mentioned
-SHOWN = 0.01
-FAR = 5.0  # centre distances to a body, beyond most tables
 # No material is stiffer than diamond, heavier than osmium, or as light as a density in g/cm3
 # suggests
 DIAMOND_GPa, OSMIUM_KGM3, FOAM_KGM3 = 1220.0, 22590.0, 25.0
-FULL_CIRCLE = 2  # at least so many equal masses are assumed to be spaced evenly around the axis
 
 
 def carried_warnings(mechanism: Mechanism, plate: MassProperties | None) -> list[Notice]:
@@ -34,15 +29,17 @@ def carried_warnings(mechanism: Mechanism, plate: MassProperties | None) -> list
 
 
 def _itself(spec: Spec, plate: MassProperties | None) -> list[Notice]:
-    given = inertia_kgm2(spec)
-    if plate is None or not given or any(mass.name == NAME for mass in spec.mass):
+    inertia = inertia_kgm2(spec)
+    # a [[mass]] of this name is the wheel itself
+    if plate is None or not inertia or any(mass.name == "wheel" for mass in spec.mass):
         return []
     own = plate.inertia_kgm2
-    if own <= SHOWN * given:
+    # An inertia of the wheel below a hundredth of the load's is not mentioned.
+    if own <= 0.01 * inertia:
         return []
     across = 1e3 * math.sqrt(8.0 * own / plate.mass_kg)
     helps = (
-        f'[[mass]] with name = "{NAME}", shape = "disc", mass_kg = {plate.mass_kg:.4g} and '
+        f'[[mass]] with name = "wheel", shape = "disc", mass_kg = {plate.mass_kg:.4g} and '
         f"diameter_mm = {across:.4g}"
         if spec.support.gear_ratio == 1.0  # masses are on the table, behind its gears
         else f"{own:.4g} on inertia_kgm2 in [load]"
@@ -50,8 +47,8 @@ def _itself(spec: Spec, plate: MassProperties | None) -> list[Notice]:
     return [
         Notice(
             "wheel-left-out",
-            f"the wheel's own inertia, as drawn, is {own:.4g} kg m², {100.0 * own / given:.3g} % "
-            f"of the {given:.4g} kg m² of the load: if the load leaves it out, add {helps}",
+            f"the wheel's own inertia, as drawn, is {own:.4g} kg m², {100.0 * own / inertia:.3g} % "
+            f"of the {inertia:.4g} kg m² of the load: if the load leaves it out, add {helps}",
         )
     ]
 
@@ -62,7 +59,8 @@ def _to_one_side(spec: Spec) -> list[Notice]:
         return []
     out: list[Notice] = []
     for mass in spec.mass:
-        if mass.radius_mm and mass.count < FULL_CIRCLE:
+        # Two or more equal masses are assumed to be spaced evenly around the axis.
+        if mass.radius_mm and mass.count < 2:
             torque = spec.support.gear_ratio * weight_kg(mass) * G * mass.radius_mm * 1e-3
             out.append(
                 Notice(
@@ -79,13 +77,13 @@ def _to_one_side(spec: Spec) -> list[Notice]:
 def _far(mechanism: Mechanism) -> list[Notice]:
     """Warnings about a mass that is farther away than a table reaches."""
     far = max((mass.radius_mm for mass in mechanism.spec.mass), default=0.0)
-    share = far / mechanism.center_distance_mm
-    if share <= FAR:
+    distances = far / mechanism.center_distance_mm
+    if distances <= 5.0:  # centre distances: most tables are smaller
         return []
     return [
         Notice(
             "far-mass",
-            f"radius_mm = {far:g} in [[mass]] is {share:.3g} centre distances from the wheel's "
+            f"radius_mm = {far:g} in [[mass]] is {distances:.3g} centre distances from the wheel's "
             "axis: check that it is in mm",
         )
     ]
@@ -128,14 +126,14 @@ def _for_nothing(spec: Spec) -> list[Notice]:
         )
     support = spec.support
     if bool(support.friction) != bool(support.radius_mm):
-        given, lacking = (
+        present, lacking = (
             ("friction", "radius_mm") if support.friction else ("radius_mm", "friction")
         )
         out.append(
             Notice(
                 "nothing-to-act-on",
-                f"{given} in [support] has no effect without {lacking}: set {lacking}, or remove "
-                f"{given}",
+                f"{present} in [support] has no effect without {lacking}: set {lacking}, or remove "
+                f"{present}",
             )
         )
     elif support.friction and not (spec.mass or support.force_N):

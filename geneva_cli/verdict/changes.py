@@ -1,4 +1,4 @@
-"""A change of one key of a spec: the values to try, given its present value."""
+"""Changes of one key of a spec: the values to try, from its present value on."""
 
 from __future__ import annotations
 
@@ -12,8 +12,6 @@ if TYPE_CHECKING:
     from geneva_cli.parts.sizes import Sizes
 
 Value: TypeAlias = float | int | str | None  # None: the key is left out
-# Keys without a default that take a word.
-WORDS = ("ratio", "held_by")
 # From the present value to the last one tried: values beyond a passing one may fail.
 STEPS = 24
 COARSE = 12  # steps of a size, whose trials take a whole turn
@@ -46,11 +44,12 @@ class Change(NamedTuple):
 
 
 def value_now(mechanism: Mechanism, table: str, key: str) -> Value:
-    """A key's present value; for a size that is not given, its default; None if there is none."""
+    """A key's present value; the default of a size that the spec leaves out; else None."""
     spec = mechanism.spec
     value: Value = spec.table(table).get(key)
     if value is not None or table != "size":
-        return value or ("" if key in WORDS else value)
+        # These keys take a word, and have no default.
+        return value or ("" if key in ("ratio", "held_by") else value)
     allowed = spec.size.allowances._asdict()  # of the process, if a key is left out
     if key in allowed:
         return float(allowed[key])
@@ -84,7 +83,7 @@ def scaled(table: str, key: str, factor: float) -> Change:
 
 
 def sized(table: str, key: str) -> tuple[Change, ...]:
-    """A given value made smaller, made larger, or left out."""
+    """Smaller values, larger values, and the default."""
     return scaled(table, key, 0.3), scaled(table, key, 3.0), left_out(table, key)
 
 

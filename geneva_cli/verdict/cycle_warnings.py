@@ -12,13 +12,6 @@ from geneva_cli.errors import Notice
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.numerics.tolerances import ROUNDED
 
-SOUND_M_S = 343.0
-STEEL_KGM3 = 7850.0
-# The largest table that a wheel of centre distance L is expected to turn: solid steel, 6 L across
-# and L/2 thick. A larger inertia is nearly always meant in kg cm2.
-ACROSS, THICK = 6.0, 0.5
-BRIEF = 1e-4  # fraction of a motion: next to a rest, signs are rounding
-
 
 def cycle_warnings(cycle: Cycle, loads: Mapping[str, QuantitySummary]) -> list[Notice]:
     """The warnings, for the summaries of a cycle's loads."""
@@ -32,7 +25,8 @@ def back_driven_deg(cycle: Cycle) -> list[tuple[float, float]]:
     last = None
     for engagement, stretch in cycle.stretches:
         a, b = (engagement.mid_deg + x for x in stretch[:2])
-        driven = stretch.feeds < 0.0 and b - a > BRIEF * engagement.motion_deg
+        # Over less than 1e-4 of a motion, next to a rest, the sign is rounding.
+        driven = stretch.feeds < 0.0 and b - a > 1e-4 * engagement.motion_deg
         if driven and last == a:
             out[-1] = out[-1][0], shown(b)
         elif driven:
@@ -67,14 +61,14 @@ def _back_driven(cycle: Cycle, loads: Mapping[str, QuantitySummary]) -> list[Not
 
 def _lags(mechanism: Mechanism) -> list[Notice]:
     """A warning if the wheel leaves the roller that stops it, and meets it again."""
-    found = arrival(mechanism)
-    if found is None or found.lag is None:
+    stop = arrival(mechanism)
+    if stop is None or stop.lag is None:
         return []
-    lag, at_deg, struck = found.lag
+    lag, at_deg, struck = stop.lag
     return [
         Notice(
             "lags-behind",
-            f"a torque of {found.torque_Nm:.4g} N m takes the wheel off the roller that stops it. "
+            f"a torque of {stop.torque_Nm:.4g} N m takes the wheel off the roller that stops it. "
             f"Once the gears let go the wheel lags, by up to {lag:.4g} deg at {at_deg:.4g} deg, "
             f"and the roller strikes it at {struck:.4g} deg. Less torque, more inertia or more "
             "speed reduces the lag",
@@ -85,15 +79,17 @@ def _lags(mechanism: Mechanism) -> list[Notice]:
 def _heavy(cycle: Cycle) -> list[Notice]:
     L = cycle.case.L
     inertia = cycle.case.inertia_Nm / cycle.case.speed_rad_s**2
-    # a disc's J = pi rho h D^4 / 32
-    most = math.pi * STEEL_KGM3 * THICK * L * (ACROSS * L) ** 4 / 32.0
+    # The largest table expected is solid steel, 6 L across and L/2 thick; J = pi rho h D^4 / 32. A
+    # larger inertia is nearly always meant in kg cm2.
+    diameter, thickness, density = 6.0 * L, 0.5 * L, 7850.0  # m, m, kg/m3
+    most = math.pi * density * thickness * diameter**4 / 32.0
     if not inertia > most:
         return []
     return [
         Notice(
             "heavy-inertia",
             f"an inertia of {inertia:.4g} kg m² is large for a centre distance of {1e3 * L:.4g} "
-            f"mm: a solid steel table {1e3 * ACROSS * L:.4g} mm across and {1e3 * THICK * L:.4g} "
+            f"mm: a solid steel table {1e3 * diameter:.4g} mm across and {1e3 * thickness:.4g} "
             f"mm thick has {most:.3g} kg m². If it is in kg cm², write {1e-4 * inertia:.4g}",
         )
     ]
@@ -104,13 +100,14 @@ def _fast(mechanism: Mechanism, loads: Mapping[str, QuantitySummary]) -> list[No
     x, y = engagement.path(engagement.entry_deg, 0)
     rim = math.hypot(x.c[0], y.c[0]) * mechanism.center_distance_mm / 1000.0
     speed = rim * (loads["omega_rad_s"].max or 0.0)
-    if not speed > SOUND_M_S:
+    sound_m_s = 343.0
+    if not speed > sound_m_s:
         return []
     n = mechanism.spec.drive.n_rpm
     return [
         Notice(
             "faster-than-sound",
-            f"the wheel's rim moves at up to {speed:.4g} m/s, faster than sound ({SOUND_M_S:g} "
+            f"the wheel's rim moves at up to {speed:.4g} m/s, faster than sound ({sound_m_s:g} "
             f"m/s): check n_rpm = {n:g}, the input's turns a minute",
         )
     ]

@@ -12,8 +12,6 @@ if TYPE_CHECKING:
 
 # A roller that does not find its slot, or meets the rim next to it, jams.
 JAMS = ("hand_over_play_deg", "hand_over_pressure_deg")
-# Below the wheel's plane, so the wheel can be cut all the same.
-BELOW = ("link_wall_mm", "link_gap_mm", "gear_gap_mm")
 
 
 def failures(rows: list[Check], model: PartsModel) -> tuple[str, list[str]]:
@@ -33,7 +31,8 @@ def failures(rows: list[Check], model: PartsModel) -> tuple[str, list[str]]:
         elif c.not_computed:
             warned.append(c.not_computed)
         elif c.name in JAMS or (
-            c.name not in BELOW
+            # Links and gears lie below the wheel's plane, so the wheel can be cut all the same.
+            c.name not in ("link_wall_mm", "link_gap_mm", "gear_gap_mm")
             and c.must_be == "at least"
             and c.name.endswith("_mm")
             and (c.value or 0.0) < 0.0

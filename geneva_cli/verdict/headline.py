@@ -4,16 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
 
-from geneva_cli.document import FAILS, PASSES, WARNS, Line
+from geneva_cli.document import FAILS, PASSES, WARNS, SummaryLine
 from geneva_cli.errors import Notice, is_warning
 from geneva_cli.names import spoken
 from geneva_cli.table import Table, record_table
 from geneva_cli.verdict.checks.check import Check
 from geneva_cli.verdict.failures import meaning
 from geneva_cli.verdict.measured import measured
-
-# Checks without a margin.
-YES_OR_NO = ("dwell_hold", "parts", "full_turn")
 
 
 def headline(checks: Sequence[Check], warnings: Sequence[str]) -> tuple[str, str]:
@@ -40,44 +37,46 @@ def headline(checks: Sequence[Check], warnings: Sequence[str]) -> tuple[str, str
     return state, text
 
 
-def below_summary(record: Table, *, said: Sequence[str] = ()) -> Table:
-    """A record as it stands below its summary, without the warnings and the names ``said`` there.
+def below_summary(record: Table, *, without: Sequence[str] = ()) -> Table:
+    """A record as it stands below its summary, without the warnings and the names shown there.
 
     Notes on unknown values remain, as ``not_known``.
     """
     values = dict(zip(record.names, next(record.rows()), strict=True))
     notes = tuple(text for text in values.pop("warnings") if not is_warning(text))
-    left = {name: value for name, value in values.items() if name not in said}
+    left = {name: value for name, value in values.items() if name not in without}
     return record_table(left | ({"not_known": notes} if notes else {}), prose=record.prose)
 
 
-def failure_lines(checks: Iterable[Check]) -> list[Line]:
+def failure_lines(checks: Iterable[Check]) -> list[SummaryLine]:
     """A line for each check that fails."""
     return [_failure(check) for check in checks if check.passes is False]
 
 
-def warning_lines(checks: Iterable[Check], warnings: Iterable[str]) -> list[Line]:
+def warning_lines(checks: Iterable[Check], warnings: Iterable[str]) -> list[SummaryLine]:
     """A line for each check without a proof, then for each warning."""
     unproved = [check for check in checks if check.passes is None]
-    lines = [Line("not proved", f"{spoken(c.name)[0]}: {c.why}", "", WARNS) for c in unproved]
+    lines = [
+        SummaryLine("not proved", f"{spoken(c.name)[0]}: {c.why}", "", WARNS) for c in unproved
+    ]
     return lines + [warning(text) for text in warnings]
 
 
-def warning(text: str) -> Line:
+def warning(text: str) -> SummaryLine:
     """The line of a warning, and the command that explains it."""
     explained = f"geneva explain {text.name}" if isinstance(text, Notice) else ""
-    return Line("warning", text, explained, WARNS)
+    return SummaryLine("warning", text, explained, WARNS)
 
 
-def _failure(check: Check) -> Line:
+def _failure(check: Check) -> SummaryLine:
     """The line of a failing check: its value, its limit, and the change."""
     label, unit = spoken(check.name)
     explained = f"geneva explain {check.name}"
     if check.value is None or check.limit is None:
-        return Line(label, check.why, explained, FAILS)
+        return SummaryLine(label, check.why, explained, FAILS)
     change = f"passes with {check.nearest}" if check.nearest else check.why
     note = f"{change} ({explained})" if change else explained
-    return Line(label, meaning(check) or compared_text(check, unit), note, FAILS)
+    return SummaryLine(label, meaning(check) or compared_text(check, unit), note, FAILS)
 
 
 def compared_text(check: Check, unit: str) -> str:
@@ -89,18 +88,19 @@ def compared_text(check: Check, unit: str) -> str:
     return f"{measured(check.value, unit)}{where}, {check.must_be} {limit}"
 
 
-def tightest(checks: Iterable[Check]) -> Iterator[Line]:
+def tightest(checks: Iterable[Check]) -> Iterator[SummaryLine]:
     """The line of the passing check with the least relative margin, or none."""
-    used = [(share, check) for check in checks if (share := _used(check)) is not None]
+    used = [(fraction, check) for check in checks if (fraction := _used(check)) is not None]
     if used:
         _, check = max(used, key=lambda pair: pair[0])
         label, unit = spoken(check.name)
-        yield Line("tightest", f"{label} {compared_text(check, unit)}")
+        yield SummaryLine("tightest", f"{label} {compared_text(check, unit)}")
 
 
 def _used(check: Check) -> float | None:
     """Fraction of its limit that a check uses, 1 at the limit; None if it has no such fraction."""
     value, limit = check.value, check.limit
-    if not check.passes or not value or not limit or check.name in YES_OR_NO:
+    has_margin = check.name not in ("dwell_hold", "parts", "full_turn")
+    if not (check.passes and value and limit and has_margin):
         return None
     return value / limit if check.must_be == "at most" else limit / value

@@ -26,11 +26,11 @@ def load_warnings(mechanism: Mechanism) -> list[Notice]:
 def _kept(cycle: Cycle) -> bool:
     """Return True if the limits on loads are kept at the present speed."""
     limits = zip(loads.LIMITED_LOADS, loads.load_limits(cycle.mechanism.spec.limits), strict=True)
-    given = {name: limit for name, limit in limits if limit}
-    if not given.keys() <= cycle.extremes.keys():
+    bounds = {name: limit for name, limit in limits if limit}
+    if not bounds.keys() <= cycle.extremes.keys():
         return False
-    found = [(cycle.extremes[name], limit) for name, limit in given.items()]
-    return all(max(one.max, -one.min) <= limit for one, limit in found)
+    extremes = [(cycle.extremes[name], limit) for name, limit in bounds.items()]
+    return all(max(one.max, -one.min) <= limit for one, limit in extremes)
 
 
 def _jammed(cycle: Cycle) -> list[Notice]:
@@ -72,9 +72,9 @@ def _on_an_edge(cycle: Cycle) -> list[Notice]:
 def _no_speed(mechanism: Mechanism) -> Notice:
     keys = ("pin_force_max_N", "input_torque_max_Nm", "contact_stress_max_MPa")
     limits = loads.load_limits(mechanism.spec.limits)
-    given = " and ".join(f"{k} = {v:g}" for k, v in zip(keys, limits, strict=True) if v)
+    broken = " and ".join(f"{k} = {v:g}" for k, v in zip(keys, limits, strict=True) if v)
     return Notice(
         "no-speed",
-        f"no speed keeps {given}, so there is no shortest motion: the resisting torque alone "
+        f"no speed keeps {broken}, so there is no shortest motion: the resisting torque alone "
         "exceeds it, or nothing bounds the load. Use a larger machine or less torque_Nm",
     )

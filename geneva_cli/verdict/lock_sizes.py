@@ -27,25 +27,25 @@ class LockSizes(NamedTuple):
     lock: Lock  # in its narrowest sector
 
 
-def lock_of(where: Assembly, found: Sizes) -> Lock:
+def lock_of(where: Assembly, size: Sizes) -> Lock:
     """The lock of parts of these sizes, in its narrowest sector."""
     half = min((0.5 * (end - start) for start, end in sectors(where)), default=math.nan)
     edge = where.full.spec.size.lock_edge_mm or 0.0
-    return Lock(where.L, where.sign, found.lock, found.recess, found.rim, half, edge)
+    return Lock(where.L, where.sign, size.lock, size.recess, size.rim, half, edge)
 
 
 def design_lock_sizes(mechanism: Mechanism) -> LockSizes | None:
     """The sizes of m designs: numbers if they are equal in all, None if none has a lock."""
-    given = mechanism.spec
+    whole = mechanism.spec
     # the parts' sizes depend on these tables; designs that differ in loads only are sized once
-    spec = Spec(given.wheel, given.drive, given.motion, given.size)
+    spec = Spec(whole.wheel, whole.drive, whole.motion, whole.size)
     m = designs_in(spec)
     rows = np.full((1 + len(Lock._fields), m, 1), np.nan)
     for i in range(m):
         one = build(alone(spec, i))
-        found = sized(one)
-        if found is not None and found[1].lock:
-            rows[:, i, 0] = found[1].half_width, *lock_of(*found)
+        parts = sized(one)
+        if parts is not None and parts[1].lock:
+            rows[:, i, 0] = parts[1].half_width, *lock_of(*parts)
     if np.isnan(rows).all():
         return None
     half_width, *lock = (parameter(row) if m > 1 else row.item() for row in rows)

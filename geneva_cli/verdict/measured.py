@@ -4,11 +4,9 @@ from __future__ import annotations
 
 from geneva_cli.output.document.values import shown
 
-DIGITS = 4  # significant digits in a sentence
 
-
-def measured(value: float, unit: str = "", digits: int = DIGITS) -> str:
-    """A value with its unit.
+def measured(value: float, unit: str = "", digits: int = 4) -> str:
+    """A value with its unit, and with the significant digits of a sentence.
 
     >>> measured(8.25622, "mm"), measured(-58.2111, "deg")
     ('8.256 mm', '-58.21°')

@@ -18,8 +18,6 @@ from geneva_cli.parts.fits import loosest_mm
 from geneva_cli.spec.processes import PROCESSES
 from geneva_cli.spec.tables import Z_USUAL
 
-SHOWN_LEAD = 1e-6  # degrees: less is rounding
-SHOWN_DOUBT = 0.01  # fraction of the greatest jerk: less is not mentioned
 SHOWN_UNDERCUT = 0.005  # mm: a wall cut back by less is within a shop's tolerance
 
 
@@ -93,25 +91,25 @@ def _loose_fits(mechanism: Mechanism) -> Iterator[Notice]:
         radius = mechanism.ratio * mechanism.center_distance_mm if disc is None else disc
         pairs.append(("lock_clearance_mm", "locking disc", "recess", radius))
     for key, part, mate, radius in pairs:
-        given, fit = getattr(size, key), loosest_mm(2.0 * radius)
-        if given is None or fit is None:
+        clearance, fit = getattr(size, key), loosest_mm(2.0 * radius)
+        if clearance is None or fit is None:
             continue
         own = getattr(PROCESSES[size.process], key) if size.process else 0.0
         most = max(0.5 * fit, own)
-        if not keeps(given, "at most", most):
+        if not keeps(clearance, "at most", most):
             helps = "" if size.process else ", or name the process that needs it"
             yield Notice(
                 "loose-fit",
-                f"{key} = {given:g}: the {part} is loose in its {mate}. At Ø {2.0 * radius:.4g} mm "
-                f"the loosest running fit of ISO 286, H11/c11, leaves at most {0.5 * fit:.4g} mm a "
-                f"side: reduce {key} to {most:.4g}{helps}",
+                f"{key} = {clearance:g}: the {part} is loose in its {mate}. At Ø "
+                f"{2.0 * radius:.4g} mm the loosest running fit of ISO 286, H11/c11, leaves at "
+                f"most {0.5 * fit:.4g} mm a side: reduce {key} to {most:.4g}{helps}",
             )
 
 
 def _overtaken(mechanism: Mechanism) -> list[Notice]:
     """A warning for a roller that presses into the wall that it drove, as gears slow the wheel."""
     lead = mechanism.engagements[0].overtaking / DEGREE
-    if not lead > SHOWN_LEAD:
+    if not lead > 1e-6:  # degrees: less is rounding
         return []
     return [
         Notice(
@@ -141,14 +139,14 @@ def _rounded_points(mechanism: Mechanism) -> list[Notice]:
         decimals, move = points.decimals, points.move * 2.0 * engagement.half_step / whole
     else:
         return []
-    share = move / peak(engagement.motion, "jerk").max
-    if share < SHOWN_DOUBT:
+    fraction = move / peak(engagement.motion, "jerk").max
+    if fraction < 0.01:  # not worth a warning
         return []
     return [
         Notice(
             "rounded-points",
             f"the points have {decimals} decimals, so the jerk is known only to about "
-            f"{float(f'{100.0 * share:.2g}'):g} %: use more decimals, or fewer points",
+            f"{float(f'{100.0 * fraction:.2g}'):g} %: use more decimals, or fewer points",
         )
     ]
 
@@ -216,21 +214,21 @@ def _loose(mechanism: Mechanism) -> list[Notice]:
 def _undercut(mechanism: Mechanism) -> list[Notice]:
     from geneva_cli.analysis.undercut import undercut
 
-    found = undercut(mechanism)
-    if found is None or found.depth_mm < SHOWN_UNDERCUT:
+    place = undercut(mechanism)
+    if place is None or place.depth_mm < SHOWN_UNDERCUT:
         return []
     r = mechanism.roller_radius_mm + mechanism.spec.size.allowances.slot_clearance_mm
-    free = found.radius_mm - mechanism.spec.size.allowances.slot_clearance_mm
+    free = place.radius_mm - mechanism.spec.size.allowances.slot_clearance_mm
     helps = (
         "a smaller roller or a longer motion reduces it"
-        if found.to_cusp or free <= 0.0
+        if place.to_cusp or free <= 0.0
         else f"a roller radius below {free:.4g} mm avoids it"
     )
     return [
         Notice(
             "undercut",
-            f"undercut of the {found.wall} flank from {found.from_deg:.4g} to {found.to_deg:.4g} "
-            f"deg, by up to {found.depth_mm:.3g} mm. The roller's radius, {r:.4g} mm, exceeds the "
-            f"radius of curvature, {found.radius_mm:.4g} mm at {found.at_deg:.4g} deg: {helps}",
+            f"undercut of the {place.wall} flank from {place.from_deg:.4g} to {place.to_deg:.4g} "
+            f"deg, by up to {place.depth_mm:.3g} mm. The roller's radius, {r:.4g} mm, exceeds the "
+            f"radius of curvature, {place.radius_mm:.4g} mm at {place.at_deg:.4g} deg: {helps}",
         )
     ]

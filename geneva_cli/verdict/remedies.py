@@ -26,27 +26,14 @@ from geneva_cli.verdict.changes import (
 )
 from geneva_cli.verdict.checks.registry import LIMITS, MOTION
 
-# Sizes whose defaults free a machine that jams.
-FREE = (
-    "wheel_radius_mm",
-    "lock_radius_mm",
-    "relief",
-    "relief_clearance_mm",
-    "slot_bottom_clearance_mm",
-    "wheel_outer_radius_mm",
-    "roller_radius_mm",
-)
-# Requirements on the machine's size, process and walls, which no advice reduces.
-REQUIRED = ("center_distance_mm", "face_width_mm", "process", "wall_min_mm")
-
 
 def remedies(check: str, mechanism: Mechanism) -> Iterator[Change]:
     """Changes of the spec that may make a failing check pass, the likeliest first."""
     if check in REMEDIES:
         if check in ("crank_shaft_mm", "crank_hub_mm", "wheel_shaft_mm"):
             yield from _hub(mechanism, check.partition("_")[0])
-        given = mechanism.spec.motion is not None
-        yield from (change for change in REMEDIES[check] if given or change not in _MOTION)
+        has_law = mechanism.spec.motion is not None
+        yield from (change for change in REMEDIES[check] if has_law or change not in _MOTION)
     else:
         if mechanism.engagements[0].overtaking > 0.0:
             yield set_to("drive", "gear_ratio", "shockless")
@@ -58,7 +45,7 @@ def remedies(check: str, mechanism: Mechanism) -> Iterator[Change]:
             towards("wheel", "offset_mm", 0.0, COARSE),
         )
     if check not in MOTION and check not in LIMITS:
-        yield from _given(mechanism)
+        yield from _own_sizes(mechanism)
 
 
 def _hub(mechanism: Mechanism, part: str) -> Iterator[Change]:
@@ -68,11 +55,13 @@ def _hub(mechanism: Mechanism, part: str) -> Iterator[Change]:
         yield towards("size", f"{part}_hub_mm", bore, COARSE)
 
 
-def _given(mechanism: Mechanism) -> Iterator[Change]:
-    """Each given size made smaller, made larger, or left out; counts made smaller."""
+def _own_sizes(mechanism: Mechanism) -> Iterator[Change]:
+    """Smaller values, larger values and the default of each size that the spec sets."""
     usual = Size().as_dict()
+    # Requirements on the machine's size, process and walls, which no advice reduces.
+    required = ("center_distance_mm", "face_width_mm", "process", "wall_min_mm")
     for key, value in mechanism.spec.size.as_dict().items():
-        if value == usual[key] or key in REQUIRED:
+        if value == usual[key] or key in required:
             continue
         if isinstance(value, int):
             yield fewer("size", key, 0)
@@ -83,11 +72,21 @@ def _given(mechanism: Mechanism) -> Iterator[Change]:
 
 
 def _defaults(mechanism: Mechanism) -> Iterator[Change]:
-    """Each given size moved towards its default, and then left out."""
-    given, usual_sizes = mechanism.spec.size.as_dict(), Size().as_dict()
-    for key in FREE:
+    """Steps from each size that the spec sets to its default, then the default."""
+    present, usual_sizes = mechanism.spec.size.as_dict(), Size().as_dict()
+    # Sizes whose defaults free a machine that jams.
+    keys = (
+        "wheel_radius_mm",
+        "lock_radius_mm",
+        "relief",
+        "relief_clearance_mm",
+        "slot_bottom_clearance_mm",
+        "wheel_outer_radius_mm",
+        "roller_radius_mm",
+    )
+    for key in keys:
         usual = usual_sizes[key]
-        if given[key] == usual:
+        if present[key] == usual:
             continue
         without = mechanism.spec.with_(f"size.{key}", None)
         default = size_now(mechanism._replace(spec=without), key) if usual is None else usual
@@ -101,15 +100,15 @@ def _sine(now: float) -> list[Value]:
 
 
 _SLOTS = Change("wheel", "z", lambda z: list(range(z + 1, Z_USUAL + 1)))
-_FEWER = fewer("drive", "rollers", 1)
 _MOTION = (increased("motion", "alpha0_deg", -180.0), increased("motion", "alpha0_deg", 180.0))
-_DRIVE = (
+_MILDER = (
     towards("drive", "A", 0.99),
     towards("drive", "A", -0.99),
     towards("drive", "eccentricity", 0.99),
     towards("drive", "eccentricity", 0.0),
+    *_MOTION,
+    _SLOTS,
 )
-_MILDER = (*_DRIVE, *_MOTION, _SLOTS)
 _SLOWER = scaled("drive", "n_rpm", 1e-3)
 _LARGER = scaled("size", "center_distance_mm", 20.0)
 _SMALLER = scaled("size", "roller_radius_mm", 0.2)
@@ -195,7 +194,7 @@ REMEDIES: dict[str, tuple[Change, ...]] = {
     "pressure_angle_deg": (set_to("motion", "ratio", "matched"), *_MOTION, _SLOTS),
     "undercut_mm": (_SMALLER, *_MOTION),
     "velocity_min": (Change("motion", "lambda", _sine),),
-    "dwell_deg": (_FEWER, *_MOTION),
+    "dwell_deg": (fewer("drive", "rollers", 1), *_MOTION),
     "driver_gear_convexity": _CONVEX,
     "driven_gear_convexity": _CONVEX,
     "dwell_hold": (

@@ -20,7 +20,6 @@ from geneva_cli.verdict.quantities.under_load import under_load
 if TYPE_CHECKING:
     from geneva_cli.machine.mechanism import Mechanism
 
-WIDTH = "face_width_mm in [size]"
 LOAD = "inertia_kgm2 or torque_Nm in [load], or a [[mass]]"
 # The groups by the names of their tables, and by the whole names of their quantities.
 GROUPS = {name: group for group in REPORT for name in (group.table, *group.names)}
@@ -96,7 +95,7 @@ class Strength:
 
     @property
     def _wide(self) -> Key:
-        return self.spec.size.face_width_mm is not None, WIDTH
+        return self.spec.size.face_width_mm is not None, "face_width_mm in [size]"
 
     @property
     def _loaded(self) -> Key:
@@ -128,20 +127,20 @@ class Strength:
     def _lock(self) -> Keys:
         yield self._cut()
         if self.load.lock_sizes is not None:
-            held = bool(lock.held_torque_Nm(self.mechanism))
-            yield self._wide, (held, "dwell_torque_Nm in [load]")
+            has_torque = bool(lock.held_torque_Nm(self.mechanism))
+            yield self._wide, (has_torque, "dwell_torque_Nm in [load]")
 
     def _contact(self) -> Keys:
         """The needs of the lock's contact stress, which is unbounded on a sharp edge."""
         yield from self._lock()
-        found = self.load.lock
-        if found is not None and found.approach_deg is not None:
+        lock_load = self.load.lock
+        if lock_load is not None and lock_load.approach_deg is not None:
             rounds = (
                 "lock_edge_mm in [size]"
-                if found.on == "corner"
+                if lock_load.on == "corner"
                 else "lock_clearance_mm = 0 in [size]: the end of a short locking disc is sharp"
             )
-            yield [(not np.isnan(found.approach_deg), rounds)]
+            yield [(not np.isnan(lock_load.approach_deg), rounds)]
 
     def _wheel_shaft(self) -> Keys:
         yield from self._shaft("wheel", shafts.wheel_shaft(self.spec.shaft))

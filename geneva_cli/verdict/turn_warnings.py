@@ -21,7 +21,7 @@ def turn_warnings(model: PartsModel) -> list[Notice]:
     if free <= limit or model.turn.motion.deg >= free * (1.0 - SAME):
         return []
     first = ahead.deg >= behind.deg * (1.0 - SAME)
-    way, at_deg = ("ahead", ahead.at_deg) if first else ("behind", behind.at_deg)
+    side, at_deg = ("ahead", ahead.at_deg) if first else ("behind", behind.at_deg)
     if len(model.parts.assembly.rollers) > len(model.parts.assembly.motions):
         return [
             Notice(
@@ -36,8 +36,8 @@ def turn_warnings(model: PartsModel) -> list[Notice]:
     return [
         Notice(
             "driven-by-one-wall",
-            f"in its slot the wheel is free {way} by {free:.4g} deg at {at_deg:.4g} deg, where one "
-            f"wall alone drives it: {helps} meets a corner. Friction or a brake keeps it on that "
-            "wall",
+            f"in its slot the wheel is free {side} by {free:.4g} deg at {at_deg:.4g} deg, where "
+            f"one wall alone drives it: {helps} meets a corner. Friction or a brake keeps it on "
+            "that wall",
         )
     ]

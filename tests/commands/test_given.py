@@ -9,7 +9,7 @@ import sys
 import pytest
 
 from geneva_cli.app import COMMANDS
-from geneva_cli.commands.options import Given
+from geneva_cli.commands.options import Settings
 
 TAKE_A_SPEC = {"spec", "specs"}
 
@@ -23,7 +23,7 @@ def parameters(name):
 def test_a_command_with_a_spec_takes_set(name):
     found = parameters(name)
     if TAKE_A_SPEC & set(found):
-        assert found["given"].annotation == Given
+        assert found["settings"].annotation == Settings
 
 
 def test_some_do():

@@ -42,11 +42,11 @@ def change(path, old, new):
 def resumed(path, *blocks, header=HEADER):
     """The rows that were there, what was said, and the file after ``blocks`` are added."""
     with Growing(path, header, KEY, True) as file:
-        done, found = file.done, file.found
+        done, message = file.done, file.message
         for block in blocks:
             file.append(block)
         file.finish()
-    return done, found, read(path)
+    return done, message, read(path)
 
 
 def test_it_is_there_only_when_it_is_whole(path):
@@ -65,9 +65,9 @@ def test_it_is_there_only_when_it_is_whole(path):
 def test_a_stopped_run_is_gone_on_from_its_last_whole_block(path):
     begun(path, "1,2\n3,4\n", "5,6\n")
     change(path, b"5,6\n", b"5,")  # stopped while it was written
-    done, found, rows = resumed(path, "5,6\n")
+    done, message, rows = resumed(path, "5,6\n")
     assert (done, rows) == (2, "a,b\n1,2\n3,4\n5,6\n")
-    assert found == (
+    assert message == (
         "--resume: rows.csv.geneva is incomplete or damaged after row 2; continues there"
     )
 
@@ -102,9 +102,9 @@ def test_a_damaged_block_and_what_follows_is_written_again(path, damage):
     begun(path, *THREE)
     change(path, old, new)
     lines = "".join(THREE).splitlines(keepends=True)
-    done, found, rows = resumed(path, *lines[kept:])
+    done, message, rows = resumed(path, *lines[kept:])
     assert (done, rows) == (kept, HEADER + "".join(THREE))
-    assert f"damaged after row {kept}" in found
+    assert f"damaged after row {kept}" in message
 
 
 def test_a_block_that_is_lost_doubled_or_moved_is_noticed(path):
@@ -222,7 +222,7 @@ def test_without_resume_it_begins_again(path):
 
 def test_it_does_not_go_on_for_another_request(path):
     begun(path, "1,2\n")
-    with pytest.raises(GenevaError, match="begun for something else"):
+    with pytest.raises(GenevaError, match="has the rows of another run"):
         Growing(path, HEADER, "another", True)
     assert read(path + ".geneva").endswith("\n1,2\n")
 
@@ -237,7 +237,7 @@ def whole(path, *lines):
 
 def test_where_there_is_nothing_to_go_on_from_it_begins(path):
     with Growing(path, HEADER, KEY, True) as file:
-        assert "nothing to continue for rows.csv; from the first row" in file.found
+        assert "nothing to continue for rows.csv; from the first row" in file.message
         assert (file.done, file.is_whole) == (0, False)
         file.append("1,2\n")
         file.finish()
@@ -248,7 +248,7 @@ def test_of_a_whole_file_there_is_nothing_to_do(path):
     whole(path, "1,2\n")
     with Growing(path, HEADER, KEY, True) as file:
         assert file.is_whole
-        assert file.found == "--resume: rows.csv is whole already"
+        assert file.message == "--resume: rows.csv is whole already"
     assert read(path) == "a,b\n1,2\n"
     assert sorted(os.listdir(os.path.dirname(path))) == ["rows.csv", "rows.csv.geneva"]
 

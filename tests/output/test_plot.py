@@ -13,7 +13,7 @@ from geneva_cli import load
 from geneva_cli.errors import GenevaError
 from geneva_cli.figure import JOINED, POINTS, Axis, Curve, Figure, Mark, Panel
 from geneva_cli.output import letters, plot, plot_svg, plot_text, strokes
-from geneva_cli.output.ticks import labels, said, ticks
+from geneva_cli.output.ticks import labels, mark_text, ticks
 from geneva_cli.study.figures import of_specs
 
 DESIGNS = sorted(repo.DESIGNS.glob("*.toml"))
@@ -286,8 +286,8 @@ def test_ticks_are_round():
 
 
 def test_what_is_said_of_a_peak():
-    assert said(Mark("max", 0.0, None)) == "no bound at 0.00°"
-    assert said(Mark("peak", -0.001, -6.0)) == "peak -6 at 0.00°"
+    assert mark_text(Mark("max", 0.0, None)) == "no bound at 0.00°"
+    assert mark_text(Mark("peak", -0.001, -6.0)) == "peak -6 at 0.00°"
 
 
 # As text

@@ -298,7 +298,7 @@ def test_numbers_have_a_point_and_no_exponent(value, said):
     [
         (Drawing("", (SQUARE,)), "mm", "no solid"),
         (Drawing("", (), solid=Plate("p", "CRANK", SQUARE, (), 0.0, 1.0)), "inch", "in mm"),
-        (Drawing("", (), solid=Plate("p", "CRANK", SQUARE, (), 1.0, 1.0)), "mm", "must be thick"),
+        (Drawing("", (), solid=Plate("p", "CRANK", SQUARE, (), 1.0, 1.0)), "mm", "must be thicker"),
     ],
 )
 def test_refused(drawing, units, said):

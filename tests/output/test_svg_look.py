@@ -121,7 +121,7 @@ def test_fills(assembly):
     assert len(list(groups(root(wheel, fill="tint"))["FILL"])) == 1
     with pytest.raises(GenevaError, match="--fill blue: it must be one of none, tint, hatch"):
         root(assembly, fill="blue")
-    with pytest.raises(GenevaError, match="--fill: nothing here is a plate"):
+    with pytest.raises(GenevaError, match="--fill: this drawing has no plates"):
         root(design().drawing("slot", 0.01), fill="tint")
     with pytest.raises(GenevaError, match=r"--fill is for .svg, and this is dxf; leave it out"):
         draw(wheel, "-", "dxf", fill="tint")

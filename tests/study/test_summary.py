@@ -11,7 +11,7 @@ from typer.testing import CliRunner
 
 from geneva_cli.app import app
 from geneva_cli.design import Design, load
-from geneva_cli.document import FAILS, PASSES, WARNS, Line, Summary
+from geneva_cli.document import FAILS, PASSES, WARNS, Summary, SummaryLine
 from geneva_cli.output.summary import Look, chunks
 from geneva_cli.study.summary.loads import of_loads
 from geneva_cli.study.summary.report import of_report
@@ -27,7 +27,7 @@ def design(name: str, *given: str) -> Design:
     return load(str(repo.DESIGNS / f"{name}.toml"), given)
 
 
-def line(summary: Summary, label: str) -> Line:
+def line(summary: Summary, label: str) -> SummaryLine:
     (found,) = (one for one in summary.lines if one.label == label)
     return found
 
@@ -146,7 +146,9 @@ def test_no_line_is_wider_than_the_window(name: str, width: int) -> None:
 
 def test_an_ascii_terminal_gets_ascii() -> None:
     """Powers of ten as a program writes them, and a sign in letters."""
-    summary = Summary("fine", (Line("pin", "1.23\u00a0×\u00a010⁻⁵ N at -3.5°, 2 kg m²"),), PASSES)
+    summary = Summary(
+        "fine", (SummaryLine("pin", "1.23\u00a0×\u00a010⁻⁵ N at -3.5°, 2 kg m²"),), PASSES
+    )
     assert shown(summary, 80, unicode=False) == "ok fine\n\n  pin  1.23e-5 N at -3.5 deg, 2 kg m2\n"
     assert shown(summary._replace(state=FAILS, lines=()), 80, unicode=False) == "x fine\n"
 

@@ -124,7 +124,7 @@ def test_a_stopped_sweep_goes_on(tmp_path):
     assert file.read_text() == whole
     state.write_bytes(half)
     other = geneva(*arguments, "--set", "drive.n_rpm=90", "-o", str(file), "--resume")
-    assert other.exit_code == 2 and "begun for something else" in other.stderr
+    assert other.exit_code == 2 and "has the rows of another run" in other.stderr
     assert file.read_text() == whole
 
 
@@ -339,7 +339,7 @@ def test_the_spec_may_come_from_a_pipe():
         (["--vary", "drive.A=0.1", "-o", "rows.xlsx"], "it must end in .csv or .parquet"),
         (["--vary", "drive.A=0.1", "--resume"], "give -o FILE"),
         (["--vary", "drive.A=0.1", "--format", "xls"], "--format xls: it must be one of"),
-        (["--vary", "drive.A=0.1", "--resume", "--format", "json"], "--resume goes on with all"),
+        (["--vary", "drive.A=0.1", "--resume", "--format", "json"], "--resume continues all"),
         (["--vary", "drive.A=0.1", "--shard", "3/2"], "--shard 3/2"),
         (["--vary", "drive.A=0.1", "--jobs", "0"], "--jobs 0"),
         (["--vary", "drive.A=0.1", "--seed", "1"], "--seed 1: it needs --random"),
@@ -352,7 +352,7 @@ def test_the_spec_may_come_from_a_pipe():
         (["--vary", "drive.A=0.1", "--pick", "dwell"], '(did you mean "dwell_s"?)'),
         (["--vary", "drive.A=0.1", "--best", "min:k", "-o", "all.csv"], "--best writes a spec"),
         (["--vary", "drive.A=0.1", "--best", "min:k", "--format", "json"], "--best writes a spec"),
-        (["--vary", "drive.A=0.1", "--best", "min:k", "--resume"], "--best has none to go on with"),
+        (["--vary", "drive.A=0.1", "--best", "min:k", "--resume"], "--best writes none"),
         (["--vary", "drive.A=2,3"], "none of the 2 designs can be built: drive.A=2"),
         ([], "--vary is missing"),
     ],

@@ -25,9 +25,8 @@ from geneva_cli.output.document.inline import inline
 from geneva_cli.output.document.values import is_number, shown
 from geneva_cli.output.summary import SIGNS
 
-WIDE = 4  # columns that fit on a phone
 SHORT = 12  # letters that are not broken into lines
-NUMBER, BRIEF, WORST = ' class="n"', ' class="s"', ' class="bad"'
+NUMBER = ' class="n"'
 
 
 def chunks(document: Document) -> Iterator[str]:
@@ -91,7 +90,7 @@ def _grid(grid: Grid) -> Iterator[str]:
         for head, side in zip(grid.heads, sides, strict=True)
     )
     head = f"<thead><tr>{heads}</tr></thead>\n" if any(grid.heads) else ""
-    wide = " wide" if len(grid.heads) > WIDE else ""
+    wide = " wide" if len(grid.heads) > 4 else ""  # four columns fit on a phone
     yield (
         f'<div class="grid{wide}" tabindex="0">\n'
         f"<table>\n<caption>{_text(grid.caption)}</caption>\n{head}<tbody>\n"
@@ -99,7 +98,8 @@ def _grid(grid: Grid) -> Iterator[str]:
     for first, *rest in grid.rows:
         yield f'<tr><th scope="row">{_text(shown(first))}</th>'
         for value, side in zip(rest, sides[1:], strict=True):
-            yield f"<td{WORST if value == BAD else side}>{_text(shown(value))}</td>"
+            attribute = ' class="bad"' if value == BAD else side
+            yield f"<td{attribute}>{_text(shown(value))}</td>"
         yield "</tr>\n"
     yield "</tbody>\n</table>\n</div>\n"
 
@@ -108,7 +108,7 @@ def _side(column: Row) -> str:
     """The class of a column's cells: numbers are right-aligned, short words unbroken."""
     if all(map(is_number, column)):
         return NUMBER
-    return BRIEF if all(len(shown(value)) <= SHORT for value in column) else ""
+    return ' class="s"' if all(len(shown(value)) <= SHORT for value in column) else ""
 
 
 def _list(texts: tuple[str, ...]) -> Iterator[str]:

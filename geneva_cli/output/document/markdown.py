@@ -18,7 +18,7 @@ from geneva_cli.document import (
 from geneva_cli.errors import clean
 from geneva_cli.output.document.values import is_number, shown
 from geneva_cli.output.markdown import ESCAPES
-from geneva_cli.output.ticks import named, said
+from geneva_cli.output.ticks import mark_text, named
 
 
 def chunks(document: Document) -> Iterator[str]:
@@ -59,7 +59,7 @@ def _between(a: float, b: float) -> str:
 def _peaks(curves: Curves) -> Grid:
     """The marks of a figure, which describe its curves."""
     rows = tuple(
-        (named(panel.y), said(mark))
+        (named(panel.y), mark_text(mark))
         for panel in curves.figure.panels
         for curve in panel.curves
         for mark in curve.marks

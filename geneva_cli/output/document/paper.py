@@ -33,24 +33,24 @@ class Item(NamedTuple):
 
 def pages(items: Iterable[Item], foot: str) -> list[Page]:
     """Items on as many pages as they need."""
-    found: list[str] = []
+    contents: list[str] = []
     content, y = "", TOP
     for group in _groups(items):
         high = sum(item.high for item in group)
         if content and y - high < BOTTOM:
-            found.append(content)
+            contents.append(content)
             content, y = "", TOP
             head = group[0].head
             if head:
                 content, y = head.draw(y), y - head.high
         for item in group:
             if content and y - item.high < BOTTOM:  # a group higher than a page
-                found.append(content)
+                contents.append(content)
                 content, y = "", TOP
             content += item.draw(y)
             y -= item.high
-    found.append(content)
-    return [_page(text, f"{i} / {len(found)}", foot) for i, text in enumerate(found, 1)]
+    contents.append(content)
+    return [_page(text, f"{i} / {len(contents)}", foot) for i, text in enumerate(contents, 1)]
 
 
 def _groups(items: Iterable[Item]) -> Iterator[list[Item]]:
@@ -101,34 +101,38 @@ def wide(text: str, size: float, bold: bool = False) -> float:
     return pdf_file.wide(western(text), size, bold)
 
 
-def lines(text: str, size: float, room: float, bold: bool = False) -> list[str]:
+def lines(text: str, size: float, width_mm: float, bold: bool = False) -> list[str]:
     """A text broken into lines that fit a width; a longer word is cut."""
     out: list[str] = []
     line = ""
     for word in filter(None, text.split(" ")):
         whole = f"{line} {word}" if line else word
-        if wide(whole, size, bold) <= room:
+        if wide(whole, size, bold) <= width_mm:
             line = whole
             continue
         if line:
             out.append(line)
-        while wide(word, size, bold) > room and len(word) > 1:
-            fits = _fits(word, size, room, bold)
+        while wide(word, size, bold) > width_mm and len(word) > 1:
+            fits = _fits(word, size, width_mm, bold)
             out.append(word[:fits])
             word = word[fits:]
         line = word
     return [*out, line] if line or not out else out
 
 
-def fitting(text: str, size: float, room: float) -> str:
-    """As much of a text as fits a width."""
-    return text if wide(text, size) <= room else text[: _fits(text, size, room, False) - 1] + "…"
+def fitting(text: str, size: float, width_mm: float) -> str:
+    """The beginning of a text that fits a width."""
+    return (
+        text
+        if wide(text, size) <= width_mm
+        else text[: _fits(text, size, width_mm, False) - 1] + "…"
+    )
 
 
-def _fits(word: str, size: float, room: float, bold: bool) -> int:
+def _fits(word: str, size: float, width_mm: float, bold: bool) -> int:
     """The number of letters that fit, up to a sign such as an underscore if one is near the end."""
     many = 1
-    while many < len(word) and wide(word[: many + 1], size, bold) <= room:
+    while many < len(word) and wide(word[: many + 1], size, bold) <= width_mm:
         many += 1
     place = max(word.rfind(sign, 1, many) for sign in "_./-") + 1
     return place if place > 0.4 * many else many

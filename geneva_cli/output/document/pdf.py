@@ -41,11 +41,8 @@ from geneva_cli.output.document.pdf_drawing import drawing
 from geneva_cli.output.document.pdf_table import facts, grid
 from geneva_cli.output.letters import western
 
-INKS = {PASSES: GREEN, WARNS: AMBER, FAILS: RED}
 TITLE, HEAD, VERDICT = 6.4, 4.4, 4.2
-STEP = LEADING * BODY
 MARK = 4.0  # before a text of a list
-BAR = 1.6  # beside the verdict
 
 
 def chunks(document: Document) -> Iterator[str]:
@@ -58,7 +55,7 @@ def _items(document: Document) -> Iterator[Item]:
     for text in lines(clean(document.title), TITLE, WIDE, bold=True):
         yield _line(text, TITLE, bold=True)
     yield _gap(2.0, keeps=True)
-    ink = INKS[document.state]
+    ink = {PASSES: GREEN, WARNS: AMBER, FAILS: RED}[document.state]
     for text in lines(document.verdict, VERDICT, WIDE - 2.0 * MARK, bold=True):
         yield _barred(text, VERDICT, ink, bold=True)
     for reason in document.reasons:
@@ -73,9 +70,9 @@ def _block(block: Block) -> Iterator[Item]:
     if isinstance(block, Heading):
         yield _heading(block.text)
     elif isinstance(block, Prose):
-        found = _wrapped(block.text, WIDE)
-        for i, text in enumerate(found):  # no single line of it on a page
-            yield _line(text, BODY)._replace(keeps=i in (0, len(found) - 2))
+        rows = _wrapped(block.text, WIDE)
+        for i, text in enumerate(rows):  # no single line of it on a page
+            yield _line(text, BODY)._replace(keeps=i in (0, len(rows) - 2))
         yield _gap(2.5)
     elif isinstance(block, Listed):
         yield from _list(block.texts)
@@ -90,8 +87,8 @@ def _block(block: Block) -> Iterator[Item]:
         yield from plot_pdf.items(block.figure)
 
 
-def _wrapped(text: str, room: float) -> list[str]:
-    return lines(clean(text), BODY, room)
+def _wrapped(text: str, width_mm: float) -> list[str]:
+    return lines(clean(text), BODY, width_mm)
 
 
 def _list(texts: tuple[str, ...]) -> Iterator[Item]:
@@ -124,14 +121,14 @@ def _heading(text: str) -> Item:
 
 
 def _barred(text: str, size: float, ink: str, bold: bool = False, mark: str = "") -> Item:
-    """A line of the verdict, or of a reason, beside a bar in the verdict's colour."""
+    """A line of the verdict, or of a reason, with a bar in the verdict's colour."""
     high = LEADING * size
     x = LEFT + MARK + (0.0 if bold else MARK)
 
     def draw(top: float) -> str:
         y = top - size
         before = words(mark, (LEFT + MARK + 1.0, y), size) if mark else ""
-        bar = box(LEFT, top - high, BAR, high, ink)
+        bar = box(LEFT, top - high, 1.6, high, ink)
         return bar + before + words(text, (x, y), size, bold, ink if bold else INK)
 
     return Item(high, draw)

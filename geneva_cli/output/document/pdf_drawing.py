@@ -12,13 +12,10 @@ from geneva_cli.curves.shapes import Arc, Contour, Point, Shape
 from geneva_cli.output.document.paper import INK, LEFT, SMALL, SOFT, WIDE, Item, rule, wide, words
 from geneva_cli.output.inks import CENTRE_LINES, inks
 from geneva_cli.output.pdf_file import number, outline, point
-from geneva_cli.output.svg_fill import TINT, TINTS, rings
+from geneva_cli.output.svg_fill import opacity, rings
 from geneva_cli.output.svg_look import round_length
 
-HIGH = 92.0  # greatest height of the shapes
-ROOM = 3.0  # margin around them
 STROKE, THIN = 0.3, 0.16
-DASHES = "4 0.8 0.8 0.8"
 SPAN = 6.0  # from one distance to the next
 ARROW = 2.6, 0.45
 
@@ -26,27 +23,30 @@ Move: TypeAlias = Callable[[Shape], Shape]
 Put: TypeAlias = Callable[[Point], Point]
 
 
-def drawing(made: Drawing) -> Item:
+def drawing(shown: Drawing) -> Item:
     """The drawing centred on the page; below it distances and a scale bar."""
-    box = extent(made)
-    turns = [bounds(Contour("", (t,), closed=False)) for t in made.look.turns] if made.look else []
+    box = extent(shown)
+    turns = (
+        [bounds(Contour("", (t,), closed=False)) for t in shown.look.turns] if shown.look else []
+    )
     x0, x1 = min(b.x0 for b in (box, *turns)), max(b.x1 for b in (box, *turns))
     y0, y1 = min(b.y0 for b in (box, *turns)), max(b.y1 for b in (box, *turns))
-    scale = min((WIDE - 2.0 * ROOM) / (x1 - x0), HIGH / (y1 - y0))
+    margin = 3.0
+    scale = min((WIDE - 2.0 * margin) / (x1 - x0), 92.0 / (y1 - y0))  # 92: greatest height
     left = LEFT + 0.5 * (WIDE - scale * (x1 - x0))
-    spans = len(made.look.spans) if made.look else 0
-    high = scale * (y1 - y0) + 2.0 * ROOM
+    spans = len(shown.look.spans) if shown.look else 0
+    high = scale * (y1 - y0) + 2.0 * margin
 
     def draw(top: float) -> str:
         def at(p: Point) -> Point:
-            return left + scale * (p[0] - x0), top - ROOM + scale * (p[1] - y1)
+            return left + scale * (p[0] - x0), top - margin + scale * (p[1] - y1)
 
         def placed(shape: Shape) -> Shape:
             return mapped(shape, at, lambda radius: radius * scale)
 
-        out = "".join(_fills(made, placed)) + "".join(_lines(made, placed))
-        if made.look:
-            out += "".join(_look(made.look, at, placed, top - high))
+        out = "".join(_fills(shown, placed)) + "".join(_lines(shown, placed))
+        if shown.look:
+            out += "".join(_look(shown.look, at, placed, top - high))
         bar = round_length(0.25 * (x1 - x0))
         y = top - high - spans * SPAN - SPAN
         out += rule(LEFT, y, scale * bar, 0.5, INK)
@@ -55,23 +55,22 @@ def drawing(made: Drawing) -> Item:
     return Item(high + (spans + 1) * SPAN + 5.0, draw)
 
 
-def _fills(made: Drawing, placed: Move) -> Iterator[str]:
-    if made.solid is None:
+def _fills(shown: Drawing, placed: Move) -> Iterator[str]:
+    if shown.solid is None:
         return
-    every = rings(made.solid)
+    every = rings(shown.solid)
     inked = inks(tuple(dict.fromkeys(layer for layer, _ in every)))
     for layer, contours in every:
-        share = TINTS.get(layer, TINT)
-        yield f"{_ink(inked[layer].rgb, share)} rg\n"
+        yield f"{_ink(inked[layer].rgb, opacity(layer))} rg\n"
         yield "".join(outline(placed(contour)) for contour in contours) + "f*\n"
 
 
-def _lines(made: Drawing, placed: Move) -> Iterator[str]:
-    for layer, ink in inks(made.layers).items():
+def _lines(shown: Drawing, placed: Move) -> Iterator[str]:
+    for layer, ink in inks(shown.layers).items():
         is_thin = layer in CENTRE_LINES
         yield f"{_ink(ink.rgb)} RG {THIN if is_thin else STROKE} w"
-        yield f" [{DASHES if is_thin else ''}] 0 d\n"
-        for shape in made.shapes:
+        yield f" [{'4 0.8 0.8 0.8' if is_thin else ''}] 0 d\n"
+        for shape in shown.shapes:
             if shape.layer == layer:
                 yield f"{outline(placed(shape))}S\n"
     yield "[] 0 d\n"
@@ -98,15 +97,15 @@ def _look(look: Annotations, at: Put, placed: Move, bottom: float) -> Iterator[s
         yield words(text, (0.5 * (a[0] + b[0] - wide(text, SMALL)), y + 0.9), SMALL)
 
 
-def _arrow(tip: Point, way: float) -> str:
+def _arrow(tip: Point, angle: float) -> str:
     long, half = ARROW
-    c, s = math.cos(way), math.sin(way)
+    c, s = math.cos(angle), math.sin(angle)
     x, y = tip[0] - long * c, tip[1] - long * s
     b, d = (point((x - k * half * s, y + k * half * c)) for k in (1, -1))
     return f"{SOFT} rg {point(tip)} m {b} l {d} l f\n"
 
 
-def _ink(rgb: str, share: float = 1.0) -> str:
+def _ink(rgb: str, fraction: float = 1.0) -> str:
     """A colour, or a fraction of it on white."""
     parts = (int(rgb[i : i + 2], 16) / 255.0 for i in (1, 3, 5))
-    return " ".join(number(1.0 - share * (1.0 - p)) for p in parts)
+    return " ".join(number(1.0 - fraction * (1.0 - p)) for p in parts)

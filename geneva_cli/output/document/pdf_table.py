@@ -24,28 +24,23 @@ from geneva_cli.output.document.paper import (
 )
 from geneva_cli.output.document.values import is_number, shown
 
-WORD = 42.0  # the longest word that stays whole
-PAD = 1.3  # beside a cell's text
+PAD = 1.3  # left and right of a cell's text
 SPACE = 0.55  # above and below it
-AFTER = 4.0  # below a table
 STEP = LEADING * SMALL
-NAMED = 0.62  # fraction of a fact's width for its name
-HEAD = 30.0  # width of a head before it breaks
-GAP = 6.0  # between facts side by side
 
 
 def grid(table: Grid) -> Iterator[Item]:
     """A table with a head, which is repeated on each page."""
     rows = [[shown(value) for value in row] for row in table.rows]
     right = [all(map(is_number, column)) for column in zip(*table.rows, strict=True)]
-    room = _widths(table.heads, rows)
-    head = _row(table.heads, right, room, bold=True)
+    widths = _widths(table.heads, rows)
+    head = _row(table.heads, right, widths, bold=True)
     yield from _caption(table.caption)
     has_head = any(table.heads)
     if has_head:
         yield head._replace(keeps=True)
     for row in rows:
-        yield _row(row, right, room)._replace(head=head if has_head else None)
+        yield _row(row, right, widths)._replace(head=head if has_head else None)
     yield _space()
 
 
@@ -54,10 +49,11 @@ def facts(table: Facts) -> Iterator[Item]:
     texts = [(fact.name, shown(fact.value, fact.unit)) for fact in table.facts]
     half = (len(texts) + 1) // 2
     yield from _caption(table.caption)
-    long = 0.5 * (WIDE - GAP)
+    gap = 6.0  # between facts side by side
+    long = 0.5 * (WIDE - gap)
     for i in range(half):
         pair = [(LEFT, texts[i])]
-        pair += [(LEFT + long + GAP, texts[half + i])] if half + i < len(texts) else []
+        pair += [(LEFT + long + gap, texts[half + i])] if half + i < len(texts) else []
         item = _pair(pair, long)
         yield item._replace(keeps=i == 0 and half > 1)
     yield _space()
@@ -73,61 +69,65 @@ def _caption(text: str) -> Iterator[Item]:
 
 
 def _space() -> Item:
-    return Item(AFTER, lambda top: "")
+    """The space below a table."""
+    return Item(4.0, lambda top: "")
 
 
 def _widths(heads: Sequence[str], rows: list[list[str]]) -> list[float]:
     """The columns' widths: those that they want, or fractions above their longest words."""
     needs, wants = [], []
+    whole_word = 42.0  # the longest word that stays whole
+    head_max = 30.0  # width of a head before it breaks
     for head, *cells in zip(heads, *rows, strict=True):
         longest = [max((wide(w, SMALL, True) for w in head.split()), default=0.0)]
         least = longest + [wide(w, SMALL) for cell in cells for w in cell.split(" ")]
-        most = [min(wide(head, SMALL, True), HEAD), *longest, *(wide(c, SMALL) for c in cells)]
-        needs.append(min(max(least), WORD) + 2.0 * PAD)
+        most = [min(wide(head, SMALL, True), head_max), *longest, *(wide(c, SMALL) for c in cells)]
+        needs.append(min(max(least), whole_word) + 2.0 * PAD)
         wants.append(max(max(most) + 2.0 * PAD, needs[-1]))
     more = sum(wants) - sum(needs)
     left = WIDE - sum(needs)
     if left < 0.0:
         return [need * WIDE / sum(needs) for need in needs]
-    share = min(1.0, left / more) if more > 0.0 else 0.0
-    return [need + share * (want - need) for need, want in zip(needs, wants, strict=True)]
+    fraction = min(1.0, left / more) if more > 0.0 else 0.0
+    return [need + fraction * (want - need) for need, want in zip(needs, wants, strict=True)]
 
 
 def _row(
-    texts: Sequence[str], right: Sequence[bool], room: Sequence[float], bold: bool = False
+    texts: Sequence[str], right: Sequence[bool], widths: Sequence[float], bold: bool = False
 ) -> Item:
     cells = [
         lines(text, SMALL, wide_ - 2.0 * PAD + 1e-6, bold)
-        for text, wide_ in zip(texts, room, strict=True)
+        for text, wide_ in zip(texts, widths, strict=True)
     ]
     high = max(map(len, cells)) * STEP + 2.0 * SPACE
 
     def draw(top: float) -> str:
-        out = box(LEFT, top - high, sum(room), high, BAND) if bold else ""
+        out = box(LEFT, top - high, sum(widths), high, BAND) if bold else ""
         x = LEFT
-        for cell, is_right, long in zip(cells, right, room, strict=True):
+        for cell, is_right, long in zip(cells, right, widths, strict=True):
             out += _cell(cell, x + PAD, top, long - 2.0 * PAD, is_right, bold)
             x += long
-        return out + rule(LEFT, top - high, sum(room), ink=LINE)
+        return out + rule(LEFT, top - high, sum(widths), ink=LINE)
 
     return Item(high, draw)
 
 
-def _cell(texts: list[str], x: float, top: float, room: float, right: bool, bold: bool) -> str:
+def _cell(texts: list[str], x: float, top: float, width: float, right: bool, bold: bool) -> str:
     out = ""
     ink, bold = (RED, True) if texts == [BAD] else (INK, bold)
     for i, text in enumerate(texts):
-        at = x + room - wide(text, SMALL, bold) if right else x
+        at = x + width - wide(text, SMALL, bold) if right else x
         out += words(text, (at, top - SPACE - 0.95 * SMALL - i * STEP), SMALL, bold, ink)
     return out
 
 
 def _pair(pair: list[tuple[float, tuple[str, str]]], long: float) -> Item:
     cells = []
+    name_fraction = 0.62  # fraction of a fact's width for its name
     for x, (name, value) in pair:
-        needs = min(wide(value, SMALL), (1.0 - 0.5 * NAMED) * long)
-        room = long - 2.0 * PAD - needs
-        cells.append((x, lines(name, SMALL, room), lines(value, SMALL, needs + 1e-6)))
+        needs = min(wide(value, SMALL), (1.0 - 0.5 * name_fraction) * long)
+        width = long - 2.0 * PAD - needs
+        cells.append((x, lines(name, SMALL, width), lines(value, SMALL, needs + 1e-6)))
     high = max(max(len(a), len(b)) for _, a, b in cells) * STEP + 2.0 * SPACE
 
     def draw(top: float) -> str:

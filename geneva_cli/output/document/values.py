@@ -8,12 +8,11 @@ from geneva_cli.document import Row, Value
 from geneva_cli.errors import GenevaError, clean
 from geneva_cli.table import NO_BOUND, in_digits
 
-DIGITS = 6
 TIMES = "\u00a0×\u00a0"  # spaces at which no line is broken
 RAISED = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 
 
-def shown(value: Value | Row, unit: str = "", digits: int = DIGITS) -> str:
+def shown(value: Value | Row, unit: str = "", digits: int = 6) -> str:
     """A value with its unit. Raises GenevaError for NaN, a fault of this program.
 
     >>> shown(182.612895, "°"), shown(53.17, "W/m²"), shown(None), shown(True)

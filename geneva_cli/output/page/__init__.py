@@ -18,11 +18,6 @@ if TYPE_CHECKING:
     from geneva_cli.figure import Curve, Panel
     from geneva_cli.scene import Bar, Body, Push, Scene, Track
 
-DIGITS = 10  # significant digits of angles and places: 1e-9 of a turn
-SEEN = 5  # significant digits of values that are only viewed
-SCALE, ANGLES = 4, 7  # numbers beside a curve, and below it
-SHORT = 120  # points of a curve in a piece
-
 
 def chunks(scene: Scene) -> Iterator[str]:
     """The page's text; the same scene gives the same bytes."""
@@ -52,8 +47,8 @@ def _view(scene: Scene) -> str:
     """The view box of the drawing with a margin; y points down."""
     x0, y0, x1, y1 = scene.box
     margin = 0.02 * max(x1 - x0, y1 - y0)
-    found = (x0 - margin, -y1 - margin, x1 - x0 + 2.0 * margin, y1 - y0 + 2.0 * margin)
-    return " ".join(f"{v:.6g}" for v in found)
+    box = (x0 - margin, -y1 - margin, x1 - x0 + 2.0 * margin, y1 - y0 + 2.0 * margin)
+    return " ".join(f"{v:.6g}" for v in box)
 
 
 def _group(body: Body) -> str:
@@ -95,7 +90,7 @@ def _data(scene: Scene) -> dict[str, Any]:
         "states": [[_short(s.start), _short(s.end), s.moves, s.words] for s in scene.states],
         "panels": [_panel(panel) for panel in scene.figure.panels],
         "window": scene.figure.window,
-        "angles": _ticks(*scene.figure.window, ANGLES, "deg"),
+        "angles": _ticks(*scene.figure.window, 7, "deg"),
         "inks": {layer.lower(): ink.rgb for layer, ink in INKS.items()},
     }
 
@@ -123,7 +118,7 @@ def _panel(panel: Panel) -> dict[str, Any]:
         "name": panel.y.label + unit,
         "low": low,
         "high": high,
-        "ticks": _ticks(low, high, SCALE),
+        "ticks": _ticks(low, high, 4),
         "pieces": [piece for curve in panel.curves for piece in _pieces(curve)],
     }
 
@@ -138,14 +133,16 @@ def _ticks(low: float, high: float, most: int, unit: str = "") -> list[tuple[flo
 def _pieces(curve: Curve) -> Iterator[list[list[float]]]:
     """The curve with a limited number of points in each piece, its ends kept."""
     for x, y in curve.pieces:
-        every = max(1, len(x) // SHORT)
+        every = max(1, len(x) // 120)  # leaves 120 to 240 points
         chosen = sorted({*range(0, len(x), every), len(x) - 1})
         yield [[_short(x[i]) for i in chosen], [_short(y[i]) for i in chosen]]
 
 
 def _exact(value: float) -> float:
-    return float(f"{value:.{DIGITS}g}")
+    """An angle or a place, to 1e-9 of a turn."""
+    return float(f"{value:.10g}")
 
 
 def _short(value: float) -> float:
-    return float(f"{value:.{SEEN}g}")
+    """A value that is only viewed."""
+    return float(f"{value:.5g}")

@@ -17,17 +17,13 @@ from geneva_cli.output.dxf_contours import draw
 from geneva_cli.output.dxf_file import USUAL, extents, linetype, written
 from geneva_cli.output.ezdxf_alone import BaseLayout, Document, Modelspace
 
-FONT = "arial.ttf"
-SIGNS = {"Ø": "%%c", "°": "%%d", "±": "%%p"}  # as every version of DXF has them
-# group code 70 of a DIMENSION, and what of its points it holds; 32: the block is its own alone,
-# 128: the text stays where it is
+# group code 70 of a DIMENSION, and the attributes that hold its points
 KINDS = {
     "linear": (0, ("defpoint2", "defpoint3", "defpoint")),
     "angular": (5, ("defpoint4", "defpoint2", "defpoint3", "defpoint")),
     "diameter": (3, ("defpoint", "defpoint4")),
     "radius": (4, ("defpoint", "defpoint4")),
 }
-OWN = 32 + 128
 
 
 def chunks(sheet: Sheet, version: str = USUAL) -> Iterator[str]:
@@ -53,7 +49,7 @@ def _layers(document: Document) -> None:
             pattern = {2: "HIDDEN", 4: "CENTER"}[len(DASHED[name])]
             linetype(document, pattern, DASHED[name])
         document.layers.add(name, color=7, linetype=pattern, lineweight=round(100.0 * width))
-    document.styles.add("SHEET", font=FONT)
+    document.styles.add("SHEET", font="arial.ttf")
 
 
 def _measure(document: Document, space: Modelspace, measure: Measure) -> None:
@@ -63,10 +59,11 @@ def _measure(document: Document, space: Modelspace, measure: Measure) -> None:
     block = document.blocks.new_anonymous_block(type_char="D")
     _drawn(block, measure)
     number, names = KINDS[measure.kind]
+    # 32: no other dimension uses this block; 128: the text stays at its place
     attributes = {
         "layer": DIMENSION,
         "dimstyle": _style(document, measure),
-        "dimtype": number + OWN,
+        "dimtype": number + 32 + 128,
         "geometry": block.name,
         "text": _signed(measure.label.text),
         "text_midpoint": measure.label.middle,
@@ -136,4 +133,5 @@ def _text(space: BaseLayout, label: Label, layer: str) -> None:
 def _signed(text: str) -> str:
     """A text with DXF's own signs; accidental ones are separated."""
     shown = clean(text).replace("%%", "% %")
-    return "".join(SIGNS.get(c, c) for c in shown)
+    signs = {"Ø": "%%c", "°": "%%d", "±": "%%p"}  # as every version of DXF has them
+    return "".join(signs.get(c, c) for c in shown)

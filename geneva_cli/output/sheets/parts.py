@@ -11,12 +11,12 @@ from geneva_cli.curves.sheet import DIMENSION, WIDTHS, Arrow, Sheet
 def by_layer(sheet: Sheet) -> Iterator[tuple[str, list[Shape]]]:
     """The shapes of each layer, including the lines of its dimensions."""
     for layer in WIDTHS:
-        found = [shape for shape in sheet.shapes if shape.layer == layer]
+        shapes = [shape for shape in sheet.shapes if shape.layer == layer]
         if layer == DIMENSION:
             for measure in sheet.measures:
-                found += [Contour(DIMENSION, (piece,), closed=False) for piece in measure.lines]
-        if found:
-            yield layer, found
+                shapes += [Contour(DIMENSION, (piece,), closed=False) for piece in measure.lines]
+        if shapes:
+            yield layer, shapes
 
 
 def arrows(sheet: Sheet) -> list[Arrow]:

@@ -23,7 +23,6 @@ STYLE = """<style>
 }
 </style>
 """
-FONT = "Helvetica, Arial, 'Liberation Sans', sans-serif"
 
 
 def chunks(sheet: Sheet) -> Iterator[str]:
@@ -36,7 +35,7 @@ def chunks(sheet: Sheet) -> Iterator[str]:
         ' fill="none" stroke-linecap="round" stroke-linejoin="round">\n'
         f"<title>{escape(clean(sheet.title))}</title>\n{STYLE}"
         f'<rect class="paper" y="{number(-sheet.height)}" width="{w}" height="{h}"/>\n'
-        f'<g class="ink" font-family="{FONT}">\n'
+        f'<g class="ink" font-family="Helvetica, Arial, \'Liberation Sans\', sans-serif">\n'
     )
     for layer, shapes in by_layer(sheet):
         dashes = ""

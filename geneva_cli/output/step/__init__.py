@@ -12,9 +12,6 @@ from geneva_cli.errors import GenevaError, clean
 from geneva_cli.output.step.entities import Entities, words
 from geneva_cli.output.step.product import Products
 
-STAMP = "1970-01-01T00:00:00"
-BLOCK = 1024  # lines at a time
-
 
 def chunks(drawing: Drawing, units: str) -> Iterator[str]:
     """The file's text.
@@ -25,19 +22,20 @@ def chunks(drawing: Drawing, units: str) -> Iterator[str]:
     whole = drawing.shells or drawing.solid
     if whole is None:
         raise GenevaError(
-            "no solid to write as STEP: --part wheel, crank, arm and assembly are solids, in "
-            "their own size; other drawings, and paths with --kerf, are .dxf or .svg"
+            "no solid to write as STEP: solids are --part wheel, crank, arm and assembly. Write "
+            "other drawings, and paths with --kerf, as .dxf or .svg"
         )
     if units != "mm":
-        raise GenevaError("--units: a STEP file is in mm, and says so to the program that reads it")
+        raise GenevaError("--units: a STEP file is always in mm; leave it out")
     file = Entities()
     Products(file, whole)
     yield (
         "ISO-10303-21;\nHEADER;\n"
         f"FILE_DESCRIPTION(({words(clean(drawing.title))}),'2;1');\n"
-        f"FILE_NAME('','{STAMP}',(''),(''),'','geneva','');\n"
+        f"FILE_NAME('','1970-01-01T00:00:00',(''),(''),'','geneva','');\n"
         "FILE_SCHEMA(('AUTOMOTIVE_DESIGN { 1 0 10303 214 3 1 1 }'));\nENDSEC;\nDATA;\n"
     )
-    for start in range(0, len(file.lines), BLOCK):
-        yield "".join(file.lines[start : start + BLOCK])
+    block = 1024  # lines at a time
+    for start in range(0, len(file.lines), block):
+        yield "".join(file.lines[start : start + block])
     yield "ENDSEC;\nEND-ISO-10303-21;\n"

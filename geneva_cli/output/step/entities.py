@@ -7,7 +7,7 @@ from typing import NamedTuple
 from geneva_cli.curves.shapes import Point
 
 LENGTH = 12  # decimals of lengths in mm: with large coordinates more than a double has
-SHARE = 16  # decimals of directions, which act through a length
+DIRECTION = 16  # decimals of directions, which act through a length
 
 
 class WallFace(NamedTuple):
@@ -41,10 +41,9 @@ class Entities:
 
         Only for geometry: two solids may touch without sharing an edge.
         """
-        found = self._shared.get(text)
-        if found is None:
-            found = self._shared[text] = self.add(text)
-        return found
+        if text not in self._shared:
+            self._shared[text] = self.add(text)
+        return self._shared[text]
 
     def point(self, at: Point, z: float) -> str:
         """A point at a height."""
@@ -53,7 +52,8 @@ class Entities:
 
     def direction(self, x: float, y: float, z: float = 0.0) -> str:
         """A unit vector."""
-        return self.shared(f"DIRECTION('',({real(x, SHARE)},{real(y, SHARE)},{real(z, SHARE)}))")
+        parts = ",".join(real(value, DIRECTION) for value in (x, y, z))
+        return self.shared(f"DIRECTION('',({parts}))")
 
     def placement(self, at: Point, z: float, axis: str = "", ahead: str = "") -> str:
         """A frame at a point, with its axis up and its x ahead by default."""

@@ -44,10 +44,10 @@ class Products:
         )
 
     def product(self, part: Part) -> Product:
-        """The product of a part, made at its first use."""
+        """The product of a part, written at its first use."""
         if part not in self.known:
-            made = self._group(part) if isinstance(part, Group) else self._solid(part)
-            self.known[part] = made
+            product = self._group(part) if isinstance(part, Group) else self._solid(part)
+            self.known[part] = product
         return self.known[part]
 
     def _solid(self, one: Plate | Shell) -> Product:
@@ -62,27 +62,27 @@ class Products:
         parts = [self.product(member.part) for member in group.members]
         places = [self._place(member) for member in group.members]
         frames = listed(list(dict.fromkeys([self.file.origin, *places])))
-        made = self._defined(group.name, f"SHAPE_REPRESENTATION('',{frames},{self.space})")
+        whole = self._defined(group.name, f"SHAPE_REPRESENTATION('',{frames},{self.space})")
         for number, (member, part, place) in enumerate(
             zip(group.members, parts, places, strict=True), 1
         ):
-            self._put(number, member, part, place, made)
-        return made
+            self._put(number, member, part, place, whole)
+        return whole
 
     def _defined(self, name: str, shape: str) -> Product:
         file, named = self.file, words(name)
-        product = file.add(f"PRODUCT({named},{named},'',({self.context}))")
-        file.add(f"PRODUCT_RELATED_PRODUCT_CATEGORY('part',$,({product}))")
-        formation = file.add(f"PRODUCT_DEFINITION_FORMATION('','',{product})")
+        number = file.add(f"PRODUCT({named},{named},'',({self.context}))")
+        file.add(f"PRODUCT_RELATED_PRODUCT_CATEGORY('part',$,({number}))")
+        formation = file.add(f"PRODUCT_DEFINITION_FORMATION('','',{number})")
         definition = file.add(f"PRODUCT_DEFINITION('design','',{formation},{self.design})")
-        made = Product(definition, file.add(shape))
+        product = Product(definition, file.add(shape))
         whole = file.add(f"PRODUCT_DEFINITION_SHAPE('','',{definition})")
-        file.add(f"SHAPE_DEFINITION_REPRESENTATION({whole},{made.shape})")
-        return made
+        file.add(f"SHAPE_DEFINITION_REPRESENTATION({whole},{product.shape})")
+        return product
 
     def _place(self, member: Member) -> str:
         if member.frame:
-            axis, ahead = (self.file.direction(*way) for way in (member.frame.z, member.frame.x))
+            axis, ahead = (self.file.direction(*v) for v in (member.frame.z, member.frame.x))
             return self.file.placement(member.at, 0.0, axis, ahead)
         c, s = math.cos(member.turn), math.sin(member.turn)
         return self.file.placement(member.at, 0.0, ahead=self.file.direction(c, s))
@@ -105,8 +105,8 @@ class Products:
 
     def _styled(self, body: str, ink: Ink) -> str:
         file = self.file
-        shares = ",".join(real(int(ink.rgb[i : i + 2], 16) / 255.0, 6) for i in (1, 3, 5))
-        colour = file.shared(f"COLOUR_RGB('',{shares})")
+        parts = ",".join(real(int(ink.rgb[i : i + 2], 16) / 255.0, 6) for i in (1, 3, 5))
+        colour = file.shared(f"COLOUR_RGB('',{parts})")
         fill = file.shared(f"FILL_AREA_STYLE_COLOUR('',{colour})")
         fill = file.shared(f"FILL_AREA_STYLE('',({fill}))")
         fill = file.shared(f"SURFACE_STYLE_FILL_AREA({fill})")

@@ -2,7 +2,7 @@
 
 A region lies to the left of its arcs, seen from outside, so they bound its face on the outer sphere
 in their own direction. An arc of one region only is the edge of a wall, a cone with its apex in the
-centre. Arcs that two regions share are edges within a sphere. A round hole is a cylinder about a
+centre. Common arcs of two regions are edges within a sphere. A round hole is a cylinder about a
 line through the centre, which meets both spheres in circles.
 """
 
@@ -25,10 +25,7 @@ from geneva_cli.output.step.entities import (
     real,
 )
 
-ANGLE = 16  # decimals of a cone's angle, radians
 FLAT = 1e-12  # cosine of a cone's angle below which it is a plane
-UP = (0.0, 0.0, 1.0)
-AHEAD = (1.0, 0.0, 0.0)
 
 
 class ShellCorner(NamedTuple):
@@ -55,10 +52,10 @@ def shell_solid(file: Entities, shell: Shell) -> str:
         raise GenevaError(
             f"{shell.name}: a shell from {shell.inner:g} to {shell.outer:g} mm is no solid"
         )
-    return closed_solid(file, _Shell(file, shell).faces())
+    return closed_solid(file, _ShellWriter(file, shell).faces())
 
 
-class _Shell:
+class _ShellWriter:
     """One shell while it is written."""
 
     def __init__(self, file: Entities, shell: Shell) -> None:
@@ -69,21 +66,21 @@ class _Shell:
 
     def faces(self) -> list[str]:
         arcs = {_key(arc) for region in self.shell.regions for arc in region.boundary}
-        bored, found = [self._hole(hole) for hole in self.shell.holes], []
+        bored, faces = [self._hole(hole) for hole in self.shell.holes], []
         for region in self.shell.regions:
             sides = [self._side(arc) for arc in region.boundary]
             holes = bored if region is self.shell.regions[-1] else []
             for high, radius in ((False, self.shell.inner), (True, self.shell.outer)):
-                way = [((side.low, side.high)[high], side.along is high) for side in sides]
-                bounds = [loop(self.file, way if high else way[::-1])]
+                edges = [((side.low, side.high)[high], side.along is high) for side in sides]
+                bounds = [loop(self.file, edges if high else edges[::-1])]
                 bounds += [loop(self.file, [((h.low, h.high)[high], high)]) for h in holes]
-                found.append(face(self.file, bounds, self._sphere(region.middle, radius), high))
-            found += [
+                faces.append(face(self.file, bounds, self._sphere(region.middle, radius), high))
+            faces += [
                 self._wall(arc, side)
                 for arc, side in zip(region.boundary, sides, strict=True)
                 if _key(_back(arc)) not in arcs
             ]
-        return [*found, *(hole.face for hole in bored)]
+        return [*faces, *(hole.face for hole in bored)]
 
     def _hole(self, hole: RoundHole) -> WallFace:
         """A hole's wall and its edges, clockwise about its axis with the material on the left."""
@@ -92,8 +89,8 @@ class _Shell:
         heights = [math.sqrt((r - q) * (r + q)) for r in (self.shell.inner, self.shell.outer)]
         points = [self._point(_ahead(axis, h, ahead, q), 1.0) for h in heights]
         ends = [file.add(f"VERTEX_POINT('',{point})") for point in points]
-        way = file.shared(f"VECTOR('',{file.direction(*axis)},1.)")
-        rise = edge(file, ends[0], ends[1], f"LINE('',{points[0]},{way})", True)
+        vector = file.shared(f"VECTOR('',{file.direction(*axis)},1.)")
+        rise = edge(file, ends[0], ends[1], f"LINE('',{points[0]},{vector})", True)
         low, high = (
             edge(
                 file,
@@ -121,8 +118,8 @@ class _Shell:
             )
             for upper, radius in ((0, self.shell.inner), (1, self.shell.outer))
         )
-        self.sides[_key(arc)] = made = ShellEdges(low, high, True)
-        return made
+        self.sides[_key(arc)] = ShellEdges(low, high, True)
+        return self.sides[_key(arc)]
 
     def _corner(self, at: Vector) -> ShellCorner:
         if at not in self.corners:
@@ -135,8 +132,8 @@ class _Shell:
         """The edge between a corner's vertices, where walls meet."""
         if at not in self.rises:
             corner, low = self.corners[at], self._point(at, self.shell.inner)
-            way = self.file.shared(f"VECTOR('',{self.file.direction(*at)},1.)")
-            self.rises[at] = edge(self.file, *corner, f"LINE('',{low},{way})", True)
+            vector = self.file.shared(f"VECTOR('',{self.file.direction(*at)},1.)")
+            self.rises[at] = edge(self.file, *corner, f"LINE('',{low},{vector})", True)
         return self.rises[at]
 
     def _wall(self, arc: SphereArc, side: ShellEdges) -> str:
@@ -160,7 +157,8 @@ class _Shell:
             return face(self.file, [bound], self.file.add(f"PLANE('',{frame})"), True)
         height, radius = math.cos(angle) * self.shell.inner, math.sin(angle) * self.shell.inner
         frame = self._frame(_times(axis, height), axis, arc.ahead)
-        surface = f"CONICAL_SURFACE('',{frame},{real(radius)},{real(angle, ANGLE)})"
+        # the angle is in radians, with 16 decimals
+        surface = f"CONICAL_SURFACE('',{frame},{real(radius)},{real(angle, 16)})"
         return face(self.file, [bound], self.file.add(surface), not _wide(arc))
 
     def _circle(self, arc: SphereArc, radius: float) -> str:
@@ -171,8 +169,8 @@ class _Shell:
 
     def _sphere(self, middle: Vector, radius: float) -> str:
         """A sphere whose poles and seam are away from a region about ``middle``."""
-        sideways = cross(UP, middle)
-        axis = unit(sideways) if math.hypot(*sideways) > FLAT else AHEAD
+        sideways = cross((0.0, 0.0, 1.0), middle)
+        axis = unit(sideways) if math.hypot(*sideways) > FLAT else (1.0, 0.0, 0.0)
         frame = self._frame((0.0, 0.0, 0.0), axis, unit(opposite(middle)))
         return self.file.add(f"SPHERICAL_SURFACE('',{frame},{real(radius)})")
 
@@ -189,8 +187,8 @@ def _times(v: Vector, length: float) -> Vector:
     return v[0] * length, v[1] * length, v[2] * length
 
 
-def _ahead(v: Vector, length: float, aside: Vector, by: float) -> Vector:
-    x, y, z = (length * p + by * q for p, q in zip(v, aside, strict=True))
+def _ahead(v: Vector, length: float, across: Vector, by: float) -> Vector:
+    x, y, z = (length * p + by * q for p, q in zip(v, across, strict=True))
     return x, y, z
 
 

@@ -16,7 +16,7 @@ from geneva_cli.curves.plates import Plate
 from geneva_cli.curves.shapes import Arc, Circle, Contour, Line, Point
 from geneva_cli.errors import GenevaError
 from geneva_cli.output.step.entities import (
-    SHARE,
+    DIRECTION,
     Entities,
     WallFace,
     closed_solid,
@@ -43,7 +43,9 @@ def solid(file: Entities, plate: Plate) -> str:
     Raises GenevaError for a coordinate that is not finite, or a plate without thickness.
     """
     if not plate.thickness > 0.0:
-        raise GenevaError(f"{plate.name}: a solid must be thick, not {plate.thickness:g} mm")
+        raise GenevaError(
+            f"{plate.name}: a solid of {plate.thickness:g} mm; it must be thicker than 0"
+        )
     faces, lower, upper = [], [], []
     outside = True
     for shape in _cleaned(plate):
@@ -71,10 +73,10 @@ def _level(file: Entities, z: float) -> str:
 
 
 def _walls(file: Entities, plate: Plate, contour: Contour) -> list[WallFace]:
-    found = pieces(contour.segments)
-    places = [_place(file, plate, piece.start) for piece in found]
-    pairs = zip(places, [*places[1:], places[0]], strict=True)
-    return [_wall(file, plate, piece, *ends) for piece, ends in zip(found, pairs, strict=True)]
+    chain = pieces(contour.segments)
+    corners = [_place(file, plate, piece.start) for piece in chain]
+    pairs = zip(corners, [*corners[1:], corners[0]], strict=True)
+    return [_wall(file, plate, piece, *ends) for piece, ends in zip(chain, pairs, strict=True)]
 
 
 def _place(file: Entities, plate: Plate, at: Point) -> SolidCorner:
@@ -112,7 +114,7 @@ def _round(file: Entities, plate: Plate, circle: Circle, outside: bool) -> WallF
 def _curve(file: Entities, piece: Piece, z: float) -> str:
     """The text of a piece's curve."""
     if isinstance(piece, Line):
-        vector = file.shared(f"VECTOR('',{file.direction(*_way(piece))},1.)")
+        vector = file.shared(f"VECTOR('',{file.direction(*_direction(piece))},1.)")
         return f"LINE('',{file.point(piece.start, z)},{vector})"
     if isinstance(piece, Arc):
         return _circle(file, piece.centre, piece.radius, z)
@@ -131,13 +133,13 @@ def _spline(file: Entities, spline: Spline, z: float) -> str:
 def _knots(spline: Spline) -> tuple[str, str]:
     """The multiplicity of each knot, two where a cubic is once differentiable, and the knots."""
     count = listed(["4", *["2"] * (len(spline.knots) - 2), "4"])
-    return count, listed([real(knot / spline.knots[-1], SHARE) for knot in spline.knots])
+    return count, listed([real(knot / spline.knots[-1], DIRECTION) for knot in spline.knots])
 
 
 def _surface(file: Entities, piece: Piece, plate: Plate) -> str:
     """The surface over a piece."""
     if isinstance(piece, Line):
-        x, y = _way(piece)
+        x, y = _direction(piece)
         axis, ahead = file.direction(y, -x), file.direction(x, y)
         return file.add(f"PLANE('',{file.placement(piece.start, plate.low, axis, ahead)})")
     if isinstance(piece, Arc):
@@ -153,7 +155,7 @@ def _surface(file: Entities, piece: Piece, plate: Plate) -> str:
     )
 
 
-def _way(line: Line) -> Point:
+def _direction(line: Line) -> Point:
     (x0, y0), (x1, y1) = line
     length = math.dist(line.start, line.end)
     return (x1 - x0) / length, (y1 - y0) / length

@@ -16,11 +16,6 @@ from geneva_cli.curves.measure import directions
 from geneva_cli.curves.shapes import Arc, Cubic, Line, Point, Segment
 from geneva_cli.curves.sheet import polar
 
-# mm: rounding by which a joint may move when the poles beside it determine it
-SAME = 1e-11
-SHORT = 0.0137  # tan(sweep/4) of an arc whose cubic errs by 4/27 of the sixth power: 1e-12 R
-UNEVEN = 1e3  # greatest ratio of adjacent parameter intervals in one spline
-
 
 class Spline(NamedTuple):
     """A cubic B-spline: its poles, and the ends of its pieces on the parameter, from 0 up."""
@@ -50,35 +45,37 @@ def pieces(segments: Iterable[Segment]) -> list[Piece]:
     >>> pieces([first, after])[0].knots  # handles of the second are twice as long there
     (0.0, 1.0, 3.0)
     """
-    found: list[Piece] = []
+    curve: list[Piece] = []
     run: list[Cubic] = []
-    shares: list[float] = []
+    intervals: list[float] = []
     for segment in _softened(list(segments)):
-        share = _share(run[-1], segment, shares[-1]) if run else 0.0
-        if run and not share:
-            found.append(_spline(run, shares))
-            run, shares = [], []
+        interval = _interval(run[-1], segment, intervals[-1]) if run else 0.0
+        if run and not interval:
+            curve.append(_spline(run, intervals))
+            run, intervals = [], []
         if isinstance(segment, Cubic):
             run.append(segment)
-            shares.append(share or 1.0)
+            intervals.append(interval or 1.0)
         else:
-            found.append(segment)
-    return [*found, _spline(run, shares)] if run else found
+            curve.append(segment)
+    return [*curve, _spline(run, intervals)] if run else curve
 
 
 def _softened(segments: list[Segment]) -> list[Segment]:
     """The segments, with short arcs as cubics where they join one."""
-    found = list(segments)
+    softened = list(segments)
     for i, arc in enumerate(segments):
-        if not isinstance(arc, Arc) or abs(arc.bulge) > SHORT:
+        # The cubic of an arc errs by 4/27 of the bulge's sixth power: here 1e-12 of the radius.
+        if not isinstance(arc, Arc) or abs(arc.bulge) > 0.0137:
             continue
         cubic = _cubic(arc)
-        before, after = found[i - 1] if i else None, segments[i + 1] if i + 1 < len(found) else None
-        if (isinstance(before, Cubic) and _share(before, cubic, 1.0)) or (
-            after is not None and _share(cubic, after, 1.0)
+        before = softened[i - 1] if i else None
+        after = segments[i + 1] if i + 1 < len(segments) else None
+        if (isinstance(before, Cubic) and _interval(before, cubic, 1.0)) or (
+            after is not None and _interval(cubic, after, 1.0)
         ):
-            found[i] = cubic
-    return found
+            softened[i] = cubic
+    return softened
 
 
 def _cubic(arc: Arc) -> Cubic:
@@ -88,22 +85,24 @@ def _cubic(arc: Arc) -> Cubic:
     return Cubic(arc.start, polar(arc.start, handle, first), polar(arc.end, -handle, last), arc.end)
 
 
-def _share(before: Cubic, after: Segment, share: float) -> float:
+def _interval(before: Cubic, after: Segment, interval: float) -> float:
     """The parameter interval of the next segment after ``before``; 0 if it does not continue it."""
     if not isinstance(after, Cubic):
         return 0.0
     back, on = math.dist(before.second, before.end), math.dist(after.start, after.first)
-    if not back < UNEVEN * on < UNEVEN * UNEVEN * back:
+    uneven = 1e3  # greatest ratio of adjacent parameter intervals in one spline
+    if not back < uneven * on < uneven * uneven * back:
         return 0.0
     between = tuple(
         (p * on + q * back) / (back + on) for p, q in zip(before.second, after.first, strict=True)
     )
-    return share * on / back if math.dist(between, after.start) < SAME else 0.0
+    # 1e-11 mm: rounding by which a joint may move when the adjacent poles determine it
+    return interval * on / back if math.dist(between, after.start) < 1e-11 else 0.0
 
 
-def _spline(run: list[Cubic], shares: list[float]) -> Spline:
+def _spline(run: list[Cubic], intervals: list[float]) -> Spline:
     poles = [pole for cubic in run for pole in (cubic.first, cubic.second)]
     knots = [0.0]
-    for share in shares:
-        knots.append(knots[-1] + share)
+    for interval in intervals:
+        knots.append(knots[-1] + interval)
     return Spline((run[0].start, *poles, run[-1].end), tuple(knots))

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 
-from geneva_cli.document import FAILS, PASSES, WARNS, Answer, Line, Summary
+from geneva_cli.document import FAILS, PASSES, WARNS, Answer, Summary, SummaryLine
 from geneva_cli.study.batch import Verdict, checks_record, checks_table
 from geneva_cli.verdict.headline import failure_lines, headline, tightest, warning_lines
 
@@ -32,7 +32,7 @@ def _head(verdict: Verdict) -> Summary:
     return Summary(f"{verdict.path}: {text}", state=state)
 
 
-def _lines(verdict: Verdict) -> tuple[Line, ...]:
+def _lines(verdict: Verdict) -> tuple[SummaryLine, ...]:
     checks = verdict.checks
     return (*failure_lines(checks), *warning_lines(checks, verdict.warnings))
 

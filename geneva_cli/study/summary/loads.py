@@ -7,7 +7,7 @@ from typing import Any
 
 from geneva_cli.analysis.loads.summary import NO_LOAD, QuantitySummary
 from geneva_cli.design import Design
-from geneva_cli.document import WARNS, Answer, Line, Summary
+from geneva_cli.document import WARNS, Answer, Summary, SummaryLine
 from geneva_cli.numerics.tolerances import TIE
 from geneva_cli.study.fields import pick
 from geneva_cli.study.summary.named import counted, title_of
@@ -30,10 +30,10 @@ def of_loads(design: Design) -> Answer:
     return Answer(summaries, design.loads_page, design.loads_table)
 
 
-def load_lines(design: Design) -> Iterator[Line]:
+def load_lines(design: Design) -> Iterator[SummaryLine]:
     """Motor, input, pin, wheel and flywheel of a machine; without a load, the needed keys."""
     if not design.cycle.is_loaded:
-        yield Line("loads", f"not known: {NO_LOAD}")
+        yield SummaryLine("loads", f"not known: {NO_LOAD}")
         return
     yield motor_line(design)
     yield from cycle_lines(design)
@@ -41,30 +41,30 @@ def load_lines(design: Design) -> Iterator[Line]:
     if sizing["flywheel_to_add_kgm2"] is not None:
         add = measured(sizing["flywheel_to_add_kgm2"], "kg m²")
         share = measured(100.0 * (design.spec.motor.speed_variation or 0.0), "%")
-        yield Line("flywheel", f"{add} on the input for a speed variation of {share}")
+        yield SummaryLine("flywheel", f"{add} on the input for a speed variation of {share}")
 
 
-def cycle_lines(design: Design) -> Iterator[Line]:
+def cycle_lines(design: Design) -> Iterator[SummaryLine]:
     """The loads of input, pin and wheel over the cycle."""
     loads = design.loads
     torque, force, stress = (
         loads[name] for name in ("input_torque_Nm", "pin_force_N", "contact_stress_MPa")
     )
     if torque.max is None or torque.min is None:
-        yield Line("input", f"torque {NO_BOUND}")
+        yield SummaryLine("input", f"torque {NO_BOUND}")
     else:
         text = f"{measured(torque.min)} to {measured(torque.max, 'N m')}"
         text += f", rms {measured(torque.rms)}" if torque.rms is not None else ""
         drives = f"drives the motor with up to {measured(-torque.min, 'N m')}"
         driven = drives if torque.min < 0.0 else "never drives the motor"
-        yield Line("input", f"{text}; the wheel {driven}")
+        yield SummaryLine("input", f"{text}; the wheel {driven}")
     pin = _greatest(force, "N")
     if design.spec.size.face_width_mm is None:
         pin += "; contact stress needs face_width_mm in [size]"
     else:
         pin += f"; contact stress {_greatest(stress, 'MPa')}"
-    yield Line("pin", pin)
-    yield Line(
+    yield SummaryLine("pin", pin)
+    yield SummaryLine(
         "wheel",
         f"{_greatest(loads['alpha_rad_s2'], 'rad/s²')}; "
         f"torque {_greatest(loads['wheel_torque_Nm'], 'N m')}",
@@ -87,17 +87,17 @@ def _sizing(design: Design) -> dict[str, Any]:
     return {n.removeprefix("sizing."): v for n, v in values.items() if n.startswith("sizing.")}
 
 
-def motor_line(design: Design) -> Line:
+def motor_line(design: Design) -> SummaryLine:
     """The recommended motor, and its reason."""
     motor = recommended_motor(_sizing(design))
     if motor is None:
-        return Line("motor", "none suffices: nothing bounds the input's torque", "", WARNS)
+        return SummaryLine("motor", "none suffices: nothing bounds the input's torque", "", WARNS)
     given = design.spec.motor
     needed = f"{measured(motor.needed_W, 'W')} {_why(motor, given.service_factor)}"
     torque = measured(motor.input_torque_Nm, "N m")
     if motor.rated_kW is None:
-        return Line("motor", f"{needed}: more than any standard motor has", EXPLAINED, WARNS)
-    return Line(
+        return SummaryLine("motor", f"{needed}: more than any standard motor has", EXPLAINED, WARNS)
+    return SummaryLine(
         "motor",
         f"{measured(motor.rated_kW, 'kW')}, {_geared(motor, given.gear_ratio)}",
         f"{needed}, {torque} on the input; the next power of IEC 60072-1 ({EXPLAINED})",
@@ -122,7 +122,7 @@ def _why(motor: RecommendedMotor, service_factor: float) -> str:
     return "at most over the exact cycle"
 
 
-def _powers(design: Design) -> Iterator[Line]:
+def _powers(design: Design) -> Iterator[SummaryLine]:
     """The powers of a machine in descending order, each with its definition."""
     motor = recommended_motor(_sizing(design))
     power = design.loads["power_W"]
@@ -142,4 +142,4 @@ def _powers(design: Design) -> Iterator[Line]:
         found.append((motor.peak_W, text))
     known = [(size, text) for size, text in found if size is not None]
     for size, text in sorted(known, key=lambda pair: -pair[0]):
-        yield Line(measured(size, "W"), text)
+        yield SummaryLine(measured(size, "W"), text)

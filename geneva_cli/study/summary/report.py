@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from typing import Any
 
 from geneva_cli.design import Design
-from geneva_cli.document import Answer, Line, Summary
+from geneva_cli.document import Answer, Summary, SummaryLine
 from geneva_cli.study.summary.loads import cycle_lines, motor_line
 from geneva_cli.study.summary.named import title_of
 from geneva_cli.verdict.headline import (
@@ -28,10 +28,10 @@ def of_report(design: Design) -> Answer:
     checks, warnings = design.checks, design.warnings
     lines = (*failure_lines(checks), *key_figures(design), *warning_lines(checks, warnings))
     summary = Summary(f"{title_of(design)}: {text}", lines, state)
-    return Answer((summary,), below_summary(record, said=SAID), record)
+    return Answer((summary,), below_summary(record, without=SAID), record)
 
 
-def key_figures(design: Design) -> Iterator[Line]:
+def key_figures(design: Design) -> Iterator[SummaryLine]:
     """Six figures of a machine and its motor; without a load its peaks instead."""
     values = design.report.table.to_dict()
     yield _cycle(design, values)
@@ -43,35 +43,37 @@ def key_figures(design: Design) -> Iterator[Line]:
     else:
         yield from _peaks(values)
         yield from tightest(design.checks)
-        yield Line("motor", "not known: set inertia_kgm2 or torque_Nm in [load], or a [[mass]]")
+        yield SummaryLine(
+            "motor", "not known: set inertia_kgm2 or torque_Nm in [load], or a [[mass]]"
+        )
 
 
-def _cycle(design: Design, values: dict[str, Any]) -> Line:
+def _cycle(design: Design, values: dict[str, Any]) -> SummaryLine:
     """Steps, times and speed."""
     timings = design.timings
     steps = " and ".join(dict.fromkeys(measured(t.index_deg, "deg") for t in timings))
     motions = " and ".join(dict.fromkeys(measured(t.motion_s, "s") for t in timings))
     dwells = " and ".join(dict.fromkeys(measured(t.dwell_s, "s") for t in timings))
     n_rpm = measured(design.spec.drive.n_rpm, "rpm")
-    return Line("cycle", f"{steps} in {motions}, then {dwells} of dwell; input at {n_rpm}")
+    return SummaryLine("cycle", f"{steps} in {motions}, then {dwells} of dwell; input at {n_rpm}")
 
 
-def _size(values: dict[str, Any]) -> Line:
+def _size(values: dict[str, Any]) -> SummaryLine:
     """Centre distance and wheel, or a sphere's radius, and the roller."""
     roller = f"roller Ø {measured(2.0 * values['sizes.roller_radius_mm'], 'mm')}"
     if values["sizes.center_distance_mm"] is None:
         radius = measured(values["sizes.sphere_radius_mm"], "mm")
-        return Line("size", f"sphere of radius {radius}, {roller}")
+        return SummaryLine("size", f"sphere of radius {radius}, {roller}")
     text = f"centre distance {measured(values['sizes.center_distance_mm'], 'mm')}"
     rim = values["sizes.wheel_radius_mm"]
     text += "" if rim is None else f", wheel Ø {measured(2.0 * rim, 'mm')}"
-    return Line("size", f"{text}, {roller}")
+    return SummaryLine("size", f"{text}, {roller}")
 
 
-def _peaks(values: dict[str, Any]) -> Iterator[Line]:
+def _peaks(values: dict[str, Any]) -> Iterator[SummaryLine]:
     """Peaks of the wheel's motion, at the design's speed."""
     for name, unit in (("velocity", "rad/s"), ("acceleration", "rad/s²"), ("jerk", "rad/s³")):
         end = unit.replace("/", "_").replace("²", "2").replace("³", "3")
         size = measured(values[f"{name}.max_{end}"], unit)
         at_deg = measured(values[f"{name}.at_deg"], "deg")
-        yield Line(name, f"{size} at {at_deg}")
+        yield SummaryLine(name, f"{size} at {at_deg}")

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from typing import Any
 
 from geneva_cli.design import Design
-from geneva_cli.document import WARNS, Answer, Line, Summary
+from geneva_cli.document import WARNS, Answer, Summary, SummaryLine
 from geneva_cli.errors import is_warning
 from geneva_cli.names import spoken
 from geneva_cli.study.summary.named import counted, title_of
@@ -23,10 +23,10 @@ def of_tolerance(design: Design, record: Table) -> Answer:
     lines = (*_lines(values), *map(warning, warnings))
     state = WARNS if warnings else ""
     summary = Summary(f"{title_of(design)}{counted(warnings)}", lines, state)
-    return Answer((summary,), below_summary(record, said=("title",)), record)
+    return Answer((summary,), below_summary(record, without=("title",)), record)
 
 
-def _lines(values: dict[str, Any]) -> Iterator[Line]:
+def _lines(values: dict[str, Any]) -> Iterator[SummaryLine]:
     yield _angle("dwell", "place of the wheel", "dwell_position", values)
     yield _angle("motion", "play of the wheel", "motion_play", values)
     rows = values["contributions"]
@@ -34,22 +34,22 @@ def _lines(values: dict[str, Any]) -> Iterator[Line]:
     if most and most["share"]:
         words, _ = spoken(most["dimension"])
         share = measured(100.0 * most["share"], "%", 3)
-        yield Line("greatest", f"{words} contributes {share} of the dwell's variance")
+        yield SummaryLine("greatest", f"{words} contributes {share} of the dwell's variance")
     if values["entry_jump.worst"] is not None:
         jump = measured(values["entry_jump.worst"])
-        yield Line("entry", f"the wheel's velocity jumps by up to {jump} of the input's")
-    yield Line("clearances", _clearances(values))
+        yield SummaryLine("entry", f"the wheel's velocity jumps by up to {jump} of the input's")
+    yield SummaryLine("clearances", _clearances(values))
 
 
-def _angle(label: str, what: str, name: str, values: dict[str, Any]) -> Line:
+def _angle(label: str, what: str, name: str, values: dict[str, Any]) -> SummaryLine:
     worst = values[f"{name}.worst_deg"]
     if worst is None:
-        return Line(label, f"{what} is not known")
+        return SummaryLine(label, f"{what} is not known")
     most = measured(values[f"{name}.p997_deg"], "deg")
     seconds = measured(values[f"{name}.p997_arcsec"], "arc seconds", 3)
     at_worst = measured(worst, "deg")
     text = f"{what} within {most} ({seconds}) in 99.7 % of machines, {at_worst} at worst"
-    return Line(label, text)
+    return SummaryLine(label, text)
 
 
 def _clearances(values: dict[str, Any]) -> str:

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from typing import Any
 
 from geneva_cli.design import Design
-from geneva_cli.document import WARNS, Answer, Line, Summary
+from geneva_cli.document import WARNS, Answer, Summary, SummaryLine
 from geneva_cli.errors import is_warning
 from geneva_cli.study.summary.named import counted, title_of
 from geneva_cli.table import Table
@@ -23,33 +23,35 @@ def of_vibration(design: Design, record: Table) -> Answer:
     lines = (*_lines(values), *map(warning, warnings))
     state = WARNS if warnings else ""
     summary = Summary(f"{title_of(design)}{counted(warnings)}", lines, state)
-    return Answer((summary,), below_summary(record, said=("title",)), record)
+    return Answer((summary,), below_summary(record, without=("title",)), record)
 
 
-def _lines(values: dict[str, Any]) -> Iterator[Line]:
+def _lines(values: dict[str, Any]) -> Iterator[SummaryLine]:
     if values["period_ratio"] is None:
-        yield Line("vibration", "not known: no inertia on the shaft")
+        yield SummaryLine("vibration", "not known: no inertia on the shaft")
         return
     ratio = measured(values["period_ratio"])
     damping = measured(values["damping_ratio"])
     hertz = values["natural_Hz"]
     natural = "" if hertz is None else f" of {measured(hertz, 'Hz')}"
-    yield Line("motion", f"lasts {ratio} natural periods{natural}, damping ratio {damping}")
+    yield SummaryLine("motion", f"lasts {ratio} natural periods{natural}, damping ratio {damping}")
     share = measured(values["residual_share"])
     swing = f"an index leaves the load swinging by {measured(values['residual_deg'], 'deg')}"
     if values["residual_share"] < STILL:
         swing = "an index leaves the load practically at rest"
-    yield Line("residual", f"{swing}, {share} of the step")
+    yield SummaryLine("residual", f"{swing}, {share} of the step")
     if values["residual_share_worst"] is not None:
         worst = measured(values["residual_share_worst"])
-        yield Line("worst", f"{worst} of the step, with a stiffness off by up to 20 %")
+        yield SummaryLine("worst", f"{worst} of the step, with a stiffness off by up to 20 %")
     windup = "" if values["windup_deg"] is None else measured(values["windup_deg"], "deg")
     factor = measured(values["dynamic_factor"])
-    yield Line(
+    yield SummaryLine(
         "load",
         f"accelerated {factor} times as hard as the wheel"
         + (f"; the shaft winds up by {windup}" if windup else ""),
     )
     speeds = values["speeds_to_avoid_rpm"]
     avoid = ", ".join(measured(rpm) for rpm in speeds)
-    yield Line("avoid", f"{avoid} rpm" if speeds else "no speed from half to twice the design's")
+    yield SummaryLine(
+        "avoid", f"{avoid} rpm" if speeds else "no speed from half to twice the design's"
+    )

@@ -59,7 +59,7 @@ def refuse_twice(axes: Sequence[VariedKey], given: Sequence[Setting]) -> None:
     for one in given:
         key = ".".join(map(str, one.path))
         if key in keys:
-            raise GenevaError(f"{one.said}: --vary {cut(key)} sets it too; keep one")
+            raise GenevaError(f"{one.option}: --vary {cut(key)} sets it too; keep one")
 
 
 def _axis(key: str, text: str, said: str, random: bool) -> VariedKey:

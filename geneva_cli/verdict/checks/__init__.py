@@ -40,7 +40,7 @@ def checks(
 def checks_at_rest(mechanism: Mechanism, model: PartsModel | None) -> Iterator[Check]:
     """The checks of the motion and of the limits, then those of ``model``'s parts at rest.
 
-    Raises GenevaError if wheel or crank cannot be made.
+    Raises GenevaError if wheel or crank cannot be built.
     """
     yield from motion_checks(MOTION, mechanism)
     yield from motion_checks(LIMITS, mechanism)
@@ -62,12 +62,12 @@ def checks_turning(model: PartsModel) -> Iterator[Check]:
 def single_check(mechanism: Mechanism, name: str) -> Check | None:
     """The check with this name, without the others and the turn; None if there is no such check.
 
-    Raises GenevaError if its parts cannot be made.
+    Raises GenevaError if its parts cannot be built.
     """
     for among in (MOTION, LIMITS):
-        found = check_named(among, name, mechanism)
-        if found:
-            return found
+        check = check_named(among, name, mechanism)
+        if check:
+            return check
     among = standing(mechanism)
     if not mechanism.spec.has_parts or name not in among:
         return None
@@ -83,7 +83,7 @@ def _proof(mechanism: Mechanism) -> PartsModel:
 def _parts(mechanism: Mechanism, model: PartsModel | None = None) -> Iterator[Check]:
     """Walls, shafts and the full turn of a machine whose parts are drawn.
 
-    If wheel or crank cannot be made, or turned, a single check says so instead.
+    If wheel or crank cannot be built, or turned, a single check says so instead.
     """
     if not mechanism.spec.has_parts:
         why = f"not proved: wheels of more than {Z_DRAWN} slots are not drawn"

@@ -12,10 +12,10 @@ def stopping_torque(name: str, mechanism: Mechanism) -> Check | None:
         return None
     from geneva_cli.analysis.arrival import arrival
 
-    found = arrival(mechanism)
-    if found is None:
+    stop = arrival(mechanism)
+    if stop is None:
         return None
-    check = compared(name, found.torque_Nm, "at most", found.most_Nm)
-    if check.passes or found.most_Nm > 0.0:
+    check = compared(name, stop.torque_Nm, "at most", stop.most_Nm)
+    if check.passes or stop.most_Nm > 0.0:
         return check
     return check._replace(why="no inertia carries the wheel on: set inertia_kgm2 in [load]")

@@ -10,29 +10,30 @@ import numpy as np
 from geneva_cli.parts.outlines import Outlines
 from geneva_cli.verdict.checks.check import Check, compared
 
-LOOKS = 400  # samples at which they are compared
 
-
-def apart(name: str, found: Outlines) -> Check | None:
+def apart(name: str, outlines: Outlines) -> Check | None:
     """The greatest distance where the branches are on their own sides."""
-    return _greatest(name, found, 1.0)
+    return _greatest(name, outlines, 1.0)
 
 
-def crossed(name: str, found: Outlines) -> Check | None:
+def crossed(name: str, outlines: Outlines) -> Check | None:
     """The greatest distance where the branches have crossed."""
-    return _greatest(name, found, -1.0)
+    return _greatest(name, outlines, -1.0)
 
 
-def _greatest(name: str, found: Outlines, side: float) -> Check | None:
-    engagement = found.assembly.slots[0][0]
+def _greatest(name: str, outlines: Outlines, side: float) -> Check | None:
+    engagement = outlines.assembly.slots[0][0]
     if not engagement.slot.curved:
         return None
-    t = engagement.entry_deg * (1.0 - np.arange(LOOKS) / LOOKS)
+    samples = 400
+    t = engagement.entry_deg * (1.0 - np.arange(samples) / samples)
     (x, y), (u, v) = (engagement.slot(s * t, 0) for s in (1.0, -1.0))
     turn = np.remainder(
         np.arctan2(y.c[0], x.c[0]) - np.arctan2(v.c[0], u.c[0]) + np.pi, 2.0 * np.pi
     )
-    gap = 2.0 * found.assembly.L * np.hypot(x.c[0], y.c[0]) * np.sin(0.5 * (turn - np.pi)) * side
+    gap = 2.0 * outlines.assembly.L * np.hypot(x.c[0], y.c[0]) * np.sin(0.5 * (turn - np.pi)) * side
     i = int(np.argmax(gap))
-    at_deg = found.assembly.full.shown_deg(engagement.mid_deg + float(t[i]))
-    return compared(name, max(float(gap[i]), 0.0), "at most", 2.0 * found.sizes.half_width, at_deg)
+    at_deg = outlines.assembly.full.shown_deg(engagement.mid_deg + float(t[i]))
+    return compared(
+        name, max(float(gap[i]), 0.0), "at most", 2.0 * outlines.sizes.half_width, at_deg
+    )

@@ -14,7 +14,6 @@ if TYPE_CHECKING:
 # The reason why a failing check has no advice.
 NONE = "none of the changes of one value that were tried passes all checks"
 STOPPED = "no change found within the number of trials"
-ROUNDING = 1e-12  # of the centre distance, or the sphere's radius: rounding of a gap
 
 
 class Check(NamedTuple):
@@ -60,7 +59,7 @@ def compared(
 
 
 def refused(name: str, error: GenevaError) -> Check:
-    """A failing check for parts that cannot be made, with the reason."""
+    """A failing check for parts that cannot be built, with the reason."""
     return Check(name, 0.0, "at least", 1.0, False, str(error))
 
 
@@ -75,10 +74,11 @@ def at_least(name: str, value: Callable[[], float], limit: float) -> Check:
 def gap(name: str, least: Callable[[], ShaftGap | None], L: float) -> Check | None:
     """The least gap at shafts, if there is one; it fails if parts cannot be built."""
     try:
-        found = least()
+        smallest = least()
     except GenevaError as error:
         return Check(name, None, "at least", 0.0, False, str(error))
-    return compared(name, found.gap, "at least", 0.0, noise=ROUNDING * L) if found else None
+    # A gap is rounded to 1e-12 of the centre distance, or of the sphere's radius.
+    return compared(name, smallest.gap, "at least", 0.0, noise=1e-12 * L) if smallest else None
 
 
 def all_pass(rows: Iterable[Check]) -> bool:

@@ -1,4 +1,4 @@
-"""The wheel's walls around its keyway and the dial's bolts, if their keys are given."""
+"""The wheel's walls around its keyway and the dial's bolts, if the spec sets their keys."""
 
 from __future__ import annotations
 
@@ -12,18 +12,18 @@ from geneva_cli.parts.wheel import wheel_circles
 from geneva_cli.verdict.checks.check import Check, compared
 
 
-def wall(name: str, found: Outlines) -> Check | None:
+def wall(name: str, outlines: Outlines) -> Check | None:
     """The least wall around the bore with its keyway and around the dial's bolts."""
-    size = found.assembly.mechanism.spec.size
+    size = outlines.assembly.mechanism.spec.size
     if not (size.wheel_keyway or size.dial_bolts):
         return None
-    inside = found.assembly.sign < 0.0  # the contour is that of the opening
-    edge = Polyarc([backwards(found.wheel) if inside else found.wheel])
-    holes = [s for s in wheel_circles(found.assembly, found.sizes) if s.layer == "BORE"]
+    inside = outlines.assembly.sign < 0.0  # the contour is that of the opening
+    edge = Polyarc([backwards(outlines.wheel) if inside else outlines.wheel])
+    holes = [s for s in wheel_circles(outlines.assembly, outlines.sizes) if s.layer == "BORE"]
     walls = [-beyond(edge, hole) for hole in holes]
     walls += [apart(one, two) for one, two in combinations(holes, 2)]
     for hole in holes if inside else ():
         assert isinstance(hole, Circle)  # an internal wheel has no bore
         x, y = hole.centre
-        walls.append(found.sizes.outer - (x * x + y * y) ** 0.5 - hole.radius)
-    return compared(name, min(walls), "at least", found.sizes.wall_min)
+        walls.append(outlines.sizes.outer - (x * x + y * y) ** 0.5 - hole.radius)
+    return compared(name, min(walls), "at least", outlines.sizes.wall_min)

@@ -17,6 +17,6 @@ def groove_pressure(name: str, mechanism: Mechanism) -> Check | None:
     from geneva_cli.parts.groove import greatest_pressure
 
     value, at_deg = greatest_pressure(groove)
-    given = mechanism.spec.limits.pressure_angle_max_deg
-    limit = GROOVE_MAX_DEG if given is None else given
+    own_limit = mechanism.spec.limits.pressure_angle_max_deg
+    limit = GROOVE_MAX_DEG if own_limit is None else own_limit
     return compared(name, value, "at most", limit, mechanism.shown_deg(at_deg))

@@ -8,15 +8,16 @@ from geneva_cli.analysis.peaks import worst, worst_of
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.verdict.checks.check import Check, compared
 
-VALUES: dict[str, Callable[[Mechanism], float]] = {
-    "velocity_max": lambda m: worst_of(m, "velocity").max,
-    "acceleration_max": lambda m: worst_of(m, "acceleration").max,
-    "acceleration_entry_max": lambda m: worst(m).ends.acceleration_entry,
-    "jerk_max": lambda m: worst(m).jerk.max,
-}
-
 
 def limited_peak(name: str, mechanism: Mechanism) -> Check | None:
     """The peak that a key of ``[limits]`` bounds."""
     limit = mechanism.spec.limits.as_dict()[name]
-    return None if limit is None else compared(name, VALUES[name](mechanism), "at most", limit)
+    if limit is None:
+        return None
+    values: dict[str, Callable[[Mechanism], float]] = {
+        "velocity_max": lambda m: worst_of(m, "velocity").max,
+        "acceleration_max": lambda m: worst_of(m, "acceleration").max,
+        "acceleration_entry_max": lambda m: worst(m).ends.acceleration_entry,
+        "jerk_max": lambda m: worst(m).jerk.max,
+    }
+    return compared(name, values[name](mechanism), "at most", limit)

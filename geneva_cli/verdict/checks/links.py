@@ -8,31 +8,30 @@ from geneva_cli.parts.outlines import Outlines
 from geneva_cli.parts.turn.planes import planes
 from geneva_cli.verdict.checks.check import Check, compared
 
-KEYS = ("link_pin_mm", "link_bore_mm", "link_width_mm", "press_fit_mm", "pin_mm")
 
-
-def wall(name: str, found: Outlines) -> Check | None:
-    """The least wall around the links' holes, if one of their keys is given."""
-    given = vars(found.assembly.mechanism.spec.size)
-    if not any(given[key] for key in KEYS):
+def wall(name: str, outlines: Outlines) -> Check | None:
+    """The least wall around the links' holes, if the spec sets one of their keys."""
+    size = vars(outlines.assembly.mechanism.spec.size)
+    keys = ("link_pin_mm", "link_bore_mm", "link_width_mm", "press_fit_mm", "pin_mm")
+    if not any(size[key] for key in keys):
         return None
     try:
-        made = drawn_links(found.assembly.full, found)
+        links = drawn_links(outlines.assembly.full, outlines)
     except GenevaError as error:
-        return Check(name, None, "at least", found.sizes.wall_min, False, str(error))
-    least = min(map(link_wall, made.plates), default=None)
-    return None if least is None else compared(name, least, "at least", found.sizes.wall_min)
+        return Check(name, None, "at least", outlines.sizes.wall_min, False, str(error))
+    least = min(map(link_wall, links.plates), default=None)
+    return None if least is None else compared(name, least, "at least", outlines.sizes.wall_min)
 
 
-def gap(name: str, found: Outlines) -> Check | None:
+def gap(name: str, outlines: Outlines) -> Check | None:
     """The gap in a whole turn between links and hub, shaft and pins through their planes."""
     try:
-        seen = planes(found)
+        clearance = planes(outlines)
     except GenevaError as error:
         return Check(name, None, "at least", 0.0, False, str(error))
-    given = found.assembly.full
-    if seen.way_out is not None:
-        one = seen.way_out
+    mechanism = outlines.assembly.full
+    if clearance.way_out is not None:
+        one = clearance.way_out
         return Check(
             name,
             one.gap,
@@ -41,10 +40,14 @@ def gap(name: str, found: Outlines) -> Check | None:
             False,
             f"{one.passing} meets the {one.link}: it needs an eccentric in a hollow input shaft, "
             "or another path to its bearings",
-            given.shown_deg(one.input_deg),
+            mechanism.shown_deg(one.input_deg),
         )
-    if seen.nearest is None:
+    if clearance.nearest is None:
         return None
     return compared(
-        name, seen.nearest.gap, "at least", 0.0, given.shown_deg(seen.nearest.input_deg)
+        name,
+        clearance.nearest.gap,
+        "at least",
+        0.0,
+        mechanism.shown_deg(clearance.nearest.input_deg),
     )

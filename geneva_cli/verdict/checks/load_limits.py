@@ -19,5 +19,5 @@ def limited_load(name: str, mechanism: Mechanism) -> Check | None:
         return None
     from geneva_cli.analysis.loads import loads  # who asks for the names alone needs none
 
-    found = loads.greatest(mechanism, QUANTITIES[name])
-    return compared(name, found.max, "at most", limit, found.at_deg)
+    peak = loads.greatest(mechanism, QUANTITIES[name])
+    return compared(name, peak.max, "at most", limit, peak.at_deg)

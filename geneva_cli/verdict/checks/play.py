@@ -8,49 +8,46 @@ from geneva_cli.parts.turn.full_turn import FullTurn, Most
 from geneva_cli.parts.turn.machine_parts import MachineParts
 from geneva_cli.verdict.checks.check import Check, compared
 
-PUSH_MAX_DEG = 60.0  # pressure angle at which a roller still pushes the wheel into line
-# Fraction of a step, to either side, in a slot. Where the driving wall changes, the wheel falls
-# behind by twice that, a tenth of its step, and strikes the other wall: such a slot does not
-# determine the motion.
-MOTION_PLAY_MAX = 0.05
 
-
-def dwell_hold(name: str, found: MachineParts, turn: FullTurn) -> Check:
-    """Check that something holds the wheel: its lock, or the means given in the spec."""
-    holds = found.assembly.full.spec.wheel.held_by is not None or turn.holds
+def dwell_hold(name: str, parts: MachineParts, turn: FullTurn) -> Check:
+    """Check that something holds the wheel: its lock, or ``held_by`` of the spec."""
+    holds = parts.assembly.full.spec.wheel.held_by is not None or turn.holds
     return Check(name, float(holds), "at least", 1.0, holds)
 
 
-def dwell(name: str, found: MachineParts, turn: FullTurn) -> Check | None:
+def dwell(name: str, parts: MachineParts, turn: FullTurn) -> Check | None:
     """The play in the dwell, with which the next roller must still enter its slot."""
-    return _at_most(name, turn.dwell, finds_slot(found)) if found.crank else None
+    return _at_most(name, turn.dwell, finds_slot(parts)) if parts.crank else None
 
 
-def hand_over(name: str, found: MachineParts, turn: FullTurn) -> Check | None:
+def hand_over(name: str, parts: MachineParts, turn: FullTurn) -> Check | None:
     """The play between lock and slot."""
-    return _at_most(name, turn.hand_over, finds_slot(found)) if found.crank else None
+    return _at_most(name, turn.hand_over, finds_slot(parts)) if parts.crank else None
 
 
-def hand_over_pressure(name: str, found: MachineParts, turn: FullTurn) -> Check | None:
+def hand_over_pressure(name: str, parts: MachineParts, turn: FullTurn) -> Check | None:
     """The pressure angle at which the roller meets a wheel that has turned through that play."""
-    return _at_most(name, turn.push, PUSH_MAX_DEG) if found.crank else None
+    # Up to a pressure angle of 60 degrees a roller still pushes the wheel into line.
+    return _at_most(name, turn.push, 60.0) if parts.crank else None
 
 
-def motion(name: str, found: MachineParts, turn: FullTurn) -> Check:
+def motion(name: str, parts: MachineParts, turn: FullTurn) -> Check:
     """The play of the roller in its slot."""
-    return _at_most(name, turn.motion, motion_play_max(found))
+    return _at_most(name, turn.motion, motion_play_max(parts))
 
 
-def motion_play_max(found: MachineParts) -> float:
+def motion_play_max(parts: MachineParts) -> float:
     """The play, degrees to either side, up to which a slot determines the wheel's motion."""
-    step = min(2.0 * math.degrees(engagement.half_step) for engagement in found.assembly.kinds)
-    return MOTION_PLAY_MAX * step
+    step = min(2.0 * math.degrees(engagement.half_step) for engagement in parts.assembly.kinds)
+    # Where the driving wall changes, the wheel falls behind by twice the play, a tenth of its step,
+    # and strikes the other wall: such a slot does not determine the motion.
+    return 0.05 * step
 
 
-def _at_most(name: str, found: Most, limit: float) -> Check:
-    return compared(name, found.deg, "at most", limit, found.at_deg if found.deg else None)
+def _at_most(name: str, play: Most, limit: float) -> Check:
+    return compared(name, play.deg, "at most", limit, play.at_deg if play.deg else None)
 
 
-def finds_slot(found: MachineParts) -> float:
+def finds_slot(parts: MachineParts) -> float:
     """The play, degrees, with which the roller would just meet the mouth of its slot."""
-    return math.degrees(math.asin(min(1.0, found.sizes.half_width / found.sizes.rim)))
+    return math.degrees(math.asin(min(1.0, parts.sizes.half_width / parts.sizes.rim)))

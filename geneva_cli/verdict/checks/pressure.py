@@ -9,9 +9,9 @@ from geneva_cli.verdict.checks.check import Check
 
 
 def curved_slot_pressure(name: str, mechanism: Mechanism) -> Check | None:
-    """The pressure angle of curved slots without a given limit: the wall must drive at all."""
-    given = mechanism.spec.limits.pressure_angle_max_deg is not None
-    if given or not mechanism.engagements[0].slot.curved:
+    """The pressure angle of curved slots, below 90 degrees if the spec sets no limit."""
+    has_limit = mechanism.spec.limits.pressure_angle_max_deg is not None
+    if has_limit or not mechanism.engagements[0].slot.curved:
         return None
     return _greatest(name, mechanism, 90.0)
 
@@ -23,7 +23,7 @@ def limited_pressure(name: str, mechanism: Mechanism) -> Check | None:
 
 
 def _greatest(name: str, mechanism: Mechanism, limit: float) -> Check:
-    found = loads.greatest_pressure(mechanism)
+    peak = loads.greatest_pressure(mechanism)
     # At 90 degrees nothing turns the wheel, whatever the limit.
-    passes = keeps(found.max, "at most", limit) and found.max < 90.0
-    return Check(name, found.max, "at most", limit, passes, at_deg=found.at_deg)
+    passes = keeps(peak.max, "at most", limit) and peak.max < 90.0
+    return Check(name, peak.max, "at most", limit, passes, at_deg=peak.at_deg)

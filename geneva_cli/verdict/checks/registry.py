@@ -1,4 +1,4 @@
-"""The list of checks, in the order shown; each is imported when it is made.
+"""The list of checks, in the order shown; each is imported at its first use.
 
 A new check is a file, or a function in a file of related ones, and one line here. The function gets
 its name and the object to check, and returns None if the check does not apply.
@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 
 Checks: TypeAlias = dict[str, str]  # name -> module:function in this folder
 
-# Checks of the machine, made if they apply.
+# Checks of the motion, if they apply.
 MOTION: Checks = {
     "dwell_deg": "dwell:shortest_dwell",
     "driver_gear_convexity": "convexity:gear_convexity",
@@ -32,7 +32,7 @@ MOTION: Checks = {
     "reversal_shock_N": "shocks:reversal_shock",
     "stopping_torque_Nm": "arrival:stopping_torque",
 }
-# Checks of the machine, made if the spec sets the limit.
+# Checks of limits that the spec sets.
 LIMITS: Checks = {
     "velocity_max": "invariants:limited_peak",
     "acceleration_max": "invariants:limited_peak",
@@ -53,7 +53,7 @@ LIMITS: Checks = {
     "wheel_shaft_stress_MPa": "strength:strength_limit",
     "crank_shaft_stress_MPa": "strength:strength_limit",
 }
-# Of flat parts, without turning them.
+# Checks of flat parts at rest.
 STATIC: Checks = {
     "wall_between_slots_mm": "walls:between_slots",
     "horn_mm": "walls:horn",
@@ -65,8 +65,8 @@ STATIC: Checks = {
     "crank_shaft_mm": "shafts:crank_shaft",
     "crank_hub_mm": "shafts:crank_hub",
     "wheel_shaft_mm": "shafts:wheel_shaft",
-    "beside_shafts_mm": "shafts:beside",
-    "gear_gap_mm": "shafts:beside_noncircular",
+    "beside_shafts_mm": "shafts:passing_parts",
+    "gear_gap_mm": "shafts:passing_gears",
     "arm_wall_mm": "arm:arm_wall",
     "arm_to_hub_mm": "arm:arm_to_hub",
     "link_wall_mm": "links:wall",
@@ -75,18 +75,18 @@ STATIC: Checks = {
     "branches_crossed_mm": "branches:crossed",
     "parts": "there:plates",
 }
-# Of the shells of a sphere, without turning them.
+# Checks of the shells of a sphere at rest.
 SPHERE: Checks = {
     "wall_between_slots_mm": "sphere:between_slots",
     "horn_mm": "walls:horn",
     "wheel_bore_wall_mm": "sphere:wheel_bore",
     "crank_shaft_mm": "sphere:crank_shaft",
     "dial_wall_mm": "sphere:dial",
-    "beside_shafts_mm": "sphere:beside",
+    "beside_shafts_mm": "sphere:passing_parts",
     "arm_wall_mm": "sphere:arm_wall",
     "parts": "there:solids",
 }
-# Of plates or shells in a whole turn.
+# Checks of plates or shells in a whole turn.
 TURNING: Checks = {
     "dwell_hold": "play:dwell_hold",
     "gap_mm": "touching:smallest_gap",
@@ -98,19 +98,16 @@ TURNING: Checks = {
 }
 
 
-# Checks that the parts can be turned, made if there are parts.
-THERE = ("parts", "full_turn")
-
-
 def every_check() -> tuple[str, ...]:
     """The names of all checks."""
-    lists = (MOTION, LIMITS, THERE, STATIC, SPHERE, TURNING)
+    # parts and full_turn: the parts can be built and turned
+    lists = (MOTION, LIMITS, ("parts", "full_turn"), STATIC, SPHERE, TURNING)
     return tuple(dict.fromkeys(name for names in lists for name in names))
 
 
 def motion_checks(among: Checks, mechanism: Mechanism) -> Iterator[Check]:
     """The checks of MOTION or LIMITS that apply to a machine."""
-    yield from _made(among, mechanism)
+    yield from _applicable(among, mechanism)
 
 
 def standing(mechanism: Mechanism) -> Checks:
@@ -118,14 +115,14 @@ def standing(mechanism: Mechanism) -> Checks:
     return STATIC if mechanism.spec.wheel.FLAT else SPHERE
 
 
-def standing_checks(found: MachineParts) -> Iterator[Check]:
+def standing_checks(parts: MachineParts) -> Iterator[Check]:
     """The checks of parts at rest: walls, shafts, branches of a slot."""
-    yield from _made(standing(found.assembly.full), found)
+    yield from _applicable(standing(parts.assembly.full), parts)
 
 
-def turn_checks(found: MachineParts, turn: FullTurn) -> Iterator[Check]:
-    """The checks of a whole turn: no parts overlap; the wheel is held and led."""
-    yield from _made(TURNING, found, turn)
+def turn_checks(parts: MachineParts, turn: FullTurn) -> Iterator[Check]:
+    """The checks of a whole turn: no parts overlap, and lock and slots leave little play."""
+    yield from _applicable(TURNING, parts, turn)
 
 
 def import_checks() -> None:
@@ -137,13 +134,13 @@ def import_checks() -> None:
 
 def check_named(among: Checks, name: str, *of: object) -> Check | None:
     """The check with this name; None if it is not in the list, or does not apply."""
-    found: Check | None = None
+    check: Check | None = None
     if name in among:
-        found = load_named(f"verdict.checks.{among[name]}")(name, *of)
-    return found
+        check = load_named(f"verdict.checks.{among[name]}")(name, *of)
+    return check
 
 
-def _made(among: Checks, *of: object) -> Iterator[Check]:
+def _applicable(among: Checks, *of: object) -> Iterator[Check]:
     """The checks that apply; of those that fail for one reason, the first only."""
     reasons = set()
     for name in among:

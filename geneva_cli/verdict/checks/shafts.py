@@ -8,60 +8,59 @@ from geneva_cli.parts.sizes import Sizes
 from geneva_cli.parts.turn.shaft_gap import gear_gap, shaft_gap
 from geneva_cli.verdict.checks.check import Check, compared, gap
 
-KEYS = (
-    "wheel_hub_mm",
-    "wheel_hub_length_mm",
-    "wheel_shaft_low_mm",
-    "wheel_shaft_high_mm",
-    "crank_hub_mm",
-    "crank_hub_length_mm",
-    "crank_shaft_low_mm",
-    "crank_shaft_high_mm",
-)
 
-
-def crank_shaft(name: str, found: Outlines) -> Check | None:
+def crank_shaft(name: str, outlines: Outlines) -> Check | None:
     """The gap between the crank's shaft or hub, whichever is thicker, and the wheel's rim."""
-    assembly, size = found.assembly, found.sizes
+    assembly, size = outlines.assembly, outlines.sizes
     shaft = _shaft(size)
     if not shaft:
         return None
     # An internal wheel's horns sweep over the crank's axis, so there is no clearance at all.
-    room = assembly.L - size.rim - shaft if assembly.sign > 0.0 else -shaft
-    return compared(name, room, "at least", 0.0)
+    gap_mm = assembly.L - size.rim - shaft if assembly.sign > 0.0 else -shaft
+    return compared(name, gap_mm, "at least", 0.0)
 
 
-def crank_hub(name: str, found: Outlines) -> Check | None:
+def crank_hub(name: str, outlines: Outlines) -> Check | None:
     """The gap between the crank's shaft or hub and the bottom of the locking disc's relief."""
-    shaft = _shaft(found.sizes)
-    if not (shaft and found.crank and is_whole(found.assembly, found.sizes)):
+    shaft = _shaft(outlines.sizes)
+    if not (shaft and outlines.crank and is_whole(outlines.assembly, outlines.sizes)):
         return None
-    return compared(name, found.relief_depth - shaft, "at least", 0.0)
+    return compared(name, outlines.relief_depth - shaft, "at least", 0.0)
 
 
-def wheel_shaft(name: str, found: Outlines) -> Check | None:
+def wheel_shaft(name: str, outlines: Outlines) -> Check | None:
     """The gap between the wheel's shaft or hub and a roller at the bottom of its slot."""
-    size = found.sizes
+    size = outlines.sizes
     hub = max(size.wheel_bore, size.wheel_hub)
-    if not (hub and found.assembly.sign > 0.0):
+    if not (hub and outlines.assembly.sign > 0.0):
         return None
     return compared(name, size.slot_end - hub, "at least", 0.0)
 
 
-def beside(name: str, found: Outlines) -> Check | None:
-    """The gap between hubs or shafts and parts that turn past them, if a size of theirs is given.
+def passing_parts(name: str, outlines: Outlines) -> Check | None:
+    """The gap between hubs or shafts and parts that turn past them, if the spec sets their sizes.
 
     Default sizes always pass, except for a first wheel's.
     """
-    given, drive = vars(found.assembly.mechanism.spec.size), found.assembly.full.spec.drive
-    if not (drive.IN_SERIES or any(given[key] is not None for key in KEYS)):
+    sizes, drive = vars(outlines.assembly.mechanism.spec.size), outlines.assembly.full.spec.drive
+    keys = (
+        "wheel_hub_mm",
+        "wheel_hub_length_mm",
+        "wheel_shaft_low_mm",
+        "wheel_shaft_high_mm",
+        "crank_hub_mm",
+        "crank_hub_length_mm",
+        "crank_shaft_low_mm",
+        "crank_shaft_high_mm",
+    )
+    if not (drive.IN_SERIES or any(sizes[key] is not None for key in keys)):
         return None
-    return gap(name, lambda: shaft_gap(found), found.assembly.L)
+    return gap(name, lambda: shaft_gap(outlines), outlines.assembly.L)
 
 
-def beside_noncircular(name: str, found: Outlines) -> Check | None:
+def passing_gears(name: str, outlines: Outlines) -> Check | None:
     """The gap between shafts and noncircular gears, at their pitch curves' farthest places."""
-    return gap(name, lambda: gear_gap(found), found.assembly.L)
+    return gap(name, lambda: gear_gap(outlines), outlines.assembly.L)
 
 
 def _shaft(size: Sizes) -> float:

@@ -16,8 +16,8 @@ if TYPE_CHECKING:
 
 def entry_shock(name: str, mechanism: Mechanism) -> Check | None:
     """The impact at entry if R/L is wrong and the roller does not enter along its slot."""
-    given = mechanism.spec.tolerance
-    if not (given.crank_radius_mm or given.center_distance_mm):
+    tolerance = mechanism.spec.tolerance
+    if not (tolerance.crank_radius_mm or tolerance.center_distance_mm):
         return None
     from geneva_cli.analysis.impacts import entry_impact
 
@@ -27,7 +27,7 @@ def entry_shock(name: str, mechanism: Mechanism) -> Check | None:
     check = _judged(name, mechanism, impact)
     if check.passes is not False:
         return check
-    return check._replace(why=_share(mechanism, check.limit or 0.0))
+    return check._replace(why=_tolerable(mechanism, check.limit or 0.0))
 
 
 def reversal_shock(name: str, mechanism: Mechanism) -> Check | None:
@@ -78,21 +78,21 @@ def _judged(name: str, mechanism: Mechanism, impact: Impact) -> Check:
     )
 
 
-def _share(mechanism: Mechanism, limit: float) -> str:
+def _tolerable(mechanism: Mechanism, limit: float) -> str:
     """The fraction to which the tolerances on R and L must shrink, whose root the force follows."""
     from geneva_cli.analysis.impacts import entry_impact
 
-    def holds(share: float) -> bool:
-        impact = entry_impact(mechanism, share)
+    def holds(fraction: float) -> bool:
+        impact = entry_impact(mechanism, fraction)
         return impact is None or (impact.force_N or 0.0) <= limit
 
     low = boundary(holds, 0.0, 1.0)
-    given = mechanism.spec.tolerance
+    tolerance = mechanism.spec.tolerance
     names = [
         f"{key} = {_down(low * value):g}"
         for key, value in (
-            ("crank_radius_mm", given.crank_radius_mm),
-            ("center_distance_mm", given.center_distance_mm),
+            ("crank_radius_mm", tolerance.crank_radius_mm),
+            ("center_distance_mm", tolerance.center_distance_mm),
         )
         if value
     ]

@@ -14,61 +14,61 @@ from geneva_cli.parts.sphere.wheel import POLE
 from geneva_cli.verdict.checks.check import Check, at_least, compared, gap
 
 
-def between_slots(name: str, found: Shells) -> Check:
+def between_slots(name: str, shells: Shells) -> Check:
     """The wall between adjacent slots: at their ends, or at a rim beyond a quarter sphere."""
-    ball = found.ball
+    ball = shells.ball
     apart = 2.0 * math.asin(math.sin(ball.bottom) * math.sin(ball.half_step))
     wall = apart - 2.0 * ball.half_width
     if ball.rim > 0.5 * math.pi:
         corners = math.sin(ball.rim) * math.sin(ball.half_step - ball.corner())
         wall = min(wall, 2.0 * math.asin(corners))
-    return _wall(name, wall, found)
+    return _wall(name, wall, shells)
 
 
-def wheel_bore(name: str, found: Shells) -> Check:
+def wheel_bore(name: str, shells: Shells) -> Check:
     """The wall between the slots' ends and the bore, hub or opening about the wheel's axis."""
-    ball = found.ball
+    ball = shells.ball
     opening = RoundHole(POLE, ball.opening_mm).angle(ball.span_mm[0]) or ball.inner
-    return _wall(name, ball.bottom - ball.half_width - opening, found)
+    return _wall(name, ball.bottom - ball.half_width - opening, shells)
 
 
-def dial(name: str, found: Shells) -> Check | None:
+def dial(name: str, shells: Shells) -> Check | None:
     """The least wall around the holes for a dial."""
-    size = found.assembly.full.spec.size
+    size = shells.assembly.full.spec.size
     if not size.dial_bolts:
         return None
-    return at_least(name, lambda: dial_wall(size, found.ball), found.sizes.wall_min)
+    return at_least(name, lambda: dial_wall(size, shells.ball), shells.sizes.wall_min)
 
 
-def crank_shaft(name: str, found: Shells) -> Check | None:
+def crank_shaft(name: str, shells: Shells) -> Check | None:
     """The gap between the crank's shaft or hub, whichever is thicker, and the wheel's rim."""
-    ball = found.ball
+    ball = shells.ball
     if not ball.about_crank_mm:
         return None
     shaft = RoundHole(POLE, ball.about_crank_mm).angle(ball.span_mm[0])
     # a rim beyond the crank's axis sweeps over it, so there is no clearance at all
-    room = max(ball.axes - ball.rim, 0.0)
-    return compared(name, (room - shaft) * ball.radius_mm, "at least", 0.0)
+    rim_gap = max(ball.axes - ball.rim, 0.0)
+    return compared(name, (rim_gap - shaft) * ball.radius_mm, "at least", 0.0)
 
 
-def arm_wall(name: str, found: Shells) -> Check | None:
+def arm_wall(name: str, shells: Shells) -> Check | None:
     """The least wall around the holes of the crank arm, and of bolts in the locking sectors."""
-    if not has_arm(found):
+    if not has_arm(shells):
         return None
-    return at_least(name, lambda: crank_arm(found).wall, found.sizes.wall_min)
+    return at_least(name, lambda: crank_arm(shells).wall, shells.sizes.wall_min)
 
 
-def beside(name: str, found: Shells) -> Check | None:
+def passing_parts(name: str, shells: Shells) -> Check | None:
     """The gap between hubs or shafts and parts that turn about the other axis.
 
     The checks of walls report a missing arm, or a dial's bolts without a place.
     """
-    walls = [check(name, found) for check in (arm_wall, dial)]
+    walls = [check(name, shells) for check in (arm_wall, dial)]
     if any(row and row.value is None for row in walls):
         return None
-    L = found.ball.radius_mm
-    return gap(name, lambda: shaft_gap(found, built(found)), L)
+    L = shells.ball.radius_mm
+    return gap(name, lambda: shaft_gap(shells, built(shells)), L)
 
 
-def _wall(name: str, angle: float, found: Shells) -> Check:
-    return compared(name, angle * found.ball.radius_mm, "at least", found.sizes.wall_min)
+def _wall(name: str, angle: float, shells: Shells) -> Check:
+    return compared(name, angle * shells.ball.radius_mm, "at least", shells.sizes.wall_min)

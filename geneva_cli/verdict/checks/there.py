@@ -12,14 +12,14 @@ from geneva_cli.parts.sphere.shells import Shells
 from geneva_cli.verdict.checks.check import Check, refused
 
 
-def plates(name: str, found: Outlines) -> Check | None:
+def plates(name: str, outlines: Outlines) -> Check | None:
     """The check that fails if a plate of a flat machine cannot be built; else None."""
-    return _refusal(name, lambda: built(found, fitted=False))
+    return _refusal(name, lambda: built(outlines, fitted=False))
 
 
-def solids(name: str, found: Shells) -> Check | None:
+def solids(name: str, shells: Shells) -> Check | None:
     """The check that fails if a solid of a spherical machine cannot be built; else None."""
-    return _refusal(name, lambda: built_ball(found))
+    return _refusal(name, lambda: built_ball(shells))
 
 
 def _refusal(name: str, build: Callable[[], object]) -> Check | None:

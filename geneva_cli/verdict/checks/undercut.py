@@ -13,6 +13,6 @@ def undercut_depth(name: str, mechanism: Mechanism) -> Check | None:
         return None
     from geneva_cli.analysis.undercut import undercut
 
-    found = undercut(mechanism)
-    depth, at_deg = (found.depth_mm, found.at_deg) if found else (0.0, None)
+    place = undercut(mechanism)
+    depth, at_deg = (place.depth_mm, place.at_deg) if place else (0.0, None)
     return compared(name, depth, "at most", SHOWN_UNDERCUT, at_deg)

@@ -24,22 +24,22 @@ NO_WALL = {  # the meaning of a negative wall
 }
 
 
-def between_slots(name: str, found: Outlines) -> Check:
+def between_slots(name: str, outlines: Outlines) -> Check:
     """The wall between adjacent slots at its thinnest place; negative where they cut each other."""
-    around, near = found.assembly.slots, math.inf
+    around, near = outlines.assembly.slots, math.inf
     for i, (engagement, direction) in enumerate(around):
         following, ahead = around[(i + 1) % len(around)]
-        walls = turned(found.slots[engagement], direction)
+        walls = turned(outlines.slots[engagement], direction)
         ends = walls.segments[-1].end, walls.segments[0].start
         slot = closed(walls.layer, [*walls.segments, _mouth(*ends, engagement.apart > 0.0)])
-        inside = Polyarc([backwards(slot) if found.assembly.sign > 0.0 else slot])
-        points = Polyarc([turned(found.slots[following], ahead)]).samples(
-            1e-6 * found.assembly.L, 0.01 * found.assembly.L
+        inside = Polyarc([backwards(slot) if outlines.assembly.sign > 0.0 else slot])
+        points = Polyarc([turned(outlines.slots[following], ahead)]).samples(
+            1e-6 * outlines.assembly.L, 0.01 * outlines.assembly.L
         )
         near = min(near, float(inside.signed(points).min()))
         if all(s is engagement for s, _ in around):
             break
-    return _wall(name, near, found)
+    return _wall(name, near, outlines)
 
 
 def _mouth(start: Point, end: Point, wide: bool) -> Segment:
@@ -50,48 +50,48 @@ def _mouth(start: Point, end: Point, wide: bool) -> Segment:
     return Arc(start, end, -math.tan(0.25 * back))
 
 
-def rollers_apart(name: str, found: Outlines) -> Check | None:
+def rollers_apart(name: str, outlines: Outlines) -> Check | None:
     """The gap between the roller that starts the wheel and the one that stops it, on one crank."""
-    gap = rollers_gap(found.assembly, found.sizes)
+    gap = rollers_gap(outlines.assembly, outlines.sizes)
     return None if gap is None else compared(name, gap, "at least", 0.0)
 
 
-def horn(name: str, found: Outlines | Shells) -> Check | None:
+def horn(name: str, outlines: Outlines | Shells) -> Check | None:
     """The wall between a slot and the recess of the locking disc or sectors."""
-    return _wall(name, found.sizes.horn, found) if found.crank else None
+    return _wall(name, outlines.sizes.horn, outlines) if outlines.crank else None
 
 
-def wheel_bore(name: str, found: Outlines) -> Check | None:
+def wheel_bore(name: str, outlines: Outlines) -> Check | None:
     """The wall between the wheel's bore and its slots' ends, and around the bore in a drawn hub."""
-    size = found.sizes
+    size = outlines.sizes
     if not size.wheel_bore:
         return None
-    hub = wheel_hub(found.assembly, size)
+    hub = wheel_hub(outlines.assembly, size)
     wall = size.slot_end - size.wheel_bore
-    return _wall(name, min(wall, size.wheel_hub - size.wheel_reach) if hub else wall, found)
+    return _wall(name, min(wall, size.wheel_hub - size.wheel_reach) if hub else wall, outlines)
 
 
-def outside(name: str, found: Outlines) -> Check | None:
+def outside(name: str, outlines: Outlines) -> Check | None:
     """The wall between the slots or recesses of an internal wheel and its outside."""
-    size = found.sizes
+    size = outlines.sizes
     if not size.outer:
         return None
-    deepest = max(size.slot_end, found.assembly.L + size.recess if size.lock else 0.0)
-    return _wall(name, size.outer - deepest, found)
+    deepest = max(size.slot_end, outlines.assembly.L + size.recess if size.lock else 0.0)
+    return _wall(name, size.outer - deepest, outlines)
 
 
-def crank_bore(name: str, found: Outlines) -> Check | None:
+def crank_bore(name: str, outlines: Outlines) -> Check | None:
     """The wall between the crank's bore and the bottom of the locking disc's relief.
 
     In a drawn hub it is also the wall around the bore.
     """
-    size = found.sizes
-    if not (size.crank_bore and found.crank and is_whole(found.assembly, size)):
+    size = outlines.sizes
+    if not (size.crank_bore and outlines.crank and is_whole(outlines.assembly, size)):
         return None
-    wall = found.relief_depth - size.crank_bore
-    hub = crank_hub(found)
-    return _wall(name, min(wall, size.crank_hub - size.crank_reach) if hub else wall, found)
+    wall = outlines.relief_depth - size.crank_bore
+    hub = crank_hub(outlines)
+    return _wall(name, min(wall, size.crank_hub - size.crank_reach) if hub else wall, outlines)
 
 
-def _wall(name: str, value: float, found: Outlines | Shells) -> Check:
-    return compared(name, value, "at least", found.sizes.wall_min)
+def _wall(name: str, value: float, outlines: Outlines | Shells) -> Check:
+    return compared(name, value, "at least", outlines.sizes.wall_min)

@@ -41,20 +41,20 @@ class Designs:
         """The result of a function of these designs, computed once."""
         if compute not in self._kept:
             self._kept[compute] = compute(self)
-        found: T = self._kept[compute]  # type: ignore[assignment]
-        return found
+        result: T = self._kept[compute]  # type: ignore[assignment]
+        return result
 
     @cached_property
-    def given(self) -> LoadCase:
+    def setting(self) -> LoadCase:
         """The loads' parameters besides the motion."""
-        from geneva_cli.analysis.loads.forces import load_case  # a wish without loads needs none
+        from geneva_cli.analysis.loads.forces import load_case  # quantities without loads need none
 
         return load_case(self.machine)
 
     @cached_property
     def loaded(self) -> Array:
         """1 if something resists the wheel, else NaN."""
-        loaded = self.given.inertia_Nm + self.given.resists_Nm > 0.0
+        loaded = self.setting.inertia_Nm + self.setting.resists_Nm > 0.0
         return np.ravel(np.where(loaded, 1.0, np.nan))
 
 

@@ -19,12 +19,14 @@ if TYPE_CHECKING:
 
 def vibration(of: Designs) -> Columns:
     """The vibration of a load on its elastic shaft."""
-    found = design_vibrations(of.machine, of.requested("vibration"))
-    if found is None:
+    shaken = design_vibrations(of.machine, of.requested("vibration"))
+    if shaken is None:
         return dict.fromkeys(Vibrations._fields)
     # without damping there is no steady state; without a period ratio the design says why
-    steady = np.where(np.isnan(found.steady_share), found.period_ratio + np.inf, found.steady_share)
-    return found._replace(steady_share=steady)._asdict()
+    steady = np.where(
+        np.isnan(shaken.steady_share), shaken.period_ratio + np.inf, shaken.steady_share
+    )
+    return shaken._replace(steady_share=steady)._asdict()
 
 
 def entry(of: Designs) -> Columns:
@@ -39,8 +41,8 @@ def reversal(of: Designs) -> Columns:
     return {**_impact(reversal_impacts(of.machine)), "drag_Nm": drag}
 
 
-def _impact(found: Impacts) -> Columns:
-    return {name: np.where(np.isnan(row), np.inf, row) for name, row in found._asdict().items()}
+def _impact(impacts: Impacts) -> Columns:
+    return {name: np.where(np.isnan(row), np.inf, row) for name, row in impacts._asdict().items()}
 
 
 def tolerances(of: Designs) -> Columns:

@@ -49,13 +49,13 @@ RATES = {
 }
 
 
-class Group(NamedTuple):
+class QuantityGroup(NamedTuple):
     """Quantities that are computed together.
 
     ``alone`` computes them for the machine of a PartsModel and ``batch`` for Designs, each as
     module:function of this folder, imported at its first use. Without ``alone`` a single design is
-    a batch of one, and no design has the values that ``batch`` leaves out. Groups may share a
-    function. ``alone`` may also give lists and tables.
+    a batch of one, and no design has the values that ``batch`` leaves out. Groups may have
+    one function. ``alone`` may also return lists and tables.
     """
 
     table: str  # beginning of the whole names; empty if several tables are one group
@@ -78,10 +78,10 @@ class Group(NamedTuple):
 
     def values(self, model: PartsModel) -> Values:
         """The values of a single design; None for those that it lacks."""
-        found: Values
+        computed: Values
         if self.alone:
-            found = load_named(f"verdict.{self.alone}")(model)
-            return found
+            computed = load_named(f"verdict.{self.alone}")(model)
+            return computed
         from geneva_cli.verdict.quantities.designs import single
 
         columns = self.columns(single(model.mechanism))
@@ -93,8 +93,8 @@ class Group(NamedTuple):
         A name is left out if the batch cannot compute it, and each design must be built alone.
         """
         compute: Callable[[Designs], Columns] = load_named(f"verdict.quantities.{self.batch}")
-        found = of.once(compute)
-        return found if self.alone else {**dict.fromkeys(self.own), **found}
+        columns = of.once(compute)
+        return columns if self.alone else {**dict.fromkeys(self.own), **columns}
 
     def _whole(self, name: str) -> str:
         return f"{self.table}.{name}" if self.table else name
@@ -115,7 +115,7 @@ def own_names(table: str) -> tuple[str, ...]:
     return tuple(name for group in GROUPS if group.table == table for name in group.names)
 
 
-def values(groups: Iterable[Group], model: PartsModel) -> Values:
+def values(groups: Iterable[QuantityGroup], model: PartsModel) -> Values:
     """The values of several groups of a single design, in order."""
     out: Values = {}
     called = set()
@@ -137,9 +137,9 @@ def _product(of: str, names: str) -> tuple[str, ...]:
 
 def _group(
     table: str, names: str, alone: str = "", batch: str = "", makes_parts: bool = False
-) -> Group:
+) -> QuantityGroup:
     """A group whose names are words of a text."""
-    return Group(table, tuple(names.split()), alone, batch, makes_parts=makes_parts)
+    return QuantityGroup(table, tuple(names.split()), alone, batch, makes_parts=makes_parts)
 
 
 MACHINE = _group(
@@ -147,7 +147,7 @@ MACHINE = _group(
 )
 # Quantities of a report, in the order shown.
 REPORT = (
-    Group(
+    QuantityGroup(
         "inputs",
         tuple(f"{table}.{key}" for table, names in ECHOED.items() for key in names),
         "report.inputs:inputs",
@@ -158,7 +158,7 @@ REPORT = (
         "report.stations:timing",
         "motion:timing",
     )._replace(one_by_one=("shortest_motion_s", "k_r")),
-    Group(
+    QuantityGroup(
         "",
         (
             *_product("velocity", "max at_deg max_rad_s"),
@@ -170,7 +170,7 @@ REPORT = (
         "motion:peaks",
     ),
     _group("", "", "report.stations:stations"),
-    Group(
+    QuantityGroup(
         "loads",
         (
             *_product("torque_Nm pin_force_N input_torque_Nm contact_stress_MPa", "max at_deg"),
@@ -179,7 +179,7 @@ REPORT = (
         "report.loads:greatest_loads",
         "loads:greatest",
     ),
-    Group(
+    QuantityGroup(
         "cycle",
         _product("input_torque_Nm power_W crank_bearing_N", "max min mean rms"),
         "report.cycle:cycle",
@@ -213,7 +213,7 @@ REPORT = (
         makes_parts=True,
     ),
     _group("parts_list", "", "report.parts_list:parts_list_tables", makes_parts=True),
-    Group(
+    QuantityGroup(
         "tolerance",
         (
             *_product("dwell_position motion_play", "worst_deg rss_deg p997_deg"),
@@ -270,7 +270,7 @@ REPORT = (
 )
 # Further quantities, for studies.
 STUDY = (
-    Group(
+    QuantityGroup(
         "loads",
         _product(
             "omega_rad_s alpha_rad_s2 wheel_torque_Nm pin_force_N contact_stress_MPa sliding_m_s "
@@ -290,7 +290,7 @@ STUDY = (
         "quantities.single:bought",
         "loads:sizing",
     ),
-    Group(
+    QuantityGroup(
         "checks", (*every_check(), "passes", "failed"), "quantities.single:judged", makes_parts=True
     ),
 )

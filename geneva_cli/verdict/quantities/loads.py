@@ -19,23 +19,21 @@ if TYPE_CHECKING:
     from geneva_cli.numerics.arrays import Number
     from geneva_cli.verdict.quantities.designs import Columns, Designs
 
-MEANS = {"mean", "rms"}  # of each quantity of the cycle, besides its least value
-
 
 def greatest(of: Designs) -> Columns:
     """The greatest sizes of loads and their input angles; infinite if no design has the load."""
     known, requested = known_quantities(of.machine), of.requested("loads")
     names = [name for name in REPORTED_PEAKS if {f"{name}.max", f"{name}.at_deg"} & requested]
     sought = [REPORTED_PEAKS[name] for name in names if REPORTED_PEAKS[name] in known]
-    found = load_peaks(of.machine, sought) if sought else {}
+    extremes = load_peaks(of.machine, sought) if sought else {}
     out: dict[str, Number | None] = {}
     for name in names:
-        most, at_deg = found.get(REPORTED_PEAKS[name], (np.inf, np.inf))
+        most, at_deg = extremes.get(REPORTED_PEAKS[name], (np.inf, np.inf))
         out |= {f"{name}.max": most * of.loaded, f"{name}.at_deg": at_deg * of.loaded}
     if "kinetic_power_W" in requested:
         power = worst_peaks(of.machine, ["power"])["power"].max
         kinetic = np.ravel(kinetic_power_W(of.machine, parameter(power[:, None])))
-        out["kinetic_power_W"] = np.where(np.ravel(of.given.inertia_Nm) > 0.0, kinetic, np.nan)
+        out["kinetic_power_W"] = np.where(np.ravel(of.setting.inertia_Nm) > 0.0, kinetic, np.nan)
     return out
 
 
@@ -53,11 +51,12 @@ def summaries(of: Designs) -> Columns:
     if not ends:
         return {}
     out: dict[str, Number | None] = {}
-    told = {end for some in ends.values() for end in some}
-    sums = load_summaries if told - MEANS else load_means
-    for load, one in sums(of.machine, list(ends), told & MEANS).items():
-        found = one._asdict()
-        out |= {f"{load}.{end}": found[end] for end in ends[load]}
+    requested = {end for some in ends.values() for end in some}
+    means = {"mean", "rms"}  # of each quantity of the cycle, besides its least value
+    sums = load_summaries if requested - means else load_means
+    for load, one in sums(of.machine, list(ends), requested & means).items():
+        values = one._asdict()
+        out |= {f"{load}.{end}": values[end] for end in ends[load]}
     loaded = np.isfinite(of.loaded)
     return {n: np.where(loaded, v, np.nan) for n, v in out.items() if v is not None}
 
@@ -73,11 +72,11 @@ def sizing(of: Designs) -> Columns:
 
 def slot(of: Designs) -> Columns:
     """Intervals without the needed wall, and the distance of the slot's two branches."""
-    found = positive_drives(of.machine)
-    if found is None:
+    drives = positive_drives(of.machine)
+    if drives is None:
         return {}
     return {
-        "not_driven_share": found.fraction,
-        "branch_gap_mm": found.gap_mm,
-        "branch_gap_at_deg": found.gap_at_deg,
+        "not_driven_share": drives.fraction,
+        "branch_gap_mm": drives.gap_mm,
+        "branch_gap_at_deg": drives.gap_at_deg,
     }

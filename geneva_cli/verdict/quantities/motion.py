@@ -19,8 +19,6 @@ if TYPE_CHECKING:
     from geneva_cli.numerics.arrays import Array, N, Number
     from geneva_cli.verdict.quantities.designs import Columns, Designs
 
-ENDS = {"acceleration": 2, "jerk": 3}  # derivatives of the wheel's angle
-
 
 def timing(of: Designs) -> Columns:
     """The timing of machines whose engagements are alike; empty for others."""
@@ -33,8 +31,9 @@ def peaks(of: Designs) -> Columns:
     requested = [name for name in QUANTITIES if of.requested(name)]
     w = np.ravel(omega(of.spec.drive.n_rpm))
     out: dict[str, Number | None] = {}
+    derivatives = {"acceleration": 2, "jerk": 3}  # derivatives of the wheel's angle
     for name, peak in worst_peaks(of.machine, requested).items():
-        ends = _ends(of.machine, ENDS[name]) if name in ENDS else ()
+        ends = _ends(of.machine, derivatives[name]) if name in derivatives else ()
         out |= peak_values(name, w, tuple(peak), ends)
     return out
 

@@ -39,11 +39,11 @@ def judged(model: PartsModel) -> Values:
 def cycle(model: PartsModel) -> Values:
     """Least values, means and root mean squares of the loads."""
     names = ("min", "min_at_deg", "mean", "rms")
-    found = {load: one._asdict() for load, one in summaries(cycle_of(model.mechanism)).items()}
-    return {f"loads.{load}.{n}": one[n] for load, one in found.items() for n in names}
+    loads = {load: one._asdict() for load, one in summaries(cycle_of(model.mechanism)).items()}
+    return {f"loads.{load}.{n}": one[n] for load, one in loads.items() for n in names}
 
 
 def bought(model: PartsModel) -> Values:
     """Motor, flywheel and the makers' form, without the wheel's own inertia."""
-    found, _ = sizing(cycle_of(model.mechanism))
-    return {f"sizing.{name}": value for name, value in found.items() if name != WHEEL_INERTIA}
+    values, _ = sizing(cycle_of(model.mechanism))
+    return {f"sizing.{name}": value for name, value in values.items() if name != WHEEL_INERTIA}

@@ -35,22 +35,22 @@ def margin(stress: Number, allowed: Number | None) -> Array | None:
 
 def pin(of: Designs) -> Columns:
     """The roller's pin under the greatest force; it needs a face width."""
-    found, allowed = pins.pin(of.machine), of.spec.material_roller.stress_max_MPa
+    section, allowed = pins.pin(of.machine), of.spec.material_roller.stress_max_MPa
     out: dict[str, Number | None] = {"allowed_MPa": allowed}
-    if found is None:
+    if section is None:
         return out
     force = under_load(of).force_N[:, None]
-    under = found.under(force)
+    under = section.under(force)
     stress = np.ravel(under.equivalent)
     out |= {
-        "diameter_mm": found.diameter_mm,
+        "diameter_mm": section.diameter_mm,
         "bending_MPa": under.bending,
         "shear_MPa": under.shear,
         "stress_MPa": stress,
         "margin": margin(stress, allowed),
     }
     if allowed is not None:
-        out["least_diameter_mm"] = pins.least_diameter_mm(found, force, allowed)
+        out["least_diameter_mm"] = pins.least_diameter_mm(section, force, allowed)
     return out
 
 
@@ -64,8 +64,8 @@ def horn(of: Designs) -> Columns:
     force = under_load(of).force_N
     if not np.isfinite(force).any():
         return out | dict.fromkeys(("stress_MPa", "at_deg", "inwards_mm", "thickness_mm"), force)
-    found = horn_stresses(of.machine, sizes.half_width, sizes.lock.recess, width)
-    rows = {name: _known(row) for name, row in found._asdict().items()}
+    stresses = horn_stresses(of.machine, sizes.half_width, sizes.lock.recess, width)
+    rows = {name: _known(row) for name, row in stresses._asdict().items()}
     stress = np.where(np.isfinite(force), rows["stress_MPa"], force)
     out["margin"] = margin(stress, allowed)
     return out | {name: np.where(np.isfinite(force), row, force) for name, row in rows.items()}
@@ -76,15 +76,15 @@ def lock(of: Designs) -> Columns:
 
     ``greatest_MPa`` is the stress between disc and recess, on an end or between the arcs.
     """
-    found, allowed = under_load(of).lock, of.spec.limits.lock_stress_max_MPa
-    if found is None:
+    state, allowed = under_load(of).lock, of.spec.limits.lock_stress_max_MPa
+    if state is None:
         return {"allowed_MPa": allowed}
-    _, *names = found._fields  # the first is a word
-    out: dict[str, Number | None] = {name: _known(found._asdict()[name]) for name in names}
-    contact, approach = (np.asarray(row) for row in (found.contact_stress_MPa, found.approach_deg))
-    most = np.where(np.isnan(approach), np.inf, np.fmax(contact, found.pressure_MPa))
+    _, *names = state._fields  # the first is a word
+    out: dict[str, Number | None] = {name: _known(state._asdict()[name]) for name in names}
+    contact, approach = (np.asarray(row) for row in (state.contact_stress_MPa, state.approach_deg))
+    most = np.where(np.isnan(approach), np.inf, np.fmax(contact, state.pressure_MPa))
     return out | {
-        "deflection_deg": _known(found.deflection_deg),
+        "deflection_deg": _known(state.deflection_deg),
         "greatest_MPa": _known(most),
         "allowed_MPa": allowed,
         "margin": margin(_known(most), allowed),
@@ -93,8 +93,8 @@ def lock(of: Designs) -> Columns:
 
 def _known(row: Number | None) -> Array:
     """The row, infinite for designs without a value."""
-    found = np.asarray(row)
-    return np.where(np.isnan(found), np.inf, found)
+    values = np.asarray(row)
+    return np.where(np.isnan(values), np.inf, values)
 
 
 def wheel_shaft(of: Designs) -> Columns:
@@ -111,16 +111,16 @@ def crank_shaft(of: Designs) -> Columns:
 def _shaft(of: Designs, ends: shafts.ShaftDimensions, on: shafts.ShaftForces) -> Columns:
     """A shaft; without results on a sphere, where an overhang does not determine the moment."""
     out: dict[str, Number | None] = {"diameter_mm": ends.diameter_mm}
-    found = under_load(of).shaft(ends, on) if of.spec.wheel.FLAT else None
-    if found is None:
+    turned = under_load(of).shaft(ends, on) if of.spec.wheel.FLAT else None
+    if turned is None:
         return out
-    moment = np.asarray(found.moment_Nm) * of.loaded
-    rows = {name: value for name, value in found._asdict().items() if value is not None}
+    moment = np.asarray(turned.moment_Nm) * of.loaded
+    rows = {name: value for name, value in turned._asdict().items() if value is not None}
     allowed = of.spec.shaft.shear_stress_max_MPa
     if allowed is not None:
         rows["allowed_MPa"] = np.ravel(allowed)
-    if found.stress_MPa is not None and allowed is not None:
-        rows["margin"] = margin(found.stress_MPa, allowed)
+    if turned.stress_MPa is not None and allowed is not None:
+        rows["margin"] = margin(turned.stress_MPa, allowed)
     return out | {name: np.where(np.isfinite(moment), row, moment) for name, row in rows.items()}
 
 
@@ -137,11 +137,11 @@ def bending(of: Designs) -> Columns:
 
 def wear(of: Designs) -> Columns:
     """The roller as a bearing, the work of friction, and the slot's walls."""
-    load, friction = under_load(of), np.ravel(of.given.friction)
-    ways, lasts = load.passages, roller.lives(of.machine, load.roller_passages)
+    load, friction = under_load(of), np.ravel(of.setting.friction)
+    passages, lasts = load.passages, roller.lives(of.machine, load.roller_passages)
     force = np.ravel(lasts.equivalent_force_N)
     with np.errstate(invalid="ignore"):  # without friction, of a force without a bound
-        work = friction * sum(way.work for way in ways) / len(ways)
+        work = friction * sum(passage.work for passage in passages) / len(passages)
     under: dict[str, Number | None] = {
         "roller_turns_per_motion": lasts.turns_per_motion,
         "equivalent_force_N": force,
@@ -151,7 +151,7 @@ def wear(of: Designs) -> Columns:
         "roller_life_h": lasts.hours,
         # a roller that turns on its pin does not rub in the slot
         "slot_wear_mm_per_million": (
-            roller.wears_mm(of.machine, ways) if of.spec.load.rubs_in_slot else None
+            roller.wears_mm(of.machine, passages) if of.spec.load.rubs_in_slot else None
         ),
     }
     bound = np.where(np.isfinite(force), of.loaded, np.inf * of.loaded)
@@ -160,4 +160,4 @@ def wear(of: Designs) -> Columns:
         for name, value in under.items()
         if value is not None
     }
-    return out | {"slot_travel_m": sum(way.travel_m for way in ways) / len(ways)}
+    return out | {"slot_travel_m": sum(passage.travel_m for passage in passages) / len(passages)}

@@ -77,8 +77,8 @@ class SingleUnderLoad(UnderLoad):
         """The greatest force on a roller."""
         if np.isnan(self.loaded[0]):
             return self.loaded
-        found = cycle_of(self.machine).extremes[FORCE]
-        return np.array([max(found.max, -found.min)])
+        force = cycle_of(self.machine).extremes[FORCE]
+        return np.array([max(force.max, -force.min)])
 
     @cached_property
     def pv_W_m2(self) -> Array:
@@ -106,10 +106,10 @@ class SingleUnderLoad(UnderLoad):
     @cached_property
     def lock_sizes(self) -> LockSizes | None:
         """The sizes of horn and lock; None without a lock."""
-        found = sized(self.machine)
-        if found is None or not found[1].lock:
+        parts = sized(self.machine)
+        if parts is None or not parts[1].lock:
             return None
-        return LockSizes(found[1].half_width, lock_of(*found))
+        return LockSizes(parts[1].half_width, lock_of(*parts))
 
     def shaft(
         self, ends: shafts.ShaftDimensions, loaded: shafts.ShaftForces

@@ -38,14 +38,14 @@ def report(model: PartsModel, rows: Sequence[Check], warnings: Sequence[Notice])
         "spec": mechanism.spec.path,
         "title": title,
         "passes": passes,
-        "checks_failed": tuple(_said(c) for c in rows if c.passes is False),
+        "checks_failed": tuple(_in_one_line(c) for c in rows if c.passes is False),
         "not_proved": tuple(f"{c.name}: {c.why}" for c in rows if c.passes is None),
     }
     values |= values_of(REPORT, model) | {"warnings": tuple(warnings)}
     return Report(record_table(values, title, words(mechanism)), passes)
 
 
-def _said(check: Check) -> str:
+def _in_one_line(check: Check) -> str:
     """A failing check in one line."""
     if check.value is None or check.limit is None:
         return check.not_computed

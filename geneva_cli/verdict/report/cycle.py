@@ -7,15 +7,14 @@ from geneva_cli.analysis.loads.summary import reversals_deg, summaries
 from geneva_cli.parts.model import PartsModel
 from geneva_cli.verdict.report.values import Values
 
-FIELDS = ("max", "min", "mean", "rms")
-
 
 def cycle(model: PartsModel) -> Values:
     """Greatest and least over the motions, mean and rms over the period; None without a load."""
     of = cycle_of(model.mechanism)
-    found = summaries(of)
+    loads = summaries(of)
     values: Values = {}
     for name in ("input_torque_Nm", "power_W", "crank_bearing_N"):
-        values |= {f"cycle.{name}.{key}": found[name]._asdict()[key] for key in FIELDS}
+        numbers = loads[name]._asdict()
+        values |= {f"cycle.{name}.{key}": numbers[key] for key in ("max", "min", "mean", "rms")}
     values["cycle.reversals_deg"] = tuple(reversals_deg(of)) if of.is_loaded else None
     return values

@@ -16,6 +16,6 @@ def inputs(model: PartsModel) -> Values:
     }
     values: Values = {}
     for table, names in ECHOED.items():
-        given = spec.table(table) | known.get(table, {})
-        values |= {f"{INPUTS}{table}.{key}": given[key] for key in names}
+        keys = spec.table(table) | known.get(table, {})
+        values |= {f"{INPUTS}{table}.{key}": keys[key] for key in names}
     return values

@@ -19,10 +19,10 @@ def greatest_loads(model: PartsModel) -> Values:
     values: Values = {}
     for name, source in REPORTED_PEAKS.items():
         wide = source != STRESS or mechanism.spec.size.face_width_mm is not None
-        found = loads.greatest(mechanism, source) if loaded and wide else None
-        bounded = found is not None and math.isfinite(found.max)
-        values[f"loads.{name}.max"] = found.max if found and bounded else None
-        values[f"loads.{name}.at_deg"] = found.at_deg if found else None
+        peak = loads.greatest(mechanism, source) if loaded and wide else None
+        bounded = peak is not None and math.isfinite(peak.max)
+        values[f"loads.{name}.max"] = peak.max if peak and bounded else None
+        values[f"loads.{name}.at_deg"] = peak.at_deg if peak else None
     power = worst(mechanism).power.max if inertia_kgm2(mechanism.spec) else None
     kinetic = None if power is None else loads.kinetic_power_W(mechanism, power)
     return values | {"loads.kinetic_power_W": kinetic}

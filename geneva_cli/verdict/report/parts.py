@@ -23,11 +23,11 @@ def parts(model: PartsModel) -> Values:
 
 
 def _turned(model: PartsModel) -> Values:
-    found, turn = model.parts, model.turn
-    gap, locked = turn.smallest, bool(found.crank)
+    parts, turn = model.parts, model.turn
+    gap, locked = turn.smallest, bool(parts.crank)
     return {
-        "parts.horn_mm": found.sizes.horn if locked else None,
-        "parts.smallest_gap_mm": gap.mm if abs(gap.mm) > found.contact else 0.0,
+        "parts.horn_mm": parts.sizes.horn if locked else None,
+        "parts.smallest_gap_mm": gap.mm if abs(gap.mm) > parts.contact else 0.0,
         "parts.smallest_gap_at_deg": gap.at_deg,
         "parts.dwell_play_deg": turn.dwell.deg if locked else None,
     }
@@ -35,14 +35,14 @@ def _turned(model: PartsModel) -> Values:
 
 def cut_sizes(model: PartsModel) -> Values:
     """Cut sizes of flat parts."""
-    found, size = model.outlines, model.outlines.sizes
-    locked = bool(found.crank)
+    outlines, size = model.outlines, model.outlines.sizes
+    locked = bool(outlines.crank)
     return {
         "parts.rim_radius_mm": size.rim,
         "parts.slot_end_radius_mm": size.slot_end,
         "parts.lock_radius_mm": size.lock,
         "parts.recess_radius_mm": size.recess if locked else None,
-        "parts.relief": found.relief if locked else None,
+        "parts.relief": outlines.relief if locked else None,
         "parts.wheel_bore_mm": 2.0 * size.wheel_bore,
         "parts.crank_bore_mm": 2.0 * size.crank_bore,
     }

@@ -15,20 +15,19 @@ from geneva_cli.table import rows_table
 from geneva_cli.verdict.quantities.motion import peak_values
 from geneva_cli.verdict.report.values import Numbers, Values
 
-SAME = 1e-12  # fraction of a value by which rounding may make it differ between engagements
-
 
 def timing(model: PartsModel) -> Values:
-    """The timing that all engagements share; None for values that differ."""
+    """The timing that is equal in all engagements; None for values that differ."""
     mechanism = model.mechanism
     each = [_timing(mechanism, i) for i in range(len(mechanism.engagements))]
     return {name: _shared([one[name] for one in each]) for name in each[0]}
 
 
 def _shared(values: Sequence[float | None]) -> float | None:
-    """The value that all engagements share, apart from rounding; None if they differ."""
+    """The value that is equal in all engagements, apart from rounding; None if they differ."""
     known = [value for value in values if value is not None]
-    if len(known) < len(values) or not math.isclose(min(known), max(known), rel_tol=SAME):
+    # Rounding makes a value differ between engagements by up to 1e-12 of it.
+    if len(known) < len(values) or not math.isclose(min(known), max(known), rel_tol=1e-12):
         return None
     return known[0]
 
@@ -65,11 +64,11 @@ def _timing(mechanism: Mechanism, i: int) -> Numbers:
     return values
 
 
-def _peaks(mechanism: Mechanism, found: Peaks) -> Numbers:
-    w, ends = omega(mechanism.spec.drive.n_rpm), found.ends
+def _peaks(mechanism: Mechanism, peaks: Peaks) -> Numbers:
+    w, ends = omega(mechanism.spec.drive.n_rpm), peaks.ends
     return {
-        **peak_values("velocity", w, found.velocity, ()),
-        **peak_values("acceleration", w, found.acceleration, ends[:2]),
-        **peak_values("jerk", w, found.jerk, ends[2:]),
-        **peak_values("power", w, found.power, ()),
+        **peak_values("velocity", w, peaks.velocity, ()),
+        **peak_values("acceleration", w, peaks.acceleration, ends[:2]),
+        **peak_values("jerk", w, peaks.jerk, ends[2:]),
+        **peak_values("power", w, peaks.power, ()),
     }

@@ -13,12 +13,12 @@ SAMPLES = 65536
 def tolerances(model: PartsModel) -> Values:
     """The first lines of ``geneva tolerance``, and its warnings; None without tolerances."""
     mechanism, names = model.mechanism, (*own_names("tolerance"), "tolerance.warnings")
-    given = mechanism.spec.tolerance
-    if given == Tolerance(distribution=given.distribution):
+    tolerance = mechanism.spec.tolerance
+    if tolerance == Tolerance(distribution=tolerance.distribution):
         return dict.fromkeys(names)
     from geneva_cli.verdict.tolerance.tables import tolerance_table
 
-    # micrometres need a radius, which is not given here
+    # micrometres need a radius
     L = mechanism.center_distance_mm
     answers = tolerance_table(mechanism, model, SAMPLES, 0, L).to_dict()
     return {name: answers[name.removeprefix("tolerance.")] for name in names}

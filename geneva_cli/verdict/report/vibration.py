@@ -19,7 +19,7 @@ def vibration(model: PartsModel) -> Values:
     if mechanism.spec.shaft.stiffness_Nm_rad is None:
         return out
     try:
-        found = values(mechanism, required_oscillator(mechanism))
+        results = values(mechanism, required_oscillator(mechanism))
     except GenevaError as error:
         return out | {"vibration.none": str(error)}
-    return out | {f"vibration.{name}": found[name] for name in NUMBERS}
+    return out | {f"vibration.{name}": results[name] for name in NUMBERS}

@@ -24,10 +24,8 @@ from geneva_cli.parts.outlines import Outlines
 from geneva_cli.parts.sphere.sizes import Ball
 from geneva_cli.verdict.checks.registry import turn_checks
 
-WORDS = "largest roller and locking disc, narrowest slot and recess"
 # The lock's need, None for none, and the spec of the tightest machine (-1) or the loosest (+1)
 Corners: TypeAlias = tuple[float | None, Callable[[float], Spec]]
-LOOSE = "smallest roller and locking disc, widest slot and recess"
 
 
 class Needed(NamedTuple):
@@ -71,7 +69,10 @@ def needed(
         short.append(f"lock_clearance_mm must be at least {lock:.6g}")
     if short:
         return Needed(slot, lock, False, " and ".join(short))
-    for sign, words in ((-1.0, WORDS), (1.0, LOOSE)):
+    for sign, words in (
+        (-1.0, "largest roller and locking disc, narrowest slot and recess"),
+        (1.0, "smallest roller and locking disc, widest slot and recess"),
+    ):
         failed = _fails(corner(sign))
         if failed:
             return Needed(slot, lock, failed[0], f"with the {words}: {failed[1]}")
@@ -83,7 +84,7 @@ def _across(
 ) -> float:
     """The roller's greatest offset from its slot at entry and exit, mm; at least 0."""
     L, arm = mechanism.center_distance_mm, arm_mm(mechanism, engagement)
-    share = sizes["crank_radius_mm"] / arm
+    fraction = sizes["crank_radius_mm"] / arm
     most = 0.0
     for at in (engagement.entry_deg, engagement.exit_deg):
         x, y = engagement.path(at, 1)
@@ -92,7 +93,7 @@ def _across(
         tx, ty = (vx, vy) if engagement.slot.height is None else (px, py)
         far = math.hypot(tx, ty)
         nx, ny = -ty / far, tx / far
-        of_arm = abs(nx * (px - engagement.hub) + ny * py) * L * share
+        of_arm = abs(nx * (px - engagement.hub) + ny * py) * L * fraction
         of_distance = abs(nx) * sizes["center_distance_mm"]
         lever = abs(ny * px - nx * py) * L
         of_angle = lever * (math.sin(sizes["slot_angle_deg"]) - math.sin(least_play))
@@ -100,68 +101,68 @@ def _across(
     return most
 
 
-def _flat(spec: Spec, found: Outlines, sizes: dict[str, float], slot: float) -> Corners:
+def _flat(spec: Spec, outlines: Outlines, sizes: dict[str, float], slot: float) -> Corners:
     """The clearance that the lock needs, and the specs of the tightest and the loosest machine."""
     ring = sizes["lock_radius_mm"] + sizes["recess_radius_mm"]
-    lock = ring + sizes["center_distance_mm"] if found.crank else None
-    return lock, lambda sign: corner(spec, found, sizes, sign, slot, lock or 0.0)
+    lock = ring + sizes["center_distance_mm"] if outlines.crank else None
+    return lock, lambda sign: corner(spec, outlines, sizes, sign, slot, lock or 0.0)
 
 
 def corner(
-    spec: Spec, found: Outlines, sizes: dict[str, float], sign: float, slot: float, lock: float
+    spec: Spec, outlines: Outlines, sizes: dict[str, float], sign: float, slot: float, lock: float
 ) -> Spec:
     """The spec of the tightest machine (``sign`` -1) or the loosest (+1); other sizes fixed."""
-    size, given = found.sizes, spec.size
-    roller = size.roller - sign * 0.5 * sizes["roller_diameter_mm"]
-    clearance = max(given.allowances.slot_clearance_mm + sign * slot, 0.0)
-    end = size.slot_bottom + size.half_width - roller - clearance
-    changed = given.replace(
+    cut, size = outlines.sizes, spec.size
+    roller = cut.roller - sign * 0.5 * sizes["roller_diameter_mm"]
+    clearance = max(size.allowances.slot_clearance_mm + sign * slot, 0.0)
+    end = cut.slot_bottom + cut.half_width - roller - clearance
+    changed = size.replace(
         roller_radius_mm=roller,
         slot_clearance_mm=clearance,
         slot_bottom_clearance_mm=max(end, 0.0),
-        lock_radius_mm=size.lock - sign * sizes["lock_radius_mm"],
-        lock_clearance_mm=max(given.allowances.lock_clearance_mm + sign * lock, 0.0),
-        wheel_radius_mm=size.rim,
-        relief_clearance_mm=size.relief,
-        relief=found.relief if found.crank else given.relief,
-        wheel_bore_mm=2.0 * size.wheel_bore,
-        wheel_hub_mm=2.0 * size.wheel_hub,
-        crank_bore_mm=2.0 * size.crank_bore,
-        crank_hub_mm=2.0 * size.crank_hub,
-        pin_mm=2.0 * size.pin,
+        lock_radius_mm=cut.lock - sign * sizes["lock_radius_mm"],
+        lock_clearance_mm=max(size.allowances.lock_clearance_mm + sign * lock, 0.0),
+        wheel_radius_mm=cut.rim,
+        relief_clearance_mm=cut.relief,
+        relief=outlines.relief if outlines.crank else size.relief,
+        wheel_bore_mm=2.0 * cut.wheel_bore,
+        wheel_hub_mm=2.0 * cut.wheel_hub,
+        crank_bore_mm=2.0 * cut.crank_bore,
+        crank_hub_mm=2.0 * cut.crank_hub,
+        pin_mm=2.0 * cut.pin,
     )
-    if size.outer:
-        changed = changed.replace(wheel_outer_radius_mm=size.outer)
+    if cut.outer:
+        changed = changed.replace(wheel_outer_radius_mm=cut.outer)
     return spec.replace(size=changed)
 
 
-def _on_sphere(spec: Spec, found: Ball, sizes: dict[str, float], slot: float) -> Corners:
+def _on_sphere(spec: Spec, ball: Ball, sizes: dict[str, float], slot: float) -> Corners:
     """The clearance of a sphere's lock, an arc, and the specs of its tightest and loosest machine.
 
     The radii that deviate are from the crank's axis, L times the sine of the angle from it.
     """
-    given, L = spec.size, found.radius_mm
-    least = _wider(found.lock, sizes["lock_radius_mm"] + sizes["recess_radius_mm"], L)
+    size, L = spec.size, ball.radius_mm
+    least = _wider(ball.lock, sizes["lock_radius_mm"] + sizes["recess_radius_mm"], L)
 
     def corner(sign: float) -> Spec:
-        roller = L * found.roller - sign * 0.5 * sizes["roller_diameter_mm"]
-        clearance = max(given.allowances.slot_clearance_mm + sign * slot, 0.0)
-        beyond = L * (found.half_width - found.bottom) - roller - clearance
-        disc = L * math.sin(found.lock) - sign * sizes["lock_radius_mm"]
-        changed = given.replace(
+        roller = L * ball.roller - sign * 0.5 * sizes["roller_diameter_mm"]
+        clearance = max(size.allowances.slot_clearance_mm + sign * slot, 0.0)
+        beyond = L * (ball.half_width - ball.bottom) - roller - clearance
+        disc = L * math.sin(ball.lock) - sign * sizes["lock_radius_mm"]
+        changed = size.replace(
             roller_radius_mm=roller,
             slot_clearance_mm=clearance,
-            slot_bottom_clearance_mm=max(beyond + L * (found.axes - found.arm), 0.0),
+            slot_bottom_clearance_mm=max(beyond + L * (ball.axes - ball.arm), 0.0),
             lock_radius_mm=disc,
         )
-        if found.lock:
-            recess = found.recess + _wider(found.recess, sign * sizes["recess_radius_mm"], L) / L
+        if ball.lock:
+            recess = ball.recess + _wider(ball.recess, sign * sizes["recess_radius_mm"], L) / L
             changed = changed.replace(
                 lock_clearance_mm=max(L * (recess - math.asin(disc / L)), 0.0)
             )
         return spec.replace(size=changed)
 
-    return least if found.lock else None, corner
+    return least if ball.lock else None, corner
 
 
 def _wider(angle: float, by: float, L: float) -> float:

@@ -13,21 +13,21 @@ from geneva_cli.parts.sphere.shells import Shells
 SAME = 1e-6  # of the centre distance, or radians: radii and angles nearer to each other are equal
 
 
-def locks(found: Outlines) -> list[Lock]:
+def locks(outlines: Outlines) -> list[Lock]:
     """Each corner of a recess with each locking arc of the crank; none without a locking disc."""
-    size, assembly = found.sizes, found.assembly
-    if not found.crank:
+    size, assembly = outlines.sizes, outlines.assembly
+    if not outlines.crank:
         return []
     near = SAME * assembly.L
     corners = {
         round(math.hypot(*end) / near): math.hypot(*end)
-        for arc in _arcs(found.wheel)
+        for arc in _arcs(outlines.wheel)
         if abs(math.hypot(*arc.centre) - assembly.L) < near and abs(arc.radius - size.recess) < near
         for end in (arc.start, arc.end)
     }
     halves = {
         round(arc.sweep / SAME): 0.5 * abs(arc.sweep)
-        for part in found.crank
+        for part in outlines.crank
         for arc in _arcs(part)
         if math.hypot(*arc.centre) < near and abs(arc.radius - size.lock) < near
     }
@@ -39,12 +39,12 @@ def locks(found: Outlines) -> list[Lock]:
     ]
 
 
-def sphere_locks(found: Shells) -> list[SphereLock]:
+def sphere_locks(shells: Shells) -> list[SphereLock]:
     """A recess with each locking sector of a spherical crank; empty without one."""
-    ball = found.ball
+    ball = shells.ball
     halves = {
         round(edge.sweep / SAME): 0.5 * edge.sweep
-        for region in found.crank
+        for region in shells.crank
         for edge in region.boundary[:1]  # it begins with the locking edge
     }
     return [

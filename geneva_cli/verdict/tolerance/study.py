@@ -31,8 +31,6 @@ from geneva_cli.verdict.tolerance.recesses import locks, sphere_locks
 if TYPE_CHECKING:
     from geneva_cli.numerics.jet import Array
 
-SAMPLES_MAX = 10_000_000
-
 
 class EntryJumps(NamedTuple):
     """Sizes of the jump at entry over the input's speed; 0 for a machine that misses the axis."""
@@ -62,16 +60,15 @@ def study(mechanism: Mechanism, model: PartsModel, samples: int, seed: int) -> S
     Raises GenevaError without tolerances, and for numbers of samples and seeds out of range.
     """
     _refuse(mechanism, samples, seed)
-    given = tolerances(mechanism.spec)
-    use, warnings = _applicable(mechanism, given)
+    use, warnings = _applicable(mechanism)
     _refuse_wide(mechanism, use)
     sizes = list(use.values())
     ends = corners(sizes)
-    found = _locks(mechanism, model, warnings)
-    lock = max(found, key=lambda one: _most(one(ends).angle.arrays()[0]), default=None)
-    least_play = min((float(np.min(one(ends).angle.c[0])) for one in found), default=0.0)
+    every_lock = _locks(mechanism, model, warnings)
+    lock = max(every_lock, key=lambda one: _most(one(ends).angle.arrays()[0]), default=None)
+    least_play = min((float(np.min(one(ends).angle.c[0])) for one in every_lock), default=0.0)
     errors = [(one, *_first(one.greatest(ends))) for one in motion_errors(mechanism)]
-    farthest = max(errors, key=lambda found: found[1], default=None)
+    farthest = max(errors, key=lambda error: error[1], default=None)
     jumps = max(entry_jumps(mechanism), key=lambda one: _most(one(ends)[0]), default=None)
     normal = mechanism.spec.tolerance.distribution == "normal"
     machines = Draws(tuple(sizes), normal, seed)
@@ -121,8 +118,8 @@ def study(mechanism: Mechanism, model: PartsModel, samples: int, seed: int) -> S
 
 
 def _refuse(mechanism: Mechanism, samples: int, seed: int) -> None:
-    if not 1 <= samples <= SAMPLES_MAX:
-        raise GenevaError(f"--samples {cut(samples)}: it must be from 1 to {SAMPLES_MAX}")
+    if not 1 <= samples <= 10_000_000:
+        raise GenevaError(f"--samples {cut(samples)}: it must be from 1 to 10000000")
     if seed < 0:
         raise GenevaError(f"--seed {cut(seed)}: it must be 0 or more")
     if not any(tolerances(mechanism.spec).values()):
@@ -140,21 +137,19 @@ def _refuse_wide(mechanism: Mechanism, use: dict[str, float]) -> None:
     A normal distribution has tails: deviations lie within three times the plus or minus.
     """
     for one in motion_errors(mechanism):
-        room = one.margin_mm(mechanism.spec, use)
-        if not use["center_distance_mm"] + use["crank_radius_mm"] < room:
+        margin_mm = one.margin_mm(mechanism.spec, use)
+        if not use["center_distance_mm"] + use["crank_radius_mm"] < margin_mm:
             raise GenevaError(
                 "the tolerances are too wide: center_distance_mm and crank_radius_mm must add up "
-                f"to less than {max(room, 0.0):.6g} mm, or the roller could reach the wheel's axis "
-                "or the crank's",
+                f"to less than {max(margin_mm, 0.0):.6g} mm, or the roller could reach the wheel's "
+                "axis or the crank's",
                 ("tolerance", "center_distance_mm"),
             )
 
 
-def _applicable(
-    mechanism: Mechanism, given: dict[str, float]
-) -> tuple[dict[str, float], list[Notice]]:
+def _applicable(mechanism: Mechanism) -> tuple[dict[str, float], list[Notice]]:
     """The tolerances, 0 for those without effect in this machine, and the reasons."""
-    use, warnings = dict(given), list[Notice]()
+    use, warnings = dict(tolerances(mechanism.spec)), list[Notice]()
     why = without_effect(mechanism.spec)
     for name, reason in why.items():
         if use[name]:
@@ -175,9 +170,9 @@ def _locks(
         return []
 
 
-def _first(found: WorstErrors) -> tuple[float, float, float]:
+def _first(errors: WorstErrors) -> tuple[float, float, float]:
     """The values of the single design."""
-    return float(found.error[0]), float(found.at_deg[0]), float(found.side[0])
+    return float(errors.error[0]), float(errors.at_deg[0]), float(errors.side[0])
 
 
 def _most(values: Array) -> float:

@@ -15,38 +15,37 @@ from geneva_cli.table import Table, record_table, rows_table
 from geneva_cli.verdict.tolerance.study import Study, study
 
 ANGLES = ("worst", "rss", "mean", "std", "p997")
-ARCSEC = 3600.0  # in a degree
 
 
 def tolerance_table(
     mechanism: Mechanism, model: PartsModel, samples: int, seed: int, radius_mm: float | None = None
 ) -> Table:
-    """The study as a record, with micrometres if ``radius_mm`` is given."""
+    """The study as a record, with micrometres at ``radius_mm``, if not None."""
     if radius_mm is not None:
         require_mm("--radius", radius_mm, POSITIVE)
-    found = study(mechanism, model, samples, seed)
-    spec, given, entry = mechanism.spec, mechanism.spec.size, found.entry
-    locked = found.clearances.lock_mm is not None
+    results = study(mechanism, model, samples, seed)
+    spec, size, entry = mechanism.spec, mechanism.spec.size, results.entry
+    locked = results.clearances.lock_mm is not None
     values: dict[str, Any] = {"spec": spec.path, "title": spec.title}
     values |= {"samples": samples, "seed": seed, "distribution": spec.tolerance.distribution}
     values["radius_mm"] = radius_mm
-    values |= _angles("dwell_position", found.dwell, radius_mm)
-    values |= _angles("motion_play", found.motion, radius_mm)
-    values["motion_play.at_deg"] = found.motion_at_deg
-    values["contributions"] = _contributions(mechanism, found)
+    values |= _angles("dwell_position", results.dwell, radius_mm)
+    values |= _angles("motion_play", results.motion, radius_mm)
+    values["motion_play.at_deg"] = results.motion_at_deg
+    values["contributions"] = _contributions(mechanism, results)
     values |= {
         "entry_jump.mean": entry.mean if entry else None,
         "entry_jump.std": entry.std if entry else None,
         "entry_jump.worst": entry.worst if entry else None,
         "entry_jump.missed_share": entry.missed if entry else None,
         "entry_jump.mouth_worst": entry.mouth if entry else None,
-        "clearances.slot_mm": given.allowances.slot_clearance_mm,
-        "clearances.slot_needed_mm": found.clearances.slot_mm,
-        "clearances.lock_mm": given.allowances.lock_clearance_mm if locked else None,
-        "clearances.lock_needed_mm": found.clearances.lock_mm,
-        "clearances.turns": found.clearances.turns,
-        "clearances.jam_share": found.jams,
-        "warnings": (*found.warnings, *_unscaled(found, radius_mm)),
+        "clearances.slot_mm": size.allowances.slot_clearance_mm,
+        "clearances.slot_needed_mm": results.clearances.slot_mm,
+        "clearances.lock_mm": size.allowances.lock_clearance_mm if locked else None,
+        "clearances.lock_needed_mm": results.clearances.lock_mm,
+        "clearances.turns": results.clearances.turns,
+        "clearances.jam_share": results.jams,
+        "warnings": (*results.warnings, *_unscaled(results, radius_mm)),
     }
     return record_table(values, spec.title)
 
@@ -56,8 +55,8 @@ def histogram_table(mechanism: Mechanism, model: PartsModel, samples: int, seed:
 
     Raises GenevaError if neither angle is known.
     """
-    found = study(mechanism, model, samples, seed)
-    known = {"dwell_position": found.dwell, "motion_play": found.motion}
+    results = study(mechanism, model, samples, seed)
+    known = {"dwell_position": results.dwell, "motion_play": results.motion}
     columns: dict[str, list[float]] = {}
     for name, spread in known.items():
         if spread:
@@ -65,7 +64,7 @@ def histogram_table(mechanism: Mechanism, model: PartsModel, samples: int, seed:
                 list, zip(*spread.shape, strict=True)
             )
     if not columns:
-        raise GenevaError(f"--histogram: {'; '.join(found.warnings)}")
+        raise GenevaError(f"--histogram: {'; '.join(results.warnings)}")
     return Table(tuple(columns), list(columns.values()), title=mechanism.spec.title)
 
 
@@ -74,31 +73,33 @@ def _angles(name: str, spread: Spread | None, radius_mm: float | None) -> dict[s
     degrees = [getattr(spread, angle) if spread else None for angle in ANGLES]
     out: dict[str, float | None] = {}
     micron = None if radius_mm is None else math.radians(1.0) * radius_mm * 1e3
-    for unit, scale in (("deg", 1.0), ("arcsec", ARCSEC), ("um", micron)):
+    for unit, scale in (("deg", 1.0), ("arcsec", 3600.0), ("um", micron)):
         for angle, value in zip(ANGLES, degrees, strict=True):
             known = value is not None and scale is not None
             out[f"{name}.{angle}_{unit}"] = value * scale if known else None  # type: ignore[operator]
     return out
 
 
-def _unscaled(found: Study, radius_mm: float | None) -> list[Notice]:
+def _unscaled(results: Study, radius_mm: float | None) -> list[Notice]:
     """A note on the micrometres, if there are angles and no radius."""
     known = [
-        name for name, of in (("dwell_position", found.dwell), ("motion_play", found.motion)) if of
+        name
+        for name, of in (("dwell_position", results.dwell), ("motion_play", results.motion))
+        if of
     ]
     if radius_mm is not None or not known:
         return []
     return [Notice("not-known", f"micrometres of {' and '.join(known)}: need --radius")]
 
 
-def _contributions(mechanism: Mechanism, found: Study) -> Table:
+def _contributions(mechanism: Mechanism, results: Study) -> Table:
     """A row for each dimension that deviates: its fraction of the squares, its plus or minus."""
     names = ("dimension", "share", "dwell_position_deg", "motion_share", "motion_play_deg")
     rows = []
     for i, name in enumerate(Deviations._fields):
         if tolerances(mechanism.spec)[name]:
             row: list[Any] = [name]
-            for spread in (found.dwell, found.motion):
+            for spread in (results.dwell, results.motion):
                 row += [spread.fractions[i], spread.parts[i]] if spread else [None, None]
             rows.append(tuple(row))
     rows.sort(key=lambda row: -(row[1] or 0.0))
