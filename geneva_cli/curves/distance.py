@@ -24,10 +24,7 @@ if TYPE_CHECKING:
 
     Which: TypeAlias = NDArray[np.intp] | tuple[NDArray[np.intp], NDArray[np.intp]]
 
-BLOCK = 1 << 14  # distances that are held at once: in the cache
-COARSE = 60  # points that stand for many, where pieces are picked
-MANY = 64  # pieces, of which only those nearby are looked at
-ROUNDING = 1e-9  # share of a distance that is surely more than its rounding
+BLOCK = 1 << 14  # distances in a block: they stay in the processor's cache
 
 
 class _Seen(NamedTuple):
@@ -102,7 +99,8 @@ class Polyarc:
 
         For points farther away the result has no valid side of the outline.
         """
-        grid = points[:: max(1, len(points) // COARSE)]
+        # sixty points represent all of them here, where pieces are selected
+        grid = points[:: max(1, len(points) // 60)]
         dx, dy = grid[:, :1] - self.ox, grid[:, 1:] - self.oy
         away = np.sqrt((dx * dx + dy * dy).min(axis=0)) - self.size
         # Points between those of the grid are no farther from it than its own spacing.
@@ -119,7 +117,7 @@ class Polyarc:
 
     def _signed(self, points: Array) -> Array:
         x, y = points.T
-        if len(self) < MANY:
+        if len(self) < 64:  # with more pieces, selecting those nearby first is faster
             views = self._upright._seen(x, y)
             piece = np.argmin(views.distance, axis=0)
             return self._signs(views.at((piece, np.arange(len(points)))), piece)
@@ -183,7 +181,8 @@ class Polyarc:
         dx, dy = points[:, :1] - self.ox, points[:, 1:] - self.oy
         away = np.sqrt(dx * dx + dy * dy)
         most = (away + 0.5 * self.length).min(axis=1, keepdims=True)
-        row, piece = np.nonzero(away - self.size <= most * (1.0 + ROUNDING))
+        # 1e-9 of a distance is more than its rounding
+        row, piece = np.nonzero(away - self.size <= most * (1.0 + 1e-9))
         return row, piece
 
     def samples(self, sagitta: float, longest: float) -> Array:

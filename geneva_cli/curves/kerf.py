@@ -22,11 +22,6 @@ from geneva_cli.numerics.roots import boundary
 from geneva_cli.numerics.tolerances import SAME_CUT_MM
 from geneva_cli.spec.rules import TOOL_MM, require_mm
 
-SAMPLES = 4  # of the path, along the offset
-MOST = 50_000  # samples of a path
-STEPS = 40  # of Newton's method
-LOOKS = 12  # halvings between a kerf that goes and one that does not
-
 
 class Closed(GenevaError):
     """An offset that has no path; ``at`` is the place."""
@@ -80,9 +75,10 @@ def _widest(shape: Contour | Circle, outside: bool, kerf: float) -> str:
             return False
         return True
 
-    widest = boundary(leaves_a_path, 0.0, kerf, LOOKS)
+    halvings = 12  # enough for the three digits
+    widest = boundary(leaves_a_path, 0.0, kerf, halvings)
     if not widest:
-        return f"even {kerf * 0.5**LOOKS:.2g} mm is too wide"
+        return f"even {kerf * 0.5**halvings:.2g} mm is too wide"
     unit = 10.0 ** (math.floor(math.log10(widest)) - 2)
     return f"use a kerf up to {math.floor(widest / unit) * unit:.6g} mm"
 
@@ -160,7 +156,7 @@ def _meeting(contour: Contour, first: Line | Arc, second: Line | Arc) -> tuple[f
     Newton's method in both unknowns at once, from the corner, which is near.
     """
     s, t = 1.0, 0.0
-    for _ in range(STEPS):
+    for _ in range(40):  # Newton steps; four or five are usual
         (x, y), (u, v) = at(first, s), at(second, t)
         (a, b), (c, d) = _speed(first, s), _speed(second, t)
         across = b * c - a * d
@@ -201,7 +197,8 @@ def _require_away(contour: Contour, path: Contour, distance: float) -> None:
     """
     boundary = Polyarc([contour])
     around = math.fsum(map(segment_length, path.segments))
-    longest = max(distance / SAMPLES, around / MOST)
+    # four samples in the offset's length, but at most 50,000 for the path
+    longest = max(distance / 4, around / 50_000)
     points = Polyarc([path]).samples(SAME_CUT_MM, longest)
     away = boundary.signed(points)
     if float(away.min()) < distance - SAME_CUT_MM:

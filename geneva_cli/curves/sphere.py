@@ -16,8 +16,6 @@ if TYPE_CHECKING:
 
 Vector: TypeAlias = tuple[float, float, float]
 
-GAUSS = 24  # points on an arc: its integrands are of the second degree in sine and cosine
-
 
 class SphereArc(NamedTuple):
     """An arc counterclockwise about an axis, ``angle`` radians from it; the axis is on its left.
@@ -138,7 +136,8 @@ class Region(NamedTuple):
         The integral of u is half that of u x du. For u u' it is a third of the area minus a sixth
         of the flow out of the region, since the other parts are harmonics of degree 2.
         """
-        nodes, weights = np.polynomial.legendre.leggauss(GAUSS)
+        # 24 points are exact: the integrands are of the second degree in sine and cosine
+        nodes, weights = np.polynomial.legendre.leggauss(24)
         first, second = np.zeros(3), np.eye(3) * self.area / 3.0
         for arc in self.boundary:
             half = 0.5 * arc.sweep

@@ -20,9 +20,8 @@ if TYPE_CHECKING:
     from geneva_cli.numerics.arrays import Array, Mask, Number, Which, Whole
 
 THIRD = 1.0 / 3.0
-ALIKE = 0.1  # of a box's width, by which its corners may differ in where they say the pair is
-MARGIN = 0.1  # of what a quantity's cubics span in a box, by which they may be wrong
-BESIDE = 0.5  # of a box's width, by which its pair may lie beside it
+MARGIN = 0.1  # possible error of a quantity's cubics, as a fraction of their range in a box
+OVERLAP = 0.5  # fraction of a box's width by which its pair may lie outside it
 
 
 class Side(NamedTuple):
@@ -205,7 +204,8 @@ def newton_steps(boxes: Boxes, wanted: Array) -> NewtonSteps:
     apart = np.abs(places - middle).max(axis=(0, 1))
     outside = np.abs(middle - 0.5).max(axis=0) - 0.5
     phi = np.stack((entry.first.phi + middle[0] * wide, exit_.first.phi + middle[1] * high), axis=1)
-    return NewtonSteps(apart <= ALIKE, outside <= BESIDE, phi)
+    # the corners agree if they lead to places within a tenth of the box's width
+    return NewtonSteps(apart <= 0.1, outside <= OVERLAP, phi)
 
 
 def halved(path: RollerPath, boxes: Boxes, wanted: Array) -> Boxes:

@@ -12,15 +12,14 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from geneva_cli.machine.path_course import PinCourse, PlacedWheel, leaves_slot
-from geneva_cli.machine.path_pairs import FLAT, Pairs, pairs, residual
+from geneva_cli.machine.path_pairs import DOUBLE_ROOT_SLOPE, Pairs, pairs, residual
 from geneva_cli.machine.path_samples import PathSamples, joined, points, sampled
 from geneva_cli.machine.roller_path import RollerPath
 
 if TYPE_CHECKING:
     from geneva_cli.numerics.arrays import Array, Which, Whole
 
-SAME = 1e-6  # radians: entries nearer to each other are one
-BESIDE = 1e-4  # radians: places in doubt that are nearer to each other lead to one wheel
+SAME_ENTRY = 1e-6  # radians: entries nearer to each other are one
 
 
 class Wheels(NamedTuple):
@@ -62,11 +61,12 @@ def wheels(path: RollerPath, b: Array) -> Search:
         ends, doubtful = pairs(path, every, b)
         ends = ends.taken(_firsts(ends))
         rest = residual(ends, b)
-        steep = np.abs(rest.det) >= FLAT * np.abs(rest.by_exit)
+        steep = np.abs(rest.det) >= DOUBLE_ROOT_SLOPE * np.abs(rest.by_exit)
         doubtful = joined([doubtful, ends.taken(~steep)])
         # A path that stops has no direction there; boxes around such a point hold no pair.
         doubtful = doubtful.taken(np.flatnonzero(np.isfinite(doubtful.at.phi).all(axis=1)))
-        doubtful = doubtful.taken(_firsts(doubtful, BESIDE))
+        # doubtful entries within 1e-4 radians lead to one wheel
+        doubtful = doubtful.taken(_firsts(doubtful, 1e-4))
         ends, sense = ends.taken(steep), rest.sense[steep]
         block = np.zeros(len(b), dtype=int)
         for i, samples in enumerate(every):
@@ -84,7 +84,7 @@ def followed(path: RollerPath, phi: Array, sense: Array) -> Wheels:
         return _followed(path, next(sampled(path, 1)), ends, sense)
 
 
-def _firsts(ends: Pairs, same: float = SAME) -> Whole:
+def _firsts(ends: Pairs, same: float = SAME_ENTRY) -> Whole:
     """First of each group of equal pairs."""
     place = ends.at.phi[:, 0] % math.tau
     order = np.lexsort((place, ends.which))
@@ -107,7 +107,8 @@ def _followed(path: RollerPath, samples: PathSamples, ends: Pairs, sense: Array)
     course = wheel.course(at)
     inside = since < motion
     good = np.where(inside, (course.moment > 0.0) & (course.short > 0.0), course.short < 0.0)
-    good |= (np.abs(since - motion) < SAME) | (since < SAME) | (since > math.tau - SAME)
+    at_entry = (since < SAME_ENTRY) | (since > math.tau - SAME_ENTRY)
+    good |= (np.abs(since - motion) < SAME_ENTRY) | at_entry
     kept = np.flatnonzero(good.all(axis=1))
     # add the ends to the samples, and the entry again a turn later
     wheel, ends, since, motion = wheel.taken(kept), ends.taken(kept), since[kept], motion[kept]

@@ -22,10 +22,6 @@ WALLED = (
     "pressure_deg",
     "curvature_radius_mm",
 )
-# |M'| at mid-motion, as a share of what the pin and the wheel move by there, below which the pin
-# leaves on the way it came
-RETRACE = 1e-9
-EPSILON = 2.0**-52  # of a matched ratio near 1, rounding leaves this much of the pin's distance
 
 
 class Way(NamedTuple):
@@ -68,7 +64,9 @@ def retraces(engagement: Engagement) -> bool:
     left = m.hypot(x.c[1], y.c[1])
     (x0, x1), (y0, y1) = (jet.derivatives() for jet in engagement.path(0.0, 1))
     turns, far = size(engagement.motion(0.0, 1).c[1]), m.hypot(x0, y0)
-    bar = RETRACE * (m.hypot(x1, y1) + turns * far) + EPSILON * turns
+    # |M'| below 1e-9 of the speeds of pin and wheel is rounding. If a matched R/L is nearly 1, the
+    # pin's distance ``far`` itself is only rounding, 2**-52.
+    bar = 1e-9 * (m.hypot(x1, y1) + turns * far) + 2.0**-52 * turns
     return cast("bool", left < bar)
 
 

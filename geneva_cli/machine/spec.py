@@ -36,7 +36,7 @@ from geneva_cli.spec.tables import (
     WheelMaterial,
 )
 
-# Limits that need a load. Below: limits that need another key, with its table and its meaning.
+# limits that need a load
 LOADED = (
     "pin_force_max_N",
     "input_torque_max_Nm",
@@ -45,12 +45,17 @@ LOADED = (
     "roller_life_min_h",
     "slot_wear_max_mm_per_million",
 )
-_LINE = ("face_width_mm", "size", "the length of the line of contact")
+# limits that need another key, with its table and its meaning
 NEEDED = {
-    "contact_stress_max_MPa": _LINE,
-    "pv_max_W_m2": _LINE,
-    "lock_stress_max_MPa": _LINE,
-    "lock_deflection_max_deg": _LINE,
+    **dict.fromkeys(
+        (
+            "contact_stress_max_MPa",
+            "pv_max_W_m2",
+            "lock_stress_max_MPa",
+            "lock_deflection_max_deg",
+        ),
+        ("face_width_mm", "size", "the length of the line of contact"),
+    ),
     "slot_wear_max_mm_per_million": ("wear_mm3_Nm", "material.wheel", "its material's wear"),
     "roller_life_min_h": ("dynamic_capacity_N", "material.roller", "the roller's capacity"),
 }

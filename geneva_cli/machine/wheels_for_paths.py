@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, NamedTuple, TypeAlias, cast
 import numpy as np
 
 from geneva_cli.machine.path_choice import chosen
-from geneva_cli.machine.path_pairs import FLAT, ends_at, residual
+from geneva_cli.machine.path_pairs import DOUBLE_ROOT_SLOPE, ends_at, residual
 from geneva_cli.machine.path_wheels import Search, wheels
 from geneva_cli.machine.roller_path import LONG_PI, RollerPath, exactly
 from geneva_cli.machine.wheels.poses import HalfStep
@@ -27,9 +27,6 @@ if TYPE_CHECKING:
     from geneva_cli.numerics.arrays import Array, Long
 
     LongComplex: TypeAlias = NDArray[np.clongdouble]
-
-POLISHINGS = 3  # steps of Newton: each leaves some millionth of the error
-GROUP = 2048  # designs at a time
 
 # Search results by the kind and numbers of a path, with its number there; None: none are kept.
 _KNOWN: ContextVar[dict[tuple[object, ...], tuple[Search, int]] | None] = ContextVar(
@@ -60,8 +57,9 @@ def fits_many(path: RollerPath, b: float, wanted: float | None = None) -> Fits:
     alone: dict[int, Search] = {}
     half = np.broadcast_to(np.asarray(b, dtype=float), (count, 1))
     goal = None if wanted is None else np.broadcast_to(np.asarray(wanted, dtype=float), (count, 1))
-    for start in range(0, count, GROUP):
-        part = np.arange(start, min(start + GROUP, count))
+    size = 2048  # designs that are searched together
+    for start in range(0, count, size):
+        part = np.arange(start, min(start + size, count))
         some = path.of(part)
         search = wheels(some, half[part])
         _keep(some, half[part], search)
@@ -120,10 +118,10 @@ def polished(path: RollerPath, fits: Fits, step: HalfStep) -> tuple[Long, Long]:
     by_entry, by_exit = rest.by_entry[:, None], rest.by_exit[:, None]
     turn, turn_out = ends.at.turn[:, :1], ends.at.turn[:, 1:]
     det = rest.det[:, None]
-    double = np.abs(det) < FLAT * np.abs(by_exit)
+    double = np.abs(det) < DOUBLE_ROOT_SLOPE * np.abs(by_exit)
     wanted = 2 * LONG_PI * step.p / step.q
     entry, exit_ = (np.asarray(x, dtype=np.longdouble) for x in fits[:2])
-    for _ in range(POLISHINGS):
+    for _ in range(3):  # each step leaves about a millionth of the error
         (p, t), (q, u) = long_point(path, entry), long_point(path, exit_)
         away = ((q - p) * (t + u).conj()).imag
         index = -u * t.conj()

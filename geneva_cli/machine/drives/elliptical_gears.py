@@ -24,8 +24,6 @@ from geneva_cli.numerics.arrays import library
 from geneva_cli.numerics.jet import Jet, Number, cosines_after, sine_versine_of
 from geneva_cli.spec.rules import POSITIVE, OneOf, Range
 
-MOST = 1.0 - 0.999e-12
-
 
 class EllipticalGears(Transmission, kw_only=True):
     """Two equal elliptical gears, with the index in their slow phase or in their quick one.
@@ -53,7 +51,7 @@ class EllipticalGears(Transmission, kw_only=True):
     def __post_init__(self) -> None:
         super().__post_init__()
         refuse(
-            self.eccentricity > MOST,
+            self.eccentricity > 1.0 - 0.999e-12,  # 1 - 1e-12, as a double, passes
             lambda: GenevaError(
                 f"eccentricity = {self.eccentricity!r}: too close to 1 to be computed; it "
                 "must be at most 1 - 1e-12",

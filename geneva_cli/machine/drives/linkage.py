@@ -45,7 +45,6 @@ if TYPE_CHECKING:
 
 Place = TypeVar("Place", float, "Array")
 Moving: TypeAlias = "tuple[Array, Array]"  # x and y at input angles
-LENGTHS = 1e4  # greatest ratio of two links: beyond it the path is a point, or rounding
 
 
 class Linkage(PinPath, kw_only=True):
@@ -185,12 +184,13 @@ def _none_fits(z: int) -> GenevaError:
 
 def refuse_proportions(**lengths: float) -> None:
     """Raise GenevaError for lengths too different for a wheel to be solved for."""
-    limit = LENGTHS * reduce(smaller, lengths.values())
+    ratio = 1e4  # of two links: beyond it the path is a point, or rounding
+    limit = ratio * reduce(smaller, lengths.values())
 
     def error() -> GenevaError:
         name = max(lengths, key=lengths.__getitem__)
         return GenevaError(
-            f"{name} = {lengths[name]:g}: links differ by more than {LENGTHS:g} times: it must be "
+            f"{name} = {lengths[name]:g}: links differ by more than {ratio:g} times: it must be "
             f"at most {limit:g}",
             ("drive", name),
         )

@@ -31,8 +31,6 @@ from geneva_cli.numerics.spline import DEGREE, Doubt, Pieces, doubt, periodic
 from geneva_cli.spec.rules import POSITIVE, Csv, Range
 from geneva_cli.spec.schema import Points
 
-MEAN = 1e-6  # by which the mean ratio may miss 1; the rest is scaled away
-
 
 class NoncircularGears(Transmission, kw_only=True):
     """Gears of any ratio that closes over a turn.
@@ -139,7 +137,8 @@ def _turned(points: tuple[tuple[float, float], ...]) -> Pieces:
         )
     whole = periodic([math.radians(v) for v in x], i).integral()
     mean = whole(math.tau, 0)[0] / math.tau
-    if abs(mean - 1.0) > MEAN:
+    # a smaller error of the mean ratio is scaled away
+    if abs(mean - 1.0) > 1e-6:
         raise GenevaError(
             f"the gears do not close: the mean ratio over a turn is {mean:.9g}, and must "
             f"be 1; divide all ratios by {mean:.9g}",

@@ -18,14 +18,11 @@ from geneva_cli.numerics.angles import radians, sin_cos_deg
 from geneva_cli.numerics.arrays import choose, library, parameter
 from geneva_cli.numerics.jet import Jet, Number, cosines_after, sin_cos, sine_versine_of
 
-A_MAX = 1.0 - 0.999e-12
-A_SURE = 0.999  # up to it the search for arrays misses no peak
-
 
 def refuse_rounding(A: float) -> None:
     """Raise GenevaError for |A| too close to 1 to be computed."""
     refuse(
-        abs(A) > A_MAX,
+        abs(A) > 1.0 - 0.999e-12,  # 1 - 1e-12, as a double, passes
         lambda: GenevaError(
             f"A = {A!r}: too close to 1 to be computed; its size must be at most 1 - 1e-12",
             ("drive", "A"),
@@ -53,7 +50,8 @@ class SideCrankPeak(NamedTuple):
         if quantity not in peaks:
             return None
         w = arrays.wheels(self.sign, self.l, self.rest, self.A)
-        sure = abs(w.A) <= A_SURE
+        # nearer to 1 the search for arrays may miss a peak
+        sure = abs(w.A) <= 0.999
         return Peak(*(parameter(np.where(sure, v, np.nan)[:, None]) for v in peaks[quantity](w)))
 
 

@@ -10,9 +10,6 @@ from geneva_cli.machine.laws.sine_constant_cosine import breaks, first_half
 from geneva_cli.numerics.jet import Jet, Number
 from geneva_cli.spec.rules import Range
 
-LEAST = 1e-3  # the least share: of a shorter rise the jerk is a jump in all but name
-ROUNDED = 2e-6  # by which b + c + d may miss 1: thirds are written with six digits
-
 
 class SineConstantCosine(Law):
     """Sine, constant and cosine acceleration in fractions b, c and d of the time.
@@ -33,16 +30,18 @@ class SineConstantCosine(Law):
     def __post_init__(self) -> None:
         super().__post_init__()
         whole = self.b + self.c + self.d
-        if abs(whole - 1.0) > ROUNDED:
+        # thirds are written with six digits
+        if abs(whole - 1.0) > 2e-6:
             raise GenevaError(
                 f"b + c + d = {whole:.9g} must be 1, the whole time: for example b = 0.25, "
                 "c = 0.5, d = 0.25 for a modified trapezoid",
                 (self.TABLE, "d"),
             )
+        least = 1e-3  # in a shorter rise the jerk is as large as a jump
         for key, fraction in self.as_dict().items():
-            if 0.0 < fraction < LEAST:
+            if 0.0 < fraction < least:
                 raise GenevaError(
-                    f"{key} = {fraction:g} must be 0, for none, or at least {LEAST:g}",
+                    f"{key} = {fraction:g} must be 0, for none, or at least {least:g}",
                     (self.TABLE, key),
                 )
 
@@ -51,7 +50,7 @@ class SineConstantCosine(Law):
         return table != "motion" or key not in self.as_dict()
 
     @property
-    def _shares(self) -> tuple[float, float]:
+    def _fractions(self) -> tuple[float, float]:
         """Fractions b and d of exactly the whole; without c, b is exactly 1 - d."""
         whole = self.b + self.c + self.d
         d = self.d / whole
@@ -60,8 +59,8 @@ class SineConstantCosine(Law):
     @property
     def breaks(self) -> tuple[float, ...]:
         """Values of u at which the pieces meet."""
-        return breaks(*self._shares, 0.0)
+        return breaks(*self._fractions, 0.0)
 
     def first(self, u: Number, order: int) -> Jet:
         """First half of s, in which the wheel gains speed."""
-        return first_half(u, order, *self._shares)
+        return first_half(u, order, *self._fractions)

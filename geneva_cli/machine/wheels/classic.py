@@ -11,8 +11,6 @@ from geneva_cli.errors import GenevaError, cut, refuse
 from geneva_cli.numerics.angles import one_minus_sin_pi, sin_cos_pi
 from geneva_cli.numerics.arrays import choose, larger, library, smaller
 
-STEPS = 5  # of Newton: four come to the last digit from l = 0.9 inside to l = 1 outside
-
 
 def half_motion_deg(sign: float, p: int, q: int) -> float:
     """Crank angle in degrees from entry to the line of centres: 90° - b outside, 90° + b inside."""
@@ -82,7 +80,7 @@ def power_peak(l: float, gap: float) -> tuple[float, float]:
     first, second = 10.0 - (7.0 - gap) * gap, (6.0 - 2.0 * gap * (1.0 + gap)) * gap
     third = 2.0 * k * gap**3
     t = 0.1 + 0.2 * gap
-    for _ in range(STEPS):
+    for _ in range(5):  # Newton; four steps give all digits from l = 0.9 inside to l = 1 outside
         value = 1.0 - t * (first - t * (second - t * third))
         t = t + value / (first - t * (2.0 * second - 3.0 * t * third))
     m = library(l, gap)

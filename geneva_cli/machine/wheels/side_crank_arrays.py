@@ -32,9 +32,6 @@ if TYPE_CHECKING:
     from geneva_cli.numerics.arrays import Array, Mask, Number, Which, Whole
 
 SCAN = 10  # intervals over half the motion; 8 miss none of a million designs, 6 miss twelve
-STEPS = 4  # of the secant's, after a parabola's guess
-CLOSE = 1e-7  # radians: what so short a step leaves moves a peak by less than rounding
-BLOCK = 8192  # designs at a time: what the scan works on stays in the processor's cache
 
 # of cos f, rising through zero where a peak may be; of f, size and input angle
 Zero: TypeAlias = "Callable[[Wheels, Array], Array]"
@@ -157,19 +154,21 @@ def _velocity_zero(w: Wheels, c: Array) -> Array:
 def _compete(w: Wheels, best: tuple[Array, Array], zero: Zero, value: Value, some: Mask) -> None:
     """Put greater sizes of some designs, and their places, into ``best``; NaN where unknown."""
     which = np.flatnonzero(some)
-    for block in (which[i : i + BLOCK] for i in range(0, len(which), BLOCK)):
+    count = 8192  # designs in a block: the scan's arrays stay in the processor's cache
+    for block in (which[i : i + count] for i in range(0, len(which), count)):
         part = w.taken(block)
         with np.errstate(all="ignore"):
-            found = zip(*_rises(part, zero), strict=True)
-            design, low, high, x, slope = map(np.concatenate, found)
+            columns = zip(*_rises(part, zero), strict=True)
+            design, low, high, x, slope = map(np.concatenate, columns)
             near, of = part.taken(design), block[design]
             before = here = np.zeros(len(x))
-            for step in range(STEPS):
+            for step in range(4):  # secant steps, from a parabola's root
                 last, here = here, zero(near, np.cos(x))
                 slope = (here - last) / (x - before) if step else slope
                 before, x = x, x - here / slope
             size, at = value(near, x)
-            known = (abs(x - before) < CLOSE) & (low <= x) & (x <= high)
+            # radians: the error after so short a step moves a peak by less than rounding
+            known = (abs(x - before) < 1e-7) & (low <= x) & (x <= high)
         # a design may have several: the greatest, or what is not known, is written last
         order = np.argsort(np.where(known, size, np.inf))
         order = order[(size > best[0][of])[order] | ~known[order]]
@@ -178,21 +177,21 @@ def _compete(w: Wheels, best: tuple[Array, Array], zero: Zero, value: Value, som
 
 
 def _rises(w: Wheels, zero: Zero) -> list[tuple[Whole, Array, Array, Array, Array]]:
-    """Return where ``zero`` rises through it: design, interval, a parabola's root, its slope."""
+    """Rises of ``zero`` through 0: design, both ends of the interval, a parabola's root, slope."""
     step = w.half / SCAN
     turn = 2.0 * np.cos(step)
     c, c_next = np.ones(len(step)), 0.5 * turn
     last = before = np.zeros(len(step))
-    found = []
+    rises = []
     for i in range(SCAN + 1):
         here = zero(w, c if i < SCAN else w.end_cos)
         which = np.flatnonzero((before < 0.0) & (here >= 0.0))
         left, right, wide = before[which], here[which], step[which]
-        # through three values; of the first interval a straight line
+        # a parabola through three values; a straight line in the first interval
         tilt = 0.5 * (right - (last[which] if i > 1 else 2.0 * left - right))
         root = np.sqrt(np.maximum(tilt * tilt - 4.0 * (right - left - tilt) * left, 0.0))
         low = (i - 1.0) * wide
-        found.append((which, low, low + wide, low - 2.0 * left / (tilt + root) * wide, root / wide))
+        rises.append((which, low, low + wide, low - 2.0 * left / (tilt + root) * wide, root / wide))
         last, before = before, here
         c, c_next = c_next, turn * c_next - c
-    return found
+    return rises

@@ -18,8 +18,6 @@ from geneva_cli.spec.rules import Range
 if TYPE_CHECKING:
     from geneva_cli.machine.engagement import Displacement, Slot
 
-AXES_MIN = 1e-6  # degrees
-
 
 class Spherical(Gearing):
     """Wheel and crank on shafts that meet; at 90 degrees motion and dwell are equal.
@@ -44,11 +42,12 @@ class Spherical(Gearing):
 
     def __post_init__(self) -> None:
         super().__post_init__()
+        least = 1e-6  # degrees
         refuse(
-            (self.axes_deg < AXES_MIN) | (self.axes_deg > 180.0 - AXES_MIN),
+            (self.axes_deg < least) | (self.axes_deg > 180.0 - least),
             lambda: GenevaError(
                 f"axes_deg = {self.axes_deg:g}: the shafts are practically parallel: it must "
-                f"be at least {AXES_MIN:g} away from 0 and 180, or choose gearing "
+                f"be at least {least:g} away from 0 and 180, or choose gearing "
                 '"external" or "internal"',
                 ("wheel", "axes_deg"),
             ),
