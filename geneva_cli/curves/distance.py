@@ -1,7 +1,7 @@
 """Exact distances of many points from outlines of lines and arcs.
 
 Polygons are not accurate enough here. A wheel that is 0.2 mm too large collides by less than a
-micrometre, and the locking disc lies in its recess without any play.
+micrometre. The locking disc lies in its recess without any play.
 """
 
 from __future__ import annotations
@@ -27,7 +27,7 @@ if TYPE_CHECKING:
 BLOCK = 1 << 14  # distances in a block: they stay in the processor's cache
 
 
-class _Seen(NamedTuple):
+class _PieceDistances(NamedTuple):
     """Distances and sides of points relative to pieces.
 
     ``side`` is the signed distance from the whole line or circle. ``facing`` is True if the nearest
@@ -40,9 +40,11 @@ class _Seen(NamedTuple):
     start: Array
     end: Array
 
-    def at(self, which: Which) -> _Seen:
+    def at(self, which: Which) -> _PieceDistances:
         distance, side, facing, start, end = self
-        return _Seen(distance[which], side[which], facing[which], start[which], end[which])
+        return _PieceDistances(
+            distance[which], side[which], facing[which], start[which], end[which]
+        )
 
 
 class Polyarc:
@@ -118,12 +120,12 @@ class Polyarc:
     def _signed(self, points: Array) -> Array:
         x, y = points.T
         if len(self) < 64:  # with more pieces, selecting those nearby first is faster
-            views = self._upright._seen(x, y)
+            views = self._upright._distances(x, y)
             piece = np.argmin(views.distance, axis=0)
             return self._signs(views.at((piece, np.arange(len(points)))), piece)
         row, pieces = self._nearby(points)
         some = self.subset(pieces)
-        views = some._seen(x[row], y[row])
+        views = some._distances(x[row], y[row])
         # the first of the nearest pieces of each point
         least = np.minimum.reduceat(views.distance, np.flatnonzero(_changes(row)))
         equal = np.flatnonzero(views.distance == least[row])
@@ -140,7 +142,7 @@ class Polyarc:
         out._name(self._columns[:, :, None])
         return out
 
-    def _seen(self, x: Array, y: Array) -> _Seen:
+    def _distances(self, x: Array, y: Array) -> _PieceDistances:
         """Distances and sides of points relative to pieces; x and y broadcast with the pieces."""
         ax, ay = x - self.x0, y - self.y0
         # Lines: the fraction along them. Arcs: True if the point is in the sector seen from the
@@ -161,9 +163,9 @@ class Polyarc:
         bx, by = x - self.x1, y - self.y1
         start, end = ax * ax + ay * ay, bx * bx + by * by
         distance = np.where(facing, np.abs(side), np.sqrt(np.minimum(start, end)))
-        return _Seen(distance, side, facing, start, end)
+        return _PieceDistances(distance, side, facing, start, end)
 
-    def _signs(self, view: _Seen, piece: NDArray[np.intp]) -> Array:
+    def _signs(self, view: _PieceDistances, piece: NDArray[np.intp]) -> Array:
         """Signed distances of points from their nearest pieces."""
         # Outside at a convex corner, inside at a hollow one; at a smooth joint the side decides.
         turn = np.where(view.start < view.end, self.turn_start[piece], self.turn_end[piece])

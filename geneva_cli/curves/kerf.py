@@ -34,8 +34,8 @@ class Closed(GenevaError):
 def paths(drawing: Drawing, kerf: float) -> Drawing:
     """Drawing with the solid shapes replaced by paths for a cut of a width in mm, and no solid.
 
-    Raises GenevaError for a width outside of TOOL_MM, and for cubics. If no path keeps the part as
-    it is, the error names a kerf that does.
+    Raises GenevaError for a width outside of TOOL_MM, and for cubics. If no path leaves the part as
+    it is, the error names a narrower kerf that does.
 
     >>> from geneva_cli.curves.plates import Plate
     >>> bore = Circle("BORE", (0.0, 0.0), 5.0)

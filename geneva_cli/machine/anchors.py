@@ -22,8 +22,8 @@ Solve: TypeAlias = "Callable[[Anchor, Number], Jet]"
 class Anchors(ABC):
     """Anchors from entry to exit, with mid-motion in the middle.
 
-    Those of the ends serve only where the motion goes to zero. ``cuts`` are the input angles at
-    which one hands over to the next.
+    The anchors of both ends serve only near the ends, where the motion vanishes. ``cuts`` are the
+    input angles at which one anchor hands over to the next.
     """
 
     cuts: Sequence[float]

@@ -24,16 +24,16 @@ MARGIN = 0.1  # possible error of a quantity's cubics, as a fraction of their ra
 OVERLAP = 0.5  # fraction of a box's width by which its pair may lie outside it
 
 
-class Side(NamedTuple):
+class CrankInterval(NamedTuple):
     """An interval of crank angles: the points at both ends, and the turn between them."""
 
     first: PathPoints
     last: PathPoints
     turn: Array
 
-    def taken(self, where: Which) -> Side:
+    def taken(self, where: Which) -> CrankInterval:
         """Select some of the intervals."""
-        return Side(self.first.taken(where), self.last.taken(where), self.turn[where])
+        return CrankInterval(self.first.taken(where), self.last.taken(where), self.turn[where])
 
 
 class Boxes(NamedTuple):
@@ -41,8 +41,8 @@ class Boxes(NamedTuple):
 
     which: Whole
     sense: Array  # sense of rotation of the wheel
-    entry: Side
-    exit: Side
+    entry: CrankInterval
+    exit: CrankInterval
     turn: Array
 
     def taken(self, where: Which) -> Boxes:
@@ -95,17 +95,18 @@ def boxes_of(samples: PathSamples, wanted: Array) -> Boxes:
         exit_ = (entry + ahead) % count
         may = _may_meet_of(at, width, row, entry, exit_)
         per_sense.append((row[may], entry[may], exit_[may], np.full(int(may.sum()), sense)))
-    row, entry, exit_, way = joined(per_sense)
+    row, entry, exit_, senses = joined(per_sense)
     round_ = np.where(exit_ < entry, 1.0, 0.0)
     start = angle[row, exit_] + whole[row, 0] * round_ - angle[row, entry]
     one, two = (
-        Side(at.taken((row, of)), at.taken((row, of + 1)), turn[row, of]) for of in (entry, exit_)
+        CrankInterval(at.taken((row, of)), at.taken((row, of + 1)), turn[row, of])
+        for of in (entry, exit_)
     )
     near_end, far_end = (
         end._replace(phi=end.phi + math.tau * round_) for end in (two.first, two.last)
     )
-    two = Side(near_end, far_end, two.turn)
-    return Boxes(samples.which[row], way, one, two, start)
+    two = CrankInterval(near_end, far_end, two.turn)
+    return Boxes(samples.which[row], senses, one, two, start)
 
 
 def _may_meet_of(at: PathPoints, width: Array, row: Whole, entry: Whole, exit_: Whole) -> Mask:
@@ -144,7 +145,7 @@ def _may_meet(boxes: Boxes) -> Mask:
     return _may_be_zero(corners[0], corners[1], _width(entry), _width(exit_))
 
 
-def _width(side: Side) -> Array:
+def _width(side: CrankInterval) -> Array:
     width: Array = side.last.phi - side.first.phi
     return width
 
@@ -230,5 +231,5 @@ def halved(path: RollerPath, boxes: Boxes, wanted: Array) -> Boxes:
     return halved
 
 
-def _side(first: PathPoints, last: PathPoints) -> Side:
-    return Side(first, last, np.angle(last.t * first.t.conj()))
+def _side(first: PathPoints, last: PathPoints) -> CrankInterval:
+    return CrankInterval(first, last, np.angle(last.t * first.t.conj()))

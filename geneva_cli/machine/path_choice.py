@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from geneva_cli.machine.path_samples import blocks, joined, points
-from geneva_cli.machine.path_wheels import Wheels
+from geneva_cli.machine.path_wheels import PathWheels
 from geneva_cli.machine.roller_path import RollerPath
 
 if TYPE_CHECKING:
@@ -20,12 +20,12 @@ if TYPE_CHECKING:
 SAME_PEAK = 1e-8  # fraction by which two wheels' peak velocities may differ and count as equal
 
 
-def chosen(path: RollerPath, wheels: Wheels, wanted: Number | None = None) -> Whole:
+def chosen(path: RollerPath, wheels: PathWheels, wanted: Number | None = None) -> Whole:
     """Numbers of the chosen wheels, one for each design that has any, in the order of the designs.
 
-    The chosen wheel is the gentlest, with the least peak velocity, or the one whose entry is
-    nearest to ``wanted`` (radians, (n, 1) for all designs). If several are equal, as on a symmetric
-    path, it is the one with the first entry.
+    Without ``wanted`` the chosen wheel is the gentlest, with the least peak velocity. ``wanted`` is
+    an entry angle in radians, (n, 1) for n designs: then it is the wheel with the nearest entry.
+    Among equal wheels, as on a symmetric path, it is the one with the first entry.
     """
     which = wheels.which
     cost = np.zeros(len(which))
@@ -46,7 +46,7 @@ def chosen(path: RollerPath, wheels: Wheels, wanted: Number | None = None) -> Wh
     return order[first]
 
 
-def _peaks(path: RollerPath, wheels: Wheels) -> Array:
+def _peaks(path: RollerPath, wheels: PathWheels) -> Array:
     """Peak velocities of several wheels per design, accurate enough to know the least.
 
     A few points of each wheel bound its peak. If the bounds do not decide which wheel of a design
@@ -83,7 +83,7 @@ class _Velocities(NamedTuple):
     bracket: Array
 
 
-def _velocities(path: RollerPath, wheels: Wheels, between: Array | None = None) -> _Velocities:
+def _velocities(path: RollerPath, wheels: PathWheels, between: Array | None = None) -> _Velocities:
     """Peak velocities between crank angles (n, 2), by default from entry to exit."""
     between = wheels.phi if between is None else between
     bounds: _Velocities = joined(

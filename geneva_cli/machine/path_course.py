@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from geneva_cli.machine.path_pairs import Pairs
+from geneva_cli.machine.path_pairs import EndPairs
 from geneva_cli.machine.path_samples import PathPoints, points
 from geneva_cli.machine.roller_path import RollerPath
 from geneva_cli.numerics.tolerances import ROUNDED
@@ -56,7 +56,7 @@ class PlacedWheel(NamedTuple):
 def leaves_slot(
     path: RollerPath,
     wheel: PlacedWheel,
-    ends: Pairs,
+    ends: EndPairs,
     nodes: Array,
     course: PinCourse,
     motion: Array,

@@ -1,8 +1,8 @@
 """Entry and exit on a roller's closed path: the pairs of points that a wheel's slots can use.
 
-A wheel with straight radial slots takes a roller without shock if the roller's path enters along
-one slot and leaves along the next, equally far from the wheel's centre O. With the unit tangents t1
-and t2 there,
+A wheel with straight radial slots takes a roller without shock if the path enters along one slot
+and leaves along the next. Both points are equally far from the wheel's centre O. With the unit
+tangents t1 and t2 there,
 
     O = P1 + rho t1 = P2 - rho t2 ,    the angle from -t1 to t2 = the index angle 2b ,
 
@@ -38,22 +38,22 @@ if TYPE_CHECKING:
 DOUBLE_ROOT_SLOPE = 1e-5
 
 
-class Pairs(NamedTuple):
+class EndPairs(NamedTuple):
     """Pairs of points of designs, entry first, in two columns."""
 
     which: Whole
     at: PathPoints
 
-    def taken(self, where: Which) -> Pairs:
+    def taken(self, where: Which) -> EndPairs:
         """Select some of the pairs."""
-        return Pairs(self.which[where], self.at.taken(where))
+        return EndPairs(self.which[where], self.at.taken(where))
 
 
-class FoundPairs(NamedTuple):
+class PairSearch(NamedTuple):
     """Pairs, and places that have no pair or may have a double root."""
 
-    pairs: Pairs
-    doubtful: Pairs
+    pairs: EndPairs
+    doubtful: EndPairs
 
 
 class Residual(NamedTuple):
@@ -72,7 +72,7 @@ class Residual(NamedTuple):
     sense: Array
 
 
-def pairs(path: RollerPath, samples: Iterable[PathSamples], b: Array) -> FoundPairs:
+def pairs(path: RollerPath, samples: Iterable[PathSamples], b: Array) -> PairSearch:
     """All pairs for designs with half index angles b, (n, 1), from samples of their paths."""
     wanted = math.pi - 2.0 * b[:, 0]
     boxes = joined([boxes_of(some, wanted[some.which]) for some in samples])
@@ -90,15 +90,15 @@ def pairs(path: RollerPath, samples: Iterable[PathSamples], b: Array) -> FoundPa
     ends = ends.taken(np.flatnonzero(~close))
     # a pair without a root whose index angle is this near, in radians, may be a double root
     near = np.flatnonzero(np.abs(residual(ends, b).excess) < 1e-5)
-    return FoundPairs(joined(solved), ends.taken(near))
+    return PairSearch(joined(solved), ends.taken(near))
 
 
-def ends_at(path: RollerPath, which: Whole, phi: Array) -> Pairs:
+def ends_at(path: RollerPath, which: Whole, phi: Array) -> EndPairs:
     """Points of designs at entry and exit angles, in two columns."""
-    return Pairs(which, points(path.roughly(which), phi))
+    return EndPairs(which, points(path.roughly(which), phi))
 
 
-def residual(ends: Pairs, b: Array) -> Residual:
+def residual(ends: EndPairs, b: Array) -> Residual:
     """Residuals of pairs; ``b`` holds the half index angles of all designs, (m, 1)."""
     at = ends.at
     (p, q), (t, u), (v, w) = at.p.T, at.t.T, at.v.T
@@ -113,7 +113,7 @@ def residual(ends: Pairs, b: Array) -> Residual:
     return Residual((chord * both).imag, by_entry, by_exit, excess, det, sense)
 
 
-def newton(ends: Pairs, rest: Residual) -> Array:
+def newton(ends: EndPairs, rest: Residual) -> Array:
     """Newton step from pairs, in two columns."""
     turn, turn_out = ends.at.turn.T
     excess = rest.sense * rest.excess
@@ -123,7 +123,7 @@ def newton(ends: Pairs, rest: Residual) -> Array:
     return step
 
 
-def _solved(path: RollerPath, boxes: Boxes, phi: Array, b: Array) -> tuple[Pairs, Mask]:
+def _solved(path: RollerPath, boxes: Boxes, phi: Array, b: Array) -> tuple[EndPairs, Mask]:
     """Newton's method from places in boxes: its end points, and a mask of those in their box."""
     low = np.stack((boxes.entry.first.phi, boxes.exit.first.phi), axis=1)
     high = np.stack((boxes.entry.last.phi, boxes.exit.last.phi), axis=1)

@@ -24,8 +24,8 @@ WALLED = (
 )
 
 
-class Way(NamedTuple):
-    """Pin position in the wheel, over L, and its direction of travel there."""
+class PinHeading(NamedTuple):
+    """Pin position in the wheel, over L, and the pin's direction of travel."""
 
     x: Number
     y: Number
@@ -50,7 +50,7 @@ class Pitch(NamedTuple):
 
 
 def retraces(engagement: Engagement) -> bool:
-    """True if the pin stops in the wheel at mid-motion and leaves along its way in.
+    """True if the pin stops in the wheel at mid-motion and leaves along the path it came by.
 
     This holds for straight slots and at the mid condition. Otherwise the pin passes mid-motion
     across the slot's radius, and the pressure angle is 90 degrees there. For a batch the result is
@@ -87,12 +87,12 @@ def pitch(engagement: Engagement, input_deg: Number) -> Pitch:
     )
 
 
-def way(engagement: Engagement, input_deg: Number) -> Way:
+def pin_heading(engagement: Engagement, input_deg: Number) -> PinHeading:
     """Pin position and direction of travel, without the second derivatives that ``pitch`` needs."""
     x, y = engagement.slot(input_deg, 1)
     (x0, x1), (y0, y1) = x.derivatives(), y.derivatives()
     speed = library(x0).hypot(x1, y1)
-    return Way(x0, y0, x1 / speed, y1 / speed)
+    return PinHeading(x0, y0, x1 / speed, y1 / speed)
 
 
 def pitch_at_retrace(engagement: Engagement) -> Pitch:

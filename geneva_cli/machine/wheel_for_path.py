@@ -18,7 +18,7 @@ from geneva_cli.machine.exact_path import Exact, ExactPoint, cross, length
 from geneva_cli.machine.path_choice import chosen
 from geneva_cli.machine.path_pairs import DOUBLE_ROOT_SLOPE
 from geneva_cli.machine.path_samples import joined
-from geneva_cli.machine.path_wheels import Search, Wheels, followed, wheels
+from geneva_cli.machine.path_wheels import PathWheels, WheelSearch, followed, wheels
 from geneva_cli.machine.roller_path import RollerPath
 from geneva_cli.machine.wheels.poses import HalfStep
 from geneva_cli.numerics import digits
@@ -45,7 +45,7 @@ class Fit(NamedTuple):
     sense: float  # +1 if the wheel turns counterclockwise on the path's own axes
 
 
-class _Place(NamedTuple):
+class _PathPoint(NamedTuple):
     """A point of the path: position, velocity, unit tangent and the rate at which it turns."""
 
     p: complex
@@ -55,12 +55,12 @@ class _Place(NamedTuple):
 
 
 def fit(
-    path: RollerPath, step: HalfStep, wanted: float | None = None, search: Search | None = None
+    path: RollerPath, step: HalfStep, wanted: float | None = None, search: WheelSearch | None = None
 ) -> Fit | None:
     """Wheel that the path can drive with this index angle, or None.
 
     If there are several, it is the gentlest, or the one whose entry is nearest to ``wanted``
-    (radians). ``search`` is a search of this path that was already made in a batch.
+    (radians). ``search`` is the result of a batch's search of this path.
     """
     candidates, doubtful = search or wheels(path, np.array([[step.b]]))
     for entry, exit_ in doubtful.at.phi.tolist():
@@ -82,7 +82,7 @@ def fit(
     return Fit(*pair, centre, sense)
 
 
-def _double(path: RollerPath, step: HalfStep, entry: float, exit_: float) -> Wheels | None:
+def _double(path: RollerPath, step: HalfStep, entry: float, exit_: float) -> PathWheels | None:
     """Wheel of a double root, or of two roots too close for Newton's method to separate."""
     pair = _on_family(path, step.b, entry, exit_)
     root = _refined(path, step.b, pair) if pair else None
@@ -96,11 +96,11 @@ def _double(path: RollerPath, step: HalfStep, entry: float, exit_: float) -> Whe
     return drivable if holds else None
 
 
-def _place(path: RollerPath, phi: float) -> _Place:
+def _place(path: RollerPath, phi: float) -> _PathPoint:
     x, y = path.at(phi, 2)
     p, v, a = (complex(*z) for z in zip(x.derivatives(), y.derivatives(), strict=True))
     speed = abs(v)
-    return _Place(p, v, v / speed, (v.conjugate() * a).imag / speed**2)
+    return _PathPoint(p, v, v / speed, (v.conjugate() * a).imag / speed**2)
 
 
 def _on_family(path: RollerPath, b: float, entry: float, exit_: float) -> Pair | None:

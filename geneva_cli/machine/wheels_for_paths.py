@@ -15,7 +15,7 @@ import numpy as np
 
 from geneva_cli.machine.path_choice import chosen
 from geneva_cli.machine.path_pairs import DOUBLE_ROOT_SLOPE, ends_at, residual
-from geneva_cli.machine.path_wheels import Search, wheels
+from geneva_cli.machine.path_wheels import WheelSearch, wheels
 from geneva_cli.machine.roller_path import LONG_PI, RollerPath, exactly
 from geneva_cli.machine.wheels.poses import HalfStep
 from geneva_cli.numerics.arrays import rising
@@ -29,7 +29,7 @@ if TYPE_CHECKING:
     LongComplex: TypeAlias = NDArray[np.clongdouble]
 
 # Search results by the kind and numbers of a path, with its number there; None: none are kept.
-_KNOWN: ContextVar[dict[tuple[object, ...], tuple[Search, int]] | None] = ContextVar(
+_KNOWN: ContextVar[dict[tuple[object, ...], tuple[WheelSearch, int]] | None] = ContextVar(
     "known", default=None
 )
 
@@ -43,7 +43,7 @@ class Fits(NamedTuple):
     entry: Array
     exit: Array
     sense: Array  # +1 if the wheel turns counterclockwise on the path's own axes
-    alone: dict[int, Search]
+    alone: dict[int, WheelSearch]
 
 
 def fits_many(path: RollerPath, b: float, wanted: float | None = None) -> Fits:
@@ -54,7 +54,7 @@ def fits_many(path: RollerPath, b: float, wanted: float | None = None) -> Fits:
     numbers = (*path.rough, b, 0.0 if wanted is None else wanted)
     count = np.broadcast_shapes(*(np.shape(x) for x in numbers))[0]
     out = np.full((3, count), np.nan)
-    alone: dict[int, Search] = {}
+    alone: dict[int, WheelSearch] = {}
     half = np.broadcast_to(np.asarray(b, dtype=float), (count, 1))
     goal = None if wanted is None else np.broadcast_to(np.asarray(wanted, dtype=float), (count, 1))
     size = 2048  # designs that are searched together
@@ -82,7 +82,7 @@ def searches_kept() -> Iterator[None]:
         _KNOWN.reset(token)
 
 
-def _keep(path: RollerPath, half: Array, search: Search) -> None:
+def _keep(path: RollerPath, half: Array, search: WheelSearch) -> None:
     kept = _KNOWN.get()
     if kept is not None:
         columns = [np.broadcast_to(x, half.shape) for x in path.rough]
@@ -90,7 +90,7 @@ def _keep(path: RollerPath, half: Array, search: Search) -> None:
             kept[type(path), *row] = search, i
 
 
-def known(path: RollerPath, b: float) -> Search | None:
+def known(path: RollerPath, b: float) -> WheelSearch | None:
     """Search result of one design's path from an earlier batch, or None."""
     kept = _KNOWN.get()
     entry = kept.get((type(path), *path.rough, b)) if kept else None

@@ -85,8 +85,8 @@ def required_gears(mechanism: Mechanism) -> Gears:
         geared = [kind for kind in registry.DRIVES if registry.drive(kind).GEARED]
         if drive.TOOTHED:
             raise GenevaError(
-                f'--part gears: the pitch curves of kind = "{drive.NAME}" are circles, so there is '
-                "no table: write them as .dxf or .svg; --part parts has their radii"
+                f'--part gears: the pitch curves of kind = "{drive.NAME}" are circles and have no '
+                "table; write .dxf or .svg, or --part parts for their radii"
             )
         geared += [kind for kind in registry.DRIVES if registry.drive(kind).TOOTHED]
         raise GenevaError(

@@ -65,9 +65,9 @@ def key(standard: str | None, radius: float, part: str = "crank") -> ParallelKey
         if row.above < diameter <= row.up_to:
             return row
     raise GenevaError(
-        f'{part}_keyway = "{standard}": its table has shafts above {table[0].above:g} mm and up '
-        f"to {table[-1].up_to:g}, but the {part}'s bore is {diameter:g}; set {BORES[part]} in that "
-        f"range, or remove {part}_keyway",
+        f'{part}_keyway = "{standard}": the bore of {diameter:g} mm is not in its table; set '
+        f"{BORES[part]} above {table[0].above:g} and up to {table[-1].up_to:g}, or remove the "
+        "keyway",
         ("size", f"{part}_keyway"),
     )
 

@@ -162,9 +162,8 @@ def _refuse_unused(
     own = (axis for axis in turning if SHAFT in axis.kinds and not _known(axis, sizes, parts, L))
     if sizes.shaft is not None and not any(True for _ in own):
         raise GenevaError(
-            f"link_bore_mm = {2.0 * sizes.shaft:g}: it applies to no link, because all are on the "
-            "shafts of wheel and crank; remove it (crank_bore_mm, arm_bore_mm and wheel_bore_mm "
-            "set those shafts)",
+            f"link_bore_mm = {2.0 * sizes.shaft:g}: it applies to no link: all are on the shafts "
+            "of wheel and crank; set crank_bore_mm, arm_bore_mm or wheel_bore_mm instead",
             ("size", "link_bore_mm"),
         )
 
@@ -266,7 +265,7 @@ def _refuse(plate: Plate) -> None:
     if wall <= 0.0:
         raise GenevaError(
             f"--part links: no plate is left around the holes of the {plate.name}: it lacks "
-            f"{-wall:.4g} mm; reduce link_pin_mm, link_bore_mm or pin_mm, or move its joints apart",
+            f"{-wall:.4g} mm; reduce link_pin_mm, link_bore_mm or pin_mm, or move joints apart",
             ("size", "link_pin_mm"),
         )
 

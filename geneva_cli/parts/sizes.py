@@ -274,8 +274,8 @@ def _lock(assembly: Assembly, arm: float, w: float, rim: float) -> float:
     least, r = max(assembly.L - rim, 0.0), assembly.mechanism.roller_radius_mm
     if limit <= least:
         raise GenevaError(
-            f"the locking disc does not fit: it must reach the rim, {least:.4g} mm from the "
-            f"crank's axis, but roller and clearances limit it to {limit:.4g} mm; use "
+            f"the locking disc does not fit: it must be above {least:.4g} mm to reach the rim, but "
+            f"roller and clearances limit it to {limit:.4g}; use "
             + (f"a roller below {r + limit - least:.4g} mm, or " if r + limit > least else "")
             + "lock_radius_mm = 0",
             ("size", "lock_radius_mm"),
@@ -340,9 +340,8 @@ def _refuse(assembly: Assembly, sizes: Sizes) -> None:
         and abs(0.5 * own - sizes.crank_bore) > SAME_LENGTH * assembly.L
     ):
         raise GenevaError(
-            f"arm_bore_mm = {own:g}: one shaft goes through arm and locking disc, whose "
-            f"crank_bore_mm is {2.0 * sizes.crank_bore:g}; make them equal, or crank_bore_mm 0, to "
-            "end the shaft in the arm",
+            f"arm_bore_mm = {own:g}: the shaft runs through arm and locking disc, so crank_bore_mm "
+            f"= {2.0 * sizes.crank_bore:g} must be equal, or 0 to end it in the arm",
             ("size", "arm_bore_mm"),
         )
     if sizes.lock and sizes.crank_bore >= sizes.lock:

@@ -30,7 +30,7 @@ from geneva_cli.numerics.roots import boundary
 from geneva_cli.spec.rules import POSITIVE, Range, Words
 
 if TYPE_CHECKING:
-    from geneva_cli.machine.motion import Motion as GivenMotion
+    from geneva_cli.machine.motion import Motion as MotionTable
     from geneva_cli.machine.wheels.gearing import Gearing
     from geneva_cli.numerics.jet import Array
 
@@ -63,14 +63,14 @@ class GearSector(PinPath, kw_only=True):
         'wheel speed / crank speed in gear; "shockless" for no jump',
     ] = "shockless"
 
-    def plan(self, wheel: Gearing, motion: GivenMotion | None, L: float) -> Plan:
+    def plan(self, wheel: Gearing, motion: MotionTable | None, L: float) -> Plan:
         """The engagement of each roller; the slot's half angle follows from the step."""
         b, u, handover, _ = self._solved(math.pi / wheel.z)
         engagement = SectorEngagement(*_slot(b), handover, self.sector_deg, u)
         return self.planned(engagement, library(b).sin(b), L)
 
     def layout(self, plan: Plan, sign: float) -> Layout:
-        """Dimensions of slot, gears and handover, and angles between rollers and between slots"""
+        """Dimensions of slot, gears and handover, and angles between rollers and between slots."""
         L, (engagement, *_) = plan.center_distance_mm, plan.engagements
         b, u, handover, _ = self._solved(engagement.half_step)
         first, last = engagement.ahead_deg
@@ -123,9 +123,9 @@ class GearSector(PinPath, kw_only=True):
         refuse(
             (least > D) | (most < D),
             lambda: GenevaError(
-                f"sector_deg = {self.sector_deg:g}: with a slot that reaches {u:g} times the "
-                f"crank's speed it gives no step of {math.degrees(2.0 * half_step):.6g} deg: it "
-                f"must be at least {math.degrees(least):.6g}, at most {math.degrees(most):.6g}",
+                f"sector_deg = {self.sector_deg:g}: with gear_ratio = {u:g} it gives no step of "
+                f"{math.degrees(2.0 * half_step):.6g} deg; it must be at least "
+                f"{math.degrees(least):.6g} and at most {math.degrees(most):.6g}",
                 ("drive", "sector_deg"),
             ),
         )

@@ -150,8 +150,9 @@ class FirstTurning(NamedTuple):
 def _crank_at(first_z: int, wheel_deg: float) -> float:
     """Angle a of the first crank, radians, with its wheel at psi: sin(a + psi) = sin psi / l.
 
-    With k = l cos(a + psi) = sqrt(sin(b - psi) sin(b + psi)) the angle is that of l sin a = sin psi
-    cos² b / (cos psi + k) and l cos a = k cos psi + sin² psi, in which nothing cancels.
+    With k = l cos(a + psi) = sqrt(sin(b - psi) sin(b + psi)), nothing cancels in
+
+        l sin a = sin psi cos² b / (cos psi + k),   l cos a = k cos psi + sin² psi
     """
     if not (isinstance(first_z, int) and isinstance(wheel_deg, float)):
         each: float = of_each(lambda z, deg: (_crank_at(z, deg),), first_z, wheel_deg)[0]

@@ -176,8 +176,8 @@ class Linkage(PinPath, kw_only=True):
 def _none_fits(z: int) -> GenevaError:
     return GenevaError(
         f"no wheel of z = {z} slots fits this path: change the linkage, or z. The path needs two "
-        f"tangents that meet at {360.0 / z:.6g} deg, equally long, with the roller nearer to that "
-        "point between them and farther away elsewhere",
+        f"equally long tangents that meet at {360.0 / z:.6g} deg, with the roller nearer to that "
+        "point only between them",
         ("drive", "kind"),
     )
 

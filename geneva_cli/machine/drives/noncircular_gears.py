@@ -35,8 +35,8 @@ from geneva_cli.spec.schema import Points
 class NoncircularGears(Transmission, kw_only=True):
     """Gears of any ratio that closes over a turn.
 
-    The ratio is the side-crank's ``A``, or is given by points: output speed over input speed, over
-    a turn of the input in degrees. Points are pairs, or the name of a CSV file.
+    The ratio is the side-crank's ``A``, or comes from points: output speed over input speed, by the
+    input angle in degrees over a turn. Points are pairs, or the name of a CSV file.
 
     >>> round(Design(External(6), NoncircularGears(A=0.6)).peaks.velocity.max, 12)
     0.625
@@ -147,8 +147,8 @@ def _turned(points: tuple[tuple[float, float], ...]) -> Pieces:
     return Pieces(whole.cuts, whole.origins, whole.rows / mean)
 
 
-class Since(NamedTuple):
-    """The crank's rotation since a moment, by the input's since then."""
+class CrankRotation(NamedTuple):
+    """The crank's rotation since a moment, as a function of the input's rotation since then."""
 
     since: Pieces
 
@@ -165,14 +165,14 @@ def _through(crank: Pieces, crank_deg: float) -> About:
     turns, wanted = divmod(math.radians(crank_deg), math.tau)
     phi = boundary(lambda x: crank(x, 0)[0] < wanted, 0.0, math.tau)
     since = _since(crank, phi)
-    return About(math.degrees(phi + turns * math.tau), Since(since), False, since.seams)
+    return About(math.degrees(phi + turns * math.tau), CrankRotation(since), False, since.seams)
 
 
 def _since(crank: Pieces, phi: float) -> Pieces:
-    """The crank's rotation since the input angle phi, by the input's since then, over three turns.
+    """The crank's rotation since the input angle phi, by the input's rotation, over three turns.
 
-    The piece about phi is in powers of the input's rotation since then, so that the smallest angle
-    has all its digits.
+    The piece about phi is in powers of the input's rotation, so that the smallest angle has all its
+    digits.
     """
     here = crank(phi, DEGREE + 1)
     turns = math.tau * np.arange(-1.0, 2.0)

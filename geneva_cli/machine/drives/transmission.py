@@ -185,9 +185,8 @@ class Transmission(Drive, kw_only=True):
         refuse(
             matched != matched,
             lambda: GenevaError(
-                "no R/L between 0 and 1 matches this motion, since at mid-motion the wheel would "
-                "turn back or too fast (inside: more than half as fast as the crank): set ratio "
-                "to a number, or change alpha0_deg or the law",
+                'ratio = "matched": at mid-motion the wheel turns back, or too fast for any R/L '
+                "below 1; set a number, or change alpha0_deg or the law",
                 ("motion", "ratio"),
             ),
         )
@@ -208,10 +207,9 @@ class Transmission(Drive, kw_only=True):
         refuse(
             farthest_deg > self.reach_deg * (1.0 + 1e-12),
             lambda: GenevaError(
-                f"z = {wheel.z}: the crank must turn {farthest_deg:.6g} deg to either side "
-                f'of the line of centres, but kind = "{self.NAME}" turns it only '
-                f"{self.reach_deg:.6g}: use fewer slots here, or fewer on the first "
-                "wheel",
+                f"z = {wheel.z}: the crank must turn {farthest_deg:.6g} deg to either side, but "
+                f'kind = "{self.NAME}" turns it only {self.reach_deg:.6g}: reduce z, or the '
+                "slots of the first wheel",
                 ("wheel", "z"),
             ),
         )

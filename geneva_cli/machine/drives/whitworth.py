@@ -68,8 +68,8 @@ class Coulisse(NamedTuple):
     """The coulisse's rotation from one of its angles f.
 
     h = asin(A sin f) is the angle between input crank and coulisse. ``length`` is the coulisse's,
-    cos h + A cos f, and ``rest`` is cos h - A cos f. ``grows`` selects the form of W = x² + y² on
-    the line of centres that is a sum of positive terms for this sign of A.
+    cos h + A cos f, and ``rest`` is cos h - A cos f. ``grows`` selects the form of W = x² + y² that
+    is a sum of positive terms on the line of centres.
     """
 
     A: float

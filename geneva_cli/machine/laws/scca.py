@@ -14,8 +14,13 @@ from geneva_cli.spec.rules import Range
 class SineConstantCosine(Law):
     """Sine, constant and cosine acceleration in fractions b, c and d of the time.
 
-    Special cases are harmonic (0, 0, 1), cycloidal (1/2, 0, 1/2), modified sine (1/4, 0, 3/4),
-    modified trapezoid (1/4, 1/2, 1/4) and constant acceleration (0, 1, 0).
+    Special cases (b, c, d):
+
+    - (0, 0, 1): harmonic
+    - (1/2, 0, 1/2): cycloidal
+    - (1/4, 0, 3/4): modified sine
+    - (1/4, 1/2, 1/4): modified trapezoid
+    - (0, 1, 0): constant acceleration
 
     >>> SineConstantCosine(b=0.25, c=0.5, d=0.25)(0.125, 2).derivatives()[2]  # 8 pi / (2 + pi)
     4.88812...

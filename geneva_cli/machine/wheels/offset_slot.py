@@ -110,8 +110,8 @@ class OffsetFollowed(Followed):
 def _depth(skew: Skew, toward: Jet) -> tuple[Jet, Jet]:
     """Coordinate s of the pin along its slot's axis, and rho² = s² + e².
 
-    From mid-motion the pin moves by u = l (1 - cos a) along the line of centres, and s² = deepest²
-    + 2 u is a sum of positive terms.
+    From mid-motion the pin moves by u = l (1 - cos a) along the line of centres. So s² = deepest² +
+    2 u is a sum of positive terms.
     """
     square = toward * 2.0 + skew.deepest**2
     return sqrt(square), square + skew.e**2

@@ -135,8 +135,7 @@ class Sphere(NamedTuple):
     """A spherical wheel: shafts at the angle S, the pin on a cone of half angle th.
 
     sin th = sin S sin b, so that the pin enters its meridian slot along it. Projected along the
-    wheel's axis, the pin's path is an ellipse, (sin S - tan th cos S cos a, tan th sin a) times cos
-    th.
+    wheel's axis, the pin's path is an ellipse: cos th (sin S - tan th cos S cos a, tan th sin a).
     """
 
     sin_S: float

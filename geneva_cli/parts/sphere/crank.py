@@ -55,9 +55,8 @@ def sectors(ball: Ball) -> list[Region]:
         if about > most:
             wide = 2.0 * ball.lock_span_mm[0] * math.sin(most)
             raise PartDoesNotFit(
-                f"the crank's shaft and hub leave nothing of the locking sector: crank_bore_mm "
-                f"and crank_hub_mm must be below {wide:.4g}, or lock_radius_mm greater; "
-                "lock_radius_mm = 0 omits the sector",
+                "the crank's shaft and hub leave nothing of the locking sector: crank_bore_mm and "
+                f"crank_hub_mm must be below {wide:.4g}, or lock_radius_mm greater, or 0 for none",
                 ("size", "crank_bore_mm"),
             )
         # a narrower sector can begin nearer to the axis, never farther away

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from geneva_cli.curves.sphere import Region, opposite, place
-from geneva_cli.curves.sphere_arcs import Arcs
+from geneva_cli.curves.sphere_arcs import SphereArcs
 from geneva_cli.numerics.tolerances import SAME_ANGLE
 from geneva_cli.parts.assembly import Assembly
 from geneva_cli.parts.sphere.crank import at_mid_motion
@@ -39,9 +39,9 @@ class BallGaps:
         self.assembly, self.ball = assembly, ball
         self.near = NEAR * ball.radius_mm
         edges = [arc for k in range(ball.z) for arc in edge(ball, 2 * k * ball.half_step)]
-        self.wheel = Arcs(edges)
-        self.around = Arcs(edge(ball), closed=False)  # one slot; all others are equal
-        self.sectors = [Arcs(region.boundary) for region in sectors]
+        self.wheel = SphereArcs(edges)
+        self.around = SphereArcs(edge(ball), closed=False)  # one slot; all others are equal
+        self.sectors = [SphereArcs(region.boundary) for region in sectors]
         self._turning = WheelCaps(self.around, 2.0 * ball.half_step)
         self._roller = round_cap(ball.roller)
         self._sides = caps(self.sectors) if self.sectors else None

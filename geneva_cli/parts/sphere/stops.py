@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from geneva_cli.curves.sphere_arcs import Arcs
+from geneva_cli.curves.sphere_arcs import SphereArcs
 from geneva_cli.numerics.tolerances import SAME_ANGLE
 from geneva_cli.parts.turn.touch import SLACK, WAYS, Touch, triangles, within
 
@@ -44,7 +44,7 @@ class Caps(NamedTuple):
         return out
 
 
-def caps(boundaries: Sequence[Arcs]) -> Caps:
+def caps(boundaries: Sequence[SphereArcs]) -> Caps:
     """Return the caps of arcs, and caps of the convex corners between them."""
     columns = []
     for one in boundaries:
@@ -64,7 +64,7 @@ def round_cap(angle: float) -> Caps:
 class WheelCaps:
     """A wheel's caps, which repeat after ``pitch`` radians about z."""
 
-    def __init__(self, edge: Arcs, pitch: float) -> None:
+    def __init__(self, edge: SphereArcs, pitch: float) -> None:
         self.caps, self.pitch = caps([edge]), pitch
         self.polar, self.azimuth = polar(self.caps.axis), _azimuth(self.caps.axis)
 

@@ -67,8 +67,8 @@ def _long(piece: Piece, least: float) -> bool:
 
 def _lost() -> GenevaError:
     return GenevaError(
-        "the walls of this slot do not close: the roller is too large for its curve, or the rim "
-        "too small; reduce roller_radius_mm or increase wheel_radius_mm",
+        "the walls of this slot do not close: the roller is too large, or the rim too small; "
+        "reduce roller_radius_mm or increase wheel_radius_mm",
         ("size", "roller_radius_mm"),
     )
 

@@ -72,8 +72,7 @@ def _refuse_crossed(apart: float) -> None:
     if apart < 0.0:
         raise GenevaError(
             f"the slots that start and stop the wheel cross by {math.degrees(-2.0 * apart):.4g} "
-            "deg: the gears turn the wheel too little between them; increase sector_deg, or set "
-            'gear_ratio = "shockless"',
+            'deg: increase sector_deg, or set gear_ratio = "shockless"',
             ("drive", "sector_deg"),
         )
 

@@ -19,7 +19,7 @@ from geneva_cli.numerics.roots import boundary_by_sections
 from geneva_cli.parts.assembly import Assembly
 from geneva_cli.parts.roller_paths import rest
 from geneva_cli.parts.sizes import Sizes
-from geneva_cli.parts.slot_profile import pitch_at, way_at
+from geneva_cli.parts.slot_profile import heading_at, pitch_at
 from geneva_cli.parts.slot_sampling import nodes
 
 if TYPE_CHECKING:
@@ -137,7 +137,7 @@ def parallel(assembly: Assembly, engagement: Engagement, side: float, outward: b
     back = retraces(engagement)
 
     def curve(t: Array) -> tuple[Array, Array]:
-        at = way_at(engagement, t, back)
+        at = heading_at(engagement, t, back)
         # At mid-motion the tangent is the limit of the way in.
         turned = np.where(back & outward & (t == 0.0), -1.0, 1.0)
         tangent = np.column_stack((at.tangent_x * turned, at.tangent_y * turned))
@@ -178,7 +178,7 @@ def _pitch(assembly: Assembly, engagement: Engagement, t: Array) -> Array:
 
 def _tangent_in(engagement: Engagement) -> tuple[float, float]:
     """Return the roller's direction where it stops in the wheel at mid-motion."""
-    at = way_at(engagement, np.zeros(1), True)
+    at = heading_at(engagement, np.zeros(1), True)
     return float(array(at.tangent_x)[0]), float(array(at.tangent_y)[0])
 
 
