@@ -24,7 +24,7 @@ from geneva_cli.numerics.jet import Jet, Number, sine_versine, turning
 if TYPE_CHECKING:
     from geneva_cli.numerics.arrays import Array
 
-ANCHORS = 4  # on either side of the middle: near the wheel the path bends much
+ANCHORS = 4  # anchors on either side of the middle: near the wheel the path is strongly curved
 
 
 class LinkFollowed(Followed):

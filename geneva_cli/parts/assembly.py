@@ -153,7 +153,7 @@ def assembly(mechanism: Mechanism) -> Assembly:
     if not spec.wheel.FLAT:
         raise GenevaError(
             f'gearing = "{spec.wheel.NAME}": its parts are not flat; write `--part wheel`, `crank` '
-            "or `assembly` as .dxf, .svg or .step, or `wheel` or `slot` as .csv",
+            "or `assembly` as .dxf, .svg or .step, or `wheel` or `slot` by -o FILE.csv",
             ("wheel", "gearing"),
         )
     if spec.wheel.z > Z_DRAWN:

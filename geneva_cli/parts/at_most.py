@@ -1,9 +1,9 @@
 """Outlines that contain the true ones, drawn without tracing the wall of a curved slot.
 
-If the wheel is loose in these outlines, it is loose in the true parts, which have less material.
-That is computed in a fraction of the time. A curved slot removes here only what the roller removes
-that comes to it while the wheel still rests. The locking sectors lose only what the recesses'
-corners remove from their edges; no slot moves these corners.
+Play of the wheel in these outlines is play in the true parts, which have less material. It is
+computed in a fraction of the time. A curved slot lacks here only what the roller removes before
+entry, while the wheel still rests. The locking sectors lack only what the recesses' corners remove
+from their edges; no slot moves these corners.
 """
 
 from __future__ import annotations
@@ -31,7 +31,7 @@ from geneva_cli.parts.all_round import corners
 from geneva_cli.parts.assembly import Assembly
 from geneva_cli.parts.crank import is_whole
 from geneva_cli.parts.locking_rings import LAYER as DISC
-from geneva_cli.parts.locking_rings import SHARES, beyond, seen
+from geneva_cli.parts.locking_rings import LOCK_FRACTIONS, beyond, polar_points
 from geneva_cli.parts.outlines import CURVED, SWEPT_DEG, Outlines, slot_walls
 from geneva_cli.parts.reliefs import followed, reliefs
 from geneva_cli.parts.roller_paths import rest
@@ -121,8 +121,8 @@ def _sectors(assembly: Assembly, sizes: Sizes) -> list[Contour]:
         if after - one.end <= SAME_ANGLE:
             continue
         whole, middle = 0.5 * (after - one.end), 0.5 * (after + one.end)
-        wheel = seen(x, y, middle)
-        wide = (fraction * whole for fraction in SHARES)
+        wheel = polar_points(x, y, middle)
+        wide = (fraction * whole for fraction in LOCK_FRACTIONS)
         half = next((each for each in wide if not beyond(sizes, wheel, each)), None)
         if half is None:
             raise GenevaError("nothing is left of a locking sector", ("size", "lock_radius_mm"))

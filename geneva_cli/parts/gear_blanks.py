@@ -21,7 +21,6 @@ from geneva_cli.spec.tables import Size
 
 PITCH, HOLES, RIM = "PITCH", "BORE", "LINK"
 AXIS = (0.0, 0.0)
-FIRST = 0.25 * math.pi  # the first bolt's direction: off the line on which the shafts lie
 
 
 class Gear(NamedTuple):
@@ -114,7 +113,8 @@ def _bolts(size: Size, inner: float, outer: float, L: float) -> Iterator[Circle]
         far = 0.5 * size.gear_bolt_circle_mm
     r = min(L / 80.0, 0.5 * width) if size.gear_bolt_mm is None else 0.5 * size.gear_bolt_mm
     for k in range(size.gear_bolts):
-        turn = FIRST + math.tau * k / size.gear_bolts
+        # the first at 45 degrees, off the line on which the shafts lie
+        turn = 0.25 * math.pi + math.tau * k / size.gear_bolts
         yield Circle(HOLES, (far * math.cos(turn), far * math.sin(turn)), r)
 
 
@@ -132,13 +132,13 @@ def _refuse(name: str, wall: float, what: str, shaft: str) -> None:
         return
     if what == "bolts":
         key, reach = "gear_bolt_circle_mm", "bolts reach"
-        helps = "the default gear_bolt_circle_mm, a smaller gear_bolt_mm or fewer gear_bolts leave"
+        remedy = "the default gear_bolt_circle_mm, a smaller gear_bolt_mm or fewer gear_bolts leave"
     else:
         key, reach = shaft, f"{what} reaches"
         # the crank's shaft is as wide as its arm's bore, which is the locking disc's by default
         arm = " or arm_bore_mm" if shaft == "crank_bore_mm" else ""
-        helps = f"a smaller {shaft}{arm} leaves"
+        remedy = f"a smaller {shaft}{arm} leaves"
     raise GenevaError(
-        f"no blank of the {name} is left: its {reach} {-wall:.4g} mm too far; {helps} some",
+        f"no blank of the {name} is left: its {reach} {-wall:.4g} mm too far; {remedy} some",
         ("size", key),
     )

@@ -2,8 +2,9 @@
 
 The ratio is i = crank speed / input speed, and the axes are C apart. The pitch curves meet on the
 line of centres, at r1 = C i/(1+i) from the driver and r2 = C/(1+i) from the driven gear. Convex
-curves can be hobbed. The driver is convex where 1 + 1/i + (1/i)'' > 0, the driven gear where 1 + i
-+ (i i'' - i'²)/i³ > 0, with derivatives by the driver's angle.
+curves can be hobbed. With derivatives by the driver's angle, the curves are convex where
+
+    driver:  1 + 1/i + (1/i)'' > 0,    driven gear:  1 + i + (i i'' - i'²)/i³ > 0
 """
 
 from __future__ import annotations
@@ -48,8 +49,8 @@ class Convexity(NamedTuple):
 def gears_table(mechanism: Mechanism, tolerance_mm: float, samples: int | None) -> Table:
     """Return both pitch curves: for a chord tolerance, or at ``samples`` even input angles.
 
-    Each is in its own gear's frame, with x along the line of centres at input angle 0. Each is
-    given as it is cut, so its angle runs against the gear's rotation.
+    Each is in its own gear's frame, with x along the line of centres at input angle 0. A curve is
+    listed as it is cut, so its angle runs against the gear's rotation.
     """
     gears = required_gears(mechanism)
     if samples is None:

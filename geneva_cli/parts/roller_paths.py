@@ -20,9 +20,8 @@ TURN = 720  # input angles at which a path is sampled
 class RollerPaths(NamedTuple):
     """Least distances of the rollers' centres from the axes, mm, whatever the rollers' radius."""
 
-    ends: tuple[
-        float, ...
-    ]  # of each kind of slot, least distance from the wheel's axis; greatest for internal wheels
+    # least distance of each kind of slot from the wheel's axis; greatest for internal wheels
+    ends: tuple[float, ...]
     arm: float  # least distance of the rollers, and of the adjacent slots, from the crank's axis
 
 

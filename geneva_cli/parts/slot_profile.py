@@ -26,12 +26,12 @@ if TYPE_CHECKING:
 T = TypeVar("T", PinHeading, Pitch)
 
 
-class Slot(NamedTuple):
+class SlotProfile(NamedTuple):
     """The slot at ascending input angles, in millimetres, in the wheel's frame.
 
-    ``left`` and ``right`` are the flanks, seen as the pin travels in. ``radius`` is the pitch
-    curve's radius of curvature: positive where its centre lies to the left, infinite on a straight
-    line.
+    ``left`` and ``right`` are the flanks in the pin's direction of travel at entry. ``radius`` is
+    the pitch curve's radius of curvature: positive where its centre lies to the left, infinite on a
+    straight line.
     """
 
     input_deg: Array
@@ -43,7 +43,7 @@ class Slot(NamedTuple):
     radius: Array
 
 
-def slot(mechanism: Mechanism, input_deg: Array) -> Slot:
+def slot(mechanism: Mechanism, input_deg: Array) -> SlotProfile:
     """Return the slot of a mechanism at ascending input angles of its first engagement."""
     engagement, L = mechanism.engagements[0].through, mechanism.center_distance_mm
     back = retraces(engagement)
@@ -53,7 +53,7 @@ def slot(mechanism: Mechanism, input_deg: Array) -> Slot:
     with np.errstate(divide="ignore", invalid="ignore"):
         radius = L * side * np.divide(at.speed, at.turning)
     straight = engagement.slot.axis(engagement.entry_deg) is not None
-    return Slot(
+    return SlotProfile(
         input_deg,
         np.degrees(engagement.motion(input_deg, 0).c[0]),
         *_offsets(mechanism, at, side),
@@ -79,7 +79,7 @@ def _snapped(input_deg: Array, back: bool) -> Array:
 def _side(engagement: Engagement, input_deg: Array, at: PinHeading | Pitch, back: bool) -> Array:
     """Return 1, or -1 where the pin leaves on the path on which it came.
 
-    Its travel is reversed after mid-motion; the flanks keep the sides that they had on the way in.
+    Its travel is reversed after mid-motion; the flanks keep the sides that they had at entry.
     """
     if engagement.slot.axis(engagement.entry_deg) is None:
         return np.where(back & (input_deg > 0.0), -1.0, 1.0)

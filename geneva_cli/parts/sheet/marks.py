@@ -15,11 +15,7 @@ from geneva_cli.curves.sheet import ARROW, BELOW, SMALL, Arrow, Label, Measure, 
 AXIS = 0.0, 0.0  # of the part whose angles are shown
 PAST = 1.5  # length of an extension line beyond the dimension line
 CLEAR = 0.8  # gap from the outline to an extension line, and from a line to its text
-ROUND = 16  # number of directions of a leader
-LENGTHS = (6.0, 9.0, 13.0, 18.0, 24.0, 32.0, 42.0, 55.0, 72.0, 95.0, 125.0, 160.0)
 LENGTH = ARROW[0]
-PLACES = (0.5, 0.25, 0.75, 0.0, 1.0, 2.0, -1.0)  # positions of a text along its dimension line
-LEVEL = 0.14  # radians: leaders nearer to horizontal or vertical would lie on centre lines
 
 
 def linear(
@@ -36,7 +32,7 @@ def linear(
     u, n = _axes(turn)
     a, b = sorted((_dot(p, u), _dot(p, n)) for p in ends)
     for level in levels:
-        for place in PLACES:
+        for place in (0.5, 0.25, 0.75, 0.0, 1.0, 2.0, -1.0):
             mark = _linear(a, b, level, turn, place, text)
             if mark is None:
                 continue
@@ -77,7 +73,7 @@ def _linear(
             lines.append(Line(_at(u, n, along, begin), _at(u, n, along, end)))
     turns = (turn + math.pi, turn) if inside else (turn, turn + math.pi)
     arrows = tuple(
-        Arrow(_at(u, n, along, level), way) for (along, _), way in zip((a, b), turns, strict=True)
+        Arrow(_at(u, n, along, level), out) for (along, _), out in zip((a, b), turns, strict=True)
     )
     return tuple(lines), arrows, _on_line(start, start + long, level, turn, text)
 
@@ -161,7 +157,7 @@ def note(tip: Point, text: str) -> Iterator[Measure]:
 
 def around() -> list[float]:
     """Return directions all round, oblique ones first."""
-    directions = [0.25 * math.pi + k * math.tau / ROUND for k in range(ROUND)]
+    directions = [0.25 * math.pi + k * math.tau / 16 for k in range(16)]
     return sorted(directions, key=lambda a: round(abs(abs(math.sin(2.0 * a)) - 0.9), 6))
 
 
@@ -169,7 +165,8 @@ def within(start: float, end: float, count: int = 9) -> list[float]:
     """Return directions between two, the middle ones first."""
     fractions = sorted(((k + 0.5) / count for k in range(count)), key=lambda s: abs(s - 0.5))
     angles = [start + s * (end - start) for s in fractions]
-    return sorted(angles, key=lambda a: abs(math.sin(2.0 * a)) < 2.0 * LEVEL)
+    # leaders within 0.14 radians of horizontal or vertical would lie on centre lines
+    return sorted(angles, key=lambda a: abs(math.sin(2.0 * a)) < 2.0 * 0.14)
 
 
 def _leaders(
@@ -178,7 +175,7 @@ def _leaders(
     """Yield tip, direction, bend and text of leaders, short ones first."""
     directions = list(angles)
     long = width(text) * SMALL
-    for length in LENGTHS:
+    for length in (6.0, 9.0, 13.0, 18.0, 24.0, 32.0, 42.0, 55.0, 72.0, 95.0, 125.0, 160.0):
         for angle in directions:
             tip = polar(centre, reach, angle)
             for out in (1.0, -1.0) if length < 2.0 * reach else (1.0,):

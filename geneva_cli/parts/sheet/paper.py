@@ -24,7 +24,6 @@ from geneva_cli.parts.sheet.view import Block
 LEFT, MARGIN = 20.0, 10.0  # mm: margin of the frame on the filing side, and on the others
 BLOCK = 180.0  # mm: width of the title block
 ROW = 5.0  # mm: of tables
-NARROW = 60.0  # mm: least width to which text above a table is wrapped
 
 
 class PaperSize(NamedTuple):
@@ -153,7 +152,8 @@ def table(heading: Sequence[str], rows: Sequence[Sequence[str]], columns: Sequen
     for column in columns[:-1]:
         x += column
         shapes.append(line(TEXT, (x, 0.0), (x, high)))
-    lines = [part for text in heading for part in broken(text, SMALL, max(wide, NARROW))]
+    # text above a narrow table is up to 60 mm wide
+    lines = [part for text in heading for part in broken(text, SMALL, max(wide, 60.0))]
     top = high
     for text in reversed(lines):
         top += 1.8 * SMALL

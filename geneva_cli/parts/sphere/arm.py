@@ -1,8 +1,8 @@
 """The crank arm of a spherical machine: a cap outside the wheel that carries the whole crank.
 
 Every part that turns about an axis through the centre keeps its distance from the centre. So a
-shell outside the wheel's shell never meets the wheel. The arm's boundary is the convex hull of the
-locking sectors on its inner face, its hub, and an eye about each pin and bolt. Pins and bolts point
+shell outside the wheel's shell never meets the wheel. The arm's boundary is the convex hull of its
+hub, the locking sectors on its inner face, and an eye about each pin and bolt. Pins and bolts point
 at the centre. The hub has flat faces and the bore; it sits in a round hole about the crank's axis.
 """
 

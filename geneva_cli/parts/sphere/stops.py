@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 
     from geneva_cli.numerics.jet import Array
 
-WHOLE = 7.0  # radians, more than a whole turn
+ALL_ROUND = 7.0  # radians, more than a whole turn: the sweep of an edge without ends
 
 
 class Caps(NamedTuple):
@@ -51,14 +51,14 @@ def caps(boundaries: Sequence[SphereArcs]) -> Caps:
         corner = np.flatnonzero(one.first > SAME_ANGLE)
         at, none = one.at(corner, np.zeros(len(corner))), np.zeros(len(corner))
         columns.append(Caps(one.axis, one.angle, one.x, one.y, one.sweep))
-        columns.append(Caps(at, none, at, at, none + WHOLE))
+        columns.append(Caps(at, none, at, at, none + ALL_ROUND))
     return Caps(*[np.concatenate(each) for each in zip(*columns, strict=True)])
 
 
 def round_cap(angle: float) -> Caps:
     """Return a roller's cap, at no position in particular."""
     nowhere = np.zeros((1, 3))
-    return Caps(nowhere, np.array([angle]), nowhere, nowhere, np.array([WHOLE]))
+    return Caps(nowhere, np.array([angle]), nowhere, nowhere, np.array([ALL_ROUND]))
 
 
 class WheelCaps:
