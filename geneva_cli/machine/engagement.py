@@ -97,7 +97,7 @@ def cross(a: Vector, b: Vector) -> Jet:
     return a[0] * b[1] - a[1] * b[0]
 
 
-class Turning(NamedTuple):
+class ConstantRate(NamedTuple):
     """A body that turns at a constant rate, radians per input radian, positive with the wheel."""
 
     rate: float

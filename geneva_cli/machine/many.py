@@ -17,8 +17,8 @@ results are (m, k). ``batch.spread`` returns (m, 1) values to their places among
 (n,). Build a refused design by itself to get the reason.
 
 Keys that are not numbers (words, lists), and the number of rollers, have one value in all designs
-of a machine. Designs that differ in them must be built as separate batches. ``may_vary`` tells
-which keys may vary.
+of a machine. Designs that differ in them must be built as separate batches. ``may_vary`` is True
+for a key that may vary.
 """
 
 from __future__ import annotations

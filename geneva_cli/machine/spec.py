@@ -88,10 +88,9 @@ def _no_load(key: str) -> GenevaError:
 
 @dataclass(frozen=True)
 class Spec:
-    """All values that a machine is built from, as the user gave them.
+    """All values from which a machine is built, as in the spec's file.
 
-    ``path`` is the spec's file, for messages; ``files`` are the CSV files that points were read
-    from.
+    ``path`` is that file, for messages; ``files`` are the CSV files of its points.
 
     >>> Spec(External(6)).drive.n_rpm
     60.0

@@ -46,7 +46,7 @@ class Fits(NamedTuple):
     alone: dict[int, WheelSearch]
 
 
-def fits_many(path: RollerPath, b: float, wanted: float | None = None) -> Fits:
+def fits_of_batch(path: RollerPath, b: float, wanted: float | None = None) -> Fits:
     """The gentlest wheel of each path, or the one whose entry is nearest to ``wanted`` (radians).
 
     ``path``, half the index angle b and ``wanted`` hold numbers (n, 1), or one for all.

@@ -21,7 +21,7 @@ from geneva_cli.machine.drives.transmission import PinTravel, same
 from geneva_cli.machine.engagement import Anchor, Engagement, Motion, Path, Slot, SlotAxis
 from geneva_cli.machine.example import Example
 from geneva_cli.machine.layout import Dimension, Joint, Layout, Link, Teeth
-from geneva_cli.machine.path_and_slot import AnchoredPath, Followed, RadialSlot
+from geneva_cli.machine.path_and_slot import AnchoredPath, RadialSlot, StraightSlotMotion
 from geneva_cli.machine.wheels import poses
 from geneva_cli.numerics.angles import radians
 from geneva_cli.numerics.arrays import larger, library, parameter, size
@@ -294,4 +294,4 @@ def _slot(b: float) -> tuple[Engagement, RadialSlot]:
     )
     path = AnchoredPath((entry, middle, exit_))
     slot = RadialSlot(path)
-    return Engagement(0.0, path, slot, Followed(path, step.b)), slot
+    return Engagement(0.0, path, slot, StraightSlotMotion(path, step.b)), slot

@@ -19,7 +19,7 @@ from geneva_cli.errors import GenevaError
 from geneva_cli.machine.drives import whitworth
 from geneva_cli.machine.drives.drive import Gears, Plan
 from geneva_cli.machine.drives.pushed import Mesh
-from geneva_cli.machine.drives.transmission import About, Transmission
+from geneva_cli.machine.drives.transmission import LocalTransmission, Transmission
 from geneva_cli.machine.engagement import CarrierVelocity, ClosedPeaks, Path, Reactions
 from geneva_cli.machine.example import Example
 from geneva_cli.machine.layout import Dimension, Layout, Pivot
@@ -98,7 +98,7 @@ class NoncircularGears(Transmission, kw_only=True):
         """Reactions of the crank, whose gear is pushed by the driver's teeth."""
         return Mesh(path, self.gear_distance_mm / L)
 
-    def about(self, crank_deg: float) -> About:
+    def about(self, crank_deg: float) -> LocalTransmission:
         """Transmission about a crank angle (degrees). GenevaError for an impossible ratio."""
         if self.A is not None:
             return whitworth.about(self.A, crank_deg)
@@ -161,11 +161,13 @@ class CrankRotation(NamedTuple):
         return sine_versine_of(Jet(terms), m.sin(turn), m.cos(turn), order)
 
 
-def _through(crank: Pieces, crank_deg: float) -> About:
+def _through(crank: Pieces, crank_deg: float) -> LocalTransmission:
     turns, wanted = divmod(math.radians(crank_deg), math.tau)
     phi = boundary(lambda x: crank(x, 0)[0] < wanted, 0.0, math.tau)
     since = _since(crank, phi)
-    return About(math.degrees(phi + turns * math.tau), CrankRotation(since), False, since.seams)
+    return LocalTransmission(
+        math.degrees(phi + turns * math.tau), CrankRotation(since), False, since.seams
+    )
 
 
 def _since(crank: Pieces, phi: float) -> Pieces:

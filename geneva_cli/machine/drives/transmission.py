@@ -14,15 +14,15 @@ from geneva_cli.machine.engagement import (
     Carrier,
     CarrierVelocity,
     ClosedPeaks,
+    ConstantRate,
     Displacement,
     Engagement,
     Path,
     Reactions,
-    Turning,
 )
 from geneva_cli.machine.law_motion import refuse_alpha0
 from geneva_cli.machine.path_and_motion import MiddlePath
-from geneva_cli.machine.path_and_slot import AnchoredPath, Classic
+from geneva_cli.machine.path_and_slot import AnchoredPath, ClassicMotion
 from geneva_cli.machine.rollers import places
 from geneva_cli.machine.wheels.classic import refuse_jam, rollers_max
 from geneva_cli.machine.wheels.gearing import Gearing, RollerPlace
@@ -36,7 +36,7 @@ if TYPE_CHECKING:
     from geneva_cli.machine.motion import Motion
 
 
-class About(NamedTuple):
+class LocalTransmission(NamedTuple):
     """A transmission written about one crank angle, so that nothing cancels near it."""
 
     input_deg: float  # input angle there
@@ -73,7 +73,7 @@ class Transmission(Drive, kw_only=True):
     CRANKED: ClassVar[bool] = True
 
     @abstractmethod
-    def about(self, crank_deg: float) -> About:
+    def about(self, crank_deg: float) -> LocalTransmission:
         """The transmission about a crank angle in degrees, which is 0 at mid-motion."""
 
     @property
@@ -123,7 +123,7 @@ class Transmission(Drive, kw_only=True):
         slot, motion = wheel.follow(path, place, here.advance)
         closed = wheel.closed_form(place) if self.direct else None
         if closed:
-            motion = Classic(path, place.step.b, *closed)
+            motion = ClassicMotion(path, place.step.b, *closed)
         else:
             motion.closed_peaks = self.closed_peaks(wheel, place)
             motion.mirrored = motion.mirrored and here.even
@@ -140,7 +140,7 @@ class Transmission(Drive, kw_only=True):
 
         ``sense`` is 1 if it turns with the wheel, else -1.
         """
-        return Turning(sense) if self.direct else None
+        return ConstantRate(sense) if self.direct else None
 
     @property
     def direct(self) -> bool:

@@ -10,8 +10,8 @@ from __future__ import annotations
 from typing import NamedTuple
 
 from geneva_cli.errors import GenevaError, refuse
-from geneva_cli.machine.drives.pushed import Pushed
-from geneva_cli.machine.drives.transmission import About
+from geneva_cli.machine.drives.pushed import PushedCrank
+from geneva_cli.machine.drives.transmission import LocalTransmission
 from geneva_cli.machine.engagement import Peak, Vector
 from geneva_cli.machine.wheels.gearing import Gearing, RollerPlace
 from geneva_cli.numerics.angles import radians, sin_cos_deg
@@ -106,7 +106,7 @@ class Coulisse(NamedTuple):
         return y, x, 0.5 + (0.5 * (1.0 - A) * (1.0 + A)) / square
 
 
-class CoulisseTurning(NamedTuple):
+class CoulisseRate(NamedTuple):
     """Rate of the coulisse as the roller's crank; it turns with the wheel if ``sense`` is 1."""
 
     coulisse: Coulisse
@@ -117,7 +117,7 @@ class CoulisseTurning(NamedTuple):
         return self.coulisse.rate(tau, order) * self.sense
 
 
-class SlidingBlock(Pushed):
+class SlidingBlock(PushedCrank):
     """The block at the end of an input crank of length ``r`` over L, in the coulisse's slot."""
 
     def __init__(self, A: float, r: float, sign: float, mid: float) -> None:
@@ -134,14 +134,14 @@ class SlidingBlock(Pushed):
         return (x, y), (y * -1.0, x)
 
 
-def about(A: float, crank_deg: float) -> About:
+def about(A: float, crank_deg: float) -> LocalTransmission:
     """The side-crank about a coulisse angle f in degrees, for an offset A between -1 and 1."""
-    return About(*_about(A, crank_deg))
+    return LocalTransmission(*_about(A, crank_deg))
 
 
-def turning(A: float, crank_deg: float, sense: float) -> CoulisseTurning:
+def turning(A: float, crank_deg: float, sense: float) -> CoulisseRate:
     """Rate of the coulisse from its angle f in degrees on."""
-    return CoulisseTurning(_about(A, crank_deg)[1], sense)
+    return CoulisseRate(_about(A, crank_deg)[1], sense)
 
 
 def _about(A: float, crank_deg: float) -> tuple[float, Coulisse]:

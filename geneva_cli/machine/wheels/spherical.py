@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Annotated, ClassVar, NamedTuple
 from geneva_cli.errors import GenevaError, refuse
 from geneva_cli.machine.example import Example
 from geneva_cli.machine.layout import Dimension, Layout
-from geneva_cli.machine.path_and_slot import AnchoredPath, Followed, MeridianSlot
+from geneva_cli.machine.path_and_slot import AnchoredPath, MeridianSlot, StraightSlotMotion
 from geneva_cli.machine.wheels.gearing import Gearing, RollerPlace
 from geneva_cli.machine.wheels.poses import HalfStep, PinPose
 from geneva_cli.numerics.angles import sin_cos_deg
@@ -83,10 +83,11 @@ class Spherical(Gearing):
 
     def follow(
         self, path: AnchoredPath, place: RollerPlace, turn: Displacement
-    ) -> tuple[Slot, Followed]:
+    ) -> tuple[Slot, StraightSlotMotion]:
         """Meridian slot with the pin's coordinate along the wheel's axis, and the motion."""
         assert place.height is not None  # it is a place on a sphere
-        return MeridianSlot(path, Height(*place.height, turn)), Followed(path, place.step.b)
+        slot = MeridianSlot(path, Height(*place.height, turn))
+        return slot, StraightSlotMotion(path, place.step.b)
 
     def body(self, place: RollerPlace, turn: Displacement) -> CrankCone:
         """Angular velocity of the crank, whose axis differs from the roller's."""
