@@ -20,8 +20,8 @@ if TYPE_CHECKING:
 # points (n, 2) of the curves in mm at n places: one array for each curve
 Curves: TypeAlias = "Callable[[Array], Sequence[Array]]"
 
-ROWS_MAX = 200_000  # between two ends
-MANY = 5_000  # nodes from which on the first sufficient attempt is kept
+ROWS_MAX = 200_000  # of a table between two ends
+MANY_NODES = 5_000  # nodes from which on the first sufficient attempt is kept
 # Fractions of many short chords, which are parabolas, at which their errors are measured.
 MIDDLE = np.array([0.25, 0.5, 0.75])
 
@@ -46,7 +46,8 @@ def _smooth(curves: Curves, a: float, b: float, tolerance_mm: float, fewest: boo
     grid = np.linspace(a, b, 1025)  # even intervals, for the first estimate
     fraction, total = _integrated_density(curves, grid)
     count = max(1, int(np.ceil(total / np.sqrt(tolerance_mm))))
-    count += count // 50 if count > MANY or not fewest else 0  # so that the first attempt is enough
+    if count > MANY_NODES or not fewest:
+        count += count // 50  # so that the first attempt is enough
     best, too_few = None, 0
     for _ in range(20):  # attempts; a few are enough but at the limit of double precision
         if not count < ROWS_MAX:
@@ -72,7 +73,7 @@ def _smooth(curves: Curves, a: float, b: float, tolerance_mm: float, fewest: boo
             count = max(enough, more) if best is None else (too_few + good + 1) // 2
         # 2 % of the nodes are not worth another attempt
         if best is not None and (
-            not fewest or count >= good or good - too_few <= 0.02 * good or good > MANY
+            not fewest or count >= good or good - too_few <= 0.02 * good or good > MANY_NODES
         ):
             return best
     if best is not None:
@@ -107,7 +108,7 @@ def _integrated(root: Array) -> Array:
 def chord_errors(curves: Curves, at: Array, places: Array | None = None) -> Array:
     """Greatest distance of the curves from each chord between adjacent places, mm."""
     if places is None:
-        places = np.arange(1, 16) / 16.0 if len(at) < MANY else MIDDLE
+        places = np.arange(1, 16) / 16.0 if len(at) < MANY_NODES else MIDDLE
     size = 4096  # chords in a block, so that memory stays flat
     blocks = [
         _chord_errors(curves, at[start : start + size + 1], places)

@@ -14,7 +14,7 @@ import numpy as np
 from geneva_cli.curves.distance import Polyarc
 from geneva_cli.curves.drawing import Drawing
 from geneva_cli.curves.measure import at, directions, segment_length, with_material_left
-from geneva_cli.curves.pieces import STEP, prepared
+from geneva_cli.curves.pieces import SHORTEST_MM, prepared
 from geneva_cli.curves.plates import plates
 from geneva_cli.curves.shapes import Arc, Circle, Contour, Line, Point, Segment, closed
 from geneva_cli.errors import GenevaError
@@ -90,7 +90,7 @@ def offset(shape: Contour | Circle, outside: bool, distance: float) -> Contour |
     """
     if isinstance(shape, Circle):
         radius = shape.radius + (distance if outside else -distance)
-        if radius <= STEP:
+        if radius <= SHORTEST_MM:
             text = f"the hole of {2.0 * shape.radius:.6g} mm on {shape.layer} is too narrow"
             raise Closed(text, shape.centre)
         return shape._replace(radius=radius)
@@ -98,7 +98,7 @@ def offset(shape: Contour | Circle, outside: bool, distance: float) -> Contour |
     assert isinstance(cleaned, Contour)
     contour = with_material_left(cleaned, outside)
     pieces = [_moved_piece(segment, contour.layer, distance) for segment in contour.segments]
-    path = _joined(contour, pieces, distance)
+    path = _joined(contour, pieces)
     _require_away(contour, path, distance)
     return path
 
@@ -117,7 +117,7 @@ def _moved_piece(segment: Segment, layer: str, distance: float) -> Line | Arc:
         _moved(point, direction, distance)
         for point, direction in zip((segment.start, segment.end), directions(segment), strict=True)
     ]
-    if segment.bulge < 0.0 and segment.radius - distance <= STEP:
+    if segment.bulge < 0.0 and segment.radius - distance <= SHORTEST_MM:
         text = f"a hollow of radius {segment.radius:.6g} mm on {layer} is narrower than the cut"
         raise Closed(text, at(segment, 0.5))
     return Arc(ends[0], ends[1], segment.bulge)
@@ -127,7 +127,7 @@ def _moved(point: Point, direction: float, distance: float) -> Point:
     return point[0] + distance * math.sin(direction), point[1] - distance * math.cos(direction)
 
 
-def _joined(contour: Contour, pieces: list[Line | Arc], distance: float) -> Contour:
+def _joined(contour: Contour, pieces: list[Line | Arc]) -> Contour:
     """Join the moved pieces with arcs round outer corners, and cut them off in inner ones."""
     count = len(pieces)
     low, high = [0.0] * count, [1.0] * count
@@ -136,7 +136,7 @@ def _joined(contour: Contour, pieces: list[Line | Arc], distance: float) -> Cont
         k = (i + 1) % count
         before, after = directions(piece)[1], directions(pieces[k])[0]
         turn = math.remainder(after - before, math.tau)
-        if math.dist(piece.end, pieces[k].start) < STEP:
+        if math.dist(piece.end, pieces[k].start) < SHORTEST_MM:
             continue
         if turn > 0.0:
             around[i] = Arc(piece.end, pieces[k].start, math.tan(0.25 * turn))
@@ -167,7 +167,7 @@ def _meeting(contour: Contour, first: Line | Arc, second: Line | Arc) -> tuple[f
         if abs(ds) + abs(dt) < 1e-15:
             break
     apart = math.dist(at(first, s), at(second, t))
-    if not (apart < STEP and 0.0 < s <= 1.0 and 0.0 <= t < 1.0):
+    if not (apart < SHORTEST_MM and 0.0 < s <= 1.0 and 0.0 <= t < 1.0):
         text = f"an inner corner of {contour.layer} is narrower than the cut"
         raise Closed(text, first.end)
     return s, t

@@ -24,7 +24,7 @@ from geneva_cli.table import Reading, Table, rows_table
 
 UNITS = {"mm": 1.0, "inch": 25.4}  # millimetres in one
 SUFFIX = {"mm": "mm", "inch": "in"}
-STEP = 1e-9  # mm: no file shows a piece that is shorter, or the bend of one that is flatter
+SHORTEST_MM = 1e-9  # no file shows a piece that is shorter, or the bend of one that is flatter
 
 
 def pieces_table(drawing: Drawing, units: str = "mm") -> Table:
@@ -56,7 +56,7 @@ def pieces_table(drawing: Drawing, units: str = "mm") -> Table:
 
 
 def prepared(drawing: Drawing, units: str = "mm") -> Drawing:
-    """Drawing in a unit, without duplicate shapes and pieces shorter than ``STEP``.
+    """Drawing in a unit, without duplicate shapes and pieces shorter than ``SHORTEST_MM``.
 
     The other pieces stay end to end. Raises GenevaError for another unit, and for a coordinate that
     is not finite.
@@ -81,10 +81,10 @@ def _divided(shape: Shape, unit: float) -> Shape:
 def _cleaned(shape: Shape) -> Iterator[Shape]:
     _require_finite(shape)
     if isinstance(shape, Circle):
-        if shape.radius > STEP:
+        if shape.radius > SHORTEST_MM:
             yield shape
         return
-    kept = [_straightened(s) for s in shape.segments if segment_length(s) > STEP]
+    kept = [_straightened(s) for s in shape.segments if segment_length(s) > SHORTEST_MM]
     if kept:
         yield (
             closed(shape.layer, kept)
@@ -96,7 +96,7 @@ def _cleaned(shape: Shape) -> Iterator[Shape]:
 def _straightened(segment: Segment) -> Segment:
     """Replace an arc by a line if it is so flat that its centre would only be noise."""
     flat = isinstance(segment, Arc) and (
-        0.5 * math.dist(segment.start, segment.end) * abs(segment.bulge) < STEP
+        0.5 * math.dist(segment.start, segment.end) * abs(segment.bulge) < SHORTEST_MM
     )
     return Line(segment.start, segment.end) if flat else segment
 

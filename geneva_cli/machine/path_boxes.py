@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from geneva_cli.numerics.arrays import Array, Mask, Number, Which, Whole
 
 THIRD = 1.0 / 3.0
-MARGIN = 0.1  # possible error of a quantity's cubics, as a fraction of their range in a box
+CUBIC_ERROR = 0.1  # possible error of a quantity's cubics, as a fraction of their range in a box
 OVERLAP = 0.5  # fraction of a box's width by which its pair may lie outside it
 
 
@@ -56,7 +56,7 @@ def _span(width: Array, turn: Array, first: Array, last: Array) -> tuple[Array, 
     a, c = THIRD * width * first, turn - THIRD * width * last
     low = np.minimum(np.minimum(a, c), np.minimum(turn, 0.0))
     high = np.maximum(np.maximum(a, c), np.maximum(turn, 0.0))
-    margin = MARGIN * (high - low)
+    margin = CUBIC_ERROR * (high - low)
     return low - margin, high + margin
 
 
@@ -172,7 +172,7 @@ def _may_be_zero(
             x = by_exit * high * (-THIRD if j else THIRD)
             least = np.minimum(least, away + np.minimum(e, 0.0) + np.minimum(x, 0.0))
             most = np.maximum(most, away + np.maximum(e, 0.0) + np.maximum(x, 0.0))
-    margin = MARGIN * (most - least)
+    margin = CUBIC_ERROR * (most - least)
     may: Mask = (least <= margin) & (most >= -margin)
     return may
 

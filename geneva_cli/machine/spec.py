@@ -67,7 +67,7 @@ def attribute(table: str) -> str:
 
 
 # Fields of ``Spec`` that hold a table, their type, and an example for the error message.
-_HELD: tuple[tuple[str, type, str], ...] = (
+_TABLE_TYPES: tuple[tuple[str, type, str], ...] = (
     ("wheel", Gearing, "External(6)"),
     ("drive", Drive, "Crank(n_rpm=60)"),
     *(
@@ -115,7 +115,7 @@ class Spec:
 
     def __post_init__(self) -> None:
         own = vars(self)
-        for name, kind, example in _HELD:
+        for name, kind, example in _TABLE_TYPES:
             refuse_kind(own[name], name, kind, example)
         if self.motion is not None:
             refuse_kind(self.motion, "motion", Motion, "Motion(Cycloidal())")

@@ -23,7 +23,7 @@ from geneva_cli.parts.wheel import opening
 if TYPE_CHECKING:
     from geneva_cli.numerics.jet import Array
 
-MARGIN = 0.01  # radians, and of the disc's radius: more than the sampling can miss
+SAMPLING_MARGIN = 0.01  # radians, and of the disc's radius: more than the sampling can miss
 
 
 def leave_no_disc(assembly: Assembly, sizes: Sizes) -> bool:
@@ -37,7 +37,7 @@ def leave_no_disc(assembly: Assembly, sizes: Sizes) -> bool:
     if not lawful or relief == "arc" or not is_whole(assembly, sizes):
         return False
     wide = [_widened(assembly, sizes, one) for one in reliefs(assembly)]
-    return all(one.end - after > MARGIN for one, after in followed(wide))
+    return all(one.end - after > SAMPLING_MARGIN for one, after in followed(wide))
 
 
 def _widened(assembly: Assembly, sizes: Sizes, relief: Relief) -> Relief:
@@ -46,7 +46,7 @@ def _widened(assembly: Assembly, sizes: Sizes, relief: Relief) -> Relief:
     engagement, behind = assembly.motions[relief.motion]
     at = behind + np.linspace(engagement.entry_deg, engagement.exit_deg, 91)
     radius, off = polar_points(*corners(assembly, sizes, at), middle)
-    off = off[radius < (1.0 - MARGIN) * sizes.lock]
+    off = off[radius < (1.0 - SAMPLING_MARGIN) * sizes.lock]
     low, high = float(off.min(initial=0.0)), float(off.max(initial=0.0))
     return relief._replace(
         start=min(relief.start, middle + low), end=max(relief.end, middle + high)

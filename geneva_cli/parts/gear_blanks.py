@@ -12,7 +12,17 @@ from collections.abc import Iterator
 from typing import NamedTuple
 
 from geneva_cli.curves.plates import Member, Plate
-from geneva_cli.curves.shapes import Circle, Contour, Line, Point, Segment, about, closed, two_arcs
+from geneva_cli.curves.shapes import (
+    ORIGIN,
+    Circle,
+    Contour,
+    Line,
+    Point,
+    Segment,
+    about,
+    closed,
+    two_arcs,
+)
 from geneva_cli.errors import GenevaError
 from geneva_cli.machine.layout import Link, Teeth
 from geneva_cli.parts.hole_walls import least_wall
@@ -20,7 +30,6 @@ from geneva_cli.parts.link_sizes import LinkSizes
 from geneva_cli.spec.tables import Size
 
 PITCH, HOLES, RIM = "PITCH", "BORE", "LINK"
-AXIS = (0.0, 0.0)
 
 
 class Gear(NamedTuple):
@@ -46,7 +55,7 @@ class Gear(NamedTuple):
     def bolts(self) -> list[Circle]:
         """The holes by which the gear is screwed to the frame."""
         holes = [hole for hole in self.plate.holes if isinstance(hole, Circle)]
-        return [hole for hole in holes if hole.layer == HOLES and hole.centre != AXIS]
+        return [hole for hole in holes if hole.layer == HOLES and hole.centre != ORIGIN]
 
     @property
     def outer(self) -> float:
@@ -65,13 +74,13 @@ def link_gear(link: Link, at: Point, bore: float, sizes: LinkSizes, size: Size, 
     low, high = sizes.span(link.plane)
     hole = 0.0 if teeth.inside else bore
     holes: list[Circle] = []
-    outline: Circle | Contour = Circle(PITCH, AXIS, radius)
+    outline: Circle | Contour = Circle(PITCH, ORIGIN, radius)
     if teeth.inside:
-        outline, holes = Circle(RIM, AXIS, radius + 2.0 * sizes.eye), [Circle(PITCH, AXIS, radius)]
         inner, outer = radius, radius + 2.0 * sizes.eye
+        outline, holes = Circle(RIM, ORIGIN, outer), [Circle(PITCH, ORIGIN, inner)]
     else:
         inner, outer = bore, radius
-        holes += [Circle(HOLES, AXIS, bore)] if bore else []
+        holes += [Circle(HOLES, ORIGIN, bore)] if bore else []
         hub = sizes.hub(bore)
         if teeth.sectors * teeth.each_deg < 360.0:
             _refuse(link.name, radius - hub, "hub", shaft)
@@ -91,9 +100,9 @@ def sectors(radius: float, hub: float, teeth: Teeth) -> Contour:
     pieces: list[Segment] = []
     for k in range(teeth.sectors):
         start = math.radians(teeth.middle_deg) + k * pitch - 0.5 * wide
-        rim = about(AXIS, radius, start, wide)
-        back = about(AXIS, hub, start + wide, pitch - wide)
-        first = pieces[-1].end if pieces else about(AXIS, hub, start, 1.0).start
+        rim = about(ORIGIN, radius, start, wide)
+        back = about(ORIGIN, hub, start + wide, pitch - wide)
+        first = pieces[-1].end if pieces else about(ORIGIN, hub, start, 1.0).start
         pieces += [Line(first, rim.start), rim, Line(rim.end, back.start), back]
     return closed(PITCH, pieces)
 

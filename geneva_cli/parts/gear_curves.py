@@ -35,8 +35,7 @@ NAMES = (
     "driver_convexity",
     "driven_convexity",
 )
-SAMPLES = 721
-ENDS = (-np.pi, 0.0, np.pi)  # of the input: one turn, and the angle of the curves' frames
+SAMPLES = 721  # input angles of a turn at which ratio and radii are computed
 
 
 class Convexity(NamedTuple):
@@ -54,11 +53,12 @@ def gears_table(mechanism: Mechanism, tolerance_mm: float, samples: int | None) 
     """
     gears = required_gears(mechanism)
     if samples is None:
+        ends = (-np.pi, 0.0, np.pi)  # one turn; the curves' frames are at input angle 0
         phi = chords.nodes(
-            lambda at: _pitch_points(gears, *_ratio(gears, at), at), ENDS, tolerance_mm
+            lambda at: _pitch_points(gears, *_ratio(gears, at), at), ends, tolerance_mm
         )
     else:
-        phi = np.linspace(ENDS[0], ENDS[-1], samples)
+        phi = np.linspace(-np.pi, np.pi, samples)
     turn, ratio = _ratio(gears, phi)
     r1, r2 = _radii(gears, ratio)
     (x1, y1), (x2, y2) = (p.T for p in _pitch_points(gears, turn, ratio, phi))

@@ -23,7 +23,7 @@ from geneva_cli.parts.sizes import even, pin_radius, thicknesses, wall_min
 if TYPE_CHECKING:
     from geneva_cli.numerics.jet import Array
 
-SPARE = 0.25  # distance from a block to the end of its slot, as a fraction of the pin's hole
+SLOT_MARGIN = 0.25  # distance from a block to the end of its slot, as a fraction of the pin's hole
 
 
 class LinkSizes(NamedTuple):

@@ -26,7 +26,7 @@ from geneva_cli.parts.hole_walls import apart, least_wall
 from geneva_cli.parts.link_axes import LinkAxis, axes
 from geneva_cli.parts.link_pins import pins, rollers
 from geneva_cli.parts.link_positions import links_at, same
-from geneva_cli.parts.link_sizes import SPARE, LinkSizes, link_sizes, places
+from geneva_cli.parts.link_sizes import SLOT_MARGIN, LinkSizes, link_sizes, places
 from geneva_cli.parts.outlines import Outlines
 from geneva_cli.parts.sizes import even, pin_radius
 
@@ -199,7 +199,7 @@ def _bar(link: Link, sizes: LinkSizes, L: float) -> _UnboredLink:
             along = z / abs(z)
             distances = np.abs(joint - joints[0])
             half, long = sizes.block(hole)
-            spare = long + SPARE * hole
+            spare = long + SLOT_MARGIN * hole
             ends = float(distances.min()) - spare, float(distances.max()) + spare
             holes.append(_slot(along, ends, half))
             eyes += [_circle(LAYER, r * along, half + hole) for r in ends]

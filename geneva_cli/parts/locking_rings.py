@@ -29,7 +29,7 @@ if TYPE_CHECKING:
 
 LAYER = "CRANK"
 EDGE = 0.035  # radians, two degrees: width of the range that counts as a sector's edge
-THIN = 0.1  # least thickness of a locking sector, as a fraction of the disc's radius
+THINNEST = 0.1  # least thickness of a locking sector, as a fraction of the disc's radius
 # Fractions of the locking angle; a sector takes the first that clears the wheel.
 LOCK_FRACTIONS = [1.0 - 0.02 * k for k in range(40)]
 
@@ -73,7 +73,7 @@ def rings(
         return np.concatenate(x), np.concatenate(y)
 
     some, all_ = reached(16), cache(reached)  # every 16th position shows most collisions
-    limit = (1.0 - THIN) * sizes.lock
+    limit = (1.0 - THINNEST) * sizes.lock
     contours = []
     for one, after in followed(around):
         if after - one.end <= SAME_ANGLE:
@@ -107,7 +107,7 @@ def beyond(sizes: Sizes, wheel: PolarPoints, half: float) -> bool:
     passes beyond a point ahead that lies beyond the limit. Then its middle lies beyond the limit
     too. The edges are farther out than the points near them.
     """
-    limit, offset = CLEARLY * (1.0 - THIN) * sizes.lock, np.abs(wheel.direction)
+    limit, offset = CLEARLY * (1.0 - THINNEST) * sizes.lock, np.abs(wheel.direction)
     inside = CLEARLY * offset < half
     if (wheel.radius[inside & (offset <= 0.5 * math.pi)] >= limit).any():
         return True

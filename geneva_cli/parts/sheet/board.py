@@ -21,7 +21,6 @@ if TYPE_CHECKING:
 
 BESIDE, ON = 3.0, 4.0  # mm: distance of a dimension line to another, and to a line of the part
 IN_LINE = 0.1  # mm: lines that overlap by less may be in line with each other
-GAP = 0.6  # mm: distance of a text to its nearest neighbour
 
 
 class Board:
@@ -63,10 +62,11 @@ class Board:
 
     def is_free(self, label: Label, lines: Array) -> bool:
         """Return True if a text and its lines meet nothing on the board."""
-        if bool(_inside(label, self._all, GAP).any()):
+        gap = 0.6  # mm: distance of a text to its nearest neighbour
+        if bool(_inside(label, self._all, gap).any()):
             return False
         own = np.concatenate((lines, _edges(label)))
-        return not any(bool(_inside(text, own, GAP).any()) for text in self._texts)
+        return not any(bool(_inside(text, own, gap).any()) for text in self._texts)
 
     def box(self) -> tuple[float, float, float, float]:
         """Return the bounding box of all lines and texts: x0, y0, x1, y1."""

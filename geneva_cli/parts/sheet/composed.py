@@ -14,11 +14,11 @@ from geneva_cli.errors import GenevaError
 from geneva_cli.machine.spec import Spec
 from geneva_cli.parts.sheet.pack import packed
 from geneva_cli.parts.sheet.paper import (
-    BLOCK,
     FORMATS,
     LEFT,
     MARGIN,
     SCALES,
+    TITLE_WIDTH,
     PaperSize,
     frame,
     scale_name,
@@ -80,7 +80,7 @@ def _composed(
     names = ", ".join(str(row["name"]) for row in rows)
     head = spec.title or f"Geneva wheel of {spec.wheel.z} slots"
     right, low = paper.width - MARGIN, MARGIN
-    corner = title_block(fields, head, names).moved(right - BLOCK, low)
+    corner = title_block(fields, head, names).moved(right - TITLE_WIDTH, low)
     items = _items(rows, materials)
     items = items.moved(right - items.width, corner.y1)
     area = LEFT, MARGIN, right, paper.height - MARGIN

@@ -9,10 +9,9 @@ import math
 from collections.abc import Iterable, Iterator
 
 from geneva_cli.curves.helvetica import width
-from geneva_cli.curves.shapes import Line, Point, Segment, about
+from geneva_cli.curves.shapes import ORIGIN, Line, Point, Segment, about
 from geneva_cli.curves.sheet import ARROW, BELOW, SMALL, Arrow, Label, Measure, polar
 
-AXIS = 0.0, 0.0  # of the part whose angles are shown
 PAST = 1.5  # length of an extension line beyond the dimension line
 CLEAR = 0.8  # gap from the outline to an extension line, and from a line to its text
 LENGTH = ARROW[0]
@@ -103,8 +102,8 @@ def angular(
         inside = radius * (last - first) > 3.0 * LENGTH
         spare = 0.0 if inside else 2.5 * LENGTH / radius
         lines: list[Segment] = [
-            about(AXIS, radius, first - spare, last - first + 2.0 * spare),
-            *(Line(polar(AXIS, begin, leg), polar(AXIS, radius + PAST, leg)) for leg in legs),
+            about(ORIGIN, radius, first - spare, last - first + 2.0 * spare),
+            *(Line(polar(ORIGIN, begin, leg), polar(ORIGIN, radius + PAST, leg)) for leg in legs),
         ]
         tilt = 0.5 * LENGTH / radius  # an arrow's back lies on the arc
         quarter = 0.5 * math.pi
@@ -114,13 +113,17 @@ def angular(
             else (first + quarter - tilt, last - quarter + tilt)
         )
         arrows = tuple(
-            Arrow(polar(AXIS, radius, leg), turn) for leg, turn in zip(legs, turns, strict=True)
+            Arrow(polar(ORIGIN, radius, leg), turn) for leg, turn in zip(legs, turns, strict=True)
         )
         middle = 0.5 * (first + last)
-        points = (AXIS, *(polar(AXIS, begin, leg) for leg in legs), polar(AXIS, radius, middle))
+        points = (
+            ORIGIN,
+            *(polar(ORIGIN, begin, leg) for leg in legs),
+            polar(ORIGIN, radius, middle),
+        )
         for fraction in (0.5, 0.3, 0.7, -0.3, 1.3):
             at = first + fraction * (last - first) if inside else middle
-            label = _clear_of(polar(AXIS, radius, at), at, text)
+            label = _clear_of(polar(ORIGIN, radius, at), at, text)
             yield Measure("angular", points, value, label, tuple(lines), arrows)
 
 

@@ -13,7 +13,6 @@ from geneva_cli.parts.walls.ways import Wall
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-WINDOW = 80  # samples in which the crossing of two walls is searched
 REACH = 3  # samples within which two walls meet
 
 
@@ -73,8 +72,9 @@ def _crossing(last: WallPlace, following: WallPlace) -> tuple[float, float] | No
 
 def _polylines_cross(last: WallPlace, following: WallPlace) -> tuple[WallPlace, WallPlace] | None:
     """Return the samples before the crossing of two walls: the last one and the first one."""
-    one = _window(last, -WINDOW, REACH)
-    two = _window(following, -REACH, WINDOW)
+    far = 80  # samples in which the crossing is searched
+    one = _window(last, -far, REACH)
+    two = _window(following, -REACH, far)
     p, q = last.wall.points[one], following.wall.points[two]
     d, e = np.diff(p, axis=0), np.diff(q, axis=0)
     off = q[None, :-1] - p[:-1, None]
