@@ -61,7 +61,7 @@ def test_it_lies_about_its_roller_and_below_the_crank(cam):
 def test_machines_without_such_a_plate(cam):
     _, proof, _ = cam
     wide = proof.outlines.sizes._replace(wheel_hub=200.0)
-    with pytest.raises(GenevaError, match="to the wheel's hub, less than four times wall_min"):
+    with pytest.raises(GenevaError, match="up to the wheel's hub, less than four times wall_min"):
         groove_plate(proof.outlines._replace(sizes=wide), 0.01, "arcs")
     with pytest.raises(GenevaError, match='kind = "crank" has no groove; "cam" has one'):
         Design(External(6)).drawing("groove-plate")
