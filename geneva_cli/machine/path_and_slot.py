@@ -12,10 +12,10 @@ from geneva_cli.machine.engagement import (
     ClosedPeaks,
     Engagement,
     Level,
-    Motion,
     Peak,
     Slot,
     SlotAxis,
+    WheelMotion,
     is_mirrored,
 )
 from geneva_cli.machine.wheels import classic
@@ -114,7 +114,7 @@ class MeridianSlot(Slot):
         return sin_cos(self(input_deg, order)[0])[1]
 
 
-class StraightSlotMotion(Motion):
+class StraightSlotMotion(WheelMotion):
     """Motion of a wheel whose straight slot follows the pin.
 
     ``mirrored`` is False if the two halves of the path differ. ``closed_peaks`` gives peaks that

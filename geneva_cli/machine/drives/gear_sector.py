@@ -18,7 +18,7 @@ from geneva_cli.errors import GenevaError, refuse
 from geneva_cli.machine.drives.drive import Plan
 from geneva_cli.machine.drives.pin_path import PinPath
 from geneva_cli.machine.drives.transmission import PinTravel, same
-from geneva_cli.machine.engagement import Anchor, Engagement, Motion, Path, Slot, SlotAxis
+from geneva_cli.machine.engagement import Anchor, Engagement, Path, Slot, SlotAxis, WheelMotion
 from geneva_cli.machine.example import Example
 from geneva_cli.machine.layout import Dimension, Joint, Layout, Link, Teeth
 from geneva_cli.machine.path_and_slot import AnchoredPath, RadialSlot, StraightSlotMotion
@@ -30,7 +30,7 @@ from geneva_cli.numerics.roots import boundary
 from geneva_cli.spec.rules import POSITIVE, Range, Words
 
 if TYPE_CHECKING:
-    from geneva_cli.machine.motion import Motion as MotionTable
+    from geneva_cli.machine.motion import Motion
     from geneva_cli.machine.wheels.gearing import Gearing
     from geneva_cli.numerics.jet import Array
 
@@ -63,7 +63,7 @@ class GearSector(PinPath, kw_only=True):
         'wheel speed / crank speed in gear; "shockless" for no jump',
     ] = "shockless"
 
-    def plan(self, wheel: Gearing, motion: MotionTable | None, L: float) -> Plan:
+    def plan(self, wheel: Gearing, motion: Motion | None, L: float) -> Plan:
         """The engagement of each roller; the slot's half angle follows from the step."""
         b, u, handover, _ = self._solved(math.pi / wheel.z)
         engagement = SectorEngagement(*_slot(b), handover, self.sector_deg, u)
@@ -163,10 +163,10 @@ def _handover(u: float, x: float) -> Handover:
     return Handover(b, u, a, m.atan2(l * m.sin(a), short + 2.0 * l * sine * sine))
 
 
-class SectorMotion(Motion):
+class SectorMotion(WheelMotion):
     """The slot's motion at both ends, and the gears' motion between them."""
 
-    def __init__(self, inner: Motion, handover: float, sector_deg: float, u: float) -> None:
+    def __init__(self, inner: WheelMotion, handover: float, sector_deg: float, u: float) -> None:
         self.inner, self.u = inner, u
         self.half_sector = 0.5 * sector_deg
         self.handover_deg = library(handover).degrees(handover)
