@@ -360,7 +360,7 @@ def test_bolts_for_a_dial():
     lighter = [wheel_shell(s, found.ball).volume for s in (Size(), design.spec.size)]
     assert lighter[0] - lighter[1] == pytest.approx(3 * math.pi * 4.0 * 8.0, rel=1e-3)
     for key, value, said in (
-        ("dial_bolt_circle_mm", 20.0, "hub or slots; they must lie between"),
+        ("dial_bolt_circle_mm", 20.0, "they must lie between circles of"),
         ("wheel_bore_mm", 0.0, "the wheel is open about its axis"),
     ):
         rows = standing_checks(PartsModel(design.with_(f"size.{key}", value).mechanism).shells)
