@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, TypeAlias
 from geneva_cli.curves.plates import Plate, plates
 from geneva_cli.curves.shapes import Arc, Circle, Contour, Line, Point, about, closed
 from geneva_cli.curves.sheet import CENTRE, HIDDEN, OUTLINE, polar
+from geneva_cli.numerics.tolerances import SAME_ON_SHEET
 from geneva_cli.parts.placed import PlacedParts
 from geneva_cli.parts.sheet import sized
 from geneva_cli.parts.sheet.view import View, number
@@ -23,9 +24,6 @@ if TYPE_CHECKING:
     from geneva_cli.parts.sphere.shells import Shells
 
 UP = 0.5 * math.pi
-BEYOND = 0.1  # of the sphere's radius: axes, over the parts
-SAME = 1e-6  # radians
-DECIMALS = 4  # of an angle in degrees: 0.2 um on 100 mm
 
 Side: TypeAlias = Callable[[float], float]  # an angle from the wheel's axis, on each sphere
 
@@ -53,7 +51,7 @@ def section(parts: Shells, whole: PlacedParts[CapArm], scale: float) -> View:
             view.draw(shape, OUTLINE)
     middle, far = ball.axes - ball.arm, max(_far(whole), outer)
     for angle in (0.0, ball.axes, middle):
-        view.centre_line((0.0, 0.0), _at(far + BEYOND * ball.radius_mm, angle))
+        view.centre_line((0.0, 0.0), _at(far + 0.1 * ball.radius_mm, angle))
     locked = Contour("", (_arc(ball.radius_mm, -back, ball.axes + ball.lock),), closed=False)
     view.draw(locked, CENTRE)
     for radius in (inner, outer):
@@ -102,7 +100,7 @@ def _crank(parts: Shells, whole: PlacedParts[CapArm]) -> Iterator[Contour]:
 
 def _rollers(ball: Ball) -> list[float]:
     """Return angles of the rollers in the plane of the shafts: the first, and one opposite."""
-    across = any(abs(azimuth - math.pi) < SAME for azimuth in ball.rollers)
+    across = any(abs(azimuth - math.pi) < SAME_ON_SHEET for azimuth in ball.rollers)
     return [ball.axes - ball.arm, *([ball.axes + ball.arm] if across else [])]
 
 
@@ -112,7 +110,7 @@ def _behind(ball: Ball, arm: CapArm) -> list[Side]:
     end = radial(ball.axes + max(polars))
     for hole in (*arm.pins, *arm.bolts):
         x, y, z = hole.axis
-        if x < 0.0 and abs(y) < SAME:
+        if x < 0.0 and abs(y) < SAME_ON_SHEET:
             at = ball.axes + math.acos(z)
             return [parallel(at, -hole.radius), parallel(at, hole.radius), end]
     return [end]
@@ -185,5 +183,5 @@ def _at(radius: float, angle: float) -> Point:
 
 
 def degrees(angle: float) -> str:
-    """Return an angle in the form that the sheet shows."""
-    return f"{number(math.degrees(angle), DECIMALS)}°"
+    """Return an angle in the form that the sheet shows: four decimals are 0.2 um on 100 mm."""
+    return f"{number(math.degrees(angle), 4)}°"
