@@ -20,6 +20,7 @@ from geneva_cli.parts.sphere.laid_flat import Cone
 from geneva_cli.parts.sphere.sizes import Ball
 from geneva_cli.parts.sphere.wheel import edge
 
+APART = 0.1  # of the sphere's radius: between wheel and crank, side by side
 PITCH = "PITCH"
 CUT = ("WHEEL", "CRANK")  # layers that are cut from sheet
 
@@ -49,7 +50,7 @@ def assembly(model: PartsModel, tolerance: float, curves: str) -> Drawing:
     title = titled(model.mechanism)
     left = wheel_flat(ball, wheel_cone(ball), tolerance, curves)
     right = crank_flat(ball, locks, crank_cone(ball), tolerance, curves)
-    shift = 0.1 * ball.radius_mm + max(bounds(shape).x1 for shape in left)
+    shift = APART * ball.radius_mm + max(bounds(shape).x1 for shape in left)
     shift -= min(bounds(shape).x0 for shape in right)
     moved = [mapped(shape, lambda p: (p[0] + shift, p[1])) for shape in right]
     whole = Group(title, built(model.shells).members)

@@ -12,7 +12,6 @@ from typing import TYPE_CHECKING, TypeAlias
 from geneva_cli.curves.plates import Plate, plates
 from geneva_cli.curves.shapes import Arc, Circle, Contour, Line, Point, about, closed
 from geneva_cli.curves.sheet import CENTRE, HIDDEN, OUTLINE, polar
-from geneva_cli.numerics.tolerances import SAME_ON_SHEET
 from geneva_cli.parts.placed import PlacedParts
 from geneva_cli.parts.sheet import sized
 from geneva_cli.parts.sheet.view import View, number
@@ -24,6 +23,7 @@ if TYPE_CHECKING:
     from geneva_cli.parts.sphere.shells import Shells
 
 UP = 0.5 * math.pi
+SAME = 1e-6  # radians
 
 Side: TypeAlias = Callable[[float], float]  # an angle from the wheel's axis, on each sphere
 
@@ -100,7 +100,7 @@ def _crank(parts: Shells, whole: PlacedParts[CapArm]) -> Iterator[Contour]:
 
 def _rollers(ball: Ball) -> list[float]:
     """Return angles of the rollers in the plane of the shafts: the first, and one opposite."""
-    across = any(abs(azimuth - math.pi) < SAME_ON_SHEET for azimuth in ball.rollers)
+    across = any(abs(azimuth - math.pi) < SAME for azimuth in ball.rollers)
     return [ball.axes - ball.arm, *([ball.axes + ball.arm] if across else [])]
 
 
@@ -110,7 +110,7 @@ def _behind(ball: Ball, arm: CapArm) -> list[Side]:
     end = radial(ball.axes + max(polars))
     for hole in (*arm.pins, *arm.bolts):
         x, y, z = hole.axis
-        if x < 0.0 and abs(y) < SAME_ON_SHEET:
+        if x < 0.0 and abs(y) < SAME:
             at = ball.axes + math.acos(z)
             return [parallel(at, -hole.radius), parallel(at, hole.radius), end]
     return [end]

@@ -18,7 +18,7 @@ from geneva_cli.curves.plates import plates
 from geneva_cli.curves.shapes import Arc, Contour, Line, Point, Segment, Shape
 from geneva_cli.curves.sheet import CENTRE, OUTLINE, Sheet
 from geneva_cli.machine.layout import Dimension
-from geneva_cli.numerics.tolerances import SAME_ANGLE, SAME_ON_SHEET
+from geneva_cli.numerics.tolerances import SAME_ANGLE
 from geneva_cli.parts.model import PartsModel
 from geneva_cli.parts.parts_list import part_rows
 from geneva_cli.parts.placed import PlacedParts
@@ -49,6 +49,11 @@ from geneva_cli.parts.sphere.sizes import Ball
 if TYPE_CHECKING:
     from geneva_cli.numerics.jet import Array
 
+SAME = 1e-6  # of a radius, and in mm
+HEADING = ("All walls lead to the sphere's centre: angles are seen from there.",)
+COLUMNS = (80.0, 24.0, 14.0)  # mm, of the table of angles
+DECIMALS = 4  # of an angle in degrees: 0.2 um on 100 mm
+
 
 def sheet(model: PartsModel, tolerance: float, curves: str) -> Sheet:
     """Return the drawing sheet of a machine. Raises GenevaError where no scale fits on one."""
@@ -58,13 +63,12 @@ def sheet(model: PartsModel, tolerance: float, curves: str) -> Sheet:
     whole = built(model.shells)
     arm = arm_flat(ball, whole.arm, tolerance, curves) if whole.arm else []
     rows = [
-        (d.name, number(d.value, 4), d.unit)
+        (d.name, number(d.value, DECIMALS), d.unit)
         for d in dimensions(model)
         if isinstance(d, Dimension) and isinstance(d.value, (int, float))
     ]
-    heading = "All walls lead to the sphere's centre: angles are seen from there."
     fixed = [
-        table([heading], [("dimension", "value", "unit"), *rows], (80.0, 24.0, 14.0)),  # mm
+        table(HEADING, [("dimension", "value", "unit"), *rows], COLUMNS),
         flat_slot(ball, tolerance),
     ]
 
@@ -134,7 +138,7 @@ def _flat(whose: str, ball: Ball, cone: Cone, shapes: Sequence[Shape], scale: fl
         _sectors(view, [c.segments[0] for c in contours if c.layer == "CRANK"], far)
         radii: dict[str, list[Arc]] = {}
         for arc in (s for c in contours for s in c.segments if isinstance(s, Arc)):
-            if math.hypot(*arc.centre) < SAME_ON_SHEET * arc.radius:
+            if math.hypot(*arc.centre) < SAME * arc.radius:
                 radii.setdefault(sized.plain(arc.radius, "R "), []).append(arc)
         for text, some in radii.items():
             view.of_arcs(some, text)
@@ -171,8 +175,8 @@ def flat_slot(ball: Ball, tolerance: float) -> Block:
             return np.array([at(piece, float(fraction)) for fraction in t])
 
         for x, y in polyline(curve, 0.0, 1.0, close, begin=1):
-            apart = not points or math.dist(points[-1], (x, y)) > SAME_ON_SHEET
-            if y < -SAME_ON_SHEET * ball.radius_mm and apart:
+            apart = not points or math.dist(points[-1], (x, y)) > SAME
+            if y < -SAME * ball.radius_mm and apart:
                 points.append((float(x), float(y)))
     points.append(cone.point(ball.bottom - ball.half_width, 0.0))
     shown = np.array(points) + np.array([shift, 0.0])
