@@ -42,8 +42,8 @@ def coupon(parts: Outlines, tolerance: float, curves: str) -> Drawing:
     # the spec's own clearance is one of them, to a micrometre
     clearances = sorted({round(own, 3), *CLEARANCES})
     # mm by which a hole's diameter is below the pin's
-    presses = (0.0, 0.01, 0.02, 0.03, 0.05, 0.08, 0.1, 0.15)
-    presses = tuple(press for press in presses if press < 2.0 * pin)
+    interferences = (0.0, 0.01, 0.02, 0.03, 0.05, 0.08, 0.1, 0.15)
+    presses = [press for press in interferences if press < 2.0 * pin]
     wall, height = max(WALL * r, LEAST), 0.6 * r  # height of the numbers
     widest = r + clearances[-1]
     each = 2.0 * widest + wall

@@ -27,12 +27,12 @@ from geneva_cli.errors import GenevaError
 from geneva_cli.machine.engagement import Engagement
 from geneva_cli.numerics.arrays import scalar
 from geneva_cli.numerics.tolerances import CLEARLY, SAME_ANGLE, SAME_LENGTH
-from geneva_cli.parts.all_round import corners
 from geneva_cli.parts.assembly import Assembly
 from geneva_cli.parts.crank import is_whole
 from geneva_cli.parts.locking_rings import LAYER as DISC
 from geneva_cli.parts.locking_rings import LOCK_FRACTIONS, beyond, polar_points
 from geneva_cli.parts.outlines import CURVED, SWEPT_DEG, Outlines, slot_walls
+from geneva_cli.parts.relief_overlap import corners
 from geneva_cli.parts.reliefs import followed, reliefs
 from geneva_cli.parts.roller_paths import rest
 from geneva_cli.parts.sizes import Sizes
@@ -41,7 +41,7 @@ from geneva_cli.parts.walls.curved import mirrored
 from geneva_cli.parts.wheel import LAYER, opening, wheel_contour
 
 
-def at_most(assembly: Assembly, sizes: Sizes) -> Outlines | None:
+def bounding_outlines(assembly: Assembly, sizes: Sizes) -> Outlines | None:
     """Return the bounding outlines; None for machines to which they do not apply.
 
     They apply to external wheels with a law whose rim extends beyond the crank's axis, so that
