@@ -244,7 +244,15 @@ CLASSES = {
     path.partition(":")[2]
     for kinds in (registry.DRIVES, registry.GEARINGS, registry.LAWS)
     for path in kinds.values()
-} | {"Transmission", "PinPath", "Linkage", "Followed", "Classic", "LawMotion", "SolvedSlot"}
+} | {
+    "Transmission",
+    "PinPath",
+    "Linkage",
+    "StraightSlotMotion",
+    "ClassicMotion",
+    "LawMotion",
+    "SolvedSlot",
+}
 
 
 class Read(NamedTuple):
@@ -415,7 +423,7 @@ def test_a_stream_would_be_noticed():
         'if law in ("sine-group", "table"): pass',
         'getattr(spec.drive, "A", None)',
         "isinstance(drive, SideCrank)",
-        "isinstance(motion, (int, path_and_slot.Classic))",
+        "isinstance(motion, (int, path_and_slot.ClassicMotion))",
     ],
 )
 def test_a_question_would_be_noticed(line):

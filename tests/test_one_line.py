@@ -18,12 +18,12 @@ from words import Spec, Wheel
 
 from geneva_cli.app import app
 from geneva_cli.machine import registry
-from geneva_cli.machine.drives.transmission import About, Transmission
+from geneva_cli.machine.drives.transmission import LocalTransmission, Transmission
 from geneva_cli.machine.engagement import Displacement, Slot
 from geneva_cli.machine.example import Example
 from geneva_cli.machine.laws.law import Law, from_velocity
 from geneva_cli.machine.mechanism import Mechanism, build
-from geneva_cli.machine.path_and_slot import AnchoredPath, Followed, RadialSlot
+from geneva_cli.machine.path_and_slot import AnchoredPath, RadialSlot, StraightSlotMotion
 from geneva_cli.machine.wheels.gearing import Gearing, RollerPlace
 from geneva_cli.machine.wheels.poses import HalfStep, PinPose
 from geneva_cli.numerics.jet import Jet, Number, sine_versine
@@ -94,9 +94,9 @@ class Reduced(Transmission, kw_only=True):
         """The reduction."""
         return self.teeth
 
-    def about(self, crank_deg: float) -> About:
+    def about(self, crank_deg: float) -> LocalTransmission:
         """The input's angle, and the crank's since then."""
-        return About(self.teeth * crank_deg, self.advance)
+        return LocalTransmission(self.teeth * crank_deg, self.advance)
 
     def advance(self, tau: Number, order: int) -> tuple[Jet, Jet]:
         """A share of the input's."""
@@ -185,9 +185,9 @@ class Leaning(Gearing):
 
     def follow(
         self, path: AnchoredPath, place: RollerPlace, turn: Displacement
-    ) -> tuple[Slot, Followed]:
+    ) -> tuple[Slot, StraightSlotMotion]:
         """A groove towards the axis; the two halves of the motion differ."""
-        return RadialSlot(path), Followed(path, place.step.b, mirrored=not self.skewed)
+        return RadialSlot(path), StraightSlotMotion(path, place.step.b, mirrored=not self.skewed)
 
 
 def test_a_wheel_whose_crank_is_at_an_angle_and_offset(add: Add, run: Callable[..., Any]) -> None:

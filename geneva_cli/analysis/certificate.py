@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, NamedTuple, cast
 
 from geneva_cli.analysis.peaks import QUANTITIES
 from geneva_cli.errors import GenevaError, cut, nearest
-from geneva_cli.machine.engagement import Engagement, Motion
+from geneva_cli.machine.engagement import Engagement, WheelMotion
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.numerics.jet import Jet, Number
 from geneva_cli.numerics.tolerances import TIE
@@ -142,7 +142,7 @@ def certificate(mechanism: Mechanism, quantity: str, limit: int = LIMIT) -> Cert
     return _combined(quantity, found)
 
 
-def _greatest(motion: Motion, quantity: str, limit: int) -> Greatest:
+def _greatest(motion: WheelMotion, quantity: str, limit: int) -> Greatest:
     """The greatest size over one whole motion."""
     from geneva_cli.numerics.balls import precision
     from geneva_cli.numerics.enclosures import greatest
@@ -151,7 +151,7 @@ def _greatest(motion: Motion, quantity: str, limit: int) -> Greatest:
         return greatest(_curve(motion, quantity), motion.seams_deg, limit)
 
 
-def _curve(motion: Motion, quantity: str) -> Callable[[Ball, int], Sequence[Ball]]:
+def _curve(motion: WheelMotion, quantity: str) -> Callable[[Ball, int], Sequence[Ball]]:
     """Taylor coefficients of a quantity at a ball of input angles in degrees."""
     from geneva_cli.numerics.balls import ball_of
 

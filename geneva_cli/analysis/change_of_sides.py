@@ -16,7 +16,7 @@ import numpy as np
 
 from geneva_cli.analysis.loads.carried import inertia_kgm2, resisting_torque_Nm
 from geneva_cli.analysis.peak_search import landmarks
-from geneva_cli.machine.engagement import Engagement, Motion
+from geneva_cli.machine.engagement import Engagement, WheelMotion
 from geneva_cli.machine.many import designs_in, taken
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.numerics.angles import DEGREE, omega
@@ -123,7 +123,7 @@ def _impacts(engagement: Engagement, at: Changes, play: Array, drag: Array) -> W
     return WallImpacts(at.x, at.x + x / DEGREE, speed)
 
 
-def _gained(motion: Motion, start: Array, drag: Array, x: Array) -> tuple[Array, Array]:
+def _gained(motion: WheelMotion, start: Array, drag: Array, x: Array) -> tuple[Array, Array]:
     """Lead of wheels over their slots, and difference in speed, x radians after they coast: (k,).
 
     d = -int (x - t) (psi2 + drag) dt, which loses no digits even for a small play.

@@ -19,7 +19,7 @@ from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 
 import numpy as np
 
-from geneva_cli.machine.engagement import Motion, Peak
+from geneva_cli.machine.engagement import Peak, WheelMotion
 from geneva_cli.machine.many import designs_in, taken
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.numerics.angles import DEGREE
@@ -44,7 +44,7 @@ class _MotionSamples:
     samples are kept.
     """
 
-    def __init__(self, motion: Motion, m: int, quantities: Sequence[str]) -> None:
+    def __init__(self, motion: WheelMotion, m: int, quantities: Sequence[str]) -> None:
         self.motion = motion
         self.every = slice(0, m)
         self.order = 1 + max(ORDERS[name] for name in quantities)
@@ -60,7 +60,7 @@ class _MotionSamples:
 
     def _rates(self, x: Array, which: Which, order: int) -> tuple[Array, ...]:
         every = isinstance(which, slice) and which == self.every
-        motion: Motion = self.motion if every else taken(self.motion, which)
+        motion: WheelMotion = self.motion if every else taken(self.motion, which)
         # Designs lie side by side in memory: each operation runs along all of them.
         return motion.rough_rates(np.asfortranarray(x), order - 1)
 
@@ -68,11 +68,11 @@ class _MotionSamples:
 class _QuantityCurve(NamedTuple):
     """A quantity over the input angle in degrees, as a function for ``stationary_points``."""
 
-    motion: Motion
+    motion: WheelMotion
     quantity: str
 
     def __call__(self, x: Array, which: Which, order: int) -> list[Array]:
-        motion: Motion = taken(self.motion, which)
+        motion: WheelMotion = taken(self.motion, which)
         p = motion(np.asfortranarray(x), ORDERS[self.quantity] + order).arrays()
         return _by_degrees(_quantity(self.quantity, p[1:]), x, order)
 
@@ -104,7 +104,9 @@ def _by_degrees(rates: Sequence[Array], x: Array, order: int) -> list[Array]:
     return [np.broadcast_to(v * DEGREE**k, x.shape) for k, v in enumerate(rates[: order + 1])]
 
 
-def motion_peaks(motion: Motion, quantities: Sequence[str] = QUANTITIES) -> dict[str, PeakArray]:
+def motion_peaks(
+    motion: WheelMotion, quantities: Sequence[str] = QUANTITIES
+) -> dict[str, PeakArray]:
     """Greatest sizes over the motions of m designs, ends included, and their input angles, degrees.
 
     Closed forms are used where a motion has them.
@@ -125,7 +127,7 @@ def motion_peaks(motion: Motion, quantities: Sequence[str] = QUANTITIES) -> dict
     return peaks
 
 
-def landmarks(motion: Motion, quantity: str, m: int) -> Stationary:
+def landmarks(motion: WheelMotion, quantity: str, m: int) -> Stationary:
     """Stationary points of a quantity of m designs, and the ends of its smooth parts, in order.
 
     Between two consecutive ones it only rises or only falls.
@@ -147,7 +149,7 @@ def landmarks(motion: Motion, quantity: str, m: int) -> Stationary:
     return Stationary(which[order], x[order], value[order])
 
 
-def searched(motion: Motion, quantities: Sequence[str]) -> dict[str, PeakArray]:
+def searched(motion: WheelMotion, quantities: Sequence[str]) -> dict[str, PeakArray]:
     """The peaks from the search only, without closed forms."""
     # mid-motion, where wheels have their narrowest peaks, is one of them
     breaks = [x for x in motion.breaks_deg if not motion.symmetric or np.all(x <= 0.0)]
@@ -158,7 +160,7 @@ def searched(motion: Motion, quantities: Sequence[str]) -> dict[str, PeakArray]:
 
 
 def _part(
-    motion: Motion, places: Array, which: slice, quantities: Sequence[str]
+    motion: WheelMotion, places: Array, which: slice, quantities: Sequence[str]
 ) -> dict[str, PeakArray]:
     """Peaks of some of the designs, between their breaks."""
     here = places[which]

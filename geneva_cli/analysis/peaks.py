@@ -10,7 +10,7 @@ from collections.abc import Sequence
 from typing import NamedTuple
 
 from geneva_cli.analysis.timing import timings
-from geneva_cli.machine.engagement import Engagement, Motion, Peak
+from geneva_cli.machine.engagement import Engagement, Peak, WheelMotion
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.numerics.roots import greatest_at
 from geneva_cli.table import Table, record_table, rows_table
@@ -38,7 +38,7 @@ class Peaks(NamedTuple):
 QUANTITIES = Peaks._fields[:-1]
 
 
-def peaks_of(motion: Motion, names: Sequence[str]) -> list[Peak[float]]:
+def peaks_of(motion: WheelMotion, names: Sequence[str]) -> list[Peak[float]]:
     """Greatest sizes of quantities over the motion of one design, ends included.
 
     Each has the signed input angle of its first occurrence, degrees from mid-motion.
@@ -55,7 +55,7 @@ def peaks_of(motion: Motion, names: Sequence[str]) -> list[Peak[float]]:
     return [peak for peak in peaks.values() if peak is not None]
 
 
-def peak(motion: Motion, quantity: str) -> Peak[float]:
+def peak(motion: WheelMotion, quantity: str) -> Peak[float]:
     """Greatest size of one quantity over a motion, ends included, and its input angle."""
     return peaks_of(motion, [quantity])[0]
 

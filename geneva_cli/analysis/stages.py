@@ -23,7 +23,7 @@ from geneva_cli.numerics.tolerances import ROUNDED
 if TYPE_CHECKING:
     from geneva_cli.analysis.loads.cycle import Cycle
     from geneva_cli.analysis.loads.stretches import Stretch
-    from geneva_cli.machine.engagement import Engagement, Motion
+    from geneva_cli.machine.engagement import Engagement, WheelMotion
     from geneva_cli.numerics.jet import Array
 
 WHEEL_ANGLE = "wheel_deg"
@@ -90,7 +90,7 @@ def _clear_of_cusp(engagement: Engagement, stretch: Stretch) -> Stretch:
 
 
 def _moved(
-    motion: Motion,
+    motion: WheelMotion,
     names: Sequence[str],
     mid: float,
     inside: tuple[float, float],

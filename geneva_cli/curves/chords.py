@@ -20,16 +20,10 @@ if TYPE_CHECKING:
 # points (n, 2) of the curves in mm at n places: one array for each curve
 Curves: TypeAlias = "Callable[[Array], Sequence[Array]]"
 
-ROWS_MAX = 200_000  # between two ends
-BLOCK = 4096  # chords that are measured at once, so that memory stays flat
-ATTEMPTS = 20
-MANY = 5_000  # nodes past which the first attempt that serves is kept
-SPARE = 0.02  # share of the nodes that is not worth another attempt
-ROUNDS = 6  # of moving a given number of nodes to where they are needed
-SURVEY = 1024  # even intervals that are measured first
-FLOOR = 0.05  # least density, as a share of its mean: an inflection needs nodes too
-INSIDE = np.arange(1, 16) / 16.0  # where a chord's distance from the curve is measured
-MIDDLE = np.array([0.25, 0.5, 0.75])  # the same for many short chords, which are parabolas
+ROWS_MAX = 200_000  # of a table between two ends
+MANY_NODES = 5_000  # nodes from which on the first sufficient attempt is kept
+# Fractions of many short chords, which are parabolas, at which their errors are measured.
+MIDDLE = np.array([0.25, 0.5, 0.75])
 
 
 def nodes(curves: Curves, ends: Sequence[float], tolerance_mm: float, fewest: bool = True) -> Array:
@@ -49,19 +43,20 @@ def nodes(curves: Curves, ends: Sequence[float], tolerance_mm: float, fewest: bo
 
 
 def _smooth(curves: Curves, a: float, b: float, tolerance_mm: float, fewest: bool) -> Array:
-    grid = np.linspace(a, b, SURVEY + 1)
+    grid = np.linspace(a, b, 1025)  # even intervals, for the first estimate
     fraction, total = _integrated_density(curves, grid)
     count = max(1, int(np.ceil(total / np.sqrt(tolerance_mm))))
-    count += count // 50 if count > MANY or not fewest else 0  # so that the first attempt is enough
+    if count > MANY_NODES or not fewest:
+        count += count // 50  # so that the first attempt is enough
     best, too_few = None, 0
-    for _ in range(ATTEMPTS):
+    for _ in range(20):  # attempts; a few are enough but at the limit of double precision
         if not count < ROWS_MAX:
             raise GenevaError(
                 f"--tolerance {tolerance_mm:g} mm takes more than {ROWS_MAX} rows: "
                 f"use for example {2.0 * (total / ROWS_MAX) ** 2:.1g} mm"
             )
         places = np.interp(np.linspace(0.0, 1.0, count + 1), fraction, grid)
-        for _ in range(ROUNDS):
+        for _ in range(6):  # rounds that move this number of nodes to where they are needed
             places[0], places[-1] = a, b
             root = np.sqrt(chord_errors(curves, places) / tolerance_mm)
             if root.max() <= 1.0:
@@ -76,8 +71,9 @@ def _smooth(curves: Curves, a: float, b: float, tolerance_mm: float, fewest: boo
             too_few = count
             more = count + max(1, 0 if fewest else count // 50)
             count = max(enough, more) if best is None else (too_few + good + 1) // 2
+        # 2 % of the nodes are not worth another attempt
         if best is not None and (
-            not fewest or count >= good or good - too_few <= SPARE * good or good > MANY
+            not fewest or count >= good or good - too_few <= 0.02 * good or good > MANY_NODES
         ):
             return best
     if best is not None:
@@ -104,17 +100,19 @@ def _integrated_density(curves: Curves, grid: Array) -> tuple[Array, float]:
 
 
 def _integrated(root: Array) -> Array:
-    weight = np.maximum(root, FLOOR * root.mean())
+    # at least 5 % of the mean density: an inflection needs nodes too
+    weight = np.maximum(root, 0.05 * root.mean())
     return np.concatenate(([0.0], np.cumsum(weight)))
 
 
 def chord_errors(curves: Curves, at: Array, places: Array | None = None) -> Array:
     """Greatest distance of the curves from each chord between adjacent places, mm."""
     if places is None:
-        places = INSIDE if len(at) < MANY else MIDDLE
+        places = np.arange(1, 16) / 16.0 if len(at) < MANY_NODES else MIDDLE
+    size = 4096  # chords in a block, so that memory stays flat
     blocks = [
-        _chord_errors(curves, at[start : start + BLOCK + 1], places)
-        for start in range(0, len(at) - 1, BLOCK)
+        _chord_errors(curves, at[start : start + size + 1], places)
+        for start in range(0, len(at) - 1, size)
     ]
     return np.concatenate(blocks)
 

@@ -15,8 +15,6 @@ from geneva_cli.curves.measure import directions, fraction_at
 from geneva_cli.curves.shapes import Arc, Contour, Line, Point, Segment, closed
 from geneva_cli.errors import GenevaError
 
-LEFT = 1e-4  # mm: a corner in which a cutter leaves less is none
-
 
 class Corner(NamedTuple):
     """A right turn of a contour: the end of a piece, by a positive angle in radians."""
@@ -53,7 +51,8 @@ def inner_corners(contour: Contour, radius: float) -> Iterator[Corner]:
     for i, piece in enumerate(around):
         before, after = directions(piece)[1], directions(around[(i + 1) % len(around)])[0]
         turn = -math.remainder(after - before, math.tau)
-        if 0.0 < turn < math.pi and radius * (1.0 / math.cos(0.5 * turn) - 1.0) > LEFT:
+        # less than 1e-4 mm of material is no corner
+        if 0.0 < turn < math.pi and radius * (1.0 / math.cos(0.5 * turn) - 1.0) > 1e-4:
             yield Corner(i, piece.end, turn)
 
 

@@ -23,9 +23,6 @@ from geneva_cli.errors import GenevaError
 from geneva_cli.numerics.roots import boundary
 from geneva_cli.numerics.tolerances import SAME_CUT_MM
 
-DIGITS = 6  # of a place in mm
-LOOKS = 14  # halvings between a cutter that enters and one that does not
-
 
 class Fault(NamedTuple):
     """A place that a cutter cannot cut; ``stops`` if the cutter does not enter at all."""
@@ -52,7 +49,8 @@ def faults(plate: Plate, radius: float) -> Iterator[Fault]:
             continue
         place = blocked(shape, outside, radius)
         if place:
-            (x, y), hollow = (round(v, DIGITS) + 0.0 for v in place[0]), place[1]
+            # a micrometre's last digit moves with rounding; six decimals in mm are steady
+            (x, y), hollow = (round(v, 6) + 0.0 for v in place[0]), place[1]
             what = f"an inner radius of {hollow:.5g} mm" if hollow else "a gap"
             most = 2.0 * _widest(shape, outside, radius)
             instead = f"use a cutter up to {most:.6g} mm" if most else "no cutter is small enough"
@@ -93,9 +91,8 @@ def blocked(contour: Contour, outside: bool, radius: float) -> tuple[Point, floa
     if tightest and tightest.radius < radius - 0.5 * SAME_CUT_MM:
         return at(tightest, 0.5), tightest.radius
     try:
-        offset(
-            contour, outside, radius - SAME_CUT_MM
-        )  # leaves half of SAME_CUT_MM of an arc that just fits
+        # of an arc that just fits, half of SAME_CUT_MM is left
+        offset(contour, outside, radius - SAME_CUT_MM)
     except Closed as error:
         return error.at, 0.0
     return None
@@ -103,7 +100,8 @@ def blocked(contour: Contour, outside: bool, radius: float) -> tuple[Point, floa
 
 def _widest(contour: Contour, outside: bool, radius: float) -> float:
     """Largest cutter that enters, as a radius to about three digits; 0 for none."""
-    largest = boundary(lambda r: blocked(contour, outside, r) is None, 0.0, radius, LOOKS)
+    # 14 halvings give more than the three digits that are shown
+    largest = boundary(lambda r: blocked(contour, outside, r) is None, 0.0, radius, 14)
     if not largest:
         return 0.0
     unit = 10.0 ** (math.floor(math.log10(2.0 * largest)) - 2)

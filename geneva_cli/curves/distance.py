@@ -1,7 +1,7 @@
 """Exact distances of many points from outlines of lines and arcs.
 
 Polygons are not accurate enough here. A wheel that is 0.2 mm too large collides by less than a
-micrometre, and the locking disc lies in its recess without any play.
+micrometre. The locking disc lies in its recess without any play.
 """
 
 from __future__ import annotations
@@ -24,13 +24,10 @@ if TYPE_CHECKING:
 
     Which: TypeAlias = NDArray[np.intp] | tuple[NDArray[np.intp], NDArray[np.intp]]
 
-BLOCK = 1 << 14  # distances that are held at once: in the cache
-COARSE = 60  # points that stand for many, where pieces are picked
-MANY = 64  # pieces, of which only those nearby are looked at
-ROUNDING = 1e-9  # share of a distance that is surely more than its rounding
+BLOCK = 1 << 14  # distances in a block: they stay in the processor's cache
 
 
-class _Seen(NamedTuple):
+class _PieceDistances(NamedTuple):
     """Distances and sides of points relative to pieces.
 
     ``side`` is the signed distance from the whole line or circle. ``facing`` is True if the nearest
@@ -43,9 +40,11 @@ class _Seen(NamedTuple):
     start: Array
     end: Array
 
-    def at(self, which: Which) -> _Seen:
+    def at(self, which: Which) -> _PieceDistances:
         distance, side, facing, start, end = self
-        return _Seen(distance[which], side[which], facing[which], start[which], end[which])
+        return _PieceDistances(
+            distance[which], side[which], facing[which], start[which], end[which]
+        )
 
 
 class Polyarc:
@@ -102,7 +101,8 @@ class Polyarc:
 
         For points farther away the result has no valid side of the outline.
         """
-        grid = points[:: max(1, len(points) // COARSE)]
+        # sixty points represent all of them here, where pieces are selected
+        grid = points[:: max(1, len(points) // 60)]
         dx, dy = grid[:, :1] - self.ox, grid[:, 1:] - self.oy
         away = np.sqrt((dx * dx + dy * dy).min(axis=0)) - self.size
         # Points between those of the grid are no farther from it than its own spacing.
@@ -119,13 +119,13 @@ class Polyarc:
 
     def _signed(self, points: Array) -> Array:
         x, y = points.T
-        if len(self) < MANY:
-            views = self._upright._seen(x, y)
+        if len(self) < 64:  # with more pieces, selecting those nearby first is faster
+            views = self._upright._distances(x, y)
             piece = np.argmin(views.distance, axis=0)
             return self._signs(views.at((piece, np.arange(len(points)))), piece)
         row, pieces = self._nearby(points)
         some = self.subset(pieces)
-        views = some._seen(x[row], y[row])
+        views = some._distances(x[row], y[row])
         # the first of the nearest pieces of each point
         least = np.minimum.reduceat(views.distance, np.flatnonzero(_changes(row)))
         equal = np.flatnonzero(views.distance == least[row])
@@ -142,7 +142,7 @@ class Polyarc:
         out._name(self._columns[:, :, None])
         return out
 
-    def _seen(self, x: Array, y: Array) -> _Seen:
+    def _distances(self, x: Array, y: Array) -> _PieceDistances:
         """Distances and sides of points relative to pieces; x and y broadcast with the pieces."""
         ax, ay = x - self.x0, y - self.y0
         # Lines: the fraction along them. Arcs: True if the point is in the sector seen from the
@@ -163,9 +163,9 @@ class Polyarc:
         bx, by = x - self.x1, y - self.y1
         start, end = ax * ax + ay * ay, bx * bx + by * by
         distance = np.where(facing, np.abs(side), np.sqrt(np.minimum(start, end)))
-        return _Seen(distance, side, facing, start, end)
+        return _PieceDistances(distance, side, facing, start, end)
 
-    def _signs(self, view: _Seen, piece: NDArray[np.intp]) -> Array:
+    def _signs(self, view: _PieceDistances, piece: NDArray[np.intp]) -> Array:
         """Signed distances of points from their nearest pieces."""
         # Outside at a convex corner, inside at a hollow one; at a smooth joint the side decides.
         turn = np.where(view.start < view.end, self.turn_start[piece], self.turn_end[piece])
@@ -183,7 +183,8 @@ class Polyarc:
         dx, dy = points[:, :1] - self.ox, points[:, 1:] - self.oy
         away = np.sqrt(dx * dx + dy * dy)
         most = (away + 0.5 * self.length).min(axis=1, keepdims=True)
-        row, piece = np.nonzero(away - self.size <= most * (1.0 + ROUNDING))
+        # 1e-9 of a distance is more than its rounding
+        row, piece = np.nonzero(away - self.size <= most * (1.0 + 1e-9))
         return row, piece
 
     def samples(self, sagitta: float, longest: float) -> Array:

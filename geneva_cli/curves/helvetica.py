@@ -32,7 +32,6 @@ _OTHERS = {
     **{"\u00a0": 278, "·": 278, "²": 333, "³": 333, "°": 400},
     **{"–": 556, "±": 584, "×": 584, "Ø": 778},
 }
-WIDEST = 1000  # of letters beyond these
 
 
 @lru_cache(maxsize=256)  # a text is tried at many places
@@ -43,5 +42,6 @@ def width(text: str, bold: bool = False) -> float:
     3.716
     """
     known = _BOLD if bold else _ASCII
-    units = sum(known[ord(c) - 32] if " " <= c <= "~" else _OTHERS.get(c, WIDEST) for c in text)
+    widest = 1000  # for letters that are not listed
+    units = sum(known[ord(c) - 32] if " " <= c <= "~" else _OTHERS.get(c, widest) for c in text)
     return units / (1000.0 * CAPITALS)

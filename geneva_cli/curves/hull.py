@@ -7,7 +7,7 @@ from collections.abc import Sequence
 
 from geneva_cli.curves.shapes import Circle, Contour, Line, Segment, about, closed, two_arcs
 
-SAME = 1e-12  # radians: directions nearer to each other are one
+HULL_ROUNDING = 1e-12  # radians, and mm: directions and points nearer to each other are one
 
 
 def convex_hull(layer: str, circles: Sequence[Circle]) -> Contour:
@@ -36,13 +36,13 @@ def convex_hull(layer: str, circles: Sequence[Circle]) -> Contour:
     pieces: list[Segment] = []
     for circle, start, sweep in arcs:
         arc = about(circle.centre, circle.radius, start, sweep)
-        if pieces and math.dist(pieces[-1].end, arc.start) > SAME:
+        if pieces and math.dist(pieces[-1].end, arc.start) > HULL_ROUNDING:
             pieces.append(Line(pieces[-1].end, arc.start))
         if len(arcs) == 1:
             pieces += two_arcs(circle, start)
-        elif sweep > SAME:
+        elif sweep > HULL_ROUNDING:
             pieces.append(arc)
-    if len(arcs) > 1 and math.dist(pieces[-1].end, pieces[0].start) > SAME:
+    if len(arcs) > 1 and math.dist(pieces[-1].end, pieces[0].start) > HULL_ROUNDING:
         pieces.append(Line(pieces[-1].end, pieces[0].start))
     return closed(layer, pieces)
 
@@ -53,10 +53,10 @@ def _next(here: Circle, turned: float, circles: Sequence[Circle]) -> tuple[float
     for other in circles:
         x, y = other.centre[0] - here.centre[0], other.centre[1] - here.centre[1]
         apart, less = math.hypot(x, y), here.radius - other.radius
-        if apart <= abs(less) * (1.0 + SAME) or other == here:
+        if apart <= abs(less) * (1.0 + HULL_ROUNDING) or other == here:
             continue  # one circle holds the other
         at = math.atan2(y, x) - math.acos(less / apart)
-        step = max((at - turned + SAME) % math.tau - SAME, 0.0)
-        if step < best[0] - SAME or (step < best[0] + SAME and apart > best[1]):
+        step = max((at - turned + HULL_ROUNDING) % math.tau - HULL_ROUNDING, 0.0)
+        if step < best[0] - HULL_ROUNDING or (step < best[0] + HULL_ROUNDING and apart > best[1]):
             best = step, apart, other
     return best[0], best[2]

@@ -14,18 +14,13 @@ import numpy as np
 from geneva_cli.curves.distance import Polyarc
 from geneva_cli.curves.drawing import Drawing
 from geneva_cli.curves.measure import at, directions, segment_length, with_material_left
-from geneva_cli.curves.pieces import STEP, prepared
+from geneva_cli.curves.pieces import SHORTEST_MM, prepared
 from geneva_cli.curves.plates import plates
 from geneva_cli.curves.shapes import Arc, Circle, Contour, Line, Point, Segment, closed
 from geneva_cli.errors import GenevaError
 from geneva_cli.numerics.roots import boundary
 from geneva_cli.numerics.tolerances import SAME_CUT_MM
 from geneva_cli.spec.rules import TOOL_MM, require_mm
-
-SAMPLES = 4  # of the path, along the offset
-MOST = 50_000  # samples of a path
-STEPS = 40  # of Newton's method
-LOOKS = 12  # halvings between a kerf that goes and one that does not
 
 
 class Closed(GenevaError):
@@ -39,8 +34,8 @@ class Closed(GenevaError):
 def paths(drawing: Drawing, kerf: float) -> Drawing:
     """Drawing with the solid shapes replaced by paths for a cut of a width in mm, and no solid.
 
-    Raises GenevaError for a width outside of TOOL_MM, and for cubics. If no path keeps the part as
-    it is, the error names a kerf that does.
+    Raises GenevaError for a width outside of TOOL_MM, and for cubics. If no path leaves the part as
+    it is, the error names a narrower kerf that does.
 
     >>> from geneva_cli.curves.plates import Plate
     >>> bore = Circle("BORE", (0.0, 0.0), 5.0)
@@ -80,9 +75,10 @@ def _widest(shape: Contour | Circle, outside: bool, kerf: float) -> str:
             return False
         return True
 
-    widest = boundary(leaves_a_path, 0.0, kerf, LOOKS)
+    halvings = 12  # enough for the three digits
+    widest = boundary(leaves_a_path, 0.0, kerf, halvings)
     if not widest:
-        return f"even {kerf * 0.5**LOOKS:.2g} mm is too wide"
+        return f"even {kerf * 0.5**halvings:.2g} mm is too wide"
     unit = 10.0 ** (math.floor(math.log10(widest)) - 2)
     return f"use a kerf up to {math.floor(widest / unit) * unit:.6g} mm"
 
@@ -94,7 +90,7 @@ def offset(shape: Contour | Circle, outside: bool, distance: float) -> Contour |
     """
     if isinstance(shape, Circle):
         radius = shape.radius + (distance if outside else -distance)
-        if radius <= STEP:
+        if radius <= SHORTEST_MM:
             text = f"the hole of {2.0 * shape.radius:.6g} mm on {shape.layer} is too narrow"
             raise Closed(text, shape.centre)
         return shape._replace(radius=radius)
@@ -102,7 +98,7 @@ def offset(shape: Contour | Circle, outside: bool, distance: float) -> Contour |
     assert isinstance(cleaned, Contour)
     contour = with_material_left(cleaned, outside)
     pieces = [_moved_piece(segment, contour.layer, distance) for segment in contour.segments]
-    path = _joined(contour, pieces, distance)
+    path = _joined(contour, pieces)
     _require_away(contour, path, distance)
     return path
 
@@ -121,7 +117,7 @@ def _moved_piece(segment: Segment, layer: str, distance: float) -> Line | Arc:
         _moved(point, direction, distance)
         for point, direction in zip((segment.start, segment.end), directions(segment), strict=True)
     ]
-    if segment.bulge < 0.0 and segment.radius - distance <= STEP:
+    if segment.bulge < 0.0 and segment.radius - distance <= SHORTEST_MM:
         text = f"a hollow of radius {segment.radius:.6g} mm on {layer} is narrower than the cut"
         raise Closed(text, at(segment, 0.5))
     return Arc(ends[0], ends[1], segment.bulge)
@@ -131,7 +127,7 @@ def _moved(point: Point, direction: float, distance: float) -> Point:
     return point[0] + distance * math.sin(direction), point[1] - distance * math.cos(direction)
 
 
-def _joined(contour: Contour, pieces: list[Line | Arc], distance: float) -> Contour:
+def _joined(contour: Contour, pieces: list[Line | Arc]) -> Contour:
     """Join the moved pieces with arcs round outer corners, and cut them off in inner ones."""
     count = len(pieces)
     low, high = [0.0] * count, [1.0] * count
@@ -140,7 +136,7 @@ def _joined(contour: Contour, pieces: list[Line | Arc], distance: float) -> Cont
         k = (i + 1) % count
         before, after = directions(piece)[1], directions(pieces[k])[0]
         turn = math.remainder(after - before, math.tau)
-        if math.dist(piece.end, pieces[k].start) < STEP:
+        if math.dist(piece.end, pieces[k].start) < SHORTEST_MM:
             continue
         if turn > 0.0:
             around[i] = Arc(piece.end, pieces[k].start, math.tan(0.25 * turn))
@@ -160,7 +156,7 @@ def _meeting(contour: Contour, first: Line | Arc, second: Line | Arc) -> tuple[f
     Newton's method in both unknowns at once, from the corner, which is near.
     """
     s, t = 1.0, 0.0
-    for _ in range(STEPS):
+    for _ in range(40):  # Newton steps; four or five are usual
         (x, y), (u, v) = at(first, s), at(second, t)
         (a, b), (c, d) = _speed(first, s), _speed(second, t)
         across = b * c - a * d
@@ -171,7 +167,7 @@ def _meeting(contour: Contour, first: Line | Arc, second: Line | Arc) -> tuple[f
         if abs(ds) + abs(dt) < 1e-15:
             break
     apart = math.dist(at(first, s), at(second, t))
-    if not (apart < STEP and 0.0 < s <= 1.0 and 0.0 <= t < 1.0):
+    if not (apart < SHORTEST_MM and 0.0 < s <= 1.0 and 0.0 <= t < 1.0):
         text = f"an inner corner of {contour.layer} is narrower than the cut"
         raise Closed(text, first.end)
     return s, t
@@ -201,7 +197,8 @@ def _require_away(contour: Contour, path: Contour, distance: float) -> None:
     """
     boundary = Polyarc([contour])
     around = math.fsum(map(segment_length, path.segments))
-    longest = max(distance / SAMPLES, around / MOST)
+    # four samples in the offset's length, but at most 50,000 for the path
+    longest = max(distance / 4, around / 50_000)
     points = Polyarc([path]).samples(SAME_CUT_MM, longest)
     away = boundary.signed(points)
     if float(away.min()) < distance - SAME_CUT_MM:

@@ -23,9 +23,6 @@ from geneva_cli.curves.shapes import (
 )
 
 STRAIGHT = 1e-16  # a bulge below it moves no point of the arc by a rounding of the chord
-SERIES = 0.5  # radians; below, theta - sin(theta) is summed, as the difference would cancel
-LENGTH_ERROR = 1e-13  # of a cubic's length, relative to its control polygon's
-DEPTH = 40  # halvings of a cubic, of which a cusp needs about twenty
 # Gauss-Legendre's abscissae and weights of eight points on -1..1, one sign of each pair
 GAUSS = (
     (0.18343464249564980, 0.36268378337836198),
@@ -76,7 +73,8 @@ def segment_length(segment: Segment) -> float:
     """Length of one segment."""
     if isinstance(segment, Cubic):
         scale = _polygon(segment)
-        return _refined(segment, _gauss(segment), LENGTH_ERROR * scale, DEPTH)
+        # to 1e-13 of the control polygon; a cusp takes about 20 of the 40 halvings
+        return _refined(segment, _gauss(segment), 1e-13 * scale, 40)
     chord = math.dist(segment.start, segment.end)
     if isinstance(segment, Line) or abs(segment.bulge) < STRAIGHT:
         return chord
@@ -223,7 +221,7 @@ def _swept(segment: Segment, origin: Point) -> float:
 
 def _cap(chord: float, sweep: float) -> float:
     """Area between an arc and its chord: chord^2 (sweep - sin sweep) / (8 sin^2(sweep/2))."""
-    if abs(sweep) < SERIES:
+    if abs(sweep) < 0.5:  # radians; the difference sweep - sin sweep would cancel
         square = sweep * sweep
         rest = 1.0
         for k in (12, 10, 8, 6, 4):  # 6 (sweep - sin sweep) / sweep^3, from its far end

@@ -13,8 +13,6 @@ from typing import NamedTuple
 from geneva_cli.curves.measure import GAUSS, STRAIGHT, halves
 from geneva_cli.curves.shapes import Arc, Circle, Cubic, Line, Point, Segment, Shape
 
-SMALL = 1.0  # radians that an arc may turn for its sines to be exact
-
 
 class Moments(NamedTuple):
     """Integrals of 1, x, y and x² + y² over the inside, about the origin.
@@ -69,7 +67,8 @@ def total(parts: Iterable[Moments]) -> Moments:
 
 def _small(segment: Segment) -> Iterator[Segment]:
     """The segment in pieces that are integrated exactly."""
-    if isinstance(segment, Arc) and abs(segment.sweep) > SMALL:
+    # eight points integrate the sines of an arc of 1 radian to rounding
+    if isinstance(segment, Arc) and abs(segment.sweep) > 1.0:
         for half in halves(segment):
             yield from _small(half)
     else:

@@ -24,23 +24,7 @@ from geneva_cli.table import Reading, Table, rows_table
 
 UNITS = {"mm": 1.0, "inch": 25.4}  # millimetres in one
 SUFFIX = {"mm": "mm", "inch": "in"}
-DECIMALS = 12  # beyond them is rounding
-STEP = 1e-9  # mm; what is shorter, or bends less from its chord, no file shows
-# What a narrow window keeps: what a piece is, where it begins, and its circle.
-FIRST = ("kind", "x", "y", "radius", "center_x", "center_y", "end_x", "end_y")
-LENGTHS = (
-    "x",
-    "y",
-    "end_x",
-    "end_y",
-    "center_x",
-    "center_y",
-    "radius",
-    "control1_x",
-    "control1_y",
-    "control2_x",
-    "control2_y",
-)
+SHORTEST_MM = 1e-9  # no file shows a piece that is shorter, or the bend of one that is flatter
 
 
 def pieces_table(drawing: Drawing, units: str = "mm") -> Table:
@@ -54,20 +38,25 @@ def pieces_table(drawing: Drawing, units: str = "mm") -> Table:
         pieces = shape.segments if isinstance(shape, Contour) else (shape,)
         for i, piece in enumerate(pieces, 1):
             kind, values = _values(piece)
-            shown = [None if v is None else round(v, DECIMALS) + 0.0 for v in values]
+            # decimals beyond the twelfth are rounding
+            shown = [None if v is None else round(v, 12) + 0.0 for v in values]
             rows.append((shape.layer, number, i, kind, *shown))
-    lengths = [f"{name}_{SUFFIX[units]}" for name in LENGTHS]
+    points = ("x", "y", "end_x", "end_y", "center_x", "center_y", "radius")
+    controls = ("control1_x", "control1_y", "control2_x", "control2_y")
+    lengths = [f"{name}_{SUFFIX[units]}" for name in (*points, *controls)]
     names = ["layer", "contour", "piece", "kind", *lengths[:7], "sweep_deg", *lengths[7:]]
     if not any(row[3] == "cubic" for row in rows):
         names = names[:-4]
         rows = [row[:-4] for row in rows]
-    first = [name if name == "kind" else f"{name}_{SUFFIX[units]}" for name in FIRST]
-    reading = Reading(("layer", "contour", "piece", *first))
+    # A narrow window keeps the kind of a piece, its start, and its circle.
+    important = ("x", "y", "radius", "center_x", "center_y", "end_x", "end_y")
+    first = [f"{name}_{SUFFIX[units]}" for name in important]
+    reading = Reading(("layer", "contour", "piece", "kind", *first))
     return rows_table(names, rows, drawing.title).replaced(reading=reading)
 
 
 def prepared(drawing: Drawing, units: str = "mm") -> Drawing:
-    """Drawing in a unit, without duplicate shapes and pieces shorter than ``STEP``.
+    """Drawing in a unit, without duplicate shapes and pieces shorter than ``SHORTEST_MM``.
 
     The other pieces stay end to end. Raises GenevaError for another unit, and for a coordinate that
     is not finite.
@@ -92,10 +81,10 @@ def _divided(shape: Shape, unit: float) -> Shape:
 def _cleaned(shape: Shape) -> Iterator[Shape]:
     _require_finite(shape)
     if isinstance(shape, Circle):
-        if shape.radius > STEP:
+        if shape.radius > SHORTEST_MM:
             yield shape
         return
-    kept = [_straightened(s) for s in shape.segments if segment_length(s) > STEP]
+    kept = [_straightened(s) for s in shape.segments if segment_length(s) > SHORTEST_MM]
     if kept:
         yield (
             closed(shape.layer, kept)
@@ -107,7 +96,7 @@ def _cleaned(shape: Shape) -> Iterator[Shape]:
 def _straightened(segment: Segment) -> Segment:
     """Replace an arc by a line if it is so flat that its centre would only be noise."""
     flat = isinstance(segment, Arc) and (
-        0.5 * math.dist(segment.start, segment.end) * abs(segment.bulge) < STEP
+        0.5 * math.dist(segment.start, segment.end) * abs(segment.bulge) < SHORTEST_MM
     )
     return Line(segment.start, segment.end) if flat else segment
 

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 
 import numpy as np
 
-from geneva_cli.curves.sphere_arcs import Arcs
+from geneva_cli.curves.sphere_arcs import SphereArcs
 
 if TYPE_CHECKING:
     from geneva_cli.curves.round_holes import RoundHole
@@ -67,7 +67,9 @@ class Shell(NamedTuple):
 
     def reach(self, direction: Vector) -> float:
         """Greatest coordinate of the shell along a direction, mm from the centre."""
-        if any(Arcs(r.boundary).signed(np.array([direction]))[0][0] < 0.0 for r in self.regions):
+        if any(
+            SphereArcs(r.boundary).signed(np.array([direction]))[0][0] < 0.0 for r in self.regions
+        ):
             return self.outer
         most = max(arc.reach(direction) for region in self.regions for arc in region.boundary)
         return most * (self.outer if most > 0.0 else self.inner)

@@ -10,6 +10,7 @@ from collections.abc import Iterable
 from typing import NamedTuple, TypeAlias
 
 Point: TypeAlias = tuple[float, float]
+ORIGIN: Point = (0.0, 0.0)
 
 
 class Line(NamedTuple):

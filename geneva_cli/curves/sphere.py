@@ -16,8 +16,6 @@ if TYPE_CHECKING:
 
 Vector: TypeAlias = tuple[float, float, float]
 
-GAUSS = 24  # points on an arc: its integrands are of the second degree in sine and cosine
-
 
 class SphereArc(NamedTuple):
     """An arc counterclockwise about an axis, ``angle`` radians from it; the axis is on its left.
@@ -74,8 +72,8 @@ class SphereArc(NamedTuple):
                 angles.append(polar)
         return angles
 
-    def way(self, point: Vector) -> Vector:
-        """Direction of travel at one of its points."""
+    def travel(self, point: Vector) -> Vector:
+        """Unit vector of the direction of travel at one of its points."""
         return unit(cross(self.axis, point))
 
     def turned(self, turn: Rotation) -> SphereArc:
@@ -135,10 +133,11 @@ class Region(NamedTuple):
     def moments(self) -> tuple[Array, Array]:
         """Integrals of u and of u u' over the region, (3,) and (3, 3), from its boundary only.
 
-        The integral of u is half that of u x du. For u u' it is a third of the area minus a sixth
-        of the flow out of the region, since the other parts are harmonics of degree 2.
+        The integral of u is half that of u x du. That of u u' is a third of the area minus a sixth
+        of the flow out of the region: the other parts are harmonics of degree 2.
         """
-        nodes, weights = np.polynomial.legendre.leggauss(GAUSS)
+        # 24 points are exact: the integrands are of the second degree in sine and cosine
+        nodes, weights = np.polynomial.legendre.leggauss(24)
         first, second = np.zeros(3), np.eye(3) * self.area / 3.0
         for arc in self.boundary:
             half = 0.5 * arc.sweep
@@ -159,7 +158,7 @@ class Region(NamedTuple):
         for arc, after in zip(self.boundary, (*self.boundary[1:], self.boundary[0]), strict=True):
             if arc.start == arc.end:
                 continue
-            back, on = arc.way(arc.end), after.way(after.start)
+            back, on = arc.travel(arc.end), after.travel(after.start)
             yield math.atan2(dot(cross(back, on), arc.end), dot(back, on))
 
 

@@ -1,7 +1,7 @@
 """Arcs of circles on a unit sphere as arrays: distances of points, and the points facing them.
 
-The distance of two points is the angle between them. At the nearest points of two boundaries,
-either one has a corner, or the place and the axes of both circles are on one great circle.
+The distance of two points is the angle between them. At the nearest points of two boundaries, one
+has a corner, or the points and the axes of both circles are on one great circle.
 """
 
 from __future__ import annotations
@@ -20,14 +20,14 @@ if TYPE_CHECKING:
     from geneva_cli.numerics.jet import Array
 
 
-class Arcs:
+class SphereArcs:
     """A boundary of arcs, each from the end of the one before; its region is to its left.
 
     If it is not closed, it is a part of a boundary and continues smoothly at its ends.
 
     >>> import math
     >>> from geneva_cli.curves.sphere import place
-    >>> cap = Arcs([SphereArc((0.0, 0.0, 1.0), 0.5, place(0.5, 0.0), place(0.5, 0.0))])
+    >>> cap = SphereArcs([SphereArc((0.0, 0.0, 1.0), 0.5, place(0.5, 0.0), place(0.5, 0.0))])
     >>> away, _ = cap.signed(np.array([place(0.7, 1.0), place(0.2, 2.0)]))
     >>> away.round(12).tolist()  # outside, and inside
     [0.2, -0.3]
@@ -50,8 +50,8 @@ class Arcs:
 
     def _turns(self, arcs: Sequence[SphereArc]) -> Array:
         """Left turns of the boundary before each arc."""
-        back = np.roll([arc.way(arc.end) for arc in arcs], 1, axis=0)
-        on = np.array([arc.way(arc.start) for arc in arcs])
+        back = np.roll([arc.travel(arc.end) for arc in arcs], 1, axis=0)
+        on = np.array([arc.travel(arc.start) for arc in arcs])
         sideways = (np.cross(back, on) * self.start).sum(axis=1)
         out: Array = np.arctan2(sideways, (back * on).sum(axis=1))
         return out

@@ -18,15 +18,12 @@ if TYPE_CHECKING:
 
 Solve: TypeAlias = "Callable[[Anchor, Number], Jet]"
 
-# share of the span from the last inner anchor to an end; beyond it, the end's is used
-NEAR_END = 0.75
-
 
 class Anchors(ABC):
     """Anchors from entry to exit, with mid-motion in the middle.
 
-    Those of the ends serve only where the motion goes to zero. ``cuts`` are the input angles at
-    which one hands over to the next.
+    The anchors of both ends serve only near the ends, where the motion vanishes. ``cuts`` are the
+    input angles at which one anchor hands over to the next.
     """
 
     cuts: Sequence[float]
@@ -133,10 +130,11 @@ def anchors_of(each: tuple[Anchor, ...]) -> Anchors:
 
 
 def cuts(degrees: Sequence[float]) -> list[float]:
-    """Input angles half-way between two anchors, and nearer to the ends beside those."""
+    """Input angles at which one anchor hands over to the next: half-way, nearer to both ends."""
     first, *inner, last = degrees
+    near_end = 0.75  # fraction of the span from the last inner anchor to an end
     return [
-        inner[0] + NEAR_END * (first - inner[0]),
+        inner[0] + near_end * (first - inner[0]),
         *[0.5 * (a + b) for a, b in pairwise(inner)],
-        inner[-1] + NEAR_END * (last - inner[-1]),
+        inner[-1] + near_end * (last - inner[-1]),
     ]

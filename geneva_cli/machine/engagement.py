@@ -49,7 +49,7 @@ class Groove(Protocol):
         """1.0 for an external wheel, -1.0 for an internal one."""
 
     @property
-    def motion(self) -> Motion:
+    def motion(self) -> WheelMotion:
         """Motion of the wheel, from which the groove follows."""
 
     def distances(self, input_deg: Number, order: int = 3) -> tuple[Jet, Jet]:
@@ -97,7 +97,7 @@ def cross(a: Vector, b: Vector) -> Jet:
     return a[0] * b[1] - a[1] * b[0]
 
 
-class Turning(NamedTuple):
+class ConstantRate(NamedTuple):
     """A body that turns at a constant rate, radians per input radian, positive with the wheel."""
 
     rate: float
@@ -171,7 +171,7 @@ class ClosedPeaks(Protocol):
         """Peak of a quantity, or None if it needs the general search."""
 
 
-class Motion(ABC):
+class WheelMotion(ABC):
     """The wheel's angle as the input turns, from rest to rest."""
 
     # motion law, if a law gives the motion
@@ -283,7 +283,7 @@ class Engagement:
     """
 
     def __init__(
-        self, mid_deg: float, path: Path, slot: Slot, motion: Motion, carrier: Carrier = ARM
+        self, mid_deg: float, path: Path, slot: Slot, motion: WheelMotion, carrier: Carrier = ARM
     ) -> None:
         self.mid_deg = mid_deg
         self.path, self.slot, self.motion = path, slot, motion

@@ -6,7 +6,7 @@ from functools import cached_property
 from typing import TYPE_CHECKING
 
 from geneva_cli.errors import GenevaError, refuse
-from geneva_cli.machine.engagement import Motion
+from geneva_cli.machine.engagement import WheelMotion
 from geneva_cli.machine.laws.law import Law, remaining
 from geneva_cli.numerics.arrays import SINGLE, all_true, ascending, library
 from geneva_cli.numerics.jet import Jet, Number, piecewise
@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 MOTION_MIN = 1e-10  # degrees: a shorter motion, or dwell, is rounding
 
 
-class LawMotion(Motion):
+class LawMotion(WheelMotion):
     """A law, scaled to the wheel's step and to the motion angle."""
 
     law: Law

@@ -11,7 +11,7 @@ from geneva_cli.numerics.angles import radians
 from geneva_cli.numerics.jet import Jet, Number, sin_cos, turning
 
 
-class LinkTurning(NamedTuple):
+class LinkRate(NamedTuple):
     """Angular velocity of the link that carries the roller."""
 
     path: RollerPath

@@ -10,8 +10,8 @@ import numpy as np
 from geneva_cli.machine import path_and_slot
 from geneva_cli.machine.engagement import Anchor, Carrier, Engagement
 from geneva_cli.machine.exact_path import ExactPoint, angle, length, unit
-from geneva_cli.machine.link import LinkReactions, LinkTurning
-from geneva_cli.machine.path_and_slot import AnchoredPath, Followed
+from geneva_cli.machine.link import LinkRate, LinkReactions
+from geneva_cli.machine.path_and_slot import AnchoredPath, StraightSlotMotion
 from geneva_cli.machine.roller_path import LONG_PI, PointDisplacement, RollerPath, exactly, rounded
 from geneva_cli.machine.wheel_for_path import Fit
 from geneva_cli.machine.wheels.poses import HalfStep
@@ -24,17 +24,17 @@ from geneva_cli.numerics.jet import Jet, Number, sine_versine, turning
 if TYPE_CHECKING:
     from geneva_cli.numerics.arrays import Array
 
-ANCHORS = 4  # on either side of the middle: near the wheel the path bends much
+ANCHORS = 4  # anchors on either side of the middle: near the wheel the path is strongly curved
 
 
-class LinkFollowed(Followed):
+class LinkageMotion(StraightSlotMotion):
     """Motion of a wheel on a linkage; ``centre`` is the wheel's centre in the path's frame."""
 
     def __init__(
         self,
         path: AnchoredPath,
         half_step: float,
-        body: LinkTurning,
+        body: LinkRate,
         centre: tuple[float, float],
     ) -> None:
         super().__init__(path, half_step, mirrored=False)
@@ -87,8 +87,8 @@ def engagement_of(path: RollerPath, fit: Fit, step: HalfStep) -> tuple[Engagemen
             )
         )
     anchored = AnchoredPath(anchors, ahead)
-    body = LinkTurning(path, float(middle), fit.sense)
-    motion = LinkFollowed(anchored, step.b, body, (float(ox), float(oy)))
+    body = LinkRate(path, float(middle), fit.sense)
+    motion = LinkageMotion(anchored, step.b, body, (float(ox), float(oy)))
     ahead_x, ahead_y = float(-ox / L), float(-oy / L)
     reactions = LinkReactions(path, float(middle), fit.sense, float(L), ahead_x, ahead_y)
     return path_and_slot.engagement(
@@ -96,7 +96,7 @@ def engagement_of(path: RollerPath, fit: Fit, step: HalfStep) -> tuple[Engagemen
     ), float(L)
 
 
-def engagement_many(path: RollerPath, fits: Fits, step: HalfStep) -> tuple[Engagement, float]:
+def engagement_of_batch(path: RollerPath, fits: Fits, step: HalfStep) -> tuple[Engagement, float]:
     """Engagements of wheels for the paths of n designs, and their centre distances (n, 1).
 
     The computation uses long doubles, if the computer has them, and rounds once.
@@ -138,8 +138,8 @@ def engagement_many(path: RollerPath, fits: Fits, step: HalfStep) -> tuple[Engag
     mid = rounded(middle)
     line = rounded(-centre.real / L), rounded(-centre.imag / L)
     reactions = LinkReactions(path, mid, sense, distance, *line)
-    body = LinkTurning(path, mid, sense)
-    motion = LinkFollowed(anchored, b, body, (rounded(centre.real), rounded(centre.imag)))
+    body = LinkRate(path, mid, sense)
+    motion = LinkageMotion(anchored, b, body, (rounded(centre.real), rounded(centre.imag)))
     return path_and_slot.engagement(
         0.0, anchored, motion, Carrier(-sense, body, reactions)
     ), distance

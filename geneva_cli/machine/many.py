@@ -17,8 +17,8 @@ results are (m, k). ``batch.spread`` returns (m, 1) values to their places among
 (n,). Build a refused design by itself to get the reason.
 
 Keys that are not numbers (words, lists), and the number of rollers, have one value in all designs
-of a machine. Designs that differ in them must be built as separate batches. ``may_vary`` tells
-which keys may vary.
+of a machine. Designs that differ in them must be built as separate batches. ``may_vary`` is True
+for a key that may vary.
 """
 
 from __future__ import annotations
@@ -47,7 +47,6 @@ TABLES = (
     *("wheel", "drive", "motion", "size", "load", "support", "motor", "shaft", "tolerance"),
     *("material.wheel", "material.roller"),
 )
-ONE_BY_ONE = {"rollers"}  # numbers that count the parts of a machine
 
 
 class Many(NamedTuple):
@@ -113,7 +112,8 @@ def may_vary(spec: Spec, key: str) -> bool:
         return False
     numeric = bool({int, float} & set(_field(spec, key).types))
     of_law = spec.motion is None or spec.motion.law.may_vary(table, name)
-    return numeric and name not in ONE_BY_ONE and of_law and spec.drive.may_vary(table, name)
+    # the number of rollers decides how many engagements a machine has
+    return numeric and name != "rollers" and of_law and spec.drive.may_vary(table, name)
 
 
 def changed(spec: Spec, values: Mapping[str, object]) -> Spec:
@@ -135,12 +135,12 @@ def changed(spec: Spec, values: Mapping[str, object]) -> Spec:
 
 def _field(spec: Spec, key: str) -> Field:
     table, _, name = key.rpartition(".")
-    held = vars(spec).get(attribute(table))
-    if not isinstance(held, SpecTable):
+    part = vars(spec).get(attribute(table))
+    if not isinstance(part, SpecTable):
         raise GenevaError(f"{key}: this spec has no [{table or key}]", (table, name))
-    known = {field.key: field for field in fields(type(held))}
-    if isinstance(held, Motion):
-        known |= {field.key: field for field in fields(type(held.law))}
+    known = {field.key: field for field in fields(type(part))}
+    if isinstance(part, Motion):
+        known |= {field.key: field for field in fields(type(part.law))}
     if name not in known:
         raise unknown(name, table, tuple(known))
     return known[name]
@@ -191,9 +191,9 @@ def _anew(thing: object, change: Change, done: dict[int, object]) -> object:
         if all(a is b for a, b in zip(parts, thing, strict=True)):
             return thing
         return kind(parts) if kind in (tuple, list) else kind(*parts)
-    held = vars(thing)
-    values = {name: _changed(value, change, done) for name, value in held.items()}
-    if all(values[name] is value for name, value in held.items()):
+    old = vars(thing)
+    values = {name: _changed(value, change, done) for name, value in old.items()}
+    if all(values[name] is value for name, value in old.items()):
         return thing
     new: object = object.__new__(kind)
     for name, value in values.items():  # a stored result belongs to the old set of designs

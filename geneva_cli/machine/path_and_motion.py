@@ -6,8 +6,8 @@ from geneva_cli.machine.engagement import (
     Anchor,
     Carrier,
     Engagement,
-    Motion,
     Slot,
+    WheelMotion,
     in_wheel,
 )
 from geneva_cli.machine.law_motion import LawMotion
@@ -34,7 +34,7 @@ class SolvedSlot(Slot):
 
     curved = True
 
-    def __init__(self, path: MiddlePath, motion: Motion) -> None:
+    def __init__(self, path: MiddlePath, motion: WheelMotion) -> None:
         self.path, self.motion = path, motion
         self.mirrored = path.mirrored
 

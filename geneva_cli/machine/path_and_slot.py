@@ -12,10 +12,10 @@ from geneva_cli.machine.engagement import (
     ClosedPeaks,
     Engagement,
     Level,
-    Motion,
     Peak,
     Slot,
     SlotAxis,
+    WheelMotion,
     is_mirrored,
 )
 from geneva_cli.machine.wheels import classic
@@ -114,7 +114,7 @@ class MeridianSlot(Slot):
         return sin_cos(self(input_deg, order)[0])[1]
 
 
-class Followed(Motion):
+class StraightSlotMotion(WheelMotion):
     """Motion of a wheel whose straight slot follows the pin.
 
     ``mirrored`` is False if the two halves of the path differ. ``closed_peaks`` gives peaks that
@@ -168,7 +168,7 @@ class Followed(Motion):
         return turning(*self.path.from_middle(input_deg, order + 1)).arrays()
 
 
-class Classic(Followed):
+class ClassicMotion(StraightSlotMotion):
     """Motion of a straight radial slot on a plain crank, with its closed forms.
 
     ``sign`` is +1 for an external wheel and -1 for an internal one; l = sin b and ``rest`` = 1 - l.
@@ -238,7 +238,7 @@ class Classic(Followed):
 
 
 def engagement(
-    mid_deg: float, path: AnchoredPath, motion: Followed, carrier: Carrier
+    mid_deg: float, path: AnchoredPath, motion: StraightSlotMotion, carrier: Carrier
 ) -> Engagement:
     """Build the engagement of a radial slot in a plane."""
     return Engagement(mid_deg, path, RadialSlot(path), motion, carrier)

@@ -20,21 +20,20 @@ if TYPE_CHECKING:
     from geneva_cli.numerics.arrays import Array, Mask, Number, Which, Whole
 
 THIRD = 1.0 / 3.0
-ALIKE = 0.1  # of a box's width, by which its corners may differ in where they say the pair is
-MARGIN = 0.1  # of what a quantity's cubics span in a box, by which they may be wrong
-BESIDE = 0.5  # of a box's width, by which its pair may lie beside it
+CUBIC_ERROR = 0.1  # possible error of a quantity's cubics, as a fraction of their range in a box
+OVERLAP = 0.5  # fraction of a box's width by which its pair may lie outside it
 
 
-class Side(NamedTuple):
+class CrankInterval(NamedTuple):
     """An interval of crank angles: the points at both ends, and the turn between them."""
 
     first: PathPoints
     last: PathPoints
     turn: Array
 
-    def taken(self, where: Which) -> Side:
+    def taken(self, where: Which) -> CrankInterval:
         """Select some of the intervals."""
-        return Side(self.first.taken(where), self.last.taken(where), self.turn[where])
+        return CrankInterval(self.first.taken(where), self.last.taken(where), self.turn[where])
 
 
 class Boxes(NamedTuple):
@@ -42,8 +41,8 @@ class Boxes(NamedTuple):
 
     which: Whole
     sense: Array  # sense of rotation of the wheel
-    entry: Side
-    exit: Side
+    entry: CrankInterval
+    exit: CrankInterval
     turn: Array
 
     def taken(self, where: Which) -> Boxes:
@@ -57,7 +56,7 @@ def _span(width: Array, turn: Array, first: Array, last: Array) -> tuple[Array, 
     a, c = THIRD * width * first, turn - THIRD * width * last
     low = np.minimum(np.minimum(a, c), np.minimum(turn, 0.0))
     high = np.maximum(np.maximum(a, c), np.maximum(turn, 0.0))
-    margin = MARGIN * (high - low)
+    margin = CUBIC_ERROR * (high - low)
     return low - margin, high + margin
 
 
@@ -96,17 +95,18 @@ def boxes_of(samples: PathSamples, wanted: Array) -> Boxes:
         exit_ = (entry + ahead) % count
         may = _may_meet_of(at, width, row, entry, exit_)
         per_sense.append((row[may], entry[may], exit_[may], np.full(int(may.sum()), sense)))
-    row, entry, exit_, way = joined(per_sense)
+    row, entry, exit_, senses = joined(per_sense)
     round_ = np.where(exit_ < entry, 1.0, 0.0)
     start = angle[row, exit_] + whole[row, 0] * round_ - angle[row, entry]
     one, two = (
-        Side(at.taken((row, of)), at.taken((row, of + 1)), turn[row, of]) for of in (entry, exit_)
+        CrankInterval(at.taken((row, of)), at.taken((row, of + 1)), turn[row, of])
+        for of in (entry, exit_)
     )
     near_end, far_end = (
         end._replace(phi=end.phi + math.tau * round_) for end in (two.first, two.last)
     )
-    two = Side(near_end, far_end, two.turn)
-    return Boxes(samples.which[row], way, one, two, start)
+    two = CrankInterval(near_end, far_end, two.turn)
+    return Boxes(samples.which[row], senses, one, two, start)
 
 
 def _may_meet_of(at: PathPoints, width: Array, row: Whole, entry: Whole, exit_: Whole) -> Mask:
@@ -145,7 +145,7 @@ def _may_meet(boxes: Boxes) -> Mask:
     return _may_be_zero(corners[0], corners[1], _width(entry), _width(exit_))
 
 
-def _width(side: Side) -> Array:
+def _width(side: CrankInterval) -> Array:
     width: Array = side.last.phi - side.first.phi
     return width
 
@@ -172,7 +172,7 @@ def _may_be_zero(
             x = by_exit * high * (-THIRD if j else THIRD)
             least = np.minimum(least, away + np.minimum(e, 0.0) + np.minimum(x, 0.0))
             most = np.maximum(most, away + np.maximum(e, 0.0) + np.maximum(x, 0.0))
-    margin = MARGIN * (most - least)
+    margin = CUBIC_ERROR * (most - least)
     may: Mask = (least <= margin) & (most >= -margin)
     return may
 
@@ -205,7 +205,8 @@ def newton_steps(boxes: Boxes, wanted: Array) -> NewtonSteps:
     apart = np.abs(places - middle).max(axis=(0, 1))
     outside = np.abs(middle - 0.5).max(axis=0) - 0.5
     phi = np.stack((entry.first.phi + middle[0] * wide, exit_.first.phi + middle[1] * high), axis=1)
-    return NewtonSteps(apart <= ALIKE, outside <= BESIDE, phi)
+    # the corners agree if they lead to places within a tenth of the box's width
+    return NewtonSteps(apart <= 0.1, outside <= OVERLAP, phi)
 
 
 def halved(path: RollerPath, boxes: Boxes, wanted: Array) -> Boxes:
@@ -230,5 +231,5 @@ def halved(path: RollerPath, boxes: Boxes, wanted: Array) -> Boxes:
     return halved
 
 
-def _side(first: PathPoints, last: PathPoints) -> Side:
-    return Side(first, last, np.angle(last.t * first.t.conj()))
+def _side(first: PathPoints, last: PathPoints) -> CrankInterval:
+    return CrankInterval(first, last, np.angle(last.t * first.t.conj()))

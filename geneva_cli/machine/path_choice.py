@@ -11,25 +11,21 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from geneva_cli.machine.path_samples import blocks, joined, points
-from geneva_cli.machine.path_wheels import Wheels
+from geneva_cli.machine.path_wheels import PathWheels
 from geneva_cli.machine.roller_path import RollerPath
 
 if TYPE_CHECKING:
     from geneva_cli.numerics.arrays import Array, Number, Whole
 
-PLACES = 16  # intervals in which a peak is looked for
-NEARER = 12  # times that the look is narrowed, to the three about the greatest
-HIGHER = 0.5  # of the bend at the greatest place: a parabola rises above it by an eighth at most
-BLOCK = 256  # wheels at a time: they stay in the processor's cache
-TIE = 1e-8  # share by which two wheels' peak velocities may differ and be the same
+SAME_PEAK = 1e-8  # fraction by which two wheels' peak velocities may differ and count as equal
 
 
-def chosen(path: RollerPath, wheels: Wheels, wanted: Number | None = None) -> Whole:
+def chosen(path: RollerPath, wheels: PathWheels, wanted: Number | None = None) -> Whole:
     """Numbers of the chosen wheels, one for each design that has any, in the order of the designs.
 
-    The chosen wheel is the gentlest, with the least peak velocity, or the one whose entry is
-    nearest to ``wanted`` (radians, (n, 1) for all designs). If several are equal, as on a symmetric
-    path, it is the one with the first entry.
+    Without ``wanted`` the chosen wheel is the gentlest, with the least peak velocity. ``wanted`` is
+    an entry angle in radians, (n, 1) for n designs: then it is the wheel with the nearest entry.
+    Among equal wheels, as on a symmetric path, it is the one with the first entry.
     """
     which = wheels.which
     cost = np.zeros(len(which))
@@ -43,14 +39,14 @@ def chosen(path: RollerPath, wheels: Wheels, wanted: Number | None = None) -> Wh
         cost[several] = _peaks(path, some)
     least = np.full(int(which.max(initial=-1)) + 1, np.inf)
     np.minimum.at(least, which, cost)
-    tied = np.flatnonzero(cost <= least[which] * (1.0 + TIE))
+    tied = np.flatnonzero(cost <= least[which] * (1.0 + SAME_PEAK))
     order = tied[np.lexsort((wheels.phi[tied, 0] % math.tau, which[tied]))]
     first = np.ones(len(order), dtype=bool)
     first[1:] = np.diff(which[order]) != 0
     return order[first]
 
 
-def _peaks(path: RollerPath, wheels: Wheels) -> Array:
+def _peaks(path: RollerPath, wheels: PathWheels) -> Array:
     """Peak velocities of several wheels per design, accurate enough to know the least.
 
     A few points of each wheel bound its peak. If the bounds do not decide which wheel of a design
@@ -58,7 +54,7 @@ def _peaks(path: RollerPath, wheels: Wheels) -> Array:
     """
     known = _velocities(path, wheels)
     open_ = _open_peaks(wheels.which, known)
-    for _ in range(NEARER):
+    for _ in range(12):  # each round narrows to three of sixteen intervals, 5e-9 in all
         if not len(open_):
             break
         near = _velocities(path, wheels.taken(open_), known.bracket[open_])
@@ -73,9 +69,10 @@ def _open_peaks(which: Whole, known: _Velocities) -> Whole:
     """Wheels that may have the least peak of their design, if another wheel may have it too."""
     bar = np.full(int(which.max()) + 1, np.inf)
     np.minimum.at(bar, which, known.most)
-    may = known.least <= bar[which] * (1.0 + TIE)
+    may = known.least <= bar[which] * (1.0 + SAME_PEAK)
     rivals = np.bincount(which[may], minlength=len(bar))[which] > 1
-    return np.flatnonzero(may & rivals & (known.most - known.least > 1e-3 * TIE * known.least))
+    wide = known.most - known.least > 1e-3 * SAME_PEAK * known.least
+    return np.flatnonzero(may & rivals & wide)
 
 
 class _Velocities(NamedTuple):
@@ -86,13 +83,13 @@ class _Velocities(NamedTuple):
     bracket: Array
 
 
-def _velocities(path: RollerPath, wheels: Wheels, between: Array | None = None) -> _Velocities:
+def _velocities(path: RollerPath, wheels: PathWheels, between: Array | None = None) -> _Velocities:
     """Peak velocities between crank angles (n, 2), by default from entry to exit."""
     between = wheels.phi if between is None else between
     bounds: _Velocities = joined(
         [
             _block_velocities(path.roughly(wheels.which[i]), wheels.phi[i], between[i])
-            for i in blocks(len(between), BLOCK)
+            for i in blocks(len(between), 256)  # 256 wheels stay in the processor's cache
         ]
     )
     return bounds
@@ -105,7 +102,8 @@ def _block_velocities(path: RollerPath, phi: Array, between: Array) -> _Velociti
     rho = np.abs(q - p) / np.abs(t + u)
     centre = (0.5 * ((p + rho * t) + (q - rho * u)))[:, None]
     low, high = between[:, :1], between[:, 1:]
-    phi = low + (high - low) * (np.arange(PLACES + 1) / PLACES)
+    count = 16  # intervals
+    phi = low + (high - low) * (np.arange(count + 1) / count)
     x, y = path.at(phi, 1)
     ray = x.c[0] + 1j * y.c[0] - centre
     velocity = np.abs(((x.c[1] + 1j * y.c[1]) / ray).imag)
@@ -113,10 +111,11 @@ def _block_velocities(path: RollerPath, phi: Array, between: Array) -> _Velociti
     mean = np.abs(np.angle(ray[:, 1:] * ray[:, :-1].conj())) / np.diff(phi, axis=1)
     steepest = np.maximum(mean, np.maximum(velocity[:, :-1], velocity[:, 1:]))
     i = steepest.argmax(axis=1)[:, None]
-    sides = np.hstack((np.maximum(i - 1, 0), np.minimum(i + 2, PLACES)))
+    sides = np.hstack((np.maximum(i - 1, 0), np.minimum(i + 2, count)))
     j = velocity.argmax(axis=1)[:, None]
-    neighbours = np.hstack((np.maximum(j - 1, 0), np.minimum(j + 1, PLACES)))
+    neighbours = np.hstack((np.maximum(j - 1, 0), np.minimum(j + 1, count)))
     top, least = velocity.max(axis=1), steepest.max(axis=1)
     bend = 2.0 * top - np.take_along_axis(velocity, neighbours, axis=1).sum(axis=1)
-    most = np.where(least > top, np.inf, top + HIGHER * bend)
+    # A parabola rises above its greatest sample by an eighth of the bend at most; half is safe.
+    most = np.where(least > top, np.inf, top + 0.5 * bend)
     return _Velocities(least, most, np.take_along_axis(phi, sides, axis=1))

@@ -12,17 +12,13 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from geneva_cli.machine.path_pairs import Pairs
+from geneva_cli.machine.path_pairs import EndPairs
 from geneva_cli.machine.path_samples import PathPoints, points
 from geneva_cli.machine.roller_path import RollerPath
 from geneva_cli.numerics.tolerances import ROUNDED
 
 if TYPE_CHECKING:
     from geneva_cli.numerics.arrays import Array, Complex, Mask, Number, Which
-
-THIRD = 1.0 / 3.0
-CLOSER = 8  # parts into which an interval is cut that is looked at more closely
-LOOKS = 4  # times that it is
 
 
 class PinCourse(NamedTuple):
@@ -60,7 +56,7 @@ class PlacedWheel(NamedTuple):
 def leaves_slot(
     path: RollerPath,
     wheel: PlacedWheel,
-    ends: Pairs,
+    ends: EndPairs,
     nodes: Array,
     course: PinCourse,
     motion: Array,
@@ -71,10 +67,10 @@ def leaves_slot(
     inside = nodes[:, :-1] < motion
     row, column = np.nonzero(_open(nodes, course, inside, *(x[:, None] for x in bar)))
     left, right, inside = nodes[row, column], nodes[row, column + 1], inside[row, column]
-    for _ in range(LOOKS):
+    for _ in range(4):  # each round cuts an open interval into eight
         if not len(row):
             break
-        fraction = np.arange(CLOSER + 1) / CLOSER
+        fraction = np.arange(9) / 8
         places = left[:, None] + (right - left)[:, None] * fraction
         phi = places + ends.at.phi[row, :1]
         some = wheel.taken(row).course(points(path.roughly(ends.which[row]), phi))
@@ -98,7 +94,8 @@ def _open(places: Array, course: PinCourse, inside: Mask, low: Array, far: Array
 
 def _least(width: Array, value: Array, slope: Array, sign: Number) -> Array:
     """Least Bernstein coefficient of a cubic between adjacent samples."""
+    third = 1.0 / 3.0
     a, c = value[:, :-1], value[:, 1:]
-    b, d = a + THIRD * width * slope[:, :-1], c - THIRD * width * slope[:, 1:]
+    b, d = a + third * width * slope[:, :-1], c - third * width * slope[:, 1:]
     least: Array = np.minimum.reduce([sign * x for x in (a, b, c, d)])
     return least

@@ -1,8 +1,8 @@
 """Entry and exit on a roller's closed path: the pairs of points that a wheel's slots can use.
 
-A wheel with straight radial slots takes a roller without shock if the roller's path enters along
-one slot and leaves along the next, equally far from the wheel's centre O. With the unit tangents t1
-and t2 there,
+A wheel with straight radial slots takes a roller without shock if the path enters along one slot
+and leaves along the next. Both points are equally far from the wheel's centre O. With the unit
+tangents t1 and t2 there,
 
     O = P1 + rho t1 = P2 - rho t2 ,    the angle from -t1 to t2 = the index angle 2b ,
 
@@ -26,13 +26,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from geneva_cli.machine.path_boxes import (
-    BESIDE,
-    Boxes,
-    boxes_of,
-    halved,
-    newton_steps,
-)
+from geneva_cli.machine.path_boxes import OVERLAP, Boxes, boxes_of, halved, newton_steps
 from geneva_cli.machine.path_samples import PathPoints, PathSamples, joined, points
 from geneva_cli.machine.roller_path import RollerPath
 from geneva_cli.numerics.tolerances import ROUNDED
@@ -40,29 +34,26 @@ from geneva_cli.numerics.tolerances import ROUNDED
 if TYPE_CHECKING:
     from geneva_cli.numerics.arrays import Array, Mask, Which, Whole
 
-HALVINGS = 8  # of a box
-STEPS = 12  # of Newton in a box
-CLOSE = 1e-6  # radians: after so short a step of Newton, half of the digits and all of them next
-FLAT = 1e-5  # of the index angle along the family of pairs: less slope is a double root
-DOUBTFUL = 1e-5  # radians of the index angle: nearer than that without a root, it may be double
+# Slope of the index angle along the family of pairs: a root with less is double, or nearly so.
+DOUBLE_ROOT_SLOPE = 1e-5
 
 
-class Pairs(NamedTuple):
+class EndPairs(NamedTuple):
     """Pairs of points of designs, entry first, in two columns."""
 
     which: Whole
     at: PathPoints
 
-    def taken(self, where: Which) -> Pairs:
+    def taken(self, where: Which) -> EndPairs:
         """Select some of the pairs."""
-        return Pairs(self.which[where], self.at.taken(where))
+        return EndPairs(self.which[where], self.at.taken(where))
 
 
-class FoundPairs(NamedTuple):
+class PairSearch(NamedTuple):
     """Pairs, and places that have no pair or may have a double root."""
 
-    pairs: Pairs
-    doubtful: Pairs
+    pairs: EndPairs
+    doubtful: EndPairs
 
 
 class Residual(NamedTuple):
@@ -81,14 +72,14 @@ class Residual(NamedTuple):
     sense: Array
 
 
-def pairs(path: RollerPath, samples: Iterable[PathSamples], b: Array) -> FoundPairs:
+def pairs(path: RollerPath, samples: Iterable[PathSamples], b: Array) -> PairSearch:
     """All pairs for designs with half index angles b, (n, 1), from samples of their paths."""
     wanted = math.pi - 2.0 * b[:, 0]
     boxes = joined([boxes_of(some, wanted[some.which]) for some in samples])
-    solved = []
-    for depth in range(HALVINGS + 1):
+    solved, halvings = [], 8  # of a box
+    for depth in range(halvings + 1):
         steps = newton_steps(boxes, wanted)
-        last = depth == HALVINGS
+        last = depth == halvings
         tried = np.arange(len(steps.near)) if last else np.flatnonzero(steps.alike & steps.near)
         ends, close = _solved(path, boxes.taken(tried), steps.phi[tried], b)
         solved.append(ends.taken(close))
@@ -97,16 +88,17 @@ def pairs(path: RollerPath, samples: Iterable[PathSamples], b: Array) -> FoundPa
             break
         boxes = halved(path, boxes.taken(rest), wanted)
     ends = ends.taken(np.flatnonzero(~close))
-    near = np.flatnonzero(np.abs(residual(ends, b).excess) < DOUBTFUL)
-    return FoundPairs(joined(solved), ends.taken(near))
+    # a pair without a root whose index angle is this near, in radians, may be a double root
+    near = np.flatnonzero(np.abs(residual(ends, b).excess) < 1e-5)
+    return PairSearch(joined(solved), ends.taken(near))
 
 
-def ends_at(path: RollerPath, which: Whole, phi: Array) -> Pairs:
+def ends_at(path: RollerPath, which: Whole, phi: Array) -> EndPairs:
     """Points of designs at entry and exit angles, in two columns."""
-    return Pairs(which, points(path.roughly(which), phi))
+    return EndPairs(which, points(path.roughly(which), phi))
 
 
-def residual(ends: Pairs, b: Array) -> Residual:
+def residual(ends: EndPairs, b: Array) -> Residual:
     """Residuals of pairs; ``b`` holds the half index angles of all designs, (m, 1)."""
     at = ends.at
     (p, q), (t, u), (v, w) = at.p.T, at.t.T, at.v.T
@@ -121,7 +113,7 @@ def residual(ends: Pairs, b: Array) -> Residual:
     return Residual((chord * both).imag, by_entry, by_exit, excess, det, sense)
 
 
-def newton(ends: Pairs, rest: Residual) -> Array:
+def newton(ends: EndPairs, rest: Residual) -> Array:
     """Newton step from pairs, in two columns."""
     turn, turn_out = ends.at.turn.T
     excess = rest.sense * rest.excess
@@ -131,15 +123,15 @@ def newton(ends: Pairs, rest: Residual) -> Array:
     return step
 
 
-def _solved(path: RollerPath, boxes: Boxes, phi: Array, b: Array) -> tuple[Pairs, Mask]:
+def _solved(path: RollerPath, boxes: Boxes, phi: Array, b: Array) -> tuple[EndPairs, Mask]:
     """Newton's method from places in boxes: its end points, and a mask of those in their box."""
     low = np.stack((boxes.entry.first.phi, boxes.exit.first.phi), axis=1)
     high = np.stack((boxes.entry.last.phi, boxes.exit.last.phi), axis=1)
     width = high - low
-    phi = np.clip(phi, low - BESIDE * width, high + BESIDE * width)
+    phi = np.clip(phi, low - OVERLAP * width, high + OVERLAP * width)
     close = np.zeros(len(phi), dtype=bool)
     live = np.arange(len(phi))
-    for _ in range(STEPS):
+    for _ in range(12):  # Newton steps
         if not len(live):
             break
         ends = ends_at(path, boxes.which[live], phi[live])
@@ -148,8 +140,9 @@ def _solved(path: RollerPath, boxes: Boxes, phi: Array, b: Array) -> tuple[Pairs
         move *= np.minimum(1.0, (width[live] / np.abs(move)).min(axis=1))[:, None]
         phi[live] += move
         off = np.maximum(low[live] - phi[live], phi[live] - high[live]) / width[live]
-        inside = (off <= BESIDE + ROUNDED).all(axis=1)
-        done = np.abs(move).max(axis=1) < CLOSE
+        inside = (off <= OVERLAP + ROUNDED).all(axis=1)
+        # radians: half of the digits; the next step gives all of them
+        done = np.abs(move).max(axis=1) < 1e-6
         close[live] = done & inside
         live = live[~done & inside]
     return ends_at(path, boxes.which, phi), close

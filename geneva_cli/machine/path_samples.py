@@ -21,13 +21,6 @@ if TYPE_CHECKING:
 
 Where: TypeAlias = "Which | tuple[slice | int | Whole, slice | int | Whole]"
 
-COUNT = 48  # samples of a turn that every path has
-FIRST = 0.3  # of a step, where they begin: symmetrical paths have their cusps at 0 and at pi
-FORETOLD = 0.05  # radians by which the turn between samples may differ from what they foretell
-DEEPEST = 14  # halvings: what is narrower than a crank angle of 1e-5 radians is a cusp
-ROWS = 256  # designs whose samples are worked out together: they stay in the processor's cache
-CELLS = 1 << 19  # pairs of samples looked at together: of more they leave the processor's cache
-
 
 class PathPoints(NamedTuple):
     """Points of a path at crank angles ``phi``.
@@ -82,22 +75,25 @@ def _complex(x: Array, y: Array, shape: tuple[int, ...]) -> Complex:
 
 def sampled(path: RollerPath, count: int) -> Iterator[PathSamples]:
     """Samples of all ``count`` designs, in blocks with similar numbers of samples."""
-    phi = np.array([(i + FIRST) * (math.tau / COUNT) for i in range(COUNT + 1)])
+    steps = 48  # samples of a turn that every path has
+    # Samples begin after 0.3 of a step: symmetrical paths have their cusps at 0 and at pi.
+    phi = np.array([(i + 0.3) * (math.tau / steps) for i in range(steps + 1)])
     every = np.arange(count)
-    base = joined([_rows(path.roughly(every[i]), phi, len(every[i])) for i in blocks(count, ROWS)])
+    # samples of 256 designs stay in the processor's cache
+    base = joined([_rows(path.roughly(every[i]), phi, len(every[i])) for i in blocks(count, 256)])
     left, right = _neighbours(base)
     turned = _turned(left, right)
     row, column = np.nonzero(_missed(left, right, turned))
     extra = _between(path, row, left.taken((row, column)), right.taken((row, column)))
     more = np.bincount(extra[0], minlength=count) if extra else np.zeros(count, dtype=int)
     plain = every[more == 0]
-    for part in _blocks(np.full(len(plain), COUNT)):
+    for part in _blocks(np.full(len(plain), steps)):
         yield _samples(plain[part], base.taken(plain[part]), turned[plain[part]])
     if extra:
         whose, added = extra
         crowded = np.flatnonzero(more)
         crowded = crowded[np.argsort(more[crowded])]
-        for part in _blocks(COUNT + more[crowded]):
+        for part in _blocks(steps + more[crowded]):
             at = _padded(crowded[part], base, whose, added)
             yield _samples(crowded[part], at, _turned(*_neighbours(at)))
 
@@ -122,7 +118,7 @@ def _turned(left: PathPoints, right: PathPoints) -> Array:
 def _missed(left: PathPoints, right: PathPoints, turned: Array) -> Mask:
     """True where the rates at two samples do not predict the turn between them."""
     half = 0.5 * (right.phi - left.phi) * (left.turn + right.turn)
-    return np.abs(turned - half) > FORETOLD
+    return np.abs(turned - half) > 0.05  # radians
 
 
 def _between(
@@ -130,7 +126,7 @@ def _between(
 ) -> tuple[Whole, PathPoints] | None:
     """Extra samples between samples of designs, until every turn is predicted."""
     added = []
-    for _ in range(DEEPEST):
+    for _ in range(14):  # halvings: a bend within a crank angle of 1e-5 radians is a cusp
         if not len(which):
             break
         phi = 0.5 * (left.phi + right.phi)
@@ -147,12 +143,12 @@ def _between(
 
 
 def _blocks(counts: Whole) -> Iterator[slice]:
-    """Slices of rows with at most ``CELLS`` pairs of samples."""
-    start = 0
+    """Slices of rows with a limited number of pairs of samples."""
+    start, most = 0, 1 << 19  # pairs that stay in the processor's cache
     while start < len(counts):
-        rows = max(1, CELLS // int(counts[start]) ** 2)
+        rows = max(1, most // int(counts[start]) ** 2)
         stop = min(start + rows, len(counts))
-        while stop - start > 1 and (stop - start) * int(counts[stop - 1]) ** 2 > 2 * CELLS:
+        while stop - start > 1 and (stop - start) * int(counts[stop - 1]) ** 2 > 2 * most:
             stop = (start + stop) // 2
         yield slice(start, stop)
         start = stop

@@ -12,18 +12,17 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from geneva_cli.machine.path_course import PinCourse, PlacedWheel, leaves_slot
-from geneva_cli.machine.path_pairs import FLAT, Pairs, pairs, residual
+from geneva_cli.machine.path_pairs import DOUBLE_ROOT_SLOPE, EndPairs, pairs, residual
 from geneva_cli.machine.path_samples import PathSamples, joined, points, sampled
 from geneva_cli.machine.roller_path import RollerPath
 
 if TYPE_CHECKING:
     from geneva_cli.numerics.arrays import Array, Which, Whole
 
-SAME = 1e-6  # radians: entries nearer to each other are one
-BESIDE = 1e-4  # radians: places in doubt that are nearer to each other lead to one wheel
+SAME_ENTRY = 1e-6  # radians: entries nearer to each other are one
 
 
-class Wheels(NamedTuple):
+class PathWheels(NamedTuple):
     """Wheels of the designs numbered in ``which``.
 
     ``phi`` holds the crank angles at entry and exit in two columns. ``sense`` is the direction in
@@ -34,27 +33,27 @@ class Wheels(NamedTuple):
     phi: Array
     sense: Array
 
-    def taken(self, where: Which) -> Wheels:
+    def taken(self, where: Which) -> PathWheels:
         """Select some of the wheels."""
-        return Wheels._make(part[where] for part in self)
+        return PathWheels._make(part[where] for part in self)
 
 
-class Search(NamedTuple):
+class WheelSearch(NamedTuple):
     """Wheels of designs, and pairs at which there may be a double or nearly double root."""
 
-    wheels: Wheels
-    doubtful: Pairs
+    wheels: PathWheels
+    doubtful: EndPairs
 
-    def of(self, i: int) -> Search:
+    def of(self, i: int) -> WheelSearch:
         """Result for design ``i``, numbered as a single path."""
         parts = []
         for part in self:
             mine = part.taken(np.flatnonzero(part.which == i))
             parts.append(mine._replace(which=0 * mine.which))
-        return Search._make(parts)
+        return WheelSearch._make(parts)
 
 
-def wheels(path: RollerPath, b: Array) -> Search:
+def wheels(path: RollerPath, b: Array) -> WheelSearch:
     """All wheels of designs with half index angles b, (n, 1)."""
     kept = []
     with np.errstate(all="ignore"):
@@ -62,11 +61,12 @@ def wheels(path: RollerPath, b: Array) -> Search:
         ends, doubtful = pairs(path, every, b)
         ends = ends.taken(_firsts(ends))
         rest = residual(ends, b)
-        steep = np.abs(rest.det) >= FLAT * np.abs(rest.by_exit)
+        steep = np.abs(rest.det) >= DOUBLE_ROOT_SLOPE * np.abs(rest.by_exit)
         doubtful = joined([doubtful, ends.taken(~steep)])
         # A path that stops has no direction there; boxes around such a point hold no pair.
         doubtful = doubtful.taken(np.flatnonzero(np.isfinite(doubtful.at.phi).all(axis=1)))
-        doubtful = doubtful.taken(_firsts(doubtful, BESIDE))
+        # doubtful entries within 1e-4 radians lead to one wheel
+        doubtful = doubtful.taken(_firsts(doubtful, 1e-4))
         ends, sense = ends.taken(steep), rest.sense[steep]
         block = np.zeros(len(b), dtype=int)
         for i, samples in enumerate(every):
@@ -74,17 +74,17 @@ def wheels(path: RollerPath, b: Array) -> Search:
         for i, samples in enumerate(every):
             mine = block[ends.which] == i
             kept.append(_followed(path, samples, ends.taken(mine), sense[mine]))
-    return Search(joined(kept), doubtful)
+    return WheelSearch(joined(kept), doubtful)
 
 
-def followed(path: RollerPath, phi: Array, sense: Array) -> Wheels:
+def followed(path: RollerPath, phi: Array, sense: Array) -> PathWheels:
     """Wheels that a path can drive, among those with entry and exit angles ``phi`` (n, 2)."""
     with np.errstate(all="ignore"):
-        ends = Pairs(np.zeros(len(phi), dtype=int), points(path, phi))
+        ends = EndPairs(np.zeros(len(phi), dtype=int), points(path, phi))
         return _followed(path, next(sampled(path, 1)), ends, sense)
 
 
-def _firsts(ends: Pairs, same: float = SAME) -> Whole:
+def _firsts(ends: EndPairs, same: float = SAME_ENTRY) -> Whole:
     """First of each group of equal pairs."""
     place = ends.at.phi[:, 0] % math.tau
     order = np.lexsort((place, ends.which))
@@ -93,7 +93,7 @@ def _firsts(ends: Pairs, same: float = SAME) -> Whole:
     return order[new]
 
 
-def _followed(path: RollerPath, samples: PathSamples, ends: Pairs, sense: Array) -> Wheels:
+def _followed(path: RollerPath, samples: PathSamples, ends: EndPairs, sense: Array) -> PathWheels:
     """Wheels of the pairs between which the roller stays in its slot."""
     (p, q), (t, u) = ends.at.p.T, ends.at.t.T
     rho = np.abs(q - p) / np.abs(t + u)
@@ -107,7 +107,8 @@ def _followed(path: RollerPath, samples: PathSamples, ends: Pairs, sense: Array)
     course = wheel.course(at)
     inside = since < motion
     good = np.where(inside, (course.moment > 0.0) & (course.short > 0.0), course.short < 0.0)
-    good |= (np.abs(since - motion) < SAME) | (since < SAME) | (since > math.tau - SAME)
+    at_entry = (since < SAME_ENTRY) | (since > math.tau - SAME_ENTRY)
+    good |= (np.abs(since - motion) < SAME_ENTRY) | at_entry
     kept = np.flatnonzero(good.all(axis=1))
     # add the ends to the samples, and the entry again a turn later
     wheel, ends, since, motion = wheel.taken(kept), ends.taken(kept), since[kept], motion[kept]
@@ -123,4 +124,4 @@ def _followed(path: RollerPath, samples: PathSamples, ends: Pairs, sense: Array)
         )
     )
     fails = leaves_slot(path, wheel, ends, nodes, full, motion)
-    return Wheels(ends.which[~fails], ends.at.phi[~fails], wheel.sense[~fails, 0])
+    return PathWheels(ends.which[~fails], ends.at.phi[~fails], wheel.sense[~fails, 0])

@@ -22,14 +22,10 @@ WALLED = (
     "pressure_deg",
     "curvature_radius_mm",
 )
-# |M'| at mid-motion, as a share of what the pin and the wheel move by there, below which the pin
-# leaves on the way it came
-RETRACE = 1e-9
-EPSILON = 2.0**-52  # of a matched ratio near 1, rounding leaves this much of the pin's distance
 
 
-class Way(NamedTuple):
-    """Pin position in the wheel, over L, and its direction of travel there."""
+class PinHeading(NamedTuple):
+    """Pin position in the wheel, over L, and the pin's direction of travel."""
 
     x: Number
     y: Number
@@ -54,7 +50,7 @@ class Pitch(NamedTuple):
 
 
 def retraces(engagement: Engagement) -> bool:
-    """True if the pin stops in the wheel at mid-motion and leaves along its way in.
+    """True if the pin stops in the wheel at mid-motion and leaves along the path it came by.
 
     This holds for straight slots and at the mid condition. Otherwise the pin passes mid-motion
     across the slot's radius, and the pressure angle is 90 degrees there. For a batch the result is
@@ -68,7 +64,9 @@ def retraces(engagement: Engagement) -> bool:
     left = m.hypot(x.c[1], y.c[1])
     (x0, x1), (y0, y1) = (jet.derivatives() for jet in engagement.path(0.0, 1))
     turns, far = size(engagement.motion(0.0, 1).c[1]), m.hypot(x0, y0)
-    bar = RETRACE * (m.hypot(x1, y1) + turns * far) + EPSILON * turns
+    # |M'| below 1e-9 of the speeds of pin and wheel is rounding. If a matched R/L is nearly 1, the
+    # pin's distance ``far`` itself is only rounding, 2**-52.
+    bar = 1e-9 * (m.hypot(x1, y1) + turns * far) + 2.0**-52 * turns
     return cast("bool", left < bar)
 
 
@@ -89,12 +87,12 @@ def pitch(engagement: Engagement, input_deg: Number) -> Pitch:
     )
 
 
-def way(engagement: Engagement, input_deg: Number) -> Way:
+def pin_heading(engagement: Engagement, input_deg: Number) -> PinHeading:
     """Pin position and direction of travel, without the second derivatives that ``pitch`` needs."""
     x, y = engagement.slot(input_deg, 1)
     (x0, x1), (y0, y1) = x.derivatives(), y.derivatives()
     speed = library(x0).hypot(x1, y1)
-    return Way(x0, y0, x1 / speed, y1 / speed)
+    return PinHeading(x0, y0, x1 / speed, y1 / speed)
 
 
 def pitch_at_retrace(engagement: Engagement) -> Pitch:

@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from geneva_cli.machine.drives.drive import Drive
 
 
-ANGLES = ("drive", "roller_angles_deg")
+ANGLES_KEY = ("drive", "roller_angles_deg")
 
 
 def places(wheel: Gearing, drive: Drive, L: float) -> list[RollerPlace]:
@@ -36,14 +36,14 @@ def places(wheel: Gearing, drive: Drive, L: float) -> list[RollerPlace]:
 def _at_angles(angles: tuple[float, ...], one: RollerPlace) -> list[RollerPlace]:
     """Rollers at the angles of the spec, each gap wide enough for half of both adjacent motions."""
     if list(angles) != sorted(set(angles)) or angles[0] != 0.0 or angles[-1] >= 360.0:
-        raise GenevaError("roller_angles_deg must rise from 0 to below 360", ANGLES)
+        raise GenevaError("roller_angles_deg must rise from 0 to below 360", ANGLES_KEY)
     motion = 2.0 * one.half_motion_deg
     for a, b in zip(angles, (*angles[1:], 360.0), strict=True):
         refuse(b - a < motion, partial(_too_near, a, b, motion))
     refuse(
         motion * len(angles) >= 360.0,
         lambda: GenevaError(
-            f"{len(angles)} motions of {motion:.6g} deg each leave no dwell in a turn", ANGLES
+            f"{len(angles)} motions of {motion:.6g} deg each leave no dwell in a turn", ANGLES_KEY
         ),
     )
     return [one._replace(crank_deg=a) for a in angles]
@@ -53,7 +53,7 @@ def _too_near(a: float, b: float, motion: float) -> GenevaError:
     return GenevaError(
         f"the rollers at {a:g} and {b % 360.0:g} deg jam: each motion takes "
         f"{motion:.6g} deg, and they are {b - a:.6g} deg apart",
-        ANGLES,
+        ANGLES_KEY,
     )
 
 

@@ -18,9 +18,9 @@ from geneva_cli.numerics.angles import radians
 from geneva_cli.numerics.jet import Jet, Number, piecewise, sin_cos
 from geneva_cli.numerics.latest import Latest
 
-# Where psi and phi nearly vanish together, a series of psi / phi. Within this share of the motion
-# its first terms are exact to a double, of laws with five waves in it too, and beyond it the sines
-# keep enough digits of their quotient's derivatives (a spline's series ends at its fifth).
+# Where psi and phi nearly vanish together, a series of psi / phi serves. Within this fraction of
+# the motion its first terms are exact to a double, even for a law with five waves. Beyond it the
+# quotient of the sines keeps enough digits in its derivatives. A spline's series has five terms.
 NEAR, TERMS = 1.0 / 30.0, 15
 NEAR_SPLINE_DEG, SPLINE_TERMS = 0.06, 5
 
@@ -110,7 +110,7 @@ class SolvedPath:
         return R * c * -self.sign, R * s
 
 
-class RadialSlot(Slot):
+class SolvedPathSlot(Slot):
     """The straight radial slot of a solved path."""
 
     def __init__(self, path: SolvedPath) -> None:

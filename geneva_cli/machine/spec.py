@@ -36,7 +36,7 @@ from geneva_cli.spec.tables import (
     WheelMaterial,
 )
 
-# Limits that need a load. Below: limits that need another key, with its table and its meaning.
+# limits that need a load
 LOADED = (
     "pin_force_max_N",
     "input_torque_max_Nm",
@@ -45,12 +45,17 @@ LOADED = (
     "roller_life_min_h",
     "slot_wear_max_mm_per_million",
 )
-_LINE = ("face_width_mm", "size", "the length of the line of contact")
+# limits that need another key, with its table and its meaning
 NEEDED = {
-    "contact_stress_max_MPa": _LINE,
-    "pv_max_W_m2": _LINE,
-    "lock_stress_max_MPa": _LINE,
-    "lock_deflection_max_deg": _LINE,
+    **dict.fromkeys(
+        (
+            "contact_stress_max_MPa",
+            "pv_max_W_m2",
+            "lock_stress_max_MPa",
+            "lock_deflection_max_deg",
+        ),
+        ("face_width_mm", "size", "the length of the line of contact"),
+    ),
     "slot_wear_max_mm_per_million": ("wear_mm3_Nm", "material.wheel", "its material's wear"),
     "roller_life_min_h": ("dynamic_capacity_N", "material.roller", "the roller's capacity"),
 }
@@ -62,7 +67,7 @@ def attribute(table: str) -> str:
 
 
 # Fields of ``Spec`` that hold a table, their type, and an example for the error message.
-_HELD: tuple[tuple[str, type, str], ...] = (
+_TABLE_TYPES: tuple[tuple[str, type, str], ...] = (
     ("wheel", Gearing, "External(6)"),
     ("drive", Drive, "Crank(n_rpm=60)"),
     *(
@@ -83,10 +88,9 @@ def _no_load(key: str) -> GenevaError:
 
 @dataclass(frozen=True)
 class Spec:
-    """All values that a machine is built from, as the user gave them.
+    """All values from which a machine is built, as in the spec's file.
 
-    ``path`` is the spec's file, for messages; ``files`` are the CSV files that points were read
-    from.
+    ``path`` is that file, for messages; ``files`` are the CSV files of its points.
 
     >>> Spec(External(6)).drive.n_rpm
     60.0
@@ -111,7 +115,7 @@ class Spec:
 
     def __post_init__(self) -> None:
         own = vars(self)
-        for name, kind, example in _HELD:
+        for name, kind, example in _TABLE_TYPES:
             refuse_kind(own[name], name, kind, example)
         if self.motion is not None:
             refuse_kind(self.motion, "motion", Motion, "Motion(Cycloidal())")

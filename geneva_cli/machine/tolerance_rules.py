@@ -9,15 +9,12 @@ from geneva_cli.errors import GenevaError, refuse
 from geneva_cli.machine.spec import Spec
 from geneva_cli.numerics.arrays import choose
 
-TABLE = "tolerance"
-LOCK = ("lock_radius_mm", "recess_radius_mm")
-
 
 def refuse_tolerances(spec: Spec, L: float, ratio: float) -> None:
     """Raise GenevaError, naming the key, for a tolerance that is too large or has no dimension."""
     values, lock = spec.tolerance.as_dict(), spec.size.lock_radius_mm
     unlocked = (not spec.drive.LOCKS) | (lock == 0.0)
-    for key in LOCK:
+    for key in ("lock_radius_mm", "recess_radius_mm"):
         refuse(unlocked & (values[key] != 0.0), partial(_no_lock, key, values[key]))
     steps = spec.wheel.steps
     arm = L * (math.sin(math.radians(0.5 * min(steps))) if steps else ratio)
@@ -39,7 +36,7 @@ def refuse_tolerances(spec: Spec, L: float, ratio: float) -> None:
 
 def _no_lock(key: str, value: float) -> GenevaError:
     return GenevaError(
-        f"{key} = {value:g}: this machine has no locking disc; remove it", (TABLE, key)
+        f"{key} = {value:g}: this machine has no locking disc; remove it", ("tolerance", key)
     )
 
 
@@ -47,5 +44,5 @@ def _too_large(key: str, value: float, below: float, what: str) -> GenevaError:
     return GenevaError(
         f"{key} = +-{value:g} is as large as the dimension itself: it must be below "
         f"{below:.6g}, {what}",
-        (TABLE, key),
+        ("tolerance", key),
     )

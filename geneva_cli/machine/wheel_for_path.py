@@ -16,20 +16,15 @@ import numpy as np
 
 from geneva_cli.machine.exact_path import Exact, ExactPoint, cross, length
 from geneva_cli.machine.path_choice import chosen
-from geneva_cli.machine.path_pairs import FLAT
+from geneva_cli.machine.path_pairs import DOUBLE_ROOT_SLOPE
 from geneva_cli.machine.path_samples import joined
-from geneva_cli.machine.path_wheels import Search, Wheels, followed, wheels
+from geneva_cli.machine.path_wheels import PathWheels, WheelSearch, followed, wheels
 from geneva_cli.machine.roller_path import RollerPath
 from geneva_cli.machine.wheels.poses import HalfStep
 from geneva_cli.numerics import digits
 from geneva_cli.numerics.angles import scaled_sin_cos
 
-STRIDE = math.tau / 720  # radians: a step of Newton along the family is no longer
-DOUBLE = 1e-12  # radians: a stationary index angle nearer than this to the wanted one is meant
-NEWTON = 1e-12  # radians: steps of the search that are worth another one
-ROUGH = 1e-9  # radians: index angle's excess that is left to the polishing
-POLISHINGS = 6  # steps of Newton, each of which leaves some millionth of the error
-POLISHED = 1e-20  # radians: the last of them
+LAST_STEP = 1e-12  # radians: Newton's method ends after a shorter step
 
 
 class Pair(NamedTuple):
@@ -50,7 +45,7 @@ class Fit(NamedTuple):
     sense: float  # +1 if the wheel turns counterclockwise on the path's own axes
 
 
-class _Place(NamedTuple):
+class _PathPoint(NamedTuple):
     """A point of the path: position, velocity, unit tangent and the rate at which it turns."""
 
     p: complex
@@ -60,12 +55,12 @@ class _Place(NamedTuple):
 
 
 def fit(
-    path: RollerPath, step: HalfStep, wanted: float | None = None, search: Search | None = None
+    path: RollerPath, step: HalfStep, wanted: float | None = None, search: WheelSearch | None = None
 ) -> Fit | None:
     """Wheel that the path can drive with this index angle, or None.
 
     If there are several, it is the gentlest, or the one whose entry is nearest to ``wanted``
-    (radians). ``search`` is a search of this path that was already made in a batch.
+    (radians). ``search`` is the result of a batch's search of this path.
     """
     candidates, doubtful = search or wheels(path, np.array([[step.b]]))
     for entry, exit_ in doubtful.at.phi.tolist():
@@ -87,7 +82,7 @@ def fit(
     return Fit(*pair, centre, sense)
 
 
-def _double(path: RollerPath, step: HalfStep, entry: float, exit_: float) -> Wheels | None:
+def _double(path: RollerPath, step: HalfStep, entry: float, exit_: float) -> PathWheels | None:
     """Wheel of a double root, or of two roots too close for Newton's method to separate."""
     pair = _on_family(path, step.b, entry, exit_)
     root = _refined(path, step.b, pair) if pair else None
@@ -101,11 +96,11 @@ def _double(path: RollerPath, step: HalfStep, entry: float, exit_: float) -> Whe
     return drivable if holds else None
 
 
-def _place(path: RollerPath, phi: float) -> _Place:
+def _place(path: RollerPath, phi: float) -> _PathPoint:
     x, y = path.at(phi, 2)
     p, v, a = (complex(*z) for z in zip(x.derivatives(), y.derivatives(), strict=True))
     speed = abs(v)
-    return _Place(p, v, v / speed, (v.conjugate() * a).imag / speed**2)
+    return _PathPoint(p, v, v / speed, (v.conjugate() * a).imag / speed**2)
 
 
 def _on_family(path: RollerPath, b: float, entry: float, exit_: float) -> Pair | None:
@@ -120,7 +115,7 @@ def _on_family(path: RollerPath, b: float, entry: float, exit_: float) -> Pair |
             return None
         move = max(-0.05, min(0.05, -value / by_exit))
         exit_ += move
-        if abs(move) < NEWTON:
+        if abs(move) < LAST_STEP:
             break
     else:
         return None
@@ -132,7 +127,7 @@ def _on_family(path: RollerPath, b: float, entry: float, exit_: float) -> Pair |
 
 def _refined(path: RollerPath, b: float, pair: Pair) -> tuple[float, float] | None:
     """Pair with the index angle, from a pair of the family: a root, or a double root."""
-    here, step = pair, STRIDE
+    here, step = pair, math.tau / 720  # greatest Newton step along the family, radians
     for _ in range(60):
         if here.slope == 0.0:
             break
@@ -140,14 +135,15 @@ def _refined(path: RollerPath, b: float, pair: Pair) -> tuple[float, float] | No
         after = _on_family(path, b, here.entry + move, here.exit - move)
         if after is None or abs(after.entry - pair.entry) > 12.0 * step:
             return None
-        done = abs(after.excess) < 4e-16 or abs(move) < NEWTON
+        done = abs(after.excess) < 4e-16 or abs(move) < LAST_STEP
         here = after
         if done:
             break
     flat = _stationary(path, b, here)
-    if flat and abs(flat.excess) < DOUBLE:
+    if flat and abs(flat.excess) < 1e-12:  # radians: a double root, but for rounding
         here = flat
-    return (here.entry, here.exit) if abs(here.excess) < ROUGH else None
+    # ``_polished`` corrects an index angle that is wrong by less than 1e-9 radians
+    return (here.entry, here.exit) if abs(here.excess) < 1e-9 else None
 
 
 def _stationary(path: RollerPath, b: float, pair: Pair) -> Pair | None:
@@ -180,8 +176,8 @@ def _polished(
     by_exit = (two.v * both.conjugate() + chord * (1j * two.turn * two.t).conjugate()).imag
     by_entry = (-one.v * both.conjugate() + chord * (1j * one.turn * one.t).conjugate()).imag
     slope = -two.turn * by_entry - one.turn * by_exit  # of the index angle, times by_exit
-    double = abs(slope) < FLAT * abs(by_exit)
-    for _ in range(POLISHINGS):
+    double = abs(slope) < DOUBLE_ROOT_SLOPE * abs(by_exit)
+    for _ in range(6):  # each step leaves about a millionth of the error
         p, q = ExactPoint.of(path, first), ExactPoint.of(path, last)
         apart = (q.p[0] - p.p[0], q.p[1] - p.p[1])
         total = (p.t[0] + q.t[0], p.t[1] + q.t[1])
@@ -198,4 +194,4 @@ def _polished(
         move = (away * two.turn - excess * by_exit) / det
         first -= Decimal(move)
         last -= Decimal((by_entry * excess + one.turn * away) / det)
-    return (first, last) if abs(move) < POLISHED else None
+    return (first, last) if abs(move) < 1e-20 else None  # radians, of the last step

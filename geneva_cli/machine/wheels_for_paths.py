@@ -14,8 +14,8 @@ from typing import TYPE_CHECKING, NamedTuple, TypeAlias, cast
 import numpy as np
 
 from geneva_cli.machine.path_choice import chosen
-from geneva_cli.machine.path_pairs import FLAT, ends_at, residual
-from geneva_cli.machine.path_wheels import Search, wheels
+from geneva_cli.machine.path_pairs import DOUBLE_ROOT_SLOPE, ends_at, residual
+from geneva_cli.machine.path_wheels import WheelSearch, wheels
 from geneva_cli.machine.roller_path import LONG_PI, RollerPath, exactly
 from geneva_cli.machine.wheels.poses import HalfStep
 from geneva_cli.numerics.arrays import rising
@@ -28,11 +28,8 @@ if TYPE_CHECKING:
 
     LongComplex: TypeAlias = NDArray[np.clongdouble]
 
-POLISHINGS = 3  # steps of Newton: each leaves some millionth of the error
-GROUP = 2048  # designs at a time
-
 # Search results by the kind and numbers of a path, with its number there; None: none are kept.
-_KNOWN: ContextVar[dict[tuple[object, ...], tuple[Search, int]] | None] = ContextVar(
+_KNOWN: ContextVar[dict[tuple[object, ...], tuple[WheelSearch, int]] | None] = ContextVar(
     "known", default=None
 )
 
@@ -46,10 +43,10 @@ class Fits(NamedTuple):
     entry: Array
     exit: Array
     sense: Array  # +1 if the wheel turns counterclockwise on the path's own axes
-    alone: dict[int, Search]
+    alone: dict[int, WheelSearch]
 
 
-def fits_many(path: RollerPath, b: float, wanted: float | None = None) -> Fits:
+def fits_of_batch(path: RollerPath, b: float, wanted: float | None = None) -> Fits:
     """The gentlest wheel of each path, or the one whose entry is nearest to ``wanted`` (radians).
 
     ``path``, half the index angle b and ``wanted`` hold numbers (n, 1), or one for all.
@@ -57,11 +54,12 @@ def fits_many(path: RollerPath, b: float, wanted: float | None = None) -> Fits:
     numbers = (*path.rough, b, 0.0 if wanted is None else wanted)
     count = np.broadcast_shapes(*(np.shape(x) for x in numbers))[0]
     out = np.full((3, count), np.nan)
-    alone: dict[int, Search] = {}
+    alone: dict[int, WheelSearch] = {}
     half = np.broadcast_to(np.asarray(b, dtype=float), (count, 1))
     goal = None if wanted is None else np.broadcast_to(np.asarray(wanted, dtype=float), (count, 1))
-    for start in range(0, count, GROUP):
-        part = np.arange(start, min(start + GROUP, count))
+    size = 2048  # designs that are searched together
+    for start in range(0, count, size):
+        part = np.arange(start, min(start + size, count))
         some = path.of(part)
         search = wheels(some, half[part])
         _keep(some, half[part], search)
@@ -84,7 +82,7 @@ def searches_kept() -> Iterator[None]:
         _KNOWN.reset(token)
 
 
-def _keep(path: RollerPath, half: Array, search: Search) -> None:
+def _keep(path: RollerPath, half: Array, search: WheelSearch) -> None:
     kept = _KNOWN.get()
     if kept is not None:
         columns = [np.broadcast_to(x, half.shape) for x in path.rough]
@@ -92,7 +90,7 @@ def _keep(path: RollerPath, half: Array, search: Search) -> None:
             kept[type(path), *row] = search, i
 
 
-def known(path: RollerPath, b: float) -> Search | None:
+def known(path: RollerPath, b: float) -> WheelSearch | None:
     """Search result of one design's path from an earlier batch, or None."""
     kept = _KNOWN.get()
     entry = kept.get((type(path), *path.rough, b)) if kept else None
@@ -120,10 +118,10 @@ def polished(path: RollerPath, fits: Fits, step: HalfStep) -> tuple[Long, Long]:
     by_entry, by_exit = rest.by_entry[:, None], rest.by_exit[:, None]
     turn, turn_out = ends.at.turn[:, :1], ends.at.turn[:, 1:]
     det = rest.det[:, None]
-    double = np.abs(det) < FLAT * np.abs(by_exit)
+    double = np.abs(det) < DOUBLE_ROOT_SLOPE * np.abs(by_exit)
     wanted = 2 * LONG_PI * step.p / step.q
     entry, exit_ = (np.asarray(x, dtype=np.longdouble) for x in fits[:2])
-    for _ in range(POLISHINGS):
+    for _ in range(3):  # each step leaves about a millionth of the error
         (p, t), (q, u) = long_point(path, entry), long_point(path, exit_)
         away = ((q - p) * (t + u).conj()).imag
         index = -u * t.conj()

@@ -1,7 +1,7 @@
 """The crank arm: the plate below the wheel's plane that carries the rollers' pins.
 
 Its frame is the crank's, as for the locking disc, which lies on the arm. Its outline is the convex
-hull of a hub about the crank's shaft and an eye about each pin and each bolt of the disc. With one
+hull of circles: a hub about the crank's shaft, and an eye about each pin and each bolt. With one
 roller it is an arm with two eyes, with several a plate that joins all. The shaft of an internal
 wheel's crank ends in the arm, below the wheel. That crank is overhung, and its hub is a disc that
 carries the locking sectors.
@@ -33,7 +33,6 @@ from geneva_cli.parts.outlines import Outlines
 from geneva_cli.parts.reliefs import keyway_direction, sectors
 
 LAYER, HOLES = "ARM", "BORE"
-RADII = 400  # radii of the locking disc among which the best for bolts is selected
 
 
 class CrankArm(NamedTuple):
@@ -115,10 +114,11 @@ def bolts(parts: Outlines) -> list[Circle]:
 
 def _widest(parts: Outlines, at: list[float]) -> float:
     """Return the radius at which bolts in some directions leave the widest walls in the disc."""
-    radii = np.linspace(0.0, parts.sizes.lock, RADII)
+    count = 400  # radii; their spacing is far below a wall
+    radii = np.linspace(0.0, parts.sizes.lock, count)
     a = np.asarray(at)
     points = [np.outer(radii, f(a)).ravel() for f in (np.cos, np.sin)]
-    walls = -Polyarc(parts.crank).signed(np.column_stack(points)).reshape(RADII, len(at))
+    walls = -Polyarc(parts.crank).signed(np.column_stack(points)).reshape(count, len(at))
     if parts.sizes.crank_bore:
         walls = np.minimum(walls, radii[:, None] - parts.sizes.crank_bore)
     return float(radii[int(walls.min(axis=1).argmax())])

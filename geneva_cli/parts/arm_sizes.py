@@ -11,8 +11,7 @@ from geneva_cli.parts.keyways import reach
 from geneva_cli.parts.sizes import even
 from geneva_cli.spec.tables import Size
 
-HUB = 1.6  # of the bore: diameter of the arm about its shaft
-EYE = 2.0  # of a hole: diameter of the arm about a pin, where it fits
+HUB = 1.6  # outside diameter of a hub, as a multiple of its bore
 
 
 def hub_and_eye(
@@ -64,7 +63,8 @@ def arm_bore(spec: Spec, disc: float, L: float, space: float) -> float:
 
 def eye_about(hole: float, wall: float, most: float = math.inf) -> float:
     """Return the radius of the arm around a hole, up to ``most`` if that leaves the least wall."""
-    return max(min(EYE * hole, most), hole + wall)
+    # twice the hole, where there is space
+    return max(min(2.0 * hole, most), hole + wall)
 
 
 def bolts_between(

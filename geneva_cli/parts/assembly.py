@@ -152,9 +152,8 @@ def assembly(mechanism: Mechanism) -> Assembly:
     spec = mechanism.spec
     if not spec.wheel.FLAT:
         raise GenevaError(
-            f'gearing = "{spec.wheel.NAME}": its parts are not flat: write `--part wheel`, `crank` '
-            "or `assembly` laid flat (.dxf, .svg) or as solids (.step), or `wheel` or `slot` as "
-            "tables (-o FILE.csv)",
+            f'gearing = "{spec.wheel.NAME}": its parts are not flat; write `--part wheel`, `crank` '
+            "or `assembly` as .dxf, .svg or .step, or `wheel` or `slot` by -o FILE.csv",
             ("wheel", "gearing"),
         )
     if spec.wheel.z > Z_DRAWN:

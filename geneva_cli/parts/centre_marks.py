@@ -8,8 +8,6 @@ from geneva_cli.curves.drawing import Drawing
 from geneva_cli.curves.shapes import Arc, Circle, Contour, Line, Shape
 
 LAYER = "CENTER"
-LINES = "PITCH"  # a layer of lines that are not cut
-BEYOND = 1.25  # of the hole's radius: half the length of a cross
 
 
 def with_centre_marks(drawing: Drawing) -> Drawing:
@@ -32,7 +30,7 @@ def with_centre_marks(drawing: Drawing) -> Drawing:
 def _circles(shapes: Iterable[Shape]) -> Iterator[Circle]:
     """Yield circles, and round holes with a keyway as circles."""
     for shape in shapes:
-        if shape.layer == LINES:
+        if shape.layer == "PITCH":  # lines that are not cut
             continue
         if isinstance(shape, Circle):
             yield shape
@@ -50,6 +48,6 @@ def centre_marks(holes: Iterable[Circle]) -> Iterator[Contour]:
     [(15.0, 0.0), (10.0, 5.0)]
     """
     for hole in holes:
-        (x, y), reach = hole.centre, BEYOND * hole.radius
+        (x, y), reach = hole.centre, 1.25 * hole.radius  # half the length of a cross
         for dx, dy in ((reach, 0.0), (0.0, reach)):
             yield Contour(LAYER, (Line((x - dx, y - dy), (x + dx, y + dy)),), closed=False)

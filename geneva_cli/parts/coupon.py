@@ -17,10 +17,7 @@ from geneva_cli.parts.outlines import Outlines
 LAYER, HOLES, MARKS = "COUPON", "BORE", "ENGRAVE"
 # mm per side: the first suit a mill, the last a laser or a printer
 CLEARANCES = (0.0, 0.02, 0.04, 0.06, 0.1, 0.15, 0.2, 0.3)
-PRESSES = (0.0, 0.01, 0.02, 0.03, 0.05, 0.08, 0.1, 0.15)  # mm of the diameter: hole below pin
 WALL, LEAST = 0.6, 2.0  # of material between holes: of the roller's radius, and at least in mm
-APART = 10.0  # mm between plate and disc: wider than any cut
-LETTER = 0.6  # height of a number, of the roller's radius
 WIDE, NEXT, DOT = 0.5, 0.75, 0.3  # of a number's height: a digit, pitch of digits, of a point
 # strokes by the corners that they join: (0, 0) is the lower left one, (1, 2) the upper right
 STROKES = {
@@ -44,8 +41,10 @@ def coupon(parts: Outlines, tolerance: float, curves: str) -> Drawing:
     r, pin = sizes.roller, sizes.pin
     # the spec's own clearance is one of them, to a micrometre
     clearances = sorted({round(own, 3), *CLEARANCES})
-    presses = [press for press in PRESSES if press < 2.0 * pin]
-    wall, height = max(WALL * r, LEAST), LETTER * r
+    # mm by which a hole's diameter is below the pin's
+    interferences = (0.0, 0.01, 0.02, 0.03, 0.05, 0.08, 0.1, 0.15)
+    presses = [press for press in interferences if press < 2.0 * pin]
+    wall, height = max(WALL * r, LEAST), 0.6 * r  # height of the numbers
     widest = r + clearances[-1]
     each = 2.0 * widest + wall
     holes: list[Contour | Circle] = []
@@ -66,7 +65,7 @@ def coupon(parts: Outlines, tolerance: float, curves: str) -> Drawing:
     corners = [(0.0, 0.0), (width, 0.0), (width, top), (0.0, top)]
     sides = [Line(p, q) for p, q in zip(corners, [*corners[1:], corners[0]], strict=True)]
     outline = closed(LAYER, sides)
-    centre = width + APART + r, 0.5 * top
+    centre = width + 10.0 + r, 0.5 * top  # 10 mm from the plate: wider than any cut
     disc = Circle("ROLLER", centre, r)
     bore = (Circle(HOLES, centre, pin),) if pin else ()
     thick = sizes.wheel_thickness

@@ -26,7 +26,7 @@ from geneva_cli.errors import GenevaError
 from geneva_cli.numerics.tolerances import SAME_ANGLE
 from geneva_cli.parts.assembly import Assembly
 from geneva_cli.parts.keyways import bore, key
-from geneva_cli.parts.locking_rings import LAYER, rings, seen, towards
+from geneva_cli.parts.locking_rings import LAYER, polar_points, rings, towards
 from geneva_cli.parts.reliefs import Relief, followed, keyway_direction, merged, reliefs
 from geneva_cli.parts.sizes import Sizes
 
@@ -73,7 +73,7 @@ def _widened(sizes: Sizes, one: Relief, swept: Swept) -> Relief:
     """Return a relief as wide as the wheel needs: offset slots turn horns past its edges."""
     middle = 0.5 * (one.start + one.end)
     beyond = towards(*swept(one.motion, 1), middle + math.pi, math.pi - one.half)
-    off = seen(*beyond, middle).direction
+    off = polar_points(*beyond, middle).direction
     spare = sizes.relief / sizes.lock
     low, high = float(off.min(initial=0.0)), float(off.max(initial=0.0))
     start = middle + low - spare if low < -one.half - SAME_ANGLE else one.start

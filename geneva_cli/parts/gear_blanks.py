@@ -12,7 +12,17 @@ from collections.abc import Iterator
 from typing import NamedTuple
 
 from geneva_cli.curves.plates import Member, Plate
-from geneva_cli.curves.shapes import Circle, Contour, Line, Point, Segment, about, closed, two_arcs
+from geneva_cli.curves.shapes import (
+    ORIGIN,
+    Circle,
+    Contour,
+    Line,
+    Point,
+    Segment,
+    about,
+    closed,
+    two_arcs,
+)
 from geneva_cli.errors import GenevaError
 from geneva_cli.machine.layout import Link, Teeth
 from geneva_cli.parts.hole_walls import least_wall
@@ -20,8 +30,6 @@ from geneva_cli.parts.link_sizes import LinkSizes
 from geneva_cli.spec.tables import Size
 
 PITCH, HOLES, RIM = "PITCH", "BORE", "LINK"
-AXIS = (0.0, 0.0)
-FIRST = 0.25 * math.pi  # the first bolt's direction: off the line on which the shafts lie
 
 
 class Gear(NamedTuple):
@@ -47,7 +55,7 @@ class Gear(NamedTuple):
     def bolts(self) -> list[Circle]:
         """The holes by which the gear is screwed to the frame."""
         holes = [hole for hole in self.plate.holes if isinstance(hole, Circle)]
-        return [hole for hole in holes if hole.layer == HOLES and hole.centre != AXIS]
+        return [hole for hole in holes if hole.layer == HOLES and hole.centre != ORIGIN]
 
     @property
     def outer(self) -> float:
@@ -66,13 +74,13 @@ def link_gear(link: Link, at: Point, bore: float, sizes: LinkSizes, size: Size, 
     low, high = sizes.span(link.plane)
     hole = 0.0 if teeth.inside else bore
     holes: list[Circle] = []
-    outline: Circle | Contour = Circle(PITCH, AXIS, radius)
+    outline: Circle | Contour = Circle(PITCH, ORIGIN, radius)
     if teeth.inside:
-        outline, holes = Circle(RIM, AXIS, radius + 2.0 * sizes.eye), [Circle(PITCH, AXIS, radius)]
         inner, outer = radius, radius + 2.0 * sizes.eye
+        outline, holes = Circle(RIM, ORIGIN, outer), [Circle(PITCH, ORIGIN, inner)]
     else:
         inner, outer = bore, radius
-        holes += [Circle(HOLES, AXIS, bore)] if bore else []
+        holes += [Circle(HOLES, ORIGIN, bore)] if bore else []
         hub = sizes.hub(bore)
         if teeth.sectors * teeth.each_deg < 360.0:
             _refuse(link.name, radius - hub, "hub", shaft)
@@ -92,9 +100,9 @@ def sectors(radius: float, hub: float, teeth: Teeth) -> Contour:
     pieces: list[Segment] = []
     for k in range(teeth.sectors):
         start = math.radians(teeth.middle_deg) + k * pitch - 0.5 * wide
-        rim = about(AXIS, radius, start, wide)
-        back = about(AXIS, hub, start + wide, pitch - wide)
-        first = pieces[-1].end if pieces else about(AXIS, hub, start, 1.0).start
+        rim = about(ORIGIN, radius, start, wide)
+        back = about(ORIGIN, hub, start + wide, pitch - wide)
+        first = pieces[-1].end if pieces else about(ORIGIN, hub, start, 1.0).start
         pieces += [Line(first, rim.start), rim, Line(rim.end, back.start), back]
     return closed(PITCH, pieces)
 
@@ -114,7 +122,8 @@ def _bolts(size: Size, inner: float, outer: float, L: float) -> Iterator[Circle]
         far = 0.5 * size.gear_bolt_circle_mm
     r = min(L / 80.0, 0.5 * width) if size.gear_bolt_mm is None else 0.5 * size.gear_bolt_mm
     for k in range(size.gear_bolts):
-        turn = FIRST + math.tau * k / size.gear_bolts
+        # the first at 45 degrees, off the line on which the shafts lie
+        turn = 0.25 * math.pi + math.tau * k / size.gear_bolts
         yield Circle(HOLES, (far * math.cos(turn), far * math.sin(turn)), r)
 
 
@@ -132,13 +141,13 @@ def _refuse(name: str, wall: float, what: str, shaft: str) -> None:
         return
     if what == "bolts":
         key, reach = "gear_bolt_circle_mm", "bolts reach"
-        helps = "the default gear_bolt_circle_mm, a smaller gear_bolt_mm or fewer gear_bolts leave"
+        remedy = "the default gear_bolt_circle_mm, a smaller gear_bolt_mm or fewer gear_bolts leave"
     else:
         key, reach = shaft, f"{what} reaches"
         # the crank's shaft is as wide as its arm's bore, which is the locking disc's by default
         arm = " or arm_bore_mm" if shaft == "crank_bore_mm" else ""
-        helps = f"a smaller {shaft}{arm} leaves"
+        remedy = f"a smaller {shaft}{arm} leaves"
     raise GenevaError(
-        f"no blank of the {name} is left: its {reach} {-wall:.4g} mm too far; {helps} some",
+        f"no blank of the {name} is left: its {reach} {-wall:.4g} mm too far; {remedy} some",
         ("size", key),
     )

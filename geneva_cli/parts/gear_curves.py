@@ -2,8 +2,9 @@
 
 The ratio is i = crank speed / input speed, and the axes are C apart. The pitch curves meet on the
 line of centres, at r1 = C i/(1+i) from the driver and r2 = C/(1+i) from the driven gear. Convex
-curves can be hobbed. The driver is convex where 1 + 1/i + (1/i)'' > 0, the driven gear where 1 + i
-+ (i i'' - i'²)/i³ > 0, with derivatives by the driver's angle.
+curves can be hobbed. With derivatives by the driver's angle, the curves are convex where
+
+    driver:  1 + 1/i + (1/i)'' > 0,    driven gear:  1 + i + (i i'' - i'²)/i³ > 0
 """
 
 from __future__ import annotations
@@ -34,8 +35,7 @@ NAMES = (
     "driver_convexity",
     "driven_convexity",
 )
-SAMPLES = 721
-ENDS = (-np.pi, 0.0, np.pi)  # of the input: one turn, and the angle of the curves' frames
+SAMPLES = 721  # input angles of a turn at which ratio and radii are computed
 
 
 class Convexity(NamedTuple):
@@ -48,16 +48,17 @@ class Convexity(NamedTuple):
 def gears_table(mechanism: Mechanism, tolerance_mm: float, samples: int | None) -> Table:
     """Return both pitch curves: for a chord tolerance, or at ``samples`` even input angles.
 
-    Each is in its own gear's frame, with x along the line of centres at input angle 0. Each is
-    given as it is cut, so its angle runs against the gear's rotation.
+    Each is in its own gear's frame, with x along the line of centres at input angle 0. A curve is
+    listed as it is cut, so its angle runs against the gear's rotation.
     """
     gears = required_gears(mechanism)
     if samples is None:
+        ends = (-np.pi, 0.0, np.pi)  # one turn; the curves' frames are at input angle 0
         phi = chords.nodes(
-            lambda at: _pitch_points(gears, *_ratio(gears, at), at), ENDS, tolerance_mm
+            lambda at: _pitch_points(gears, *_ratio(gears, at), at), ends, tolerance_mm
         )
     else:
-        phi = np.linspace(ENDS[0], ENDS[-1], samples)
+        phi = np.linspace(-np.pi, np.pi, samples)
     turn, ratio = _ratio(gears, phi)
     r1, r2 = _radii(gears, ratio)
     (x1, y1), (x2, y2) = (p.T for p in _pitch_points(gears, turn, ratio, phi))
@@ -85,8 +86,8 @@ def required_gears(mechanism: Mechanism) -> Gears:
         geared = [kind for kind in registry.DRIVES if registry.drive(kind).GEARED]
         if drive.TOOTHED:
             raise GenevaError(
-                f'--part gears: the pitch curves of kind = "{drive.NAME}" are circles, so there is '
-                "no table: write them as .dxf or .svg; --part parts has their radii"
+                f'--part gears: the pitch curves of kind = "{drive.NAME}" are circles and have no '
+                "table; write .dxf or .svg, or --part parts for their radii"
             )
         geared += [kind for kind in registry.DRIVES if registry.drive(kind).TOOTHED]
         raise GenevaError(

@@ -22,10 +22,7 @@ if TYPE_CHECKING:
     from geneva_cli.numerics.arrays import Array, Mask, Number
 
 NAMES = ("input_deg", "radius_mm", *WALLED)
-LOOKS = 3600  # positions all round, between which the greatest pressure angle is searched
-FEW = 360  # positions in the dwell, where less accuracy suffices
-TOP = 0.99  # of the steepest position: lower local maxima are not refined
-EASED_DEG = 30.0  # of the input: range in which the groove joins its arc in the dwell
+GRID = 3600  # positions all round, between which the greatest pressure angle is searched
 
 
 def distance(groove: Groove, input_deg: Array) -> Array:
@@ -60,8 +57,8 @@ def groove_curve(groove: Groove, L: float, offset: float) -> Callable[[Array], t
 def _distances(groove: Groove, input_deg: Array, order: int = 2) -> list[Array]:
     """Return the roller's distance from the crank's axis, with derivatives by the input in radians.
 
-    There are ``order`` derivatives, at most two. In the dwell the slope fades over EASED_DEG beyond
-    either end; between, the groove is an arc about the crank's axis. If the two ends lead to
+    There are ``order`` derivatives, at most two. In the dwell the slope fades over some degrees
+    beyond either end; between, the groove is an arc about the crank's axis. If the two ends lead to
     different arcs, a 3-4-5 curve joins them. The second derivative is continuous all round.
     """
     at = (input_deg - groove.motion.entry_deg) % 360.0 + groove.motion.entry_deg
@@ -82,7 +79,7 @@ def _moving(groove: Groove, input_deg: Array, order: int) -> list[Array]:
 def _back(groove: Groove, input_deg: Array, order: int) -> list[Array]:
     """Return distance and derivatives at input angles in the dwell; see ``_distances``."""
     span = radians(360.0 - (groove.motion.exit_deg - groove.motion.entry_deg))
-    eased = smaller(math.radians(EASED_DEG), span / 3.0)
+    eased = smaller(math.radians(30.0), span / 3.0)
     t = np.radians(input_deg - groove.motion.exit_deg)
     entry, exit_ = groove.ends
     after = _eased(exit_, eased, t, 1.0)
@@ -129,13 +126,13 @@ class GrooveExtremes(NamedTuple):
     pressure_deg: Array
 
 
-def seen(groove: Groove, input_deg: Array) -> GrooveExtremes:
+def sampled_extremes(groove: Groove, input_deg: Array) -> GrooveExtremes:
     """Return the extremes of a batch of grooves, or of one, over sampled positions.
 
-    The motion is sampled at ``input_deg`` (m, k), the dwell at FEW positions.
+    The motion is sampled at ``input_deg`` (m, k), the dwell at 360 positions.
     """
     dwell = 360.0 - (groove.motion.exit_deg - groove.motion.entry_deg)
-    rest = groove.motion.exit_deg + dwell * (np.arange(FEW) / FEW)
+    rest = groove.motion.exit_deg + dwell * (np.arange(360) / 360)
     moving = groove.distances(input_deg, 1)[1].derivatives()
     resting = _back(groove, np.atleast_2d(rest), 1)
     R, slope = (np.hstack(pair) for pair in zip(moving, resting, strict=True))
@@ -148,11 +145,12 @@ def greatest_pressure(groove: Groove) -> tuple[float, float]:
 
     Its tangent is |R'/R|, for both signs of R'. It is greatest where R R'' = R'².
     """
-    grid = groove.motion.entry_deg + 360.0 * np.arange(LOOKS) / LOOKS
+    grid = groove.motion.entry_deg + 360.0 * np.arange(GRID) / GRID
     R, slope, _ = _distances(groove, grid)
     steep = np.abs(slope) / R
     tops = (steep >= np.roll(steep, 1)) & (steep >= np.roll(steep, -1))
-    tops &= steep > TOP * steep.max()
+    # the grid is fine enough that lower local maxima need no refinement
+    tops &= steep > 0.99 * steep.max()
     middle = 0.5 * (groove.motion.entry_deg + groove.motion.exit_deg)
     # a groove is as steep before the motion as after it: start in the middle of the dwell
     places = sorted(math.remainder(x - middle, 360.0) + middle for x in grid[tops])
@@ -163,7 +161,7 @@ def greatest_pressure(groove: Groove) -> tuple[float, float]:
 
 def _steepest(groove: Groove, about: float) -> tuple[float, float]:
     """Return the greatest tangent near a position of the grid, and its input angle."""
-    step = 360.0 / LOOKS
+    step = 360.0 / GRID
     sense = math.copysign(1.0, _distances(groove, np.array([about]))[1][0])
 
     def rises(x: Array) -> Mask:
@@ -180,8 +178,8 @@ def groove_table(mechanism: Mechanism, tolerance_mm: float, samples: int | None)
     """Return the groove over the motion: for a chord tolerance, or at ``samples`` even angles.
 
     The crank's axis is the origin, and x points away from the wheel's axis. Left and right are the
-    flanks, seen as the roller travels. The pressure angle is between the groove's normal and the
-    crank's arm, atan(R'/R).
+    flanks in the roller's direction of travel. The pressure angle is between the groove's normal
+    and the crank's arm, atan(R'/R).
     """
     groove = mechanism.engagements[0].groove
     if groove is None:

@@ -105,9 +105,9 @@ def _reaches(parts: Outlines) -> tuple[float, float]:
     rim = min(max(RIM * sizes.roller, 4.0 * wall), space)
     if rim < 4.0 * wall:
         raise GenevaError(
-            f"--part groove-plate: the groove reaches {far:.4g} mm from the crank's axis and "
-            f"leaves {space:.4g} mm up to the wheel's hub, less than four times wall_min_mm; "
-            "reduce roller, wheel_hub_mm or wheel_bore_mm",
+            f"--part groove-plate: the groove reaches {far:.4g} mm and leaves {space:.4g} mm up to "
+            "the wheel's hub, less than four times wall_min_mm; reduce roller, wheel_hub_mm or "
+            "wheel_bore_mm",
             ("size", "wheel_hub_mm"),
         )
     return far, rim

@@ -46,7 +46,6 @@ DIN_6885_1 = [
         (200, 230, 50, 28, 17.0, 11.4),
     )
 ]
-BORES = {"crank": "crank_bore_mm or arm_bore_mm", "wheel": "wheel_bore_mm"}
 TABLES = {"DIN 6885-1": DIN_6885_1}
 
 
@@ -64,10 +63,10 @@ def key(standard: str | None, radius: float, part: str = "crank") -> ParallelKey
     for row in table:
         if row.above < diameter <= row.up_to:
             return row
+    bore_key = {"crank": "crank_bore_mm or arm_bore_mm", "wheel": "wheel_bore_mm"}[part]
     raise GenevaError(
-        f'{part}_keyway = "{standard}": its table has shafts above {table[0].above:g} mm and up '
-        f"to {table[-1].up_to:g}, but the {part}'s bore is {diameter:g}; set {BORES[part]} in that "
-        f"range, or remove {part}_keyway",
+        f'{part}_keyway = "{standard}": its table lacks the {part}\'s bore of {diameter:g} mm; '
+        f"set {bore_key} above {table[0].above:g} and up to {table[-1].up_to:g}, or remove it",
         ("size", f"{part}_keyway"),
     )
 

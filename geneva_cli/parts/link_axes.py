@@ -19,10 +19,8 @@ from geneva_cli.parts.link_sizes import places
 if TYPE_CHECKING:
     from geneva_cli.numerics.jet import Array
 
-ON_SHAFTS = (Joint.SHAFT, Joint.PIN)
 
-
-class Axis(NamedTuple):
+class LinkAxis(NamedTuple):
     """An axis that links turn about: their names and joints, and its position at input angle 0."""
 
     names: tuple[str, ...]
@@ -33,13 +31,13 @@ class Axis(NamedTuple):
     one_piece: frozenset[str] = frozenset()  # names of the links that have no bore for it
 
 
-def axes(links: Iterable[Link], near: float) -> Iterator[Axis]:
+def axes(links: Iterable[Link], near: float) -> Iterator[LinkAxis]:
     """Yield each axis once; ``near`` is the distance, mm, below which two axes are one."""
     left: list[tuple[str, Joint, Array]] = [
         (link.name, kind, at)
         for link in links
         for at, kind in zip(places(link), link.kinds, strict=True)
-        if kind in ON_SHAFTS
+        if kind in (Joint.SHAFT, Joint.PIN)
     ]
     while left:
         path = left[0][2]
@@ -47,4 +45,4 @@ def axes(links: Iterable[Link], near: float) -> Iterator[Axis]:
         left = [one for one in left if not bool(np.abs(one[2] - path).max() < near)]
         z = complex(path[len(path) // 2])
         names, kinds, _ = zip(*here, strict=True)
-        yield Axis(names, kinds, (z.real, z.imag), bool(np.abs(path - z).max() < near))
+        yield LinkAxis(names, kinds, (z.real, z.imag), bool(np.abs(path - z).max() < near))

@@ -15,7 +15,7 @@ from geneva_cli.curves.plates import Member, Plate
 from geneva_cli.machine.layout import Joint
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.numerics.tolerances import SAME_LENGTH
-from geneva_cli.parts.link_axes import Axis
+from geneva_cli.parts.link_axes import LinkAxis
 from geneva_cli.parts.link_positions import same
 from geneva_cli.parts.links import Links, placed_holes
 from geneva_cli.parts.shafts import shaft, shaft_ends
@@ -27,7 +27,7 @@ class Ends(NamedTuple):
 
     lowest: float  # the frame's lower face
     stop: float | None = None  # height at which the crank's shaft ends above that face
-    crank_has_one: bool = False  # the crank's shaft carries more than links, and is made elsewhere
+    crank_has_one: bool = False  # the crank's shaft carries more than links: another function's
     wheel_has_one: bool = False
 
 
@@ -54,13 +54,13 @@ def link_shafts(
             high = thicknesses(size, L).wheel if on_wheel else high
             low, high = shaft_ends(size, whose, low, high)
             yield Member(shaft(whose, axis.radius, (low, high), what), axis.at)
-        elif len(axis.names) > 1 and Joint.PIN not in axis.kinds:  # pins are made elsewhere
+        elif len(axis.names) > 1 and Joint.PIN not in axis.kinds:  # ``link_pins`` has the pins
             plate = shaft(axis.names[0], axis.radius, (low, high))
             yield Member(plate._replace(name=f"shaft of {', '.join(axis.names)}"), axis.at)
 
 
 def _heights(
-    bars: Links, axis: Axis, others: Iterable[Member], L: float
+    bars: Links, axis: LinkAxis, others: Iterable[Member], L: float
 ) -> Iterator[tuple[float, float]]:
     """Yield the heights, from and to, of the parts on an axis, with or without a bore."""
     for member in bars.cut:

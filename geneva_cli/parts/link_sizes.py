@@ -23,12 +23,7 @@ from geneva_cli.parts.sizes import even, pin_radius, thicknesses, wall_min
 if TYPE_CHECKING:
     from geneva_cli.numerics.jet import Array
 
-NEAR = 0.2  # of the distance to the next joint: greatest radius of a pin
-BORED = 0.35  # of the distance to the nearest hole: greatest radius of a bore
-THIN = 0.01  # of the centre distance: least radius of a shaft by default
-BLOCK = 1.6  # of its pin's hole: width of a sliding block
-LONG = 0.5  # of a block's width: additional length of the block
-SPARE = 0.25  # of a pin: distance from a block to the end of its slot
+SLOT_MARGIN = 0.25  # distance from a block to the end of its slot, as a fraction of the pin's hole
 
 
 class LinkSizes(NamedTuple):
@@ -58,15 +53,15 @@ class LinkSizes(NamedTuple):
 
     def block(self, hole: float) -> tuple[float, float]:
         """Return half a sliding block's width, and the offset of its round ends' centres."""
-        half = max(BLOCK * hole, hole + self.wall)
-        return half, LONG * half
+        half = max(1.6 * hole, hole + self.wall)  # as wide as a hub about its pin
+        return half, 0.5 * half  # half as long again as it is wide
 
     def bore(self, space: float, L: float) -> float:
         """Return the radius of a shaft ``space`` mm from the nearest hole; 0 if it is too thin."""
         if self.shaft is not None:
             return self.shaft
-        radius = even(min(L / 20.0, BORED * space))
-        return radius if radius >= THIN * L else 0.0
+        radius = even(min(L / 20.0, 0.35 * space))  # leaves most of the space as a wall
+        return radius if radius >= 0.01 * L else 0.0
 
     def hub(self, bore: float) -> float:
         """Return the radius of a link's plate around a bore, or on a shaft's end."""
@@ -94,7 +89,8 @@ def link_sizes(
     stands = pin_radius(size, mechanism.roller_radius_mm)
     roller = pin_hole(size, stands) if stands else 0.0
     nearest = min((distance for link in links for distance in _pin_distances(link)), default=L)
-    pin = even(min(L / 40.0, NEAR * nearest)) if size.link_pin_mm is None else size.link_pin_mm / 2
+    # a fifth of the distance to the next joint leaves eyes and a gap between
+    pin = even(min(L / 40.0, 0.2 * nearest)) if size.link_pin_mm is None else size.link_pin_mm / 2
     eye = half_or(size.link_width_mm, eye_about(pin, wall))
     if eye <= pin:
         raise GenevaError(

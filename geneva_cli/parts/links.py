@@ -23,15 +23,14 @@ from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.numerics.tolerances import SAME_LENGTH
 from geneva_cli.parts.gear_blanks import Gear, link_gear
 from geneva_cli.parts.hole_walls import apart, least_wall
-from geneva_cli.parts.link_axes import Axis, axes
+from geneva_cli.parts.link_axes import LinkAxis, axes
 from geneva_cli.parts.link_pins import pins, rollers
 from geneva_cli.parts.link_positions import links_at, same
-from geneva_cli.parts.link_sizes import SPARE, LinkSizes, link_sizes, places
+from geneva_cli.parts.link_sizes import SLOT_MARGIN, LinkSizes, link_sizes, places
 from geneva_cli.parts.outlines import Outlines
 from geneva_cli.parts.sizes import even, pin_radius
 
 LAYER, HOLES, SHAFT = "LINK", "BORE", Joint.SHAFT
-ANGLES = 1440  # input angles of a whole turn at which links are computed; 0 is one of them
 
 
 class Links(NamedTuple):
@@ -48,7 +47,7 @@ class Links(NamedTuple):
     pin_low: float | None = None  # lower end of the pin on a link that carries the wheel's roller
     standing: frozenset[str] = frozenset()  # names of the links that are fixed to the frame
     blocks: frozenset[str] = frozenset()  # names of the blocks that slide in a link
-    axes: tuple[Axis, ...] = ()  # axes that links and gears turn about
+    axes: tuple[LinkAxis, ...] = ()  # axes that links and gears turn about
 
     @property
     def plates(self) -> list[Plate]:
@@ -65,7 +64,7 @@ class Links(NamedTuple):
         return [plate for plate in self.plates if plate.name in names]
 
 
-class _Bar(NamedTuple):
+class _UnboredLink(NamedTuple):
     """A link before it is bored for its shafts; complex points in its own frame."""
 
     link: Link
@@ -89,7 +88,8 @@ def drawn_links(mechanism: Mechanism, parts: Outlines | None = None) -> Links:
     Raises GenevaError, naming the key, for sizes that leave no plate around a hole.
     """
     turns = mechanism.spec.drive.turns
-    turn = np.linspace(-180.0 * turns, 180.0 * turns, ANGLES * turns + 1)
+    # a quarter of a degree apart; 0 is one of them
+    turn = np.linspace(-180.0 * turns, 180.0 * turns, 1440 * turns + 1)
     links = links_at(mechanism, turn)
     if not links:
         return Links()
@@ -119,7 +119,7 @@ def drawn_links(mechanism: Mechanism, parts: Outlines | None = None) -> Links:
     )
 
 
-def _known(axis: Axis, sizes: LinkSizes, parts: Outlines | None, L: float) -> float:
+def _known(axis: LinkAxis, sizes: LinkSizes, parts: Outlines | None, L: float) -> float:
     """Return the radius of the shaft of wheel or crank, from their own bores; 0 for another."""
     if same(axis.at, (L, 0.0), L):
         return sizes.crank_shaft or 0.0
@@ -127,13 +127,13 @@ def _known(axis: Axis, sizes: LinkSizes, parts: Outlines | None, L: float) -> fl
 
 
 def _with_shaft(
-    axis: Axis,
-    bars: list[_Bar],
+    axis: LinkAxis,
+    bars: list[_UnboredLink],
     links: Iterable[Link],
     sizes: LinkSizes,
     parts: Outlines | None,
     L: float,
-) -> Axis:
+) -> LinkAxis:
     """Return an axis with its shaft's radius, and the links that are too small to be bored."""
     if SHAFT not in axis.kinds:
         return axis._replace(radius=sizes.pin)
@@ -155,21 +155,20 @@ def _with_shaft(
 
 
 def _refuse_unused(
-    mechanism: Mechanism, turning: list[Axis], sizes: LinkSizes, parts: Outlines | None
+    mechanism: Mechanism, turning: list[LinkAxis], sizes: LinkSizes, parts: Outlines | None
 ) -> None:
     """Raise GenevaError for a bore in the spec if no link has a shaft of its own."""
     L = mechanism.center_distance_mm
     own = (axis for axis in turning if SHAFT in axis.kinds and not _known(axis, sizes, parts, L))
     if sizes.shaft is not None and not any(True for _ in own):
         raise GenevaError(
-            f"link_bore_mm = {2.0 * sizes.shaft:g}: it applies to no link, because all are on the "
-            "shafts of wheel and crank; remove it (crank_bore_mm, arm_bore_mm and wheel_bore_mm "
-            "set those shafts)",
+            f"link_bore_mm = {2.0 * sizes.shaft:g}: it applies to no link: all are on the shafts "
+            "of wheel and crank; set crank_bore_mm, arm_bore_mm or wheel_bore_mm instead",
             ("size", "link_bore_mm"),
         )
 
 
-def _gear(link: Link, turning: list[Axis], sizes: LinkSizes, mechanism: Mechanism) -> Gear:
+def _gear(link: Link, turning: list[LinkAxis], sizes: LinkSizes, mechanism: Mechanism) -> Gear:
     """Return a gear, bored for the shaft of its axis."""
     (path,), L = places(link), mechanism.center_distance_mm
     z = complex(path[len(path) // 2])
@@ -178,7 +177,7 @@ def _gear(link: Link, turning: list[Axis], sizes: LinkSizes, mechanism: Mechanis
     return link_gear(link, at, bore, sizes, mechanism.spec.size, L)
 
 
-def _bar(link: Link, sizes: LinkSizes, L: float) -> _Bar:
+def _bar(link: Link, sizes: LinkSizes, L: float) -> _UnboredLink:
     """Return a link without bores for shafts, and the blocks that slide along it."""
     middle = len(link.joints[0][0]) // 2  # input angle 0
     joints = places(link)
@@ -200,7 +199,7 @@ def _bar(link: Link, sizes: LinkSizes, L: float) -> _Bar:
             along = z / abs(z)
             distances = np.abs(joint - joints[0])
             half, long = sizes.block(hole)
-            spare = long + SPARE * hole
+            spare = long + SLOT_MARGIN * hole
             ends = float(distances.min()) - spare, float(distances.max()) + spare
             holes.append(_slot(along, ends, half))
             eyes += [_circle(LAYER, r * along, half + hole) for r in ends]
@@ -218,10 +217,12 @@ def _bar(link: Link, sizes: LinkSizes, L: float) -> _Bar:
                 high,
             )
             blocks.append(_placed(block, at[0] + z * unit, along * unit))
-    return _Bar(link, at[0], unit, own, tuple(eyes), tuple(holes), tuple(blocks))
+    return _UnboredLink(link, at[0], unit, own, tuple(eyes), tuple(holes), tuple(blocks))
 
 
-def _members(bar: _Bar, turning: list[Axis], sizes: LinkSizes, L: float) -> Iterator[Member]:
+def _members(
+    bar: _UnboredLink, turning: list[LinkAxis], sizes: LinkSizes, L: float
+) -> Iterator[Member]:
     """Yield a link as a plate with the bores for its shafts, and its blocks."""
     eyes, holes, name = list(bar.eyes), list(bar.holes), bar.link.name
     for z, kind in zip(bar.own, bar.link.kinds, strict=True):
@@ -266,7 +267,7 @@ def _refuse(plate: Plate) -> None:
     if wall <= 0.0:
         raise GenevaError(
             f"--part links: no plate is left around the holes of the {plate.name}: it lacks "
-            f"{-wall:.4g} mm; reduce link_pin_mm, link_bore_mm or pin_mm, or move its joints apart",
+            f"{-wall:.4g} mm; reduce link_pin_mm, link_bore_mm or pin_mm, or move joints apart",
             ("size", "link_pin_mm"),
         )
 

@@ -29,10 +29,9 @@ if TYPE_CHECKING:
 
 LAYER = "CRANK"
 EDGE = 0.035  # radians, two degrees: width of the range that counts as a sector's edge
-THIN = 0.1  # of the disc's radius: least thickness of a locking sector
-POINTED = 0.01  # of the disc's radius: no sector comes nearer to the axis with its point
-SHARES = [1.0 - 0.02 * k for k in range(40)]  # of the locking angle, tried until one clears
-SOME = 16  # the first of so many positions of a motion shows most collisions
+THINNEST = 0.1  # least thickness of a locking sector, as a fraction of the disc's radius
+# Fractions of the locking angle; a sector takes the first that clears the wheel.
+LOCK_FRACTIONS = [1.0 - 0.02 * k for k in range(40)]
 
 
 class PolarPoints(NamedTuple):
@@ -55,7 +54,7 @@ def towards(x: Array, y: Array, middle: float, half: float) -> tuple[Array, Arra
     return x[near], y[near]
 
 
-def seen(x: Array, y: Array, middle: float) -> PolarPoints:
+def polar_points(x: Array, y: Array, middle: float) -> PolarPoints:
     """Return points on the crank in polar coordinates about a direction."""
     off = np.remainder(np.arctan2(y, x) - middle + math.pi, math.tau) - math.pi
     return PolarPoints(np.hypot(x, y), off)
@@ -73,16 +72,18 @@ def rings(
         x, y = zip(*(swept(i, all_points) for i in range(len(assembly.motions))), strict=True)
         return np.concatenate(x), np.concatenate(y)
 
-    some, all_ = reached(SOME), cache(reached)
-    limit = (1.0 - THIN) * sizes.lock
+    some, all_ = reached(16), cache(reached)  # every 16th position shows most collisions
+    limit = (1.0 - THINNEST) * sizes.lock
     contours = []
     for one, after in followed(around):
         if after - one.end <= SAME_ANGLE:
             continue
         whole, middle = 0.5 * (after - one.end), 0.5 * (after + one.end)
-        few = seen(*towards(*some, middle, whole), middle)
-        all_points = cache(lambda at=middle, half=whole: seen(*towards(*all_(1), at, half), at))
-        for half in (fraction * whole for fraction in SHARES):
+        few = polar_points(*towards(*some, middle, whole), middle)
+        all_points = cache(
+            lambda at=middle, half=whole: polar_points(*towards(*all_(1), at, half), at)
+        )
+        for half in (fraction * whole for fraction in LOCK_FRACTIONS):
             if beyond(sizes, few, half) or beyond(sizes, all_points(), half):
                 continue
             edge, floor = inner_arc(sizes, half, all_points(), spare)
@@ -106,7 +107,7 @@ def beyond(sizes: Sizes, wheel: PolarPoints, half: float) -> bool:
     passes beyond a point ahead that lies beyond the limit. Then its middle lies beyond the limit
     too. The edges are farther out than the points near them.
     """
-    limit, offset = CLEARLY * (1.0 - THIN) * sizes.lock, np.abs(wheel.direction)
+    limit, offset = CLEARLY * (1.0 - THINNEST) * sizes.lock, np.abs(wheel.direction)
     inside = CLEARLY * offset < half
     if (wheel.radius[inside & (offset <= 0.5 * math.pi)] >= limit).any():
         return True
@@ -141,7 +142,7 @@ def inner_arc(sizes: Sizes, half: float, wheel: PolarPoints, more: float) -> tup
     radius, off = wheel.radius[inside], wheel.direction[inside]
     at_edge = float(radius[np.abs(off) > half - EDGE].max(initial=0.0))
     spare = min(sizes.relief, (sizes.lock - at_edge) / 3.0) + more
-    edge = max(at_edge + spare, POINTED * sizes.lock)
+    edge = max(at_edge + spare, 0.01 * sizes.lock)  # no sector is pointed down to the axis
     ex, ey = edge * math.cos(half), edge * math.sin(half)
     x, y = radius * np.cos(off), radius * np.sin(off)
     off_edge = np.abs(x - ex) > SAME_LENGTH * edge

@@ -30,10 +30,7 @@ CURVED = 2e-6  # of the centre distance: accuracy of curved walls
 # Of the centre distance, 0.2 um in 100 mm: parts that overlap by less count as touching. No cutter
 # and no roller is more accurate, nor are curved walls.
 CONTACT = CURVED
-TRIES = 5
-SPARE = 3.0  # times the overlap that was left: additional distance from the wheel
 SWEPT_DEG = 0.2  # of the input, between the positions of the wheel that a relief must clear
-SOME = 16  # one in so many positions shows most reliefs that collide
 
 
 class Outlines(NamedTuple):
@@ -71,7 +68,7 @@ class Outlines(NamedTuple):
 
     def past_mouth(self, motion: int, at: Array) -> Array:
         """Return how far a motion's roller is in its slot, beyond the mouth's corners, mm, (n,)."""
-        # the corners are half a slot's width beside the slot's middle, on the rim
+        # the corners are on the rim, half a slot's width from the slot's middle
         level = math.sqrt(max(self.sizes.rim**2 - self.sizes.half_width**2, 0.0))
         far = np.hypot(*self.assembly.driving(motion, at).T)
         past: Array = self.assembly.sign * (level - far)
@@ -128,17 +125,18 @@ def _relieved(bare: Gaps, close: float) -> tuple[list[Contour], str, Gaps]:
     if whole and not requested and not without_lock(assembly) and has_arcs(assembly, sizes.lock):
         crank = crank_contours(assembly, sizes, "arc", swept)
         gaps = bare.with_crank(crank)
-        if all(_overlap(gaps, close, every) <= close for every in (SOME, 1)):
+        # every 16th position shows most reliefs that collide
+        if all(_overlap(gaps, close, every) <= close for every in (16, 1)):
             return crank, "arc", gaps
     kind, spare = requested or "sector", 0.0
     crank = crank_contours(assembly, sizes, kind, swept)
     gaps = bare.with_crank(crank)
-    for _ in range(0 if whole else TRIES):
+    for _ in range(0 if whole else 5):
         overlap = _overlap(gaps, close)
         if overlap <= close:
             break
-        # Between two of these positions the wheel came nearer still.
-        spare += SPARE * overlap + 10.0 * close
+        # Between two of these positions the wheel comes nearer still: three times the overlap.
+        spare += 3.0 * overlap + 10.0 * close
         crank = crank_contours(assembly, sizes, kind, swept, spare)
         gaps = bare.with_crank(crank)
     return crank, kind, gaps

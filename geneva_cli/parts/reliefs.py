@@ -8,8 +8,6 @@ from typing import NamedTuple
 from geneva_cli.numerics.tolerances import SAME_ANGLE
 from geneva_cli.parts.assembly import Assembly
 
-BORED = 1.0 / 18.0  # of the centre distance: radius that an arc must leave about the axis
-
 
 class Relief(NamedTuple):
     """A relief of the disc: its directions on the crank, radians, counterclockwise."""
@@ -59,7 +57,8 @@ def has_arcs(assembly: Assembly, lock: float) -> bool:
     """Return True if arcs relieve the disc; if gears widen the reliefs, they must leave a bore."""
     paired = any(engagement.apart for engagement in assembly.kinds)
     floor = arc_floor(assembly, lock)
-    return floor >= BORED * assembly.L if paired else floor > 0.0
+    # L/18 about the axis is enough for a bore
+    return floor >= (1.0 / 18.0) * assembly.L if paired else floor > 0.0
 
 
 def without_lock(assembly: Assembly) -> bool:

@@ -14,15 +14,14 @@ from geneva_cli.parts.assembly import Assembly
 if TYPE_CHECKING:
     from geneva_cli.numerics.jet import Array
 
-TURN = 720  # input angles at which a path is sampled
+TURN_SAMPLES = 720  # input angles at which a path is sampled
 
 
 class RollerPaths(NamedTuple):
     """Least distances of the rollers' centres from the axes, mm, whatever the rollers' radius."""
 
-    ends: tuple[
-        float, ...
-    ]  # of each kind of slot, least distance from the wheel's axis; greatest for internal wheels
+    # least distance of each kind of slot from the wheel's axis; greatest for internal wheels
+    ends: tuple[float, ...]
     arm: float  # least distance of the rollers, and of the adjacent slots, from the crank's axis
 
 
@@ -64,13 +63,15 @@ def rest(assembly: Assembly, engagement: Engagement, end: float) -> tuple[float,
 
 def _pitch(assembly: Assembly, engagement: Engagement) -> Array:
     """Return points of a slot's pitch curve, (n, 2)."""
-    x, y = engagement.slot(np.linspace(engagement.entry_deg, engagement.exit_deg, TURN + 1), 0)
+    x, y = engagement.slot(
+        np.linspace(engagement.entry_deg, engagement.exit_deg, TURN_SAMPLES + 1), 0
+    )
     return assembly.L * np.column_stack((x.c[0], y.c[0] + 0.0 * x.c[0]))
 
 
 def _arm(assembly: Assembly) -> float:
     """Return the least distance of the rollers from the crank's axis."""
-    turn = np.linspace(0.0, assembly.turn_deg, TURN, endpoint=False)
+    turn = np.linspace(0.0, assembly.turn_deg, TURN_SAMPLES, endpoint=False)
     leaders = {engagement: i for i, (engagement, _) in reversed([*enumerate(assembly.rollers)])}
     # others follow their leaders
     far = [assembly.pin(i, turn) - (assembly.L, 0.0) for i in leaders.values()]

@@ -108,7 +108,7 @@ def crank_shaft_ends(parts: Outlines, lowest: float) -> tuple[float, float]:
 
 
 def shaft_ends(size: Size, part: str, low: float, high: float) -> tuple[float, float]:
-    """Return the ends of a part's shaft: those of the spec, or the given heights."""
+    """Return the ends of a part's shaft: those of the spec, or else the heights low and high."""
     values = vars(size)
     ends = values.get(f"{part}_shaft_low_mm"), values.get(f"{part}_shaft_high_mm")
     return low if ends[0] is None else ends[0], high if ends[1] is None else ends[1]
@@ -123,7 +123,7 @@ def shaft(part: str, radius: float, ends: tuple[float, float], what: str = "shaf
     if not low < high:
         raise GenevaError(
             f"{part}_shaft_low_mm: the {part}'s shaft would reach from {low:g} up to {high:g} mm "
-            f"(0 is the wheel's lower face); lower {part}_shaft_low_mm or raise "
+            f"(0 is the wheel's lower face); reduce {part}_shaft_low_mm or increase "
             f"{part}_shaft_high_mm",
             ("size", f"{part}_shaft_low_mm"),
         )

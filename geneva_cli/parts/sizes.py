@@ -20,19 +20,6 @@ from geneva_cli.parts.reliefs import arc_floor, has_arcs
 from geneva_cli.parts.roller_paths import RollerPaths, mouth, roller_paths
 from geneva_cli.spec.tables import Size
 
-PLAIN = 0.4  # of a hub's diameter: radius of a bore in it
-KEYED = 0.5 / 1.6  # of a hub's diameter: radius of a bore with keyway, up to 0.39 radii deep
-BESIDE_HUB = 0.6  # of the space: largest bore that fits with its default hub, of 1.5 bores
-
-# keys of parts on a wheel's axis, where an internal wheel, a ring, has nothing to carry them
-ON_AXIS = (
-    "wheel_bore_mm",
-    "wheel_hub_mm",
-    "wheel_hub_length_mm",
-    "wheel_shaft_low_mm",
-    "wheel_shaft_high_mm",
-)
-
 
 class Sizes(NamedTuple):
     """Lengths and radii, mm; bores and hubs are radii too. 0 for parts that do not exist."""
@@ -143,20 +130,20 @@ def sizes(assembly: Assembly, known: RollerPaths | None = None) -> Sizes:
 
 
 def built(mechanism: Mechanism) -> Size:
-    """The spec's sizes with all that they leave out as the machine has it, mm and diameters.
+    """Return the spec's sizes with the machine's values for the keys left out, mm and diameters.
 
-    Where no flat parts can be cut, centre distance, roller and clearances alone.
+    Without flat parts only centre distance, roller and clearances are added.
     """
-    given = mechanism.spec.size
+    size = mechanism.spec.size
     known: dict[str, float] = {
         "center_distance_mm": mechanism.center_distance_mm,
         "roller_radius_mm": mechanism.roller_radius_mm,
-        "slot_clearance_mm": given.allowances.slot_clearance_mm,
-        "lock_clearance_mm": given.allowances.lock_clearance_mm,
-        "press_fit_mm": given.allowances.press_fit_mm,
+        "slot_clearance_mm": size.allowances.slot_clearance_mm,
+        "lock_clearance_mm": size.allowances.lock_clearance_mm,
+        "press_fit_mm": size.allowances.press_fit_mm,
     }
-    if found := sized(mechanism):
-        _, own = found
+    if flat := sized(mechanism):
+        _, own = flat
         known |= {
             "wheel_radius_mm": own.rim,
             "slot_bottom_clearance_mm": own.slot_bottom,
@@ -173,8 +160,8 @@ def built(mechanism: Mechanism) -> Size:
             "arm_thickness_mm": own.arm_thickness,
         }
         known |= {"wheel_outer_radius_mm": own.outer} if own.outer else {}
-    values = given.as_dict()
-    return given.replace(**{key: x for key, x in known.items() if values[key] is None})
+    values = size.as_dict()
+    return size.replace(**{key: x for key, x in known.items() if values[key] is None})
 
 
 class Thicknesses(NamedTuple):
@@ -231,14 +218,16 @@ def _crank_bore(spec: Spec, space: float, L: float) -> float:
     if own is None:
         own = spec.shaft.crank_diameter_mm
     if own is not None:
-        return 0.5 * own if 0.5 * own <= BESIDE_HUB * space else 0.0
+        # a larger bore leaves no space for its default hub, of 1.5 bores
+        return 0.5 * own if 0.5 * own <= 0.6 * space else 0.0
     within = _within(size.crank_hub_mm, size.crank_keyway)
     return even(min(0.45 * space, within)) if 0.45 * space >= L / 40.0 else 0.0
 
 
 def _within(hub_mm: float | None, keyway: str | None) -> float:
     """Return the largest default bore in a hub of a diameter, infinite without a hub."""
-    return (KEYED if keyway else PLAIN) * hub_mm if hub_mm else math.inf
+    # a keyway is up to 0.39 of the bore's radius deep
+    return ((0.5 / 1.6) if keyway else 0.4) * hub_mm if hub_mm else math.inf
 
 
 def _reach(standard: str | None, bore: float) -> float:
@@ -274,8 +263,8 @@ def _lock(assembly: Assembly, arm: float, w: float, rim: float) -> float:
     least, r = max(assembly.L - rim, 0.0), assembly.mechanism.roller_radius_mm
     if limit <= least:
         raise GenevaError(
-            f"the locking disc does not fit: it must reach the rim, {least:.4g} mm from the "
-            f"crank's axis, but roller and clearances limit it to {limit:.4g} mm; use "
+            f"the locking disc does not fit: it must be above {least:.4g} mm to reach the rim, but "
+            f"roller and clearances limit it to {limit:.4g}; use "
             + (f"a roller below {r + limit - least:.4g} mm, or " if r + limit > least else "")
             + "lock_radius_mm = 0",
             ("size", "lock_radius_mm"),
@@ -340,9 +329,8 @@ def _refuse(assembly: Assembly, sizes: Sizes) -> None:
         and abs(0.5 * own - sizes.crank_bore) > SAME_LENGTH * assembly.L
     ):
         raise GenevaError(
-            f"arm_bore_mm = {own:g}: one shaft goes through arm and locking disc, whose "
-            f"crank_bore_mm is {2.0 * sizes.crank_bore:g}; make them equal, or crank_bore_mm 0, to "
-            "end the shaft in the arm",
+            f"arm_bore_mm = {own:g}: the shaft runs through arm and locking disc, so crank_bore_mm "
+            f"= {2.0 * sizes.crank_bore:g} must be equal, or 0 to end it in the arm",
             ("size", "arm_bore_mm"),
         )
     if sizes.lock and sizes.crank_bore >= sizes.lock:
@@ -371,7 +359,9 @@ def _refuse(assembly: Assembly, sizes: Sizes) -> None:
 
 def _refuse_hubs(size: Size, sizes: Sizes) -> None:
     """Raise GenevaError, naming the key, for parts on an open wheel, and for hubs cut through."""
-    on_axis = [key for key in ON_AXIS if vars(size)[key]]
+    shaft = "wheel_shaft_low_mm", "wheel_shaft_high_mm"
+    axle = "wheel_bore_mm", "wheel_hub_mm", "wheel_hub_length_mm", *shaft
+    on_axis = [key for key in axle if vars(size)[key]]
     if sizes.outer and on_axis:
         raise GenevaError(
             f"{on_axis[0]}: an internal wheel is open in the middle; remove it",

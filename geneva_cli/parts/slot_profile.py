@@ -9,22 +9,29 @@ import numpy as np
 
 from geneva_cli.machine.engagement import Engagement
 from geneva_cli.machine.mechanism import Mechanism
-from geneva_cli.machine.pitch_curve import Pitch, Way, pitch, pitch_at_retrace, retraces, way
+from geneva_cli.machine.pitch_curve import (
+    PinHeading,
+    Pitch,
+    pin_heading,
+    pitch,
+    pitch_at_retrace,
+    retraces,
+)
 from geneva_cli.numerics.arrays import array
 from geneva_cli.numerics.tolerances import SAME_INPUT_DEG
 
 if TYPE_CHECKING:
     from geneva_cli.numerics.jet import Array, Number
 
-T = TypeVar("T", Way, Pitch)
+T = TypeVar("T", PinHeading, Pitch)
 
 
-class Slot(NamedTuple):
+class SlotProfile(NamedTuple):
     """The slot at ascending input angles, in millimetres, in the wheel's frame.
 
-    ``left`` and ``right`` are the flanks, seen as the pin travels in. ``radius`` is the pitch
-    curve's radius of curvature: positive where its centre lies to the left, infinite on a straight
-    line.
+    ``left`` and ``right`` are the flanks in the pin's direction of travel at entry. ``radius`` is
+    the pitch curve's radius of curvature: positive where its centre lies to the left, infinite on a
+    straight line.
     """
 
     input_deg: Array
@@ -36,7 +43,7 @@ class Slot(NamedTuple):
     radius: Array
 
 
-def slot(mechanism: Mechanism, input_deg: Array) -> Slot:
+def slot(mechanism: Mechanism, input_deg: Array) -> SlotProfile:
     """Return the slot of a mechanism at ascending input angles of its first engagement."""
     engagement, L = mechanism.engagements[0].through, mechanism.center_distance_mm
     back = retraces(engagement)
@@ -46,7 +53,7 @@ def slot(mechanism: Mechanism, input_deg: Array) -> Slot:
     with np.errstate(divide="ignore", invalid="ignore"):
         radius = L * side * np.divide(at.speed, at.turning)
     straight = engagement.slot.axis(engagement.entry_deg) is not None
-    return Slot(
+    return SlotProfile(
         input_deg,
         np.degrees(engagement.motion(input_deg, 0).c[0]),
         *_offsets(mechanism, at, side),
@@ -60,7 +67,7 @@ def flanks(mechanism: Mechanism, input_deg: Array) -> tuple[Array, Array, Array]
     engagement = mechanism.engagements[0].through
     back = retraces(engagement)
     input_deg = _snapped(input_deg, back)
-    at = way_at(engagement, input_deg, back)
+    at = heading_at(engagement, input_deg, back)
     return _offsets(mechanism, at, _side(engagement, input_deg, at, back))
 
 
@@ -69,19 +76,21 @@ def _snapped(input_deg: Array, back: bool) -> Array:
     return np.where(np.abs(input_deg) < SAME_INPUT_DEG, 0.0, input_deg) if back else input_deg
 
 
-def _side(engagement: Engagement, input_deg: Array, at: Way | Pitch, back: bool) -> Array:
+def _side(engagement: Engagement, input_deg: Array, at: PinHeading | Pitch, back: bool) -> Array:
     """Return 1, or -1 where the pin leaves on the path on which it came.
 
-    Its travel is reversed after mid-motion; the flanks keep the sides that they had on the way in.
+    Its travel is reversed after mid-motion; the flanks keep the sides that they had at entry.
     """
     if engagement.slot.axis(engagement.entry_deg) is None:
         return np.where(back & (input_deg > 0.0), -1.0, 1.0)
-    first = way(engagement, engagement.entry_deg)
+    first = pin_heading(engagement, engagement.entry_deg)
     ahead = at.tangent_x * first.tangent_x + at.tangent_y * first.tangent_y
     return np.where(ahead < 0.0, -1.0, 1.0)
 
 
-def _offsets(mechanism: Mechanism, at: Way | Pitch, side: Array) -> tuple[Array, Array, Array]:
+def _offsets(
+    mechanism: Mechanism, at: PinHeading | Pitch, side: Array
+) -> tuple[Array, Array, Array]:
     """Return the pitch curve and its two offsets by the roller's radius and clearance, mm."""
     L, size = mechanism.center_distance_mm, mechanism.spec.size
     offset = mechanism.roller_radius_mm + size.allowances.slot_clearance_mm
@@ -95,9 +104,9 @@ def pitch_at(engagement: Engagement, input_deg: Array, back: bool) -> Pitch:
     return _with_limit(pitch, engagement, input_deg, back)
 
 
-def way_at(engagement: Engagement, input_deg: Array, back: bool) -> Way:
+def heading_at(engagement: Engagement, input_deg: Array, back: bool) -> PinHeading:
     """Return the pin's path in the wheel, with its limit at a retracing mid-motion."""
-    return _with_limit(way, engagement, input_deg, back)
+    return _with_limit(pin_heading, engagement, input_deg, back)
 
 
 def _with_limit(
@@ -108,7 +117,7 @@ def _with_limit(
         return of(engagement, input_deg)
     # any regular place stands in for mid-motion
     at = of(engagement, np.where(middle, 0.5 * engagement.entry_deg, input_deg))
-    limit = pitch_at_retrace(engagement)  # its first fields are those of a way
+    limit = pitch_at_retrace(engagement)  # its first fields are those of a heading
     columns = zip(at, limit, strict=False)
     build: Callable[..., T] = type(at)
     return build(*(np.where(middle, value, array(column)) for column, value in columns))

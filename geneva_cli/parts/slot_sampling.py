@@ -19,7 +19,6 @@ if TYPE_CHECKING:
     from geneva_cli.numerics.jet import Array
 
 NAMES = ("input_deg", "wheel_deg", *WALLED)
-SURVEY = 2048  # intervals of a motion in which a cusp is searched
 
 
 def nodes(mechanism: Mechanism, tolerance_mm: float, fewest: bool = True) -> Array:
@@ -52,8 +51,9 @@ def _flank_cusps(mechanism: Mechanism) -> list[float]:
         return array(at.speed - side * offset * at.turning)
 
     # Half a step off the grid's ends: mid-motion may be a cusp of the pitch curve itself.
-    step, mirrored = engagement.motion_deg / SURVEY, engagement.mirrored
-    count = (SURVEY + 1) // 2 if mirrored else SURVEY  # one of two mirrored halves is enough
+    intervals = 2048
+    step, mirrored = engagement.motion_deg / intervals, engagement.mirrored
+    count = (intervals + 1) // 2 if mirrored else intervals  # one of two mirrored halves is enough
     grid = engagement.entry_deg + step * (np.arange(count, dtype=np.float64) + 0.5)
     at = pitch(engagement, grid)
     cusps = []

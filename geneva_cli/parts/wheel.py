@@ -15,9 +15,9 @@ from geneva_cli.parts.keyways import bore, key
 from geneva_cli.parts.sizes import Sizes
 
 LAYER = "WHEEL"
-# A low mouth is extended to this fraction of the distance from the recess to the rim. That gives
-# the disc something to hold, and the relief needs to clear little more.
-HELD = 0.2
+# A low mouth is extended to this fraction of the distance from the recess to the rim. The disc then
+# has an arc to lock, and the relief needs to clear little more.
+EXTENDED_MOUTH = 0.2
 
 
 def wheel_contour(assembly: Assembly, sizes: Sizes, slots: dict[Engagement, Contour]) -> Contour:
@@ -100,7 +100,7 @@ def _rim(assembly: Assembly, sizes: Sizes, start: Point, end: Point, at: float) 
         _refuse(sizes, min(distances))
     own = math.hypot(*start), math.hypot(*end)
     reach = assembly.L - sizes.recess
-    least = reach + HELD * (sizes.rim - reach) if sizes.lock else max(own)
+    least = reach + EXTENDED_MOUTH * (sizes.rim - reach) if sizes.lock else max(own)
     raised = [least > rim + SAME_LENGTH * assembly.L and assembly.sign > 0.0 for rim in own]
     rims = [least if up else rim for up, rim in zip(raised, own, strict=True)]
     before: list[Segment] = []
@@ -155,9 +155,8 @@ def opening(L: float, rim: float, radius: float) -> float:
     cosine = (L * L + rim * rim - radius * radius) / (2.0 * L * rim)
     if not abs(cosine) < 1.0:
         raise GenevaError(
-            f"wheel_radius_mm: a rim of {rim:.6g} mm does not meet the circle of {radius:.6g} mm "
-            f"about the crank's axis; it must be between {abs(L - radius):.6g} and "
-            f"{L + radius:.6g}",
+            f"wheel_radius_mm: a rim of {rim:.6g} mm does not meet the recess's circle of "
+            f"{radius:.6g} mm; it must be between {abs(L - radius):.6g} and {L + radius:.6g}",
             ("size", "wheel_radius_mm"),
         )
     return math.acos(cosine)

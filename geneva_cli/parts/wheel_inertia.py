@@ -70,9 +70,9 @@ def _contour(where: Assembly, size: Sizes) -> Moments:
 def _slot(where: Assembly, size: Sizes, engagement: Engagement) -> tuple[Contour, Moments]:
     """Return a line that closes a slot's mouth, and the area of the slot beyond that line."""
     if engagement.slot.curved:
-        from geneva_cli.parts.walls.rings import taken  # not needed for straight slots
+        from geneva_cli.parts.walls.rings import removed_face  # not needed for straight slots
 
-        slot_face = taken(where, size, engagement)
+        slot_face = removed_face(where, size, engagement)
         rim = about((0.0, 0.0), size.rim, slot_face.low, slot_face.high - slot_face.low)
         return Contour(LAYER, (rim,), closed=False), slot_face.face.times(-where.sign)
     contour = straight_walls(where, size, engagement)

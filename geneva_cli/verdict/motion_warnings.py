@@ -7,7 +7,7 @@ from functools import lru_cache
 
 from geneva_cli.analysis.peaks import peak
 from geneva_cli.errors import Notice
-from geneva_cli.machine.engagement import Motion
+from geneva_cli.machine.engagement import WheelMotion
 from geneva_cli.machine.law_motion import LawMotion
 from geneva_cli.machine.laws.law import Law
 from geneva_cli.machine.mechanism import Mechanism
@@ -166,7 +166,7 @@ def _law_turns_back(law: Law) -> bool:
     return _least_velocity(LawMotion(-0.5, 0.5, 0.5, law)) is not None
 
 
-def _least_velocity(motion: Motion) -> tuple[float, float] | None:
+def _least_velocity(motion: WheelMotion) -> tuple[float, float] | None:
     """The least velocity of a motion and its place if it is below 0; else None."""
     from geneva_cli.analysis.peak_search import landmarks
 

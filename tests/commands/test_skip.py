@@ -20,7 +20,7 @@ import pytest
 from geneva_cli.analysis import peaks as peaks_module
 from geneva_cli.analysis.motion import motion_table
 from geneva_cli.machine import registry
-from geneva_cli.machine.engagement import Motion
+from geneva_cli.machine.engagement import WheelMotion
 from geneva_cli.machine.wheels.classic_arrays import ClassicArrays
 
 N = 2001
@@ -63,7 +63,7 @@ def jets(monkeypatch):
         registry.gearing(name)
     return [
         Counter(monkeypatch, cls, "__call__", lambda order=3: order)
-        for cls in set(kinds(Motion))
+        for cls in set(kinds(WheelMotion))
         if "__call__" in vars(cls) and not getattr(cls.__call__, "__isabstractmethod__", False)
     ]
 

@@ -8,7 +8,7 @@ import pytest
 from geneva_cli.curves.plates import Shell
 from geneva_cli.curves.round_holes import RoundHole
 from geneva_cli.curves.sphere import Region, Rotation, SphereArc, cross, place, unit
-from geneva_cli.curves.sphere_arcs import Arcs
+from geneva_cli.curves.sphere_arcs import SphereArcs
 from geneva_cli.curves.sphere_hull import Cap, convex_hull
 
 POLE = (0.0, 0.0, 1.0)
@@ -166,7 +166,7 @@ def test_a_belt_holds_its_caps_and_no_more(name):
     """All rims are within; it never turns to the right, nor at a corner; its arcs are of rims, and
     its great circles touch two. There is one such boundary: the hull."""
     caps, found = BELTS[name], convex_hull(BELTS[name])
-    edge = Arcs(found.boundary)
+    edge = SphereArcs(found.boundary)
     for one in caps:
         rim = one.region.boundary[0].at(np.linspace(0.0, math.tau, 100))[0]
         assert edge.signed(rim)[0].max() < 1e-9  # of a square root at a tangent's touch

@@ -174,7 +174,7 @@ def test_keyways_of_the_standard():
 @pytest.mark.parametrize(
     ("size", "said"),
     [
-        ({"crank_keyway": "DIN 6885-1", "crank_bore_mm": 5.0}, "above 6 mm and up to 230"),
+        ({"crank_keyway": "DIN 6885-1", "crank_bore_mm": 5.0}, "above 6 and up to 230"),
         ({"arm_eye_mm": 4.0}, "arm_eye_mm = 4: the eye must be above 5, the pin's hole"),
         ({"arm_hub_mm": 5.0, "arm_bore_mm": 5.5}, "arm_hub_mm = 5: the hub must be above 5.5"),
         ({"arm_bore_mm": 96.0, "arm_hub_mm": 99.0}, "cuts the pin's hole; with its keyway"),

@@ -84,8 +84,12 @@ def test_the_mass_is_without_them():
 @pytest.mark.parametrize(
     ("gearing", "size", "said"),
     [
-        ("external", {"wheel_bore_mm": 5.0, "wheel_keyway": DIN}, "the wheel's bore is 5; set w"),
-        ("internal", {"wheel_keyway": DIN}, "the wheel's bore is 0; set wheel_bore_mm in"),
+        (
+            "external",
+            {"wheel_bore_mm": 5.0, "wheel_keyway": DIN},
+            "the wheel's bore of 5 mm; set w",
+        ),
+        ("internal", {"wheel_keyway": DIN}, "the wheel's bore of 0 mm; set wheel_bore_mm above"),
     ],
 )
 def test_keyways_that_are_refused(gearing, size, said):

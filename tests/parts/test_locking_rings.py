@@ -12,7 +12,7 @@ from geneva_cli.machine.spec import Spec
 from geneva_cli.machine.wheels.internal import Internal
 from geneva_cli.parts import locking_rings, outlines
 from geneva_cli.parts.assembly import assembly
-from geneva_cli.parts.locking_rings import PolarPoints, beyond, inner_arc, seen, towards
+from geneva_cli.parts.locking_rings import PolarPoints, beyond, inner_arc, polar_points, towards
 from geneva_cli.parts.sizes import sizes
 
 
@@ -50,6 +50,6 @@ def test_places_towards_a_direction_are_all_that_are():
         x, y = radius * np.cos(middle + turn), radius * np.sin(middle + turn)
         near = towards(x, y, middle, half)
         assert np.isin(x[np.abs(turn) <= half], near[0]).all()
-        off = seen(*near, middle)
+        off = polar_points(*near, middle)
         assert (np.abs(off.direction) <= half + 1e-4).all()
         assert np.isin(off.radius, np.hypot(x, y)).all()

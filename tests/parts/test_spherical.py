@@ -13,7 +13,7 @@ from geneva_cli import Crank, Design, Size, Spherical
 from geneva_cli.curves.measure import area, segment_length
 from geneva_cli.curves.plates import solids
 from geneva_cli.curves.shapes import Contour
-from geneva_cli.curves.sphere_arcs import Arcs
+from geneva_cli.curves.sphere_arcs import SphereArcs
 from geneva_cli.errors import GenevaError
 from geneva_cli.output.step import chunks
 from geneva_cli.parts.model import PartsModel
@@ -279,7 +279,7 @@ def test_the_arm_laid_flat(name):
         ways = np.cos(turn), np.sin(turn)
         return np.column_stack((*(np.sin(angle) * w for w in ways), np.cos(angle)))
 
-    edge = Arcs(made.boundary.boundary)
+    edge = SphereArcs(made.boundary.boundary)
     away = rolled(outline)
     assert len(holes) == len(found.rollers)
     hub = np.arccos(away[:, 2]) - made.holes[0].angle(R)
@@ -330,7 +330,10 @@ def test_an_arm_with_bolts_keyway_and_hub_inside():
             "round holes of the crank arm overlap",
         ),
         ({"lock_bolts": 2, "lock_radius_mm": 0.0}, "no locking disc to fix"),
-        ({"wheel_bore_mm": 0.0, "wheel_keyway": "DIN 6885-1"}, "its hub has; set wheel_bore_mm"),
+        (
+            {"wheel_bore_mm": 0.0, "wheel_keyway": "DIN 6885-1"},
+            "can have a keyway; set wheel_bore_mm",
+        ),
         ({"wheel_shaft_low_mm": 20.0}, "the wheel's shaft would reach from 64 to 76 mm"),
     ],
 )

@@ -30,7 +30,7 @@ from geneva_cli.machine.spec import Spec
 from geneva_cli.parts.assembly import assembly
 from geneva_cli.parts.parts_list import parts_table
 from geneva_cli.parts.sizes import sizes
-from geneva_cli.parts.walls.rings import taken
+from geneva_cli.parts.walls.rings import removed_face
 from geneva_cli.verdict.carried_warnings import carried_warnings
 
 
@@ -96,7 +96,7 @@ def test_a_crank_that_waits_at_mid_motion(e):
             for low, high in pairwise([deep - w, deep + w, size.rim])
         )
 
-    face = taken(where, size, where.kinds[0]).face
+    face = removed_face(where, size, where.kinds[0]).face
     assert face.area == pytest.approx(moment(1), rel=1e-5)
     assert face.polar == pytest.approx(moment(3), rel=1e-5)
 

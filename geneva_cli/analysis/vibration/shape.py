@@ -16,7 +16,7 @@ from geneva_cli.numerics.angles import DEGREE
 from geneva_cli.numerics.arrays import Number, read_only
 
 if TYPE_CHECKING:
-    from geneva_cli.machine.engagement import Motion
+    from geneva_cli.machine.engagement import WheelMotion
     from geneva_cli.machine.laws.law import Law
     from geneva_cli.numerics.arrays import Array, Whole
 
@@ -38,11 +38,11 @@ def law_shape(law: Law) -> Panels:
     return read_only(panelled(derivatives, np.array([sorted({0.0, *law.knots, 0.5, 1.0})])))
 
 
-def motion_shapes(motion: Motion, m: int) -> Panels:
+def motion_shapes(motion: WheelMotion, m: int) -> Panels:
     """Return the panels of the motions of m designs."""
 
     def derivatives(u: Array, which: Whole, order: int) -> Array:
-        some: Motion = taken(motion, which)
+        some: WheelMotion = taken(motion, which)
         whole, step = some.exit_deg - some.entry_deg, 2.0 * some.half_step
         c = some(some.entry_deg + u * whole, order).c
         return _by_order([v / step for v in c], whole * DEGREE, u)

@@ -36,7 +36,7 @@ from geneva_cli.numerics.extrema import BLOCK as SCANNED
 from geneva_cli.numerics.extrema import SCAN_INTERVALS
 
 if TYPE_CHECKING:
-    from geneva_cli.machine.engagement import Motion
+    from geneva_cli.machine.engagement import WheelMotion
     from geneva_cli.numerics.jet import Array
 
 PEAK_QUANTITIES = ("velocity", "acceleration")
@@ -97,7 +97,7 @@ def _formulas_alone(machine: Mechanism, count: int) -> list[Method]:
     return [Method("formulas alone, nothing searched", places, run)]
 
 
-def _at_places(motion: Motion, count: int, pieces: list[tuple[float, float]]) -> Array:
+def _at_places(motion: WheelMotion, count: int, pieces: list[tuple[float, float]]) -> Array:
     """Greatest of the values at the places."""
     most = np.zeros((count, len(PEAK_QUANTITIES)))
     for piece in pieces:

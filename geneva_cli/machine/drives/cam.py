@@ -13,10 +13,10 @@ from typing import TYPE_CHECKING, ClassVar
 from geneva_cli.errors import GenevaError, refuse
 from geneva_cli.machine.drives.drive import Needs, Plan
 from geneva_cli.machine.drives.pin_path import PinPath
-from geneva_cli.machine.engagement import Carrier, Engagement, Turning, Vector, cross
+from geneva_cli.machine.engagement import Carrier, ConstantRate, Engagement, Vector, cross
 from geneva_cli.machine.example import Example
 from geneva_cli.machine.law_motion import LawMotion, refuse_alpha0
-from geneva_cli.machine.slot_and_motion import RadialSlot, SolvedPath
+from geneva_cli.machine.slot_and_motion import SolvedPath, SolvedPathSlot
 from geneva_cli.numerics.angles import radians
 from geneva_cli.numerics.arrays import larger, parameter
 from geneva_cli.numerics.jet import Jet, Number
@@ -65,9 +65,9 @@ class Cam(PinPath, kw_only=True):
         turned = LawMotion(-early, motion_deg - early, wheel.step.b, motion.law)
         path = SolvedPath(turned, wheel.SIGN)
         _refuse_unreachable(turned, wheel.SIGN)
-        body = Turning(-wheel.SIGN)  # the roller slides along the crank and turns with it
+        body = ConstantRate(-wheel.SIGN)  # the roller slides along the crank and turns with it
         carrier = Carrier(body=body, reactions=Slide(), groove=path)
-        engagement = Engagement(0.0, path, RadialSlot(path), turned, carrier)
+        engagement = Engagement(0.0, path, SolvedPathSlot(path), turned, carrier)
         ratio = parameter(path.crossing)
         return self.planned(engagement, ratio, L, wheel.SIGN < 0.0)
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import ClassVar
 
-from geneva_cli.machine.drives.transmission import About, Transmission, same
+from geneva_cli.machine.drives.transmission import LocalTransmission, Transmission, same
 
 
 class Crank(Transmission, kw_only=True):
@@ -26,6 +26,6 @@ class Crank(Transmission, kw_only=True):
         """Always True: the classic closed forms hold."""
         return True
 
-    def about(self, crank_deg: float) -> About:
+    def about(self, crank_deg: float) -> LocalTransmission:
         """Transmission about a crank angle in degrees, which is the input angle."""
-        return About(crank_deg, same)
+        return LocalTransmission(crank_deg, same)

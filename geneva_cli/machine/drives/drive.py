@@ -118,8 +118,8 @@ class Drive(SpecTable, kw_only=True):
     def doubt(self, input_deg: float) -> Doubt | None:
         """Uncertainty of the crank's jerk from the decimals of a ratio file.
 
-        It holds the number of decimals, and the change of the ratio's second derivative by
-        rounding, as a fraction of the ratio at an input angle. None without a ratio file.
+        It holds the number of decimals, and the change by rounding of the ratio's second
+        derivative. That change is a fraction of the ratio at an input angle. None without a file.
         """
         return None
 

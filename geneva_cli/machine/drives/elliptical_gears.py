@@ -14,7 +14,7 @@ from typing import Annotated, ClassVar, NamedTuple
 from geneva_cli.errors import GenevaError, refuse
 from geneva_cli.machine.drives.drive import Gears, Plan
 from geneva_cli.machine.drives.pushed import Mesh
-from geneva_cli.machine.drives.transmission import About, Transmission
+from geneva_cli.machine.drives.transmission import LocalTransmission, Transmission
 from geneva_cli.machine.engagement import Path, Reactions
 from geneva_cli.machine.example import Example
 from geneva_cli.machine.layout import Dimension, Layout, Pivot
@@ -23,8 +23,6 @@ from geneva_cli.numerics.angles import sin_cos_deg
 from geneva_cli.numerics.arrays import library
 from geneva_cli.numerics.jet import Jet, Number, cosines_after, sine_versine_of
 from geneva_cli.spec.rules import POSITIVE, OneOf, Range
-
-MOST = 1.0 - 0.999e-12
 
 
 class EllipticalGears(Transmission, kw_only=True):
@@ -53,7 +51,7 @@ class EllipticalGears(Transmission, kw_only=True):
     def __post_init__(self) -> None:
         super().__post_init__()
         refuse(
-            self.eccentricity > MOST,
+            self.eccentricity > 1.0 - 0.999e-12,  # 1 - 1e-12, as a double, passes
             lambda: GenevaError(
                 f"eccentricity = {self.eccentricity!r}: too close to 1 to be computed; it "
                 "must be at most 1 - 1e-12",
@@ -82,7 +80,7 @@ class EllipticalGears(Transmission, kw_only=True):
         """Reactions of the crank, whose gear is pushed by the driver's teeth."""
         return Mesh(path, self.gear_distance_mm / L)
 
-    def about(self, crank_deg: float) -> About:
+    def about(self, crank_deg: float) -> LocalTransmission:
         """Transmission about an angle f of the driven gear in degrees."""
         slow = self.phase == "slow"
         return _about(self.eccentricity if slow else -self.eccentricity, crank_deg)
@@ -120,7 +118,7 @@ class Focal(NamedTuple):
         return sine_versine_of(rate, y, x, order)
 
 
-def _about(e: float, crank_deg: float) -> About:
+def _about(e: float, crank_deg: float) -> LocalTransmission:
     m = library(e, crank_deg)
     sin_h, cos_h = sin_cos_deg(0.5 * crank_deg)
     a, b = (1.0 + e) * sin_h, (1.0 - e) * cos_h
@@ -128,4 +126,4 @@ def _about(e: float, crank_deg: float) -> About:
     phi = 2.0 * m.degrees(m.atan2(a, b))
     turns = (crank_deg - phi) / 720.0  # half angles repeat after two turns
     phi = phi + 720.0 * (round(turns) if isinstance(turns, float) else m.rint(turns))
-    return About(phi, Focal(e, sin_h, cos_h, a / size, b / size, size))
+    return LocalTransmission(phi, Focal(e, sin_h, cos_h, a / size, b / size, size))

@@ -1,8 +1,8 @@
 """Gear-Geneva: the roller sits on a planet that rolls on a fixed sun, or in a fixed ring.
 
 With the carrier R0 at phi the roller is at R0 e^(i phi) + rp e^(i c phi). The rate c is 1 + u on a
-sun and 1 - u in a ring, with u = fixed teeth / planet teeth. The roller enters its slot without
-shock at an extreme of this trochoid, where both arms are in line: u = 2z/(z-2), R0 - rp = L sin b.
+sun and 1 - u in a ring, with u = fixed teeth / planet teeth. At an extreme of this trochoid, where
+both arms are in line, the roller enters its slot without shock: u = 2z/(z-2), R0 - rp = L sin b.
 The jump at entry is (R0 - c² rp)/(L cos b), which is zero for rp = L sin b/(c² - 1). A negative rp
 lowers the peak instead.
 """
@@ -16,10 +16,10 @@ from geneva_cli.errors import GenevaError, refuse
 from geneva_cli.machine import path_and_slot
 from geneva_cli.machine.drives.drive import Plan
 from geneva_cli.machine.drives.pin_path import PinPath
-from geneva_cli.machine.engagement import Anchor, Carrier, Turning, Vector, cross
+from geneva_cli.machine.engagement import Anchor, Carrier, ConstantRate, Vector, cross
 from geneva_cli.machine.example import Example
 from geneva_cli.machine.layout import Dimension, Joint, Layout, Link, Pivot, Teeth
-from geneva_cli.machine.path_and_slot import AnchoredPath, Followed
+from geneva_cli.machine.path_and_slot import AnchoredPath, StraightSlotMotion
 from geneva_cli.machine.wheels.classic import gap
 from geneva_cli.numerics.angles import radians
 from geneva_cli.numerics.arrays import choose, library
@@ -90,11 +90,11 @@ class Epicyclic(PinPath, kw_only=True):
             Anchor(half, step.b, cos_b, Arms(1.0, 0.0, both(1.0, -1.0, -rp), c)),
         )
         path = AnchoredPath(anchors)
-        followed = Followed(path, step.b)
+        followed = StraightSlotMotion(path, step.b)
         # The roller sits on the planet, which turns c times as fast as the carrier.
         reactions = PlanetReactions(R0, rp, c)
         engagement = path_and_slot.engagement(
-            0.0, path, followed, Carrier(1.0, Turning(-c), reactions)
+            0.0, path, followed, Carrier(1.0, ConstantRate(-c), reactions)
         )
         return self.planned(engagement, R0 + rp, L)
 

@@ -1,8 +1,8 @@
 """A four-bar linkage in front of the wheel: the roller is a point of its coupler.
 
-Crank a runs from the input's axis to the pin A, coupler b from A to B, and rocker c from B to its
-own pivot at the distance g. The roller C is at the distance k from A, at an angle from the line AB.
-The wheel's centre is solved for.
+Crank a leads from the input's axis to the pin A, and coupler b from A to B. Rocker c leads from B
+to its own pivot, at the distance g from the input's axis. The roller C is at the distance k from A,
+at an angle from the line AB. The wheel's centre is solved for.
 """
 
 from __future__ import annotations
@@ -72,17 +72,17 @@ class FourBar(Linkage, kw_only=True):
             rocker_mm=self.rocker_mm,
             point_mm=self.point_mm,
         )
-        # Grashof's condition: the crank can make a full turn.
+        # Grashof's condition for a full turn: the crank is the shortest link, and with the longest
+        # it is below the sum of the other two.
         others = [self.ground_mm, self.coupler_mm, self.rocker_mm]
         limit = smaller(reduce(smaller, others), sum(others) - 2.0 * reduce(larger, others))
 
         def error() -> GenevaError:
             below = f"it must be below {limit:.6g}"
-            helps = below if limit > 0.0 else "change the other links first"
+            remedy = below if limit > 0.0 else "change the other links first"
             return GenevaError(
-                f"crank_mm = {self.crank_mm:g}: the crank cannot make a full turn (Grashof: it "
-                "must be the shortest link, and with the longest below the sum of the other two); "
-                f"{helps}",
+                f"crank_mm = {self.crank_mm:g}: the crank cannot make a full turn (Grashof's "
+                f"condition); {remedy}",
                 ("drive", "crank_mm"),
             )
 

@@ -18,10 +18,10 @@ from geneva_cli.errors import GenevaError, refuse
 from geneva_cli.machine.drives.drive import Plan
 from geneva_cli.machine.drives.pin_path import PinPath
 from geneva_cli.machine.drives.transmission import PinTravel, same
-from geneva_cli.machine.engagement import Anchor, Engagement, Motion, Path, Slot, SlotAxis
+from geneva_cli.machine.engagement import Anchor, Engagement, Path, Slot, SlotAxis, WheelMotion
 from geneva_cli.machine.example import Example
 from geneva_cli.machine.layout import Dimension, Joint, Layout, Link, Teeth
-from geneva_cli.machine.path_and_slot import AnchoredPath, Followed, RadialSlot
+from geneva_cli.machine.path_and_slot import AnchoredPath, RadialSlot, StraightSlotMotion
 from geneva_cli.machine.wheels import poses
 from geneva_cli.numerics.angles import radians
 from geneva_cli.numerics.arrays import larger, library, parameter, size
@@ -30,7 +30,7 @@ from geneva_cli.numerics.roots import boundary
 from geneva_cli.spec.rules import POSITIVE, Range, Words
 
 if TYPE_CHECKING:
-    from geneva_cli.machine.motion import Motion as GivenMotion
+    from geneva_cli.machine.motion import Motion
     from geneva_cli.machine.wheels.gearing import Gearing
     from geneva_cli.numerics.jet import Array
 
@@ -63,14 +63,14 @@ class GearSector(PinPath, kw_only=True):
         'wheel speed / crank speed in gear; "shockless" for no jump',
     ] = "shockless"
 
-    def plan(self, wheel: Gearing, motion: GivenMotion | None, L: float) -> Plan:
+    def plan(self, wheel: Gearing, motion: Motion | None, L: float) -> Plan:
         """The engagement of each roller; the slot's half angle follows from the step."""
         b, u, handover, _ = self._solved(math.pi / wheel.z)
         engagement = SectorEngagement(*_slot(b), handover, self.sector_deg, u)
         return self.planned(engagement, library(b).sin(b), L)
 
     def layout(self, plan: Plan, sign: float) -> Layout:
-        """Dimensions of slot, gears and handover, and angles between rollers and between slots"""
+        """Dimensions of slot, gears and handover, and angles between rollers and between slots."""
         L, (engagement, *_) = plan.center_distance_mm, plan.engagements
         b, u, handover, _ = self._solved(engagement.half_step)
         first, last = engagement.ahead_deg
@@ -123,9 +123,9 @@ class GearSector(PinPath, kw_only=True):
         refuse(
             (least > D) | (most < D),
             lambda: GenevaError(
-                f"sector_deg = {self.sector_deg:g}: with a slot that reaches {u:g} times the "
-                f"crank's speed it gives no step of {math.degrees(2.0 * half_step):.6g} deg: it "
-                f"must be at least {math.degrees(least):.6g}, at most {math.degrees(most):.6g}",
+                f"sector_deg = {self.sector_deg:g}: with gear_ratio = {u:g} it gives no step of "
+                f"{math.degrees(2.0 * half_step):.6g} deg; it must be at least "
+                f"{math.degrees(least):.6g} and at most {math.degrees(most):.6g}",
                 ("drive", "sector_deg"),
             ),
         )
@@ -163,10 +163,10 @@ def _handover(u: float, x: float) -> Handover:
     return Handover(b, u, a, m.atan2(l * m.sin(a), short + 2.0 * l * sine * sine))
 
 
-class SectorMotion(Motion):
+class SectorMotion(WheelMotion):
     """The slot's motion at both ends, and the gears' motion between them."""
 
-    def __init__(self, inner: Motion, handover: float, sector_deg: float, u: float) -> None:
+    def __init__(self, inner: WheelMotion, handover: float, sector_deg: float, u: float) -> None:
         self.inner, self.u = inner, u
         self.half_sector = 0.5 * sector_deg
         self.handover_deg = library(handover).degrees(handover)
@@ -294,4 +294,4 @@ def _slot(b: float) -> tuple[Engagement, RadialSlot]:
     )
     path = AnchoredPath((entry, middle, exit_))
     slot = RadialSlot(path)
-    return Engagement(0.0, path, slot, Followed(path, step.b)), slot
+    return Engagement(0.0, path, slot, StraightSlotMotion(path, step.b)), slot

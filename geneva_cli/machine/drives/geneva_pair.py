@@ -11,8 +11,8 @@ import math
 from typing import TYPE_CHECKING, Annotated, ClassVar, NamedTuple
 
 from geneva_cli.machine.drives.drive import FirstWheel, Plan
-from geneva_cli.machine.drives.pushed import Pushed
-from geneva_cli.machine.drives.transmission import About, Transmission
+from geneva_cli.machine.drives.pushed import PushedCrank
+from geneva_cli.machine.drives.transmission import LocalTransmission, Transmission
 from geneva_cli.machine.engagement import Path, Reactions, Vector
 from geneva_cli.machine.example import Example
 from geneva_cli.machine.layout import Dimension, Joint, Layout, Link, Pivot
@@ -105,7 +105,7 @@ class GenevaPair(Transmission, kw_only=True):
         l = poses.HalfStep(1, self.first_z).sin_cos[0]
         return FirstRoller(l, self.first_distance_mm / L, wheel.SIGN, radians(mid_deg))
 
-    def about(self, crank_deg: float) -> About:
+    def about(self, crank_deg: float) -> LocalTransmission:
         """Transmission about an angle of the second crank (degrees) within the first step."""
         entry, middle, exit_ = poses.radial(1.0, poses.HalfStep(1, self.first_z))
         reach = self.reach_deg
@@ -113,10 +113,10 @@ class GenevaPair(Transmission, kw_only=True):
         running = _running(middle, _crank_at(self.first_z, inside))
         ends = choose_record(crank_deg < 0.0, entry, exit_)
         pose = choose_record(abs(crank_deg) == reach, ends, running)
-        return About(pose.crank_deg, FirstTurning(pose))
+        return LocalTransmission(pose.crank_deg, FirstWheelRotation(pose))
 
 
-class FirstRoller(Pushed):
+class FirstRoller(PushedCrank):
     """The first crank's roller in the first wheel's slot.
 
     ``l`` is its radius over its centre distance, and ``distance`` is that distance over L. The
@@ -133,7 +133,7 @@ class FirstRoller(Pushed):
         return (x, y), (y * -1.0, x)
 
 
-class FirstTurning(NamedTuple):
+class FirstWheelRotation(NamedTuple):
     """The first wheel, which carries the second crank, about a pose of its own roller."""
 
     pose: poses.PinPose
@@ -150,8 +150,9 @@ class FirstTurning(NamedTuple):
 def _crank_at(first_z: int, wheel_deg: float) -> float:
     """Angle a of the first crank, radians, with its wheel at psi: sin(a + psi) = sin psi / l.
 
-    With k = l cos(a + psi) = sqrt(sin(b - psi) sin(b + psi)) the angle is that of l sin a = sin psi
-    cos² b / (cos psi + k) and l cos a = k cos psi + sin² psi, in which nothing cancels.
+    With k = l cos(a + psi) = sqrt(sin(b - psi) sin(b + psi)), nothing cancels in
+
+        l sin a = sin psi cos² b / (cos psi + k),   l cos a = k cos psi + sin² psi
     """
     if not (isinstance(first_z, int) and isinstance(wheel_deg, float)):
         each: float = of_each(lambda z, deg: (_crank_at(z, deg),), first_z, wheel_deg)[0]

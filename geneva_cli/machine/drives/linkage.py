@@ -24,11 +24,11 @@ from geneva_cli.machine.drives.drive import Plan
 from geneva_cli.machine.drives.pin_path import PinPath
 from geneva_cli.machine.layout import Dimension, Joint, Layout, Link, Pivot
 from geneva_cli.machine.link import LinkReactions
-from geneva_cli.machine.linkage_engagement import engagement_many, engagement_of
+from geneva_cli.machine.linkage_engagement import engagement_of, engagement_of_batch
 from geneva_cli.machine.roller_path import LONG_PI, RollerPath, rounded
 from geneva_cli.machine.wheel_for_path import fit
 from geneva_cli.machine.wheels.poses import HalfStep
-from geneva_cli.machine.wheels_for_paths import fits_many, known
+from geneva_cli.machine.wheels_for_paths import fits_of_batch, known
 from geneva_cli.numerics import digits
 from geneva_cli.numerics.angles import radians
 from geneva_cli.numerics.arrays import array, larger, library, parameter, smaller
@@ -45,7 +45,6 @@ if TYPE_CHECKING:
 
 Place = TypeVar("Place", float, "Array")
 Moving: TypeAlias = "tuple[Array, Array]"  # x and y at input angles
-LENGTHS = 1e4  # greatest ratio of two links: beyond it the path is a point, or rounding
 
 
 class Linkage(PinPath, kw_only=True):
@@ -79,7 +78,7 @@ class Linkage(PinPath, kw_only=True):
             )
         step, path = wheel.step, self.roller_path
         if self.varies or is_array(step.b):
-            engagement, L = self._of_many(step)
+            engagement, L = self._batch_engagement(step)
         else:
             wheel_fit = fit(path, step, self._wanted, known(path, step.b))
             if wheel_fit is None:
@@ -154,10 +153,10 @@ class Linkage(PinPath, kw_only=True):
         one.__post_init__()
         return one
 
-    def _of_many(self, step: HalfStep) -> tuple[Engagement, float]:
+    def _batch_engagement(self, step: HalfStep) -> tuple[Engagement, float]:
         """Engagements and centre distances of a batch; designs without a wheel are refused."""
         path = self.roller_path.in_long_doubles()
-        fits = fits_many(path, step.b, self._wanted)
+        fits = fits_of_batch(path, step.b, self._wanted)
         for i, search in fits.alone.items():
             p, q = (int(np.broadcast_to(x, fits.entry.shape)[i, 0]) for x in step)
             try:
@@ -171,26 +170,27 @@ class Linkage(PinPath, kw_only=True):
             for column, value in zip(fits[:3], values, strict=True):
                 column[i, 0] = value
         refuse(fits.entry != fits.entry, lambda: _none_fits(step.q))
-        return engagement_many(path, fits, step)
+        return engagement_of_batch(path, fits, step)
 
 
 def _none_fits(z: int) -> GenevaError:
     return GenevaError(
         f"no wheel of z = {z} slots fits this path: change the linkage, or z. The path needs two "
-        f"tangents that meet at {360.0 / z:.6g} deg, equally long, with the roller nearer to that "
-        "point between them and farther away elsewhere",
+        f"equally long tangents that meet at {360.0 / z:.6g} deg, with the roller nearer to that "
+        "point only between them",
         ("drive", "kind"),
     )
 
 
 def refuse_proportions(**lengths: float) -> None:
     """Raise GenevaError for lengths too different for a wheel to be solved for."""
-    limit = LENGTHS * reduce(smaller, lengths.values())
+    ratio = 1e4  # of two links: beyond it the path is a point, or rounding
+    limit = ratio * reduce(smaller, lengths.values())
 
     def error() -> GenevaError:
         name = max(lengths, key=lengths.__getitem__)
         return GenevaError(
-            f"{name} = {lengths[name]:g}: links differ by more than {LENGTHS:g} times: it must be "
+            f"{name} = {lengths[name]:g}: links differ by more than {ratio:g} times: it must be "
             f"at most {limit:g}",
             ("drive", name),
         )

@@ -19,7 +19,7 @@ from geneva_cli.errors import GenevaError
 from geneva_cli.machine.drives import whitworth
 from geneva_cli.machine.drives.drive import Gears, Plan
 from geneva_cli.machine.drives.pushed import Mesh
-from geneva_cli.machine.drives.transmission import About, Transmission
+from geneva_cli.machine.drives.transmission import LocalTransmission, Transmission
 from geneva_cli.machine.engagement import CarrierVelocity, ClosedPeaks, Path, Reactions
 from geneva_cli.machine.example import Example
 from geneva_cli.machine.layout import Dimension, Layout, Pivot
@@ -31,14 +31,12 @@ from geneva_cli.numerics.spline import SPLINE_DEGREE, Doubt, PiecewisePolynomial
 from geneva_cli.spec.rules import POSITIVE, Csv, Range
 from geneva_cli.spec.schema import Points
 
-MEAN = 1e-6  # by which the mean ratio may miss 1; the rest is scaled away
-
 
 class NoncircularGears(Transmission, kw_only=True):
     """Gears of any ratio that closes over a turn.
 
-    The ratio is the side-crank's ``A``, or is given by points: output speed over input speed, over
-    a turn of the input in degrees. Points are pairs, or the name of a CSV file.
+    The ratio is the side-crank's ``A``, or comes from points: output speed over input speed, by the
+    input angle in degrees over a turn. Points are pairs, or the name of a CSV file.
 
     >>> round(Design(External(6), NoncircularGears(A=0.6)).peaks.velocity.max, 12)
     0.625
@@ -100,7 +98,7 @@ class NoncircularGears(Transmission, kw_only=True):
         """Reactions of the crank, whose gear is pushed by the driver's teeth."""
         return Mesh(path, self.gear_distance_mm / L)
 
-    def about(self, crank_deg: float) -> About:
+    def about(self, crank_deg: float) -> LocalTransmission:
         """Transmission about a crank angle (degrees). GenevaError for an impossible ratio."""
         if self.A is not None:
             return whitworth.about(self.A, crank_deg)
@@ -139,7 +137,8 @@ def _turned(points: tuple[tuple[float, float], ...]) -> PiecewisePolynomial:
         )
     whole = periodic([math.radians(v) for v in x], i).integral()
     mean = whole(math.tau, 0)[0] / math.tau
-    if abs(mean - 1.0) > MEAN:
+    # a smaller error of the mean ratio is scaled away
+    if abs(mean - 1.0) > 1e-6:
         raise GenevaError(
             f"the gears do not close: the mean ratio over a turn is {mean:.9g}, and must "
             f"be 1; divide all ratios by {mean:.9g}",
@@ -148,8 +147,8 @@ def _turned(points: tuple[tuple[float, float], ...]) -> PiecewisePolynomial:
     return PiecewisePolynomial(whole.cuts, whole.origins, whole.rows / mean)
 
 
-class Since(NamedTuple):
-    """The crank's rotation since a moment, by the input's since then."""
+class CrankRotation(NamedTuple):
+    """The crank's rotation since a moment, as a function of the input's rotation since then."""
 
     since: PiecewisePolynomial
 
@@ -162,18 +161,20 @@ class Since(NamedTuple):
         return sine_versine_of(Jet(terms), m.sin(turn), m.cos(turn), order)
 
 
-def _through(crank: PiecewisePolynomial, crank_deg: float) -> About:
+def _through(crank: PiecewisePolynomial, crank_deg: float) -> LocalTransmission:
     turns, wanted = divmod(math.radians(crank_deg), math.tau)
     phi = boundary(lambda x: crank(x, 0)[0] < wanted, 0.0, math.tau)
     since = _since(crank, phi)
-    return About(math.degrees(phi + turns * math.tau), Since(since), False, since.seams)
+    return LocalTransmission(
+        math.degrees(phi + turns * math.tau), CrankRotation(since), False, since.seams
+    )
 
 
 def _since(crank: PiecewisePolynomial, phi: float) -> PiecewisePolynomial:
-    """The crank's rotation since the input angle phi, by the input's since then, over three turns.
+    """The crank's rotation since the input angle phi, by the input's rotation, over three turns.
 
-    The piece about phi is in powers of the input's rotation since then, so that the smallest angle
-    has all its digits.
+    The piece about phi is in powers of the input's rotation, so that the smallest angle has all its
+    digits.
     """
     here = crank(phi, SPLINE_DEGREE + 1)
     turns = math.tau * np.arange(-1.0, 2.0)

@@ -10,7 +10,7 @@ from geneva_cli.numerics.arrays import library
 from geneva_cli.numerics.jet import Jet, Number, turning
 
 
-class Pushed(ABC):
+class PushedCrank(ABC):
     """A crank held by its shaft and pushed round, without friction or mass."""
 
     @abstractmethod
@@ -31,7 +31,7 @@ class Pushed(ABC):
         return out
 
 
-class Mesh(Pushed):
+class Mesh(PushedCrank):
     """Gears whose axes are ``distance`` over L apart, the driver's on the line of centres.
 
     The point of contact divides the distance as i : 1, where i is the crank's speed over the

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Annotated, ClassVar
 
 from geneva_cli.machine.drives import whitworth
 from geneva_cli.machine.drives.drive import Plan
-from geneva_cli.machine.drives.transmission import About, Transmission
+from geneva_cli.machine.drives.transmission import LocalTransmission, Transmission
 from geneva_cli.machine.engagement import CarrierVelocity, ClosedPeaks, Path, Reactions
 from geneva_cli.machine.example import Example
 from geneva_cli.machine.layout import Dimension, Joint, Layout, Link, Pivot
@@ -54,7 +54,7 @@ class SideCrank(Transmission, kw_only=True):
         super().__post_init__()
         whitworth.refuse_rounding(self.A)
 
-    def about(self, crank_deg: float) -> About:
+    def about(self, crank_deg: float) -> LocalTransmission:
         """Transmission about a coulisse angle f in degrees."""
         return whitworth.about(self.A, crank_deg)
 

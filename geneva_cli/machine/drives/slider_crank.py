@@ -1,8 +1,8 @@
 """A slider-crank in front of the wheel: the roller is a point of its connecting rod.
 
-Crank a runs from the input's axis to the pin A, and rod b from A to the slider B. The slider's line
-passes the crank's axis at the height h. The roller C is at the distance k from A, at an angle from
-the line AB. The wheel's centre is solved for.
+Crank a leads from the input's axis to the pin A, and rod b from A to the slider B. The slider's
+line passes the crank's axis at the height h. The roller C is at the distance k from A, at an angle
+from the line AB. The wheel's centre is solved for.
 """
 
 from __future__ import annotations
@@ -55,8 +55,8 @@ class SliderCrank(Linkage, kw_only=True):
         refuse(
             a + abs(h) >= b,
             lambda: GenevaError(
-                f"crank_mm = {a:g}: the crank cannot make a full turn: crank and height together "
-                f"must be shorter than the rod, so it must be below {b - abs(h):.6g}",
+                f"crank_mm = {a:g}: the crank cannot make a full turn; it must be below "
+                f"{b - abs(h):.6g}, the rod minus the height of the slider's line",
                 ("drive", "crank_mm"),
             ),
         )

@@ -14,15 +14,15 @@ from geneva_cli.machine.engagement import (
     Carrier,
     CarrierVelocity,
     ClosedPeaks,
+    ConstantRate,
     Displacement,
     Engagement,
     Path,
     Reactions,
-    Turning,
 )
 from geneva_cli.machine.law_motion import refuse_alpha0
 from geneva_cli.machine.path_and_motion import MiddlePath
-from geneva_cli.machine.path_and_slot import AnchoredPath, Classic
+from geneva_cli.machine.path_and_slot import AnchoredPath, ClassicMotion
 from geneva_cli.machine.rollers import places
 from geneva_cli.machine.wheels.classic import refuse_jam, rollers_max
 from geneva_cli.machine.wheels.gearing import Gearing, RollerPlace
@@ -36,7 +36,7 @@ if TYPE_CHECKING:
     from geneva_cli.machine.motion import Motion
 
 
-class About(NamedTuple):
+class LocalTransmission(NamedTuple):
     """A transmission written about one crank angle, so that nothing cancels near it."""
 
     input_deg: float  # input angle there
@@ -73,7 +73,7 @@ class Transmission(Drive, kw_only=True):
     CRANKED: ClassVar[bool] = True
 
     @abstractmethod
-    def about(self, crank_deg: float) -> About:
+    def about(self, crank_deg: float) -> LocalTransmission:
         """The transmission about a crank angle in degrees, which is 0 at mid-motion."""
 
     @property
@@ -123,7 +123,7 @@ class Transmission(Drive, kw_only=True):
         slot, motion = wheel.follow(path, place, here.advance)
         closed = wheel.closed_form(place) if self.direct else None
         if closed:
-            motion = Classic(path, place.step.b, *closed)
+            motion = ClassicMotion(path, place.step.b, *closed)
         else:
             motion.closed_peaks = self.closed_peaks(wheel, place)
             motion.mirrored = motion.mirrored and here.even
@@ -140,7 +140,7 @@ class Transmission(Drive, kw_only=True):
 
         ``sense`` is 1 if it turns with the wheel, else -1.
         """
-        return Turning(sense) if self.direct else None
+        return ConstantRate(sense) if self.direct else None
 
     @property
     def direct(self) -> bool:
@@ -185,9 +185,8 @@ class Transmission(Drive, kw_only=True):
         refuse(
             matched != matched,
             lambda: GenevaError(
-                "no R/L between 0 and 1 matches this motion, since at mid-motion the wheel would "
-                "turn back or too fast (inside: more than half as fast as the crank): set ratio "
-                "to a number, or change alpha0_deg or the law",
+                'ratio = "matched": at mid-motion the wheel turns back, or too fast for any R/L '
+                "below 1; set a number, or change alpha0_deg or the law",
                 ("motion", "ratio"),
             ),
         )
@@ -208,10 +207,9 @@ class Transmission(Drive, kw_only=True):
         refuse(
             farthest_deg > self.reach_deg * (1.0 + 1e-12),
             lambda: GenevaError(
-                f"z = {wheel.z}: the crank must turn {farthest_deg:.6g} deg to either side "
-                f'of the line of centres, but kind = "{self.NAME}" turns it only '
-                f"{self.reach_deg:.6g}: use fewer slots here, or fewer on the first "
-                "wheel",
+                f"z = {wheel.z}: the crank must turn {farthest_deg:.6g} deg to either side, but "
+                f'kind = "{self.NAME}" turns it only {self.reach_deg:.6g}: reduce z, or the '
+                "slots of the first wheel",
                 ("wheel", "z"),
             ),
         )

@@ -10,22 +10,19 @@ from __future__ import annotations
 from typing import NamedTuple
 
 from geneva_cli.errors import GenevaError, refuse
-from geneva_cli.machine.drives.pushed import Pushed
-from geneva_cli.machine.drives.transmission import About
+from geneva_cli.machine.drives.pushed import PushedCrank
+from geneva_cli.machine.drives.transmission import LocalTransmission
 from geneva_cli.machine.engagement import Peak, Vector
 from geneva_cli.machine.wheels.gearing import Gearing, RollerPlace
 from geneva_cli.numerics.angles import radians, sin_cos_deg
 from geneva_cli.numerics.arrays import choose, library, parameter
 from geneva_cli.numerics.jet import Jet, Number, cosines_after, sin_cos, sine_versine_of
 
-A_MAX = 1.0 - 0.999e-12
-A_SURE = 0.999  # up to it the search for arrays misses no peak
-
 
 def refuse_rounding(A: float) -> None:
     """Raise GenevaError for |A| too close to 1 to be computed."""
     refuse(
-        abs(A) > A_MAX,
+        abs(A) > 1.0 - 0.999e-12,  # 1 - 1e-12, as a double, passes
         lambda: GenevaError(
             f"A = {A!r}: too close to 1 to be computed; its size must be at most 1 - 1e-12",
             ("drive", "A"),
@@ -53,7 +50,8 @@ class SideCrankPeak(NamedTuple):
         if quantity not in peaks:
             return None
         w = arrays.wheels(self.sign, self.l, self.rest, self.A)
-        sure = abs(w.A) <= A_SURE
+        # nearer to 1 the search for arrays may miss a peak
+        sure = abs(w.A) <= 0.999
         return Peak(*(parameter(np.where(sure, v, np.nan)[:, None]) for v in peaks[quantity](w)))
 
 
@@ -70,8 +68,8 @@ class Coulisse(NamedTuple):
     """The coulisse's rotation from one of its angles f.
 
     h = asin(A sin f) is the angle between input crank and coulisse. ``length`` is the coulisse's,
-    cos h + A cos f, and ``rest`` is cos h - A cos f. ``grows`` selects the form of W = x² + y² on
-    the line of centres that is a sum of positive terms for this sign of A.
+    cos h + A cos f, and ``rest`` is cos h - A cos f. ``grows`` selects the form of W = x² + y² that
+    is a sum of positive terms on the line of centres.
     """
 
     A: float
@@ -108,7 +106,7 @@ class Coulisse(NamedTuple):
         return y, x, 0.5 + (0.5 * (1.0 - A) * (1.0 + A)) / square
 
 
-class CoulisseTurning(NamedTuple):
+class CoulisseRate(NamedTuple):
     """Rate of the coulisse as the roller's crank; it turns with the wheel if ``sense`` is 1."""
 
     coulisse: Coulisse
@@ -119,7 +117,7 @@ class CoulisseTurning(NamedTuple):
         return self.coulisse.rate(tau, order) * self.sense
 
 
-class SlidingBlock(Pushed):
+class SlidingBlock(PushedCrank):
     """The block at the end of an input crank of length ``r`` over L, in the coulisse's slot."""
 
     def __init__(self, A: float, r: float, sign: float, mid: float) -> None:
@@ -136,14 +134,14 @@ class SlidingBlock(Pushed):
         return (x, y), (y * -1.0, x)
 
 
-def about(A: float, crank_deg: float) -> About:
+def about(A: float, crank_deg: float) -> LocalTransmission:
     """The side-crank about a coulisse angle f in degrees, for an offset A between -1 and 1."""
-    return About(*_about(A, crank_deg))
+    return LocalTransmission(*_about(A, crank_deg))
 
 
-def turning(A: float, crank_deg: float, sense: float) -> CoulisseTurning:
+def turning(A: float, crank_deg: float, sense: float) -> CoulisseRate:
     """Rate of the coulisse from its angle f in degrees on."""
-    return CoulisseTurning(_about(A, crank_deg)[1], sense)
+    return CoulisseRate(_about(A, crank_deg)[1], sense)
 
 
 def _about(A: float, crank_deg: float) -> tuple[float, Coulisse]:

@@ -10,15 +10,17 @@ from geneva_cli.machine.laws.sine_constant_cosine import breaks, first_half
 from geneva_cli.numerics.jet import Jet, Number
 from geneva_cli.spec.rules import Range
 
-LEAST = 1e-3  # the least share: of a shorter rise the jerk is a jump in all but name
-ROUNDED = 2e-6  # by which b + c + d may miss 1: thirds are written with six digits
-
 
 class SineConstantCosine(Law):
     """Sine, constant and cosine acceleration in fractions b, c and d of the time.
 
-    Special cases are harmonic (0, 0, 1), cycloidal (1/2, 0, 1/2), modified sine (1/4, 0, 3/4),
-    modified trapezoid (1/4, 1/2, 1/4) and constant acceleration (0, 1, 0).
+    Special cases (b, c, d):
+
+    - (0, 0, 1): harmonic
+    - (1/2, 0, 1/2): cycloidal
+    - (1/4, 0, 3/4): modified sine
+    - (1/4, 1/2, 1/4): modified trapezoid
+    - (0, 1, 0): constant acceleration
 
     >>> SineConstantCosine(b=0.25, c=0.5, d=0.25)(0.125, 2).derivatives()[2]  # 8 pi / (2 + pi)
     4.88812...
@@ -33,16 +35,18 @@ class SineConstantCosine(Law):
     def __post_init__(self) -> None:
         super().__post_init__()
         whole = self.b + self.c + self.d
-        if abs(whole - 1.0) > ROUNDED:
+        # thirds are written with six digits
+        if abs(whole - 1.0) > 2e-6:
             raise GenevaError(
                 f"b + c + d = {whole:.9g} must be 1, the whole time: for example b = 0.25, "
                 "c = 0.5, d = 0.25 for a modified trapezoid",
                 (self.TABLE, "d"),
             )
+        least = 1e-3  # in a shorter rise the jerk is as large as a jump
         for key, fraction in self.as_dict().items():
-            if 0.0 < fraction < LEAST:
+            if 0.0 < fraction < least:
                 raise GenevaError(
-                    f"{key} = {fraction:g} must be 0, for none, or at least {LEAST:g}",
+                    f"{key} = {fraction:g} must be 0, for none, or at least {least:g}",
                     (self.TABLE, key),
                 )
 
@@ -51,7 +55,7 @@ class SineConstantCosine(Law):
         return table != "motion" or key not in self.as_dict()
 
     @property
-    def _shares(self) -> tuple[float, float]:
+    def _fractions(self) -> tuple[float, float]:
         """Fractions b and d of exactly the whole; without c, b is exactly 1 - d."""
         whole = self.b + self.c + self.d
         d = self.d / whole
@@ -60,8 +64,8 @@ class SineConstantCosine(Law):
     @property
     def breaks(self) -> tuple[float, ...]:
         """Values of u at which the pieces meet."""
-        return breaks(*self._shares, 0.0)
+        return breaks(*self._fractions, 0.0)
 
     def first(self, u: Number, order: int) -> Jet:
         """First half of s, in which the wheel gains speed."""
-        return first_half(u, order, *self._shares)
+        return first_half(u, order, *self._fractions)

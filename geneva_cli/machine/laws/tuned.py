@@ -23,8 +23,6 @@ from geneva_cli.numerics.jet import Jet, Number
 from geneva_cli.numerics.tolerances import ROUNDED
 from geneva_cli.spec.rules import OneOf, Range
 
-SMOOTH = 3  # derivatives of y that must not jump: the wheel's velocity has the third
-
 
 class Tuned(Law):
     """A law of the load's flat output, converted to the wheel's motion.
@@ -97,5 +95,6 @@ class Tuned(Law):
 
 def _serves(y: Law) -> bool:
     """True if the law's derivatives up to the third vanish at both ends and do not jump."""
-    ends = [c for x in (0.0, 1.0) for c in y(x, SMOOTH).c[1:]]
+    # three derivatives of y must not jump: the wheel's velocity contains the third
+    ends = [c for x in (0.0, 1.0) for c in y(x, 3).c[1:]]
     return not y.breaks and all(abs(scalar(c)) < ROUNDED for c in ends)

@@ -11,8 +11,6 @@ from geneva_cli.errors import GenevaError, cut, refuse
 from geneva_cli.numerics.angles import one_minus_sin_pi, sin_cos_pi
 from geneva_cli.numerics.arrays import choose, larger, library, smaller
 
-STEPS = 5  # of Newton: four come to the last digit from l = 0.9 inside to l = 1 outside
-
 
 def half_motion_deg(sign: float, p: int, q: int) -> float:
     """Crank angle in degrees from entry to the line of centres: 90° - b outside, 90° + b inside."""
@@ -58,9 +56,11 @@ def velocity_peak(l: float, gap: float) -> float:
 def acceleration_peak(l: float, gap: float) -> tuple[float, float]:
     """Peak acceleration of an external wheel and its angle from mid-motion, degrees.
 
-    psi3 = 0 is a quadratic in cos a. With s = 1 - cos a and B = 1 + 4 l + l² its root is s = 2
-    (1-l)² / (B + sqrt(B² - 8 l (1-l)²)), which is free of cancellation up to l = 1. (An internal
-    wheel's peak is its jump at entry, tan b.)
+    psi3 = 0 is a quadratic in cos a. With s = 1 - cos a and B = 1 + 4 l + l² its root is
+
+        s = 2 (1-l)² / (B + sqrt(B² - 8 l (1-l)²))
+
+    which is free of cancellation up to l = 1. An internal wheel's peak is its jump at entry, tan b.
     """
     m = library(l, gap)
     big = 1.0 + 4.0 * l + l * l
@@ -73,8 +73,9 @@ def acceleration_peak(l: float, gap: float) -> tuple[float, float]:
 def power_peak(l: float, gap: float) -> tuple[float, float]:
     """Peak of velocity times acceleration and its angle from mid-motion, degrees.
 
-    Put g = ``gap`` and 1 - cos a = g² t. Then the slope vanishes at the least root t of the cubic
-    1 - (10 - 7 g + g²) t + (6 - 2 g - 2 g²) g t² - 2 (1 - g) g³ t³.
+    With g = ``gap`` and 1 - cos a = g² t, the slope vanishes at the least root t of
+
+        1 - (10 - 7 g + g²) t + (6 - 2 g - 2 g²) g t² - 2 (1 - g) g³ t³
 
     That root is nearly (1 + 2 g) / 10, from g = 0 (l = 1 outside) to 2 (l = 1 inside).
     """
@@ -82,7 +83,7 @@ def power_peak(l: float, gap: float) -> tuple[float, float]:
     first, second = 10.0 - (7.0 - gap) * gap, (6.0 - 2.0 * gap * (1.0 + gap)) * gap
     third = 2.0 * k * gap**3
     t = 0.1 + 0.2 * gap
-    for _ in range(STEPS):
+    for _ in range(5):  # Newton; four steps give all digits from l = 0.9 inside to l = 1 outside
         value = 1.0 - t * (first - t * (second - t * third))
         t = t + value / (first - t * (2.0 * second - 3.0 * t * third))
     m = library(l, gap)
@@ -96,10 +97,15 @@ def jerk_peak(l: float, gap: float, half_deg: float) -> tuple[float, float]:
     """Peak jerk and its angle from mid-motion, degrees; ``half_deg`` is half the motion.
 
     With k = 1 - gap (l outside, -l inside), c = cos a and D = 1 - 2 k c + k² the jerk is
-    -l (1 - k²) N / D³, N = 2 k c² + (1 + k²) c - 4 k. Outside it is greatest at mid-motion. Inside
-    its slope by c vanishes once for c <= 1, where w = 2 k c is a root of
-    w² + 4 (1 + k²) w + (1 + k²)² - 24 k²: below c = k (exit) the jerk is greatest at the ends,
-    and above c = 1 at mid-motion.
+
+        -l (1 - k²) N / D³ ,    N = 2 k c² + (1 + k²) c - 4 k
+
+    Outside it is greatest at mid-motion. Inside its slope by c vanishes once for c <= 1, where
+    w = 2 k c is a root of
+
+        w² + 4 (1 + k²) w + (1 + k²)² - 24 k²
+
+    If that c is below k (exit), the jerk is greatest at the ends; if above 1, at mid-motion.
     """
     k = 1.0 - gap
     m = library(l, gap)

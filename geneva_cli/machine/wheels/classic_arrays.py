@@ -25,8 +25,6 @@ from geneva_cli.numerics.angles import DEGREE
 if TYPE_CHECKING:
     from geneva_cli.numerics.jet import Array
 
-BLOCK = 8192
-
 
 class ClassicArrays(NamedTuple):
     """A classic wheel: sign +1 external, -1 internal; l = sin b; rest = 1 - l."""
@@ -47,9 +45,10 @@ class ClassicArrays(NamedTuple):
         n = len(input_deg)
         count = (n + 1) // 2 if mirrored else n
         out = [np.empty(n) for _ in orders]
-        work = np.empty((4, min(BLOCK, count)))
-        for start in range(0, count, BLOCK):
-            stop = min(start + BLOCK, count)
+        size = 8192  # angles in a block
+        work = np.empty((4, min(size, count)))
+        for start in range(0, count, size):
+            stop = min(start + size, count)
             done = [o[start:stop] for o in out]
             self._block(input_deg[start:stop], orders, done, work[:, : stop - start])
             if mirrored:

@@ -8,10 +8,10 @@ from typing import TYPE_CHECKING, Annotated, ClassVar
 from geneva_cli.errors import GenevaError, refuse
 from geneva_cli.machine.example import Example
 from geneva_cli.machine.layout import Dimension, Layout
-from geneva_cli.machine.path_and_slot import AnchoredPath, Followed
+from geneva_cli.machine.path_and_slot import AnchoredPath, StraightSlotMotion
 from geneva_cli.machine.wheels import classic, poses
 from geneva_cli.machine.wheels.gearing import Gearing, RollerPlace
-from geneva_cli.machine.wheels.offset_slot import OffsetFollowed, OffsetSlot
+from geneva_cli.machine.wheels.offset_slot import OffsetSlot, OffsetSlotMotion
 from geneva_cli.machine.wheels.poses import HalfStep
 from geneva_cli.machine.wheels.skew import margin, skew
 from geneva_cli.numerics.arrays import choose
@@ -119,12 +119,12 @@ class External(Gearing):
 
     def follow(
         self, path: AnchoredPath, place: RollerPlace, turn: Displacement
-    ) -> tuple[Slot, Followed]:
+    ) -> tuple[Slot, StraightSlotMotion]:
         """Radial or offset slot for a roller's path, and the motion that follows."""
         if place.skew is None:
             return super().follow(path, place, turn)
         slot = OffsetSlot(path, place.skew)
-        return slot, OffsetFollowed(path, place.step.b, place.skew)
+        return slot, OffsetSlotMotion(path, place.step.b, place.skew)
 
     def closed_form(self, place: RollerPlace) -> tuple[float, float, float] | None:
         """Sign, l = sin b and 1 - l for the closed forms of radial slots; None for others."""

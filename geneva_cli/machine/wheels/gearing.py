@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Annotated, ClassVar, NamedTuple
 
 from geneva_cli.machine.example import Example
 from geneva_cli.machine.layout import Layout
-from geneva_cli.machine.path_and_slot import AnchoredPath, Followed, RadialSlot
+from geneva_cli.machine.path_and_slot import AnchoredPath, RadialSlot, StraightSlotMotion
 from geneva_cli.machine.wheels.poses import HalfStep, PinPose
 from geneva_cli.machine.wheels.skew import Skew
 from geneva_cli.numerics.arrays import larger
@@ -117,12 +117,12 @@ class Gearing(SpecTable):
 
     def follow(
         self, path: AnchoredPath, place: RollerPlace, turn: Displacement
-    ) -> tuple[Slot, Followed]:
+    ) -> tuple[Slot, StraightSlotMotion]:
         """Straight slot for a roller's path, and the motion that follows.
 
         ``turn`` is the crank's rotation from mid-motion, as its sine and versine.
         """
-        return RadialSlot(path), Followed(path, place.step.b)
+        return RadialSlot(path), StraightSlotMotion(path, place.step.b)
 
     def body(self, place: RollerPlace, turn: Displacement) -> CarrierVelocity | None:
         """Angular velocity of the roller's carrier; None for a crank arm in the plane."""

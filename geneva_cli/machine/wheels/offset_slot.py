@@ -6,7 +6,7 @@ from collections.abc import Callable
 from typing import TYPE_CHECKING
 
 from geneva_cli.machine.engagement import Anchor, Slot, SlotAxis
-from geneva_cli.machine.path_and_slot import AnchoredPath, Followed, turned
+from geneva_cli.machine.path_and_slot import AnchoredPath, StraightSlotMotion, turned
 from geneva_cli.machine.wheels.skew import Skew
 from geneva_cli.numerics.arrays import are_designs, chosen, library
 from geneva_cli.numerics.jet import Jet, Number, integral, moment, piecewise, sqrt
@@ -35,7 +35,7 @@ class OffsetSlot(Slot):
         return _depth(self.skew, self.path.middle.displacement_at(input_deg, order)[0])[0]
 
 
-class OffsetFollowed(Followed):
+class OffsetSlotMotion(StraightSlotMotion):
     """Motion of a wheel whose offset slot follows the pin."""
 
     def __init__(self, path: AnchoredPath, half_step: float, skew: Skew) -> None:
@@ -110,8 +110,8 @@ class OffsetFollowed(Followed):
 def _depth(skew: Skew, toward: Jet) -> tuple[Jet, Jet]:
     """Coordinate s of the pin along its slot's axis, and rho² = s² + e².
 
-    From mid-motion the pin moves by u = l (1 - cos a) along the line of centres, and s² = deepest²
-    + 2 u is a sum of positive terms.
+    From mid-motion the pin moves by u = l (1 - cos a) along the line of centres. So s² = deepest² +
+    2 u is a sum of positive terms.
     """
     square = toward * 2.0 + skew.deepest**2
     return sqrt(square), square + skew.e**2

@@ -13,10 +13,11 @@ With c = cos f, g = 1 outside and -1 inside, and D = 1 - 2 g l c + l², the acce
 
     - l sin f h / (D² rho³),    h = (1-l²) C² rho - (c - g l) D A (1-A²)
 
-and the velocity falls with f > 0 where h > 0: everywhere outside, and inside for A <= 0, since
-D <= 1 - l², c - l <= c and C² >= 1 - A² give h >= (1-l²) (1-A²) (rho - A c). The velocity is then
-greatest at mid-motion, and the acceleration at an end or where its slope rises through zero. Inside
-and for A >= 0 the acceleration is greatest in its jump at the ends (a test has a grid of it).
+and the velocity falls with f > 0 where h > 0. That holds everywhere outside, and inside for
+A <= 0: D <= 1 - l², c - l <= c and C² >= 1 - A² give h >= (1-l²) (1-A²) (rho - A c). The velocity
+is then greatest at mid-motion, and the acceleration at an end or where its slope rises through
+zero. Inside and for A >= 0 the acceleration is greatest in its jump at the ends (a test has a grid
+of it).
 """
 
 from __future__ import annotations
@@ -32,16 +33,13 @@ if TYPE_CHECKING:
     from geneva_cli.numerics.arrays import Array, Mask, Number, Which, Whole
 
 SCAN = 10  # intervals over half the motion; 8 miss none of a million designs, 6 miss twelve
-STEPS = 4  # of the secant's, after a parabola's guess
-CLOSE = 1e-7  # radians: what so short a step leaves moves a peak by less than rounding
-BLOCK = 8192  # designs at a time: what the scan works on stays in the processor's cache
 
-# of cos f, rising through zero where a peak may be; of f, size and input angle
-Zero: TypeAlias = "Callable[[Wheels, Array], Array]"
-Value: TypeAlias = "Callable[[Wheels, Array], tuple[Array, Array]]"
+# A function of cos f that rises through zero where a peak may be; and size and input angle by f.
+Zero: TypeAlias = "Callable[[SideCrankWheels, Array], Array]"
+Value: TypeAlias = "Callable[[SideCrankWheels, Array], tuple[Array, Array]]"
 
 
-class Wheels(NamedTuple):
+class SideCrankWheels(NamedTuple):
     """Plain wheels behind side-cranks, (n,) each."""
 
     sign: Array  # +1 external, -1 internal
@@ -56,21 +54,21 @@ class Wheels(NamedTuple):
     rest2: Array  # (1-l)²
     big: Array  # 1 + 4 l + l²
 
-    def taken(self, which: Which) -> Wheels:
+    def taken(self, which: Which) -> SideCrankWheels:
         """Return some of the wheels."""
-        return Wheels._make(v[which] for v in self)
+        return SideCrankWheels._make(v[which] for v in self)
 
 
-def wheels(sign: Number, l: Number, rest: Number, A: Number) -> Wheels:
+def wheels(sign: Number, l: Number, rest: Number, A: Number) -> SideCrankWheels:
     """Wheels of R/L = l and ``rest`` = 1 - l, external (sign 1) or internal (-1): (n,) each."""
     square, big, minus = rest * (1.0 + l), 1.0 + l * (4.0 + l), (1.0 - A) * (1.0 + A)
     cos_b, end_cos = np.sqrt(square), sign * l
     half = np.arctan2(cos_b, end_cos)
     every = sign, A, l, rest, half, cos_b, end_cos, minus, square, rest * rest, big
-    return Wheels._make(v.ravel() for v in np.broadcast_arrays(*every))
+    return SideCrankWheels._make(v.ravel() for v in np.broadcast_arrays(*every))
 
 
-def acceleration_peaks(w: Wheels) -> tuple[Array, Array]:
+def acceleration_peaks(w: SideCrankWheels) -> tuple[Array, Array]:
     """Peak |acceleration| (invariant) and the input angle of its first occurrence, degrees: (n,).
 
     To a relative error of 4e-15 for |A| <= 0.999; NaN where a search did not converge.
@@ -83,7 +81,7 @@ def acceleration_peaks(w: Wheels) -> tuple[Array, Array]:
     return size, at / -DEGREE
 
 
-def velocity_peaks(w: Wheels) -> tuple[Array, Array]:
+def velocity_peaks(w: SideCrankWheels) -> tuple[Array, Array]:
     """Peak velocity (invariant) and the input angle of its first occurrence, degrees: (n,)."""
     size = w.l / (np.where(w.sign > 0.0, w.rest, 1.0 + w.l) * (1.0 + w.A))
     at = np.zeros(len(size))
@@ -91,7 +89,7 @@ def velocity_peaks(w: Wheels) -> tuple[Array, Array]:
     return size, at / -DEGREE + 0.0
 
 
-def acceleration(w: Wheels, f: Array) -> tuple[Array, Array]:
+def acceleration(w: SideCrankWheels, f: Array) -> tuple[Array, Array]:
     """Size of the acceleration at crank angles f, and the input angles there, radians."""
     s, c, v, C, rho = _at(w, f)
     D, f1 = w.rest2 + 2.0 * w.l * v, C / rho
@@ -101,7 +99,7 @@ def acceleration(w: Wheels, f: Array) -> tuple[Array, Array]:
     return w.l * s * abs(wheel - front), np.arctan2(rho * s, C * c - w.A * (s * s))
 
 
-def acceleration_at_end(w: Wheels) -> tuple[Array, Array]:
+def acceleration_at_end(w: SideCrankWheels) -> tuple[Array, Array]:
     """Jump of the acceleration at entry and exit, tan(b) f1², and the input angle, radians."""
     s, c = w.end_sin, w.end_cos
     C, rho = _front(w, s, c)
@@ -109,13 +107,13 @@ def acceleration_at_end(w: Wheels) -> tuple[Array, Array]:
     return w.l / s * f1 * f1, np.arctan2(rho * s, C * c - w.A * (s * s))
 
 
-def _velocity(w: Wheels, f: Array) -> tuple[Array, Array]:
+def _velocity(w: SideCrankWheels, f: Array) -> tuple[Array, Array]:
     s, c, v, C, rho = _at(w, f)
     D = w.rest2 + 2.0 * w.l * v
     return w.sign * w.l * (w.rest - v) / D * (C / rho), np.arctan2(rho * s, C * c - w.A * (s * s))
 
 
-def _front(w: Wheels, s: Array, c: Array) -> tuple[Array, Array]:
+def _front(w: SideCrankWheels, s: Array, c: Array) -> tuple[Array, Array]:
     """C and rho, where the crank's sine and cosine are s and c.
 
     The input's tangent is rho s / (C c - A s²): the coulisse's end seen from the input's axis.
@@ -125,7 +123,7 @@ def _front(w: Wheels, s: Array, c: Array) -> tuple[Array, Array]:
     return C, np.where(Ac < 0.0, w.minus / long, long)
 
 
-def _at(w: Wheels, f: Array) -> tuple[Array, Array, Array, Array, Array]:
+def _at(w: SideCrankWheels, f: Array) -> tuple[Array, Array, Array, Array, Array]:
     """At crank angles f the sine and cosine, 1 - g cos f, C and rho."""
     sine, cosine = np.sin(0.5 * f), np.cos(0.5 * f)
     s, c = 2.0 * sine * cosine, (cosine - sine) * (cosine + sine)
@@ -133,7 +131,7 @@ def _at(w: Wheels, f: Array) -> tuple[Array, Array, Array, Array, Array]:
     return s, c, 2.0 * near * near, *_front(w, s, c)
 
 
-def _acceleration_zero(w: Wheels, c: Array) -> Array:
+def _acceleration_zero(w: SideCrankWheels, c: Array) -> Array:
     """The acceleration's slope over f, times (C D)³ / (f1² l (1-l²)) > 0."""
     Ac, c2 = w.A * c, c * c
     s2, C2 = 1.0 - c2, w.minus + Ac * Ac
@@ -146,7 +144,7 @@ def _acceleration_zero(w: Wheels, c: Array) -> Array:
     return w.sign * N * C * C2 - front * (3.0 * s2 * C - D * g1 * (c * C + 3.0 * w.A * s2))
 
 
-def _velocity_zero(w: Wheels, c: Array) -> Array:
+def _velocity_zero(w: SideCrankWheels, c: Array) -> Array:
     """h / rho: above 0 where the velocity falls."""
     Ac = w.A * c
     C2, v = w.minus + Ac * Ac, 1.0 - w.sign * c
@@ -154,22 +152,26 @@ def _velocity_zero(w: Wheels, c: Array) -> Array:
     return w.square * C2 - w.sign * (w.rest - v) * D * w.A * (np.sqrt(C2) - Ac)
 
 
-def _compete(w: Wheels, best: tuple[Array, Array], zero: Zero, value: Value, some: Mask) -> None:
+def _compete(
+    w: SideCrankWheels, best: tuple[Array, Array], zero: Zero, value: Value, some: Mask
+) -> None:
     """Put greater sizes of some designs, and their places, into ``best``; NaN where unknown."""
     which = np.flatnonzero(some)
-    for block in (which[i : i + BLOCK] for i in range(0, len(which), BLOCK)):
+    count = 8192  # designs in a block: the scan's arrays stay in the processor's cache
+    for block in (which[i : i + count] for i in range(0, len(which), count)):
         part = w.taken(block)
         with np.errstate(all="ignore"):
-            found = zip(*_rises(part, zero), strict=True)
-            design, low, high, x, slope = map(np.concatenate, found)
+            columns = zip(*_rises(part, zero), strict=True)
+            design, low, high, x, slope = map(np.concatenate, columns)
             near, of = part.taken(design), block[design]
             before = here = np.zeros(len(x))
-            for step in range(STEPS):
+            for step in range(4):  # secant steps, from a parabola's root
                 last, here = here, zero(near, np.cos(x))
                 slope = (here - last) / (x - before) if step else slope
                 before, x = x, x - here / slope
             size, at = value(near, x)
-            known = (abs(x - before) < CLOSE) & (low <= x) & (x <= high)
+            # radians: the error after so short a step moves a peak by less than rounding
+            known = (abs(x - before) < 1e-7) & (low <= x) & (x <= high)
         # a design may have several: the greatest, or what is not known, is written last
         order = np.argsort(np.where(known, size, np.inf))
         order = order[(size > best[0][of])[order] | ~known[order]]
@@ -177,22 +179,22 @@ def _compete(w: Wheels, best: tuple[Array, Array], zero: Zero, value: Value, som
             values[of[order]] = np.where(known, new, np.nan)[order]
 
 
-def _rises(w: Wheels, zero: Zero) -> list[tuple[Whole, Array, Array, Array, Array]]:
-    """Return where ``zero`` rises through it: design, interval, a parabola's root, its slope."""
+def _rises(w: SideCrankWheels, zero: Zero) -> list[tuple[Whole, Array, Array, Array, Array]]:
+    """Rises of ``zero`` through 0: design, both ends of the interval, a parabola's root, slope."""
     step = w.half / SCAN
     turn = 2.0 * np.cos(step)
     c, c_next = np.ones(len(step)), 0.5 * turn
     last = before = np.zeros(len(step))
-    found = []
+    rises = []
     for i in range(SCAN + 1):
         here = zero(w, c if i < SCAN else w.end_cos)
         which = np.flatnonzero((before < 0.0) & (here >= 0.0))
         left, right, wide = before[which], here[which], step[which]
-        # through three values; of the first interval a straight line
+        # a parabola through three values; a straight line in the first interval
         tilt = 0.5 * (right - (last[which] if i > 1 else 2.0 * left - right))
         root = np.sqrt(np.maximum(tilt * tilt - 4.0 * (right - left - tilt) * left, 0.0))
         low = (i - 1.0) * wide
-        found.append((which, low, low + wide, low - 2.0 * left / (tilt + root) * wide, root / wide))
+        rises.append((which, low, low + wide, low - 2.0 * left / (tilt + root) * wide, root / wide))
         last, before = before, here
         c, c_next = c_next, turn * c_next - c
-    return found
+    return rises

@@ -1,8 +1,8 @@
 """Straight slots whose axes miss the wheel's centre by e, in units of the centre distance L.
 
-They are shockless at both ends if the slot's axis is tangent to the crank's circle: l = sin b cos d
-with d = asin(e / cos b). The crank's angle of motion stays 180° - 2b. The two ends exchange their
-jumps: entry l / cos(b - d), exit l / cos(b + d).
+They are shockless at both ends if the slot's axis is tangent to the crank's circle. Then l = sin b
+cos d, with d = asin(e / cos b). The crank's angle of motion stays 180° - 2b. The jumps differ: l /
+cos(b - d) at entry, l / cos(b + d) at exit.
 
 At the limit |e| = cos² b, where b + |d| = 90°, the gentler of the slot's ends would meet the
 wheel's centre line. All that is small there is a product with the distance to that limit, which is

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Annotated, ClassVar, NamedTuple
 from geneva_cli.errors import GenevaError, refuse
 from geneva_cli.machine.example import Example
 from geneva_cli.machine.layout import Dimension, Layout
-from geneva_cli.machine.path_and_slot import AnchoredPath, Followed, MeridianSlot
+from geneva_cli.machine.path_and_slot import AnchoredPath, MeridianSlot, StraightSlotMotion
 from geneva_cli.machine.wheels.gearing import Gearing, RollerPlace
 from geneva_cli.machine.wheels.poses import HalfStep, PinPose
 from geneva_cli.numerics.angles import sin_cos_deg
@@ -17,8 +17,6 @@ from geneva_cli.spec.rules import Range
 
 if TYPE_CHECKING:
     from geneva_cli.machine.engagement import Displacement, Slot
-
-AXES_MIN = 1e-6  # degrees
 
 
 class Spherical(Gearing):
@@ -44,11 +42,12 @@ class Spherical(Gearing):
 
     def __post_init__(self) -> None:
         super().__post_init__()
+        least = 1e-6  # degrees
         refuse(
-            (self.axes_deg < AXES_MIN) | (self.axes_deg > 180.0 - AXES_MIN),
+            (self.axes_deg < least) | (self.axes_deg > 180.0 - least),
             lambda: GenevaError(
                 f"axes_deg = {self.axes_deg:g}: the shafts are practically parallel: it must "
-                f"be at least {AXES_MIN:g} away from 0 and 180, or choose gearing "
+                f"be at least {least:g} away from 0 and 180, or choose gearing "
                 '"external" or "internal"',
                 ("wheel", "axes_deg"),
             ),
@@ -84,10 +83,11 @@ class Spherical(Gearing):
 
     def follow(
         self, path: AnchoredPath, place: RollerPlace, turn: Displacement
-    ) -> tuple[Slot, Followed]:
+    ) -> tuple[Slot, StraightSlotMotion]:
         """Meridian slot with the pin's coordinate along the wheel's axis, and the motion."""
         assert place.height is not None  # it is a place on a sphere
-        return MeridianSlot(path, Height(*place.height, turn)), Followed(path, place.step.b)
+        slot = MeridianSlot(path, Height(*place.height, turn))
+        return slot, StraightSlotMotion(path, place.step.b)
 
     def body(self, place: RollerPlace, turn: Displacement) -> CrankCone:
         """Angular velocity of the crank, whose axis differs from the roller's."""
@@ -136,8 +136,7 @@ class Sphere(NamedTuple):
     """A spherical wheel: shafts at the angle S, the pin on a cone of half angle th.
 
     sin th = sin S sin b, so that the pin enters its meridian slot along it. Projected along the
-    wheel's axis, the pin's path is an ellipse, (sin S - tan th cos S cos a, tan th sin a) times cos
-    th.
+    wheel's axis, the pin's path is an ellipse: cos th (sin S - tan th cos S cos a, tan th sin a).
     """
 
     sin_S: float

@@ -19,10 +19,8 @@ from geneva_cli.curves.sheet import ABOVE, BELOW, Label, Measure
 if TYPE_CHECKING:
     from geneva_cli.numerics.jet import Array
 
-CHORD = 1.5  # mm: longest chord of a curve
 BESIDE, ON = 3.0, 4.0  # mm: distance of a dimension line to another, and to a line of the part
-LEAST = 0.1  # mm: lines that share less may be in line with each other
-GAP = 0.6  # mm: distance of a text to its nearest neighbour
+IN_LINE = 0.1  # mm: lines that overlap by less may be in line with each other
 
 
 class Board:
@@ -64,10 +62,11 @@ class Board:
 
     def is_free(self, label: Label, lines: Array) -> bool:
         """Return True if a text and its lines meet nothing on the board."""
-        if bool(_inside(label, self._all, GAP).any()):
+        gap = 0.6  # mm: distance of a text to its nearest neighbour
+        if bool(_inside(label, self._all, gap).any()):
             return False
         own = np.concatenate((lines, _edges(label)))
-        return not any(bool(_inside(text, own, GAP).any()) for text in self._texts)
+        return not any(bool(_inside(text, own, gap).any()) for text in self._texts)
 
     def box(self) -> tuple[float, float, float, float]:
         """Return the bounding box of all lines and texts: x0, y0, x1, y1."""
@@ -94,20 +93,20 @@ def chords(shape: Shape) -> Array:
 def _run_together(a: Segment, b: Segment, apart: float) -> bool:
     """Return True if two lines, or two arcs, run side by side with less than ``apart`` between."""
     if isinstance(a, Arc) and isinstance(b, Arc):
-        same = math.dist(a.centre, b.centre) < LEAST and abs(a.radius - b.radius) < apart
+        same = math.dist(a.centre, b.centre) < IN_LINE and abs(a.radius - b.radius) < apart
         turn = (_middle(b) - _middle(a)) % math.tau
         off = min(turn, math.tau - turn)
-        return same and (0.5 * (abs(a.sweep) + abs(b.sweep)) - off) * a.radius > LEAST
+        return same and (0.5 * (abs(a.sweep) + abs(b.sweep)) - off) * a.radius > IN_LINE
     if not (isinstance(a, Line) and isinstance(b, Line)):
         return False
     (x, y), (u, v) = a
     long = math.dist(*a)
-    if long < LEAST:
+    if long < IN_LINE:
         return False
     c, s = (u - x) / long, (v - y) / long
     along = sorted((p[0] - x) * c + (p[1] - y) * s for p in b)
     across = max(abs((p[1] - y) * c - (p[0] - x) * s) for p in b)
-    return across < apart and along[0] < long - LEAST and along[1] > LEAST
+    return across < apart and along[0] < long - IN_LINE and along[1] > IN_LINE
 
 
 def _middle(arc: Arc) -> float:
@@ -119,7 +118,8 @@ def _middle(arc: Arc) -> float:
 def _chords(pieces: Iterable[Segment]) -> Array:
     rows: list[tuple[float, float, float, float]] = []
     for piece in pieces:
-        count = 1 if isinstance(piece, Line) else max(1, math.ceil(segment_length(piece) / CHORD))
+        # chords of at most 1.5 mm
+        count = 1 if isinstance(piece, Line) else max(1, math.ceil(segment_length(piece) / 1.5))
         points: list[Point] = [at(piece, i / count) for i in range(count + 1)]
         rows += [(*p, *q) for p, q in zip(points, points[1:], strict=False)]
     return np.array(rows).reshape(-1, 4)

@@ -14,11 +14,11 @@ from geneva_cli.errors import GenevaError
 from geneva_cli.machine.spec import Spec
 from geneva_cli.parts.sheet.pack import packed
 from geneva_cli.parts.sheet.paper import (
-    BLOCK,
     FORMATS,
     LEFT,
     MARGIN,
     SCALES,
+    TITLE_WIDTH,
     PaperSize,
     frame,
     scale_name,
@@ -27,10 +27,6 @@ from geneva_cli.parts.sheet.paper import (
 )
 from geneva_cli.parts.sheet.view import Block, number
 from geneva_cli.spec.tables import Material
-
-ENLARGED = 170.0  # mm: greatest size of a part that is drawn above 1:1
-GENERAL = "ISO 2768-m"  # tolerances of dimensions without their own
-ITEMS = (12.0, 66.0, 14.0, 20.0, 24.0, 44.0)  # mm: columns of the list of items
 
 
 def on_paper(
@@ -48,7 +44,7 @@ def on_paper(
     """
     for scale in SCALES:
         width, height = FORMATS[-1].width, FORMATS[-1].height
-        most = ENLARGED if scale > 1.0 else width
+        most = 170.0 if scale > 1.0 else width  # mm: an enlarged part is no wider than a hand
         if scale * largest > most or scale * scale * area > width * height:
             continue
         drawn = list(blocks(scale))
@@ -76,7 +72,7 @@ def _composed(
         "scale": scale_name(scale),
         "mass": _mass(sum(r["mass_kg"] * r["count"] for r in rows)),
         "material": materials[0] if len(set(materials)) == 1 else "see list",
-        "tolerances": GENERAL,
+        "tolerances": "ISO 2768-m",  # of dimensions without their own
         "units": "mm, degrees",
         "size": paper.name,
         "sheet": "1/1",
@@ -84,7 +80,7 @@ def _composed(
     names = ", ".join(str(row["name"]) for row in rows)
     head = spec.title or f"Geneva wheel of {spec.wheel.z} slots"
     right, low = paper.width - MARGIN, MARGIN
-    corner = title_block(fields, head, names).moved(right - BLOCK, low)
+    corner = title_block(fields, head, names).moved(right - TITLE_WIDTH, low)
     items = _items(rows, materials)
     items = items.moved(right - items.width, corner.y1)
     area = LEFT, MARGIN, right, paper.height - MARGIN
@@ -118,7 +114,8 @@ def _items(rows: list[dict[str, Any]], materials: list[str]) -> Block:
         for i, row in enumerate(rows, 1)
     ]
     heading = ("item", "part", "count", "t", "kg each", "material")
-    return table((), [heading, *lines], ITEMS)
+    columns = (12.0, 66.0, 14.0, 20.0, 24.0, 44.0)  # mm
+    return table((), [heading, *lines], columns)
 
 
 def _material(of: Material) -> str:

@@ -22,8 +22,6 @@ from geneva_cli.parts.sheet.paper import table
 from geneva_cli.parts.sheet.view import Block, View, number, times
 
 UP = 0.5 * math.pi
-COLUMNS = (62.0, 44.0, 46.0, 16.0)  # mm, of the table of round parts
-HEADING = ("round parts",)
 
 
 def draw_link(view: View, member: Member, bars: Links, mechanism: Mechanism) -> None:
@@ -43,8 +41,8 @@ def draw_link(view: View, member: Member, bars: Links, mechanism: Mechanism) -> 
     pressed = _pressed(mechanism)
     shown: dict[str, list[Circle]] = {}
     for hole, there in zip(holes, placed_holes(member), strict=True):
-        held = any(same(there.centre, p, mechanism.center_distance_mm) for p in pressed)
-        text = sized.pin_hole(mechanism, hole.radius) if held else sized.bore(hole.radius)
+        tight = any(same(there.centre, p, mechanism.center_distance_mm) for p in pressed)
+        text = sized.pin_hole(mechanism, hole.radius) if tight else sized.bore(hole.radius)
         shown.setdefault(text, []).append(hole)
     for text, some in shown.items():
         view.diameter(some, times(len(some), text))
@@ -77,11 +75,11 @@ def _pressed(mechanism: Mechanism) -> list[Point]:
 def _places(view: View, holes: list[Circle], base: Point) -> None:
     """Draw the distances of the other holes from the first, along the link and across it."""
     for axis, turn in ((0, 0.0), (1, UP)):
-        seen = {number(0.0)}
+        texts = {number(0.0)}
         for hole in sorted(holes, key=lambda h: abs(h.centre[axis] - base[axis])):
             text = number(abs(hole.centre[axis] - base[axis]))
-            if text not in seen:
-                seen.add(text)
+            if text not in texts:
+                texts.add(text)
                 view.linear(base, hole.centre, turn, text)
 
 
@@ -128,7 +126,10 @@ def _outline(view: View, plate: Plate, slides: bool) -> None:
 def round_parts(members: Sequence[Member], mechanism: Mechanism) -> list[Block]:
     """Return a table of the pins, washers, spacers and rollers between links."""
     rows = list(_rows(members, mechanism))
-    return [table(HEADING, [("part", "outside", "bore", "length"), *rows], COLUMNS)] * bool(rows)
+    if not rows:
+        return []
+    columns = (62.0, 44.0, 46.0, 16.0)  # mm
+    return [table(("round parts",), [("part", "outside", "bore", "length"), *rows], columns)]
 
 
 def _rows(members: Sequence[Member], mechanism: Mechanism) -> Iterator[tuple[str, str, str, str]]:

@@ -9,17 +9,12 @@ import math
 from collections.abc import Iterable, Iterator
 
 from geneva_cli.curves.helvetica import width
-from geneva_cli.curves.shapes import Line, Point, Segment, about
+from geneva_cli.curves.shapes import ORIGIN, Line, Point, Segment, about
 from geneva_cli.curves.sheet import ARROW, BELOW, SMALL, Arrow, Label, Measure, polar
 
-AXIS = 0.0, 0.0  # of the part whose angles are shown
 PAST = 1.5  # length of an extension line beyond the dimension line
 CLEAR = 0.8  # gap from the outline to an extension line, and from a line to its text
-ROUND = 16  # number of directions of a leader
-LENGTHS = (6.0, 9.0, 13.0, 18.0, 24.0, 32.0, 42.0, 55.0, 72.0, 95.0, 125.0, 160.0)
 LENGTH = ARROW[0]
-PLACES = (0.5, 0.25, 0.75, 0.0, 1.0, 2.0, -1.0)  # positions of a text along its dimension line
-LEVEL = 0.14  # radians: leaders nearer to horizontal or vertical would lie on centre lines
 
 
 def linear(
@@ -36,7 +31,7 @@ def linear(
     u, n = _axes(turn)
     a, b = sorted((_dot(p, u), _dot(p, n)) for p in ends)
     for level in levels:
-        for place in PLACES:
+        for place in (0.5, 0.25, 0.75, 0.0, 1.0, 2.0, -1.0):
             mark = _linear(a, b, level, turn, place, text)
             if mark is None:
                 continue
@@ -77,7 +72,7 @@ def _linear(
             lines.append(Line(_at(u, n, along, begin), _at(u, n, along, end)))
     turns = (turn + math.pi, turn) if inside else (turn, turn + math.pi)
     arrows = tuple(
-        Arrow(_at(u, n, along, level), way) for (along, _), way in zip((a, b), turns, strict=True)
+        Arrow(_at(u, n, along, level), out) for (along, _), out in zip((a, b), turns, strict=True)
     )
     return tuple(lines), arrows, _on_line(start, start + long, level, turn, text)
 
@@ -107,8 +102,8 @@ def angular(
         inside = radius * (last - first) > 3.0 * LENGTH
         spare = 0.0 if inside else 2.5 * LENGTH / radius
         lines: list[Segment] = [
-            about(AXIS, radius, first - spare, last - first + 2.0 * spare),
-            *(Line(polar(AXIS, begin, leg), polar(AXIS, radius + PAST, leg)) for leg in legs),
+            about(ORIGIN, radius, first - spare, last - first + 2.0 * spare),
+            *(Line(polar(ORIGIN, begin, leg), polar(ORIGIN, radius + PAST, leg)) for leg in legs),
         ]
         tilt = 0.5 * LENGTH / radius  # an arrow's back lies on the arc
         quarter = 0.5 * math.pi
@@ -118,13 +113,17 @@ def angular(
             else (first + quarter - tilt, last - quarter + tilt)
         )
         arrows = tuple(
-            Arrow(polar(AXIS, radius, leg), turn) for leg, turn in zip(legs, turns, strict=True)
+            Arrow(polar(ORIGIN, radius, leg), turn) for leg, turn in zip(legs, turns, strict=True)
         )
         middle = 0.5 * (first + last)
-        points = (AXIS, *(polar(AXIS, begin, leg) for leg in legs), polar(AXIS, radius, middle))
+        points = (
+            ORIGIN,
+            *(polar(ORIGIN, begin, leg) for leg in legs),
+            polar(ORIGIN, radius, middle),
+        )
         for fraction in (0.5, 0.3, 0.7, -0.3, 1.3):
             at = first + fraction * (last - first) if inside else middle
-            label = _clear_of(polar(AXIS, radius, at), at, text)
+            label = _clear_of(polar(ORIGIN, radius, at), at, text)
             yield Measure("angular", points, value, label, tuple(lines), arrows)
 
 
@@ -161,7 +160,7 @@ def note(tip: Point, text: str) -> Iterator[Measure]:
 
 def around() -> list[float]:
     """Return directions all round, oblique ones first."""
-    directions = [0.25 * math.pi + k * math.tau / ROUND for k in range(ROUND)]
+    directions = [0.25 * math.pi + k * math.tau / 16 for k in range(16)]
     return sorted(directions, key=lambda a: round(abs(abs(math.sin(2.0 * a)) - 0.9), 6))
 
 
@@ -169,7 +168,8 @@ def within(start: float, end: float, count: int = 9) -> list[float]:
     """Return directions between two, the middle ones first."""
     fractions = sorted(((k + 0.5) / count for k in range(count)), key=lambda s: abs(s - 0.5))
     angles = [start + s * (end - start) for s in fractions]
-    return sorted(angles, key=lambda a: abs(math.sin(2.0 * a)) < 2.0 * LEVEL)
+    # leaders within 0.14 radians of horizontal or vertical would lie on centre lines
+    return sorted(angles, key=lambda a: abs(math.sin(2.0 * a)) < 2.0 * 0.14)
 
 
 def _leaders(
@@ -178,7 +178,7 @@ def _leaders(
     """Yield tip, direction, bend and text of leaders, short ones first."""
     directions = list(angles)
     long = width(text) * SMALL
-    for length in LENGTHS:
+    for length in (6.0, 9.0, 13.0, 18.0, 24.0, 32.0, 42.0, 55.0, 72.0, 95.0, 125.0, 160.0):
         for angle in directions:
             tip = polar(centre, reach, angle)
             for out in (1.0, -1.0) if length < 2.0 * reach else (1.0,):

@@ -11,25 +11,24 @@ from typing import TypeAlias
 
 from geneva_cli.parts.sheet.view import Block
 
-APART = 8.0, 12.0, 18.0, 27.0, 40.0  # mm: distances of two blocks to try, the least first
 Box: TypeAlias = tuple[float, float, float, float]  # x0, y0, x1, y1
-ORDERS: tuple[Callable[[Block], float], ...] = (
-    lambda block: -block.width * block.height,
-    lambda block: -block.height,
-    lambda block: -block.width,
-)
 
 
 def packed(blocks: Sequence[Block], taken: Sequence[Block], area: Box) -> list[Block] | None:
-    """Return the blocks at free positions in an area, beside the ``taken`` ones.
+    """Return the blocks at free positions in an area, clear of the ``taken`` ones.
 
     None where they do not fit.
     """
-    for order in ORDERS:
-        result = _packed(blocks, taken, area, order, APART[0])
+    orders: tuple[Callable[[Block], float], ...] = (
+        lambda block: -block.width * block.height,
+        lambda block: -block.height,
+        lambda block: -block.width,
+    )
+    for order in orders:
+        result = _packed(blocks, taken, area, order, 8.0)  # mm between blocks
         if result is None:
             continue
-        for apart in APART[1:]:
+        for apart in (12.0, 18.0, 27.0, 40.0):
             wider = _packed(blocks, taken, area, order, apart)
             if wider is None:
                 break

@@ -22,9 +22,7 @@ from geneva_cli.curves.sheet import (
 from geneva_cli.parts.sheet.view import Block
 
 LEFT, MARGIN = 20.0, 10.0  # mm: margin of the frame on the filing side, and on the others
-BLOCK = 180.0  # mm: width of the title block
-ROW = 5.0  # mm: of tables
-NARROW = 60.0  # mm: least width to which text above a table is wrapped
+TITLE_WIDTH = 180.0  # mm: width of the title block
 
 
 class PaperSize(NamedTuple):
@@ -78,21 +76,21 @@ def frame(paper: PaperSize) -> list[Shape]:
 
 def title_block(fields: dict[str, str], title: str, parts: str) -> Block:
     """Return the title block; its lower left corner is the origin."""
-    shapes: list[Shape] = [rectangle(FRAME, 0.0, 0.0, BLOCK, 36.0)]
+    shapes: list[Shape] = [rectangle(FRAME, 0.0, 0.0, TITLE_WIDTH, 36.0)]
     labels: list[Label] = []
-    shapes += [line(TEXT, (0.0, y), (BLOCK, y)) for y in (12.0, 24.0)]
-    labels += _field((0.0, 24.0), "title", title, LARGE, BLOCK)
-    listed = parts if _fits(parts, SMALL, BLOCK - 34.0) else "see list"
-    labels += _field((0.0, 12.0), "parts", listed, SMALL, BLOCK - 30.0)
-    shapes.append(line(TEXT, (BLOCK - 30.0, 12.0), (BLOCK - 30.0, 24.0)))
-    symbol_shapes = projection((BLOCK - 15.0, 18.0))
+    shapes += [line(TEXT, (0.0, y), (TITLE_WIDTH, y)) for y in (12.0, 24.0)]
+    labels += _field((0.0, 24.0), "title", title, LARGE, TITLE_WIDTH)
+    listed = parts if _fits(parts, SMALL, TITLE_WIDTH - 34.0) else "see list"
+    labels += _field((0.0, 12.0), "parts", listed, SMALL, TITLE_WIDTH - 30.0)
+    shapes.append(line(TEXT, (TITLE_WIDTH - 30.0, 12.0), (TITLE_WIDTH - 30.0, 24.0)))
+    symbol_shapes = projection((TITLE_WIDTH - 15.0, 18.0))
     shapes += symbol_shapes
-    cell = BLOCK / len(fields)
+    cell = TITLE_WIDTH / len(fields)
     for i, (name, value) in enumerate(fields.items()):
         labels += _field((i * cell, 0.0), name, value, SMALL, cell)
         if i:
             shapes.append(line(TEXT, (i * cell, 0.0), (i * cell, 12.0)))
-    return Block(0.0, 0.0, BLOCK, 36.0, tuple(shapes), tuple(labels))
+    return Block(0.0, 0.0, TITLE_WIDTH, 36.0, tuple(shapes), tuple(labels))
 
 
 def _field(at: Point, name: str, value: str, height: float, limit: float) -> list[Label]:
@@ -136,13 +134,14 @@ def table(heading: Sequence[str], rows: Sequence[Sequence[str]], columns: Sequen
 
     The first row has the names of its columns. ``columns`` are widths in mm.
     """
-    wide, high = sum(columns), ROW * len(rows)
+    row_height = 5.0  # mm
+    wide, high = sum(columns), row_height * len(rows)
     shapes: list[Shape] = [rectangle(OUTLINE, 0.0, 0.0, wide, high)]
     labels: list[Label] = []
     for i, row in enumerate(rows):
-        y = high - ROW * (i + 1)
+        y = high - row_height * (i + 1)
         if i:
-            shapes.append(line(TEXT, (0.0, y + ROW), (wide, y + ROW)))
+            shapes.append(line(TEXT, (0.0, y + row_height), (wide, y + row_height)))
         x = 0.0
         for text, column in zip(row, columns, strict=True):
             shown = cut_to(text, SMALL, column - 2.0)
@@ -153,7 +152,8 @@ def table(heading: Sequence[str], rows: Sequence[Sequence[str]], columns: Sequen
     for column in columns[:-1]:
         x += column
         shapes.append(line(TEXT, (x, 0.0), (x, high)))
-    lines = [part for text in heading for part in broken(text, SMALL, max(wide, NARROW))]
+    # text above a narrow table is up to 60 mm wide
+    lines = [part for text in heading for part in broken(text, SMALL, max(wide, 60.0))]
     top = high
     for text in reversed(lines):
         top += 1.8 * SMALL

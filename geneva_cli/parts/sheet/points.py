@@ -20,13 +20,8 @@ from geneva_cli.parts.sheet.view import Block, number, times
 if TYPE_CHECKING:
     from geneva_cli.numerics.jet import Array
 
-COARSE = 1e-4  # of the centre distance: finest tolerance of a table
-COLUMNS = (9.0, 17.0, 17.0)
-ROWS = 40  # at most; longer tables continue in further columns
+COARSE = 1e-4  # finest tolerance of a table, as a fraction of the centre distance
 MIRRORED = "; the other half is its mirror image in the x axis"
-BEGIN = 4  # intervals
-DEPTH = 14  # halvings of one
-BETWEEN = (0.25, 0.5, 0.75)  # where a chord's distance from the curve is computed
 
 
 def tables(parts: Outlines, tolerance: float) -> list[Block]:
@@ -73,8 +68,8 @@ def gear_tables(mechanism: Mechanism, tolerance: float) -> list[Block]:
         def curve(t: Array, both: Callable[[Array], tuple[Array, Array]] = both) -> Array:
             return both(np.radians(t))[0]
 
-        seen = np.linspace(0.0, 180.0, 37)
-        symmetric = bool(np.abs(curve(-seen) - curve(seen) * (1.0, -1.0)).max() < SAME_LENGTH * L)
+        half = np.linspace(0.0, 180.0, 37)
+        symmetric = bool(np.abs(curve(-half) - curve(half) * (1.0, -1.0)).max() < SAME_LENGTH * L)
         points = polyline(curve, 0.0, 180.0 if symmetric else 360.0, close)
         what = f"{name}: points of its pitch curve about its axis, at input angle 0"
         blocks.append(point_table(what + (MIRRORED if symmetric else ""), points, close))
@@ -82,18 +77,19 @@ def gear_tables(mechanism: Mechanism, tolerance: float) -> list[Block]:
 
 
 def polyline(
-    curve: Callable[[Array], Array], a: float, b: float, tolerance: float, begin: int = BEGIN
+    curve: Callable[[Array], Array], a: float, b: float, tolerance: float, begin: int = 4
 ) -> Array:
     """Return points of a curve, (n, 2), whose chords are within ``tolerance`` of the curve.
 
     There are at least ``begin`` chords.
     """
     nodes = np.linspace(a, b, begin + 1)
-    for _ in range(DEPTH):
+    quarters = (0.25, 0.5, 0.75)  # fractions of a chord at which its error is computed
+    for _ in range(14):  # halvings
         steps = np.diff(nodes)
-        inner = np.concatenate([nodes[:-1] + fraction * steps for fraction in BETWEEN])
+        inner = np.concatenate([nodes[:-1] + fraction * steps for fraction in quarters])
         ends = curve(nodes)
-        between = curve(inner).reshape(len(BETWEEN), -1, 2)
+        between = curve(inner).reshape(len(quarters), -1, 2)
         chord = np.diff(ends, axis=0)
         off = between - ends[:-1]
         length = np.maximum(np.hypot(*chord.T), 1e-12)
@@ -107,7 +103,7 @@ def polyline(
 
 def point_table(title: str, points: Array, close: float) -> Block:
     """Return a table of points in as many columns as they need, with their tolerance."""
-    groups = math.ceil(len(points) / ROWS)
+    groups = math.ceil(len(points) / 40)  # a table of more than 40 rows has further columns
     high = math.ceil(len(points) / groups)
     rows = [["No.", "x", "y"] * groups]
     for i in range(high):
@@ -122,4 +118,4 @@ def point_table(title: str, points: Array, close: float) -> Block:
             )
         rows.append(row)
     note = f"chords between them are within {number(close, 4)} of it"
-    return table([title, note], rows, COLUMNS * groups)
+    return table([title, note], rows, (9.0, 17.0, 17.0) * groups)  # mm

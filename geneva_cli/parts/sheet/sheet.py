@@ -17,9 +17,6 @@ from geneva_cli.parts.sheet.paper import smaller, table
 from geneva_cli.parts.sheet.view import Block, number
 from geneva_cli.parts.sheet.views import shown_on_sheet, together, views
 
-ASSEMBLED = 1.0, 2.0  # the machine's scale is smaller than its parts' by one of these factors
-LAYOUT = (60.0, 36.0, 20.0)  # mm: columns of the table of pivots and links
-
 
 def sheet(parts: Outlines, tolerance: float, curves: str) -> Sheet:
     """Return the drawing sheet of a machine. Raises GenevaError where no scale fits on one."""
@@ -34,7 +31,7 @@ def sheet(parts: Outlines, tolerance: float, curves: str) -> Sheet:
 
     def blocks(scale: float) -> Iterator[list[Block]]:
         apart = [view.block() for view in views(shown, scale)]
-        for times in ASSEMBLED:
+        for times in (1.0, 2.0):  # the machine's scale, or half of it
             yield [*apart, together(shown, smaller(scale, times)).block(), *fixed]
 
     return on_paper(parts.assembly.full.spec, shown.rows, shown.largest, blocks, shown.area)
@@ -50,4 +47,4 @@ def layout(mechanism: Mechanism) -> list[Block]:
         for d in own
         if isinstance(d, Dimension)
     ]
-    return [table((), rows, LAYOUT)] if len(rows) > 1 else []
+    return [table((), rows, (60.0, 36.0, 20.0))] if len(rows) > 1 else []  # mm

@@ -36,11 +36,11 @@ def draw_frame(view: View, plate: Plate) -> None:
     view.linear((box.x0, box.y0), wheel, 0.0, number(-box.x0))
     view.linear((box.x0, box.y0), wheel, up, number(-box.y0))
     for axis, turn in ((0, 0.0), (1, up)):
-        seen = {number(0.0)}
+        texts = {number(0.0)}
         for hole in holes:
             text = number(abs(hole.centre[axis]))
-            if text not in seen:
-                seen.add(text)
+            if text not in texts:
+                texts.add(text)
                 view.linear(wheel, hole.centre, turn, text)
     assert isinstance(plate.outline, Contour)
     arcs = [piece for piece in plate.outline.segments if isinstance(piece, Arc)]

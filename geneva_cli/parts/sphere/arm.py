@@ -1,8 +1,8 @@
 """The crank arm of a spherical machine: a cap outside the wheel that carries the whole crank.
 
 Every part that turns about an axis through the centre keeps its distance from the centre. So a
-shell outside the wheel's shell never meets the wheel. The arm's boundary is the convex hull of the
-locking sectors on its inner face, its hub, and an eye about each pin and bolt. Pins and bolts point
+shell outside the wheel's shell never meets the wheel. The arm's boundary is the convex hull of its
+hub, the locking sectors on its inner face, and an eye about each pin and bolt. Pins and bolts point
 at the centre. The hub has flat faces and the bore; it sits in a round hole about the crank's axis.
 """
 
@@ -17,7 +17,7 @@ import numpy as np
 
 from geneva_cli.curves.round_holes import RoundHole
 from geneva_cli.curves.sphere import Region, dot, place
-from geneva_cli.curves.sphere_arcs import Arcs
+from geneva_cli.curves.sphere_arcs import SphereArcs
 from geneva_cli.curves.sphere_hull import Cap, convex_hull
 from geneva_cli.errors import GenevaError
 from geneva_cli.parts.arm_sizes import arm_bore, bolts_between, eye_about, hub_and_eye, pin_hole
@@ -159,9 +159,8 @@ def _walls(arm: CapArm, parts: Shells) -> float:
         least = min(least, least_wall(sector, own, ball.lock_span_mm[0]))
     if least <= 0.0:
         raise GenevaError(
-            "the round holes of the crank arm overlap, or cut the edge of the arm or of its "
-            "locking sectors: reduce lock_bolt_mm, arm_hub_mm, pin_mm or lock_bolts, or choose "
-            "another lock_bolt_circle_mm",
+            "the round holes of the crank arm overlap, or cut an edge: reduce lock_bolt_mm, "
+            "arm_hub_mm, pin_mm or lock_bolts, or change lock_bolt_circle_mm",
             ("size", "lock_bolts" if arm.bolts else "arm_hub_mm"),
         )
     return least
@@ -170,7 +169,7 @@ def _walls(arm: CapArm, parts: Shells) -> float:
 def least_wall(within: Region, holes: Sequence[RoundHole], sphere: float) -> float:
     """Return the least wall between holes, and from holes to a boundary, on a sphere, mm."""
     angles = [hole.angle(sphere) for hole in holes]
-    away, _ = Arcs(within.boundary).signed(np.array([hole.axis for hole in holes]))
+    away, _ = SphereArcs(within.boundary).signed(np.array([hole.axis for hole in holes]))
     least = float((-away - angles).min())
     for (one, a), (other, b) in combinations(zip(holes, angles, strict=True), 2):
         apart = 2.0 * math.asin(min(1.0, 0.5 * math.dist(one.axis, other.axis)))

@@ -13,8 +13,6 @@ from geneva_cli.errors import GenevaError
 from geneva_cli.parts.sizes import even, wall_min
 from geneva_cli.spec.tables import Size
 
-HUB = 1.6  # of the bore: diameter of a hub
-
 
 def wheel_axle(size: Size, L: float, inside: float, slot_end: float) -> tuple[float, float]:
     """Return the radii of the wheel's bore and its hub, mm, 0 for none.
@@ -31,7 +29,7 @@ def wheel_axle(size: Size, L: float, inside: float, slot_end: float) -> tuple[fl
     if size.wheel_hub_mm is not None:
         hub = 0.5 * size.wheel_hub_mm
     else:
-        hub = max(bore, even(min(HUB * bore, 0.75 * end))) if bore else 0.0
+        hub = max(bore, even(min(1.6 * bore, 0.75 * end))) if bore else 0.0
     for key, radius in (("wheel_bore_mm", bore), ("wheel_hub_mm", hub)):
         if radius >= end:
             raise GenevaError(

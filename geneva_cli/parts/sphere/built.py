@@ -75,8 +75,8 @@ def wheel_hub(size: Size, ball: Ball) -> Plate | None:
     wide = ball.hub_mm > ball.bore_mm
     if size.wheel_keyway and not (wide and ball.bore_mm):
         raise GenevaError(
-            "wheel_keyway: the shell of a spherical wheel has no keyway in its bore, only its "
-            "hub has; set wheel_bore_mm and wheel_hub_mm, or remove the keyway",
+            "wheel_keyway: only the hub of a spherical wheel can have a keyway; set wheel_bore_mm "
+            "and wheel_hub_mm, or remove the keyway",
             ("size", "wheel_keyway"),
         )
     if not wide:

@@ -15,19 +15,12 @@ import numpy as np
 from geneva_cli.curves.sphere import Region, Rotation, SphereArc, cross, opposite, place
 from geneva_cli.curves.sphere_hull import Cap
 from geneva_cli.numerics.tolerances import SAME_ANGLE
-from geneva_cli.parts.locking_rings import SHARES
+from geneva_cli.parts.locking_rings import LOCK_FRACTIONS
 from geneva_cli.parts.sphere.sizes import Ball, PartDoesNotFit
 from geneva_cli.parts.sphere.wheel import POLE, QUARTER, edge_points
 
 if TYPE_CHECKING:
     from geneva_cli.numerics.jet import Array
-
-STEPS = 361  # positions of a motion
-EACH = 100  # points of an arc of the wheel's edge
-# Fractions of the locking edge's angle from the crank's axis. The first is larger than on a plane,
-# where it guards against a tip: here it is the inner edge wherever the wheel keeps clear of it.
-POINTED = 0.2  # no sector reaches nearer to the axis
-THIN = 0.05  # of the locking angle: a thinner ring would hold nothing
 
 
 def sectors(ball: Ball) -> list[Region]:
@@ -39,7 +32,8 @@ def sectors(ball: Ball) -> list[Region]:
     spare = min(0.25 * (ball.recess - ball.lock) + 0.1 * ball.roller, 0.1 * ball.lock)
     # shaft and hub fill a cone about the axis, up to their end
     about = math.asin(min(1.0, ball.about_crank_mm / ball.lock_span_mm[0]))
-    least = max(POINTED * ball.lock, about)
+    # A sector's inner edge is a fifth of its outer one, or farther out where the wheel needs that.
+    least = max(0.2 * ball.lock, about)
     regions = []
     spans = locked(ball)
     paths = swept(ball) if spans else None
@@ -51,19 +45,20 @@ def sectors(ball: Ball) -> list[Region]:
         def nearest(half: float, reached: Callable[[float], float] = reached) -> float:
             return max(reached(half) + spare, least)
 
-        most = (1.0 - THIN) * ball.lock
+        most = (1.0 - 0.05) * ball.lock  # a thinner ring would hold nothing
         if about > most:
             wide = 2.0 * ball.lock_span_mm[0] * math.sin(most)
             raise PartDoesNotFit(
-                f"the crank's shaft and hub leave nothing of the locking sector: crank_bore_mm "
-                f"and crank_hub_mm must be below {wide:.4g}, or lock_radius_mm greater; "
-                "lock_radius_mm = 0 omits the sector",
+                "the crank's shaft and hub leave nothing of the locking sector: crank_bore_mm and "
+                f"crank_hub_mm must be below {wide:.4g}, or lock_radius_mm greater, or 0 for none",
                 ("size", "crank_bore_mm"),
             )
         # a narrower sector can begin nearer to the axis, never farther away
-        i = bisect_left(SHARES, True, key=lambda fraction: nearest(fraction * whole) <= most)
-        if i < len(SHARES):
-            half = SHARES[i] * whole
+        i = bisect_left(
+            LOCK_FRACTIONS, True, key=lambda fraction: nearest(fraction * whole) <= most
+        )
+        if i < len(LOCK_FRACTIONS):
+            half = LOCK_FRACTIONS[i] * whole
             regions.append(_sector(ball.lock, nearest(half), middle - half, middle + half))
         else:
             raise PartDoesNotFit(
@@ -140,12 +135,12 @@ def swept(ball: Ball) -> tuple[Array, Array]:
     about its axis where the wheel turns counterclockwise.
     """
     frame = np.column_stack(at_mid_motion(ball))
-    wheel = edge_points(ball, EACH)
+    wheel = edge_points(ball, 100)
     # the wheel turns by half a step either way: the position nearest to the crank's axis counts
     off = np.maximum(np.abs(np.arctan2(wheel[:, 1], wheel[:, 0])) - ball.half_step, 0.0)
     flat = math.sin(ball.axes) * np.hypot(wheel[:, 0], wheel[:, 1]) * np.cos(off)
     wheel = wheel[math.cos(ball.axes) * wheel[:, 2] + flat > math.cos(ball.lock) - SAME_ANGLE]
-    turns = np.linspace(-ball.half_motion, ball.half_motion, STEPS)
+    turns = np.linspace(-ball.half_motion, ball.half_motion, 361)
     x, y, up = np.moveaxis((wheel @ _index(ball, frame, turns)) @ frame, -1, 0)
     # the limit is below the locking edge's angle, so that points along the edge do not count
     comes = np.flatnonzero(up.max(axis=0) > math.cos((1.0 - 0.5 * SAME_ANGLE) * ball.lock))

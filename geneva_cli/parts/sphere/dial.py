@@ -44,9 +44,8 @@ def dial_holes(size: Size, ball: Ball) -> tuple[RoundHole, ...]:
     if least_wall(Cap(POLE, high).region, all_holes, inside) <= 0.0:
         circles = [f"{2.0 * L * math.sin(angle):.6g}" for angle in (far, low, high)]
         raise GenevaError(
-            f"dial_bolts: holes of {2.0 * r:.6g} mm on a circle of {circles[0]} mm overlap, or cut "
-            f"the hub or the slots; they must lie between circles of {circles[1]} and "
-            f"{circles[2]} mm",
+            f"dial_bolts: {2.0 * r:.6g} mm holes on a {circles[0]} mm circle overlap, or cut hub "
+            f"or slots; they must lie between circles of {circles[1]} and {circles[2]} mm",
             ("size", "dial_bolts"),
         )
     return holes

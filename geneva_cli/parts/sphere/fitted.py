@@ -11,8 +11,6 @@ from geneva_cli.numerics.roots import boundary
 from geneva_cli.parts.sphere.crank import sectors
 from geneva_cli.parts.sphere.sizes import Ball, PartDoesNotFit, ball
 
-LOOKS = 10  # halvings between a roller that fits and one that does not
-
 
 def fitted(mechanism: Mechanism, advice: bool = True) -> tuple[Ball, list[Region]]:
     """Return the sizes of a spherical machine, and its locking sectors.
@@ -25,7 +23,8 @@ def fitted(mechanism: Mechanism, advice: bool = True) -> tuple[Ball, list[Region
     except PartDoesNotFit as error:
         if not advice:
             raise
-        most = boundary(lambda r: _fits(mechanism, r), 0.0, mechanism.roller_radius_mm, LOOKS)
+        # 10 halvings give the two digits that are shown
+        most = boundary(lambda r: _fits(mechanism, r), 0.0, mechanism.roller_radius_mm, 10)
         if not most:
             raise
         unit = 10.0 ** (math.floor(math.log10(most)) - 1)

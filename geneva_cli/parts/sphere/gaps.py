@@ -1,7 +1,7 @@
-"""The gaps between wheel, crank and rollers on a sphere, at given positions.
+"""The gaps between wheel, crank and rollers on a sphere, by their positions.
 
-All walls lead to the sphere's centre, and so do the rollers' cones. So gaps are angles seen from
-the centre; they are returned as arc lengths on the sphere, mm.
+All walls lead to the sphere's centre, and so do the rollers' cones. So gaps are angles at the
+centre; they are returned as arc lengths on the sphere, mm.
 """
 
 from __future__ import annotations
@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from geneva_cli.curves.sphere import Region, opposite, place
-from geneva_cli.curves.sphere_arcs import Arcs
+from geneva_cli.curves.sphere_arcs import SphereArcs
 from geneva_cli.numerics.tolerances import SAME_ANGLE
 from geneva_cli.parts.assembly import Assembly
 from geneva_cli.parts.sphere.crank import at_mid_motion
@@ -26,10 +26,9 @@ if TYPE_CHECKING:
 
     from geneva_cli.numerics.jet import Array
 
-NEAR = 0.02  # radians: wider gaps are returned as this
-BESIDE = 1e-6  # of an arc: next to a corner, which may lie on an edge where all else overlaps
-SHARES = (0.0, BESIDE, 0.5, 1.0 - BESIDE)  # of an arc: positions of its sampled points
-ROUNDING = 1e-7  # radians: error of an angle computed from its cosine
+# Fractions of an arc at which it is sampled: its start and middle, and points next to its corners.
+# A corner itself may lie on an edge where all else overlaps.
+ARC_SAMPLES = (0.0, 1e-6, 0.5, 1.0 - 1e-6)
 
 
 class BallGaps:
@@ -37,11 +36,11 @@ class BallGaps:
 
     def __init__(self, assembly: Assembly, ball: Ball, sectors: list[Region]) -> None:
         self.assembly, self.ball = assembly, ball
-        self.near = NEAR * ball.radius_mm
+        self.near = 0.02 * ball.radius_mm  # wider gaps are returned as this
         edges = [arc for k in range(ball.z) for arc in edge(ball, 2 * k * ball.half_step)]
-        self.wheel = Arcs(edges)
-        self.around = Arcs(edge(ball), closed=False)  # one slot; all others are equal
-        self.sectors = [Arcs(region.boundary) for region in sectors]
+        self.wheel = SphereArcs(edges)
+        self.around = SphereArcs(edge(ball), closed=False)  # one slot; all others are equal
+        self.sectors = [SphereArcs(region.boundary) for region in sectors]
         self._turning = WheelCaps(self.around, 2.0 * ball.half_step)
         self._roller = round_cap(ball.roller)
         self._sides = caps(self.sectors) if self.sectors else None
@@ -50,7 +49,7 @@ class BallGaps:
         corners = [
             one.at(np.arange(len(one)), fraction * one.sweep)
             for one in self.sectors
-            for fraction in SHARES
+            for fraction in ARC_SAMPLES
         ]
         self._corners = np.concatenate(corners) if corners else np.zeros((0, 3))
         # The axes of the sectors' edges, opposite ones counted once: the crank's axis, and the
@@ -123,10 +122,11 @@ class BallGaps:
         # The wheel's edge against the sectors: its corners, and points facing their edges' axes ...
         axis = about(np.tile(self._frame[2], (len(turn), 1)), -turn)
         far = np.arccos(np.clip(axis @ self.wheel.middle.T, -1.0, 1.0)) - self.wheel.size
-        owner, piece = np.nonzero(far <= self.ball.lock + least[0] + ROUNDING)
+        # an angle computed from its cosine is wrong by up to 1e-7 radians
+        owner, piece = np.nonzero(far <= self.ball.lock + least[0] + 1e-7)
         owners: list[NDArray[np.intp]] = []
         points: list[Array] = []
-        for fraction in SHARES:
+        for fraction in ARC_SAMPLES:
             owners.append(owner)
             points.append(self.wheel.at(piece, fraction * self.wheel.sweep[piece]))
         for one in self._facing:
@@ -135,11 +135,11 @@ class BallGaps:
             owners.append(owner[which])
             points.append(at)
         which_ = np.concatenate(owners)
-        seen = self._in_crank(about(np.concatenate(points), turn[which_]), pose.crank[which_])
-        close = polar(seen) < self.ball.lock + least[0]
-        which_, seen = which_[close], seen[close]
-        for sector in self.sectors if len(seen) else ():
-            np.minimum.at(least, which_, sector.signed(seen)[0])
+        on_crank = self._in_crank(about(np.concatenate(points), turn[which_]), pose.crank[which_])
+        close = polar(on_crank) < self.ball.lock + least[0]
+        which_, on_crank = which_[close], on_crank[close]
+        for sector in self.sectors if len(on_crank) else ():
+            np.minimum.at(least, which_, sector.signed(on_crank)[0])
         # ... and the sectors' corners against the wheel.
         owner = np.repeat(np.arange(len(turn)), len(self._corners))
         corner = np.tile(self._corners, (len(turn), 1))

@@ -20,14 +20,12 @@ from geneva_cli.numerics.tolerances import SAME_ANGLE
 if TYPE_CHECKING:
     from geneva_cli.numerics.jet import Array
 
-LEVEL = 1e-12  # cosine of the angle between a great circle and its axis
-
 
 class Cone(NamedTuple):
     """The cone about z that touches the sphere all round at a polar angle, radians.
 
-    Laid flat and seen from outside, its origin is the point of contact at azimuth 0. x leads away
-    from the pole, y towards rising azimuths.
+    Laid flat and seen from outside, its origin is the point of contact at azimuth 0. x points away
+    from the pole, and y towards rising azimuths.
 
     >>> cone = Cone(100.0, math.radians(60.0))
     >>> round(cone.apex_mm, 9), round(cone.sector_deg, 9)
@@ -72,7 +70,8 @@ class Cone(NamedTuple):
         meridians lines; the rest becomes ``curves``: "arcs" or "cubics".
         """
         ends = [self._at(p, about) for p in (arc.start, arc.end)]
-        if not arc.axis[2] and abs(math.cos(arc.angle)) < LEVEL:
+        # a meridian: a great circle is at 90 degrees from its axis
+        if not arc.axis[2] and abs(math.cos(arc.angle)) < 1e-12:
             return [Line(*ends)]
         if not arc.axis[0] and not arc.axis[1]:
             return [self.level(ends[0], ends[1], math.copysign(arc.sweep, arc.axis[2]))]

@@ -23,9 +23,7 @@ if TYPE_CHECKING:
     from geneva_cli.parts.sphere.shells import Shells
 
 UP = 0.5 * math.pi
-BEYOND = 0.1  # of the sphere's radius: axes, over the parts
 SAME = 1e-6  # radians
-DECIMALS = 4  # of an angle in degrees: 0.2 um on 100 mm
 
 Side: TypeAlias = Callable[[float], float]  # an angle from the wheel's axis, on each sphere
 
@@ -53,7 +51,7 @@ def section(parts: Shells, whole: PlacedParts[CapArm], scale: float) -> View:
             view.draw(shape, OUTLINE)
     middle, far = ball.axes - ball.arm, max(_far(whole), outer)
     for angle in (0.0, ball.axes, middle):
-        view.centre_line((0.0, 0.0), _at(far + BEYOND * ball.radius_mm, angle))
+        view.centre_line((0.0, 0.0), _at(far + 0.1 * ball.radius_mm, angle))
     locked = Contour("", (_arc(ball.radius_mm, -back, ball.axes + ball.lock),), closed=False)
     view.draw(locked, CENTRE)
     for radius in (inner, outer):
@@ -185,5 +183,5 @@ def _at(radius: float, angle: float) -> Point:
 
 
 def degrees(angle: float) -> str:
-    """Return an angle in the form that the sheet shows."""
-    return f"{number(math.degrees(angle), DECIMALS)}°"
+    """Return an angle in the form that the sheet shows: four decimals are 0.2 um on 100 mm."""
+    return f"{number(math.degrees(angle), 4)}°"

@@ -26,8 +26,6 @@ if TYPE_CHECKING:
     from geneva_cli.numerics.jet import Array
     from geneva_cli.parts.sphere.shells import Shells
 
-LOOKS = 257  # spheres on which a gap is computed where it may grow and shrink
-
 
 class Sweep(NamedTuple):
     """The region that a part sweeps in a whole turn: between two angles and two spheres.
@@ -118,7 +116,7 @@ def _gap(one: Sweep, other: Sweep, axes: float) -> float:
     low, high = max(one.inner, other.inner), min(one.outer, other.outer)
     # farther out both angles only shrink, and an arc that is a gap grows with its sphere
     high = min(high, max(low, one.grows_to, other.grows_to))
-    sphere = np.linspace(low, high, LOOKS)
+    sphere = np.linspace(low, high, 257)
     sphere = sphere[sphere > 0.0]  # both may be at the centre
     apart = axes if one.back is other.back else math.pi - axes
     gaps = sphere * ring_gap(apart, other.low, other.angle(sphere), one.angle(sphere))

@@ -49,12 +49,7 @@ from geneva_cli.parts.sphere.sizes import Ball
 if TYPE_CHECKING:
     from geneva_cli.numerics.jet import Array
 
-UP = 0.5 * math.pi
-SAME = 1e-6  # of a radius
-FAR = 4.0  # sphere's radii: a farther apex is not shown on the sheet
-BEYOND = 0.1  # of the sphere's radius: axes extend beyond the shells by this
-FINE = 0.1  # of a table's tolerance: tolerance of the curve that the table samples
-CROSS = 0.05  # of the sphere's radius: size of the cross at the apex
+SAME = 1e-6  # of a radius, and in mm
 HEADING = ("All walls lead to the sphere's centre: angles are seen from there.",)
 COLUMNS = (80.0, 24.0, 14.0)  # mm, of the table of angles
 DECIMALS = 4  # of an angle in degrees: 0.2 um on 100 mm
@@ -138,7 +133,7 @@ def _flat(whose: str, ball: Ball, cone: Cone, shapes: Sequence[Shape], scale: fl
         view.draw(shape, CENTRE if shape.layer == PITCH else OUTLINE)
     contours = [s for s in moved if isinstance(s, Contour)]
     if near:
-        view.cross((0.0, 0.0), CROSS * ball.radius_mm)
+        view.cross((0.0, 0.0), 0.05 * ball.radius_mm)
         far = max(math.hypot(*s.start) for c in contours for s in c.segments)
         _sectors(view, [c.segments[0] for c in contours if c.layer == "CRANK"], far)
         radii: dict[str, list[Arc]] = {}
@@ -154,17 +149,17 @@ def _flat(whose: str, ball: Ball, cone: Cone, shapes: Sequence[Shape], scale: fl
     view.linear(*first, 0.0, sized.plain(math.dist(*first)), near=True)
     if near:
         legs = sorted(math.atan2(line.start[1], line.start[0]) for line in (first, after))
-        text = f"{number(math.degrees(abs(legs[1] - legs[0])), DECIMALS)}°"
+        text = degrees(abs(legs[1] - legs[0]))
         view.angular([(legs[0], legs[1])], far, far, times(ball.z - 1, text))
     else:
-        view.linear(first.start, after.start, UP, times(ball.z - 1, sized.plain(
+        view.linear(first.start, after.start, 0.5 * math.pi, times(ball.z - 1, sized.plain(
             abs(after.start[1] - first.start[1]))))  # fmt: skip
     return view
 
 
 def _shift(ball: Ball, cone: Cone) -> float:
     """Return the distance from a cone's apex to its contact, mm; 0 if too far for a sheet."""
-    near = abs(math.cos(cone.polar)) > SAME_ANGLE and abs(cone.apex_mm) < FAR * ball.radius_mm
+    near = abs(math.cos(cone.polar)) > SAME_ANGLE and abs(cone.apex_mm) < 4.0 * ball.radius_mm
     return cone.apex_mm if near else 0.0
 
 
@@ -173,13 +168,15 @@ def flat_slot(ball: Ball, tolerance: float) -> Block:
     cone, close = wheel_cone(ball), max(tolerance, COARSE * ball.radius_mm)
     shift = _shift(ball, cone)
     points: list[Point] = []
-    for piece in slot_flat(ball, cone, FINE * close, "arcs").segments:
+    # the fitted curve is ten times as accurate as the table that samples it
+    for piece in slot_flat(ball, cone, 0.1 * close, "arcs").segments:
 
         def curve(t: Array, piece: Segment = piece) -> Array:
             return np.array([at(piece, float(fraction)) for fraction in t])
 
         for x, y in polyline(curve, 0.0, 1.0, close, begin=1):
-            if y < -SAME * ball.radius_mm and (not points or math.dist(points[-1], (x, y)) > SAME):
+            apart = not points or math.dist(points[-1], (x, y)) > SAME
+            if y < -SAME * ball.radius_mm and apart:
                 points.append((float(x), float(y)))
     points.append(cone.point(ball.bottom - ball.half_width, 0.0))
     shown = np.array(points) + np.array([shift, 0.0])

@@ -2,8 +2,8 @@
 
 All walls lead to the centre, and so does the surface of the roller, a cone. Its radius, the slots
 and the clearances are arcs on the sphere of radius ``center_distance_mm``. Radii of the lock and of
-bores are distances from their axes. The side that is below the wheel on a plane is outside the
-wheel here: a height above the wheel's lower face is a distance inwards from its outer sphere.
+bores are distances from their axes. Below the wheel on a plane is outside the wheel here: a height
+above the wheel's lower face is a distance inwards from its outer sphere.
 """
 
 from __future__ import annotations
@@ -24,8 +24,6 @@ from geneva_cli.parts.sizes import (
 )
 from geneva_cli.parts.sphere.axles import about_crank, wheel_axle
 from geneva_cli.spec.tables import Z_DRAWN, Size
-
-LEAST_HORN = 1e-3  # of half a step: a horn thinner than this at the rim counts as none
 
 
 class PartDoesNotFit(GenevaError):
@@ -76,7 +74,7 @@ class Ball(NamedTuple):
 
     @property
     def slot_width_deg(self) -> float:
-        """The angle between the walls of a slot, seen from the sphere's centre."""
+        """The angle between the walls of a slot at the sphere's centre."""
         return math.degrees(2.0 * self.half_width)
 
     def corner(self) -> float:
@@ -171,8 +169,8 @@ def _lock(mechanism: Mechanism, limit: float, least: float, roller: float) -> fl
     low, high = (L * math.sin(max(0.0, x)) for x in (least, limit))
     if limit <= least:
         raise PartDoesNotFit(
-            f"the locking sector does not fit: it must reach the rim, {low:.4g} mm from the "
-            f"crank's axis, but the roller limits it to {high:.4g} mm; lock_radius_mm = 0 omits it",
+            f"the locking sector does not fit: it must be above {low:.4g} mm to reach the rim, but "
+            f"the roller limits it to {high:.4g}; lock_radius_mm = 0 omits it",
             ("size", "lock_radius_mm"),
         )
     if size.lock_radius_mm is None:
@@ -197,7 +195,8 @@ def _refuse(ball: Ball) -> None:
             "set a wheel_bore_mm or reduce the roller",
             ("size", "wheel_bore_mm"),
         )
-    if ball.opened() + ball.corner() > (1.0 - LEAST_HORN) * ball.half_step:
+    # a horn thinner than a thousandth of half a step counts as none
+    if ball.opened() + ball.corner() > (1.0 - 1e-3) * ball.half_step:
         raise PartDoesNotFit(
             "no horn is left between slot and recess at the rim: reduce lock_radius_mm",
             ("size", "roller_radius_mm"),

@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from geneva_cli.curves.sphere_arcs import Arcs
+from geneva_cli.curves.sphere_arcs import SphereArcs
 from geneva_cli.numerics.tolerances import SAME_ANGLE
 from geneva_cli.parts.turn.touch import SLACK, WAYS, Touch, triangles, within
 
@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 
     from geneva_cli.numerics.jet import Array
 
-WHOLE = 7.0  # radians, more than a whole turn
+ALL_ROUND = 7.0  # radians, more than a whole turn: the sweep of an edge without ends
 
 
 class Caps(NamedTuple):
@@ -44,27 +44,27 @@ class Caps(NamedTuple):
         return out
 
 
-def caps(boundaries: Sequence[Arcs]) -> Caps:
+def caps(boundaries: Sequence[SphereArcs]) -> Caps:
     """Return the caps of arcs, and caps of the convex corners between them."""
     columns = []
     for one in boundaries:
         corner = np.flatnonzero(one.first > SAME_ANGLE)
         at, none = one.at(corner, np.zeros(len(corner))), np.zeros(len(corner))
         columns.append(Caps(one.axis, one.angle, one.x, one.y, one.sweep))
-        columns.append(Caps(at, none, at, at, none + WHOLE))
+        columns.append(Caps(at, none, at, at, none + ALL_ROUND))
     return Caps(*[np.concatenate(each) for each in zip(*columns, strict=True)])
 
 
 def round_cap(angle: float) -> Caps:
     """Return a roller's cap, at no position in particular."""
     nowhere = np.zeros((1, 3))
-    return Caps(nowhere, np.array([angle]), nowhere, nowhere, np.array([WHOLE]))
+    return Caps(nowhere, np.array([angle]), nowhere, nowhere, np.array([ALL_ROUND]))
 
 
 class WheelCaps:
     """A wheel's caps, which repeat after ``pitch`` radians about z."""
 
-    def __init__(self, edge: Arcs, pitch: float) -> None:
+    def __init__(self, edge: SphereArcs, pitch: float) -> None:
         self.caps, self.pitch = caps([edge]), pitch
         self.polar, self.azimuth = polar(self.caps.axis), _azimuth(self.caps.axis)
 

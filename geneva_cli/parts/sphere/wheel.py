@@ -20,7 +20,6 @@ if TYPE_CHECKING:
 
 QUARTER = 0.5 * math.pi
 POLE = (0.0, 0.0, 1.0)
-WEB = 1.0  # radians: greatest angle of the cap in the wheel's middle
 
 
 def wheel_regions(ball: Ball, inner: float) -> list[Region]:
@@ -40,7 +39,7 @@ def wheel_regions(ball: Ball, inner: float) -> list[Region]:
 
 def web_angle(ball: Ball) -> float:
     """Return the polar angle of the cap about the wheel's axis that closes its slotted ring."""
-    return min(ball.inner, WEB)
+    return min(ball.inner, 1.0)  # radian: a cap far from the edge
 
 
 def web_region(ball: Ball, inner: float) -> Region:

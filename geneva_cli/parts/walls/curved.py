@@ -11,14 +11,11 @@ from geneva_cli.curves.shapes import Contour, Cubic, Point, Segment, about, join
 from geneva_cli.machine.engagement import Engagement
 from geneva_cli.parts.assembly import Assembly
 from geneva_cli.parts.sizes import Sizes
-from geneva_cli.parts.walls.chain import Piece, chain
+from geneva_cli.parts.walls.chain import WallPiece, chain
 from geneva_cli.parts.walls.joint import point
 
 if TYPE_CHECKING:
     from geneva_cli.numerics.jet import Array
-
-LAYER = "WHEEL"
-SAME = 1e-10  # of the centre distance: accuracy at which walls count as mirror images
 
 
 def curved_walls(
@@ -37,14 +34,15 @@ def curved_walls(
     for i, piece in enumerate(pieces):
         other = len(pieces) - 1 - i
         both = other < i and engagement.mirrored
-        if both and _mirrors(pieces[other], piece, SAME * assembly.L):
+        # walls are mirror images to 1e-10 of the centre distance
+        if both and _mirrors(pieces[other], piece, 1e-10 * assembly.L):
             runs.append([mirrored(segment) for segment in reversed(runs[other])])
         else:
             runs.append(_segments(piece, half, curves))
-    return Contour(LAYER, joined(itertools.chain(*runs)), closed=False)
+    return Contour("WHEEL", joined(itertools.chain(*runs)), closed=False)
 
 
-def _mirrors(one: Piece, other: Piece, near: float) -> bool:
+def _mirrors(one: WallPiece, other: WallPiece, near: float) -> bool:
     """Return True if a piece is the other's mirror image in the slot's axis, run backwards."""
     ends = ((one.start, other.end), (one.end, other.start))
     middles = (0.5 * (one.start + one.end), 0.5 * (other.start + other.end))
@@ -67,7 +65,7 @@ def _over(p: Point) -> Point:
     return p[0], -p[1]
 
 
-def _segments(piece: Piece, tolerance: float, curves: str) -> list[Segment]:
+def _segments(piece: WallPiece, tolerance: float, curves: str) -> list[Segment]:
     wall, a, b = piece
     if wall.centre is not None:
         return [about(wall.centre, wall.radius, a, b - a)]

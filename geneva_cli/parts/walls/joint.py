@@ -13,10 +13,7 @@ from geneva_cli.parts.walls.ways import Wall
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-WINDOW = 80  # samples in which the crossing of two walls is searched
 REACH = 3  # samples within which two walls meet
-PARALLEL = 1e-7  # sine of the angle below which two walls merge and do not cross
-MET = 1e-7  # of a point's distance: nearer points count as one
 
 
 class WallPlace(NamedTuple):
@@ -24,7 +21,7 @@ class WallPlace(NamedTuple):
 
     wall: Wall
     i: int
-    way: int
+    sense: int
 
 
 def joint(last: WallPlace, following: WallPlace) -> tuple[float, float]:
@@ -64,17 +61,20 @@ def _crossing(last: WallPlace, following: WallPlace) -> tuple[float, float] | No
         q, v = _at(following.wall, b)
         x, y = q[0] - p[0], q[1] - p[1]
         cross = u[0] * v[1] - u[1] * v[0]
-        if math.hypot(x, y) < 1e-12 * math.hypot(*p) or abs(cross) < PARALLEL:
+        # walls at an angle below 1e-7 radians merge and do not cross
+        if math.hypot(x, y) < 1e-12 * math.hypot(*p) or abs(cross) < 1e-7:
             break
         a = _within(last, a + (x * v[1] - y * v[0]) / cross / _speed(last, a))
         b = _within(following, b + (x * u[1] - y * u[0]) / cross / _speed(following, b))
-    return (a, b) if math.hypot(x, y) < MET * math.hypot(*p) else None
+    # the points are one to 1e-7 of their distance from the wheel's axis
+    return (a, b) if math.hypot(x, y) < 1e-7 * math.hypot(*p) else None
 
 
 def _polylines_cross(last: WallPlace, following: WallPlace) -> tuple[WallPlace, WallPlace] | None:
     """Return the samples before the crossing of two walls: the last one and the first one."""
-    one = _window(last, -WINDOW, REACH)
-    two = _window(following, -REACH, WINDOW)
+    far = 80  # samples in which the crossing is searched
+    one = _window(last, -far, REACH)
+    two = _window(following, -REACH, far)
     p, q = last.wall.points[one], following.wall.points[two]
     d, e = np.diff(p, axis=0), np.diff(q, axis=0)
     off = q[None, :-1] - p[:-1, None]
@@ -91,7 +91,7 @@ def _polylines_cross(last: WallPlace, following: WallPlace) -> tuple[WallPlace, 
 
 def _window(place: WallPlace, behind: int, ahead: int) -> NDArray[np.intp]:
     """Return the indices of samples around one, in the direction of travel."""
-    indices = place.i + place.way * np.arange(behind, ahead + 1)
+    indices = place.i + place.sense * np.arange(behind, ahead + 1)
     out: NDArray[np.intp] = indices[(indices >= 0) & (indices < len(place.wall.t))]
     return out
 

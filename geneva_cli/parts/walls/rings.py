@@ -2,9 +2,9 @@
 
 Let the roller be at the polar coordinates (rho, theta), and w half the slot's width. On the circle
 of radius r it covers the angles theta -+ delta, with sin²(delta/2) = (w² - (r - rho)²)/(4 r rho).
-The pin moves on a circle about the crank's axis. So rho falls on the way in and rises on the way
-out, and each way covers one stretch of the circle. An island between the two falls out of the
-wheel. So the slot extends from the least to the greatest angle that any position of the roller
+The pin moves on a circle about the crank's axis. So rho falls before mid-motion and rises after it,
+and each half of the path covers one stretch of the circle. An island between the two falls out of
+the wheel. So the slot extends from the least to the greatest angle that any position of the roller
 covers. No wall is traced, and none needs to close.
 """
 
@@ -31,14 +31,7 @@ if TYPE_CHECKING:
 
     Complex: TypeAlias = NDArray[np.complex128]
 
-FINE = 12.0  # positions of the roller in half a slot's width
-FIRST = 64  # positions in the motion, before intervals that are too long are halved
-HALVINGS = 64
 PANELS, NODES = 8, 6  # intervals of the radius at first, denser towards the slot's bottom
-# Of the slot's moment: accuracy to which a panel must agree with the sum of its halves. Panels with
-# crossing walls are halved many times.
-AGREED = 1e-6
-DEEPEST = 16
 
 
 class RemovedFace(NamedTuple):
@@ -49,7 +42,7 @@ class RemovedFace(NamedTuple):
     high: float
 
 
-def taken(assembly: Assembly, sizes: Sizes, engagement: Engagement) -> RemovedFace:
+def removed_face(assembly: Assembly, sizes: Sizes, engagement: Engagement) -> RemovedFace:
     """Return what the slot of an engagement's roller, ahead of it, removes from the wheel."""
     rho, theta = _places(assembly, sizes, engagement)
     rim, w = sizes.rim, sizes.half_width
@@ -78,11 +71,11 @@ def _sum(of: Callable[[Array, Array], Array]) -> Array:
     whole = of(low, high)
     # the polar moment decides: it has the same sign everywhere
     size, total = abs(whole[:, -1]).sum(), 0.0 * whole[0]
-    for _ in range(DEEPEST):
+    for _ in range(16):  # panels with crossing walls are halved many times
         middle = 0.5 * (low + high)
         halves = of(np.append(low, middle), np.append(middle, high))
         left, right = halves[: len(low)], halves[len(low) :]
-        open_ = abs(left + right - whole)[:, -1] > AGREED * size
+        open_ = abs(left + right - whole)[:, -1] > 1e-6 * size
         total = total + (left + right)[~open_].sum(axis=0)
         low, high = np.append(low[open_], middle[open_]), np.append(middle[open_], high[open_])
         whole = np.concatenate((left[open_], right[open_]))
@@ -94,16 +87,17 @@ def _sum(of: Callable[[Array, Array], Array]) -> Array:
 
 def _places(assembly: Assembly, sizes: Sizes, engagement: Engagement) -> tuple[Array, Array]:
     """Return the roller's polar coordinates on its path from rim to rim: rho and theta."""
-    near = sizes.half_width / FINE
+    near = sizes.half_width / 12.0  # greatest distance of adjacent positions
 
     def pin(t: Array) -> Complex:
         x, y = engagement.slot(t, 0)
         return array(assembly.L * x.c[0]) + array(assembly.L * y.c[0]) * 1j
 
     first, last = engagement.entry_deg, engagement.exit_deg
-    t = np.append(np.linspace(first, 0.0, FIRST // 2, endpoint=False), np.linspace(0.0, last, 33))
+    # 65 positions, before intervals that are too long are halved
+    t = np.append(np.linspace(first, 0.0, 32, endpoint=False), np.linspace(0.0, last, 33))
     z = pin(t)
-    for _ in range(HALVINGS):
+    for _ in range(64):
         far = np.flatnonzero(np.abs(np.diff(z)) > near)
         middle = 0.5 * (t[far] + t[far + 1])
         far = far[(middle > t[far]) & (middle < t[far + 1])]
@@ -134,8 +128,8 @@ def _before(
     step = near / abs(start - axis)
     turn = -end * assembly.sign * np.arange(step, math.pi - ahead, step)
     z = axis + (start - axis) * np.exp(1j * turn)
-    gone = assembly.sign * (abs(z) - sizes.rim) > sizes.half_width
-    count = int(np.argmax(gone)) + 1 if gone.any() else len(z)
+    outside = assembly.sign * (abs(z) - sizes.rim) > sizes.half_width
+    count = int(np.argmax(outside)) + 1 if outside.any() else len(z)
     path: Complex = z[:count]
     return path
 

@@ -23,10 +23,6 @@ from geneva_cli.parts.assembly import Assembly
 from geneva_cli.parts.roller_paths import corner, mouth, rest
 from geneva_cli.parts.sizes import Sizes
 
-LAYER = "WHEEL"
-LOOKS = 721  # positions among which the deepest is selected
-QUARTER = math.tan(math.pi / 8.0)  # the bulge of a quarter of a circle
-
 
 def straight_walls(assembly: Assembly, sizes: Sizes, engagement: Engagement) -> Contour:
     """Return a straight slot's walls, counterclockwise from one corner of its mouth to the other.
@@ -57,14 +53,15 @@ def straight_walls(assembly: Assembly, sizes: Sizes, engagement: Engagement) -> 
     else:
         _refuse_crossed(apart)
         end = (bottom - w, 0.0)
-        begin = _at(-apart, first, Arc(first.end, end, -QUARTER))
+        quarter = math.tan(math.pi / 8.0)  # the bulge of a quarter of a circle
+        begin = _at(-apart, first, Arc(first.end, end, -quarter))
         between = about((0.0, 0.0), end[0], -apart, 2.0 * apart)
-        pieces = (*begin, between, *_at(apart, Arc(end, last.start, -QUARTER), last))
-    return turned(Contour(LAYER, joined(pieces), closed=False), angle)
+        pieces = (*begin, between, *_at(apart, Arc(end, last.start, -quarter), last))
+    return turned(Contour("WHEEL", joined(pieces), closed=False), angle)
 
 
 def _at(direction: float, *pieces: Segment) -> tuple[Segment, ...]:
-    return turned(Contour(LAYER, pieces, closed=False), direction).segments
+    return turned(Contour("WHEEL", pieces, closed=False), direction).segments
 
 
 def _refuse_crossed(apart: float) -> None:
@@ -72,8 +69,7 @@ def _refuse_crossed(apart: float) -> None:
     if apart < 0.0:
         raise GenevaError(
             f"the slots that start and stop the wheel cross by {math.degrees(-2.0 * apart):.4g} "
-            "deg: the gears turn the wheel too little between them; increase sector_deg, or set "
-            'gear_ratio = "shockless"',
+            'deg: increase sector_deg, or set gear_ratio = "shockless"',
             ("drive", "sector_deg"),
         )
 
@@ -90,7 +86,7 @@ def _axis(assembly: Assembly, engagement: Engagement) -> tuple[float, float]:
 
 def _deepest(assembly: Assembly, engagement: Engagement, angle: float) -> float:
     """Return the deepest position of the roller's centre along the slot's axis, mm."""
-    x, y = engagement.slot(np.linspace(engagement.entry_deg, engagement.exit_deg, LOOKS), 0)
+    x, y = engagement.slot(np.linspace(engagement.entry_deg, engagement.exit_deg, 721), 0)
     along = array(assembly.L * (x.c[0] * math.cos(angle) + y.c[0] * math.sin(angle)))
     return float(along.min() if assembly.sign > 0.0 else along.max())
 

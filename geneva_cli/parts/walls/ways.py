@@ -1,7 +1,7 @@
 """The walls on both sides of a roller's path through a curved slot, and which of them are free.
 
-The path has four parts: the roller's circle before entry while the wheel rests, the way in, the way
-out, and the circle again. Where the roller turns back, its own outline is a wall too.
+The path has four parts: the roller's circle before entry while the wheel rests, the path in, the
+path out, and the circle again. Where the roller turns back, its own outline is a wall too.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ from geneva_cli.numerics.roots import boundary_by_sections
 from geneva_cli.parts.assembly import Assembly
 from geneva_cli.parts.roller_paths import rest
 from geneva_cli.parts.sizes import Sizes
-from geneva_cli.parts.slot_profile import pitch_at, way_at
+from geneva_cli.parts.slot_profile import heading_at, pitch_at
 from geneva_cli.parts.slot_sampling import nodes
 
 if TYPE_CHECKING:
@@ -30,10 +30,7 @@ if TYPE_CHECKING:
 Curve: TypeAlias = "Callable[[Array], tuple[Array, Array]]"  # parameters -> points and tangents
 
 FINE = 1e-7  # of the centre distance: greatest deviation of the sampled path from the true one
-COVERED = 1e-6  # of the centre distance: a smaller overlap does not count as covered
-STEPS = 97  # samples of the roller's circle, at least, and of its own outline
-BLOCK = 64  # samples that are computed together
-ROUNDING = 1e-7  # of the centre distance: a smaller fold is ignored
+CIRCLE_SAMPLES = 97  # of the roller's circle, at least, and of its own outline
 
 
 class Wall(NamedTuple):
@@ -51,7 +48,7 @@ def walls(assembly: Assembly, sizes: Sizes, engagement: Engagement) -> list[Wall
     """Return every wall of the roller's path, with its free samples."""
     w, back = sizes.half_width, retraces(engagement)
     t = nodes(assembly.mechanism, FINE * assembly.L, fewest=False)
-    near = w - COVERED * assembly.L
+    near = w - 1e-6 * assembly.L  # a smaller overlap does not count as covered
     middle = int(np.searchsorted(t, 0.0))
     circles = [_circle(assembly, sizes, engagement, end) for end in (-1.0, 1.0)]
     sections = [circles[0][1][::-1], _pitch(assembly, engagement, t), circles[1][1]]
@@ -79,7 +76,7 @@ def walls(assembly: Assembly, sizes: Sizes, engagement: Engagement) -> list[Wall
     turns = [math.remainder(turn, math.tau) for turn in turns]
     low = max(turn for turn in turns if turn < 0.0)
     high = min(turn for turn in turns if turn > 0.0)
-    round_ = ahead + np.linspace(low, high, STEPS)
+    round_ = ahead + np.linspace(low, high, CIRCLE_SAMPLES)
     return [*arcs, *flanks, _arc(path, near, (float(x), float(y)), w, round_)]
 
 
@@ -104,16 +101,16 @@ def _circle(
     ahead = math.atan2(-assembly.sign * centre[1], -assembly.sign * centre[0])
     rest_of_turn = math.pi - abs(math.remainder(start - ahead, math.tau))
     # Seen from the resting wheel the crank turns against an external wheel, with an internal one.
-    turn = -end * assembly.sign * np.linspace(0.0, rest_of_turn, 4 * STEPS)
+    turn = -end * assembly.sign * np.linspace(0.0, rest_of_turn, 4 * CIRCLE_SAMPLES)
     path = np.column_stack(
         (centre[0] + radius * np.cos(start + turn), centre[1] + radius * np.sin(start + turn))
     )
-    gone = assembly.sign * (np.hypot(*path.T) - sizes.rim) > 2.0 * sizes.half_width
-    count = int(np.argmax(gone)) + 1 if gone.any() else len(path)
+    outside = assembly.sign * (np.hypot(*path.T) - sizes.rim) > 2.0 * sizes.half_width
+    count = int(np.argmax(outside)) + 1 if outside.any() else len(path)
     # As dense as the path in the slot: chords lie inside the circle, where one of its walls is.
     whole = float(turn[count - 1])
     many = math.ceil(abs(whole) / math.sqrt(8.0 * FINE * assembly.L / radius)) + 1
-    turn = np.linspace(0.0, whole, max(STEPS, many))
+    turn = np.linspace(0.0, whole, max(CIRCLE_SAMPLES, many))
     path = np.column_stack(
         (centre[0] + radius * np.cos(start + turn), centre[1] + radius * np.sin(start + turn))
     )
@@ -133,12 +130,12 @@ def _arc(
 
 
 def parallel(assembly: Assembly, engagement: Engagement, side: float, outward: bool) -> Curve:
-    """Return the curve ``side`` mm to the left of the roller's way in, or out."""
+    """Return the curve ``side`` mm to the left of the roller's path in, or out."""
     back = retraces(engagement)
 
     def curve(t: Array) -> tuple[Array, Array]:
-        at = way_at(engagement, t, back)
-        # At mid-motion the tangent is the limit of the way in.
+        at = heading_at(engagement, t, back)
+        # At mid-motion the tangent is the limit from the entry.
         turned = np.where(back & outward & (t == 0.0), -1.0, 1.0)
         tangent = np.column_stack((at.tangent_x * turned, at.tangent_y * turned))
         normal = np.column_stack((-tangent[:, 1], tangent[:, 0]))
@@ -154,7 +151,8 @@ def _unfolded(curve: Curve, t: Array, at: Pitch, L: float, side: float) -> Array
     folds back into the roller's own outline. The flank is cut where it leaves that outline.
     """
     order = np.argsort(np.abs(t))
-    folded = L * array(at.speed)[order] < side * array(at.turning)[order] - ROUNDING * L
+    # a smaller fold is ignored
+    folded = L * array(at.speed)[order] < side * array(at.turning)[order] - 1e-7 * L
     if not folded[0]:
         return t
     first = int(np.argmin(folded))
@@ -178,7 +176,7 @@ def _pitch(assembly: Assembly, engagement: Engagement, t: Array) -> Array:
 
 def _tangent_in(engagement: Engagement) -> tuple[float, float]:
     """Return the roller's direction where it stops in the wheel at mid-motion."""
-    at = way_at(engagement, np.zeros(1), True)
+    at = heading_at(engagement, np.zeros(1), True)
     return float(array(at.tangent_x)[0]), float(array(at.tangent_y)[0])
 
 
@@ -192,8 +190,9 @@ def _free(points: Array, path: Array, least: float) -> NDArray[np.bool_]:
     start, steps = path[:-1], np.diff(path, axis=0)
     square = np.maximum((steps * steps).sum(axis=1), 1e-300)
     half, middle = 0.5 * np.sqrt(square), start + 0.5 * steps
-    for block in range(0, len(points), BLOCK):
-        here = points[block : block + BLOCK]
+    size = 64  # points in a block
+    for block in range(0, len(points), size):
+        here = points[block : block + size]
         centre = 0.5 * (here.min(axis=0) + here.max(axis=0))
         reach = least + float(np.hypot(*(here - centre).T).max())
         near = np.flatnonzero(np.hypot(*(middle - centre).T) <= reach + half)
@@ -205,5 +204,5 @@ def _free(points: Array, path: Array, least: float) -> NDArray[np.bool_]:
         off_x -= fraction * x
         off_y -= fraction * y
         nearest = (off_x * off_x + off_y * off_y).min(axis=1)
-        out[block : block + BLOCK] = nearest > least * least
+        out[block : block + size] = nearest > least * least
     return out

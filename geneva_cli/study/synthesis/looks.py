@@ -18,7 +18,7 @@ from geneva_cli.machine.drives.crank import Crank
 from geneva_cli.machine.mechanism import Mechanism, build
 from geneva_cli.machine.spec import Spec
 from geneva_cli.numerics.arrays import array
-from geneva_cli.parts.groove import seen
+from geneva_cli.parts.groove import sampled_extremes
 from geneva_cli.parts.roller_paths import RollerPaths
 from geneva_cli.study.synthesis.target import USUAL_RPM
 from geneva_cli.study.synthesis.together import built_together
@@ -109,7 +109,7 @@ def _looks(specs: Sequence[Spec], machine: Mechanism) -> list[PartsLook]:
     L = np.atleast_2d(array(machine.center_distance_mm))
     entry, wide = (np.atleast_2d(x) for x in (engagement.entry_deg, engagement.motion_deg))
     moving = entry + wide * (np.arange(PLACES + 1) / PLACES)
-    groove = seen(engagement.groove, moving) if engagement.groove else None
+    groove = sampled_extremes(engagement.groove, moving) if engagement.groove else None
     x, y = (c.c[0] for c in engagement.slot(moving, 0))
     shape = (len(specs), PLACES + 1)
     x, y = L * np.broadcast_to(x, shape), L * np.broadcast_to(y, shape)

@@ -16,12 +16,12 @@ from geneva_cli.machine.mechanism import Mechanism, build
 from geneva_cli.machine.spec import Spec
 from geneva_cli.numerics.keeps import keeps
 from geneva_cli.numerics.tolerances import CLEARLY
-from geneva_cli.parts.all_round import leave_no_disc
 from geneva_cli.parts.assembly import Assembly, assembly
-from geneva_cli.parts.at_most import at_most
+from geneva_cli.parts.bounding_outlines import bounding_outlines
 from geneva_cli.parts.crank import rollers_gap
 from geneva_cli.parts.model import PartsModel
 from geneva_cli.parts.outlines import drawn
+from geneva_cli.parts.relief_overlap import leave_no_disc
 from geneva_cli.parts.sizes import Sizes, sizes
 from geneva_cli.parts.turn.full_turn import turning
 from geneva_cli.parts.turn.gaps import WorkLimit
@@ -151,7 +151,7 @@ class _Turn:
         These have more material than the parts. A wheel near the limit LOST must be drawn.
         """
         try:
-            more = at_most(*self._sized) if self._sized else None
+            more = bounding_outlines(*self._sized) if self._sized else None
         except GenevaError as error:
             return [_in_the_way(error)]
         (name,) = LOOSE

@@ -14,7 +14,7 @@ from geneva_cli.verdict.quantities.groups import RATES
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from geneva_cli.machine.engagement import Motion
+    from geneva_cli.machine.engagement import WheelMotion
     from geneva_cli.machine.mechanism import Mechanism
     from geneva_cli.numerics.arrays import Array, N, Number
     from geneva_cli.verdict.quantities.designs import Columns, Designs
@@ -67,5 +67,5 @@ def _ends(machine: Mechanism, order: int) -> list[Array]:
     ]
 
 
-def _size(motion: Motion, at_deg: Number, order: int) -> Array:
+def _size(motion: WheelMotion, at_deg: Number, order: int) -> Array:
     return np.ravel(abs(motion(at_deg, order).arrays()[order]))

@@ -1,8 +1,8 @@
 """A test for reliefs that go all round the locking disc, before any wall is drawn.
 
-The wheel's horns turn past the edges of a relief, which is widened by that. The larger the roller
-and the deeper the recess, the wider it becomes. The corners of the recesses, which no slot moves,
-decide most cases.
+The wheel's horns turn past the edges of a relief, which must be wider by that. A larger roller and
+a deeper recess make it wider still. The corners of the recesses, which no slot moves, decide most
+cases.
 """
 
 from __future__ import annotations
@@ -14,7 +14,7 @@ import numpy as np
 
 from geneva_cli.parts.assembly import Assembly
 from geneva_cli.parts.crank import is_whole
-from geneva_cli.parts.locking_rings import seen
+from geneva_cli.parts.locking_rings import polar_points
 from geneva_cli.parts.reliefs import Relief, followed, reliefs
 from geneva_cli.parts.sizes import Sizes
 from geneva_cli.parts.turn.angular_index import half_angle
@@ -23,8 +23,7 @@ from geneva_cli.parts.wheel import opening
 if TYPE_CHECKING:
     from geneva_cli.numerics.jet import Array
 
-PLACES = 91  # of a motion
-CLEARLY = 0.01  # radians, and of the disc's radius: margin beyond which sampling does not matter
+SAMPLING_MARGIN = 0.01  # radians, and of the disc's radius: more than the sampling can miss
 
 
 def leave_no_disc(assembly: Assembly, sizes: Sizes) -> bool:
@@ -38,16 +37,16 @@ def leave_no_disc(assembly: Assembly, sizes: Sizes) -> bool:
     if not lawful or relief == "arc" or not is_whole(assembly, sizes):
         return False
     wide = [_widened(assembly, sizes, one) for one in reliefs(assembly)]
-    return all(one.end - after > CLEARLY for one, after in followed(wide))
+    return all(one.end - after > SAMPLING_MARGIN for one, after in followed(wide))
 
 
 def _widened(assembly: Assembly, sizes: Sizes, relief: Relief) -> Relief:
     """Return a relief as wide as those corners need that come well inside the disc."""
     middle = 0.5 * (relief.start + relief.end)
     engagement, behind = assembly.motions[relief.motion]
-    at = behind + np.linspace(engagement.entry_deg, engagement.exit_deg, PLACES)
-    radius, off = seen(*corners(assembly, sizes, at), middle)
-    off = off[radius < (1.0 - CLEARLY) * sizes.lock]
+    at = behind + np.linspace(engagement.entry_deg, engagement.exit_deg, 91)
+    radius, off = polar_points(*corners(assembly, sizes, at), middle)
+    off = off[radius < (1.0 - SAMPLING_MARGIN) * sizes.lock]
     low, high = float(off.min(initial=0.0)), float(off.max(initial=0.0))
     return relief._replace(
         start=min(relief.start, middle + low), end=max(relief.end, middle + high)

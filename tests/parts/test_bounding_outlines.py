@@ -20,7 +20,7 @@ from geneva_cli.machine.spec import Spec
 from geneva_cli.machine.wheels.external import External
 from geneva_cli.machine.wheels.internal import Internal
 from geneva_cli.parts.assembly import assembly
-from geneva_cli.parts.at_most import at_most
+from geneva_cli.parts.bounding_outlines import bounding_outlines
 from geneva_cli.parts.outlines import outlines
 from geneva_cli.parts.sizes import sizes
 from geneva_cli.parts.turn.free_angles import free_angles
@@ -34,7 +34,7 @@ NEARLY = np.radians(0.02)  # what a play is told short by at most
 def told(spec):
     """The parts that are told to be the most, and the parts."""
     where = assembly(build(spec))
-    more = at_most(where, sizes(where))
+    more = bounding_outlines(where, sizes(where))
     return more, outlines(where.full)
 
 
@@ -106,7 +106,7 @@ def test_where_no_sector_is_left_neither_says_otherwise():
     motion = Motion(ModifiedSine(), alpha0_deg=-35.0)
     spec = Spec(External(24), Cam(), motion=motion, size=Size(roller_radius_mm=5.0))
     where = assembly(build(spec))
-    for refused in (lambda: at_most(where, sizes(where)), lambda: outlines(where.full)):
+    for refused in (lambda: bounding_outlines(where, sizes(where)), lambda: outlines(where.full)):
         with pytest.raises(GenevaError, match="locking sector") as error:
             refused()
         assert error.value.key == ("size", "lock_radius_mm")

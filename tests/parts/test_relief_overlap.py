@@ -13,9 +13,9 @@ from geneva_cli.machine.motion import Motion
 from geneva_cli.machine.spec import Spec
 from geneva_cli.machine.wheels.external import External
 from geneva_cli.machine.wheels.internal import Internal
-from geneva_cli.parts.all_round import leave_no_disc
 from geneva_cli.parts.assembly import assembly
 from geneva_cli.parts.outlines import outlines
+from geneva_cli.parts.relief_overlap import leave_no_disc
 from geneva_cli.parts.sizes import sizes
 from geneva_cli.spec.tables import Size
 

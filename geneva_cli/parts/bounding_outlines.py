@@ -1,9 +1,9 @@
 """Outlines that contain the true ones, drawn without tracing the wall of a curved slot.
 
-If the wheel is loose in these outlines, it is loose in the true parts, which have less material.
-That is computed in a fraction of the time. A curved slot removes here only what the roller removes
-that comes to it while the wheel still rests. The locking sectors lose only what the recesses'
-corners remove from their edges; no slot moves these corners.
+Play of the wheel in these outlines is play in the true parts, which have less material. It is
+computed in a fraction of the time. A curved slot lacks here only what the roller removes before
+entry, while the wheel still rests. The locking sectors lack only what the recesses' corners remove
+from their edges; no slot moves these corners.
 """
 
 from __future__ import annotations
@@ -27,12 +27,12 @@ from geneva_cli.errors import GenevaError
 from geneva_cli.machine.engagement import Engagement
 from geneva_cli.numerics.arrays import scalar
 from geneva_cli.numerics.tolerances import CLEARLY, SAME_ANGLE, SAME_LENGTH
-from geneva_cli.parts.all_round import corners
 from geneva_cli.parts.assembly import Assembly
 from geneva_cli.parts.crank import is_whole
 from geneva_cli.parts.locking_rings import LAYER as DISC
-from geneva_cli.parts.locking_rings import SHARES, beyond, seen
+from geneva_cli.parts.locking_rings import LOCK_FRACTIONS, beyond, polar_points
 from geneva_cli.parts.outlines import CURVED, SWEPT_DEG, Outlines, slot_walls
+from geneva_cli.parts.relief_overlap import corners
 from geneva_cli.parts.reliefs import followed, reliefs
 from geneva_cli.parts.roller_paths import rest
 from geneva_cli.parts.sizes import Sizes
@@ -41,7 +41,7 @@ from geneva_cli.parts.walls.curved import mirrored
 from geneva_cli.parts.wheel import LAYER, opening, wheel_contour
 
 
-def at_most(assembly: Assembly, sizes: Sizes) -> Outlines | None:
+def bounding_outlines(assembly: Assembly, sizes: Sizes) -> Outlines | None:
     """Return the bounding outlines; None for machines to which they do not apply.
 
     They apply to external wheels with a law whose rim extends beyond the crank's axis, so that
@@ -121,8 +121,8 @@ def _sectors(assembly: Assembly, sizes: Sizes) -> list[Contour]:
         if after - one.end <= SAME_ANGLE:
             continue
         whole, middle = 0.5 * (after - one.end), 0.5 * (after + one.end)
-        wheel = seen(x, y, middle)
-        wide = (fraction * whole for fraction in SHARES)
+        wheel = polar_points(x, y, middle)
+        wide = (fraction * whole for fraction in LOCK_FRACTIONS)
         half = next((each for each in wide if not beyond(sizes, wheel, each)), None)
         if half is None:
             raise GenevaError("nothing is left of a locking sector", ("size", "lock_radius_mm"))
