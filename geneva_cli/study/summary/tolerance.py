@@ -9,7 +9,7 @@ from geneva_cli.design import Design
 from geneva_cli.document import WARNS, Answer, Line, Summary
 from geneva_cli.errors import is_warning
 from geneva_cli.names import spoken
-from geneva_cli.study.summary.named import counted, title_of
+from geneva_cli.study.summary.titles import counted, title_of
 from geneva_cli.table import Table
 from geneva_cli.verdict.headline import below_summary, warning
 from geneva_cli.verdict.measured import measured
@@ -33,8 +33,8 @@ def _lines(values: dict[str, Any]) -> Iterator[Line]:
     most = max(rows, key=lambda row: row["share"] or 0.0, default=None)
     if most and most["share"]:
         words, _ = spoken(most["dimension"])
-        share = measured(100.0 * most["share"], "%", 3)
-        yield Line("greatest", f"{words} contributes {share} of the dwell's variance")
+        percent = measured(100.0 * most["share"], "%", 3)
+        yield Line("greatest", f"{words} contributes {percent} of the dwell's variance")
     if values["entry_jump.worst"] is not None:
         jump = measured(values["entry_jump.worst"])
         yield Line("entry", f"the wheel's velocity jumps by up to {jump} of the input's")
@@ -54,10 +54,12 @@ def _angle(label: str, what: str, name: str, values: dict[str, Any]) -> Line:
 
 def _clearances(values: dict[str, Any]) -> str:
     turns = values["clearances.turns"]
-    said = {True: "every machine turns", False: "not every machine turns", None: "not known"}[turns]
+    sentence = {True: "every machine turns", False: "not every machine turns", None: "not known"}[
+        turns
+    ]
     parts = [
         f"{part} {measured(values[f'clearances.{part}_mm'], 'mm')}, needed {measured(needed)}"
         for part in ("slot", "lock")
         if (needed := values[f"clearances.{part}_needed_mm"]) is not None
     ]
-    return "; ".join([said, *parts])
+    return "; ".join([sentence, *parts])

@@ -8,12 +8,10 @@ from typing import Any
 from geneva_cli.design import Design
 from geneva_cli.document import WARNS, Answer, Line, Summary
 from geneva_cli.errors import is_warning
-from geneva_cli.study.summary.named import counted, title_of
+from geneva_cli.study.summary.titles import counted, title_of
 from geneva_cli.table import Table
 from geneva_cli.verdict.headline import below_summary, warning
 from geneva_cli.verdict.measured import measured
-
-STILL = 1e-6  # fraction of a step: of a step of 90°, a third of an arc second
 
 
 def of_vibration(design: Design, record: Table) -> Answer:
@@ -35,11 +33,11 @@ def _lines(values: dict[str, Any]) -> Iterator[Line]:
     hertz = values["natural_Hz"]
     natural = "" if hertz is None else f" of {measured(hertz, 'Hz')}"
     yield Line("motion", f"lasts {ratio} natural periods{natural}, damping ratio {damping}")
-    share = measured(values["residual_share"])
+    residual = measured(values["residual_share"])
     swing = f"an index leaves the load swinging by {measured(values['residual_deg'], 'deg')}"
-    if values["residual_share"] < STILL:
+    if values["residual_share"] < 1e-6:  # of a step of 90°, a third of an arc second
         swing = "an index leaves the load practically at rest"
-    yield Line("residual", f"{swing}, {share} of the step")
+    yield Line("residual", f"{swing}, {residual} of the step")
     if values["residual_share_worst"] is not None:
         worst = measured(values["residual_share_worst"])
         yield Line("worst", f"{worst} of the step, with a stiffness off by up to 20 %")
