@@ -23,7 +23,7 @@ from geneva_cli.study.synthesis.built import Built
 from geneva_cli.study.synthesis.families import closed
 from geneva_cli.study.synthesis.families import limit as limits
 from geneva_cli.study.synthesis.families.family import EXACT
-from geneva_cli.study.synthesis.looks import look
+from geneva_cli.study.synthesis.parts_data import parts_data
 from geneva_cli.study.synthesis.reading import read_target
 from geneva_cli.study.synthesis.rows import NEAR_DEG, _wedged
 from geneva_cli.study.synthesis.search import search, synthesis
@@ -294,7 +294,7 @@ WISHES = [
 @pytest.mark.parametrize("options", WISHES, ids=str)
 def test_rows_are_sorted_and_numbered(options):
     target, found = searched(**options)
-    table = synthesis_table(target, 0, found=found)
+    table = synthesis_table(target, 0, ranking=found)
     assert table.names == NAMES
     columns = dict(zip(table.names, table.columns, strict=True))
     assert list(columns["no"]) == list(range(1, len(table) + 1))
@@ -681,7 +681,7 @@ def test_a_groove_is_as_steep_as_its_check_says():
     ]
     passes = [groove_pressure("", machine).passes for machine in machines]
     assert {*passes} == {True, False}
-    seen = [look(machine.spec).pressure_deg for machine in machines]
+    seen = [parts_data(machine.spec).pressure_deg for machine in machines]
     assert any(abs(x - GROOVE_MAX_DEG) < NEAR_DEG for x in seen)
     assert [not _wedged(machine) for machine in machines] == passes
 

@@ -29,8 +29,6 @@ from geneva_cli.study.synthesis.families.family import (
 )
 from geneva_cli.study.synthesis.target import Target
 
-LONGEST, SHORTEST = 330.0, 1e-3  # crank angles that gear sectors drive, degrees
-
 
 def two_stages(target: Target, wheel: Gearing) -> Iterator[Family]:
     """The families with gear sectors and with first wheels for a wheel that can have them."""
@@ -54,8 +52,9 @@ def sectors(target: Target, wheel: Gearing) -> Iterator[Family]:
         return boundary(lambda b: angle(z, b) >= least, 0.0, wheel.step.b)
 
     ends = (slot(closed.sector_motion, span.high), slot(closed.sector_motion, span.low))
-    low = max(ends[0], slot(closed.sector_deg, LONGEST))
-    high = min(ends[1], slot(closed.sector_deg, SHORTEST))
+    # gear sectors drive the crank by 0.001 to 330 degrees
+    low = max(ends[0], slot(closed.sector_deg, 330.0))
+    high = min(ends[1], slot(closed.sector_deg, 1e-3))
     if low <= high:
         make = partial(_with_sectors, target, wheel)
         yield Family(make, low, high, wheel.step.b, wheel.step.b)
