@@ -25,7 +25,7 @@ UNITS = {
     "_um": "µm",
     "_arcsec": "arc seconds",
     "_mm": "mm",
-    "_mm_per_million": "mm per million motions",
+    "_mm_per_million": "mm/1e6",
     "_deg": "deg",
     "_rpm": "1/min",
     "_Nm": "N m",

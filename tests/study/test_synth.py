@@ -27,7 +27,7 @@ from geneva_cli.study.synthesis.parts_data import parts_data
 from geneva_cli.study.synthesis.reading import read_target
 from geneva_cli.study.synthesis.rows import NEAR_DEG, _wedged
 from geneva_cli.study.synthesis.search import search, synthesis
-from geneva_cli.study.synthesis.shown import for_people
+from geneva_cli.study.synthesis.shown import for_people, for_terminal
 from geneva_cli.study.synthesis.table import NAMES, synthesis_table, turned
 from geneva_cli.study.synthesis.written import chosen, commented
 from geneva_cli.verdict.checks import checks
@@ -702,6 +702,10 @@ def test_where_a_cycle_is_asked_for_rows_are_ranked_by_time():
     people = for_people(table)
     assert {"rpm", "accel_rad/s2"} <= {*people.names}
     assert "lowest peak acceleration in rad/s2 first" in people.title
+    seen = for_terminal(table, 3)
+    assert [row["no"] for row in seen.to_rows()] == [1, 2, 3]
+    assert seen.title.endswith(f" The first 3 rows. All {len(rows)} rows: -o FILE.csv")
+    assert for_terminal(table, len(rows)).title == table.title
 
 
 def test_the_lowest_of_a_range_is_the_lowest_in_time():

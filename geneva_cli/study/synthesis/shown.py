@@ -59,9 +59,16 @@ class SynthesisColumn(NamedTuple):
         return max(len(text) for text in (*self.head.split("_"), *map(cell, self.cells)))
 
 
-def for_terminal(table: Table) -> Table:
-    """A table with a description of each machine and all its numbers, in order of importance."""
-    rows = table.to_rows()
+def for_terminal(table: Table, most: int) -> Table:
+    """The first ``most`` rows with a description of each machine and all its numbers.
+
+    Columns are in order of importance. The title says how to get the other rows.
+    """
+    every_row = table.to_rows()
+    rows = every_row[:most]
+    title = table.title
+    if len(rows) < len(every_row):
+        title += f" The first {most} rows. All {len(every_row)} rows: -o FILE.csv"
     laws = {row["law"] for row in rows if row["law"]}
     every = _columns(rows, table.names, len(laws) > 1)
     columns = [c for c in every if any(v is not None for v in c.cells)]
@@ -69,7 +76,7 @@ def for_terminal(table: Table) -> Table:
     rank = _ranks(columns)
     first = sorted(range(len(columns)), key=lambda i: rank[columns[i].source])
     reading = Reading(tuple(names[i] for i in first))
-    return Table(tuple(names), [c.cells for c in columns], title=table.title, reading=reading)
+    return Table(tuple(names), [c.cells for c in columns], title=title, reading=reading)
 
 
 def for_people(table: Table) -> Table:
