@@ -28,15 +28,15 @@ def spec_texts(
     """
     if vary:
         if len(paths) > 1:
-            raise GenevaError("--vary is for one SPEC; set several side by side without it")
+            raise GenevaError("--vary is for one SPEC; leave it out to compare several")
         return _varied(read(paths[0], settings), vary)
     twice = next((p for p in paths if list(paths).count(p) > 1), None)
     if twice:
         raise GenevaError(
-            f"{cut(shown_name(twice))}: given twice; --vary shows changes of one spec"
+            f"{cut(shown_name(twice))}: given twice; use --vary to compare changes of one spec"
         )
     if len(paths) > DESIGNS_MAX:
-        raise GenevaError(f"{len(paths)} designs side by side; at most {DESIGNS_MAX}")
+        raise GenevaError(f"{len(paths)} designs; at most {DESIGNS_MAX} can be compared")
     return {_short_name(p, paths, taken): read(p, settings) for p in paths}
 
 
@@ -58,6 +58,6 @@ def _varied(text: Text, vary: Sequence[str]) -> dict[str, Text]:
         out[" ".join(texts)] = text._replace(set_keys=(*text.set_keys, *changes))
         if len(out) > DESIGNS_MAX:
             raise GenevaError(
-                f"more than {DESIGNS_MAX} designs side by side: `geneva sweep` has a row for each"
+                f"--vary makes more than {DESIGNS_MAX} designs: `geneva sweep` has a row for each"
             )
     return out

@@ -49,9 +49,7 @@ def survey(z: str, gearing: str, n_rpm: float, rollers: int, A: float) -> Table:
     solved = bool(A) or gearing not in SIGNS
     if solved and len(wheels) > SOLVED_MAX:
         what = "with --A" if A else "of spherical wheels"
-        raise GenevaError(
-            f"--z {cut(z)}: that is more than {SOLVED_MAX} rows {what}; ask for fewer"
-        )
+        raise GenevaError(f"--z {cut(z)}: that is more than {SOLVED_MAX} rows {what}; give fewer")
     for slots in wheels:
         try:
             if solved:
@@ -146,7 +144,7 @@ def parse_z(text: str) -> list[int]:
         if high < low:
             raise GenevaError(f"{option}: {low}..{high} runs backwards; write {high}..{low}")
         if len(out) + (high - low) // step >= ROWS_MAX:
-            raise GenevaError(f"{option}: that is more than {ROWS_MAX} rows; ask for fewer")
+            raise GenevaError(f"{option}: that is more than {ROWS_MAX} rows; give fewer")
         out.extend(range(low, high + 1, step))
     return out
 

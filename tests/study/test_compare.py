@@ -148,7 +148,7 @@ def test_two_keys_vary_as_a_grid():
             "--set drive.A=7: --vary drive.A sets",
         ),
         ({"vary": ["drive.B=1"]}, "--vary drive.B=1: unknown key B in [drive]"),
-        ({"vary": ["drive.A=0..1:0.001"]}, "more than 100 designs side by side: `geneva sweep`"),
+        ({"vary": ["drive.A=0..1:0.001"]}, "--vary makes more than 100 designs: `geneva sweep`"),
     ],
 )
 def test_what_cannot_be_compared(arguments, said):

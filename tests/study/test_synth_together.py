@@ -139,7 +139,7 @@ def test_bounds_hold_where_no_plain_crank_carries_the_rollers():
     assert found.requested.names == ("jerk.max", "timing.dwell_deg")
     row = found.rows[0]
     assert row.extra == (pytest.approx(row.candidate.jerk_max), pytest.approx(50.0))
-    with pytest.raises(GenevaError, match="none of 2 machines that keep the rest"):
+    with pytest.raises(GenevaError, match="none of 2 machines that keep all other bounds"):
         search(read_target(**target, subject_to=["dwell_deg >= 49", "jerk.max <= 1"]))
 
 

@@ -17,6 +17,7 @@ from geneva_cli.specfile.writer import quoted, written
 from geneva_cli.study.animation.bodies import bodies
 from geneva_cli.study.animation.pushes import pushes
 from geneva_cli.study.animation.turn import MachineTurn
+from geneva_cli.study.summary.titles import title_of
 from geneva_cli.verdict.report.words import words
 
 if TYPE_CHECKING:
@@ -40,8 +41,7 @@ def scene(design: Design) -> Scene:
     with suppress(GenevaError):  # no flat parts
         outlines = design.parts
     bars, rollers = turn.bars(outlines), turn.rollers()
-    spec = design.spec
-    title = spec.title or f"Geneva wheel of {spec.wheel.z} slots"
+    spec, title = design.spec, title_of(design)
     return Scene(
         title,
         words(mechanism) + _remark(design, bars),

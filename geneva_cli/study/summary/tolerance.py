@@ -6,24 +6,19 @@ from collections.abc import Iterator
 from typing import Any
 
 from geneva_cli.design import Design
-from geneva_cli.document import WARNS, Answer, Line, Summary
+from geneva_cli.document import Answer, Line
 from geneva_cli.errors import is_warning
 from geneva_cli.names import spoken
-from geneva_cli.study.summary.titles import counted, title_of
+from geneva_cli.study.summary.titles import record_answer
 from geneva_cli.table import Table
-from geneva_cli.verdict.headline import below_summary, warning
 from geneva_cli.verdict.measured import measured
 
 
 def of_tolerance(design: Design, record: Table) -> Answer:
     """The answer of ``geneva tolerance``, from the record of ``Design.tolerance``."""
     values = record.to_dict()
-    own = filter(is_warning, values["warnings"])
-    warnings = [*design.motion_warnings, *own]
-    lines = (*_lines(values), *map(warning, warnings))
-    state = WARNS if warnings else ""
-    summary = Summary(f"{title_of(design)}{counted(warnings)}", lines, state)
-    return Answer((summary,), below_summary(record, said=("title",)), record)
+    warnings = [*design.motion_warnings, *filter(is_warning, values["warnings"])]
+    return record_answer(design, record, _lines(values), warnings)
 
 
 def _lines(values: dict[str, Any]) -> Iterator[Line]:

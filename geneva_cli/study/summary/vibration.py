@@ -6,11 +6,10 @@ from collections.abc import Iterator
 from typing import Any
 
 from geneva_cli.design import Design
-from geneva_cli.document import WARNS, Answer, Line, Summary
+from geneva_cli.document import Answer, Line
 from geneva_cli.errors import is_warning
-from geneva_cli.study.summary.titles import counted, title_of
+from geneva_cli.study.summary.titles import record_answer
 from geneva_cli.table import Table
-from geneva_cli.verdict.headline import below_summary, warning
 from geneva_cli.verdict.measured import measured
 
 
@@ -18,10 +17,7 @@ def of_vibration(design: Design, record: Table) -> Answer:
     """The answer of ``geneva vibration``, from the record of ``Design.vibration``."""
     values = record.to_dict()
     warnings = [text for text in values["warnings"] if is_warning(text)]
-    lines = (*_lines(values), *map(warning, warnings))
-    state = WARNS if warnings else ""
-    summary = Summary(f"{title_of(design)}{counted(warnings)}", lines, state)
-    return Answer((summary,), below_summary(record, said=("title",)), record)
+    return record_answer(design, record, _lines(values), warnings)
 
 
 def _lines(values: dict[str, Any]) -> Iterator[Line]:

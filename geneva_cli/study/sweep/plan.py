@@ -92,7 +92,7 @@ def plan(axes: Sequence[VariedKey], random: int | None, seed: int) -> SweepPlan:
         raise GenevaError(f"--random {cut(random)}: it must be at least 1, at most {POINTS_MAX:,}")
     keys_max = 100  # each is a dimension of the Sobol sequence
     if random and len(axes) > keys_max:
-        raise GenevaError(f"--random with {len(axes)} keys; at most {keys_max}")
+        raise GenevaError(f"--random: {len(axes)} keys vary; at most {keys_max} can")
     if not 0 <= seed < 2**32:
         raise GenevaError(f"--seed {cut(seed)}: it must be at least 0 and below 2**32")
     planned = SweepPlan(tuple(axes), random or 0, seed)

@@ -15,9 +15,8 @@ from typing import NamedTuple
 
 from geneva_cli.machine.spec import Spec
 from geneva_cli.study.goals import Objective
-from geneva_cli.study.quantities import in_batch
 from geneva_cli.study.synthesis.batches import numbers
-from geneva_cli.study.synthesis.bounds import known_bounds, of_motion
+from geneva_cli.study.synthesis.bounds import known_bounds, known_sort, of_motion
 from geneva_cli.study.synthesis.families.family import Family
 from geneva_cli.study.synthesis.target import Target
 
@@ -109,10 +108,10 @@ class FamilySearch:
     def __init__(self, families: Sequence[Family], target: Target, patient: bool = False) -> None:
         self.families, self.bounds = families, known_bounds(target)
         self.patient = patient  # also samples near places where no small step can keep the bounds
-        least = target.sort if target.sort and in_batch([target.sort.name]) else None
-        self.nearest = target.any_motion and not least
+        sort = known_sort(target)
+        self.nearest = target.any_motion and not sort
         self.peak = target.peak
-        self.sign, self.least = least or Objective(1.0, self.peak)
+        self.sign, self.least = sort or Objective(1.0, self.peak)
         self.best_trials: dict[int, Trial] = {}
         # of each family, in order of their places
         self.samples: list[list[Sample]] = [[] for _ in families]

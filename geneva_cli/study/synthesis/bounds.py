@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from geneva_cli.study.goals import Objective
 from geneva_cli.study.quantities import in_batch, is_motion
 from geneva_cli.study.sweep.constraints import Constraint
 from geneva_cli.study.synthesis.target import Target
@@ -10,6 +11,11 @@ from geneva_cli.study.synthesis.target import Target
 def known_bounds(target: Target) -> list[Constraint]:
     """The bounds on quantities that a batch can compute."""
     return [b for b in target.limits if in_batch([b.name])]
+
+
+def known_sort(target: Target) -> Objective | None:
+    """The goal by which rows are sorted, if a batch can compute it."""
+    return target.sort if target.sort and in_batch([target.sort.name]) else None
 
 
 def of_motion(target: Target) -> Target | None:

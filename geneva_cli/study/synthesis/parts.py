@@ -127,7 +127,7 @@ def _suiting(where: Assembly, at: PartsData, m: int) -> tuple[float | None, str]
     if percent is None and at.least > 0.01 * USUAL[-1] * L:
         percent, _ = _largest(_radii(0.0), of_percent)  # there is no obstacle except the island
         why = ISLAND
-    return (None if percent in (None, USUAL[0]) else exact(0.01 * percent * L)), why
+    return _radius_mm(percent, L), why
 
 
 def _of_shells(mechanism: Mechanism) -> tuple[float | None, str]:
@@ -147,7 +147,12 @@ def _of_shells(mechanism: Mechanism) -> tuple[float | None, str]:
     if size.roller_radius_mm is not None:
         return None, obstacle(100.0 * size.roller_radius_mm / L)
     percent, why = _largest(_radii(0.0), obstacle)
-    return (None if percent in (None, USUAL[0]) else exact(0.01 * percent * L)), why
+    return _radius_mm(percent, L), why
+
+
+def _radius_mm(percent: float | None, L: float) -> float | None:
+    """The radius of a roller in % of L; None for the usual one, or for none."""
+    return None if percent in (None, USUAL[0]) else exact(0.01 * percent * L)
 
 
 def with_roller(spec: Spec, radius_mm: float | None) -> Spec:

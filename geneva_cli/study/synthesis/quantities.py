@@ -127,4 +127,4 @@ def _how_near(wanted: QuantityRequest, nearest: dict[str, list[float]], count: i
             phrases.append(f"{b} (nearest {(max if b.sign == '>=' else min)(values):.6g})")
         else:
             phrases.append(f"{b} (not known)")
-    return f"none of {count} machines that keep the rest keeps {' and '.join(phrases)}"
+    return f"none of {count} machines that keep all other bounds keeps {' and '.join(phrases)}"

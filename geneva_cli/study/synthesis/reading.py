@@ -103,7 +103,7 @@ def _slots(text: str, frame: Spec | None) -> tuple[int, ...]:
     z = parse_z(text or "3..24")
     most = 200  # each wheel takes some hundredths of a second
     if len(z) > most:
-        raise GenevaError(f"--z {cut(text)}: that is more than {most} wheels; ask for fewer")
+        raise GenevaError(f"--z {cut(text)}: that is more than {most} wheels; give fewer")
     return tuple(dict.fromkeys(z))
 
 

@@ -27,9 +27,9 @@ from geneva_cli.machine.spec import Spec
 from geneva_cli.machine.wheels.gearing import Gearing
 from geneva_cli.numerics.arrays import Array, Whole
 from geneva_cli.study.goals import Objective
-from geneva_cli.study.quantities import in_batch, is_motion
+from geneva_cli.study.quantities import is_motion
 from geneva_cli.study.sweep.columns import columns
-from geneva_cli.study.synthesis.bounds import known_bounds, of_motion
+from geneva_cli.study.synthesis.bounds import known_bounds, known_sort, of_motion
 from geneva_cli.study.synthesis.families import closed
 from geneva_cli.study.synthesis.families.family import (
     Family,
@@ -94,8 +94,7 @@ class _TwoNumberSearch:
         self.wheels = [w for w, span in zip(wheels, spans, strict=True) if span]
         self.motions = [span for span in spans if span]
         self.bounds = known_bounds(target)
-        known = target.sort if target.sort and in_batch([target.sort.name]) else None
-        self.sign, self.least = known or Objective(1.0, target.peak)
+        self.sign, self.least = known_sort(target) or Objective(1.0, target.peak)
         self.nearest = target.any_motion and not target.sort
 
     def machines(self) -> Iterator[Spec]:
