@@ -34,8 +34,8 @@ def compare(
     """
     names, machines = _columns(paths, settings, vary)
     if picks:
-        wanted = pick(picks)
-        each = [dict(zip(wanted.names, wanted.of(m), strict=True)) for m in machines]
+        picked = pick(picks)
+        each = [dict(zip(picked.names, picked.of(m), strict=True)) for m in machines]
     else:
         each = [values(PartsModel(m)) for m in machines]
     rows = []

@@ -25,7 +25,7 @@ from geneva_cli.study.synthesis.families import limit as limits
 from geneva_cli.study.synthesis.families.family import EXACT
 from geneva_cli.study.synthesis.parts_data import parts_data
 from geneva_cli.study.synthesis.reading import read_target
-from geneva_cli.study.synthesis.rows import NEAR_DEG, _wedged
+from geneva_cli.study.synthesis.rows import NEAR_DEG, _groove_failure
 from geneva_cli.study.synthesis.search import search, synthesis
 from geneva_cli.study.synthesis.shown import for_people, for_terminal
 from geneva_cli.study.synthesis.table import NAMES, synthesis_table, turned
@@ -683,7 +683,7 @@ def test_a_groove_is_as_steep_as_its_check_says():
     assert {*passes} == {True, False}
     seen = [parts_data(machine.spec).pressure_deg for machine in machines]
     assert any(abs(x - GROOVE_MAX_DEG) < NEAR_DEG for x in seen)
-    assert [not _wedged(machine) for machine in machines] == passes
+    assert [not _groove_failure(machine) for machine in machines] == passes
 
 
 def test_where_a_cycle_is_asked_for_rows_are_ranked_by_time():

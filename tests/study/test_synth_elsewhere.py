@@ -12,7 +12,7 @@ from geneva_cli.machine.mechanism import build
 from geneva_cli.machine.motion import Motion
 from geneva_cli.study.synthesis.built import built
 from geneva_cli.study.synthesis.families import every
-from geneva_cli.study.synthesis.parts import suited
+from geneva_cli.study.synthesis.parts import machine_and_parts
 from geneva_cli.study.synthesis.reading import read_target
 from geneva_cli.study.synthesis.search import search
 from geneva_cli.study.synthesis.table import turned
@@ -42,7 +42,7 @@ def test_beside_a_row_that_cannot_be_built_is_the_best_that_may_be(z):
         alpha0 = natural - (found + (200.0 - found) * k / steps)
         spec = other.spec.replace(motion=Motion(ModifiedSine(), alpha0_deg=alpha0, ratio="matched"))
         spec = spec.with_("size.roller_radius_mm", None)
-        assert suited(spec)[1].why, alpha0
+        assert machine_and_parts(spec)[1].why, alpha0
 
 
 def test_a_row_that_fails_in_its_turn_gives_way_to_the_best_that_passes(tmp_path):

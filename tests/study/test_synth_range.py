@@ -109,7 +109,7 @@ def test_where_none_is_buildable_that_is_said(format):
     target = ["--motion-deg", "150", "--z", "361", "--internal", "--buildable", "--format", format]
     found = CliRunner().invoke(app, ["synth", *target])
     assert (found.exit_code, found.stderr) == (0, "")
-    title, _, rest = found.stdout.partition("machines is found to pass.\n")
+    title, _, rest = found.stdout.partition("machines passes.\n")
     if format in ("table", "md"):
         assert title.endswith(": none of 4 ") and not rest.strip()
     elif format == "csv":

@@ -22,7 +22,7 @@ def verdict(design: Design, left: RemainingValues) -> tuple[str, str, tuple[str,
 
 
 def checks(design: Design) -> Iterator[Block]:
-    """Every check."""
+    """The table of all checks, with a column of remarks if there are any."""
     words = {True: "passes", False: BAD, None: "not proved"}
     heads = ["Check", "Value", "At input angle, °", "Must be", "Limit", "Verdict"]
     rows: list[Row] = [
@@ -37,7 +37,7 @@ def checks(design: Design) -> Iterator[Block]:
 
 
 def warnings(left: RemainingValues) -> Iterator[Block]:
-    """The warnings."""
+    """The list of warnings."""
     texts = tuple(left.one("warnings"))
     yield Heading("Warnings")
     yield Listed(texts) if texts else Prose("None.")

@@ -102,7 +102,7 @@ class Tally:
         self.nearness = Nearness(search.bounds)
 
     def add(self, rows: Sequence[Row]) -> None:
-        """Add rows."""
+        """Count rows, and keep the best of each place."""
         self.tried += len(rows)
         self.feasible += sum(map(self.search.keeps, rows))
         self.places.add(rows)

@@ -88,7 +88,7 @@ class Nearness:
         self.nearest: list[float | None] = [None] * len(bounds)
 
     def add(self, rows: Sequence[Sequence[object]]) -> None:
-        """Add rows."""
+        """Count the rows that keep each bound, and keep the nearest values."""
         for k, (i, c) in enumerate(self.bounds):
             values = [float(v) for row in rows if is_number(v := row[i])]
             self.kept[k] += sum(c.kept(v) for v in values)

@@ -33,7 +33,7 @@ class Digest:
         self.best: list[tuple[float, Numbered]] = []  # the best first
 
     def add(self, rows: Sequence[Sequence[Cell]]) -> None:
-        """Add rows."""
+        """Add rows, which are numbered in their order."""
         numbered = [(self.count + i, *row) for i, row in enumerate(rows, 1)]
         self.count += len(rows)
         self.first += numbered[: 2 * ROWS - len(self.first)]

@@ -18,7 +18,7 @@ class Outcome:
     def __init__(self, request: SweepRequest) -> None:
         self.request = request
         self.all = self.failed = self.left = 0
-        self._first = ""  # reason why the first that cannot be built cannot
+        self._first = ""  # why the first of them cannot be built
         names = request.sweep.names
         self._nearness = Nearness([(names.index(c.name), c) for c in request.constraints])
         self._unknown = {names.index(o.name): o.name for o in request.objectives}

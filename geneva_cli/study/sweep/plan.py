@@ -112,8 +112,9 @@ class Shard(NamedTuple):
     of: int = 1
 
     def span(self, length: int) -> tuple[int, int]:
-        """The first design of this shard and the one after its last; all shards together are the
-        sweep.
+        """The first of ``length`` designs in this shard, and the one after its last.
+
+        All shards together are the sweep.
         """
         return length * (self.number - 1) // self.of, length * self.number // self.of
 

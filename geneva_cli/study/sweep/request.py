@@ -117,23 +117,23 @@ def request(
     if seed is not None and random is None:
         raise GenevaError(f"--seed {cut(seed)}: it needs --random N; a grid has no random draw")
     bounds = [constraint(text) for text in subject_to]
-    wanted = _objectives(pareto, best)
+    goals = _objectives(pareto, best)
     part = share(shard) if shard else WHOLE
-    if shard and wanted:
+    if shard and goals:
         raise GenevaError("--shard: each shard has a front of its own; join all rows, then choose")
     names = [name.strip() for name in pick.split(",")] if pick else []
-    if not names and not wanted:
+    if not names and not goals:
         names = list(DEFAULT)
-    needed = [o.name for o in wanted] + [c.name for c in bounds]
+    needed = [o.name for o in goals] + [c.name for c in bounds]
     by = dict.fromkeys([c.name for c in bounds], "--subject-to")
-    by |= dict.fromkeys([o.name for o in wanted], "--best" if best else "--pareto")
+    by |= dict.fromkeys([o.name for o in goals], "--best" if best else "--pareto")
     every, later = (needed, names) if best else ([*needed, *names], None)
     swept = sweep(text, plan(axes, random, seed or 0), every, check, by, later)
     swept = swept._replace(shard=part)
     whole = dict(zip(every, swept.pick.requested, strict=False))
     constraints = tuple(c._replace(name=whole[c.name]) for c in bounds)
     refuse_contradictions(constraints)
-    objectives = tuple(o._replace(name=whole[o.name]) for o in wanted)
+    objectives = tuple(o._replace(name=whole[o.name]) for o in goals)
     refuse_opposites(objectives)
     options = {whole[a]: option for a, option in by.items()}
     refuse_words(options, "--vary or --set picks it")

@@ -25,6 +25,6 @@ def of_motion(target: Target) -> Target | None:
     take ten times as long, so they are not computed for a family without the required motion.
     """
     moved = tuple(b for b in target.bounds if is_motion(b.name))
-    if not (target.strict and moved) or all(map(is_motion, target.named)):
+    if not (target.strict and moved) or all(map(is_motion, target.quantities)):
         return None
     return target._replace(bounds=moved, sort=None)

@@ -56,7 +56,7 @@ class Parts(NamedTuple):
 
 
 @lru_cache(maxsize=1024)  # machines with more rollers are requested twice
-def suited(spec: Spec) -> tuple[Mechanism, Parts]:
+def machine_and_parts(spec: Spec) -> tuple[Mechanism, Parts]:
     """The machine of a spec, and its parts.
 
     Raises GenevaError for a spec that makes no machine.
@@ -68,7 +68,7 @@ def suited(spec: Spec) -> tuple[Mechanism, Parts]:
 def has_no_obstacle(spec: Spec) -> bool:
     """Return True if the spec makes a machine whose parts can be drawn without an obstacle."""
     try:
-        return suited(spec)[1].why == ""
+        return machine_and_parts(spec)[1].why == ""
     except GenevaError:
         return False
 
@@ -82,23 +82,23 @@ def parts(mechanism: Mechanism) -> Parts:
     if not spec.has_parts:
         return Parts(spec, None)
     if not spec.is_flat:
-        r, why = _of_shells(mechanism)
+        r, why = _suiting_sphere(mechanism)
         return Parts(spec if r is None else with_roller(spec, r), why)
     at, m = parts_data(spec), spec.drive.rollers
     # the parts do not depend on the drive that turns the crank
     if spec.drive.CRANKED and not mechanism.law:
         r, why = _of_crank(at.spec, m)
     else:
-        r, why = _suiting(assembly(mechanism), at, m)
+        r, why = _suiting_plane(assembly(mechanism), at, m)
     return Parts(spec if r is None else with_roller(spec, r), why)
 
 
 @lru_cache(maxsize=1024)
 def _of_crank(spec: Spec, m: int) -> tuple[float | None, str]:
-    return _suiting(assembly(build(spec)), parts_data(spec), m)
+    return _suiting_plane(assembly(build(spec)), parts_data(spec), m)
 
 
-def _suiting(where: Assembly, at: PartsData, m: int) -> tuple[float | None, str]:
+def _suiting_plane(where: Assembly, at: PartsData, m: int) -> tuple[float | None, str]:
     """The radius in mm of the roller that suits m rollers, and the obstacle to the parts.
 
     The radius is None for the roller of the spec, or the usual one.
@@ -130,7 +130,7 @@ def _suiting(where: Assembly, at: PartsData, m: int) -> tuple[float | None, str]
     return _radius_mm(percent, L), why
 
 
-def _of_shells(mechanism: Mechanism) -> tuple[float | None, str]:
+def _suiting_sphere(mechanism: Mechanism) -> tuple[float | None, str]:
     """The radius of the roller that suits a machine on a sphere, and the obstacle to the parts."""
     L, size = mechanism.center_distance_mm, mechanism.spec.size
     least = wall_min(size, L) / L

@@ -40,8 +40,8 @@ class PartsData(NamedTuple):
     least: float  # the radius of the smallest roller that leaves no island of the wheel in its slot
     pressure_deg: float  # the greatest in a cam's groove
     walls: tuple[OuterWall, OuterWall] | None  # of curved slots
-    back: tuple[Array, Array] | None  # of a wheel without a lock, the roller's places at rest:
-    # along the nearest slot, and beside its middle
+    # of a wheel without a lock, the roller's places at rest: along the nearest slot, and across
+    back: tuple[Array, Array] | None
     tried: dict[float, str]  # obstacles by roller radius, a cache of ``parts``
 
 

@@ -49,12 +49,12 @@ def quantity_request(target: Target, spec: Spec) -> QuantityRequest:
 
     Raises GenevaError, with the nearest name, for an unknown one.
     """
-    wanted = [b.name for b in target.bounds]
+    bound_names = [b.name for b in target.bounds]
     machine = build(spec)
     # imports all that a report has: most requirements name no quantity
     pick = load_named("study.fields:pick")
     of_sort: tuple[str, ...] = pick([target.sort.name], "--sort").names if target.sort else ()
-    of_bounds = pick(wanted, "--subject-to").requested if wanted else ()
+    of_bounds = pick(bound_names, "--subject-to").requested if bound_names else ()
     every = pick([*of_sort, *of_bounds])
     bounds = tuple(b._replace(name=n) for b, n in zip(target.bounds, of_bounds, strict=True))
     refuse_contradictions(bounds)  # two names of one quantity may contradict each other
@@ -77,20 +77,20 @@ def batch_cells(names: Sequence[str], rows: Sequence[MachineRow]) -> list[Cells 
 
 
 def bounded(
-    wanted: QuantityRequest, rows: Sequence[MachineRow], together: Sequence[Cells | None]
+    request: QuantityRequest, rows: Sequence[MachineRow], together: Sequence[Cells | None]
 ) -> list[MachineRow]:
     """The rows that keep the bounds, with the requested quantities.
 
     ``together`` are the results of ``batch_cells``.
     """
-    assert wanted.pick
-    names = wanted.names
+    assert request.pick
+    names = request.names
     alone = [row.spec for row, one in zip(rows, together, strict=True) if one is None]
-    rest = mapped(partial(_values, wanted.pick), alone, min(cores(), len(alone)), "machines")
+    rest = mapped(partial(_values, request.pick), alone, min(cores(), len(alone)), "machines")
     rest = tracked(rest, "machines computed", len(alone))
     values = [one or next(rest) for one in together]
     out = []
-    nearest: dict[str, list[float]] = {b.name: [] for b in wanted.bounds}
+    nearest: dict[str, list[float]] = {b.name: [] for b in request.bounds}
     for row, cells in zip(rows, values, strict=True):
         if cells is None:
             continue
@@ -98,10 +98,10 @@ def bounded(
         for name, values_of_bound in nearest.items():
             cell = by_name[name]
             values_of_bound += [float(cell)] if is_number(cell) else []
-        if all(b.kept(by_name[b.name]) for b in wanted.bounds):
+        if all(b.kept(by_name[b.name]) for b in request.bounds):
             out.append(row._replace(extra=tuple(cells)))
     if not out:
-        raise GenevaError(f"--subject-to: {_how_near(wanted, nearest, len(rows))}")
+        raise GenevaError(f"--subject-to: {_how_near(request, nearest, len(rows))}")
     return out
 
 
@@ -119,9 +119,9 @@ def _values(of: Pick, spec: Spec) -> Cells | None:
         return None
 
 
-def _how_near(wanted: QuantityRequest, nearest: dict[str, list[float]], count: int) -> str:
+def _how_near(request: QuantityRequest, nearest: dict[str, list[float]], count: int) -> str:
     phrases = []
-    for b in wanted.bounds:
+    for b in request.bounds:
         values = nearest[b.name]
         if values:
             phrases.append(f"{b} (nearest {(max if b.sign == '>=' else min)(values):.6g})")

@@ -14,8 +14,8 @@ from geneva_cli.numerics.angles import omega
 from geneva_cli.numerics.keeps import keeps
 from geneva_cli.study.synthesis.batches import numbers
 from geneva_cli.study.synthesis.by_law import law_peaks
-from geneva_cli.study.synthesis.families.family import Family, holds
-from geneva_cli.study.synthesis.parts import suited
+from geneva_cli.study.synthesis.families.family import Family, allows
+from geneva_cli.study.synthesis.parts import machine_and_parts
 from geneva_cli.study.synthesis.parts_data import compute_parts_data, parts_data
 from geneva_cli.study.synthesis.target import Target
 from geneva_cli.verdict.checks.groove import GROOVE_MAX_DEG, groove_pressure
@@ -131,7 +131,7 @@ def _failing(machine: Mechanism, costs: Sequence[float]) -> str:
     return ", ".join([*motion, *over, *rest])
 
 
-def _wedged(machine: Mechanism) -> str:
+def _groove_failure(machine: Mechanism) -> str:
     """The name of the check of a cam's groove if it fails; evaluated only near its limit."""
     pressure_deg = parts_data(machine.spec).pressure_deg
     name = "groove_pressure_deg"
@@ -166,7 +166,7 @@ def _moves_as_required(target: Target, row: MachineRow) -> bool:
     """
     drive = row.spec.drive
     limit, motion = target.acceleration_max, target.motion_for(drive.rollers / drive.turns)
-    if motion is not None and not holds(motion, row.candidate.motion_deg):
+    if motion is not None and not allows(motion, row.candidate.motion_deg):
         return False
     return limit is None or keeps(row.candidate.acceleration_max, "at most", limit)
 
@@ -182,7 +182,7 @@ def _rows(target: Target, specs: Sequence[Spec], errors: list[str]) -> list[Mach
     compute_parts_data(specs)
     for spec, five in zip(specs, own, strict=True):
         try:
-            machine, parts = suited(spec)
+            machine, parts = machine_and_parts(spec)
         except GenevaError as error:
             errors.append(str(error))
             out.append(None)
@@ -194,7 +194,7 @@ def _rows(target: Target, specs: Sequence[Spec], errors: list[str]) -> list[Mach
             continue
         if not parts.why and (limited or machine.engagements[0].groove):
             sized = machine._replace(spec=parts.spec)
-            failed = _failing(sized, values) if limited else _wedged(machine)
+            failed = _failing(sized, values) if limited else _groove_failure(machine)
             parts = parts._replace(why=failed or parts.why)
         out.append(MachineRow(parts.spec, _candidate(machine, target, values, parts.entry)))
     return out

@@ -81,13 +81,13 @@ def search(target: Target, meanwhile: Callable[[], None] | None = None) -> Ranki
     ``meanwhile`` is a task for this process while others search. Raises GenevaError, saying what is
     within reach, if there is none.
     """
-    wanted = _requested(target)
-    target = target._replace(bounds=wanted.bounds, sort=wanted.sort)
+    request = _requested(target)
+    target = target._replace(bounds=request.bounds, sort=request.sort)
     narrowed = target.with_times()
     narrowed.refuse_contradictions()
-    parts = _all_kinds(narrowed, wanted.names, meanwhile=meanwhile)
+    parts = _all_kinds(narrowed, request.names, meanwhile=meanwhile)
     if not any(part.keeps for part in parts):  # the error message says how near they come
-        parts = _all_kinds(target, wanted.names, how_near=True)
+        parts = _all_kinds(target, request.names, how_near=True)
     errors = [error for part in parts for error in part.errors]
     every = [row for part in parts for row in part.rows]
     if not every:
@@ -96,12 +96,12 @@ def search(target: Target, meanwhile: Callable[[], None] | None = None) -> Ranki
             return search(target.by_bounds)  # its message says how near they come
         raise GenevaError(_out_of_reach(target, reached, errors))
     together = [cells for part in parts for cells in part.requested]
-    ranked = _ranked(target, wanted, every, together)
+    ranked = _ranked(target, request, every, together)
     if frame_limits(target) and narrowed.motion_for(1) and any(map(breaks_limit, ranked)):
-        within = _within_limits(narrowed, wanted, [any(map(breaks_limit, p.rows)) for p in parts])
+        within = _within_limits(narrowed, request, [any(map(breaks_limit, p.rows)) for p in parts])
         ranked = with_replacements(ranked, within)
-        ranked.sort(key=lambda row: _rank(target, wanted, row))
-    ranking = Ranking(ranked, narrowed, wanted)
+        ranked.sort(key=lambda row: _rank(target, request, row))
+    ranking = Ranking(ranked, narrowed, request)
     others = map(ranking.in_turn, replacement_rows(narrowed, ranked[:TURNED], ranked))
     ranked.extend(row for row in others if row)
     ranked.sort(key=ranking.rank)
@@ -110,28 +110,28 @@ def search(target: Target, meanwhile: Callable[[], None] | None = None) -> Ranki
 
 def _ranked(
     target: Target,
-    wanted: QuantityRequest,
+    request: QuantityRequest,
     machines: list[MachineRow],
     together: Sequence[Cells | None],
 ) -> list[MachineRow]:
     """The rows that keep the bounds, in order."""
-    if wanted.pick:
-        machines = bounded(wanted, machines, together)
-    machines = _worth(target, wanted, machines)
-    machines.sort(key=lambda row: _rank(target, wanted, row))
+    if request.pick:
+        machines = bounded(request, machines, together)
+    machines = _worthwhile(target, request, machines)
+    machines.sort(key=lambda row: _rank(target, request, row))
     return first_of_each(machines, linkages=_known_together(target))
 
 
 def _within_limits(
-    target: Target, wanted: QuantityRequest, which: Sequence[bool]
+    target: Target, request: QuantityRequest, which: Sequence[bool]
 ) -> list[MachineRow]:
     """The rows of those kinds whose machines keep the frame's limits too."""
     strict = target._replace(bounds=(*target.bounds, *frame_limits(target)), strict=True)
-    parts = _all_kinds(strict, wanted.names, which=which)
+    parts = _all_kinds(strict, request.names, which=which)
     pairs = [pair for part in parts for pair in zip(part.rows, part.requested, strict=True)]
     kept = [(row, cells) for row, cells in pairs if not breaks_limit(row)]
     try:
-        return _ranked(target, wanted, [row for row, _ in kept], [cells for _, cells in kept])
+        return _ranked(target, request, [row for row, _ in kept], [cells for _, cells in kept])
     except GenevaError:  # none keeps the bounds as well
         return []
 
@@ -141,7 +141,7 @@ def _known_together(target: Target) -> bool:
 
     If not, they are computed for several machines of each family, and the best of these is shown.
     """
-    return in_batch(target.named)
+    return in_batch(target.quantities)
 
 
 def _all_kinds(
@@ -173,7 +173,7 @@ def _kind_rows(task: tuple[Kind, Target], names: Sequence[str], how_near: bool) 
         of_kind = pieces(of_kind, 120)  # the quantities of each piece's best are computed singly
     one_each, near = best(of_kind, target, how_near)
     of = {one.spec: one.family for one in reversed([*one_each, *near])}
-    keeps, kept, broken = _apart(
+    keeps, kept, broken = _divided(
         known_bounds(target), [*dict.fromkeys(one.spec for one in one_each)]
     )
     shown = [*kept, *broken, *(one.spec for one in near)] if how_near else kept
@@ -204,7 +204,9 @@ def _requested(target: Target) -> QuantityRequest:
     return quantity_request(target, target.frame or BARE)
 
 
-def _apart(bounds: Sequence[Constraint], specs: list[Spec]) -> tuple[bool, list[Spec], list[Spec]]:
+def _divided(
+    bounds: Sequence[Constraint], specs: list[Spec]
+) -> tuple[bool, list[Spec], list[Spec]]:
     """Divide specs by the bounds that do not depend on the roller.
 
     Returns whether one of them is known to keep all, the specs that may keep them, and the others.
@@ -222,18 +224,18 @@ def _apart(bounds: Sequence[Constraint], specs: list[Spec]) -> tuple[bool, list[
     return keeps, kept, [spec for spec, out in zip(specs, broken, strict=True) if out]
 
 
-def _rank(target: Target, wanted: QuantityRequest, row: MachineRow) -> tuple[object, ...]:
+def _rank(target: Target, request: QuantityRequest, row: MachineRow) -> tuple[object, ...]:
     """The sort key of a row: the goal's quantity, then peaks.
 
     Numbers that differ only by rounding are equal.
     """
     candidate = row.candidate
     first: list[object] = []
-    if wanted.sort:
-        value = row.extra[wanted.names.index(wanted.sort.name)]
+    if request.sort:
+        value = row.extra[request.names.index(request.sort.name)]
         first = [
             not is_number(value),
-            float(f"{_first(wanted, row):.12g}") if is_number(value) else 0.0,
+            float(f"{_first(request, row):.12g}") if is_number(value) else 0.0,
             "" if is_number(value) else str(value),
         ]
     peaks = (candidate.peak, candidate.jerk_max)
@@ -247,7 +249,9 @@ def _rank(target: Target, wanted: QuantityRequest, row: MachineRow) -> tuple[obj
     )
 
 
-def _worth(target: Target, wanted: QuantityRequest, machines: list[MachineRow]) -> list[MachineRow]:
+def _worthwhile(
+    target: Target, request: QuantityRequest, machines: list[MachineRow]
+) -> list[MachineRow]:
     """The rows without machines of two numbers that are hardly better than one of one number.
 
     If the nearest machine to the plain crank is required, all of them are left out that have one.
@@ -255,10 +259,10 @@ def _worth(target: Target, wanted: QuantityRequest, machines: list[MachineRow]) 
     one = [row for row in machines if not row.candidate.of_two_numbers]
 
     def beaten(row: MachineRow) -> bool:
-        own, value = row.candidate, _first(wanted, row)
+        own, value = row.candidate, _first(request, row)
         least_gain = 0.01 * abs(value)  # over a machine of one number
         return any(
-            (nearest or not value < _first(wanted, other) - least_gain)
+            (nearest or not value < _first(request, other) - least_gain)
             for other in one
             if (own.z, own.rollers, own.law) == (other.candidate.z, other.candidate.rollers, None)
             and (
@@ -267,16 +271,16 @@ def _worth(target: Target, wanted: QuantityRequest, machines: list[MachineRow]) 
             )
         )
 
-    nearest = target.with_times().any_motion and not wanted.sort
+    nearest = target.with_times().any_motion and not request.sort
     return [row for row in machines if not (row.candidate.of_two_numbers and beaten(row))]
 
 
-def _first(wanted: QuantityRequest, row: MachineRow) -> float:
+def _first(request: QuantityRequest, row: MachineRow) -> float:
     """The first number of the sort key, least first; NaN if there is none."""
-    if not wanted.sort:
+    if not request.sort:
         return row.candidate.peak
-    value = row.extra[wanted.names.index(wanted.sort.name)]
-    return wanted.sort.sign * float(value) if is_number(value) else math.nan
+    value = row.extra[request.names.index(request.sort.name)]
+    return request.sort.sign * float(value) if is_number(value) else math.nan
 
 
 def synthesis(target: Target) -> list[tuple[Spec, Candidate]]:

@@ -37,7 +37,7 @@ def synthesis_table(
     if buildable:
         title = f"{title}{',' * (len(rows) > 1)} of {len(ranking.rows)}"
     if not rows:
-        title = f"none of {len(ranking.rows)} machines is found to pass"
+        title = f"none of {len(ranking.rows)} machines passes"
     return rows_table((*NAMES, *ranking.requested.names), rows, f"{target.words}: {title}.")
 
 
@@ -86,7 +86,7 @@ def turned(ranking: Ranking, count: int = TURNED, buildable: bool = False) -> li
 
 
 def _stuck(every: Sequence[Numbered], ranking: Ranking) -> dict[int, MachineRow]:
-    """The rows that cannot be built, and for which no other stands in."""
+    """The rows that cannot be built, of families without a buildable row."""
     able = {row.family for row in ranking.rows if not row.is_impossible}
     return {no: row for no, row in every if row.is_impossible and row.family not in able}
 

@@ -77,7 +77,7 @@ class Target(NamedTuple):
         return self._replace(acceleration_max=None, bounds=self.limits)
 
     @property
-    def named(self) -> list[str]:
+    def quantities(self) -> list[str]:
         """The quantities that it sorts by and bounds."""
         return [*([self.sort.name] if self.sort else []), *(b.name for b in self.limits)]
 

@@ -79,7 +79,7 @@ class Turns:
         return [*turn.standing(machine), *turn.every()]
 
     def first_failing(self, machine: Mechanism) -> list[Failure]:
-        """The checks that fail at rest, or else the first found to fail in the turn."""
+        """The checks that fail at rest, or else the first that fail in the turn."""
         turn = self._turn(machine)
         return turn.undrawn() or turn.standing(machine) or turn.first()
 
@@ -174,7 +174,7 @@ class _Turn:
         return self._failing
 
     def first(self) -> list[Failure]:
-        """The first checks found to fail; closer sampling only reduces gaps and increases play."""
+        """The first checks that fail; closer sampling only reduces gaps and increases play."""
         while not self._sure() and self._sample():
             pass
         return self._failing

@@ -1,8 +1,8 @@
 """The point of a coupler that drives a wheel with a given motion, in closed form.
 
-Given are a four-bar, the crank's angles at entry and exit, and the wheel's index angle 2b. Sought
-is the roller's place w on the coupler: a complex number, along it and across. With the crank's pin
-A and the coupler's unit vector e, the roller is at P = A + w e, and its velocity is V = A' + w e'.
+A four-bar, the crank's angles at entry and exit, and the wheel's index angle 2b determine the
+roller's place w on the coupler: a complex number, along it and across. With the crank's pin A and
+the coupler's unit vector e, the roller is at P = A + w e, and its velocity is V = A' + w e'.
 Between entry and exit of slots of a wheel of sense s, the tangent has turned by pi - 2b relative to
 the wheel. The chord is half-way between both tangents:
 
@@ -141,8 +141,8 @@ def driven_wheels(
     L, near = np.abs(centre), np.abs(ray)
     turning = ray.real * rate.imag - ray.imag * rate.real
     drives = (turning[:, 1:-1] * sense > 0.0).all(axis=1) & (near[:, 1:-1] < rho).all(axis=1)
-    # fraction of the centre distance: half of the least wall between two slots
-    drives &= (near.min(axis=1, keepdims=True) * np.sin(b) >= (roller + (1.0 / 400.0)) * L)[:, 0]
+    half_wall = 1.0 / 400.0  # of the least wall between two slots, over the centre distance
+    drives &= (near.min(axis=1, keepdims=True) * np.sin(b) >= (roller + half_wall) * L)[:, 0]
     which = np.flatnonzero(drives)
     # the way back is tested for these only
     links, (entry, motion, sense, w) = links.select(which), drive.select(which)
@@ -172,6 +172,6 @@ def _passes(place: Complex, r: Array, b: Number) -> Mask:
     along, across, rim = d * np.cos(angle), d * np.sin(angle), np.hypot(1.0, r)
     corner = np.hypot(along - 1.0, across - r)
     gap = np.where(across * rim < r * d, corner, d - rim) - r
-    # fraction of a mouth's distance: a roller that leaves its slot is this near to it
-    clear: Mask = np.all((gap >= -1e-6) & (d > 1.0), axis=1)
+    touch = 1e-6  # a roller that leaves its slot is this near to it
+    clear: Mask = np.all((gap >= -touch) & (d > 1.0), axis=1)
     return clear

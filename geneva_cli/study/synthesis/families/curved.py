@@ -22,13 +22,13 @@ from geneva_cli.study.synthesis.families import closed
 from geneva_cli.study.synthesis.families.family import (
     SHORTEST,
     Family,
+    allowed_motions,
+    allows,
     closed_span,
-    holds,
     machine,
     natural_deg,
     only,
     rollers,
-    wanted,
 )
 from geneva_cli.study.synthesis.parts import has_no_obstacle
 from geneva_cli.study.synthesis.parts_data import compute_parts_data
@@ -86,7 +86,7 @@ class _LawMachines(NamedTuple):
             free = self._motions(m)
             if free is None:
                 continue
-            own = holds(free, self.natural)
+            own = allows(free, self.natural)
             plain = Span(self.natural, self.natural)
             yield self._free(m, plain if own and free.exact else free)
             if own:
@@ -104,7 +104,7 @@ class _LawMachines(NamedTuple):
         return [self.make(m, x) for x in dict.fromkeys((high, 0.5 * (low + high), low))]
 
     def _motions(self, m: int) -> Span | None:
-        allowed = closed_span(wanted(self.target, m, self.natural), m)
+        allowed = closed_span(allowed_motions(self.target, m, self.natural), m)
         return self.reached(allowed) if allowed else None
 
     def _free(self, m: int, motion: Span) -> Family:

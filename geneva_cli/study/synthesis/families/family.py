@@ -111,7 +111,7 @@ def machine(
     return own.replace(wheel=wheel, drive=own_drive, motion=motion, title="", path="", files=())
 
 
-def can_be(spec: Spec) -> bool:
+def is_compatible(spec: Spec) -> bool:
     """Return True if a drive is compatible with its wheel."""
     try:
         refuse_conflicts(spec)
@@ -125,7 +125,7 @@ def natural_deg(wheel: Gearing) -> float:
     return 2.0 * wheel.half_motion_deg(wheel.step)
 
 
-def wanted(target: Target, m: float, natural: float) -> Span:
+def allowed_motions(target: Target, m: float, natural: float) -> Span:
     """The allowed motion angles for m motions in a turn: required, any, or the plain one."""
     allowed = target.motion_for(m)
     if allowed is None:
@@ -133,7 +133,7 @@ def wanted(target: Target, m: float, natural: float) -> Span:
     return allowed
 
 
-def holds(motion: Span, natural: float) -> bool:
+def allows(motion: Span, natural: float) -> bool:
     """Return True if a motion angle is allowed, within the tolerance of the plain crank."""
     slack = EXACT * natural
     return motion.low - slack <= natural <= motion.high + slack

@@ -70,7 +70,7 @@ class Pool(NamedTuple):
 
     def select(self, which: Any) -> Pool:
         """Some of the places."""
-        return Pool(*(_taken(part, which) for part in self))
+        return Pool(*(_select(part, which) for part in self))
 
 
 def search_four_bars(goal: Goal) -> list[Pool]:
@@ -103,7 +103,7 @@ def search_four_bars(goal: Goal) -> list[Pool]:
 def _spread(count: int, start: int = 0) -> Array:
     """Points spread evenly in the unit cube: Roberts' sequence, multiples of the powers of g.
 
-    g^6 = g + 1.
+    g is the root of g^6 = g + 1.
     """
     g = 1.1347241384015194
     powers = g ** -np.arange(1.0, 6.0)
@@ -167,7 +167,7 @@ def _joined(*pools: Any) -> Any:
     return np.concatenate(pools)
 
 
-def _taken(part: Any, which: Any) -> Any:
+def _select(part: Any, which: Any) -> Any:
     if isinstance(part, tuple):
-        return type(part)(*(_taken(x, which) for x in part))
+        return type(part)(*(_select(x, which) for x in part))
     return part[which]

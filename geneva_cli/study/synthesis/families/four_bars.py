@@ -28,12 +28,12 @@ from geneva_cli.study.synthesis.families.coupler_costs import Costs, is_known
 from geneva_cli.study.synthesis.families.family import (
     BARE,
     Family,
-    can_be,
+    allowed_motions,
     closed_span,
+    is_compatible,
     machine,
     natural_deg,
     only,
-    wanted,
 )
 from geneva_cli.study.synthesis.families.four_bar_search import (
     OTHERS,
@@ -66,10 +66,10 @@ def four_bars(target: Target, wheels: Sequence[Gearing]) -> Iterator[Family]:
 
 def _task(target: Target, wheel: Gearing) -> WheelGoal | None:
     """The goal of the search for a wheel; None for a wheel that no four-bar drives."""
-    free = closed_span(wanted(target, 1, natural_deg(wheel)), 1)
+    free = closed_span(allowed_motions(target, 1, natural_deg(wheel)), 1)
     if free is None:
         return None
-    if not can_be(_machine(target, wheel, FourBar(**_EXAMPLE), free.low)):
+    if not is_compatible(_machine(target, wheel, FourBar(**_EXAMPLE), free.low)):
         return None
     frame = target.frame or BARE
     radius_mm = frame.size.roller_radius_mm

@@ -21,14 +21,14 @@ from geneva_cli.numerics.angles import sin_cos_pi
 from geneva_cli.study.synthesis.families import closed
 from geneva_cli.study.synthesis.families.family import (
     Family,
-    can_be,
+    allowed_motions,
+    allows,
     closed_span,
-    holds,
+    is_compatible,
     machine,
     natural_deg,
     only,
     rollers,
-    wanted,
 )
 from geneva_cli.study.synthesis.families.two_stages import two_stages
 from geneva_cli.study.synthesis.spans import Span
@@ -39,8 +39,8 @@ def straight(target: Target, wheel: Gearing) -> Iterator[Family]:
     """The families with straight slots."""
     natural = natural_deg(wheel)
     for m in rollers(target, natural):
-        motion = wanted(target, m, natural)
-        if holds(motion, natural):
+        motion = allowed_motions(target, m, natural)
+        if allows(motion, natural):
             yield only(plain(target, wheel, m))
             yield from offset_slots(target, wheel, m)
             if m == 1:
@@ -83,7 +83,7 @@ def planets(target: Target, wheel: Gearing) -> Iterator[Family]:
     for fixed in ("sun", "ring"):
         make = partial(_on_planet, target, wheel, fixed)
         shockless = make("shockless")
-        if not can_be(shockless):
+        if not is_compatible(shockless):
             return
         yield only(shockless)
         l, teeth = sin_cos_pi(1, z)[0], 2 * z // (z - 2)
@@ -105,8 +105,9 @@ def _on_planet(target: Target, wheel: Gearing, fixed: str, ratio: float | str) -
 def driven(target: Target, wheel: Gearing) -> Iterator[Family]:
     """Changes of the plain crank's motion: a drive in front of it, or the angle of the shafts."""
     natural = natural_deg(wheel)
-    motion = closed_span(wanted(target, 1, natural), 1) if target.rollers in (None, 1) else None
-    if motion is not None and not (motion.exact and holds(motion, natural)):
+    has_one = target.rollers in (None, 1)
+    motion = closed_span(allowed_motions(target, 1, natural), 1) if has_one else None
+    if motion is not None and not (motion.exact and allows(motion, natural)):
         yield from _in_front(target, wheel, natural, motion)
     if not wheel.FLAT:
         yield from _inclined(target, wheel)
@@ -126,7 +127,7 @@ def _between(
     """A drive whose parameter increases with its motion, up to its limits."""
     low, high = (inverse(natural, x) for x in motion)
     if low <= closed.PARAMETER_MAX and high >= -closed.PARAMETER_MAX:
-        plain_too = 0.0 if holds(motion, natural) else math.nan
+        plain_too = 0.0 if allows(motion, natural) else math.nan
         yield Family(
             make, max(low, -closed.PARAMETER_MAX), min(high, closed.PARAMETER_MAX), plain_too, 0.0
         )
@@ -137,14 +138,14 @@ def _inclined(target: Target, wheel: Gearing) -> Iterator[Family]:
     z = wheel.z
     least = 2.0 * half_motion_deg(1.0, 1, z)
     for m in [target.rollers] if target.rollers else range(1, rollers_max(least) + 1):
-        free = closed_span(wanted(target, m, 180.0), m)
-        if free is None or (free.exact and holds(free, 180.0)):
+        free = closed_span(allowed_motions(target, m, 180.0), m)
+        if free is None or (free.exact and allows(free, 180.0)):
             continue
 
         make = partial(_on_axes, target, wheel, m)
         low, high = (closed.axes(z, x) for x in free)
         if low <= 180.0 - closed.AXES_MIN_DEG and high >= closed.AXES_MIN_DEG:
-            right = 90.0 if holds(free, 180.0) else math.nan
+            right = 90.0 if allows(free, 180.0) else math.nan
             yield Family(
                 make,
                 max(low, closed.AXES_MIN_DEG),

@@ -33,11 +33,11 @@ from geneva_cli.study.synthesis.bounds import known_bounds, known_sort, of_motio
 from geneva_cli.study.synthesis.families import closed
 from geneva_cli.study.synthesis.families.family import (
     Family,
+    allowed_motions,
     closed_span,
     machine,
     natural_deg,
     only,
-    wanted,
 )
 from geneva_cli.study.synthesis.spans import Span
 from geneva_cli.study.synthesis.target import Target
@@ -74,7 +74,7 @@ def two_numbers(target: Target, wheels: Sequence[Gearing]) -> Iterator[Family]:
     inclined = [wheel for wheel in wheels if not wheel.FLAT]
     if target.rollers not in (None, 1) or not inclined:
         return
-    moved = all(map(is_motion, target.named))
+    moved = all(map(is_motion, target.quantities))
     first = of_motion(target)
     drives = [_side_crank()] if moved else [_side_crank(), _gears("slow"), _gears("quick")]
     for drive in drives:
@@ -89,7 +89,7 @@ class _TwoNumberSearch:
     """The best place of every wheel so far."""
 
     def __init__(self, target: Target, wheels: Sequence[Gearing], drive: _InFront) -> None:
-        spans = [closed_span(wanted(target, 1, natural_deg(wheel)), 1) for wheel in wheels]
+        spans = [closed_span(allowed_motions(target, 1, natural_deg(wheel)), 1) for wheel in wheels]
         self.target, self.drive = target, drive
         self.wheels = [w for w, span in zip(wheels, spans, strict=True) if span]
         self.motions = [span for span in spans if span]
