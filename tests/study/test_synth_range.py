@@ -22,7 +22,7 @@ from geneva_cli.study.sweep.columns import columns
 from geneva_cli.study.synthesis.reading import SPANS, read_target, span
 from geneva_cli.study.synthesis.search import search
 from geneva_cli.study.synthesis.shown import for_people
-from geneva_cli.study.synthesis.spans import Span
+from geneva_cli.study.synthesis.spans import AllowedSpan
 from geneva_cli.study.synthesis.table import synthesis_table
 
 pytestmark = pytest.mark.usefixtures("few_four_bars")
@@ -58,7 +58,7 @@ def told(found):
 )
 def test_spans(text, low, high):
     rule, _, _ = SPANS["dwell_s"]
-    assert span("--dwell-s", text, rule) == Span(low, high)
+    assert span("--dwell-s", text, rule) == AllowedSpan(low, high)
 
 
 def test_wishes_for_times_leave_motions_and_cycles():

@@ -14,7 +14,7 @@ from geneva_cli.study.quantities import whole_name
 from geneva_cli.study.ranges import range_text
 from geneva_cli.study.survey import parse_z
 from geneva_cli.study.sweep.constraints import Constraint, constraint, refuse_contradictions
-from geneva_cli.study.synthesis.spans import Span
+from geneva_cli.study.synthesis.spans import AllowedSpan
 from geneva_cli.study.synthesis.target import GEARINGS, PEAK, SPACE, Target
 
 # The requirements for a number or a range: allowed values, and name and unit in words.
@@ -124,20 +124,20 @@ def _is_peak(bound: Constraint) -> bool:
     return is_limit and whole_name(bound.name, "--subject-to") == PEAK
 
 
-def span(option: str, text: str, rule: Range) -> Span:
+def span(option: str, text: str, rule: Range) -> AllowedSpan:
     """Return the range in an option's text. Raises GenevaError, naming the option, for others.
 
     >>> span("--dwell-s", "0.8..", Range(0.0))
-    Span(low=0.8, high=inf)
+    AllowedSpan(low=0.8, high=inf)
     """
     ends = range_text(text, f"{option} {cut(text)}")
     if not ends:
         x = number(option, text, rule)
-        return Span(x, x)
+        return AllowedSpan(x, x)
     low, high, step = ends
     if step or not (low or high):
         raise GenevaError(f"{option} {cut(text)}: a range is LOW..HIGH, LOW.. or ..HIGH")
-    interval = Span(
+    interval = AllowedSpan(
         number(option, low, rule) if low else -math.inf,
         number(option, high, rule) if high else math.inf,
     )

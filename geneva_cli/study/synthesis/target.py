@@ -20,7 +20,7 @@ from geneva_cli.machine.law_motion import MOTION_MIN
 from geneva_cli.machine.spec import Spec
 from geneva_cli.study.goals import Objective
 from geneva_cli.study.sweep.constraints import Constraint
-from geneva_cli.study.synthesis.spans import Span
+from geneva_cli.study.synthesis.spans import AllowedSpan
 
 GEARINGS = ("external", "internal", "spherical")
 USUAL_RPM = 60.0
@@ -40,7 +40,7 @@ class Target(NamedTuple):
     gearings: tuple[str, ...] = GEARINGS
     rollers: int | None = None
     laws: tuple[str, ...] = ("modified-sine",)
-    spans: dict[str, Span] = {}  # noqa: RUF012 - a NamedTuple's default, never changed
+    spans: dict[str, AllowedSpan] = {}  # noqa: RUF012 - a NamedTuple's default, never changed
     acceleration_max: float | None = None
     frame: Spec | None = None
     sort: Objective | None = None  # the goal by which rows are sorted
@@ -98,24 +98,24 @@ class Target(NamedTuple):
         spans = dict(self.spans)
         for bound in self.bounds:
             if name := names.get(bound.name):
-                low, high = spans.get(name, Span())
+                low, high = spans.get(name, AllowedSpan())
                 least, most = bound.span
-                spans[name] = Span(max(low, least), min(high, most))
+                spans[name] = AllowedSpan(max(low, least), min(high, most))
         left = tuple(bound for bound in self.bounds if bound.name not in names)
         bounded = frozenset(names[b.name] for b in self.bounds if b.name in names)
         narrowed = self._replace(spans=spans, bounds=left, bounded=bounded)
         return self if narrowed.allows_any_motion(1) else narrowed
 
-    def cycle_s(self, m: float) -> Span:
+    def cycle_s(self, m: float) -> AllowedSpan:
         """The required cycle times; with a frame and no other requirement, the frame's own."""
         if "cycle" in self.spans:
             return self.spans["cycle"]
         if self.frame is not None:
             own = 60.0 / (m * self.frame.drive.n_rpm)
-            return Span(own, own)
-        return Span(0.0, math.inf)
+            return AllowedSpan(own, own)
+        return AllowedSpan(0.0, math.inf)
 
-    def demands(self, m: float) -> Iterator[tuple[str, Span]]:
+    def demands(self, m: float) -> Iterator[tuple[str, AllowedSpan]]:
         """The range of motion angles that each requirement leaves for m rollers, with its name."""
         spans, turn, cycle = self.spans, 360.0 / m, self.cycle_s(m)
         options = {name: f"{self._option(name)} {_typed(s)}" for name, s in spans.items()}
@@ -124,9 +124,9 @@ class Target(NamedTuple):
             yield options["motion_deg"], spans["motion_deg"]
         if "tau" in spans:
             low, high = spans["tau"]
-            yield options["tau"], Span(360.0 * low / m, 360.0 * high / m)
+            yield options["tau"], AllowedSpan(360.0 * low / m, 360.0 * high / m)
         if "k" in spans:
-            yield options["k"], Span(*(360.0 * _tau(k) / m for k in spans["k"]))
+            yield options["k"], AllowedSpan(*(360.0 * _tau(k) / m for k in spans["k"]))
         if "dwell_deg" in spans:
             yield options["dwell_deg"], spans["dwell_deg"].mirrored(turn)
         if "motion_s" in spans and speed:
@@ -137,19 +137,19 @@ class Target(NamedTuple):
         if "motion_s" in spans and "dwell_s" in spans:
             k = spans["motion_s"].over(spans["dwell_s"])
             words = f"{options['motion_s']} with {options['dwell_s']}"
-            yield words, Span(*(turn * _tau(x) for x in k))
+            yield words, AllowedSpan(*(turn * _tau(x) for x in k))
 
     def allows_any_motion(self, m: float) -> bool:
         """Return True if any motion angle is allowed."""
         return not any(s.low > 0.0 or s.high < 360.0 / m for _, s in self.demands(m))
 
-    def motion_for(self, m: float) -> Span | None:
+    def motion_for(self, m: float) -> AllowedSpan | None:
         """The motion angles allowed for m rollers; None if every angle is.
 
         The range may be empty. It may include 0 or a whole turn over m, where no motion or no dwell
         is left.
         """
-        allowed = Span(0.0, 360.0 / m)
+        allowed = AllowedSpan(0.0, 360.0 / m)
         # the motions of several rollers are short, whatever is required
         if self.allows_any_motion(1) and self.allows_any_motion(m):
             return None
@@ -220,18 +220,18 @@ def _tau(k: float) -> float:
     return max(k, 0.0) / (1.0 + k) if k < math.inf else 1.0
 
 
-def _typed(s: Span) -> str:
+def _typed(s: AllowedSpan) -> str:
     ends = ("" if abs(x) == math.inf else f"{x:.7g}" for x in s)
     return f"{s.low:.7g}" if s.exact else "..".join(ends)
 
 
-def _angles(s: Span, m: float) -> str:
+def _angles(s: AllowedSpan, m: float) -> str:
     """The motion angles that a requirement leaves, for a message."""
     whole = 360.0 / m
     if s.high * m <= MOTION_MIN:
         return "no time to move"
     if s.low * m >= 360.0 - MOTION_MIN:
         return "no dwell"
-    return Span(s.low if s.low > 0.0 else -math.inf, s.high if s.high < whole else math.inf).words(
-        "a motion of", " deg"
-    )
+    return AllowedSpan(
+        s.low if s.low > 0.0 else -math.inf, s.high if s.high < whole else math.inf
+    ).words("a motion of", " deg")

@@ -32,7 +32,7 @@ from geneva_cli.study.synthesis.families.family import (
 )
 from geneva_cli.study.synthesis.parts import has_no_obstacle
 from geneva_cli.study.synthesis.parts_data import compute_parts_data
-from geneva_cli.study.synthesis.spans import Span
+from geneva_cli.study.synthesis.spans import AllowedSpan
 from geneva_cli.study.synthesis.target import Target
 
 
@@ -78,7 +78,7 @@ class _LawMachines(NamedTuple):
     target: Target
     natural: float
     make: Callable[[int, float], Spec]
-    reached: Callable[[Span], Span]
+    reached: Callable[[AllowedSpan], AllowedSpan]
 
     def families(self, more: Sequence[Spec]) -> Iterator[Family]:
         """The families, including those with ``more`` rollers than the plain wheel takes."""
@@ -87,13 +87,13 @@ class _LawMachines(NamedTuple):
             if free is None:
                 continue
             own = allows(free, self.natural)
-            plain = Span(self.natural, self.natural)
+            plain = AllowedSpan(self.natural, self.natural)
             yield self._free(m, plain if own and free.exact else free)
             if own:
                 yield only(self.make(m, self.natural))
         for spec in more:
             m = spec.drive.rollers
-            yield self._free(m, self._motions(m) or Span(self.natural, self.natural))
+            yield self._free(m, self._motions(m) or AllowedSpan(self.natural, self.natural))
 
     def some(self, m: int) -> list[Spec]:
         """The gentlest machine of m rollers and, in a range, some others."""
@@ -103,21 +103,21 @@ class _LawMachines(NamedTuple):
         low, high = free
         return [self.make(m, x) for x in dict.fromkeys((high, 0.5 * (low + high), low))]
 
-    def _motions(self, m: int) -> Span | None:
+    def _motions(self, m: int) -> AllowedSpan | None:
         allowed = closed_span(allowed_motions(self.target, m, self.natural), m)
         return self.reached(allowed) if allowed else None
 
-    def _free(self, m: int, motion: Span) -> Family:
+    def _free(self, m: int, motion: AllowedSpan) -> Family:
         """The machines of a range of motions, the longest of which is the gentlest."""
         best = math.nan if self.target.bounds or self.target.sort else motion.high
         return Family(partial(self.make, m), *motion, plain=self.natural, best=best)
 
 
-def _until_parallel(wheel: Gearing, motion: Span) -> Span:
+def _until_parallel(wheel: Gearing, motion: AllowedSpan) -> AllowedSpan:
     """The range up to the motion at which crank and slot would be parallel."""
     parallel = (1.0 - SHORTEST) * (360.0 - wheel.SIGN * 360.0 / wheel.z)
     inside = not motion.exact and motion.low < parallel
-    return Span(motion.low, min(motion.high, parallel)) if inside else motion
+    return AllowedSpan(motion.low, min(motion.high, parallel)) if inside else motion
 
 
 def more_rollers(

@@ -15,7 +15,7 @@ from geneva_cli.machine.motion import Motion
 from geneva_cli.machine.spec import Spec
 from geneva_cli.machine.wheels.classic import rollers_max
 from geneva_cli.machine.wheels.gearing import Gearing
-from geneva_cli.study.synthesis.spans import Span
+from geneva_cli.study.synthesis.spans import AllowedSpan
 from geneva_cli.study.synthesis.target import Target
 
 EXACT = 1e-6  # fraction of the motion angle by which the plain crank may miss the required one
@@ -125,28 +125,28 @@ def natural_deg(wheel: Gearing) -> float:
     return 2.0 * wheel.half_motion_deg(wheel.step)
 
 
-def allowed_motions(target: Target, m: float, natural: float) -> Span:
+def allowed_motions(target: Target, m: float, natural: float) -> AllowedSpan:
     """The allowed motion angles for m motions in a turn: required, any, or the plain one."""
     allowed = target.motion_for(m)
     if allowed is None:
-        return Span(0.0, 360.0 / m) if target.any_motion else Span(natural, natural)
+        return AllowedSpan(0.0, 360.0 / m) if target.any_motion else AllowedSpan(natural, natural)
     return allowed
 
 
-def allows(motion: Span, natural: float) -> bool:
+def allows(motion: AllowedSpan, natural: float) -> bool:
     """Return True if a motion angle is allowed, within the tolerance of the plain crank."""
     slack = EXACT * natural
     return motion.low - slack <= natural <= motion.high + slack
 
 
-def closed_span(motion: Span, m: int) -> Span | None:
+def closed_span(motion: AllowedSpan, m: int) -> AllowedSpan | None:
     """The range with open ends replaced by values near their limits; None if it is empty."""
     whole = 360.0 / m
     low = motion.low if motion.low > 0.0 else SHORTEST * whole
     high = motion.high if motion.high < whole else (1.0 - SHORTEST) * whole
     if motion.low >= whole or motion.high <= 0.0 or motion.empty:
         return None
-    return Span(min(low, high), high) if not motion.exact else motion
+    return AllowedSpan(min(low, high), high) if not motion.exact else motion
 
 
 def rollers(target: Target, natural: float) -> range:

@@ -20,7 +20,7 @@ from geneva_cli.study.synthesis.families.coupler import (
     driven_wheels,
 )
 from geneva_cli.study.synthesis.families.coupler_costs import Costs, order
-from geneva_cli.study.synthesis.spans import Span
+from geneva_cli.study.synthesis.spans import AllowedSpan
 from geneva_cli.study.synthesis.target import Target
 
 if TYPE_CHECKING:
@@ -46,7 +46,7 @@ class WheelGoal(NamedTuple):
     """A wheel, its allowed motions, and the least roller as a fraction of the centre distance."""
 
     wheel: Gearing
-    motion: Span
+    motion: AllowedSpan
     roller: float
 
 

@@ -42,7 +42,7 @@ from geneva_cli.study.synthesis.families.four_bar_search import (
     WheelGoal,
     search_four_bars,
 )
-from geneva_cli.study.synthesis.spans import Span
+from geneva_cli.study.synthesis.spans import AllowedSpan
 from geneva_cli.study.synthesis.target import Target
 
 
@@ -109,7 +109,7 @@ def _pools(target: Target, tasks: tuple[WheelGoal, ...]) -> Sequence[Pool | None
 def _as_plain(task: WheelGoal) -> WheelGoal:
     """The goal with the plain crank's motion."""
     natural = natural_deg(task.wheel)
-    return task._replace(motion=Span(natural, natural))
+    return task._replace(motion=AllowedSpan(natural, natural))
 
 
 def _in_time(target: Target, task: WheelGoal, bounds: Sequence[Constraint]) -> bool:

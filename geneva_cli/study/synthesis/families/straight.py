@@ -31,7 +31,7 @@ from geneva_cli.study.synthesis.families.family import (
     rollers,
 )
 from geneva_cli.study.synthesis.families.two_stages import two_stages
-from geneva_cli.study.synthesis.spans import Span
+from geneva_cli.study.synthesis.spans import AllowedSpan
 from geneva_cli.study.synthesis.target import Target
 
 
@@ -113,7 +113,9 @@ def driven(target: Target, wheel: Gearing) -> Iterator[Family]:
         yield from _inclined(target, wheel)
 
 
-def _in_front(target: Target, wheel: Gearing, natural: float, motion: Span) -> Iterator[Family]:
+def _in_front(
+    target: Target, wheel: Gearing, natural: float, motion: AllowedSpan
+) -> Iterator[Family]:
     yield from _between(partial(side_crank, target, wheel), closed.side_crank, natural, motion)
     yield from _between(partial(gears, target, wheel), closed.eccentricity, natural, motion)
 
@@ -122,7 +124,7 @@ def _between(
     make: Callable[[float], Spec],
     inverse: Callable[[float, float], float],
     natural: float,
-    motion: Span,
+    motion: AllowedSpan,
 ) -> Iterator[Family]:
     """A drive whose parameter increases with its motion, up to its limits."""
     low, high = (inverse(natural, x) for x in motion)

@@ -39,7 +39,7 @@ from geneva_cli.study.synthesis.families.family import (
     natural_deg,
     only,
 )
-from geneva_cli.study.synthesis.spans import Span
+from geneva_cli.study.synthesis.spans import AllowedSpan
 from geneva_cli.study.synthesis.target import Target
 
 GRID = 10  # places of either number that are sampled first, in the middle of equal parts
@@ -66,7 +66,7 @@ def _gears(phase: str) -> _InFront:
     return _InFront(make, "drive.eccentricity", closed.eccentricity, low, high)
 
 
-AXES = Span(closed.AXES_MIN_DEG, 180.0 - closed.AXES_MIN_DEG)
+AXES = AllowedSpan(closed.AXES_MIN_DEG, 180.0 - closed.AXES_MIN_DEG)
 
 
 def two_numbers(target: Target, wheels: Sequence[Gearing]) -> Iterator[Family]:
