@@ -1,4 +1,7 @@
-"""Names of keys, columns and quantities: the unit at their end, and their words for people."""
+"""Names of keys, columns and quantities: the unit at their end, and their words for people.
+
+Headings and sentences have short words (``spoken``), documents longer ones (``described``).
+"""
 
 from __future__ import annotations
 
@@ -22,6 +25,7 @@ UNITS = {
     "_um": "µm",
     "_arcsec": "arc seconds",
     "_mm": "mm",
+    "_mm_per_million": "mm/1e6",
     "_deg": "deg",
     "_rpm": "1/min",
     "_Nm": "N m",
@@ -32,7 +36,7 @@ UNITS = {
     "_h": "h",
     "_s": "s",
 }
-# Words for names that are not clear by themselves, with or without their units.
+# Words for names that are not clear by themselves, as a whole or without their units.
 WORDS = {
     "z": "slots",
     "velocity_max": "peak velocity",
@@ -49,7 +53,35 @@ WORDS = {
     "pv": "pressure times sliding",
     "center_distance": "centre distance",
     "p997": "99.7 % of machines",
-    "rss": "root of squares",
+    "rss": "root sum of squares",
+}
+
+
+def room than a heading.
+LONG_WORDS = {
+    "max": "greatest",
+    "min": "least",
+    "at": "at the input angle",
+    "rms": "root mean square",
+    "entry": "at entry",
+    "exit": "at exit",
+    "k": "k, time of motion over time of dwell",
+    "tau": "τ, fraction of the cycle in motion",
+    "k_r": "k_r, motion over the rest of a turn",
+    "index": "step of the wheel",
+    "Am": "Am, peak acceleration of the motion curve",
+    "Vm": "Vm, peak velocity of the motion curve",
+    "Qm": "Qm, torque factor of the motion curve",
+    "worst": "worst case",
+    "ratio": "ratio R/L",
+    "none": "not known, because",
+    "turns": "turns at the worst of the tolerances",
+    "pv_max": "greatest pressure times sliding",
+    "motor_torque_max": "motor torque, greatest",
+    "motor_torque_rms": "motor torque, root mean square",
+    "drag": "torque to add so that the roller stays on one wall",
+    "inwards": "place of the greatest stress, from the rim inwards",
+    "reversals": "the wheel's torque changes its sign at",
 }
 
 
@@ -71,14 +103,41 @@ def spoken(name: str) -> tuple[str, str]:
     """
     words, unit = [], ""
     for part in name.split("."):
-        end = next((end for end in UNITS if part.endswith(end)), "")
-        bare = part.removesuffix(end)
+        bare, own_unit = _divided(part)
+        words.append(_worded(part, bare, WORDS))
+        unit = own_unit or unit
+    return " ".join(words), SHORT_UNITS.get(unit, unit)
+
+
+def described(name: str) -> tuple[str, str]:
+    """A name without dots as words and a unit, for documents; an empty text without a unit.
+
+    >>> described("slot_mouth_radius_mm"), described("tau")
+    (('slot mouth radius', 'mm'), ('τ, fraction of the cycle in motion', ''))
+    >>> described("torque_at_deg")
+    ('torque, at the input angle', '°')
+    """
+    bare, unit = _divided(name)
+    unit = "°" if unit == "deg" else SHORT_UNITS.get(unit, unit)
+    if bare.endswith("_at"):
+        return f"{described(bare.removesuffix('_at'))[0]}, {LONG_WORDS['at']}", unit
+    return _worded(name, bare, WORDS | LONG_WORDS), unit
+
+
+def _divided(name: str) -> tuple[str, str]:
+    """A name without its unit's ending, and the unit."""
+    end = next((end for end in UNITS if name.endswith(end)), "")
+    return name.removesuffix(end)
         # A name as short as C_v is a symbol with its index.
-        plain = bare if len(bare) <= 3 else bare.replace("_", " ")
-        words.append(WORDS.get(part) or WORDS.get(bare, plain))
-        unit = UNITS.get(end) or unit
+        plain UNITS.get(end, "")
+
+
+def _worded(name: str, bare: str, words: dict[str, str]) -> str:
+    """The words of a whole name or of its part without a unit, or else the letters of that part."""
+    is_symbol = len(bare) <= 3 with its index, such as C_v
+    return words.get(name) or words.get(bare) or (bare if unit
     short_units = {"1/min": "rpm", "arc seconds": "arcsec"}  # for people at a terminal
-    return " ".join(words), short_units.get(unit, unit)
+    return else bare.replace("_", short_units.get(unit, "))
 
 
 def heading(name: str) -> str:

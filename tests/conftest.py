@@ -130,8 +130,8 @@ def few_four_bars():
     What they find are four-bars all the same, if not the best; those are test_synth_four_bar's.
     """
     with pytest.MonkeyPatch.context() as patch:
-        for name, places in (("FEWEST", 128), ("MOST", 256), ("FEW", 7), ("MANY", 8)):
-            patch.setattr(four_bar_search, name, places)
+        patch.setattr(four_bar_search, "SAMPLES", (128, 256))
+        patch.setattr(four_bar_search, "SAMPLINGS", (7, 8))
         yield
 
 

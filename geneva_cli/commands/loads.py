@@ -1,10 +1,13 @@
 """``geneva loads``."""
 
+import sys
+from collections.abc import Sequence
 from typing import Annotated
 
 import typer
 
 from geneva_cli.commands.options import Format, Output, Settings, SpecPath, say
+from geneva_cli.errors import clean, is_warning
 
 ROWS = 361
 
@@ -56,4 +59,15 @@ def run(
     else:
         tell(of_loads(design), output, format, design.spec.files)
     if by_rows or output != "-":
-        say(design.spec.path, design.loads_table.to_dict()["warnings"])
+        _say(design.spec.path, design.loads_table.to_dict()["warnings"])
+
+
+def _say(path: str, texts: Sequence[str]) -> None:
+    """Print warnings, one a line, and all notes on unknown values as one line."""
+    say(path, filter(is_warning, texts))
+    notes = [text for text in texts if not is_warning(text)]
+    if len(notes) > 1:
+        lists_keys = "`geneva loads SPEC` lists the keys that they need"
+        print(clean(f"{path}: note: some values are not known; {lists_keys}"), file=sys.stderr)
+    else:
+        say(path, notes)

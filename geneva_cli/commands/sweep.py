@@ -14,7 +14,7 @@ from geneva_cli.progress import tracked
 if TYPE_CHECKING:
     from geneva_cli.study.sweep.digest import Digest
     from geneva_cli.study.sweep.outcome import Outcome
-    from geneva_cli.study.sweep.request import Request
+    from geneva_cli.study.sweep.request import SweepRequest
 
 Rows: TypeAlias = list[list[Any]]
 
@@ -180,7 +180,7 @@ def run(
         print(f"{spec}: {note}", file=sys.stderr)
 
 
-def _write_rows(plan: "Request", outcome: "Outcome", output: str, resume: bool) -> None:
+def _write_rows(plan: "SweepRequest", outcome: "Outcome", output: str, resume: bool) -> None:
     """Write all rows or the chosen ones as they come; show a person some rows of the file."""
     from geneva_cli.output import is_seen
     from geneva_cli.output.rows import Growth
@@ -205,7 +205,7 @@ def _write_rows(plan: "Request", outcome: "Outcome", output: str, resume: bool) 
     _show_digest(digest)
 
 
-def _show_rows(plan: "Request", outcome: "Outcome", output: str, format: str) -> None:
+def _show_rows(plan: "SweepRequest", outcome: "Outcome", output: str, format: str) -> None:
     """Show the rows as a table of another format, once all are computed."""
     from geneva_cli.output import show
     from geneva_cli.table import rows_table
@@ -214,7 +214,7 @@ def _show_rows(plan: "Request", outcome: "Outcome", output: str, format: str) ->
     show(rows_table(plan.sweep.names, rows), output, format, plan.inputs)
 
 
-def _show_some(plan: "Request", outcome: "Outcome") -> None:
+def _show_some(plan: "SweepRequest", outcome: "Outcome") -> None:
     """Show a person the first rows and the best."""
     from geneva_cli.study.sweep.digest import Digest
 
@@ -241,7 +241,7 @@ def _refuse_with_best(output: str, format: str, resume: bool) -> None:
         raise GenevaError("--resume continues rows, and --best writes none; leave one out")
 
 
-def _write_best(plan: "Request", spec: str, output: str) -> None:
+def _write_best(plan: "SweepRequest", spec: str, output: str) -> None:
     from geneva_cli.output import show_text
     from geneva_cli.study.sweep.outcome import Outcome
 
@@ -251,7 +251,7 @@ def _write_best(plan: "Request", spec: str, output: str) -> None:
         print(f"{spec}: {note}", file=sys.stderr)
 
 
-def _tracked(plan: "Request", done: int) -> Iterator[Rows]:
+def _tracked(plan: "SweepRequest", done: int) -> Iterator[Rows]:
     """The rows, with a progress bar."""
     start, stop = plan.sweep.span
     return tracked(plan.blocks(done), "designs", stop - start - done, len)

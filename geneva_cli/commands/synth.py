@@ -188,7 +188,7 @@ def _show(target: "Target", check: int, buildable: bool, output: str, format: st
     name = format or format_of(output)
     table = synthesis_table(target, check, buildable)
     if name == "table" and is_seen(output):
-        table = for_terminal(table)
+        table = for_terminal(table, max(check, 20))  # no fewer than are turned by default
     elif name in ("table", "md"):
         table = for_people(table)
     show(table, output, format, _inputs(target))

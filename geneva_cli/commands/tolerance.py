@@ -25,7 +25,7 @@ def run(
 ) -> None:
     """The wheel's place in the dwell, its play in motion and its entry, from [tolerance].
 
-    Worst case, root of squares and Monte Carlo, in degrees and arc seconds. How much each
+    Worst case, root sum of squares and Monte Carlo, in degrees and arc seconds. How much each
     dimension contributes, and the clearances with which every machine still turns.
     """
     from geneva_cli.design import load

@@ -13,7 +13,6 @@ from geneva_cli.study.pool import cores, mapped
 from geneva_cli.table import Table, record_table, rows_table
 from geneva_cli.verdict.checks import Check, all_pass
 
-WARNINGS = ("spec", "name", "text")
 NAMES = ("spec", "check", "value", "at_deg", "must_be", "limit", "passes", "nearest", "why")
 
 
@@ -32,42 +31,45 @@ class Verdict(NamedTuple):
         return not self.error and all_pass(self.checks)
 
 
-def verdict(path: str, given: Sequence[str] = ()) -> Verdict:
-    """Return the verdict on one spec, with keys ``given`` set over its own."""
+def verdict(path: str, settings: Sequence[str] = ()) -> Verdict:
+    """Return the verdict on one spec; ``settings``, texts ``KEY=VALUE``, replace its own keys."""
     try:
-        design = load(path, given)
+        design = load(path, settings)
         checks, warnings = tuple(design.checks), tuple(design.warnings)
         return Verdict(design.spec.path, design.spec.files, checks, warnings)
     except GenevaError as error:
         return Verdict(path, error=str(error))
 
 
-def verdicts(paths: list[str], given: Sequence[str] = ()) -> Iterator[Verdict]:
-    """The verdicts on specs, in their order; this process reads standard input itself."""
-    judge = partial(verdict, given=given)
+def verdicts(paths: list[str], settings: Sequence[str] = ()) -> Iterator[Verdict]:
+    """The verdicts on specs, in their order, each as ``verdict`` returns it.
+
+    This process reads standard input (``-``) itself.
+    """
+    judge = partial(verdict, settings=settings)
     files = [path for path in paths if path != "-"]
-    found = mapped(judge, files, min(len(files), cores()), "specs")
+    others = mapped(judge, files, min(len(files), cores()), "specs")
     for path in tracked(paths, "specs", len(paths)):
-        yield judge(path) if path == "-" else next(found)
+        yield judge(path) if path == "-" else next(others)
 
 
-def checks_table(found: Sequence[Verdict]) -> Table:
+def checks_table(verdicts: Sequence[Verdict]) -> Table:
     """A table with one row for each check of each spec."""
     rows = [
         (v.path, c.name, c.value, c.at_deg, c.must_be, c.limit, c.passes, c.nearest, c.why)
-        for v in found
+        for v in verdicts
         for c in v.checks
     ]
     return rows_table(NAMES, rows)
 
 
-def checks_record(found: Sequence[Verdict]) -> Table:
+def checks_record(verdicts: Sequence[Verdict]) -> Table:
     """The checks, the overall result and the warnings, as json contains them."""
-    warnings = [(v.path, w.name, str(w)) for v in found for w in v.warnings]
+    warnings = [(v.path, w.name, str(w)) for v in verdicts for w in v.warnings]
     return record_table(
         {
-            "rows": checks_table(found),
-            "passes": all(v.passes for v in found),
-            "warnings": rows_table(WARNINGS, warnings),
+            "rows": checks_table(verdicts),
+            "passes": all(v.passes for v in verdicts),
+            "warnings": rows_table(("spec", "name", "text"), warnings),
         }
     )

@@ -8,18 +8,16 @@ from collections.abc import Sequence
 from geneva_cli.machine.mechanism import Mechanism, build
 from geneva_cli.numerics.tolerances import ROUNDED
 from geneva_cli.parts.model import PartsModel
-from geneva_cli.study.beside import beside
 from geneva_cli.study.fields import Cell, pick, values
+from geneva_cli.study.spec_texts import spec_texts
 from geneva_cli.study.sweep.constraints import is_number
 from geneva_cli.table import Reading, Table, rows_table
-
-OWN = ("quantity", "differs")  # the table's own columns, which no design may be named for
-LEFT_OUT = "inputs."  # a spec's keys are not shown: they are in the spec, or in the columns' names
+from geneva_cli.verdict.quantities.groups import INPUTS
 
 
 def compare(
     paths: Sequence[str],
-    given: Sequence[str] = (),
+    settings: Sequence[str] = (),
     vary: Sequence[str] = (),
     picks: Sequence[str] = (),
     ratio: bool = False,
@@ -34,17 +32,17 @@ def compare(
 
     Raises GenevaError for a design that cannot be read or built.
     """
-    names, machines = _columns(paths, given, vary)
+    names, machines = _columns(paths, settings, vary)
     if picks:
-        wanted = pick(picks)
-        each = [dict(zip(wanted.names, wanted.of(m), strict=True)) for m in machines]
+        picked = pick(picks)
+        each = [dict(zip(picked.names, picked.of(m), strict=True)) for m in machines]
     else:
         each = [values(PartsModel(m)) for m in machines]
     rows = []
-    for quantity in dict.fromkeys(name for found in each for name in found):
-        if quantity.startswith(LEFT_OUT) and not picks:
+    for quantity in dict.fromkeys(name for own in each for name in own):
+        if quantity.startswith(INPUTS) and not picks:  # the spec or the columns' names show these
             continue
-        cells = [found.get(quantity) for found in each]
+        cells = [own.get(quantity) for own in each]
         differs = not all(_same(c, cells[0]) for c in cells[1:])
         if any(c is not None for c in cells) and (differs or alike):
             rows.append((quantity, *(_ratios(cells) if ratio else cells), differs))
@@ -75,10 +73,10 @@ def _over(cell: Cell, first: Cell) -> Cell:
 
 
 def _columns(
-    paths: Sequence[str], given: Sequence[str], vary: Sequence[str]
+    paths: Sequence[str], settings: Sequence[str], vary: Sequence[str]
 ) -> tuple[list[str], list[Mechanism]]:
     """The names of the columns, and their machines."""
-    texts = beside(paths, given, vary, OWN)
+    texts = spec_texts(paths, settings, vary, ("quantity", "differs"))  # the table's own columns
     machines = []
     for text in texts.values():
         spec = text.spec()

@@ -18,20 +18,20 @@ from geneva_cli.verdict.quantities.groups import values as values_of
 
 Cell: TypeAlias = float | int | str | bool | None
 
-# the groups that are shown without --pick
-SHOWN = (MACHINE, *(group for group in REPORT if not group.makes_parts))
 
-
-def values(model: PartsModel, groups: Iterable[QuantityGroup] = SHOWN) -> dict[str, Cell]:
+def values(model: PartsModel, groups: Iterable[QuantityGroup] | None = None) -> dict[str, Cell]:
     """The quantities of some groups, without tables and multi-line texts.
 
-    What nothing bounds is None, as in the report's json.
+    Without ``groups`` they are all that need no parts. An unbounded quantity is None, as in the
+    report's json.
     """
+    if groups is None:
+        groups = (MACHINE, *(group for group in REPORT if not group.makes_parts))
     out: dict[str, Cell] = {}
     for name, value in values_of(groups, model).items():
         if not isinstance(value, (tuple, Table)):
-            endless = isinstance(value, float) and math.isinf(value)
-            out[name] = None if endless else value
+            is_unbounded = isinstance(value, float) and math.isinf(value)
+            out[name] = None if is_unbounded else value
     return out
 
 
@@ -40,24 +40,24 @@ class Pick(NamedTuple):
 
     names: tuple[str, ...]
     groups: tuple[QuantityGroup, ...]
-    # the whole names in the order of the request, in which one may stand twice
-    asked: tuple[str, ...] = ()
+    # the whole names in the order of the request, which may repeat one
+    requested: tuple[str, ...] = ()
 
     def of(self, mechanism: Mechanism) -> list[Cell]:
         """The values of the quantities for a machine; None if one does not apply."""
-        found = values(PartsModel(mechanism), self.groups)
-        return [found.get(name) for name in self.names]
+        cells = values(PartsModel(mechanism), self.groups)
+        return [cells.get(name) for name in self.names]
 
 
 def pick(
-    asked: Sequence[str], option: str = "--pick", options: Mapping[str, str] | None = None
+    requested: Sequence[str], option: str = "--pick", options: Mapping[str, str] | None = None
 ) -> Pick:
     """The quantities of these names, as ``whole_name`` resolves them.
 
-    ``options`` says which option asked for a name, where it was not ``option``. Raises GenevaError,
-    naming the option, for a name that is no quantity, or may be several.
+    ``options`` holds the option of a name, if that is not ``option``. Raises GenevaError, naming
+    the option, for a name that is no quantity, or may be several.
     """
-    by = dict.fromkeys(asked, option) | dict(options or {})
-    names = {a: whole_name(a, by[a]) for a in asked}
-    of = dict.fromkeys(group_of()[name] for name in names.values())
-    return Pick(tuple(dict.fromkeys(names.values())), tuple(of), tuple(names[a] for a in asked))
+    by = dict.fromkeys(requested, option) | dict(options or {})
+    whole = [whole_name(name, by[name]) for name in requested]
+    groups = dict.fromkeys(group_of()[name] for name in whole)
+    return Pick(tuple(dict.fromkeys(whole)), tuple(groups), tuple(whole))

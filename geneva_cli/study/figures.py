@@ -12,20 +12,17 @@ from geneva_cli.errors import GenevaError, cut, few
 from geneva_cli.figure import JOINED, LINE, POINTS, Axis, Curve, Figure, Panel, Piece
 from geneva_cli.machine.spec import Spec
 from geneva_cli.specfile.columns import Columns, read_columns
-from geneva_cli.study.beside import beside
 from geneva_cli.study.quantities import whole_name
+from geneva_cli.study.spec_texts import spec_texts
 
 QUANTITIES = tuple(AXIS_BY_NAME)  # quantities that can be plotted for a design
-FAMILY = 12  # curves of a panel that the eye can tell apart
-FEW = 40  # up to so many points of a curve are marked
+CURVES_MAX = 12  # curves of a panel that the eye can tell apart
 RANDOM = "drawn at random"  # the name of rows that nearly all differ in their other keys
-ROOM = 0.02  # margin of the x axis beside points, as a fraction
-TABLES = {field.name.partition("_")[0] for field in dataclasses.fields(Spec)}
 
 
 def of_specs(
     paths: Sequence[str],
-    given: Iterable[str] = (),
+    settings: Iterable[str] = (),
     pick: Sequence[str] = (),
     vary: Sequence[str] = (),
 ) -> tuple[Figure, list[Design], list[LeftOut]]:
@@ -35,15 +32,15 @@ def of_specs(
 
     Raises GenevaError for a spec that cannot be read or built, and as ``figure`` does.
 
-    >>> found, _, _ = of_specs(["designs/internal-z6.toml", "designs/turret.toml"], (), ["jerk"])
-    >>> [curve.name for curve in found.panels[0].curves]
+    >>> cycles, *_ = of_specs(["designs/internal-z6.toml", "designs/turret.toml"], (), ["jerk"])
+    >>> [curve.name for curve in cycles.panels[0].curves]
     ['internal-z6', 'turret']
     """
-    texts = beside(paths, tuple(given), vary)
+    texts = spec_texts(paths, tuple(settings), vary)
     designs = {name: Design.of(text.spec(), text) for name, text in texts.items()}
     cycles = {name: design.cycle for name, design in designs.items()}
-    made, left_out = figure(cycles, [_drawn_as(name) for name in pick])
-    return made, list(designs.values()), [(texts[name].name, text) for name, text in left_out]
+    curves, left_out = figure(cycles, [_drawn_as(name) for name in pick])
+    return curves, list(designs.values()), [(texts[name].name, text) for name, text in left_out]
 
 
 def _drawn_as(name: str) -> str:
@@ -88,17 +85,18 @@ def of_table(path: str, x: str, ys: Sequence[str]) -> Figure:
     places = [v for p in panels for c in p.curves for piece in c.pieces for v in piece[0]]
     low, high = min(places), max(places)
     lines = all(c.style == LINE for p in panels for c in p.curves)
-    room = 0.0 if lines and high > low else ROOM * (high - low) or 0.5 * abs(low) or 0.5
+    # points keep off the ends of the x axis
+    margin = 0.0 if lines and high > low else 0.02 * (high - low) or 0.5 * abs(low) or 0.5
     title = f"{', '.join(ys)} by {x}"
-    return Figure(title, Axis(x, x), tuple(panels), (low - room, high + room))
+    return Figure(title, Axis(x, x), tuple(panels), (low - margin, high + margin))
 
 
-def _column(table: Columns, asked: str, option: str) -> str:
+def _column(table: Columns, name: str, option: str) -> str:
     """A column's whole name, from any name of its quantity or from the nearest column name."""
-    if asked in table.names or not (quantity := _quantity(asked)):
-        return table.named(asked, option)
-    same = [name for name in table.names if _quantity(name) == quantity]
-    return same[0] if len(same) == 1 else table.named(asked, option)
+    if name in table.names or not (quantity := _quantity(name)):
+        return table.named(name, option)
+    same = [column for column in table.names if _quantity(column) == quantity]
+    return same[0] if len(same) == 1 else table.named(name, option)
 
 
 def _quantity(name: str) -> str | None:
@@ -111,9 +109,10 @@ def _quantity(name: str) -> str | None:
 
 def _keys(table: Columns) -> list[str]:
     """The varied keys: the first columns that are keys of a spec."""
+    tables = {field.name.partition("_")[0] for field in dataclasses.fields(Spec)}
     out = []
     for name in table.names:
-        if "." not in name or name.partition(".")[0] not in TABLES:
+        if "." not in name or name.partition(".")[0] not in tables:
             break
         out.append(name)
     return out
@@ -130,12 +129,12 @@ def _families(table: Columns, x: str) -> dict[str, list[int]]:
     for i, values in enumerate(zip(*[table.texts(key) for key in others], strict=True)):
         name = ", ".join(f"{key} = {value}" for key, value in zip(others, values, strict=True))
         out.setdefault(name, []).append(i)
-    if 2 * len(out) > len(table.rows) and len(out) > FAMILY:
+    if 2 * len(out) > len(table.rows) and len(out) > CURVES_MAX:
         return {RANDOM: every}
-    if len(out) > FAMILY:
+    if len(out) > CURVES_MAX:
         raise GenevaError(
-            f"{len(out)} curves, one for each combination of {', '.join(others)}; at most {FAMILY} "
-            "can be distinguished: sweep fewer values, or plot over another key"
+            f"{len(out)} curves, one for each combination of {', '.join(others)}; at most "
+            f"{CURVES_MAX} can be distinguished: sweep fewer values, or plot over another key"
         )
     return out
 
@@ -154,7 +153,7 @@ def _curve(
     falls = all(a[1] > b[1] for a, b in pairwise(some))
     rises = all(a[1] < b[1] for a, b in pairwise(some))
     if apart and (ascends or is_key):
-        style = JOINED if len(some) <= FEW else LINE
+        style = JOINED if len(some) <= 40 else LINE  # marks of more points would touch
     else:
         style = JOINED if apart and (falls or rises) else POINTS
     if style == POINTS:

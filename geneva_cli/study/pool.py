@@ -19,8 +19,6 @@ if TYPE_CHECKING:
 
 T = TypeVar("T")
 R = TypeVar("R")
-GARBAGE = 50_000  # new objects before a worker collects cyclic garbage: the work makes little of it
-AHEAD = 4  # results that may wait for each worker, so that memory stays bounded
 
 
 def mapped(
@@ -30,8 +28,7 @@ def mapped(
     what: str = "designs",
     meanwhile: Callable[[], None] | None = None,
 ) -> Iterator[R]:
-    """Apply ``work`` to each item in several processes, or in this one for 1 worker; keep the
-    order.
+    """Yield ``work`` of each item, in order, from several processes or, for 1 worker, this one.
 
     ``what`` is the plural noun for the items in messages. ``meanwhile`` is a task for this process,
     run while the others work if there is work for all of them. Raises GenevaError if a process is
@@ -54,7 +51,7 @@ def mapped(
                 if meanwhile and len(waiting) > workers:  # each worker has something to do
                     meanwhile()
                     meanwhile = None
-                if len(waiting) > AHEAD * workers:
+                if len(waiting) > 4 * workers:  # so that memory stays bounded
                     yield waiting.popleft().result()
             while waiting:
                 yield waiting.popleft().result()
@@ -82,7 +79,7 @@ def _attend() -> None:
         signal.signal(signal.SIGINT, signal.SIG_DFL)
     show_with(None)  # the parent process shows the progress of all
     gc.freeze()  # the objects of the parent stay
-    gc.set_threshold(GARBAGE)
+    gc.set_threshold(50_000)  # new objects: the work makes little cyclic garbage
     threading.Thread(target=_leave, daemon=True).start()
 
 

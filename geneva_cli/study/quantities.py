@@ -11,14 +11,6 @@ from functools import cache
 from geneva_cli.errors import GenevaError, cut, nearest
 from geneva_cli.verdict.quantities.groups import CHECKS, GROUPS, INPUTS, RATES, QuantityGroup
 
-SHOWN_MAX = 5  # candidates in a message
-
-# Names of columns and keys that neither a whole name nor its end spells.
-SYNONYMS = {
-    "acceleration_max_deg": "acceleration.at_deg",
-    "drive": "drive.kind",
-    "n_rpm": "inputs.drive.n_rpm",
-}
 # Quantities whose values are words, which have no order.
 WORDS = frozenset(
     {
@@ -55,8 +47,8 @@ def is_motion(name: str) -> bool:
     return name.partition(".")[0] in ("timing", *RATES)
 
 
-def whole_name(asked: str, option: str = "--pick") -> str:
-    """The whole name of a quantity; ``option`` requests it.
+def whole_name(name: str, option: str = "--pick") -> str:
+    """The whole name of a quantity, from any name that means it; ``option`` is for messages.
 
     A whole name may be written with underscores, as a column of ``table`` and ``synth``, or
     shortened to its end. A key of the spec is named whole, and a check gives way to a quantity of
@@ -66,30 +58,36 @@ def whole_name(asked: str, option: str = "--pick") -> str:
     >>> whole_name("acceleration_max"), whole_name("dwell_s")
     ('acceleration.max', 'timing.dwell_s')
     """
-    if asked in group_of():
-        return asked
-    for found in _readings(asked):
-        if len(found) > 1:
-            more = len(found) - SHOWN_MAX
-            those = [*found[:SHOWN_MAX], *([f"{more} others"] if more > 0 else [])]
-            raise GenevaError(f"{option} {cut(asked)}: it may be {' or '.join(those)}; say which")
-        if found:
-            return found[0]
+    if name in group_of():
+        return name
+    for meanings in _readings(name):
+        if len(meanings) > 1:
+            more = len(meanings) - 5  # a message has at most five candidates
+            those = [*meanings[:5], *([f"{more} others"] if more > 0 else [])]
+            raise GenevaError(f"{option} {cut(name)}: it may be {' or '.join(those)}; say which")
+        if meanings:
+            return meanings[0]
     raise GenevaError(
-        f"{option} {cut(asked)}: no quantity of a design{_nearest(asked)}; `geneva compare` "
+        f"{option} {cut(name)}: no quantity of a design{_nearest(name)}; `geneva compare` "
         "shows most of them, and a check is checks.NAME"
     )
 
 
-def _readings(asked: str) -> Iterator[list[str]]:
+def _readings(typed: str) -> Iterator[list[str]]:
     """The possible meanings of a name that is not a whole name, the nearest first."""
-    yield [SYNONYMS[asked]] if asked in SYNONYMS else []
+    # columns and keys that neither a whole name nor its end spells
+    synonyms = {
+        "acceleration_max_deg": "acceleration.at_deg",
+        "drive": "drive.kind",
+        "n_rpm": "inputs.drive.n_rpm",
+    }
+    yield [synonyms[typed]] if typed in synonyms else []
     others = [name for name in group_of() if not name.startswith(INPUTS)]
     quantities = [name for name in others if not name.startswith(CHECKS)]
-    yield [name for name in quantities if _spelled(name) == asked]
+    yield [name for name in quantities if _spelled(name) == typed]
     for names in (quantities, others):
-        yield [name for name in names if name.endswith(f".{asked}")]
-        yield [name for name in names if asked in {_spelled(end) for end in _ends(name)}]
+        yield [name for name in names if name.endswith(f".{typed}")]
+        yield [name for name in names if typed in {_spelled(end) for end in _ends(name)}]
 
 
 def _spelled(name: str) -> str:
@@ -107,17 +105,17 @@ def _ends(name: str) -> list[str]:
     return [".".join(parts[i:]) for i in range(1, len(parts))]
 
 
-def _nearest(asked: str) -> str:
+def _nearest(typed: str) -> str:
     """A question `` (did you mean "..."?)`` with the nearest whole name or end of one.
 
     A whole name behind an extra word (``peaks.velocity.max``) comes first, and a key of the spec by
     its own name.
     """
     known = group_of()
-    behind = [name for name in known if asked.endswith(f".{name}")]
-    keys = [name for name in known if name.startswith(INPUTS) and name.endswith(f".{asked}")]
+    behind = [name for name in known if typed.endswith(f".{name}")]
+    keys = [name for name in known if name.startswith(INPUTS) and name.endswith(f".{typed}")]
     if behind or keys:
         best = max(behind or keys, key=len)
         return nearest(best, [best])
     ends = [end for name in known if not name.startswith(INPUTS) for end in _ends(name)]
-    return nearest(asked, dict.fromkeys([*known, *ends]))
+    return nearest(typed, dict.fromkeys([*known, *ends]))

@@ -24,13 +24,7 @@ NAMES = (
     "rollers_max",
     *CamFactors._fields,
 )
-# The columns in order of importance, for a window too narrow for all.
-FIRST = (
-    *("z", "motion_deg", "dwell_deg", "acceleration_max", "velocity_max", "motion_s", "dwell_s"),
-    *("index_deg", "acceleration_max_deg", "rollers_max", "acceleration_entry", "jerk_entry"),
-)
 SIGNS = {"external": 1.0, "internal": -1.0}  # the gearings with closed forms
-Z_MIN = 3  # slots
 ROWS_MAX = 10_000
 SOLVED_MAX = 1_000  # rows without a closed form, whose peaks take milliseconds each
 
@@ -55,9 +49,7 @@ def survey(z: str, gearing: str, n_rpm: float, rollers: int, A: float) -> Table:
     solved = bool(A) or gearing not in SIGNS
     if solved and len(wheels) > SOLVED_MAX:
         what = "with --A" if A else "of spherical wheels"
-        raise GenevaError(
-            f"--z {cut(z)}: that is more than {SOLVED_MAX} rows {what}; ask for fewer"
-        )
+        raise GenevaError(f"--z {cut(z)}: that is more than {SOLVED_MAX} rows {what}; give fewer")
     for slots in wheels:
         try:
             if solved:
@@ -66,7 +58,13 @@ def survey(z: str, gearing: str, n_rpm: float, rollers: int, A: float) -> Table:
                 rows.append(_classic(slots, gearing, SIGNS[gearing], n_rpm, rollers))
         except GenevaError as error:
             raise GenevaError(f"--z {slots}: {error}") from None
-    reading = Reading(FIRST, _title(gearing, n_rpm, rollers, A), ("gearing", "rollers", "cycle_s"))
+    # the columns in order of importance, for a window too narrow for all
+    first = (
+        *("z", "motion_deg", "dwell_deg", "acceleration_max", "velocity_max", "motion_s"),
+        *("dwell_s", "index_deg", "acceleration_max_deg", "rollers_max", "acceleration_entry"),
+        "jerk_entry",
+    )
+    reading = Reading(first, _title(gearing, n_rpm, rollers, A), ("gearing", "rollers", "cycle_s"))
     return rows_table(NAMES, rows).replaced(reading=reading)
 
 
@@ -138,20 +136,20 @@ def _general(z: int, gearing: str, n_rpm: float, rollers: int, A: float) -> tupl
 def parse_z(text: str) -> list[int]:
     """Return the numbers of slots in ``6``, ``3..12``, ``4..12:2``, ``3,4,6`` or a mixture."""
     out: list[int] = []
-    said = f"--z {cut(text)}"
+    option = f"--z {cut(text)}"
     for part in text.split(","):
-        ends = range_text(part, said) or RangeText(part, part, "")
+        ends = range_text(part, option) or RangeText(part, part, "")
         low, high = _slots(ends.low, text), _slots(ends.high, text)
         step = _slots(ends.step, text, 1) if ends.step else 1
         if high < low:
-            raise GenevaError(f"{said}: {low}..{high} runs backwards; write {high}..{low}")
+            raise GenevaError(f"{option}: {low}..{high} runs backwards; write {high}..{low}")
         if len(out) + (high - low) // step >= ROWS_MAX:
-            raise GenevaError(f"{said}: that is more than {ROWS_MAX} rows; ask for fewer")
+            raise GenevaError(f"{option}: that is more than {ROWS_MAX} rows; give fewer")
         out.extend(range(low, high + 1, step))
     return out
 
 
-def _slots(text: str, whole: str, least: int = Z_MIN) -> int:
+def _slots(text: str, whole: str, least: int = 3) -> int:
     number = text.strip()
     if not (number.isascii() and number.isdigit()):
         raise GenevaError(

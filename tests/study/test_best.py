@@ -78,7 +78,7 @@ def test_where_designs_are_worked_out_one_by_one_no_clouds_are():
     asked = request(spec, ["drive.n_rpm=10..60"], random=2, jobs=1, best="min:timing.dwell_s")
     rows = [row for block in asked.blocks() for row in block]
     search = SweepSearch(asked.sweep, asked.objectives[0], asked.constraints)
-    assert asked.sweep.together and closer(search, rows) == rows
+    assert asked.sweep.is_batched and closer(search, rows) == rows
 
 
 def test_it_is_no_worse_than_any_of_a_fine_grid(tmp_path):

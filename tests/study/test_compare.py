@@ -143,9 +143,12 @@ def test_two_keys_vary_as_a_grid():
         ({"picks": ["max"]}, "it may be velocity.max or"),
         ({"vary": ["drive.A=0,2"]}, "--vary drive.A=2: A = 2 must be above -1, below 1"),
         ({"vary": ["drive.A=0", "drive.A=0.5"]}, "--vary drive.A: given twice"),
-        ({"vary": ["drive.A=0"], "given": ["drive.A=7"]}, "--set drive.A=7: --vary drive.A sets"),
+        (
+            {"vary": ["drive.A=0"], "settings": ["drive.A=7"]},
+            "--set drive.A=7: --vary drive.A sets",
+        ),
         ({"vary": ["drive.B=1"]}, "--vary drive.B=1: unknown key B in [drive]"),
-        ({"vary": ["drive.A=0..1:0.001"]}, "more than 100 designs side by side: `geneva sweep`"),
+        ({"vary": ["drive.A=0..1:0.001"]}, "--vary makes more than 100 designs: `geneva sweep`"),
     ],
 )
 def test_what_cannot_be_compared(arguments, said):

@@ -13,7 +13,7 @@ from typer.testing import CliRunner
 from geneva_cli.app import app
 from geneva_cli.errors import GenevaError
 from geneva_cli.figure import JOINED, LINE, POINTS
-from geneva_cli.study.figures import FAMILY, of_table
+from geneva_cli.study.figures import CURVES_MAX, of_table
 
 GENEVA = os.path.join(os.path.dirname(sys.executable), "geneva")
 SPEC = str(repo.DESIGNS / "side-crank-z6.toml")
@@ -132,7 +132,7 @@ def test_a_csv_that_is_none(text, wants):
 
 
 def test_too_many_curves():
-    rows = [f"{a},{z},{a * z}\n" for a in range(3) for z in range(FAMILY + 1)]
+    rows = [f"{a},{z},{a * z}\n" for a in range(3) for z in range(CURVES_MAX + 1)]
     file = put("drive.A,wheel.z,velocity.max\n" + "".join(rows))
     with pytest.raises(GenevaError, match="13 curves, one for each combination"):
         of_table(file, "drive.A", ["velocity.max"])

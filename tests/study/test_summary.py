@@ -128,6 +128,15 @@ def test_tolerance_names_what_contributes_most() -> None:
     assert answer.data is record
 
 
+def test_unknown_values_take_one_line_beside_a_cycle(tmp_path: Path) -> None:
+    """Five notes on keys that are missing; a warning keeps a line of its own."""
+    result = CliRunner().invoke(app, ["loads", TURRET, "-o", str(tmp_path / "cycle.csv")])
+    assert result.exit_code == 0
+    warned, note = result.stderr.splitlines()
+    assert warned.endswith("[wheel-left-out]")
+    assert note.endswith("`geneva loads SPEC` lists the keys that they need")
+
+
 @pytest.mark.parametrize("width", [60, 80, 100])
 @pytest.mark.parametrize("name", ["turret", "press-345", "tuned-dial", "tolerances"])
 def test_no_line_is_wider_than_the_window(name: str, width: int) -> None:

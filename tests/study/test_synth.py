@@ -23,11 +23,11 @@ from geneva_cli.study.synthesis.built import Built
 from geneva_cli.study.synthesis.families import closed
 from geneva_cli.study.synthesis.families import limit as limits
 from geneva_cli.study.synthesis.families.family import EXACT
-from geneva_cli.study.synthesis.looks import look
+from geneva_cli.study.synthesis.parts_data import parts_data
 from geneva_cli.study.synthesis.reading import read_target
-from geneva_cli.study.synthesis.rows import NEAR_DEG, _wedged
+from geneva_cli.study.synthesis.rows import NEAR_DEG, _groove_failure
 from geneva_cli.study.synthesis.search import search, synthesis
-from geneva_cli.study.synthesis.shown import for_people
+from geneva_cli.study.synthesis.shown import for_people, for_terminal
 from geneva_cli.study.synthesis.table import NAMES, synthesis_table, turned
 from geneva_cli.study.synthesis.written import chosen, commented
 from geneva_cli.verdict.checks import checks
@@ -294,7 +294,7 @@ WISHES = [
 @pytest.mark.parametrize("options", WISHES, ids=str)
 def test_rows_are_sorted_and_numbered(options):
     target, found = searched(**options)
-    table = synthesis_table(target, 0, found=found)
+    table = synthesis_table(target, 0, ranking=found)
     assert table.names == NAMES
     columns = dict(zip(table.names, table.columns, strict=True))
     assert list(columns["no"]) == list(range(1, len(table) + 1))
@@ -681,9 +681,9 @@ def test_a_groove_is_as_steep_as_its_check_says():
     ]
     passes = [groove_pressure("", machine).passes for machine in machines]
     assert {*passes} == {True, False}
-    seen = [look(machine.spec).pressure_deg for machine in machines]
+    seen = [parts_data(machine.spec).pressure_deg for machine in machines]
     assert any(abs(x - GROOVE_MAX_DEG) < NEAR_DEG for x in seen)
-    assert [not _wedged(machine) for machine in machines] == passes
+    assert [not _groove_failure(machine) for machine in machines] == passes
 
 
 def test_where_a_cycle_is_asked_for_rows_are_ranked_by_time():
@@ -702,6 +702,10 @@ def test_where_a_cycle_is_asked_for_rows_are_ranked_by_time():
     people = for_people(table)
     assert {"rpm", "accel_rad/s2"} <= {*people.names}
     assert "lowest peak acceleration in rad/s2 first" in people.title
+    seen = for_terminal(table, 3)
+    assert [row["no"] for row in seen.to_rows()] == [1, 2, 3]
+    assert seen.title.endswith(f" The first 3 rows. All {len(rows)} rows: -o FILE.csv")
+    assert for_terminal(table, len(rows)).title == table.title
 
 
 def test_the_lowest_of_a_range_is_the_lowest_in_time():

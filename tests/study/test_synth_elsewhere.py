@@ -12,7 +12,7 @@ from geneva_cli.machine.mechanism import build
 from geneva_cli.machine.motion import Motion
 from geneva_cli.study.synthesis.built import built
 from geneva_cli.study.synthesis.families import every
-from geneva_cli.study.synthesis.parts import suited
+from geneva_cli.study.synthesis.parts import machine_and_parts
 from geneva_cli.study.synthesis.reading import read_target
 from geneva_cli.study.synthesis.search import search
 from geneva_cli.study.synthesis.table import turned
@@ -42,7 +42,7 @@ def test_beside_a_row_that_cannot_be_built_is_the_best_that_may_be(z):
         alpha0 = natural - (found + (200.0 - found) * k / steps)
         spec = other.spec.replace(motion=Motion(ModifiedSine(), alpha0_deg=alpha0, ratio="matched"))
         spec = spec.with_("size.roller_radius_mm", None)
-        assert suited(spec)[1].why, alpha0
+        assert machine_and_parts(spec)[1].why, alpha0
 
 
 def test_a_row_that_fails_in_its_turn_gives_way_to_the_best_that_passes(tmp_path):
@@ -64,7 +64,7 @@ def test_a_row_that_fails_in_its_turn_gives_way_to_the_best_that_passes(tmp_path
     numbers = [one.no for one in shown]
     assert numbers == sorted(numbers)
     assert [found.rank(row) for row in found.rows] == sorted(map(found.rank, found.rows))
-    moved = [one for one in shown if one.row.cannot_be is False and plain[one.no].cannot_be]
+    moved = [one for one in shown if one.row.is_impossible is False and plain[one.no].is_impossible]
     assert {one.row.candidate.rollers for one in moved} == {1, 2}
     for no, row in moved:
         wished = found.rows[no - 1].candidate
@@ -88,11 +88,11 @@ def test_bounds_hold_elsewhere_too(bound):
     """On what is known of many designs together, and on what one is asked for alone."""
     target = read_target(motion_deg="100..160", z="8", subject_to=[bound], **CURVED)
     found = search(target)
-    (whole,) = found.asked.bounds
+    (whole,) = found.requested.bounds
     shown = turned(found, buildable=True)
     assert [one for one in shown if one.row.candidate.law and one.row.candidate.drive == "crank"]
     for _, row in shown:
-        assert whole.kept(row.asked[found.asked.names.index(whole.name)])
+        assert whole.kept(row.extra[found.requested.names.index(whole.name)])
 
 
 @pytest.mark.sampled(2)
@@ -140,9 +140,15 @@ def test_more_rollers_where_only_shorter_motions_can_be_built():
     """Four rollers and more on four slots: at the longest motion each slot leaves an island."""
     found = search(read_target(motion_deg="20..120", z="4", external=True))
     rows = [row for row in curved(found) if row.candidate.rollers == 4]
-    assert [row.cannot_be for row in rows] == [True, False]
+    assert [row.is_impossible for row in rows] == [True, False]
     assert rows[0].candidate.motion_deg > rows[1].candidate.motion_deg
-    assert {row.candidate.rollers for row in curved(found) if not row.cannot_be} >= {4, 5, 6, 7, 8}
+    assert {row.candidate.rollers for row in curved(found) if not row.is_impossible} >= {
+        4,
+        5,
+        6,
+        7,
+        8,
+    }
 
 
 def test_one_below_the_last_that_may_be_built_is_looked_for_too():

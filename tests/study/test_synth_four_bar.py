@@ -217,7 +217,7 @@ def test_another_four_bar_passes_where_the_gentlest_fails():
     found = search(read_target(tau="..0.3", z="5", external=True, rollers=1))
     plain, shown = turned(found), {one.no: one.row for one in turned(found, buildable=True)}
     (number, first), *_ = [one for one in plain if one.row.candidate.drive == "four-bar"]
-    assert first.cannot_be
+    assert first.is_impossible
     other = shown[number]
     assert other.candidate.drive == "four-bar"
     assert other.candidate.acceleration_max > first.candidate.acceleration_max

@@ -22,7 +22,7 @@ from geneva_cli.study.sweep.columns import columns
 from geneva_cli.study.synthesis.reading import SPANS, read_target, span
 from geneva_cli.study.synthesis.search import search
 from geneva_cli.study.synthesis.shown import for_people
-from geneva_cli.study.synthesis.spans import Interval
+from geneva_cli.study.synthesis.spans import AllowedSpan
 from geneva_cli.study.synthesis.table import synthesis_table
 
 pytestmark = pytest.mark.usefixtures("few_four_bars")
@@ -58,7 +58,7 @@ def told(found):
 )
 def test_spans(text, low, high):
     rule, _, _ = SPANS["dwell_s"]
-    assert span("--dwell-s", text, rule) == Interval(low, high)
+    assert span("--dwell-s", text, rule) == AllowedSpan(low, high)
 
 
 def test_wishes_for_times_leave_motions_and_cycles():
@@ -109,7 +109,7 @@ def test_where_none_is_buildable_that_is_said(format):
     target = ["--motion-deg", "150", "--z", "361", "--internal", "--buildable", "--format", format]
     found = CliRunner().invoke(app, ["synth", *target])
     assert (found.exit_code, found.stderr) == (0, "")
-    title, _, rest = found.stdout.partition("machines is found to pass.\n")
+    title, _, rest = found.stdout.partition("machines passes.\n")
     if format in ("table", "md"):
         assert title.endswith(": none of 4 ") and not rest.strip()
     elif format == "csv":
@@ -122,7 +122,7 @@ def test_a_load_that_a_spec_leaves_unknown_is_no_refusal():
     """Of a wheel without a face width no stress is known; its inertia resists all the same."""
     frame = Design.of(Spec(Wheel(6), load=Load(inertia_kgm2=0.1))).spec
     found = rows(tau="0.3", frame=frame, sort="min:loads.contact_stress_MPa.max")
-    assert found and {row.asked for row in found} == {(None,)}
+    assert found and {row.extra for row in found} == {(None,)}
 
 
 def test_rollers_that_leave_no_dwell_are_no_machines():
@@ -277,7 +277,7 @@ def test_in_a_range_the_best_of_a_kind_is_what_the_order_asks_for(sort):
     fine = many(ours.spec, {"drive.A": np.linspace(-0.9, 0.9, 1801)})
     motion, value = columns(fine.machine, ["timing.motion_deg", name], len(fine.which))
     theirs = sign * value[(motion >= 80.0) & (motion <= 140.0)]
-    assert sign * ours.asked[0] <= theirs.min() + abs(theirs.min()) * NEAR
+    assert sign * ours.extra[0] <= theirs.min() + abs(theirs.min()) * NEAR
 
 
 def test_a_drive_that_does_nothing_is_no_row():
@@ -380,7 +380,7 @@ def test_what_no_array_has_is_asked_of_each_machine():
     ).rows
     (row,) = [r for r in found if r.candidate.law and r.candidate.drive == "crank"]
     greatest = Design.of(row.spec).loads["pin_force_N"].max
-    assert row.asked[0] == pytest.approx(greatest, rel=1e-12)
+    assert row.extra[0] == pytest.approx(greatest, rel=1e-12)
 
 
 def test_of_what_no_array_has_several_machines_of_a_family_are_asked():
@@ -408,15 +408,15 @@ def test_a_frame_and_an_order():
         sort="min:loads.input_torque_Nm.rms",
     )
     found = search(target)
-    assert found.asked.names == ("loads.input_torque_Nm.rms",)
+    assert found.requested.names == ("loads.input_torque_Nm.rms",)
     own = target.frame
-    values = [row.asked[0] for row in found.rows]
+    values = [row.extra[0] for row in found.rows]
     assert values == pytest.approx(sorted(values), rel=1e-11)  # those of rounding are equal
     for row in found.rows[:4]:
         assert (row.spec.load, row.spec.wheel.z) == (own.load, own.wheel.z)
         assert row.spec.drive.n_rpm == own.drive.n_rpm == row.candidate.n_rpm
         rms = Design.of(row.spec).loads["input_torque_Nm"].rms
-        assert row.asked[0] == pytest.approx(rms, rel=1e-12)
+        assert row.extra[0] == pytest.approx(rms, rel=1e-12)
     turned_round = search(target._replace(sort=Objective(-1.0, "acceleration.max"))).rows
     peaks = [row.candidate.acceleration_max for row in turned_round]
     assert peaks == pytest.approx(sorted(peaks, reverse=True), rel=1e-11)
@@ -445,7 +445,7 @@ def test_a_frame_s_sizes_stay(tmp_path):
 )
 def test_a_hundred_columns_hold_it(options):
     target, found = searched(**options)
-    table = for_people(synthesis_table(target, 0, found=found))
+    table = for_people(synthesis_table(target, 0, ranking=found))
     assert max(map(len, "".join(chunks(table)).splitlines())) <= 100
     assert {"no", "machine", "parts"} <= set(table.names)
 

@@ -24,14 +24,20 @@ from geneva_cli.spec.tables import Load, Size
 from geneva_cli.study.fields import pick
 from geneva_cli.study.sweep.columns import columns
 from geneva_cli.study.synthesis import search as searching
+from geneva_cli.study.synthesis.batches import batch_machines, numbers
 from geneva_cli.study.synthesis.by_law import law_columns
 from geneva_cli.study.synthesis.families.every import kinds
-from geneva_cli.study.synthesis.looks import LOOKS, _alike, _kept, look, look_at
+from geneva_cli.study.synthesis.parts_data import (
+    UNDERCUT_SAMPLES,
+    _alike,
+    _kept,
+    compute_parts_data,
+    parts_data,
+)
 from geneva_cli.study.synthesis.reading import read_target
 from geneva_cli.study.synthesis.rows import COSTS
 from geneva_cli.study.synthesis.search import search
 from geneva_cli.study.synthesis.table import synthesis_table
-from geneva_cli.study.synthesis.together import built_together, numbers
 
 LAW = Cycloidal()
 MATCHED = Motion(LAW, ratio="matched")
@@ -55,17 +61,17 @@ def test_looks_at_parts():
     degree apart, where it is nearest to the crank's axis and steepest within 1e-3 of the truth.
     """
     _kept.clear()
-    look_at(SPECS)
+    compute_parts_data(SPECS)
     assert {_alike(spec) for spec in SPECS} == set(_kept)
     for spec in SPECS:
-        seen, machine = look(spec), build(spec)
+        seen, machine = parts_data(spec), build(spec)
         groove = machine.engagements[0].groove
         known = roller_paths(assembly(machine))
         assert seen.paths.ends == pytest.approx(known.ends, rel=1e-12)
         assert seen.paths.arm == pytest.approx(known.arm, rel=1e-3 if groove else 1e-12)
         if groove:
             assert seen.pressure_deg == pytest.approx(greatest_pressure(groove)[0], rel=1e-3)
-        found = undercut(machine, LOOKS)
+        found = undercut(machine, UNDERCUT_SAMPLES)
         w = machine.roller_radius_mm + spec.size.allowances.slot_clearance_mm
         cut = [depths_mm(wall, w, machine.center_distance_mm)[0] for wall in seen.walls or ()]
         assert max(cut, default=0.0) == pytest.approx(found.depth_mm if found else 0.0, rel=1e-9)
@@ -73,7 +79,7 @@ def test_looks_at_parts():
 
 def test_a_straight_slot_and_its_neighbour():
     """Radial slots b from each other's bisector are nearest at their ends: 2 end sin b."""
-    seen = look(Spec(External(6)))
+    seen = parts_data(Spec(External(6)))
     assert seen.between == pytest.approx(2.0 * seen.paths.ends[0] * math.sin(math.pi / 6))
     assert seen.least == 0.0
 
@@ -82,7 +88,7 @@ def test_a_straight_slot_and_its_neighbour():
 def test_peaks_of_a_law_are_its_own_scaled(law):
     """Against the search for the peaks of each motion: both to some roundings."""
     specs = [Spec(External(z), motion=Motion(law, a, "matched")) for z in (4, 9) for a in (-9.0, 5)]
-    (_, machine), *others = built_together(specs)
+    (_, machine), *others = batch_machines(specs)
     assert not others
     names = ("timing.dwell_deg", *COSTS)
     both = law_columns(machine, names, 4), columns(machine, names, 4)
@@ -102,16 +108,16 @@ def test_what_nothing_bounds_is_told_last():
         sort="min:loads.contact_stress_MPa.max",
     )
     found = search(target)
-    told = [row.asked[0] for row in found.rows]
+    told = [row.extra[0] for row in found.rows]
     count = sum(value is not None for value in told)
     assert 0 < count < len(told)
     assert told[:count] == sorted(told[:count])
     assert set(told[count:]) == {None}
     for row, value in zip(found.rows[count - 1 :], told[count - 1 : count + 1], strict=False):
         machine = build(row.spec)
-        (alone,) = pick(found.asked.names).of(machine)
+        (alone,) = pick(found.requested.names).of(machine)
         assert alone == (value and pytest.approx(value, rel=1e-9))
-    rows = synthesis_table(target, 0, found=found).to_rows()
+    rows = synthesis_table(target, 0, ranking=found).to_rows()
     assert [row["loads.contact_stress_MPa.max"] for row in rows] == told
 
 
@@ -130,10 +136,10 @@ def test_bounds_hold_where_no_plain_crank_carries_the_rollers():
     """Three rollers of a plain crank jam on nine slots; curved slots rest for 50 degrees here."""
     target = {"motion_deg": "70", "z": "9", "rollers": 3, "external": True}
     found = search(read_target(**target, subject_to=["dwell_deg >= 49"], sort="min:jerk.max"))
-    assert found.asked.names == ("jerk.max", "timing.dwell_deg")
+    assert found.requested.names == ("jerk.max", "timing.dwell_deg")
     row = found.rows[0]
-    assert row.asked == (pytest.approx(row.candidate.jerk_max), pytest.approx(50.0))
-    with pytest.raises(GenevaError, match="none of 2 machines that keep the rest"):
+    assert row.extra == (pytest.approx(row.candidate.jerk_max), pytest.approx(50.0))
+    with pytest.raises(GenevaError, match="none of 2 machines that keep all other bounds"):
         search(read_target(**target, subject_to=["dwell_deg >= 49", "jerk.max <= 1"]))
 
 
@@ -159,7 +165,7 @@ def test_a_search_gives_its_parts_in_their_order(options, monkeypatch):
     begun = []
     monkeypatch.setattr(searching, "cores", lambda: 1)
     monkeypatch.setattr(
-        searching, "_part", lambda task, names, how_near: begun.append(task) or task
+        searching, "_kind_rows", lambda task, names, how_near: begun.append(task) or task
     )
-    assert searching._parts(target, ()) == kinds(target)
+    assert searching._all_kinds(target, ()) == kinds(target)
     assert begun != kinds(target)

@@ -19,11 +19,11 @@ from geneva_cli.parts.model import PartsModel
 from geneva_cli.parts.turn.glance import gap_about, play_about
 from geneva_cli.study.synthesis import turns
 from geneva_cli.study.synthesis.built import built, built_together
-from geneva_cli.study.synthesis.looks import gap_at_rest, look
 from geneva_cli.study.synthesis.parts import USUAL, exact, parts, with_roller
+from geneva_cli.study.synthesis.parts_data import gap_at_rest, parts_data
 from geneva_cli.study.synthesis.reading import read_target
 from geneva_cli.study.synthesis.search import search
-from geneva_cli.study.synthesis.turns import Failing, Turns, same_turn
+from geneva_cli.study.synthesis.turns import Failure, Turns, same_turn
 from geneva_cli.verdict.checks import checks
 from geneva_cli.verdict.checks.play import finds_slot
 
@@ -88,7 +88,7 @@ def test_a_play_that_fails_is_found_where_it_failed_before():
     largest = whole.turn.hand_over
     assert largest.deg > finds_slot(whole.parts)
     assert 0.9 < play_about(whole.parts, largest.at_deg) / largest.deg <= 1.0 + 1e-6
-    seen = [Failing("hand_over_play_deg", largest.at_deg)]
+    seen = [Failure("hand_over_play_deg", largest.at_deg)]
     assert Turns().some_failing(build(with_roller(spec, 4.0)), seen) == seen
 
 
@@ -110,8 +110,8 @@ def test_a_play_that_fails_with_more_material_fails_before_parts_are_drawn(
     monkeypatch.setattr(turns, "drawn", None)
     (told,) = Turns().some_failing(machine, [])
     assert told.name == true.name
-    assert 1.0 < told.share <= true.share * (1.0 + 1e-6)
-    assert told.share > 0.8 * true.share
+    assert 1.0 < told.ratio <= true.ratio * (1.0 + 1e-6)
+    assert told.ratio > 0.8 * true.ratio
 
 
 def test_a_lock_of_which_nothing_is_left_is_told_before_parts_are_drawn(monkeypatch):
@@ -134,7 +134,7 @@ def test_the_gap_of_a_wheel_at_rest(four_bar, share):
     at = parts.assembly.start_deg + (rest - parts.assembly.start_deg) % 360.0
     drawn = parts.gaps.rollers(parts.gaps.pose(at)).min()
     sizes = parts.sizes
-    seen = gap_at_rest(look(four_bar).back, sizes.rim, sizes.half_width, sizes.roller)
+    seen = gap_at_rest(parts_data(four_bar).back, sizes.rim, sizes.half_width, sizes.roller)
     assert seen == pytest.approx(drawn, abs=1e-9 * L)
 
 

@@ -1,4 +1,4 @@
-"""Worst case, root of squares and Monte Carlo of one angle of the wheel."""
+"""Worst case, root sum of squares and Monte Carlo of one angle of the wheel."""
 
 from __future__ import annotations
 

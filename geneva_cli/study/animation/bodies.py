@@ -19,9 +19,7 @@ from geneva_cli.study.animation.turn import MachineTurn
 if TYPE_CHECKING:
     from geneva_cli.numerics.jet import Array
 
-WHEEL, ROLLER, PITCH = "WHEEL", "ROLLER", "PITCH"
-HOLLOW = "HOLLOW"  # layer of what is cut out of a plate, together with the plate's edge
-GEAR = 241  # points of a gear's pitch curve
+WHEEL = "WHEEL"  # layer
 
 
 def bodies(design: Design, turn: MachineTurn) -> Iterator[Body]:
@@ -33,7 +31,7 @@ def bodies(design: Design, turn: MachineTurn) -> Iterator[Body]:
     yield Body("wheel", (*(shapes or _slots(turn)), _mark(shapes, turn)), (0.0, 0.0), wheel)
     if flat:
         carried = (*_shapes(design, "arm"), *_shapes(design, "crank"))
-        carried = tuple(shape for shape in carried if shape.layer != ROLLER)
+        carried = tuple(shape for shape in carried if shape.layer != "ROLLER")
         yield Body("crank", carried, (L, 0.0), crank)
         yield Body("groove", _shapes(design, "groove"), (L, 0.0), still(0.0))
     if design.spec.drive.gears:
@@ -52,10 +50,9 @@ def _hollow(shapes: tuple[Shape, ...]) -> tuple[Shape, ...]:
     rims = tuple(s for s in shapes if isinstance(s, Circle) and s.layer == WHEEL)
     if not rims:
         return shapes
-    return (
-        *rims,
-        *(s._replace(layer=HOLLOW) if s.layer == WHEEL else s for s in shapes if s not in rims),
-    )
+    # the layer of what is cut out of a plate, together with the plate's edge
+    hollow = [s._replace(layer="HOLLOW") if s.layer == WHEEL else s for s in shapes]
+    return (*rims, *(h for h, s in zip(hollow, shapes, strict=True) if s not in rims))
 
 
 def _slots(turn: MachineTurn) -> tuple[Shape, ...]:
@@ -78,12 +75,12 @@ def _mark(shapes: tuple[Shape, ...], turn: MachineTurn) -> Shape:
     """A dot behind the end of the first slot, which tells the slots apart."""
     one = turn.passages[0]
     least = float(np.hypot(*turn.pin(one, np.linspace(one.entry, one.exit, 181)).T).min())
-    return Circle(PITCH, (0.78 * least if shapes else 1.01 * least, 0.0), 0.012 * turn.L)
+    return Circle("PITCH", (0.78 * least if shapes else 1.01 * least, 0.0), 0.012 * turn.L)
 
 
 def _gears(design: Design, turn: MachineTurn) -> Iterator[Body]:
     """The pitch curves of both gears: the driven one is fixed to the crank."""
-    table = design.part_table("gears", samples=GEAR).to_dict()
+    table = design.part_table("gears", samples=241).to_dict()
     sign = turn.mechanism.spec.wheel.SIGN
     gears = turn.mechanism.spec.drive.gears
     assert gears

@@ -17,13 +17,11 @@ from geneva_cli.specfile.writer import quoted, written
 from geneva_cli.study.animation.bodies import bodies
 from geneva_cli.study.animation.pushes import pushes
 from geneva_cli.study.animation.turn import MachineTurn
+from geneva_cli.study.summary.titles import title_of
 from geneva_cli.verdict.report.words import words
 
 if TYPE_CHECKING:
     from geneva_cli.figure import Figure
-
-LOOKS = 24  # samples of a turn, for the bounding box of links
-SHOWN = ("velocity", "acceleration", "pin_force_N", "input_torque_Nm")
 
 
 def scene(design: Design) -> Scene:
@@ -32,38 +30,37 @@ def scene(design: Design) -> Scene:
     Raises GenevaError for a spec that makes no machine.
 
     >>> from geneva_cli.study.animation.scene import scene
-    >>> found = scene(Design(External(6)))
-    >>> [body.name for body in found.bodies], found.turn_deg, len(found.states)
+    >>> shown = scene(Design(External(6)))
+    >>> [body.name for body in shown.bodies], shown.turn_deg, len(shown.states)
     (['wheel', 'crank'], 360.0, 2)
     """
     mechanism = design.mechanism
     turn = MachineTurn(mechanism)
-    made = [body for body in bodies(design, turn) if body.shapes]
-    found = None
+    parts = tuple(body for body in bodies(design, turn) if body.shapes)
+    outlines = None
     with suppress(GenevaError):  # no flat parts
-        found = design.parts
-    bars, rollers = turn.bars(found), turn.rollers()
-    spec = design.spec
-    title = spec.title or f"Geneva wheel of {spec.wheel.z} slots"
+        outlines = design.parts
+    bars, rollers = turn.bars(outlines), turn.rollers()
+    spec, title = design.spec, title_of(design)
     return Scene(
         title,
-        words(mechanism) + _seen(design, bars),
+        words(mechanism) + _remark(design, bars),
         "\n".join((f"title = {quoted(title)}", *written(spec))),
         mechanism.shown_deg(turn.start),
         turn.whole,
         turn.whole / (6.0 * spec.drive.n_rpm),
-        tuple(made),
+        parts,
         bars,
         rollers,
         mechanism.roller_radius_mm,
         tuple(pushes(design.cycle, turn)),
         tuple(_states(design, turn)),
         _figure(design),
-        _box(made, bars, rollers, mechanism.roller_radius_mm, turn.whole),
+        _box(parts, bars, rollers, mechanism.roller_radius_mm, turn.whole),
     )
 
 
-def _seen(design: Design, bars: tuple[Bar, ...]) -> str:
+def _remark(design: Design, bars: tuple[Bar, ...]) -> str:
     """A remark on simplifications in the picture."""
     if not design.spec.wheel.FLAT:
         return " Seen along the wheel's shaft."
@@ -72,12 +69,12 @@ def _seen(design: Design, bars: tuple[Bar, ...]) -> str:
 
 
 def _figure(design: Design) -> Figure:
-    loaded = design.cycle.is_loaded
-    return design.figure(SHOWN if loaded else SHOWN[:2])
+    loads = ("pin_force_N", "input_torque_Nm") if design.cycle.is_loaded else ()
+    return design.figure(("velocity", "acceleration", *loads))
 
 
 def _states(design: Design, turn: MachineTurn) -> Iterator[Phase]:
-    held = _held(design)
+    rest = _rest(design)
     last = turn.passages[-1]
     for one, after in zip(turn.passages, (*turn.passages[1:], None), strict=True):
         which = f"roller {one.roller}" if len(turn.passages) > 1 else "the roller"
@@ -91,11 +88,11 @@ def _states(design: Design, turn: MachineTurn) -> Iterator[Phase]:
             yield Phase(d, b, True, "the second roller stops the wheel")
         end = after.entry - turn.start if after else turn.whole
         if end > b + 1e-9:
-            yield Phase(b, end, False, held)
+            yield Phase(b, end, False, rest)
     assert last.exit <= turn.end + 1e-9
 
 
-def _held(design: Design) -> str:
+def _rest(design: Design) -> str:
     """A phrase that names what holds the wheel at rest."""
     by = design.spec.wheel.held_by
     if by:
@@ -108,7 +105,7 @@ def _held(design: Design) -> str:
 
 
 def _box(
-    made: list[Body],
+    parts: tuple[Body, ...],
     bars: tuple[Bar, ...],
     rollers: tuple[Place, ...],
     radius: float,
@@ -116,7 +113,7 @@ def _box(
 ) -> Box:
     """The bounding box of bodies at any angle, and of joints, rollers and links in the turn."""
     boxes = []
-    for body in made:
+    for body in parts:
         reach = max(map(_reach, body.shapes))
         (x, y) = body.centre
         boxes.append((x - reach, y - reach, x + reach, y + reach))
@@ -125,9 +122,9 @@ def _box(
     for (across, up), r in places:
         x0, x1, y0, y1 = min(across.value), max(across.value), min(up.value), max(up.value)
         boxes.append((x0 - r, y0 - r, x1 + r, y1 + r))
-    boxes += [
-        _plates(bar, turn_deg * k / LOOKS) for bar in bars if bar.plates for k in range(LOOKS)
-    ]
+    for bar in bars:
+        if bar.plates:
+            boxes += [_plates(bar, turn_deg * k / 24) for k in range(24)]
     columns = list(zip(*boxes, strict=True))
     return min(columns[0]), min(columns[1]), max(columns[2]), max(columns[3])
 

@@ -16,11 +16,6 @@ if TYPE_CHECKING:
 # value and slope by the input in degrees, at input angles in degrees
 Moving: TypeAlias = "Callable[[Array], tuple[Array, Array]]"
 
-BEGUN = 4  # least number of steps in a stretch
-NEAREST = 1e-3  # degrees: least distance of knots
-INSIDE = (0.2, 0.5, 0.8)  # places in a step where the cubic is compared with the function
-DIFFERENCE = 1e-3  # degrees: half the step of a numerical derivative
-
 
 def still(value: float) -> Track:
     """The track of a constant."""
@@ -44,8 +39,8 @@ def track(
     for a, b, moving in pieces:
         if b > a:
             knots, v, s = _knots(a, b, moving, error)
-            for column, found in zip(columns, (knots - start, v, s), strict=True):
-                column += found.tolist()
+            for column, more in zip(columns, (knots - start, v, s), strict=True):
+                column += more.tolist()
     at, value, slope = map(tuple, columns)
     return Track(at, value, slope, gain)
 
@@ -54,7 +49,7 @@ def sampled(f: Callable[[Array], Array], a: float, b: float) -> Moving:
     """Add numerical slopes to a function on a stretch."""
 
     def moving(x: Array) -> tuple[Array, Array]:
-        d = min(DIFFERENCE, 0.1 * (b - a))
+        d = min(1e-3, 0.1 * (b - a))  # degrees
         left, right = np.maximum(x - d, a), np.minimum(x + d, b)
         return f(x), (f(right) - f(left)) / (right - left)
 
@@ -73,22 +68,22 @@ def cut(a: float, b: float, places: Sequence[float]) -> list[tuple[float, float]
 
 def _knots(a: float, b: float, moving: Moving, error: float) -> tuple[Array, Array, Array]:
     """Knots, values and slopes: even steps, halved where the cubic is not within the error."""
-    knots = np.linspace(a, b, BEGUN + 1)
+    knots = np.linspace(a, b, 5)
     while True:
         v, s = moving(knots)
         h = np.diff(knots)
         off = np.zeros(len(h))
-        for u in INSIDE:
+        for u in (0.2, 0.5, 0.8):  # places in a step
             there = moving(knots[:-1] + u * h)[0]
             off = np.maximum(off, np.abs(_hermite(u, h, v, s) - there))
-        wide = (off > error) & (h > NEAREST)
+        wide = (off > error) & (h > 1e-3)  # degrees: knots are no nearer to each other
         if not wide.any():
             return knots, v, s
         knots = np.sort(np.concatenate((knots, (knots[:-1] + 0.5 * h)[wide])))
 
 
 def _hermite(u: float, h: Array, v: Array, s: Array) -> Array:
-    """The cubics between knots, at the share ``u`` of each step."""
+    """The cubics between knots, at the fraction ``u`` of each step."""
     w = 1.0 - u
     out: Array = (
         w * w * (1.0 + 2.0 * u) * v[:-1]

@@ -24,11 +24,10 @@ if TYPE_CHECKING:
     from geneva_cli.numerics.jet import Array
     from geneva_cli.parts.outlines import Outlines
 
-ANGLE = 1e-7  # rad, of wheel and crank: a tenth of the page's own error
-SHARE = 2e-6  # fraction of the centre distance, for joints and rollers: below what a screen shows
+ANGLE_ERROR = 1e-7  # rad, of wheel and crank: a tenth of the page's own error
 
 
-class Passage(NamedTuple):
+class RollerPassage(NamedTuple):
     """One roller's passage through a slot: its engagement, and mid-motion's input angle."""
 
     engagement: Engagement
@@ -56,7 +55,7 @@ class MachineTurn:
         periods = round(self.whole / mechanism.period_deg)
         each = mechanism.engagements
         self.passages = tuple(
-            Passage(one, one.mid_deg + k * mechanism.period_deg, k * len(each) + i + 1)
+            RollerPassage(one, one.mid_deg + k * mechanism.period_deg, k * len(each) + i + 1)
             for k in range(periods)
             for i, one in enumerate(each)
         )
@@ -81,7 +80,7 @@ class MachineTurn:
             pieces.append((one.exit, after.entry if after else self.end, resting(turned)))
             turned += after.engagement.half_step if after else 0.0
         first = self.passages[0].engagement.half_step
-        return track(pieces, ANGLE, self.start, turned + first)
+        return track(pieces, ANGLE_ERROR, self.start, turned + first)
 
     def crank(self) -> Track:
         """The direction of the crank arm of the first roller about the crank's axis, radians."""
@@ -99,9 +98,9 @@ class MachineTurn:
             off: Array = (np.arctan2(v, u) - even(x) + math.pi) % math.tau - math.pi
             return even(x) + off
 
-        return self._sampled(even if sense else angle, ANGLE, gain)
+        return self._sampled(even if sense else angle, ANGLE_ERROR, gain)
 
-    def pin(self, one: Passage, input_deg: Array) -> Array:
+    def pin(self, one: RollerPassage, input_deg: Array) -> Array:
         """The centre of the roller that moves the wheel in a passage, mm, (n, 2)."""
         return self._pin(one.engagement, one.mid, input_deg)
 
@@ -122,15 +121,15 @@ class MachineTurn:
         x, y = (along.c[0] + 0.0 * at for along in engagement.path(at, 0))
         return self.L * np.column_stack((x, y))
 
-    def bars(self, found: Outlines | None) -> tuple[Bar, ...]:
-        """The links with their outlines; ``found`` are the outlines of the other parts, if any."""
+    def bars(self, outlines: Outlines | None) -> tuple[Bar, ...]:
+        """The links with their plates; ``outlines`` are those of the other parts, if drawn."""
 
         def joint(i: int, j: int) -> Place:
             return self._place(
                 lambda x: np.column_stack([c + 0.0 * x for c in self._links_at(x)[i].joints[j]])
             )
 
-        plates = _plates(self.mechanism, found)
+        plates = _plates(self.mechanism, outlines)
         return tuple(
             Bar(
                 link.name,
@@ -152,7 +151,8 @@ class MachineTurn:
 
     def _place(self, place: Callable[[Array], Array]) -> Place:
         def along(i: int) -> Track:
-            return self._sampled(lambda x: place(x)[:, i], SHARE * self.L)
+            error = 2e-6 * self.L  # of joints and rollers: less than a screen shows
+            return self._sampled(lambda x: place(x)[:, i], error)
 
         return along(0), along(1)
 
@@ -163,17 +163,17 @@ class MachineTurn:
         return track(pieces, error, self.start, gain)
 
 
-def _plates(mechanism: Mechanism, found: Outlines | None) -> dict[str, tuple[Carried, ...]]:
+def _plates(mechanism: Mechanism, outlines: Outlines | None) -> dict[str, tuple[Carried, ...]]:
     """The plates of each link by its name; empty if the links' sizes allow none."""
     out: dict[str, tuple[Carried, ...]] = {}
     try:
-        cut_ = [m.part for m in drawn_links(mechanism, found).cut if isinstance(m.part, Plate)]
+        plates = [m.part for m in drawn_links(mechanism, outlines).cut if isinstance(m.part, Plate)]
     except GenevaError:
         return out
     for link in links_at(mechanism, np.zeros(1)):
         slid = [j for j, kind in enumerate(link.kinds) if kind in (Joint.SLIDE, Joint.CARRIED)]
-        blocks = [plate for plate in cut_ if plate.name == f"{link.name}'s block"]
-        own = [plate for plate in cut_ if plate.name == link.name]
+        blocks = [plate for plate in plates if plate.name == f"{link.name}'s block"]
+        own = [plate for plate in plates if plate.name == link.name]
         out[link.name] = tuple(
             Carried(j, (plate.outline, *plate.holes))
             for j, plate in zip([0] * len(own) + slid, [*own, *blocks], strict=False)
@@ -181,7 +181,7 @@ def _plates(mechanism: Mechanism, found: Outlines | None) -> dict[str, tuple[Car
     return out
 
 
-def _by_motion(one: Passage, turned: float) -> Moving:
+def _by_motion(one: RollerPassage, turned: float) -> Moving:
     def moving(x: Array) -> tuple[Array, Array]:
         psi = one.engagement.motion(x - one.mid, 1)
         return turned + np.asarray(psi.c[0]), np.asarray(psi.c[1]) * (math.pi / 180.0)

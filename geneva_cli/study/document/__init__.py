@@ -7,10 +7,10 @@ from __future__ import annotations
 
 from geneva_cli.design import Design
 from geneva_cli.document import Document, Prose
-from geneva_cli.study.document import answers, given, judged, pictures
-from geneva_cli.study.document.figures import key_figures
-from geneva_cli.study.document.left import Left
-from geneva_cli.study.summary.named import title_of
+from geneva_cli.study.document import answers, inputs, pictures, verdict
+from geneva_cli.study.document.key_figures import key_figures
+from geneva_cli.study.document.rest import RemainingValues
+from geneva_cli.study.summary.titles import title_of
 
 
 def document(design: Design) -> Document:
@@ -22,26 +22,26 @@ def document(design: Design) -> Document:
     ('Geneva wheel of 6 slots', 'passes', 'All 14 checks pass')
     """
     table = design.report.table
-    left = Left(dict(zip(table.names, next(table.rows()), strict=True)))
-    for name in ("spec", "title"):
+    left = RemainingValues(dict(zip(table.names, next(table.rows()), strict=True)))
+    for name in ("spec", "title"):  # the document's title shows them
         left.one(name)
     left.take("inputs")  # all of them, and more, are in the spec
-    state, verdict, reasons = judged.verdict(design, left)
+    state, headline, reasons = verdict.verdict(design, left)
     blocks = (
         Prose(table.prose),
         *pictures.drawn(design),
         key_figures(design),
-        *judged.warned(left),
-        *given.inputs(design.spec),
+        *verdict.warnings(left),
+        *inputs.inputs(design.spec),
         *answers.timing(left, design.spec.drive.n_rpm),
         *pictures.curves(design),
         *answers.loads(design, left),
         *answers.sizes(left),
         *answers.strength(left),
-        *judged.checks(design),
+        *verdict.checks(design),
         *answers.swinging(left),
         *answers.parts(left),
-        *judged.said(design, left),
-        *given.defaults(design.spec),
+        *verdict.remarks(design, left),
+        *inputs.defaults(design.spec),
     )
-    return Document(title_of(design), state, verdict, reasons, blocks)
+    return Document(title_of(design), state, headline, reasons, blocks)

@@ -9,24 +9,12 @@ from geneva_cli.analysis.figures import AXIS_BY_NAME
 from geneva_cli.analysis.loads.summary import QuantitySummary
 from geneva_cli.design import Design
 from geneva_cli.document import Block, Facts, Grid, Heading, Listed, Row
-from geneva_cli.study.document.left import Left, grid
-from geneva_cli.study.document.named import capital, fact, facts, unit_of
+from geneva_cli.study.document.facts import capital, fact, facts
+from geneva_cli.study.document.rest import RemainingValues, grid
 from geneva_cli.table import Table
 
-BESIDE = 6  # engagements that fit on a page side by side
-# of the wheel's angle: by the input's angle in radians, and by time
-UNITS = {
-    "velocity": "rad/s",
-    "acceleration": "rad/s²",
-    "jerk": "rad/s³",
-    "power": "rad²/s³",
-}
-# names that end with a stroke are followed by the unit
-PEAKS = ("max", "at_deg", "max_", "entry", "entry_", "exit")
-STRONG = ("pin", "horn", "lock", "wheel_shaft", "crank_shaft")
 
-
-def timing(left: Left, n_rpm: float) -> Iterator[Block]:
+def timing(left: RemainingValues, n_rpm: float) -> Iterator[Block]:
     """Timing and peaks; if engagements differ, shared values, the worst, and each."""
     yield Heading("Timing")
     yield from facts("Timing of a cycle", left.take("timing"))
@@ -42,13 +30,19 @@ def timing(left: Left, n_rpm: float) -> Iterator[Block]:
         "Unit at speed",
     )
     rows = []
-    for name, unit in UNITS.items():
-        found = left.take(name)
-        ends = [key for key in found if key not in PEAKS]
-        by_time = {key.partition("_")[0]: found.pop(key) for key in ends}
-        values = (found["max"], found["at_deg"], by_time["max"])
-        entry = (found.get("entry"), by_time.get("entry"))
-        rows.append((capital(name), *values, *entry, found.get("exit"), unit))
+    for name, unit in (
+        ("velocity", "rad/s"),
+        ("acceleration", "rad/s²"),
+        ("jerk", "rad/s³"),
+        ("power", "rad²/s³"),
+    ):
+        peak = left.take(name)
+        # the other names have the unit of a time at their end
+        by_angle = {key: peak.pop(key, None) for key in ("max", "at_deg", "entry", "exit")}
+        by_time = {key.partition("_")[0]: value for key, value in peak.items()}
+        values = (by_angle["max"], by_angle["at_deg"], by_time["max"])
+        entry = (by_angle["entry"], by_time.get("entry"))
+        rows.append((capital(name), *values, *entry, by_angle["exit"], unit))
     yield Grid("Peaks: derivatives of the wheel's angle, in radians", heads, tuple(rows))
     yield from _each(left.one("stations"))
 
@@ -58,15 +52,16 @@ def _each(stations: Table | None) -> Iterator[Block]:
     if stations is None:
         return
     rows = list(stations.rows())
-    for start in range(0, len(rows), BESIDE):
-        some = rows[start : start + BESIDE]
+    width = 6  # engagements that fit on a page side by side
+    for start in range(0, len(rows), width):
+        some = rows[start : start + width]
         heads = ("Of the engagement", "Unit", *(str(start + i + 1) for i in range(len(some))))
         columns = zip(stations.names, zip(*some, strict=True), strict=True)
-        lines = [(fact(n, None).name, unit_of(n), *values) for n, values in columns]
+        lines = [(*fact(name, None)[::2], *values) for name, values in columns]
         yield Grid("Engagement by engagement", heads, tuple(lines))
 
 
-def loads(design: Design, left: Left) -> Iterator[Block]:
+def loads(design: Design, left: RemainingValues) -> Iterator[Block]:
     """The cycle under load, sizing, and impacts; without a load the motion alone."""
     own = {name: left.take(name) for name in ("loads", "cycle")}
     page = design.loads_page.to_dict()
@@ -86,17 +81,17 @@ def loads(design: Design, left: Left) -> Iterator[Block]:
         caption = "Impact at entry" if name == "entry" else "Impact where the roller changes walls"
         yield from facts(caption, left.take(f"shock.{name}"))
     sizing = {n.partition(".")[2]: v for n, v in page.items() if n.startswith("sizing.")}
-    found = facts("What it takes", sizing)
-    if found:
+    blocks = facts("What it takes", sizing)
+    if blocks:
         yield Heading("Sizing")
-        yield from found
+        yield from blocks
 
 
 def _column(name: str) -> str:
     return f"{fact(name, None).name}, °" if name.endswith("_at_deg") else fact(name, None).name
 
 
-def sizes(left: Left) -> Iterator[Block]:
+def sizes(left: RemainingValues) -> Iterator[Block]:
     """Sizes of the machine and its parts."""
     yield Heading("Sizes")
     for caption, group in (
@@ -107,58 +102,48 @@ def sizes(left: Left) -> Iterator[Block]:
         yield from facts(caption, left.take(group))
 
 
-def strength(left: Left) -> Iterator[Block]:
+def strength(left: RemainingValues) -> Iterator[Block]:
     """Strength and life of the parts."""
-    found: list[Facts] = []
-    for part in STRONG:
-        found += facts(capital(part.replace("_", " ")), left.take(f"strength.{part}"))
-    found += facts("Life", left.take("life"))
-    if found:
+    blocks: list[Facts] = []
+    for part in ("pin", "horn", "lock", "wheel_shaft", "crank_shaft"):
+        blocks += facts(capital(part.replace("_", " ")), left.take(f"strength.{part}"))
+    blocks += facts("Life", left.take("life"))
+    if blocks:
         yield Heading("Life and strength")
-        yield from found
+        yield from blocks
 
 
-def swinging(left: Left) -> Iterator[Block]:
-    """Vibration and tolerances, if they are given."""
+def swinging(left: RemainingValues) -> Iterator[Block]:
+    """Vibration and tolerances, if the report has them."""
     for text, group in (("Vibration", "vibration"), ("Tolerances", "tolerance")):
-        said = left.one(f"{group}.warnings")
-        found = facts(text, left.take(group))
-        if found:
+        warnings = left.one(f"{group}.warnings")
+        blocks = facts(text, left.take(group))
+        if blocks:
             yield Heading(text)
-            yield from found
-        if said:
-            yield Listed(tuple(said))
+            yield from blocks
+        if warnings:
+            yield Listed(tuple(warnings))
 
 
-CAPTIONS = {
-    "part": "Parts",
-    "pivot": "Pivots",
-    "dimension": "Dimensions",
-    "missing": "Not built",
-}
-# The list of parts in two tables, each as wide as a page: descriptions, and places.
-PLACED = (
-    *("density_kgm3", "z_low_mm", "z_high_mm", "centroid_x_mm", "centroid_y_mm", "inertia_kgm2"),
-)
-WHAT = ("count", "material", "thickness_mm", "size_x_mm", "size_y_mm", "mass_kg")
-
-
-def parts(left: Left) -> Iterator[Block]:
+def parts(left: RemainingValues) -> Iterator[Block]:
     """The list of parts, pivots and dimensions."""
     tables: dict[str, Any] = left.take("parts_list")
     if any(table is not None for table in tables.values()):
         yield Heading("Parts list")
-    for name, caption in CAPTIONS.items():
+    list_of_parts: Table | None = tables.get("part")
+    if list_of_parts is not None:  # two tables, each as wide as a page
+        sizes = ("count", "material", "thickness_mm", "size_x_mm", "size_y_mm", "mass_kg")
+        yield grid("Parts", _columns(list_of_parts, ("name", *sizes)))
+        places = ("z_low_mm", "z_high_mm", "centroid_x_mm", "centroid_y_mm", "inertia_kgm2")
+        caption = "Places, densities and inertias"
+        yield grid(caption, _columns(list_of_parts, ("name", "density_kgm3", *places)))
+    captions = {"pivot": "Pivots", "dimension": "Dimensions", "missing": "Not built"}
+    for name, caption in captions.items():
         table: Table | None = tables.get(name)
-        if table is None:
-            continue
-        if name == "part":
-            yield grid(caption, _columns(table, ("name", *WHAT)))
-            yield grid("Places, densities and inertias", _columns(table, ("name", *PLACED)))
-            continue
-        found = grid(caption, table)
-        rows = (tuple("°" if cell == "deg" else cell for cell in row) for row in found.rows)
-        yield found._replace(rows=tuple(rows))
+        if table is not None:
+            block = grid(caption, table)
+            rows = (tuple("°" if cell == "deg" else cell for cell in row) for row in block.rows)
+            yield block._replace(rows=tuple(rows))
 
 
 def _columns(table: Table, names: tuple[str, ...]) -> Table:

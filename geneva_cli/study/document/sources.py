@@ -5,22 +5,22 @@ from __future__ import annotations
 from geneva_cli.machine.spec import Spec
 from geneva_cli.manual.explained import entries
 
-CITED = (
-    "Cited: Malteski mehanizmi, a lecture; handbook no. 7, Maltese mechanisms; F. Krasniqi, "
-    "Improvements of kinetic properties and lifespan of Maltic cross through curved canal, "
-    "University of Prishtina; Polyudov and Kandyak, Kinematics of the Maltese cross mechanism with "
-    "a side-crank drive, Ukrainian Academy of Printing. Where our numbers differ, and why: "
-    "geneva help numbers.",
-    "Derivatives: Taylor coefficients that are carried along; peaks: roots of the next derivative.",
-    "Contact stress: Hertz, line contact. Life of the roller: ISO 281. Shafts: the ASME code for "
-    "transmission shafting (B17c). Pins: bending and shear by von Mises.",
-    "Formula and source of each value and check: geneva explain NAME.",
-)
-
 
 def sources(spec: Spec) -> tuple[str, ...]:
     """The sources of the machine's kinds and its law, and those that all share."""
     names = [spec.wheel.NAME, spec.drive.NAME, *([spec.motion.law.NAME] if spec.motion else [])]
     known = {n: e.source for e in entries() if e.group in ("kind", "law") for n in e.names}
     own = [f"{name[0].upper()}{name[1:]}: {known[name]}." for name in names if known.get(name)]
-    return (*own, *CITED)
+    return (
+        *own,
+        "Cited: Malteski mehanizmi, a lecture; handbook no. 7, Maltese mechanisms; F. Krasniqi, "
+        "Improvements of kinetic properties and lifespan of Maltic cross through curved canal, "
+        "University of Prishtina; Polyudov and Kandyak, Kinematics of the Maltese cross mechanism "
+        "with a side-crank drive, Ukrainian Academy of Printing. Where our numbers differ, and "
+        "why: geneva help numbers.",
+        "Derivatives: Taylor coefficients that are carried along; peaks: roots of the next "
+        "derivative.",
+        "Contact stress: Hertz, line contact. Life of the roller: ISO 281. Shafts: the ASME code "
+        "for transmission shafting (B17c). Pins: bending and shear by von Mises.",
+        "Formula and source of each value and check: geneva explain NAME.",
+    )

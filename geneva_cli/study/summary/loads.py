@@ -10,13 +10,11 @@ from geneva_cli.design import Design
 from geneva_cli.document import WARNS, Answer, Summary, SummaryLine
 from geneva_cli.numerics.tolerances import TIE
 from geneva_cli.study.fields import pick
-from geneva_cli.study.summary.named import counted, title_of
+from geneva_cli.study.summary.titles import counted, title_of
 from geneva_cli.verdict.headline import warning
 from geneva_cli.verdict.measured import measured
 from geneva_cli.verdict.motor import RecommendedMotor, recommended_motor
 
-FOUR_POLES_RPM = 1400.0  # speed at full load of small motors with four poles, at 50 Hz
-EXPLAINED = "geneva explain motor"
 NO_BOUND = "without bound: see the warnings"
 
 
@@ -40,8 +38,8 @@ def load_lines(design: Design) -> Iterator[SummaryLine]:
     sizing = _sizing(design)
     if sizing["flywheel_to_add_kgm2"] is not None:
         add = measured(sizing["flywheel_to_add_kgm2"], "kg m²")
-        share = measured(100.0 * (design.spec.motor.speed_variation or 0.0), "%")
-        yield SummaryLine("flywheel", f"{add} on the input for a speed variation of {share}")
+        variation = measured(100.0 * (design.spec.motor.speed_variation or 0.0), "%")
+        yield SummaryLine("flywheel", f"{add} on the input for a speed variation of {variation}")
 
 
 def cycle_lines(design: Design) -> Iterator[SummaryLine]:
@@ -92,26 +90,28 @@ def motor_line(design: Design) -> SummaryLine:
     motor = recommended_motor(_sizing(design))
     if motor is None:
         return SummaryLine("motor", "none suffices: nothing bounds the input's torque", "", WARNS)
-    given = design.spec.motor
-    needed = f"{measured(motor.needed_W, 'W')} {_why(motor, given.service_factor)}"
+    keys = design.spec.motor
+    needed = f"{measured(motor.needed_W, 'W')} {_why(motor, keys.service_factor)}"
     torque = measured(motor.input_torque_Nm, "N m")
     if motor.rated_kW is None:
-        return SummaryLine("motor", f"{needed}: more than any standard motor has", EXPLAINED, WARNS)
+        text SummaryLine("motor", f"{needed}: more than any standard motor has"
+        return Line("motor", text, "geneva explain motor", WARNS)
     return SummaryLine(
         "motor",
-        f"{measured(motor.rated_kW, 'kW')}, {_geared(motor, given.gear_ratio)}",
-        f"{needed}, {torque} on the input; the next power of IEC 60072-1 ({EXPLAINED})",
+        f"{measured(motor.rated_kW, 'kW')}, {_geared(motor, keys.gear_ratio)}",
+        f"{needed}, {torque} on the input; the next power of IEC 60072-1 (geneva explain motor)",
     )
 
 
 def _geared(motor: RecommendedMotor, gear_ratio: float) -> str:
     """Speed and gear ratio; a suggestion for a slow input without a reducer."""
-    if gear_ratio != 1.0 or 2.0 * motor.rpm > FOUR_POLES_RPM:
+    four_poles_rpm = 1400.0  # at full load, of small motors with four poles at 50 Hz
+    if gear_ratio != 1.0 or 2.0 * motor.rpm > four_poles_rpm:
         return f"{measured(motor.rpm, 'rpm')}, gear ratio {measured(gear_ratio)}"
-    ratio = measured(FOUR_POLES_RPM / motor.rpm, digits=3)
+    ratio = measured(four_poles_rpm / motor.rpm, digits=3)
     return (
         f"{measured(motor.rpm, 'rpm')} behind its reducer, as gear ratio {ratio} from "
-        f"{measured(FOUR_POLES_RPM, 'rpm')}"
+        f"{measured(four_poles_rpm, 'rpm')}"
     )
 
 
@@ -128,7 +128,7 @@ def _powers(design: Design) -> Iterator[SummaryLine]:
     power = design.loads["power_W"]
     (inertia,) = pick(["loads.kinetic_power_W"]).of(design.mechanism)
     assert inertia is None or isinstance(inertia, float)
-    found: list[tuple[float | None, str]] = [
+    powers: list[tuple[float | None, str]] = [
         (power.max, "greatest at the input, over the exact cycle"),
         (power.rms, "root mean square at the input, dwells included: what heats the motor"),
         (power.mean, "mean at the input: the energy of a cycle over its time"),
@@ -136,10 +136,10 @@ def _powers(design: Design) -> Iterator[SummaryLine]:
     ]
     if motor:
         text = "at the motor by the makers' form, with service factor and all losses"
-        found.append((motor.form_W, text))
+        powers.append((motor.form_W, text))
     if motor and design.spec.motor.gear_efficiency < 1.0:
         text = "greatest at the motor over the exact cycle, with the reducer's losses"
-        found.append((motor.peak_W, text))
-    known = [(size, text) for size, text in found if size is not None]
+        powers.append((motor.peak_W, text))
+    known = [(size, text) for size, text in powers if size is not None]
     for size, text in sorted(known, key=lambda pair: -pair[0]):
         yield SummaryLine(measured(size, "W"), text)

@@ -8,7 +8,7 @@ from typing import Any
 from geneva_cli.design import Design
 from geneva_cli.document import Answer, Summary, SummaryLine
 from geneva_cli.study.summary.loads import cycle_lines, motor_line
-from geneva_cli.study.summary.named import title_of
+from geneva_cli.study.summary.titles import title_of
 from geneva_cli.verdict.headline import (
     below_summary,
     failure_lines,
@@ -18,8 +18,6 @@ from geneva_cli.verdict.headline import (
 )
 from geneva_cli.verdict.measured import measured
 
-SAID = ("title", "passes", "checks_failed", "not_proved")  # by the summary
-
 
 def of_report(design: Design) -> Answer:
     """The answer of ``geneva report``: the verdict, key figures, failures and warnings."""
@@ -28,7 +26,8 @@ def of_report(design: Design) -> Answer:
     checks, warnings = design.checks, design.warnings
     lines = (*failure_lines(checks), *key_figures(design), *warning_lines(checks, warnings))
     summary = Summary(f"{title_of(design)}: {text}", lines, state)
-    return Answer((summary,), below_summary(record, without=SAID), record)
+    shown = ("title", "passes", "checks_failed", "not_proved")
+    return Answer((summary,), below_summary(record, without=shown), record)
 
 
 def key_figures(design: Design) -> Iterator[SummaryLine]:

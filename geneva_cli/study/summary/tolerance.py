@@ -6,24 +6,19 @@ from collections.abc import Iterator
 from typing import Any
 
 from geneva_cli.design import Design
-from geneva_cli.document import WARNS, Answer, Summary, SummaryLine
+from geneva_cli.document import Answer, Summary, SummaryLine
 from geneva_cli.errors import is_warning
 from geneva_cli.names import spoken
-from geneva_cli.study.summary.named import counted, title_of
+from geneva_cli.study.summary.titles import record_answer
 from geneva_cli.table import Table
-from geneva_cli.verdict.headline import below_summary, warning
 from geneva_cli.verdict.measured import measured
 
 
 def of_tolerance(design: Design, record: Table) -> Answer:
     """The answer of ``geneva tolerance``, from the record of ``Design.tolerance``."""
     values = record.to_dict()
-    own = filter(is_warning, values["warnings"])
-    warnings = [*design.motion_warnings, *own]
-    lines = (*_lines(values), *map(warning, warnings))
-    state = WARNS if warnings else ""
-    summary = Summary(f"{title_of(design)}{counted(warnings)}", lines, state)
-    return Answer((summary,), below_summary(record, without=("title",)), record)
+    warnings = [*design.motion_warnings, *filter(is_warning, values["warnings"])]
+    return record_answer(design, record, without=(values), warnings)
 
 
 def _lines(values: dict[str, Any]) -> Iterator[SummaryLine]:
@@ -33,8 +28,8 @@ def _lines(values: dict[str, Any]) -> Iterator[SummaryLine]:
     most = max(rows, key=lambda row: row["share"] or 0.0, default=None)
     if most and most["share"]:
         words, _ = spoken(most["dimension"])
-        share = measured(100.0 * most["share"], "%", 3)
-        yield SummaryLine("greatest", f"{words} contributes {share} of the dwell's variance")
+        percent = measured(100.0 * most["share"], "%", 3)
+        yield SummaryLine("greatest", f"{words} contributes {percent} of the dwell's variance")
     if values["entry_jump.worst"] is not None:
         jump = measured(values["entry_jump.worst"])
         yield SummaryLine("entry", f"the wheel's velocity jumps by up to {jump} of the input's")
@@ -54,10 +49,12 @@ def _angle(label: str, what: str, name: str, values: dict[str, Any]) -> SummaryL
 
 def _clearances(values: dict[str, Any]) -> str:
     turns = values["clearances.turns"]
-    said = {True: "every machine turns", False: "not every machine turns", None: "not known"}[turns]
+    sentence = {True: "every machine turns", False: "not every machine turns", None: "not known"}[
+        turns
+    ]
     parts = [
         f"{part} {measured(values[f'clearances.{part}_mm'], 'mm')}, needed {measured(needed)}"
         for part in ("slot", "lock")
         if (needed := values[f"clearances.{part}_needed_mm"]) is not None
     ]
-    return "; ".join([said, *parts])
+    return "; ".join([sentence, *parts])

@@ -6,24 +6,18 @@ from collections.abc import Iterator
 from typing import Any
 
 from geneva_cli.design import Design
-from geneva_cli.document import WARNS, Answer, Summary, SummaryLine
+from geneva_cli.document import Answer, Summary, SummaryLine
 from geneva_cli.errors import is_warning
-from geneva_cli.study.summary.named import counted, title_of
+from geneva_cli.study.summary.titles import record_answer
 from geneva_cli.table import Table
-from geneva_cli.verdict.headline import below_summary, warning
 from geneva_cli.verdict.measured import measured
-
-STILL = 1e-6  # fraction of a step: of a step of 90°, a third of an arc second
 
 
 def of_vibration(design: Design, record: Table) -> Answer:
     """The answer of ``geneva vibration``, from the record of ``Design.vibration``."""
     values = record.to_dict()
     warnings = [text for text in values["warnings"] if is_warning(text)]
-    lines = (*_lines(values), *map(warning, warnings))
-    state = WARNS if warnings else ""
-    summary = Summary(f"{title_of(design)}{counted(warnings)}", lines, state)
-    return Answer((summary,), below_summary(record, without=("title",)), record)
+    return record_answer(design, record, without=(values), warnings)
 
 
 def _lines(values: dict[str, Any]) -> Iterator[SummaryLine]:
@@ -35,11 +29,11 @@ def _lines(values: dict[str, Any]) -> Iterator[SummaryLine]:
     hertz = values["natural_Hz"]
     natural = "" if hertz is None else f" of {measured(hertz, 'Hz')}"
     yield SummaryLine("motion", f"lasts {ratio} natural periods{natural}, damping ratio {damping}")
-    share = measured(values["residual_share"])
+    residual = measured(values["residual_share"])
     swing = f"an index leaves the load swinging by {measured(values['residual_deg'], 'deg')}"
-    if values["residual_share"] < STILL:
+    if values["residual_share"] < 1e-6:  # of a step of 90°, a third of an arc second
         swing = "an index leaves the load practically at rest"
-    yield SummaryLine("residual", f"{swing}, {share} of the step")
+    yield SummaryLine("residual", f"{swing}, {residual} of the step")
     if values["residual_share_worst"] is not None:
         worst = measured(values["residual_share_worst"])
         yield SummaryLine("worst", f"{worst} of the step, with a stiffness off by up to 20 %")

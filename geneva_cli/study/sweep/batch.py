@@ -14,9 +14,6 @@ from geneva_cli.study.fields import Cell
 from geneva_cli.study.sweep.columns import columns
 from geneva_cli.study.sweep.values import Value
 
-# designs of a group of which one must be a valid spec, so that the kind of machine is known
-TRIED = 20
-
 
 class Batch:
     """Rows that differ in numbers only, and the indices of those that belong to this group."""
@@ -25,8 +22,8 @@ class Batch:
         self.rows, self.members = rows, members
 
     def spec(self, read: Callable[[Sequence[Value]], Spec]) -> Spec | None:
-        """The first valid spec among the first members; None if there is none."""
-        for i in self.members[:TRIED]:
+        """The first valid spec among the first 20 members; None if there is none."""
+        for i in self.members[:20]:
             try:
                 return read(self.rows[i])
             except GenevaError:
@@ -91,12 +88,12 @@ def table(
 
 
 def _fill(
-    out: dict[int, list[Cell]], members: Sequence[int], found: Many, names: Sequence[str]
+    out: dict[int, list[Cell]], members: Sequence[int], machines: Many, names: Sequence[str]
 ) -> None:
-    if found.machine is None:
+    if machines.machine is None:
         return
-    built = found.which.tolist()
-    values = columns(found.machine, names, len(built))
+    built = machines.which.tolist()
+    values = columns(machines.machine, names, len(built))
     if values is None:
         return
     for i, row in zip(built, np.column_stack(values).tolist(), strict=True):

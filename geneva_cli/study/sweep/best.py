@@ -10,15 +10,13 @@ from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.specfile.writer import quoted, written
 from geneva_cli.study.fields import Cell
 from geneva_cli.study.goals import Objective
-from geneva_cli.study.sweep.best_search import CLOSE, Row, SweepSearch
+from geneva_cli.study.sweep.best_search import Row, SweepSearch
 from geneva_cli.study.sweep.constraints import Constraint, Nearness, is_number
-from geneva_cli.study.sweep.places import Places, closer
+from geneva_cli.study.sweep.places import BestPlaces, closer
 from geneva_cli.study.sweep.run import Sweep
 
-STARTS = 3  # number of the best places from which the optimiser starts
 
-
-class Asked(NamedTuple):
+class SearchGoal(NamedTuple):
     """The objective of a search, and the bounds that a design must keep."""
 
     objective: Objective
@@ -33,20 +31,20 @@ class Winner(NamedTuple):
     tried: int
     feasible: int
     binding: tuple[Constraint, ...]
-    beside: dict[str, Cell]  # the quantities of --pick and --check, which do not steer the search
+    extra: dict[str, Cell]  # the quantities of --pick and --check, which do not steer the search
 
-    def lines(self, asked: Asked) -> list[str]:
+    def lines(self, goal: SearchGoal) -> list[str]:
         """The design as the lines of a spec file, with the result in comments above it."""
-        name = asked.objective.name
-        word = "least" if asked.objective.sign > 0.0 else "greatest"
+        name = goal.objective.name
+        word = "least" if goal.objective.sign > 0.0 else "greatest"
         notes = [
             f"# The {word} {name} of {self.tried:,} designs, {self.feasible:,} of them within the "
             f"bounds: {self.values[name]:.9g}.",
             *[
                 f"# {c}: {self.values[c.name]:.9g}{c.standing(self.values[c.name])}"
-                for c in asked.constraints
+                for c in goal.constraints
             ],
-            *[f"# {name}: {_said(value)}" for name, value in self.beside.items()],
+            *[f"# {name}: {_text(value)}" for name, value in self.extra.items()],
         ]
         spec = self.mechanism.spec
         # the spec's own title may describe what was varied
@@ -54,39 +52,39 @@ class Winner(NamedTuple):
         return [*notes, *([f"title = {quoted(title)}"] if title else []), *written(spec)]
 
 
-def winner(found: Sweep, every: Iterable[Sequence[Row]], asked: Asked) -> Winner:
+def winner(sweep: Sweep, every: Iterable[Sequence[Row]], goal: SearchGoal) -> Winner:
     """Return the best design of a sweep, whose rows come in blocks and are not kept.
 
-    The spec's own design is tried too, if its values are among those varied. The keys that were
-    given as spans are refined: first by clouds of designs that shrink about the best places, then
-    by an optimiser from the best of these. Raises GenevaError if no design keeps the bounds; the
-    message says how near the designs come.
+    The spec's own design is tried too, if its values are among those varied. The keys that vary in
+    a span are refined: first by clouds of designs that shrink about the best places, then by an
+    optimiser from the best of these. Raises GenevaError if no design keeps the bounds; the message
+    says how near the designs come.
     """
-    search = SweepSearch(found, asked.objective, asked.constraints)
+    search = SweepSearch(sweep, goal.objective, goal.constraints)
     tally = Tally(search)
     for rows in every:
         tally.add(rows)
     # a random sample comes near the spec's own design, but does not contain it
-    if search.free and found.given is not None:
-        tally.add([found.row(found.given)])
+    if search.free and sweep.own_values is not None:
+        tally.add([sweep.row(sweep.own_values)])
     places = closer(search, tally.places.best()) if search.free else tally.places.best()
-    starts = [row for row in places if search.keeps(row)][:STARTS]
+    starts = [row for row in places if search.keeps(row)][:3]  # the best of them suffice
     if not starts:
         raise GenevaError(tally.none(places[0]))
     best = min((search.refined(row) for row in starts), key=search.cost)
-    best = search.refined(best, CLOSE)  # onto the bounds that bind
-    best = found.row(search.keys(best))  # computed again as a single design: this row is the result
+    best = search.refined(best, reach=2e-3)  # onto the bounds that bind
+    best = sweep.row(search.keys(best))  # computed again as a single design: this row is the result
     assert search.keeps(best), best
-    values = dict(zip(found.names, best, strict=True))
+    values = dict(zip(sweep.names, best, strict=True))
     numbers = {name: float(v) for name, v in values.items() if is_number(v)}
-    binding = tuple(c for c in asked.constraints if c.binds(numbers[c.name]))
-    machine = found.machine(search.keys(best))
-    also = found.of_best
-    beside = dict(zip(also.names, also.of(machine), strict=True)) if also else {}
-    return Winner(numbers, machine, tally.tried, tally.feasible, binding, beside)
+    binding = tuple(c for c in goal.constraints if c.binds(numbers[c.name]))
+    machine = sweep.machine(search.keys(best))
+    also = sweep.of_best
+    extra = dict(zip(also.names, also.of(machine), strict=True)) if also else {}
+    return Winner(numbers, machine, tally.tried, tally.feasible, binding, extra)
 
 
-def _said(value: Cell) -> str:
+def _text(value: Cell) -> str:
     if value is None:
         return "none"
     if isinstance(value, bool):
@@ -100,11 +98,11 @@ class Tally:
     def __init__(self, search: SweepSearch) -> None:
         self.search = search
         self.tried = self.feasible = 0
-        self.places = Places(search)
+        self.places = BestPlaces(search)
         self.nearness = Nearness(search.bounds)
 
     def add(self, rows: Sequence[Row]) -> None:
-        """Add rows."""
+        """Count rows, and keep the best of each place."""
         self.tried += len(rows)
         self.feasible += sum(map(self.search.keeps, rows))
         self.places.add(rows)
@@ -115,9 +113,9 @@ class Tally:
 
         ``near`` is the row that breaks them least.
         """
-        why = self.nearness.said() or [f"no design has a value of {self.search.name}"]
+        why = self.nearness.phrases() or [f"no design has a value of {self.search.name}"]
         values = [(c.name, near[i]) for i, c in self.search.bounds]
         if len(values) > 1 and all(is_number(value) for _, value in values):
-            told = dict.fromkeys(f"{name} {value:.6g}" for name, value in values)
-            why.append(f"the design that comes nearest to all has {', '.join(told)}")
+            texts = dict.fromkeys(f"{name} {value:.6g}" for name, value in values)
+            why.append(f"the design that comes nearest to all has {', '.join(texts)}")
         return f"--best: none of {self.tried:,} designs is feasible: {'; '.join(why)}"

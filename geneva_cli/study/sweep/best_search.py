@@ -18,13 +18,7 @@ if TYPE_CHECKING:
 
 Row: TypeAlias = Sequence[Cell]
 
-EVALUATIONS = 300  # evaluations of the optimiser from each start
-# first steps as fractions of the spans: from a scanned design, and at the end
-WIDE, CLOSE = 0.05, 2e-3
 FINEST = 1e-9  # fraction of a key's range to which it is refined
-# Fraction of a bound by which the optimiser stays inside, so that rounding does not leave it
-# outside.
-INSIDE = 1e-13
 FAR = 1e3  # violation, or scaled cost, of a design that cannot be built
 
 
@@ -32,19 +26,19 @@ class SweepSearch:
     """The rows of a sweep for an optimiser, with free keys as fractions of their spans."""
 
     def __init__(
-        self, found: Sweep, objective: Objective, constraints: Sequence[Constraint]
+        self, sweep: Sweep, objective: Objective, constraints: Sequence[Constraint]
     ) -> None:
-        self.found, self.sign, self.name = found, objective.sign, objective.name
-        self.at = found.names.index(self.name)
-        self.bounds = [(found.names.index(c.name), c) for c in constraints]
-        axes = found.plan.axes
+        self.sweep, self.sign, self.name = sweep, objective.sign, objective.name
+        self.at = sweep.names.index(self.name)
+        self.bounds = [(sweep.names.index(c.name), c) for c in constraints]
+        axes = sweep.plan.axes
         self.free = [i for i, a in enumerate(axes) if a.span]
         ends = [axes[i].values for i in self.free]
         self.low, self.high = np.array(ends, dtype=float).reshape(-1, 2).T
 
     def keys(self, row: Row) -> list[Value]:
         """The values of the varied keys of a row."""
-        return [v for v in row[: len(self.found.plan.axes)] if v is not None]
+        return [v for v in row[: len(self.sweep.plan.axes)] if v is not None]
 
     def cost(self, row: Row) -> float:
         """The objective, signed so that it is minimised; infinite for a design that lacks it."""
@@ -55,20 +49,18 @@ class SweepSearch:
         """Return True if a design has the objective and keeps all bounds."""
         return np.isfinite(self.cost(row)) and all(c.kept(row[i]) for i, c in self.bounds)
 
-    def rooms(self, row: Row) -> list[float]:
-        """Margins to the bounds, relative and negative outside; -FAR for a design without the
-        quantity.
-        """
-        return [c.room(float(v)) if is_number(v := row[i]) else -FAR for i, c in self.bounds]
+    def margins(self, row: Row) -> list[float]:
+        """The relative margins to the bounds; -FAR for a design without the quantity."""
+        return [c.margin(float(v)) if is_number(v := row[i]) else -FAR for i, c in self.bounds]
 
     def merit(self, row: Row) -> tuple[float, float]:
         """The violation of the bounds, then the cost: the smaller pair is the better design."""
         if self.keeps(row):
             return 0.0, self.cost(row)
-        short = sum(max(0.0, -room) for room in self.rooms(row))
+        short = sum(max(0.0, -margin) for margin in self.margins(row))
         return short + FAR * (self.cost(row) == np.inf) or FINEST, self.cost(row)
 
-    def shares(self, row: Row) -> Array:
+    def fractions(self, row: Row) -> Array:
         """The free keys of a design as fractions of their spans: 0 is low, 1 is high."""
         keys = self.keys(row)
         here = np.array([float(keys[i]) for i in self.free])
@@ -83,30 +75,35 @@ class SweepSearch:
             keys[i] = value
         return keys
 
-    def refined(self, start: Row, reach: float = WIDE) -> Row:
-        """The best design among a start and all that the optimiser evaluates from there."""
+    def refined(self, start: Row, reach: float = 0.05) -> Row:
+        """The best design among a start and all that the optimiser evaluates from there.
+
+        ``reach`` is the optimiser's first step as a fraction of the spans.
+        """
         if not self.free:
             return start
         from scipy.optimize import NonlinearConstraint, minimize
 
         scale = abs(self.cost(start)) or 1.0
-        seen: dict[bytes, Row] = {}
+        evaluated: dict[bytes, Row] = {}
 
         def row(x: Array) -> Row:
             place = x.tobytes()
-            if place not in seen:
-                seen[place] = self.found.row(self.moved(start, x))
-            return seen[place]
+            if place not in evaluated:
+                evaluated[place] = self.sweep.row(self.moved(start, x))
+            return evaluated[place]
 
-        rooms = NonlinearConstraint(lambda x: self.rooms(row(x)), INSIDE, np.inf)
+        margin = 1e-13  # fraction of a bound, so that rounding does not leave a design outside
+        margins = NonlinearConstraint(lambda x: self.margins(row(x)), margin, np.inf)
+        # evaluations of the optimiser from each start
         minimize(
             lambda x: min(self.cost(row(x)) / scale, FAR),
-            self.shares(start),
+            self.fractions(start),
             method="COBYQA",
             bounds=[(0.0, 1.0)] * len(self.free),
-            constraints=[rooms] if self.bounds else [],
-            options={"maxfev": EVALUATIONS, "initial_tr_radius": reach, "final_tr_radius": FINEST},
+            constraints=[margins] if self.bounds else [],
+            options={"maxfev": 300, "initial_tr_radius": reach, "final_tr_radius": FINEST},
         )
-        kept = [r for r in (start, *seen.values()) if self.keeps(r)]
-        inside = [r for r in kept if min(self.rooms(r), default=0.0) >= 0.0]
+        kept = [r for r in (start, *evaluated.values()) if self.keeps(r)]
+        inside = [r for r in kept if min(self.margins(r), default=0.0) >= 0.0]
         return min(inside or kept, key=self.cost)

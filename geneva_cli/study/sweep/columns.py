@@ -21,10 +21,10 @@ def columns(machine: Mechanism, names: Sequence[str], count: int) -> list[Array]
     A value is infinite where it is undefined, and NaN where the design must be computed alone.
     Returns None if one of the quantities cannot be computed for a batch.
     """
-    found = known_columns(machine, names)
-    if not found.keys() >= set(names):
+    values = known_columns(machine, names)
+    if not values.keys() >= set(names):
         return None
-    return [np.broadcast_to(np.reshape(found[name], -1), (count,)) for name in names]
+    return [np.broadcast_to(np.reshape(values[name], -1), (count,)) for name in names]
 
 
 def known_columns(machine: Mechanism, names: Sequence[str]) -> dict[str, Number]:
@@ -32,9 +32,9 @@ def known_columns(machine: Mechanism, names: Sequence[str]) -> dict[str, Number]
     designs, out = Designs(machine, names), {}
     for name in filter(_is_batched, names):
         group = group_of()[name]
-        found, own = group.columns(designs), name.removeprefix(f"{group.table}.")
-        if own in found:
-            value = found[own]
+        own_columns, own = group.columns(designs), name.removeprefix(f"{group.table}.")
+        if own in own_columns:
+            value = own_columns[own]
             out[name] = np.inf if value is None else value
     return out
 

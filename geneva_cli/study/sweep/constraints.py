@@ -12,10 +12,6 @@ from geneva_cli.numerics.arrays import N
 from geneva_cli.numerics.keeps import keeps
 from geneva_cli.study.quantities import WORDS
 
-_FORM = re.compile(r"\s*([A-Za-z][\w.\-]*)\s*(<=|>=)\s*(\S+)\s*")
-MUST_BE = {"<=": "at most", ">=": "at least"}
-BINDING = 1e-6  # fraction of a bound, within which a quantity counts as being at it
-
 
 class Constraint(NamedTuple):
     """A quantity that must be at least, or at most, a bound."""
@@ -34,20 +30,21 @@ class Constraint(NamedTuple):
 
     def kept(self, value: object) -> bool:
         """Return True for a number that keeps the bound, apart from rounding."""
-        return is_number(value) and keeps(float(value), MUST_BE[self.sign], self.bound)
+        must_be = "at least" if self.sign == ">=" else "at most"
+        return is_number(value) and keeps(float(value), must_be, self.bound)
 
-    def room(self, value: N) -> N:
+    def margin(self, value: N) -> N:
         """The margin of values to the bound, relative to its size; negative outside."""
-        room = value - self.bound if self.sign == ">=" else self.bound - value
-        return room / (abs(self.bound) or 1.0)
+        margin = value - self.bound if self.sign == ">=" else self.bound - value
+        return margin / (abs(self.bound) or 1.0)
 
     def binds(self, value: float) -> bool:
         """Return True if a value is at the bound."""
-        return abs(self.room(value)) <= BINDING
+        return abs(self.margin(value)) <= 1e-6  # the optimiser leaves it less than this
 
     def standing(self, value: float) -> str:
         """A remark on a value that keeps the bound; empty for a value well inside."""
-        if self.room(value) < 0.0:
+        if self.margin(value) < 0.0:
             return " (binds, met to rounding)"
         return " (binds)" if self.binds(value) else ""
 
@@ -63,19 +60,19 @@ def constraint(text: str) -> Constraint:
     >>> constraint("dwell_s >= 0.8")
     Constraint(name='dwell_s', sign='>=', bound=0.8)
     """
-    found = _FORM.fullmatch(text)
-    said = f"--subject-to {cut(text.strip())!r}"
-    if not found:
+    match = re.fullmatch(r"\s*([A-Za-z][\w.\-]*)\s*(<=|>=)\s*(\S+)\s*", text)
+    option = f"--subject-to {cut(text.strip())!r}"
+    if not match:
         raise GenevaError(
-            f'{said}: it must be FIELD >= NUMBER or FIELD <= NUMBER, as "dwell_s >= 0.8"'
+            f'{option}: it must be FIELD >= NUMBER or FIELD <= NUMBER, as "dwell_s >= 0.8"'
         )
     try:
-        bound = float(found[3])
+        bound = float(match[3])
     except ValueError:
-        raise GenevaError(f"{said}: {cut(found[3])!r} is no number") from None
+        raise GenevaError(f"{option}: {cut(match[3])!r} is no number") from None
     if not math.isfinite(bound):
-        raise GenevaError(f"{said}: the bound must be a finite number")
-    return Constraint(found[1], found[2], bound)
+        raise GenevaError(f"{option}: the bound must be a finite number")
+    return Constraint(match[1], match[2], bound)
 
 
 class Nearness:
@@ -91,7 +88,7 @@ class Nearness:
         self.nearest: list[float | None] = [None] * len(bounds)
 
     def add(self, rows: Sequence[Sequence[object]]) -> None:
-        """Add rows."""
+        """Count the rows that keep each bound, and keep the nearest values."""
         for k, (i, c) in enumerate(self.bounds):
             values = [float(v) for row in rows if is_number(v := row[i])]
             self.kept[k] += sum(c.kept(v) for v in values)
@@ -100,7 +97,7 @@ class Nearness:
             if values:
                 self.nearest[k] = max(values) if c.sign == ">=" else min(values)
 
-    def said(self) -> list[str]:
+    def phrases(self) -> list[str]:
         """A phrase for each bound: how many designs keep it, or the nearest value."""
         return [
             f"no design has a value of {c.name}"
@@ -121,10 +118,10 @@ def refuse_words(options: Mapping[str, str], instead: str) -> None:
             raise GenevaError(f"{option} {name}: a word has no order; {instead}")
 
 
-def refuse_contradictions(given: Sequence[Constraint]) -> None:
+def refuse_contradictions(constraints: Sequence[Constraint]) -> None:
     """Raise GenevaError for two bounds that no value keeps together."""
-    for low in given:
-        for high in given:
+    for low in constraints:
+        for high in constraints:
             apart = low.sign == ">=" and high.sign == "<=" and low.bound > high.bound
             if apart and low.name == high.name:
                 raise GenevaError(f"--subject-to: nothing is both {low} and {high}")

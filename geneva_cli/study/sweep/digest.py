@@ -8,11 +8,10 @@ from collections.abc import Iterator, Sequence
 from geneva_cli.study.fields import Cell
 from geneva_cli.study.goals import Objective
 from geneva_cli.study.sweep.constraints import is_number
-from geneva_cli.study.sweep.request import Request
+from geneva_cli.study.sweep.request import SweepRequest
 from geneva_cli.table import Table, rows_table
 
-FIRST = 5  # rows from the top
-BEST = 5  # best rows; up to FIRST + BEST rows are all shown
+ROWS = 5  # the first rows, and as many of the best; up to twice as many are all shown
 
 Numbered = tuple[Cell, ...]  # a row behind its number, counted from 1
 
@@ -24,26 +23,26 @@ class Digest:
     least of the first numeric quantity. ``place`` names the file with all rows.
     """
 
-    def __init__(self, asked: Request, place: str = "-o FILE.csv") -> None:
+    def __init__(self, request: SweepRequest, place: str = "-o FILE.csv") -> None:
         self.place = place
-        self.names = asked.sweep.names
-        self.goal = asked.objectives[0] if asked.objectives else None
-        self.quantities = asked.sweep.pick.names
+        self.names = request.sweep.names
+        self.goal = request.objectives[0] if request.objectives else None
+        self.quantities = request.sweep.pick.names
         self.count = 0
         self.first: list[Numbered] = []
         self.best: list[tuple[float, Numbered]] = []  # the best first
 
     def add(self, rows: Sequence[Sequence[Cell]]) -> None:
-        """Add rows."""
+        """Add rows, which are numbered in their order."""
         numbered = [(self.count + i, *row) for i, row in enumerate(rows, 1)]
         self.count += len(rows)
-        self.first += numbered[: FIRST + BEST - len(self.first)]
+        self.first += numbered[: 2 * ROWS - len(self.first)]
         self.goal = self.goal or self._goal(rows)
         if self.goal:
             sign, at = self.goal.sign, 1 + self.names.index(self.goal.name)
             costs = ((sign * x, row) for row in numbered if is_number(x := row[at]))
             self.best = heapq.nsmallest(
-                BEST, [*self.best, *costs], key=lambda found: (found[0], found[1][0])
+                ROWS, [*self.best, *costs], key=lambda costed: (costed[0], costed[1][0])
             )
 
     def _goal(self, rows: Sequence[Sequence[Cell]]) -> Objective | None:
@@ -56,11 +55,11 @@ class Digest:
 
     def tables(self) -> Iterator[Table]:
         """One table with all rows if they are few; otherwise the first rows and the best."""
-        if self.count <= FIRST + BEST:
+        if self.count <= 2 * ROWS:
             yield self._table(self.first, "")
             return
         rest = f"All {self.count:,} rows: {self.place}"
-        yield self._table(self.first[:FIRST], f"The first {FIRST} rows. {rest}")
+        yield self._table(self.first[:ROWS], f"The first {ROWS} rows. {rest}")
         if self.goal:
             best = [row for _, row in self.best]
             yield self._table(best, f"The {len(best)} rows with the {self.goal}")

@@ -24,8 +24,8 @@ def front(
     some = [i for i, row in enumerate(rows) if all(is_number(row[c]) for c in columns)]
     if not some:
         return []
-    asked = list(zip(columns, signs, strict=True))
-    costs = np.array([[sign * rows[i][c] for c, sign in asked] for i in some])
+    signed = list(zip(columns, signs, strict=True))
+    costs = np.array([[sign * rows[i][c] for c, sign in signed] for i in some])
     return [some[i] for i in best(costs)]
 
 

@@ -7,7 +7,7 @@ from typing import TypeAlias
 
 from geneva_cli.study.fields import Cell
 from geneva_cli.study.sweep.constraints import Nearness, is_number
-from geneva_cli.study.sweep.request import Request
+from geneva_cli.study.sweep.request import SweepRequest
 
 Rows: TypeAlias = list[list[Cell]]
 
@@ -15,18 +15,18 @@ Rows: TypeAlias = list[list[Cell]]
 class Outcome:
     """Counts of rows as they arrive: all, those that cannot be built, and those that are kept."""
 
-    def __init__(self, asked: Request) -> None:
-        self.asked = asked
+    def __init__(self, request: SweepRequest) -> None:
+        self.request = request
         self.all = self.failed = self.left = 0
-        self._first = ""  # reason why the first that cannot be built cannot
-        names = asked.sweep.names
-        self._nearness = Nearness([(names.index(c.name), c) for c in asked.constraints])
-        self._unknown = {names.index(o.name): o.name for o in asked.objectives}
+        self._first = ""  # why the first of them cannot be built
+        names = request.sweep.names
+        self._nearness = Nearness([(names.index(c.name), c) for c in request.constraints])
+        self._unknown = {names.index(o.name): o.name for o in request.objectives}
 
     def rows(self, every: Iterable[Rows]) -> Iterator[Rows]:
         """The rows of the request, counted: all of them, or those that it chooses."""
         counted = self.counted(every)
-        for block in self.asked.chosen(counted) if self.asked.chooses else counted:
+        for block in self.request.chosen(counted) if self.request.chooses else counted:
             self.left += len(block)
             yield block
 
@@ -47,14 +47,14 @@ class Outcome:
         """The number of designs that cannot be built, with the first reason or where to find it."""
         if not self.failed:
             return []
-        why = f"the first: {self._first}" if self.asked.chooses else "column error says why"
+        why = f"the first: {self._first}" if self.request.chooses else "column error says why"
         return [f"{self.failed:,} of {self.all:,} designs cannot be built: {why}"]
 
     def notes(self) -> Sequence[str]:
         """Notes for the user besides the rows."""
-        said = [*self.refused()]
+        notes = [*self.refused()]
         if self.all and not self.left:
             unknown = [f"no design has a value of {name}" for name in self._unknown.values()]
-            why = dict.fromkeys([*unknown, *self._nearness.said()])
-            said.append(f"none of {self.all:,} rows is left: {'; '.join(why)}")
-        return said
+            why = dict.fromkeys([*unknown, *self._nearness.phrases()])
+            notes.append(f"none of {self.all:,} rows is left: {'; '.join(why)}")
+        return notes

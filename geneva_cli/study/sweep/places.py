@@ -8,17 +8,10 @@ import numpy as np
 
 from geneva_cli.study.sweep.best_search import Row, SweepSearch
 
-MOST = 24  # places that are kept and refined
-PARTS = 3  # parts of each free key's span; designs in different parts are different places
-ROUNDS = 16
-CLOUD = 48  # designs about each place in a round
-# fraction of the least cost; above it a place is not refined further, as clouds come far closer
-RIVAL = 0.01
-# half the width of the first cloud as a fraction of the span; ratio of each next width
-FIRST, LESS = 0.25, 0.6
+PLACES = 24  # that are kept and refined
 
 
-class Places:
+class BestPlaces:
     """The best design of each place.
 
     A place is one choice of words and whole numbers, with one part of each span. A scan has few
@@ -28,21 +21,21 @@ class Places:
 
     def __init__(self, search: SweepSearch) -> None:
         self.search = search
-        self.found: dict[Hashable, Row] = {}
+        self.rows: dict[Hashable, Row] = {}
 
     def add(self, rows: Sequence[Row]) -> None:
         """Add rows; the first of equal rows stays."""
         for row in rows:
             place = self._place(row)
-            before = self.found.get(place)
-            if before is None or self.search.merit(row) < self.search.merit(before):
-                self.found[place] = row
-        if len(self.found) > 8 * MOST:
-            self.found = dict(sorted(self.found.items(), key=self._merit)[: 4 * MOST])
+            best = self.rows.get(place)
+            if best is None or self.search.merit(row) < self.search.merit(best):
+                self.rows[place] = row
+        if len(self.rows) > 8 * PLACES:
+            self.rows = dict(sorted(self.rows.items(), key=self._merit)[: 4 * PLACES])
 
     def best(self) -> list[Row]:
         """The best designs, the best first."""
-        return [row for _, row in sorted(self.found.items(), key=self._merit)[:MOST]]
+        return [row for _, row in sorted(self.rows.items(), key=self._merit)[:PLACES]]
 
     def _merit(self, item: tuple[Hashable, Row]) -> tuple[float, float]:
         return self.search.merit(item[1])
@@ -51,7 +44,8 @@ class Places:
         free = self.search.free
         if not free:  # no refinement follows
             return ()
-        parts = np.minimum(self.search.shares(row) * PARTS, PARTS - 1).astype(int)
+        # designs in different thirds of a span are in different places
+        parts = np.minimum(self.search.fractions(row) * 3, 2).astype(int)
         keys = enumerate(self.search.keys(row))
         return (*(v for i, v in keys if i not in free), *parts.tolist())
 
@@ -62,21 +56,23 @@ def closer(search: SweepSearch, rows: Sequence[Row]) -> list[Row]:
     Returns all designs unchanged if their quantities cannot be computed for a batch.
     """
     best = list(rows)
-    if not search.found.known([search.keys(row) for row in best]):
+    if not search.sweep.known([search.keys(row) for row in best]):
         return best
     draw = np.random.default_rng(0)
-    width = FIRST
-    for _ in range(ROUNDS):
-        steps = draw.uniform(-width, width, (len(best), CLOUD, len(search.free)))
+    count = 48  # designs about each place in a round
+    width = 0.25  # half of the cloud's, as a fraction of the span; 16 rounds take it to 1e-4
+    for _ in range(16):
+        steps = draw.uniform(-width, width, (len(best), count, len(search.free)))
         about = [
-            search.moved(row, search.shares(row) + step)
+            search.moved(row, search.fractions(row) + step)
             for row, some in zip(best, steps, strict=True)
             for step in some
         ]
-        drawn = search.found.rows_of(about)
-        clouds = [drawn[i * CLOUD : (i + 1) * CLOUD] for i in range(len(best))]
+        drawn = search.sweep.rows_of(about)
+        clouds = [drawn[i * count : (i + 1) * count] for i in range(len(best))]
         best = [min((row, *c), key=search.merit) for row, c in zip(best, clouds, strict=True)]
-        width *= LESS
+        width *= 0.6
     best.sort(key=search.merit)
     least = search.cost(best[0])
-    return [row for row in best if search.cost(row) <= least + RIVAL * abs(least)]
+    # clouds come far closer to a minimum than 1 %, so that a place above it is no rival
+    return [row for row in best if search.cost(row) <= least + 0.01 * abs(least)]

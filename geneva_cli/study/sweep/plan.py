@@ -12,7 +12,6 @@ from geneva_cli.study.sweep.values import POINTS_MAX, Value, VariedKey
 if TYPE_CHECKING:
     from geneva_cli.numerics.jet import Array
 
-DIMENSIONS_MAX = 100  # keys of a random sample: that many dimensions of a Sobol sequence
 BLOCK = 4096  # designs of a batch; a power of two, which keeps a Sobol sequence balanced
 
 
@@ -91,18 +90,19 @@ def plan(axes: Sequence[VariedKey], random: int | None, seed: int) -> SweepPlan:
         raise GenevaError("--vary is missing; say what varies, as --vary drive.A=0..0.9:0.1")
     if random is not None and not 1 <= random <= POINTS_MAX:
         raise GenevaError(f"--random {cut(random)}: it must be at least 1, at most {POINTS_MAX:,}")
-    if random and len(axes) > DIMENSIONS_MAX:
-        raise GenevaError(f"--random with {len(axes)} keys; at most {DIMENSIONS_MAX}")
+    keys_max = 100  # each is a dimension of the Sobol sequence
+    if random and len(axes) > keys_max:
+        raise GenevaError(f"--random: {len(axes)} keys vary; at most {keys_max} can")
     if not 0 <= seed < 2**32:
         raise GenevaError(f"--seed {cut(seed)}: it must be at least 0 and below 2**32")
-    found = SweepPlan(tuple(axes), random or 0, seed)
+    planned = SweepPlan(tuple(axes), random or 0, seed)
     size = math.prod(len(a.values) for a in axes)
     if not random and size > POINTS_MAX:
         raise GenevaError(
             f"--vary: {size:,} designs in all; at most {POINTS_MAX:,}: fewer values, or "
             "--random N of them"
         )
-    return found
+    return planned
 
 
 class Shard(NamedTuple):
@@ -112,8 +112,9 @@ class Shard(NamedTuple):
     of: int = 1
 
     def span(self, length: int) -> tuple[int, int]:
-        """The first design of this shard and the one after its last; all shards together are the
-        sweep.
+        """The first of ``length`` designs in this shard, and the one after its last.
+
+        All shards together are the sweep.
         """
         return length * (self.number - 1) // self.of, length * self.number // self.of
 

@@ -22,10 +22,8 @@ from geneva_cli.study.sweep.plan import shard as share
 from geneva_cli.study.sweep.run import DEFAULT, Sweep, blocks, sweep, with_values
 from geneva_cli.study.sweep.values import VariedKey, axis, refuse_twice
 
-DRAWN = 4096  # designs that --best scans without --random
 
-
-class Request(NamedTuple):
+class SweepRequest(NamedTuple):
     """A sweep, and the selection among its rows."""
 
     sweep: Sweep
@@ -70,25 +68,25 @@ class Request(NamedTuple):
 
         at = [names.index(o.name) for o in self.objectives]
         signs = [o.sign for o in self.objectives]
-        found: list[list[Cell]] = []
+        front_rows: list[list[Cell]] = []
         for block in kept:  # the front so far is enough: a row that it dominates never returns
-            rows = [*found, *block]
-            found = [rows[i] for i in front(rows, at, signs)]
-        if found:
-            yield found
+            rows = [*front_rows, *block]
+            front_rows = [rows[i] for i in front(rows, at, signs)]
+        if front_rows:
+            yield front_rows
 
     def best(self, every: Iterable[list[list[Cell]]]) -> list[str]:
         """The best design, refined, as the lines of a spec."""
-        from geneva_cli.study.sweep.best import Asked, winner
+        from geneva_cli.study.sweep.best import SearchGoal, winner
 
-        asked = Asked(self.objectives[0], self.constraints)
-        return winner(self.sweep, every, asked).lines(asked)
+        goal = SearchGoal(self.objectives[0], self.constraints)
+        return winner(self.sweep, every, goal).lines(goal)
 
 
 def request(
     path: str,
     vary: Sequence[str],
-    given: Sequence[str] = (),
+    settings: Sequence[str] = (),
     *,
     pick: str = "",
     random: int | None = None,
@@ -99,11 +97,14 @@ def request(
     best: str = "",
     shard: str = "",
     jobs: int | None = None,
-) -> Request:
-    """Return the request of these options. Raises GenevaError, naming the option that is wrong."""
+) -> SweepRequest:
+    """Return the request of these options. Raises GenevaError, naming the option that is wrong.
+
+    ``settings``, texts ``KEY=VALUE``, replace keys of the spec.
+    """
     if jobs is not None and jobs < 1:
         raise GenevaError(f"--jobs {cut(jobs)}: it must be at least 1")
-    text = read(path, given)
+    text = read(path, settings)
     many = random is not None or bool(best)
     axes = [axis(words, many) for words in vary]
     try:  # report an error in the file before errors in the options
@@ -112,31 +113,31 @@ def request(
         files = _files(text, axes, error)
     refuse_twice(axes, text.set_keys)
     if best and random is None and any(a.span for a in axes):
-        random = DRAWN
+        random = 4096  # designs that --best scans
     if seed is not None and random is None:
         raise GenevaError(f"--seed {cut(seed)}: it needs --random N; a grid has no random draw")
     bounds = [constraint(text) for text in subject_to]
-    wanted = _objectives(pareto, best)
+    goals = _objectives(pareto, best)
     part = share(shard) if shard else WHOLE
-    if shard and wanted:
+    if shard and goals:
         raise GenevaError("--shard: each shard has a front of its own; join all rows, then choose")
     names = [name.strip() for name in pick.split(",")] if pick else []
-    if not names and not wanted:
+    if not names and not goals:
         names = list(DEFAULT)
-    asked = [o.name for o in wanted] + [c.name for c in bounds]
+    needed = [o.name for o in goals] + [c.name for c in bounds]
     by = dict.fromkeys([c.name for c in bounds], "--subject-to")
-    by |= dict.fromkeys([o.name for o in wanted], "--best" if best else "--pareto")
-    every, later = (asked, names) if best else ([*asked, *names], None)
-    found = sweep(text, plan(axes, random, seed or 0), every, check, by, later)
-    found = found._replace(shard=part)
-    whole = dict(zip(every, found.asked, strict=False))
+    by |= dict.fromkeys([o.name for o in goals], "--best" if best else "--pareto")
+    every, later = (needed, names) if best else ([*needed, *names], None)
+    swept = sweep(text, plan(axes, random, seed or 0), every, check, by, later)
+    swept = swept._replace(shard=part)
+    whole = dict(zip(every, swept.pick.requested, strict=False))
     constraints = tuple(c._replace(name=whole[c.name]) for c in bounds)
     refuse_contradictions(constraints)
-    objectives = tuple(o._replace(name=whole[o.name]) for o in wanted)
+    objectives = tuple(o._replace(name=whole[o.name]) for o in goals)
     refuse_opposites(objectives)
     options = {whole[a]: option for a, option in by.items()}
     refuse_words(options, "--vary or --set picks it")
-    return Request(found, constraints, objectives, jobs, files)
+    return SweepRequest(swept, constraints, objectives, jobs, files)
 
 
 def _files(text: Text, axes: Sequence[VariedKey], error: GenevaError) -> tuple[str, ...]:

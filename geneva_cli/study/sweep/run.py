@@ -23,12 +23,8 @@ from geneva_cli.study.sweep.plan import BLOCK, WHOLE, Shard, SweepPlan
 from geneva_cli.study.sweep.values import Value, VariedKey
 
 DEFAULT = ("timing.motion_deg", "timing.dwell_s", "velocity.max", "acceleration.max", "jerk.max")
-CHECKED = ("checks.passes", "checks.failed")
 ERROR = "error"  # the column that says why a design cannot be built
-TEXTS = (ERROR, CHECKED[1])  # columns without numbers, even if no design fails
-TASK = 64  # designs of one task of a worker process
-FEW = 4  # designs of one task where parts are drawn, which is slow: an interrupted run loses less
-TRIED = 1000  # designs of a sample, of which at least one must be buildable
+TEXTS = (ERROR, "checks.failed")  # columns without numbers, even if no design fails
 
 
 class Sweep(NamedTuple):
@@ -46,11 +42,6 @@ class Sweep(NamedTuple):
         return (*(a.key for a in self.plan.axes), *self.pick.names, ERROR)
 
     @property
-    def asked(self) -> tuple[str, ...]:
-        """The whole names of the requested quantities, in the order of the request."""
-        return self.pick.asked
-
-    @property
     def span(self) -> tuple[int, int]:
         """The first design of this shard, and the one after its last."""
         return self.shard.span(len(self.plan))
@@ -58,8 +49,8 @@ class Sweep(NamedTuple):
     @property
     def key(self) -> str:
         """A digest of all that the rows depend on."""
-        said = repr((__version__, self.text, self.plan, self.pick.names, self.shard))
-        return hashlib.sha256(said.encode()).hexdigest()
+        inputs = repr((__version__, self.text, self.plan, self.pick.names, self.shard))
+        return hashlib.sha256(inputs.encode()).hexdigest()
 
     def rows(self, start: int, stop: int) -> list[list[Cell]]:
         """The rows of the designs ``start`` to ``stop - 1``."""
@@ -76,17 +67,18 @@ class Sweep(NamedTuple):
     def known(self, every: Sequence[Sequence[Value]]) -> Mapping[int, list[Cell]]:
         """The quantities of the designs that a batch can compute, by their numbers."""
         keys = [a.key for a in self.plan.axes]
-        return batch.table(every, keys, self.pick.names, self._spec) if self.together else {}
+        return batch.table(every, keys, self.pick.names, self._spec) if self.is_batched else {}
 
     @property
-    def at_once(self) -> int:
+    def task_size(self) -> int:
         """The number of designs in one task."""
-        if self.together:
+        if self.is_batched:
             return BLOCK
-        return FEW if any(s.makes_parts for s in self.pick.groups) else TASK
+        draws_parts = any(group.makes_parts for group in self.pick.groups)
+        return 4 if draws_parts else 64  # parts are slow, and an interrupted run loses its tasks
 
     @property
-    def together(self) -> bool:
+    def is_batched(self) -> bool:
         """Return True if all quantities can be computed for a batch of designs."""
         return bool(self.pick.names) and in_batch(self.pick.names)
 
@@ -94,7 +86,7 @@ class Sweep(NamedTuple):
         return with_values(self.text, self.plan.axes, some).spec()
 
     @property
-    def given(self) -> list[Value] | None:
+    def own_values(self) -> list[Value] | None:
         """The spec's own values of the varied keys; None if one is not among those varied."""
         with suppress(GenevaError):  # the spec may lack a varied key
             spec, own = self.text.spec(), list[Value]()
@@ -128,18 +120,18 @@ def sweep(
     """Return the sweep of a spec.
 
     ``check`` adds the result of the checks; ``options`` names the option that requested a quantity,
-    if it was not --pick. ``of_best`` is given for a search of the best design: these quantities,
-    and the checks, are then computed for that design only.
+    if it was not --pick. ``of_best`` is for a search of the best design: these quantities, and the
+    checks, are then computed for that design only.
 
     Raises GenevaError for an unknown quantity, and if no design of a sample can be built.
     """
-    checked = CHECKED if check else ()
+    checked = ("checks.passes", "checks.failed") if check else ()
     later = None if of_best is None else pick([*of_best, *checked])
-    found = pick([*picks, *([] if later else checked)], options=options)
+    picked = pick([*picks, *([] if later else checked)], options=options)
     _refuse_hopeless(text, plan)
     varied = [a.key for a in plan.axes]  # these have their columns already: no name may occur twice
-    names = tuple(name for name in found.names if name not in varied)
-    return Sweep(text, plan, found._replace(names=names), of_best=later)
+    names = tuple(name for name in picked.names if name not in varied)
+    return Sweep(text, plan, picked._replace(names=names), of_best=later)
 
 
 def _refuse_hopeless(text: Text, plan: SweepPlan) -> None:
@@ -147,21 +139,22 @@ def _refuse_hopeless(text: Text, plan: SweepPlan) -> None:
 
     The middle design comes first: it needs no random numbers, for which SciPy would be loaded.
     """
-    said = []
-    for some in itertools.chain([plan.middle()], plan.some(TRIED)):
+    most = 1000  # designs of the sample
+    reasons = []
+    for some in itertools.chain([plan.middle()], plan.some(most)):
         try:
             _machine(text, plan, some)
             return
         except GenevaError as error:
-            said.append(str(error))
-    del said[0]  # the middle design, which may be one of the others
+            reasons.append(str(error))
+    del reasons[0]  # the middle design, which may be one of the others
     those = (
-        f"{len(said)} designs from all over the range"
-        if len(plan) > TRIED
-        else f"the {len(said)} designs"
+        f"{len(reasons)} designs from all over the range"
+        if len(plan) > most
+        else f"the {len(reasons)} designs"
     )
     count = f"none of {those}" if len(plan) > 1 else "no design"
-    raise GenevaError(f"{count} can be built: {said[0]}")
+    raise GenevaError(f"{count} can be built: {reasons[0]}")
 
 
 def with_values(text: Text, axes: Sequence[VariedKey], some: Sequence[Value]) -> Text:
@@ -179,17 +172,17 @@ def _machine(text: Text, plan: SweepPlan, some: Sequence[Value]) -> Mechanism:
 
 def _changed(key: str, value: Value) -> Setting:
     path = setting(f"{key}=0", "--vary").path
-    said = f"{value:.12g}" if isinstance(value, float) else str(value)
-    return Setting(cut(f"{key}={said}"), path, value)
+    text = f"{value:.12g}" if isinstance(value, float) else str(value)
+    return Setting(cut(f"{key}={text}"), path, value)
 
 
-def blocks(found: Sweep, done: int = 0, workers: int | None = None) -> Iterator[list[list[Cell]]]:
+def blocks(run: Sweep, done: int = 0, workers: int | None = None) -> Iterator[list[list[Cell]]]:
     """The rows of a sweep's shard, in blocks and in order; the first ``done`` rows are skipped."""
-    start, stop = found.span
-    starts = range(start + done, stop, found.at_once)
+    start, stop = run.span
+    starts = range(start + done, stop, run.task_size)
     count = min(len(starts), cores() if workers is None else workers)
-    yield from mapped(partial(_block, found, stop), starts, count)
+    yield from mapped(partial(_block, run, stop), starts, count)
 
 
-def _block(found: Sweep, stop: int, start: int) -> list[list[Cell]]:
-    return found.rows(start, min(start + found.at_once, stop))
+def _block(run: Sweep, stop: int, start: int) -> list[list[Cell]]:
+    return run.rows(start, min(start + run.task_size, stop))

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from geneva_cli.study.goals import Objective
 from geneva_cli.study.quantities import in_batch, is_motion
 from geneva_cli.study.sweep.constraints import Constraint
 from geneva_cli.study.synthesis.target import Target
@@ -12,6 +13,11 @@ def known_bounds(target: Target) -> list[Constraint]:
     return [b for b in target.limits if in_batch([b.name])]
 
 
+def known_sort(target: Target) -> Objective | None:
+    """The goal by which rows are sorted, if a batch can compute it."""
+    return target.sort if target.sort and in_batch([target.sort.name]) else None
+
+
 def of_motion(target: Target) -> Target | None:
     """The requirement reduced to its bounds on the motion, for a first search.
 
@@ -19,6 +25,6 @@ def of_motion(target: Target) -> Target | None:
     take ten times as long, so they are not computed for a family without the required motion.
     """
     moved = tuple(b for b in target.bounds if is_motion(b.name))
-    if not (target.strict and moved) or all(map(is_motion, target.named)):
+    if not (target.strict and moved) or all(map(is_motion, target.quantities)):
         return None
     return target._replace(bounds=moved, sort=None)

@@ -8,17 +8,15 @@ from typing import NamedTuple
 from geneva_cli.machine.mechanism import Mechanism, build
 from geneva_cli.machine.spec import Spec
 from geneva_cli.parts.sizes import wall_min
-from geneva_cli.study.synthesis.looks import look
 from geneva_cli.study.synthesis.parts import SPARE, USUAL, exact, parts, with_roller
-from geneva_cli.study.synthesis.turns import LOOSE, LOST, Failing, Turns
+from geneva_cli.study.synthesis.parts_data import parts_data
+from geneva_cli.study.synthesis.turns import HAND_OVER_PLAY, LOST, Failure, Turns
 from geneva_cli.verdict.checks import checks
 from geneva_cli.verdict.checks.registry import LIMITS, MOTION, motion_checks
 
 # keys that conflict with a crank's bore
 SHAFT = {"crank_shaft_mm", "crank_hub_mm", "crank_bore_wall_mm"}
 UNDERCUT = "undercut_mm"
-UNDERCUTS = {UNDERCUT: MOTION[UNDERCUT]}
-LARGER = (8.0, 10.0)  # % of L: rollers larger than usual
 UNSIZED = {*MOTION, *LIMITS} - {UNDERCUT}  # checks that no other roller can mend
 
 
@@ -58,23 +56,23 @@ def _built(turns: Turns, spec: Spec, fixed: frozenset[str]) -> Built:
     machine = build(spec)
     motion = _of_motion(machine)
     if {one.name for one in motion} & UNSIZED:  # no need to turn them
-        return Built(spec, _said(motion))
-    found = seen = [*motion, *turns.first_failing(machine)]
-    if not found:
+        return Built(spec, _names(motion))
+    failing = known = [*motion, *turns.first_failing(machine)]
+    if not failing:
         return Built(spec, "")
-    if {one.name for one in found} <= SHAFT:  # test whether other checks fail too
-        found = seen = turns.failing(machine)
-    for other in _others(spec, {one.name for one in found}, fixed):
-        if any(one.looser(LOST) for one in found):
+    if {one.name for one in failing} <= SHAFT:  # test whether other checks fail too
+        failing = known = turns.failing(machine)
+    for other in _others(spec, {one.name for one in failing}, fixed):
+        if any(one.exceeds(LOST) for one in failing):
             break
-        found = _other_failing(turns, other, seen)
-        if not found:
+        failing = _other_failing(turns, other, known)
+        if not failing:
             return Built(other, "")
-        seen = [*dict.fromkeys((*found, *seen))]
-    return Built(spec, _said([*motion, *turns.failing(machine)]))
+        known = [*dict.fromkeys((*failing, *known))]
+    return Built(spec, _names([*motion, *turns.failing(machine)]))
 
 
-def _said(failing: Sequence[Failing]) -> str:
+def _names(failing: Sequence[Failure]) -> str:
     return ", ".join(one.name for one in failing)
 
 
@@ -93,27 +91,29 @@ def _others(spec: Spec, trouble: set[str], fixed: frozenset[str]) -> Iterator[Sp
         return
     L = build(spec).center_distance_mm
     r = spec.roller_radius_mm(L)
-    least = island = SPARE * look(spec).least if spec.is_flat else 0.0
+    least = island = SPARE * parts_data(spec).least if spec.is_flat else 0.0
     if spec.drive.LOCKS and spec.size.lock_radius_mm is None:
         least = max(least, wall_min(spec.size, L))  # a horn is no thicker than its roller's radius
     for other in [exact(0.01 * percent * L) for percent in USUAL]:
         if least <= other < r * (1.0 - 1e-9):
             yield with_roller(spec, other)
-    if trouble <= LOOSE and island:
-        larger = [with_roller(spec, exact(0.01 * percent * L)) for percent in LARGER]
+    if trouble <= {HAND_OVER_PLAY} and island:
+        larger = [with_roller(spec, exact(0.01 * percent * L)) for percent in (8.0, 10.0)]
         yield from (one for one in larger if not parts(build(one)).why)
 
 
-def _other_failing(turns: Turns, spec: Spec, seen: Sequence[Failing]) -> list[Failing]:
-    """Some of the checks that fail with other sizes, after those ``seen`` to fail before.
+def _other_failing(turns: Turns, spec: Spec, known: Sequence[Failure]) -> list[Failure]:
+    """Some of the checks that fail with other sizes, after those ``known`` to fail before.
 
     The sizes change nothing in the motion but the undercut, which a smaller roller reduces.
     """
     machine = build(spec)
-    named = LIMITS if UNDERCUT not in {one.name for one in seen} else LIMITS | UNDERCUTS
-    before = [Failing(c.name) for c in motion_checks(named, machine) if c.passes is False]
-    return before or turns.some_failing(machine, seen) or _of_motion(machine)
+    named = dict(LIMITS)
+    if UNDERCUT in {one.name for one in known}:
+        named[UNDERCUT] = MOTION[UNDERCUT]
+    before = [Failure(c.name) for c in motion_checks(named, machine) if c.passes is False]
+    return before or turns.some_failing(machine, known) or _of_motion(machine)
 
 
-def _of_motion(machine: Mechanism) -> list[Failing]:
-    return [Failing(c.name) for c in checks(machine, parts=False) if c.passes is False]
+def _of_motion(machine: Mechanism) -> list[Failure]:
+    return [Failure(c.name) for c in checks(machine, parts=False) if c.passes is False]

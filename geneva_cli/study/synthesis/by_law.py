@@ -26,13 +26,16 @@ def law_costs(law: Law) -> Characteristic:
 
 
 def law_columns(machine: Mechanism, names: Sequence[str], count: int) -> list[Array] | None:
-    """The result of ``columns``, without a search for the peaks of a law's motion."""
+    """Quantities of ``count`` machines in a batch, (count,) each, as ``columns`` returns them.
+
+    The peaks of a law's motion are scaled from the law's own, so that no search is needed.
+    """
     known = law_peaks(machine)
     rest = [name for name in names if name not in known]
-    found = columns(machine, rest, count) if rest else []
-    if found is None:
+    searched = columns(machine, rest, count) if rest else []
+    if searched is None:
         return None
-    others = iter(found)
+    others = iter(searched)
     return [
         np.broadcast_to(np.reshape(known[name], -1), (count,)) if name in known else next(others)
         for name in names

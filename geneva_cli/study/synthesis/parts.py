@@ -23,24 +23,15 @@ from geneva_cli.parts.outlines import CONTACT
 from geneva_cli.parts.sizes import sizes, wall_min
 from geneva_cli.parts.sphere.sizes import ball
 from geneva_cli.spec.tables import Size
-from geneva_cli.study.synthesis.looks import PartsLook, gap_at_rest, look
+from geneva_cli.study.synthesis.parts_data import PartsData, gap_at_rest, parts_data
 from geneva_cli.verdict.checks.undercut import undercut_depth
 from geneva_cli.verdict.motion_warnings import SHOWN_UNDERCUT
 
 USUAL = (5.0, 4.0, 3.0, 2.5, 2.0, 1.5, 1.0, 0.8, 0.6, 0.5, 0.4, 0.3, 0.2, 0.1)  # % of L
-# fraction of the allowed undercut below which samples suffice: they rarely miss more than 2 %
-NEARLY = 0.98
 SPARE = 1.001  # times the least roller, for what lies between the samples
-KEPT = 1024  # machines in the cache: those with more rollers are requested twice
 
-# Reasons why parts cannot be built, in one word each.
-ISLAND = "island"
-UNDERCUT = "undercut"
-WALLS = "walls"
-ROLLERS = "rollers"
-LOCK = "lock"
-GAP = "gap"
-SIZES = "sizes"
+# Reasons why parts cannot be built.
+ISLAND, UNDERCUT, LOCK, SIZES = "island", "undercut", "lock", "sizes"
 
 # Entries of the table for parts that pass a full turn, and for parts that were not turned.
 YES = "yes"
@@ -57,15 +48,15 @@ class Parts(NamedTuple):
     why: str | None
 
     @property
-    def said(self) -> str | None:
+    def entry(self) -> str | None:
         """The entry in the table for parts that were not turned."""
         if self.why is None:
             return None
         return f"no: {self.why}" if self.why else MAYBE
 
 
-@lru_cache(maxsize=KEPT)
-def suited(spec: Spec) -> tuple[Mechanism, Parts]:
+@lru_cache(maxsize=1024)  # machines with more rollers are requested twice
+def machine_and_parts(spec: Spec) -> tuple[Mechanism, Parts]:
     """The machine of a spec, and its parts.
 
     Raises GenevaError for a spec that makes no machine.
@@ -74,10 +65,10 @@ def suited(spec: Spec) -> tuple[Mechanism, Parts]:
     return mechanism, parts(mechanism)
 
 
-def nothing_in_the_way(spec: Spec) -> bool:
+def has_no_obstacle(spec: Spec) -> bool:
     """Return True if the spec makes a machine whose parts can be drawn without an obstacle."""
     try:
-        return suited(spec)[1].why == ""
+        return machine_and_parts(spec)[1].why == ""
     except GenevaError:
         return False
 
@@ -91,23 +82,23 @@ def parts(mechanism: Mechanism) -> Parts:
     if not spec.has_parts:
         return Parts(spec, None)
     if not spec.is_flat:
-        r, why = _of_shells(mechanism)
+        r, why = _suiting_sphere(mechanism)
         return Parts(spec if r is None else with_roller(spec, r), why)
-    at, m = look(spec), spec.drive.rollers
+    at, m = parts_data(spec), spec.drive.rollers
     # the parts do not depend on the drive that turns the crank
     if spec.drive.CRANKED and not mechanism.law:
         r, why = _of_crank(at.spec, m)
     else:
-        r, why = _suiting(assembly(mechanism), at, m)
+        r, why = _suiting_plane(assembly(mechanism), at, m)
     return Parts(spec if r is None else with_roller(spec, r), why)
 
 
 @lru_cache(maxsize=1024)
 def _of_crank(spec: Spec, m: int) -> tuple[float | None, str]:
-    return _suiting(assembly(build(spec)), look(spec), m)
+    return _suiting_plane(assembly(build(spec)), parts_data(spec), m)
 
 
-def _suiting(where: Assembly, at: PartsLook, m: int) -> tuple[float | None, str]:
+def _suiting_plane(where: Assembly, at: PartsData, m: int) -> tuple[float | None, str]:
     """The radius in mm of the roller that suits m rollers, and the obstacle to the parts.
 
     The radius is None for the roller of the spec, or the usual one.
@@ -117,44 +108,51 @@ def _suiting(where: Assembly, at: PartsLook, m: int) -> tuple[float | None, str]
 
     def obstacle(r: float) -> str:
         if apart <= r:
-            return ROLLERS
+            return "rollers"
         if r not in at.tried:
             at.tried[r] = _obstacle(where, at, r)
         return at.tried[r]
 
-    def of_share(percent: float) -> str:
+    def of_percent(percent: float) -> str:
         return obstacle(0.01 * percent * L)
 
     if mechanism.spec.size.roller_radius_mm is not None:
         r = mechanism.spec.size.roller_radius_mm
         return None, obstacle(r) or (ISLAND if r < at.least else "")
     radii = _radii(at.least / L)
-    percent, why = _largest(radii, of_share)
+    percent, why = _largest(radii, of_percent)
     # the horns of a small roller are thin; those of a larger one may be thick enough
     if why == LOCK:
-        percent, why = next(((r, "") for r in reversed(radii) if not of_share(r)), (None, LOCK))
+        percent, why = next(((r, "") for r in reversed(radii) if not of_percent(r)), (None, LOCK))
     if percent is None and at.least > 0.01 * USUAL[-1] * L:
-        percent, _ = _largest(_radii(0.0), of_share)  # there is no obstacle except the island
+        percent, _ = _largest(_radii(0.0), of_percent)  # there is no obstacle except the island
         why = ISLAND
-    return (None if percent in (None, USUAL[0]) else exact(0.01 * percent * L)), why
+    return _radius_mm(percent, L), why
 
 
-def _of_shells(mechanism: Mechanism) -> tuple[float | None, str]:
+def _suiting_sphere(mechanism: Mechanism) -> tuple[float | None, str]:
     """The radius of the roller that suits a machine on a sphere, and the obstacle to the parts."""
-    L, given = mechanism.center_distance_mm, mechanism.spec.size
-    least = wall_min(given, L) / L
+    L, size = mechanism.center_distance_mm, mechanism.spec.size
+    least = wall_min(size, L) / L
 
     def obstacle(percent: float) -> str:
         try:
-            found = ball(mechanism, 0.01 * percent * L)
+            shells = ball(mechanism, 0.01 * percent * L)
         except GenevaError as error:
             return LOCK if error.key == ("size", "lock_radius_mm") else SIZES
-        return LOCK if found.lock and found.arm - found.half_width - found.recess < least else ""
+        return (
+            LOCK if shells.lock and shells.arm - shells.half_width - shells.recess < least else ""
+        )
 
-    if given.roller_radius_mm is not None:
-        return None, obstacle(100.0 * given.roller_radius_mm / L)
+    if size.roller_radius_mm is not None:
+        return None, obstacle(100.0 * size.roller_radius_mm / L)
     percent, why = _largest(_radii(0.0), obstacle)
-    return (None if percent in (None, USUAL[0]) else exact(0.01 * percent * L)), why
+    return _radius_mm(percent, L), why
+
+
+def _radius_mm(percent: float | None, L: float) -> float | None:
+    """The radius of a roller in % of L; None for the usual one, or for none."""
+    return None if percent in (None, USUAL[0]) else exact(0.01 * percent * L)
 
 
 def with_roller(spec: Spec, radius_mm: float | None) -> Spec:
@@ -193,24 +191,24 @@ def _largest(radii: list[float], obstacle: Callable[[float], str]) -> tuple[floa
     return (radii[count - 1], "") if count else (None, obstacle(radii[0]))
 
 
-def _obstacle(where: Assembly, at: PartsLook, r: float) -> str:
+def _obstacle(where: Assembly, at: PartsData, r: float) -> str:
     """The obstacle to a roller; empty if there is none."""
     mechanism = where.mechanism
     mechanism = mechanism._replace(spec=with_roller(mechanism.spec, r))
     try:
-        found = sizes(where._replace(mechanism=mechanism), at.paths)
+        lengths = sizes(where._replace(mechanism=mechanism), at.paths)
     except GenevaError as error:
         return LOCK if error.key == ("size", "lock_radius_mm") else SIZES
-    if at.between - 2.0 * found.half_width < found.wall_min:
-        return WALLS
-    if found.lock and found.horn < found.wall_min:
+    if at.between - 2.0 * lengths.half_width < lengths.wall_min:
+        return "walls"
+    if lengths.lock and lengths.horn < lengths.wall_min:
         return LOCK
-    w, L = found.half_width, where.L
-    if at.back and gap_at_rest(at.back, found.rim, w, found.roller) < -CONTACT * L:
-        return GAP
+    w, L = lengths.half_width, where.L
+    if at.back and gap_at_rest(at.back, lengths.rim, w, lengths.roller) < -CONTACT * L:
+        return "gap"
     bent = [wall for wall in at.walls or () if not wall.bend.max() * w <= L]
     cut = max((float(depths_mm(wall, w, L)[0]) for wall in bent), default=0.0)
-    if NEARLY * SHOWN_UNDERCUT < cut <= SHOWN_UNDERCUT:
+    if 0.98 * SHOWN_UNDERCUT < cut <= SHOWN_UNDERCUT:  # samples rarely miss more than 2 %
         check = undercut_depth(UNDERCUT, mechanism)
         return UNDERCUT if check and check.passes is False else ""
     return UNDERCUT if cut > SHOWN_UNDERCUT else ""

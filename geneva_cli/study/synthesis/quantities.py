@@ -21,9 +21,9 @@ from geneva_cli.study.sweep.constraints import (
     refuse_contradictions,
     refuse_words,
 )
-from geneva_cli.study.synthesis.rows import Row
+from geneva_cli.study.synthesis.batches import numbers
+from geneva_cli.study.synthesis.rows import MachineRow
 from geneva_cli.study.synthesis.target import Target
-from geneva_cli.study.synthesis.together import numbers
 
 if TYPE_CHECKING:
     from geneva_cli.study.fields import Pick
@@ -31,7 +31,7 @@ if TYPE_CHECKING:
 Cells: TypeAlias = list[float | int | str | bool | None]  # values of one machine
 
 
-class Asked(NamedTuple):
+class QuantityRequest(NamedTuple):
     """The quantities that a requirement names, by whole names, and its bounds on them."""
 
     pick: Pick | None
@@ -44,62 +44,64 @@ class Asked(NamedTuple):
         return self.pick.names if self.pick else ()
 
 
-def asked(target: Target, spec: Spec) -> Asked:
+def quantity_request(target: Target, spec: Spec) -> QuantityRequest:
     """The quantities that a requirement names; ``spec`` is a design that has them.
 
     Raises GenevaError, with the nearest name, for an unknown one.
     """
-    wanted = [b.name for b in target.bounds]
+    bound_names = [b.name for b in target.bounds]
     machine = build(spec)
     # imports all that a report has: most requirements name no quantity
     pick = load_named("study.fields:pick")
     of_sort: tuple[str, ...] = pick([target.sort.name], "--sort").names if target.sort else ()
-    of_bounds = pick(wanted, "--subject-to").asked if wanted else ()
-    found = pick([*of_sort, *of_bounds])
+    of_bounds = pick(bound_names, "--subject-to").requested if bound_names else ()
+    every = pick([*of_sort, *of_bounds])
     bounds = tuple(b._replace(name=n) for b, n in zip(target.bounds, of_bounds, strict=True))
     refuse_contradictions(bounds)  # two names of one quantity may contradict each other
     by = {b.name: "--subject-to" for b in bounds}
     refuse_words(by, "only numbers are bound")
-    loads = [name for name in found.names if name.startswith("loads.")]
+    loads = [name for name in every.names if name.startswith("loads.")]
     if loads and not load_named("analysis.loads.cycle:cycle_of")(machine).is_loaded:
         raise GenevaError(
             f"{loads[0]}: nothing resists the wheel, so no machine has a value of it; give a load "
             "with --from SPEC and its [load]"
         )
-    return Asked(found, bounds, target.sort and target.sort._replace(name=of_sort[0]))
+    return QuantityRequest(every, bounds, target.sort and target.sort._replace(name=of_sort[0]))
 
 
-def asked_together(names: Sequence[str], found: Sequence[Row]) -> list[Cells | None]:
+def batch_cells(names: Sequence[str], rows: Sequence[MachineRow]) -> list[Cells | None]:
     """The quantities of each row from batches; None for a row that needs its own machine."""
     if not (names and in_batch(names)):
-        return [None] * len(found)
-    return [*map(_cells, numbers([row.spec for row in found], names))]
+        return [None] * len(rows)
+    return [*map(_cells, numbers([row.spec for row in rows], names))]
 
 
-def bounded(wanted: Asked, found: Sequence[Row], together: Sequence[Cells | None]) -> list[Row]:
+def bounded(
+    request: QuantityRequest, rows: Sequence[MachineRow], together: Sequence[Cells | None]
+) -> list[MachineRow]:
     """The rows that keep the bounds, with the requested quantities.
 
-    ``together`` are the results of ``asked_together``.
+    ``together`` are the results of ``batch_cells``.
     """
-    assert wanted.pick
-    names = wanted.names
-    alone = [row.spec for row, one in zip(found, together, strict=True) if one is None]
-    rest = mapped(partial(_values, wanted.pick), alone, min(cores(), len(alone)), "machines")
-    rest = tracked(rest, "machines asked", len(alone))
+    assert request.pick
+    names = request.names
+    alone = [row.spec for row, one in zip(rows, together, strict=True) if one is None]
+    rest = mapped(partial(_values, request.pick), alone, min(cores(), len(alone)), "machines")
+    rest = tracked(rest, "machines computed", len(alone))
     values = [one or next(rest) for one in together]
     out = []
-    nearest: dict[str, list[float]] = {b.name: [] for b in wanted.bounds}
-    for row, cells in zip(found, values, strict=True):
+    nearest: dict[str, list[float]] = {b.name: [] for b in request.bounds}
+    for row, cells in zip(rows, values, strict=True):
         if cells is None:
             continue
         by_name = dict(zip(names, cells, strict=True))
-        for name, seen in nearest.items():
+        for name, values_of_bound in nearest.items():
             cell = by_name[name]
-            seen += [float(cell)] if is_number(cell) else []
-        if all(b.kept(by_name[b.name]) for b in wanted.bounds):
-            out.append(row._replace(asked=tuple(cells)))
+            values_of_bound += [float(cell)] if is_number(cell) else []
+        if all(b.kept(by_name[b.name]) for b in request.bounds):
+            out.append(row._replace(extra=tuple(cells)))
     if not out:
-        raise GenevaError(f"--subject-to: {_how_near(wanted, nearest, len(found))}")
+        raise GenevaError(f"--subject-to: {_how_near(request, nearest, len(rows))}")
     return out
 
 
@@ -117,12 +119,12 @@ def _values(of: Pick, spec: Spec) -> Cells | None:
         return None
 
 
-def _how_near(wanted: Asked, nearest: dict[str, list[float]], count: int) -> str:
-    said = []
-    for b in wanted.bounds:
-        seen = nearest[b.name]
-        if seen:
-            said.append(f"{b} (nearest {(max if b.sign == '>=' else min)(seen):.6g})")
+def _how_near(request: QuantityRequest, nearest: dict[str, list[float]], count: int) -> str:
+    phrases = []
+    for b in request.bounds:
+        values = nearest[b.name]
+        if values:
+            phrases.append(f"{b} (nearest {(max if b.sign == '>=' else min)(values):.6g})")
         else:
-            said.append(f"{b} (not known)")
-    return f"none of {count} machines that keep the rest keeps {' and '.join(said)}"
+            phrases.append(f"{b} (not known)")
+    return f"none of {count} machines that keep all other bounds keeps {' and '.join(phrases)}"

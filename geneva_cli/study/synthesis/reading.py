@@ -14,12 +14,8 @@ from geneva_cli.study.quantities import whole_name
 from geneva_cli.study.ranges import range_text
 from geneva_cli.study.survey import parse_z
 from geneva_cli.study.sweep.constraints import Constraint, constraint, refuse_contradictions
-from geneva_cli.study.synthesis.spans import Interval
+from geneva_cli.study.synthesis.spans import AllowedSpan
 from geneva_cli.study.synthesis.target import GEARINGS, PEAK, SPACE, Target
-
-WHEELS_MAX = 200  # numbers of slots in one call: each takes some hundredths of a second
-CYCLE = Range(1e-6, 1e6)
-SPACES = Range(0.1, 100.0)
 
 # The requirements for a number or a range: allowed values, and name and unit in words.
 SPANS = {
@@ -28,7 +24,7 @@ SPANS = {
     "dwell_deg": (POSITIVE, "a dwell of", " deg"),
     "motion_s": (POSITIVE, "a motion of", " s"),
     "dwell_s": (POSITIVE, "a dwell of", " s"),
-    "cycle": (CYCLE, "a cycle of", " s"),
+    "cycle": (Range(1e-6, 1e6), "a cycle of", " s"),
 }
 
 
@@ -76,18 +72,18 @@ def read_target(
         )
     if rollers is not None and not 1 <= rollers <= Z_MAX:
         raise GenevaError(f"--rollers {cut(rollers)}: it must be at least 1, at most {Z_MAX}")
-    said = [spans[name].words(*SPANS[name][1:]) for name in spans]
-    said = [w if w[:2] == "a " else " = ".join(w.split(" ", 1)) for w in said]
+    phrases = [spans[name].words(*SPANS[name][1:]) for name in spans]
+    phrases = [w if w[:2] == "a " else " = ".join(w.split(" ", 1)) for w in phrases]
     bounds = tuple(constraint(text) for text in subject_to)
     refuse_contradictions(bounds)
-    said += [str(bound) for bound in bounds]
+    phrases += [str(bound) for bound in bounds]
     peaks = [bound for bound in bounds if _is_peak(bound)]
-    words = ", ".join(said) or "the spec alone"
+    words = ", ".join(phrases) or "the spec alone"
     chosen = dict(zip(GEARINGS, (external, internal, spherical), strict=True))
     target = Target(
         words if words.startswith(("tau", "k ")) else words[:1].upper() + words[1:],
         _slots(z, frame),
-        tuple(g for g, asked in chosen.items() if asked) or GEARINGS,
+        tuple(g for g, is_chosen in chosen.items() if is_chosen) or GEARINGS,
         rollers,
         _laws(law),
         spans,
@@ -95,7 +91,7 @@ def read_target(
         frame,
         objective(sort, "--sort") if sort else None,
         tuple(bound for bound in bounds if bound not in peaks),
-        number("--space", space, SPACES) if space else SPACE,
+        number("--space", space, Range(0.1, 100.0)) if space else SPACE,
     )
     target.refuse_contradictions()
     return target
@@ -105,8 +101,9 @@ def _slots(text: str, frame: Spec | None) -> tuple[int, ...]:
     if not text and frame is not None:
         return (frame.wheel.z,)
     z = parse_z(text or "3..24")
-    if len(z) > WHEELS_MAX:
-        raise GenevaError(f"--z {cut(text)}: that is more than {WHEELS_MAX} wheels; ask for fewer")
+    most = 200  # each wheel takes some hundredths of a second
+    if len(z) > most:
+        raise GenevaError(f"--z {cut(text)}: that is more than {most} wheels; give fewer")
     return tuple(dict.fromkeys(z))
 
 
@@ -127,26 +124,26 @@ def _is_peak(bound: Constraint) -> bool:
     return is_limit and whole_name(bound.name, "--subject-to") == PEAK
 
 
-def span(option: str, text: str, rule: Range) -> Interval:
+def span(option: str, text: str, rule: Range) -> AllowedSpan:
     """Return the range in an option's text. Raises GenevaError, naming the option, for others.
 
     >>> span("--dwell-s", "0.8..", Range(0.0))
-    Interval(low=0.8, high=inf)
+    AllowedSpan(low=0.8, high=inf)
     """
     ends = range_text(text, f"{option} {cut(text)}")
     if not ends:
         x = number(option, text, rule)
-        return Interval(x, x)
+        return AllowedSpan(x, x)
     low, high, step = ends
     if step or not (low or high):
         raise GenevaError(f"{option} {cut(text)}: a range is LOW..HIGH, LOW.. or ..HIGH")
-    found = Interval(
+    interval = AllowedSpan(
         number(option, low, rule) if low else -math.inf,
         number(option, high, rule) if high else math.inf,
     )
-    if found.empty:
+    if interval.empty:
         raise GenevaError(f"{option} {cut(text)}: the first number must not be above the second")
-    return found
+    return interval
 
 
 def number(option: str, text: str, rule: Range) -> float:

@@ -12,18 +12,16 @@ from geneva_cli.machine.spec import Spec
 from geneva_cli.machine.wheels_for_paths import searches_kept
 from geneva_cli.numerics.angles import omega
 from geneva_cli.numerics.keeps import keeps
+from geneva_cli.study.synthesis.batches import numbers
 from geneva_cli.study.synthesis.by_law import law_peaks
-from geneva_cli.study.synthesis.families.family import Family, holds
-from geneva_cli.study.synthesis.looks import look, look_at
-from geneva_cli.study.synthesis.parts import suited
+from geneva_cli.study.synthesis.families.family import Family, allows
+from geneva_cli.study.synthesis.parts import machine_and_parts
+from geneva_cli.study.synthesis.parts_data import compute_parts_data, parts_data
 from geneva_cli.study.synthesis.target import Target
-from geneva_cli.study.synthesis.together import numbers
 from geneva_cli.verdict.checks.groove import GROOVE_MAX_DEG, groove_pressure
 from geneva_cli.verdict.checks.registry import LIMITS, MOTION, motion_checks
 
-GROOVE = "groove_pressure_deg"
 NEAR_DEG = 3.0  # below its limit, within which the pressure angle is searched between samples
-SURE_DEG = 1e-6  # above its limit: beyond rounding, and samples are never above the peak
 PEAKS = {  # keys of [limits], and the quantities that they limit
     "velocity_max": "velocity.max",
     "acceleration_max": "acceleration.max",
@@ -91,26 +89,26 @@ class Candidate(NamedTuple):
         return self.is_driven and bool(self.axes_deg not in (None, 90.0) or self.offset_mm)
 
 
-class Row(NamedTuple):
+class MachineRow(NamedTuple):
     """A machine: its spec, description and costs, and further requested quantities.
 
-    ``family`` is the family whose best it is, if that has other machines. ``stands_in`` is true for
-    a replacement of a better machine that cannot be built.
+    ``extra`` are those quantities. ``family`` is the family whose best it is, if that has other
+    machines. With ``is_replacement`` it replaces a better machine that cannot be built.
     """
 
     spec: Spec
     candidate: Candidate
-    asked: tuple[float | int | str | bool | None, ...] = ()
+    extra: tuple[float | int | str | bool | None, ...] = ()
     family: Family | None = None
-    stands_in: bool = False
+    is_replacement: bool = False
 
-    def moves_as(self, other: Row) -> bool:
+    def moves_as(self, other: MachineRow) -> bool:
         """Return True if another row is the same machine apart from sizes."""
         one, two = self.spec, other.spec
         return (one.wheel, one.drive, one.motion) == (two.wheel, two.drive, two.motion)
 
     @property
-    def cannot_be(self) -> bool:
+    def is_impossible(self) -> bool:
         """Return True if its parts are known to be impossible."""
         return bool(self.trouble)
 
@@ -133,23 +131,25 @@ def _failing(machine: Mechanism, costs: Sequence[float]) -> str:
     return ", ".join([*motion, *over, *rest])
 
 
-def _wedged(machine: Mechanism) -> str:
+def _groove_failure(machine: Mechanism) -> str:
     """The name of the check of a cam's groove if it fails; evaluated only near its limit."""
-    seen = look(machine.spec).pressure_deg
-    if not -NEAR_DEG <= seen - GROOVE_MAX_DEG <= SURE_DEG:
-        return GROOVE if seen > GROOVE_MAX_DEG else ""
-    check = groove_pressure(GROOVE, machine)
-    return GROOVE if check and check.passes is False else ""
+    pressure_deg = parts_data(machine.spec).pressure_deg
+    name = "groove_pressure_deg"
+    # samples are never above the peak, and 1e-6 is beyond rounding
+    if not -NEAR_DEG <= pressure_deg - GROOVE_MAX_DEG <= 1e-6:
+        return name if pressure_deg > GROOVE_MAX_DEG else ""
+    check = groove_pressure(name, machine)
+    return name if check and check.passes is False else ""
 
 
-def rows(target: Target, specs: Sequence[Spec], errors: list[str]) -> list[Row | None]:
+def rows(target: Target, specs: Sequence[Spec], errors: list[str]) -> list[MachineRow | None]:
     """The rows of the specs; None for one that cannot be built or breaks the required motion.
 
     The reasons are added to ``errors``.
     """
     with searches_kept():  # every machine is tested in a batch first
-        found = _rows(target, [limited(target, spec) for spec in specs], errors)
-    return [row if row and _granted(target, row) else None for row in found]
+        candidates = _rows(target, [limited(target, spec) for spec in specs], errors)
+    return [row if row and _moves_as_required(target, row) else None for row in candidates]
 
 
 def limited(target: Target, spec: Spec) -> Spec:
@@ -159,30 +159,30 @@ def limited(target: Target, spec: Spec) -> Spec:
     return spec.replace(limits=spec.limits.replace(acceleration_max=target.acceleration_max))
 
 
-def _granted(target: Target, row: Row) -> bool:
+def _moves_as_required(target: Target, row: MachineRow) -> bool:
     """Return True if the built machine moves as required.
 
     A linkage may drive the wheel otherwise.
     """
     drive = row.spec.drive
     limit, motion = target.acceleration_max, target.motion_for(drive.rollers / drive.turns)
-    if motion is not None and not holds(motion, row.candidate.motion_deg):
+    if motion is not None and not allows(motion, row.candidate.motion_deg):
         return False
     return limit is None or keeps(row.candidate.acceleration_max, "at most", limit)
 
 
-def _rows(target: Target, specs: Sequence[Spec], errors: list[str]) -> list[Row | None]:
+def _rows(target: Target, specs: Sequence[Spec], errors: list[str]) -> list[MachineRow | None]:
     straight = [spec for spec in specs if spec.motion is None]
     costs = iter(numbers(straight, COSTS))
     own = [None if spec.motion else next(costs) for spec in specs]
-    out: list[Row | None] = []
+    out: list[MachineRow | None] = []
     # ``search`` keeps the required limit itself
     limits = target.frame.limits.as_dict().values() if target.frame else ()
     limited = any(value is not None for value in limits)
-    look_at(specs)
+    compute_parts_data(specs)
     for spec, five in zip(specs, own, strict=True):
         try:
-            machine, parts = suited(spec)
+            machine, parts = machine_and_parts(spec)
         except GenevaError as error:
             errors.append(str(error))
             out.append(None)
@@ -194,9 +194,9 @@ def _rows(target: Target, specs: Sequence[Spec], errors: list[str]) -> list[Row 
             continue
         if not parts.why and (limited or machine.engagements[0].groove):
             sized = machine._replace(spec=parts.spec)
-            failed = _failing(sized, values) if limited else _wedged(machine)
+            failed = _failing(sized, values) if limited else _groove_failure(machine)
             parts = parts._replace(why=failed or parts.why)
-        out.append(Row(parts.spec, _candidate(machine, target, values, parts.said)))
+        out.append(MachineRow(parts.spec, _candidate(machine, target, values, parts.entry)))
     return out
 
 

@@ -16,9 +16,9 @@ from geneva_cli.progress import tracked
 from geneva_cli.study.pool import cores, mapped
 from geneva_cli.study.quantities import in_batch
 from geneva_cli.study.sweep.constraints import Constraint, is_number
+from geneva_cli.study.synthesis.batches import numbers
 from geneva_cli.study.synthesis.best import best
 from geneva_cli.study.synthesis.bounds import known_bounds
-from geneva_cli.study.synthesis.elsewhere import standing_in
 from geneva_cli.study.synthesis.families import closed
 from geneva_cli.study.synthesis.families.every import Kind, families, kinds, longest_first
 from geneva_cli.study.synthesis.families.family import BARE, natural_deg, pieces
@@ -27,102 +27,111 @@ from geneva_cli.study.synthesis.limited import (
     breaks_limit,
     first_of_each,
     frame_limits,
-    giving_way,
+    with_replacements,
 )
-from geneva_cli.study.synthesis.quantities import Asked, Cells, asked, asked_together, bounded
-from geneva_cli.study.synthesis.rows import Candidate, Row, rows
+from geneva_cli.study.synthesis.quantities import (
+    Cells,
+    QuantityRequest,
+    batch_cells,
+    bounded,
+    quantity_request,
+)
+from geneva_cli.study.synthesis.replacements import replacement_rows
+from geneva_cli.study.synthesis.rows import Candidate, MachineRow, rows
 from geneva_cli.study.synthesis.target import TURNS, Target
-from geneva_cli.study.synthesis.together import numbers
 
-LOOKED_INTO = 120  # machines of a kind whose other quantities are computed one by one
-WORTH = 0.01  # fraction by which a machine of two numbers must be better than one of one number
 TURNED = 20  # rows whose parts are turned by default
-WHEELS = 6  # times laws: a smaller search ends before a second process has started
 
 
-class FoundRows(NamedTuple):
+class Ranking(NamedTuple):
     """The rows that meet a requirement, in order, and the quantities that it requests."""
 
-    rows: list[Row]
+    rows: list[MachineRow]
     target: Target  # with its bounds on times as ranges
-    asked: Asked
+    requested: QuantityRequest
 
-    def rank(self, row: Row) -> tuple[object, ...]:
+    def rank(self, row: MachineRow) -> tuple[object, ...]:
         """The sort key of a row."""
-        return _rank(self.target, self.asked, row)
+        return _rank(self.target, self.requested, row)
 
-    def in_turn(self, row: Row) -> Row | None:
+    def in_turn(self, row: MachineRow) -> MachineRow | None:
         """A row with the requested quantities; None if it breaks a bound on them."""
-        if not self.asked.pick:
+        if not self.requested.pick:
             return row
         try:
-            (found,) = bounded(self.asked, [row], asked_together(self.asked.names, [row]))
+            cells = batch_cells(self.requested.names, [row])
+            return bounded(self.requested, [row], cells)[0]
         except GenevaError:
             return None
-        return found
 
 
-class _Part(NamedTuple):
+class _KindRows(NamedTuple):
     """The rows of one kind of machine, and whether one of its machines keeps the bounds."""
 
-    rows: list[Row]
-    asked: list[Cells | None]  # of each row, from ``asked_together``
+    rows: list[MachineRow]
+    requested: list[Cells | None]  # of each row, from ``batch_cells``
     keeps: bool
     reached: list[float]
     errors: list[str]
 
 
-def search(target: Target, meanwhile: Callable[[], None] | None = None) -> FoundRows:
+def search(target: Target, meanwhile: Callable[[], None] | None = None) -> Ranking:
     """The machines that meet the requirement, in order; no part has been turned yet.
 
     ``meanwhile`` is a task for this process while others search. Raises GenevaError, saying what is
     within reach, if there is none.
     """
-    wanted = _asked(target)
-    target = target._replace(bounds=wanted.bounds, sort=wanted.sort)
+    request = _requested(target)
+    target = target._replace(bounds=request.bounds, sort=request.sort)
     narrowed = target.with_times()
     narrowed.refuse_contradictions()
-    parts = _parts(narrowed, wanted.names, meanwhile=meanwhile)
+    parts = _all_kinds(narrowed, request.names, meanwhile=meanwhile)
     if not any(part.keeps for part in parts):  # the error message says how near they come
-        parts = _parts(target, wanted.names, how_near=True)
+        parts = _all_kinds(target, request.names, how_near=True)
     errors = [error for part in parts for error in part.errors]
-    found = [row for part in parts for row in part.rows]
-    if not found:
+    every = [row for part in parts for row in part.rows]
+    if not every:
         reached = [peak for part in parts for peak in part.reached]
         if target.acceleration_max is not None and not reached:
             return search(target.by_bounds)  # its message says how near they come
         raise GenevaError(_out_of_reach(target, reached, errors))
-    together = [cells for part in parts for cells in part.asked]
-    ranked = _ranked(target, wanted, found, together)
+    together = [cells for part in parts for cells in part.requested]
+    ranked = _ranked(target, request, every, together)
     if frame_limits(target) and narrowed.motion_for(1) and any(map(breaks_limit, ranked)):
-        within = _within_limits(narrowed, wanted, [any(map(breaks_limit, p.rows)) for p in parts])
-        ranked = sorted(giving_way(ranked, within), key=lambda row: _rank(target, wanted, row))
-    found_rows = FoundRows(ranked, narrowed, wanted)
-    others = map(found_rows.in_turn, standing_in(narrowed, ranked[:TURNED], ranked))
+        within = _within_limits(narrowed, request, [any(map(breaks_limit, p.rows)) for p in parts])
+        ranked = with_replacements(ranked, within)
+        ranked.sort(key=lambda row: _rank(target, request, row))
+    ranking = Ranking(ranked, narrowed, request)
+    others = map(ranking.in_turn, replacement_rows(narrowed, ranked[:TURNED], ranked))
     ranked.extend(row for row in others if row)
-    ranked.sort(key=found_rows.rank)
-    return found_rows
+    ranked.sort(key=ranking.rank)
+    return ranking
 
 
 def _ranked(
-    target: Target, wanted: Asked, found: list[Row], together: Sequence[Cells | None]
-) -> list[Row]:
+    target: Target,
+    request: QuantityRequest,
+    machines: list[MachineRow],
+    together: Sequence[Cells | None],
+) -> list[MachineRow]:
     """The rows that keep the bounds, in order."""
-    if wanted.pick:
-        found = bounded(wanted, found, together)
-    found = _worth(target, wanted, found)
-    found.sort(key=lambda row: _rank(target, wanted, row))
-    return first_of_each(found, linkages=_known_together(target))
+    if request.pick:
+        machines = bounded(request, machines, together)
+    machines = _worthwhile(target, request, machines)
+    machines.sort(key=lambda row: _rank(target, request, row))
+    return first_of_each(machines, linkages=_known_together(target))
 
 
-def _within_limits(target: Target, wanted: Asked, which: Sequence[bool]) -> list[Row]:
+def _within_limits(
+    target: Target, request: QuantityRequest, which: Sequence[bool]
+) -> list[MachineRow]:
     """The rows of those kinds whose machines keep the frame's limits too."""
     strict = target._replace(bounds=(*target.bounds, *frame_limits(target)), strict=True)
-    parts = _parts(strict, wanted.names, which=which)
-    pairs = [pair for part in parts for pair in zip(part.rows, part.asked, strict=True)]
+    parts = _all_kinds(strict, request.names, which=which)
+    pairs = [pair for part in parts for pair in zip(part.rows, part.requested, strict=True)]
     kept = [(row, cells) for row, cells in pairs if not breaks_limit(row)]
     try:
-        return _ranked(target, wanted, [row for row, _ in kept], [cells for _, cells in kept])
+        return _ranked(target, request, [row for row, _ in kept], [cells for _, cells in kept])
     except GenevaError:  # none keeps the bounds as well
         return []
 
@@ -132,57 +141,58 @@ def _known_together(target: Target) -> bool:
 
     If not, they are computed for several machines of each family, and the best of these is shown.
     """
-    return in_batch(target.named)
+    return in_batch(target.quantities)
 
 
-def _parts(
+def _all_kinds(
     target: Target,
     names: Sequence[str],
     how_near: bool = False,
     meanwhile: Callable[[], None] | None = None,
     which: Sequence[bool] = (),
-) -> list[_Part]:
+) -> list[_KindRows]:
     """The results of all kinds of machines, or of ``which``, in order, from all cores."""
     tasks = kinds(target)
     order = [i for i in longest_first(target) if not which or which[i]]
-    many = which or len(target.gearings) * len(target.z) * len(target.laws) > WHEELS
+    wheels = len(target.gearings) * len(target.z) * len(target.laws)
+    many = which or wheels > 6  # a smaller search ends before a second process has started
     workers = min(len(order), cores()) if many else 1
-    work = partial(_part, names=names, how_near=how_near)
+    work = partial(_kind_rows, names=names, how_near=how_near)
     done = mapped(work, [tasks[i] for i in order], workers, "machines", meanwhile)
     done = tracked(done, "kinds of machines", len(order))
-    found = dict(zip(order, done, strict=True))
-    return [found[i] for i in sorted(found)]
+    results = dict(zip(order, done, strict=True))
+    return [results[i] for i in sorted(results)]
 
 
-def _part(task: tuple[Kind, Target], names: Sequence[str], how_near: bool) -> _Part:
+def _kind_rows(task: tuple[Kind, Target], names: Sequence[str], how_near: bool) -> _KindRows:
     kind, target = task
     reached: list[float] = []
     errors: list[str] = []
     of_kind = [*families(kind, target, reached)]
     if not _known_together(target):
-        of_kind = pieces(of_kind, LOOKED_INTO)
+        of_kind = pieces(of_kind, 120)  # the quantities of each piece's best are computed singly
     one_each, near = best(of_kind, target, how_near)
     of = {one.spec: one.family for one in reversed([*one_each, *near])}
-    keeps, kept, broken = _apart(
+    keeps, kept, broken = _divided(
         known_bounds(target), [*dict.fromkeys(one.spec for one in one_each)]
     )
     shown = [*kept, *broken, *(one.spec for one in near)] if how_near else kept
-    found = [
+    built_rows = [
         row._replace(family=of[spec].whole) if of[spec].is_free else row
         for spec, row in zip(shown, rows(target, shown, errors), strict=True)
         if row
     ]
-    return _Part(found, asked_together(names, found), keeps, reached, errors)
+    return _KindRows(built_rows, batch_cells(names, built_rows), keeps, reached, errors)
 
 
-def _asked(target: Target) -> Asked:
+def _requested(target: Target) -> QuantityRequest:
     """The quantities that a requirement names, by their whole names.
 
     They are those of a plain crank with one roller or, if the frame's sizes allow none, of the
     frame.
     """
     if not (target.sort or target.bounds):
-        return Asked(None, (), None)
+        return QuantityRequest(None, (), None)
     for gearing in target.gearings:
         for z in target.z:
             try:
@@ -190,11 +200,13 @@ def _asked(target: Target) -> Asked:
                 build(spec)
             except GenevaError:
                 continue
-            return asked(target, spec)
-    return asked(target, target.frame or BARE)
+            return quantity_request(target, spec)
+    return quantity_request(target, target.frame or BARE)
 
 
-def _apart(bounds: Sequence[Constraint], specs: list[Spec]) -> tuple[bool, list[Spec], list[Spec]]:
+def _divided(
+    bounds: Sequence[Constraint], specs: list[Spec]
+) -> tuple[bool, list[Spec], list[Spec]]:
     """Divide specs by the bounds that do not depend on the roller.
 
     Returns whether one of them is known to keep all, the specs that may keep them, and the others.
@@ -212,18 +224,18 @@ def _apart(bounds: Sequence[Constraint], specs: list[Spec]) -> tuple[bool, list[
     return keeps, kept, [spec for spec, out in zip(specs, broken, strict=True) if out]
 
 
-def _rank(target: Target, wanted: Asked, row: Row) -> tuple[object, ...]:
+def _rank(target: Target, request: QuantityRequest, row: MachineRow) -> tuple[object, ...]:
     """The sort key of a row: the goal's quantity, then peaks.
 
     Numbers that differ only by rounding are equal.
     """
     candidate = row.candidate
     first: list[object] = []
-    if wanted.sort:
-        value = row.asked[wanted.names.index(wanted.sort.name)]
+    if request.sort:
+        value = row.extra[request.names.index(request.sort.name)]
         first = [
             not is_number(value),
-            float(f"{_first(wanted, row):.12g}") if is_number(value) else 0.0,
+            float(f"{_first(request, row):.12g}") if is_number(value) else 0.0,
             "" if is_number(value) else str(value),
         ]
     peaks = (candidate.peak, candidate.jerk_max)
@@ -237,17 +249,20 @@ def _rank(target: Target, wanted: Asked, row: Row) -> tuple[object, ...]:
     )
 
 
-def _worth(target: Target, wanted: Asked, found: list[Row]) -> list[Row]:
+def _worthwhile(
+    target: Target, request: QuantityRequest, machines: list[MachineRow]
+) -> list[MachineRow]:
     """The rows without machines of two numbers that are hardly better than one of one number.
 
     If the nearest machine to the plain crank is required, all of them are left out that have one.
     """
-    one = [row for row in found if not row.candidate.of_two_numbers]
+    one = [row for row in machines if not row.candidate.of_two_numbers]
 
-    def beaten(row: Row) -> bool:
-        own, value = row.candidate, _first(wanted, row)
+    def beaten(row: MachineRow) -> bool:
+        own, value = row.candidate, _first(request, row)
+        least_gain = 0.01 * abs(value)  # over a machine of one number
         return any(
-            (nearest or not value < _first(wanted, other) - WORTH * abs(value))
+            (nearest or not value < _first(request, other) - least_gain)
             for other in one
             if (own.z, own.rollers, own.law) == (other.candidate.z, other.candidate.rollers, None)
             and (
@@ -256,16 +271,16 @@ def _worth(target: Target, wanted: Asked, found: list[Row]) -> list[Row]:
             )
         )
 
-    nearest = target.with_times().any_motion and not wanted.sort
-    return [row for row in found if not (row.candidate.of_two_numbers and beaten(row))]
+    nearest = target.with_times().any_motion and not request.sort
+    return [row for row in machines if not (row.candidate.of_two_numbers and beaten(row))]
 
 
-def _first(wanted: Asked, row: Row) -> float:
+def _first(request: QuantityRequest, row: MachineRow) -> float:
     """The first number of the sort key, least first; NaN if there is none."""
-    if not wanted.sort:
+    if not request.sort:
         return row.candidate.peak
-    value = row.asked[wanted.names.index(wanted.sort.name)]
-    return wanted.sort.sign * float(value) if is_number(value) else math.nan
+    value = row.extra[request.names.index(request.sort.name)]
+    return request.sort.sign * float(value) if is_number(value) else math.nan
 
 
 def synthesis(target: Target) -> list[tuple[Spec, Candidate]]:
@@ -311,6 +326,6 @@ def _out_of_reach(target: Target, reached: list[float], errors: list[str]) -> st
     return (
         f"{target.words}: out of reach with {'one roller' if m == 1 else f'{m} rollers'}: curved "
         "slots turn an internal wheel at most half as fast as the crank"
-        + (f", and no drive goes beyond A or eccentricity {closed.MOST}" if m == 1 else "")
+        + (f", and no drive goes beyond A or eccentricity {closed.PARAMETER_MAX}" if m == 1 else "")
         + f"; use more slots or a longer motion{first}"
     )

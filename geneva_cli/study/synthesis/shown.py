@@ -9,10 +9,6 @@ from typing import Any, NamedTuple
 from geneva_cli.output.text import cell
 from geneva_cli.table import Reading, Table
 
-WIDTH = 100
-BETWEEN = 3  # columns that a frame puts between two others; plain text has 2
-DIGITS = 5  # significant digits; csv and json have all
-
 # Columns and their short names, the least important last; empty ones are left out.
 HEADS = {
     "no": "no",
@@ -22,7 +18,7 @@ HEADS = {
     "parts": "parts",
     "acceleration_max": "accel_max",
     "n_rpm": "rpm",
-    "asked": "",
+    "extra": "",
     "rollers": "rollers",
     "motion_deg": "motion_deg",
     "dwell_s": "dwell_s",
@@ -40,10 +36,8 @@ HEADS = {
 ORDER = (
     *("no", "z", "gearing", "rollers", "machine", "ratio", "motion_deg", "dwell_deg", "motion_s"),
     *("dwell_s", "tau", "k", "n_rpm", "velocity_max", "acceleration_max", "acceleration_entry"),
-    *("jerk_max", "power_max", "acceleration_max_rad_s2", "asked", "parts"),
+    *("jerk_max", "power_max", "acceleration_max_rad_s2", "extra", "parts"),
 )
-PEAK, RATE = "acceleration_max", "acceleration_max_rad_s2"
-CONSTANT = ("rollers", "motion_deg", "dwell_deg", "motion_s", "dwell_s", "tau", "k", "n_rpm")
 DESCRIBED = (  # columns that the machine's description replaces
     *("drive", "A", "eccentricity", "phase", "axes_deg", "alpha0_deg", "law"),
     *("offset_mm", "planet_ratio", "fixed"),
@@ -52,7 +46,7 @@ DESCRIBED = (  # columns that the machine's description replaces
 )
 
 
-class ShownColumn(NamedTuple):
+class SynthesisColumn(NamedTuple):
     """A column for people: its source, its heading and its cells."""
 
     source: str
@@ -65,17 +59,24 @@ class ShownColumn(NamedTuple):
         return max(len(text) for text in (*self.head.split("_"), *map(cell, self.cells)))
 
 
-def for_terminal(table: Table) -> Table:
-    """A table with a description of each machine and all its numbers, in order of importance."""
-    rows = table.to_rows()
+def for_terminal(table: Table, most: int) -> Table:
+    """The first ``most`` rows with a description of each machine and all its numbers.
+
+    Columns are in order of importance. The title says how to get the other rows.
+    """
+    every_row = table.to_rows()
+    rows = every_row[:most]
+    title = table.title
+    if len(rows) < len(every_row):
+        title += f" The first {most} rows. All {len(every_row)} rows: -o FILE.csv"
     laws = {row["law"] for row in rows if row["law"]}
     every = _columns(rows, table.names, len(laws) > 1)
     columns = [c for c in every if any(v is not None for v in c.cells)]
-    names = [c.head if c.source == "asked" else c.source for c in columns]
+    names = [c.head if c.source == "extra" else c.source for c in columns]
     rank = _ranks(columns)
     first = sorted(range(len(columns)), key=lambda i: rank[columns[i].source])
     reading = Reading(tuple(names[i] for i in first))
-    return Table(tuple(names), [c.cells for c in columns], title=table.title, reading=reading)
+    return Table(tuple(names), [c.cells for c in columns], title=title, reading=reading)
 
 
 def for_people(table: Table) -> Table:
@@ -83,12 +84,13 @@ def for_people(table: Table) -> Table:
     rows = table.to_rows()
     laws = {row["law"] for row in rows if row["law"]}
     columns, once = [], [f"law {law}" for law in laws if len(laws) == 1]
+    titled = ("rollers", "motion_deg", "dwell_deg", "motion_s", "dwell_s", "tau", "k", "n_rpm")
     for column in _columns(rows, table.names, len(laws) > 1):
         first = column.cells[0] if column.cells else None
         if all(v is None for v in column.cells):
             continue
         same = len(rows) > 1 and all(_same(v, first) for v in column.cells)
-        if column.source in CONSTANT and same:
+        if column.source in titled and same:
             once.append(f"{column.source} {cell(first)}")
         elif not (column.source == "rollers" and same and first == 1):
             columns.append(column)
@@ -99,23 +101,25 @@ def for_people(table: Table) -> Table:
 
 def _columns(
     rows: list[dict[str, Any]], names: tuple[str, ...], several: bool
-) -> Iterator[ShownColumn]:
+) -> Iterator[SynthesisColumn]:
     """All columns in their order."""
     known = {*HEADS, *DESCRIBED}
     for source in ORDER:
         if source == "machine":
-            yield ShownColumn(source, source, [_machine(row, several) for row in rows])
-        elif source == "asked":
+            yield SynthesisColumn(source, source, [_machine(row, several) for row in rows])
+        elif source == "extra":
             for name in names:
                 if name not in known:
-                    yield ShownColumn(source, name.replace(".", "_"), [row[name] for row in rows])
+                    yield SynthesisColumn(
+                        source, name.replace(".", "_"), [row[name] for row in rows]
+                    )
         elif source == "parts":
-            yield ShownColumn(source, source, [_said(row["parts"]) for row in rows])
+            yield SynthesisColumn(source, source, [_parts_entry(row["parts"]) for row in rows])
         else:
             cells = [row[source] for row in rows]
             if source == "gearing":  # ext, int, sph
                 cells = [word[:3] for word in cells]
-            yield ShownColumn(source, HEADS[source], cells)
+            yield SynthesisColumn(source, HEADS[source], cells)
 
 
 def _machine(row: dict[str, Any], several: bool) -> str:
@@ -141,21 +145,22 @@ def _links(row: dict[str, Any]) -> str:
     return " ".join(f"{x:.3g}" for x in lengths)
 
 
-def _fitting(columns: list[ShownColumn]) -> list[ShownColumn]:
+def _fitting(columns: list[SynthesisColumn]) -> list[SynthesisColumn]:
     """As many columns as fit, the least important ones left out."""
     rank = _ranks(columns)
-    wide = [c.width + BETWEEN for c in columns]
+    wide = [c.width + 3 for c in columns]  # letters, with a frame's gap between two columns
     kept = [*range(len(columns))]
-    while sum(wide[i] for i in kept) + 1 > WIDTH:
+    while sum(wide[i] for i in kept) + 1 > 100:
         kept.remove(max(kept, key=lambda i: rank[columns[i].source]))
     return [columns[i] for i in kept]
 
 
-def _ranks(columns: list[ShownColumn]) -> dict[str, int]:
+def _ranks(columns: list[SynthesisColumn]) -> dict[str, int]:
     """The rank of each column in importance."""
     rank = {source: i for i, source in enumerate(HEADS)}
-    if RATE in {c.source for c in columns}:  # rows are sorted by it
-        rank[PEAK], rank[RATE] = rank[RATE], rank[PEAK]
+    peak, rate = "acceleration_max", "acceleration_max_rad_s2"
+    if rate in {c.source for c in columns}:  # rows are sorted by it
+        rank[peak], rank[rate] = rank[rate], rank[peak]
     return rank
 
 
@@ -164,10 +169,11 @@ def _short(value: Any) -> Any:
 
 
 def _number(value: Any) -> str:
-    return f"{value:.{DIGITS}g}" if isinstance(value, float) else str(value)
+    """A number with 5 digits, which are enough to compare rows; csv and json have all."""
+    return f"{value:.5g}" if isinstance(value, float) else str(value)
 
 
-def _said(parts: str | None) -> str | None:
+def _parts_entry(parts: str | None) -> str | None:
     """The entry about parts; of several reasons the first, without its unit."""
     no, colon, reasons = (parts or "").partition(": ")
     if not colon:

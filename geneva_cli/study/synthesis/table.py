@@ -10,10 +10,10 @@ from geneva_cli.machine.spec import Spec
 from geneva_cli.progress import tracked
 from geneva_cli.study.pool import cores, mapped
 from geneva_cli.study.synthesis.built import Built, built_together, passes
-from geneva_cli.study.synthesis.elsewhere import elsewhere
 from geneva_cli.study.synthesis.parts import MAYBE, YES
-from geneva_cli.study.synthesis.rows import Candidate, Row
-from geneva_cli.study.synthesis.search import TURNED, FoundRows, search
+from geneva_cli.study.synthesis.replacements import buildable_rows
+from geneva_cli.study.synthesis.rows import Candidate, MachineRow
+from geneva_cli.study.synthesis.search import TURNED, Ranking, search
 from geneva_cli.study.synthesis.target import Target
 from geneva_cli.study.synthesis.turns import Turns, same_turn
 from geneva_cli.table import Table, rows_table
@@ -23,42 +23,44 @@ NAMES = ("no", *Candidate._fields)
 
 
 def synthesis_table(
-    target: Target, count: int = TURNED, buildable: bool = False, found: FoundRows | None = None
+    target: Target, count: int = TURNED, buildable: bool = False, ranking: Ranking | None = None
 ) -> Table:
     """One row for each machine, numbered from 1, as ``turned`` returns them."""
     # the processes that turn need these imports, which are loaded while others search
-    found = found or search(target, import_checks if count else None)
-    rows = [(one.no, *one.row.candidate, *one.row.asked) for one in turned(found, count, buildable)]
+    ranking = ranking or search(target, import_checks if count else None)
+    rows = [
+        (one.no, *one.row.candidate, *one.row.extra) for one in turned(ranking, count, buildable)
+    ]
     what = "1 machine" if len(rows) == 1 else f"{len(rows)} machines"
     first = str(target.sort or "") or f"lowest peak acceleration{' in rad/s2' * target.timed}"
     title = f"{what}, {first} first" if len(rows) > 1 else what
     if buildable:
-        title = f"{title}{',' * (len(rows) > 1)} of {len(found.rows)}"
+        title = f"{title}{',' * (len(rows) > 1)} of {len(ranking.rows)}"
     if not rows:
-        title = f"none of {len(found.rows)} machines is found to pass"
-    return rows_table((*NAMES, *found.asked.names), rows, f"{target.words}: {title}.")
+        title = f"none of {len(ranking.rows)} machines passes"
+    return rows_table((*NAMES, *ranking.requested.names), rows, f"{target.words}: {title}.")
 
 
 class Numbered(NamedTuple):
     """A row and its number, which does not change if others are hidden."""
 
     no: int
-    row: Row
+    row: MachineRow
 
 
-def turned(found: FoundRows, count: int = TURNED, buildable: bool = False) -> list[Numbered]:
+def turned(ranking: Ranking, count: int = TURNED, buildable: bool = False) -> list[Numbered]:
     """The rows, the first ``count`` of them turned; with ``buildable`` only those that pass.
 
     A turned row says yes, with sizes that pass, or no. Others say maybe, or no if that is known
     without turning. A row that fails may be replaced, under its number, by the best machine of its
     family that passes: if it stands in for another one, or if only passing rows are wanted.
     """
-    every = [Numbered(i, row) for i, row in enumerate(found.rows, 1)]
+    every = [Numbered(i, row) for i, row in enumerate(ranking.rows, 1)]
     maybe = [one for one in every if one.row.candidate.parts == MAYBE]
     if not buildable:
         maybe = [one for one in maybe if one.no <= count]
-    built = _built([one.row.spec for one in maybe], fixed(found.target), in_order=buildable)
-    results: dict[int, Row] = {}
+    built = _built([one.row.spec for one in maybe], fixed(ranking.target), in_order=buildable)
+    results: dict[int, MachineRow] = {}
     passed, last = 0, len(every)
     for one in maybe:
         if buildable and passed >= count:
@@ -66,10 +68,14 @@ def turned(found: FoundRows, count: int = TURNED, buildable: bool = False) -> li
             break
         results[one.no] = with_result(one.row, next(built))
         passed += results[one.no].candidate.parts == YES
-    again = {no: r for no, r in results.items() if r.cannot_be and (buildable or r.stands_in)}
+    again = {
+        no: row
+        for no, row in results.items()
+        if row.is_impossible and (buildable or row.is_replacement)
+    }
     if buildable:
-        again |= _stuck(every[:last], found)
-    others = _others(found, again)
+        again |= _stuck(every[:last], ranking)
+    others = _others(ranking, again)
     results |= others
     shown = [one._replace(row=results.get(one.no, one.row)) for one in every]
     if buildable:
@@ -79,35 +85,35 @@ def turned(found: FoundRows, count: int = TURNED, buildable: bool = False) -> li
     return shown[:count] if buildable else shown
 
 
-def _stuck(every: Sequence[Numbered], found: FoundRows) -> dict[int, Row]:
-    """The rows that cannot be built, and for which no other stands in."""
-    able = {row.family for row in found.rows if not row.cannot_be}
-    return {no: row for no, row in every if row.cannot_be and row.family not in able}
+def _stuck(every: Sequence[Numbered], ranking: Ranking) -> dict[int, MachineRow]:
+    """The rows that cannot be built, of families without a buildable row."""
+    able = {row.family for row in ranking.rows if not row.is_impossible}
+    return {no: row for no, row in every if row.is_impossible and row.family not in able}
 
 
-def _others(found: FoundRows, failing: dict[int, Row]) -> dict[int, Row]:
+def _others(ranking: Ranking, failing: dict[int, MachineRow]) -> dict[int, MachineRow]:
     """For rows that fail, by their numbers, the best machines of their families that pass."""
-    work = partial(other, found._replace(rows=[]))
+    work = partial(other, ranking._replace(rows=[]))
     done = mapped(work, failing.values(), min(len(failing), cores()), "machines")
-    done = tracked(done, "others looked for", len(failing))
+    done = tracked(done, "alternatives", len(failing))
     return {no: row for no, row in zip(failing, done, strict=True) if row}
 
 
-def other(found: FoundRows, row: Row) -> Row | None:
+def other(ranking: Ranking, row: MachineRow) -> MachineRow | None:
     """The best machine of a row's family that passes a full turn, other than the row's own."""
-    turns, given = Turns(), fixed(found.target)
+    turns, sizes = Turns(), fixed(ranking.target)
 
-    def turn(maybe: Row, like: Row | None) -> Row | None:
-        own = found.in_turn(maybe)
+    def turn(maybe: MachineRow, like: MachineRow | None) -> MachineRow | None:
+        own = ranking.in_turn(maybe)
         if own is None or own.moves_as(row):
             return None
         if like:
             spec = own.spec.replace(size=like.spec.size)
             return with_result(own, Built(spec, "")) if passes(spec, turns) else None
-        (result,) = built_together([own.spec], given, turns)
+        (result,) = built_together([own.spec], sizes, turns)
         return None if result.trouble else with_result(own, result)
 
-    return elsewhere(found.target, [row.family], turn)[0] if row.family else None
+    return buildable_rows(ranking.target, [row.family], turn)[0] if row.family else None
 
 
 def _built(specs: Sequence[Spec], fixed: frozenset[str], in_order: bool) -> Iterator[Built]:
@@ -133,13 +139,13 @@ def _built(specs: Sequence[Spec], fixed: frozenset[str], in_order: bool) -> Iter
         yield results.pop(i)
 
 
-def with_result(row: Row, result: Built) -> Row:
+def with_result(row: MachineRow, result: Built) -> MachineRow:
     """A row with the result of turning its parts."""
-    said = f"no: {result.trouble}" if result.trouble else YES
-    return row._replace(spec=result.spec, candidate=row.candidate._replace(parts=said))
+    entry = f"no: {result.trouble}" if result.trouble else YES
+    return row._replace(spec=result.spec, candidate=row.candidate._replace(parts=entry))
 
 
 def fixed(target: Target) -> frozenset[str]:
     """The sizes that the requirement's frame gives, which do not change."""
-    given = target.frame.size.as_dict() if target.frame else {}
-    return frozenset(key for key, value in given.items() if value is not None)
+    sizes = target.frame.size.as_dict() if target.frame else {}
+    return frozenset(key for key, value in sizes.items() if value is not None)

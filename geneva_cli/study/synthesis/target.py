@@ -20,17 +20,13 @@ from geneva_cli.machine.law_motion import MOTION_MIN
 from geneva_cli.machine.spec import Spec
 from geneva_cli.study.goals import Objective
 from geneva_cli.study.sweep.constraints import Constraint
-from geneva_cli.study.synthesis.spans import Interval
+from geneva_cli.study.synthesis.spans import AllowedSpan
 
 GEARINGS = ("external", "internal", "spherical")
 USUAL_RPM = 60.0
-ANY = Interval(0.0, math.inf)
-PEAK, RATE = "acceleration.max", "acceleration.max_rad_s2"
-TIMES = ("tau", "k", "motion_deg", "dwell_deg")  # bounds on these restrict the motion angle
-SECONDS = ("motion_s", "dwell_s")  # and bounds on these do so if the cycle is known
+PEAK = "acceleration.max"
 SPACE = 3.0  # centre distances that a linkage may take by default
 TURNS = (3, 4, 5, 6)  # of the input in a cycle behind a first wheel: its step is a crank's motion
-ROLLERS = 60  # of a machine at most, by default: more run into each other
 
 
 class Target(NamedTuple):
@@ -44,7 +40,7 @@ class Target(NamedTuple):
     gearings: tuple[str, ...] = GEARINGS
     rollers: int | None = None
     laws: tuple[str, ...] = ("modified-sine",)
-    spans: dict[str, Interval] = {}  # noqa: RUF012 - a NamedTuple's default, never changed
+    spans: dict[str, AllowedSpan] = {}  # noqa: RUF012 - a NamedTuple's default, never changed
     acceleration_max: float | None = None
     frame: Spec | None = None
     sort: Objective | None = None  # the goal by which rows are sorted
@@ -61,13 +57,13 @@ class Target(NamedTuple):
     @property
     def peak(self) -> str:
         """The name of the peak acceleration, the default goal; in rad/s² if times are required."""
-        return RATE if self.timed else PEAK
+        return "acceleration.max_rad_s2" if self.timed else PEAK
 
     @property
     def any_motion(self) -> bool:
         """Return True if any motion is allowed, and there is some bound."""
         bounded = bool(self.bounds) or self.acceleration_max is not None
-        return bounded and self.asks_nothing(1)
+        return bounded and self.allows_any_motion(1)
 
     @property
     def limits(self) -> tuple[Constraint, ...]:
@@ -81,7 +77,7 @@ class Target(NamedTuple):
         return self._replace(acceleration_max=None, bounds=self.limits)
 
     @property
-    def named(self) -> list[str]:
+    def quantities(self) -> list[str]:
         """The quantities that it sorts by and bounds."""
         return [*([self.sort.name] if self.sort else []), *(b.name for b in self.limits)]
 
@@ -95,81 +91,84 @@ class Target(NamedTuple):
 
         Returned unchanged if those ranges allow any motion.
         """
-        timed = self.frame is not None or "cycle" in self.spans
-        names = {f"timing.{name}": name for name in (*TIMES, *(SECONDS if timed else ()))}
+        has_cycle = self.frame is not None or "cycle" in self.spans
+        # bounds on times restrict the motion angle if the cycle is known
+        times = ("motion_s", "dwell_s") if has_cycle else ()
+        names = {f"timing.{x}": x for x in ("tau", "k", "motion_deg", "dwell_deg", *times)}
         spans = dict(self.spans)
         for bound in self.bounds:
             if name := names.get(bound.name):
-                low, high = spans.get(name, Interval())
+                low, high = spans.get(name, AllowedSpan())
                 least, most = bound.span
-                spans[name] = Interval(max(low, least), min(high, most))
+                spans[name] = AllowedSpan(max(low, least), min(high, most))
         left = tuple(bound for bound in self.bounds if bound.name not in names)
         bounded = frozenset(names[b.name] for b in self.bounds if b.name in names)
         narrowed = self._replace(spans=spans, bounds=left, bounded=bounded)
-        return self if narrowed.asks_nothing(1) else narrowed
+        return self if narrowed.allows_any_motion(1) else narrowed
 
-    def cycle_s(self, m: float) -> Interval:
+    def cycle_s(self, m: float) -> AllowedSpan:
         """The required cycle times; with a frame and no other requirement, the frame's own."""
         if "cycle" in self.spans:
             return self.spans["cycle"]
         if self.frame is not None:
             own = 60.0 / (m * self.frame.drive.n_rpm)
-            return Interval(own, own)
-        return ANY
+            return AllowedSpan(own, own)
+        return AllowedSpan(0.0, math.inf)
 
-    def demands(self, m: float) -> Iterator[tuple[str, Interval]]:
+    def demands(self, m: float) -> Iterator[tuple[str, AllowedSpan]]:
         """The range of motion angles that each requirement leaves for m rollers, with its name."""
         spans, turn, cycle = self.spans, 360.0 / m, self.cycle_s(m)
-        said = {name: f"{self._option(name)} {_typed(s)}" for name, s in spans.items()}
-        beside = said.get("cycle", "the spec's n_rpm" if self.frame else "")
+        options = {name: f"{self._option(name)} {_typed(s)}" for name, s in spans.items()}
+        speed = options.get("cycle", "the spec's n_rpm" if self.frame else "")
         if "motion_deg" in spans:
-            yield said["motion_deg"], spans["motion_deg"]
+            yield options["motion_deg"], spans["motion_deg"]
         if "tau" in spans:
             low, high = spans["tau"]
-            yield said["tau"], Interval(360.0 * low / m, 360.0 * high / m)
+            yield options["tau"], AllowedSpan(360.0 * low / m, 360.0 * high / m)
         if "k" in spans:
-            yield said["k"], Interval(*(360.0 * _tau(k) / m for k in spans["k"]))
+            yield options["k"], AllowedSpan(*(360.0 * _tau(k) / m for k in spans["k"]))
         if "dwell_deg" in spans:
-            yield said["dwell_deg"], spans["dwell_deg"].mirrored(turn)
-        if "motion_s" in spans and beside:
-            yield f"{said['motion_s']} with {beside}", spans["motion_s"].over(cycle).times(turn)
-        if "dwell_s" in spans and beside:
-            share = spans["dwell_s"].over(cycle).times(turn)
-            yield f"{said['dwell_s']} with {beside}", share.mirrored(turn)
+            yield options["dwell_deg"], spans["dwell_deg"].mirrored(turn)
+        if "motion_s" in spans and speed:
+            yield f"{options['motion_s']} with {speed}", spans["motion_s"].over(cycle).times(turn)
+        if "dwell_s" in spans and speed:
+            fraction = spans["dwell_s"].over(cycle).times(turn)
+            yield f"{options['dwell_s']} with {speed}", fraction.mirrored(turn)
         if "motion_s" in spans and "dwell_s" in spans:
             k = spans["motion_s"].over(spans["dwell_s"])
-            words = f"{said['motion_s']} with {said['dwell_s']}"
-            yield words, Interval(*(turn * _tau(x) for x in k))
+            words = f"{options['motion_s']} with {options['dwell_s']}"
+            yield words, AllowedSpan(*(turn * _tau(x) for x in k))
 
-    def asks_nothing(self, m: float) -> bool:
+    def allows_any_motion(self, m: float) -> bool:
         """Return True if any motion angle is allowed."""
         return not any(s.low > 0.0 or s.high < 360.0 / m for _, s in self.demands(m))
 
-    def motion_for(self, m: float) -> Interval | None:
+    def motion_for(self, m: float) -> AllowedSpan | None:
         """The motion angles allowed for m rollers; None if every angle is.
 
         The range may be empty. It may include 0 or a whole turn over m, where no motion or no dwell
         is left.
         """
-        found = Interval(0.0, 360.0 / m)
-        if self.asks_nothing(1) and self.asks_nothing(m):  # several rollers' motions are short
+        allowed = AllowedSpan(0.0, 360.0 / m)
+        # the motions of several rollers are short, whatever is required
+        if self.allows_any_motion(1) and self.allows_any_motion(m):
             return None
-        for _, asked in self.demands(m):
-            found = found.within(asked)
-        return found
+        for _, demand in self.demands(m):
+            allowed = allowed.within(demand)
+        return allowed
 
     def n_rpm(self, m: float, motion_deg: float) -> float:
         """The input speed for m cycles in a turn: the usual one, or the nearest that is allowed."""
-        share = m * motion_deg / 360.0
+        fraction = m * motion_deg / 360.0
         usual = self.frame.drive.n_rpm if self.frame else USUAL_RPM
         if not self.timed:
             return usual
         cycle = self.cycle_s(m)
         if not cycle.exact:
             if "motion_s" in self.spans:
-                cycle = cycle.within(self.spans["motion_s"].times(1.0 / share))
-            if "dwell_s" in self.spans and share < 1.0:  # else there is none, whatever the speed
-                cycle = cycle.within(self.spans["dwell_s"].times(1.0 / (1.0 - share)))
+                cycle = cycle.within(self.spans["motion_s"].times(1.0 / fraction))
+            if "dwell_s" in self.spans and fraction < 1.0:  # else there is none, whatever the speed
+                cycle = cycle.within(self.spans["dwell_s"].times(1.0 / (1.0 - fraction)))
         whole = min(max(60.0 / (m * usual), cycle.low), cycle.high)
         return usual if whole == 60.0 / (m * usual) else 60.0 / (m * whole)
 
@@ -186,7 +185,8 @@ class Target(NamedTuple):
     @property
     def _every_count(self) -> Sequence[float]:
         """All numbers of motions in a turn: of rollers, or of turns behind a first wheel."""
-        several = (self.rollers,) if self.rollers else range(1, ROLLERS + 1)
+        most = 60  # more rollers run into each other
+        several = (self.rollers,) if self.rollers else range(1, most + 1)
         behind = [1.0 / turns for turns in TURNS] if self.rollers in (None, 1) else []
         return [*several, *behind]
 
@@ -195,15 +195,15 @@ class Target(NamedTuple):
         for name, (low, high) in self.spans.items():
             if low > high:
                 return f"{self._option(name)}: nothing is at least {low:.7g} and at most {high:.7g}"
-        asked = list(self.demands(m))
-        for i, (one, first) in enumerate(asked):
+        demands = list(self.demands(m))
+        for i, (one, first) in enumerate(demands):
             if first.high * m <= MOTION_MIN or first.low * m >= 360.0 - MOTION_MIN:
                 several = f" of {m} rollers" if m > 1 else ""
                 return (
                     f"{one}: that leaves {_angles(first, m)}; a motion{several} must be above 0 "
                     f"and below {360.0 / m:.7g} deg (tau below 1)"
                 )
-            for other, second in asked[:i]:
+            for other, second in demands[:i]:
                 if first.within(second).empty:
                     return (
                         f"{other} and {one}: no machine does both; the first leaves "
@@ -220,18 +220,18 @@ def _tau(k: float) -> float:
     return max(k, 0.0) / (1.0 + k) if k < math.inf else 1.0
 
 
-def _typed(s: Interval) -> str:
+def _typed(s: AllowedSpan) -> str:
     ends = ("" if abs(x) == math.inf else f"{x:.7g}" for x in s)
     return f"{s.low:.7g}" if s.exact else "..".join(ends)
 
 
-def _angles(s: Interval, m: float) -> str:
+def _angles(s: AllowedSpan, m: float) -> str:
     """The motion angles that a requirement leaves, for a message."""
     whole = 360.0 / m
     if s.high * m <= MOTION_MIN:
         return "no time to move"
     if s.low * m >= 360.0 - MOTION_MIN:
         return "no dwell"
-    return Interval(
+    return AllowedSpan(
         s.low if s.low > 0.0 else -math.inf, s.high if s.high < whole else math.inf
     ).words("a motion of", " deg")

@@ -33,30 +33,29 @@ from geneva_cli.verdict.checks.check import Check
 from geneva_cli.verdict.checks.play import finds_slot
 from geneva_cli.verdict.checks.registry import standing_checks, turn_checks
 
-# checks that a few positions can decide
-GAPS, LOOSE = {"gap_mm", "idle_roller_mm"}, {"hand_over_play_deg"}
-# Times the play that lets a roller find its slot. If the wheel is this loose between lock and slot,
-# no smaller roller helps. Of cams with 5 to 12 slots those up to 3.1 were mended by one, and none
-# from 8.4 on.
+HAND_OVER_PLAY = "hand_over_play_deg"
+# Times the play that lets a roller find its slot. With this much play between lock and slot no
+# smaller roller helps. Of cams with 5 to 12 slots those up to 3.1 were mended by one, and none from
+# 8.4 on.
 LOST = 6.0
 # From here on the true play may exceed LOST, so it must be computed precisely. Of 108 wheels with a
 # law, outlines with more material had an error below this.
 NEARLY = 0.5 * LOST
 
 
-class Failing(NamedTuple):
+class Failure(NamedTuple):
     """A failing check: its name, its input angle in the machine of ``same_turn``, its ratio.
 
-    ``share`` is the value over its limit, 0 if there is no such ratio.
+    ``ratio`` is the value over its limit, 0 if there is no such ratio.
     """
 
     name: str
     at_deg: float | None = None
-    share: float = 0.0
+    ratio: float = 0.0
 
-    def looser(self, share: float) -> bool:
-        """Return True if the play between lock and slot exceeds ``share`` times its limit."""
-        return self.name in LOOSE and self.share > share
+    def exceeds(self, ratio: float) -> bool:
+        """Return True if the play between lock and slot exceeds ``ratio`` times its limit."""
+        return self.name == HAND_OVER_PLAY and self.ratio > ratio
 
 
 def same_turn(spec: Spec) -> Spec:
@@ -74,20 +73,25 @@ class Turns:
     def __init__(self) -> None:
         self._turns: dict[Spec, _Turn] = {}
 
-    def failing(self, machine: Mechanism) -> list[Failing]:
+    def failing(self, machine: Mechanism) -> list[Failure]:
         """The checks of a machine's parts that fail, or the key that prevents the parts."""
         turn = self._turn(machine)
         return [*turn.standing(machine), *turn.every()]
 
-    def first_failing(self, machine: Mechanism) -> list[Failing]:
-        """The checks that fail at rest, or else the first found to fail in the turn."""
+    def first_failing(self, machine: Mechanism) -> list[Failure]:
+        """The checks that fail at rest, or else the first that fail in the turn."""
         turn = self._turn(machine)
         return turn.undrawn() or turn.standing(machine) or turn.first()
 
-    def some_failing(self, machine: Mechanism, seen: Iterable[Failing]) -> list[Failing]:
-        """Some checks that fail, tried first where checks were ``seen`` to fail."""
+    def some_failing(self, machine: Mechanism, known: Iterable[Failure]) -> list[Failure]:
+        """Some checks that fail, tried first where checks were ``known`` to fail."""
         turn = self._turn(machine)
-        early = turn.undrawn() or turn.overlapping() or turn.loose() or turn.again(seen)
+        early = (
+            turn.undrawn()
+            or turn.overlapping()
+            or turn.play_at_hand_over()
+            or turn.still_failing(known)
+        )
         return early or turn.standing(machine) or turn.first()
 
     def _turn(self, machine: Mechanism) -> _Turn:
@@ -102,24 +106,22 @@ class _Turn:
 
     def __init__(self, machine: Mechanism) -> None:
         self._machine = machine
-        self._failing: list[Failing] = []
+        self._failing: list[Failure] = []
         self._begun = False
 
     @cached_property
-    def _made(self) -> MachineParts | Failing:
+    def _parts(self) -> MachineParts | Failure:
         """The parts, or the key that prevents them."""
         try:
-            return (
-                drawn(*self._sized)
-                if self._sized
-                else PartsModel(self._machine, advice=False).parts
-            )
+            if self._sized:
+                return drawn(*self._sized)
+            return PartsModel(self._machine, advice=False).parts
         except GenevaError as error:
-            return _in_the_way(error)
+            return _prevented_by(error)
 
     @cached_property
-    def _closer(self) -> Iterator[list[Failing]]:
-        return iter(()) if isinstance(self._made, Failing) else _looks(self._made)
+    def _closer(self) -> Iterator[list[Failure]]:
+        return iter(()) if isinstance(self._parts, Failure) else _turn_failures(self._parts)
 
     @cached_property
     def _sized(self) -> tuple[Assembly, Sizes] | None:
@@ -132,20 +134,20 @@ class _Turn:
         except GenevaError:
             return None
 
-    def undrawn(self) -> list[Failing]:
+    def undrawn(self) -> list[Failure]:
         """The key that prevents the parts, if nothing is left of the locking disc.
 
         This is known before the parts are drawn.
         """
         no_disc = self._sized is not None and leave_no_disc(*self._sized)
-        return [Failing("roller_radius_mm")] if no_disc else []
+        return [Failure("roller_radius_mm")] if no_disc else []
 
-    def overlapping(self) -> list[Failing]:
+    def overlapping(self) -> list[Failure]:
         """The check of two rollers on one crank that overlap, which needs no walls."""
         gap = rollers_gap(*self._sized) if self._sized else None
-        return [] if gap is None or keeps(gap, "at least", 0.0) else [Failing("rollers_apart_mm")]
+        return [] if gap is None or keeps(gap, "at least", 0.0) else [Failure("rollers_apart_mm")]
 
-    def loose(self) -> list[Failing]:
+    def play_at_hand_over(self) -> list[Failure]:
         """The play between lock and slot from simpler outlines, or the key that prevents parts.
 
         These have more material than the parts. A wheel near the limit LOST must be drawn.
@@ -153,81 +155,81 @@ class _Turn:
         try:
             more = bounding_outlines(*self._sized) if self._sized else None
         except GenevaError as error:
-            return [_in_the_way(error)]
-        (name,) = LOOSE
-        found = Failing(name, share=play_before_entry(more) / finds_slot(more) if more else 0.0)
-        return [found] if found.share > CLEARLY and not found.looser(NEARLY) else []
+            return [_prevented_by(error)]
+        ratio = play_before_entry(more) / finds_slot(more) if more else 0.0
+        play = Failure(HAND_OVER_PLAY, ratio=ratio)
+        return [play] if play.ratio > CLEARLY and not play.exceeds(NEARLY) else []
 
-    def standing(self, machine: Mechanism) -> list[Failing]:
+    def standing(self, machine: Mechanism) -> list[Failure]:
         """The checks at rest that fail, for a machine with the same positions."""
-        if isinstance(self._made, Failing):
-            return [self._made]
-        own = self._made.assembly._replace(full=machine, to_input=machine.spec.drive.input_deg)
-        return _failing(standing_checks(self._made.over(own)))
+        if isinstance(self._parts, Failure):
+            return [self._parts]
+        own = self._parts.assembly._replace(full=machine, to_input=machine.spec.drive.input_deg)
+        return _failures(standing_checks(self._parts.over(own)))
 
-    def every(self) -> list[Failing]:
+    def every(self) -> list[Failure]:
         """All checks of the turn that fail."""
-        while self._look():
+        while self._sample():
             pass
         return self._failing
 
-    def first(self) -> list[Failing]:
-        """The first checks found to fail; closer sampling only reduces gaps and increases play."""
-        while not self._sure() and self._look():
+    def first(self) -> list[Failure]:
+        """The first checks that fail; closer sampling only reduces gaps and increases play."""
+        while not self._sure() and self._sample():
             pass
         return self._failing
 
-    def again(self, seen: Iterable[Failing]) -> list[Failing]:
-        """The checks among ``seen`` that fail at the same place, if the turn is not sampled yet."""
-        parts = self._made
-        if self._begun or isinstance(parts, Failing):
+    def still_failing(self, known: Iterable[Failure]) -> list[Failure]:
+        """The checks of ``known`` that fail at the same place, if the turn is not sampled yet."""
+        parts = self._parts
+        if self._begun or isinstance(parts, Failure):
             return []
-        return [one for one in seen if _fails_there(parts, one)]
+        return [one for one in known if _fails_at_the_same_place(parts, one)]
 
     def _sure(self) -> bool:
         """Return True if a check fails, and the play is known to be below or above LOST."""
-        nearly = any(one.looser(NEARLY) and not one.looser(LOST) for one in self._failing)
+        nearly = any(one.exceeds(NEARLY) and not one.exceeds(LOST) for one in self._failing)
         return bool(self._failing) and not nearly
 
-    def _look(self) -> bool:
+    def _sample(self) -> bool:
         """Sample the turn more closely; return False if that is no longer possible."""
-        found = next(self._closer, None)
-        if found is None:
+        closer = next(self._closer, None)
+        if closer is None:
             return False
-        self._begun, self._failing = True, found
+        self._begun, self._failing = True, closer
         return True
 
 
-def _in_the_way(error: GenevaError) -> Failing:
+def _prevented_by(error: GenevaError) -> Failure:
     """The key that an error about parts names."""
-    return Failing(str(error.key[-1]) if error.key else "outline")
+    return Failure(str(error.key[-1]) if error.key else "outline")
 
 
-def _looks(parts: MachineParts) -> Iterator[list[Failing]]:
+def _turn_failures(parts: MachineParts) -> Iterator[list[Failure]]:
     """The checks of a turn that fail, at ever closer sampling."""
     try:
         for turn in turning(one_motion(parts)):
-            yield _failing(turn_checks(parts, turn))
+            yield _failures(turn_checks(parts, turn))
     except WorkLimit:
-        yield [Failing("full_turn")]
+        yield [Failure("full_turn")]
 
 
-def _failing(checks: Iterable[Check]) -> list[Failing]:
+def _failures(checks: Iterable[Check]) -> list[Failure]:
     return [
-        Failing(c.name, c.at_deg, c.value / c.limit if c.value and c.limit else 0.0)
+        Failure(c.name, c.at_deg, c.value / c.limit if c.value and c.limit else 0.0)
         for c in checks
         if c.passes is False
     ]
 
 
-def _fails_there(parts: MachineParts, one: Failing) -> bool:
+def _fails_at_the_same_place(parts: MachineParts, one: Failure) -> bool:
     """Return True if a check that failed with other sizes fails with these at the same place."""
     if one.at_deg is None:
         return False
     try:
-        if one.name in GAPS:
+        if one.name in ("gap_mm", "idle_roller_mm"):
             return gap_about(parts, one.at_deg) < -CLEARLY * parts.contact
-        if one.name in LOOSE:
+        if one.name == HAND_OVER_PLAY:
             return play_about(parts, one.at_deg) > CLEARLY * finds_slot(parts)
     except WorkLimit:
         return False

@@ -21,9 +21,9 @@ from geneva_cli.study.synthesis.families import limit as limits
 from geneva_cli.study.synthesis.families.curved import cam, curved, more_rollers, standard
 from geneva_cli.study.synthesis.families.family import Family, natural_deg, only, rollers
 from geneva_cli.study.synthesis.families.straight import (
-    aside,
     driven,
     gears,
+    offset_slots,
     plain,
     planets,
     side_crank,
@@ -31,8 +31,7 @@ from geneva_cli.study.synthesis.families.straight import (
 from geneva_cli.study.synthesis.families.two_stages import two_stages
 from geneva_cli.study.synthesis.target import Target
 
-# velocities at which curved slots inside cannot exist (R/L is 1), and can (R/L is 9/11)
-PARALLEL, QUICK = 0.5, 0.45
+PARALLEL = 0.5  # the wheel's velocity at which curved slots inside cannot exist: R/L is 1
 
 
 def straight(target: Target, wheels: Sequence[Gearing], reached: list[float]) -> Iterator[Family]:
@@ -40,7 +39,7 @@ def straight(target: Target, wheels: Sequence[Gearing], reached: list[float]) ->
     for wheel in wheels:
         yield from map(only, _specs(target, wheel, reached))
         for m in rollers(target, natural_deg(wheel)):
-            yield from aside(target, wheel, m)
+            yield from offset_slots(target, wheel, m)
         if not wheel.FLAT:
             yield from driven(target, wheel)
         if target.rollers in (None, 1):
@@ -118,7 +117,7 @@ def _lines(
     slower = motion
     if inside and fast >= PARALLEL * math.radians(motion):
         enough = fast < PARALLEL * math.radians(natural)
-        slower = max(motion, natural if enough else math.degrees(fast / QUICK))
+        slower = max(motion, natural if enough else math.degrees(fast / 0.45))  # R/L is 9/11
         yield natural, lambda m: cam(target, wheel, law, m, max(motion, natural))
     yield natural, lambda m: curved(target, wheel, law, m, slower)
     yield natural, lambda m: cam(target, wheel, law, m, motion)

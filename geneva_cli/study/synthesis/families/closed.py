@@ -14,8 +14,8 @@ import math
 
 from geneva_cli.numerics.angles import DEGREE, sin_cos_pi
 
-AXES = 1.0  # least angle between the shafts of a spherical wheel, degrees
-MOST = 0.9999  # greatest |A| and eccentricity: beyond, the drive nearly stops or jumps
+AXES_MIN_DEG = 1.0  # least angle between the shafts of a spherical wheel
+PARAMETER_MAX = 0.9999  # greatest |A| and eccentricity: beyond, the drive nearly stops or jumps
 
 
 def side_crank(natural_deg: float, motion_deg: float) -> float:

@@ -1,8 +1,8 @@
 """The point of a coupler that drives a wheel with a given motion, in closed form.
 
-Given are a four-bar, the crank's angles at entry and exit, and the wheel's index angle 2b. Sought
-is the roller's place w on the coupler: a complex number, along it and across. With the crank's pin
-A and the coupler's unit vector e, the roller is at P = A + w e, and its velocity is V = A' + w e'.
+A four-bar, the crank's angles at entry and exit, and the wheel's index angle 2b determine the
+roller's place w on the coupler: a complex number, along it and across. With the crank's pin A and
+the coupler's unit vector e, the roller is at P = A + w e, and its velocity is V = A' + w e'.
 Between entry and exit of slots of a wheel of sense s, the tangent has turned by pi - 2b relative to
 the wheel. The chord is half-way between both tangents:
 
@@ -24,10 +24,6 @@ from geneva_cli.numerics.jet import Jet, atan2, sin_cos, sqrt
 if TYPE_CHECKING:
     from geneva_cli.numerics.arrays import Array, Complex, Mask, Number, Whole
 
-BACK = 2  # samples of the way back for one of the motion
-HALF_WALL = 1.0 / 400.0  # fraction of the centre distance: half of the least wall between two slots
-TOUCH = 1e-6  # fraction of a mouth's distance: a roller that leaves its slot is this near to it
-
 
 class FourBarLinks(NamedTuple):
     """Crank, ground, coupler and rocker; the coupler on the positive side. Shapes (n, 1)."""
@@ -37,12 +33,12 @@ class FourBarLinks(NamedTuple):
     b: Array
     c: Array
 
-    def taken(self, which: Any) -> FourBarLinks:
+    def select(self, which: Any) -> FourBarLinks:
         """Some of the linkages."""
         return FourBarLinks(*(x[which] for x in self))
 
 
-class Linked(NamedTuple):
+class CouplerMotion(NamedTuple):
     """The crank's pin and the coupler's unit vector as complex Taylor coefficients."""
 
     pin: list[Complex]
@@ -57,12 +53,12 @@ class CouplerDrive(NamedTuple):
     sense: Array
     w: Complex
 
-    def taken(self, which: Any) -> CouplerDrive:
+    def select(self, which: Any) -> CouplerDrive:
         """Some of the drives."""
         return CouplerDrive(*(x[which] for x in self))
 
 
-class Judged(NamedTuple):
+class DrivenWheels(NamedTuple):
     """Wheels that are driven and let the roller pass on its way back.
 
     ``which`` are their numbers, (m,). ``derivatives`` are those of their angles by the input angle
@@ -76,8 +72,8 @@ class Judged(NamedTuple):
     reach: Array
 
 
-def linked(links: FourBarLinks, phi: Array, order: int) -> Linked:
-    """The linkage at crank angles in radians, as in ``CouplerPath``."""
+def coupler_motion(links: FourBarLinks, phi: Array, order: int) -> CouplerMotion:
+    """The coupler's motion at crank angles ``phi`` in radians, to the derivatives of ``order``."""
     a, g, b, c = links
     sine, cosine = sin_cos(Jet.variable(phi, order))
     dx, dy = g - cosine * a, sine * -a
@@ -85,7 +81,7 @@ def linked(links: FourBarLinks, phi: Array, order: int) -> Linked:
     along = (D + (b - c) * (b + c)) / (D * (2.0 * b))
     across = sqrt(((b + c) ** 2 - D) * (D - (b - c) ** 2)) / (D * (2.0 * b))
     ex, ey = dx * along - dy * across, dy * along + dx * across
-    return Linked(_complex(cosine * a, sine * a), _complex(ex, ey))
+    return CouplerMotion(_complex(cosine * a, sine * a), _complex(ex, ey))
 
 
 def _complex(x: Jet, y: Jet) -> list[Complex]:
@@ -97,14 +93,14 @@ def _complex(x: Jet, y: Jet) -> list[Complex]:
     return out
 
 
-def driving(
+def coupler_drive(
     links: FourBarLinks, entry: Array, motion: Array, b: Number, sense: Array
 ) -> CouplerDrive:
     """The roller's place that makes the motion, (n, 1).
 
     NaN if there is none, or if the chord does not run from entry to exit.
     """
-    one, two = (linked(links, phi, 1) for phi in (entry, entry + motion))
+    one, two = (coupler_motion(links, phi, 1) for phi in (entry, entry + motion))
     turn = np.exp(1j * sense * (0.5 * math.pi - b))
     v, u = one.pin[1], one.along[1]
     circles = []
@@ -118,26 +114,26 @@ def driving(
     (A, d, C), (A2, d2, C2) = circles
     # The line through both points: Im(D w) + E = 0
     D, E = A2 * d - A * d2, A2 * C - A * C2
-    way, foot = D.conj() / np.abs(D), -1j * E / D
-    at_rest = ((-v / u - foot) * way.conj()).real
-    total = -(2.0 * A * (foot * way.conj()).real + (d * way).imag) / A
-    w = foot + (total - at_rest) * way
+    direction, foot = D.conj() / np.abs(D), -1j * E / D
+    at_rest = ((-v / u - foot) * direction.conj()).real
+    total = -(2.0 * A * (foot * direction.conj()).real + (d * direction).imag) / A
+    w = foot + (total - at_rest) * direction
     chord, speed = two.pin[0] + w * two.along[0] - (one.pin[0] + w * one.along[0]), v + w * u
     ahead = (chord * (speed / np.abs(speed)).conj() * turn).real > 0.0
     return CouplerDrive(entry, motion, sense, np.where(ahead, w, np.nan))
 
 
-def judged(
+def driven_wheels(
     links: FourBarLinks, drive: CouplerDrive, b: Array, roller: Array, order: int, places: int
-) -> Judged:
+) -> DrivenWheels:
     """The wheels that pass the test at samples of the motion and of the way back.
 
     ``b`` is half the step and ``roller`` the roller's radius over the centre distance, (n, 1) each.
     ``order`` is that of the derivatives.
     """
     entry, motion, sense, w = drive
-    way = linked(links, entry + motion * (np.arange(places + 1) / places), order)
-    pins = [p + w * e for p, e in zip(way.pin, way.along, strict=True)]
+    motion_path = coupler_motion(links, entry + motion * (np.arange(places + 1) / places), order)
+    pins = [p + w * e for p, e in zip(motion_path.pin, motion_path.along, strict=True)]
     p, q, v = pins[0][:, :1], pins[0][:, -1:], pins[1][:, :1]
     rho = np.abs(q - p) / (2.0 * np.sin(b))
     centre = p + rho * (v / np.abs(v))  # the tangents at both ends meet there
@@ -145,23 +141,24 @@ def judged(
     L, near = np.abs(centre), np.abs(ray)
     turning = ray.real * rate.imag - ray.imag * rate.real
     drives = (turning[:, 1:-1] * sense > 0.0).all(axis=1) & (near[:, 1:-1] < rho).all(axis=1)
-    drives &= (near.min(axis=1, keepdims=True) * np.sin(b) >= (roller + HALF_WALL) * L)[:, 0]
+    half_wall = 1.0 / 400.0  # of the least wall between two slots, over the centre distance
+    drives &= (near.min(axis=1, keepdims=True) * np.sin(b) >= (roller + half_wall) * L)[:, 0]
     which = np.flatnonzero(drives)
     # the way back is tested for these only
-    links, (entry, motion, sense, w) = links.taken(which), drive.taken(which)
-    away = np.arange(1, BACK * places) / (BACK * places)
-    rest = linked(links, entry + motion + (math.tau - motion) * away, 0)
+    links, (entry, motion, sense, w) = links.select(which), drive.select(which)
+    away = np.arange(1, 2 * places) / (2 * places)  # the way back has twice the motion's samples
+    rest = coupler_motion(links, entry + motion + (math.tau - motion) * away, 0)
     pin = rest.pin[0] + w * rest.along[0]
     place = (pin - centre[which]) / (p - centre)[which]
     passes = _passes(place, (roller * L / rho)[which], b[which])
-    joint = (way.pin[0][which] + links.b * way.along[0][which], pins[0][which])
+    joint = (motion_path.pin[0][which] + links.b * motion_path.along[0][which], pins[0][which])
     back = (rest.pin[0] + links.b * rest.along[0], pin)
     reach = np.maximum.reduce([np.abs(z).max(axis=1) for z in (*joint, *back)] + [links.g[:, 0]])
     kept = which[passes]
     rays = [ray[kept], *(pin[kept] for pin in pins[1:])]
     x, y = Jet([z.real for z in rays]), Jet([z.imag for z in rays])
     derivatives = [np.asarray(d) for d in atan2(y, x).derivatives()]
-    return Judged(kept, derivatives, L[kept, 0], reach[passes])
+    return DrivenWheels(kept, derivatives, L[kept, 0], reach[passes])
 
 
 def _passes(place: Complex, r: Array, b: Number) -> Mask:
@@ -172,8 +169,9 @@ def _passes(place: Complex, r: Array, b: Number) -> Mask:
     corners at (1, r). Next to a slot the rim is nearest; in front of it, a corner is.
     """
     d, angle = np.abs(place), np.abs((np.angle(place) + b) % (2.0 * b) - b)
-    along, aside, rim = d * np.cos(angle), d * np.sin(angle), np.hypot(1.0, r)
-    corner = np.hypot(along - 1.0, aside - r)
-    gap = np.where(aside * rim < r * d, corner, d - rim) - r
-    clear: Mask = np.all((gap >= -TOUCH) & (d > 1.0), axis=1)
+    along, across, rim = d * np.cos(angle), d * np.sin(angle), np.hypot(1.0, r)
+    corner = np.hypot(along - 1.0, across - r)
+    gap = np.where(across * rim < r * d, corner, d - rim) - r
+    touch = 1e-6  # a roller that leaves its slot is this near to it
+    clear: Mask = np.all((gap >= -touch) & (d > 1.0), axis=1)
     return clear

@@ -16,9 +16,8 @@ if TYPE_CHECKING:
     from geneva_cli.numerics.arrays import Array
 
 ORDERS = {"velocity": 1, "acceleration": 2, "power": 2, "jerk": 3}
-UNITS = {f"{told}_{unit}": power for power, unit in RATES.values() for told in ("max", "entry")}
-ENDS = {"entry": 0, "exit": -1}  # index of the sample at each end of the motion
-SPARE = 1e-4  # margin to the bounds, relative, for errors between samples
+# by a quantity in the unit of a time, the power of the speed that it has
+SPEED_POWERS = {f"{end}_{unit}": n for n, unit in RATES.values() for end in ("max", "entry")}
 
 
 class Costs(NamedTuple):
@@ -31,28 +30,27 @@ class Costs(NamedTuple):
 
     def of(self, name: str) -> Array:
         """A quantity for which ``is_known`` is true, (n,)."""
-        group, _, told = name.partition(".")
+        group, _, quantity = name.partition(".")
         if group == "timing":
             dwell = 360.0 - self.motion_deg
-            found = timing(self.motion_deg, dwell, self.index_deg, self._n_rpm())  # type: ignore[arg-type]
-            return np.broadcast_to(found._asdict()[told], self.motion_deg.shape)
+            times = timing(self.motion_deg, dwell, self.index_deg, self._n_rpm())  # type: ignore[arg-type]
+            return np.broadcast_to(times._asdict()[quantity], self.motion_deg.shape)
         value = self.derivatives[ORDERS[group]]
         if group == "power":
             value = value * self.derivatives[1]
-        end = _end(told)
+        end = _end(quantity)
         size = top(np.abs(value)) if end is None else np.abs(value[:, end])
-        if told in UNITS:
-            size = size * (self._n_rpm() * (math.pi / 30.0)) ** UNITS[told]
+        if quantity in SPEED_POWERS:
+            size = size * (self._n_rpm() * (math.pi / 30.0)) ** SPEED_POWERS[quantity]
         return size
 
     def broken(self, bounds: tuple[Constraint, ...]) -> Array:
         """The sum of the relative violations of the bounds, (n,)."""
         total = np.zeros(len(self.motion_deg))
         for b in bounds:
-            exact = b.name.startswith("timing.")
-            value = self.of(b.name)
-            room = (value - b.bound if b.sign == ">=" else b.bound - value) / (abs(b.bound) or 1.0)
-            total = total + np.maximum((-1e-9 if exact else SPARE) - room, 0.0)
+            # a peak between samples may be 1e-4 higher; times follow from the motion angle
+            needed = -1e-9 if b.name.startswith("timing.") else 1e-4
+            total = total + np.maximum(needed - b.margin(self.of(b.name)), 0.0)
         return total
 
     def _n_rpm(self) -> Array:
@@ -61,17 +59,17 @@ class Costs(NamedTuple):
 
 def is_known(name: str) -> bool:
     """Return True if the search can compute a quantity."""
-    group, _, told = name.partition(".")
+    group, _, quantity = name.partition(".")
     if group == "timing":
-        return told in Timing._fields
-    whole = told == "max" or told in ENDS or told in UNITS
-    at_rest = _end(told) is not None and group in ("velocity", "power")
+        return quantity in Timing._fields
+    whole = quantity in ("max", "entry", "exit") or quantity in SPEED_POWERS
+    at_rest = _end(quantity) is not None and group in ("velocity", "power")
     return group in ORDERS and whole and not at_rest
 
 
-def _end(told: str) -> int | None:
+def _end(quantity: str) -> int | None:
     """The sample at which a quantity is taken; None for its greatest value."""
-    return ENDS.get(told.partition("_")[0])
+    return {"entry": 0, "exit": -1}.get(quantity.partition("_")[0])
 
 
 def order(names: tuple[str, ...]) -> int:
@@ -87,5 +85,5 @@ def top(values: Array) -> Array:
     bend, slope = low - 2.0 * middle + high, 0.5 * (high - low)
     inside = (bend < 0.0) & (middle >= low) & (middle >= high)
     vertex = middle - slope * slope / np.where(inside, 2.0 * bend, 1.0)
-    found: Array = np.where(inside, vertex, values.max(axis=1))
-    return found
+    peaks: Array = np.where(inside, vertex, values.max(axis=1))
+    return peaks

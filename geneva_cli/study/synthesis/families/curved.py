@@ -22,20 +22,18 @@ from geneva_cli.study.synthesis.families import closed
 from geneva_cli.study.synthesis.families.family import (
     SHORTEST,
     Family,
+    allowed_motions,
+    allows,
     closed_span,
-    holds,
     machine,
     natural_deg,
     only,
     rollers,
-    wanted,
 )
-from geneva_cli.study.synthesis.looks import look_at
-from geneva_cli.study.synthesis.parts import nothing_in_the_way
-from geneva_cli.study.synthesis.spans import Interval
+from geneva_cli.study.synthesis.parts import has_no_obstacle
+from geneva_cli.study.synthesis.parts_data import compute_parts_data
+from geneva_cli.study.synthesis.spans import AllowedSpan
 from geneva_cli.study.synthesis.target import Target
-
-ROUNDING = 2e-15  # fraction of the natural motion: the rounding of a difference of two angles
 
 
 @cache
@@ -62,16 +60,16 @@ def with_laws(target: Target, wheels: Sequence[Gearing]) -> Iterator[Family]:
         yield from line.families(more)
 
 
-def _lines(target: Target, wheel: Gearing, law: str) -> tuple[_Line, _Line]:
+def _lines(target: Target, wheel: Gearing, law: str) -> tuple[_LawMachines, _LawMachines]:
     """Curved slots, and cams, of a wheel and a law."""
     natural, until = natural_deg(wheel), partial(_until_parallel, wheel)
     make, grooved = partial(curved, target, wheel, law), partial(cam, target, wheel, law)
-    return _Line(target, natural, make, lambda motion: motion), _Line(
+    return _LawMachines(target, natural, make, lambda motion: motion), _LawMachines(
         target, natural, grooved, until
     )
 
 
-class _Line(NamedTuple):
+class _LawMachines(NamedTuple):
     """Machines of one wheel and law: ``make`` takes the number of rollers and the motion.
 
     ``reached`` limits a range of motions to those that exist.
@@ -80,7 +78,7 @@ class _Line(NamedTuple):
     target: Target
     natural: float
     make: Callable[[int, float], Spec]
-    reached: Callable[[Interval], Interval]
+    reached: Callable[[AllowedSpan], AllowedSpan]
 
     def families(self, more: Sequence[Spec]) -> Iterator[Family]:
         """The families, including those with ``more`` rollers than the plain wheel takes."""
@@ -88,14 +86,14 @@ class _Line(NamedTuple):
             free = self._motions(m)
             if free is None:
                 continue
-            own = holds(free, self.natural)
-            plain = Interval(self.natural, self.natural)
+            own = allows(free, self.natural)
+            plain = AllowedSpan(self.natural, self.natural)
             yield self._free(m, plain if own and free.exact else free)
             if own:
                 yield only(self.make(m, self.natural))
         for spec in more:
             m = spec.drive.rollers
-            yield self._free(m, self._motions(m) or Interval(self.natural, self.natural))
+            yield self._free(m, self._motions(m) or AllowedSpan(self.natural, self.natural))
 
     def some(self, m: int) -> list[Spec]:
         """The gentlest machine of m rollers and, in a range, some others."""
@@ -105,21 +103,21 @@ class _Line(NamedTuple):
         low, high = free
         return [self.make(m, x) for x in dict.fromkeys((high, 0.5 * (low + high), low))]
 
-    def _motions(self, m: int) -> Interval | None:
-        asked = closed_span(wanted(self.target, m, self.natural), m)
-        return self.reached(asked) if asked else None
+    def _motions(self, m: int) -> AllowedSpan | None:
+        allowed = closed_span(allowed_motions(self.target, m, self.natural), m)
+        return self.reached(allowed) if allowed else None
 
-    def _free(self, m: int, motion: Interval) -> Family:
+    def _free(self, m: int, motion: AllowedSpan) -> Family:
         """The machines of a range of motions, the longest of which is the gentlest."""
         best = math.nan if self.target.bounds or self.target.sort else motion.high
         return Family(partial(self.make, m), *motion, plain=self.natural, best=best)
 
 
-def _until_parallel(wheel: Gearing, motion: Interval) -> Interval:
+def _until_parallel(wheel: Gearing, motion: AllowedSpan) -> AllowedSpan:
     """The range up to the motion at which crank and slot would be parallel."""
     parallel = (1.0 - SHORTEST) * (360.0 - wheel.SIGN * 360.0 / wheel.z)
     inside = not motion.exact and motion.low < parallel
-    return Interval(motion.low, min(motion.high, parallel)) if inside else motion
+    return AllowedSpan(motion.low, min(motion.high, parallel)) if inside else motion
 
 
 def more_rollers(
@@ -130,39 +128,40 @@ def more_rollers(
     A line is the plain crank's motion angle, degrees, and a maker of machines with m rollers. The
     first of these is taken if any may be built.
     """
-    found: list[list[Spec]] = [[] for _ in lines]
+    specs_of_line: list[list[Spec]] = [[] for _ in lines]
     if target.rollers is not None:
-        return found
+        return specs_of_line
     more = [int(m) for m in target.counts if m >= 1.0]
     begin = [next((m for m in more if m > rollers_max(natural)), None) for natural, _ in lines]
     growing = {i: m for i, m in enumerate(begin) if m}
     while growing:
         specs = {i: some for i, m in growing.items() if (some := lines[i][1](m))}
-        look_at(first for first, *_ in specs.values())
-        stuck = {i for i, (first, *_) in specs.items() if not nothing_in_the_way(first)}
-        look_at(spec for i in stuck for spec in specs[i][1:])
-        stuck = {i for i in stuck if not any(map(nothing_in_the_way, specs[i][1:]))}
+        compute_parts_data(first for first, *_ in specs.values())
+        stuck = {i for i, (first, *_) in specs.items() if not has_no_obstacle(first)}
+        compute_parts_data(spec for i in stuck for spec in specs[i][1:])
+        stuck = {i for i in stuck if not any(map(has_no_obstacle, specs[i][1:]))}
         growing = {i: growing[i] + 1 for i in specs if i not in stuck}
         for i in growing:
-            found[i].append(specs[i][0])
-    return found
+            specs_of_line[i].append(specs[i][0])
+    return specs_of_line
 
 
 def curved(target: Target, wheel: Gearing, law: str, m: int, motion: float) -> Spec:
     """Curved slots, with the shortest alpha_0 that makes the motion."""
-    given = Motion(standard(law), alpha0_deg=_alpha0(target, wheel, motion), ratio="matched")
-    return machine(target, wheel, lambda n: Crank(n_rpm=n, rollers=m), m, motion, given)
+    law_motion = Motion(standard(law), alpha0_deg=_alpha0(target, wheel, motion), ratio="matched")
+    return machine(target, wheel, lambda n: Crank(n_rpm=n, rollers=m), m, motion, law_motion)
 
 
 def cam(target: Target, wheel: Gearing, law: str, m: int, motion: float) -> Spec:
     """A cam: straight slots with the law's motion, made by a groove along the crank."""
-    given = Motion(standard(law), alpha0_deg=_alpha0(target, wheel, motion))
-    return machine(target, wheel, lambda n: Cam(n_rpm=n, rollers=m), m, motion, given)
+    law_motion = Motion(standard(law), alpha0_deg=_alpha0(target, wheel, motion))
+    return machine(target, wheel, lambda n: Cam(n_rpm=n, rollers=m), m, motion, law_motion)
 
 
 def _alpha0(target: Target, wheel: Gearing, motion: float) -> float:
     natural = natural_deg(wheel)
-    alpha0, spare = natural - motion, ROUNDING * natural
+    # fraction of the natural motion: the rounding of a difference of two angles
+    alpha0, spare = natural - motion, 2e-15 * natural
     # A motion that is shorter, by however little, would break a limit that it just keeps.
     most = alpha0 if target.acceleration_max else alpha0 + spare
     return closed.shortest(alpha0 - spare, most)

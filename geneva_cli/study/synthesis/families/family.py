@@ -15,13 +15,12 @@ from geneva_cli.machine.motion import Motion
 from geneva_cli.machine.spec import Spec
 from geneva_cli.machine.wheels.classic import rollers_max
 from geneva_cli.machine.wheels.gearing import Gearing
-from geneva_cli.study.synthesis.spans import Interval
+from geneva_cli.study.synthesis.spans import AllowedSpan
 from geneva_cli.study.synthesis.target import Target
 
 EXACT = 1e-6  # fraction of the motion angle by which the plain crank may miss the required one
 # fraction of a turn over m that an open end of a range leaves to motion and to dwell
 SHORTEST = 0.01
-PIECES = 8  # of a family, each with a best machine of its own
 BARE = Spec(registry.gearing("external")(3))  # the tables of a machine without a frame
 
 
@@ -73,10 +72,10 @@ class Family(NamedTuple):
 def pieces(families: Sequence[Family], most: int) -> list[Family]:
     """The families, with free ones divided into equal pieces, about ``most`` in all.
 
-    No family has more than ``PIECES``.
+    No family has more than 8 pieces.
     """
     free = sum(f.is_free for f in families)
-    count = max(1, min(PIECES, most // max(free, 1)))
+    count = max(1, min(8, most // max(free, 1)))
     return [part for f in families for part in (_cut(f, count) if f.is_free else [f])]
 
 
@@ -108,11 +107,11 @@ def machine(
     of ``motion_deg`` in a turn.
     """
     own = target.frame or BARE
-    found = drive(target.n_rpm(m, motion_deg))
-    return own.replace(wheel=wheel, drive=found, motion=motion, title="", path="", files=())
+    own_drive = drive(target.n_rpm(m, motion_deg))
+    return own.replace(wheel=wheel, drive=own_drive, motion=motion, title="", path="", files=())
 
 
-def can_be(spec: Spec) -> bool:
+def is_compatible(spec: Spec) -> bool:
     """Return True if a drive is compatible with its wheel."""
     try:
         refuse_conflicts(spec)
@@ -126,28 +125,28 @@ def natural_deg(wheel: Gearing) -> float:
     return 2.0 * wheel.half_motion_deg(wheel.step)
 
 
-def wanted(target: Target, m: float, natural: float) -> Interval:
+def allowed_motions(target: Target, m: float, natural: float) -> AllowedSpan:
     """The allowed motion angles for m motions in a turn: required, any, or the plain one."""
-    found = target.motion_for(m)
-    if found is None:
-        return Interval(0.0, 360.0 / m) if target.any_motion else Interval(natural, natural)
-    return found
+    allowed = target.motion_for(m)
+    if allowed is None:
+        return AllowedSpan(0.0, 360.0 / m) if target.any_motion else AllowedSpan(natural, natural)
+    return allowed
 
 
-def holds(motion: Interval, natural: float) -> bool:
+def allows(motion: AllowedSpan, natural: float) -> bool:
     """Return True if a motion angle is allowed, within the tolerance of the plain crank."""
     slack = EXACT * natural
     return motion.low - slack <= natural <= motion.high + slack
 
 
-def closed_span(motion: Interval, m: int) -> Interval | None:
+def closed_span(motion: AllowedSpan, m: int) -> AllowedSpan | None:
     """The range with open ends replaced by values near their limits; None if it is empty."""
     whole = 360.0 / m
     low = motion.low if motion.low > 0.0 else SHORTEST * whole
     high = motion.high if motion.high < whole else (1.0 - SHORTEST) * whole
     if motion.low >= whole or motion.high <= 0.0 or motion.empty:
         return None
-    return Interval(min(low, high), high) if not motion.exact else motion
+    return AllowedSpan(min(low, high), high) if not motion.exact else motion
 
 
 def rollers(target: Target, natural: float) -> range:

@@ -23,34 +23,27 @@ from geneva_cli.machine.path_wheels import followed
 from geneva_cli.machine.spec import Spec
 from geneva_cli.machine.wheels.gearing import Gearing
 from geneva_cli.study.sweep.constraints import Constraint
-from geneva_cli.study.synthesis.families.coupler import driving
+from geneva_cli.study.synthesis.families.coupler import coupler_drive
 from geneva_cli.study.synthesis.families.coupler_costs import Costs, is_known
 from geneva_cli.study.synthesis.families.family import (
     BARE,
     Family,
-    can_be,
+    allowed_motions,
     closed_span,
+    is_compatible,
     machine,
     natural_deg,
     only,
-    wanted,
 )
 from geneva_cli.study.synthesis.families.four_bar_search import (
     OTHERS,
     Goal,
     Pool,
     WheelGoal,
-    searched,
+    search_four_bars,
 )
-from geneva_cli.study.synthesis.spans import Interval
+from geneva_cli.study.synthesis.spans import AllowedSpan
 from geneva_cli.study.synthesis.target import Target
-
-# fraction of the centre distance: radius of the roller that must fit, half the usual one,
-ROLLER = 0.025
-THIN = 1.0 / 3.0  # but at most this fraction of sin b, which is the crank of a plain wheel
-LINKS = ("crank_mm", "ground_mm", "coupler_mm", "rocker_mm")
-EXACT = 2e-13  # fraction of a motion by which it may differ from the required one
-TRIED = 4  # corrections of rounding
 
 
 def four_bars(target: Target, wheels: Sequence[Gearing]) -> Iterator[Family]:
@@ -63,9 +56,9 @@ def four_bars(target: Target, wheels: Sequence[Gearing]) -> Iterator[Family]:
     tasks = [task for wheel in wheels if (task := _task(target, wheel))]
     names = [target.sort.name if target.sort else target.peak, *(b.name for b in target.limits)]
     count = 1 if all(map(is_known, names)) else 1 + OTHERS
-    for task, found in zip(tasks, _found(target, tuple(tasks)), strict=True):
-        if found and (n := len(found.cost)):
-            every = Family(partial(_spec, target, task.wheel, found), 0.0, n - 1.0, several=n)
+    for task, pool in zip(tasks, _pools(target, tuple(tasks)), strict=True):
+        if pool and (n := len(pool.cost)):
+            every = Family(partial(_spec, target, task.wheel, pool), 0.0, n - 1.0, several=n)
             machines = ((x, spec) for x in every.places(n) if (spec := every.at(x)))
             for x, spec in islice(machines, count):
                 yield every._replace(best=x) if count == 1 else only(spec)
@@ -73,18 +66,21 @@ def four_bars(target: Target, wheels: Sequence[Gearing]) -> Iterator[Family]:
 
 def _task(target: Target, wheel: Gearing) -> WheelGoal | None:
     """The goal of the search for a wheel; None for a wheel that no four-bar drives."""
-    free = closed_span(wanted(target, 1, natural_deg(wheel)), 1)
+    free = closed_span(allowed_motions(target, 1, natural_deg(wheel)), 1)
     if free is None:
         return None
-    if not can_be(_machine(target, wheel, FourBar(**_EXAMPLE), free.low)):
+    if not is_compatible(_machine(target, wheel, FourBar(**_EXAMPLE), free.low)):
         return None
     frame = target.frame or BARE
-    given = frame.size.roller_radius_mm
-    roller = min(ROLLER, THIN * math.sin(wheel.step.b))
-    return WheelGoal(wheel, free, roller if given is None else given / frame.given_distance_mm)
+    radius_mm = frame.size.roller_radius_mm
+    # half the usual roller, and at most a third of sin b, which is the crank of a plain wheel
+    roller = min(0.025, (1.0 / 3.0) * math.sin(wheel.step.b))
+    return WheelGoal(
+        wheel, free, roller if radius_mm is None else radius_mm / frame.given_distance_mm
+    )
 
 
-def _found(target: Target, tasks: tuple[WheelGoal, ...]) -> Sequence[Pool | None]:
+def _pools(target: Target, tasks: tuple[WheelGoal, ...]) -> Sequence[Pool | None]:
     """The best four-bars, if any, of each wheel.
 
     If any motion is allowed and there is no goal, the gentlest ones with the plain crank's motion
@@ -96,24 +92,24 @@ def _found(target: Target, tasks: tuple[WheelGoal, ...]) -> Sequence[Pool | None
     goal = Goal(target, tasks, bounds, target.peak)
     if target.sort:
         sign, least = target.sort
-        return searched(goal._replace(least=least, sign=sign) if is_known(least) else goal)
+        return search_four_bars(goal._replace(least=least, sign=sign) if is_known(least) else goal)
     if not target.any_motion:
-        return searched(goal)
-    found: dict[int, Pool] = {}
+        return search_four_bars(goal)
+    by_wheel: dict[int, Pool] = {}
     same = {
         i: task for i, task in enumerate(map(_as_plain, tasks)) if _in_time(target, task, bounds)
     }
-    for asked in (same, dict(enumerate(tasks))):
-        left = {i: task for i, task in asked.items() if i not in found}
-        pools = searched(goal._replace(wheels=tuple(left.values()))) if left else []
-        found |= {i: pool for i, pool in zip(left, pools, strict=True) if len(pool.cost)}
-    return [found.get(i) for i in range(len(tasks))]
+    for goals in (same, dict(enumerate(tasks))):
+        left = {i: task for i, task in goals.items() if i not in by_wheel}
+        pools = search_four_bars(goal._replace(wheels=tuple(left.values()))) if left else []
+        by_wheel |= {i: pool for i, pool in zip(left, pools, strict=True) if len(pool.cost)}
+    return [by_wheel.get(i) for i in range(len(tasks))]
 
 
 def _as_plain(task: WheelGoal) -> WheelGoal:
     """The goal with the plain crank's motion."""
     natural = natural_deg(task.wheel)
-    return task._replace(motion=Interval(natural, natural))
+    return task._replace(motion=AllowedSpan(natural, natural))
 
 
 def _in_time(target: Target, task: WheelGoal, bounds: Sequence[Constraint]) -> bool:
@@ -126,22 +122,25 @@ def _in_time(target: Target, task: WheelGoal, bounds: Sequence[Constraint]) -> b
 _EXAMPLE: Any = FourBar.EXAMPLE.tables["drive"]
 
 
-def _spec(target: Target, wheel: Gearing, found: Pool, x: float) -> Spec | None:
+def _spec(target: Target, wheel: Gearing, pool: Pool, x: float) -> Spec | None:
     """The machine of a number in a pool, scaled to the frame's size.
 
     None if its links differ too much in length, or if the roller leaves its slot.
     """
-    one = found.taken(np.array([int(x)]))
+    one = pool.select(np.array([int(x)]))
     links, (entry, motion, sense, _) = one.links, one.drive
-    b, wanted_, wide = wheel.step.b, float(motion[0, 0]), motion
-    own = _machine(target, wheel, FourBar(**_EXAMPLE), math.degrees(wanted_))
+    b, required, wide = wheel.step.b, float(motion[0, 0]), motion
+    own = _machine(target, wheel, FourBar(**_EXAMPLE), math.degrees(required))
     scale = (target.frame or BARE).given_distance_mm / float(one.distance[0])
-    for _ in range(TRIED):
-        w = complex(driving(links, entry, wide, b, sense).w[0, 0]) * scale
-        lengths: Any = {k: float(x[0, 0]) * scale for k, x in zip(LINKS, links, strict=True)}
+    for _ in range(4):  # until the motion has its digits
+        w = complex(coupler_drive(links, entry, wide, b, sense).w[0, 0]) * scale
+        crank, ground, coupler, rocker = (float(x[0, 0]) * scale for x in links)
         try:
             keys = FourBar(
-                **lengths,
+                crank_mm=crank,
+                ground_mm=ground,
+                coupler_mm=coupler,
+                rocker_mm=rocker,
                 point_mm=abs(w),
                 point_deg=math.degrees(cmath.phase(w)),
                 entry_deg=math.degrees(math.remainder(float(entry[0, 0]), math.tau)),
@@ -153,19 +152,19 @@ def _spec(target: Target, wheel: Gearing, found: Pool, x: float) -> Spec | None:
         ends = ends_at(path, np.array([0]), np.hstack((entry, entry + wide)))
         step = newton(ends, residual(ends, half))
         reached = float(np.diff(ends.at.phi + step)[0, 0])
-        if abs(reached - wanted_) <= EXACT * wanted_:
+        if abs(reached - required) <= 2e-13 * required:  # rounding
             break
-        wide = wide + (wanted_ - reached)  # the part lost to rounding
+        wide = wide + (required - reached)  # the part lost to rounding
     else:
         return None
-    wheel_ = followed(path, ends.at.phi + step, sense[0])
-    return own.replace(drive=keys) if len(wheel_.which) else None
+    driven = followed(path, ends.at.phi + step, sense[0])
+    return own.replace(drive=keys) if len(driven.which) else None
 
 
 def _machine(target: Target, wheel: Gearing, drive: FourBar, motion_deg: float) -> Spec:
     """A machine with the requirement's frame; its centre distance follows from the links."""
-    held = wheel.replace(held_by="detent")  # there is no locking disc
-    spec = machine(target, held, lambda n: drive.replace(n_rpm=n), 1, motion_deg)
+    unlocked = wheel.replace(held_by="detent")  # there is no locking disc
+    spec = machine(target, unlocked, lambda n: drive.replace(n_rpm=n), 1, motion_deg)
     # the coupler passes below the wheel's axis, where a shaft without a hub ends in the wheel
     hub = 0.0 if spec.size.wheel_hub_mm is None else spec.size.wheel_hub_mm
     return spec.replace(size=spec.size.replace(center_distance_mm=None, wheel_hub_mm=hub))

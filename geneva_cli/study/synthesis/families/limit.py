@@ -18,15 +18,14 @@ from geneva_cli.machine.wheels.classic import gap, half_motion_deg
 from geneva_cli.machine.wheels.gearing import Gearing
 from geneva_cli.numerics.angles import DEGREE, sin_cos_pi
 from geneva_cli.numerics.roots import Falsi, least
-from geneva_cli.study.synthesis.families.closed import MOST
+from geneva_cli.study.synthesis.families.closed import PARAMETER_MAX
 
 # parameter, sin f, cos f -> f1 and f2, the second derivative of f by the input angle
 Ratio: TypeAlias = Callable[[float, float, float], tuple[float, float]]
 Peak: TypeAlias = Callable[[float], float]
 
-SCAN = 64  # intervals over half the motion
-WALK = (*(0.05 * i for i in range(20)), 0.98, 0.99, 0.999, MOST)  # outwards from the plain crank
-CLOSE = 1e-13  # of the parameter
+# sizes of the parameter in the search from the plain crank on
+PARAMETERS = (*(0.05 * i for i in range(20)), 0.98, 0.99, 0.999, PARAMETER_MAX)
 
 
 def side_crank(A: float, s: float, c: float) -> tuple[float, float]:
@@ -61,10 +60,11 @@ def peak_of(wheel: Gearing, ratio: Ratio) -> Peak:
         return abs(l * (c - sign * l) / D * f2 - l * rest * (1.0 + l) * s / (D * D) * f1 * f1)
 
     def peak(x: float) -> float:
-        places = [half * i / SCAN for i in range(SCAN + 1)]
+        count = 64  # intervals of the scan
+        places = [half * i / count for i in range(count + 1)]
         values = [size(x, f) for f in places]
         best = values[-1]
-        for i in range(1, SCAN):
+        for i in range(1, count):
             if values[i] >= values[i - 1] and values[i] >= values[i + 1]:
                 low, high = places[i - 1], places[i + 1]
                 best = max(best, -least(lambda f: -size(x, f), low, high)[1])
@@ -79,34 +79,34 @@ def least_parameter(peak: Peak, limit: float) -> tuple[float | None, float]:
     The plain crank (parameter 0) is above the limit. The search goes from it to either side while
     the peak decreases; None if the peak increases again before it reaches the limit.
     """
-    found, lowest = None, math.inf
+    parameter, lowest = None, math.inf
     for side in (1.0, -1.0):
         x, low = _walk(lambda t, side=side: peak(side * t), limit)  # type: ignore[misc]
         lowest = min(lowest, low)
-        if x is not None and (found is None or x < abs(found)):
-            found = side * x
-    return found, lowest
+        if x is not None and (parameter is None or x < abs(parameter)):
+            parameter = side * x
+    return parameter, lowest
 
 
 def _walk(peak: Peak, limit: float) -> tuple[float | None, float]:
     values = [peak(0.0)]
-    for i in range(1, len(WALK)):
-        values.append(peak(WALK[i]))
+    for i in range(1, len(PARAMETERS)):
+        values.append(peak(PARAMETERS[i]))
         if values[i] <= limit:
-            return _crossing(peak, limit, WALK[i - 1], WALK[i]), values[i]
+            return _crossing(peak, limit, PARAMETERS[i - 1], PARAMETERS[i]), values[i]
         if values[i] > values[i - 1]:
             back = max(i - 2, 0)
-            x, low = least(peak, WALK[back], WALK[i])
-            return (_crossing(peak, limit, WALK[back], x) if low <= limit else None), low
+            x, low = least(peak, PARAMETERS[back], PARAMETERS[i])
+            return (_crossing(peak, limit, PARAMETERS[back], x) if low <= limit else None), low
     return None, values[-1]
 
 
 def _crossing(peak: Peak, limit: float, above: float, below: float) -> float:
     """The parameter at which the peak reaches the limit, from below."""
-    found = Falsi(below, limit - peak(below), above, limit - peak(above))
-    while abs(found.bad - found.good) > CLOSE and found.left > 0.0:
-        x = found.middle()
-        if x in (found.good, found.bad):
+    bracket = Falsi(below, limit - peak(below), above, limit - peak(above))
+    while abs(bracket.bad - bracket.good) > 1e-13 and bracket.left > 0.0:  # of the parameter
+        x = bracket.middle()
+        if x in (bracket.good, bracket.bad):
             break
-        found.add(x, limit - peak(x))
-    return found.good
+        bracket.add(x, limit - peak(x))
+    return bracket.good

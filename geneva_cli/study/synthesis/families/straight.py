@@ -21,31 +21,28 @@ from geneva_cli.numerics.angles import sin_cos_pi
 from geneva_cli.study.synthesis.families import closed
 from geneva_cli.study.synthesis.families.family import (
     Family,
-    can_be,
+    allowed_motions,
+    allows,
     closed_span,
-    holds,
+    is_compatible,
     machine,
     natural_deg,
     only,
     rollers,
-    wanted,
 )
 from geneva_cli.study.synthesis.families.two_stages import two_stages
-from geneva_cli.study.synthesis.spans import Interval
+from geneva_cli.study.synthesis.spans import AllowedSpan
 from geneva_cli.study.synthesis.target import Target
-
-ASIDE = 0.1  # fraction of L by which offset slots miss the wheel's centre
-PLANETS = ("sun", "ring")
 
 
 def straight(target: Target, wheel: Gearing) -> Iterator[Family]:
     """The families with straight slots."""
     natural = natural_deg(wheel)
     for m in rollers(target, natural):
-        motion = wanted(target, m, natural)
-        if holds(motion, natural):
+        motion = allowed_motions(target, m, natural)
+        if allows(motion, natural):
             yield only(plain(target, wheel, m))
-            yield from aside(target, wheel, m)
+            yield from offset_slots(target, wheel, m)
             if m == 1:
                 yield from planets(target, wheel)
     yield from driven(target, wheel)
@@ -58,7 +55,7 @@ def plain(target: Target, wheel: Gearing, m: int) -> Spec:
     return machine(target, wheel, lambda n: Crank(n_rpm=n, rollers=m), m, natural)
 
 
-def aside(target: Target, wheel: Gearing, m: int) -> Iterator[Family]:
+def offset_slots(target: Target, wheel: Gearing, m: int) -> Iterator[Family]:
     """Offset slots, which miss the wheel's centre by a tenth of L, for a gentler entry.
 
     With bounds or another goal, every other offset is possible too.
@@ -66,15 +63,16 @@ def aside(target: Target, wheel: Gearing, m: int) -> Iterator[Family]:
     if "offset_mm" not in wheel.as_dict():
         return
     make = partial(_offset, plain(target, wheel, m))
-    yield Family(make, ASIDE, ASIDE)
+    tenth = 0.1
+    yield Family(make, tenth, tenth)
     if target.limits or target.sort:
-        widest = closed.MOST * wheel.step.sin_cos[1] ** 2
-        yield Family(make, -widest, widest, known=0.0, plain=ASIDE)
+        widest = closed.PARAMETER_MAX * wheel.step.sin_cos[1] ** 2
+        yield Family(make, -widest, widest, known=0.0, plain=tenth)
 
 
-def _offset(spec: Spec, share: float) -> Spec:
+def _offset(spec: Spec, fraction: float) -> Spec:
     """A spec with slots offset by a fraction of the centre distance."""
-    return spec.with_("wheel.offset_mm", spec.given_distance_mm * share)
+    return spec.with_("wheel.offset_mm", spec.given_distance_mm * fraction)
 
 
 def planets(target: Target, wheel: Gearing) -> Iterator[Family]:
@@ -82,10 +80,10 @@ def planets(target: Target, wheel: Gearing) -> Iterator[Family]:
     z = wheel.z
     if z not in (3, 4, 6):
         return
-    for fixed in PLANETS:
+    for fixed in ("sun", "ring"):
         make = partial(_on_planet, target, wheel, fixed)
         shockless = make("shockless")
-        if not can_be(shockless):
+        if not is_compatible(shockless):
             return
         yield only(shockless)
         l, teeth = sin_cos_pi(1, z)[0], 2 * z // (z - 2)
@@ -107,14 +105,17 @@ def _on_planet(target: Target, wheel: Gearing, fixed: str, ratio: float | str) -
 def driven(target: Target, wheel: Gearing) -> Iterator[Family]:
     """Changes of the plain crank's motion: a drive in front of it, or the angle of the shafts."""
     natural = natural_deg(wheel)
-    motion = closed_span(wanted(target, 1, natural), 1) if target.rollers in (None, 1) else None
-    if motion is not None and not (motion.exact and holds(motion, natural)):
+    has_one = target.rollers in (None, 1)
+    motion = closed_span(allowed_motions(target, 1, natural), 1) if has_one else None
+    if motion is not None and not (motion.exact and allows(motion, natural)):
         yield from _in_front(target, wheel, natural, motion)
     if not wheel.FLAT:
         yield from _inclined(target, wheel)
 
 
-def _in_front(target: Target, wheel: Gearing, natural: float, motion: Interval) -> Iterator[Family]:
+def _in_front(
+    target: Target, wheel: Gearing, natural: float, motion: AllowedSpan
+) -> Iterator[Family]:
     yield from _between(partial(side_crank, target, wheel), closed.side_crank, natural, motion)
     yield from _between(partial(gears, target, wheel), closed.eccentricity, natural, motion)
 
@@ -123,13 +124,15 @@ def _between(
     make: Callable[[float], Spec],
     inverse: Callable[[float, float], float],
     natural: float,
-    motion: Interval,
+    motion: AllowedSpan,
 ) -> Iterator[Family]:
     """A drive whose parameter increases with its motion, up to its limits."""
     low, high = (inverse(natural, x) for x in motion)
-    if low <= closed.MOST and high >= -closed.MOST:
-        plain_too = 0.0 if holds(motion, natural) else math.nan
-        yield Family(make, max(low, -closed.MOST), min(high, closed.MOST), plain_too, 0.0)
+    if low <= closed.PARAMETER_MAX and high >= -closed.PARAMETER_MAX:
+        plain_too = 0.0 if allows(motion, natural) else math.nan
+        yield Family(
+            make, max(low, -closed.PARAMETER_MAX), min(high, closed.PARAMETER_MAX), plain_too, 0.0
+        )
 
 
 def _inclined(target: Target, wheel: Gearing) -> Iterator[Family]:
@@ -137,15 +140,21 @@ def _inclined(target: Target, wheel: Gearing) -> Iterator[Family]:
     z = wheel.z
     least = 2.0 * half_motion_deg(1.0, 1, z)
     for m in [target.rollers] if target.rollers else range(1, rollers_max(least) + 1):
-        free = closed_span(wanted(target, m, 180.0), m)
-        if free is None or (free.exact and holds(free, 180.0)):
+        free = closed_span(allowed_motions(target, m, 180.0), m)
+        if free is None or (free.exact and allows(free, 180.0)):
             continue
 
         make = partial(_on_axes, target, wheel, m)
         low, high = (closed.axes(z, x) for x in free)
-        if low <= 180.0 - closed.AXES and high >= closed.AXES:
-            right = 90.0 if holds(free, 180.0) else math.nan
-            yield Family(make, max(low, closed.AXES), min(high, 180.0 - closed.AXES), right, 90.0)
+        if low <= 180.0 - closed.AXES_MIN_DEG and high >= closed.AXES_MIN_DEG:
+            right = 90.0 if allows(free, 180.0) else math.nan
+            yield Family(
+                make,
+                max(low, closed.AXES_MIN_DEG),
+                min(high, 180.0 - closed.AXES_MIN_DEG),
+                right,
+                90.0,
+            )
 
 
 def _on_axes(target: Target, wheel: Gearing, m: int, axes: float) -> Spec:

@@ -27,28 +27,22 @@ from geneva_cli.machine.spec import Spec
 from geneva_cli.machine.wheels.gearing import Gearing
 from geneva_cli.numerics.arrays import Array, Whole
 from geneva_cli.study.goals import Objective
-from geneva_cli.study.quantities import in_batch, is_motion
+from geneva_cli.study.quantities import is_motion
 from geneva_cli.study.sweep.columns import columns
-from geneva_cli.study.synthesis.bounds import known_bounds, of_motion
+from geneva_cli.study.synthesis.bounds import known_bounds, known_sort, of_motion
 from geneva_cli.study.synthesis.families import closed
 from geneva_cli.study.synthesis.families.family import (
     Family,
+    allowed_motions,
     closed_span,
     machine,
     natural_deg,
     only,
-    wanted,
 )
-from geneva_cli.study.synthesis.spans import Interval
+from geneva_cli.study.synthesis.spans import AllowedSpan
 from geneva_cli.study.synthesis.target import Target
 
 GRID = 10  # places of either number that are sampled first, in the middle of equal parts
-TRACKS = 3  # places of a wheel to sample nearby, if more than the gentlest is sought
-LOOKS, ALONG = 14, 28  # number of further samplings; along a bound
-CLOSER, FARTHER = 0.7, 1.4  # factors of the next step, without and with an improvement
-AROUND = 16  # places around the best, half of them at half the distance
-# fraction of the angle between two of them, by which they are rotated at each sampling
-TURNED = 0.382
 
 
 class _InFront(NamedTuple):
@@ -61,15 +55,18 @@ class _InFront(NamedTuple):
     high: float
 
 
+def _side_crank() -> _InFront:
+    most = closed.PARAMETER_MAX
+    return _InFront(lambda A: SideCrank(A=A), "drive.A", closed.side_crank, -most, most)
+
+
 def _gears(phase: str) -> _InFront:
-    low, high = (0.0, closed.MOST) if phase == "slow" else (-closed.MOST, 0.0)
+    low, high = (0.0, closed.PARAMETER_MAX) if phase == "slow" else (-closed.PARAMETER_MAX, 0.0)
     make = lambda e: EllipticalGears(eccentricity=abs(e), phase=phase)  # noqa: E731
     return _InFront(make, "drive.eccentricity", closed.eccentricity, low, high)
 
 
-SIDE = _InFront(lambda A: SideCrank(A=A), "drive.A", closed.side_crank, -closed.MOST, closed.MOST)
-GEARS = (_gears("slow"), _gears("quick"))
-AXES = Interval(closed.AXES, 180.0 - closed.AXES)
+AXES = AllowedSpan(closed.AXES_MIN_DEG, 180.0 - closed.AXES_MIN_DEG)
 
 
 def two_numbers(target: Target, wheels: Sequence[Gearing]) -> Iterator[Family]:
@@ -77,45 +74,46 @@ def two_numbers(target: Target, wheels: Sequence[Gearing]) -> Iterator[Family]:
     inclined = [wheel for wheel in wheels if not wheel.FLAT]
     if target.rollers not in (None, 1) or not inclined:
         return
-    moved = all(map(is_motion, target.named))
+    moved = all(map(is_motion, target.quantities))
     first = of_motion(target)
-    for drive in (SIDE,) if moved else (SIDE, *GEARS):
+    drives = [_side_crank()] if moved else [_side_crank(), _gears("slow"), _gears("quick")]
+    for drive in drives:
         able = inclined
         if first:
-            known = {spec.wheel.z for spec in _Search(first, inclined, drive).found()}
+            known = {spec.wheel.z for spec in _TwoNumberSearch(first, inclined, drive).machines()}
             able = [wheel for wheel in inclined if wheel.z in known]
-        yield from map(only, _Search(target, able, drive).found())
+        yield from map(only, _TwoNumberSearch(target, able, drive).machines())
 
 
-class _Search:
+class _TwoNumberSearch:
     """The best place of every wheel so far."""
 
     def __init__(self, target: Target, wheels: Sequence[Gearing], drive: _InFront) -> None:
-        spans = [closed_span(wanted(target, 1, natural_deg(wheel)), 1) for wheel in wheels]
+        spans = [closed_span(allowed_motions(target, 1, natural_deg(wheel)), 1) for wheel in wheels]
         self.target, self.drive = target, drive
         self.wheels = [w for w, span in zip(wheels, spans, strict=True) if span]
         self.motions = [span for span in spans if span]
         self.bounds = known_bounds(target)
-        known = target.sort if target.sort and in_batch([target.sort.name]) else None
-        self.sign, self.least = known or Objective(1.0, target.peak)
+        self.sign, self.least = known_sort(target) or Objective(1.0, target.peak)
         self.nearest = target.any_motion and not target.sort
 
-    def found(self) -> Iterator[Spec]:
+    def machines(self) -> Iterator[Spec]:
         """The best machine of each wheel that has one."""
         if not self.wheels:
             return
         u, v, best = self._first()
         step = np.full(len(u), 1.0 / GRID)
-        for look in range(ALONG if self.bounds else LOOKS):
-            turn = math.tau * (np.arange(AROUND) + look * TURNED) / AROUND
-            off = step[:, None] * np.where(np.arange(AROUND) % 2, 0.5, 1.0)
+        count = np.arange(16)  # places around the best, half of them at half the distance
+        for number in range(28 if self.bounds else 14):  # along a bound the search takes longer
+            turn = math.tau * (count + number * 0.382) / 16  # each sampling is rotated further
+            off = step[:, None] * np.where(count % 2, 0.5, 1.0)
             us = np.clip(u[:, None] + off * np.cos(turn), 0.0, 1.0)
             vs = np.clip(v[:, None] + off * np.sin(turn), 0.0, 1.0)
             new, us, vs = self._least(us, vs)
             better = (new[0] < best[0]) | ((new[0] == best[0]) & (new[1] < best[1]))
             best = np.where(better, new, best)
             u, v = np.where(better, us, u), np.where(better, vs, v)
-            step = step * np.where(better, FARTHER, CLOSER)
+            step = step * np.where(better, 1.4, 0.7)
         order = np.lexsort((*best[::-1], self.of))
         rows = order[np.flatnonzero(np.diff(self.of[order], prepend=-1))]  # the first of each wheel
         for i in rows[best[0][rows] == 0.0]:
@@ -130,18 +128,19 @@ class _Search:
         u, v = np.meshgrid(lengths, middles, indexing="ij")
         shape, wheels = u.shape, len(self.wheels)
         self.of = np.arange(wheels)
-        seen = np.array(self.cost(*(np.tile(x.ravel(), (wheels, 1)) for x in (u, v))))
-        tracks = TRACKS if self.bounds or self.least != self.target.peak else 1
+        costs = np.array(self.cost(*(np.tile(x.ravel(), (wheels, 1)) for x in (u, v))))
+        # a bound, or another goal than the peak, may have several minima
+        tracks = 3 if self.bounds or self.least != self.target.peak else 1
         starts = []
         for i in range(wheels):
             rank = np.empty(u.size, dtype=int)
-            rank[np.lexsort(seen[::-1, i])] = np.arange(u.size)
+            rank[np.lexsort(costs[::-1, i])] = np.arange(u.size)
             wide = np.pad(rank.reshape(shape), 1, constant_values=u.size)
-            beside = sliding_window_view(wide, (3, 3)).min(axis=(2, 3)).ravel()
-            tops = np.flatnonzero(rank == beside)
+            neighbours = sliding_window_view(wide, (3, 3)).min(axis=(2, 3)).ravel()
+            tops = np.flatnonzero(rank == neighbours)
             starts += [(i, j) for j in tops[np.argsort(rank[tops])][:tracks]]
         self.of, at = np.array(starts).T
-        return u.ravel()[at], v.ravel()[at], seen[:, self.of, at]
+        return u.ravel()[at], v.ravel()[at], costs[:, self.of, at]
 
     def _least(self, u: Array, v: Array) -> tuple[Array, Array, Array]:
         """For places (n, k), the best cost of each row, (2, n), and its place."""
@@ -169,7 +168,7 @@ class _Search:
         at, (least, *values) = self._values(rows, u.ravel(), v.ravel())
         total = np.zeros(len(at))
         for bound, value in zip(self.bounds, values, strict=True):
-            total += np.maximum(-bound.room(value), 0.0)
+            total += np.maximum(-bound.margin(value), 0.0)
         known = np.isfinite(total) & np.isfinite(least)
         off = self._far(rows[at], u.ravel()[at], v.ravel()[at], least)
         broken[at], far[at] = np.where(known, total, math.inf), np.where(known, off, math.inf)
@@ -195,11 +194,11 @@ class _Search:
         }
         middle = 0.5 * (drive.low + drive.high)
         try:
-            made = many(self.spec(self.wheels[0], middle, float(motion[0])), varied)
+            batch = many(self.spec(self.wheels[0], middle, float(motion[0])), varied)
         except GenevaError:  # a frame that allows no such machine
             return none
-        values = columns(made.machine, names, len(made.which)) if made.machine else None
-        return none if values is None else (which[made.which], values)
+        values = columns(batch.machine, names, len(batch.which)) if batch.machine else None
+        return none if values is None else (which[batch.which], values)
 
     def _far(self, row: Whole, u: Array, v: Array, least: Array) -> Array:
         """The quantity to minimise, or the distance from the plain crank."""
@@ -207,5 +206,5 @@ class _Search:
             return self.sign * least
         natural = np.array([natural_deg(wheel) for wheel in self.wheels])
         low, wide = np.array([(m.low, m.high - m.low) for m in self.motions]).T
-        aside: Array = np.hypot((low[row] + wide[row] * u - natural[row]) / 180.0, v - 0.5)
-        return aside
+        distance: Array = np.hypot((low[row] + wide[row] * u - natural[row]) / 180.0, v - 0.5)
+        return distance

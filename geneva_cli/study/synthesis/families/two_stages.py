@@ -19,17 +19,15 @@ from geneva_cli.study.synthesis.families import closed
 from geneva_cli.study.synthesis.families.family import (
     BARE,
     Family,
-    can_be,
+    allowed_motions,
+    allows,
     closed_span,
-    holds,
+    is_compatible,
     machine,
     natural_deg,
     only,
-    wanted,
 )
 from geneva_cli.study.synthesis.target import Target
-
-LONGEST, SHORTEST = 330.0, 1e-3  # crank angles that gear sectors drive, degrees
 
 
 def two_stages(target: Target, wheel: Gearing) -> Iterator[Family]:
@@ -44,8 +42,9 @@ def sectors(target: Target, wheel: Gearing) -> Iterator[Family]:
 
     At the plain crank's b the gears have nothing to drive.
     """
-    span = closed_span(wanted(target, 1, natural_deg(wheel)), 1)
-    if span is None or not can_be(BARE.replace(wheel=wheel, drive=GearSector(sector_deg=90.0))):
+    span = closed_span(allowed_motions(target, 1, natural_deg(wheel)), 1)
+    example = BARE.replace(wheel=wheel, drive=GearSector(sector_deg=90.0))
+    if span is None or not is_compatible(example):
         return
     z = wheel.z
 
@@ -54,8 +53,9 @@ def sectors(target: Target, wheel: Gearing) -> Iterator[Family]:
         return boundary(lambda b: angle(z, b) >= least, 0.0, wheel.step.b)
 
     ends = (slot(closed.sector_motion, span.high), slot(closed.sector_motion, span.low))
-    low = max(ends[0], slot(closed.sector_deg, LONGEST))
-    high = min(ends[1], slot(closed.sector_deg, SHORTEST))
+    # gear sectors drive the crank by 0.001 to 330 degrees
+    low = max(ends[0], slot(closed.sector_deg, 330.0))
+    high = min(ends[1], slot(closed.sector_deg, 1e-3))
     if low <= high:
         make = partial(_with_sectors, target, wheel)
         yield Family(make, low, high, wheel.step.b, wheel.step.b)
@@ -76,7 +76,7 @@ def pairs(target: Target, wheel: Gearing) -> Iterator[Family]:
         spec = BARE.replace(wheel=wheel, drive=GenevaPair(first_z=first_z))
         natural = build(spec).engagements[0].motion_deg
         m = 1.0 / first_z  # motions in a turn of the input
-        if holds(wanted(target, m, natural), natural):
+        if allows(allowed_motions(target, m, natural), natural):
 
             def drive(n: float, first_z: int = first_z) -> GenevaPair:
                 return GenevaPair(first_z=first_z, n_rpm=n)

@@ -1,4 +1,4 @@
-"""Data of a machine's parts that do not depend on the roller's size, for many machines at once.
+"""Data of a machine's parts that do not depend on the roller's size, for batches of machines.
 
 A drive in front of a crank changes when its parts reach a position, and equal rollers run through
 the same slots. Machines that differ in these only share the data.
@@ -20,20 +20,18 @@ from geneva_cli.machine.spec import Spec
 from geneva_cli.numerics.arrays import array
 from geneva_cli.parts.groove import sampled_extremes
 from geneva_cli.parts.roller_paths import RollerPaths
+from geneva_cli.study.synthesis.batches import batch_machines
 from geneva_cli.study.synthesis.target import USUAL_RPM
-from geneva_cli.study.synthesis.together import built_together
 
 if TYPE_CHECKING:
     from geneva_cli.numerics.arrays import Array
 
 PLACES = 720  # samples of a slot, and of a whole turn of the crank
-# every third sample is used where places of a slot are compared, then every second of these
-FEWER = 3
-LOOKS = 120  # samples of half a motion, for the undercut
-MOST = 4096  # entries of the cache
+UNDERCUT_SAMPLES = 120  # of half a motion
+CACHE = 4096  # entries
 
 
-class PartsLook(NamedTuple):
+class PartsData(NamedTuple):
     """Data of the parts that do not depend on the roller; lengths in mm."""
 
     spec: Spec  # represents all specs with the same data
@@ -42,8 +40,8 @@ class PartsLook(NamedTuple):
     least: float  # the radius of the smallest roller that leaves no island of the wheel in its slot
     pressure_deg: float  # the greatest in a cam's groove
     walls: tuple[OuterWall, OuterWall] | None  # of curved slots
-    back: tuple[Array, Array] | None  # of a wheel without a lock, the roller's places at rest:
-    # along the nearest slot, and beside its middle
+    # of a wheel without a lock, the roller's places at rest: along the nearest slot, and across
+    back: tuple[Array, Array] | None
     tried: dict[float, str]  # obstacles by roller radius, a cache of ``parts``
 
 
@@ -53,45 +51,45 @@ def gap_at_rest(back: tuple[Array, Array], rim: float, half_width: float, r: flo
     The rim has straight slots. Next to a slot the rim is nearest; in front of it, a corner of its
     mouth is.
     """
-    along, aside = back
+    along, across = back
     level = math.sqrt(max(rim * rim - half_width * half_width, 0.0))
     corner = np.where(
-        along >= level, np.hypot(along - level, half_width - aside), half_width - aside
+        along >= level, np.hypot(along - level, half_width - across), half_width - across
     )
-    before = aside * level < half_width * along
-    gap = np.where(before, corner, np.hypot(along, aside) - rim)
+    before = across * level < half_width * along
+    gap = np.where(before, corner, np.hypot(along, across) - rim)
     return float(gap.min()) - r
 
 
-_kept: dict[Spec, PartsLook] = {}
+_kept: dict[Spec, PartsData] = {}
 
 
-def look(spec: Spec) -> PartsLook:
+def parts_data(spec: Spec) -> PartsData:
     """The data of a machine with flat parts. Raises GenevaError if it cannot be built."""
     own = _alike(spec)
     if own not in _kept:
-        look_at([spec])
-    found = _kept.get(own)  # another thread may clear the cache
-    if found is None:
-        (found,) = _looks([own], build(own))
-        _kept[own] = found
-    return found
+        compute_parts_data([spec])
+    data = _kept.get(own)  # another thread may clear the cache
+    if data is None:
+        (data,) = _computed([own], build(own))
+        _kept[own] = data
+    return data
 
 
-def look_at(specs: Iterable[Spec]) -> None:
-    """Compute the data of many machines at once, for later calls of ``look``."""
+def compute_parts_data(specs: Iterable[Spec]) -> None:
+    """Compute the data of many machines at once, for later calls of ``parts_data``."""
     new = dict.fromkeys(
         own for spec in specs if spec.is_flat and (own := _alike(spec)) not in _kept
     )
-    if len(_kept) + len(new) > MOST:
+    if len(_kept) + len(new) > CACHE:
         _kept.clear()
     several = [*new]
-    for members, machine in built_together(several):
+    for members, machine in batch_machines(several):
         of = [several[i] for i in members]
-        _kept.update(zip(of, _looks(of, machine), strict=True))
+        _kept.update(zip(of, _computed(of, machine), strict=True))
 
 
-@lru_cache(maxsize=MOST)
+@lru_cache(maxsize=CACHE)
 def _alike(spec: Spec) -> Spec:
     """The machine that represents all with the same slots and rollers' paths."""
     drive = spec.drive
@@ -102,7 +100,7 @@ def _alike(spec: Spec) -> Spec:
     return spec.replace(drive=drive.replace(n_rpm=USUAL_RPM, rollers=1))
 
 
-def _looks(specs: Sequence[Spec], machine: Mechanism) -> list[PartsLook]:
+def _computed(specs: Sequence[Spec], machine: Mechanism) -> list[PartsData]:
     """The data of n specs that form one batch machine."""
     engagement, *others = machine.engagements
     assert not others, "synth finds only machines whose rollers move alike"
@@ -120,25 +118,26 @@ def _looks(specs: Sequence[Spec], machine: Mechanism) -> list[PartsLook]:
     for side in (-1.0, 1.0):  # the slots next to the crank's axis while the wheel rests
         away = np.hypot(x - L * np.cos(half), y - side * L * np.sin(half))
         arm = np.minimum(arm, away.min(axis=1))
-    fx, fy = x[:, ::FEWER], y[:, ::FEWER]
+    # every third sample suffices where places of a slot are compared, and every sixth below
+    fx, fy = x[:, ::3], y[:, ::3]
     least = 0.5 * np.hypot(fx - fx[:, ::-1], fy - fy[:, ::-1]).max(axis=1)
     least = least if engagement.slot.curved else np.zeros(len(specs))
     z = np.broadcast_to(machine.spec.wheel.z, (len(specs), 1))[:, 0]
     between = [_between(*points) for points in zip(fx[:, ::2], fy[:, ::2], z, strict=True)]
     pressure = groove.pressure_deg if groove else np.zeros(len(specs))
-    walls = outer_walls(machine, LOOKS)
-    back = None if machine.spec.drive.LOCKS else _back(machine)
+    walls = outer_walls(machine, UNDERCUT_SAMPLES)
+    back = None if machine.spec.drive.LOCKS else _places_at_rest(machine)
     columns = np.broadcast_arrays(ends, arm, between, least, pressure)
     out = []
     for i, (spec, row) in enumerate(zip(specs, np.column_stack(columns).tolist(), strict=True)):
         end, near, apart, radius, steep = row
         own = (walls[0].of(i), walls[1].of(i)) if walls else None
         away = (back[0][i], back[1][i]) if back else None
-        out.append(PartsLook(spec, RollerPaths((end,), near), apart, radius, steep, own, away, {}))
+        out.append(PartsData(spec, RollerPaths((end,), near), apart, radius, steep, own, away, {}))
     return out
 
 
-def _back(machine: Mechanism) -> tuple[Array, Array]:
+def _places_at_rest(machine: Mechanism) -> tuple[Array, Array]:
     """The roller's places at rest of the wheel, mm along the nearest slot and across, (n, m)."""
     (engagement,) = machine.engagements
     entry, wide = (np.atleast_2d(x) for x in (engagement.entry_deg, engagement.motion_deg))

@@ -6,11 +6,11 @@ from collections.abc import Iterator
 from typing import Any
 
 from geneva_cli.document import Block, Grid
-from geneva_cli.study.document.named import capital, facts, is_known, unit_of, words_of
+from geneva_cli.study.document.facts import capital, fact, facts, is_known
 from geneva_cli.table import Table
 
 
-class Left:
+class RemainingValues:
     """The values that have not been shown yet."""
 
     def __init__(self, values: dict[str, Any]) -> None:
@@ -23,9 +23,8 @@ class Left:
     def take(self, group: str) -> dict[str, Any]:
         """The values of a group by the rest of their names, which then count as shown."""
         begin = f"{group}."
-        found = {n: v for n, v in self.values.items() if n.startswith(begin)}
-        self.values = {n: v for n, v in self.values.items() if n not in found}
-        return {name.removeprefix(begin): value for name, value in found.items()}
+        names = [name for name in self.values if name.startswith(begin)]
+        return {name.removeprefix(begin): self.values.pop(name) for name in names}
 
     def rest(self) -> Iterator[Block]:
         """All values that no section has taken, such as those of a new section."""
@@ -41,12 +40,12 @@ class Left:
 def grid(caption: str, table: Table) -> Grid:
     """A table with units in its headings, without columns that have no value."""
     rows = list(table.rows())
-    seen = [i for i in range(len(table.names)) if any(is_known(row[i]) for row in rows)]
-    heads = [head(table.names[i]) for i in seen]
-    return Grid(caption, tuple(heads), tuple(tuple(row[i] for i in seen) for row in rows))
+    shown = [i for i in range(len(table.names)) if any(is_known(row[i]) for row in rows)]
+    heads = [head(table.names[i]) for i in shown]
+    return Grid(caption, tuple(heads), tuple(tuple(row[i] for i in shown) for row in rows))
 
 
 def head(name: str) -> str:
     """The head of a column: its name and its unit."""
-    unit = unit_of(name)
-    return f"{capital(words_of(name))}, {unit}" if unit else capital(words_of(name))
+    column = fact(name, None)
+    return f"{column.name}, {column.unit}" if column.unit else column.name

@@ -1,4 +1,4 @@
-"""The inputs of a design: the keys that its spec gives, and those at their defaults."""
+"""The inputs of a design: the keys that its spec sets, and those at their defaults."""
 
 from __future__ import annotations
 
@@ -7,28 +7,27 @@ from typing import Any
 
 from geneva_cli.document import Block, Fact, Facts, Grid, Heading
 from geneva_cli.machine.spec import Spec
+from geneva_cli.names import described
 from geneva_cli.spec.schema import Field, fields
 from geneva_cli.specfile.writer import keys_of, values_of
-from geneva_cli.study.document.named import unit_of
-
-HEADS = ("Key", "Value", "Unit", "Meaning")
 
 
 def inputs(spec: Spec) -> Iterator[Block]:
     """The keys that are set, in the order of a file."""
     rows = [
-        (f"{name}.{key.key}", _shown(value), unit_of(key.key), key.meaning)
+        (f"{name}.{key.key}", _shown(value), described(key.key)[1], key.meaning)
         for name, key, value in _known(spec)
         if value != key.default
     ]
     yield Heading("Inputs")
-    yield Grid("Keys that are set; the appendix has those at their defaults", HEADS, tuple(rows))
+    caption = "Keys that are set; the appendix has those at their defaults"
+    yield Grid(caption, ("Key", "Value", "Unit", "Meaning"), tuple(rows))
 
 
 def defaults(spec: Spec) -> Iterator[Block]:
     """The keys at their defaults, in the order of a file."""
     facts = (
-        Fact(f"{name}.{key.key}", _shown(value), unit_of(key.key))
+        Fact(f"{name}.{key.key}", _shown(value), described(key.key)[1])
         for name, key, value in _known(spec)
         if value == key.default
     )

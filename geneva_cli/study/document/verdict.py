@@ -6,26 +6,15 @@ from collections.abc import Iterator
 
 from geneva_cli.analysis.loads.summary import missing
 from geneva_cli.design import Design
-from geneva_cli.document import BAD, Block, Grid, Heading, Listed, Prose
-from geneva_cli.study.document.left import Left
-from geneva_cli.study.document.named import capital
+from geneva_cli.document import BAD, Block, Grid, Heading, Listed, Prose, Row
+from geneva_cli.study.document.facts import capital
+from geneva_cli.study.document.rest import RemainingValues
 from geneva_cli.study.document.sources import sources
 from geneva_cli.verdict.headline import headline
 from geneva_cli.verdict.strength import OF_LIFE
 
-WORDS = {True: "passes", False: BAD, None: "not proved"}
-HEADS = (
-    "Check",
-    "Value",
-    "At input angle, °",
-    "Must be",
-    "Limit",
-    "Verdict",
-    "Nearest change that passes, or why there is none",
-)
 
-
-def verdict(design: Design, left: Left) -> tuple[str, str, tuple[str, ...]]:
+def verdict(design: Design, left: RemainingValues) -> tuple[str, str, tuple[str, ...]]:
     """State of a design, its verdict in a line, and the checks that fail or lack a proof."""
     state, text = headline(design.checks, design.warnings)
     left.one("passes")
@@ -33,24 +22,28 @@ def verdict(design: Design, left: Left) -> tuple[str, str, tuple[str, ...]]:
 
 
 def checks(design: Design) -> Iterator[Block]:
-    """Every check."""
-    rows = tuple(
-        (c.name, c.value, c.at_deg, c.must_be, c.limit, WORDS[c.passes], c.nearest or c.why)
-        for c in design.checks
-    )
+    """The table of all checks, with a column of remarks if there are any."""
+    words = {True: "passes", False: BAD, None: "not proved"}
+    heads = ["Check", "Value", "At input angle, °", "Must be", "Limit", "Verdict"]
+    rows: list[Row] = [
+        (c.name, c.value, c.at_deg, c.must_be, c.limit, words[c.passes]) for c in design.checks
+    ]
+    remarks = [c.nearest or c.why for c in design.checks]
+    if any(remarks):
+        heads.append("Nearest change that passes, or why there is none")
+        rows = [(*row, remark) for row, remark in zip(rows, remarks, strict=True)]
     yield Heading("Checks")
-    told = len(HEADS) if any(c.nearest or c.why for c in design.checks) else len(HEADS) - 1
-    yield Grid("Every check with its verdict", HEADS[:told], tuple(r[:told] for r in rows))
+    yield Grid("Every check with its verdict", tuple(heads), tuple(rows))
 
 
-def warned(left: Left) -> Iterator[Block]:
-    """The warnings."""
-    warnings = tuple(left.one("warnings"))
+def warnings(left: RemainingValues) -> Iterator[Block]:
+    """The list of warnings."""
+    texts = tuple(left.one("warnings"))
     yield Heading("Warnings")
-    yield Listed(warnings) if warnings else Prose("None.")
+    yield Listed(texts) if texts else Prose("None.")
 
 
-def said(design: Design, left: Left) -> Iterator[Block]:
+def remarks(design: Design, left: RemainingValues) -> Iterator[Block]:
     """Unknown values with the keys that they need, and sources."""
     known = design.strength.missing(OF_LIFE)  # the report lists these, and more, itself
     unknown: dict[str, None] = dict.fromkeys(missing(design.cycle))

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from geneva_cli.design import Design
 from geneva_cli.document import Grid, Row
-from geneva_cli.study.document.named import capital
+from geneva_cli.study.document.facts import capital
 from geneva_cli.study.summary import report
 
 

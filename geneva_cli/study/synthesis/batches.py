@@ -13,8 +13,6 @@ from geneva_cli.machine.spec import Spec
 from geneva_cli.spec.schema import SpecTable, fields
 from geneva_cli.study.synthesis.by_law import law_columns
 
-TABLES = ("wheel", "drive", "motion")  # the tables in which the machines of a requirement differ
-
 
 def numbers(specs: Sequence[Spec], names: Sequence[str]) -> list[list[float] | None]:
     """The quantities ``names`` of each spec, as ``columns`` computes them.
@@ -22,7 +20,7 @@ def numbers(specs: Sequence[Spec], names: Sequence[str]) -> list[list[float] | N
     None for a spec that cannot be built, or whose engagements have no common number.
     """
     out: list[list[float] | None] = [None] * len(specs)
-    for members, machine in built_together(specs):
+    for members, machine in batch_machines(specs):
         values = law_columns(machine, names, len(members))
         if values is None:
             continue
@@ -31,14 +29,14 @@ def numbers(specs: Sequence[Spec], names: Sequence[str]) -> list[list[float] | N
     return out
 
 
-def built_together(specs: Sequence[Spec]) -> Iterator[tuple[list[int], Mechanism]]:
+def batch_machines(specs: Sequence[Spec]) -> Iterator[tuple[list[int], Mechanism]]:
     """Batch machines, each with the indices of its specs.
 
     A spec that cannot be built is in none of them.
     """
     apart: dict[Any, list[int]] = {}
     wide: list[dict[str, float]] = []
-    keys: dict[Any, list[_Key]] = {}
+    keys: dict[Any, list[BatchKey]] = {}
     for i, spec in enumerate(specs):
         shape, own = _split(spec, keys)
         wide.append(own)
@@ -46,12 +44,12 @@ def built_together(specs: Sequence[Spec]) -> Iterator[tuple[list[int], Mechanism
     for members in apart.values():
         varied = {k: np.array([wide[i][k] for i in members]) for k in wide[members[0]]}
         differing = {k: v for k, v in varied.items() if (v != v[0]).any()}
-        found = many(specs[members[0]], differing or dict([*varied.items()][:1]))
-        if found.machine is not None:
-            yield [members[i] for i in found.which.tolist()], found.machine
+        batch = many(specs[members[0]], differing or dict([*varied.items()][:1]))
+        if batch.machine is not None:
+            yield [members[i] for i in batch.which.tolist()], batch.machine
 
 
-class _Key(NamedTuple):
+class BatchKey(NamedTuple):
     """A key of a kind of machine: its place, and whether it may be an array."""
 
     table: str
@@ -60,7 +58,7 @@ class _Key(NamedTuple):
     varies: bool
 
 
-def _split(spec: Spec, keys: dict[Any, list[_Key]]) -> tuple[Any, dict[str, float]]:
+def _split(spec: Spec, keys: dict[Any, list[BatchKey]]) -> tuple[Any, dict[str, float]]:
     """The values that specs of one batch must share, and the spec's own numbers.
 
     ``keys`` caches the keys of each kind.
@@ -70,9 +68,9 @@ def _split(spec: Spec, keys: dict[Any, list[_Key]]) -> tuple[Any, dict[str, floa
         keys[kinds] = [*_keys(spec)]
     shape: list[Any] = [kinds]
     own = {}
-    held = vars(spec)
+    tables = vars(spec)
     for table, attribute, name, varies in keys[kinds]:
-        value = vars(held[table])[attribute]
+        value = vars(tables[table])[attribute]
         if varies and isinstance(value, (int, float)) and not isinstance(value, bool):
             own[name] = value
         else:
@@ -80,10 +78,10 @@ def _split(spec: Spec, keys: dict[Any, list[_Key]]) -> tuple[Any, dict[str, floa
     return tuple(shape), own
 
 
-def _keys(spec: Spec) -> Iterator[_Key]:
+def _keys(spec: Spec) -> Iterator[BatchKey]:
     """The keys in which machines of one kind may differ; a law includes its own keys."""
-    for table in TABLES:
+    for table in ("wheel", "drive", "motion"):  # where the machines of a requirement differ
         part: SpecTable | None = vars(spec)[table]
         for field in fields(type(part)) if part else ():
             name = f"{table}.{field.key}"
-            yield _Key(table, field.attribute, name, may_vary(spec, name))
+            yield BatchKey(table, field.attribute, name, may_vary(spec, name))

@@ -1,0 +1,38 @@
+"""Headlines of summaries: a design's title and the count of its warnings."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+
+from geneva_cli.design import Design
+from geneva_cli.document import WARNS, Answer, Line, Summary
+from geneva_cli.table import Table
+from geneva_cli.verdict.headline import below_summary, warning
+
+
+def record_answer(
+    design: Design, record: Table, lines: Iterable[Line], warnings: Sequence[str]
+) -> Answer:
+    """An answer of some lines and warnings, with the other values of a record below them."""
+    head = f"{title_of(design)}{counted(warnings)}"
+    summary = Summary(head, (*lines, *map(warning, warnings)), WARNS if warnings else "")
+    return Answer((summary,), below_summary(record, said=("title",)), record)
+
+
+def title_of(design: Design) -> str:
+    """The title of a design, or else its description.
+
+    >>> title_of(Design(External(6)))
+    'Geneva wheel of 6 slots'
+    """
+    return design.spec.title or f"Geneva wheel of {design.spec.wheel.z} slots"
+
+
+def counted(warnings: Sequence[str]) -> str:
+    """The number of warnings behind a headline; empty without any.
+
+    >>> counted(["a", "b"]), counted([])
+    (': 2 warnings', '')
+    """
+    many = len(warnings)
+    return f": {many} warning{'s' * (many != 1)}" if many else ""
