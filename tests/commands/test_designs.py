@@ -43,6 +43,7 @@ def test_every_command_in_every_format(command: str, format: str) -> None:
     run(ONE, command, format)
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize("command", COMMANDS)
 @pytest.mark.parametrize("design", DESIGNS, ids=lambda p: p.stem)
 def test_every_command_on_every_design(design: Path, command: str) -> None:

@@ -69,6 +69,7 @@ def offered(line):
     return run.stdout.split()
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize(
     ("line", "words"),
     [

@@ -208,7 +208,7 @@ def test_a_curve_that_leaps_is_refused_at_once(kind):
     kind(leaping, 0.0, 2.7, 1e-3)
 
 
-@pytest.mark.sampled(4)
+@pytest.mark.sampled(8)
 @pytest.mark.parametrize("tolerance", [1e-2, 1e-4, 1e-6])
 @pytest.mark.parametrize("kind", KINDS)
 @pytest.mark.parametrize("name", CURVES)
@@ -337,7 +337,7 @@ def greedy(curve, a, b, tolerance):
     return count
 
 
-@pytest.mark.sampled(3)
+@pytest.mark.sampled(7)
 @pytest.mark.parametrize("name", CURVED)
 def test_few_pieces_on_the_curved_slots(name):
     """At 1e-3 mm: half as many arcs as the fewest chords, a tenth of cubics.
