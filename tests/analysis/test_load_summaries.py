@@ -23,7 +23,7 @@ ULP = 2.0**-52
 KNOTTED = ("points of a law", "gears by points")  # a spline's higher derivatives jump
 
 
-@pytest.mark.sampled(2)
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize(
     "name", ["crank", "two rollers", "offset, slowed", "spherical", "matched", *KNOTTED]
 )
@@ -53,6 +53,7 @@ def test_means_against_sums_of_many_places(name):
                 assert alone_.mean is None
 
 
+@pytest.mark.long
 def test_a_reaction_that_nearly_vanishes_has_its_mean():
     """Of a planet's guide, at four places of its motion: dips of a ten-thousandth of a degree."""
     spec = design.load(str(repo.DESIGNS / "epicyclic-soft-z6.toml")).spec

@@ -25,7 +25,7 @@ def rough_is_near(motion, count):
         assert (abs(rough - exact) <= allowed).all()
 
 
-@pytest.mark.sampled(4)
+@pytest.mark.sampled(8)
 @pytest.mark.parametrize("name", MACHINES)
 def test_as_one_by_one(name):
     """A design has the peaks in a batch that it has alone, built with floats for its arrays.

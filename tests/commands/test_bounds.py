@@ -165,19 +165,6 @@ def test_the_most_slots_are_no_trouble(command):
     assert seconds < CPU
 
 
-@pytest.mark.sampled(2)
-@pytest.mark.parametrize("spec", ["spec.toml", "curved.toml"])
-def test_a_million_rows_in_flat_memory(spec):
-    # The columns are 48 MB; the text, some 110 MB, never exists as a whole.
-    status, said, megabytes, _ = run(
-        "motion", spec, "--samples", "1000000", "-o", "motion.csv", timeout=120
-    )
-    assert status == 0, said
-    assert megabytes < 300.0
-    with open("motion.csv") as file:
-        assert sum(1 for _ in file) == 1_000_001
-
-
 # 36,000 rows of three numbers and a text are 9 MB as Python's objects; pyarrow reads and writes
 # ahead in blocks of 4 MB, and keeps what it has had
 @pytest.mark.sampled(2)

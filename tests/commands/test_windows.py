@@ -56,11 +56,13 @@ def test_help_fits(monkeypatch, name, columns):
     require_width(seen(monkeypatch, columns, name, "--help"), columns)
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize("topic", TOPICS)
 def test_pages_fit(topic):
     look_at_page(page(topic))
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize("columns", COLUMNS)
 @pytest.mark.parametrize(
     "line",
@@ -200,6 +202,7 @@ def any_value(rng, kind):
     return None if rng.random() < 0.15 else values[kind]()
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize("seed", range(30))
 def test_any_table_fits(seed):
     """Of up to 24 columns of all kinds, with values that are not there and with wide letters."""

@@ -10,6 +10,7 @@ import repo
 import shapely
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from sampling import some
 from scipy.spatial import cKDTree
 from scipy.special import fresnel
 from words import load
@@ -217,7 +218,7 @@ def test_ends_tangents_and_errors(name, kind, tolerance):
     check(curve, a, b, kind(curve, a, b, tolerance), tolerance, kind)
 
 
-@settings(max_examples=25)
+@settings(max_examples=some(25, 10))
 @given(
     st.lists(st.floats(-1.0, 1.0), min_size=10, max_size=10),
     st.sampled_from([1e-1, 1e-2, 1e-3, 1e-4]),

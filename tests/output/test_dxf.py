@@ -113,6 +113,7 @@ def svg_read(drawing):
     return svg_shapes("".join(svg.chunks(drawing, "mm")))
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize("degrees", [0.01, 1, 90, 179.99, 180, 181, 270, 299, 301, 359, 359.99])
 @pytest.mark.parametrize("turn", [1.0, -1.0])
 def test_arcs_of_any_sweep(degrees, turn):

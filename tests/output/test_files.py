@@ -16,6 +16,7 @@ import time
 
 import pytest
 import repo
+from sampling import some
 from typer.testing import CliRunner
 from words import load
 
@@ -453,7 +454,7 @@ def once(read):
 @pytest.mark.parametrize("command", PRINTED)
 def test_hostile_title(command, monkeypatch):
     plain = {}
-    for title in ["plain", *HOSTILE]:
+    for title in ["plain", *(HOSTILE if command == "peaks" else some(HOSTILE, HOSTILE[::4]))]:
         put("spec.toml", f'title = "{title}"\n{ANSWERED}')
         # what a design has worked out for one format it has for all
         monkeypatch.setattr("geneva_cli.design.load", once(functools.cache(load_design)))

@@ -66,7 +66,7 @@ def wheel_by_core(design, at):
     return out - first, turned
 
 
-@pytest.mark.sampled(4)
+@pytest.mark.sampled(6)
 @pytest.mark.parametrize("name", DESIGNS)
 def test_the_wheel_and_the_rollers_are_where_the_core_has_them(name):
     design = design_of(name)

@@ -201,7 +201,7 @@ def require_sound(shapes, inside=False, wheels=1):
 # 1. Every design
 
 
-@pytest.mark.sampled(4)
+@pytest.mark.sampled(6)
 @pytest.mark.parametrize("name", FLAT)
 def test_assembly_of_every_design(name):
     """As svg: its shapes are sound, and the parts lie beside each other at input angle 0."""
@@ -249,7 +249,7 @@ def test_assembly_of_every_design(name):
             assert not around.buffer(-t).intersects(other)
 
 
-@pytest.mark.sampled(4)
+@pytest.mark.sampled(8)
 @pytest.mark.parametrize("part", [*PARTS, "groove"])
 @pytest.mark.parametrize("name", VARIED)
 def test_dxf_and_svg_are_the_same_part(name, part):
@@ -356,6 +356,7 @@ def between(one, other):
     return LineString(points(one)).hausdorff_distance(LineString(points(other)))
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize("name", CURVED)
 def test_splines_are_the_same_outline_in_fewer_pieces(name):
     arcs = outline_of(name)
@@ -681,6 +682,7 @@ def test_wheel_without_an_error_is_silent():
     assert (found.exit_code, found.output) == (0, "")
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize(
     ("text", "line", "said"),
     [
@@ -744,7 +746,7 @@ def test_templates_without_flat_parts_say_so(kind):
     assert sorted(os.listdir()) == ["new.toml", "slot.csv"]
 
 
-@pytest.mark.sampled(3)
+@pytest.mark.sampled(6)
 @pytest.mark.parametrize("kind", [kind for kind in KINDS if kind not in NOT_FLAT])
 def test_templates_draw_all_parts(kind):
     assert CliRunner().invoke(app, ["new", kind, "-o", "new.toml"]).exit_code == 0
@@ -861,6 +863,7 @@ def test_random_wheels(seed):
 # 8. Tables of pieces
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize(
     ("name", "part", "options"),
     [

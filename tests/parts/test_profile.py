@@ -128,7 +128,7 @@ def test_no_chord_misses_by_more_than_the_tolerance(
     assert 0.0 in x
 
 
-@pytest.mark.sampled(2)
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize("gearing", ["external", "internal"])
 @pytest.mark.parametrize("law", ["cycloidal", "modified-trapezoid"])
 def test_few_rows(law: str, gearing: str) -> None:

@@ -51,7 +51,7 @@ def sheets():
     return made
 
 
-@pytest.mark.sampled(4)
+@pytest.mark.sampled(8)
 @pytest.mark.parametrize("path", DESIGNS, ids=lambda p: p.stem)
 def test_no_text_of_a_design_stands_on_anything(path, sheets):
     design, found = sheets(path.stem)

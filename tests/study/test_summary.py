@@ -128,6 +128,7 @@ def test_tolerance_names_what_contributes_most() -> None:
     assert answer.data is record
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize("width", [60, 80, 100])
 @pytest.mark.parametrize("name", ["turret", "press-345", "tuned-dial", "tolerances"])
 def test_no_line_is_wider_than_the_window(name: str, width: int) -> None:

@@ -110,7 +110,7 @@ LOADS = [
 ]
 
 
-@pytest.mark.sampled(2)
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize(
     ("spec", "vary", "some"),
     [

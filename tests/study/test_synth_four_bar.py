@@ -212,6 +212,7 @@ def test_no_lock_is_in_the_way_where_there_is_none():
     assert parts(machine).why == ""
 
 
+@pytest.mark.long
 def test_another_four_bar_passes_where_the_gentlest_fails():
     """Its coupler comes to the wheel's shaft; of those found with it, one that does not."""
     found = search(read_target(tau="..0.3", z="5", external=True, rollers=1))

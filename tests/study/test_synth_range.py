@@ -422,6 +422,7 @@ def test_a_frame_and_an_order():
     assert peaks == pytest.approx(sorted(peaks, reverse=True), rel=1e-11)
 
 
+@pytest.mark.long
 def test_a_frame_s_sizes_stay(tmp_path):
     file = tmp_path / "frame.toml"
     file.write_text("[wheel]\nz = 6\n[size]\nroller_radius_mm = 3\n[limits]\nvelocity_max = 0.9\n")
@@ -499,6 +500,7 @@ def test_the_best_that_a_bound_leaves_beside_the_end_of_a_range():
     assert side.candidate.acceleration_max <= peak[fits].min() * (1 + 1e-4)
 
 
+@pytest.mark.long
 @pytest.mark.sampled(2)
 @pytest.mark.parametrize(
     ("limit", "field", "most"),
