@@ -171,6 +171,7 @@ def test_keyways_of_the_standard():
     assert all(c.passes for c in design.checks)
 
 
+@pytest.mark.usefixtures("no_advice")
 @pytest.mark.parametrize(
     ("size", "said"),
     [

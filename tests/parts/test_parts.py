@@ -682,6 +682,7 @@ def test_wheel_without_an_error_is_silent():
     assert (found.exit_code, found.output) == (0, "")
 
 
+@pytest.mark.usefixtures("no_advice")
 @pytest.mark.sampled(3)
 @pytest.mark.parametrize(
     ("text", "line", "said"),

@@ -435,6 +435,7 @@ def test_a_sphere_is_weighed_from_what_is_printed(name):
         assert ends[1] - ends[0] == pytest.approx(float(row["thickness_mm"]), rel=1e-12)
 
 
+@pytest.mark.usefixtures("no_advice")
 @pytest.mark.parametrize(
     ("name", "key", "value", "why", "parts"),
     [
