@@ -125,7 +125,7 @@ DESIGNS = sorted(repo.DESIGNS.glob("*.toml"))
 FLAT = [path for path in DESIGNS if load(str(path)).spec.is_flat]
 
 
-@pytest.mark.sampled(4)
+@pytest.mark.sampled(8)
 @pytest.mark.usefixtures("made_once")
 @pytest.mark.parametrize("path", FLAT, ids=lambda p: p.stem)
 def test_every_flat_design_turns(path: Path) -> None:
