@@ -7,9 +7,9 @@ import subprocess
 import sys
 
 import pytest
+from repo import GENEVA
 from sampling import some
 
-GENEVA = os.path.join(os.path.dirname(sys.executable), "geneva")
 WHEEL = "[wheel]\nz = 6\n"
 CURVED = WHEEL + '[motion]\nlaw = "cycloidal"\n'
 MEGABYTE = 1 << 20

@@ -3,16 +3,15 @@
 import os
 import shlex
 import subprocess
-import sys
 from typing import NamedTuple, get_args
 
 import pytest
+from repo import GENEVA
 from typer.main import get_command
 from typer.testing import CliRunner
 
 from geneva_cli.app import COMMANDS, app
 
-GENEVA = os.path.join(os.path.dirname(sys.executable), "geneva")
 WITHOUT_SPEC = {
     "table",
     "laws",

@@ -4,16 +4,15 @@ import importlib
 import os
 import shutil
 import subprocess
-import sys
 
 import pytest
 import repo
+from repo import GENEVA
 from typer.testing import CliRunner
 
 from geneva_cli.app import COMMANDS, GROUPS, app
 from geneva_cli.manual import TOPICS
 
-GENEVA = os.path.join(os.path.dirname(sys.executable), "geneva")
 EXAMPLES = [
     (name, example)
     for name in COMMANDS

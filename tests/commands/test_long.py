@@ -17,6 +17,7 @@ import warnings
 import numpy as np
 import pytest
 import repo
+from repo import GENEVA
 from words import load
 
 from geneva_cli import progress
@@ -28,8 +29,6 @@ from geneva_cli.output.bar import TextBar
 from geneva_cli.parts.slot_sampling import profile_table
 from geneva_cli.study.survey import survey
 from geneva_cli.table import Table, record_table, rows_table
-
-GENEVA = os.path.join(os.path.dirname(sys.executable), "geneva")
 
 
 @pytest.fixture(autouse=True)

@@ -9,11 +9,11 @@ import pty
 import random
 import struct
 import subprocess
-import sys
 import termios
 
 import pytest
 import repo
+from repo import GENEVA
 from typer.testing import CliRunner
 from windows import COLUMNS, bare, look_at_page, look_at_table, require_width
 
@@ -25,7 +25,6 @@ from geneva_cli.output.values import value
 from geneva_cli.output.window import Window
 from geneva_cli.table import Reading, record_table, rows_table
 
-GENEVA = os.path.join(os.path.dirname(sys.executable), "geneva")
 LOOKS = ({"TERM": "xterm-256color"}, {"TERM": "dumb"}, {"TERM": "xterm", "NO_COLOR": "1"})
 
 

@@ -16,6 +16,7 @@ import time
 
 import pytest
 import repo
+from repo import GENEVA
 from sampling import some
 from typer.testing import CliRunner
 from words import load
@@ -24,7 +25,6 @@ from geneva_cli.analysis.motion import motion_table
 from geneva_cli.app import COMMANDS, app
 from geneva_cli.design import load as load_design
 
-GENEVA = os.path.join(os.path.dirname(sys.executable), "geneva")
 OLD = "the old file, whole\n"
 TEMPORARY = re.compile(r"\.motion\.csv\.geneva-\d+\.tmp")
 LONG = ["motion", "spec.toml", "--samples", "500000"]  # seconds of writing, some 40 MB

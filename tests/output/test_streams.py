@@ -6,8 +6,8 @@ import subprocess
 import sys
 
 import pytest
+from repo import GENEVA
 
-GENEVA = os.path.join(os.path.dirname(sys.executable), "geneva")
 SOME = [["--help"], ["--version"], ["table", "--help"], ["table"], ["peaks", "spec.toml"]]
 
 some = pytest.mark.parametrize("arguments", SOME, ids=" ".join)
