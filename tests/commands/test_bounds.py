@@ -129,7 +129,7 @@ def test_a_law_of_a_gigabyte():
     refused(["peaks", "spec.toml"], "law.csv: ", "larger than")
 
 
-@pytest.mark.parametrize(("rows", "line"), [(5_001, 0), (20_001, 2), (200_001, 2)])
+@pytest.mark.parametrize(("rows", "line"), [(5_001, 0), (20_001, 2)])
 def test_a_law_of_too_many_points(rows, line):
     """Points that lie closer than the derivatives of a spline can tell are too many."""
     put("law.csv", "".join(f"{i / (rows - 1)!r},{i / (rows - 1)!r}\n" for i in range(rows)))
@@ -155,7 +155,7 @@ def test_too_many_rollers_and_slots():
     refused(["peaks", "spec.toml"], "spec.toml:4: ")
 
 
-@pytest.mark.sampled(2)
+@pytest.mark.sampled(5)
 @pytest.mark.parametrize("command", ["peaks", "motion", "profile", "report", "check"])
 def test_the_most_slots_are_no_trouble(command):
     put("spec.toml", "[wheel]\nz = 1000000\n")
@@ -188,7 +188,7 @@ def test_a_sweep_holds_no_rows(file, how, more):
 
 
 def test_many_specs_at_once():
-    names = [f"{i}.toml" for i in range(some(200, 60))]
+    names = [f"{i}.toml" for i in range(some(200, 40))]
     for name in names:
         put(name, "[wheel]\nz = 400\n")  # no parts to turn: many, and quick
     status, said, megabytes, _ = run("check", *names, "--format", "csv", timeout=120)

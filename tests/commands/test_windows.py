@@ -85,6 +85,7 @@ def test_screens_fit(monkeypatch, line, columns):
     require_width(seen(monkeypatch, columns, *line.split()), columns)
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize("environment", LOOKS, ids=str)
 def test_a_terminal_itself_says_how_wide_it_is(environment):
     """And what it can show; messages on standard error are broken between words too."""

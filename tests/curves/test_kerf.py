@@ -196,6 +196,7 @@ def test_cubics_are_refused():
         offset(shape, True, 0.1)
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize(
     ("options", "said"),
     [

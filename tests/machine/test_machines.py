@@ -257,6 +257,7 @@ def test_hand_derived_forms_agree_with_the_witness(machine, witness, exact, case
                 assert abs(value - reference[k][j]) <= mp.mpf(10) ** -40 * (1 + abs(value))
 
 
+@pytest.mark.sampled(4)
 @every
 def test_numbers_and_arrays_agree(machine, exact, case):
     for i, s in enumerate(machine(case).engagements):
@@ -282,6 +283,7 @@ def test_a_symmetric_motion_is_mirrored(machine, exact, case):
             assert np.all(np.abs(ahead[k] - mirrored) <= bars(s, x, reference, k, 16.0, case)), name
 
 
+@pytest.mark.sampled(4)
 @every
 def test_the_pin_lies_on_its_slot(machine, witness, exact, case):
     """The pin's place, the slot's axis and the pitch curve are three views of one thing."""

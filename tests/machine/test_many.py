@@ -69,6 +69,7 @@ def test_none_is_missed(gearing, quantity):
     np.testing.assert_allclose(whole.max, found.max, rtol=2 * EXACT)
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize("peaks", PEAKS.values())
 def test_a_finer_scan_finds_no_more(peaks, monkeypatch):
     """Three times the scan finds nothing more among 200,000."""
