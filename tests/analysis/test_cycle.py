@@ -68,7 +68,7 @@ def test_a_load_that_changes_walls():
     assert turns / (2.0 * math.pi * 0.008) == pytest.approx(2.6551484499207021, rel=1e-13)
 
 
-@pytest.mark.sampled(4)
+@pytest.mark.sampled(8)
 @pytest.mark.parametrize("path", DESIGNS, ids=lambda p: p.stem)
 def test_the_work_closes(path):
     """Input work is what resists over the step and what rubs: 1e-12 of it; 1e-14 of the energy.

@@ -70,7 +70,7 @@ def refused(arguments, *wants):
     return said
 
 
-@pytest.mark.sampled(3)
+@pytest.mark.sampled(6)
 @pytest.mark.parametrize(
     "arguments",
     [
@@ -129,6 +129,7 @@ def test_a_law_of_a_gigabyte():
     refused(["peaks", "spec.toml"], "law.csv: ", "larger than")
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize(("rows", "line"), [(5_001, 0), (20_001, 2)])
 def test_a_law_of_too_many_points(rows, line):
     """Points that lie closer than the derivatives of a spline can tell are too many."""

@@ -144,6 +144,7 @@ def test_name_too_long():
     clean_failure(geneva(*SHORT, "-o", "x" * 300 + ".csv"), "too long")
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize("name", ["spec.toml", "./sub/../spec.toml", "link.toml", "hard.toml"])
 def test_output_over_the_spec(name):
     os.mkdir("sub")
@@ -242,6 +243,7 @@ def test_ctrl_c_while_printing():
 # Standard output that does not take what we write
 
 
+@pytest.mark.sampled(2)
 @full
 @pytest.mark.parametrize(
     "arguments",
@@ -253,6 +255,7 @@ def test_full_disk_on_stdout(arguments):
         clean_failure(geneva(*arguments, stdout=out), "<stdout>", "No space left")
 
 
+@pytest.mark.sampled(2)
 @full
 @pytest.mark.parametrize(
     "arguments", [["--help"], ["table", "--help"], ["--version"]], ids=" ".join
@@ -262,6 +265,7 @@ def test_full_disk_on_help(arguments):
         clean_failure(geneva(*arguments, stdout=out), "No space left")
 
 
+@pytest.mark.sampled(2)
 @full
 @pytest.mark.parametrize("arguments", [["table"], SHORT, LONG], ids=" ".join)
 def test_full_disk_on_a_file(arguments):
@@ -276,6 +280,7 @@ def test_stdout_file_too_large():
         clean_failure(geneva(*arguments, stdout=out, preexec_fn=small_files), "cannot write")
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize(
     "arguments",
     [["table"], ["--help"], [*LONG, "--format", "csv"], [*LONG, "--format", "json"], SHORT],
@@ -293,6 +298,7 @@ def test_closed_pipe(arguments):
     assert (err, process.wait(timeout=30) in (0, 141)) == ("", True)
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize("arguments", [["table"], SHORT, ["--help"], ["--version"]], ids=" ".join)
 def test_pipe_closed_before_the_start(arguments):
     read, write = os.pipe()
@@ -302,7 +308,7 @@ def test_pipe_closed_before_the_start(arguments):
     assert (found.returncode, found.stderr) == (141, "")
 
 
-@pytest.mark.sampled(2)
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize("closed", ["<&-", ">&-", "2>&-", "<&- >&- 2>&-"])
 @pytest.mark.parametrize("arguments", ["table", "peaks spec.toml", "peaks -", "peaks gone.toml"])
 def test_closed_streams(closed, arguments):
@@ -454,7 +460,7 @@ def once(read):
     return lambda path, given=(): read(path, tuple(given))
 
 
-@pytest.mark.sampled(3)
+@pytest.mark.sampled(6)
 @pytest.mark.parametrize("command", PRINTED)
 def test_hostile_title(command, monkeypatch):
     plain = {}

@@ -109,7 +109,7 @@ def closed(arguments, streams):
     )
 
 
-@pytest.mark.sampled(4)
+@pytest.mark.sampled(8)
 @pytest.mark.parametrize("streams", CLOSED)
 @pytest.mark.parametrize("spec", ["spec.toml", "warns.toml"])
 def test_closed_streams(spec, streams):
@@ -156,6 +156,7 @@ def test_a_sweep_without_streams_writes_the_same_file(streams):
         assert found.read() == plain.read()
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize(
     "arguments", ["--{}", "{}", "table --z {}", "table --n {}", "peaks x --{}", "peaks {}.toml"]
 )
@@ -182,6 +183,7 @@ main()
 """
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize(
     "module", ["geneva_cli.app", "typer", "geneva_cli.commands.motion", "numpy", "numpy.linalg"]
 )

@@ -81,7 +81,7 @@ def crews():
             )
 
 
-@pytest.mark.sampled(3)
+@pytest.mark.sampled(6)
 @pytest.mark.parametrize(("z", "gearing", "rollers"), [*crews()])
 def test_defaults_work(z, gearing, rollers):
     """Walls all round, and clear of the wheel's hub, below the wheel."""

@@ -302,6 +302,7 @@ def moved(shapes, angle, ahead=0.0):
     }
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize("name", ["two-pins-z4", "internal-z6", "press-curved", "unequal-steps"])
 def test_parts_make_the_assembly(name):
     """Each part's own frame: the wheel turned as the motion says, the crank about (L, 0)."""
@@ -456,6 +457,7 @@ def test_arcs_are_half_as_many_as_chords(name):
     assert len(outline_of(name)) <= 0.5 * len(table_of(name, "slot"))
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize("name", CURVED)
 def test_walls_are_where_the_roller_passes(name):
     """Against the roller itself, moved along its pitch curve by shapely."""

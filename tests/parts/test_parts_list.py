@@ -245,7 +245,7 @@ def in_gear(d):
     return found
 
 
-@pytest.mark.sampled(4)
+@pytest.mark.sampled(8)
 @pytest.mark.parametrize("path", DESIGNS, ids=lambda p: p.stem)
 def test_a_machine_is_rebuilt_from_what_is_printed(path):
     _, pivots, d = printed(path)
@@ -281,6 +281,7 @@ SPECS = {
 }
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize("name", SPECS)
 def test_kinds_in_other_sizes(name, tmp_path):
     path = tmp_path / "spec.toml"

@@ -159,6 +159,7 @@ LENGTHS = {
 }
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize("name", LENGTHS)
 def test_links_have_their_views(name, sheets):
     """Each link by its name, with the lengths of the list of parts as dimensions on paper."""
