@@ -27,6 +27,7 @@ def pytest_configure(config):
     """Collect tests without looking for garbage; give every run the same random cases."""
     gc.disable()
     config.addinivalue_line("markers", "sampled(k): run one of k cases, all in `make stress`")
+    config.addinivalue_line("markers", "long: run in `make stress` alone")
     settings.register_profile(
         "same", deadline=None, derandomize=True, database=None, max_examples=some(100, 25)
     )

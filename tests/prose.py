@@ -11,6 +11,7 @@ import re
 import statistics
 import sys
 from collections.abc import Iterator
+from functools import cache
 from pathlib import Path
 from typing import NamedTuple
 
@@ -78,6 +79,12 @@ def page_sentences(path: Path) -> list[Sentence]:
     return list(split("\n".join(lines), str(path.relative_to(ROOT))))
 
 
+@cache
+def parsed(path: Path) -> ast.Module:
+    """The syntax tree of a Python file."""
+    return ast.parse(path.read_text(encoding="utf-8"))
+
+
 class Docstring(NamedTuple):
     """A docstring and its place."""
 
@@ -90,9 +97,10 @@ class Docstring(NamedTuple):
         return re.match(rf"({'|'.join(POOR_STARTS)})\b", self.text) is not None
 
 
+@cache
 def docstrings(path: Path) -> list[Docstring]:
     """All docstrings of a Python file."""
-    tree = ast.parse(path.read_text(encoding="utf-8"))
+    tree = parsed(path)
     kinds = (ast.Module, ast.ClassDef, ast.FunctionDef, ast.AsyncFunctionDef)
     result = []
     for node in ast.walk(tree):
@@ -123,7 +131,7 @@ def messages(path: Path) -> list[Sentence]:
     Errors, warnings, advice, help of options and texts of tables are all of them; a value that is
     filled in stands as X. Strings with markup or braces are code.
     """
-    tree = ast.parse(path.read_text(encoding="utf-8"))
+    tree = parsed(path)
     inner = {
         id(part)
         for node in ast.walk(tree)

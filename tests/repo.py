@@ -2,11 +2,13 @@
 
 import os
 import signal
+import sys
 from pathlib import Path
 
 TESTS = Path(__file__).parent
 ROOT = TESTS.parent
 DESIGNS = ROOT / "designs"
+GENEVA = os.path.join(os.path.dirname(sys.executable), "geneva")  # the installed command
 
 
 def heed_signals() -> None:

@@ -6,6 +6,9 @@ GENEVA_STRESS=1 makes a run take all cases. Otherwise there are two ways to take
   is the same on every machine. Tests of one file that have the same cases take the same ones, so
   that they share designs; each file chooses for itself, so that together they try all designs.
 - ``some(whole, few)`` are the cases of a loop, or how many: of hypothesis examples, say.
+
+``@pytest.mark.long`` leaves a test to `make stress` that takes a second or more, where quicker ones
+prove the same of simpler machines.
 """
 
 import os
@@ -27,7 +30,7 @@ def left_out(items):
         mark = item.get_closest_marker("sampled")
         if mark and not WHOLE:
             families[item.parent.nodeid, item.originalname, *mark.args].append(item)
-    out = set()
+    out = {item for item in items if item.get_closest_marker("long")} if not WHOLE else set()
     for (file, _, k), family in families.items():
         family.sort(key=lambda item: _lot(file, item))
         out.update(family[-(-len(family) // k) :])

@@ -52,6 +52,7 @@ def test_a_straight_slot_s_horn_is_its_formula(z, L, r, h):
     assert found.at_deg == pytest.approx(-(90.0 - 180.0 / z), abs=1e-6)
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize(
     ("z", "L", "r", "h"),
     [

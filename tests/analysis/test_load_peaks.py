@@ -55,6 +55,7 @@ NARROW = [
 ]
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize("spec", NARROW, ids=lambda s: f"{s.drive.NAME} z={s.wheel.z}")
 def test_inertia_alone_takes_the_peaks_of_the_motion(spec):
     """T1 = I w² psi' psi'' and T = I w² psi'', whose peaks have a search of their own: 64 ulp."""
@@ -264,6 +265,7 @@ def test_a_motion_between_two_angles_has_no_loads():
             Design.of(elliptical(6, near, "external")).loads  # noqa: B018
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize("left", [1e-6, 3e-8, 1e-10])
 def test_forces_of_a_wheel_that_hurries_go_with_the_square_of_its_speed(left):
     """Curved slots behind gears of e = 1 - left, whose wheel is 1 / left times as fast.

@@ -23,7 +23,7 @@ ULP = 2.0**-52
 KNOTTED = ("points of a law", "gears by points")  # a spline's higher derivatives jump
 
 
-@pytest.mark.sampled(2)
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize(
     "name", ["crank", "two rollers", "offset, slowed", "spherical", "matched", *KNOTTED]
 )
@@ -53,6 +53,7 @@ def test_means_against_sums_of_many_places(name):
                 assert alone_.mean is None
 
 
+@pytest.mark.long
 def test_a_reaction_that_nearly_vanishes_has_its_mean():
     """Of a planet's guide, at four places of its motion: dips of a ten-thousandth of a degree."""
     spec = design.load(str(repo.DESIGNS / "epicyclic-soft-z6.toml")).spec
@@ -87,6 +88,7 @@ NARROW = {  # features that a sum's first terms hide: the law, a quantity, and w
 }
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize("case", NARROW)
 @pytest.mark.parametrize("told", [("rms",), ("mean", "rms")])
 def test_means_beside_narrow_features(case, told):
@@ -119,7 +121,7 @@ def test_an_inertia_alone_is_summed_in_pairs(name, friction):
         assert (np.abs(one.rms - cut.rms)[bounded] <= 1e-14 * size[bounded]).all(), load
 
 
-@pytest.mark.sampled(4)
+@pytest.mark.sampled(8)
 @pytest.mark.parametrize("name", MACHINES)
 def test_no_peak_is_missed(name):
     """Dense samples of a hundred designs pass no extreme by more than rounding."""
@@ -226,6 +228,7 @@ def test_greatest_against_bodies_cut_free(name):
         assert dense[k] <= one.max[0] * (1.0 + 64 * ULP)
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize("name", ["side-crank", "unequal steps", "cycloidal", "matched"])
 def test_greatest_sizes_as_the_report_tells_them(name):
     spec, varied, found = loaded(name, 8, 11)

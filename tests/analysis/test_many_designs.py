@@ -107,7 +107,7 @@ def records(many, i, one, size=0.0, close=ULPS, places=1e-9):
             same(found[name], i, one and one._asdict()[name], *near)
 
 
-@pytest.mark.sampled(4)
+@pytest.mark.sampled(8)
 @pytest.mark.parametrize("name", KINDS)
 def test_shocks(name):
     machine, each = designs(name)
@@ -166,7 +166,7 @@ def test_walls_of_curved_slots(name):
         records(drives, i, driven, one.center_distance_mm)
 
 
-@pytest.mark.sampled(4)
+@pytest.mark.sampled(8)
 @pytest.mark.parametrize("name", KINDS)
 def test_shafts(name):
     machine, each = designs(name)
@@ -255,7 +255,7 @@ def test_locks(name):
             same(getattr(told, field), i, getattr(alone_, field), size=radian)
 
 
-@pytest.mark.sampled(4)
+@pytest.mark.sampled(8)
 @pytest.mark.parametrize("name", KINDS)
 def test_rollers(name):
     machine, each = designs(name)
@@ -281,7 +281,7 @@ def test_a_roller_that_turns_back_thrice_in_its_slot():
     assert roller.passages(one)[0].travel_m == pytest.approx(abs(far).sum(), rel=1e-9)
 
 
-@pytest.mark.sampled(4)
+@pytest.mark.sampled(8)
 @pytest.mark.parametrize("name", KINDS)
 def test_sizing(name):
     """The work that swings is a difference of sums: 1e-12 of the torque's, as its mean is."""
@@ -319,7 +319,7 @@ def test_tolerances(name):
             same(jumps, i, jump[0])
 
 
-@pytest.mark.sampled(4)
+@pytest.mark.sampled(8)
 @pytest.mark.parametrize("name", KINDS)
 def test_vibration(name):
     """A share is what is left of a swing many times as large: within 1e-13 of the step."""

@@ -25,7 +25,7 @@ def rough_is_near(motion, count):
         assert (abs(rough - exact) <= allowed).all()
 
 
-@pytest.mark.sampled(4)
+@pytest.mark.sampled(8)
 @pytest.mark.parametrize("name", MACHINES)
 def test_as_one_by_one(name):
     """A design has the peaks in a batch that it has alone, built with floats for its arrays.
@@ -49,6 +49,7 @@ def test_as_one_by_one(name):
             assert at_deg == pytest.approx(expected.at_deg, abs=1e-4), (quantity, i)
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize("name", ["inside", "offset", "spherical", "epicyclic", "modified-sine"])
 def test_against_50_digits(name):
     """The size is the quantity's at that place, and no place beside it or far away has more."""

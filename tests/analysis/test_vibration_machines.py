@@ -48,6 +48,7 @@ def by_gauss(engagement, ratio, damping, parts=60):
     return -total / p.imag
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize("path", DESIGNS, ids=lambda p: p.stem)
 def test_every_machine(path):
     """Stretches this short leave Gauss's rule with its rounding alone."""

@@ -8,12 +8,12 @@ import statistics
 import sys
 
 import repo
+from repo import GENEVA
 
 from geneva_cli.bench.timing_pairs import median_ratio, process_seconds
 
 PAIRS = 40
 BUDGET = 1.05
-GENEVA = os.path.join(os.path.dirname(sys.executable), "geneva")
 DESIGNS = str(repo.DESIGNS)
 COMPLETE = {
     "_GENEVA_COMPLETE": "complete_bash",

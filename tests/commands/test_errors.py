@@ -3,16 +3,15 @@
 import os
 import shlex
 import subprocess
-import sys
 from typing import NamedTuple, get_args
 
 import pytest
+from repo import GENEVA
 from typer.main import get_command
 from typer.testing import CliRunner
 
 from geneva_cli.app import COMMANDS, app
 
-GENEVA = os.path.join(os.path.dirname(sys.executable), "geneva")
 WITHOUT_SPEC = {
     "table",
     "laws",
@@ -80,7 +79,7 @@ MISSING = [
 ]
 
 HEX = "0x" + "f" * 5000  # Python writes no decimal number of so many digits
-LONG = "very " * 100_000
+LONG = "very " * 20_000
 HUGE = [
     case("hex", f"[wheel]\nz = {HEX}\n", 2, "z = 0xff", "at most 1000000"),
     case("million-hex", "[wheel]\nz = 0x" + "f" * 1_000_000 + "\n", 2, "z = 0xff", "at most"),
@@ -411,7 +410,7 @@ OPTIONS = [
     ],
     (f"synth --rollers {ZEROS} --tau 1/3", "at most 1000000"),
     (f"synth --rollers -{ZEROS} --tau 1/3", "at least 1"),
-    (f"synth --write {ZEROS} --tau 1/3", "rows 1 to"),
+    (f"synth --write {ZEROS} --tau 1/3 --z 6 --external --space 0.1", "rows 1 to"),
     ("table --z 2", "at least 3"),
     ("table --z 6.5", "whole number", "3..12"),
     ("table --z six", "whole number", "3..12"),

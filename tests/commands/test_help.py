@@ -4,16 +4,15 @@ import importlib
 import os
 import shutil
 import subprocess
-import sys
 
 import pytest
 import repo
+from repo import GENEVA
 from typer.testing import CliRunner
 
 from geneva_cli.app import COMMANDS, GROUPS, app
 from geneva_cli.manual import TOPICS
 
-GENEVA = os.path.join(os.path.dirname(sys.executable), "geneva")
 EXAMPLES = [
     (name, example)
     for name in COMMANDS
@@ -43,6 +42,7 @@ def test_help_of_a_command_ends_with_its_examples(name):
     assert [line.strip() for line in shown] == [e for n, e in EXAMPLES if n == name] != []
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize(("name", "example"), EXAMPLES, ids=[e for _, e in EXAMPLES])
 def test_an_example_runs_as_it_stands(name, example, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
@@ -69,6 +69,7 @@ def offered(line):
     return run.stdout.split()
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize(
     ("line", "words"),
     [

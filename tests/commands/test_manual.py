@@ -37,6 +37,12 @@ COLUMNS = 78  # of the terminal that examples are seen on: with their indent the
 NUMBER = re.compile(r"-?\d+\.\d+")
 
 
+def searching(file: Path) -> object:
+    """A page; one whose commands search for seconds is left to long runs and updates."""
+    long = file.stem in ("sweep-front", "dwell-time") and not UPDATE
+    return pytest.param(file, marks=pytest.mark.long) if long else file
+
+
 def invoke(arguments: list[str]) -> str:
     """What a command prints; a check that is shown to fail ends with 1."""
     result = CliRunner().invoke(app, arguments, prog_name="geneva")
@@ -91,7 +97,7 @@ def at_root(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(ROOT)
 
 
-@pytest.mark.parametrize("file", PAGES, ids=lambda file: file.stem)
+@pytest.mark.parametrize("file", [*map(searching, PAGES)], ids=lambda file: file.stem)
 def test_the_examples_print_what_is_shown(
     file: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

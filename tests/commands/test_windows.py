@@ -9,11 +9,11 @@ import pty
 import random
 import struct
 import subprocess
-import sys
 import termios
 
 import pytest
 import repo
+from repo import GENEVA
 from typer.testing import CliRunner
 from windows import COLUMNS, bare, look_at_page, look_at_table, require_width
 
@@ -25,7 +25,6 @@ from geneva_cli.output.values import value
 from geneva_cli.output.window import Window
 from geneva_cli.table import Reading, record_table, rows_table
 
-GENEVA = os.path.join(os.path.dirname(sys.executable), "geneva")
 LOOKS = ({"TERM": "xterm-256color"}, {"TERM": "dumb"}, {"TERM": "xterm", "NO_COLOR": "1"})
 
 
@@ -56,11 +55,13 @@ def test_help_fits(monkeypatch, name, columns):
     require_width(seen(monkeypatch, columns, name, "--help"), columns)
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize("topic", TOPICS)
 def test_pages_fit(topic):
     look_at_page(page(topic))
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize("columns", COLUMNS)
 @pytest.mark.parametrize(
     "line",
@@ -84,6 +85,7 @@ def test_screens_fit(monkeypatch, line, columns):
     require_width(seen(monkeypatch, columns, *line.split()), columns)
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize("environment", LOOKS, ids=str)
 def test_a_terminal_itself_says_how_wide_it_is(environment):
     """And what it can show; messages on standard error are broken between words too."""
@@ -200,6 +202,7 @@ def any_value(rng, kind):
     return None if rng.random() < 0.15 else values[kind]()
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize("seed", range(30))
 def test_any_table_fits(seed):
     """Of up to 24 columns of all kinds, with values that are not there and with wide letters."""

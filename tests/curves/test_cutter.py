@@ -78,6 +78,7 @@ def boned(plate, radius, works=lambda piece, layer: False):
     )
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize(
     ("plate", "radius"),
     [

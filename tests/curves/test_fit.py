@@ -10,6 +10,7 @@ import repo
 import shapely
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from sampling import some
 from scipy.spatial import cKDTree
 from scipy.special import fresnel
 from words import load
@@ -208,7 +209,7 @@ def test_a_curve_that_leaps_is_refused_at_once(kind):
     kind(leaping, 0.0, 2.7, 1e-3)
 
 
-@pytest.mark.sampled(4)
+@pytest.mark.sampled(8)
 @pytest.mark.parametrize("tolerance", [1e-2, 1e-4, 1e-6])
 @pytest.mark.parametrize("kind", KINDS)
 @pytest.mark.parametrize("name", CURVES)
@@ -217,7 +218,7 @@ def test_ends_tangents_and_errors(name, kind, tolerance):
     check(curve, a, b, kind(curve, a, b, tolerance), tolerance, kind)
 
 
-@settings(max_examples=25)
+@settings(max_examples=some(25, 10))
 @given(
     st.lists(st.floats(-1.0, 1.0), min_size=10, max_size=10),
     st.sampled_from([1e-1, 1e-2, 1e-3, 1e-4]),
@@ -337,7 +338,7 @@ def greedy(curve, a, b, tolerance):
     return count
 
 
-@pytest.mark.sampled(3)
+@pytest.mark.sampled(7)
 @pytest.mark.parametrize("name", CURVED)
 def test_few_pieces_on_the_curved_slots(name):
     """At 1e-3 mm: half as many arcs as the fewest chords, a tenth of cubics.

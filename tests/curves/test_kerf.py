@@ -85,7 +85,7 @@ def test_corners_that_stand_in(turn):
     require_cut(notched, True, 0.3, corner=0.15 * 2.0)
 
 
-@pytest.mark.sampled(4)
+@pytest.mark.sampled(8)
 @pytest.mark.parametrize("outside", [True, False])
 @pytest.mark.parametrize("layer", ["WHEEL", "CRANK", "ARM"])
 @pytest.mark.parametrize("name", ["turret", "press-curved", "internal-z6", "offset-slots"])
@@ -196,6 +196,7 @@ def test_cubics_are_refused():
         offset(shape, True, 0.1)
 
 
+@pytest.mark.sampled(6)
 @pytest.mark.parametrize(
     ("options", "said"),
     [

@@ -138,6 +138,7 @@ PIECES = [
 ]
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize("piece", PIECES)
 def test_one_piece_against_thirty_digits(piece: Line | Arc) -> None:
     """The piece closed by two lines: the side is asked for where it is the nearest of the three."""

@@ -223,7 +223,7 @@ def test_the_wheel_turns_one_step_from_rest_to_rest(machine, witness, case):
             assert abs(mp.mpf(float(wheel[1])) - mp.mpf(float(wheel[0])) - 2 * w.b) <= 1e-14
 
 
-@pytest.mark.sampled(4)
+@pytest.mark.sampled(8)
 @every
 def test_error_within_16_ulp_of_the_peak(machine, exact, case):
     over = []
@@ -244,6 +244,7 @@ def test_error_within_16_ulp_of_the_peak(machine, exact, case):
     assert not over, "\n".join(over[:40])
 
 
+@pytest.mark.sampled(4)
 @every
 def test_hand_derived_forms_agree_with_the_witness(machine, witness, exact, case):
     for i in range(len(machine(case).engagements)):
@@ -256,6 +257,7 @@ def test_hand_derived_forms_agree_with_the_witness(machine, witness, exact, case
                 assert abs(value - reference[k][j]) <= mp.mpf(10) ** -40 * (1 + abs(value))
 
 
+@pytest.mark.sampled(4)
 @every
 def test_numbers_and_arrays_agree(machine, exact, case):
     for i, s in enumerate(machine(case).engagements):
@@ -281,6 +283,7 @@ def test_a_symmetric_motion_is_mirrored(machine, exact, case):
             assert np.all(np.abs(ahead[k] - mirrored) <= bars(s, x, reference, k, 16.0, case)), name
 
 
+@pytest.mark.sampled(4)
 @every
 def test_the_pin_lies_on_its_slot(machine, witness, exact, case):
     """The pin's place, the slot's axis and the pitch curve are three views of one thing."""

@@ -46,6 +46,7 @@ def batch(z, internal, A):
 PEAKS = {"velocity": velocity_peaks, "acceleration": acceleration_peaks}
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize("quantity", PEAKS)
 @pytest.mark.parametrize("gearing", GEARINGS)
 def test_none_is_missed(gearing, quantity):
@@ -68,6 +69,7 @@ def test_none_is_missed(gearing, quantity):
     np.testing.assert_allclose(whole.max, found.max, rtol=2 * EXACT)
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize("peaks", PEAKS.values())
 def test_a_finer_scan_finds_no_more(peaks, monkeypatch):
     """Three times the scan finds nothing more among 200,000."""

@@ -75,7 +75,7 @@ def case(request):
     return many(spec, varied), [alone(spec, varied, i) for i in range(count)]
 
 
-@pytest.mark.sampled(2)
+@pytest.mark.sampled(4)
 def test_the_same_designs_are_refused(case):
     found, singles = case
     assert found.refused.tolist() == [one is None for one in singles]

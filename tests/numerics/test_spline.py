@@ -20,6 +20,7 @@ def cycloidal(u):
     return u - math.sin(math.tau * u) / math.tau  # peak jerk 4 pi²
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize("period", [False, True])
 @pytest.mark.parametrize("count", [7, 8, 21])
 def test_splines_are_those_of_mpmath(count, period):

@@ -4,14 +4,13 @@ import fcntl
 import os
 import stat
 import subprocess
-import sys
 
 import pytest
+from repo import GENEVA
 
 from geneva_cli.errors import GenevaError
 from geneva_cli.output.files import write
 
-GENEVA = os.path.join(os.path.dirname(sys.executable), "geneva")
 GONE = 2**22 + 1  # above the greatest number that Linux gives to a process
 
 

@@ -297,7 +297,7 @@ def lines_of(figure, **settings):
     return "".join(plot_text.chunks(figure, **settings)).splitlines()
 
 
-@pytest.mark.sampled(4)
+@pytest.mark.sampled(8)
 @pytest.mark.parametrize("path", DESIGNS, ids=lambda p: p.stem)
 def test_a_chart_fits_and_is_ascii(path):
     figure = load(str(path)).figure()

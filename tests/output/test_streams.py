@@ -6,8 +6,8 @@ import subprocess
 import sys
 
 import pytest
+from repo import GENEVA
 
-GENEVA = os.path.join(os.path.dirname(sys.executable), "geneva")
 SOME = [["--help"], ["--version"], ["table", "--help"], ["table"], ["peaks", "spec.toml"]]
 
 some = pytest.mark.parametrize("arguments", SOME, ids=" ".join)
@@ -78,7 +78,7 @@ STATUS |= {"peaks --zz": 2, "tabel": 2, "--zz": 2}
 SAID = {}  # by a command line, with streams that can be written: the same in any folder
 
 
-@pytest.mark.sampled(3)
+@pytest.mark.sampled(5)
 @pytest.mark.parametrize("arguments", STATUS)
 @pytest.mark.parametrize("kind", [pytest.param("full", marks=full), "pipe"])
 def test_messages_that_cannot_be_written(arguments, kind, environment):
@@ -109,7 +109,7 @@ def closed(arguments, streams):
     )
 
 
-@pytest.mark.sampled(2)
+@pytest.mark.sampled(8)
 @pytest.mark.parametrize("streams", CLOSED)
 @pytest.mark.parametrize("spec", ["spec.toml", "warns.toml"])
 def test_closed_streams(spec, streams):
@@ -147,7 +147,7 @@ def test_nothing_else_gets_into_a_file(streams):
         assert file.read() == "data\n"
 
 
-@pytest.mark.sampled(3)
+@pytest.mark.sampled(7)
 @pytest.mark.parametrize("streams", CLOSED)
 def test_a_sweep_without_streams_writes_the_same_file(streams):
     assert run([*ROWS, "-o", "plain.csv"]).returncode == 0
@@ -156,6 +156,7 @@ def test_a_sweep_without_streams_writes_the_same_file(streams):
         assert found.read() == plain.read()
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize(
     "arguments", ["--{}", "{}", "table --z {}", "table --n {}", "peaks x --{}", "peaks {}.toml"]
 )
@@ -182,6 +183,7 @@ main()
 """
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize(
     "module", ["geneva_cli.app", "typer", "geneva_cli.commands.motion", "numpy", "numpy.linalg"]
 )

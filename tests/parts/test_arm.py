@@ -81,7 +81,7 @@ def crews():
             )
 
 
-@pytest.mark.sampled(3)
+@pytest.mark.sampled(6)
 @pytest.mark.parametrize(("z", "gearing", "rollers"), [*crews()])
 def test_defaults_work(z, gearing, rollers):
     """Walls all round, and clear of the wheel's hub, below the wheel."""
@@ -171,6 +171,7 @@ def test_keyways_of_the_standard():
     assert all(c.passes for c in design.checks)
 
 
+@pytest.mark.usefixtures("no_advice")
 @pytest.mark.parametrize(
     ("size", "said"),
     [

@@ -251,6 +251,7 @@ def refused_by_a_check(design):
     return any(check.passes is not True for check in design.checks)
 
 
+@pytest.mark.usefixtures("no_advice")
 @pytest.mark.parametrize("kind", registry.DRIVES)
 def test_the_machine_assembles(kind, tmp_path):
     """Of the example and of sizes drawn by lot, of which more than a half leaves parts.
@@ -335,6 +336,7 @@ def test_a_coulisse_without_room_is_one_piece_with_its_shaft(tmp_path, z, A):
         assert end <= low or near - pin * 2.4 > radius
 
 
+@pytest.mark.usefixtures("no_advice")
 def test_links_on_the_cranks_shaft_have_its_bore(tmp_path):
     """``link_bore_mm`` bores for shafts that carry links alone, and is refused without one."""
     design = of(tmp_path, SIDE.format(z=6, A=0.6), "size.link_bore_mm=4")

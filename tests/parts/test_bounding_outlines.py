@@ -4,6 +4,7 @@ import random
 
 import numpy as np
 import pytest
+from sampling import some
 
 from geneva_cli.errors import GenevaError
 from geneva_cli.machine.drives.cam import Cam
@@ -41,18 +42,18 @@ def told(spec):
 @pytest.fixture(scope="module")
 def pairs():
     """Of random machines, those whose wheel goes beyond the crank's axis."""
-    some, found = random.Random(3), []
-    while len(found) < 12:
-        drive = some.choice([Crank, Cam])(rollers=some.choice([1, 1, 2]))
-        ratio = some.choice(["matched", None]) if drive.NAME == "crank" else None
-        law = some.choice([ModifiedSine(), ModifiedTrapezoid(), Cycloidal(), SineGroup(0.1)])
-        size = {"roller_radius_mm": some.choice([5.0, 4.0, 3.0, 2.5, 2.0, 1.0])}
-        if some.random() < 0.3:
-            size["slot_clearance_mm"] = some.uniform(0.0, 0.2)
-        motion = Motion(law, alpha0_deg=some.uniform(-60.0, 0.0), ratio=ratio)
+    lot, found = random.Random(3), []
+    while len(found) < some(12, 6):
+        drive = lot.choice([Crank, Cam])(rollers=lot.choice([1, 1, 2]))
+        ratio = lot.choice(["matched", None]) if drive.NAME == "crank" else None
+        law = lot.choice([ModifiedSine(), ModifiedTrapezoid(), Cycloidal(), SineGroup(0.1)])
+        size = {"roller_radius_mm": lot.choice([5.0, 4.0, 3.0, 2.5, 2.0, 1.0])}
+        if lot.random() < 0.3:
+            size["slot_clearance_mm"] = lot.uniform(0.0, 0.2)
+        motion = Motion(law, alpha0_deg=lot.uniform(-60.0, 0.0), ratio=ratio)
         try:
             more, parts = told(
-                Spec(External(some.randint(6, 25)), drive, motion=motion, size=Size(**size))
+                Spec(External(lot.randint(6, 25)), drive, motion=motion, size=Size(**size))
             )
         except GenevaError:  # no such machine
             continue

@@ -37,7 +37,7 @@ def test_the_wheels_keyway():
     assert row.passes
 
 
-@pytest.mark.sampled(2)
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize(("z", "gearing"), [(3, "external"), (6, "external"), (8, "internal")])
 def test_bolts_for_the_dial(z, gearing):
     """Evenly on their circle, in the plate, with the wall that ``check`` gives."""

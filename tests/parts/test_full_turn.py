@@ -94,6 +94,7 @@ def test_unequal_steps_add_up_to_a_turn() -> None:
     assert np.abs(gained - 0.5 * math.pi).max() < 1e-13
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize("case", SOUND, ids=name)
 def test_straight_slots_turn_with_their_clearances(case: dict) -> None:
     """What touches without clearance has exactly the clearance with it: slot and lock. Only inside,
@@ -125,7 +126,7 @@ DESIGNS = sorted(repo.DESIGNS.glob("*.toml"))
 FLAT = [path for path in DESIGNS if load(str(path)).spec.is_flat]
 
 
-@pytest.mark.sampled(4)
+@pytest.mark.sampled(8)
 @pytest.mark.usefixtures("made_once")
 @pytest.mark.parametrize("path", FLAT, ids=lambda p: p.stem)
 def test_every_flat_design_turns(path: Path) -> None:
@@ -171,6 +172,7 @@ def test_play_in_the_dwell_of_an_internal_wheel() -> None:
     assert full_turn(found).dwell.deg == pytest.approx(wanted, rel=0.1 / found.sizes.lock)
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize("case", [STRAIGHT[1], STRAIGHT[3], CURVED_SLOTS[4]], ids=name)
 def test_play_against_polygons(case: dict) -> None:
     """Turned by its play less a little the wheel is free, by a little more it is not: parts smaller

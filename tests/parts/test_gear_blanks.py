@@ -157,6 +157,7 @@ def test_no_hole_is_twice_in_the_frame():
     assert len({hole.centre for hole in holes}) == len(holes) == 6
 
 
+@pytest.mark.usefixtures("no_advice")
 def test_a_planet_that_would_meet_the_wheels_shaft_fails_its_check():
     """z = 3: the planet reaches 1.01 L from the crank's axis, below the wheel."""
     of = Design(External(3), SOFT)
@@ -185,6 +186,7 @@ def test_refusals(z, drive, keys, said):
         Design(External(z), drive, size=Size(**keys)).drawing("gears")
 
 
+@pytest.mark.usefixtures("no_advice")
 @pytest.mark.parametrize(
     ("keys", "gap"),
     [

@@ -80,6 +80,7 @@ def curves(drawing):
     return [s for s in drawing.shapes if isinstance(s, Contour) and s.closed]
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize("kind", ["arcs", "spline"])
 @pytest.mark.parametrize("name", ["noncircular-gears", "elliptical-gears"])
 def test_drawn_pitch_curves_are_closed_and_equally_long(name, kind):
@@ -179,6 +180,7 @@ def missed(x, y, true: np.ndarray) -> float:
     return max(chords.distance(Point(z.real, z.imag)) for z in true)
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize("tolerance", [1e-2, 1e-3, 1e-4])
 def test_the_gears_table_keeps_its_tolerance(tolerance):
     """Ellipses about their foci, in closed form, between the rows: half-way, and all over."""
@@ -195,6 +197,7 @@ def test_the_gears_table_keeps_its_tolerance(tolerance):
     assert 0.0 in at["input_deg"]
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize("tolerance", [1e-2, 1e-3, 1e-4])
 def test_the_groove_table_keeps_its_tolerance(tolerance):
     """Pitch curve and flanks by the law of sines, its slope by a complex step."""

@@ -129,6 +129,7 @@ LENGTHS = {
 }
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize("name", LENGTHS)
 def test_the_drawing_has_the_lengths_of_the_list(name):
     """The circles that ``--part links`` writes, against the dimensions that ``--part parts`` does,

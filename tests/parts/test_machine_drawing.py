@@ -43,7 +43,7 @@ def faces(part, at=(0.0, 0.0), turn=0.0):
 HUBS = ("wheel_hub_mm=40", "crank_hub_mm=14", "lock_thickness_mm=6", "pin_gap_mm=1")
 
 
-@pytest.mark.sampled(2)
+@pytest.mark.sampled(8)
 @pytest.mark.parametrize(
     ("name", "given"),
     [

@@ -201,7 +201,7 @@ def require_sound(shapes, inside=False, wheels=1):
 # 1. Every design
 
 
-@pytest.mark.sampled(4)
+@pytest.mark.sampled(6)
 @pytest.mark.parametrize("name", FLAT)
 def test_assembly_of_every_design(name):
     """As svg: its shapes are sound, and the parts lie beside each other at input angle 0."""
@@ -249,7 +249,7 @@ def test_assembly_of_every_design(name):
             assert not around.buffer(-t).intersects(other)
 
 
-@pytest.mark.sampled(4)
+@pytest.mark.sampled(8)
 @pytest.mark.parametrize("part", [*PARTS, "groove"])
 @pytest.mark.parametrize("name", VARIED)
 def test_dxf_and_svg_are_the_same_part(name, part):
@@ -302,6 +302,7 @@ def moved(shapes, angle, ahead=0.0):
     }
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize("name", ["two-pins-z4", "internal-z6", "press-curved", "unequal-steps"])
 def test_parts_make_the_assembly(name):
     """Each part's own frame: the wheel turned as the motion says, the crank about (L, 0)."""
@@ -356,6 +357,7 @@ def between(one, other):
     return LineString(points(one)).hausdorff_distance(LineString(points(other)))
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize("name", CURVED)
 def test_splines_are_the_same_outline_in_fewer_pieces(name):
     arcs = outline_of(name)
@@ -455,6 +457,7 @@ def test_arcs_are_half_as_many_as_chords(name):
     assert len(outline_of(name)) <= 0.5 * len(table_of(name, "slot"))
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize("name", CURVED)
 def test_walls_are_where_the_roller_passes(name):
     """Against the roller itself, moved along its pitch curve by shapely."""
@@ -681,6 +684,8 @@ def test_wheel_without_an_error_is_silent():
     assert (found.exit_code, found.output) == (0, "")
 
 
+@pytest.mark.usefixtures("no_advice")
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize(
     ("text", "line", "said"),
     [
@@ -744,7 +749,7 @@ def test_templates_without_flat_parts_say_so(kind):
     assert sorted(os.listdir()) == ["new.toml", "slot.csv"]
 
 
-@pytest.mark.sampled(3)
+@pytest.mark.sampled(6)
 @pytest.mark.parametrize("kind", [kind for kind in KINDS if kind not in NOT_FLAT])
 def test_templates_draw_all_parts(kind):
     assert CliRunner().invoke(app, ["new", kind, "-o", "new.toml"]).exit_code == 0
@@ -861,6 +866,7 @@ def test_random_wheels(seed):
 # 8. Tables of pieces
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize(
     ("name", "part", "options"),
     [

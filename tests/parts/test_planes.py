@@ -38,7 +38,7 @@ def least_gap(design, name, where, radius, turn):
     return min(gaps)
 
 
-@pytest.mark.sampled(2)
+@pytest.mark.usefixtures("no_advice")
 @pytest.mark.parametrize("hub", [2.0, 4.0])
 def test_a_coupler_over_the_wheels_hub(hub):
     design = of("four-bar-z4", f"size.wheel_hub_mm={hub}")
@@ -50,9 +50,14 @@ def test_a_coupler_over_the_wheels_hub(hub):
     assert (found.link, found.passing) == ("coupler", "the wheel's hub")
     (row,) = [c for c in design.checks if c.name == "link_gap_mm"]
     assert row.value == found.gap < 0.0 and row.passes is False
-    assert row.nearest == "wheel_hub_mm = 0"
     fixed = design.with_("size.wheel_hub_mm", 0.0)
     assert all(c.passes for c in fixed.checks if c.name == "link_gap_mm")
+
+
+@pytest.mark.long
+def test_a_wheel_without_a_hub_is_advised_where_the_coupler_meets_it():
+    (row,) = [c for c in of("four-bar-z4", "size.wheel_hub_mm=2").checks if c.name == "link_gap_mm"]
+    assert row.nearest == "wheel_hub_mm = 0"
 
 
 def test_a_crank_past_the_guides_pin():

@@ -154,6 +154,7 @@ SIZES = {
 }
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize("name", SIZES)
 def test_the_wheel_is_held_at_every_position(tmp_path: Path, name: str) -> None:
     """Where the rim ends short of where the roller enters, nothing holds the wheel in between."""

@@ -112,7 +112,7 @@ def test_straight_slots_are_straight() -> None:
     assert rows[1][2] == pytest.approx(L / 2, abs=2 * math.ulp(L))
 
 
-@pytest.mark.sampled(3)
+@pytest.mark.sampled(6)
 @pytest.mark.parametrize("gearing", ["external", "internal"])
 @pytest.mark.parametrize("tolerance", [1e-2, 1e-4, 1e-6])
 @pytest.mark.parametrize("law", ["cycloidal", "modified-trapezoid", "sine-group"])
@@ -128,7 +128,7 @@ def test_no_chord_misses_by_more_than_the_tolerance(
     assert 0.0 in x
 
 
-@pytest.mark.sampled(2)
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize("gearing", ["external", "internal"])
 @pytest.mark.parametrize("law", ["cycloidal", "modified-trapezoid"])
 def test_few_rows(law: str, gearing: str) -> None:

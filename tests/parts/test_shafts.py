@@ -201,6 +201,7 @@ def test_a_keyway_leaves_a_wall_of_its_hub():
     assert Design(External(6), size=wide).parts.sizes.wheel_hub == pytest.approx(3.25 + 1.0 + 3.0)
 
 
+@pytest.mark.usefixtures("no_advice")
 def test_a_bore_leaves_a_wall_of_its_hub():
     thin = with_(wheel_hub_mm=16.5, crank_hub_mm=9.5)
     for name in ("wheel_bore_wall_mm", "crank_bore_wall_mm"):

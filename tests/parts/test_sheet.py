@@ -51,7 +51,7 @@ def sheets():
     return made
 
 
-@pytest.mark.sampled(4)
+@pytest.mark.sampled(8)
 @pytest.mark.parametrize("path", DESIGNS, ids=lambda p: p.stem)
 def test_no_text_of_a_design_stands_on_anything(path, sheets):
     design, found = sheets(path.stem)
@@ -159,6 +159,7 @@ LENGTHS = {
 }
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize("name", LENGTHS)
 def test_links_have_their_views(name, sheets):
     """Each link by its name, with the lengths of the list of parts as dimensions on paper."""

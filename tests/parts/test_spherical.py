@@ -209,6 +209,7 @@ def test_it_is_held_in_the_dwell():
         assert gap[side].max() == pytest.approx(-0.04 / 80.0, rel=1e-3)
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize("curves", ["arcs", "spline"])
 def test_laid_flat(machine, curves):
     """Rolled up again, every point of the outline is on the wheel's edge, seen from the centre."""

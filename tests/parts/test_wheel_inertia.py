@@ -48,6 +48,7 @@ def polygon(points):
     return area, polar
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize("name", ["limits", "internal-z6", "press-curved", "offset-slots"])
 def test_the_plate_of_a_wheel_by_its_polygon(name):
     design = load(str(repo.DESIGNS / f"{name}.toml")).with_("size.face_width_mm", 20.0)

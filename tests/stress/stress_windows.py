@@ -16,11 +16,11 @@ import tempfile
 import termios
 
 import repo
+from repo import GENEVA
 
 from geneva_cli.app import COMMANDS
 from geneva_cli.manual import TOPICS
 
-GENEVA = os.path.join(os.path.dirname(sys.executable), "geneva")
 COLUMNS = (60, 80, 120, 200)
 LOOKS = ({"TERM": "xterm-256color"}, {"TERM": "dumb"}, {"TERM": "xterm", "NO_COLOR": "1"})
 ESCAPE = re.compile(r"\x1b\[[0-9;?]*[A-Za-z]")

@@ -93,6 +93,7 @@ def test_it_is_no_worse_than_any_of_a_fine_grid(tmp_path):
     assert design.peaks.velocity.max <= 0.8
 
 
+@pytest.mark.long
 def test_the_number_of_slots_is_not_left_to_luck(tmp_path):
     """64 designs are three for each number of slots, and nearly none of them within the bounds.
 

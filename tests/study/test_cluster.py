@@ -5,12 +5,14 @@ import re
 import subprocess
 import sys
 
+import pytest
 import repo
 
 from geneva_cli.manual import page
 from geneva_cli.study.sweep.request import request
 
 
+@pytest.mark.long
 def test_the_dask_example_makes_the_bytes_of_one_run(tmp_path):
     text = page("cluster")
     blocks = re.findall(r"```python\n(.*?)```", text, re.DOTALL)

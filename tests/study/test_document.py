@@ -121,7 +121,7 @@ def has(cells: set[str], told: str, value: Any) -> bool:
     return shown(value).replace("\u00a0", " ") in cells
 
 
-@pytest.mark.sampled(2)
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize("name", KINDS)
 def test_every_value_of_the_report_is_on_the_page(name: str) -> None:
     design, found = of(name)
@@ -144,6 +144,7 @@ def _parts(cell: str) -> list[str]:
     return [cell, bare, head, bare.split(" ")[0], " ".join(bare.split(" ")[:3])]
 
 
+@pytest.mark.usefixtures("no_advice")
 @pytest.mark.parametrize("name", KINDS)
 def test_a_page_is_well_formed_and_needs_nothing_else(name: str) -> None:
     _, found = of(name)
@@ -243,6 +244,7 @@ def test_a_power_of_ten_is_raised_on_paper() -> None:
     assert pdf_file.wide("10^-6", 10.0) < pdf_file.wide("10-6", 10.0)
 
 
+@pytest.mark.usefixtures("no_advice")
 def test_nothing_of_a_pdf_leaves_its_page(jams: str) -> None:
     """Texts end before the margin, and stand between the first line and the page's number."""
     shown_ = r"/F([12]) (\S+) Tf 1 0 0 1 (\S+) (\S+) Tm \(((?:[^()\\]|\\.)*)\) Tj"

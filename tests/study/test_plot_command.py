@@ -3,11 +3,11 @@
 import json
 import os
 import subprocess
-import sys
 import time
 
 import pytest
 import repo
+from repo import GENEVA
 from typer.testing import CliRunner
 
 from geneva_cli.app import app
@@ -15,7 +15,6 @@ from geneva_cli.errors import GenevaError
 from geneva_cli.figure import JOINED, LINE, POINTS
 from geneva_cli.study.figures import CURVES_MAX, of_table
 
-GENEVA = os.path.join(os.path.dirname(sys.executable), "geneva")
 SPEC = str(repo.DESIGNS / "side-crank-z6.toml")
 
 

@@ -54,6 +54,7 @@ def test_closed_forms_agree_with_the_machinery(machine, gearing):
         assert got["jerk_entry"] == near(jumps.jerk_entry, SAME), z
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize("gearing", ["external", "internal"])
 @pytest.mark.parametrize("A", [0.0, 0.6, -0.5])
 def test_rows_against_50_digits(gearing, A):

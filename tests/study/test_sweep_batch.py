@@ -110,7 +110,7 @@ LOADS = [
 ]
 
 
-@pytest.mark.sampled(2)
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize(
     ("spec", "vary", "some"),
     [
@@ -150,6 +150,7 @@ ABOVE = ("motion:timing", "motion:peaks", "loads:greatest", "loads:summaries")  
 OTHERS = [name for group in GROUPS if group.batch not in ABOVE for name in group.batched]
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize("spec", ["side-crank-z6.toml", "modified-sine-matched.toml"])
 def test_parts_together_as_alone(spec):
     """Every quantity of ``GROUPS``, within the tolerance of sums (``load_summaries``).

@@ -30,7 +30,7 @@ def swept(tmp_path, text, *vary, pick):
     return [row[:-1] for row in rows]
 
 
-@pytest.mark.sampled(4)
+@pytest.mark.sampled(16)
 @pytest.mark.parametrize("name", SOME)
 def test_a_key_of_its_own_kind_alone(name):
     """Its last ones; together with another, and equal in all, keys of all tables have their turn.
@@ -67,6 +67,7 @@ def test_the_input_crank_alone_reaches_the_shaft(tmp_path):
     assert [round(row[1], 3) for row in rows] == [5.002, 5.067, 5.194]
 
 
+@pytest.mark.long
 def test_the_best_of_a_ratio_that_has_a_bound_at_one_number():
     """A cloud comes near the 1/2 of the spec, and never to it: its own design is tried too."""
     path = os.path.join(DESIGNS, "sine-group.toml")

@@ -9,6 +9,7 @@ from fractions import Fraction
 
 import mpmath
 import pytest
+from sampling import some
 from typer.testing import CliRunner
 from words import LAWS, Drive, Motion, Spec, Wheel, load
 from words import Keys as _keys
@@ -87,7 +88,7 @@ def natural(z, gearing):
 # Closed forms
 
 
-@pytest.mark.sampled(4)
+@pytest.mark.sampled(8)
 @pytest.mark.parametrize("gearing", GEARINGS)
 @pytest.mark.parametrize("z", [3, 4, 6, 9, 24])
 @pytest.mark.parametrize("share", [0.02, 0.3, 0.49, 0.5, 0.6, 0.8, 0.98])
@@ -140,7 +141,7 @@ def test_elliptical_gears_make_both_gearings_alike():
 
 def test_tau_of_one_roller_outside():
     """From 1/6 to 11/24 for z = 3 to 24, one plain crank for each."""
-    for z in (3, 4, 5, 6, 7, 9, 12, 24):
+    for z in some((3, 4, 5, 6, 7, 9, 12, 24), (3, 6, 24)):
         tau = Fraction(z - 2, 2 * z)
         near = f"{max(z - 1, 3)}..{min(z + 1, 24)}"
         (candidate,) = plain(candidates(tau=str(tau), external=True, rollers=1, z=near, space=NEAR))
@@ -290,7 +291,7 @@ WISHES = [
 ]
 
 
-@pytest.mark.sampled(3)
+@pytest.mark.sampled(9)
 @pytest.mark.parametrize("options", WISHES, ids=str)
 def test_rows_are_sorted_and_numbered(options):
     target, found = searched(**options)
@@ -302,7 +303,7 @@ def test_rows_are_sorted_and_numbered(options):
     assert all(a <= b * (1 + 1e-11) for a, b in zip(peaks, peaks[1:], strict=False))
 
 
-@pytest.mark.sampled(3)
+@pytest.mark.sampled(9)
 @pytest.mark.parametrize("options", WISHES, ids=str)
 def test_every_row_as_a_spec_is_the_row(options, tmp_path):
     target, found_rows = searched(**options)
@@ -360,9 +361,10 @@ def test_curved_slots_of_all_laws():
 
 def test_the_plain_crank_fits_within_a_millionth():
     near, far = 120.0 * (1 + 0.5 * EXACT), 120.0 * (1 + 2 * EXACT)
-    assert len(plain(candidates(motion_deg=repr(near), z="6", rollers=1))) == 1
-    assert not plain(candidates(motion_deg=repr(far), z="6"))
-    assert plain(candidates(tau="0.3333333", z="6"))[0].tau == pytest.approx(1 / 3, rel=1e-15)
+    assert len(plain(candidates(motion_deg=repr(near), z="6", rollers=1, external=True))) == 1
+    assert not plain(candidates(motion_deg=repr(far), z="6", external=True))
+    first, *_ = plain(candidates(tau="0.3333333", z="6", external=True))
+    assert first.tau == pytest.approx(1 / 3, rel=1e-15)
 
 
 def test_several_rollers_share_the_turn():
@@ -449,18 +451,18 @@ def test_refusals(options, wants):
 
 def test_the_reach_that_a_refusal_names_is_right():
     with pytest.raises(GenevaError) as said:
-        candidates(subject_to=["acceleration.max <= 0.02"], z="8,9")
+        candidates(subject_to=["acceleration.max <= 0.02"], z="9", internal=True)
     least = float(str(said.value).partition("above ")[2].partition(",")[0])
-    assert candidates(subject_to=[f"acceleration.max <= {least * 1.001}"], z="8,9")
+    assert candidates(subject_to=[f"acceleration.max <= {least * 1.001}"], z="9", internal=True)
     with pytest.raises(GenevaError):
-        candidates(subject_to=[f"acceleration.max <= {least * 0.999}"], z="8,9")
+        candidates(subject_to=[f"acceleration.max <= {least * 0.999}"], z="9", internal=True)
 
 
 # The command
 
 
 def test_formats():
-    words = ["--tau", "1/3", "--z", "6", "--check", "0"]
+    words = ["--tau", "1/3", "--z", "6", "--external", "--check", "0"]
     assert (out := run(*words)).exit_code == 0
     assert "tau = 0.3333333: " in out.stdout
     table = list(csv.DictReader(io.StringIO(run(*words, "--format", "csv").stdout)))
@@ -715,10 +717,10 @@ def test_the_lowest_of_a_range_is_the_lowest_in_time():
     rows = search(read_target(**asked)).rows
     best = next(row for row in rows if row.candidate.A is not None).candidate
     scan = []
-    for motion in range(100, 201, 8):
+    for motion in range(100, 201, some(8, 25)):
         found = search(read_target(**(asked | {"motion_deg": str(motion)}))).rows
         scan += [row.candidate for row in found if row.candidate.A is not None]
-    assert len(scan) > 10
+    assert len(scan) > some(10, 3)
     assert best.peak <= min(one.peak for one in scan) * (1.0 + 1e-9)
     assert best.acceleration_max > min(one.acceleration_max for one in scan)
 

@@ -45,6 +45,7 @@ def test_beside_a_row_that_cannot_be_built_is_the_best_that_may_be(z):
         assert machine_and_parts(spec)[1].why, alpha0
 
 
+@pytest.mark.long
 def test_a_row_that_fails_in_its_turn_gives_way_to_the_best_that_passes(tmp_path):
     """Of two rollers too; under their numbers, in their order, and written as they are shown."""
     words = [
@@ -82,6 +83,7 @@ def test_a_row_that_fails_in_its_turn_gives_way_to_the_best_that_passes(tmp_path
     assert not [c for c in design.checks if c.passes is False]
 
 
+@pytest.mark.long
 @pytest.mark.sampled(2)
 @pytest.mark.parametrize("bound", ["velocity.max >= 0.51", "sizes.slot_bottom_radius_mm >= 40"])
 def test_bounds_hold_elsewhere_too(bound):

@@ -116,7 +116,7 @@ def test_its_row_written_is_what_check_says_and_is_cut(tmp_path):
     assert wheel.stat().st_size > 1000
 
 
-@pytest.mark.sampled(2)
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize(
     ("bounds", "name", "low", "high"),
     [
@@ -145,6 +145,7 @@ def test_a_peak_alone_is_kept_in_the_plain_crank_s_motion_or_any():
     assert row.candidate.motion_deg > 120.0
 
 
+@pytest.mark.long
 def test_what_it_sorts_by_is_the_least():
     target = {"motion_deg": "100..180", "z": "6", "external": True}
     (gentle,) = four_bars(**target)
@@ -212,6 +213,7 @@ def test_no_lock_is_in_the_way_where_there_is_none():
     assert parts(machine).why == ""
 
 
+@pytest.mark.long
 def test_another_four_bar_passes_where_the_gentlest_fails():
     """Its coupler comes to the wheel's shaft; of those found with it, one that does not."""
     found = search(read_target(tau="..0.3", z="5", external=True, rollers=1))

@@ -180,7 +180,7 @@ WISHES = [
 ]
 
 
-@pytest.mark.sampled(2)
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize("options", WISHES, ids=str)
 def test_every_row_keeps_every_wish(options):
     target, (found, *_) = searched(**options)
@@ -383,6 +383,7 @@ def test_what_no_array_has_is_asked_of_each_machine():
     assert row.extra[0] == pytest.approx(greatest, rel=1e-12)
 
 
+@pytest.mark.long
 def test_of_what_no_array_has_several_machines_of_a_family_are_asked():
     """The crank of curved slots grows as their motion falls: R/L = V/(1 + V), V = C_v 60/motion.
 
@@ -397,6 +398,7 @@ def test_of_what_no_array_has_several_machines_of_a_family_are_asked():
     assert len(set(kinds)) == len(kinds)  # the best of each
 
 
+@pytest.mark.long
 def test_a_frame_and_an_order():
     """Sizes, loads and speed of a spec in every row; each quantity is the built design's own."""
     frame = os.path.join(DESIGNS, "press-345.toml")
@@ -422,6 +424,7 @@ def test_a_frame_and_an_order():
     assert peaks == pytest.approx(sorted(peaks, reverse=True), rel=1e-11)
 
 
+@pytest.mark.long
 def test_a_frame_s_sizes_stay(tmp_path):
     file = tmp_path / "frame.toml"
     file.write_text("[wheel]\nz = 6\n[size]\nroller_radius_mm = 3\n[limits]\nvelocity_max = 0.9\n")
@@ -456,6 +459,7 @@ def dense(spec, key, values, names):
     return columns(found.machine, names, len(found.which))
 
 
+@pytest.mark.long
 def test_slots_are_as_far_aside_as_a_bound_wants():
     """With e = cos b sin d the entry is sin b cos d / cos(b - d): a half where d = 30° - d."""
     target = {"motion_deg": "120", "z": "6", "external": True, "rollers": 1}
@@ -499,6 +503,7 @@ def test_the_best_that_a_bound_leaves_beside_the_end_of_a_range():
     assert side.candidate.acceleration_max <= peak[fits].min() * (1 + 1e-4)
 
 
+@pytest.mark.long
 @pytest.mark.sampled(2)
 @pytest.mark.parametrize(
     ("limit", "field", "most"),

@@ -43,7 +43,7 @@ def test_there_are_none_for_a_motion_shorter_than_the_crank_s():
     assert not of_kind("gear-sector", motion_deg="150", z="5", internal=True)
 
 
-@pytest.mark.sampled(3)
+@pytest.mark.sampled(6)
 @pytest.mark.parametrize(("z", "most"), [(3, 6), (4, 4), (5, 3), (6, 3), (7, 2)])
 def test_first_wheels_for_a_small_share_of_the_cycle(z, most):
     """Of the second crank's half motion f the first crank makes asin(sin f / sin b) - f, where the

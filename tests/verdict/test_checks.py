@@ -195,6 +195,7 @@ def test_an_export_says_what_a_check_would(tmp_path: Path) -> None:
     assert not out.exists()
 
 
+@pytest.mark.usefixtures("no_advice")
 def test_a_roller_that_meets_the_rim_is_not_written(tmp_path: Path) -> None:
     """z 6, L 100, r 5, clearances of 1 mm: no parts overlap, and the hand-over has 80.9 deg."""
     path, out = tmp_path / "loose.toml", tmp_path / "wheel.svg"

@@ -48,7 +48,7 @@ def model(name, tmp_path):
     return PartsModel(load(str(file)))
 
 
-@pytest.mark.sampled(4)
+@pytest.mark.sampled(8)
 @pytest.mark.parametrize("name", [*FLAT, *GIVEN])
 def test_printed_sizes_are_those_of_the_outlines(model):
     found, size, part = model.outlines, sizes(model), cut_sizes(model)
@@ -66,6 +66,7 @@ def test_printed_sizes_are_those_of_the_outlines(model):
     assert part["parts.lock_radius_mm"] == pytest.approx(reach, abs=CLOSE)
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize("name", [*FLAT, *GIVEN])
 def test_printed_bores_and_rollers_are_those_drawn(model):
     found, size, part = model.outlines, sizes(model), cut_sizes(model)

@@ -73,7 +73,7 @@ def test_a_row_where_something_is_allowed():
     assert not set(ROWS) & set(plain)
 
 
-@pytest.mark.sampled(2)
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize("name", ROWS)
 def test_each_can_fail_and_one_key_mends_it(name):
     """The advice is a key's value with which the row passes."""
@@ -241,6 +241,7 @@ def test_margins():
     assert margin(80.0, None) is None
 
 
+@pytest.mark.usefixtures("no_advice")
 def test_what_a_sphere_lacks_is_said_in_its_rows():
     """Its shafts meet, and its wheel is no flat outline: their limits do not pass in silence."""
     size = Size(100.0, face_width_mm=10.0)
