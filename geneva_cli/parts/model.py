@@ -5,8 +5,10 @@ from __future__ import annotations
 from functools import cached_property
 
 from geneva_cli.machine.mechanism import Mechanism
+from geneva_cli.parts.flat_parts import FlatParts
 from geneva_cli.parts.outlines import Outlines, outlines
 from geneva_cli.parts.sphere.shells import Shells, shells
+from geneva_cli.parts.sphere.sphere_parts import SphereParts
 from geneva_cli.parts.turn.full_turn import FullTurn, full_turn
 from geneva_cli.parts.turn.gaps import WorkLimit
 from geneva_cli.parts.turn.machine_parts import MachineParts
@@ -34,6 +36,15 @@ class PartsModel:
     def shells(self) -> Shells:
         """The shells of a machine on a sphere; raises GenevaError where the sizes leave none."""
         return shells(self.mechanism, self.advice)
+
+    def flat(self, tolerance: float | None = None, curves: str = "arcs") -> FlatParts:
+        """Return the parts of a flat machine, with curves of a kind within a tolerance in mm."""
+        outlines = self.outlines if self.mechanism.spec.is_flat else None
+        return FlatParts(self.mechanism, outlines, tolerance, curves)
+
+    def ball(self, tolerance: float = 0.0, curves: str = "arcs") -> SphereParts:
+        """Return the parts of a machine on a sphere; drawings lay them flat within a tolerance."""
+        return SphereParts(self.shells, tolerance, curves)
 
     @property
     def parts(self) -> MachineParts:

@@ -21,14 +21,12 @@ from geneva_cli.machine.layout import Dimension, Pivot
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.machine.rollers import places
 from geneva_cli.machine.spec import Spec
-from geneva_cli.parts.built import built, link_members
 from geneva_cli.parts.missing import Missing, or_missing
 from geneva_cli.parts.model import PartsModel
 from geneva_cli.parts.plates import crank_group, wheel_part
-from geneva_cli.parts.sphere.built import built as built_ball
-from geneva_cli.parts.sphere.built import crank_group as ball_crank
-from geneva_cli.parts.sphere.built import wheel_shell
 from geneva_cli.parts.sphere.dimensions import dimensions
+from geneva_cli.parts.sphere.sphere_parts import crank_group as ball_crank
+from geneva_cli.parts.sphere.sphere_parts import wheel_shell
 from geneva_cli.parts.sphere.wheel import POLE
 from geneva_cli.spec.schema import Points, fields
 from geneva_cli.spec.tables import Size
@@ -87,15 +85,14 @@ def _parts(model: PartsModel) -> Iterator[Row | Missing]:
             yield from or_missing("wheel and crank", lambda: _bare_rows(model))
         yield from rows
     if not spec.is_flat:
-        yield from or_missing("links and frame", lambda: link_rows(model))
+        yield from or_missing("links and frame", lambda: part_rows(spec, model.flat().members))
 
 
 def _machine_rows(model: PartsModel) -> Iterator[Row]:
     """Yield a row for each kind of part. Raises GenevaError where one cannot be built."""
-    if model.mechanism.spec.wheel.FLAT:
-        yield from _rows(model, built(model.outlines).members)
-    else:
-        yield from _rows(model, built_ball(model.shells).members)
+    yield from _rows(
+        model, (model.flat() if model.mechanism.spec.wheel.FLAT else model.ball()).members
+    )
 
 
 def _bare_rows(model: PartsModel) -> Iterator[Row]:
@@ -106,11 +103,6 @@ def _bare_rows(model: PartsModel) -> Iterator[Row]:
     else:
         wheel, crank = wheel_shell(Size(), model.shells.ball), ball_crank(model.shells, None)
     yield from _rows(model, (Member(wheel), Member(crank)))
-
-
-def link_rows(model: PartsModel) -> Iterator[Row]:
-    """Yield rows for links, gears, shafts and frame, where the wheel is not drawn."""
-    yield from part_rows(model.mechanism.spec, link_members(model))
 
 
 def _rows(model: PartsModel, members: tuple[Member, ...]) -> Iterator[Row]:
@@ -202,7 +194,7 @@ def _dimensions(model: PartsModel) -> Iterator[Row | Missing]:
     ]
     entries += [d for d in spec.wheel.layout if isinstance(d, Dimension)]
     if not spec.wheel.FLAT:
-        entries += dimensions(model)
+        entries += or_missing("dimensions of the shells", lambda: dimensions(model.ball()))
     if mechanism.law is None and spec.drive.CRANKED:
         entries += _straight(mechanism)
     elif spec.drive.CRANKED:

@@ -10,7 +10,7 @@ from collections.abc import Iterator
 from geneva_cli.curves.sheet import Sheet
 from geneva_cli.machine.layout import Dimension, Pivot
 from geneva_cli.machine.mechanism import Mechanism
-from geneva_cli.parts.outlines import Outlines
+from geneva_cli.parts.flat_parts import FlatParts
 from geneva_cli.parts.sheet import links, points
 from geneva_cli.parts.sheet.composed import on_paper
 from geneva_cli.parts.sheet.paper import smaller, table
@@ -21,15 +21,15 @@ ASSEMBLED = 1.0, 2.0  # the machine's scale is smaller than its parts' by one of
 LAYOUT = (60.0, 36.0, 20.0)  # mm: columns of the table of pivots and links
 
 
-def sheet(parts: Outlines, tolerance: float, curves: str) -> Sheet:
+def sheet(parts: FlatParts) -> Sheet:
     """Return the drawing sheet of a machine. Raises GenevaError where no scale fits on one."""
-    shown = shown_on_sheet(parts, tolerance, curves)
-    mechanism, bars = parts.assembly.mechanism, shown.built.links
+    shown, mechanism = shown_on_sheet(parts), parts.mechanism
+    tolerance = parts.tolerance or 0.0
     fixed = [
-        *points.tables(parts, tolerance),
-        *points.gear_tables(parts.assembly.full, tolerance),
-        *links.round_parts(bars.joined, mechanism),
-        *layout(parts.assembly.full),
+        *points.tables(parts.outlines, tolerance),
+        *points.gear_tables(mechanism, tolerance),
+        *links.round_parts(parts.links.joined, mechanism),
+        *layout(mechanism),
     ]
 
     def blocks(scale: float) -> Iterator[list[Block]]:
@@ -37,7 +37,7 @@ def sheet(parts: Outlines, tolerance: float, curves: str) -> Sheet:
         for times in ASSEMBLED:
             yield [*apart, together(shown, smaller(scale, times)).block(), *fixed]
 
-    return on_paper(parts.assembly.full.spec, shown.rows, shown.largest, blocks, shown.area)
+    return on_paper(mechanism.spec, shown.rows, shown.largest, blocks, shown.area)
 
 
 def layout(mechanism: Mechanism) -> list[Block]:

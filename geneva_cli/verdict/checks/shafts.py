@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from geneva_cli.parts.crank import is_whole
+from geneva_cli.parts.flat_parts import FlatParts
 from geneva_cli.parts.outlines import Outlines
 from geneva_cli.parts.sizes import Sizes
 from geneva_cli.parts.turn.shaft_gap import gear_gap, shaft_gap
@@ -56,12 +57,12 @@ def beside(name: str, found: Outlines) -> Check | None:
     given, drive = vars(found.assembly.mechanism.spec.size), found.assembly.full.spec.drive
     if not (drive.IN_SERIES or any(given[key] is not None for key in KEYS)):
         return None
-    return gap(name, lambda: shaft_gap(found), found.assembly.L)
+    return gap(name, lambda: shaft_gap(FlatParts(found.assembly.full, found)), found.assembly.L)
 
 
 def beside_noncircular(name: str, found: Outlines) -> Check | None:
     """The gap between shafts and noncircular gears, at their pitch curves' farthest places."""
-    return gap(name, lambda: gear_gap(found), found.assembly.L)
+    return gap(name, lambda: gear_gap(FlatParts(found.assembly.full, found)), found.assembly.L)
 
 
 def _shaft(size: Sizes) -> float:

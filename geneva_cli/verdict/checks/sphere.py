@@ -6,10 +6,10 @@ import math
 
 from geneva_cli.curves.round_holes import RoundHole
 from geneva_cli.parts.sphere.arm import crank_arm, has_arm
-from geneva_cli.parts.sphere.built import built
 from geneva_cli.parts.sphere.dial import dial_wall
 from geneva_cli.parts.sphere.shaft_gap import shaft_gap
 from geneva_cli.parts.sphere.shells import Shells
+from geneva_cli.parts.sphere.sphere_parts import SphereParts
 from geneva_cli.parts.sphere.wheel import POLE
 from geneva_cli.verdict.checks.check import Check, at_least, compared, gap
 
@@ -67,7 +67,7 @@ def beside(name: str, found: Shells) -> Check | None:
     if any(row and row.value is None for row in walls):
         return None
     L = found.ball.radius_mm
-    return gap(name, lambda: shaft_gap(found, built(found)), L)
+    return gap(name, lambda: shaft_gap(SphereParts(found)), L)
 
 
 def _wall(name: str, angle: float, found: Shells) -> Check:

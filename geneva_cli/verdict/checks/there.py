@@ -5,21 +5,21 @@ from __future__ import annotations
 from collections.abc import Callable
 
 from geneva_cli.errors import GenevaError
-from geneva_cli.parts.built import built
+from geneva_cli.parts.flat_parts import FlatParts
 from geneva_cli.parts.outlines import Outlines
-from geneva_cli.parts.sphere.built import built as built_ball
 from geneva_cli.parts.sphere.shells import Shells
+from geneva_cli.parts.sphere.sphere_parts import SphereParts
 from geneva_cli.verdict.checks.check import Check, refused
 
 
 def plates(name: str, found: Outlines) -> Check | None:
     """The check that fails if a plate of a flat machine cannot be built; else None."""
-    return _refusal(name, lambda: built(found, fitted=False))
+    return _refusal(name, lambda: FlatParts(found.assembly.full, found).require())
 
 
 def solids(name: str, found: Shells) -> Check | None:
     """The check that fails if a solid of a spherical machine cannot be built; else None."""
-    return _refusal(name, lambda: built_ball(found))
+    return _refusal(name, lambda: SphereParts(found).members)
 
 
 def _refusal(name: str, build: Callable[[], object]) -> Check | None:
