@@ -261,6 +261,7 @@ def test_the_machine_assembles(kind, tmp_path):
     for given, design in samples(tmp_path, kind):
         try:
             parts = FlatParts(design.mechanism, design.parts)
+            _ = parts.members
         except GenevaError:
             continue
         whole += 1
