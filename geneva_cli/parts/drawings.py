@@ -54,8 +54,8 @@ def crank(parts: FlatParts) -> Drawing:
 
 def arm(parts: FlatParts) -> Drawing:
     """Return the crank arm below the wheel's plane: outline, bore, holes for pins and bolts."""
-    # the error says why there is no arm
-    solid = arm_plate(parts.outlines, parts.arm or crank_arm(parts.outlines))
+    # without an arm the error says why
+    solid = parts.arm_plate or arm_plate(parts.outlines, crank_arm(parts.outlines))
     title = titled(parts.mechanism, "arm")
     return Drawing(title, (solid.outline, *solid.holes), solid=solid)
 

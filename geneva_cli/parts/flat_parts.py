@@ -6,6 +6,7 @@ use. Drawing, solid, list of parts, sheet and the checks of shafts are projectio
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from functools import cached_property
 
 import numpy as np
@@ -15,8 +16,8 @@ from geneva_cli.curves.shapes import Contour
 from geneva_cli.machine.engagement import Engagement
 from geneva_cli.machine.layout import Joint
 from geneva_cli.machine.mechanism import Mechanism
-from geneva_cli.parts.arm import LAYER as ARM
 from geneva_cli.parts.arm import CrankArm, crank_arm, has_arm
+from geneva_cli.parts.crank import roller_centres
 from geneva_cli.parts.first_pair import first_pair, in_front
 from geneva_cli.parts.frame import FrameAndShafts, framed
 from geneva_cli.parts.gear_pair import gear_pair
@@ -24,8 +25,10 @@ from geneva_cli.parts.groove_plate import groove_base, groove_lines, groove_stac
 from geneva_cli.parts.link_positions import links_at
 from geneva_cli.parts.link_sizes import places
 from geneva_cli.parts.links import Links, drawn_links
+from geneva_cli.parts.missing import NamedParts
 from geneva_cli.parts.outlines import Outlines, outlines, slot_walls
-from geneva_cli.parts.plates import crank_group, roller_plates, wheel_part
+from geneva_cli.parts.plates import arm_plate, locking_plates, roller_plates, wheel_part
+from geneva_cli.parts.shafts import crank_hub
 from geneva_cli.parts.sizes import pin_radius, thicknesses
 from geneva_cli.parts.wheel import wheel_contour
 
@@ -96,19 +99,46 @@ class FlatParts:
         return crank_arm(self.outlines) if has_arm(self.outlines) else None
 
     @cached_property
+    def arm_plate(self) -> Plate | None:
+        """The crank arm as a plate."""
+        return arm_plate(self.outlines, self.arm) if self.arm else None
+
+    @cached_property
+    def locking(self) -> tuple[Plate, ...]:
+        """The locking disc, or its sectors."""
+        return tuple(locking_plates(self.outlines))
+
+    @cached_property
+    def rollers(self) -> tuple[Member, ...]:
+        """The rollers with their pins, which stand in the arm or in a link."""
+        outlines, low = self.outlines, self.links.pin_low
+        sizes, size = outlines.sizes, self.mechanism.spec.size
+        if low is None:
+            low = -size.pin_gap_mm - (sizes.arm_thickness if has_arm(outlines) else 0.0)
+        plates = roller_plates(sizes.roller, sizes.pin, low, sizes.wheel_thickness)
+        centres = roller_centres(outlines.assembly)
+        return tuple(Member(plate, axis) for axis in centres for plate in plates)
+
+    @cached_property
+    def crank_hub(self) -> Plate | None:
+        """The crank's hub above the disc or the arm, if the spec has one."""
+        return crank_hub(self.outlines)
+
+    @cached_property
     def crank(self) -> Member:
         """The crank: locking disc or sectors, arm, rollers on their pins, hub."""
-        assembly = self.outlines.assembly
-        group = crank_group(self.outlines, self.arm, self.links.pin_low)
-        return Member(group, (assembly.L, 0.0), float(assembly.crank(np.zeros(1))[0]))
+        return self._crank(self.arm_plate)
 
-    @property
+    @cached_property
     def crank_without_arm(self) -> Member:
         """The crank as it lies in the wheel's plane."""
-        assert isinstance(self.crank.part, Group)
-        own = self.crank.part.members
-        kept = (m for m in own if isinstance(m.part, Plate) and m.part.layer != ARM)
-        return self.crank._replace(part=Group("crank", tuple(kept)))
+        return self._crank(None)
+
+    def _crank(self, arm: Plate | None) -> Member:
+        hub, assembly = self.crank_hub, self.outlines.assembly
+        below = (Member(plate) for plate in (*self.locking, *([arm] if arm else [])))
+        group = Group("crank", (*below, *self.rollers, *([Member(hub)] if hub else [])))
+        return Member(group, (assembly.L, 0.0), float(assembly.crank(np.zeros(1))[0]))
 
     @cached_property
     def _carried(self) -> tuple[Member, ...]:
@@ -151,7 +181,9 @@ class FlatParts:
 
     @cached_property
     def _base(self) -> Plate | None:
-        return groove_base(self.drawn, self.links) if self.drawn else None
+        if self.drawn is None or self.drawn.assembly.rollers[0][0].groove is None:
+            return None
+        return groove_base(self.drawn, self.links)
 
     @cached_property
     def groove(self) -> tuple[Contour, Contour, Contour]:
@@ -192,11 +224,32 @@ class FlatParts:
         _ = self._framed
 
     @property
+    def linked(self) -> tuple[Member, ...]:
+        """The links, with the pins and rollers between and on them."""
+        return (*self.links.cut, *self.links.joined, *self._carried)
+
+    @property
     def members(self) -> tuple[Member, ...]:
         """All parts; before a spherical wheel only links and gears."""
         turning = (self.wheel, self.crank) if self.drawn else ()
-        links = *self.links.cut, *self.links.joined, *self._carried
-        moved = *turning, *links, *self.round_gears, *self.gear_pair, *self.first
+        moved = *turning, *self.linked, *self.round_gears, *self.gear_pair, *self.first
         if not self.mechanism.spec.wheel.FLAT:
             return moved
         return (*moved, *self.shafts, *self.standing)
+
+    def by_name(self) -> Iterator[NamedParts]:
+        """Yield all parts in the order of a list, as names and functions that build them."""
+        if self.mechanism.spec.is_flat:
+            yield "wheel", lambda: [self.wheel.part]
+            yield "locking disc", lambda: self.locking
+            yield "arm", lambda: [self.arm_plate] if self.arm_plate else []
+            yield "rollers", lambda: [one.part for one in self.rollers]
+            yield "crank's hub", lambda: [self.crank_hub] if self.crank_hub else []
+        yield "links", lambda: [one.part for one in self.linked]
+        yield "gears", lambda: [one.part for one in (*self.round_gears, *self.gear_pair)]
+        if not self.mechanism.spec.wheel.FLAT:
+            return
+        yield "first wheel", lambda: [one.part for one in self.first]
+        yield "shafts", lambda: [one.part for one in self.shafts]
+        yield "groove plate", lambda: [one.part for one in self.groove_plate]
+        yield "frame", lambda: [self.frame.part]

@@ -55,13 +55,11 @@ def groove_lines(
     return line(GROOVE, 1.0), line(GROOVE, -1.0), line(PITCH, 0.0)
 
 
-def groove_base(parts: Outlines, bars: Links) -> Plate | None:
-    """Return the base below the groove, with its holes; None without a groove.
+def groove_base(parts: Outlines, bars: Links) -> Plate:
+    """Return the base below the groove, with its holes.
 
     ``bars`` are the links of the machine. Raises GenevaError where it meets the wheel's shaft.
     """
-    if parts.assembly.rollers[0][0].groove is None:
-        return None
     assert bars.sizes is not None  # the crank is a link
     L = parts.assembly.L
     far, rim = _reaches(parts)

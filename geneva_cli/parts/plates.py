@@ -8,9 +8,8 @@ from __future__ import annotations
 from geneva_cli.curves.plates import Group, Member, Plate
 from geneva_cli.curves.shapes import Circle, Contour
 from geneva_cli.parts.arm import CrankArm, bolts
-from geneva_cli.parts.crank import crank_circles, is_whole, roller_centres
+from geneva_cli.parts.crank import crank_circles, is_whole
 from geneva_cli.parts.outlines import Outlines
-from geneva_cli.parts.shafts import crank_hub
 from geneva_cli.parts.wheel import wheel_circles
 from geneva_cli.parts.wheel_hub import wheel_hub
 
@@ -58,27 +57,6 @@ def locking_plates(parts: Outlines) -> list[Plate]:
         )
         for k, contour in enumerate(parts.crank)
     ]
-
-
-def crank_group(
-    parts: Outlines, arm: CrankArm | None = None, pin_low: float | None = None
-) -> Group:
-    """Return the crank's locking disc or sectors, rollers, pins and hub, and its arm if given.
-
-    ``pin_low`` is the lower end of pins that stand in a link.
-    """
-    sizes, below = parts.sizes, -parts.assembly.mechanism.spec.size.pin_gap_mm
-    plates = locking_plates(parts)
-    if arm:
-        plates.append(arm_plate(parts, arm))
-        below = plates[-1].low
-    members = [Member(plate) for plate in plates]
-    low = below if pin_low is None else pin_low
-    round_ = roller_plates(sizes.roller, sizes.pin, low, sizes.wheel_thickness)
-    members += [Member(plate, axis) for axis in roller_centres(parts.assembly) for plate in round_]
-    hub = crank_hub(parts)
-    members += [Member(hub)] if hub else []
-    return Group("crank", tuple(members))
 
 
 def roller_plates(radius: float, pin_radius: float, low: float, high: float) -> list[Plate]:

@@ -42,9 +42,10 @@ class SheetContent(NamedTuple):
 
 def shown_on_sheet(parts: FlatParts) -> SheetContent:
     """Return the content of the views, computed once for all scales."""
-    rows: list[dict[str, Any]] = list(part_rows(parts.mechanism.spec, parts.members))
+    every = [one.part for one in parts.members]
+    rows: list[dict[str, Any]] = list(part_rows(parts.mechanism.spec, every))
     sizes = [row[f"size_{axis}_mm"] for row in rows for axis in "xy"]
-    apart = [p for one in parts.members for p in plates(one.part) if p.layer in APART]
+    apart = [plate for part in every for plate in plates(part) if plate.layer in APART]
     boxes = [bounds(plate.outline) for plate in (*apart, *plates(parts.frame.part))]
     area = sum((box.x1 - box.x0) * (box.y1 - box.y0) for box in boxes)
     return SheetContent(parts, machine(parts).shapes, rows, max(sizes), area)

@@ -86,7 +86,7 @@ def sheet(parts: SphereParts) -> Sheet:
         yield [*(view.block() for view in views), *fixed]
 
     spec = parts.mechanism.spec
-    items = list(part_rows(spec, parts.members, ball.span_mm[1]))
+    items = list(part_rows(spec, (one.part for one in parts.members), ball.span_mm[1]))
     return on_paper(spec, items, 2.0 * ball.span_mm[1], blocks)
 
 

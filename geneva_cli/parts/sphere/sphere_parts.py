@@ -18,6 +18,7 @@ from geneva_cli.curves.sphere import axis_frame, place
 from geneva_cli.curves.sphere_hull import Cap
 from geneva_cli.errors import GenevaError
 from geneva_cli.parts.keyways import bore, key
+from geneva_cli.parts.missing import NamedParts
 from geneva_cli.parts.shafts import SHAFT
 from geneva_cli.parts.sphere.arm import CapArm, crank_arm, has_arm
 from geneva_cli.parts.sphere.axles import crank_hub, refuse_wide
@@ -70,6 +71,12 @@ class SphereParts:
     def members(self) -> tuple[Member, ...]:
         """All parts."""
         return (self.wheel, self.crank, *self.shafts)
+
+    def by_name(self) -> Iterator[NamedParts]:
+        """Yield all parts in the order of a list, as names and functions that build them."""
+        yield "wheel", lambda: [self.wheel.part]
+        yield "crank", lambda: [self.crank.part]
+        yield "shafts", lambda: [one.part for one in self.shafts]
 
 
 def wheel_group(size: Size, ball: Ball) -> Group:
