@@ -3,6 +3,7 @@
 import csv
 import io
 import math
+from collections import Counter
 from pathlib import Path
 
 import numpy as np
@@ -19,6 +20,7 @@ from geneva_cli.curves.moments import moments
 from geneva_cli.design import load
 from geneva_cli.errors import GenevaError
 from geneva_cli.machine import registry
+from geneva_cli.output.chosen import only
 
 DESIGNS = sorted(Path(__file__, "../../../designs").resolve().glob("*.toml"))
 SAME = 1e-9  # radians, as far as a machine must come out from its printed dimensions
@@ -466,3 +468,15 @@ def test_nothing_is_missing_from_a_machine_that_is_built():
     for path in DESIGNS:
         kinds = {row["row"] for row in load(str(path)).part_table("parts").to_rows()}
         assert "missing" not in kinds, path
+
+
+def test_chosen_columns_leave_out_the_kinds_of_rows_that_have_none_of_them():
+    table = load(str(next(path for path in DESIGNS if path.stem == "four-bar-z4"))).part_table(
+        "parts"
+    )
+    count = Counter(row["row"] for row in table.to_rows())
+    assert len(only(table, ["name", "mass_kg"])) == count["part"]
+    assert len(only(table, ["x_mm"])) == count["pivot"]
+    assert len(only(table, ["name", "unit", "y_mm"])) == count["dimension"] + count["pivot"]
+    assert len(only(table, ["row", "name"])) == len(table)
+    assert len(only(table, ["why"])) == 0
