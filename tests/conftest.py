@@ -88,18 +88,18 @@ def of_outlines(found):
     return found.assembly.full.spec, getattr(found, "fine", 0.0)  # shells have no tolerance
 
 
-def of_mechanism(mechanism, tolerance=0.0):
-    return mechanism.spec, tolerance
+def of_sizes(assembly, sizes, tolerance=0.0):
+    return assembly.full.spec, sizes, tolerance
 
 
 def of_slot(assembly, sizes, engagement):
     return id(assembly), sizes, id(engagement)
 
 
-OUTLINES = kept(outline.outlines, of_mechanism)
+OUTLINES = kept(outline.drawn, of_sizes)
 TURNED = kept(full_turn.full_turn, of_outlines)
 CHAIN = kept(walls_chain.chain, of_slot)
-MOTION_WARNINGS = kept(motion_warnings.motion_warnings, of_mechanism)
+MOTION_WARNINGS = kept(motion_warnings.motion_warnings, lambda mechanism: mechanism.spec)
 
 
 @pytest.fixture(scope="module")
@@ -110,7 +110,7 @@ def made_once():
     """
     with pytest.MonkeyPatch.context() as patch:
         for module in (outline, model):
-            patch.setattr(module, "outlines", OUTLINES)
+            patch.setattr(module, "drawn", OUTLINES)
         for module in (full_turn, model):
             patch.setattr(module, "full_turn", TURNED)
         patch.setattr(curved_walls, "chain", CHAIN)

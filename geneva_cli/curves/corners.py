@@ -16,6 +16,10 @@ from geneva_cli.curves.shapes import Arc, Contour, Line, Point, Segment, closed
 from geneva_cli.errors import GenevaError
 
 
+class TooWide(GenevaError):
+    """A dog bone that does not fit, but one of a narrower cutter may."""
+
+
 class Corner(NamedTuple):
     """A right turn of a contour: the end of a piece, by a positive angle in radians."""
 
@@ -70,7 +74,7 @@ def bone(contour: Contour, corner: Corner, radius: float) -> Bone:
 def with_bones(contour: Contour, bones: Iterable[Bone]) -> Contour:
     """The contour with dog bones in place of its corners.
 
-    Raises GenevaError if a wall is too short for the bones at its ends.
+    Raises TooWide if a wall is too short for the bones at its ends.
     """
     at = {one.corner.piece: one for one in bones}
     around = pieces(contour)
@@ -81,9 +85,9 @@ def with_bones(contour: Contour, bones: Iterable[Bone]) -> Contour:
         high = fraction_at(piece, ahead.arc.start) if ahead else 1.0
         if not 0.0 <= low < high <= 1.0:
             x, y = (ahead or behind or at[0]).corner.at
-            raise GenevaError(
+            raise TooWide(
                 f"the wall of {contour.layer} at its corner x = {x:.5g}, y = {y:.5g} is "
-                "shorter than a dog bone: use a narrower cutter"
+                "shorter than a dog bone"
             )
         start = behind.arc.end if behind else piece.start
         end = ahead.arc.start if ahead else piece.end

@@ -11,7 +11,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from geneva_cli.curves.corners import Bone, bone, inner_corners, pieces, with_bones
+from geneva_cli.curves.corners import Bone, TooWide, bone, inner_corners, pieces, with_bones
 from geneva_cli.curves.distance import Polyarc
 from geneva_cli.curves.drawing import Drawing
 from geneva_cli.curves.kerf import Closed, offset
@@ -115,7 +115,8 @@ def freed(
     """Outlines of a plate that have corners, with dog bones in them.
 
     ``works(piece, layer)`` is True for pieces that the machine needs as they are. Raises
-    GenevaError if a bone would cut one of those, or leave less than ``wall`` mm to another outline.
+    GenevaError if a bone would cut one of those, and TooWide if it would meet another wall or leave
+    less than ``wall`` mm to another outline.
     """
     outlines: dict[Shape, Contour] = {}
     around = list(shapes(plate))
@@ -148,9 +149,9 @@ def _require_free(
             f"{corner} is at a wall that guides roller or lock: omit --dog-bones to keep it round"
         )
     if away < radius - SAME_CUT_MM:
-        raise GenevaError(
+        raise TooWide(
             f"{corner} is so near to another wall that its bite, {2.0 * radius:.6g} mm wide, would "
-            "cut into it: use a narrower cutter, or omit --dog-bones"
+            "cut into it"
         )
 
 
@@ -161,7 +162,7 @@ def _require_wall(plate: Plate, one: Bone, reach: float, other: Shape) -> None:
         away = abs(float(Polyarc([other]).signed(np.array([one.centre]))[0]))
     if away < reach:
         x, y = one.corner.at
-        raise GenevaError(
+        raise TooWide(
             f"--dog-bones: the bone at x = {x:.5g}, y = {y:.5g} in {plate.name} leaves less than "
-            "wall_min_mm to another outline: use a narrower cutter"
+            "wall_min_mm to another outline"
         )

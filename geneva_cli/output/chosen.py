@@ -6,7 +6,9 @@ from collections.abc import Sequence
 from typing import Any
 
 from geneva_cli.errors import GenevaError, cut, few
-from geneva_cli.table import Table
+from geneva_cli.table import Table, rows_table
+
+KIND = "row"  # column of a table whose rows are of several kinds, each with columns of its own
 
 
 def only(table: Table, names: Sequence[str]) -> Table:
@@ -21,6 +23,7 @@ def only(table: Table, names: Sequence[str]) -> Table:
             some = few(name, known)
             raise GenevaError(f"--columns {cut(name)}: no such column; there are {some}")
     if not table.record:
+        table = _of_kinds(table, names) if KIND in table.names else table
         at = [table.names.index(name) for name in names]
         return table.replaced(names=tuple(names), columns=[table.columns[i] for i in at])
     values: dict[str, Any] = {}
@@ -30,3 +33,18 @@ def only(table: Table, names: Sequence[str]) -> Table:
         elif isinstance(value, Table) and set(names) & set(value.names):
             values[name] = only(value, [n for n in names if n in value.names])
     return table.replaced(names=tuple(values), columns=[(v,) for v in values.values()])
+
+
+def _of_kinds(table: Table, names: Sequence[str]) -> Table:
+    """Return the rows of the kinds that have one of the columns, but for those that all kinds have.
+
+    So the masses in a list of parts are those of its parts, without empty rows for its pivots.
+    """
+    at = table.names.index(KIND)
+    has: dict[str, set[str]] = {}
+    for row in table.rows():
+        own = (name for name, value in zip(table.names, row, strict=True) if value is not None)
+        has.setdefault(row[at], set()).update(own)
+    special = set(names) - set[str].intersection(*has.values())
+    kept = [row for row in table.rows() if not special or special & has[row[at]]]
+    return table.replaced(columns=rows_table(table.names, kept).columns)

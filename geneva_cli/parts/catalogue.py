@@ -42,15 +42,15 @@ PARTS = {
     ),
     "crank": Part(drawing="drawings:crank", cut=True, flat="sphere.drawings:crank"),
     "arm": Part(drawing="drawings:arm", cut=True, flat="sphere.arm_drawing:arm"),
-    "links": Part(drawing="link_drawings:links", cut=True, alone=True),
+    "links": Part(drawing="drawings:links", cut=True, alone=True),
     "first-wheel": Part(drawing="drawings:wheel", cut=True, in_front=True),
     "first-crank": Part(drawing="drawings:crank", cut=True, in_front=True),
-    "frame": Part(drawing="frame:frame", cut=True, alone=True),
+    "frame": Part(drawing="drawings:frame", cut=True, alone=True),
     "parts": Part("parts_list:parts_table"),
     "assembly": Part(drawing="machine_drawing:machine", flat="sphere.drawings:assembly"),
-    "gears": Part("gear_curves:gears_table", "gear_drawings:gears", alone=True),
+    "gears": Part("gear_curves:gears_table", "drawings:gears", alone=True),
     "groove": Part("groove:groove_table", "drawings:groove"),
-    "groove-plate": Part(drawing="groove_plate:groove_plate", cut=True),
+    "groove-plate": Part(drawing="drawings:groove_plate", cut=True),
     "coupon": Part(drawing="coupon:coupon", cut=True),
     "sheet": Part(sheet="sheet.sheet:sheet", flat="sphere.sheet:sheet"),
 }
@@ -131,10 +131,12 @@ def part_drawing(model: PartsModel, part: str, tolerance_mm: float, curves: str)
     if part in SHEETS:
         raise GenevaError(f"--part {part} is a drawing sheet, not a drawing to cut")
     is_table(model.mechanism, part, drawn=True)
-    own, in_plane = PARTS[part], _in_plane(model.mechanism)
-    by = own.drawing if in_plane else own.flat or own.drawing
-    of = model if is_alone(model.mechanism, part) else model.outlines
-    drawing: Drawing = _loaded(by)(of, tolerance_mm, curves)
+    own = PARTS[part]
+    drawing: Drawing
+    if own.flat is None or _in_plane(model.mechanism):
+        drawing = _loaded(own.drawing)(model.flat(tolerance_mm, curves))
+    else:
+        drawing = _loaded(own.flat)(model.ball(tolerance_mm, curves))
     return drawing
 
 
@@ -146,11 +148,12 @@ def part_sheet(model: PartsModel, part: str, tolerance_mm: float, curves: str) -
     if not is_sheet(part):
         raise GenevaError(f"--part {part} is no drawing sheet; use {', '.join(SHEETS)}")
     own = PARTS[part]
-    if not is_alone(model.mechanism, part):
-        sheet: Sheet = _loaded(own.sheet)(model.outlines, tolerance_mm, curves)
-        return sheet
-    alone: Sheet = _loaded(own.flat)(model, tolerance_mm, curves)
-    return alone
+    sheet: Sheet
+    if _in_plane(model.mechanism):
+        sheet = _loaded(own.sheet)(model.flat(tolerance_mm, curves))
+    else:
+        sheet = _loaded(own.flat)(model.ball(tolerance_mm, curves))
+    return sheet
 
 
 def require_cut(part: str, option: str = "--kerf") -> None:

@@ -12,7 +12,8 @@ from collections.abc import Iterator
 from geneva_cli.curves.drawing import Drawing
 from geneva_cli.curves.plates import Group, Member, Plate
 from geneva_cli.curves.shapes import Arc, Circle, Contour, Line, Point, closed
-from geneva_cli.parts.outlines import Outlines
+from geneva_cli.parts.flat_parts import FlatParts
+from geneva_cli.parts.projection import titled
 
 LAYER, HOLES, MARKS = "COUPON", "BORE", "ENGRAVE"
 # mm per side: the first suit a mill, the last a laser or a printer
@@ -35,9 +36,10 @@ DIGITS = {
 }
 
 
-def coupon(parts: Outlines, tolerance: float, curves: str) -> Drawing:
+def coupon(parts: FlatParts) -> Drawing:
     """Return the coupon, its lower left corner the origin, with the roller's disc to its right."""
-    sizes, own = parts.sizes, parts.sizes.half_width - parts.sizes.roller
+    sizes = parts.outlines.sizes
+    own = sizes.half_width - sizes.roller
     r, pin = sizes.roller, sizes.pin
     # the spec's own clearance is one of them, to a micrometre
     clearances = sorted({round(own, 3), *CLEARANCES})
@@ -76,9 +78,8 @@ def coupon(parts: Outlines, tolerance: float, curves: str) -> Drawing:
             Member(Plate("roller", "ROLLER", disc, bore, 0.0, thick)),
         ),
     )
-    spec = parts.assembly.full.spec
-    title = spec.title or f"Geneva wheel of {spec.wheel.z} slots"
-    return Drawing(f"{title}: fit coupon", (outline, *holes, disc, *bore, *marks), solid=solid)
+    title = titled(parts.mechanism, "fit coupon")
+    return Drawing(title, (outline, *holes, disc, *bore, *marks), solid=solid)
 
 
 def _slot(low: Point, half: float, length: float) -> Contour:

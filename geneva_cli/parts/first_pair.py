@@ -17,10 +17,10 @@ from geneva_cli.machine.drives.crank import Crank
 from geneva_cli.machine.mechanism import Mechanism, build
 from geneva_cli.machine.spec import Spec
 from geneva_cli.machine.wheels.external import External
-from geneva_cli.parts.link_drawings import titled
 from geneva_cli.parts.links import Links, drawn_links
 from geneva_cli.parts.outlines import Outlines, outlines
-from geneva_cli.parts.plates import crank_group, wheel_plate
+from geneva_cli.parts.plates import locking_plates, wheel_plate
+from geneva_cli.parts.projection import titled
 from geneva_cli.parts.sizes import thicknesses, wall_min
 from geneva_cli.spec.tables import Size
 
@@ -63,28 +63,20 @@ def first_pair(mechanism: Mechanism, bars: Links | None = None) -> Mechanism:
     return build(Spec(External(first.z), drive, size=size, title=title))
 
 
-def first_outlines(mechanism: Mechanism, bars: Links) -> Outlines | None:
-    """Return the outlines of the first wheel and its crank; None without a first wheel."""
-    if mechanism.spec.drive.first_wheel(mechanism.center_distance_mm) is None:
-        return None
-    return outlines(first_pair(mechanism, bars))
+def in_front(first: Outlines, bars: Links, L: float) -> Iterator[Member]:
+    """Yield the first wheel and its locking disc as plates at input angle 0.
 
-
-def first_members(mechanism: Mechanism, bars: Links) -> Iterator[Member]:
-    """Yield the first wheel and its locking disc as plates at input angle 0, if there are any."""
-    pair = first_outlines(mechanism, bars)
-    if pair is None:
-        return
+    ``first`` are their outlines, and ``bars`` the links of both wheels. The first wheel's axis is
+    at the distance L from the second's.
+    """
     assert bars.sizes is not None  # the first crank is a link
     low, high = bars.sizes.span(PLANE)
-    disc = [one.part for one in crank_group(pair).members if isinstance(one.part, Plate)]
 
     def placed(plate: Plate, x: float, turn: float) -> Member:
         own = plate._replace(name=f"first {plate.name}", low=low, high=high)
         return Member(own, (x, 0.0), turn)
 
     # at mid-motion the first slot of the first wheel's frame points at the first crank
-    L = mechanism.center_distance_mm
-    yield placed(wheel_plate(pair, pair.wheel), L, 0.0)
-    far = L + pair.assembly.L
-    yield from (placed(plate, far, math.pi) for plate in disc[: len(pair.crank)])
+    yield placed(wheel_plate(first, first.wheel), L, 0.0)
+    for plate in locking_plates(first):
+        yield placed(plate, L + first.assembly.L, math.pi)

@@ -10,21 +10,16 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from typing import NamedTuple
 
-from geneva_cli.curves.drawing import Drawing
 from geneva_cli.curves.hull import convex_hull
 from geneva_cli.curves.plates import Member, Plate
 from geneva_cli.curves.shapes import Circle, Point
 from geneva_cli.errors import GenevaError
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.parts.arm import has_arm
-from geneva_cli.parts.centre_marks import centre_marks
-from geneva_cli.parts.gear_drawings import gear_shafts, gear_span
-from geneva_cli.parts.groove_plate import TOLERANCE, groove_members, require_groove_plate
-from geneva_cli.parts.link_drawings import titled
+from geneva_cli.parts.gear_pair import gear_shafts, gear_span
 from geneva_cli.parts.link_positions import same
 from geneva_cli.parts.link_shafts import Ends, link_shafts, outside_links
-from geneva_cli.parts.links import Links, drawn_links, placed_holes
-from geneva_cli.parts.model import PartsModel
+from geneva_cli.parts.links import Links, placed_holes
 from geneva_cli.parts.outlines import Outlines
 from geneva_cli.parts.shafts import crank_shaft_radius, shafts, wheel_shaft_radius
 from geneva_cli.parts.sizes import even, thicknesses, wall_min
@@ -41,44 +36,34 @@ class FrameAndShafts(NamedTuple):
     shafts: tuple[Member, ...]
 
 
-def frame(model: PartsModel, tolerance: float, curves: str) -> Drawing:
-    """Return the frame as it is drilled, with centre marks."""
-    plate = framed(model).plate
-    holes = [hole for hole in plate.holes if isinstance(hole, Circle)]
-    shapes = (plate.outline, *holes, *centre_marks(holes))
-    return Drawing(f"{titled(model.mechanism)}: frame", shapes, solid=plate)
-
-
 def framed(
-    model: PartsModel,
-    fixed: Sequence[Member] | None = None,
-    bars: Links | None = None,
+    mechanism: Mechanism,
+    outlines: Outlines | None,
+    bars: Links,
+    base: Plate | None = None,
     first: Sequence[Member] = (),
 ) -> FrameAndShafts:
-    """Return the frame; ``fixed`` are the plates with a groove that it carries, ``bars`` the links.
+    """Return the frame and the shafts of a machine with its ``outlines``, if it has any.
 
-    Both are computed if not given. ``first`` are the first wheel and its locking disc of two in
-    series. Raises GenevaError where wheel and crank do not stand in one plane, and where a
-    shaft's lower end is not below its upper one.
+    ``bars`` are the links, ``base`` is the lowest plate with a cam's groove, ``first`` are the
+    first wheel and its locking disc of two in series. Raises GenevaError where wheel and crank do
+    not stand in one plane, and where a shaft's lower end is not below its upper one.
     """
-    mechanism = model.mechanism
     if not mechanism.spec.wheel.FLAT:
         raise GenevaError(
             f'--part frame: the shafts of gearing = "{mechanism.spec.wheel.NAME}" are not '
             "parallel, so one plate cannot hold them"
         )
-    outlines = model.outlines if mechanism.spec.is_flat else None
-    bars = bars or drawn_links(mechanism, outlines)
     size, L = mechanism.spec.size, mechanism.center_distance_mm
-    if fixed is None:
-        fixed = groove_members(outlines, bars) if outlines else []
-    lows = [one.part.low for one in fixed if isinstance(one.part, Plate)]
+    lows = [base.low] if base else []
     if mechanism.spec.drive.gears:
-        lows.append(gear_span(model)[0])
+        lows.append(gear_span(mechanism, outlines)[0])
     top = min([_lowest(mechanism, outlines, bars), *lows]) - size.washer_mm
     bottom = top - thicknesses(size, L).arm
-    axles, places = list(_shafts(model, bars, bottom, first)), list(_standing(mechanism, bars))
-    holes = [*_drilled(mechanism, axles, places, top), *_fixed(bars), *_mounted(fixed, L)]
+    axles = list(_shafts(mechanism, outlines, bars, bottom, first))
+    places = list(_standing(mechanism, bars))
+    mounts = _mounted(base, L) if base else ()
+    holes = [*_drilled(mechanism, axles, places, top), *_fixed(bars), *mounts]
     wall = wall_min(size, L)
     eye = max(L / 20.0, 3.0 * wall)
     # The frame contains every axis, drilled or not.
@@ -95,34 +80,22 @@ def framed(
     )
 
 
-def groove_plates(
-    parts: Outlines,
-    bars: Links,
-    tolerance: float = TOLERANCE,
-    curves: str = "arcs",
-    fitted: bool = True,
-) -> list[Member]:
-    """Return a cam's groove plates at their positions; none without ``fitted``.
-
-    Raises GenevaError where they do not fit, even if they are omitted.
-    """
-    require_groove_plate(parts)
-    return groove_members(parts, bars, tolerance, curves) if fitted else []
-
-
 def _shafts(
-    model: PartsModel, bars: Links, lowest: float, first: Sequence[Member]
+    mechanism: Mechanism,
+    outlines: Outlines | None,
+    bars: Links,
+    lowest: float,
+    first: Sequence[Member],
 ) -> Iterator[Member]:
     """Yield all shafts at their positions; ``lowest`` is the frame's lower face."""
     stop, own = None, (False, False)
-    if model.mechanism.spec.is_flat:
-        outlines = model.outlines
+    if outlines:
         stop = crank_stop(outlines, bars)
         own = crank_shaft_radius(outlines) > 0.0, wheel_shaft_radius(outlines) > 0.0
         yield from shafts(outlines, lowest, stop)
     ends = Ends(lowest, stop, *own)
-    yield from link_shafts(model.mechanism, bars, ends, first)
-    yield from gear_shafts(model, ends)
+    yield from link_shafts(mechanism, bars, ends, first)
+    yield from gear_shafts(mechanism, outlines, ends)
 
 
 def _drilled(
@@ -172,9 +145,9 @@ def _fixed(bars: Links) -> Iterator[Circle]:
             yield Circle(HOLES, (x + u, y + v), hole.radius)
 
 
-def _mounted(members: Sequence[Member], L: float) -> Iterator[Circle]:
-    """Yield the holes that mount plates about the crank's axis, each once."""
-    holes = dict.fromkeys(hole for one in members for hole in placed_holes(one))
+def _mounted(base: Plate, L: float) -> Iterator[Circle]:
+    """Yield the holes that mount a plate about the crank's axis."""
+    holes = placed_holes(Member(base, (L, 0.0)))
     yield from (hole for hole in holes if not same(hole.centre, (L, 0.0), L))
 
 

@@ -11,65 +11,57 @@ import math
 
 import numpy as np
 
-from geneva_cli.curves.drawing import Drawing
-from geneva_cli.curves.plates import Group, Member, Plate, plates
-from geneva_cli.curves.shapes import Circle, Contour
+from geneva_cli.curves import fit
+from geneva_cli.curves.plates import Plate
+from geneva_cli.curves.shapes import Circle, Contour, closed
 from geneva_cli.errors import GenevaError
-from geneva_cli.parts.centre_marks import centre_marks
-from geneva_cli.parts.drawings import groove
 from geneva_cli.parts.groove import groove_curve
-from geneva_cli.parts.link_drawings import titled
-from geneva_cli.parts.links import Links, drawn_links
+from geneva_cli.parts.links import Links
 from geneva_cli.parts.outlines import Outlines
 from geneva_cli.parts.sizes import even
+from geneva_cli.parts.wheel_hub import about_axis
 
-HOLES, RIM = "BORE", 1.5  # of the roller's radius: rim around the groove, where it fits
+LAYER, HOLES, GROOVE, PITCH = "FRAME", "BORE", "GROOVE", "PITCH"
+BELOW = 2  # planes below the wheel: that of the groove, below the crank
+RIM = 1.5  # of the roller's radius: rim around the groove, where it fits
 MOUNTS = 4
 SAMPLES = 3601  # input angles of a turn: the error of the farthest point is quadratic in them
 TOLERANCE = 1e-3  # mm, of the flanks by default: that of a drawing
 
 
-def groove_plate(
-    parts: Outlines, tolerance: float, curves: str, bars: Links | None = None
-) -> Drawing:
-    """Return outline, both flanks, bore and holes, with centre marks.
+def groove_lines(
+    parts: Outlines, tolerance: float | None, curves: str
+) -> tuple[Contour, Contour, Contour]:
+    """Return both flanks of the groove all round, about the crank's axis, and its pitch curve.
 
-    ``bars`` are the machine's links, if they are known. Raises GenevaError for a machine without a
-    groove, and where the plate meets the wheel's shaft.
+    Raises GenevaError for a machine without a groove.
     """
-    title = f"{titled(parts.assembly.mechanism)}: groove plate"
-    flanks = groove(parts, tolerance, curves)
-    outer, inner, pitch = (shape for shape in flanks.shapes if isinstance(shape, Contour))
-    stack = _plates(parts, outer, inner, bars or drawn_links(parts.assembly.mechanism, parts))
-    base, ring, _ = stack
-    holes = [hole for hole in base.holes if isinstance(hole, Circle)]
-    shapes = (base.outline, *ring.holes[:1], inner, *holes, pitch, *centre_marks(holes))
-    return Drawing(title, shapes, solid=Group(title, tuple(map(Member, stack))))
+    guide = parts.assembly.rollers[0][0].groove
+    if guide is None:
+        kind = parts.assembly.full.spec.drive.NAME
+        raise GenevaError(
+            f'--part groove, groove-plate: kind = "{kind}" has no groove; "cam" has one'
+        )
+    motion, fine = guide.motion, TOLERANCE if tolerance is None else tolerance
+    ends = (motion.entry_deg, motion.exit_deg, motion.entry_deg + 360.0)
+
+    def line(layer: str, side: float) -> Contour:
+        curve = groove_curve(guide, parts.assembly.L, side * parts.sizes.half_width)
+        pairs = zip(ends, ends[1:], strict=False)
+        return closed(
+            layer, [piece for a, b in pairs for piece in fit.KINDS[curves](curve, a, b, fine)]
+        )
+
+    return line(GROOVE, 1.0), line(GROOVE, -1.0), line(PITCH, 0.0)
 
 
-def groove_members(
-    parts: Outlines,
-    bars: Links | None = None,
-    tolerance: float = TOLERANCE,
-    curves: str = "arcs",
-) -> list[Member]:
-    """Return the plates at their positions in the machine; none without a groove."""
-    if parts.assembly.rollers[0][0].groove is None:
-        return []
-    solid = groove_plate(parts, tolerance, curves, bars).solid
-    assert solid is not None
-    return [Member(plate, (parts.assembly.L, 0.0)) for plate in plates(solid)]
+def groove_base(parts: Outlines, bars: Links) -> Plate:
+    """Return the base below the groove, with its holes.
 
-
-def _plates(
-    parts: Outlines, one: Contour, other: Contour, bars: Links
-) -> tuple[Plate, Plate, Plate]:
-    """Return base, ring and island from the two flanks."""
+    ``bars`` are the links of the machine. Raises GenevaError where it meets the wheel's shaft.
+    """
+    assert bars.sizes is not None  # the crank is a link
     L = parts.assembly.L
-    inner, outer = sorted((one, other), key=_reach)
-    follower = next(
-        m.part for m in bars.joined if isinstance(m.part, Plate) and m.part.name.endswith("groove")
-    )
     far, rim = _reaches(parts)
     mount, at = even(0.25 * rim), far + 0.5 * rim
     mounts = [
@@ -78,20 +70,26 @@ def _plates(
     ]
     shaft = bars.shaft((L, 0.0), L)
     bore = [Circle(HOLES, (0.0, 0.0), shaft)] if shaft else []
-    edge = Circle("FRAME", (0.0, 0.0), far + rim)
-    low, high = follower.low, follower.high
-    floor = low - parts.sizes.arm_thickness
+    edge = Circle(LAYER, (0.0, 0.0), far + rim)
+    low, _ = bars.sizes.span(BELOW)
+    holes = *bore, *mounts
+    return Plate("groove plate's base", LAYER, edge, holes, low - parts.sizes.arm_thickness, low)
+
+
+def groove_stack(
+    parts: Outlines, base: Plate, bars: Links, flanks: tuple[Contour, Contour]
+) -> tuple[Plate, Plate, Plate]:
+    """Return base, ring and island; ``flanks`` are those of the groove."""
+    assert bars.sizes is not None
+    inner, outer = sorted(flanks, key=_reach)
+    low, high = bars.sizes.span(BELOW)
+    bore = about_axis(base.holes)
+    mounts = (hole for hole in base.holes if hole not in bore)
     return (
-        Plate("groove plate's base", "FRAME", edge, (*bore, *mounts), floor, low),
-        Plate("groove plate's ring", "FRAME", edge, (outer, *mounts), low, high),
-        Plate("groove plate's island", "FRAME", inner, tuple(bore), low, high),
+        base,
+        Plate("groove plate's ring", LAYER, base.outline, (outer, *mounts), low, high),
+        Plate("groove plate's island", LAYER, inner, bore, low, high),
     )
-
-
-def require_groove_plate(parts: Outlines) -> None:
-    """Raise GenevaError, naming the key, where a groove leaves no space for its plate."""
-    if parts.assembly.rollers[0][0].groove is not None:
-        _reaches(parts)
 
 
 def _reaches(parts: Outlines) -> tuple[float, float]:

@@ -11,69 +11,59 @@ from collections.abc import Iterator
 import numpy as np
 
 from geneva_cli.curves.drawing import Annotations, Drawing, LevelDistance
-from geneva_cli.curves.measure import mapped, turned
-from geneva_cli.curves.plates import Group
+from geneva_cli.curves.measure import turned
+from geneva_cli.curves.plates import Group, Member
 from geneva_cli.curves.shapes import Arc, Circle, Contour, Line, Shape, about
 from geneva_cli.machine.layout import Joint
 from geneva_cli.numerics.tolerances import SAME_LENGTH
 from geneva_cli.parts.arm import LAYER as ARM
-from geneva_cli.parts.arm import CrankArm
-from geneva_cli.parts.built import built
 from geneva_cli.parts.crank import roller_centres
-from geneva_cli.parts.drawings import PITCH, crank_shapes, pitch_lines, wheel_shapes
+from geneva_cli.parts.drawings import PITCH, pitch_lines
+from geneva_cli.parts.flat_parts import FlatParts
 from geneva_cli.parts.frame import LAYER as STANDING
-from geneva_cli.parts.gear_drawings import gear_shapes
-from geneva_cli.parts.link_drawings import once, shapes, titled, together
 from geneva_cli.parts.link_positions import links_at
 from geneva_cli.parts.link_sizes import places
-from geneva_cli.parts.model import PartsModel
+from geneva_cli.parts.links import LAYER as LINK
 from geneva_cli.parts.outlines import Outlines
-from geneva_cli.parts.placed import PlacedParts
+from geneva_cli.parts.projection import circle_key, once, outlines_of, placed, shapes, titled
 
 BEYOND = 0.04  # of the centre distance: from a part to the arrow that shows how it turns
 
 
-def machine(parts: Outlines, tolerance: float, curves: str) -> Drawing:
+def machine(parts: FlatParts) -> Drawing:
     """Return the machine at input angle 0, from the frame up to the wheel."""
-    return machine_and_parts(parts, tolerance, curves)[0]
+    outlines, title = parts.outlines, titled(parts.mechanism)
+    drawn = [*_seen(parts.wheel), *_seen(parts.crank_without_arm), *_arm(parts)]
+    drawn += _links(parts)
+    drawn += outlines_of(Group("", parts.gear_pair))
+    drawn += shapes(parts.first)
+    drawn += _standing(parts, drawn)
+    drawn += _roller_lines(parts)
+    L = outlines.assembly.L
+    look = Annotations((LevelDistance((0.0, 0.0), (L, 0.0), "L"),), tuple(_turns(outlines)))
+    return Drawing(title, tuple(once(drawn)), look, Group(title, parts.members))
 
 
-def machine_and_parts(
-    parts: Outlines, tolerance: float, curves: str
-) -> tuple[Drawing, PlacedParts[CrankArm]]:
-    """Return the drawing of the machine at input angle 0, and its parts."""
-    assembly = parts.assembly
-    contour, *circles = wheel_shapes(parts, tolerance, curves)
-    whole = built(parts, contour, tolerance, curves)
-    psi, angle = whole.wheel.turn, whole.crank.turn
-    drawn: list[Shape] = [turned(contour, psi), *(turned(s, psi) for s in circles)]
-    carried = [*crank_shapes(parts), *_arm(parts, whole.arm)]
-    drawn += [mapped(turned(s, angle), lambda p: (p[0] + assembly.L, p[1])) for s in carried]
-    # a first wheel is drawn itself, not as its pitch circle
-    drawn += together(whole.links._replace(gears=()) if whole.first else whole.links)
-    drawn += gear_shapes(PartsModel(assembly.full, parts), tolerance, curves)
-    drawn += shapes(whole.first)
-    drawn += _standing(whole, drawn)
-    drawn += _roller_lines(parts, psi, tolerance, curves)
-    title = titled(assembly.mechanism)
-    solid = Group(title, whole.members)
-    look = Annotations((LevelDistance((0.0, 0.0), (assembly.L, 0.0), "L"),), tuple(_turns(parts)))
-    return Drawing(title, tuple(once(drawn)), look, solid), whole
+def _seen(member: Member) -> list[Shape]:
+    return [placed(shape, member.at, member.turn) for shape in outlines_of(member.part)]
 
 
-def _standing(whole: PlacedParts[CrankArm], drawn: list[Shape]) -> list[Shape]:
+def _links(parts: FlatParts) -> Iterator[Shape]:
+    """Yield the links, and the round gears by their pitch circles, with all holes."""
+    yield from (shape._replace(layer=LINK) for shape in shapes(parts.links.cut))
+    blanks = list(shapes(parts.round_gears))
+    yield from (shape for shape in blanks if shape.layer == PITCH)
+    yield from (shape._replace(layer=LINK) for shape in blanks if shape.layer != PITCH)
+
+
+def _standing(parts: FlatParts, drawn: list[Shape]) -> list[Shape]:
     """Return the plates that stand still: outlines, grooves, and holes not covered by a bore."""
-    seen = {_round(shape) for shape in drawn if isinstance(shape, Circle)}
-    standing = shapes(whole.standing)
+    seen = {circle_key(shape) for shape in drawn if isinstance(shape, Circle)}
     return [
         shape._replace(layer=STANDING) if isinstance(shape, Circle) else shape
-        for shape in standing
-        if not (isinstance(shape, Circle) and _round(shape) in seen)
+        for shape in shapes(parts.standing)
+        if not (isinstance(shape, Circle) and circle_key(shape) in seen)
     ]
-
-
-def _round(circle: Circle) -> tuple[float, ...]:
-    return tuple(round(value, 6) for value in (*circle.centre, circle.radius))
 
 
 def _turns(parts: Outlines) -> Iterator[Arc]:
@@ -110,28 +100,31 @@ def _link_turns(parts: Outlines) -> Iterator[Arc]:
         yield about((L, 0.0), far, -sense * 0.5, sense)
 
 
-def _arm(parts: Outlines, arm: CrankArm | None) -> list[Shape]:
+def _arm(parts: FlatParts) -> list[Shape]:
     """Return the visible part of the crank arm: its outline, and its bore unless the disc's."""
-    if arm is None:
+    if parts.arm is None:
         return []
-    through = parts.sizes.crank_bore > 0.0
-    return [arm.outline] if through else [arm.outline, arm.bore._replace(layer=ARM)]
+    bore = parts.arm.bore
+    hidden = bore in outlines_of(parts.crank_without_arm.part)
+    crank = parts.crank
+    visible: list[Shape] = [parts.arm.outline, *([] if hidden else [bore._replace(layer=ARM)])]
+    return [placed(shape, crank.at, crank.turn) for shape in visible]
 
 
-def _roller_lines(parts: Outlines, psi: float, tolerance: float, curves: str) -> list[Shape]:
+def _roller_lines(parts: FlatParts) -> list[Shape]:
     """Return the line of centres, and the rollers' paths on their circles and in their slots."""
-    assembly = parts.assembly
-    shapes: list[Shape] = [Contour(PITCH, (Line((0.0, 0.0), (assembly.L, 0.0)),), closed=False)]
+    assembly = parts.outlines.assembly
+    lines: list[Shape] = [Contour(PITCH, (Line((0.0, 0.0), (assembly.L, 0.0)),), closed=False)]
     arms = set()
     for number, (engagement, behind) in enumerate(assembly.rollers):
         if not engagement.crank_sense and engagement.groove is None:
             x, y = assembly.pin(number, np.array([behind]))[0]
             arms.add(round(math.hypot(x - assembly.L, y), 9))
-    shapes += [Circle(PITCH, (assembly.L, 0.0), arm) for arm in sorted(arms)]
-    pitches = {s: pitch_lines(assembly, s, tolerance, curves) for s in parts.slots}
-    shapes += [
-        turned(line, direction + psi)
+    lines += [Circle(PITCH, (assembly.L, 0.0), arm) for arm in sorted(arms)]
+    pitches = {s: pitch_lines(parts, s) for s in assembly.kinds}
+    lines += [
+        turned(line, direction + parts.wheel.turn)
         for engagement, direction in assembly.slots
         for line in pitches[engagement]
     ]
-    return shapes
+    return lines

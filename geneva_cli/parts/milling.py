@@ -7,18 +7,24 @@ which the rollers run, nor on the locking arcs.
 from __future__ import annotations
 
 import math
+from contextlib import suppress
 
+from geneva_cli.curves.corners import TooWide
 from geneva_cli.curves.cutter import faults, freed
 from geneva_cli.curves.drawing import Drawing
 from geneva_cli.curves.plates import Group, Part, Plate, plates
 from geneva_cli.curves.shapes import Arc, Contour, Line, Shape
+from geneva_cli.errors import GenevaError
 from geneva_cli.machine.mechanism import Mechanism
+from geneva_cli.numerics.roots import boundary
 from geneva_cli.numerics.tolerances import SAME_LENGTH
 from geneva_cli.parts.locking_rings import LAYER as CRANK
 from geneva_cli.parts.model import PartsModel
-from geneva_cli.parts.sizes import wall_min
+from geneva_cli.parts.sizes import even, wall_min
 from geneva_cli.parts.wheel import LAYER as WHEEL
 from geneva_cli.spec.rules import TOOL_MM, require_mm
+
+LOOKS = 14  # halvings between a cutter whose dog bones fit and one whose do not
 
 
 def judged(drawing: Drawing, cutter_mm: float) -> tuple[str, list[str]]:
@@ -48,9 +54,21 @@ def with_dog_bones(drawing: Drawing, model: PartsModel, cutter_mm: float) -> Dra
     def works(piece: Line | Arc, layer: str) -> bool:
         return layer == WHEEL or (layer == CRANK and _locks(piece, lock, mechanism))
 
-    boned: dict[Shape, Contour] = {}
-    for plate in dict.fromkeys(plates(solid)):
-        boned |= freed(plate, 0.5 * cutter_mm, wall, works)
+    def boned_by(diameter: float) -> dict[Shape, Contour]:
+        each = (freed(p, 0.5 * diameter, wall, works) for p in dict.fromkeys(plates(solid)))
+        return {shape: contour for one in each for shape, contour in one.items()}
+
+    def fits(diameter: float) -> bool:
+        with suppress(GenevaError):
+            return bool(boned_by(diameter))
+        return False
+
+    try:
+        boned = boned_by(cutter_mm)
+    except TooWide as error:
+        most = 2.0 * even(0.5 * boundary(fits, 0.0, cutter_mm, LOOKS))
+        helps = f"use a cutter up to {most:g} mm" if most else "no cutter is small enough"
+        raise GenevaError(f"{error}; {helps}, or omit --dog-bones") from None
     shapes = tuple(boned.get(shape, shape) for shape in drawing.shapes)
     if drawing.shells:  # laid flat, they have no dog bones
         return drawing._replace(shapes=shapes, solid=None, shells=None)

@@ -1,13 +1,15 @@
-"""Entries that a list omits because they cannot be built, with the reason."""
+"""Parts of a list, each built by itself; those that cannot be built are listed with the reason."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator
-from typing import NamedTuple, TypeVar
+from typing import NamedTuple, TypeAlias, TypeVar
 
+from geneva_cli.curves.plates import Part
 from geneva_cli.errors import GenevaError
 
 T = TypeVar("T")
+NamedParts: TypeAlias = tuple[str, Callable[[], Iterable[Part]]]
 
 
 class Missing(NamedTuple):
@@ -25,3 +27,16 @@ def or_missing(name: str, listed: Callable[[], Iterable[T]]) -> Iterator[T | Mis
         yield Missing(name, str(error))
         return
     yield from rows
+
+
+def built_of(parts: Iterable[NamedParts], missing: list[Missing]) -> Iterator[Part]:
+    """Yield the parts that can be built; add the others to ``missing``, once for each reason."""
+    failed: dict[str, list[str]] = {}
+    for name, build in parts:
+        try:
+            some = list(build())
+        except GenevaError as error:
+            failed.setdefault(str(error), []).append(name)
+            continue
+        yield from some
+    missing += [Missing(", ".join(names), why) for why, names in failed.items()]

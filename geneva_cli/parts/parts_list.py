@@ -10,28 +10,22 @@ sphere inwards from the wheel's outer face.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from typing import TypeAlias
 
 from geneva_cli.curves.mass import MM, mass_properties
 from geneva_cli.curves.measure import bounds
-from geneva_cli.curves.plates import Member, Part, Plate, Shell, solids
+from geneva_cli.curves.plates import Part, Plate, Shell, solids
 from geneva_cli.curves.sphere import opposite
 from geneva_cli.machine.layout import Dimension, Pivot
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.machine.rollers import places
 from geneva_cli.machine.spec import Spec
-from geneva_cli.parts.built import built, link_members
-from geneva_cli.parts.missing import Missing, or_missing
+from geneva_cli.parts.missing import Missing, built_of, or_missing
 from geneva_cli.parts.model import PartsModel
-from geneva_cli.parts.plates import crank_group, wheel_part
-from geneva_cli.parts.sphere.built import built as built_ball
-from geneva_cli.parts.sphere.built import crank_group as ball_crank
-from geneva_cli.parts.sphere.built import wheel_shell
 from geneva_cli.parts.sphere.dimensions import dimensions
 from geneva_cli.parts.sphere.wheel import POLE
 from geneva_cli.spec.schema import Points, fields
-from geneva_cli.spec.tables import Size
 from geneva_cli.table import Reading, Table, rows_table
 
 ROUNDING = 1e-13  # of a part's size: a centroid nearer to its axis is on it
@@ -79,55 +73,30 @@ def parts_list(model: PartsModel) -> Table:
 
 
 def _parts(model: PartsModel) -> Iterator[Row | Missing]:
-    """Yield all parts; if they cannot all be built, wheel and crank alone, and the reason."""
+    """Yield all parts, and then the reason for each that cannot be built."""
     spec = model.mechanism.spec
-    if spec.is_flat or not spec.wheel.FLAT:
-        rows = list(or_missing("all other parts", lambda: _machine_rows(model)))
-        if any(isinstance(row, Missing) for row in rows):
-            yield from or_missing("wheel and crank", lambda: _bare_rows(model))
-        yield from rows
-    if not spec.is_flat:
-        yield from or_missing("links and frame", lambda: link_rows(model))
+    missing: list[Missing] = []
+
+    def shells() -> Iterator[Row]:
+        parts = model.ball()
+        yield from part_rows(spec, built_of(parts.by_name(), missing), parts.ball.span_mm[1])
+
+    def plates() -> Iterator[Row]:
+        yield from part_rows(spec, built_of(model.flat().by_name(), missing))
+
+    if not spec.wheel.FLAT:
+        yield from or_missing("wheel and crank", shells)
+    yield from or_missing("all parts", plates)
+    yield from missing
 
 
-def _machine_rows(model: PartsModel) -> Iterator[Row]:
-    """Yield a row for each kind of part. Raises GenevaError where one cannot be built."""
-    if model.mechanism.spec.wheel.FLAT:
-        yield from _rows(model, built(model.outlines).members)
-    else:
-        yield from _rows(model, built_ball(model.shells).members)
-
-
-def _bare_rows(model: PartsModel) -> Iterator[Row]:
-    """Yield rows for wheel and crank without the arm; on a sphere without hub and bolts too."""
-    wheel: Part
-    if model.mechanism.spec.wheel.FLAT:
-        wheel, crank = wheel_part(model.outlines, model.outlines.wheel), crank_group(model.outlines)
-    else:
-        wheel, crank = wheel_shell(Size(), model.shells.ball), ball_crank(model.shells, None)
-    yield from _rows(model, (Member(wheel), Member(crank)))
-
-
-def link_rows(model: PartsModel) -> Iterator[Row]:
-    """Yield rows for links, gears, shafts and frame, where the wheel is not drawn."""
-    yield from part_rows(model.mechanism.spec, link_members(model))
-
-
-def _rows(model: PartsModel, members: tuple[Member, ...]) -> Iterator[Row]:
-    spec = model.mechanism.spec
-    outside = None if spec.wheel.FLAT else model.shells.ball.span_mm[1]
-    yield from part_rows(spec, members, outside)
-
-
-def part_rows(
-    spec: Spec, members: tuple[Member, ...], outside: float | None = None
-) -> Iterator[Row]:
+def part_rows(spec: Spec, parts: Iterable[Part], outside: float | None = None) -> Iterator[Row]:
     """Yield a row for each kind of solid among some parts, with its count.
 
     On a sphere ``outside`` is the radius of the wheel's outer face, from which z counts inwards.
     """
     kinds: dict[Plate | tuple[str, str], list[Plate | Shell]] = {}
-    for solid in (one for member in members for one in solids(member.part)):
+    for solid in (one for part in parts for one in solids(part)):
         # Shells of one kind lie at different places, and may differ by rounding.
         kind = solid if isinstance(solid, Plate) else (solid.name, f"{solid.volume:.9g}")
         kinds.setdefault(kind, []).append(solid)
@@ -202,7 +171,7 @@ def _dimensions(model: PartsModel) -> Iterator[Row | Missing]:
     ]
     entries += [d for d in spec.wheel.layout if isinstance(d, Dimension)]
     if not spec.wheel.FLAT:
-        entries += dimensions(model)
+        entries += or_missing("dimensions of the shells", lambda: dimensions(model.ball()))
     if mechanism.law is None and spec.drive.CRANKED:
         entries += _straight(mechanism)
     elif spec.drive.CRANKED:

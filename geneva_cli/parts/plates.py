@@ -8,9 +8,8 @@ from __future__ import annotations
 from geneva_cli.curves.plates import Group, Member, Plate
 from geneva_cli.curves.shapes import Circle, Contour
 from geneva_cli.parts.arm import CrankArm, bolts
-from geneva_cli.parts.crank import crank_circles, is_whole, roller_centres
+from geneva_cli.parts.crank import crank_circles, is_whole
 from geneva_cli.parts.outlines import Outlines
-from geneva_cli.parts.shafts import crank_hub
 from geneva_cli.parts.wheel import wheel_circles
 from geneva_cli.parts.wheel_hub import wheel_hub
 
@@ -39,40 +38,25 @@ def arm_plate(parts: Outlines, arm: CrankArm) -> Plate:
     return Plate("arm", arm.outline.layer, arm.outline, holes, low, high)
 
 
-def crank_group(
-    parts: Outlines, arm: CrankArm | None = None, pin_low: float | None = None
-) -> Group:
-    """Return the crank's locking disc or sectors, rollers, pins and hub, and its arm if given.
+def locking_plates(parts: Outlines) -> list[Plate]:
+    """Return the crank's locking disc, or its sectors, with bolts and bore.
 
-    ``pin_low`` is the lower end of pins that stand in a link. A bore is a hole in the disc; it is
-    omitted where the disc has nothing left about the axis.
+    A bore is omitted where the disc has nothing left about the axis: the arm has it.
     """
     assembly, sizes = parts.assembly, parts.sizes
     low = -assembly.mechanism.spec.size.pin_gap_mm  # the disc stands on the arm
+    high = low + sizes.lock_thickness
     whole = is_whole(assembly, sizes)
     bores = [c for c in crank_circles(assembly, sizes) if c.layer == "BORE" and whole]
     screwed = bolts(parts)
     each = len(screwed) // max(1, len(parts.crank))
     name = "locking disc" if whole else "locking sector"
-    plates = [
+    return [
         Plate(
-            name,
-            contour.layer,
-            contour,
-            (*bores, *screwed[k * each : (k + 1) * each]),
-            low,
-            low + sizes.lock_thickness,
+            name, contour.layer, contour, (*bores, *screwed[k * each : (k + 1) * each]), low, high
         )
         for k, contour in enumerate(parts.crank)
     ]
-    plates += [arm_plate(parts, arm)] if arm else []
-    members = [Member(plate) for plate in plates]
-    below = low - (sizes.arm_thickness if arm else 0.0) if pin_low is None else pin_low
-    round_ = roller_plates(sizes.roller, sizes.pin, below, sizes.wheel_thickness)
-    members += [Member(plate, axis) for axis in roller_centres(assembly) for plate in round_]
-    hub = crank_hub(parts)
-    members += [Member(hub)] if hub else []
-    return Group("crank", tuple(members))
 
 
 def roller_plates(radius: float, pin_radius: float, low: float, high: float) -> list[Plate]:

@@ -208,3 +208,15 @@ def test_what_is_no_part_to_cut(two_pins):
         design.cutter("assembly", 3.0, of=model)
     with pytest.raises(GenevaError, match="--cutter 0: must be above 0, at most 1000 mm"):
         design.cutter("crank", 0.0, of=model)
+
+
+def test_a_keyway_without_room_for_two_dog_bones_names_a_cutter_that_has():
+    """Each bites the chord of its corner, a cutter over the root of 2, into a floor of 4 mm."""
+    keyed = ["size.crank_bore_mm=12", 'size.crank_keyway="DIN 6885-1"']
+    design = load(str(repo.DESIGNS / "press-straight.toml"), keyed)
+    with pytest.raises(GenevaError, match=r"shorter than a dog bone; use a cutter up to 2\.8 mm"):
+        design.drawing("crank", dog_bones_mm=3.0)
+    bored = design.drawing("crank", dog_bones_mm=2.8)
+    (bore,) = (s for s in bored.shapes if s.layer == "BORE")
+    assert len(bore.segments) == 5 + 2  # three walls, an arc in two
+    assert 2.8 < 4.0 / math.sqrt(2.0) < 2.9

@@ -12,7 +12,6 @@ from geneva_cli import Design, Epicyclic, External, GearSector, load
 from geneva_cli.curves.shapes import Arc, Circle, Contour
 from geneva_cli.errors import GenevaError
 from geneva_cli.parts.gear_curves import gears_table
-from geneva_cli.parts.gear_drawings import gear_members
 from geneva_cli.parts.links import drawn_links
 from geneva_cli.spec.tables import Size
 
@@ -216,7 +215,7 @@ def test_a_bore_that_leaves_no_noncircular_gear_is_refused():
     for gear, key in (("driven", "arm_bore_mm"), ("driver", "link_bore_mm")):
         of = design("elliptical-gears").with_(f"size.{key}", 71.0)
         with pytest.raises(GenevaError, match=rf"no blank of the {gear} gear.*below 70,.*{key}"):
-            gear_members(of.drawn(0.001))
+            _ = of.drawn(0.001).flat().gear_pair
 
 
 def test_a_blank_has_one_closed_outline():

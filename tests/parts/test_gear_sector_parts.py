@@ -17,7 +17,6 @@ from geneva_cli import Design, External, GearSector, Load, RollerMaterial, Size,
 from geneva_cli.analysis.arrival import arrival, greatest_drag
 from geneva_cli.curves.shapes import Arc, Circle
 from geneva_cli.errors import GenevaError
-from geneva_cli.parts.drawings import wheel as wheel_drawing
 from geneva_cli.parts.links import drawn_links
 from geneva_cli.parts.turn.planes import planes
 from geneva_cli.parts.wheel_inertia import wheel_body
@@ -353,7 +352,7 @@ def test_refusals():
 def test_the_drawings_of_the_design():
     """Six walls, rounds and rims; the pitch lines of both slots; holes for two pins."""
     design = load(str(repo.DESIGNS / "gear-sector.toml"))
-    contour = wheel_drawing(design.parts, 0.001, "arcs").shapes[0]
+    contour = design.drawing("wheel").shapes[0]
     assert len(contour.segments) == 3 * (5 + 3)
     lines = [s for s in design.drawing("slot").shapes if s.layer == "PITCH"]
     ways = [math.atan2(*s.segments[0].start[::-1]) for s in lines]

@@ -19,7 +19,7 @@ from geneva_cli.machine import registry
 from geneva_cli.machine.mechanism import build
 from geneva_cli.parts.assembly import assembly
 from geneva_cli.parts.gear_curves import convexity, gears_table
-from geneva_cli.parts.gear_drawings import driven_curve, driver_curve
+from geneva_cli.parts.gear_pair import driven_curve, driver_curve
 from geneva_cli.parts.groove import _distances, groove_table
 from geneva_cli.spec.tables import Limits
 from geneva_cli.verdict.checks import checks

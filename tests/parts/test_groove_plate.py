@@ -10,7 +10,7 @@ from geneva_cli.curves.mass import mass_properties
 from geneva_cli.curves.plates import plates
 from geneva_cli.curves.shapes import Circle
 from geneva_cli.errors import GenevaError
-from geneva_cli.parts.groove_plate import groove_plate
+from geneva_cli.parts.flat_parts import FlatParts
 from geneva_cli.parts.parts_list import parts_list
 
 SAGITTA = 1e-3  # mm, of the chords that shapely is given
@@ -59,10 +59,10 @@ def test_it_lies_about_its_roller_and_below_the_crank(cam):
 
 
 def test_machines_without_such_a_plate(cam):
-    _, proof, _ = cam
+    design, proof, _ = cam
     wide = proof.outlines.sizes._replace(wheel_hub=200.0)
     with pytest.raises(GenevaError, match="up to the wheel's hub, less than four times wall_min"):
-        groove_plate(proof.outlines._replace(sizes=wide), 0.01, "arcs")
+        _ = FlatParts(design.mechanism, proof.outlines._replace(sizes=wide)).groove_plate
     with pytest.raises(GenevaError, match='kind = "crank" has no groove; "cam" has one'):
         Design(External(6)).drawing("groove-plate")
 

@@ -3,6 +3,7 @@
 import csv
 import io
 import math
+from collections import Counter
 from pathlib import Path
 
 import numpy as np
@@ -19,6 +20,7 @@ from geneva_cli.curves.moments import moments
 from geneva_cli.design import load
 from geneva_cli.errors import GenevaError
 from geneva_cli.machine import registry
+from geneva_cli.output.chosen import only
 
 DESIGNS = sorted(Path(__file__, "../../../designs").resolve().glob("*.toml"))
 SAME = 1e-9  # radians, as far as a machine must come out from its printed dimensions
@@ -436,24 +438,28 @@ def test_a_sphere_is_weighed_from_what_is_printed(name):
         assert ends[1] - ends[0] == pytest.approx(float(row["thickness_mm"]), rel=1e-12)
 
 
+LINKED = "rollers, links, gears, shafts, frame"  # all that needs the links
+
+
 @pytest.mark.usefixtures("no_advice")
 @pytest.mark.parametrize(
-    ("name", "key", "value", "why", "parts"),
+    ("name", "key", "value", "why", "missing", "parts"),
     [
-        ("epicyclic-z4", "gear_bolt_circle_mm", 300.0, "no blank of the fixed gear is left", 4),
-        ("epicyclic-z4", "link_bore_mm", 30.0, "no plate is left around the holes", 4),
-        ("spherical-z6", "dial_bolt_circle_mm", 20.0, "they must lie between circles of", 3),
+        ("epicyclic-z4", "gear_bolt_circle_mm", 300.0, "no blank of the fixed gear", LINKED, 2),
+        ("epicyclic-z4", "link_bore_mm", 30.0, "no plate is left around the holes", LINKED, 2),
+        ("press-straight", "arm_hub_mm", 3.0, "the hub must be above 43", "arm", 7),
+        ("spherical-z6", "dial_bolt_circle_mm", 20.0, "they must lie between circles", "wheel", 7),
     ],
 )
-def test_what_cannot_be_built_is_listed_with_the_reason(name, key, value, why, parts):
+def test_what_cannot_be_built_is_listed_with_the_reason(name, key, value, why, missing, parts):
     """And the check of the parts fails for that reason: ``profile`` does not draw the machine."""
     design = load(next(str(path) for path in DESIGNS if path.stem == name))
     spec = design.spec.with_("size.dial_bolts", 3) if "dial" in key else design.spec
     design = Design.of(spec.with_(f"size.{key}", value))
     rows = design.part_table("parts").to_rows()
-    missing = [row for row in rows if row["row"] == "missing"]
-    assert missing[0]["name"] == "all other parts"
-    assert all(why in row["why"] for row in missing)
+    unbuilt = [row for row in rows if row["row"] == "missing"]
+    assert unbuilt[0]["name"] == missing
+    assert all(why in row["why"] for row in unbuilt)
     assert sum(row["row"] == "part" for row in rows) == parts
     assert any(why in c.why for c in design.checks if c.passes is False)
     with pytest.raises(GenevaError, match=why):
@@ -465,3 +471,15 @@ def test_what_cannot_be_built_is_listed_with_the_reason(name, key, value, why, p
 def test_nothing_is_missing_from_a_machine_that_is_built(path):
     rows = load(str(path)).part_table("parts").to_rows()
     assert "missing" not in {row["row"] for row in rows}
+
+
+def test_chosen_columns_leave_out_the_kinds_of_rows_that_have_none_of_them():
+    table = load(str(next(path for path in DESIGNS if path.stem == "four-bar-z4"))).part_table(
+        "parts"
+    )
+    count = Counter(row["row"] for row in table.to_rows())
+    assert len(only(table, ["name", "mass_kg"])) == count["part"]
+    assert len(only(table, ["x_mm"])) == count["pivot"]
+    assert len(only(table, ["name", "unit", "y_mm"])) == count["dimension"] + count["pivot"]
+    assert len(only(table, ["row", "name"])) == len(table)
+    assert len(only(table, ["why"])) == 0

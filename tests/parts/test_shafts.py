@@ -9,6 +9,7 @@ from geneva_cli import Design, External, Internal, SideCrank, Size, load
 from geneva_cli.curves.plates import plates
 from geneva_cli.errors import GenevaError
 from geneva_cli.parts.arm import crank_arm
+from geneva_cli.parts.flat_parts import FlatParts
 from geneva_cli.parts.turn.shaft_gap import ring_gap, shaft_gap
 
 STEEL = 7850e-9  # kg/mm³
@@ -72,6 +73,10 @@ def test_where_they_end():
     assert set(spans(Design(External(6)))) == {"wheel's shaft", "crank's shaft"}
 
 
+def gap_of(design):
+    return shaft_gap(FlatParts(design.mechanism, design.parts))
+
+
 def test_a_hub_is_a_ring():
     """In the list of parts, and in the wheel's own inertia: m (R² + r²) / 2."""
     design = with_()
@@ -100,10 +105,10 @@ def test_an_arm_beside_the_wheels_hub():
     found = row(design, "beside_shafts_mm")
     assert found.value == pytest.approx(room, abs=1e-9) and found.value > 0.0
     wide = with_(wheel_hub_mm=88.0, arm_eye_mm=16.0)
-    found = shaft_gap(wide.parts)
+    found = gap_of(wide)
     assert found == (pytest.approx(100.0 - 50.0 - 8.0 - 44.0), "wheel's hub", "arm")
     # a hub that ends above the arm lets it pass, but for the pin
-    short = shaft_gap(wide.with_("size.wheel_hub_length_mm", 1.0).parts)
+    short = gap_of(wide.with_("size.wheel_hub_length_mm", 1.0))
     assert short == (pytest.approx(100.0 - 50.0 - 2.5 - 44.0), "wheel's hub", "pin")
 
 
@@ -111,11 +116,11 @@ def test_a_crank_shaft_through_an_internal_wheel():
     """Its horns come as near to the wheel's axis as the rim, and the crank's axis is beyond."""
     design = Design(Internal(6), size=Size(crank_shaft_high_mm=4.0))
     sizes = design.parts.sizes
-    found = shaft_gap(design.parts)
+    found = gap_of(design)
     radius = part(design, "crank's shaft").outline.radius
     assert found.gap == pytest.approx(sizes.rim - 100.0 - radius, abs=1e-6)
     assert (found.shaft, found.part) == ("crank's shaft", "wheel")
-    assert shaft_gap(Design(Internal(6)).parts) is None
+    assert gap_of(Design(Internal(6))) is None
 
 
 def test_a_shaft_in_a_disc_must_move_outside_and_in_a_ring_may_move_inside():
@@ -131,7 +136,7 @@ def test_a_first_wheel_beside_the_seconds_shaft():
     design = load(str(repo.DESIGNS / "geneva-pair.toml"), wide)
     first = part(design, "first wheel")
     reach = max(math.hypot(*piece.start) for piece in first.outline.segments)
-    found = shaft_gap(design.parts)
+    found = gap_of(design)
     wheel = part(design, "wheel's shaft").outline.radius
     assert found.gap == pytest.approx(30.0 - reach - wheel, abs=1e-9)
 

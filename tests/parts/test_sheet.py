@@ -23,7 +23,6 @@ from geneva_cli.parts.sheet import marks
 from geneva_cli.parts.sheet.board import Board
 from geneva_cli.parts.sheet.paper import FORMATS, SCALES
 from geneva_cli.parts.sheet.points import gear_tables, polyline, tables
-from geneva_cli.parts.sheet.sheet import sheet
 from geneva_cli.parts.sphere.drawings import wheel_cone
 from geneva_cli.parts.sphere.sheet import flat_slot
 from geneva_cli.spec.tables import Size, Tolerance
@@ -317,4 +316,4 @@ def test_the_comparison_can_fail():
 def test_refusals():
     slots = Spec(Wheel(6), motion=Motion("cycloidal", ratio="matched"), size=Size(5e7))
     with pytest.raises(GenevaError, match="do not fit on one A1 sheet"):
-        sheet(Design.of(slots).parts, 1e3, "arcs")
+        Design.of(slots).sheet(1e3)

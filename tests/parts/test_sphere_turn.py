@@ -9,12 +9,12 @@ from scipy.spatial import cKDTree
 from geneva_cli import Crank, Design, External, Size, Spherical
 from geneva_cli.errors import GenevaError
 from geneva_cli.parts.model import PartsModel
-from geneva_cli.parts.sphere.built import built
 from geneva_cli.parts.sphere.crank import at_mid_motion, sectors
 from geneva_cli.parts.sphere.gaps import BallGaps
 from geneva_cli.parts.sphere.shaft_gap import shaft_gap
 from geneva_cli.parts.sphere.shells import shells
 from geneva_cli.parts.sphere.sizes import ball
+from geneva_cli.parts.sphere.sphere_parts import SphereParts
 from geneva_cli.parts.turn.gaps import NEAR
 from geneva_cli.verdict.checks import all_pass, checks
 from geneva_cli.verdict.checks.registry import standing_checks
@@ -186,7 +186,7 @@ def test_shafts_and_arm_have_room_or_not():
 def least_beside(**given):
     axes = given.pop("axes")
     found = shells(Design(Spherical(6, axes_deg=axes), size=Size(80.0, 3.0, **given)).mechanism)
-    return found.ball, shaft_gap(found, built(found))
+    return found.ball, shaft_gap(SphereParts(found))
 
 
 def test_a_shaft_through_the_centre_to_where_the_crank_comes_round():

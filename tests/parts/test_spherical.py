@@ -19,10 +19,10 @@ from geneva_cli.output.step import chunks
 from geneva_cli.parts.model import PartsModel
 from geneva_cli.parts.sphere.arm import crank_arm
 from geneva_cli.parts.sphere.arm_drawing import arm_cone
-from geneva_cli.parts.sphere.built import built, wheel_shell
 from geneva_cli.parts.sphere.crank import at_mid_motion, rollers, sectors
 from geneva_cli.parts.sphere.drawings import crank_cone, wheel_cone
 from geneva_cli.parts.sphere.sizes import ball
+from geneva_cli.parts.sphere.sphere_parts import SphereParts, wheel_shell
 from geneva_cli.parts.sphere.wheel import POLE, edge_points, wheel_regions
 from geneva_cli.verdict.checks.registry import standing_checks
 
@@ -300,7 +300,7 @@ def test_an_arm_with_bolts_keyway_and_hub_inside():
     )
     design = Design(Spherical(4, axes_deg=40), size=size)
     found = PartsModel(design.mechanism).shells
-    whole = built(found)
+    whole = SphereParts(found)
     assert [hole.radius for hole in whole.arm.bolts] == [1.25, 1.25]
     names = Counter(one.name for one in solids(whole.crank.part))
     assert names["crank's hub"] == 1
@@ -341,7 +341,7 @@ def test_an_arm_with_bolts_keyway_and_hub_inside():
 def test_no_arm_or_hub(size, said):
     found = PartsModel(Design(Spherical(6), size=Size(80.0, 5.0, **size)).mechanism).shells
     with pytest.raises(GenevaError, match=said):
-        built(found)
+        _ = SphereParts(found).members
 
 
 def test_bolts_for_a_dial():

@@ -8,8 +8,8 @@ from drawing_witness import vertices
 from words import load
 
 from geneva_cli.curves.shapes import Circle
-from geneva_cli.parts.drawings import crank_shapes
 from geneva_cli.parts.model import PartsModel
+from geneva_cli.parts.projection import outlines_of
 from geneva_cli.parts.wheel import wheel_circles
 from geneva_cli.verdict.report.parts import cut_sizes
 from geneva_cli.verdict.report.sizes import sizes
@@ -70,7 +70,10 @@ def test_printed_sizes_are_those_of_the_outlines(model):
 @pytest.mark.parametrize("name", [*FLAT, *GIVEN])
 def test_printed_bores_and_rollers_are_those_drawn(model):
     found, size, part = model.outlines, sizes(model), cut_sizes(model)
-    circles, shapes = wheel_circles(found.assembly, found.sizes), crank_shapes(found)
+    circles, shapes = (
+        wheel_circles(found.assembly, found.sizes),
+        outlines_of(model.flat().crank_without_arm.part),
+    )
     assert part["parts.wheel_bore_mm"] == about_axis(circles, "BORE")
     assert part["parts.crank_bore_mm"] == about_axis(shapes, "BORE")
     rollers = [s for s in shapes if s.layer == "ROLLER"]

@@ -3,14 +3,34 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
+from typing import NamedTuple
 
 from geneva_cli.curves.measure import at
+from geneva_cli.curves.plates import Plate
 from geneva_cli.curves.shapes import Circle, Contour, Shape
 from geneva_cli.curves.sheet import CENTRE
 from geneva_cli.parts.keyways import key
 from geneva_cli.parts.sheet import sized
 from geneva_cli.parts.sheet.view import View, number, times
+from geneva_cli.parts.wheel_hub import about_axis
+
+BORE = "BORE"
+
+
+class Holes(NamedTuple):
+    """The round holes of plates on one axis: bores about it, and others, such as bolts."""
+
+    bores: tuple[Shape, ...]
+    bolts: tuple[Circle, ...]
+
+
+def holes_of(plates: Iterable[Plate]) -> Holes:
+    """Return the bores and bolts of plates that lie on each other, each once."""
+    holes = [hole for plate in plates for hole in plate.holes if hole.layer == BORE]
+    bores = dict.fromkeys(about_axis(holes))
+    bolts = (hole for hole in holes if isinstance(hole, Circle) and hole not in bores)
+    return Holes(tuple(bores), tuple(dict.fromkeys(bolts)))
 
 
 def bored(view: View, bores: Sequence[Shape], radius: float, standard: str | None) -> None:

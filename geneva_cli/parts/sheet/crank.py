@@ -6,43 +6,42 @@ import math
 
 from geneva_cli.curves.measure import at, legs
 from geneva_cli.curves.plates import plates
-from geneva_cli.curves.shapes import Arc, Circle, Shape
+from geneva_cli.curves.shapes import Arc, Circle, Contour, Shape
 from geneva_cli.curves.sheet import CENTRE, HIDDEN, OUTLINE
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.numerics.tolerances import SAME_ON_SHEET
 from geneva_cli.parts.arm import CrankArm
 from geneva_cli.parts.crank import is_whole
+from geneva_cli.parts.flat_parts import FlatParts
 from geneva_cli.parts.outlines import Outlines
-from geneva_cli.parts.plates import crank_group
 from geneva_cli.parts.sheet import sized
-from geneva_cli.parts.sheet.bores import bolted, bored, circle_of, radius_of
+from geneva_cli.parts.sheet.bores import bolted, bored, circle_of, holes_of, radius_of
 from geneva_cli.parts.sheet.standing import draw_hub
 from geneva_cli.parts.sheet.view import View, number, times
 from geneva_cli.parts.sizes import pin_radius
-from geneva_cli.parts.wheel_hub import HUB, about_axis
+from geneva_cli.parts.wheel_hub import HUB
 
 
-def draw_disc(view: View, parts: Outlines) -> None:
+def draw_disc(view: View, parts: FlatParts) -> None:
     """Draw the locking disc, or its sectors, about the crank's axis."""
-    assembly, sizes = parts.assembly, parts.sizes
-    own = plates(crank_group(parts))
+    outlines, mechanism = parts.outlines, parts.mechanism
+    assembly, sizes = outlines.assembly, outlines.sizes
+    own = plates(parts.crank.part)
     discs, hubs = ([plate for plate in own if plate.layer == layer] for layer in ("CRANK", HUB))
-    holes = [hole for disc in discs for hole in disc.holes]
-    bores = about_axis(holes)
-    screwed = [hole for hole in holes if isinstance(hole, Circle) and hole not in bores]
-    round_ = *screwed, *bores, *(hub.outline for hub in hubs)
-    for shape in (*parts.crank, *round_):
+    bores, screwed = holes_of(discs)
+    contours = [disc.outline for disc in discs if isinstance(disc.outline, Contour)]
+    for shape in (*contours, *screwed, *bores, *(hub.outline for hub in hubs)):
         view.draw(shape, OUTLINE)
     circle_of(view, screwed)
     view.cross((0.0, 0.0), sizes.lock if is_whole(assembly, sizes) else 0.2 * sizes.lock)
     for hub in hubs:
         draw_hub(view, hub)
-    bored(view, bores, sizes.crank_bore, assembly.mechanism.spec.size.crank_keyway)
-    arcs = [s for contour in parts.crank for s in contour.segments if isinstance(s, Arc)]
+    bored(view, bores, sizes.crank_bore, mechanism.spec.size.crank_keyway)
+    arcs = [s for contour in contours for s in contour.segments if isinstance(s, Arc)]
     locking = [
         a for a in arcs if math.hypot(*a.centre) < SAME_ON_SHEET and _is(a.radius, sizes.lock)
     ]
-    view.of_arcs(locking, sized.lock(assembly.mechanism, sizes.lock), whole=True)
+    view.of_arcs(locking, sized.lock(mechanism, sizes.lock), whole=True)
     seen: set[tuple[str, str]] = set()
     for arc in arcs:
         if arc in locking:
@@ -57,11 +56,11 @@ def draw_disc(view: View, parts: Outlines) -> None:
         if math.hypot(*arc.centre) > SAME_ON_SHEET and far > SAME_ON_SHEET:
             turn = math.atan2(middle[1], middle[0])
             view.linear((0.0, 0.0), middle, turn, shown[1], near=True)
-    _gaps(view, parts, locking)
+    _gaps(view, sizes.lock, locking)
     bolted(view, screwed)
 
 
-def _gaps(view: View, parts: Outlines, locking: list[Arc]) -> None:
+def _gaps(view: View, lock: float, locking: list[Arc]) -> None:
     """Draw the angles between the locking arcs."""
     ends = sorted(legs(arc) for arc in _joined(locking))
     gaps: dict[str, list[tuple[float, float]]] = {}
@@ -70,7 +69,7 @@ def _gaps(view: View, parts: Outlines, locking: list[Arc]) -> None:
         if wide > SAME_ON_SHEET:
             gaps.setdefault(f"{number(math.degrees(wide))}°", []).append((end, end + wide))
     for text, pairs in gaps.items():
-        view.angular(pairs, parts.sizes.lock, parts.sizes.lock, times(len(pairs), text))
+        view.angular(pairs, lock, lock, times(len(pairs), text))
 
 
 def _joined(arcs: list[Arc]) -> list[Arc]:
@@ -85,7 +84,7 @@ def _joined(arcs: list[Arc]) -> list[Arc]:
     return joined
 
 
-def draw_arm(view: View, parts: Outlines, arm: CrankArm) -> None:
+def draw_arm(view: View, mechanism: Mechanism, arm: CrankArm) -> None:
     """Draw the crank arm with its holes."""
     view.draw(arm.outline, OUTLINE)
     for shape in (arm.bore, *arm.pins, *arm.bolts):
@@ -94,7 +93,6 @@ def draw_arm(view: View, parts: Outlines, arm: CrankArm) -> None:
     for pin in arm.pins:
         view.cross(pin.centre, arm.eye, math.atan2(pin.centre[1], pin.centre[0]))
     circle_of(view, arm.bolts)
-    mechanism = parts.assembly.mechanism
     deviation = mechanism.spec.tolerance.crank_radius_mm
     shown: dict[str, list[Circle]] = {}
     for pin in arm.pins:

@@ -9,7 +9,7 @@ from geneva_cli.curves.shapes import Arc, Circle, Contour, Point, Shape
 from geneva_cli.curves.sheet import CENTRE, OUTLINE
 from geneva_cli.numerics.tolerances import SAME_ON_SHEET
 from geneva_cli.parts.gear_blanks import Gear
-from geneva_cli.parts.link_drawings import placed
+from geneva_cli.parts.projection import placed
 from geneva_cli.parts.sheet import sized
 from geneva_cli.parts.sheet.bores import bolted, circle_of
 from geneva_cli.parts.sheet.view import View, number, times

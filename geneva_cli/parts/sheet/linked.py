@@ -5,11 +5,10 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from typing import TypeAlias
 
-from geneva_cli.curves.plates import Member, Plate
-from geneva_cli.curves.shapes import Shape
+from geneva_cli.curves.plates import Group, Member, Plate
 from geneva_cli.machine.mechanism import Mechanism
-from geneva_cli.parts.gear_curves import required_gears
-from geneva_cli.parts.links import Links
+from geneva_cli.parts.flat_parts import FlatParts
+from geneva_cli.parts.projection import outlines_of
 from geneva_cli.parts.sheet.crank import draw_roller
 from geneva_cli.parts.sheet.gears import draw_gear, draw_gears
 from geneva_cli.parts.sheet.links import draw_link
@@ -34,24 +33,25 @@ def titled(rows: Sequence[Mapping[str, object]], scale: float) -> Begin:
     return begin
 
 
-def linked(begin: Begin, bars: Links, mechanism: Mechanism, series: bool = False) -> Iterator[View]:
-    """Yield views of links and gears, each once; two wheels in series have no gears."""
+def linked(begin: Begin, parts: FlatParts) -> Iterator[View]:
+    """Yield views of links and round gears, each once; two wheels in series have no gears."""
+    bars = parts.links
     for one in {member.part: member for member in bars.cut}.values():
         view = begin(one.part.name)
-        draw_link(view, one, bars, mechanism)
+        draw_link(view, one, bars, parts.mechanism)
         yield view
-    for gear in () if series else bars.gears:
+    for gear in () if parts.front else bars.gears:
         view = begin(gear.name)
         draw_gear(view, gear)
         yield view
 
 
-def geared(begin: Begin, shapes: Sequence[Shape], mechanism: Mechanism) -> Iterator[View]:
+def geared(begin: Begin, parts: FlatParts) -> Iterator[View]:
     """Yield the view of noncircular gears in mesh, if there are any."""
-    if shapes:
-        L, C = mechanism.center_distance_mm, required_gears(mechanism).distance_mm
-        view = begin("driven gear", "driver gear")
-        draw_gears(view, shapes, ((L, 0.0), (L + C, 0.0)))
+    if parts.gear_pair:
+        view = begin(*(member.part.name for member in parts.gear_pair))
+        driven, driver = (member.at for member in parts.gear_pair)
+        draw_gears(view, outlines_of(Group("", parts.gear_pair)), (driven, driver))
         yield view
 
 

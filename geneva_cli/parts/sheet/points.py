@@ -10,7 +10,7 @@ import numpy as np
 
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.numerics.tolerances import SAME_LENGTH
-from geneva_cli.parts.gear_drawings import crank_sense, driven_curve, driver_curve
+from geneva_cli.parts.gear_pair import crank_sense, driven_curve, driver_curve
 from geneva_cli.parts.groove import groove_curve
 from geneva_cli.parts.outlines import Outlines
 from geneva_cli.parts.sheet import sized

@@ -10,7 +10,7 @@ from collections.abc import Iterator
 from geneva_cli.curves.sheet import Sheet
 from geneva_cli.machine.layout import Dimension, Pivot
 from geneva_cli.machine.mechanism import Mechanism
-from geneva_cli.parts.outlines import Outlines
+from geneva_cli.parts.flat_parts import FlatParts
 from geneva_cli.parts.sheet import links, points
 from geneva_cli.parts.sheet.composed import on_paper
 from geneva_cli.parts.sheet.paper import smaller, table
@@ -18,15 +18,15 @@ from geneva_cli.parts.sheet.view import Block, number
 from geneva_cli.parts.sheet.views import shown_on_sheet, together, views
 
 
-def sheet(parts: Outlines, tolerance: float, curves: str) -> Sheet:
+def sheet(parts: FlatParts) -> Sheet:
     """Return the drawing sheet of a machine. Raises GenevaError where no scale fits on one."""
-    shown = shown_on_sheet(parts, tolerance, curves)
-    mechanism, bars = parts.assembly.mechanism, shown.built.links
+    shown, mechanism = shown_on_sheet(parts), parts.mechanism
+    tolerance = parts.tolerance or 0.0
     fixed = [
-        *points.tables(parts, tolerance),
-        *points.gear_tables(parts.assembly.full, tolerance),
-        *links.round_parts(bars.joined, mechanism),
-        *layout(parts.assembly.full),
+        *points.tables(parts.outlines, tolerance),
+        *points.gear_tables(mechanism, tolerance),
+        *links.round_parts(parts.links.joined, mechanism),
+        *layout(mechanism),
     ]
 
     def blocks(scale: float) -> Iterator[list[Block]]:
@@ -34,7 +34,7 @@ def sheet(parts: Outlines, tolerance: float, curves: str) -> Sheet:
         for times in (1.0, 2.0):  # the machine's scale, or half of it
             yield [*apart, together(shown, smaller(scale, times)).block(), *fixed]
 
-    return on_paper(parts.assembly.full.spec, shown.rows, shown.largest, blocks, shown.area)
+    return on_paper(mechanism.spec, shown.rows, shown.largest, blocks, shown.area)
 
 
 def layout(mechanism: Mechanism) -> list[Block]:

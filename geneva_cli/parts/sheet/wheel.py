@@ -6,60 +6,63 @@ import math
 from collections.abc import Iterator
 
 from geneva_cli.curves.measure import turned
+from geneva_cli.curves.plates import plates
 from geneva_cli.curves.shapes import Arc, Contour, Point
 from geneva_cli.curves.sheet import CENTRE, HIDDEN, OUTLINE
 from geneva_cli.machine.engagement import Engagement
 from geneva_cli.numerics.tolerances import SAME_ON_SHEET
-from geneva_cli.parts import drawings
+from geneva_cli.parts.drawings import pitch_lines
+from geneva_cli.parts.flat_parts import FlatParts
 from geneva_cli.parts.outlines import Outlines
+from geneva_cli.parts.projection import outlines_of
 from geneva_cli.parts.sheet import sized
-from geneva_cli.parts.sheet.bores import bolted, bored, circle_of
+from geneva_cli.parts.sheet.bores import bolted, bored, circle_of, holes_of
 from geneva_cli.parts.sheet.standing import draw_hub
 from geneva_cli.parts.sheet.view import View, number, times
-from geneva_cli.parts.wheel import dial_bolts
-from geneva_cli.parts.wheel_hub import HUB, wheel_hub
+from geneva_cli.parts.wheel_hub import HUB
 
 
-def draw_wheel(view: View, parts: Outlines, tolerance: float, curves: str) -> None:
+def draw_wheel(view: View, parts: FlatParts) -> None:
     """Draw the wheel with all its dimensions; a table has the points of curved slots."""
-    assembly, sizes = parts.assembly, parts.sizes
-    drawing = drawings.wheel(parts, tolerance, curves)
-    contour = next(s for s in drawing.shapes if isinstance(s, Contour))
-    for shape in drawing.shapes:
+    outlines = parts.outlines
+    assembly, sizes = outlines.assembly, outlines.sizes
+    wheel, *hubs = plates(parts.wheel.part)
+    for shape in outlines_of(parts.wheel.part):
         view.draw(shape, HIDDEN if shape.layer == HUB else OUTLINE)
+    edges = [s for s in (wheel.outline, *wheel.holes) if isinstance(s, Contour)]
+    contour = next(s for s in edges if s.layer == wheel.layer)
     reach = sizes.outer or max(math.hypot(*s.start) for s in contour.segments)
     view.cross((0.0, 0.0), reach)
     _axes(view, parts, reach)
     if sizes.recess:
-        view.cross(_recess_centre(parts), 0.0)
+        view.cross(_recess_centre(outlines), 0.0)
     arcs = [s for s in contour.segments if isinstance(s, Arc)]
-    screwed = dial_bolts(assembly, sizes)
-    bores = [s for s in drawing.shapes if s.layer == "BORE" and s not in screwed]
+    bores, screwed = holes_of([wheel])
     circle_of(view, screwed)
-    _recesses(view, parts, arcs)
+    _recesses(view, outlines, arcs)
     for engagement in assembly.kinds:
         number_of = sum(1 for one, _ in assembly.slots if one is engagement)
         if not engagement.slot.curved:
-            _slot(view, parts, engagement, number_of)
+            _slot(view, outlines, engagement, number_of)
     up = 0.5 * math.pi
     view.linear((0.0, -reach), (0.0, reach), up, sized.plain(2.0 * reach, "Ø "))
-    _steps(view, parts, reach)
+    _steps(view, outlines, reach)
     _rims(view, arcs, reach)
-    hub = wheel_hub(assembly, sizes)
-    if hub:
+    for hub in hubs:
         draw_hub(view, hub)
     bored(view, bores, sizes.wheel_bore, assembly.mechanism.spec.size.wheel_keyway)
     bolted(view, screwed)
 
 
-def _axes(view: View, parts: Outlines, reach: float) -> None:
+def _axes(view: View, parts: FlatParts, reach: float) -> None:
     """Draw the axes of straight slots, and the roller's path in a curved one."""
-    for i, (engagement, direction) in enumerate(parts.assembly.slots):
+    outlines = parts.outlines
+    for i, (engagement, direction) in enumerate(outlines.assembly.slots):
         if not engagement.slot.curved:
-            for end, mouth in _ends(turned(parts.slots[engagement], direction)):
-                view.centre_line(*((end, mouth) if parts.assembly.sign > 0.0 else (mouth, end)))
+            for end, mouth in _ends(turned(outlines.slots[engagement], direction)):
+                view.centre_line(*((end, mouth) if outlines.assembly.sign > 0.0 else (mouth, end)))
         elif i == 0:
-            for line in drawings.pitch_lines(parts.assembly, engagement, parts.fine, "arcs"):
+            for line in pitch_lines(parts, engagement):
                 view.draw(line, CENTRE)
 
 

@@ -9,29 +9,28 @@ from geneva_cli.curves.plates import Group, Member, Plate
 from geneva_cli.curves.shapes import Contour, Line, Segment, closed
 from geneva_cli.curves.sphere import Region, SphereArc, place
 from geneva_cli.curves.sphere_hull import Cap
-from geneva_cli.parts.link_drawings import titled
-from geneva_cli.parts.model import PartsModel
+from geneva_cli.parts.projection import titled
 from geneva_cli.parts.sphere.arm import CapArm, crank_arm
-from geneva_cli.parts.sphere.built import ARM, arm_solids
 from geneva_cli.parts.sphere.drawings import flat_region
 from geneva_cli.parts.sphere.laid_flat import Cone
 from geneva_cli.parts.sphere.sizes import Ball
+from geneva_cli.parts.sphere.sphere_parts import ARM, SphereParts, arm_solids
 
 HOLES = "BORE"
 
 
-def arm(model: PartsModel, tolerance: float, curves: str) -> Drawing:
+def arm(parts: SphereParts) -> Drawing:
     """Return the arm laid flat; its solid is the cap with its hub.
 
     Raises GenevaError without an arm.
     """
-    ball = model.shells.ball
-    cap_arm, cone = crank_arm(model.shells), arm_cone(ball)
-    shapes = arm_flat(ball, cap_arm, tolerance, curves)
+    ball = parts.ball
+    cap_arm = parts.arm or crank_arm(parts.shells)  # the error says why there is no arm
+    shapes = arm_flat(parts, cap_arm)
     low, high = ball.arm_span_mm
     plate = Plate("arm", ARM, shapes[0], tuple(shapes[1:]), 0.0, high - low)
     solid = Group("arm", tuple(map(Member, arm_solids(ball, cap_arm))))
-    title = f"{titled(model.mechanism)}: arm, flat: {cone.described('crank')}"
+    title = titled(parts.mechanism, f"arm, flat: {arm_cone(ball).described('crank')}")
     return Drawing(title, tuple(shapes), solid=plate, shells=solid)
 
 
@@ -40,12 +39,12 @@ def arm_cone(ball: Ball) -> Cone:
     return Cone(0.5 * sum(ball.arm_span_mm), ball.arm)
 
 
-def arm_flat(ball: Ball, arm: CapArm, tolerance: float, curves: str) -> list[Contour]:
+def arm_flat(parts: SphereParts, arm: CapArm) -> list[Contour]:
     """Return the arm's boundary, cut open between its holes, and the holes.
 
     About the crank's axis the opening is as wide as the hub.
     """
-    cone = arm_cone(ball)
+    cone = arm_cone(parts.ball)
     hub, *others = arm.holes
     azimuths = [math.atan2(hole.axis[1], hole.axis[0]) for hole in others]
     cut = _widest_gap(azimuths) - math.tau  # azimuths rise from here by a whole turn, past 0
@@ -53,7 +52,7 @@ def arm_flat(ball: Ball, arm: CapArm, tolerance: float, curves: str) -> list[Con
     edge: list[Segment] = []
     # each arc's azimuths are unwrapped around a value near them
     for arc, about in ((head, 0.5), *((arc, 1.0) for arc in between), (tail, 1.5)):
-        edge += cone.segments(arc, cut + about * math.pi, tolerance, curves)
+        edge += cone.segments(arc, cut + about * math.pi, parts.tolerance, parts.curves)
     angle = hub.angle(cone.radius_mm)
     far, near = (cone.point(angle, cut + turn) for turn in (math.tau, 0.0))
     back = cone.level(far, near, -math.tau)
@@ -62,7 +61,7 @@ def arm_flat(ball: Ball, arm: CapArm, tolerance: float, curves: str) -> list[Con
     for hole, azimuth in zip(others, azimuths, strict=True):
         region = Cap(hole.axis, hole.angle(cone.radius_mm)).region
         about = cut + (azimuth - cut) % math.tau
-        holes.append(flat_region(HOLES, region, cone, about, tolerance, curves))
+        holes.append(flat_region(HOLES, region, cone, about, parts))
     return [closed(ARM, outline), *holes]
 
 

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from geneva_cli.curves.mass import MM, MassProperties, added, mass_properties
 from geneva_cli.machine.mechanism import Mechanism
-from geneva_cli.parts.sphere.built import wheel_hub, wheel_shell
 from geneva_cli.parts.sphere.sizes import ball
+from geneva_cli.parts.sphere.sphere_parts import wheel_hub, wheel_shell
 from geneva_cli.parts.sphere.wheel import POLE
 
 

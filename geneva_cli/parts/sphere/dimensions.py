@@ -9,21 +9,16 @@ from geneva_cli.curves.round_holes import RoundHole
 from geneva_cli.curves.sphere import Region
 from geneva_cli.machine.layout import Dimension
 from geneva_cli.parts.missing import Missing, or_missing
-from geneva_cli.parts.model import PartsModel
-from geneva_cli.parts.sphere.arm import CapArm, crank_arm, has_arm
+from geneva_cli.parts.sphere.arm import CapArm
 from geneva_cli.parts.sphere.dial import dial_holes
 from geneva_cli.parts.sphere.drawings import crank_cone, wheel_cone
-from geneva_cli.parts.sphere.shells import Shells
 from geneva_cli.parts.sphere.sizes import Ball
+from geneva_cli.parts.sphere.sphere_parts import SphereParts
 
 
-def dimensions(model: PartsModel) -> Iterator[Dimension | Missing]:
+def dimensions(parts: SphereParts) -> Iterator[Dimension | Missing]:
     """Yield dimensions of shells, arm and cones; for parts that cannot be built, the reason."""
-    yield from or_missing("dimensions of the shells", lambda: _dimensions(model.shells))
-
-
-def _dimensions(shells: Shells) -> Iterator[Dimension | Missing]:
-    ball = shells.ball
+    ball = parts.ball
     inner, outer = ball.span_mm
     yield Dimension("shells' inner radius", inner, "mm")
     yield Dimension("shells' outer radius", outer, "mm")
@@ -33,16 +28,15 @@ def _dimensions(shells: Shells) -> Iterator[Dimension | Missing]:
     yield Dimension("rim, from the wheel's axis", math.degrees(ball.rim), "deg")
     yield Dimension("slotted ring's inner edge, from its axis", math.degrees(ball.inner), "deg")
     yield from _axle("wheel", ball.bore_mm, ball.hub_mm)
-    size = shells.assembly.full.spec.size
+    size = parts.mechanism.spec.size
     yield from or_missing("dial's bolts", lambda: _bolts("dial's bolt", dial_holes(size, ball)))
     if ball.lock:
         yield Dimension("lock, from the crank's axis", math.degrees(ball.lock), "deg")
         yield Dimension("recess, from the crank's axis", math.degrees(ball.recess), "deg")
         yield Dimension("locking sectors' inner radius", ball.lock_span_mm[0], "mm")
-    for k, region in enumerate(shells.crank):
+    for k, region in enumerate(parts.shells.crank):
         yield from _sector(f"locking sector {k + 1}", region)
-    if has_arm(shells):
-        yield from or_missing("arm's dimensions", lambda: _arm(ball, crank_arm(shells)))
+    yield from or_missing("arm's dimensions", lambda: _arm(ball, parts.arm))
     yield from _cones(ball)
 
 
@@ -62,7 +56,9 @@ def _sector(name: str, region: Region) -> Iterator[Dimension]:
     yield Dimension(f"{name}: width", math.degrees(rim.sweep), "deg")
 
 
-def _arm(ball: Ball, arm: CapArm) -> Iterator[Dimension]:
+def _arm(ball: Ball, arm: CapArm | None) -> Iterator[Dimension]:
+    if arm is None:
+        return
     inner, outer = ball.arm_span_mm
     yield Dimension("arm's inner radius", inner, "mm")
     yield Dimension("arm's outer radius", outer, "mm")

@@ -12,12 +12,11 @@ from geneva_cli.curves.measure import bounds, mapped
 from geneva_cli.curves.plates import Group, Member, Part, Plate
 from geneva_cli.curves.shapes import Contour, Line, Point, Segment, Shape, closed, joined
 from geneva_cli.curves.sphere import Region
-from geneva_cli.parts.link_drawings import titled
-from geneva_cli.parts.model import PartsModel
-from geneva_cli.parts.sphere.built import built, wheel_group
+from geneva_cli.parts.projection import titled
 from geneva_cli.parts.sphere.crank import locked, rollers
 from geneva_cli.parts.sphere.laid_flat import Cone
 from geneva_cli.parts.sphere.sizes import Ball
+from geneva_cli.parts.sphere.sphere_parts import SphereParts
 from geneva_cli.parts.sphere.wheel import edge
 
 APART = 0.1  # of the sphere's radius: between wheel and crank, side by side
@@ -25,41 +24,34 @@ PITCH = "PITCH"
 CUT = ("WHEEL", "CRANK")  # layers that are cut from sheet
 
 
-def wheel(model: PartsModel, tolerance: float, curves: str) -> Drawing:
+def wheel(parts: SphereParts) -> Drawing:
     """Return the wheel's cone, cut open between two slots; x is along the first slot."""
-    ball = model.shells.ball
-    cone = wheel_cone(ball)
-    title = f"{titled(model.mechanism)}: wheel, flat: {cone.described('wheel')}"
-    shapes = wheel_flat(ball, cone, tolerance, curves)
-    solid = wheel_group(model.mechanism.spec.size, ball)
-    return _drawing(ball, title, shapes, solid)
+    cone = wheel_cone(parts.ball)
+    title = titled(parts.mechanism, f"wheel, flat: {cone.described('wheel')}")
+    return _drawing(parts, title, wheel_flat(parts, cone), parts.wheel.part)
 
 
-def crank(model: PartsModel, tolerance: float, curves: str) -> Drawing:
+def crank(parts: SphereParts) -> Drawing:
     """Return the crank's cone: locking sectors, and the rollers where they pass through it."""
-    ball, locks = model.shells.ball, model.shells.crank
-    cone = crank_cone(ball)
-    title = f"{titled(model.mechanism)}: crank, flat: {cone.described('crank')}"
-    shapes = crank_flat(ball, locks, cone, tolerance, curves)
-    return _drawing(ball, title, shapes, built(model.shells).crank.part)
+    cone = crank_cone(parts.ball)
+    title = titled(parts.mechanism, f"crank, flat: {cone.described('crank')}")
+    return _drawing(parts, title, crank_flat(parts, cone), parts.crank.part)
 
 
-def assembly(model: PartsModel, tolerance: float, curves: str) -> Drawing:
+def assembly(parts: SphereParts) -> Drawing:
     """Return both laid flat, side by side; the solid is the machine at input angle 0."""
-    ball, locks = model.shells.ball, model.shells.crank
-    title = titled(model.mechanism)
-    left = wheel_flat(ball, wheel_cone(ball), tolerance, curves)
-    right = crank_flat(ball, locks, crank_cone(ball), tolerance, curves)
+    ball, title = parts.ball, titled(parts.mechanism)
+    left, right = wheel_flat(parts, wheel_cone(ball)), crank_flat(parts, crank_cone(ball))
     shift = APART * ball.radius_mm + max(bounds(shape).x1 for shape in left)
     shift -= min(bounds(shape).x0 for shape in right)
     moved = [mapped(shape, lambda p: (p[0] + shift, p[1])) for shape in right]
-    whole = Group(title, built(model.shells).members)
-    return _drawing(ball, title, [*left, *moved], whole)._replace(look=Annotations((), ()))
+    whole = Group(title, parts.members)
+    return _drawing(parts, title, [*left, *moved], whole)._replace(look=Annotations((), ()))
 
 
-def _drawing(ball: Ball, title: str, shapes: list[Shape], shells: Part) -> Drawing:
+def _drawing(parts: SphereParts, title: str, shapes: list[Shape], shells: Part) -> Drawing:
     """Return a drawing of plates of sheet, and the shells that they become."""
-    inner, outer = ball.span_mm
+    inner, outer = parts.ball.span_mm
     plates = [
         Member(Plate(s.layer.lower(), s.layer, s, (), 0.0, outer - inner))
         for s in shapes
@@ -79,10 +71,11 @@ def crank_cone(ball: Ball) -> Cone:
     return Cone(ball.radius_mm, ball.arm)
 
 
-def wheel_flat(ball: Ball, cone: Cone, tolerance: float, curves: str) -> list[Shape]:
+def wheel_flat(parts: SphereParts, cone: Cone) -> list[Shape]:
     """Return the wheel's outline on its flat cone, and the rollers' paths."""
+    ball = parts.ball
     b = ball.half_step
-    slot = slot_flat(ball, cone, tolerance, curves)
+    slot = slot_flat(ball, cone, parts.tolerance, parts.curves)
     mouth = math.acos(math.cos(ball.rim) / math.cos(ball.half_width))
     ends = [cone.point(polar, 0.0) for polar in (mouth, ball.bottom)]
     path = Contour(PITCH, (Line(*ends),), closed=False)
@@ -110,25 +103,24 @@ def slot_flat(ball: Ball, cone: Cone, tolerance: float, curves: str) -> Contour:
     return Contour("WHEEL", joined(one), closed=False)
 
 
-def crank_flat(
-    ball: Ball, locks: list[Region], cone: Cone, tolerance: float, curves: str
-) -> list[Shape]:
+def crank_flat(parts: SphereParts, cone: Cone) -> list[Shape]:
     """Return locking sectors, rollers and the rollers' circle on the crank's flat cone."""
+    ball = parts.ball
     shapes: list[Shape] = []
-    for region, (a, b) in zip(locks, locked(ball), strict=True):
-        shapes.append(flat_region("CRANK", region, cone, 0.5 * (a + b), tolerance, curves))
+    for region, (a, b) in zip(parts.shells.crank, locked(ball), strict=True):
+        shapes.append(flat_region("CRANK", region, cone, 0.5 * (a + b), parts))
     for region, about in zip(rollers(ball), ball.rollers, strict=True):
-        shapes.append(flat_region("ROLLER", region, cone, about, tolerance, curves))
+        shapes.append(flat_region("ROLLER", region, cone, about, parts))
     ends = cone.point(ball.arm, 0.0), cone.point(ball.arm, math.tau)
     shapes.append(Contour(PITCH, (cone.level(*ends, math.tau),), closed=False))
     return shapes
 
 
 def flat_region(
-    layer: str, region: Region, cone: Cone, about: float, tolerance: float, curves: str
+    layer: str, region: Region, cone: Cone, about: float, parts: SphereParts
 ) -> Contour:
     """Return a region laid flat, whose azimuths are within half a turn of ``about``."""
     segments: list[Segment] = []
     for arc in region.boundary:
-        segments += cone.segments(arc, about, tolerance, curves)
+        segments += cone.segments(arc, about, parts.tolerance, parts.curves)
     return closed(layer, segments)

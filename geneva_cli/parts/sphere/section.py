@@ -7,20 +7,16 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator
-from typing import TYPE_CHECKING, TypeAlias
+from typing import TypeAlias
 
 from geneva_cli.curves.plates import Plate, plates
 from geneva_cli.curves.shapes import Arc, Circle, Contour, Line, Point, about, closed
 from geneva_cli.curves.sheet import CENTRE, HIDDEN, OUTLINE, polar
-from geneva_cli.parts.placed import PlacedParts
 from geneva_cli.parts.sheet import sized
 from geneva_cli.parts.sheet.view import View, number
 from geneva_cli.parts.sphere.arm import CapArm
-from geneva_cli.parts.sphere.built import ROLLER
 from geneva_cli.parts.sphere.sizes import Ball
-
-if TYPE_CHECKING:
-    from geneva_cli.parts.sphere.shells import Shells
+from geneva_cli.parts.sphere.sphere_parts import ROLLER, SphereParts
 
 UP = 0.5 * math.pi
 SAME = 1e-6  # radians
@@ -28,7 +24,7 @@ SAME = 1e-6  # radians
 Side: TypeAlias = Callable[[float], float]  # an angle from the wheel's axis, on each sphere
 
 
-def section(parts: Shells, whole: PlacedParts[CapArm], scale: float) -> View:
+def section(parts: SphereParts, scale: float) -> View:
     """Return all parts cut by the plane of the shafts, with angles from the wheel's axis.
 
     Locking sectors are turned into that plane.
@@ -44,22 +40,22 @@ def section(parts: Shells, whole: PlacedParts[CapArm], scale: float) -> View:
     for low, high in ((opening, radial(end)), (radial(-back), closing)):
         view.draw(_ring(inner, outer, low, high), OUTLINE)
     view.draw(_ring(inner, outer, radial(end), radial(ball.rim)), HIDDEN)  # the slot's wall, beyond
-    for ring in _crank(parts, whole):
+    for ring in _crank(parts):
         view.draw(ring, OUTLINE)
-    for plate, angle in _plates(parts, whole):
+    for plate, angle in _plates(parts):
         for shape in _along(plate, angle):
             view.draw(shape, OUTLINE)
-    middle, far = ball.axes - ball.arm, max(_far(whole), outer)
+    middle, far = ball.axes - ball.arm, max(_far(parts), outer)
     for angle in (0.0, ball.axes, middle):
         view.centre_line((0.0, 0.0), _at(far + 0.1 * ball.radius_mm, angle))
     locked = Contour("", (_arc(ball.radius_mm, -back, ball.axes + ball.lock),), closed=False)
     view.draw(locked, CENTRE)
     for radius in (inner, outer):
         view.of_arcs([_arc(radius, -back, -ball.inner)], sized.plain(radius, "SR "))
-    if whole.arm:
-        start = ball.axes + whole.arm.cap
+    if parts.arm:
+        start = ball.axes + parts.arm.cap
         for radius in ball.arm_span_mm:
-            arc = _arc(radius, start - 0.5 * whole.arm.cap, start)
+            arc = _arc(radius, start - 0.5 * parts.arm.cap, start)
             view.of_arcs([arc], sized.plain(radius, "SR "))
     _dimension_angles(view, ball, end, middle, _reach(parts), far)
     return view
@@ -78,9 +74,9 @@ def _dimension_angles(
         view.angular([(axis - angle, axis)], far, far, f"{name} {degrees(angle)}")
 
 
-def _crank(parts: Shells, whole: PlacedParts[CapArm]) -> Iterator[Contour]:
+def _crank(parts: SphereParts) -> Iterator[Contour]:
     """Yield the cut faces of rollers, locking sector and arm."""
-    ball, arm = parts.ball, whole.arm
+    ball, arm = parts.ball, parts.arm
     for middle in _rollers(ball):
         sides = [radial(middle - ball.roller), radial(middle + ball.roller)]
         if arm:
@@ -116,14 +112,14 @@ def _behind(ball: Ball, arm: CapArm) -> list[Side]:
     return [end]
 
 
-def _plates(parts: Shells, whole: PlacedParts[CapArm]) -> Iterator[tuple[Plate, float]]:
+def _plates(parts: SphereParts) -> Iterator[tuple[Plate, float]]:
     """Yield hubs, shafts and pins, each with the angle of its axis from the wheel's axis."""
     axes = parts.ball.axes
-    yield from ((plate, 0.0) for plate in plates(whole.wheel.part))
-    for plate in dict.fromkeys(plates(whole.crank.part)):
+    yield from ((plate, 0.0) for plate in plates(parts.wheel.part))
+    for plate in dict.fromkeys(plates(parts.crank.part)):
         at = _rollers(parts.ball) if plate.layer == ROLLER else [axes]
         yield from ((plate, angle) for angle in at)
-    for member in whole.shafts:
+    for member in parts.shafts:
         assert isinstance(member.part, Plate)
         yield member.part, axes if member.frame else 0.0
 
@@ -146,14 +142,14 @@ def _edge(plate: Plate) -> Point:
     return (hole.radius, 0.0) if isinstance(hole, Circle) else hole.segments[0].start
 
 
-def _far(whole: PlacedParts[CapArm]) -> float:
+def _far(parts: SphereParts) -> float:
     """Return the distance of the shafts' farthest end from the centre."""
-    return max((m.part.high for m in whole.shafts if isinstance(m.part, Plate)), default=0.0)
+    return max((m.part.high for m in parts.shafts if isinstance(m.part, Plate)), default=0.0)
 
 
-def _reach(parts: Shells) -> tuple[float, ...]:
+def _reach(parts: SphereParts) -> tuple[float, ...]:
     """Return the angles of the locking sectors' inner and outer edge, from the crank's axis."""
-    arcs = [arc for one in parts.crank for arc in one.boundary]
+    arcs = [arc for one in parts.shells.crank for arc in one.boundary]
     angles = [math.acos(max(-1.0, min(1.0, arc.start[2]))) for arc in arcs]
     return (min(angles), max(angles)) if angles else ()
 

@@ -16,15 +16,12 @@ import numpy as np
 from geneva_cli.curves.plates import Plate, plates
 from geneva_cli.curves.shapes import Circle
 from geneva_cli.numerics.tolerances import SAME_LENGTH
-from geneva_cli.parts.placed import PlacedParts
-from geneva_cli.parts.sphere.arm import CapArm
-from geneva_cli.parts.sphere.built import ROLLER
 from geneva_cli.parts.sphere.sizes import Ball
+from geneva_cli.parts.sphere.sphere_parts import ROLLER, SphereParts
 from geneva_cli.parts.turn.shaft_gap import ShaftGap, ring_gap
 
 if TYPE_CHECKING:
     from geneva_cli.numerics.jet import Array
-    from geneva_cli.parts.sphere.shells import Shells
 
 
 class Sweep(NamedTuple):
@@ -57,20 +54,20 @@ class Sweep(NamedTuple):
         return math.hypot(self.inner, self.wide) if self.wide else 0.0
 
 
-def shaft_gap(parts: Shells, whole: PlacedParts[CapArm]) -> ShaftGap | None:
+def shaft_gap(parts: SphereParts) -> ShaftGap | None:
     """Return the least gap of hubs and shafts to parts about the other axis, mm along a sphere.
 
     None where no two of them share a distance from the centre.
     """
     ball = parts.ball
-    shafts = [(member.part, member.frame is not None) for member in whole.shafts]
+    shafts = [(member.part, member.frame is not None) for member in parts.shafts]
     on_wheel, on_crank = (
         [p for p in plates(one.part) if p.layer != ROLLER]
         + [p for p, of_crank in shafts if isinstance(p, Plate) and of_crank is crank]
-        for crank, one in ((False, whole.wheel), (True, whole.crank))
+        for crank, one in ((False, parts.wheel), (True, parts.crank))
     )
     wheel, crank = ([s for p in some for s in _round(p)] for some in (on_wheel, on_crank))
-    pairs = [*product(wheel, [*crank, *_crank_rings(parts, whole)])]
+    pairs = [*product(wheel, [*crank, *_crank_rings(parts)])]
     pairs += [*product(crank, [_wheel_ring(ball)])]
     near = SAME_LENGTH * ball.radius_mm
     return min(
@@ -93,15 +90,15 @@ def _round(plate: Plate) -> Iterator[Sweep]:
             yield Sweep(plate.name, back, 0.0, 0.0, flat, math.hypot(high, wide), wide)
 
 
-def _crank_rings(parts: Shells, whole: PlacedParts[CapArm]) -> Iterator[Sweep]:
+def _crank_rings(parts: SphereParts) -> Iterator[Sweep]:
     """Yield the regions that arm, locking sectors and rollers sweep about the crank's axis."""
-    ball, arm = parts.ball, whole.arm
+    ball, arm, sectors = parts.ball, parts.arm, parts.shells.crank
     out = ball.span_mm[1]
     if arm:
         out = ball.arm_span_mm[1]
         yield Sweep("arm", False, 0.0, arm.reach, *ball.arm_span_mm)
-    if parts.crank:
-        low = min(math.pi - sector.boundary[2].angle for sector in parts.crank)
+    if sectors:
+        low = min(math.pi - sector.boundary[2].angle for sector in sectors)
         yield Sweep("locking sector", False, low, ball.lock, *ball.lock_span_mm)
     low, high = ball.arm - ball.roller, ball.arm + ball.roller
     yield Sweep("roller", False, low, high, ball.span_mm[0], out)

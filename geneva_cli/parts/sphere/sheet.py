@@ -19,9 +19,7 @@ from geneva_cli.curves.shapes import Arc, Contour, Line, Point, Segment, Shape
 from geneva_cli.curves.sheet import CENTRE, OUTLINE, Sheet
 from geneva_cli.machine.layout import Dimension
 from geneva_cli.numerics.tolerances import SAME_ANGLE
-from geneva_cli.parts.model import PartsModel
 from geneva_cli.parts.parts_list import part_rows
-from geneva_cli.parts.placed import PlacedParts
 from geneva_cli.parts.sheet import sized
 from geneva_cli.parts.sheet.bores import bored, radius_of
 from geneva_cli.parts.sheet.composed import on_paper
@@ -32,7 +30,6 @@ from geneva_cli.parts.sheet.standing import draw_hub, draw_shaft
 from geneva_cli.parts.sheet.view import Block, View, number, times
 from geneva_cli.parts.sphere.arm import CapArm
 from geneva_cli.parts.sphere.arm_drawing import arm_cone, arm_flat
-from geneva_cli.parts.sphere.built import ROLLER, built
 from geneva_cli.parts.sphere.dimensions import dimensions
 from geneva_cli.parts.sphere.drawings import (
     PITCH,
@@ -45,6 +42,7 @@ from geneva_cli.parts.sphere.drawings import (
 from geneva_cli.parts.sphere.laid_flat import Cone
 from geneva_cli.parts.sphere.section import degrees, section
 from geneva_cli.parts.sphere.sizes import Ball
+from geneva_cli.parts.sphere.sphere_parts import ROLLER, SphereParts
 
 if TYPE_CHECKING:
     from geneva_cli.numerics.jet import Array
@@ -55,44 +53,45 @@ COLUMNS = (80.0, 24.0, 14.0)  # mm, of the table of angles
 DECIMALS = 4  # of an angle in degrees: 0.2 um on 100 mm
 
 
-def sheet(model: PartsModel, tolerance: float, curves: str) -> Sheet:
+def sheet(parts: SphereParts) -> Sheet:
     """Return the drawing sheet of a machine. Raises GenevaError where no scale fits on one."""
-    ball, locks = model.shells.ball, model.shells.crank
-    wheel = wheel_flat(ball, wheel_cone(ball), tolerance, curves)
-    crank = crank_flat(ball, locks, crank_cone(ball), tolerance, curves)
-    whole = built(model.shells)
-    arm = arm_flat(ball, whole.arm, tolerance, curves) if whole.arm else []
+    ball = parts.ball
+    wheel = wheel_flat(parts, wheel_cone(ball))
+    crank = crank_flat(parts, crank_cone(ball))
+    arm = arm_flat(parts, parts.arm) if parts.arm else []
     rows = [
         (d.name, number(d.value, DECIMALS), d.unit)
-        for d in dimensions(model)
+        for d in dimensions(parts)
         if isinstance(d, Dimension) and isinstance(d.value, (int, float))
     ]
     fixed = [
         table(HEADING, [("dimension", "value", "unit"), *rows], COLUMNS),
-        flat_slot(ball, tolerance),
+        flat_slot(ball, parts.tolerance),
     ]
 
     def blocks(scale: float) -> Iterator[list[Block]]:
         views = [
-            section(model.shells, whole, scale),
+            section(parts, scale),
             _flat("wheel", ball, wheel_cone(ball), wheel, scale),
             _flat("crank", ball, crank_cone(ball), crank, scale),
         ]
-        if whole.arm:
-            views.append(_arm(model, ball, whole.arm, arm, scale))
-        views += _axles(model, whole, scale)
+        if parts.arm:
+            views.append(_arm(parts, parts.arm, arm, scale))
+        views += _axles(parts, scale)
         yield [*(view.block() for view in views), *fixed]
 
-    items = list(part_rows(model.mechanism.spec, whole.members, ball.span_mm[1]))
-    return on_paper(model.mechanism.spec, items, 2.0 * ball.span_mm[1], blocks)
+    spec = parts.mechanism.spec
+    items = list(part_rows(spec, (one.part for one in parts.members), ball.span_mm[1]))
+    return on_paper(spec, items, 2.0 * ball.span_mm[1], blocks)
 
 
-def _arm(model: PartsModel, ball: Ball, arm: CapArm, flat: list[Contour], scale: float) -> View:
+def _arm(parts: SphereParts, arm: CapArm, flat: list[Contour], scale: float) -> View:
     """Return the view of the arm laid flat, with notes on pins, hub and bolts."""
+    ball = parts.ball
     view = _flat("crank", ball, arm_cone(ball), flat, scale)
     view.title = "arm, laid flat"
     hole, pin = arm.pins[0].radius, ball.pin_mm
-    text = f"{sized.pin_hole(model.mechanism, hole)} through, to the sphere's centre"
+    text = f"{sized.pin_hole(parts.mechanism, hole)} through, to the sphere's centre"
     view.remark(f"pins: {times(len(arm.pins), text)}; pin {sized.pin(pin)}")
     view.remark(f"hub: {sized.plain(2.0 * arm.hub, 'Ø ')} through, about the crank's axis")
     if arm.bolts:
@@ -101,10 +100,10 @@ def _arm(model: PartsModel, ball: Ball, arm: CapArm, flat: list[Contour], scale:
     return view
 
 
-def _axles(model: PartsModel, whole: PlacedParts[CapArm], scale: float) -> Iterator[View]:
+def _axles(parts: SphereParts, scale: float) -> Iterator[View]:
     """Yield views of hubs along their axes, with bores and keyways, and of shafts' sides."""
-    size = model.mechanism.spec.size
-    for part, standard in ((whole.wheel, size.wheel_keyway), (whole.crank, size.crank_keyway)):
+    size = parts.mechanism.spec.size
+    for part, standard in ((parts.wheel, size.wheel_keyway), (parts.crank, size.crank_keyway)):
         for hub in plates(part.part):
             if hub.layer == ROLLER:
                 continue
@@ -116,7 +115,7 @@ def _axles(model: PartsModel, whole: PlacedParts[CapArm], scale: float) -> Itera
             draw_hub(view, hub)
             view.remark(f"{number(hub.thickness)} long")
             yield view
-    for shaft in flat_plates(whole.shafts):
+    for shaft in flat_plates(parts.shafts):
         view = View(shaft.name, scale)
         draw_shaft(view, shaft)
         yield view

@@ -19,13 +19,9 @@ from geneva_cli.curves.plates import Group, Member, Part, Plate
 from geneva_cli.curves.shapes import Arc, Circle, Contour, Point, Segment, closed, two_arcs
 from geneva_cli.numerics.jet import Array
 from geneva_cli.numerics.tolerances import SAME_LENGTH
-from geneva_cli.parts.arm import CrankArm
-from geneva_cli.parts.built import built
-from geneva_cli.parts.gear_drawings import PITCH, gear_span, pitch_radii
-from geneva_cli.parts.link_drawings import placed
-from geneva_cli.parts.model import PartsModel
-from geneva_cli.parts.outlines import Outlines
-from geneva_cli.parts.placed import PlacedParts
+from geneva_cli.parts.flat_parts import FlatParts
+from geneva_cli.parts.gear_pair import PITCH, gear_span, pitch_radii
+from geneva_cli.parts.projection import placed
 from geneva_cli.parts.wheel_hub import HUB
 
 Measure = TypeVar("Measure", float, Array)  # one gap, or an array of one for each sphere
@@ -63,35 +59,31 @@ def ring_gap(apart: float, inner: float, outer: Measure, radius: Measure) -> Mea
     return gap - radius
 
 
-def shaft_gap(parts: Outlines) -> ShaftGap | None:
+def shaft_gap(parts: FlatParts) -> ShaftGap | None:
     """Return the least gap of all parts; None where nothing passes a hub or shaft.
 
     Raises GenevaError for sizes that leave no parts.
     """
-    whole = built(parts, pitch=False)
-    turning = _rings_of((whole.wheel, whole.crank))
-    others = _rings_of((*whole.first, *whole.standing[:-1]))
-    return _least(parts, whole, turning, [*turning, *others])
+    turning = _rings_of((parts.wheel, parts.crank))
+    others = _rings_of((*parts.first, *parts.groove_plate))
+    return _least(parts, turning, [*turning, *others])
 
 
-def gear_gap(parts: Outlines) -> ShaftGap | None:
+def gear_gap(parts: FlatParts) -> ShaftGap | None:
     """Return the least gap of noncircular gears to hubs and shafts; None without such gears.
 
     Raises GenevaError for sizes that leave no parts.
     """
-    if parts.assembly.full.spec.drive.gears is None:
+    if parts.mechanism.spec.drive.gears is None:
         return None
-    whole = built(parts, pitch=False)
-    turning = _rings_of((whole.wheel, whole.crank))
-    return _least(parts, whole, turning, list(_noncircular(parts)))
+    turning = _rings_of((parts.wheel, parts.crank))
+    return _least(parts, turning, list(_noncircular(parts)))
 
 
-def _least(
-    parts: Outlines, whole: PlacedParts[CrankArm], turning: list[Ring], rings: list[Ring]
-) -> ShaftGap | None:
+def _least(parts: FlatParts, turning: list[Ring], rings: list[Ring]) -> ShaftGap | None:
     """Return the least gap of rings to the shafts, and to the hubs of wheel and crank."""
-    near = SAME_LENGTH * parts.assembly.L
-    axes = [ring for ring in turning if ring.layer == HUB] + _rings_of(whole.shafts)
+    near = SAME_LENGTH * parts.mechanism.center_distance_mm
+    axes = [ring for ring in turning if ring.layer == HUB] + _rings_of(parts.shafts)
     return min(
         (
             ShaftGap(
@@ -106,14 +98,14 @@ def _least(
     )
 
 
-def _noncircular(parts: Outlines) -> Iterator[Ring]:
+def _noncircular(parts: FlatParts) -> Iterator[Ring]:
     """Yield the rings of noncircular gears, out to the farthest points of their pitch curves."""
-    mechanism = parts.assembly.full
+    mechanism = parts.mechanism
     pair, L = mechanism.spec.drive.gears, mechanism.center_distance_mm
     if pair is None:
         return
     (_, driven), (_, driver) = pitch_radii(pair)
-    low, high = gear_span(PartsModel(mechanism, parts))
+    low, high = gear_span(mechanism, parts.drawn)
     yield Ring("driven gear", PITCH, (L, 0.0), 0.0, driven, low, high)
     yield Ring("driver gear", PITCH, (L + pair.distance_mm, 0.0), 0.0, driver, low, high)
 

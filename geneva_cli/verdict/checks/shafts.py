@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from geneva_cli.parts.crank import is_whole
+from geneva_cli.parts.flat_parts import FlatParts
 from geneva_cli.parts.outlines import Outlines
 from geneva_cli.parts.sizes import Sizes
 from geneva_cli.parts.turn.shaft_gap import gear_gap, shaft_gap
@@ -55,12 +56,12 @@ def passing_parts(name: str, outlines: Outlines) -> Check | None:
     )
     if not (drive.IN_SERIES or any(sizes[key] is not None for key in keys)):
         return None
-    return gap(name, lambda: shaft_gap(outlines), outlines.assembly.L)
+    return gap(name, lambda: shaft_gap(outlines)), outlines.assembly.L)
 
 
 def passing_gears(name: str, outlines: Outlines) -> Check | None:
     """The gap between shafts and noncircular gears, at their pitch curves' farthest places."""
-    return gap(name, lambda: gear_gap(outlines), outlines.assembly.L)
+    return gap(name, lambda: gear_gap(outlines)), outlines.assembly.L)
 
 
 def _shaft(size: Sizes) -> float:

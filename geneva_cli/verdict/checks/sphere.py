@@ -6,10 +6,10 @@ import math
 
 from geneva_cli.curves.round_holes import RoundHole
 from geneva_cli.parts.sphere.arm import crank_arm, has_arm
-from geneva_cli.parts.sphere.built import built
 from geneva_cli.parts.sphere.dial import dial_wall
 from geneva_cli.parts.sphere.shaft_gap import shaft_gap
 from geneva_cli.parts.sphere.shells import Shells
+from geneva_cli.parts.sphere.sphere_parts import SphereParts
 from geneva_cli.parts.sphere.wheel import POLE
 from geneva_cli.verdict.checks.check import Check, at_least, compared, gap
 

@@ -5,21 +5,21 @@ from __future__ import annotations
 from collections.abc import Callable
 
 from geneva_cli.errors import GenevaError
-from geneva_cli.parts.built import built
+from geneva_cli.parts.flat_parts import FlatParts
 from geneva_cli.parts.outlines import Outlines
-from geneva_cli.parts.sphere.built import built as built_ball
 from geneva_cli.parts.sphere.shells import Shells
+from geneva_cli.parts.sphere.sphere_parts import SphereParts
 from geneva_cli.verdict.checks.check import Check, refused
 
 
 def plates(name: str, outlines: Outlines) -> Check | None:
     """The check that fails if a plate of a flat machine cannot be built; else None."""
-    return _refusal(name, lambda: built(outlines, fitted=False))
+    return _refusal(name, lambda: FlatParts(outlines, found).require())
 
 
 def solids(name: str, shells: Shells) -> Check | None:
     """The check that fails if a solid of a spherical machine cannot be built; else None."""
-    return _refusal(name, lambda: built_ball(shells))
+    return _refusal(name, lambda: SphereParts(shells).members)
 
 
 def _refusal(name: str, build: Callable[[], object]) -> Check | None:

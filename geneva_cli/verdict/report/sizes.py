@@ -9,10 +9,7 @@ from geneva_cli.analysis.loads import loads
 from geneva_cli.errors import GenevaError
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.numerics.arrays import scalar
-from geneva_cli.parts.assembly import assembly
 from geneva_cli.parts.model import PartsModel
-from geneva_cli.parts.roller_paths import roller_paths
-from geneva_cli.parts.sizes import sizes as part_sizes
 from geneva_cli.verdict.report.values import Values
 
 _SPHERE = [
@@ -59,7 +56,7 @@ def sizes(model: PartsModel) -> Values:
         "sizes.roller_radius_mm": r,
         "sizes.slot_width_mm": 2.0 * (r + spec.size.allowances.slot_clearance_mm),
         "sizes.clearances_from": spec.size.allowances.source,
-        **_cut_radii(mechanism),
+        **_cut_radii(model),
         "sizes.pressure_angle_max_deg": (
             loads.greatest_pressure(mechanism).max if mechanism.engagements[0].slot.curved else None
         ),
@@ -67,17 +64,17 @@ def sizes(model: PartsModel) -> Values:
     }
 
 
-def _cut_radii(mechanism: Mechanism) -> Values:
+def _cut_radii(model: PartsModel) -> Values:
     """Radii of slots and rim as cut, mm."""
     mouth = bottom = rim = None
-    inside = mechanism.spec.wheel.SIGN < 0.0
-    if mechanism.spec.is_flat:
-        where = assembly(mechanism)
-        path = roller_paths(where)
+    spec = model.mechanism.spec
+    inside = spec.wheel.SIGN < 0.0
+    if spec.is_flat:
+        where, ends = model.assembly, model.paths.ends
         mouth = max(where.L * scalar(s.entry_reach) for s in where.kinds)
-        bottom = max(path.ends) if inside else min(path.ends)
+        bottom = max(ends) if inside else min(ends)
         with suppress(GenevaError):  # ``parts.none`` gives the reason
-            rim = part_sizes(where, path).rim
+            rim = model.sizes.rim
     return {
         "sizes.slot_mouth_radius_mm": mouth,
         "sizes.slot_bottom_radius_mm": bottom,

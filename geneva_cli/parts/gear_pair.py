@@ -1,7 +1,7 @@
-"""Drawings of the pitch curves of the gears in front of a crank, in mesh at input angle 0.
+"""The noncircular gears in front of a crank as blanks, in mesh at input angle 0, and their shafts.
 
-The axis of the driven gear, which is the crank's, is the origin; the driver's is at (C, 0). Teeth
-are not drawn: their module and cutter are in no key of a spec.
+The driven gear is on the crank's axis, the driver at the distance C from it. Teeth are omitted:
+their module and cutter are in no key of a spec.
 """
 
 from __future__ import annotations
@@ -12,21 +12,16 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from geneva_cli.curves import fit
-from geneva_cli.curves.drawing import Drawing
-from geneva_cli.curves.measure import mapped
-from geneva_cli.curves.plates import Group, Member, Plate
-from geneva_cli.curves.shapes import Circle, Contour, Line, Point, Shape, closed
+from geneva_cli.curves.plates import Member, Plate
+from geneva_cli.curves.shapes import Circle, Point, closed
 from geneva_cli.errors import GenevaError
 from geneva_cli.machine.drives.drive import Gears
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.numerics.arrays import array
-from geneva_cli.parts.centre_marks import centre_marks
 from geneva_cli.parts.gear_curves import SAMPLES, ratio_and_turn, required_gears
-from geneva_cli.parts.link_drawings import once, shapes, titled
 from geneva_cli.parts.link_shafts import Ends
-from geneva_cli.parts.link_sizes import LinkSizes, link_sizes
-from geneva_cli.parts.links import drawn_links
-from geneva_cli.parts.model import PartsModel
+from geneva_cli.parts.link_sizes import link_sizes
+from geneva_cli.parts.outlines import Outlines
 from geneva_cli.parts.shafts import shaft, shaft_ends
 from geneva_cli.parts.sizes import even
 
@@ -43,84 +38,36 @@ THIN = 1e-6  # of the axes' distance: a pitch curve nearer to its axis encloses 
 FINE = {"arcs": 8e-9, "cubics": 2e-9}
 
 
-def gears(model: PartsModel, tolerance: float, curves: str) -> Drawing:
-    """Return all pitch curves with bores and bolts, in mesh, and the line of their centres.
-
-    Raises GenevaError for a machine without gears.
-    """
-    if model.mechanism.spec.drive.TOOTHED:
-        return _round_gears(model)
-    L, C = model.mechanism.center_distance_mm, required_gears(model.mechanism).distance_mm
-    bores = [Circle(BORE, (x - L, y), r) for (x, y), r in gear_bores(model) if r]
-    line = Contour(PITCH, (Line((0.0, 0.0), (C, 0.0)),), closed=False)
-    pitch = pitch_curves(model.mechanism, min(tolerance, FINE[curves] * C), curves)
-    drawn: tuple[Shape, ...] = (*pitch, *bores, line, *centre_marks(bores))
-    title = f"{titled(model.mechanism)}: pitch curves of the gears"
-    return Drawing(title, drawn, solid=Group(title, gear_members(model)))
-
-
-def _round_gears(model: PartsModel) -> Drawing:
-    """Return the blanks of gears with pitch circles, at their positions from the crank's axis."""
-    mechanism, L = model.mechanism, model.mechanism.center_distance_mm
-    bars = drawn_links(mechanism, model.outlines if mechanism.spec.is_flat else None)
-    about = ((mapped(s, lambda p: (p[0] - L, p[1]))) for s in shapes(g.member for g in bars.gears))
-    drawn = list(once(about))
-    holes = [s for s in drawn if isinstance(s, Circle) and s.layer == BORE]
-    ends = [(x - L, y) for (x, y), *_ in bars.gears]
-    line = Contour(PITCH, (Line(min(ends), max(ends)),), closed=False)
-    title = f"{titled(mechanism)}: gears"
-    solid = Group(title, tuple(gear.member for gear in bars.gears))
-    return Drawing(title, (*drawn, line, *centre_marks(holes)), solid=solid)
-
-
-def pitch_curves(mechanism: Mechanism, tolerance: float, curves: str) -> tuple[Contour, Contour]:
-    """Return the pitch curves of driven gear and driver in mesh at input angle 0, mm."""
-    pair = required_gears(mechanism)
-    pitch_radii(pair)  # raises if a curve is no gear
-    sense = crank_sense(mechanism)
-    driven, driver = (
-        closed(PITCH, fit.KINDS[curves](curve, -np.pi, np.pi, tolerance))
-        for curve in (driven_curve(pair, sense), driver_curve(pair, sense))
-    )
-    return driven, mapped(driver, lambda p: (p[0] + pair.distance_mm, p[1]))
-
-
 def crank_sense(mechanism: Mechanism) -> float:
     """Return 1 if the crank turns counterclockwise (internal wheel), -1 if not (external)."""
     return -mechanism.spec.wheel.SIGN
 
 
-def gear_shapes(model: PartsModel, tolerance: float, curves: str) -> list[Shape]:
-    """Return pitch curves and bores in the machine; none without noncircular gears."""
-    mechanism = model.mechanism
-    if mechanism.spec.drive.gears is None:
-        return []
-    L = mechanism.center_distance_mm
-    pitch = pitch_curves(mechanism, tolerance, curves)
-    moved = [mapped(curve, lambda p: (p[0] + L, p[1])) for curve in pitch]
-    return [*moved, *(Circle(BORE, at, r) for at, r in gear_bores(model) if r)]
-
-
-def gear_span(model: PartsModel) -> tuple[float, float]:
+def gear_span(mechanism: Mechanism, parts: Outlines | None) -> tuple[float, float]:
     """Return lower and upper end of the gears along the axis: the plane below the arm is theirs."""
-    return _sizes(model).span(2)
+    return link_sizes(mechanism, [], parts).span(2)
 
 
-def gear_members(model: PartsModel) -> tuple[Member, ...]:
+def gear_pair(
+    mechanism: Mechanism, parts: Outlines | None, tolerance: float | None, curves: str
+) -> tuple[Member, ...]:
     """Return both gears as blanks up to their pitch curves; none without noncircular gears.
 
-    Raises GenevaError for a bore larger than its gear.
+    ``parts`` are the outlines of wheel and crank, if they are drawn. Without a ``tolerance`` in mm
+    the curves are the finest. Raises GenevaError for a bore larger than its gear.
     """
-    mechanism = model.mechanism
     pair = mechanism.spec.drive.gears
     if pair is None:
         return ()
-    low, high = gear_span(model)
-    sense, tolerance = crank_sense(mechanism), FINE["cubics"] * pair.distance_mm
+    low, high = gear_span(mechanism, parts)
+    sense = crank_sense(mechanism)
+    if tolerance is None:
+        tolerance, curves = FINE["cubics"] * pair.distance_mm, "cubics"
     members = []
     both = (driven_curve(pair, sense), driver_curve(pair, sense))
-    for name, curve, (at, bore) in zip(NAMES, both, gear_bores(model), strict=True):
-        outline = closed(PITCH, fit.KINDS["cubics"](curve, -np.pi, np.pi, tolerance))
+    bores = gear_bores(mechanism, parts)
+    for name, curve, (at, bore) in zip(NAMES, both, bores, strict=True):
+        outline = closed(PITCH, fit.KINDS[curves](curve, -np.pi, np.pi, tolerance))
         holes = (Circle(BORE, (0.0, 0.0), bore),) if bore else ()
         members.append(Member(Plate(name, PITCH, outline, holes, low, high), at))
     return tuple(members)
@@ -147,58 +94,51 @@ def pitch_radii(pair: Gears) -> tuple[tuple[float, float], tuple[float, float]]:
     )
 
 
-def gear_shafts(model: PartsModel, ends: Ends) -> Iterator[Member]:
+def gear_shafts(mechanism: Mechanism, parts: Outlines | None, ends: Ends) -> Iterator[Member]:
     """Yield the shafts that carry only gears, from the frame's lower face up; none without gears.
 
     The driver's shaft goes through it, or ends below one that is too small for a bore. The crank's
     is included if neither arm nor locking disc has one.
     """
-    mechanism = model.mechanism
     if mechanism.spec.drive.gears is None:
         return
-    (on_crank, wide), (at, radius) = _shafts(model)
-    low, high = gear_span(model)
+    (on_crank, wide), (at, radius) = _shafts(mechanism, parts)
+    low, high = gear_span(mechanism, parts)
     if not ends.crank_has_one:
         reach = shaft_ends(mechanism.spec.size, "crank", ends.lowest, high)
         yield Member(shaft("crank", wide, reach), on_crank)
-    top = high if _driver_bore(model) else low
+    top = high if _driver_bore(mechanism, parts) else low
     yield Member(shaft("driver gear", radius, (ends.lowest, top)), at)
 
 
-def _shafts(model: PartsModel) -> list[tuple[Point, float]]:
+def _shafts(mechanism: Mechanism, parts: Outlines | None) -> list[tuple[Point, float]]:
     """Return position and radius of the shafts of driven gear and driver.
 
     The first is the crank's. Raises GenevaError where a pitch curve is no gear.
     """
-    mechanism = model.mechanism
     pair, L = required_gears(mechanism), mechanism.center_distance_mm
-    sizes, ((driven, _), _) = _sizes(model), pitch_radii(pair)
+    sizes, ((driven, _), _) = link_sizes(mechanism, [], parts), pitch_radii(pair)
     usual = even(L / 20.0)
     on_crank = sizes.crank_shaft or sizes.bore(driven, L) or usual
     ends = (L, 0.0), (L + pair.distance_mm, 0.0)
-    return list(zip(ends, (on_crank, _driver_bore(model) or usual), strict=True))
+    return list(zip(ends, (on_crank, _driver_bore(mechanism, parts) or usual), strict=True))
 
 
-def _driver_bore(model: PartsModel) -> float:
+def _driver_bore(mechanism: Mechanism, parts: Outlines | None) -> float:
     """Return the radius of the driver's bore; 0 where driver and shaft are one piece."""
-    pair = required_gears(model.mechanism)
-    return _sizes(model).bore(pitch_radii(pair)[1][0], model.mechanism.center_distance_mm)
+    (_, (least, _)), L = pitch_radii(required_gears(mechanism)), mechanism.center_distance_mm
+    return link_sizes(mechanism, [], parts).bore(least, L)
 
 
-def _sizes(model: PartsModel) -> LinkSizes:
-    mechanism = model.mechanism
-    return link_sizes(mechanism, [], model.outlines if mechanism.spec.is_flat else None)
-
-
-def gear_bores(model: PartsModel) -> list[tuple[Point, float]]:
+def gear_bores(mechanism: Mechanism, parts: Outlines | None) -> list[tuple[Point, float]]:
     """Return position and radius of the bores of driven gear and driver; 0 for none.
 
     Raises GenevaError, naming the key, for a bore larger than its gear, and where a pitch curve is
     no gear.
     """
-    (driven, _), (driver, _) = pitch_radii(required_gears(model.mechanism))
-    (axis, on_crank), (other, _) = _shafts(model)
-    bores = on_crank, _driver_bore(model)
+    (driven, _), (driver, _) = pitch_radii(required_gears(mechanism))
+    (axis, on_crank), (other, _) = _shafts(mechanism, parts)
+    bores = on_crank, _driver_bore(mechanism, parts)
     for name, bore, least, key in zip(
         NAMES, bores, (driven, driver), ("arm_bore_mm", "link_bore_mm"), strict=True
     ):

@@ -1,11 +1,14 @@
-"""All parts of a spherical machine as solids, at input angle 0.
+"""All parts of a spherical machine at their positions, at input angle 0.
 
 The sphere's centre is the origin and the wheel's axis is z. The crank's parts are in its frame.
+Each part is built once, on first use. Drawing, solid, list of parts, sheet and the checks of shafts
+are projections of them.
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterator
+from functools import cached_property
 from typing import TYPE_CHECKING
 
 from geneva_cli.curves.plates import Group, Member, Plate, Shell
@@ -15,7 +18,7 @@ from geneva_cli.curves.sphere import axis_frame, place
 from geneva_cli.curves.sphere_hull import Cap
 from geneva_cli.errors import GenevaError
 from geneva_cli.parts.keyways import bore, key
-from geneva_cli.parts.placed import PlacedParts
+from geneva_cli.parts.missing import NamedParts
 from geneva_cli.parts.shafts import SHAFT
 from geneva_cli.parts.sphere.arm import CapArm, crank_arm, has_arm
 from geneva_cli.parts.sphere.axles import crank_hub, refuse_wide
@@ -32,19 +35,48 @@ if TYPE_CHECKING:
 ARM, CRANK, ROLLER = "ARM", "CRANK", "ROLLER"
 
 
-def built(parts: Shells) -> PlacedParts[CapArm]:
-    """Return all parts of a machine.
+class SphereParts:
+    """The parts of a machine in the wheel's frame; raises GenevaError, naming the key, for a part
+    that the sizes leave no place for.
 
-    Raises GenevaError, naming the key, for sizes that leave no arm, hub or shaft.
+    Drawings of shells laid flat have ``curves``, "arcs" or "cubics", within ``tolerance`` mm.
     """
-    arm = crank_arm(parts) if has_arm(parts) else None
-    size, ball = parts.assembly.full.spec.size, parts.ball
-    return PlacedParts(
-        Member(wheel_group(size, ball)),
-        Member(crank_group(parts, arm), frame=at_mid_motion(ball)),
-        arm,
-        tuple(_shafts(parts, arm)),
-    )
+
+    def __init__(self, shells: Shells, tolerance: float = 0.0, curves: str = "arcs") -> None:
+        self.shells, self.ball = shells, shells.ball
+        self.mechanism = shells.assembly.full
+        self.tolerance, self.curves = tolerance, curves
+
+    @cached_property
+    def wheel(self) -> Member:
+        """The wheel's shell with its hub."""
+        return Member(wheel_group(self.mechanism.spec.size, self.ball))
+
+    @cached_property
+    def arm(self) -> CapArm | None:
+        """The crank arm; None without pins for the rollers."""
+        return crank_arm(self.shells) if has_arm(self.shells) else None
+
+    @cached_property
+    def crank(self) -> Member:
+        """The crank: locking sectors, arm, rollers on their pins, hub."""
+        return Member(crank_group(self.shells, self.arm), frame=at_mid_motion(self.ball))
+
+    @cached_property
+    def shafts(self) -> tuple[Member, ...]:
+        """The shafts of wheel and crank."""
+        return tuple(_shafts(self.shells, self.arm))
+
+    @property
+    def members(self) -> tuple[Member, ...]:
+        """All parts."""
+        return (self.wheel, self.crank, *self.shafts)
+
+    def by_name(self) -> Iterator[NamedParts]:
+        """Yield all parts in the order of a list, as names and functions that build them."""
+        yield "wheel", lambda: [self.wheel.part]
+        yield "crank", lambda: [self.crank.part]
+        yield "shafts", lambda: [one.part for one in self.shafts]
 
 
 def wheel_group(size: Size, ball: Ball) -> Group:

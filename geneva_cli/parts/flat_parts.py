@@ -1,0 +1,255 @@
+"""All parts of a flat machine at their positions, at input angle 0.
+
+The wheel's axis is the origin, and the crank's is on the x axis. Each part is built once, on first
+use. Drawing, solid, list of parts, sheet and the checks of shafts are projections of them.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from functools import cached_property
+
+import numpy as np
+
+from geneva_cli.curves.plates import Group, Member, Plate
+from geneva_cli.curves.shapes import Contour
+from geneva_cli.machine.engagement import Engagement
+from geneva_cli.machine.layout import Joint
+from geneva_cli.machine.mechanism import Mechanism
+from geneva_cli.parts.arm import CrankArm, crank_arm, has_arm
+from geneva_cli.parts.crank import roller_centres
+from geneva_cli.parts.first_pair import first_pair, in_front
+from geneva_cli.parts.frame import FrameAndShafts, framed
+from geneva_cli.parts.gear_pair import gear_pair
+from geneva_cli.parts.groove_plate import groove_base, groove_lines, groove_stack
+from geneva_cli.parts.link_positions import links_at
+from geneva_cli.parts.link_sizes import places
+from geneva_cli.parts.links import Links, drawn_links
+from geneva_cli.parts.missing import NamedParts
+from geneva_cli.parts.outlines import Outlines, outlines, slot_walls
+from geneva_cli.parts.plates import arm_plate, locking_plates, roller_plates, wheel_part
+from geneva_cli.parts.shafts import crank_hub
+from geneva_cli.parts.sizes import pin_radius, thicknesses
+from geneva_cli.parts.wheel import wheel_contour
+
+
+class FlatParts:
+    """The parts of a machine in the wheel's frame; raises GenevaError, naming the key, for a part
+    that the sizes leave no place for.
+
+    Curved outlines are ``curves``, "arcs" or "cubics", within ``tolerance`` mm. Without a tolerance
+    they are as accurate as the checks need them. ``known`` are the outlines of wheel and crank if
+    they are computed already. A wheel with too many slots is not drawn: then there are links and
+    gears, with shafts and frame, and the rollers on links.
+    """
+
+    def __init__(
+        self,
+        mechanism: Mechanism,
+        known: Outlines | None = None,
+        tolerance: float | None = None,
+        curves: str = "arcs",
+    ) -> None:
+        self.mechanism = mechanism
+        self.tolerance, self.curves = tolerance, curves
+        self._known = known
+
+    def finer(self, tolerance: float) -> FlatParts:
+        """Return these parts with curves that are at least so accurate, mm."""
+        fine = tolerance if self.tolerance is None else min(tolerance, self.tolerance)
+        return FlatParts(self.mechanism, self.drawn, fine, self.curves)
+
+    @cached_property
+    def outlines(self) -> Outlines:
+        """The outlines of wheel and crank; raises GenevaError for a wheel that is not drawn."""
+        return self._known or outlines(self.mechanism)
+
+    @property
+    def drawn(self) -> Outlines | None:
+        """The outlines of wheel and crank; None for a wheel that is not drawn."""
+        return self.outlines if self.mechanism.spec.is_flat else None
+
+    def walls(self, slot: Engagement) -> Contour:
+        """Return the walls of a slot in the wheel's frame, with that slot ahead."""
+        parts = self.outlines
+        if self.curves == "arcs" and self.tolerance in (None, parts.fine):
+            return parts.slots[slot]
+        fine = parts.fine if self.tolerance is None else self.tolerance
+        return slot_walls(parts.assembly, parts.sizes, slot, fine, self.curves)
+
+    @cached_property
+    def wheel(self) -> Member:
+        """The wheel, with its hub below it if the spec has one."""
+        parts = self.outlines
+        walls = {slot: self.walls(slot) for slot in parts.slots}
+        contour = parts.wheel
+        if walls != parts.slots:
+            contour = wheel_contour(parts.assembly, parts.sizes, walls)
+        turn = float(parts.assembly.wheel(np.zeros(1))[0])
+        return Member(wheel_part(parts, contour), turn=turn)
+
+    @cached_property
+    def links(self) -> Links:
+        """The links of the drive, with the pins and rollers between them, and round gears."""
+        return drawn_links(self.mechanism, self.drawn)
+
+    @cached_property
+    def arm(self) -> CrankArm | None:
+        """The crank arm; None without a crank, or without pins for the rollers."""
+        return crank_arm(self.outlines) if has_arm(self.outlines) else None
+
+    @cached_property
+    def arm_plate(self) -> Plate | None:
+        """The crank arm as a plate."""
+        return arm_plate(self.outlines, self.arm) if self.arm else None
+
+    @cached_property
+    def locking(self) -> tuple[Plate, ...]:
+        """The locking disc, or its sectors."""
+        return tuple(locking_plates(self.outlines))
+
+    @cached_property
+    def rollers(self) -> tuple[Member, ...]:
+        """The rollers with their pins, which stand in the arm or in a link."""
+        outlines, low = self.outlines, self.links.pin_low
+        sizes, size = outlines.sizes, self.mechanism.spec.size
+        if low is None:
+            low = -size.pin_gap_mm - (sizes.arm_thickness if has_arm(outlines) else 0.0)
+        plates = roller_plates(sizes.roller, sizes.pin, low, sizes.wheel_thickness)
+        centres = roller_centres(outlines.assembly)
+        return tuple(Member(plate, axis) for axis in centres for plate in plates)
+
+    @cached_property
+    def crank_hub(self) -> Plate | None:
+        """The crank's hub above the disc or the arm, if the spec has one."""
+        return crank_hub(self.outlines)
+
+    @cached_property
+    def crank(self) -> Member:
+        """The crank: locking disc or sectors, arm, rollers on their pins, hub."""
+        return self._crank(self.arm_plate)
+
+    @cached_property
+    def crank_without_arm(self) -> Member:
+        """The crank as it lies in the wheel's plane."""
+        return self._crank(None)
+
+    def _crank(self, arm: Plate | None) -> Member:
+        hub, assembly = self.crank_hub, self.outlines.assembly
+        below = (Member(plate) for plate in (*self.locking, *([arm] if arm else [])))
+        group = Group("crank", (*below, *self.rollers, *([Member(hub)] if hub else [])))
+        return Member(group, (assembly.L, 0.0), float(assembly.crank(np.zeros(1))[0]))
+
+    @cached_property
+    def _carried(self) -> tuple[Member, ...]:
+        """The rollers on links, with their pins, of a wheel that is not drawn."""
+        mechanism, low = self.mechanism, self.links.pin_low
+        if low is None or self.drawn:
+            return ()
+        size, L, r = mechanism.spec.size, mechanism.center_distance_mm, mechanism.roller_radius_mm
+        plates = roller_plates(r, pin_radius(size, r), low, thicknesses(size, L).wheel)
+        return tuple(
+            Member(plate, (float(joint[0].real), float(joint[0].imag)))
+            for link in links_at(mechanism, np.zeros(1))
+            for joint, kind in zip(places(link), link.kinds, strict=True)
+            if link.plane == 1 and kind in (Joint.ROLLER, Joint.CARRIED)
+            for plate in plates
+        )
+
+    @cached_property
+    def front(self) -> FlatParts | None:
+        """The first wheel and its crank, of two wheels in series, as a machine of their own."""
+        if not self.drawn or not self.mechanism.spec.drive.IN_SERIES:
+            return None
+        return FlatParts(first_pair(self.mechanism, self.links))
+
+    @cached_property
+    def first(self) -> tuple[Member, ...]:
+        """Of two wheels in series, the first and its locking disc."""
+        L = self.mechanism.center_distance_mm
+        return tuple(in_front(self.front.outlines, self.links, L)) if self.front else ()
+
+    @cached_property
+    def round_gears(self) -> tuple[Member, ...]:
+        """Gears with round pitch circles, as blanks; a first wheel is no gear."""
+        return () if self.first else tuple(gear.member for gear in self.links.gears)
+
+    @cached_property
+    def gear_pair(self) -> tuple[Member, ...]:
+        """The noncircular gears in front of a crank, as blanks up to their pitch curves."""
+        return gear_pair(self.mechanism, self.drawn, self.tolerance, self.curves)
+
+    @cached_property
+    def _base(self) -> Plate | None:
+        if self.drawn is None or self.drawn.assembly.rollers[0][0].groove is None:
+            return None
+        return groove_base(self.drawn, self.links)
+
+    @cached_property
+    def groove(self) -> tuple[Contour, Contour, Contour]:
+        """The flanks of a cam's groove and its pitch curve; raises GenevaError without a groove."""
+        return groove_lines(self.outlines, self.tolerance, self.curves)
+
+    @cached_property
+    def groove_plate(self) -> tuple[Member, ...]:
+        """The plates with a cam's groove: base, ring and island."""
+        if self._base is None:
+            return ()
+        stack = groove_stack(self.outlines, self._base, self.links, self.groove[:2])
+        return tuple(Member(plate, (self.outlines.assembly.L, 0.0)) for plate in stack)
+
+    @cached_property
+    def _framed(self) -> FrameAndShafts:
+        return framed(self.mechanism, self.drawn, self.links, self._base, self.first)
+
+    @property
+    def shafts(self) -> tuple[Member, ...]:
+        """All shafts, whether they reach the frame or not."""
+        return self._framed.shafts
+
+    @cached_property
+    def frame(self) -> Member:
+        """The frame, which holds the shafts."""
+        return Member(self._framed.plate)
+
+    @property
+    def standing(self) -> tuple[Member, ...]:
+        """The parts that stand still: a cam's groove plate, if there is one, and the frame."""
+        return (*self.groove_plate, self.frame)
+
+    def require(self) -> None:
+        """Raise GenevaError for a part that cannot be built, without fitting curves for it."""
+        if self.drawn:
+            _ = self.wheel, self.crank
+        _ = self._framed
+
+    @property
+    def linked(self) -> tuple[Member, ...]:
+        """The links, with the pins and rollers between and on them."""
+        return (*self.links.cut, *self.links.joined, *self._carried)
+
+    @property
+    def members(self) -> tuple[Member, ...]:
+        """All parts; before a spherical wheel only links and gears."""
+        turning = (self.wheel, self.crank) if self.drawn else ()
+        moved = *turning, *self.linked, *self.round_gears, *self.gear_pair, *self.first
+        if not self.mechanism.spec.wheel.FLAT:
+            return moved
+        return (*moved, *self.shafts, *self.standing)
+
+    def by_name(self) -> Iterator[NamedParts]:
+        """Yield all parts in the order of a list, as names and functions that build them."""
+        if self.mechanism.spec.is_flat:
+            yield "wheel", lambda: [self.wheel.part]
+            yield "locking disc", lambda: self.locking
+            yield "arm", lambda: [self.arm_plate] if self.arm_plate else []
+            yield "rollers", lambda: [one.part for one in self.rollers]
+            yield "crank's hub", lambda: [self.crank_hub] if self.crank_hub else []
+        yield "links", lambda: [one.part for one in self.linked]
+        yield "gears", lambda: [one.part for one in (*self.round_gears, *self.gear_pair)]
+        if not self.mechanism.spec.wheel.FLAT:
+            return
+        yield "first wheel", lambda: [one.part for one in self.first]
+        yield "shafts", lambda: [one.part for one in self.shafts]
+        yield "groove plate", lambda: [one.part for one in self.groove_plate]
+        yield "frame", lambda: [self.frame.part]

@@ -1,0 +1,63 @@
+"""What a drawing shows of solids: their outlines and holes at their positions, along the axis."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+
+from geneva_cli.curves.measure import S, mapped, turned
+from geneva_cli.curves.plates import Group, Member, Part, Plate
+from geneva_cli.curves.shapes import Circle, Point, Shape
+from geneva_cli.machine.mechanism import Mechanism
+
+# in the order of a drawing
+LAYERS = "WHEEL", "CRANK", "ARM", "LINK", "FRAME", "GROOVE", "PITCH", "ROLLER", "BORE", "HUB"
+
+
+def titled(mechanism: Mechanism, part: str = "") -> str:
+    """Return the title of a machine's drawings, or of one part's."""
+    spec = mechanism.spec
+    title = spec.title or f"Geneva wheel of {spec.wheel.z} slots"
+    return f"{title}: {part}" if part else title
+
+
+def outlines_of(part: Part) -> tuple[Shape, ...]:
+    """Return the outlines and holes of a part in its own frame, each once, layer by layer."""
+    return tuple(sorted(once(shapes([Member(part)])), key=_order))
+
+
+def _order(shape: Shape) -> tuple[int, bool]:
+    """Return the place of a shape among others: by layer, and contours before circles."""
+    return LAYERS.index(shape.layer), isinstance(shape, Circle)
+
+
+def shapes(members: Iterable[Member]) -> Iterator[Shape]:
+    """Yield the outlines and holes of plates at their positions."""
+    for one in members:
+        if isinstance(one.part, Group):
+            own: Iterable[Shape] = shapes(one.part.members)
+        else:
+            assert isinstance(one.part, Plate)
+            own = (one.part.outline, *one.part.holes)
+        yield from (placed(shape, one.at, one.turn) for shape in own)
+
+
+def placed(shape: S, at: Point, turn: float) -> S:
+    """Return a shape turned about its own origin, and then moved."""
+    if at == (0.0, 0.0) and not turn:
+        return shape
+    return mapped(turned(shape, turn), lambda p: (p[0] + at[0], p[1] + at[1]))
+
+
+def once(shapes: Iterable[Shape]) -> Iterator[Shape]:
+    """Yield shapes without those of one layer that coincide; circles coincide to 1e-6 mm."""
+    seen = set()
+    for shape in shapes:
+        key = circle_key(shape) if isinstance(shape, Circle) else shape
+        if (shape.layer, key) not in seen:
+            seen.add((shape.layer, key))
+            yield shape
+
+
+def circle_key(circle: Circle) -> tuple[float, ...]:
+    """Return the centre and radius of a circle, rounded to 1e-6 mm."""
+    return tuple(round(value, 6) for value in (*circle.centre, circle.radius))
