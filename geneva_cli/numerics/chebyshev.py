@@ -64,10 +64,11 @@ def _product(values: Array, matrix: Array) -> Array:
     BLAS sums in an order that depends on the number of rows and on the processor. Then a single
     design would differ from the same design in a batch.
     """
-    rows = np.moveaxis(values, -1, 0)
+    rows = np.ascontiguousarray(np.moveaxis(values, -1, 0))
     if rows[0].size <= 128:  # the products of so few fit in the processor's cache
         shape = *matrix.shape, *[1] * (rows.ndim - 1)
-        out = _sum(matrix.reshape(shape) * rows[:, None])
+        # in this order of memory, NumPy adds the products one after the other
+        out = _sum(np.multiply(matrix.reshape(shape), rows[:, None], order="C"))
     else:
         out = np.multiply.outer(matrix[0], rows[0])
         for row, value in zip(matrix[1:], rows[1:], strict=True):
@@ -82,17 +83,31 @@ def _sum(terms: Array) -> Array:
     return np.asarray(np.add.reduce(terms))
 
 
+def _halves(matrix: Array) -> tuple[Array, Array]:
+    """The matrices (9, n) and (8, n) that act on ``_even_and_odd`` values, of one (17, n)."""
+    first, mirrored = matrix[:MIDDLE], matrix[:MIDDLE:-1]
+    return np.concatenate((0.5 * (first + mirrored), matrix[[MIDDLE]])), 0.5 * (first - mirrored)
+
+
 POINTS = _even_spread(SERIES_DEGREE)  # where functions are sampled
-GRID = _even_spread(32)  # where signs are compared: two cells for each point
+HALF = DEGREE  # cells from -1 to 0 of the grid where signs are compared: two for each point
+GRID = _even_spread(2 * HALF)
 _SERIES = _to_series()
 _SLOPES = _to_slopes()
-_ON_GRID = _product(_SERIES, _terms(GRID))
-_SLOPES_ON_GRID = _product(_product(_SERIES, _SLOPES), _terms(GRID))
+# to terms of even and of odd degree, and to values and slopes on the grid's first half
+_EVEN_TERMS, _ODD_TERMS = _halves(_SERIES[:, 0::2])[0], _halves(_SERIES[:, 1::2])[1]
+_FIRST_HALF = _terms(GRID[: HALF + 1])
+_ON_GRID = _halves(_product(_SERIES, _FIRST_HALF))
+_SLOPES_ON_GRID = _halves(_product(_product(_SERIES, _SLOPES), _FIRST_HALF))
 
 
 def series(values: Array) -> Array:
     """The terms of the series of values (m, points): (terms, m)."""
-    return np.moveaxis(_product(values, _SERIES), -1, 0)
+    even, odd = _even_and_odd(values)
+    out = np.empty((DEGREE + 1, len(values)))
+    out[0::2] = _product(even, _EVEN_TERMS).T
+    out[1::2] = _product(odd, _ODD_TERMS).T
+    return out
 
 
 def slopes(terms: Array) -> Array:
@@ -109,7 +124,25 @@ def remainder(values: Array) -> Array:
 
 def on_grid(values: Array) -> tuple[Array, Array]:
     """Values and slopes of the series at ``GRID``."""
-    return _product(values, _ON_GRID), _product(values, _SLOPES_ON_GRID)
+    even, odd = _even_and_odd(values)
+    value = _both_halves(_product(even, _ON_GRID[0]), _product(odd, _ON_GRID[1]))
+    # the slope of an odd function is even
+    slope = _both_halves(_product(odd, _SLOPES_ON_GRID[1]), _product(even, _SLOPES_ON_GRID[0]))
+    return value, slope
+
+
+def _even_and_odd(values: Array) -> tuple[Array, Array]:
+    """Sums (m, points) and differences of values at mirrored points, which halve all products."""
+    first, middle, mirrored = values[:, :MIDDLE], values[:, [MIDDLE]], values[:, :MIDDLE:-1]
+    return np.concatenate((first + mirrored, middle), axis=1), first - mirrored
+
+
+def _both_halves(even: Array, odd: Array) -> Array:
+    """Even plus odd functions on the whole grid, from their values on its first half."""
+    out = np.empty((len(GRID), len(even)))
+    np.add(even.T, odd.T, out=out[: HALF + 1])
+    np.subtract(even.T, odd.T, out=out[::-1][: HALF + 1])
+    return out.T
 
 
 def at(terms: Array, t: Array) -> Array:

@@ -246,18 +246,18 @@ class _ExtremeSearch:
         more = OVERSHOOT * (high - low)
         # a function whose range is rounding has no extreme within
         may = high - low > 1e-13 * np.maximum(np.abs(low), np.abs(high))
-        may &= self.greatest.may_be(curves.number, curves.rows.design, low - more, high + more)
-        own = np.flatnonzero(may)
-        curves = curves.take(own)
         side = 0 if sign > 0.0 or self.greatest.sized else 1
         bar = self.greatest.least(side)[curves.number, curves.rows.design]
+        may &= ~((high if sign > 0.0 else -low) + more < bar) & (bar < np.inf)
+        own = np.flatnonzero(may)
+        curves, bar = curves.take(own), bar[own]
         left, cell = LATER_TERMS * curves.left, np.diff(GRID)
         g, d = chebyshev.on_grid(sign * curves.value)
         before, after = d[:, :-1], d[:, 1:]
         reach = np.maximum(g[:, :-1], g[:, 1:]) + 0.25 * cell * np.abs(before - after)
         may = (before > 0.0) & (after < 0.0) & ~(reach + left[:, None] < bar[:, None])
         may &= (GRID[1:] > curves.part[0][:, None]) & (GRID[:-1] < curves.part[1][:, None])
-        which, k = np.nonzero(may & (bar < np.inf)[:, None])
+        which, k = np.nonzero(may)
         before, after = before[which, k], after[which, k]
         terms = chebyshev.series(sign * curves.value[which])
         start = GRID[k] + cell[k] * before / (before - after)
