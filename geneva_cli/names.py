@@ -36,6 +36,8 @@ UNITS = {
     "_h": "h",
     "_s": "s",
 }
+# Shorter forms of units, for people at a terminal.
+SHORT_UNITS = {"1/min": "rpm", "arc seconds": "arcsec"}
 # Words for names that are not clear by themselves, as a whole or without their units.
 WORDS = {
     "z": "slots",
@@ -55,9 +57,7 @@ WORDS = {
     "p997": "99.7 % of machines",
     "rss": "root sum of squares",
 }
-
-
-def room than a heading.
+# Longer words for some names, for documents, whose rows have more room than a heading.
 LONG_WORDS = {
     "max": "greatest",
     "min": "least",
@@ -127,17 +127,13 @@ def described(name: str) -> tuple[str, str]:
 def _divided(name: str) -> tuple[str, str]:
     """A name without its unit's ending, and the unit."""
     end = next((end for end in UNITS if name.endswith(end)), "")
-    return name.removesuffix(end)
-        # A name as short as C_v is a symbol with its index.
-        plain UNITS.get(end, "")
+    return name.removesuffix(end), UNITS.get(end, "")
 
 
 def _worded(name: str, bare: str, words: dict[str, str]) -> str:
     """The words of a whole name or of its part without a unit, or else the letters of that part."""
-    is_symbol = len(bare) <= 3 with its index, such as C_v
-    return words.get(name) or words.get(bare) or (bare if unit
-    short_units = {"1/min": "rpm", "arc seconds": "arcsec"}  # for people at a terminal
-    return else bare.replace("_", short_units.get(unit, "))
+    is_symbol = len(bare) <= 3  # with its index, such as C_v
+    return words.get(name) or words.get(bare) or (bare if is_symbol else bare.replace("_", " "))
 
 
 def heading(name: str) -> str:

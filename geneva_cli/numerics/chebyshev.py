@@ -90,7 +90,7 @@ def _halves(matrix: Array) -> tuple[Array, Array]:
 
 
 POINTS = _even_spread(SERIES_DEGREE)  # where functions are sampled
-HALF = DEGREE  # cells from -1 to 0 of the grid where signs are compared: two for each point
+HALF = SERIES_DEGREE  # cells from -1 to 0 of the grid where signs are compared: two for each point
 GRID = _even_spread(2 * HALF)
 _SERIES = _to_series()
 _SLOPES = _to_slopes()
@@ -104,7 +104,7 @@ _SLOPES_ON_GRID = _halves(_product(_product(_SERIES, _SLOPES), _FIRST_HALF))
 def series(values: Array) -> Array:
     """The terms of the series of values (m, points): (terms, m)."""
     even, odd = _even_and_odd(values)
-    out = np.empty((DEGREE + 1, len(values)))
+    out = np.empty((SERIES_DEGREE + 1, len(values)))
     out[0::2] = _product(even, _EVEN_TERMS).T
     out[1::2] = _product(odd, _ODD_TERMS).T
     return out

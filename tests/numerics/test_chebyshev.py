@@ -11,7 +11,7 @@ ROWS = np.stack((np.exp(POINTS), np.sin(POINTS), 1.0 / (3.0 + POINTS), np.cos(2.
 
 
 def test_terms_of_the_exponential_function_are_bessel_functions():
-    """e^t = I_0(1) + 2 sum I_k(1) T_k(t); 1e-15 is a few roundings of a sum of 17 values below e."""
+    """e^t = I_0(1) + 2 sum I_k(1) T_k(t); 1e-15 is a few roundings of 17 values below e."""
     terms = chebyshev.series(ROWS[:1])[:, 0]
     exact = [float((2 if k else 1) * mpmath.besseli(k, 1)) for k in range(len(terms))]
     np.testing.assert_allclose(terms, exact, rtol=0, atol=1e-15)

@@ -94,8 +94,8 @@ def motor_line(design: Design) -> SummaryLine:
     needed = f"{measured(motor.needed_W, 'W')} {_why(motor, keys.service_factor)}"
     torque = measured(motor.input_torque_Nm, "N m")
     if motor.rated_kW is None:
-        text SummaryLine("motor", f"{needed}: more than any standard motor has"
-        return Line("motor", text, "geneva explain motor", WARNS)
+        text = f"{needed}: more than any standard motor has"
+        return SummaryLine("motor", text, "geneva explain motor", WARNS)
     return SummaryLine(
         "motor",
         f"{measured(motor.rated_kW, 'kW')}, {_geared(motor, keys.gear_ratio)}",

@@ -5,18 +5,18 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 
 from geneva_cli.design import Design
-from geneva_cli.document import WARNS, Answer, Line, Summary
+from geneva_cli.document import WARNS, Answer, Summary, SummaryLine
 from geneva_cli.table import Table
 from geneva_cli.verdict.headline import below_summary, warning
 
 
 def record_answer(
-    design: Design, record: Table, lines: Iterable[Line], warnings: Sequence[str]
+    design: Design, record: Table, lines: Iterable[SummaryLine], warnings: Sequence[str]
 ) -> Answer:
     """An answer of some lines and warnings, with the other values of a record below them."""
     head = f"{title_of(design)}{counted(warnings)}"
     summary = Summary(head, (*lines, *map(warning, warnings)), WARNS if warnings else "")
-    return Answer((summary,), below_summary(record, said=("title",)), record)
+    return Answer((summary,), below_summary(record, without=("title",)), record)
 
 
 def title_of(design: Design) -> str:

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from typing import Any
 
 from geneva_cli.design import Design
-from geneva_cli.document import Answer, Summary, SummaryLine
+from geneva_cli.document import Answer, SummaryLine
 from geneva_cli.errors import is_warning
 from geneva_cli.names import spoken
 from geneva_cli.study.summary.titles import record_answer
@@ -18,7 +18,7 @@ def of_tolerance(design: Design, record: Table) -> Answer:
     """The answer of ``geneva tolerance``, from the record of ``Design.tolerance``."""
     values = record.to_dict()
     warnings = [*design.motion_warnings, *filter(is_warning, values["warnings"])]
-    return record_answer(design, record, without=(values), warnings)
+    return record_answer(design, record, _lines(values), warnings)
 
 
 def _lines(values: dict[str, Any]) -> Iterator[SummaryLine]:

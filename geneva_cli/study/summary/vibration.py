@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from typing import Any
 
 from geneva_cli.design import Design
-from geneva_cli.document import Answer, Summary, SummaryLine
+from geneva_cli.document import Answer, SummaryLine
 from geneva_cli.errors import is_warning
 from geneva_cli.study.summary.titles import record_answer
 from geneva_cli.table import Table
@@ -17,7 +17,7 @@ def of_vibration(design: Design, record: Table) -> Answer:
     """The answer of ``geneva vibration``, from the record of ``Design.vibration``."""
     values = record.to_dict()
     warnings = [text for text in values["warnings"] if is_warning(text)]
-    return record_answer(design, record, without=(values), warnings)
+    return record_answer(design, record, _lines(values), warnings)
 
 
 def _lines(values: dict[str, Any]) -> Iterator[SummaryLine]:

@@ -56,12 +56,16 @@ def passing_parts(name: str, outlines: Outlines) -> Check | None:
     )
     if not (drive.IN_SERIES or any(sizes[key] is not None for key in keys)):
         return None
-    return gap(name, lambda: shaft_gap(outlines)), outlines.assembly.L)
+    return gap(
+        name, lambda: shaft_gap(FlatParts(outlines.assembly.full, outlines)), outlines.assembly.L
+    )
 
 
 def passing_gears(name: str, outlines: Outlines) -> Check | None:
     """The gap between shafts and noncircular gears, at their pitch curves' farthest places."""
-    return gap(name, lambda: gear_gap(outlines)), outlines.assembly.L)
+    return gap(
+        name, lambda: gear_gap(FlatParts(outlines.assembly.full, outlines)), outlines.assembly.L
+    )
 
 
 def _shaft(size: Sizes) -> float:

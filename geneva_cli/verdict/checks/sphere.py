@@ -67,7 +67,7 @@ def passing_parts(name: str, shells: Shells) -> Check | None:
     if any(row and row.value is None for row in walls):
         return None
     L = shells.ball.radius_mm
-    return gap(name, lambda: shaft_gap(shells, built(shells)), L)
+    return gap(name, lambda: shaft_gap(SphereParts(shells)), L)
 
 
 def _wall(name: str, angle: float, shells: Shells) -> Check:

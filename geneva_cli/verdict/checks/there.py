@@ -14,7 +14,7 @@ from geneva_cli.verdict.checks.check import Check, refused
 
 def plates(name: str, outlines: Outlines) -> Check | None:
     """The check that fails if a plate of a flat machine cannot be built; else None."""
-    return _refusal(name, lambda: FlatParts(outlines, found).require())
+    return _refusal(name, lambda: FlatParts(outlines.assembly.full, outlines).require())
 
 
 def solids(name: str, shells: Shells) -> Check | None:
