@@ -208,8 +208,7 @@ class Transmission(Drive, kw_only=True):
             farthest_deg > self.reach_deg * (1.0 + 1e-12),
             lambda: GenevaError(
                 f"z = {wheel.z}: the crank must turn {farthest_deg:.6g} deg to either side, but "
-                f'kind = "{self.NAME}" turns it only {self.reach_deg:.6g}: reduce z, or the '
-                "slots of the first wheel",
+                f'kind = "{self.NAME}" turns it only {self.reach_deg:.6g}: reduce z or first_z',
                 ("wheel", "z"),
             ),
         )

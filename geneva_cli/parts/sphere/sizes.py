@@ -169,8 +169,8 @@ def _lock(mechanism: Mechanism, limit: float, least: float, roller: float) -> fl
     low, high = (L * math.sin(max(0.0, x)) for x in (least, limit))
     if limit <= least:
         raise PartDoesNotFit(
-            f"the locking sector does not fit: it must be above {low:.4g} mm to reach the rim, but "
-            f"the roller limits it to {high:.4g}; lock_radius_mm = 0 omits it",
+            f"the locking sector does not fit: lock_radius_mm must be above {low:.4g} to reach the "
+            f"rim, but the roller limits it to {high:.4g}; 0 omits it",
             ("size", "lock_radius_mm"),
         )
     if size.lock_radius_mm is None:
