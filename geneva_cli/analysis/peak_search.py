@@ -118,11 +118,11 @@ def motion_peaks(
             peaks[name] = PeakArray(*(np.ravel(v) for v in np.broadcast_arrays(*known)))
     sought = [name for name in quantities if name not in peaks]
     if sought:
-        peaks |= searched(motion, sought)
+        peaks |= search_peaks(motion, sought)
     for name, peak in peaks.items():
         open_ = np.flatnonzero(np.isnan(peak.max))
         if len(open_):
-            rest = searched(taken(motion, open_), [name])[name]
+            rest = search_peaks(taken(motion, open_), [name])[name]
             peak.max[open_], peak.at_deg[open_] = rest
     return peaks
 
@@ -149,7 +149,7 @@ def landmarks(motion: WheelMotion, quantity: str, m: int) -> Stationary:
     return Stationary(which[order], x[order], value[order])
 
 
-def searched(motion: WheelMotion, quantities: Sequence[str]) -> dict[str, PeakArray]:
+def search_peaks(motion: WheelMotion, quantities: Sequence[str]) -> dict[str, PeakArray]:
     """The peaks from the search only, without closed forms."""
     # mid-motion, where wheels have their narrowest peaks, is one of them
     breaks = [x for x in motion.breaks_deg if not motion.symmetric or np.all(x <= 0.0)]

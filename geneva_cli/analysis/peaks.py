@@ -79,7 +79,7 @@ def peaks(engagement: Engagement) -> Peaks:
 
 def worst(mechanism: Mechanism) -> Peaks:
     """Greatest peaks over all engagements; angles are the machine's input angles."""
-    each = [placed(mechanism, s) for s in mechanism.engagements]
+    each = [placed_peaks(mechanism, s) for s in mechanism.engagements]
     greatest = [Peak(*greatest_at(same)) for same in zip(*[e[:-1] for e in each], strict=True)]
     return Peaks._make(
         (*greatest, EndSizes._make(map(max, zip(*[e.ends for e in each], strict=True))))
@@ -92,7 +92,7 @@ def worst_of(mechanism: Mechanism, quantity: str) -> Peak[float]:
     return Peak(*greatest_at(each))
 
 
-def placed(mechanism: Mechanism, engagement: Engagement) -> Peaks:
+def placed_peaks(mechanism: Mechanism, engagement: Engagement) -> Peaks:
     """Peaks of an engagement at the machine's input angles."""
     own = peaks(engagement)
     return Peaks._make((*(_placed(mechanism, engagement, p) for p in own[:-1]), own.ends))
@@ -106,7 +106,7 @@ def peaks_table(mechanism: Mechanism) -> Table:
     """The greatest peaks, and a table of each engagement's peaks if there are several."""
     times = timings(mechanism)
     rows = [
-        _record(placed(mechanism, engagement))
+        _record(placed_peaks(mechanism, engagement))
         | {"motion_deg": time.motion_deg, "dwell_deg": time.dwell_deg}
         for engagement, time in zip(mechanism.engagements, times, strict=True)
     ]

@@ -12,7 +12,7 @@ IMPORT = "import typer"
 BASELINE = f"python -c '{IMPORT}'"
 
 
-def finished(code: str, words: tuple[str, ...] = ()) -> None:
+def run_python(code: str, words: tuple[str, ...] = ()) -> None:
     """Run a program in a new Python process; raises CalledProcessError if it fails."""
     command = [sys.executable, "-c", code, *words]
     subprocess.run(command, capture_output=True, stdin=subprocess.DEVNULL, check=True)
@@ -21,7 +21,7 @@ def finished(code: str, words: tuple[str, ...] = ()) -> None:
 def task(name: str, runs: dict[str, tuple[str, ...]]) -> Task:
     """Task of ``geneva`` runs with some arguments, by name; it has no error."""
     methods = [
-        Method(run, None, lambda words=words: finished(RUN, words), ours=True)  # type: ignore[misc]
+        Method(run, None, lambda words=words: run_python(RUN, words), ours=True)  # type: ignore[misc]
         for run, words in runs.items()
     ]
-    return Task(name, BASELINE, lambda: finished(IMPORT), lambda _: 0.0, methods)
+    return Task(name, BASELINE, lambda: run_python(IMPORT), lambda _: 0.0, methods)

@@ -11,7 +11,7 @@ import pytest
 from witness import QUANTITIES, Geneva, mp, near
 from words import Drive, Keys, Spec, Wheel
 
-from geneva_cli.analysis.peak_search import searched
+from geneva_cli.analysis.peak_search import search_peaks
 from geneva_cli.analysis.peaks import ends, peaks, peaks_of, worst, worst_of
 from geneva_cli.machine.mechanism import build
 
@@ -205,7 +205,7 @@ def test_closed_forms_of_long_steps_against_the_search(step):
 
 
 def check_closed_forms(motion, close):
-    found = searched(motion, NAMES)
+    found = search_peaks(motion, NAMES)
     for name, known in zip(NAMES, peaks_of(motion, NAMES), strict=True):
         assert known.max == near(found[name].max.item(), close), name
         assert known.at_deg == pytest.approx(found[name].at_deg.item(), abs=1e-5), name

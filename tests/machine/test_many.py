@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from witness import Geneva
 
-from geneva_cli.analysis.peak_search import motion_peaks, searched
+from geneva_cli.analysis.peak_search import motion_peaks, search_peaks
 from geneva_cli.analysis.peaks import peak
 from geneva_cli.machine.drives.side_crank import SideCrank
 from geneva_cli.machine.many import many
@@ -58,7 +58,7 @@ def test_none_is_missed(gearing, quantity):
     spec = Spec(wheel_of(gearing)(6), SideCrank(A=0.1))
     motion = many(spec, {"wheel.z": z, "drive.A": A}).machine.engagements[0].motion
     size, at_deg = PEAKS[quantity](batch(z, np.full(len(z), gearing == "internal"), A))
-    found = searched(motion, [quantity])[quantity]
+    found = search_peaks(motion, [quantity])[quantity]
     known = ~np.isnan(size)
     assert known.mean() > 0.95
     # the other one's own error comes on top: jets run up to 31 units near |A| = 1

@@ -49,10 +49,10 @@ def contacts(engagement: Engagement, input_deg: Array) -> Contact[Array]:
         at = _moving(engagement, input_deg, 0, rates)
     else:
         at = contact(engagement, input_deg)
-    return valued(at)
+    return contact_values(at)
 
 
-def valued(at: Contact[Jet]) -> Contact[Array]:
+def contact_values(at: Contact[Jet]) -> Contact[Array]:
     """The values of a contact's jets."""
     *jets, joints = at
     reactions = joints and [[(x.c[0], y.c[0]) for x, y in pair] for pair in joints]

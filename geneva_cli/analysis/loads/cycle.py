@@ -23,9 +23,9 @@ from geneva_cli.analysis.loads.stretches import Stretch, refuse_rounding, to_mid
 from geneva_cli.analysis.loads.summaries import (
     EngagementExtremes,
     LoadSummary,
-    searched,
-    shown,
-    summed_up,
+    search_loads,
+    shown_deg,
+    summaries_from,
     sums_of,
 )
 from geneva_cli.analysis.motion import local_deg, spans
@@ -130,7 +130,7 @@ class Cycle:
         for engagement in self.mechanism.engagements:
             every = load_batch(engagement, self.case, names, NO_MORE)
             load = LoadFunctions(every, names, ("slides", "feeds"))
-            result = searched(load, 1)
+            result = search_loads(load, 1)
             fastest = result.most[names.index("omega_rad_s"), 0] / self.case.speed_rad_s
             refuse_rounding(engagement, fastest)
             out.append((load, result))
@@ -148,12 +148,12 @@ class Cycle:
         each = [
             EngagementExtremes(
                 result.most,
-                shown(self.mechanism, load.engagement, result.x),
+                shown_deg(self.mechanism, load.engagement, result.x),
                 sums_of(load, result, 1, plain=True),
             )
             for load, result in self._searches
         ]
-        return summed_up(self.mechanism, names, each, plain=True)
+        return summaries_from(self.mechanism, names, each, plain=True)
 
     @cached_property
     def peaks(self) -> list[tuple[float, float, float]]:

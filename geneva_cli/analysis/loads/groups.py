@@ -22,9 +22,9 @@ def of_groups(
     Designs without friction form groups of their own: their torque is bounded even where the force
     is not.
     """
-    m = every[1].designs
+    m = every.case.designs
     out: list[Array] = []
-    for part in parts(every[1].friction, m):
+    for part in parts(every.case.friction, m):
         some = computed(taken(every, part), len(part))
         out = out or [np.empty((len(rows), m)) for rows in some]
         for whole, rows in zip(out, some, strict=True):

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Generic
 
 import numpy as np
 
-from geneva_cli.analysis.loads.contact import Contact, valued
+from geneva_cli.analysis.loads.contact import Contact, contact_values
 from geneva_cli.analysis.loads.forces import (
     Forces,
     KnownValues,
@@ -231,7 +231,9 @@ def _root(square: V) -> V:
 
 def values(instant: Instant[Jet]) -> Instant[Array]:
     """The instant with values in place of jets."""
-    return Instant(instant.case, valued(instant.at), instant.drives, instant.slides, instant.feeds)
+    return Instant(
+        instant.case, contact_values(instant.at), instant.drives, instant.slides, instant.feeds
+    )
 
 
 def bounded(here: Instant[Array]) -> Instant[Array]:

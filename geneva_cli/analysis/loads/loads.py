@@ -20,7 +20,7 @@ from geneva_cli.analysis.loads.forces import Forces, LoadCase, QuantityValue, lo
 from geneva_cli.analysis.loads.instant import Instant
 from geneva_cli.analysis.loads.load_functions import LoadFunctions, LoadQuantity, load_batch
 from geneva_cli.analysis.loads.quantities import FORCE, SQUARED, STRESS, TORQUE
-from geneva_cli.analysis.loads.summaries import load_peaks, searched
+from geneva_cli.analysis.loads.summaries import load_peaks, search_loads
 from geneva_cli.machine.engagement import Engagement, Peak
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.machine.pitch_curve import retraces
@@ -193,7 +193,7 @@ def _slowness(engagement: Engagement, case: LoadCase, limits: Mapping[str, float
         for factor in factors[name]:
             own[f"slowness {len(own)}"] = Slowness(factor, most, case)
     names, still = tuple(own), case._replace(resists_Nm=0.0)
-    result = searched(LoadFunctions(load_batch(engagement, still, names, own), names), 1)
+    result = search_loads(LoadFunctions(load_batch(engagement, still, names, own), names), 1)
     return max(0.0, float(result.most[: len(names)].max()))
 
 

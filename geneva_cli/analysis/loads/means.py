@@ -75,7 +75,7 @@ def load_means(
 def sources_of(
     mechanism: Mechanism, names: Sequence[str]
 ) -> tuple[dict[str, tuple[str, Array]], list[str]]:
-    """The source of each quantity, and its ratio to that source: (m,) or (1,)."""
+    """Each quantity's source and its ratio to it, (m,) or (1,); and the names of all sources."""
     known = multiples(mechanism)
     every = {n: known.get(n, (n, 1.0, ""))[:2] for n in names}
     multiple_of = {

@@ -96,7 +96,7 @@ def load_peaks(
     sought = list(dict.fromkeys(source_of.values()))
     for engagement in mechanism.engagements:
         every = load_batch(engagement, case, sought, own)
-        sizes, at_deg, _ = _searched(mechanism, every, sought, sized=True)
+        sizes, at_deg, _ = _engagement_extremes(mechanism, every, sought, sized=True)
         for name, most, at in zip(sought, sizes, at_deg, strict=True):
             here = PeakArray(most, at)
             best[name] = greater(best[name], here) if name in best else here
@@ -122,11 +122,11 @@ def load_summaries(
     _, sources = sources_of(mechanism, names)
     case = load_case(mechanism)
     every = [load_batch(engagement, case, sources, NO_MORE) for engagement in mechanism.engagements]
-    each = [_searched(mechanism, one, sources, requested=requested) for one in every]
-    return summed_up(mechanism, names, each, "mean" in requested)
+    each = [_engagement_extremes(mechanism, one, sources, requested=requested) for one in every]
+    return summaries_from(mechanism, names, each, "mean" in requested)
 
 
-def summed_up(
+def summaries_from(
     mechanism: Mechanism, names: Sequence[str], each: Sequence[EngagementExtremes], plain: bool
 ) -> dict[str, LoadSummary]:
     """The summaries of quantities, from the results of their sources in each engagement.
@@ -160,7 +160,7 @@ def _ends_of(name: str, most: Array, least: Array) -> list[Array]:
     return [np.where(np.abs(x) > level, x, 0.0) for x in ends]
 
 
-def _searched(
+def _engagement_extremes(
     mechanism: Mechanism,
     every: LoadBatch,
     names: Sequence[str],
@@ -171,15 +171,15 @@ def _searched(
 
     def extremes(some: LoadBatch, n: int) -> Sequence[Array]:
         load = LoadFunctions(some, names)
-        here = searched(load, n, sized)
+        here = search_loads(load, n, sized)
         rows = here.most, here.x
         return (*rows, sums_of(load, here, n, "mean" in requested)) if requested else rows
 
     most, x, *total = of_groups(every, extremes)
-    return EngagementExtremes(most, shown(mechanism, every[0], x), *(total or (None,)))
+    return EngagementExtremes(most, shown_deg(mechanism, every.engagement, x), *(total or (None,)))
 
 
-def searched(load: LoadFunctions, n: int, sized: bool = False) -> SearchResult:
+def search_loads(load: LoadFunctions, n: int, sized: bool = False) -> SearchResult:
     """The extremes of n designs' loads over a motion, and its stretches."""
     spans = spans_of(load.engagement, n)
     if sized and load.repeats:
@@ -193,7 +193,7 @@ def sums_of(load: LoadFunctions, result: SearchResult, n: int, plain: bool) -> A
     return sums(load, result.stretches, bounded, n, plain)
 
 
-def shown(mechanism: Mechanism, engagement: Engagement, x: Array) -> Array:
+def shown_deg(mechanism: Mechanism, engagement: Engagement, x: Array) -> Array:
     """Input angles of an engagement, (rows, m), as they are shown."""
     places = np.reshape(engagement.mid_deg, (-1, 1)) + on_breaks(x, engagement).T
     rows = [_shown(mechanism, places[:, i : i + 1]) for i in range(len(x))]

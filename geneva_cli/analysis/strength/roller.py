@@ -94,7 +94,7 @@ def passage_integrals(engagement: Engagement, case: LoadCase, half: float = 0.0)
 
 def _integrals(every: LoadBatch, n: int, half: float) -> Array:
     """Integrals of n designs, one row each; infinite if the force has no bound."""
-    engagement = every[0]
+    engagement = every.engagement
     # the integrals are bounded where the force is
     load = LoadFunctions(
         every, (FORCE,), ("slides", "along") if turns_back(engagement) else ("slides",)

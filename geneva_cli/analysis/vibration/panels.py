@@ -86,7 +86,7 @@ class _Refined(NamedTuple):
     values: Array
 
 
-def panelled(derivatives: Derivatives, breaks: Array) -> Panels:
+def panels_of(derivatives: Derivatives, breaks: Array) -> Panels:
     """Panels of m motions, whose derivatives may jump at the ``breaks`` (m, k) of each.
 
     They hold up to the highest derivative that neither jumps nor needs too many panels.

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from geneva_cli.analysis.vibration.panels import Panels, panelled
+from geneva_cli.analysis.vibration.panels import Panels, panels_of
 from geneva_cli.machine.engagement import Engagement
 from geneva_cli.machine.many import taken
 from geneva_cli.numerics.angles import DEGREE
@@ -35,7 +35,7 @@ def law_shape(law: Law) -> Panels:
     def derivatives(u: Array, _: Whole, order: int) -> Array:
         return _by_order(law(u, order).c, 1.0, u)
 
-    return read_only(panelled(derivatives, np.array([sorted({0.0, *law.knots, 0.5, 1.0})])))
+    return read_only(panels_of(derivatives, np.array([sorted({0.0, *law.knots, 0.5, 1.0})])))
 
 
 def motion_shapes(motion: WheelMotion, m: int) -> Panels:
@@ -49,7 +49,7 @@ def motion_shapes(motion: WheelMotion, m: int) -> Panels:
 
     ends = [np.broadcast_to(np.asarray(x, dtype=float), (m, 1)) for x in motion.breaks_deg]
     every = np.hstack(ends)
-    return panelled(derivatives, (every - every[:, :1]) / (every[:, -1:] - every[:, :1]))
+    return panels_of(derivatives, (every - every[:, :1]) / (every[:, -1:] - every[:, :1]))
 
 
 def _by_order(c: Sequence[Number], rate: float, u: Array) -> Array:

@@ -9,7 +9,7 @@ from functools import partial
 
 from geneva_cli.bench.method import Method, Subject, Task
 from geneva_cli.bench.timing_pairs import process_seconds
-from geneva_cli.bench.whole_runs import BASELINE, IMPORT, RUN, finished
+from geneva_cli.bench.whole_runs import BASELINE, IMPORT, RUN, run_python
 from geneva_cli.specfile.template import template
 
 # A user's own script instead: a row of the table as in handbooks.
@@ -93,7 +93,7 @@ def _task(name: str, runs: dict[str, tuple[str, tuple[str, ...]]], spec: str | N
         Method(run, None, partial(_run, (sys.executable, "-c", code, *words), spec), "ours" in run)
         for run, (code, words) in runs.items()
     ]
-    base = partial(finished, IMPORT)
+    base = partial(run_python, IMPORT)
     return Task(name, BASELINE, base, lambda _: 0.0, methods)
 
 

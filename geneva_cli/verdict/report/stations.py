@@ -6,7 +6,7 @@ import math
 from collections.abc import Sequence
 
 from geneva_cli.analysis.loads import loads
-from geneva_cli.analysis.peaks import Peaks, placed, worst
+from geneva_cli.analysis.peaks import Peaks, placed_peaks, worst
 from geneva_cli.analysis.timing import timings
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.numerics.angles import omega
@@ -43,7 +43,7 @@ def stations(model: PartsModel) -> Values:
     if len(mechanism.engagements) == 1:
         return {"stations": None}
     each = [
-        _timing(mechanism, i) | _peaks(mechanism, placed(mechanism, s))
+        _timing(mechanism, i) | _peaks(mechanism, placed_peaks(mechanism, s))
         for i, s in enumerate(mechanism.engagements)
     ]
     return {"stations": rows_table(tuple(each[0]), [tuple(e.values()) for e in each])}
