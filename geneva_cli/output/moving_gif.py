@@ -25,7 +25,7 @@ FINER = 3  # times: lines become smooth when they are drawn larger and reduced
 LINK, GREY = "#a56752", "#5c6670"
 
 
-def written(scene: Scene) -> bytes:
+def gif_bytes(scene: Scene) -> bytes:
     """The file. Raises GenevaError if Pillow is not installed.
 
     The same scene gives the same bytes, with the same Pillow.

@@ -24,11 +24,16 @@ DIAMOND_GPa, OSMIUM_KGM3, FOAM_KGM3 = 1220.0, 22590.0, 25.0
 def carried_warnings(mechanism: Mechanism, plate: MassProperties | None) -> list[Notice]:
     """Warnings about missing inertia, bodies off the axis, and keys without effect."""
     spec = mechanism.spec
-    about = [*_itself(spec, plate), *_to_one_side(spec), *_far(mechanism), *_unheard_of(spec)]
-    return [*about, *_for_nothing(spec)]
+    return [
+        *_wheel_inertia(spec, plate),
+        *_unbalanced(spec),
+        *_distant(mechanism),
+        *_unlikely_materials(spec),
+        *_keys_without_effect(spec),
+    ]
 
 
-def _itself(spec: Spec, plate: MassProperties | None) -> list[Notice]:
+def _wheel_inertia(spec: Spec, plate: MassProperties | None) -> list[Notice]:
     inertia = inertia_kgm2(spec)
     # a [[mass]] of this name is the wheel itself
     if plate is None or not inertia or any(mass.name == "wheel" for mass in spec.mass):
@@ -53,7 +58,7 @@ def _itself(spec: Spec, plate: MassProperties | None) -> list[Notice]:
     ]
 
 
-def _to_one_side(spec: Spec) -> list[Notice]:
+def _unbalanced(spec: Spec) -> list[Notice]:
     """Warnings about masses to one side of a horizontal axis, whose gravity is not counted."""
     if spec.support.axis != "horizontal":
         return []
@@ -74,7 +79,7 @@ def _to_one_side(spec: Spec) -> list[Notice]:
     return out
 
 
-def _far(mechanism: Mechanism) -> list[Notice]:
+def _distant(mechanism: Mechanism) -> list[Notice]:
     """Warnings about a mass that is farther away than a table reaches."""
     far = max((mass.radius_mm for mass in mechanism.spec.mass), default=0.0)
     distances = far / mechanism.center_distance_mm
@@ -89,7 +94,7 @@ def _far(mechanism: Mechanism) -> list[Notice]:
     ]
 
 
-def _unheard_of(spec: Spec) -> Iterator[Notice]:
+def _unlikely_materials(spec: Spec) -> Iterator[Notice]:
     """Warnings about materials that seem to be in another unit."""
     parts = {"[material.wheel]": spec.material_wheel, "[material.roller]": spec.material_roller}
     for table, part in parts.items():
@@ -113,7 +118,7 @@ def _unheard_of(spec: Spec) -> Iterator[Notice]:
             )
 
 
-def _for_nothing(spec: Spec) -> list[Notice]:
+def _keys_without_effect(spec: Spec) -> list[Notice]:
     """Warnings about keys without effect."""
     out: list[Notice] = []
     if not spec.is_loaded and spec.motor != Motor():

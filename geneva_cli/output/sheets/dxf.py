@@ -14,7 +14,7 @@ from geneva_cli.curves.shapes import Contour
 from geneva_cli.curves.sheet import DASHED, DIMENSION, TEXT, WIDTHS, Arrow, Label, Measure, Sheet
 from geneva_cli.errors import clean
 from geneva_cli.output.dxf_contours import draw
-from geneva_cli.output.dxf_file import USUAL, extents, linetype, written
+from geneva_cli.output.dxf_file import USUAL, dxf_text, extents, linetype
 from geneva_cli.output.ezdxf_alone import BaseLayout, Document, Modelspace
 
 # group code 70 of a DIMENSION, and the attributes that hold its points
@@ -39,7 +39,7 @@ def chunks(sheet: Sheet, version: str = USUAL) -> Iterator[str]:
             _measure(document, space, measure)
         extents(document, space, (0.0, 0.0, sheet.width, sheet.height))
 
-    yield from written(sheet.title, "mm", version, fill)
+    yield from dxf_text(sheet.title, "mm", version, fill)
 
 
 def _layers(document: Document) -> None:

@@ -8,7 +8,7 @@ from typing import Any
 from geneva_cli.analysis.figures import OF_NAME
 from geneva_cli.analysis.loads.summary import Summary
 from geneva_cli.design import Design
-from geneva_cli.document import Block, Facts, Grid, Heading, Listed, Row
+from geneva_cli.document import Block, Facts, Grid, Heading, Row, TextList
 from geneva_cli.study.document.left import Left, grid
 from geneva_cli.study.document.named import capital, fact, facts, unit_of
 from geneva_cli.table import Table
@@ -127,7 +127,7 @@ def swinging(left: Left) -> Iterator[Block]:
             yield Heading(text)
             yield from found
         if said:
-            yield Listed(tuple(said))
+            yield TextList(tuple(said))
 
 
 CAPTIONS = {

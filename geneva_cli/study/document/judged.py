@@ -6,7 +6,7 @@ from collections.abc import Iterator
 
 from geneva_cli.analysis.loads.summary import missing
 from geneva_cli.design import Design
-from geneva_cli.document import BAD, Block, Grid, Heading, Listed, Prose
+from geneva_cli.document import BAD, Block, Grid, Heading, Prose, TextList
 from geneva_cli.study.document.left import Left
 from geneva_cli.study.document.named import capital
 from geneva_cli.study.document.sources import sources
@@ -47,7 +47,7 @@ def warned(left: Left) -> Iterator[Block]:
     """The warnings."""
     warnings = tuple(left.one("warnings"))
     yield Heading("Warnings")
-    yield Listed(warnings) if warnings else Prose("None.")
+    yield TextList(warnings) if warnings else Prose("None.")
 
 
 def said(design: Design, left: Left) -> Iterator[Block]:
@@ -62,9 +62,9 @@ def said(design: Design, left: Left) -> Iterator[Block]:
         yield from rest
     if unknown:
         yield Heading("What is not known, and the key that would give it")
-        yield Listed(tuple(unknown))
+        yield TextList(tuple(unknown))
     yield Heading("Sources of the formulas")
-    yield Listed(sources(design.spec))
+    yield TextList(sources(design.spec))
 
 
 def _notes(design: Design) -> tuple[str, ...]:

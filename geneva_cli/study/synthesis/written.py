@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from geneva_cli.errors import GenevaError, cut
-from geneva_cli.specfile.writer import quoted, written
+from geneva_cli.specfile.writer import quoted, spec_lines
 from geneva_cli.study.synthesis.built import Built, built
 from geneva_cli.study.synthesis.rows import Candidate
 from geneva_cli.study.synthesis.search import FoundRows
@@ -32,7 +32,7 @@ def chosen(found: FoundRows, number: int, buildable: bool = False) -> tuple[Buil
 
 def commented(target: Target, number: int, row: Candidate, found: Built) -> str:
     """The text of a spec from synthesis, with comments."""
-    return "\n".join([*_heading(target, number, row, found), *written(found.spec)]) + "\n"
+    return "\n".join([*_heading(target, number, row, found), *spec_lines(found.spec)]) + "\n"
 
 
 def _heading(target: Target, number: int, row: Candidate, found: Built) -> list[str]:
