@@ -84,7 +84,7 @@ TOPICS = {topic: about for pages in GROUPS.values() for topic, about in pages.it
 class Hit(NamedTuple):
     """A section of a page in which a word stands, and the first line with it."""
 
-    topic: str  # as ``geneva help`` takes it
+    topic: str  # the word for ``geneva help``
     section: str
     line: str
 

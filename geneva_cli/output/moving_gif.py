@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from geneva_cli.scene import Bar, Scene
 
 WIDE = 400  # px
-FRAMES = 60  # of a turn
+FRAMES = 60  # pictures of a turn
 FINER = 3  # times: lines become smooth when they are drawn larger and reduced
 LINK, GREY = "#a56752", "#5c6670"
 

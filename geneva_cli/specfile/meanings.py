@@ -13,7 +13,7 @@ from geneva_cli.manual.explained import Entry, entries
 from geneva_cli.names import unit_of
 from geneva_cli.specfile.keys import Key, all_keys
 
-CHECKS, INPUTS = "checks.", "inputs."  # what a report's names of checks and of keys begin with
+CHECKS, INPUTS = "checks.", "inputs."  # beginnings of a report's names of checks and of keys
 
 
 class Meaning(NamedTuple):

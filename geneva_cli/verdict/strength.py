@@ -22,10 +22,10 @@ if TYPE_CHECKING:
 
 LOAD = "inertia_kgm2 or torque_Nm in [load], or a [[mass]]"
 # The groups by the names of their tables, and by the whole names of their quantities.
-GROUPS = {name: group for group in REPORT for name in (group.table, *group.names)}
-LIFE = tuple(name.removeprefix("life.") for name in GROUPS if name.startswith("life."))
+REPORT_GROUPS = {name: group for group in REPORT for name in (group.table, *group.names)}
+LIFE = tuple(name.removeprefix("life.") for name in REPORT_GROUPS if name.startswith("life."))
 
-# What must be there, and how to say it.
+# A need: whether it is met, and its keys in words.
 Key: TypeAlias = tuple[bool, str]
 Keys: TypeAlias = Iterator[Sequence[Key]]
 
@@ -42,7 +42,7 @@ class Strength:
     def __getitem__(self, name: str) -> float | None:
         """A value by its whole name, such as ``strength.pin.stress_MPa``; None if unknown."""
         table, _, own = name.rpartition(".")
-        columns = (GROUPS.get(name) or GROUPS[table]).columns(self.design)
+        columns = (REPORT_GROUPS.get(name) or REPORT_GROUPS[table]).columns(self.design)
         return only(columns.get(own))
 
     @cached_property

@@ -133,5 +133,5 @@ def _text(space: BaseLayout, label: Label, layer: str) -> None:
 def _signed(text: str) -> str:
     """A text with DXF's own signs; accidental ones are separated."""
     shown = clean(text).replace("%%", "% %")
-    signs = {"Ø": "%%c", "°": "%%d", "±": "%%p"}  # as every version of DXF has them
+    signs = {"Ø": "%%c", "°": "%%d", "±": "%%p"}  # every version of DXF has these
     return "".join(signs.get(c, c) for c in shown)
