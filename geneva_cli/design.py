@@ -706,14 +706,14 @@ class Design:
         """HTML for a notebook: description and verdict, the machine, its curves, the report."""
         from contextlib import suppress
 
-        from geneva_cli.output.notebook import shown
+        from geneva_cli.output.notebook import design_html
         from geneva_cli.verdict.headline import headline
 
         drawing = None
         with suppress(GenevaError):  # wheels with very many slots are not drawn
             drawing = self.drawing("assembly")
         _, verdict = headline(self.checks, self.warnings)
-        return shown(self.report.table, verdict, drawing, self.figure())
+        return design_html(self.report.table, verdict, drawing, self.figure())
 
     @answer
     def checks(self) -> list[Check]:

@@ -55,7 +55,7 @@ class Prose(NamedTuple):
     text: str
 
 
-class Listed(NamedTuple):
+class TextList(NamedTuple):
     """A list of texts."""
 
     texts: tuple[str, ...]
@@ -96,7 +96,7 @@ class Curves(NamedTuple):
     figure: Figure
 
 
-Block: TypeAlias = Heading | Prose | Listed | Facts | Grid | Picture | Curves
+Block: TypeAlias = Heading | Prose | TextList | Facts | Grid | Picture | Curves
 
 
 class Document(NamedTuple):

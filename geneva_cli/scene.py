@@ -62,7 +62,7 @@ class Body(NamedTuple):
     angle: Track  # counterclockwise
 
 
-class Carried(NamedTuple):
+class CarriedShapes(NamedTuple):
     """Shapes that a link carries: their origin is at a joint, their x away from the first joint."""
 
     joint: int
@@ -79,7 +79,7 @@ class Bar(NamedTuple):
     name: str
     joints: tuple[Place, ...]
     radius: float = 0.0
-    plates: tuple[Carried, ...] = ()
+    plates: tuple[CarriedShapes, ...] = ()
 
 
 def place_at(place: Place, t: float) -> tuple[float, float]:
@@ -87,12 +87,12 @@ def place_at(place: Place, t: float) -> tuple[float, float]:
     return value_at(place[0], t), value_at(place[1], t)
 
 
-def pose(bar: Bar, plate: Carried, t: float) -> tuple[float, float, float]:
+def pose(bar: Bar, plate: CarriedShapes, t: float) -> tuple[float, float, float]:
     """The position of a link's plate or block at an input angle, and its rotation in radians.
 
-    >>> from geneva_cli.scene import Bar, Carried, Track, pose
+    >>> from geneva_cli.scene import Bar, CarriedShapes, Track, pose
     >>> one, two, four, six = (Track((0.0,), (x,), (0.0,)) for x in (1.0, 2.0, 4.0, 6.0))
-    >>> pose(Bar("", ((one, two), (four, six))), Carried(0, ()), 0.0)
+    >>> pose(Bar("", ((one, two), (four, six))), CarriedShapes(0, ()), 0.0)
     (1.0, 2.0, 0.9272952180016122)
     """
     (x0, y0), (x1, y1) = (place_at(bar.joints[j], t) for j in (0, plate.joint or 1))

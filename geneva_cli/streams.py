@@ -22,13 +22,13 @@ def open_streams() -> None:
     _fill_closed()
     sys.stdin = sys.stdin or open(0, closefd=False)
     sys.stderr = _Messages(
-        io.BufferedWriter(_Letting(2, "w", closefd=False)),
+        io.BufferedWriter(_ErrorOutput(2, "w", closefd=False)),
         encoding=_encoding(sys.stderr),
         errors="backslashreplace",
         line_buffering=True,
     )
     sys.stdout = io.TextIOWrapper(
-        io.BufferedWriter(_Ending(1, "w", closefd=False)),
+        io.BufferedWriter(_Output(1, "w", closefd=False)),
         encoding=_encoding(sys.stdout),
         errors="backslashreplace",  # for a title in a script that the terminal lacks
         line_buffering=os.isatty(1),
@@ -59,7 +59,7 @@ def leave(status: int) -> NoReturn:
     os._exit(status)
 
 
-class _Ending(io.FileIO):
+class _Output(io.FileIO):
     """Standard output, for which a write error ends the run.
 
     If the reader has left, the run ends as by SIGPIPE; otherwise with a message and status 2.
@@ -75,7 +75,7 @@ class _Ending(io.FileIO):
             os._exit(2)
 
 
-class _Letting(io.FileIO):
+class _ErrorOutput(io.FileIO):
     """Standard error, which ignores write errors and leaves the exit status unchanged."""
 
     def write(self, data: Any, /) -> int:

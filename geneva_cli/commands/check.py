@@ -29,7 +29,7 @@ def run(
     It checks the motion, the parts and the spec's own [limits]. The exit status is 1 if a check
     fails. If one spec cannot be read, the others are still checked.
     """
-    from geneva_cli.output import is_watched, tell
+    from geneva_cli.output import is_watched, show_answer
     from geneva_cli.output.formats import table_as
     from geneva_cli.study.batch import verdicts
     from geneva_cli.study.summary.checks import of_checks
@@ -40,7 +40,7 @@ def run(
     if judged:
         is_short = is_watched(output, format) and not verbose
         answer = of_checks(judged, not is_short, name == "json")
-        tell(answer, output, format, [file for v in judged for file in v.files])
+        show_answer(answer, output, format, [file for v in judged for file in v.files])
     for v in results:
         if v.error:
             print(clean(v.error), file=sys.stderr)

@@ -46,7 +46,7 @@ def run(
     Hertz pressure times the sliding speed, for a roller fixed to its pin.
     """
     from geneva_cli.design import load
-    from geneva_cli.output import show, tell
+    from geneva_cli.output import show, show_answer
     from geneva_cli.output.formats import format_of
     from geneva_cli.study.summary.loads import of_loads
 
@@ -57,7 +57,7 @@ def run(
         table = design.load_cycle(ROWS if samples is None else samples)
         show(table, output, format, design.spec.files)
     else:
-        tell(of_loads(design), output, format, design.spec.files)
+        show_answer(of_loads(design), output, format, design.spec.files)
     if by_rows or output != "-":
         _say(design.spec.path, design.loads_table.to_dict()["warnings"])
 

@@ -39,7 +39,7 @@ def run(
     The exit status is 1 if a check fails, as with `check`.
     """
     from geneva_cli.design import load
-    from geneva_cli.output import hand_over, tell
+    from geneva_cli.output import show_answer, show_document
     from geneva_cli.output.formats import is_document
     from geneva_cli.study.summary.report import of_report
 
@@ -48,9 +48,9 @@ def run(
     if is_whole:
         from geneva_cli.study.document import document
 
-        hand_over(document(design), output, format, design.spec.files)
+        show_document(document(design), output, format, design.spec.files)
     else:
-        tell(of_report(design), output, format, design.spec.files)
+        show_answer(of_report(design), output, format, design.spec.files)
     if output != "-":
         say(design.spec.path, design.warnings)
     if not design.passes:

@@ -183,13 +183,13 @@ def run(
 def _write_rows(plan: "SweepRequest", outcome: "Outcome", output: str, resume: bool) -> None:
     """Write all rows or the chosen ones as they come; show a person some rows of the file."""
     from geneva_cli.output import is_seen
-    from geneva_cli.output.rows import Growth
+    from geneva_cli.output.rows import GrowingTable
     from geneva_cli.study.sweep.digest import Digest
     from geneva_cli.study.sweep.run import TEXTS
 
     sweep = plan.sweep
     first = sweep.shard.number == 1
-    with Growth(sweep.names, plan.key, first, output, resume, plan.inputs) as rows:
+    with GrowingTable(sweep.names, plan.key, first, output, resume, plan.inputs) as rows:
         if rows.message:
             print(rows.message, file=sys.stderr)
         if rows.is_whole:

@@ -29,7 +29,7 @@ def run(
     dimension contributes, and the clearances with which every machine still turns.
     """
     from geneva_cli.design import load
-    from geneva_cli.output import show, tell
+    from geneva_cli.output import show, show_answer
     from geneva_cli.output.formats import table_as
     from geneva_cli.study.summary.tolerance import of_tolerance
 
@@ -38,7 +38,7 @@ def run(
         show(design.tolerance_histogram(samples, seed), output, format, design.spec.files)
         return
     table = design.tolerance(samples, seed, radius)
-    tell(of_tolerance(design, table), output, format, design.spec.files)
+    show_answer(of_tolerance(design, table), output, format, design.spec.files)
     # the warnings of tolerances only
     if output != "-" or table_as(output, format) in ("json", "csv"):
         warn(design)

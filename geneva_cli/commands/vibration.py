@@ -30,7 +30,7 @@ def run(
     how far it moves with a stiffness 20 % lower and higher.
     """
     from geneva_cli.design import load
-    from geneva_cli.output import show, tell
+    from geneva_cli.output import show, show_answer
     from geneva_cli.output.formats import format_of
     from geneva_cli.study.summary.vibration import of_vibration
 
@@ -40,6 +40,6 @@ def run(
         show(table, output, format, design.spec.files)
         return
     result = design.vibration(period_ratio, damping)
-    tell(of_vibration(design, result), output, format, design.spec.files)
+    show_answer(of_vibration(design, result), output, format, design.spec.files)
     if output != "-":
         say(design.spec.path, result.to_dict()["warnings"])

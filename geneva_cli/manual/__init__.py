@@ -84,7 +84,7 @@ TOPICS = {topic: about for pages in GROUPS.values() for topic, about in pages.it
 class Hit(NamedTuple):
     """A section of a page in which a word stands, and the first line with it."""
 
-    topic: str  # as ``geneva help`` takes it
+    topic: str  # the word for ``geneva help``
     section: str
     line: str
 
@@ -103,11 +103,11 @@ def search(word: str) -> list[Hit]:
             if line.startswith("#"):
                 section = line.lstrip("# ")
             if wanted in line.casefold():
-                hits.setdefault((topic, section), Hit(topic, section, _around(line, wanted)))
+                hits.setdefault((topic, section), Hit(topic, section, _excerpt(line, wanted)))
     return list(hits.values())
 
 
-def _around(line: str, wanted: str) -> str:
+def _excerpt(line: str, wanted: str) -> str:
     """The part of a line that has a word in it."""
     plain = " ".join(line.replace("`", "").replace("*", "").lstrip("# ").split())
     at = max(plain.casefold().find(wanted), 0)

@@ -118,7 +118,9 @@ def is_seen(output: str) -> bool:
     return output == "-" and sys.stdout.isatty()
 
 
-def tell(answer: Answer, output: str = "-", format: str = "", inputs: Iterable[str] = ()) -> None:
+def show_answer(
+    answer: Answer, output: str = "-", format: str = "", inputs: Iterable[str] = ()
+) -> None:
     """Print an answer, or write it to the file ``output``; ``inputs`` are never overwritten.
 
     Raises GenevaError as ``show`` does.
@@ -135,7 +137,7 @@ def tell(answer: Answer, output: str = "-", format: str = "", inputs: Iterable[s
     if name == "md":
         first = summary.markdown(answer.summaries)
     else:
-        first = summary.chunks(answer.summaries, summary.look_of(output, is_seen(output)))
+        first = summary.chunks(answer.summaries, summary.style_of(output, is_seen(output)))
     page = answer.page
     rest = chain(["\n"] if name == "table" else (), _chunks(page, output, name)) if page else ()
     _put(chain(first, rest), output, inputs)
@@ -218,9 +220,9 @@ def plot(figure: Figure, output: str = "-", format: str = "", inputs: Iterable[s
 
     if output == "-":
         raise GenevaError(f"--format {name}: not for standard output; give -o FILE.{name}")
-    from geneva_cli.output.plot_png import written
+    from geneva_cli.output.plot_png import png_bytes
 
-    write_bytes(output, [written(figure)], inputs)
+    write_bytes(output, [png_bytes(figure)], inputs)
 
 
 def animate(scene: Scene, output: str, inputs: Iterable[str] = ()) -> None:
@@ -234,9 +236,9 @@ def animate(scene: Scene, output: str, inputs: Iterable[str] = ()) -> None:
         raise GenevaError(f'-o "{cut(output)}": it must end in .html or .htm or .gif or .svg')
     if extension == ".gif":
         from geneva_cli.output.files import write_bytes
-        from geneva_cli.output.moving_gif import written
+        from geneva_cli.output.moving_gif import gif_bytes
 
-        write_bytes(output, [written(scene)], inputs)
+        write_bytes(output, [gif_bytes(scene)], inputs)
         return
     from geneva_cli.output import page, still_svg
 
@@ -244,7 +246,7 @@ def animate(scene: Scene, output: str, inputs: Iterable[str] = ()) -> None:
     _put(chunks(scene), output, inputs)
 
 
-def hand_over(
+def show_document(
     document: Document, output: str = "-", format: str = "", inputs: Iterable[str] = ()
 ) -> None:
     """Print the document, or write it to the file ``output``; ``inputs`` are never overwritten.

@@ -10,7 +10,7 @@ from collections.abc import Iterator
 from geneva_cli.curves.drawing import Drawing, extent
 from geneva_cli.curves.pieces import UNITS, prepared
 from geneva_cli.output.dxf_contours import draw
-from geneva_cli.output.dxf_file import USUAL, extents, linetype, written
+from geneva_cli.output.dxf_file import USUAL, dxf_text, extents, linetype
 from geneva_cli.output.ezdxf_alone import Document, Modelspace
 from geneva_cli.output.inks import CENTRE_LINES, DASHES, inks
 
@@ -29,7 +29,7 @@ def chunks(drawing: Drawing, units: str, version: str = USUAL) -> Iterator[str]:
             draw(space, shape)
         extents(document, space, extent(drawing))
 
-    yield from written(drawing.title, units, version, fill)
+    yield from dxf_text(drawing.title, units, version, fill)
 
 
 def _layers(document: Document, drawing: Drawing, millimetre: float) -> None:

@@ -103,7 +103,7 @@ def _knots(cubics: list[Cubic]) -> tuple[tuple[tuple[float, float], ...], list[f
 def _runs(segments: list[Segment]) -> Iterator[list[Segment]]:
     """Segments one by one, but smoothly connected cubics together."""
     run: list[Segment] = []
-    scale = 1.0  # of the knot interval over that of the run's first
+    scale = 1.0  # the knot interval over that of the run's first
     uneven = 100.0  # greatest ratio of a spline's knot intervals to its first
     for segment in segments:
         last = run[-1] if run else None

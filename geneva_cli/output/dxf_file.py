@@ -23,7 +23,7 @@ FLOAT_CODES = {
 }
 
 
-def written(
+def dxf_text(
     title: str, units: str, version: str, fill: Callable[[Document, Modelspace], None]
 ) -> Iterator[str]:
     """The text of a file whose document ``fill`` fills; R12 has no unit.

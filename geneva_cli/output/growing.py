@@ -19,7 +19,7 @@ from geneva_cli.output.files import place, replacing, write_errors
 from geneva_cli.output.state import SUFFIX, StateFile
 
 
-class Closing(ABC):
+class Closable(ABC):
     """A resource that is closed at the end of its block, also after an error."""
 
     @abstractmethod
@@ -38,7 +38,7 @@ class Closing(ABC):
         self.close()
 
 
-class Growing(Closing):
+class GrowingFile(Closable):
     """Lines appended to a file, ``done`` of which exist already, below the header.
 
     ``key`` is all that the lines depend on. With ``resume`` a run continues one with the same key,

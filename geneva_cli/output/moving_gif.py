@@ -20,12 +20,12 @@ if TYPE_CHECKING:
     from geneva_cli.scene import Bar, Scene
 
 WIDE = 400  # px
-FRAMES = 60  # of a turn
+FRAMES = 60  # pictures of a turn
 FINER = 3  # times: lines become smooth when they are drawn larger and reduced
 LINK, GREY = "#a56752", "#5c6670"
 
 
-def written(scene: Scene) -> bytes:
+def gif_bytes(scene: Scene) -> bytes:
     """The file. Raises GenevaError if Pillow is not installed.
 
     The same scene gives the same bytes, with the same Pillow.

@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from geneva_cli.table import Table
 
 
-def shown(report: Table, verdict: str, drawing: Drawing | None, figure: Figure) -> str:
+def design_html(report: Table, verdict: str, drawing: Drawing | None, figure: Figure) -> str:
     """HTML of a design: title, verdict, the machine if it is flat, curves, and the report."""
     pictures = [plot_svg.chunks(figure)]
     if drawing is not None:

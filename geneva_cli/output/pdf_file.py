@@ -32,7 +32,7 @@ class Page(NamedTuple):
     fonts: int = 1  # number of fonts that it uses
 
 
-def written(title: str, pages: Sequence[Page]) -> Iterator[str]:
+def pdf_text(title: str, pages: Sequence[Page]) -> Iterator[str]:
     """The file's text."""
     fonts = ("Helvetica", "Helvetica-Bold")[: max(page.fonts for page in pages)]
     first = 3 + 2 * len(pages)  # the number of the first font

@@ -22,7 +22,7 @@ LEFT, RIGHT, MARKS = 72.0, 18.0, 192.0  # MARKS: the column of the peaks' values
 ABOVE, BELOW = 26.0, 44.0  # a panel's name; the last one's ticks and the axis' name
 TITLE, TEXT, SMALL = 15.0, 11.0, 10.0  # heights of letters
 LINE_HEIGHT = 14.0
-SAMPLE = 30.0  # of a curve, in the legend
+SAMPLE = 30.0  # length of a curve's sample in the legend
 START, MIDDLE, END = "start", "middle", "end"  # anchor of a text
 
 

@@ -35,7 +35,7 @@ def chunks(figure: Figure) -> Iterator[str]:
         content += _drawn(block, 0.0, INCH, top)
         top -= INCH * block.high
     page = pdf_file.Page(INCH * PAGE, tall, content, fonts=2)
-    yield from pdf_file.written(western(figure.title), [page])
+    yield from pdf_file.pdf_text(western(figure.title), [page])
 
 
 def items(figure: Figure) -> Iterator[Item]:

@@ -15,7 +15,7 @@ INCH = 82.0  # px of the layout per inch: the page is ten inches wide
 PT = 72.0 / INCH  # points per px
 
 
-def written(figure: Figure) -> bytes:
+def png_bytes(figure: Figure) -> bytes:
     """Return the file's bytes, equal for equal figures.
 
     Raises GenevaError if Matplotlib is not installed.

@@ -13,7 +13,7 @@ from geneva_cli.figure import LINE, POINTS, Curve, Figure, Panel
 from geneva_cli.output.layout import width_of, wrapped
 from geneva_cli.output.ticks import labels, mark_text, ticks
 
-MARKS = "*o+x#@%&=~^$"  # of several curves in a panel, and of one curve in ASCII
+MARKS = "*o+x#@%&=~^$"  # letters of several curves in a panel, and of one curve in ASCII
 LABEL = 10  # letters for the numbers of the upright axis
 
 
@@ -27,7 +27,7 @@ def chunks(figure: Figure, columns: int = 80, unicode: bool = False) -> Iterator
         for curve in known.values():
             yield from _lines(f"  {MARKS[curve.number]}  {clean(curve.name)}", columns)
     ground, dwell = ("─", "░") if unicode else ("-", ":")
-    lines = {1: 16, 2: 12}.get(len(figure.panels), 7)  # of a panel, by the number of panels
+    lines = {1: 16, 2: 12}.get(len(figure.panels), 7)  # a panel's, by the number of panels
     for panel in figure.panels:
         yield "\n"
         yield from _heading(panel, columns, len(known) > 1, figure.x.unit)

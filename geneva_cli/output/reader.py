@@ -14,7 +14,7 @@ from geneva_cli.output.text import WIDTH
 from geneva_cli.output.window import Window
 
 FENCE = "```"
-INDENT = "  "  # of code
+INDENT = "  "  # before code
 LINK = re.compile(r"\[([^]]+)\]\([^)]*\)")
 CODE = re.compile(r"`([^`]+)`|\*\*([^*]+)\*\*")
 
@@ -28,7 +28,7 @@ def chunks(text: str, window: Window) -> Iterator[str]:
 
 def _blocks(text: str) -> Iterator[list[str]]:
     """The lines of each heading, paragraph, item, table and code block, and empty ones between."""
-    start = re.compile(r"(?=[-*] |#|\||```)")  # of a block, even without an empty line before it
+    start = re.compile(r"(?=[-*] |#|\||```)")  # of a block, with or without an empty line before it
     block: list[str] = []
     for line in text.splitlines():
         if block and block[0].startswith(FENCE):

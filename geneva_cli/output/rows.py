@@ -11,10 +11,10 @@ from geneva_cli.errors import GenevaError, cut
 from geneva_cli.output import refuse_columns
 from geneva_cli.output.delimited import one_line
 from geneva_cli.output.finite import refuse_nonsense
-from geneva_cli.output.growing import Closing, Growing
+from geneva_cli.output.growing import Closable, GrowingFile
 
 
-class Growth(Closing):
+class GrowingTable(Closable):
     """The destination of the rows of ``names``, ``done`` of which exist already.
 
     ``key`` is all that they depend on, for ``resume``; ``message`` says what that does. A later
@@ -33,7 +33,7 @@ class Growth(Closing):
         refuse_columns()
         self.names, self.output, self.done = names, output, 0
         self.is_whole, self.message = False, ""
-        self.file: Growing | None = None
+        self.file: GrowingFile | None = None
         self.parquet = output.endswith(".parquet")
         if output != "-" and not output.endswith((".csv", ".parquet")):
             raise GenevaError(f'-o "{cut(output, 300)}": it must end in .csv or .parquet')
@@ -44,7 +44,7 @@ class Growth(Closing):
             header = True  # a shard is a file of its own
         first = one_line(names) if header else ""
         if output != "-":
-            self.file = Growing(output, first, key, resume, inputs)
+            self.file = GrowingFile(output, first, key, resume, inputs)
             self.done = self.file.done
             self.is_whole, self.message = self.file.is_whole, self.file.message
         elif resume:

@@ -19,7 +19,7 @@ SIGNS = {PASSES: "✓", WARNS: "!", FAILS: "✗"}
 INKS = {PASSES: "\x1b[32m", WARNS: "\x1b[33m", FAILS: "\x1b[31m"}  # green, yellow, red
 
 
-class Look(NamedTuple):
+class TextStyle(NamedTuple):
     """The look of a summary on a stream."""
 
     width: int = 90  # letters of a line
@@ -27,23 +27,23 @@ class Look(NamedTuple):
     unicode: bool = True
 
 
-def look_of(output: str, is_seen: bool) -> Look:
+def style_of(output: str, is_seen: bool) -> TextStyle:
     """The look for a terminal if ``is_seen``, a pipe, or a file, which is always UTF-8."""
     if output != "-":
-        return Look()
+        return TextStyle()
     try:
         "✓✗°²³⁻⁵".encode(sys.stdout.encoding or "ascii")
         unicode = True
     except (UnicodeEncodeError, LookupError):
         unicode = False
     if not is_seen:
-        return Look(unicode=unicode)
+        return TextStyle(unicode=unicode)
     terminal = window(False, False)
     # Lines of more than 100 letters are hard to read.
-    return Look(min(terminal.columns, 100), terminal.styled, unicode)
+    return TextStyle(min(terminal.columns, 100), terminal.styled, unicode)
 
 
-def chunks(summaries: Iterable[Summary], look: Look) -> Iterator[str]:
+def chunks(summaries: Iterable[Summary], look: TextStyle) -> Iterator[str]:
     """Each summary as text, with empty lines around one that has lines."""
     before: Summary | None = None
     for summary in summaries:
@@ -56,7 +56,7 @@ def chunks(summaries: Iterable[Summary], look: Look) -> Iterator[str]:
         before = summary
 
 
-def _head(summary: Summary, look: Look) -> str:
+def _head(summary: Summary, look: TextStyle) -> str:
     sign = _letters(SIGNS.get(summary.state, ""), look)
     indent = " " * (len(sign) + 1) if sign else ""
     text = "\n".join(_wrapped(summary.head, look.width - len(indent), look))
@@ -65,7 +65,7 @@ def _head(summary: Summary, look: Look) -> str:
     return f"{sign} {text}\n" if sign else f"{text}\n"
 
 
-def _lines(lines: Iterable[SummaryLine], look: Look) -> Iterator[str]:
+def _lines(lines: Iterable[SummaryLine], look: TextStyle) -> Iterator[str]:
     lines = list(lines)
     label_max = 20  # letters; a longer label stands above its text
     wide = max((len(line.label) for line in lines if len(line.label) <= label_max), default=0)
@@ -82,7 +82,7 @@ def _lines(lines: Iterable[SummaryLine], look: Look) -> Iterator[str]:
             yield f"{' ' * (wide + 4) if number else first}{text}".rstrip() + "\n"
 
 
-def _wrapped(text: str, width: int, look: Look) -> list[str]:
+def _wrapped(text: str, width: int, look: TextStyle) -> list[str]:
     """A text in lines; a value is not separated from its power of ten."""
     no_break = "\u00a0"  # a space without a line break
     text = _letters(no_break.join(map(clean, text.split(no_break))), look)
@@ -90,7 +90,7 @@ def _wrapped(text: str, width: int, look: Look) -> list[str]:
     return [line.replace(no_break, " ") for line in lines]
 
 
-def _letters(text: str, look: Look) -> str:
+def _letters(text: str, look: TextStyle) -> str:
     """A text in the letters of the stream."""
     if look.unicode:
         return text

@@ -22,7 +22,7 @@ def filled(solid: Part, fill: str, unit: float, mm: float) -> Iterator[str]:
     every = rings(solid, unit)
     here = dict.fromkeys(layer for layer, _ in every)
     layers = tuple(sorted(here, key=[*INKS, *here].index))  # the wheel's hatch first
-    turns_deg = (45, 135, 75, 105, 15, 165)  # of the layers' hatches, in turn
+    turns_deg = (45, 135, 75, 105, 15, 165)  # the layers' hatches have these in turn
     if fill == "hatch":
         yield "<defs>\n"
         for turn, (layer, ink) in zip(turns_deg * len(layers), inks(layers).items(), strict=False):

@@ -53,7 +53,7 @@ def notes(look: Annotations, box: Box, title: str, mm: float, units: str) -> tup
         lines.append(path(arc))
         piece = arc.segments[0]
         assert isinstance(piece, Arc)
-        back = 0.5 * mm * ARROW[0] / piece.radius  # of the arc under the arrow's head
+        back = 0.5 * mm * ARROW[0] / piece.radius  # the angle of the arc under the arrow's head
         x, y = piece.centre
         end = math.atan2(piece.end[1] - y, piece.end[0] - x)
         sense = math.copysign(1.0, piece.bulge)

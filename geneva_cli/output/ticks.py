@@ -8,7 +8,7 @@ from collections.abc import Sequence
 from geneva_cli.figure import Axis, Mark
 from geneva_cli.numerics.tolerances import ROUNDED
 
-DIGITS = 6  # of a peak's value, and at first of an axis
+SHOWN_DIGITS = 6  # a peak's value has these; an axis has more if labels are equal
 
 
 def ticks(low: float, high: float, most: int, unit: str = "") -> list[float]:
@@ -39,7 +39,7 @@ def labels(at: Sequence[float]) -> list[str]:
     (['0', '0.5', '1'], ['0', '2e+09'], ['10000000', '10000000.5'])
     """
     texts: list[str] = []
-    for digits in range(DIGITS, 18):
+    for digits in range(SHOWN_DIGITS, 18):
         texts = [f"{x:.{digits}g}" for x in at]
         if len(set(texts)) == len(set(at)):
             break
@@ -58,7 +58,7 @@ def mark_text(mark: Mark, unit: str = "°") -> str:
     'max 649.007 at -22.90°'
     """
     # A larger place is written with an exponent.
-    at = f"{mark.x:.2f}" if abs(mark.x) < 1e5 else f"{mark.x:.{DIGITS}g}"
+    at = f"{mark.x:.2f}" if abs(mark.x) < 1e5 else f"{mark.x:.{SHOWN_DIGITS}g}"
     at = "0.00" if at == "-0.00" else at
-    value = "no bound" if mark.y is None else f"{mark.word} {mark.y + 0.0:.{DIGITS}g}"
+    value = "no bound" if mark.y is None else f"{mark.word} {mark.y + 0.0:.{SHOWN_DIGITS}g}"
     return f"{value} at {at}{unit}"

@@ -67,7 +67,7 @@ def read_columns(path: str) -> Columns:
     file, or has no rows.
     """
     shown = cut(path, 300)
-    bytes_max = 1 << 28  # of a sweep's csv: some million designs
+    bytes_max = 1 << 28  # a csv of some million designs
     try:
         with open(path, "rb") as file:
             data = file.read(bytes_max + 1)

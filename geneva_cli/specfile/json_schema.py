@@ -18,7 +18,7 @@ from geneva_cli.spec.schema import LIST, LIST_MAX, REQUIRED, Field, SpecTable, f
 from geneva_cli.spec.tables import LISTS, PLAIN
 from geneva_cli.specfile.writer import GEARING, KIND, LAW
 
-FILE = "geneva.schema.json"  # where the first line of a new spec looks for it
+FILE = "geneva.schema.json"  # the file that the first line of a new spec names
 Schema = dict[str, Any]
 
 

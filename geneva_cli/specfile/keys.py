@@ -31,7 +31,7 @@ class Key(NamedTuple):
     meaning: str
 
 
-def every() -> list[Key]:
+def all_keys() -> list[Key]:
     """All keys, by table, in the order of a file."""
     title = Key("", "title", None, "word", None, None, False, None, "free text")
     return [title, *_wheel(), *_drive(), *_motion(), *_plain()]
@@ -45,7 +45,7 @@ def about(word: str) -> list[Key]:
     >>> [(k.table, k.key, k.range) for k in about("drive.A")]
     [('drive', 'A', 'above -1, below 1'), ('drive', 'A', 'above -1, below 1')]
     """
-    keys = every()
+    keys = all_keys()
     if not word:
         return keys
     some = [k for k in keys if word in (_bare(k), _bare(k).partition(".")[0])]
@@ -62,7 +62,7 @@ def about(word: str) -> list[Key]:
 
 def full_names() -> dict[str, str]:
     """Every key as ``table.key``, with its meaning."""
-    return {f"{_bare(k)}.{k.key}": k.meaning for k in every() if k.table}
+    return {f"{_bare(k)}.{k.key}": k.meaning for k in all_keys() if k.table}
 
 
 def words_of(name: str) -> tuple[str, ...]:
@@ -97,7 +97,7 @@ def is_whole(name: str) -> bool:
     >>> is_whole("wheel.z"), is_whole("drive.A")
     (True, False)
     """
-    types = {k.type for k in every() if f"{_bare(k)}.{k.key}" == name}
+    types = {k.type for k in all_keys() if f"{_bare(k)}.{k.key}" == name}
     return types == {TYPES[int]}
 
 

@@ -11,9 +11,9 @@ from geneva_cli.errors import GenevaError, cut, nearest
 from geneva_cli.machine import registry
 from geneva_cli.manual.explained import Entry, entries
 from geneva_cli.names import unit_of
-from geneva_cli.specfile.keys import Key, every
+from geneva_cli.specfile.keys import Key, all_keys
 
-CHECKS, INPUTS = "checks.", "inputs."  # what a report's names of checks and of keys begin with
+CHECKS, INPUTS = "checks.", "inputs."  # beginnings of a report's names of checks and of keys
 
 
 class Meaning(NamedTuple):
@@ -90,7 +90,7 @@ def _wrapped(text: str) -> list[str]:
 
 @cache
 def _keys() -> tuple[Key, ...]:
-    return tuple(every())
+    return tuple(all_keys())
 
 
 def _lookup(word: str) -> list[Meaning]:

@@ -48,7 +48,7 @@ def digest(paths: Iterable[str]) -> str:
 
 
 def _text(path: str, key: tuple[str, ...]) -> str:
-    bytes_max = 1 << 24  # of a file of points, whose rows a machine keeps in memory
+    bytes_max = 1 << 24  # some hundred thousand points, all in memory
     try:
         with open(path, "rb") as file:
             data = file.read(bytes_max + 1)

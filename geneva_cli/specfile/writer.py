@@ -38,7 +38,7 @@ def keys_of(
     }
 
 
-def written(spec: Spec) -> list[str]:
+def spec_lines(spec: Spec) -> list[str]:
     """Lines of a spec's tables: keys that differ from their defaults, and those in ``SHOWN``."""
     law_keys = fields(type(spec.motion.law)) if spec.motion else ()
     lines: list[str] = []

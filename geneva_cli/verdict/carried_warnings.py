@@ -16,19 +16,20 @@ from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.machine.spec import Spec
 from geneva_cli.spec.tables import Motor
 
-# No material is stiffer than diamond, heavier than osmium, or as light as a density in g/cm3
-# suggests
-DIAMOND_GPa, OSMIUM_KGM3, FOAM_KGM3 = 1220.0, 22590.0, 25.0
-
 
 def carried_warnings(mechanism: Mechanism, plate: MassProperties | None) -> list[Notice]:
     """Warnings about missing inertia, bodies off the axis, and keys without effect."""
     spec = mechanism.spec
-    about = [*_itself(spec, plate), *_to_one_side(spec), *_far(mechanism), *_unheard_of(spec)]
-    return [*about, *_for_nothing(spec)]
+    return [
+        *_wheel_inertia(spec, plate),
+        *_unbalanced(spec),
+        *_distant(mechanism),
+        *_unlikely_materials(spec),
+        *_keys_without_effect(spec),
+    ]
 
 
-def _itself(spec: Spec, plate: MassProperties | None) -> list[Notice]:
+def _wheel_inertia(spec: Spec, plate: MassProperties | None) -> list[Notice]:
     inertia = inertia_kgm2(spec)
     # a [[mass]] of this name is the wheel itself
     if plate is None or not inertia or any(mass.name == "wheel" for mass in spec.mass):
@@ -53,7 +54,7 @@ def _itself(spec: Spec, plate: MassProperties | None) -> list[Notice]:
     ]
 
 
-def _to_one_side(spec: Spec) -> list[Notice]:
+def _unbalanced(spec: Spec) -> list[Notice]:
     """Warnings about masses to one side of a horizontal axis, whose gravity is not counted."""
     if spec.support.axis != "horizontal":
         return []
@@ -74,7 +75,7 @@ def _to_one_side(spec: Spec) -> list[Notice]:
     return out
 
 
-def _far(mechanism: Mechanism) -> list[Notice]:
+def _distant(mechanism: Mechanism) -> list[Notice]:
     """Warnings about a mass that is farther away than a table reaches."""
     far = max((mass.radius_mm for mass in mechanism.spec.mass), default=0.0)
     distances = far / mechanism.center_distance_mm
@@ -89,23 +90,26 @@ def _far(mechanism: Mechanism) -> list[Notice]:
     ]
 
 
-def _unheard_of(spec: Spec) -> Iterator[Notice]:
+def _unlikely_materials(spec: Spec) -> Iterator[Notice]:
     """Warnings about materials that seem to be in another unit."""
+    # No material is stiffer than diamond, heavier than osmium, or as light as a density in g/cm3
+    # suggests.
+    diamond_GPa, osmium_kgm3, foam_kgm3 = 1220.0, 22590.0, 25.0
     parts = {"[material.wheel]": spec.material_wheel, "[material.roller]": spec.material_roller}
     for table, part in parts.items():
-        if part.youngs_modulus_GPa > DIAMOND_GPa:
+        if part.youngs_modulus_GPa > diamond_GPa:
             E = part.youngs_modulus_GPa
             yield Notice(
                 "unlikely-material",
                 f"youngs_modulus_GPa = {E:g} in {table} is stiffer than diamond "
-                f"({DIAMOND_GPa:g} GPa): if it is in MPa, write {1e-3 * E:g}",
+                f"({diamond_GPa:g} GPa): if it is in MPa, write {1e-3 * E:g}",
             )
     dense = [("[[mass]]", mass.density_kgm3) for mass in spec.mass]
     for table, density in (*dense, *[(k, part.density_kgm3) for k, part in parts.items()]):
-        if density is not None and not FOAM_KGM3 <= density <= OSMIUM_KGM3:
-            what = "lighter than foam" if density < FOAM_KGM3 else "heavier than osmium"
-            other = 1e3 * density if density < FOAM_KGM3 else 1e-3 * density
-            unit = "g/cm³" if density < FOAM_KGM3 else "g/m³"
+        if density is not None and not foam_kgm3 <= density <= osmium_kgm3:
+            what = "lighter than foam" if density < foam_kgm3 else "heavier than osmium"
+            other = 1e3 * density if density < foam_kgm3 else 1e-3 * density
+            unit = "g/cm³" if density < foam_kgm3 else "g/m³"
             yield Notice(
                 "unlikely-material",
                 f"density_kgm3 = {density:g} in {table} is {what}: if it is in {unit}, write "
@@ -113,7 +117,7 @@ def _unheard_of(spec: Spec) -> Iterator[Notice]:
             )
 
 
-def _for_nothing(spec: Spec) -> list[Notice]:
+def _keys_without_effect(spec: Spec) -> list[Notice]:
     """Warnings about keys without effect."""
     out: list[Notice] = []
     if not spec.is_loaded and spec.motor != Motor():

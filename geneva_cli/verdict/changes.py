@@ -13,8 +13,8 @@ if TYPE_CHECKING:
 
 Value: TypeAlias = float | int | str | None  # None: the key is left out
 # From the present value to the last one tried: values beyond a passing one may fail.
-STEPS = 24
-COARSE = 12  # steps of a size, whose trials take a whole turn
+VALUE_STEPS = 24
+SIZE_STEPS = 12  # steps of a size, whose trials take a whole turn
 
 # The value of a key of [size], from the sizes that the machine's parts get.
 _SIZES: dict[str, Callable[[Sizes], float]] = {
@@ -50,7 +50,7 @@ def value_now(mechanism: Mechanism, table: str, key: str) -> Value:
     if value is not None or table != "size":
         # These keys take a word, and have no default.
         return value or ("" if key in ("ratio", "held_by") else value)
-    allowed = spec.size.allowances._asdict()  # of the process, if a key is left out
+    allowed = spec.size.allowances._asdict()  # the process sets keys that are left out
     if key in allowed:
         return float(allowed[key])
     if key == "roller_radius_mm":
@@ -76,9 +76,9 @@ def size_now(mechanism: Mechanism, key: str) -> float | None:
 def scaled(table: str, key: str, factor: float) -> Change:
     """Steps from the present value to a multiple of it: in one ratio, or evenly to 0."""
     if factor > 0.0:
-        factors = [factor ** (i / COARSE) for i in range(1, COARSE + 1)]
+        factors = [factor ** (i / SIZE_STEPS) for i in range(1, SIZE_STEPS + 1)]
     else:
-        factors = [1.0 - i / COARSE for i in range(1, COARSE + 1)]
+        factors = [1.0 - i / SIZE_STEPS for i in range(1, SIZE_STEPS + 1)]
     return Change(table, key, lambda now: [f * now for f in factors] if now else [])
 
 
@@ -107,7 +107,7 @@ def left_out(table: str, key: str) -> Change:
     return set_to(table, key, None)
 
 
-def towards(table: str, key: str, end: float, steps: int = STEPS) -> Change:
+def towards(table: str, key: str, end: float, steps: int = VALUE_STEPS) -> Change:
     """Even steps from a present number to an end."""
 
     def values(now: Any) -> list[Value]:
@@ -120,4 +120,6 @@ def towards(table: str, key: str, end: float, steps: int = STEPS) -> Change:
 
 def increased(table: str, key: str, most: float) -> Change:
     """Even steps from the present number to one larger by ``most``, which may be negative."""
-    return Change(table, key, lambda now: [now + most * i / STEPS for i in range(1, STEPS + 1)])
+    return Change(
+        table, key, lambda now: [now + most * i / VALUE_STEPS for i in range(1, VALUE_STEPS + 1)]
+    )

@@ -90,14 +90,16 @@ def compared_text(check: Check, unit: str) -> str:
 
 def tightest(checks: Iterable[Check]) -> Iterator[SummaryLine]:
     """The line of the passing check with the least relative margin, or none."""
-    used = [(fraction, check) for check in checks if (fraction := _used(check)) is not None]
+    used = [
+        (fraction, check) for check in checks if (fraction := _limit_fraction(check)) is not None
+    ]
     if used:
         _, check = max(used, key=lambda pair: pair[0])
         label, unit = spoken(check.name)
         yield SummaryLine("tightest", f"{label} {compared_text(check, unit)}")
 
 
-def _used(check: Check) -> float | None:
+def _limit_fraction(check: Check) -> float | None:
     """Fraction of its limit that a check uses, 1 at the limit; None if it has no such fraction."""
     value, limit = check.value, check.limit
     has_margin = check.name not in ("dwell_hold", "parts", "full_turn")

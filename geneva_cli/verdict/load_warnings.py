@@ -18,12 +18,12 @@ def load_warnings(mechanism: Mechanism) -> list[Notice]:
     cycle = cycle_of(mechanism)
     out = [*_jammed(cycle), *_on_an_edge(cycle)]
     # the search for a speed is needed only if the present one breaks a limit
-    if not _kept(cycle) and loads.fastest_rpm(mechanism) is None:
+    if not _keeps_limits(cycle) and loads.fastest_rpm(mechanism) is None:
         out.append(_no_speed(mechanism))
     return out
 
 
-def _kept(cycle: Cycle) -> bool:
+def _keeps_limits(cycle: Cycle) -> bool:
     """Return True if the limits on loads are kept at the present speed."""
     limits = zip(loads.LIMITED_LOADS, loads.load_limits(cycle.mechanism.spec.limits), strict=True)
     bounds = {name: limit for name, limit in limits if limit}

@@ -23,7 +23,7 @@ from geneva_cli.parts.sizes import Sizes, sized
 class LockSizes(NamedTuple):
     """Sizes of slot and lock, mm; (m, 1) for m designs, NaN for those without."""
 
-    half_width: float  # of the slot: roller and clearance
+    half_width: float  # half the slot's width: roller and clearance
     lock: Lock  # in its narrowest sector
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from geneva_cli.output.document.values import shown
+from geneva_cli.output.document.values import value_text
 
 
 def measured(value: float, unit: str = "", digits: int = 4) -> str:
@@ -11,4 +11,4 @@ def measured(value: float, unit: str = "", digits: int = 4) -> str:
     >>> measured(8.25622, "mm"), measured(-58.2111, "deg")
     ('8.256 mm', '-58.21°')
     """
-    return shown(value, "°" if unit == "deg" else unit, digits)
+    return value_text(value, "°" if unit == "deg" else unit, digits)

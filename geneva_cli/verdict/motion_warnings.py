@@ -75,7 +75,7 @@ def motion_warnings(mechanism: Mechanism) -> list[Notice]:
             )
         )
     if engagement.slot.curved:
-        out.extend(_loose(mechanism))
+        out.extend(_not_driven(mechanism))
     out.extend(_undercut(mechanism))
     return out
 
@@ -192,7 +192,7 @@ def _off_the_mid_condition(mechanism: Mechanism) -> Notice:
     )
 
 
-def _loose(mechanism: Mechanism) -> list[Notice]:
+def _not_driven(mechanism: Mechanism) -> list[Notice]:
     from geneva_cli.analysis.positive_drive import positive_drive
 
     drive = positive_drive(mechanism)

@@ -11,7 +11,7 @@ from collections.abc import Iterator
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.spec.tables import Z_USUAL, Size
 from geneva_cli.verdict.changes import (
-    COARSE,
+    SIZE_STEPS,
     Change,
     Value,
     fewer,
@@ -42,7 +42,7 @@ def remedies(check: str, mechanism: Mechanism) -> Iterator[Change]:
             scaled("size", "lock_clearance_mm", 0.0),
             scaled("size", "slot_clearance_mm", 0.0),
             scaled("size", "roller_radius_mm", 0.4),
-            towards("wheel", "offset_mm", 0.0, COARSE),
+            towards("wheel", "offset_mm", 0.0, SIZE_STEPS),
         )
     if check not in MOTION and check not in LIMITS:
         yield from _own_sizes(mechanism)
@@ -52,7 +52,7 @@ def _hub(mechanism: Mechanism, part: str) -> Iterator[Change]:
     """A hub as thin as its bore, if it is thicker."""
     bore, hub = (size_now(mechanism, f"{part}_{what}_mm") for what in ("bore", "hub"))
     if bore is not None and hub is not None and hub > bore:
-        yield towards("size", f"{part}_hub_mm", bore, COARSE)
+        yield towards("size", f"{part}_hub_mm", bore, SIZE_STEPS)
 
 
 def _own_sizes(mechanism: Mechanism) -> Iterator[Change]:
@@ -91,7 +91,7 @@ def _defaults(mechanism: Mechanism) -> Iterator[Change]:
         without = mechanism.spec.with_(f"size.{key}", None)
         default = size_now(mechanism._replace(spec=without), key) if usual is None else usual
         if isinstance(default, float):
-            yield towards("size", key, default, COARSE)
+            yield towards("size", key, default, SIZE_STEPS)
         yield set_to("size", key, usual)
 
 

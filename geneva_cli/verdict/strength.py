@@ -22,10 +22,10 @@ if TYPE_CHECKING:
 
 LOAD = "inertia_kgm2 or torque_Nm in [load], or a [[mass]]"
 # The groups by the names of their tables, and by the whole names of their quantities.
-GROUPS = {name: group for group in REPORT for name in (group.table, *group.names)}
-LIFE = tuple(name.removeprefix("life.") for name in GROUPS if name.startswith("life."))
+REPORT_GROUPS = {name: group for group in REPORT for name in (group.table, *group.names)}
+LIFE = tuple(name.removeprefix("life.") for name in REPORT_GROUPS if name.startswith("life."))
 
-# What must be there, and how to say it.
+# A need: whether it is met, and its keys in words.
 Key: TypeAlias = tuple[bool, str]
 Keys: TypeAlias = Iterator[Sequence[Key]]
 
@@ -42,7 +42,7 @@ class Strength:
     def __getitem__(self, name: str) -> float | None:
         """A value by its whole name, such as ``strength.pin.stress_MPa``; None if unknown."""
         table, _, own = name.rpartition(".")
-        columns = (GROUPS.get(name) or GROUPS[table]).columns(self.design)
+        columns = (REPORT_GROUPS.get(name) or REPORT_GROUPS[table]).columns(self.design)
         return only(columns.get(own))
 
     @cached_property
@@ -94,18 +94,18 @@ class Strength:
         ]
 
     @property
-    def _wide(self) -> Key:
+    def _has_width(self) -> Key:
         return self.spec.size.face_width_mm is not None, "face_width_mm in [size]"
 
     @property
-    def _loaded(self) -> Key:
+    def _has_load(self) -> Key:
         return self.spec.is_loaded, LOAD
 
     @property
-    def _bounded(self) -> Key:
+    def _has_bound(self) -> Key:
         return math.isfinite(self.load.force_N[0]), "a force with a bound: see the warnings"
 
-    def _cut(self) -> Sequence[Key]:
+    def _drawn_parts(self) -> Sequence[Key]:
         """The needs of a value that is computed from the parts."""
         if not self.spec.is_flat:
             return [(False, "a wheel that is drawn as a flat outline")]
@@ -116,19 +116,19 @@ class Strength:
         return self.load.lock_sizes is not None or sized(self.mechanism) is not None
 
     def _pin(self) -> Keys:
-        yield self._wide, self._loaded
-        yield [self._bounded]
+        yield self._has_width, self._has_load
+        yield [self._has_bound]
 
     def _horn(self) -> Keys:
-        yield self._cut()
+        yield self._drawn_parts()
         if self.load.lock_sizes is not None:
             yield from self._pin()
 
     def _lock(self) -> Keys:
-        yield self._cut()
+        yield self._drawn_parts()
         if self.load.lock_sizes is not None:
             has_torque = bool(lock.held_torque_Nm(self.mechanism))
-            yield self._wide, (has_torque, "dwell_torque_Nm in [load]")
+            yield self._has_width, (has_torque, "dwell_torque_Nm in [load]")
 
     def _contact(self) -> Keys:
         """The needs of the lock's contact stress, which is unbounded on a sharp edge."""
@@ -151,34 +151,34 @@ class Strength:
     def _shaft(self, which: str, ends: shafts.ShaftDimensions) -> Keys:
         yield [(self.spec.wheel.FLAT, PARALLEL_SHAFTS)]
         if self.spec.is_loaded:
-            yield [self._bounded]
+            yield [self._has_bound]
         placed = (ends.overhang_mm is not None, f"{which}_overhang_mm in [shaft]")
         thick = (ends.diameter_mm is not None, f"{which}_diameter_mm in [shaft]")
-        yield placed, thick, self._loaded
+        yield placed, thick, self._has_load
 
     def _rated(self) -> Keys:
         if self.spec.is_loaded:
-            yield [self._bounded]
+            yield [self._has_bound]
         rated = self.spec.material_roller.dynamic_capacity_N is not None
-        yield (rated, "dynamic_capacity_N in [material.roller]"), self._loaded
+        yield (rated, "dynamic_capacity_N in [material.roller]"), self._has_load
 
     def _bearing(self) -> Keys:
-        yield [self._loaded]
-        yield [self._bounded]
+        yield [self._has_load]
+        yield [self._has_bound]
 
     def _friction(self) -> Keys:
-        yield (bool(self.spec.load.friction), "friction in [load]"), self._loaded
+        yield (bool(self.spec.load.friction), "friction in [load]"), self._has_load
 
     def _pressure_speed(self) -> Keys:
-        yield self._wide, self._loaded
+        yield self._has_width, self._has_load
         bounded = math.isfinite(self.load.pv_W_m2[0])
         yield [(bounded, "a stress with a bound: see the warnings")]
 
     def _wear(self) -> Keys:
         worn = self.spec.material_wheel.wear_mm3_Nm is not None
         rubs = (self.spec.load.rubs_in_slot, 'friction_at = "slot" in [load]')
-        yield (worn, "wear_mm3_Nm in [material.wheel]"), rubs, self._wide, self._loaded
-        yield [self._bounded]
+        yield (worn, "wear_mm3_Nm in [material.wheel]"), rubs, self._has_width, self._has_load
+        yield [self._has_bound]
 
 
 # The needs of each value, step by step, under its name in checks and in ``life``.

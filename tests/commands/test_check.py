@@ -109,7 +109,7 @@ def test_several_specs_are_counted_before_their_details(fails: str) -> None:
 
 
 def test_signs_need_neither_colour_nor_unicode(monkeypatch: pytest.MonkeyPatch) -> None:
-    from geneva_cli.output.summary import look_of
+    from geneva_cli.output.summary import style_of
 
     class Ascii:
         encoding = "ascii"
@@ -120,5 +120,5 @@ def test_signs_need_neither_colour_nor_unicode(monkeypatch: pytest.MonkeyPatch) 
 
     monkeypatch.setattr(sys, "stdout", Ascii)
     monkeypatch.setenv("TERM", "dumb")
-    look = look_of("-", True)
+    look = style_of("-", True)
     assert (look.coloured, look.unicode) == (False, False)

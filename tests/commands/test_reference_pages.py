@@ -12,7 +12,7 @@ from typer.testing import CliRunner
 
 from geneva_cli.app import COMMANDS, GROUPS, app
 from geneva_cli.manual import path
-from geneva_cli.specfile.keys import Key, every
+from geneva_cli.specfile.keys import Key, all_keys
 
 WIDTH = 80  # columns of a terminal's help
 
@@ -44,7 +44,7 @@ def keys_page() -> str:
         "keys, or is not\nneeded.\n"
     ]
     tables: dict[str, list[Key]] = {}
-    for key in every():
+    for key in all_keys():
         tables.setdefault(key.table, []).append(key)
     for table, keys in tables.items():
         head = "| key | unit | value | default | meaning |\n| --- | --- | --- | --- | --- |"

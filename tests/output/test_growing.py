@@ -8,7 +8,7 @@ import sys
 import pytest
 
 from geneva_cli.errors import GenevaError
-from geneva_cli.output.growing import Growing
+from geneva_cli.output.growing import GrowingFile
 
 HEADER, KEY = "a,b\n", "request"
 
@@ -25,7 +25,7 @@ def read(path):
 
 def begun(path, *blocks, header=HEADER):
     """What a stopped run leaves."""
-    with Growing(path, header, KEY, False) as file:
+    with GrowingFile(path, header, KEY, False) as file:
         for block in blocks:
             file.append(block)
 
@@ -41,7 +41,7 @@ def change(path, old, new):
 
 def resumed(path, *blocks, header=HEADER):
     """The rows that were there, what was said, and the file after ``blocks`` are added."""
-    with Growing(path, header, KEY, True) as file:
+    with GrowingFile(path, header, KEY, True) as file:
         done, message = file.done, file.message
         for block in blocks:
             file.append(block)
@@ -53,7 +53,7 @@ def test_it_is_there_only_when_it_is_whole(path):
     with open(path, "w") as file:
         file.write("old")
     os.chmod(path, 0o640)
-    with Growing(path, HEADER, KEY, False) as file:
+    with GrowingFile(path, HEADER, KEY, False) as file:
         file.append("1,2\n")
         assert read(path) == "old"
         file.finish()
@@ -115,12 +115,12 @@ def test_a_block_that_is_lost_doubled_or_moved_is_noticed(path):
     for order, kept in (([0, 1, 3], 2), ([0, 1, 1, 2, 3], 2), ([0, 2, 1, 3], 0), ([1, 2, 3], 0)):
         with open(path + ".geneva", "wb") as file:
             file.write(start + b"".join(blocks[i] for i in order))
-        with Growing(path, HEADER, KEY, True) as file:
+        with GrowingFile(path, HEADER, KEY, True) as file:
             assert file.done == kept
 
 
 def test_a_state_that_is_changed_meanwhile_does_not_become_the_file(path):
-    with Growing(path, HEADER, KEY, False) as file:
+    with GrowingFile(path, HEADER, KEY, False) as file:
         for block in THREE:
             file.append(block)
         change(path, b"5,6", b"5,7")
@@ -153,7 +153,7 @@ def test_what_is_not_its_own_is_refused_and_stays(path, kind, resume, monkeypatc
     FOREIGN[kind]("rows.csv.geneva")
     before = {name: os.lstat(name) for name in os.listdir()}
     with pytest.raises(GenevaError, match=r"rows\.csv\.geneva: .* something else has it"):
-        Growing(path, HEADER, KEY, resume)
+        GrowingFile(path, HEADER, KEY, resume)
     assert {name: os.lstat(name) for name in os.listdir()} == before
 
 
@@ -170,13 +170,13 @@ def test_an_input_of_the_name_of_the_state_is_refused(path):
     """An empty spec, for --set, is not told from a state that was just created."""
     put(path + ".geneva", "")
     with pytest.raises(GenevaError, match="is an input"):
-        Growing(path, HEADER, KEY, False, [path + ".geneva"])
+        GrowingFile(path, HEADER, KEY, False, [path + ".geneva"])
 
 
 HOLD = """
 import sys
-from geneva_cli.output.growing import Growing
-with Growing(sys.argv[1], "a,b\\n", "request", False) as file:
+from geneva_cli.output.growing import GrowingFile
+with GrowingFile(sys.argv[1], "a,b\\n", "request", False) as file:
     file.append("1,2\\n")
     print("held", flush=True)
     sys.stdin.readline()
@@ -199,7 +199,7 @@ def other_run(path):
 def test_two_runs_do_not_write_one_file(path, other_run, resume):
     """The rows of both were mixed, with NUL bytes between them, and one ended with status 0."""
     with pytest.raises(GenevaError, match=r"^rows\.csv: another run is writing this file"):
-        Growing(path, HEADER, KEY, resume)
+        GrowingFile(path, HEADER, KEY, resume)
     other_run.communicate("\n")
     assert other_run.returncode == 0
     assert read(path) == "a,b\n1,2\n"
@@ -214,7 +214,7 @@ def test_a_killed_run_holds_nothing(path, other_run):
 
 def test_without_resume_it_begins_again(path):
     begun(path, "1,2\n")
-    with Growing(path, HEADER, KEY, False) as file:
+    with GrowingFile(path, HEADER, KEY, False) as file:
         assert file.done == 0
         file.finish()
     assert read(path) == HEADER
@@ -223,20 +223,20 @@ def test_without_resume_it_begins_again(path):
 def test_it_does_not_go_on_for_another_request(path):
     begun(path, "1,2\n")
     with pytest.raises(GenevaError, match="has the rows of another run"):
-        Growing(path, HEADER, "another", True)
+        GrowingFile(path, HEADER, "another", True)
     assert read(path + ".geneva").endswith("\n1,2\n")
 
 
 def whole(path, *lines):
     """A file made by a run that may be asked for again."""
-    with Growing(path, HEADER, KEY, True) as file:
+    with GrowingFile(path, HEADER, KEY, True) as file:
         for line in lines:
             file.append(line)
         file.finish()
 
 
 def test_where_there_is_nothing_to_go_on_from_it_begins(path):
-    with Growing(path, HEADER, KEY, True) as file:
+    with GrowingFile(path, HEADER, KEY, True) as file:
         assert "nothing to continue for rows.csv; from the first row" in file.message
         assert (file.done, file.is_whole) == (0, False)
         file.append("1,2\n")
@@ -246,7 +246,7 @@ def test_where_there_is_nothing_to_go_on_from_it_begins(path):
 
 def test_of_a_whole_file_there_is_nothing_to_do(path):
     whole(path, "1,2\n")
-    with Growing(path, HEADER, KEY, True) as file:
+    with GrowingFile(path, HEADER, KEY, True) as file:
         assert file.is_whole
         assert file.message == "--resume: rows.csv is whole already"
     assert read(path) == "a,b\n1,2\n"
@@ -259,7 +259,7 @@ def test_a_file_of_something_else_or_changed_since_is_not_taken_for_whole(path, 
     if key == KEY:
         with open(path, "a") as file:
             file.write("3,4\n")
-    with Growing(path, HEADER, key, True) as file:
+    with GrowingFile(path, HEADER, key, True) as file:
         assert not file.is_whole
         file.append("5,6\n")
         file.finish()
@@ -275,7 +275,7 @@ def test_a_lost_file_is_made_again(path):
 
 def test_without_resume_nothing_is_left_beside_the_file(path):
     whole(path, "1,2\n")
-    with Growing(path, HEADER, KEY, False) as file:
+    with GrowingFile(path, HEADER, KEY, False) as file:
         file.finish()
     assert os.listdir(os.path.dirname(path)) == ["rows.csv"]
 
@@ -283,14 +283,14 @@ def test_without_resume_nothing_is_left_beside_the_file(path):
 def test_an_input_is_not_written_over(path):
     put(path, "")
     with pytest.raises(GenevaError, match="is an input"):
-        Growing(path, HEADER, KEY, False, [path])
+        GrowingFile(path, HEADER, KEY, False, [path])
 
 
 def test_no_folder(tmp_path):
     with pytest.raises(GenevaError, match="make the folder"):
-        Growing(str(tmp_path / "none" / "rows.csv"), HEADER, KEY, False)
+        GrowingFile(str(tmp_path / "none" / "rows.csv"), HEADER, KEY, False)
 
 
 def test_no_device():
     with pytest.raises(GenevaError, match="not a file that can grow"):
-        Growing("/dev/null", HEADER, KEY, False)
+        GrowingFile("/dev/null", HEADER, KEY, False)

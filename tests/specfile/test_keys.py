@@ -7,7 +7,7 @@ from geneva_cli.machine import registry
 from geneva_cli.names import UNITS
 from geneva_cli.spec.schema import REQUIRED, fields
 from geneva_cli.spec.tables import PLAIN
-from geneva_cli.specfile.keys import about, every
+from geneva_cli.specfile.keys import about, all_keys
 
 KINDS = [
     *[("wheel", registry.gearing(name)) for name in registry.GEARINGS],
@@ -19,7 +19,7 @@ KINDS = [
 
 @pytest.mark.parametrize(("table", "cls"), KINDS)
 def test_every_key_of_every_kind_is_listed(table, cls):
-    listed = {(k.table.strip("[]"), k.key, k.required, k.meaning) for k in every()}
+    listed = {(k.table.strip("[]"), k.key, k.required, k.meaning) for k in all_keys()}
     for field in fields(cls):
         assert (table, field.key, field.default is REQUIRED, field.meaning) in listed
 
@@ -27,13 +27,13 @@ def test_every_key_of_every_kind_is_listed(table, cls):
 def test_every_key_with_a_unit_in_its_name_says_it():
     """The part after the last underscore is a unit, or a word that is none."""
     words = {"angles", "max", "min", "variation", "ratio", "factor", "efficiency", "held", "file"}
-    for key in every():
+    for key in all_keys():
         last = key.key.rpartition("_")[2]
         if f"_{last}" in UNITS:
             assert key.unit, key
         elif "_" in key.key and last in words:
             assert key.unit is None, key
-    units = {key.key: key.unit for key in every()}
+    units = {key.key: key.unit for key in all_keys()}
     assert units["stiffness_Nm_rad"] == "N m/rad"
     assert units["wear_mm3_Nm"] == "mm³/(N m)"  # not the torque that its end looks like
 
@@ -51,7 +51,9 @@ def test_found_by_table_by_key_and_by_both():
         about("frction")
 
 
-@pytest.mark.parametrize("key", [k for k in every() if k.default and k.table and not k.goes_with])
+@pytest.mark.parametrize(
+    "key", [k for k in all_keys() if k.default and k.table and not k.goes_with]
+)
 def test_a_default_is_what_the_reader_takes_for_a_missing_key(key, tmp_path):
     """Written out, it makes the same spec."""
     table = key.table.strip("[]")

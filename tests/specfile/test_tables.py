@@ -3,7 +3,7 @@
 import pytest
 
 from geneva_cli import Design, External, GenevaError, Mass, design
-from geneva_cli.specfile.writer import written
+from geneva_cli.specfile.writer import spec_lines
 
 TURRET = """\
 [wheel]
@@ -52,7 +52,7 @@ def test_lists_and_tables_in_tables_are_read(turret):
 def test_what_is_written_is_read_back(turret, tmp_path):
     spec = turret("", "").spec
     path = tmp_path / "again.toml"
-    path.write_text("\n".join(written(spec)))
+    path.write_text("\n".join(spec_lines(spec)))
     again = design.load(str(path)).spec
     assert again.replace(path="", files=()) == spec.replace(path="", files=())
 

@@ -17,13 +17,13 @@ from typer.testing import CliRunner
 
 from geneva_cli.app import app
 from geneva_cli.design import Design, load
-from geneva_cli.document import Document, Fact, Facts, Grid, Listed, Picture
+from geneva_cli.document import Document, Fact, Facts, Grid, Picture, TextList
 from geneva_cli.errors import GenevaError
 from geneva_cli.output import jsonfile, pdf_file
 from geneva_cli.output.document import html, markdown, pdf
 from geneva_cli.output.document.inline import inline
 from geneva_cli.output.document.paper import lines, wide
-from geneva_cli.output.document.values import shown
+from geneva_cli.output.document.values import value_text
 from geneva_cli.output.letters import western
 from geneva_cli.study.document import document
 from geneva_cli.table import record_table
@@ -117,8 +117,8 @@ def values(tree: Any) -> list[Any]:
 def has(cells: set[str], told: str, value: Any) -> bool:
     """Whether a value is in a cell, alone or before its unit; a text in any text."""
     if isinstance(value, bool) or not isinstance(value, (int, float)):
-        return value in told if isinstance(value, str) else shown(value) in cells
-    return shown(value).replace("\u00a0", " ") in cells
+        return value in told if isinstance(value, str) else value_text(value) in cells
+    return value_text(value).replace("\u00a0", " ") in cells
 
 
 @pytest.mark.sampled(4)
@@ -239,7 +239,7 @@ def test_the_parts_list_fits_its_columns() -> None:
 
 def test_a_power_of_ten_is_raised_on_paper() -> None:
     """The exponent is smaller and higher, and no caret stands before it."""
-    shown_ = pdf_file.text(western(shown(1.21353e-6)), (0.0, 0.0), 10.0)
+    shown_ = pdf_file.text(western(value_text(1.21353e-6)), (0.0, 0.0), 10.0)
     assert "10) Tj /F1 7 Tf 3.3 Ts (-6) Tj" in shown_
     assert pdf_file.wide("10^-6", 10.0) < pdf_file.wide("10-6", 10.0)
 
@@ -328,8 +328,8 @@ def test_inputs_say_what_is_a_default() -> None:
 
 def test_sources_are_those_of_the_machine() -> None:
     for name, source in (("turret", "handbook no. 7"), ("cam-geneva", "law of sines")):
-        told = next(b for b in reversed(of(name)[1].blocks) if isinstance(b, Listed))
-        assert isinstance(told, Listed) and any(source in text for text in told.texts[:2])
+        told = next(b for b in reversed(of(name)[1].blocks) if isinstance(b, TextList))
+        assert isinstance(told, TextList) and any(source in text for text in told.texts[:2])
 
 
 def test_what_is_not_drawn_is_said_in_its_place(tmp_path: Path) -> None:
@@ -344,10 +344,10 @@ def test_what_is_not_drawn_is_said_in_its_place(tmp_path: Path) -> None:
 
 def test_a_value_that_is_none_of_a_number_is_never_shown() -> None:
     with pytest.raises(GenevaError, match="fault of this program"):
-        shown(math.nan)
-    assert shown(math.inf) == "no bound"
-    assert (shown(-0.0, "°"), shown((1.0, 2.5), "mm")) == ("0°", "1 mm, 2.5 mm")
-    assert shown(1.21353e-6, "kg m²") == "1.21353\u00a0×\u00a010⁻⁶ kg m²"
+        value_text(math.nan)
+    assert value_text(math.inf) == "no bound"
+    assert (value_text(-0.0, "°"), value_text((1.0, 2.5), "mm")) == ("0°", "1 mm, 2.5 mm")
+    assert value_text(1.21353e-6, "kg m²") == "1.21353\u00a0×\u00a010⁻⁶ kg m²"
 
 
 def test_letters_beyond_the_western_ones_are_spelled() -> None:
@@ -367,7 +367,7 @@ def test_every_format_lists_the_same_warnings(name: str) -> None:
     design, page = of(name)
     at = [i for i, b in enumerate(page.blocks) if getattr(b, "text", "") == "Warnings"]
     block = page.blocks[at[0] + 1]
-    assert isinstance(block, Listed)
+    assert isinstance(block, TextList)
     told = design.report.table.to_dict()["warnings"]
     assert block.texts == told == tuple(design.warnings)
     assert sum("the wheel's own inertia" in text for text in told) == 1

@@ -12,7 +12,7 @@ from typer.testing import CliRunner
 from geneva_cli.app import app
 from geneva_cli.design import Design, load
 from geneva_cli.document import FAILS, PASSES, WARNS, Summary, SummaryLine
-from geneva_cli.output.summary import Look, chunks
+from geneva_cli.output.summary import TextStyle, chunks
 from geneva_cli.study.summary.loads import of_loads
 from geneva_cli.study.summary.report import of_report
 from geneva_cli.study.summary.tolerance import of_tolerance
@@ -33,7 +33,7 @@ def line(summary: Summary, label: str) -> SummaryLine:
 
 
 def shown(summary: Summary, width: int, unicode: bool = True) -> str:
-    return "".join(chunks([summary], Look(width, False, unicode)))
+    return "".join(chunks([summary], TextStyle(width, False, unicode)))
 
 
 @pytest.mark.parametrize(

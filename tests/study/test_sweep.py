@@ -20,7 +20,7 @@ from typer.testing import CliRunner
 
 from geneva_cli import GenevaError, load
 from geneva_cli.app import app
-from geneva_cli.output.growing import Growing
+from geneva_cli.output.growing import GrowingFile
 from geneva_cli.specfile.reader import read
 from geneva_cli.study.pool import mapped
 from geneva_cli.study.sweep.plan import Shard, plan
@@ -114,7 +114,7 @@ def test_a_stopped_sweep_goes_on(tmp_path):
     assert os.listdir(tmp_path) == ["rows.csv"]
     state = tmp_path / "rows.csv.geneva"
     header, *rows = whole.splitlines(keepends=True)
-    with Growing(str(file), header, request(SPEC, GRID).key, False) as left:
+    with GrowingFile(str(file), header, request(SPEC, GRID).key, False) as left:
         left.append("".join(rows[:2]))
         left.append(rows[2])
     half = state.read_bytes()[:-20]

@@ -14,15 +14,15 @@ from geneva_cli.document import (
     Facts,
     Grid,
     Heading,
-    Listed,
     Picture,
     Prose,
     Row,
+    TextList,
 )
 from geneva_cli.errors import clean
 from geneva_cli.output import plot_svg, svg
 from geneva_cli.output.document.inline import inline
-from geneva_cli.output.document.values import is_number, shown
+from geneva_cli.output.document.values import is_number, value_text
 from geneva_cli.output.summary import SIGNS
 
 SHORT = 12  # letters that are not broken into lines
@@ -63,12 +63,12 @@ def _block(block: Block, number: int) -> Iterator[str]:
         yield f"<h2>{_text(block.text)}</h2>\n"
     elif isinstance(block, Prose):
         yield f"<p>{_text(block.text)}</p>\n"
-    elif isinstance(block, Listed):
+    elif isinstance(block, TextList):
         yield from _list(block.texts)
     elif isinstance(block, Facts):
         yield f"<table>\n<caption>{_text(block.caption)}</caption>\n<tbody>\n"
         for fact in block.facts:
-            value = _text(shown(fact.value, fact.unit))
+            value = _text(value_text(fact.value, fact.unit))
             side = "" if len(value) > 3 * SHORT else NUMBER
             yield f'<tr><th scope="row">{_text(fact.name)}</th><td{side}>{value}</td></tr>\n'
         yield "</tbody>\n</table>\n"
@@ -96,10 +96,10 @@ def _grid(grid: Grid) -> Iterator[str]:
         f"<table>\n<caption>{_text(grid.caption)}</caption>\n{head}<tbody>\n"
     )
     for first, *rest in grid.rows:
-        yield f'<tr><th scope="row">{_text(shown(first))}</th>'
+        yield f'<tr><th scope="row">{_text(value_text(first))}</th>'
         for value, side in zip(rest, sides[1:], strict=True):
             attribute = ' class="bad"' if value == BAD else side
-            yield f"<td{attribute}>{_text(shown(value))}</td>"
+            yield f"<td{attribute}>{_text(value_text(value))}</td>"
         yield "</tr>\n"
     yield "</tbody>\n</table>\n</div>\n"
 
@@ -108,7 +108,7 @@ def _side(column: Row) -> str:
     """The class of a column's cells: numbers are right-aligned, short words unbroken."""
     if all(map(is_number, column)):
         return NUMBER
-    return ' class="s"' if all(len(shown(value)) <= SHORT for value in column) else ""
+    return ' class="s"' if all(len(value_text(value)) <= SHORT for value in column) else ""
 
 
 def _list(texts: tuple[str, ...]) -> Iterator[str]:

@@ -11,12 +11,12 @@ from geneva_cli.document import (
     Facts,
     Grid,
     Heading,
-    Listed,
     Picture,
     Prose,
+    TextList,
 )
 from geneva_cli.errors import clean
-from geneva_cli.output.document.values import is_number, shown
+from geneva_cli.output.document.values import is_number, value_text
 from geneva_cli.output.markdown import ESCAPES
 from geneva_cli.output.ticks import mark_text, named
 
@@ -34,10 +34,10 @@ def _block(block: Block) -> Iterator[str]:
         yield f"## {_text(block.text)}\n\n"
     elif isinstance(block, Prose):
         yield f"{_text(block.text)}\n\n"
-    elif isinstance(block, Listed):
+    elif isinstance(block, TextList):
         yield from _list(block.texts)
     elif isinstance(block, Facts):
-        rows = tuple((f.name, shown(f.value, f.unit)) for f in block.facts)
+        rows = tuple((f.name, value_text(f.value, f.unit)) for f in block.facts)
         yield from _grid(Grid(block.caption, ("Quantity", "Value"), rows), right=(False, True))
     elif isinstance(block, Grid):
         yield from _grid(block)
@@ -53,7 +53,7 @@ def _block(block: Block) -> Iterator[str]:
 
 
 def _between(a: float, b: float) -> str:
-    return shown(abs(b - a), "mm")
+    return value_text(abs(b - a), "mm")
 
 
 def _peaks(curves: Curves) -> Grid:
@@ -74,7 +74,7 @@ def _grid(grid: Grid, right: tuple[bool, ...] = ()) -> Iterator[str]:
     yield "| " + " | ".join(map(_text, grid.heads)) + " |\n"
     yield "| " + " | ".join("---:" if side else "---" for side in sides) + " |\n"
     for row in grid.rows:
-        yield "| " + " | ".join(_text(shown(value)) for value in row) + " |\n"
+        yield "| " + " | ".join(_text(value_text(value)) for value in row) + " |\n"
     yield "\n"
 
 

@@ -14,9 +14,9 @@ from geneva_cli.document import (
     Facts,
     Grid,
     Heading,
-    Listed,
     Picture,
     Prose,
+    TextList,
 )
 from geneva_cli.errors import clean
 from geneva_cli.output import pdf_file, plot_pdf
@@ -48,7 +48,7 @@ MARK = 4.0  # before a text of a list
 def chunks(document: Document) -> Iterator[str]:
     """The file's text; the same document gives the same bytes."""
     title = clean(document.title)
-    yield from pdf_file.written(title, pages(_items(document), western(title)))
+    yield from pdf_file.pdf_text(title, pages(_items(document), western(title)))
 
 
 def _items(document: Document) -> Iterator[Item]:
@@ -74,7 +74,7 @@ def _block(block: Block) -> Iterator[Item]:
         for i, text in enumerate(rows):  # no single line of it on a page
             yield _line(text, BODY)._replace(keeps=i in (0, len(rows) - 2))
         yield _gap(2.5)
-    elif isinstance(block, Listed):
+    elif isinstance(block, TextList):
         yield from _list(block.texts)
     elif isinstance(block, Facts):
         yield from facts(block)

@@ -22,7 +22,7 @@ from geneva_cli.output.document.paper import (
     wide,
     words,
 )
-from geneva_cli.output.document.values import is_number, shown
+from geneva_cli.output.document.values import is_number, value_text
 
 PAD = 1.3  # left and right of a cell's text
 SPACE = 0.55  # above and below it
@@ -31,7 +31,7 @@ STEP = LEADING * SMALL
 
 def grid(table: Grid) -> Iterator[Item]:
     """A table with a head, which is repeated on each page."""
-    rows = [[shown(value) for value in row] for row in table.rows]
+    rows = [[value_text(value) for value in row] for row in table.rows]
     right = [all(map(is_number, column)) for column in zip(*table.rows, strict=True)]
     widths = _widths(table.heads, rows)
     head = _row(table.heads, right, widths, bold=True)
@@ -46,7 +46,7 @@ def grid(table: Grid) -> Iterator[Item]:
 
 def facts(table: Facts) -> Iterator[Item]:
     """Names and values, in two columns read downwards."""
-    texts = [(fact.name, shown(fact.value, fact.unit)) for fact in table.facts]
+    texts = [(fact.name, value_text(fact.value, fact.unit)) for fact in table.facts]
     half = (len(texts) + 1) // 2
     yield from _caption(table.caption)
     gap = 6.0  # between facts side by side

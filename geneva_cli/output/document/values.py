@@ -12,14 +12,14 @@ TIMES = "\u00a0×\u00a0"  # spaces at which no line is broken
 RAISED = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 
 
-def shown(value: Value | Row, unit: str = "", digits: int = 6) -> str:
+def value_text(value: Value | Row, unit: str = "", digits: int = 6) -> str:
     """A value with its unit. Raises GenevaError for NaN, a fault of this program.
 
-    >>> shown(182.612895, "°"), shown(53.17, "W/m²"), shown(None), shown(True)
+    >>> value_text(182.612895, "°"), value_text(53.17, "W/m²"), value_text(None), value_text(True)
     ('182.613°', '53.17 W/m²', '–', 'yes')
     """
     if isinstance(value, tuple):
-        return ", ".join(shown(one, unit, digits) for one in value) or "none"
+        return ", ".join(value_text(one, unit, digits) for one in value) or "none"
     text = _bare(value, digits)
     if not unit or value is None or not is_number(value) or text == NO_BOUND:
         return text

@@ -14,7 +14,7 @@ from geneva_cli.curves.shapes import Contour
 from geneva_cli.curves.sheet import DASHED, DIMENSION, TEXT, WIDTHS, Arrow, Label, Measure, Sheet
 from geneva_cli.errors import clean
 from geneva_cli.output.dxf_contours import draw
-from geneva_cli.output.dxf_file import USUAL, extents, linetype, written
+from geneva_cli.output.dxf_file import USUAL, dxf_text, extents, linetype
 from geneva_cli.output.ezdxf_alone import BaseLayout, Document, Modelspace
 
 # group code 70 of a DIMENSION, and the attributes that hold its points
@@ -39,7 +39,7 @@ def chunks(sheet: Sheet, version: str = USUAL) -> Iterator[str]:
             _measure(document, space, measure)
         extents(document, space, (0.0, 0.0, sheet.width, sheet.height))
 
-    yield from written(sheet.title, "mm", version, fill)
+    yield from dxf_text(sheet.title, "mm", version, fill)
 
 
 def _layers(document: Document) -> None:
@@ -133,5 +133,5 @@ def _text(space: BaseLayout, label: Label, layer: str) -> None:
 def _signed(text: str) -> str:
     """A text with DXF's own signs; accidental ones are separated."""
     shown = clean(text).replace("%%", "% %")
-    signs = {"Ø": "%%c", "°": "%%d", "±": "%%p"}  # as every version of DXF has them
+    signs = {"Ø": "%%c", "°": "%%d", "±": "%%p"}  # every version of DXF has these
     return "".join(signs.get(c, c) for c in shown)

@@ -14,7 +14,7 @@ from geneva_cli.output.sheets.parts import arrows, by_layer
 def chunks(sheet: Sheet) -> Iterator[str]:
     """The file's text."""
     page = Page(sheet.width, sheet.height, "".join(_content(sheet)))
-    yield from pdf_file.written(sheet.title, [page])
+    yield from pdf_file.pdf_text(sheet.title, [page])
 
 
 def _content(sheet: Sheet) -> Iterator[str]:

@@ -16,7 +16,7 @@ class WallFace(NamedTuple):
     face: str
     low: str
     high: str
-    along: bool  # whether the edges run in the contour's direction
+    along: bool  # True if the edges run in the contour's direction
 
 
 class Entities:

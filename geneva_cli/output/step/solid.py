@@ -144,8 +144,8 @@ def _surface(file: Entities, piece: Piece, plate: Plate) -> str:
         return file.add(f"PLANE('',{file.placement(piece.start, plate.low, axis, ahead)})")
     if isinstance(piece, Arc):
         return _cylinder(file, piece.centre, piece.radius, plate.low)
-    # As a spline too: kernels integrate between knots, which they do not look for in an extruded
-    # curve.
+    # The surface is a spline too: kernels integrate between knots, which they do not find in an
+    # extruded curve.
     levels = plate.low, plate.high
     poles = listed([listed([file.point(p, z) for z in levels]) for p in piece.poles])
     count, knots = _knots(piece)

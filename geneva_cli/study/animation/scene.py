@@ -13,7 +13,7 @@ from geneva_cli.curves.shapes import Circle, Shape
 from geneva_cli.design import Design
 from geneva_cli.errors import GenevaError
 from geneva_cli.scene import Bar, Body, Box, Phase, Place, Scene, pose
-from geneva_cli.specfile.writer import quoted, written
+from geneva_cli.specfile.writer import quoted, spec_lines
 from geneva_cli.study.animation.bodies import bodies
 from geneva_cli.study.animation.pushes import pushes
 from geneva_cli.study.animation.turn import MachineTurn
@@ -45,7 +45,7 @@ def scene(design: Design) -> Scene:
     return Scene(
         title,
         words(mechanism) + _remark(design, bars),
-        "\n".join((f"title = {quoted(title)}", *written(spec))),
+        "\n".join((f"title = {quoted(title)}", *spec_lines(spec))),
         mechanism.shown_deg(turn.start),
         turn.whole,
         turn.whole / (6.0 * spec.drive.n_rpm),

@@ -17,7 +17,7 @@ from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.parts.groove import roller_in_groove
 from geneva_cli.parts.link_positions import links_at
 from geneva_cli.parts.links import drawn_links
-from geneva_cli.scene import Bar, Carried, Place, Track
+from geneva_cli.scene import Bar, CarriedShapes, Place, Track
 from geneva_cli.study.animation.tracks import Moving, cut, resting, sampled, track
 
 if TYPE_CHECKING:
@@ -163,9 +163,11 @@ class MachineTurn:
         return track(pieces, error, self.start, gain)
 
 
-def _plates(mechanism: Mechanism, outlines: Outlines | None) -> dict[str, tuple[Carried, ...]]:
+def _plates(
+    mechanism: Mechanism, outlines: Outlines | None
+) -> dict[str, tuple[CarriedShapes, ...]]:
     """The plates of each link by its name; empty if the links' sizes allow none."""
-    out: dict[str, tuple[Carried, ...]] = {}
+    out: dict[str, tuple[CarriedShapes, ...]] = {}
     try:
         plates = [m.part for m in drawn_links(mechanism, outlines).cut if isinstance(m.part, Plate)]
     except GenevaError:
@@ -175,7 +177,7 @@ def _plates(mechanism: Mechanism, outlines: Outlines | None) -> dict[str, tuple[
         blocks = [plate for plate in plates if plate.name == f"{link.name}'s block"]
         own = [plate for plate in plates if plate.name == link.name]
         out[link.name] = tuple(
-            Carried(j, (plate.outline, *plate.holes))
+            CarriedShapes(j, (plate.outline, *plate.holes))
             for j, plate in zip([0] * len(own) + slid, [*own, *blocks], strict=False)
         )
     return out

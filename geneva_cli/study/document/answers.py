@@ -8,7 +8,7 @@ from typing import Any
 from geneva_cli.analysis.figures import AXIS_BY_NAME
 from geneva_cli.analysis.loads.summary import QuantitySummary
 from geneva_cli.design import Design
-from geneva_cli.document import Block, Facts, Grid, Heading, Listed, Row
+from geneva_cli.document import Block, Facts, Grid, Heading, Row, TextList
 from geneva_cli.study.document.facts import capital, fact, facts
 from geneva_cli.study.document.rest import RemainingValues, grid
 from geneva_cli.table import Table
@@ -122,7 +122,7 @@ def swinging(left: RemainingValues) -> Iterator[Block]:
             yield Heading(text)
             yield from blocks
         if warnings:
-            yield Listed(tuple(warnings))
+            yield TextList(tuple(warnings))
 
 
 def parts(left: RemainingValues) -> Iterator[Block]:

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 
 from geneva_cli.analysis.loads.summary import missing
 from geneva_cli.design import Design
-from geneva_cli.document import BAD, Block, Grid, Heading, Listed, Prose, Row
+from geneva_cli.document import BAD, Block, Grid, Heading, Prose, Row, TextList
 from geneva_cli.study.document.facts import capital
 from geneva_cli.study.document.rest import RemainingValues
 from geneva_cli.study.document.sources import sources
@@ -40,7 +40,7 @@ def warnings(left: RemainingValues) -> Iterator[Block]:
     """The list of warnings."""
     texts = tuple(left.one("warnings"))
     yield Heading("Warnings")
-    yield Listed(texts) if texts else Prose("None.")
+    yield TextList(texts) if texts else Prose("None.")
 
 
 def remarks(design: Design, left: RemainingValues) -> Iterator[Block]:
@@ -55,9 +55,9 @@ def remarks(design: Design, left: RemainingValues) -> Iterator[Block]:
         yield from rest
     if unknown:
         yield Heading("What is not known, and the key that would give it")
-        yield Listed(tuple(unknown))
+        yield TextList(tuple(unknown))
     yield Heading("Sources of the formulas")
-    yield Listed(sources(design.spec))
+    yield TextList(sources(design.spec))
 
 
 def _notes(design: Design) -> tuple[str, ...]:

@@ -7,7 +7,7 @@ from typing import NamedTuple
 
 from geneva_cli.errors import GenevaError
 from geneva_cli.machine.mechanism import Mechanism
-from geneva_cli.specfile.writer import quoted, written
+from geneva_cli.specfile.writer import quoted, spec_lines
 from geneva_cli.study.fields import Cell
 from geneva_cli.study.goals import Objective
 from geneva_cli.study.sweep.best_search import Row, SweepSearch
@@ -49,7 +49,7 @@ class Winner(NamedTuple):
         spec = self.mechanism.spec
         # the spec's own title may describe what was varied
         title = f"{word.capitalize()} {name}, varied from: {spec.title}" if spec.title else ""
-        return [*notes, *([f"title = {quoted(title)}"] if title else []), *written(spec)]
+        return [*notes, *([f"title = {quoted(title)}"] if title else []), *spec_lines(spec)]
 
 
 def winner(sweep: Sweep, every: Iterable[Sequence[Row]], goal: SearchGoal) -> Winner:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from geneva_cli.errors import GenevaError, cut
-from geneva_cli.specfile.writer import quoted, written
+from geneva_cli.specfile.writer import quoted, spec_lines
 from geneva_cli.study.synthesis.built import Built, built
 from geneva_cli.study.synthesis.rows import Candidate
 from geneva_cli.study.synthesis.search import Ranking
@@ -30,7 +30,7 @@ def chosen(ranking: Ranking, number: int, buildable: bool = False) -> tuple[Buil
 
 def commented(target: Target, number: int, row: Candidate, machine: Built) -> str:
     """The text of a spec from synthesis, with comments."""
-    return "\n".join([*_heading(target, number, row, machine), *written(machine.spec)]) + "\n"
+    return "\n".join([*_heading(target, number, row, machine), *spec_lines(machine.spec)]) + "\n"
 
 
 def _heading(target: Target, number: int, row: Candidate, machine: Built) -> list[str]:

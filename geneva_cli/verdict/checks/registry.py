@@ -73,7 +73,7 @@ STATIC: Checks = {
     "link_gap_mm": "links:gap",
     "branches_apart_mm": "branches:apart",
     "branches_crossed_mm": "branches:crossed",
-    "parts": "there:plates",
+    "parts": "buildable:plates",
 }
 # Checks of the shells of a sphere at rest.
 SPHERE: Checks = {
@@ -84,7 +84,7 @@ SPHERE: Checks = {
     "dial_wall_mm": "sphere:dial",
     "beside_shafts_mm": "sphere:passing_parts",
     "arm_wall_mm": "sphere:arm_wall",
-    "parts": "there:solids",
+    "parts": "buildable:solids",
 }
 # Checks of plates or shells in a whole turn.
 TURNING: Checks = {

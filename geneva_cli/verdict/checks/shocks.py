@@ -24,7 +24,7 @@ def entry_shock(name: str, mechanism: Mechanism) -> Check | None:
     impact = entry_impact(mechanism)
     if impact is None:
         return None
-    check = _judged(name, mechanism, impact)
+    check = _force_check(name, mechanism, impact)
     if check.passes is not False:
         return check
     return check._replace(why=_tolerable(mechanism, check.limit or 0.0))
@@ -39,7 +39,7 @@ def reversal_shock(name: str, mechanism: Mechanism) -> Check | None:
     impact = reversal_impact(mechanism)
     if impact is None:
         return None
-    check = _judged(name, mechanism, impact)
+    check = _force_check(name, mechanism, impact)
     more = drag_words(mechanism)
     if check.passes is None:
         return check._replace(why=f"{check.why}; {more}")
@@ -56,11 +56,11 @@ def drag_words(mechanism: Mechanism) -> str:
         return "a smaller slot_clearance_mm reduces it"
     from geneva_cli.analysis.change_of_sides import lasting_drag_Nm
 
-    drag = _up(lasting_drag_Nm(mechanism))
+    drag = _rounded_up(lasting_drag_Nm(mechanism))
     return f"a drag of {drag:g} N m on the wheel prevents the change of sides"
 
 
-def _judged(name: str, mechanism: Mechanism, impact: Impact) -> Check:
+def _force_check(name: str, mechanism: Mechanism, impact: Impact) -> Check:
     """The impact's force, compared with the limit of the pin force if there is one."""
     limit = mechanism.spec.limits.pin_force_max_N
     if impact.force_N is not None and limit is not None:
@@ -89,7 +89,7 @@ def _tolerable(mechanism: Mechanism, limit: float) -> str:
     low = boundary(holds, 0.0, 1.0)
     tolerance = mechanism.spec.tolerance
     names = [
-        f"{key} = {_down(low * value):g}"
+        f"{key} = {_rounded_down(low * value):g}"
         for key, value in (
             ("crank_radius_mm", tolerance.crank_radius_mm),
             ("center_distance_mm", tolerance.center_distance_mm),
@@ -99,7 +99,7 @@ def _tolerable(mechanism: Mechanism, limit: float) -> str:
     return " and ".join(names) + " in [tolerance]"
 
 
-def _down(value: float) -> float:
+def _rounded_down(value: float) -> float:
     """Two digits, rounded down."""
     if value <= 0.0:
         return 0.0
@@ -107,7 +107,7 @@ def _down(value: float) -> float:
     return float(f"{step * math.floor(value / step * (1.0 + 1e-9)):.6g}")
 
 
-def _up(value: float) -> float:
+def _rounded_up(value: float) -> float:
     """Three digits, rounded up."""
     if value <= 0.0:
         return 0.0

@@ -36,7 +36,7 @@ BOUNDS = {
     "lock_horn_stress_MPa": Bound("material.wheel.stress_max_MPa", "strength.lock.horn_stress_MPa"),
     # between disc and recess: on the recess's end, or between the arcs
     "lock_stress_max_MPa": Bound("limits.lock_stress_max_MPa", "strength.lock.greatest_MPa"),
-    # of the wheel: the lock's play, the contact's approach and the horn's bending
+    # the wheel turns by the lock's play, the contact's approach and the horn's bending
     "lock_deflection_max_deg": Bound(
         "limits.lock_deflection_max_deg", "strength.lock.deflection_deg"
     ),

@@ -28,7 +28,7 @@ class Designs:
     def __init__(self, machine: Mechanism, names: Collection[str] = ()) -> None:
         self.machine = machine
         self.spec = machine.spec
-        self.names = names  # of all requested quantities
+        self.names = names  # the names of all requested quantities
         self.single = isinstance(machine.design, int)  # its numbers are floats: m = 1
         self._kept: dict[object, object] = {}
 

@@ -287,11 +287,14 @@ STUDY = (
         "design_torque_Nm input_torque_Nm power_W Am Vm Qm energy_fluctuation_J flywheel_kgm2 "
         "motor_rpm motor_torque_max_Nm motor_torque_rms_Nm inertia_ratio flywheel_to_add_kgm2 "
         "coasting_speed_share input_torque_ratio",
-        "quantities.single:bought",
+        "quantities.single:motor_sizing",
         "loads:sizing",
     ),
     QuantityGroup(
-        "checks", (*every_check(), "passes", "failed"), "quantities.single:judged", makes_parts=True
+        "checks",
+        (*every_check(), "passes", "failed"),
+        "quantities.single:check_values",
+        makes_parts=True,
     ),
 )
 # All quantities; those that make parts come last.

@@ -52,7 +52,7 @@ def summaries(of: Designs) -> Columns:
         return {}
     out: dict[str, Number | None] = {}
     requested = {end for some in ends.values() for end in some}
-    means = {"mean", "rms"}  # of each quantity of the cycle, besides its least value
+    means = {"mean", "rms"}  # these need integrals, the others extremes
     sums = load_summaries if requested - means else load_means
     for load, one in sums(of.machine, list(ends), requested & means).items():
         values = one._asdict()

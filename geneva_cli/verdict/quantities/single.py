@@ -27,7 +27,7 @@ def machine(model: PartsModel) -> Values:
     }
 
 
-def judged(model: PartsModel) -> Values:
+def check_values(model: PartsModel) -> Values:
     """The value of each check, None for those that do not apply, and whether all pass."""
     rows = checks(model.mechanism, model)
     values: Values = {f"checks.{name}": None for name in every_check()}
@@ -43,7 +43,7 @@ def cycle(model: PartsModel) -> Values:
     return {f"loads.{load}.{n}": one[n] for load, one in loads.items() for n in names}
 
 
-def bought(model: PartsModel) -> Values:
+def motor_sizing(model: PartsModel) -> Values:
     """Motor, flywheel and the makers' form, without the wheel's own inertia."""
     values, _ = sizing(cycle_of(model.mechanism))
     return {f"sizing.{name}": value for name, value in values.items() if name != WHEEL_INERTIA}

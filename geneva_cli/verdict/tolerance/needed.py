@@ -28,7 +28,7 @@ from geneva_cli.verdict.checks.registry import turn_checks
 Corners: TypeAlias = tuple[float | None, Callable[[float], Spec]]
 
 
-class Needed(NamedTuple):
+class RequiredClearances(NamedTuple):
     """The clearances needed, mm per side, and whether the parts turn within all tolerances.
 
     ``lock_mm`` is None without a locking disc. ``turns`` is None if parts cannot be turned. ``why``
@@ -41,9 +41,9 @@ class Needed(NamedTuple):
     why: str
 
 
-def needed(
+def required_clearances(
     mechanism: Mechanism, model: PartsModel, sizes: dict[str, float], least_play: float
-) -> Needed:
+) -> RequiredClearances:
     """The clearances that the tolerances need, and a whole turn of the tightest and the loosest.
 
     ``sizes`` are the tolerances that apply, in millimetres and radians; ``least_play`` is that of
@@ -51,9 +51,11 @@ def needed(
     """
     spec = mechanism.spec
     fit = 0.5 * (sizes["roller_diameter_mm"] + sizes["slot_width_mm"])
-    slot = fit + max(_across(mechanism, e, sizes, least_play) for e in mechanism.engagements)
+    slot = fit + max(
+        _slot_offset_mm(mechanism, e, sizes, least_play) for e in mechanism.engagements
+    )
     if not spec.has_parts:
-        return Needed(slot, None, None, "there are no drawn parts to turn")
+        return RequiredClearances(slot, None, None, "there are no drawn parts to turn")
     try:
         lock, corner = (
             _flat(spec, model.outlines, sizes, slot)
@@ -61,25 +63,25 @@ def needed(
             else _on_sphere(spec, model.shells.ball, sizes, slot)
         )
     except GenevaError as error:
-        return Needed(slot, None, None, str(error))
+        return RequiredClearances(slot, None, None, str(error))
     short = []
     if spec.size.allowances.slot_clearance_mm < slot * (1.0 - 1e-12):
         short.append(f"slot_clearance_mm must be at least {slot:.6g}")
     if lock is not None and spec.size.allowances.lock_clearance_mm < lock * (1.0 - 1e-12):
         short.append(f"lock_clearance_mm must be at least {lock:.6g}")
     if short:
-        return Needed(slot, lock, False, " and ".join(short))
+        return RequiredClearances(slot, lock, False, " and ".join(short))
     for sign, words in (
         (-1.0, "largest roller and locking disc, narrowest slot and recess"),
         (1.0, "smallest roller and locking disc, widest slot and recess"),
     ):
-        failed = _fails(corner(sign))
+        failed = _failing_check(corner(sign))
         if failed:
-            return Needed(slot, lock, failed[0], f"with the {words}: {failed[1]}")
-    return Needed(slot, lock, True, "")
+            return RequiredClearances(slot, lock, failed[0], f"with the {words}: {failed[1]}")
+    return RequiredClearances(slot, lock, True, "")
 
 
-def _across(
+def _slot_offset_mm(
     mechanism: Mechanism, engagement: Engagement, sizes: dict[str, float], least_play: float
 ) -> float:
     """The roller's greatest offset from its slot at entry and exit, mm; at least 0."""
@@ -142,7 +144,7 @@ def _on_sphere(spec: Spec, ball: Ball, sizes: dict[str, float], slot: float) -> 
     The radii that deviate are from the crank's axis, L times the sine of the angle from it.
     """
     size, L = spec.size, ball.radius_mm
-    least = _wider(ball.lock, sizes["lock_radius_mm"] + sizes["recess_radius_mm"], L)
+    least = _arc_increase_mm(ball.lock, sizes["lock_radius_mm"] + sizes["recess_radius_mm"], L)
 
     def corner(sign: float) -> Spec:
         roller = L * ball.roller - sign * 0.5 * sizes["roller_diameter_mm"]
@@ -156,7 +158,9 @@ def _on_sphere(spec: Spec, ball: Ball, sizes: dict[str, float], slot: float) -> 
             lock_radius_mm=disc,
         )
         if ball.lock:
-            recess = ball.recess + _wider(ball.recess, sign * sizes["recess_radius_mm"], L) / L
+            recess = (
+                ball.recess + _arc_increase_mm(ball.recess, sign * sizes["recess_radius_mm"], L) / L
+            )
             changed = changed.replace(
                 lock_clearance_mm=max(L * (recess - math.asin(disc / L)), 0.0)
             )
@@ -165,12 +169,12 @@ def _on_sphere(spec: Spec, ball: Ball, sizes: dict[str, float], slot: float) -> 
     return least if ball.lock else None, corner
 
 
-def _wider(angle: float, by: float, L: float) -> float:
+def _arc_increase_mm(angle: float, by: float, L: float) -> float:
     """The arc, mm, by which an angle from an axis grows if its radius L sin(angle) grows ``by``."""
     return L * (math.asin(min(1.0, max(-1.0, math.sin(angle) + by / L))) - angle)
 
 
-def _fails(spec: Spec) -> tuple[bool | None, str] | None:
+def _failing_check(spec: Spec) -> tuple[bool | None, str] | None:
     """The check of a whole turn that fails; None if all pass."""
     try:
         model = PartsModel(build(spec))

@@ -10,7 +10,7 @@ from geneva_cli.curves.shapes import Arc, Contour
 from geneva_cli.parts.outlines import Outlines
 from geneva_cli.parts.sphere.shells import Shells
 
-SAME = 1e-6  # of the centre distance, or radians: radii and angles nearer to each other are equal
+SAME = 1e-6  # fraction of the centre distance, or radians: nearer radii and angles are equal
 
 
 def locks(outlines: Outlines) -> list[Lock]:

@@ -25,7 +25,7 @@ from geneva_cli.analysis.tolerance.worst_effects import entry_jumps_worst
 from geneva_cli.errors import GenevaError, Notice, cut
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.parts.model import PartsModel
-from geneva_cli.verdict.tolerance.needed import Needed, needed
+from geneva_cli.verdict.tolerance.needed import RequiredClearances, required_clearances
 from geneva_cli.verdict.tolerance.recesses import locks, sphere_locks
 
 if TYPE_CHECKING:
@@ -49,7 +49,7 @@ class Study(NamedTuple):
     motion: Spread | None
     motion_at_deg: float | None
     entry: EntryJumps | None
-    clearances: Needed
+    clearances: RequiredClearances
     jams: float | None  # fraction of the machines that do not fit together
     warnings: tuple[Notice, ...]
 
@@ -61,22 +61,22 @@ def study(mechanism: Mechanism, model: PartsModel, samples: int, seed: int) -> S
     """
     _refuse(mechanism, samples, seed)
     use, warnings = _applicable(mechanism)
-    _refuse_wide(mechanism, use)
+    _refuse_large(mechanism, use)
     sizes = list(use.values())
     ends = corners(sizes)
     every_lock = _locks(mechanism, model, warnings)
-    lock = max(every_lock, key=lambda one: _most(one(ends).angle.arrays()[0]), default=None)
+    lock = max(every_lock, key=lambda one: _greatest(one(ends).angle.arrays()[0]), default=None)
     least_play = min((float(np.min(one(ends).angle.c[0])) for one in every_lock), default=0.0)
-    errors = [(one, *_first(one.greatest(ends))) for one in motion_errors(mechanism)]
+    errors = [(one, *_single_design(one.greatest(ends))) for one in motion_errors(mechanism)]
     farthest = max(errors, key=lambda error: error[1], default=None)
-    jumps = max(entry_jumps(mechanism), key=lambda one: _most(one(ends)[0]), default=None)
+    jumps = max(entry_jumps(mechanism), key=lambda one: _greatest(one(ends)[0]), default=None)
     normal = mechanism.spec.tolerance.distribution == "normal"
     machines = Draws(tuple(sizes), normal, seed)
     at_worst = (farthest[0], farthest[2], farthest[3]) if farthest else None
     drawn = random_machines(machines, samples, lock, at_worst, jumps)
     dwell = motion = at_deg = entry = None
     if lock:
-        worst = _most(lock(ends).angle.arrays()[0]) + use["slot_angle_deg"]
+        worst = _greatest(lock(ends).angle.arrays()[0]) + use["slot_angle_deg"]
         dwell = spread(lambda by: lock(by).angle + by.slot_angle_deg, sizes, worst, drawn.dwell)
     else:
         warnings.append(
@@ -110,7 +110,7 @@ def study(mechanism: Mechanism, model: PartsModel, samples: int, seed: int) -> S
                 "entry_jump is not known: the law, not the path, sets how the roller enters",
             )
         )
-    clearances = needed(mechanism, model, use, least_play)
+    clearances = required_clearances(mechanism, model, use, least_play)
     if clearances.turns is not True:
         what = "not every machine turns" if clearances.turns is False else "not proved to turn"
         warnings.append(Notice("not-every-machine-turns", f"{what}: {clearances.why}"))
@@ -131,7 +131,7 @@ def _refuse(mechanism: Mechanism, samples: int, seed: int) -> None:
         )
 
 
-def _refuse_wide(mechanism: Mechanism, use: dict[str, float]) -> None:
+def _refuse_large(mechanism: Mechanism, use: dict[str, float]) -> None:
     """Raise GenevaError if some machine's roller may reach the wheel's axis or the crank's.
 
     A normal distribution has tails: deviations lie within three times the plus or minus.
@@ -170,10 +170,10 @@ def _locks(
         return []
 
 
-def _first(errors: WorstErrors) -> tuple[float, float, float]:
+def _single_design(errors: WorstErrors) -> tuple[float, float, float]:
     """The values of the single design."""
     return float(errors.error[0]), float(errors.at_deg[0]), float(errors.side[0])
 
 
-def _most(values: Array) -> float:
+def _greatest(values: Array) -> float:
     return float(np.max(values))
