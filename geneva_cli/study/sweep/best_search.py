@@ -95,7 +95,6 @@ class SweepSearch:
 
         margin = 1e-13  # fraction of a bound, so that rounding does not leave a design outside
         margins = NonlinearConstraint(lambda x: self.margins(row(x)), margin, np.inf)
-        # evaluations of the optimiser from each start
         minimize(
             lambda x: min(self.cost(row(x)) / scale, FAR),
             self.fractions(start),

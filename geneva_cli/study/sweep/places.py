@@ -8,7 +8,7 @@ import numpy as np
 
 from geneva_cli.study.sweep.best_search import Row, SweepSearch
 
-PLACES = 24  # that are kept and refined
+PLACES_MAX = 24  # that are kept and refined
 
 
 class BestPlaces:
@@ -30,12 +30,12 @@ class BestPlaces:
             best = self.rows.get(place)
             if best is None or self.search.merit(row) < self.search.merit(best):
                 self.rows[place] = row
-        if len(self.rows) > 8 * PLACES:
-            self.rows = dict(sorted(self.rows.items(), key=self._merit)[: 4 * PLACES])
+        if len(self.rows) > 8 * PLACES_MAX:
+            self.rows = dict(sorted(self.rows.items(), key=self._merit)[: 4 * PLACES_MAX])
 
     def best(self) -> list[Row]:
         """The best designs, the best first."""
-        return [row for _, row in sorted(self.rows.items(), key=self._merit)[:PLACES]]
+        return [row for _, row in sorted(self.rows.items(), key=self._merit)[:PLACES_MAX]]
 
     def _merit(self, item: tuple[Hashable, Row]) -> tuple[float, float]:
         return self.search.merit(item[1])

@@ -20,7 +20,7 @@ from geneva_cli.study.synthesis.bounds import known_bounds, known_sort, of_motio
 from geneva_cli.study.synthesis.families.family import Family
 from geneva_cli.study.synthesis.target import Target
 
-PLACES = 24  # intervals of a family's span that are sampled first
+INTERVALS = 24  # intervals of a family's span that are sampled first
 
 
 class FamilyMachine(NamedTuple):
@@ -69,7 +69,7 @@ def _places(free: Sequence[Family], target: Target, how_near: bool) -> list[Tria
 def _first(f: Family) -> list[float]:
     """The places of a family that are sampled first, including the plain crank."""
     plain = [f.plain] if f.low < f.plain < f.high else []
-    return [*(f.low + _step(f) * j for j in range(PLACES)), f.high, *plain]
+    return [*(f.low + _step(f) * j for j in range(INTERVALS)), f.high, *plain]
 
 
 class Trial(NamedTuple):
@@ -224,4 +224,4 @@ class FamilySearch:
 
 
 def _step(family: Family) -> float:
-    return (family.high - family.low) / PLACES
+    return (family.high - family.low) / INTERVALS

@@ -26,7 +26,7 @@ from geneva_cli.study.synthesis.target import USUAL_RPM
 if TYPE_CHECKING:
     from geneva_cli.numerics.arrays import Array
 
-PLACES = 720  # samples of a slot, and of a whole turn of the crank
+SLOT_SAMPLES = 720  # also of a whole turn of the crank
 UNDERCUT_SAMPLES = 120  # of half a motion
 CACHE = 4096  # entries
 
@@ -106,10 +106,10 @@ def _computed(specs: Sequence[Spec], machine: Mechanism) -> list[PartsData]:
     assert not others, "synth finds only machines whose rollers move alike"
     L = np.atleast_2d(array(machine.center_distance_mm))
     entry, wide = (np.atleast_2d(x) for x in (engagement.entry_deg, engagement.motion_deg))
-    moving = entry + wide * (np.arange(PLACES + 1) / PLACES)
+    moving = entry + wide * (np.arange(SLOT_SAMPLES + 1) / SLOT_SAMPLES)
     groove = sampled_extremes(engagement.groove, moving) if engagement.groove else None
     x, y = (c.c[0] for c in engagement.slot(moving, 0))
-    shape = (len(specs), PLACES + 1)
+    shape = (len(specs), SLOT_SAMPLES + 1)
     x, y = L * np.broadcast_to(x, shape), L * np.broadcast_to(y, shape)
     reach = np.hypot(x, y)
     ends = reach.min(axis=1) if machine.spec.wheel.SIGN > 0.0 else reach.max(axis=1)
@@ -142,7 +142,8 @@ def _places_at_rest(machine: Mechanism) -> tuple[Array, Array]:
     (engagement,) = machine.engagements
     entry, wide = (np.atleast_2d(x) for x in (engagement.entry_deg, engagement.motion_deg))
     rest = 360.0 * machine.spec.drive.turns - wide
-    x, y = (c.c[0] for c in engagement.path(entry + wide + rest * (np.arange(PLACES) / PLACES), 0))
+    at = entry + wide + rest * (np.arange(SLOT_SAMPLES) / SLOT_SAMPLES)
+    x, y = (c.c[0] for c in engagement.path(at, 0))
     away, b = machine.center_distance_mm * np.hypot(x, y), np.atleast_2d(engagement.half_step)
     angle = np.arctan2(y, x)
     angle = np.abs((angle - angle[:, :1] + b) % (2.0 * b) - b)  # the roller leaves along its slot
@@ -153,7 +154,7 @@ def _arm(machine: Mechanism) -> Array:
     """Least distance of the roller from the crank's axis over its turn, mm, (n,) or (1,)."""
     (engagement,) = machine.engagements
     turn = 360.0 * machine.spec.drive.turns
-    at = turn * (np.arange(PLACES) / PLACES - 0.5)
+    at = turn * (np.arange(SLOT_SAMPLES) / SLOT_SAMPLES - 0.5)
     x, y = (c.c[0] for c in engagement.path(np.atleast_2d(at), 0))
     away = np.hypot(x - 1.0, y)
     return np.ravel(machine.center_distance_mm * away.min(axis=1, keepdims=True))

@@ -85,20 +85,21 @@ def search(target: Target, meanwhile: Callable[[], None] | None = None) -> Ranki
     target = target._replace(bounds=request.bounds, sort=request.sort)
     narrowed = target.with_times()
     narrowed.refuse_contradictions()
-    parts = _all_kinds(narrowed, request.names, meanwhile=meanwhile)
-    if not any(part.keeps for part in parts):  # the error message says how near they come
-        parts = _all_kinds(target, request.names, how_near=True)
-    errors = [error for part in parts for error in part.errors]
-    every = [row for part in parts for row in part.rows]
+    by_kind = _all_kinds(narrowed, request.names, meanwhile=meanwhile)
+    if not any(kind.keeps for kind in by_kind):  # the error message says how near they come
+        by_kind = _all_kinds(target, request.names, how_near=True)
+    errors = [error for kind in by_kind for error in kind.errors]
+    every = [row for kind in by_kind for row in kind.rows]
     if not every:
-        reached = [peak for part in parts for peak in part.reached]
+        reached = [peak for kind in by_kind for peak in kind.reached]
         if target.acceleration_max is not None and not reached:
             return search(target.by_bounds)  # its message says how near they come
         raise GenevaError(_out_of_reach(target, reached, errors))
-    together = [cells for part in parts for cells in part.requested]
+    together = [cells for kind in by_kind for cells in kind.requested]
     ranked = _ranked(target, request, every, together)
     if frame_limits(target) and narrowed.motion_for(1) and any(map(breaks_limit, ranked)):
-        within = _within_limits(narrowed, request, [any(map(breaks_limit, p.rows)) for p in parts])
+        which = [any(map(breaks_limit, kind.rows)) for kind in by_kind]
+        within = _within_limits(narrowed, request, which)
         ranked = with_replacements(ranked, within)
         ranked.sort(key=lambda row: _rank(target, request, row))
     ranking = Ranking(ranked, narrowed, request)
@@ -119,7 +120,7 @@ def _ranked(
         machines = bounded(request, machines, together)
     machines = _worthwhile(target, request, machines)
     machines.sort(key=lambda row: _rank(target, request, row))
-    return first_of_each(machines, linkages=_known_together(target))
+    return first_of_each(machines, linkages=_is_batched(target))
 
 
 def _within_limits(
@@ -127,8 +128,8 @@ def _within_limits(
 ) -> list[MachineRow]:
     """The rows of those kinds whose machines keep the frame's limits too."""
     strict = target._replace(bounds=(*target.bounds, *frame_limits(target)), strict=True)
-    parts = _all_kinds(strict, request.names, which=which)
-    pairs = [pair for part in parts for pair in zip(part.rows, part.requested, strict=True)]
+    by_kind = _all_kinds(strict, request.names, which=which)
+    pairs = [pair for kind in by_kind for pair in zip(kind.rows, kind.requested, strict=True)]
     kept = [(row, cells) for row, cells in pairs if not breaks_limit(row)]
     try:
         return _ranked(target, request, [row for row, _ in kept], [cells for _, cells in kept])
@@ -136,7 +137,7 @@ def _within_limits(
         return []
 
 
-def _known_together(target: Target) -> bool:
+def _is_batched(target: Target) -> bool:
     """Return True if a batch can compute the quantities of the goal and of the bounds.
 
     If not, they are computed for several machines of each family, and the best of these is shown.
@@ -169,7 +170,7 @@ def _kind_rows(task: tuple[Kind, Target], names: Sequence[str], how_near: bool) 
     reached: list[float] = []
     errors: list[str] = []
     of_kind = [*families(kind, target, reached)]
-    if not _known_together(target):
+    if not _is_batched(target):
         of_kind = pieces(of_kind, 120)  # the quantities of each piece's best are computed singly
     one_each, near = best(of_kind, target, how_near)
     of = {one.spec: one.family for one in reversed([*one_each, *near])}

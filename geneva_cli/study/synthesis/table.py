@@ -53,7 +53,7 @@ def turned(ranking: Ranking, count: int = TURNED, buildable: bool = False) -> li
 
     A turned row says yes, with sizes that pass, or no. Others say maybe, or no if that is known
     without turning. A row that fails may be replaced, under its number, by the best machine of its
-    family that passes: if it stands in for another one, or if only passing rows are wanted.
+    family that passes: if it is itself a replacement, or if only passing rows are requested.
     """
     every = [Numbered(i, row) for i, row in enumerate(ranking.rows, 1)]
     maybe = [one for one in every if one.row.candidate.parts == MAYBE]

@@ -20,7 +20,7 @@ from geneva_cli.machine.wheels.classic import rollers_max
 from geneva_cli.machine.wheels.gearing import Gearing
 from geneva_cli.study.synthesis.families import closed
 from geneva_cli.study.synthesis.families.family import (
-    SHORTEST,
+    OPEN_END,
     Family,
     allowed_motions,
     allows,
@@ -115,7 +115,7 @@ class _LawMachines(NamedTuple):
 
 def _until_parallel(wheel: Gearing, motion: AllowedSpan) -> AllowedSpan:
     """The range up to the motion at which crank and slot would be parallel."""
-    parallel = (1.0 - SHORTEST) * (360.0 - wheel.SIGN * 360.0 / wheel.z)
+    parallel = (1.0 - OPEN_END) * (360.0 - wheel.SIGN * 360.0 / wheel.z)
     inside = not motion.exact and motion.low < parallel
     return AllowedSpan(motion.low, min(motion.high, parallel)) if inside else motion
 
@@ -160,8 +160,8 @@ def cam(target: Target, wheel: Gearing, law: str, m: int, motion: float) -> Spec
 
 def _alpha0(target: Target, wheel: Gearing, motion: float) -> float:
     natural = natural_deg(wheel)
-    # fraction of the natural motion: the rounding of a difference of two angles
-    alpha0, spare = natural - motion, 2e-15 * natural
+    alpha0 = natural - motion
+    spare = 2e-15 * natural  # the rounding of a difference of two angles
     # A motion that is shorter, by however little, would break a limit that it just keeps.
     most = alpha0 if target.acceleration_max else alpha0 + spare
     return closed.shortest(alpha0 - spare, most)

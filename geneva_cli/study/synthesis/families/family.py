@@ -18,9 +18,10 @@ from geneva_cli.machine.wheels.gearing import Gearing
 from geneva_cli.study.synthesis.spans import AllowedSpan
 from geneva_cli.study.synthesis.target import Target
 
-EXACT = 1e-6  # fraction of the motion angle by which the plain crank may miss the required one
+# fraction of the motion angle by which the plain crank may miss the required one
+MOTION_TOLERANCE = 1e-6
 # fraction of a turn over m that an open end of a range leaves to motion and to dwell
-SHORTEST = 0.01
+OPEN_END = 0.01
 BARE = Spec(registry.gearing("external")(3))  # the tables of a machine without a frame
 
 
@@ -135,15 +136,15 @@ def allowed_motions(target: Target, m: float, natural: float) -> AllowedSpan:
 
 def allows(motion: AllowedSpan, natural: float) -> bool:
     """Return True if a motion angle is allowed, within the tolerance of the plain crank."""
-    slack = EXACT * natural
+    slack = MOTION_TOLERANCE * natural
     return motion.low - slack <= natural <= motion.high + slack
 
 
 def closed_span(motion: AllowedSpan, m: int) -> AllowedSpan | None:
     """The range with open ends replaced by values near their limits; None if it is empty."""
     whole = 360.0 / m
-    low = motion.low if motion.low > 0.0 else SHORTEST * whole
-    high = motion.high if motion.high < whole else (1.0 - SHORTEST) * whole
+    low = motion.low if motion.low > 0.0 else OPEN_END * whole
+    high = motion.high if motion.high < whole else (1.0 - OPEN_END) * whole
     if motion.low >= whole or motion.high <= 0.0 or motion.empty:
         return None
     return AllowedSpan(min(low, high), high) if not motion.exact else motion
