@@ -12,7 +12,7 @@ from functools import cached_property
 import numpy as np
 
 from geneva_cli.curves.plates import Group, Member, Plate
-from geneva_cli.curves.shapes import Contour
+from geneva_cli.curves.shapes import Contour, Point
 from geneva_cli.machine.engagement import Engagement
 from geneva_cli.machine.layout import Joint
 from geneva_cli.machine.mechanism import Mechanism
@@ -34,13 +34,13 @@ from geneva_cli.parts.wheel import wheel_contour
 
 
 class FlatParts:
-    """The parts of a machine in the wheel's frame; raises GenevaError, naming the key, for a part
-    that the sizes leave no place for.
+    """The parts of a machine in the wheel's frame.
 
-    Curved outlines are ``curves``, "arcs" or "cubics", within ``tolerance`` mm. Without a tolerance
-    they are as accurate as the checks need them. ``known`` are the outlines of wheel and crank if
-    they are computed already. A wheel with too many slots is not drawn: then there are links and
-    gears, with shafts and frame, and the rollers on links.
+    A part that the sizes leave no place for raises GenevaError, naming the key. Curved outlines
+    are ``curves``, "arcs" or "cubics", within ``tolerance`` mm. Without a tolerance they are as
+    accurate as the checks need them. ``known`` are the outlines of wheel and crank, if they are
+    computed already. A wheel with too many slots is not drawn: then there are links and gears, with
+    shafts and frame, and the rollers on links.
     """
 
     def __init__(
@@ -110,14 +110,27 @@ class FlatParts:
 
     @cached_property
     def rollers(self) -> tuple[Member, ...]:
-        """The rollers with their pins, which stand in the arm or in a link."""
-        outlines, low = self.outlines, self.links.pin_low
-        sizes, size = outlines.sizes, self.mechanism.spec.size
+        """The rollers with their pins, which stand in the arm or in a link.
+
+        They are in the crank's frame. Of a wheel that is not drawn, they are those on links.
+        """
+        mechanism, low = self.mechanism, self.links.pin_low
+        size, r = mechanism.spec.size, mechanism.roller_radius_mm
+        thick = thicknesses(size, mechanism.center_distance_mm)
         if low is None:
-            low = -size.pin_gap_mm - (sizes.arm_thickness if has_arm(outlines) else 0.0)
-        plates = roller_plates(sizes.roller, sizes.pin, low, sizes.wheel_thickness)
-        centres = roller_centres(outlines.assembly)
-        return tuple(Member(plate, axis) for axis in centres for plate in plates)
+            low = -size.pin_gap_mm - (thick.arm if self.drawn and has_arm(self.drawn) else 0.0)
+        plates = roller_plates(r, pin_radius(size, r), low, thick.wheel)
+        centres = roller_centres(self.drawn.assembly) if self.drawn else self._on_links()
+        return tuple(Member(plate, centre) for centre in centres for plate in plates)
+
+    def _on_links(self) -> list[Point]:
+        """Return the centres of rollers on links in the plane below the wheel."""
+        return [
+            (float(joint[0].real), float(joint[0].imag))
+            for link in links_at(self.mechanism, np.zeros(1))
+            for joint, kind in zip(places(link), link.kinds, strict=True)
+            if link.plane == 1 and kind in (Joint.ROLLER, Joint.CARRIED)
+        ]
 
     @cached_property
     def crank_hub(self) -> Plate | None:
@@ -141,22 +154,6 @@ class FlatParts:
         return Member(group, (assembly.L, 0.0), float(assembly.crank(np.zeros(1))[0]))
 
     @cached_property
-    def _carried(self) -> tuple[Member, ...]:
-        """The rollers on links, with their pins, of a wheel that is not drawn."""
-        mechanism, low = self.mechanism, self.links.pin_low
-        if low is None or self.drawn:
-            return ()
-        size, L, r = mechanism.spec.size, mechanism.center_distance_mm, mechanism.roller_radius_mm
-        plates = roller_plates(r, pin_radius(size, r), low, thicknesses(size, L).wheel)
-        return tuple(
-            Member(plate, (float(joint[0].real), float(joint[0].imag)))
-            for link in links_at(mechanism, np.zeros(1))
-            for joint, kind in zip(places(link), link.kinds, strict=True)
-            if link.plane == 1 and kind in (Joint.ROLLER, Joint.CARRIED)
-            for plate in plates
-        )
-
-    @cached_property
     def front(self) -> FlatParts | None:
         """The first wheel and its crank, of two wheels in series, as a machine of their own."""
         if not self.drawn or not self.mechanism.spec.drive.IN_SERIES:
@@ -166,8 +163,9 @@ class FlatParts:
     @cached_property
     def first(self) -> tuple[Member, ...]:
         """Of two wheels in series, the first and its locking disc."""
-        L = self.mechanism.center_distance_mm
-        return tuple(in_front(self.front.outlines, self.links, L)) if self.front else ()
+        if self.front is None:
+            return ()
+        return tuple(in_front(self.front.outlines, self.links, self.mechanism.center_distance_mm))
 
     @cached_property
     def round_gears(self) -> tuple[Member, ...]:
@@ -226,7 +224,8 @@ class FlatParts:
     @property
     def linked(self) -> tuple[Member, ...]:
         """The links, with the pins and rollers between and on them."""
-        return (*self.links.cut, *self.links.joined, *self._carried)
+        own = *self.links.cut, *self.links.joined
+        return own if self.drawn else (*own, *self.rollers)
 
     @property
     def members(self) -> tuple[Member, ...]:

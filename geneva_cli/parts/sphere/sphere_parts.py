@@ -36,10 +36,10 @@ ARM, CRANK, ROLLER = "ARM", "CRANK", "ROLLER"
 
 
 class SphereParts:
-    """The parts of a machine in the wheel's frame; raises GenevaError, naming the key, for a part
-    that the sizes leave no place for.
+    """The parts of a machine in the wheel's frame.
 
-    Drawings of shells laid flat have ``curves``, "arcs" or "cubics", within ``tolerance`` mm.
+    A part that the sizes leave no place for raises GenevaError, naming the key. Drawings of shells
+    laid flat have ``curves``, "arcs" or "cubics", within ``tolerance`` mm.
     """
 
     def __init__(self, shells: Shells, tolerance: float = 0.0, curves: str = "arcs") -> None:
