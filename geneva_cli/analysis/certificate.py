@@ -13,17 +13,18 @@ from typing import TYPE_CHECKING, NamedTuple, cast
 
 from geneva_cli.analysis.peaks import QUANTITIES
 from geneva_cli.errors import GenevaError, cut, nearest
-from geneva_cli.machine.engagement import Engagement, Motion
+from geneva_cli.machine.engagement import Engagement
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.numerics.jet import Jet, Number
 from geneva_cli.numerics.tolerances import TIE
 from geneva_cli.table import Table, rows_table
 
 if TYPE_CHECKING:
+    from geneva_cli.analysis.certificate_decimals import Rate
     from geneva_cli.numerics.balls import Ball
     from geneva_cli.numerics.enclosures import Greatest, Interval
 
-ABOUT = "the program's formulas, with pi exact and the machine's other numbers as doubles"
+DECIMALS, DOUBLES = "the decimals as written", "the spec's numbers as doubles"
 LIMIT = 2000  # intervals a motion: 12 times what any design here takes, some seconds
 DIGITS = 15  # that are printed: as many as every double keeps
 SHOWN_TO_DEG = 2.0**-42  # rounding of an angle that is counted from another mid-motion
@@ -68,7 +69,7 @@ class Certificate(NamedTuple):
     mirrored: bool  # True for two places that mirror each other
     intervals: int
     open: Open | None
-    about: str = ABOUT
+    about: str = DOUBLES
 
     @property
     def proved(self) -> bool:
@@ -125,8 +126,13 @@ class Certificate(NamedTuple):
         return near and self.low * (1.0 - TIE) <= size <= self.high * (1.0 + TIE)
 
 
-def certificate(mechanism: Mechanism, quantity: str, limit: int = LIMIT) -> Certificate:
+def certificate(
+    mechanism: Mechanism, quantity: str, limit: int = LIMIT, decimals: bool = True
+) -> Certificate:
     """The certificate of a machine's peak over all its engagements, with so many intervals each.
+
+    It is about the decimals of the spec, for machines whose formulas allow it and unless
+    ``decimals`` is False; else about the spec's numbers as doubles.
 
     Raises GenevaError without python-flint, and for a quantity that has no certificate.
     """
@@ -137,31 +143,39 @@ def certificate(mechanism: Mechanism, quantity: str, limit: int = LIMIT) -> Cert
         )
     if find_spec("flint") is None:
         raise GenevaError('certificates need python-flint: pip install "geneva-cli[certify]"')
-    each = mechanism.engagements
-    found = [_Found(mechanism, e, _greatest(e.motion, quantity, limit)) for e in each]
-    return _combined(quantity, found)
-
-
-def _greatest(motion: Motion, quantity: str, limit: int) -> Greatest:
-    """The greatest size over one whole motion."""
+    from geneva_cli.analysis.certificate_decimals import exact_rates
     from geneva_cli.numerics.balls import precision
     from geneva_cli.numerics.enclosures import greatest
 
+    each = mechanism.engagements
     with precision():
-        return greatest(_curve(motion, quantity), motion.seams_deg, limit)
+        exact = exact_rates(mechanism) if decimals else None
+        if exact is None:
+            found = [
+                greatest(_curve(e.motion.rate, quantity), e.motion.seams_deg, limit) for e in each
+            ]
+        else:
+            found = [
+                greatest(_curve(rate, quantity), (e.entry_deg, e.exit_deg), limit, sharp=False)
+                for rate, e in zip(exact, each, strict=True)
+            ]
+    combined = _combined(
+        quantity, [_Found(mechanism, e, one) for e, one in zip(each, found, strict=True)]
+    )
+    return combined._replace(about=DOUBLES if exact is None else DECIMALS)
 
 
-def _curve(motion: Motion, quantity: str) -> Callable[[Ball, int], Sequence[Ball]]:
+def _curve(rate: Rate, quantity: str) -> Callable[[Ball, int], Sequence[Ball]]:
     """Taylor coefficients of a quantity at a ball of input angles in degrees."""
     from geneva_cli.numerics.balls import ball_of
 
     def coefficients(at: Ball, order: int) -> list[Ball]:
         x = cast("Number", at)
         if quantity == "power":
-            rate = motion.rate(x, order + 1)
-            jet: Jet = Jet(rate.c[:-1]) * rate.derivative()
+            speed = rate(x, order + 1)
+            jet: Jet = Jet(speed.c[:-1]) * speed.derivative()
         else:
-            jet = motion.rate(x, order + DERIVED[quantity])
+            jet = rate(x, order + DERIVED[quantity])
             for _ in range(DERIVED[quantity]):
                 jet = jet.derivative()
         return [ball_of(c) for c in jet.c]
@@ -230,7 +244,8 @@ def with_certificates(peaks: Table, mechanism: Mechanism, for_people: bool) -> T
     found = [certificate(mechanism, quantity) for quantity in QUANTITIES]
     rows = [_row(one) for one in found]
     table = rows_table(tuple(rows[0]), [tuple(row.values()) for row in rows])
-    value = tuple(one.text for one in found) if for_people else table
+    texts = [*(one.text for one in found), f"about {found[0].about}"]
+    value = tuple(texts) if for_people else table
     return peaks.replaced(names=(*peaks.names, "certificate"), columns=[*peaks.columns, (value,)])
 
 
