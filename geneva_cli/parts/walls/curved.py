@@ -18,6 +18,10 @@ if TYPE_CHECKING:
     from geneva_cli.numerics.jet import Array
 
 LAYER = "WHEEL"
+# A wall ends at an intersection, whose last bits differ between processors, and many bits where two
+# walls nearly touch. Ends are rounded: of curves in degrees of input, of arcs in radians. That is
+# some 1e-7 mm of 100 mm.
+STEP, ARC_STEP = 2.0**-24, 2.0**-30
 SAME = 1e-10  # of the centre distance: accuracy at which walls count as mirror images
 
 
@@ -68,7 +72,9 @@ def _over(p: Point) -> Point:
 
 
 def _segments(piece: Piece, tolerance: float, curves: str) -> list[Segment]:
-    wall, a, b = piece
+    wall, *ends = piece
+    step = STEP if wall.centre is None else ARC_STEP
+    a, b = (round(end / step) * step for end in ends)
     if wall.centre is not None:
         return [about(wall.centre, wall.radius, a, b - a)]
     fitted = fit.KINDS[curves]
