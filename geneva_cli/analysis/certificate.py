@@ -1,4 +1,4 @@
-"""Certificates of peaks: proved bounds of the greatest velocity, acceleration, jerk or power.
+"""Certificates: proved bounds of the greatest velocity, acceleration, jerk, power, force, torque.
 
 The program's own formulas are evaluated in balls over every whole motion (``enclosures.greatest``).
 """
@@ -11,6 +11,7 @@ from decimal import ROUND_CEILING, ROUND_FLOOR, Context, Decimal
 from importlib.util import find_spec
 from typing import TYPE_CHECKING, NamedTuple, cast
 
+from geneva_cli.analysis.certificate_loads import LOADS, load_formula, not_proved
 from geneva_cli.analysis.peaks import QUANTITIES
 from geneva_cli.errors import GenevaError, cut, nearest
 from geneva_cli.machine.engagement import Engagement
@@ -20,7 +21,7 @@ from geneva_cli.numerics.tolerances import TIE
 from geneva_cli.table import Table, rows_table
 
 if TYPE_CHECKING:
-    from geneva_cli.analysis.certificate_decimals import Rate
+    from geneva_cli.analysis.certificate_decimals import Formula
     from geneva_cli.numerics.balls import Ball
     from geneva_cli.numerics.enclosures import Greatest, Interval
 
@@ -89,6 +90,8 @@ class Certificate(NamedTuple):
         >>> Design(External(6)).certificate("acceleration").where
         'at two mirrored places'
         """
+        if not self.places:
+            return "not proved"
         if len(self.places) > 1:
             return "at two mirrored places" if self.mirrored else f"at {len(self.places)} places"
         (place,) = self.places
@@ -132,15 +135,19 @@ def certificate(
     """The certificate of a machine's peak over all its engagements, with so many intervals each.
 
     It is about the decimals of the spec, for machines whose formulas allow it and unless
-    ``decimals`` is False; else about the spec's numbers as doubles.
+    ``decimals`` is False; else about the spec's numbers as doubles. Loads are about doubles.
 
     Raises GenevaError without python-flint, and for a quantity that has no certificate.
     """
-    if quantity not in QUANTITIES:
-        hint = nearest(quantity, QUANTITIES)
+    names = (*QUANTITIES, *LOADS)
+    if quantity not in names:
+        hint = nearest(quantity, names)
         raise GenevaError(
-            f'no certificate of "{cut(quantity)}"{hint}; there are those of {", ".join(QUANTITIES)}'
+            f'no certificate of "{cut(quantity)}"{hint}; there are those of {", ".join(names)}'
         )
+    reason = not_proved(mechanism, quantity) if quantity in LOADS else ""
+    if reason:
+        raise GenevaError(f"{quantity}.max is not proved: {reason}")
     if find_spec("flint") is None:
         raise GenevaError('certificates need python-flint: pip install "geneva-cli[certify]"')
     from geneva_cli.analysis.certificate_decimals import exact_rates
@@ -149,14 +156,16 @@ def certificate(
 
     each = mechanism.engagements
     with precision():
-        exact = exact_rates(mechanism) if decimals else None
+        exact = exact_rates(mechanism) if decimals and quantity in QUANTITIES else None
         if exact is None:
+            formulas = [_formula(mechanism, e, quantity) for e in each]
             found = [
-                greatest(_curve(e.motion.rate, quantity), e.motion.seams_deg, limit) for e in each
+                greatest(_curve(formula), e.motion.seams_deg, limit)
+                for formula, e in zip(formulas, each, strict=True)
             ]
         else:
             found = [
-                greatest(_curve(rate, quantity), (e.entry_deg, e.exit_deg), limit, sharp=False)
+                greatest(_curve(_peak(rate, quantity)), (e.entry_deg, e.exit_deg), limit, False)
                 for rate, e in zip(exact, each, strict=True)
             ]
     combined = _combined(
@@ -165,22 +174,34 @@ def certificate(
     return combined._replace(about=DOUBLES if exact is None else DECIMALS)
 
 
-def _curve(rate: Rate, quantity: str) -> Callable[[Ball, int], Sequence[Ball]]:
-    """Taylor coefficients of a quantity at a ball of input angles in degrees."""
+def _formula(mechanism: Mechanism, engagement: Engagement, quantity: str) -> Formula:
+    """A quantity in doubles, as the program computes it."""
+    if quantity in LOADS:
+        return load_formula(mechanism, engagement, quantity)
+    return _peak(engagement.motion.rate, quantity)
+
+
+def _peak(rate: Formula, quantity: str) -> Formula:
+    """Velocity, acceleration, jerk or power from the wheel's rate."""
+
+    def power(x: Number, order: int) -> Jet:
+        speed = rate(x, order + 1)
+        return Jet(speed.c[:-1]) * speed.derivative()
+
+    def derivative(x: Number, order: int) -> Jet:
+        jet = rate(x, order + DERIVED[quantity])
+        for _ in range(DERIVED[quantity]):
+            jet = jet.derivative()
+        return jet
+
+    return power if quantity == "power" else derivative
+
+
+def _curve(formula: Formula) -> Callable[[Ball, int], Sequence[Ball]]:
+    """Taylor coefficients of a formula at a ball of input angles in degrees."""
     from geneva_cli.numerics.balls import ball_of
 
-    def coefficients(at: Ball, order: int) -> list[Ball]:
-        x = cast("Number", at)
-        if quantity == "power":
-            speed = rate(x, order + 1)
-            jet: Jet = Jet(speed.c[:-1]) * speed.derivative()
-        else:
-            jet = rate(x, order + DERIVED[quantity])
-            for _ in range(DERIVED[quantity]):
-                jet = jet.derivative()
-        return [ball_of(c) for c in jet.c]
-
-    return coefficients
+    return lambda at, order: [ball_of(c) for c in formula(cast("Number", at), order).c]
 
 
 class _Found(NamedTuple):
@@ -247,6 +268,28 @@ def with_certificates(peaks: Table, mechanism: Mechanism, for_people: bool) -> T
     texts = [*(one.text for one in found), f"about {found[0].about}"]
     value = tuple(texts) if for_people else table
     return peaks.replaced(names=(*peaks.names, "certificate"), columns=[*peaks.columns, (value,)])
+
+
+def load_certificates(mechanism: Mechanism, for_people: bool) -> Table | tuple[str, ...]:
+    """The loads' certificates: a table of them, or a text each.
+
+    For a load without a certificate, ``why`` is the reason.
+    """
+    reasons = {name: not_proved(mechanism, name) for name in LOADS}
+    found = {name: certificate(mechanism, name) for name in LOADS if not reasons[name]}
+    if for_people:
+        refused = [f"{name}.max not proved: {why}" for name, why in reasons.items() if why]
+        about = [f"about {DOUBLES}"] if found else []
+        return (*[one.text for one in found.values()], *refused, *about)
+    rows = [
+        (_row(found[name]) if name in found else NO_ROW | {"quantity": name}) | {"why": why or None}
+        for name, why in reasons.items()
+    ]
+    return rows_table(tuple(rows[0]), [tuple(row.values()) for row in rows])
+
+
+FIELDS = ("quantity", "low", "high", "at_deg", "places", "proved", "intervals", "about", "open")
+NO_ROW: dict[str, object] = dict.fromkeys(FIELDS) | {"places": (), "proved": False, "intervals": 0}
 
 
 def _row(one: Certificate) -> dict[str, object]:

@@ -19,10 +19,11 @@ from geneva_cli.numerics.balls import Ball, Undecided
 from geneva_cli.numerics.enclosures import EDGE_DEG
 from geneva_cli.numerics.jet import Jet, Number
 
-Rate: TypeAlias = Callable[[Number, int], Jet]
+# A jet of an order by the input angle, at an angle in degrees from mid-motion.
+Formula: TypeAlias = Callable[[Number, int], Jet]
 
 
-def exact_rates(mechanism: Mechanism) -> list[Rate] | None:
+def exact_rates(mechanism: Mechanism) -> list[Formula] | None:
     """The wheel's rate in each engagement; None if it needs numbers that are solved for.
 
     Input angles are balls of degrees from mid-motion. It is None too if the exact ends of a motion
@@ -33,7 +34,7 @@ def exact_rates(mechanism: Mechanism) -> list[Rate] | None:
     known = drive.exact_advance(_sin_cos(Fraction(0)), _exact)
     if spec.motion is not None or known is None or (wheel.steps and not drive.ALIKE):
         return None
-    rates: list[Rate] = []
+    rates: list[Formula] = []
     for i, engagement in enumerate(mechanism.engagements):
         step = _decimal(wheel.steps[i]) / 360 if wheel.steps else Fraction(1, wheel.z)
         advance = drive.exact_advance(_sin_cos(_crank_deg(mechanism, i) / 360), _exact)
@@ -45,7 +46,7 @@ def exact_rates(mechanism: Mechanism) -> list[Rate] | None:
     return rates
 
 
-def _rate(advance: Displacement, followed: FollowedRate) -> Rate:
+def _rate(advance: Displacement, followed: FollowedRate) -> Formula:
     return lambda input_deg, order: followed(*advance(radians(input_deg), order + 1))
 
 
@@ -57,7 +58,7 @@ def _crank_deg(mechanism: Mechanism, i: int) -> Fraction:
     return Fraction(360 * i, drive.rollers)
 
 
-def _ends_proved(rate: Rate, motion: Motion) -> bool:
+def _ends_proved(rate: Formula, motion: Motion) -> bool:
     """True if the wheel is at rest within ``EDGE_DEG`` of the motion's ends: its rate changes sign.
 
     In between it turns forwards.
