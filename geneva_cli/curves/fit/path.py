@@ -35,7 +35,7 @@ SPARE = 0.01  # share of the pieces that is not worth another attempt
 # Processors differ in the last bits of sines and products. Steps as coarse as these hide that, so
 # that joints are at the same places everywhere.
 PLACE = 2.0**-26  # of the whole path
-WEIGHT = 2.0**-8
+WEIGHT = 2.0**-7
 
 Pieces = TypeVar("Pieces")
 
