@@ -273,7 +273,8 @@ class Design:
     def certificate(self, quantity: str, intervals: int | None = None) -> Certificate:
         """Proved bounds of a peak, with all places where it may be; needs python-flint.
 
-        ``quantity`` is velocity, acceleration, jerk or power. It is not proved if it takes more
+        ``quantity`` is velocity, acceleration, jerk or power; or wheel_torque_Nm, input_torque_Nm
+        or pin_force_N, for a load without friction. It is not proved if it takes more
         than so many ``intervals`` a motion (2,000). Raises GenevaError for another quantity.
 
         >>> Design(External(6)).certificate("acceleration").text
@@ -302,6 +303,23 @@ class Design:
         'jerk.max in [5.99999999999999, 6.00000000000000], unique, proved'
         """
         return self._certified(for_people=True)
+
+    @question
+    def certified_loads(self, for_people: bool = False) -> Table:
+        """Certificates of the greatest loads; as ``geneva loads --certify`` prints json.
+
+        Each is a row of a table; ``for_people`` it is a line of text.
+
+        >>> table = Design(External(6), load=Load(0.4, 15)).certified_loads()
+        >>> [row["proved"] for row in table.to_dict()["certificate"]]
+        [True, True, True]
+        """
+        from geneva_cli.analysis.certificate import load_certificates
+        from geneva_cli.table import record_table
+
+        found = self._located(lambda: load_certificates(self.mechanism, for_people))
+        own = {"spec": self.spec.path, "title": self.spec.title or None}
+        return record_table(own | {"certificate": found})
 
     def _certified(self, for_people: bool) -> Table:
         from geneva_cli.analysis.certificate import with_certificates

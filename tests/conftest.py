@@ -121,7 +121,7 @@ def made_once():
 @pytest.fixture
 def no_advice(monkeypatch):
     """No search for advice on failing checks: seconds, for tests of what else is said of them."""
-    monkeypatch.setattr(advice, "GLANCES", 0)
+    monkeypatch.setattr(advice, "WORK", 0)
 
 
 @pytest.fixture(scope="module")

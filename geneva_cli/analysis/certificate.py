@@ -1,4 +1,4 @@
-"""Certificates of peaks: proved bounds of the greatest velocity, acceleration, jerk or power.
+"""Certificates: proved bounds of the greatest velocity, acceleration, jerk, power, force, torque.
 
 The program's own formulas are evaluated in balls over every whole motion (``enclosures.greatest``).
 """
@@ -11,19 +11,21 @@ from decimal import ROUND_CEILING, ROUND_FLOOR, Context, Decimal
 from importlib.util import find_spec
 from typing import TYPE_CHECKING, NamedTuple, cast
 
+from geneva_cli.analysis.certificate_loads import LOADS, load_formula, not_proved
 from geneva_cli.analysis.peaks import QUANTITIES
 from geneva_cli.errors import GenevaError, cut, nearest
-from geneva_cli.machine.engagement import Engagement, WheelMotion
+from geneva_cli.machine.engagement import Engagement
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.numerics.jet import Jet, Number
 from geneva_cli.numerics.tolerances import TIE
 from geneva_cli.table import Table, rows_table
 
 if TYPE_CHECKING:
+    from geneva_cli.analysis.certificate_decimals import Formula
     from geneva_cli.numerics.balls import Ball
     from geneva_cli.numerics.enclosures import Greatest, Interval
 
-ABOUT = "the program's formulas, with pi exact and the machine's other numbers as doubles"
+DECIMALS, DOUBLES = "the decimals as written", "the spec's numbers as doubles"
 LIMIT = 2000  # intervals a motion: 12 times what any design here takes, some seconds
 DIGITS = 15  # that are printed: as many as every double keeps
 SHOWN_TO_DEG = 2.0**-42  # rounding of an angle that is counted from another mid-motion
@@ -68,7 +70,7 @@ class Certificate(NamedTuple):
     mirrored: bool  # True for two places that mirror each other
     intervals: int
     open: Open | None
-    about: str = ABOUT
+    about: str = DOUBLES
 
     @property
     def proved(self) -> bool:
@@ -88,6 +90,8 @@ class Certificate(NamedTuple):
         >>> Design(External(6)).certificate("acceleration").where
         'at two mirrored places'
         """
+        if not self.places:
+            return "not proved"
         if len(self.places) > 1:
             return "at two mirrored places" if self.mirrored else f"at {len(self.places)} places"
         (place,) = self.places
@@ -125,48 +129,79 @@ class Certificate(NamedTuple):
         return near and self.low * (1.0 - TIE) <= size <= self.high * (1.0 + TIE)
 
 
-def certificate(mechanism: Mechanism, quantity: str, limit: int = LIMIT) -> Certificate:
+def certificate(
+    mechanism: Mechanism, quantity: str, limit: int = LIMIT, decimals: bool = True
+) -> Certificate:
     """The certificate of a machine's peak over all its engagements, with so many intervals each.
+
+    It is about the decimals of the spec, for machines whose formulas allow it and unless
+    ``decimals`` is False; else about the spec's numbers as doubles. Loads are about doubles.
 
     Raises GenevaError without python-flint, and for a quantity that has no certificate.
     """
-    if quantity not in QUANTITIES:
-        hint = nearest(quantity, QUANTITIES)
+    names = (*QUANTITIES, *LOADS)
+    if quantity not in names:
+        hint = nearest(quantity, names)
         raise GenevaError(
-            f'no certificate of "{cut(quantity)}"{hint}; there are those of {", ".join(QUANTITIES)}'
+            f'no certificate of "{cut(quantity)}"{hint}; there are those of {", ".join(names)}'
         )
+    reason = not_proved(mechanism, quantity) if quantity in LOADS else ""
+    if reason:
+        raise GenevaError(f"{quantity}.max is not proved: {reason}")
     if find_spec("flint") is None:
         raise GenevaError('certificates need python-flint: pip install "geneva-cli[certify]"')
-    each = mechanism.engagements
-    found = [_Found(mechanism, e, _greatest(e.motion, quantity, limit)) for e in each]
-    return _combined(quantity, found)
-
-
-def _greatest(motion: WheelMotion, quantity: str, limit: int) -> Greatest:
-    """The greatest size over one whole motion."""
+    from geneva_cli.analysis.certificate_decimals import exact_rates
     from geneva_cli.numerics.balls import precision
     from geneva_cli.numerics.enclosures import greatest
 
+    each = mechanism.engagements
     with precision():
-        return greatest(_curve(motion, quantity), motion.seams_deg, limit)
+        exact = exact_rates(mechanism) if decimals and quantity in QUANTITIES else None
+        if exact is None:
+            formulas = [_formula(mechanism, e, quantity) for e in each]
+            found = [
+                greatest(_curve(formula), e.motion.seams_deg, limit)
+                for formula, e in zip(formulas, each, strict=True)
+            ]
+        else:
+            found = [
+                greatest(_curve(_peak(rate, quantity)), (e.entry_deg, e.exit_deg), limit, False)
+                for rate, e in zip(exact, each, strict=True)
+            ]
+    combined = _combined(
+        quantity, [_Found(mechanism, e, one) for e, one in zip(each, found, strict=True)]
+    )
+    return combined._replace(about=DOUBLES if exact is None else DECIMALS)
 
 
-def _curve(motion: WheelMotion, quantity: str) -> Callable[[Ball, int], Sequence[Ball]]:
-    """Taylor coefficients of a quantity at a ball of input angles in degrees."""
+def _formula(mechanism: Mechanism, engagement: Engagement, quantity: str) -> Formula:
+    """A quantity in doubles, as the program computes it."""
+    if quantity in LOADS:
+        return load_formula(mechanism, engagement, quantity)
+    return _peak(engagement.motion.rate, quantity)
+
+
+def _peak(rate: Formula, quantity: str) -> Formula:
+    """Velocity, acceleration, jerk or power from the wheel's rate."""
+
+    def power(x: Number, order: int) -> Jet:
+        speed = rate(x, order + 1)
+        return Jet(speed.c[:-1]) * speed.derivative()
+
+    def derivative(x: Number, order: int) -> Jet:
+        jet = rate(x, order + DERIVED[quantity])
+        for _ in range(DERIVED[quantity]):
+            jet = jet.derivative()
+        return jet
+
+    return power if quantity == "power" else derivative
+
+
+def _curve(formula: Formula) -> Callable[[Ball, int], Sequence[Ball]]:
+    """Taylor coefficients of a formula at a ball of input angles in degrees."""
     from geneva_cli.numerics.balls import ball_of
 
-    def coefficients(at: Ball, order: int) -> list[Ball]:
-        x = cast("Number", at)
-        if quantity == "power":
-            rate = motion.rate(x, order + 1)
-            jet: Jet = Jet(rate.c[:-1]) * rate.derivative()
-        else:
-            jet = motion.rate(x, order + DERIVED[quantity])
-            for _ in range(DERIVED[quantity]):
-                jet = jet.derivative()
-        return [ball_of(c) for c in jet.c]
-
-    return coefficients
+    return lambda at, order: [ball_of(c) for c in formula(cast("Number", at), order).c]
 
 
 class _Found(NamedTuple):
@@ -230,8 +265,31 @@ def with_certificates(peaks: Table, mechanism: Mechanism, for_people: bool) -> T
     found = [certificate(mechanism, quantity) for quantity in QUANTITIES]
     rows = [_row(one) for one in found]
     table = rows_table(tuple(rows[0]), [tuple(row.values()) for row in rows])
-    value = tuple(one.text for one in found) if for_people else table
+    texts = [*(one.text for one in found), f"about {found[0].about}"]
+    value = tuple(texts) if for_people else table
     return peaks.replaced(names=(*peaks.names, "certificate"), columns=[*peaks.columns, (value,)])
+
+
+def load_certificates(mechanism: Mechanism, for_people: bool) -> Table | tuple[str, ...]:
+    """The loads' certificates: a table of them, or a text each.
+
+    For a load without a certificate, ``why`` is the reason.
+    """
+    reasons = {name: not_proved(mechanism, name) for name in LOADS}
+    found = {name: certificate(mechanism, name) for name in LOADS if not reasons[name]}
+    if for_people:
+        refused = [f"{name}.max not proved: {why}" for name, why in reasons.items() if why]
+        about = [f"about {DOUBLES}"] if found else []
+        return (*[one.text for one in found.values()], *refused, *about)
+    rows = [
+        (_row(found[name]) if name in found else NO_ROW | {"quantity": name}) | {"why": why or None}
+        for name, why in reasons.items()
+    ]
+    return rows_table(tuple(rows[0]), [tuple(row.values()) for row in rows])
+
+
+FIELDS = ("quantity", "low", "high", "at_deg", "places", "proved", "intervals", "about", "open")
+NO_ROW: dict[str, object] = dict.fromkeys(FIELDS) | {"places": (), "proved": False, "intervals": 0}
 
 
 def _row(one: Certificate) -> dict[str, object]:

@@ -15,6 +15,7 @@ EXAMPLES = (
     "geneva loads spec.toml",
     "geneva loads spec.toml -o cycle.csv",
     "geneva loads spec.toml --set load.inertia_kgm2=0.8 --format json",
+    "geneva loads spec.toml --certify",
 )
 
 
@@ -24,6 +25,9 @@ def run(
         int | None,
         typer.Option(metavar="N", help=f"The cycle in N rows instead (csv: {ROWS})."),
     ] = None,
+    certify: Annotated[
+        bool, typer.Option("--certify", help="Prove the greatest loads instead, without friction.")
+    ] = False,
     settings: Settings = None,
     output: Output = "-",
     format: Format = "",
@@ -44,13 +48,21 @@ def run(
     gear, or what pushes the crank. A coulisse's block or a first wheel's roller needs a length in
     [drive]; without it the crank's bearings are shown without that force. pv_W_m2 is the greatest
     Hertz pressure times the sliding speed, for a roller fixed to its pin.
+
+    With --certify, wheel_torque_Nm, pin_force_N and input_torque_Nm are each proved to lie between
+    two bounds, or are called not proved. It needs the extra geneva-cli[certify]. More: `geneva help
+    certificates`.
     """
     from geneva_cli.design import load
     from geneva_cli.output import show, show_answer
-    from geneva_cli.output.formats import format_of
+    from geneva_cli.output.formats import format_of, table_as
     from geneva_cli.study.summary.loads import of_loads
 
     design = load(spec, settings or ())
+    if certify:
+        people = table_as(output, format) not in ("json", "csv")
+        show(design.certified_loads(people), output, format, design.spec.files)
+        return
     name = format or format_of(output)
     by_rows = name == "csv" or (samples is not None and name != "json")
     if by_rows:

@@ -14,9 +14,10 @@ import math
 from bisect import bisect_left
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
+from fractions import Fraction
 from typing import ClassVar, NoReturn, cast
 
-from flint import arb, ctx
+from flint import arb, ctx, fmpq
 
 from geneva_cli.numerics.arrays import Enclosed, Library, Number
 
@@ -30,6 +31,15 @@ RADIUS_ROUNDED = 2.0**-24
 
 class Undecided(ArithmeticError):
     """A comparison that holds for some numbers of the balls and not for others."""
+
+
+def _operator(f: Callable[[arb, arb], arb]) -> Callable[[Ball, Ball | float], Ball]:
+    """An operator of a ball and a number; a jet, for one, brings its own."""
+
+    def operator(x: Ball, y: Ball | float) -> Ball:
+        return Ball(f(x.arb, _arb(y))) if isinstance(y, (Ball, float, int)) else NotImplemented
+
+    return operator
 
 
 class Ball(Enclosed):
@@ -54,6 +64,11 @@ class Ball(Enclosed):
     def exact(cls, x: float) -> Ball:
         """The ball of one double."""
         return cls(arb(x))
+
+    @classmethod
+    def fraction(cls, x: Fraction) -> Ball:
+        """The ball of a fraction, as narrow as the precision."""
+        return cls(arb(fmpq(x.numerator, x.denominator)))
 
     @classmethod
     def between(cls, a: float, b: float) -> Ball:
@@ -121,23 +136,12 @@ class Ball(Enclosed):
     def __abs__(self) -> Ball:
         return Ball(abs(self.arb))
 
-    def __add__(self, other: Ball | float) -> Ball:
-        return Ball(self.arb + _arb(other))
-
-    def __sub__(self, other: Ball | float) -> Ball:
-        return Ball(self.arb - _arb(other))
-
-    def __rsub__(self, other: Ball | float) -> Ball:
-        return Ball(_arb(other) - self.arb)
-
-    def __mul__(self, other: Ball | float) -> Ball:
-        return Ball(self.arb * _arb(other))
-
-    def __truediv__(self, other: Ball | float) -> Ball:
-        return Ball(self.arb / _arb(other))
-
-    def __rtruediv__(self, other: Ball | float) -> Ball:
-        return Ball(_arb(other) / self.arb)
+    __add__ = _operator(arb.__add__)
+    __sub__ = _operator(arb.__sub__)
+    __rsub__ = _operator(lambda x, y: y - x)
+    __mul__ = _operator(arb.__mul__)
+    __truediv__ = _operator(arb.__truediv__)
+    __rtruediv__ = _operator(lambda x, y: y / x)
 
     def __pow__(self, power: int) -> Ball:
         return Ball(self.arb**power)

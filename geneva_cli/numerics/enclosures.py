@@ -100,22 +100,24 @@ class _Piece(NamedTuple):
         return a - 3.0 * (b - x), b + 3.0 * (x - a)
 
 
-def greatest(curve: Curve, seams: Iterable[float], limit: int) -> Greatest:
+def greatest(curve: Curve, seams: Iterable[float], limit: int, sharp: bool = True) -> Greatest:
     """The greatest size of a curve from the first seam to the last, with at most so many intervals.
 
-    Between two seams, in degrees, the curve is one analytic formula.
+    Between two seams, in degrees, the curve is one analytic formula. The first and the last are
+    exact if ``sharp``; else they are within ``EDGE_DEG`` of the curve's ends.
     """
-    return _Search(curve, limit).run(_pieces(sorted(seams)))
+    return _Search(curve, limit).run(_pieces(sorted(seams), sharp))
 
 
-def _pieces(seams: Sequence[float]) -> list[_Piece]:
+def _pieces(seams: Sequence[float], sharp: bool) -> list[_Piece]:
     """Pieces between seams; seams as near as their own errors are one."""
     first, *inner, last = seams
     cuts = [first]
     for at in inner:
         if at - cuts[-1] > 4.0 * EDGE_DEG and last - at > 4.0 * EDGE_DEG:
             cuts.append(at)
-    return [_Piece(a, b, a == first, b == last) for a, b in pairwise([*cuts, last])]
+    ends = pairwise([*cuts, last])
+    return [_Piece(a, b, sharp and a == first, sharp and b == last) for a, b in ends]
 
 
 class _Search:

@@ -103,7 +103,8 @@ class Assembly(NamedTuple):
         if engagement.crank_sense:
             return self._ahead - self.sign * engagement.crank_sense * np.radians(input_deg)
         x, y = ((self.pin(0, input_deg) if first is None else first) - (self.L, 0.0)).T
-        angle: Array = np.arctan2(y, x)
+        # in long numbers, since processors differ in the last bit of doubles' arc tangents
+        angle: Array = np.arctan2(y.astype(np.longdouble), x).astype(np.float64)
         return angle
 
     @property

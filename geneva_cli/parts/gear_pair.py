@@ -163,7 +163,7 @@ def driven_curve(gears: Gears, sense: float) -> Callable[[Array], tuple[Array, A
         i, slope = (array(c) for c in ratio.derivatives()[:2])
         C = gears.distance_mm
         r, change = C / (1.0 + i), -C * slope / (1.0 + i) ** 2
-        direction = turned.real - 1j * sense * turned.imag
+        direction = (turned.real - 1j * sense * turned.imag).astype(np.clongdouble)
         return _points(r * direction, (change - 1j * sense * i * r) * direction)
 
     return curve
@@ -177,15 +177,16 @@ def driver_curve(gears: Gears, sense: float) -> Callable[[Array], tuple[Array, A
         i, slope = (array(c) for c in ratio.derivatives()[:2])
         C = gears.distance_mm
         r, change = C * i / (1.0 + i), C * slope / (1.0 + i) ** 2
-        direction: NDArray[np.complex128] = -np.exp(1j * sense * phi)
+        direction: NDArray[np.clongdouble] = -np.exp(1j * sense * phi.astype(np.longdouble))
         return _points(r * direction, (change + 1j * sense * r) * direction)
 
     return curve
 
 
-def _points(place: NDArray[np.complex128], speed: NDArray[np.complex128]) -> tuple[Array, Array]:
+def _points(place: NDArray[np.clongdouble], speed: NDArray[np.clongdouble]) -> tuple[Array, Array]:
+    """Points and unit tangents as doubles; processors differ in products of complex doubles."""
     tangent = speed / np.abs(speed)
     return (
-        np.column_stack((place.real, place.imag)),
-        np.column_stack((tangent.real, tangent.imag)),
+        np.column_stack((place.real, place.imag)).astype(np.float64),
+        np.column_stack((tangent.real, tangent.imag)).astype(np.float64),
     )

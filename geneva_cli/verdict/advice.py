@@ -19,14 +19,17 @@ from geneva_cli.numerics.roots import Falsi
 from geneva_cli.verdict.changes import Change, Value, value_now
 from geneva_cli.verdict.checks import checks, checks_at_rest, checks_turning, single_check
 from geneva_cli.verdict.checks.check import NONE, STOPPED, Check
+from geneva_cli.verdict.checks.registry import SPHERE, STATIC
 from geneva_cli.verdict.failures import JAMS
 from geneva_cli.verdict.remedies import remedies
 
 if TYPE_CHECKING:
     from geneva_cli.parts.model import PartsModel
 
-WHOLE = 40  # trials of all checks, for one piece of advice: about a second
-GLANCES = 150  # trials of the failing checks alone: each of some ten changes takes about twelve
+# Work of all searches of a design, in units of at most 10 ms: a curved slot's parts take 0.1 s.
+WORK = 800
+SHARE = 2  # a search may use one half of the work that is left
+GLANCE, PARTS, TURN = 3, 7, 15  # work of failing checks, of parts for them, of a turn
 LOOKS = 20  # trials between a value that fails and one that passes
 NEARLY = 0.01  # fraction of a change by which the value advised may exceed the least one
 
@@ -46,7 +49,8 @@ APART = (
     ("material.roller", "dynamic_capacity_N"),
 )
 # checks that a few positions can decide
-GAPS, LOOSE = ("gap_mm", "idle_roller_mm"), "hand_over_play_deg"
+GAPS = ("gap_mm", "idle_roller_mm")
+NEAR = (*GAPS, "hand_over_play_deg")
 # Checks that only a whole turn can answer.
 TURNED = (*JAMS, *GAPS, "dwell_hold", "dwell_play_deg", "motion_play_deg", "full_turn")
 
@@ -82,6 +86,7 @@ class Adviser:
         self.mechanism = mechanism
         self.failing = failing
         self.parts = parts
+        self.work = WORK
 
     def advised(self, check: Check, found: str, why: str) -> Check:
         """A failing check with the change that passes all checks, or the reason for its absence.
@@ -99,8 +104,8 @@ class Adviser:
 
         Without one, an empty text and the reason.
         """
-        search = _Search(self, wanted)
         try:
+            search = _Search(self, wanted)
             for change in self._changes(wanted):
                 found = search.least(change)
                 if found:
@@ -127,14 +132,19 @@ class _Search:
     """The search for the least change with which some failing checks pass, and its trials."""
 
     def __init__(self, adviser: Adviser, wanted: list[Check]) -> None:
+        self.adviser, self.reserve = adviser, adviser.work // SHARE
         self.mechanism, self.parts = adviser.mechanism, adviser.parts
-        self.wanted = wanted
+        self.wanted = sorted(wanted, key=_needs_parts)  # the quick ones first
         self.turned = any(c.name in TURNED for c in wanted)
         self.may_fail = {c.name for c in adviser.failing} - {c.name for c in wanted}
-        self.whole, self.glances = WHOLE, GLANCES
-        now = self._left(self.mechanism.spec)
+        now = list(self._margins(self.mechanism))
         self.units = [max(abs(left), 1e-300) for left in now]
         self.short = min(left / unit for left, unit in zip(now, self.units, strict=True))
+
+    def _spend(self, work: int) -> None:
+        self.adviser.work -= work
+        if self.adviser.work < self.reserve:
+            raise OutOfTrials
 
     def least(self, change: Change) -> str:
         """The least sufficient change of one key, as a line of the spec; empty if there is none."""
@@ -184,25 +194,37 @@ class _Search:
         return near if near != good and self._holds(change, near) else good
 
     def _glance(self, change: Change, value: Value) -> float:
-        """The worst margin of the wanted checks, relative to their present violation.
+        """A margin of the wanted checks, relative to its present violation.
 
-        It is negative outside. Only quick checks are made. A value that makes no machine has -inf.
+        It is the first that is negative, or else the least. Only quick checks are made. A value
+        that makes no machine has -inf.
         """
-        self.glances -= 1
-        if self.glances < 0:
-            raise OutOfTrials
+        self._spend(GLANCE)
         spec = changed(self.mechanism.spec, change.table, change.key, value)
         if spec is None:
             return -math.inf
-        lefts = self._left(spec)
-        return min(left / unit for left, unit in zip(lefts, self.units, strict=True))
-
-    def _left(self, spec: Spec) -> list[float]:
         try:
             machine = build(spec)
         except GenevaError:
-            return [-math.inf for _ in self.wanted]
-        return [_left(machine, check) for check in self.wanted]
+            return -math.inf
+        least = math.inf
+        for left, unit in zip(self._margins(machine), self.units, strict=False):
+            least = min(least, left / unit)
+            if least < 0.0:
+                break
+        return least
+
+    def _margins(self, machine: Mechanism) -> Iterator[float]:
+        """The margin of each wanted check; parts are built for the first that needs them."""
+        from geneva_cli.parts.model import PartsModel
+
+        model = PartsModel(machine, advice=False)
+        built = False
+        for check in self.wanted:
+            if _needs_parts(check) and not built:
+                self._spend(PARTS)
+                built = True
+            yield _left(model, check)
 
     def _holds(self, change: Change, value: Value) -> bool:
         """Return True if the wanted checks pass with a value, and no other check begins to fail."""
@@ -220,9 +242,7 @@ class _Search:
                 return False
             if model is None or not turn:
                 return True
-            self.whole -= 1
-            if self.whole < 0:
-                raise OutOfTrials
+            self._spend(TURN)
             return self._pass(checks_turning(model))
         except WorkLimit:
             raise OutOfTrials from None  # a trial of some seconds, which is not repeated
@@ -233,23 +253,28 @@ class _Search:
         return all(c.passes is not False or c.name in self.may_fail for c in rows)
 
 
-def _left(machine: Mechanism, check: Check) -> float:
+def _needs_parts(check: Check) -> bool:
+    """True if a quick trial of a check needs the outlines of the parts."""
+    near = check.at_deg is not None and check.name in NEAR
+    return near or check.name in STATIC or check.name in SPHERE
+
+
+def _left(model: PartsModel, check: Check) -> float:
     """The margin of a machine to the limit of a check that fails now, negative outside.
 
     A check of the turn is made near the input angle where it fails. If only a whole turn can decide
     it, the margin is infinite. Without parts to check, it is -inf.
     """
     try:
-        if check.at_deg is not None and check.name in (*GAPS, LOOSE):
-            from geneva_cli.parts.model import PartsModel
+        if check.at_deg is not None and check.name in NEAR:
             from geneva_cli.parts.turn.glance import gap_about, play_about
             from geneva_cli.verdict.checks.play import finds_slot
 
-            parts = PartsModel(machine, advice=False).parts
+            parts = model.parts
             if check.name in GAPS:
                 return gap_about(parts, check.at_deg) + parts.contact
             return finds_slot(parts) - play_about(parts, check.at_deg)
-        row = None if check.name in TURNED else single_check(machine, check.name)
+        row = None if check.name in TURNED else single_check(model.mechanism, check.name, model)
         return _spare(row) if row else math.inf
     except GenevaError:
         return -math.inf

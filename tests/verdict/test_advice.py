@@ -186,9 +186,27 @@ def test_no_requirement_is_relaxed(tmp_path: Path) -> None:
 
 def test_trials_are_counted(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """Without any left there is no advice, and the reason."""
-    monkeypatch.setattr(advice, "GLANCES", 0)
+    monkeypatch.setattr(advice, "WORK", 0)
     (failing,) = [c for c in judged(read(tmp_path, ALL["rim"])) if c.passes is False]
     assert (failing.nearest, failing.why) == ("", STOPPED)
+
+
+def test_all_searches_of_a_design_share_their_trials(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """A law that goes back has five failing checks, which no value mends: few parts are built."""
+    rows = [
+        (u, u + 0.14 * math.sin(math.tau * u) - 0.3 * math.sin(3.0 * math.tau * u) / 4.0)
+        for u in (i / 20 for i in range(21))
+    ]
+    (tmp_path / "law.csv").write_text("".join(f"{u},{s:.6f}\n" for u, s in rows))
+    mechanism = read(tmp_path, "[wheel]\nz = 6\n[motion]\nlaw = 'table'\nfile = 'law.csv'\n")
+    failing = [c for c in checks(mechanism) if c.passes is False]
+    assert len(failing) > 2
+    built = []
+    monkeypatch.setattr(advice, "build", lambda spec: built.append(spec) or build(spec))
+    judged(mechanism)
+    assert 0 < len(built) * advice.GLANCE <= advice.WORK
 
 
 def test_an_error_is_no_advice() -> None:

@@ -56,7 +56,7 @@ def _biarcs(path: CurvePath, places: Array) -> tuple[Arcs, Array]:
     joint = knot[:-1] + chord * bow / (1.0 + bow)
     start, end = np.repeat(knot[:-1], 2), np.repeat(knot[1:], 2)
     start[1::2] = end[::2] = joint
-    half = np.empty(len(start))
+    half = np.empty(len(start), start.real.dtype)
     half[::2] = np.angle((joint - knot[:-1]) / heading[:-1])
     half[1::2] = np.angle(heading[1:] / (knot[1:] - joint))
     arcs = Arcs(start, end, half)
@@ -102,7 +102,7 @@ def _joined(arcs: Arcs, rounding: float) -> list[Arc | Line]:
             runs.append([i])
     first, last = [run[0] for run in runs], [run[-1] for run in runs]
     start, end = arcs.start[first], arcs.end[last]
-    bulge = np.tan(0.5 * np.add.reduceat(half, first))
+    bulge = np.tan(0.5 * np.add.reduceat(half, first)).astype(np.float64)
     straight = np.abs(bulge) * np.abs(end - start) <= 2.0 * rounding
     rows = zip(points_of(start), points_of(end), bulge.tolist(), straight, strict=True)
     return [Line(p, q) if line else Arc(p, q, b) for p, q, b, line in rows]

@@ -6,7 +6,8 @@ Points and tangents are complex numbers here, so that a product rotates one.
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import TYPE_CHECKING, TypeAlias, TypeVar
+from copy import copy
+from typing import TYPE_CHECKING, Self, TypeAlias, TypeVar
 
 import numpy as np
 
@@ -26,12 +27,15 @@ PIECES_MAX = 100_000
 TARGET = 0.99  # of the tolerance: the rest is for what lies between samples
 ATTEMPTS = 40  # numbers of pieces that are tried
 ROUNDS = 10  # of moving the places of one number of pieces
-HASTE = 0.5  # power of the weights in moving places: an arc's error is its neighbours' too
 HOPELESS = 1.25  # the worst weight over the mean, where there are too few pieces anyway
 FLOOR = (
     0.05  # of the mean weight, or of 1: an inflection needs pieces too, and rounding is no weight
 )
 SPARE = 0.01  # share of the pieces that is not worth another attempt
+# Processors differ in the last bits of sines and products. Steps as coarse as these hide that, so
+# that joints are at the same places everywhere.
+PLACE = 2.0**-26  # of the whole path
+WEIGHT = 2.0**-7
 
 Pieces = TypeVar("Pieces")
 
@@ -62,7 +66,18 @@ class CurvePath:
             )
         turn = np.abs(np.angle(tangents[1:] / tangents[:-1]))
         w = np.cumsum(step / step.sum() + turn / max(float(turn.sum()), LEAST_TURN))
-        self.w = np.concatenate(([0.0], w)) / w[-1]
+        self.w = np.round(np.concatenate(([0.0], w)) / (w[-1] * PLACE)) * PLACE
+        self.kind: type[np.complexfloating] = np.complex128
+
+    @property
+    def long(self) -> Self:
+        """This path with points in the longest floating-point numbers of the processor.
+
+        Their products are the same on all processors of a family, after rounding to doubles.
+        """
+        path = copy(self)
+        path.kind = np.clongdouble
+        return path
 
     def _leaps(self, points: Array, step: Array) -> bool:
         """True if the ends of a cell stay more than a tolerance apart after any number of halvings.
@@ -97,6 +112,7 @@ class CurvePath:
         points, tangents = self._complex(np.interp(w.ravel(), self.w, self.t))
         for i, end in zip((0, -1), self.ends, strict=True):
             points[i], tangents[i] = (v[0] for v in end)
+        points, tangents = points.astype(self.kind), tangents.astype(self.kind)
         return points.reshape(w.shape), tangents.reshape(w.shape)
 
     def _complex(self, t: Array) -> tuple[Array, Array]:
@@ -112,11 +128,11 @@ def fewest(
 ) -> Pieces:
     """Return the fewest pieces that stay within the path's tolerance, or nearly the fewest.
 
-    ``fit`` returns the pieces between places on the path, and the error of each in mm. The number
-    of pieces is a multiple of ``unit``. An error is proportional to the length of the piece to the
-    power of ``order``. Its root over that of the tolerance is the piece's weight, and the sum of
-    the weights predicts the number of pieces. As this is a whole number, no root finder of
-    ``numerics.roots`` applies.
+    They are computed in long numbers at the end. ``fit`` returns the pieces between places on the
+    path, and the error of each in mm. The number of pieces is a multiple of ``unit``. An error is
+    proportional to the length of the piece to the power of ``order``. Its root over that of the
+    tolerance is the piece's weight, and the sum of the weights predicts the number of pieces. As
+    this is a whole number, no root finder of ``numerics.roots`` applies.
 
     Raises GenevaError if no number of pieces is enough.
     """
@@ -125,18 +141,19 @@ def fewest(
     for _ in range(ATTEMPTS):
         for _ in range(ROUNDS):
             places = _respread(places, weights, count)
-            pieces, errors = fit(path, places)
+            _, errors = fit(path, places)
             weights = (errors / (TARGET * path.tolerance)) ** (1.0 / order)
+            weights = np.maximum(np.ceil(weights / WEIGHT), 1.0) * WEIGHT
             worst, mean = weights.max(), weights.mean()
             if worst <= 1.0 or (mean > 1.0 and worst <= HOPELESS * mean):
                 break
         if worst <= 1.0:
-            best, enough = pieces, count
+            best, enough = places, count
         else:
             too_few = count
         step = unit * (1 + int(SPARE * count / unit))
         if best is not None and enough - too_few <= step:
-            return best
+            return fit(path.long, best)[0]
         need = unit * int(np.ceil(min(weights.sum(), PIECES_MAX) / unit))
         count = min(max(need, too_few + step), enough - unit)
     raise path.too_fine()
@@ -144,7 +161,8 @@ def fewest(
 
 def _respread(places: Array, weights: Array, count: int) -> Array:
     """Places of ``count`` pieces, each with an equal part of the weights of the present pieces."""
-    weights = np.maximum(weights, FLOOR * max(weights.mean(), 1.0)) ** HASTE
+    # the root, since an arc's error is its neighbours' too
+    weights = np.sqrt(np.maximum(weights, FLOOR * max(weights.mean(), 1.0)))
     area = np.concatenate(([0.0], np.cumsum(weights)))
     out: Array = np.interp(np.linspace(0.0, area[-1], count + 1), area, places)
     return out
@@ -152,4 +170,5 @@ def _respread(places: Array, weights: Array, count: int) -> Array:
 
 def points_of(z: Array) -> list[tuple[float, float]]:
     """Convert complex numbers to points."""
+    z = z.astype(np.complex128)
     return list(zip(z.real.tolist(), z.imag.tolist(), strict=True))

@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import ClassVar
 
 from geneva_cli.machine.drives.transmission import LocalTransmission, Transmission, same
+from geneva_cli.machine.engagement import Displacement
 
 
 class Crank(Transmission, kw_only=True):
@@ -25,6 +27,12 @@ class Crank(Transmission, kw_only=True):
     def direct(self) -> bool:
         """Always True: the classic closed forms hold."""
         return True
+
+    def exact_advance(
+        self, half: tuple[float, float], exact: Callable[[float], float]
+    ) -> Displacement:
+        """Rotation of the crank, which is the input's."""
+        return same
 
     def about(self, crank_deg: float) -> LocalTransmission:
         """Transmission about a crank angle in degrees, which is the input angle."""

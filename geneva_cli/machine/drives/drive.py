@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from abc import abstractmethod
+from collections.abc import Callable
 from enum import Enum
 from typing import TYPE_CHECKING, Annotated, ClassVar, NamedTuple
 
@@ -144,6 +145,16 @@ class Drive(SpecTable, kw_only=True):
         [20.0, 0.0]
         """
         return ()
+
+    def exact_advance(
+        self, half: tuple[float, float], exact: Callable[[float], float]
+    ) -> Displacement | None:
+        """Rotation of the crank about a crank angle, in numbers of any kind, for certificates.
+
+        ``half`` has sine and cosine of half that angle. ``exact`` converts a number of the spec.
+        None for a drive whose proportions are solved for in doubles.
+        """
+        return None
 
     @abstractmethod
     def plan(self, wheel: Gearing, motion: Motion | None, L: float) -> Plan:

@@ -9,13 +9,14 @@ Source: the focal property of the ellipse; Kepler's true anomaly follows this la
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import Annotated, ClassVar, NamedTuple
 
 from geneva_cli.errors import GenevaError, refuse
 from geneva_cli.machine.drives.drive import Gears, Plan
 from geneva_cli.machine.drives.pushed import Mesh
 from geneva_cli.machine.drives.transmission import LocalTransmission, Transmission
-from geneva_cli.machine.engagement import Path, Reactions
+from geneva_cli.machine.engagement import Displacement, Path, Reactions
 from geneva_cli.machine.example import Example
 from geneva_cli.machine.layout import Dimension, Layout, Pivot
 from geneva_cli.machine.wheels.gearing import Gearing
@@ -80,6 +81,13 @@ class EllipticalGears(Transmission, kw_only=True):
         """Reactions of the crank, whose gear is pushed by the driver's teeth."""
         return Mesh(path, self.gear_distance_mm / L)
 
+    def exact_advance(
+        self, half: tuple[float, float], exact: Callable[[float], float]
+    ) -> Displacement:
+        """Rotation of the driven gear about an angle f, from sine and cosine of f/2."""
+        e = exact(self.eccentricity)
+        return _focal(e if self.phase == "slow" else -e, *half)
+
     def about(self, crank_deg: float) -> LocalTransmission:
         """Transmission about an angle f of the driven gear in degrees."""
         slow = self.phase == "slow"
@@ -118,12 +126,18 @@ class Focal(NamedTuple):
         return sine_versine_of(rate, y, x, order)
 
 
+def _focal(e: float, sin_h: float, cos_h: float) -> Focal:
+    """The gears about an angle of the driven one, from half that angle."""
+    a, b = (1.0 + e) * sin_h, (1.0 - e) * cos_h
+    size = library(a, b).hypot(a, b)
+    return Focal(e, sin_h, cos_h, a / size, b / size, size)
+
+
 def _about(e: float, crank_deg: float) -> LocalTransmission:
     m = library(e, crank_deg)
-    sin_h, cos_h = sin_cos_deg(0.5 * crank_deg)
-    a, b = (1.0 + e) * sin_h, (1.0 - e) * cos_h
-    size = m.hypot(a, b)
+    focal = _focal(e, *sin_cos_deg(0.5 * crank_deg))
+    a, b = (1.0 + e) * focal.sin_h, (1.0 - e) * focal.cos_h
     phi = 2.0 * m.degrees(m.atan2(a, b))
     turns = (crank_deg - phi) / 720.0  # half angles repeat after two turns
     phi = phi + 720.0 * (round(turns) if isinstance(turns, float) else m.rint(turns))
-    return LocalTransmission(phi, Focal(e, sin_h, cos_h, a / size, b / size, size))
+    return LocalTransmission(phi, focal)

@@ -6,12 +6,19 @@ of the Maltese cross mechanism with a side-crank drive".
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import TYPE_CHECKING, Annotated, ClassVar
 
 from geneva_cli.machine.drives import whitworth
 from geneva_cli.machine.drives.drive import Plan
 from geneva_cli.machine.drives.transmission import LocalTransmission, Transmission
-from geneva_cli.machine.engagement import CarrierVelocity, ClosedPeaks, Path, Reactions
+from geneva_cli.machine.engagement import (
+    CarrierVelocity,
+    ClosedPeaks,
+    Displacement,
+    Path,
+    Reactions,
+)
 from geneva_cli.machine.example import Example
 from geneva_cli.machine.layout import Dimension, Joint, Layout, Link, Pivot
 from geneva_cli.machine.wheels.gearing import Gearing, RollerPlace
@@ -57,6 +64,12 @@ class SideCrank(Transmission, kw_only=True):
     def about(self, crank_deg: float) -> LocalTransmission:
         """Transmission about a coulisse angle f in degrees."""
         return whitworth.about(self.A, crank_deg)
+
+    def exact_advance(
+        self, half: tuple[float, float], exact: Callable[[float], float]
+    ) -> Displacement:
+        """Rotation of the coulisse about an angle f, from sine and cosine of f/2."""
+        return whitworth.exact_coulisse(exact(self.A), *half)
 
     def turning(self, crank_deg: float, sense: float) -> CarrierVelocity:
         """Rate of the crank, which is the coulisse."""

@@ -139,6 +139,15 @@ def about(A: float, crank_deg: float) -> LocalTransmission:
     return LocalTransmission(*_about(A, crank_deg))
 
 
+def exact_coulisse(A: float, sin_half: float, cos_half: float) -> Coulisse:
+    """The coulisse about an angle f, from f/2, in numbers in which differences lose no digits."""
+    m = library(A, sin_half, cos_half)
+    s, c = 2.0 * sin_half * cos_half, (cos_half - sin_half) * (cos_half + sin_half)
+    sin_h = A * s
+    cos_h = m.sqrt((1.0 - sin_h) * (1.0 + sin_h))
+    return Coulisse(A, s, c, sin_h, cos_h, cos_h + A * c, cos_h - A * c, grows=False)
+
+
 def turning(A: float, crank_deg: float, sense: float) -> CoulisseRate:
     """Rate of the coulisse from its angle f in degrees on."""
     return CoulisseRate(_about(A, crank_deg)[1], sense)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from typing import TYPE_CHECKING, Annotated, ClassVar
 
 from geneva_cli.errors import GenevaError, refuse
@@ -10,8 +11,8 @@ from geneva_cli.machine.example import Example
 from geneva_cli.machine.layout import Dimension, Layout
 from geneva_cli.machine.path_and_slot import AnchoredPath, StraightSlotMotion
 from geneva_cli.machine.wheels import classic, poses
-from geneva_cli.machine.wheels.gearing import Gearing, RollerPlace
-from geneva_cli.machine.wheels.offset_slot import OffsetSlot, OffsetSlotMotion
+from geneva_cli.machine.wheels.gearing import FollowedRate, Gearing, RollerPlace
+from geneva_cli.machine.wheels.offset_slot import OffsetSlot, OffsetSlotMotion, exact_rate
 from geneva_cli.machine.wheels.poses import HalfStep
 from geneva_cli.machine.wheels.skew import margin, skew
 from geneva_cli.numerics.arrays import choose
@@ -125,6 +126,14 @@ class External(Gearing):
             return super().follow(path, place, turn)
         slot = OffsetSlot(path, place.skew)
         return slot, OffsetSlotMotion(path, place.step.b, place.skew)
+
+    def exact_rate(
+        self, step: tuple[float, float], L: float, exact: Callable[[float], float]
+    ) -> FollowedRate:
+        """Rate of a wheel with radial or offset slots, as in ``Gearing.exact_rate``."""
+        if not self.offset_mm:
+            return super().exact_rate(step, L, exact)
+        return exact_rate(exact(self.offset_mm) / exact(L), *step)
 
     def closed_form(self, place: RollerPlace) -> tuple[float, float, float] | None:
         """Sign, l = sin b and 1 - l for the closed forms of radial slots; None for others."""

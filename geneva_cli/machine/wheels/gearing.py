@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import math
 from abc import abstractmethod
+from collections.abc import Callable
 from dataclasses import field
-from typing import TYPE_CHECKING, Annotated, ClassVar, NamedTuple
+from typing import TYPE_CHECKING, Annotated, ClassVar, NamedTuple, TypeAlias
 
 from geneva_cli.machine.example import Example
 from geneva_cli.machine.layout import Layout
@@ -13,11 +14,16 @@ from geneva_cli.machine.path_and_slot import AnchoredPath, RadialSlot, StraightS
 from geneva_cli.machine.wheels.poses import HalfStep, PinPose
 from geneva_cli.machine.wheels.skew import Skew
 from geneva_cli.numerics.arrays import larger
+from geneva_cli.numerics.jet import Jet, turning
 from geneva_cli.spec.rules import Z_MAX, OneOf, Range
 from geneva_cli.spec.schema import SpecTable
 
 if TYPE_CHECKING:
     from geneva_cli.machine.engagement import CarrierVelocity, Displacement, Slot
+
+
+# The wheel's rate from sin d and 1 - cos d of the crank's rotation d since mid-motion.
+FollowedRate: TypeAlias = Callable[[Jet, Jet], Jet]
 
 
 class RollerPlace(NamedTuple):
@@ -135,6 +141,21 @@ class Gearing(SpecTable):
     def closed_form(self, place: RollerPlace) -> tuple[float, float, float] | None:
         """Sign, l and 1 - l for the closed forms of a plain crank; None if there are none."""
         return None
+
+    def exact_rate(
+        self, step: tuple[float, float], L: float, exact: Callable[[float], float]
+    ) -> FollowedRate:
+        """Rate of a wheel with straight slots, in numbers of any kind, for certificates.
+
+        ``step`` has sine and cosine of half the index angle. ``L`` is the centre distance, mm.
+        ``exact`` converts a number of the spec. Differences lose digits of doubles.
+        """
+        l = step[0]
+
+        def rate(sine: Jet, versine: Jet) -> Jet:
+            return turning(versine * (self.SIGN * l) + self.rest(l), sine * l)
+
+        return rate
 
     def matched_ratio(self, v: float) -> float:
         """R/L at which the pin crosses the line of centres as fast as the wheel's slot does there.

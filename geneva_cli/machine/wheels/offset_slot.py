@@ -117,6 +117,23 @@ def _depth(skew: Skew, toward: Jet) -> tuple[Jet, Jet]:
     return sqrt(square), square + skew.e**2
 
 
+def exact_rate(e: float, sin_b: float, cos_b: float) -> Callable[[Jet, Jet], Jet]:
+    """Rate of a wheel with slots of offset e, in numbers in which differences lose no digits.
+
+    It is a function of sin d and 1 - cos d of the crank's rotation d since mid-motion.
+    """
+    sin_d = e / cos_b
+    cos_d = library(sin_d).sqrt((1.0 - sin_d) * (1.0 + sin_d))
+    l, deepest = sin_b * cos_d, cos_d - sin_b
+
+    def rate(sine: Jet, versine: Jet) -> Jet:
+        toward = versine * l
+        square = toward * 2.0 + deepest * deepest
+        return _turning(toward + (1.0 - l), sine * l, sqrt(square) * e, square + e * e)
+
+    return rate
+
+
 def _turning(x: Jet, y: Jet, lever: Jet, rho2: Jet) -> Jet:
     """Rate of a wheel, (x y' - y x' - e s') / rho², for ``lever`` = e s; one order lower."""
     if not x.order:

@@ -17,6 +17,12 @@ from geneva_cli.parts.walls.joint import point
 if TYPE_CHECKING:
     from geneva_cli.numerics.jet import Array
 
+# A wall ends at an intersection, whose last bits differ between processors, and many bits where two
+# walls nearly touch. Ends are rounded: of curves in degrees of input, of arcs in radians. That is
+# some 1e-7 mm of 100 mm.
+STEP, ARC_STEP = 2.0**-24, 2.0**-30
+SAME = 1e-10  # of the centre distance: accuracy at which walls count as mirror images
+
 
 def curved_walls(
     assembly: Assembly, sizes: Sizes, engagement: Engagement, tolerance: float, curves: str = "arcs"
@@ -34,8 +40,7 @@ def curved_walls(
     for i, piece in enumerate(pieces):
         other = len(pieces) - 1 - i
         both = other < i and engagement.mirrored
-        # walls are mirror images to 1e-10 of the centre distance
-        if both and _mirrors(pieces[other], piece, 1e-10 * assembly.L):
+        if both and _mirrors(pieces[other], piece, SAME * assembly.L):
             runs.append([mirrored(segment) for segment in reversed(runs[other])])
         else:
             runs.append(_segments(piece, half, curves))
@@ -66,7 +71,9 @@ def _over(p: Point) -> Point:
 
 
 def _segments(piece: WallPiece, tolerance: float, curves: str) -> list[Segment]:
-    wall, a, b = piece
+    wall, *ends = piece
+    step = STEP if wall.centre is None else ARC_STEP
+    a, b = (round(end / step) * step for end in ends)
     if wall.centre is not None:
         return [about(wall.centre, wall.radius, a, b - a)]
     fitted = fit.KINDS[curves]

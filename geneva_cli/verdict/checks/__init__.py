@@ -59,7 +59,7 @@ def checks_turning(model: PartsModel) -> Iterator[Check]:
         yield from turn_checks(model.parts, closer)
 
 
-def single_check(mechanism: Mechanism, name: str) -> Check | None:
+def single_check(mechanism: Mechanism, name: str, model: PartsModel | None = None) -> Check | None:
     """The check with this name, without the others and the turn; None if there is no such check.
 
     Raises GenevaError if its parts cannot be built.
@@ -71,7 +71,7 @@ def single_check(mechanism: Mechanism, name: str) -> Check | None:
     among = standing(mechanism)
     if not mechanism.spec.has_parts or name not in among:
         return None
-    return check_named(among, name, _proof(mechanism).parts)
+    return check_named(among, name, (model or _proof(mechanism)).parts)
 
 
 def _proof(mechanism: Mechanism) -> PartsModel:
