@@ -32,19 +32,25 @@ class Verdict(NamedTuple):
         return not self.error and all_pass(self.checks)
 
 
-def verdict(path: str, given: Sequence[str] = ()) -> Verdict:
-    """Return the verdict on one spec, with keys ``given`` set over its own."""
+def verdict(path: str, given: Sequence[str] = (), proof_mm: float | None = None) -> Verdict:
+    """Return the verdict on one spec, with keys ``given`` set over its own.
+
+    ``proof_mm`` is the tolerance of the proof that no parts collide.
+    """
     try:
         design = load(path, given)
-        checks, warnings = tuple(design.checks), tuple(design.warnings)
-        return Verdict(design.spec.path, design.spec.files, checks, warnings)
+        checks = design.checks if proof_mm is None else design.proved_to(proof_mm)
+        warnings = tuple(design.warnings)
+        return Verdict(design.spec.path, design.spec.files, tuple(checks), warnings)
     except GenevaError as error:
         return Verdict(path, error=str(error))
 
 
-def verdicts(paths: list[str], given: Sequence[str] = ()) -> Iterator[Verdict]:
+def verdicts(
+    paths: list[str], given: Sequence[str] = (), proof_mm: float | None = None
+) -> Iterator[Verdict]:
     """The verdicts on specs, in their order; this process reads standard input itself."""
-    judge = partial(verdict, given=given)
+    judge = partial(verdict, given=given, proof_mm=proof_mm)
     files = [path for path in paths if path != "-"]
     found = mapped(judge, files, min(len(files), cores()), "specs")
     for path in tracked(paths, "specs", len(paths)):

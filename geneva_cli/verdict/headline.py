@@ -13,7 +13,8 @@ from geneva_cli.verdict.failures import meaning
 from geneva_cli.verdict.measured import measured
 
 # Checks without a margin.
-YES_OR_NO = ("dwell_hold", "parts", "full_turn")
+PROOF = "gap_proved_mm"
+YES_OR_NO = ("dwell_hold", "parts", "full_turn", PROOF)
 
 
 def headline(checks: Sequence[Check], warnings: Sequence[str]) -> tuple[str, str]:
@@ -87,6 +88,11 @@ def compared_text(check: Check, unit: str) -> str:
     where = "" if check.at_deg is None else f" at {measured(check.at_deg, 'deg')}"
     limit = measured(check.limit, unit if unit == "deg" else "")
     return f"{measured(check.value, unit)}{where}, {check.must_be} {limit}"
+
+
+def proof_lines(checks: Iterable[Check]) -> Iterator[Line]:
+    """The line of the proof that no parts collide, or none."""
+    yield from (Line("turn", c.why) for c in checks if c.name == PROOF and c.passes)
 
 
 def tightest(checks: Iterable[Check]) -> Iterator[Line]:

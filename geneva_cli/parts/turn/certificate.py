@@ -28,6 +28,7 @@ from geneva_cli.parts.turn.settled import Open, Pair, Settled, settled
 if TYPE_CHECKING:
     from geneva_cli.machine.engagement import Engagement
     from geneva_cli.parts.outlines import Outlines
+    from geneva_cli.parts.turn.machine_parts import MachineParts
 
 PROVED_TO_MM = 1e-3  # tolerance of a certificate by default, or
 CONTACTS = 2.0  # times the overlap that counts as touching, if that is more
@@ -54,9 +55,16 @@ class Certificate(NamedTuple):
         return self.open is None
 
 
-def unproved_kind(parts: Outlines) -> str:
+def tolerance_mm(parts: MachineParts) -> float:
+    """Return the tolerance of a certificate by default: how far it is from the smallest gap."""
+    return max(PROVED_TO_MM, CONTACTS * parts.contact)
+
+
+def unproved_kind(parts: MachineParts) -> str:
     """Return the reason why a kind of machine has no certificate; empty if it has one."""
     assembly = parts.assembly
+    if not assembly.mechanism.spec.wheel.FLAT:
+        return "the parts lie on a sphere"
     if any(engagement.paired for engagement, _ in assembly.motions):
         return "gears drive the wheel between two rollers"
     at = np.linspace(assembly.start_deg, assembly.start_deg + assembly.turn_deg, LOOKS)

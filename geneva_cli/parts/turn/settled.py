@@ -97,11 +97,12 @@ def settled(assembly: Assembly, pair: Pair, ends: tuple[float, float], target: f
 def intervals(assembly: Assembly, start: Array, end: Array) -> Intervals:
     """Return intervals of the input angle, with the turn of crank and wheel on them.
 
-    Where the wheel turns back, its turn is not known from the ends: it is infinite.
+    Where the wheel turns back, the ends do not bound its turn. A whole turn does: no point moves
+    farther than twice its radius.
     """
     at = (start, 0.5 * (start + end), end)
     crank = np.unwrap([assembly.crank(x) for x in at], axis=0)
     wheel = np.array([assembly.wheel(x) for x in at])
     steps = np.diff(wheel, axis=0)
-    turn = np.where((steps < -BACK).any(axis=0), math.inf, steps.max(axis=0))
+    turn = np.where((steps < -BACK).any(axis=0), math.tau, steps.max(axis=0))
     return Intervals(start, end, np.abs(np.diff(crank, axis=0)).max(axis=0), turn)
