@@ -730,7 +730,7 @@ class Design:
         Raises GenevaError for a tolerance that is not above 0, or above the roller's radius.
 
         >>> Design(External(6)).proved_to(0.0002)[-1].why
-        'collision-free, proved to 0.2 µm (1,576 intervals)'
+        'collision-free, proved to 0.2 µm (608 intervals)'
         """
         from geneva_cli.spec.rules import Range, require_mm
 

@@ -122,3 +122,15 @@ def test_signs_need_neither_colour_nor_unicode(monkeypatch: pytest.MonkeyPatch) 
     monkeypatch.setenv("TERM", "dumb")
     look = look_of("-", True)
     assert (look.coloured, look.unicode) == (False, False)
+
+
+def test_proof_sets_the_tolerance() -> None:
+    found = run("check", TURRET, "--proof", "0.0001", "--format", "json")
+    row = json.loads(found.stdout)["rows"][-1]
+    assert (row["check"], row["limit"], row["passes"]) == ("gap_proved_mm", -0.0001, True)
+    assert -0.0001 <= row["value"] <= 0.0
+    for bad in ("0", "-1", "nan", "inf", "13"):
+        found = run("check", TURRET, "--proof", bad)
+        assert found.exit_code == 2
+        assert "--proof" in found.stderr
+        assert "must be above 0, at most 12 mm" in found.stderr

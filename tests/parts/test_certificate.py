@@ -8,6 +8,7 @@ import copy
 import functools
 import math
 import random
+import re
 
 import numpy as np
 import pytest
@@ -15,7 +16,7 @@ import repo
 from sampling import some
 from words import load
 
-from geneva_cli.analysis.peaks import peak
+from geneva_cli.analysis.peaks import greatest_rates
 from geneva_cli.curves.distance import Polyarc
 from geneva_cli.curves.extents import farthest, from_segments, near_segments, short_pieces
 from geneva_cli.curves.shapes import Line, about, closed
@@ -27,14 +28,16 @@ from geneva_cli.machine.motion import Motion
 from geneva_cli.machine.spec import Spec
 from geneva_cli.machine.wheels.external import External
 from geneva_cli.machine.wheels.internal import Internal
+from geneva_cli.parts.model import PartsModel
 from geneva_cli.parts.outlines import outlines
 from geneva_cli.parts.turn import settled as halving
-from geneva_cli.parts.turn.bounds import CurvedSlot, FreeRoller, Lock, Rates, Reach, StraightSlot
+from geneva_cli.parts.turn.bounds import CurvedSlot, FreeRoller, Lock, Reach, StraightSlot
 from geneva_cli.parts.turn.certificate import certificate, unproved_kind
 from geneva_cli.parts.turn.full_turn import full_turn
 from geneva_cli.parts.turn.play import windows
 from geneva_cli.parts.turn.settled import intervals
 from geneva_cli.spec.tables import Size
+from geneva_cli.verdict.checks.proved import least_gap as least_gap_check
 
 TO_MM = 1e-3
 ROUNDING = 1e-9  # mm: a hundred times the rounding of a distance here
@@ -48,13 +51,8 @@ def parts_of(name):
     return outlines(load(repo.DESIGNS / name))
 
 
-def rates(engagement):
-    motion = engagement.motion
-    return Rates(peak(motion, "velocity").max, peak(motion, "acceleration").max)
-
-
 def proved(parts, gap_mm=0.0, to_mm=TO_MM):
-    return certificate(parts, gap_mm, to_mm, rates)
+    return certificate(parts, gap_mm, to_mm, greatest_rates)
 
 
 def least_gap(parts, at):
@@ -201,7 +199,7 @@ def pairs(parts, window):
         if roller == window.motion and not window.rests:
             engagement, _ = parts.assembly.motions[window.motion]
             if engagement.slot.curved:
-                yield CurvedSlot(reach, window.motion, rates(engagement)), gap
+                yield CurvedSlot(reach, window.motion, greatest_rates(engagement)), gap
             else:
                 yield StraightSlot(reach, window), gap
 
@@ -308,6 +306,30 @@ def test_an_interval_that_is_left_open_is_named(monkeypatch):
     start, end, gap, least = found.open
     assert -67.5 <= start < end <= 67.5
     assert least < -TO_MM <= gap
+
+
+def checked(parts, turn_of=None, to_mm=None):
+    """The check of parts whose sampled turn may be that of other parts."""
+    model = PartsModel(parts.assembly.full, parts)
+    vars(model)["_turn"] = full_turn(turn_of or parts)
+    return least_gap_check("gap_proved_mm", model, to_mm)
+
+
+def test_the_check_passes_with_its_proof_and_fails_where_samples_missed_a_collision():
+    parts = parts_of("turret.toml")
+    check = checked(parts)
+    assert check.passes
+    assert re.fullmatch(r"collision-free, proved to 1 µm \([\d,]+ intervals\)", check.why)
+    assert -TO_MM <= check.value <= 0.0
+    assert checked(parts, to_mm=1e-9).passes is None  # an open interval is no failure
+    worse = with_roller(parts, 0.5)
+    assert checked(worse) is None  # the sampled gap fails already
+    check = checked(worse, turn_of=parts)
+    assert check.passes is False
+    assert check.value == pytest.approx(-0.5)
+    unknown = checked(parts_of("four-bar-z4.toml"))
+    assert (unknown.value, unknown.passes) == (None, None)
+    assert unknown.why.startswith("sampled collision check; ")
 
 
 def test_kinds_without_a_certificate_have_a_reason():

@@ -29,13 +29,6 @@ STEP = math.radians(1.0)  # of the crank's arcs: pieces that are tested for bein
 AXIS = np.zeros((1, 2))
 
 
-class Rates(NamedTuple):
-    """Greatest velocity and acceleration of a motion, per radian of the input."""
-
-    velocity: float
-    acceleration: float
-
-
 class Reach:
     """Distances of the parts from their axes, mm."""
 
@@ -55,95 +48,122 @@ class Reach:
         """The centre distance."""
         return self.parts.assembly.L
 
-    def arm(self, roller: int) -> float:
-        """Return the distance of a roller from the crank's axis."""
-        (x,), (y,) = (self.parts.assembly.pin(roller, np.zeros(1)) - (self.L, 0.0)).T
-        return math.hypot(x, y)
-
     def beyond(self, points: Array) -> Array:
         """Return the distance of points (n, 2) from the circle of the wheel, mm."""
         out: Array = self.parts.assembly.sign * (np.hypot(*points.T) - self.rim)
         return out
 
 
-class FreeRoller:
-    """A roller outside the slot that it drives: the wheel's outline may be anywhere about it."""
+class Segments(NamedTuple):
+    """Segments in the wheel's frame, and how far from them a roller's centre may be, mm."""
 
-    def __init__(self, reach: Reach, roller: int) -> None:
-        self.reach, self.roller, self.arm = reach, roller, reach.arm(roller)
-
-    def __call__(self, on: Intervals) -> Bounds:
-        """Return the gap in the middle, less the roller's travel in the wheel's frame."""
-        parts = self.reach.parts
-        pose = parts.gaps.pose(on.middle)
-        pins = pose.pins[:, self.roller]
-        far = self.reach.beyond(pins) - parts.sizes.roller
-        gap = np.maximum(parts.gaps.rollers(pose)[:, self.roller], far)
-        return Bounds(gap, gap - self.arm * on.crank - np.hypot(*pins.T) * on.wheel)
+    start: Array  # (n, 2)
+    end: Array
+    aside: Array  # (n,)
 
 
-class SlottedRoller:
-    """A roller in its own slot: its centre is near a segment in the wheel's frame.
+class Roller:
+    """A roller, whose centre moves on a circle about the crank's axis."""
 
-    ``segments`` returns the ends of the segment, and the distance from it that the centre may have.
-    """
+    def __init__(self, reach: Reach, number: int) -> None:
+        self.reach, self.number = reach, number
+        self.parts = reach.parts
+        (x,), (y,) = (self.parts.assembly.pin(number, np.zeros(1)) - (reach.L, 0.0)).T
+        self.arm = math.hypot(x, y)
 
-    def __init__(self, reach: Reach, motion: int) -> None:
-        self.reach, self.motion, self.arm = reach, motion, reach.arm(motion)
+    def centre(self, input_deg: Array) -> Array:
+        """Return the centre in the wheel's frame at input angles, (n, 2)."""
+        assembly = self.parts.assembly
+        return turned_points(assembly.pin(self.number, input_deg), -assembly.wheel(input_deg))
 
-    def segments(self, on: Intervals) -> tuple[Array, Array, Array]:
-        """Return starts (n, 2), ends (n, 2) and distances (n,), mm."""
-        raise NotImplementedError
+    def travel(self, on: Intervals, centre: Array) -> Array:
+        """Return how far the centre is at most from its place in the middle, ``centre``."""
+        out: Array = self.arm * on.crank + np.hypot(*centre.T) * on.wheel
+        return out
 
-    def __call__(self, on: Intervals) -> Bounds:
-        """Return the distance of the segments from the outline, less the roller's radius."""
-        parts = self.reach.parts
-        radius, start, end, aside = parts.sizes.roller, *self.segments(on)
-        gap = parts.gaps.rollers(parts.gaps.pose(on.middle))[:, self.motion]
-        off = np.hypot(*(0.5 * (start + end) - parts.in_wheel(self.motion, on.middle)).T)
+    def gap(self, on: Intervals) -> Array:
+        """Return the gap to the wheel in the middle of intervals."""
+        gap: Array = self.parts.gaps.rollers(self.parts.gaps.pose(on.middle))[:, self.number]
+        return gap
+
+    def along(self, segments: Segments, centre: Array, gap: Array) -> Array:
+        """Return the gap of a roller whose centre moves along segments.
+
+        In the middle of an interval it is at ``centre`` and has the gap ``gap``.
+        """
+        start, end, aside = segments
+        radius = self.parts.sizes.roller
+        off = np.hypot(*(0.5 * (start + end) - centre).T)
         # A segment that is shorter than its middle's distance from the outline does not cross it.
         short = 0.5 * np.hypot(*(end - start).T) < radius + gap - off
         least = np.full(len(gap), -math.inf)
         if short.any():
-            start, end, reach = start[short], end[short], radius + parts.gaps.near
-            wheel = near_segments(parts.gaps.wheel, start, end, reach)
+            start, end, reach = start[short], end[short], radius + self.parts.gaps.near
+            wheel = near_segments(self.parts.gaps.wheel, start, end, reach)
             free = np.minimum(from_segments(wheel, start, end), reach)
             least[short] = free - aside[short] - radius
+        return least
+
+
+class FreeRoller(Roller):
+    """A roller outside the slot that it drives: the wheel's outline may be anywhere about it."""
+
+    def __call__(self, on: Intervals) -> Bounds:
+        """Return the gap in the middle, less the roller's travel in the wheel's frame.
+
+        While the wheel rests, the centre is also near the chord of its circle.
+        """
+        centre = self.centre(on.middle)
+        far = self.reach.beyond(centre) - self.parts.sizes.roller
+        gap = np.maximum(self.gap(on), far)
+        least = gap - self.travel(on, centre)
+        doubtful = np.flatnonzero((least < self.reach.target) & (on.wheel == 0.0))
+        if len(doubtful):
+            start, end = self.centre(on.start[doubtful]), self.centre(on.end[doubtful])
+            aside = self.arm * (2.0 * on.crank[doubtful]) ** 2 / 8.0
+            chord = self.along(Segments(start, end, aside), centre[doubtful], gap[doubtful])
+            least[doubtful] = np.maximum(least[doubtful], chord)
         return Bounds(gap, least)
 
 
-class StraightSlot(SlottedRoller):
+class StraightSlot(Roller):
     """A roller in its own straight slot: its centre is on the slot's axis."""
 
     def __init__(self, reach: Reach, window: Window) -> None:
         super().__init__(reach, window.motion)
         ends = np.array([window.start, 0.5 * (window.start + window.end)])
-        self.start, bottom = reach.parts.in_wheel(self.motion, ends)
-        self.along = (self.start - bottom) / math.dist(self.start, bottom)
+        self.mouth, bottom = self.centre(ends)
+        self.axis = (self.mouth - bottom) / math.dist(self.mouth, bottom)
 
-    def segments(self, on: Intervals) -> tuple[Array, Array, Array]:
-        """Return the part of the axis that the centre may reach."""
-        centre = self.reach.parts.in_wheel(self.motion, on.middle)
-        travel = self.arm * on.crank + np.hypot(*centre.T) * on.wheel
-        half = travel[:, None] * self.along
-        aside = np.abs((centre - self.start) @ (-self.along[1], self.along[0]))
-        return centre - half, centre + half, aside
+    def __call__(self, on: Intervals) -> Bounds:
+        """Return the gap along the part of the axis that the centre may reach."""
+        centre, gap = self.centre(on.middle), self.gap(on)
+        half = self.travel(on, centre)[:, None] * self.axis
+        aside = np.abs((centre - self.mouth) @ (-self.axis[1], self.axis[0]))
+        segments = Segments(centre - half, centre + half, aside)
+        return Bounds(gap, self.along(segments, centre, gap))
 
 
-class CurvedSlot(SlottedRoller):
-    """A roller in its own curved slot: its centre is near a chord of the pitch curve."""
+class CurvedSlot(Roller):
+    """A roller in its own curved slot: its centre is near a chord of the pitch curve.
 
-    def __init__(self, reach: Reach, motion: int, rates: Rates) -> None:
-        super().__init__(reach, motion)
+    ``rates`` are the greatest velocity and acceleration of the motion.
+    """
+
+    def __init__(self, reach: Reach, number: int, rates: tuple[float, float]) -> None:
+        super().__init__(reach, number)
         self.rates = rates
 
-    def segments(self, on: Intervals) -> tuple[Array, Array, Array]:
-        """Return the chord, and the greatest distance of the pitch curve from it."""
-        start, end = (self.reach.parts.in_wheel(self.motion, at) for at in (on.start, on.end))
+    def __call__(self, on: Intervals) -> Bounds:
+        """Return the gap along the chord, less the greatest distance of the curve from it."""
+        start, end = self.centre(on.start), self.centre(on.end)
         v, a = self.rates
         far = np.hypot(*start.T) + 2.0 * self.arm * on.crank
         bend = (1.0 + 2.0 * v) * self.arm + (a + v * v) * far
-        return start, end, bend * np.radians(on.end - on.start) ** 2 / 8.0
+        aside = bend * np.radians(on.end - on.start) ** 2 / 8.0
+        gap = self.gap(on)
+        chord = self.along(Segments(start, end, aside), self.centre(on.middle), gap)
+        return Bounds(gap, chord)
 
 
 class Lock:

@@ -8,25 +8,20 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 
 import numpy as np
 
 from geneva_cli.numerics.tolerances import SAME_LENGTH
-from geneva_cli.parts.turn.bounds import (
-    CurvedSlot,
-    FreeRoller,
-    Lock,
-    Rates,
-    Reach,
-    StraightSlot,
-)
+from geneva_cli.parts.turn.bounds import CurvedSlot, FreeRoller, Lock, Reach, StraightSlot
 from geneva_cli.parts.turn.one_motion import one_motion
 from geneva_cli.parts.turn.play import Window, windows
 from geneva_cli.parts.turn.settled import Open, Pair, Settled, settled
 
 if TYPE_CHECKING:
     from geneva_cli.machine.engagement import Engagement
+
+    Rates: TypeAlias = Callable[[Engagement], tuple[float, float]]
     from geneva_cli.parts.outlines import Outlines
     from geneva_cli.parts.turn.machine_parts import MachineParts
 
@@ -78,14 +73,12 @@ def unproved_kind(parts: MachineParts) -> str:
     return ""
 
 
-def certificate(
-    parts: Outlines, gap_mm: float, to_mm: float, rates: Callable[[Engagement], Rates]
-) -> Certificate:
+def certificate(parts: Outlines, gap_mm: float, to_mm: float, rates: Rates) -> Certificate:
     """Return the certificate that no gap in a full turn is smaller than the smallest by ``to_mm``.
 
     ``gap_mm`` is the smallest gap of the sampled full turn; an overlap counts as 0. ``rates``
-    returns the greatest rates of a motion. The parts are of a kind with a certificate. Raises
-    WorkLimit.
+    returns the greatest velocity and acceleration of a motion. The parts are of a kind with a
+    certificate. Raises WorkLimit.
     """
     parts = one_motion(parts)
     parts.gaps.begin()
@@ -101,9 +94,7 @@ def certificate(
     return Certificate(least, to_mm, count)
 
 
-def _gaps(
-    parts: Outlines, target: float, rates: Callable[[Engagement], Rates]
-) -> Iterator[tuple[str, Settled]]:
+def _gaps(parts: Outlines, target: float, rates: Rates) -> Iterator[tuple[str, Settled]]:
     """Yield the proved bound of each pair of parts in each motion and dwell."""
     reach = Reach(parts, target)
     for window in windows(parts):
@@ -120,7 +111,7 @@ def _gaps(
             yield between, settled(parts.assembly, pair, ends, target)
 
 
-def _slotted(reach: Reach, window: Window, rates: Callable[[Engagement], Rates]) -> Pair:
+def _slotted(reach: Reach, window: Window, rates: Rates) -> Pair:
     engagement, _ = reach.parts.assembly.motions[window.motion]
     if engagement.slot.curved:
         return CurvedSlot(reach, window.motion, rates(engagement))

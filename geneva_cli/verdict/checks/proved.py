@@ -2,10 +2,8 @@
 
 from __future__ import annotations
 
-from geneva_cli.analysis.peaks import peaks_of
-from geneva_cli.machine.engagement import Engagement
+from geneva_cli.analysis.peaks import greatest_rates
 from geneva_cli.parts.model import PartsModel
-from geneva_cli.parts.turn.bounds import Rates
 from geneva_cli.parts.turn.certificate import Certificate, certificate, tolerance_mm, unproved_kind
 from geneva_cli.parts.turn.gaps import WorkLimit
 from geneva_cli.verdict.checks.check import Check, compared
@@ -25,18 +23,17 @@ def least_gap(name: str, model: PartsModel, to_mm: float | None) -> Check | None
     if reason:
         return unproved._replace(why=f"sampled collision check; {reason}")
     try:
-        found = certificate(model.outlines, gap, to_mm, _rates)
+        found = certificate(model.outlines, gap, to_mm, greatest_rates)
     except WorkLimit as error:
         return unproved._replace(why=str(error))
-    if not found.proved:
-        return unproved._replace(why=_open(found))
+    if found.open:
+        start, end, known, _ = found.open
+        unproved = unproved._replace(why=_open(found))
+        if known < -max(to_mm, parts.contact):
+            return unproved._replace(value=known, at_deg=0.5 * (start + end), passes=False)
+        return unproved
     why = f"collision-free, proved to {1e3 * to_mm:.3g} µm ({found.intervals:,} intervals)"
     return compared(name, found.least_mm, "at least", -to_mm)._replace(why=why)
-
-
-def _rates(engagement: Engagement) -> Rates:
-    velocity, acceleration = peaks_of(engagement.motion, ("velocity", "acceleration"))
-    return Rates(velocity.max, acceleration.max)
 
 
 def _open(found: Certificate) -> str:
