@@ -741,10 +741,31 @@ class Design:
         >>> first.name, first.value, first.must_be, first.limit, first.passes
         ('dwell_deg', 240.0, 'at least', 0.0, True)
         """
+        return self._judged(None)
+
+    @question
+    def proved_to(self, to_mm: float) -> list[Check]:
+        """Every check, with the gap proved to a tolerance in mm.
+
+        Raises GenevaError for a tolerance that is not above 0, or above the roller's radius.
+
+        >>> Design(External(6)).proved_to(0.0002)[-1].why
+        'collision-free, proved to 0.2 µm (608 intervals)'
+        """
+        from geneva_cli.spec.rules import Range, require_mm
+
+        allowed = Range(0.0, self.mechanism.roller_radius_mm, "(]")
+        require_mm("--proof", to_mm, allowed, "the roller's radius")
+        return self._located(lambda: self._judged(to_mm))
+
+    def _judged(self, proof_mm: float | None) -> list[Check]:
         from geneva_cli.verdict.advice import judged
+        from geneva_cli.verdict.checks import proofs
 
         # a machine without parts is judged without NumPy
-        return judged(self.mechanism, self.proof if self.spec.has_parts else None)
+        if not self.spec.has_parts:
+            return judged(self.mechanism)
+        return [*judged(self.mechanism, self.proof), *proofs(self.proof, proof_mm)]
 
     @property
     def passes(self) -> bool:

@@ -53,6 +53,7 @@ WORDS = {
     "omega": "velocity",
     "alpha": "acceleration",
     "pv": "pressure times sliding",
+    "gap_proved": "least gap",
     "center_distance": "centre distance",
     "p997": "99.7 % of machines",
     "rss": "root sum of squares",

@@ -20,6 +20,14 @@ def run(
     verbose: Annotated[
         bool, typer.Option("-v", "--verbose", help="Every check, also on a terminal.")
     ] = False,
+    proof: Annotated[
+        float | None,
+        typer.Option(
+            "--proof",
+            metavar="MM",
+            help="Prove that no parts overlap by more.",
+        ),
+    ] = None,
     settings: Settings = None,
     output: Output = "-",
     format: Format = "",
@@ -35,7 +43,7 @@ def run(
     from geneva_cli.study.summary.checks import of_checks
 
     name = table_as(output, format)
-    results = list(verdicts(specs, settings or ()))
+    results = list(verdicts(specs, settings or (), proof))
     judged = [v for v in results if not v.error]
     if judged:
         is_short = is_watched(output, format) and not verbose

@@ -67,7 +67,7 @@ GROUPS: dict[str, dict[str, str]] = {
         "square-root": "why a small error of R/L costs a large jump",
         "collision-check": "how the program finds out that parts turn without jamming",
         "accuracy": "what is promised, how it is tested, and run time against error",
-        "certificates": "peaks with proved bounds: what is proved, and by what argument",
+        "certificates": "peaks and the full turn: what is proved, and by what argument",
         "numbers": "why our numbers differ from published ones",
         "house": "how the program is built, for people who change it",
     },

@@ -31,22 +31,28 @@ class Verdict(NamedTuple):
         return not self.error and all_pass(self.checks)
 
 
-def verdict(path: str, settings: Sequence[str] = ()) -> Verdict:
-    """Return the verdict on one spec; ``settings``, texts ``KEY=VALUE``, replace its own keys."""
+def verdict(path: str, settings: Sequence[str] = (), proof_mm: float | None = None) -> Verdict:
+    """Return the verdict on one spec; ``settings``, texts ``KEY=VALUE``, replace its own keys.
+
+    ``proof_mm`` is the tolerance of the proof that no parts collide.
+    """
     try:
         design = load(path, settings)
-        checks, warnings = tuple(design.checks), tuple(design.warnings)
-        return Verdict(design.spec.path, design.spec.files, checks, warnings)
+        checks = design.checks if proof_mm is None else design.proved_to(proof_mm)
+        warnings = tuple(design.warnings)
+        return Verdict(design.spec.path, design.spec.files, tuple(checks), warnings)
     except GenevaError as error:
         return Verdict(path, error=str(error))
 
 
-def verdicts(paths: list[str], settings: Sequence[str] = ()) -> Iterator[Verdict]:
+def verdicts(
+    paths: list[str], settings: Sequence[str] = (), proof_mm: float | None = None
+) -> Iterator[Verdict]:
     """The verdicts on specs, in their order, each as ``verdict`` returns it.
 
     This process reads standard input (``-``) itself.
     """
-    judge = partial(verdict, settings=settings)
+    judge = partial(verdict, settings=settings, proof_mm=proof_mm)
     files = [path for path in paths if path != "-"]
     others = mapped(judge, files, min(len(files), cores()), "specs")
     for path in tracked(paths, "specs", len(paths)):

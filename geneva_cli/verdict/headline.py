@@ -12,6 +12,8 @@ from geneva_cli.verdict.checks.check import Check
 from geneva_cli.verdict.failures import meaning
 from geneva_cli.verdict.measured import measured
 
+PROOF = "gap_proved_mm"
+
 
 def headline(checks: Sequence[Check], warnings: Sequence[str]) -> tuple[str, str]:
     """State of a design (PASSES, WARNS or FAILS), and counts of its checks and warnings in words.
@@ -86,6 +88,11 @@ def compared_text(check: Check, unit: str) -> str:
     where = "" if check.at_deg is None else f" at {measured(check.at_deg, 'deg')}"
     limit = measured(check.limit, unit if unit == "deg" else "")
     return f"{measured(check.value, unit)}{where}, {check.must_be} {limit}"
+
+
+def proof_lines(checks: Iterable[Check]) -> Iterator[SummaryLine]:
+    """The line of the proof that no parts collide, or none."""
+    yield from (SummaryLine("turn", c.why) for c in checks if c.name == PROOF and c.passes)
 
 
 def tightest(checks: Iterable[Check]) -> Iterator[SummaryLine]:

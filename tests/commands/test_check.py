@@ -41,9 +41,9 @@ def watched(monkeypatch: pytest.MonkeyPatch) -> None:
 def test_a_headline_counts_warnings() -> None:
     """A machine whose wall is cut away for half the motion does not read as one that passes."""
     for spec, headline in (
-        (PLAIN, "✓ {}: all 15 checks pass"),
-        (TURRET, "! {}: all 14 checks pass, 1 warning"),
-        (CURVED, "! {}: all 19 checks pass, 3 warnings"),
+        (PLAIN, "✓ {}: all 16 checks pass"),
+        (TURRET, "! {}: all 15 checks pass, 1 warning"),
+        (CURVED, "! {}: all 20 checks pass, 3 warnings"),
     ):
         found = run(spec)
         assert found.exit_code == 0
@@ -77,14 +77,14 @@ def test_a_warning_is_printed_once(format: str) -> None:
 def test_csv_is_the_rows_alone() -> None:
     found = run(TURRET, "--format", "csv").stdout.splitlines()
     assert found[0] == "spec,check,value,at_deg,must_be,limit,passes,nearest,why"
-    assert len(found) == 15
+    assert len(found) == 16
 
 
 def test_what_fails_says_what_to_change(fails: str) -> None:
     """The change that is named passes."""
     found = run(fails)
     assert found.exit_code == 1
-    assert found.stdout.startswith(f"✗ {fails}: 1 of 16 checks fails\n")
+    assert found.stdout.startswith(f"✗ {fails}: 1 of 17 checks fails\n")
     failing = found.stdout.split("\n\n")[1]
     assert "peak acceleration  1.113, at most 1" in failing
     change = failing.split("passes with ")[1].split(" (")[0]
@@ -122,3 +122,15 @@ def test_signs_need_neither_colour_nor_unicode(monkeypatch: pytest.MonkeyPatch) 
     monkeypatch.setenv("TERM", "dumb")
     look = style_of("-", True)
     assert (look.coloured, look.unicode) == (False, False)
+
+
+def test_proof_sets_the_tolerance() -> None:
+    found = run("check", TURRET, "--proof", "0.0001", "--format", "json")
+    row = json.loads(found.stdout)["rows"][-1]
+    assert (row["check"], row["limit"], row["passes"]) == ("gap_proved_mm", -0.0001, True)
+    assert -0.0001 <= row["value"] <= 0.0
+    for bad in ("0", "-1", "nan", "inf", "13"):
+        found = run("check", TURRET, "--proof", bad)
+        assert found.exit_code == 2
+        assert "--proof" in found.stderr
+        assert "must be above 0, at most 12 mm" in found.stderr

@@ -36,6 +36,7 @@ from geneva_cli.study.sweep.run import ERROR
 from geneva_cli.study.synthesis.table import NAMES as SYNTH
 from geneva_cli.verdict.checks import checks
 from geneva_cli.verdict.checks.registry import LIMITS, MOTION, STATIC, TURNING
+from geneva_cli.verdict.checks.registry import PROOFS as PROVED
 from geneva_cli.verdict.quantities import groups
 from geneva_cli.verdict.tolerance.tables import ANGLES
 
@@ -68,7 +69,7 @@ def named_in_calls(function: str) -> set[str]:
 def test_every_check_has_an_entry_and_no_entry_names_none():
     made = named_in_calls("Check") | named_in_calls("refused")
     assert made >= {"parts", "full_turn"}
-    assert explained("check") == {*MOTION, *LIMITS, *STATIC, *TURNING, *made}
+    assert explained("check") == {*MOTION, *LIMITS, *STATIC, *TURNING, *PROVED, *made}
 
 
 def test_every_warning_has_an_entry_and_no_entry_names_none():
@@ -165,8 +166,9 @@ WITHOUT_RUN = {"rounded-points", "not-known"}
 WARNINGS = [e for e in entries() if e.group == "warning" and e.names[0] not in WITHOUT_RUN]
 
 # No key of a design leads to these: a spec without a dwell, or whose parts cannot be built, is
-# refused when it is read, and a turn that cannot be proved needs outlines that nobody draws.
-WITHOUT_EXAMPLE = {"dwell_deg", "full_turn", "parts"}
+# refused when it is read, and a turn that cannot be proved needs outlines that nobody draws. A
+# missing proof of the gap does not fail.
+WITHOUT_EXAMPLE = {"dwell_deg", "full_turn", "parts", "gap_proved_mm"}
 CHECKED = [e for e in entries() if e.group == "check" and e.names[0] not in WITHOUT_EXAMPLE]
 
 

@@ -9,6 +9,7 @@ from functools import partial
 
 import numpy as np
 
+from geneva_cli.analysis.peaks import greatest_rates
 from geneva_cli.bench.method import Method, Subject, Task
 from geneva_cli.machine.drives.crank import Crank
 from geneva_cli.machine.laws.standard import ModifiedSine
@@ -17,6 +18,7 @@ from geneva_cli.machine.motion import Motion
 from geneva_cli.machine.spec import Spec
 from geneva_cli.machine.wheels.external import External
 from geneva_cli.parts.outlines import outlines
+from geneva_cli.parts.turn.certificate import certificate, tolerance_mm
 from geneva_cli.parts.turn.full_turn import full_turn
 from geneva_cli.spec.tables import Size
 
@@ -46,9 +48,20 @@ def _task(name: str, machine: Mechanism, count: int) -> Task:
         f"one np.sin + np.cos over {count} numbers",
         lambda: (np.sin(angles), np.cos(angles)),
         lambda gap: abs(gap) / machine.center_distance_mm,
-        [Method("outlines and full turn", None, partial(_turned, machine), True)],
+        [
+            Method("outlines and full turn", None, partial(_turned, machine), True),
+            Method("the same, and the certificate", None, partial(_proved, machine), True),
+        ],
     )
 
 
 def _turned(machine: Mechanism) -> float:
     return full_turn(outlines(machine)).driving.mm
+
+
+def _proved(machine: Mechanism) -> float:
+    parts = outlines(machine)
+    turn = full_turn(parts)
+    found = certificate(parts, turn.smallest.mm, tolerance_mm(parts), greatest_rates)
+    assert found.proved
+    return turn.driving.mm

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sized
-from typing import TYPE_CHECKING, NamedTuple, Protocol
+from typing import TYPE_CHECKING, NamedTuple, Protocol, Self
 
 if TYPE_CHECKING:
     from geneva_cli.numerics.jet import Array
@@ -117,7 +117,7 @@ class MachineParts(Protocol):
     def contact(self) -> float:
         """The overlap, mm, up to which parts count as touching."""
 
-    def over(self, assembly: Assembly) -> MachineParts:
+    def over(self, assembly: Assembly) -> Self:
         """Return these parts with another assembly."""
 
     def in_wheel(self, motion: int, at: Array) -> Array:

@@ -2,10 +2,14 @@
 
 from __future__ import annotations
 
+from typing import TypeVar
+
 from geneva_cli.parts.turn.machine_parts import MachineParts
 
+Parts = TypeVar("Parts", bound=MachineParts)
 
-def one_motion(parts: MachineParts) -> MachineParts:
+
+def one_motion(parts: Parts) -> Parts:
     """Return the parts, checked over one motion and its dwell if all rollers move alike.
 
     Otherwise the parts are returned unchanged. This is for pass or fail: input angles refer to the

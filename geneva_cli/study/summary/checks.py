@@ -6,13 +6,20 @@ from collections.abc import Iterator, Sequence
 
 from geneva_cli.document import FAILS, PASSES, WARNS, Answer, Summary, SummaryLine
 from geneva_cli.study.batch import Verdict, checks_record, checks_table
-from geneva_cli.verdict.headline import failure_lines, headline, tightest, warning_lines
+from geneva_cli.verdict.headline import (
+    failure_lines,
+    headline,
+    proof_lines,
+    tightest,
+    warning_lines,
+)
 
 
 def of_checks(verdicts: Sequence[Verdict], page: bool, as_json: bool) -> Answer:
     """The answer on specs that were read: a headline for each, then the changes.
 
-    The tightest check is shown for a single spec only; ``page`` shows all checks below.
+    The proof and the tightest check are shown for a single spec only; ``page`` shows all checks
+    below.
     """
     table = checks_table(verdicts)
     data = checks_record(verdicts) if as_json else table
@@ -22,7 +29,7 @@ def of_checks(verdicts: Sequence[Verdict], page: bool, as_json: bool) -> Answer:
 def _summaries(verdicts: Sequence[Verdict]) -> list[Summary]:
     if len(verdicts) == 1:
         (verdict,) = verdicts
-        lines = (*_lines(verdict), *tightest(verdict.checks))
+        lines = (*_lines(verdict), *proof_lines(verdict.checks), *tightest(verdict.checks))
         return [_head(verdict)._replace(lines=lines)]
     return [*map(_head, verdicts), _count(verdicts), *_details(verdicts)]
 

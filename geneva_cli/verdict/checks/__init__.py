@@ -19,6 +19,7 @@ from geneva_cli.verdict.checks.registry import (
     MOTION,
     check_named,
     motion_checks,
+    proof_checks,
     standing,
     standing_checks,
     turn_checks,
@@ -57,6 +58,17 @@ def checks_turning(model: PartsModel) -> Iterator[Check]:
 
     for closer in turning(model.parts):
         yield from turn_checks(model.parts, closer)
+
+
+def proofs(model: PartsModel, to_mm: float | None = None) -> list[Check]:
+    """The proof that no parts collide in a whole turn; none if they cannot be made or turned.
+
+    ``to_mm`` is the tolerance of the proof, by default ``certificate.tolerance_mm``.
+    """
+    try:
+        return list(proof_checks(model, to_mm))
+    except GenevaError:
+        return []  # the checks of the parts report the error
 
 
 def single_check(mechanism: Mechanism, name: str, model: PartsModel | None = None) -> Check | None:

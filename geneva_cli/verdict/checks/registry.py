@@ -14,6 +14,7 @@ from geneva_cli.verdict.checks.check import Check
 
 if TYPE_CHECKING:
     from geneva_cli.machine.mechanism import Mechanism
+    from geneva_cli.parts.model import PartsModel
     from geneva_cli.parts.turn.full_turn import FullTurn
     from geneva_cli.parts.turn.machine_parts import MachineParts
 
@@ -96,6 +97,10 @@ TURNING: Checks = {
     "hand_over_pressure_deg": "play:hand_over_pressure",
     "motion_play_deg": "play:motion",
 }
+# Of flat parts at every angle of the turn, made for a design's own answer.
+PROOFS: Checks = {
+    "gap_proved_mm": "proved:least_gap",
+}
 
 
 def every_check() -> tuple[str, ...]:
@@ -125,9 +130,14 @@ def turn_checks(parts: MachineParts, turn: FullTurn) -> Iterator[Check]:
     yield from _applicable(TURNING, parts, turn)
 
 
+def proof_checks(model: PartsModel, to_mm: float | None) -> Iterator[Check]:
+    """The proof that no parts collide, to a tolerance in mm or to the default one."""
+    yield from _applicable(PROOFS, model, to_mm)
+
+
 def import_checks() -> None:
     """Import all checks at once: processes that are forked then have them."""
-    for among in (MOTION, LIMITS, STATIC, SPHERE, TURNING):
+    for among in (MOTION, LIMITS, STATIC, SPHERE, TURNING, PROOFS):
         for by in among.values():
             load_named(f"verdict.checks.{by}")
 

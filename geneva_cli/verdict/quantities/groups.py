@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, NamedTuple
 from geneva_cli.spec.load_named import load_named
 from geneva_cli.spec.schema import fields
 from geneva_cli.spec.tables import Limits, Load, RollerMaterial, Shaft, WheelMaterial
-from geneva_cli.verdict.checks.registry import every_check
+from geneva_cli.verdict.checks.registry import PROOFS, every_check
 
 if TYPE_CHECKING:
     from geneva_cli.numerics.arrays import Number
@@ -296,6 +296,7 @@ STUDY = (
         "quantities.single:check_values",
         makes_parts=True,
     ),
+    QuantityGroup("checks", tuple(PROOFS), "quantities.single:proved", makes_parts=True),
 )
 # All quantities; those that make parts come last.
 GROUPS = tuple(sorted((MACHINE, *REPORT, *STUDY), key=lambda group: group.makes_parts))

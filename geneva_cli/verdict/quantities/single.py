@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING
 from geneva_cli.analysis.loads.cycle import cycle_of
 from geneva_cli.analysis.loads.sizing import WHEEL_INERTIA, sizing
 from geneva_cli.analysis.loads.summary import summaries
-from geneva_cli.verdict.checks import checks
-from geneva_cli.verdict.checks.registry import every_check
+from geneva_cli.verdict.checks import checks, proofs
+from geneva_cli.verdict.checks.registry import PROOFS, every_check
 
 if TYPE_CHECKING:
     from geneva_cli.parts.model import PartsModel
@@ -34,6 +34,12 @@ def check_values(model: PartsModel) -> Values:
     values |= {f"checks.{c.name}": c.value for c in rows}
     failed = [c.name for c in rows if c.passes is False]
     return values | {"checks.passes": not failed, "checks.failed": " ".join(failed) or None}
+
+
+def proved(model: PartsModel) -> Values:
+    """The gap that is proved, None without a proof."""
+    values: Values = {f"checks.{name}": None for name in PROOFS}
+    return values | {f"checks.{c.name}": c.value for c in proofs(model)}
 
 
 def cycle(model: PartsModel) -> Values:

@@ -1,0 +1,85 @@
+"""Nearest and farthest distances between outlines of lines and arcs, and points or segments."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Iterator
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from geneva_cli.curves.distance import Polyarc
+from geneva_cli.curves.shapes import Arc, Contour, Line, Segment, about
+
+if TYPE_CHECKING:
+    from geneva_cli.numerics.jet import Array
+
+
+def farthest(outline: Polyarc, points: Array) -> Array:
+    """Return the distance from each point, (n, 2), to the farthest point of each piece, (n, k).
+
+    It is at an end of the piece, or where an arc lies opposite the point as seen from its centre.
+    """
+    x, y = points[:, :1], points[:, 1:]
+    vx, vy = outline.cx - x, outline.cy - y
+    away = np.hypot(vx, vy)
+    opposite = outline.arc & (vx * outline.mx + vy * outline.my >= away * outline.cos_half)
+    start, end = np.hypot(outline.x0 - x, outline.y0 - y), np.hypot(outline.x1 - x, outline.y1 - y)
+    out: Array = np.where(opposite, away + outline.radius, np.maximum(start, end))
+    return out
+
+
+def from_segments(outline: Polyarc, start: Array, end: Array) -> Array:
+    """Return the least distance of segments that cross no piece from the outline, (n,).
+
+    ``start`` and ``end`` are (n, 2). The distance is at an end of the segment, at a corner of the
+    outline, or where the line from an arc's centre meets the segment at a right angle.
+    """
+    (x, y), (dx, dy) = (column[:, :, None] for column in (start.T, (end - start).T))
+    square = np.maximum(dx * dx + dy * dy, 1e-300)
+
+    def offset(px: Array, py: Array) -> tuple[Array, Array]:
+        """The vectors from points to the nearest points of the segments."""
+        along = np.clip(((px - x) * dx + (py - y) * dy) / square, 0.0, 1.0)
+        return x + along * dx - px, y + along * dy - py
+
+    corners = np.hypot(*offset(outline.x0, outline.y0)).min(axis=1)
+    last = np.hypot(*offset(outline.x1, outline.y1)).min(axis=1)
+    fx, fy = offset(outline.cx, outline.cy)
+    away = np.hypot(fx, fy)
+    faces = outline.arc & (fx * outline.mx + fy * outline.my >= away * outline.cos_half)
+    arcs = np.where(faces, np.abs(outline.radius - away), np.inf).min(axis=1)
+    ends = np.minimum(np.abs(outline.signed(start)), np.abs(outline.signed(end)))
+    out: Array = np.minimum.reduce((ends, corners, last, arcs))
+    return out
+
+
+def near_segments(outline: Polyarc, start: Array, end: Array, reach: float) -> Polyarc:
+    """Return the pieces that may lie within ``reach`` of a segment; all pieces if none do."""
+    (x, y), half = 0.5 * (start + end).T, 0.5 * np.hypot(*(end - start).T)
+    away = np.hypot(outline.ox - x[:, None], outline.oy - y[:, None])
+    near = (away <= reach + half[:, None] + outline.size).any(axis=0)
+    return outline.subset(np.flatnonzero(near)) if near.any() else outline
+
+
+def short_pieces(contours: Iterable[Contour], step: float) -> Polyarc:
+    """Return an outline cut into equal pieces; arcs turn by at most ``step`` radians in each.
+
+    A line is cut like an arc of a quarter of a circle.
+    """
+    pieces = tuple(p for c in contours for s in c.segments for p in _cut(s, step))
+    return Polyarc([Contour("", pieces)])
+
+
+def _cut(segment: Segment, step: float) -> Iterator[Segment]:
+    if isinstance(segment, Arc):
+        (cx, cy), sweep = segment.centre, segment.sweep
+        start = math.atan2(segment.start[1] - cy, segment.start[0] - cx)
+        count = max(1, math.ceil(abs(sweep) / step))
+        for i in range(count):
+            yield about((cx, cy), segment.radius, start + sweep * i / count, sweep / count)
+        return
+    (x0, y0), (x1, y1) = segment.start, segment.end
+    count = math.ceil(0.5 * math.pi / step)
+    corners = [(x0 + (x1 - x0) * i / count, y0 + (y1 - y0) * i / count) for i in range(count + 1)]
+    yield from map(Line, corners[:-1], corners[1:])

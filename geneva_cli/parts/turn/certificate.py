@@ -1,0 +1,118 @@
+"""Certificate of the full turn: a proved lower bound of the gap at every input angle.
+
+The sampled full turn gives the smallest gap. The certificate proves that no gap is smaller by more
+than a tolerance. It takes distances at single positions as exact, up to ``ROUNDING``.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterator
+from typing import TYPE_CHECKING, NamedTuple, TypeAlias
+
+import numpy as np
+
+from geneva_cli.numerics.tolerances import SAME_LENGTH
+from geneva_cli.parts.turn.bounds import CurvedSlot, FreeRoller, Lock, Reach, StraightSlot
+from geneva_cli.parts.turn.one_motion import one_motion
+from geneva_cli.parts.turn.play import Window, windows
+from geneva_cli.parts.turn.settled import Open, Pair, Settled, settled
+
+if TYPE_CHECKING:
+    from geneva_cli.machine.engagement import Engagement
+
+    Rates: TypeAlias = Callable[[Engagement], tuple[float, float]]
+    from geneva_cli.parts.outlines import Outlines
+    from geneva_cli.parts.turn.machine_parts import MachineParts
+
+PROVED_TO_MM = 1e-3  # tolerance of a certificate by default, or
+CONTACTS = 2.0  # times the overlap that counts as touching, if that is more
+ROUNDING = 1e-11  # of the centre distance: greatest rounding of a distance; doubles carry 2e-16
+LOOKS = 361  # input angles of a turn at which the crank's travel is tested
+
+
+class Certificate(NamedTuple):
+    """A proved lower bound of the gap in a full turn, ``least_mm``.
+
+    It is within ``to_mm`` of the smallest gap. If an interval is ``open``, it holds elsewhere only.
+    ``between`` names the parts there.
+    """
+
+    least_mm: float
+    to_mm: float
+    intervals: int
+    open: Open | None = None
+    between: str = ""
+
+    @property
+    def proved(self) -> bool:
+        """True if no interval is open."""
+        return self.open is None
+
+
+def tolerance_mm(parts: MachineParts) -> float:
+    """Return the tolerance of a certificate by default: how far it is from the smallest gap."""
+    return max(PROVED_TO_MM, CONTACTS * parts.contact)
+
+
+def unproved_kind(parts: MachineParts) -> str:
+    """Return the reason why a kind of machine has no certificate; empty if it has one."""
+    assembly = parts.assembly
+    if not assembly.mechanism.spec.wheel.FLAT:
+        return "the parts lie on a sphere"
+    if any(engagement.paired for engagement, _ in assembly.motions):
+        return "gears drive the wheel between two rollers"
+    at = np.linspace(assembly.start_deg, assembly.start_deg + assembly.turn_deg, LOOKS)
+    pins = [assembly.pin(i, at) - (assembly.L, 0.0) for i in range(len(assembly.rollers))]
+    if max(np.ptp(np.hypot(*pin.T)) for pin in pins) > SAME_LENGTH * assembly.L:
+        return "the rollers do not move on a circle about the crank's axis"
+    crank = np.abs(np.unwrap(assembly.crank(at)) - assembly.crank(at[:1]))
+    uneven = np.abs(crank - np.radians(at - at[0])).max() > SAME_LENGTH
+    if uneven and any(engagement.slot.curved for engagement in assembly.kinds):
+        return "the slots are curved, and the crank turns unevenly"
+    return ""
+
+
+def certificate(parts: Outlines, gap_mm: float, to_mm: float, rates: Rates) -> Certificate:
+    """Return the certificate that no gap in a full turn is smaller than the smallest by ``to_mm``.
+
+    ``gap_mm`` is the smallest gap of the sampled full turn; an overlap counts as 0. ``rates``
+    returns the greatest velocity and acceleration of a motion. The parts are of a kind with a
+    certificate. Raises WorkLimit.
+    """
+    parts = one_motion(parts)
+    parts.gaps.begin()
+    spare = ROUNDING * parts.assembly.L
+    target = max(gap_mm, 0.0) - to_mm + spare
+    least, count = math.inf, 0
+    for between, found in _gaps(parts, target, rates):
+        least, count = min(least, found.least - spare), count + found.intervals
+        if found.open:
+            start, end = (parts.assembly.shown_deg(x) for x in found.open[:2])
+            shown = found.open._replace(start_deg=start, end_deg=end)
+            return Certificate(least, to_mm, count, shown, between)
+    return Certificate(least, to_mm, count)
+
+
+def _gaps(parts: Outlines, target: float, rates: Rates) -> Iterator[tuple[str, Settled]]:
+    """Yield the proved bound of each pair of parts in each motion and dwell."""
+    reach = Reach(parts, target)
+    for window in windows(parts):
+        pairs: list[tuple[str, Pair]] = []
+        if len(parts.crank):
+            pairs.append(("locking disc and wheel", Lock(reach, window)))
+        for roller in range(len(parts.assembly.rollers)):
+            if roller == window.motion and not window.rests:
+                pairs.append(("roller and slot", _slotted(reach, window, rates)))
+            else:
+                pairs.append(("roller and wheel", FreeRoller(reach, roller)))
+        for between, pair in pairs:
+            ends = window.start, window.end
+            yield between, settled(parts.assembly, pair, ends, target)
+
+
+def _slotted(reach: Reach, window: Window, rates: Rates) -> Pair:
+    engagement, _ = reach.parts.assembly.motions[window.motion]
+    if engagement.slot.curved:
+        return CurvedSlot(reach, window.motion, rates(engagement))
+    return StraightSlot(reach, window)

@@ -1,0 +1,46 @@
+"""The certificate of the full turn: a gap that is proved at every input angle."""
+
+from __future__ import annotations
+
+from geneva_cli.analysis.peaks import greatest_rates
+from geneva_cli.parts.model import PartsModel
+from geneva_cli.parts.turn.certificate import Certificate, certificate, tolerance_mm, unproved_kind
+from geneva_cli.parts.turn.gaps import WorkLimit
+from geneva_cli.verdict.checks.check import Check, compared
+
+
+def least_gap(name: str, model: PartsModel, to_mm: float | None) -> Check | None:
+    """The proved lower bound of the gap, mm; None where parts are known to overlap.
+
+    ``to_mm`` is how far below the smallest gap the bound may be, by default ``tolerance_mm``.
+    """
+    parts, gap = model.parts, model.turn.smallest.mm
+    if gap < -parts.contact:
+        return None
+    to_mm = to_mm or tolerance_mm(parts)
+    unproved = Check(name, None, "at least", -to_mm, None)
+    reason = unproved_kind(parts)
+    if reason:
+        return unproved._replace(why=f"sampled collision check; {reason}")
+    try:
+        found = certificate(model.outlines, gap, to_mm, greatest_rates)
+    except WorkLimit as error:
+        return unproved._replace(why=str(error))
+    if found.open:
+        start, end, known, _ = found.open
+        unproved = unproved._replace(why=_open(found))
+        if known < -max(to_mm, parts.contact):
+            return unproved._replace(value=known, at_deg=0.5 * (start + end), passes=False)
+        return unproved
+    why = f"collision-free, proved to {1e3 * to_mm:.3g} µm ({found.intervals:,} intervals)"
+    return compared(name, found.least_mm, "at least", -to_mm)._replace(why=why)
+
+
+def _open(found: Certificate) -> str:
+    assert found.open is not None
+    start, end, gap, least = found.open
+    return (
+        f"sampled collision check; the proof is open from {start:.9g} to {end:.9g} deg between "
+        f"{found.between}, where the gap is {gap:.4g} mm in the middle and at least {least:.4g} mm "
+        f"throughout, after {found.intervals:,} intervals"
+    )

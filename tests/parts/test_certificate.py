@@ -1,0 +1,348 @@
+"""Certificates of the full turn, against dense samples and against collisions of known depth.
+
+The witnesses: distances of points that lie densely on the outlines, gaps at positions that lie
+densely in an interval, and parts that are enlarged by a known amount.
+"""
+
+import copy
+import functools
+import math
+import random
+import re
+
+import numpy as np
+import pytest
+import repo
+from sampling import some
+from words import load
+
+from geneva_cli.analysis.peaks import greatest_rates
+from geneva_cli.curves.distance import Polyarc
+from geneva_cli.curves.extents import farthest, from_segments, near_segments, short_pieces
+from geneva_cli.curves.shapes import Line, about, closed
+from geneva_cli.errors import GenevaError
+from geneva_cli.machine.drives.crank import Crank
+from geneva_cli.machine.laws.standard import Cycloidal, ModifiedSine
+from geneva_cli.machine.mechanism import build
+from geneva_cli.machine.motion import Motion
+from geneva_cli.machine.spec import Spec
+from geneva_cli.machine.wheels.external import External
+from geneva_cli.machine.wheels.internal import Internal
+from geneva_cli.parts.model import PartsModel
+from geneva_cli.parts.outlines import outlines
+from geneva_cli.parts.turn import settled as halving
+from geneva_cli.parts.turn.bounds import CurvedSlot, FreeRoller, Lock, Reach, StraightSlot
+from geneva_cli.parts.turn.certificate import certificate, unproved_kind
+from geneva_cli.parts.turn.full_turn import full_turn
+from geneva_cli.parts.turn.play import windows
+from geneva_cli.parts.turn.settled import intervals
+from geneva_cli.spec.tables import Size
+from geneva_cli.verdict.checks.proved import least_gap as least_gap_check
+
+TO_MM = 1e-3
+ROUNDING = 1e-9  # mm: a hundred times the rounding of a distance here
+DENSE = some(20_000, 4_000)  # positions of a turn
+MACHINES = some(300, 12)
+FLAT = [path.name for path in sorted(repo.DESIGNS.glob("*.toml")) if load(path).spec.wheel.FLAT]
+
+
+@functools.cache
+def parts_of(name):
+    return outlines(load(repo.DESIGNS / name))
+
+
+def proved(parts, gap_mm=0.0, to_mm=TO_MM):
+    return certificate(parts, gap_mm, to_mm, greatest_rates)
+
+
+def least_gap(parts, at):
+    """The smallest gap of all parts at input angles."""
+    pose = parts.gaps.pose(at)
+    locking = parts.gaps.locking(pose).min() if parts.crank else math.inf
+    return float(min(parts.gaps.rollers(pose).min(), locking))
+
+
+def turn_of(parts, count=DENSE):
+    start = parts.assembly.start_deg
+    return np.linspace(start, start + parts.assembly.turn_deg, count)
+
+
+def random_parts(seed):
+    """A random machine with flat parts of a kind that has certificates; None if it cannot be."""
+    rng = random.Random(seed)
+    z = rng.randint(3, 12)
+    motion, drive = None, Crank()
+    wheel = rng.choice([External(z), External(z), External(z, offset_mm=rng.uniform(-3, 3))])
+    if rng.random() < 0.3:
+        wheel = Internal(z)
+    elif rng.random() < 0.3:
+        motion = Motion(rng.choice([Cycloidal(), ModifiedSine()]))
+        wheel = External(z)
+    elif z <= 4 and wheel.offset_mm == 0.0:
+        drive = Crank(rollers=rng.randint(1, 2))
+    R = 100.0 * math.sin(math.pi / z)
+    size = Size(
+        center_distance_mm=100.0,
+        roller_radius_mm=min(R * rng.uniform(0.08, 0.2), 0.5 * (100.0 - R)),  # slots stay apart
+        slot_clearance_mm=rng.choice([0.0, 0.02]),
+        lock_clearance_mm=rng.choice([0.0, 0.03]),
+        relief=rng.choice([None, None, "sector"]),
+    )
+    try:
+        return outlines(build(Spec(wheel, drive, motion=motion, size=size)))
+    except GenevaError:
+        return None
+
+
+def random_machines(first):
+    """Random machines, as many as are tried."""
+    machines = (random_parts(seed) for seed in range(first, first + MACHINES))
+    return [parts for parts in machines if parts is not None]
+
+
+def with_roller(parts, larger_mm):
+    """The parts with larger rollers in the same slots."""
+    gaps = copy.copy(parts.gaps)
+    gaps.sizes = parts.sizes._replace(roller=parts.sizes.roller + larger_mm)
+    return parts._replace(sizes=gaps.sizes, gaps=gaps)
+
+
+def with_crank(parts, contours):
+    return parts._replace(crank=contours, gaps=parts.gaps.with_crank(contours))
+
+
+def larger_crank(parts, larger_mm):
+    """The crank with its locking disc larger in radius by a length, and the same shape."""
+    scale = 1.0 + larger_mm / parts.sizes.lock
+
+    def at(point):
+        return scale * point[0], scale * point[1]
+
+    return with_crank(
+        parts,
+        [
+            c._replace(
+                segments=tuple(s._replace(start=at(s.start), end=at(s.end)) for s in c.segments)
+            )
+            for c in parts.crank
+        ],
+    )
+
+
+def with_spike(parts, rng):
+    """The crank with a thin spike on its outline, up to 3 mm high."""
+    [contour, *rest] = parts.crank
+    i = rng.randrange(len(contour.segments))
+    segment = contour.segments[i]
+    if isinstance(segment, Line):
+        return None
+    (cx, cy), radius, sweep = segment.centre, segment.radius, segment.sweep
+    start = math.atan2(segment.start[1] - cy, segment.start[0] - cx)
+    turn, wide = sweep * rng.uniform(0.1, 0.9), math.copysign(0.2 / radius, sweep)
+    before = about((cx, cy), radius, start, turn)
+    after = about((cx, cy), radius, start + turn + wide, sweep - turn - wide)
+    high = radius + math.copysign(rng.uniform(0.1, 3.0), sweep)
+    middle = start + turn + 0.5 * wide
+    tip = cx + high * math.cos(middle), cy + high * math.sin(middle)
+    spike = (before, Line(before.end, tip), Line(tip, after.start), after)
+    segments = (*contour.segments[:i], *spike, *contour.segments[i + 1 :])
+    return with_crank(parts, [closed(contour.layer, segments), *rest])
+
+
+@pytest.mark.parametrize("name", ["turret.toml", "press-curved.toml", "internal-z6.toml"])
+def test_nearest_and_farthest_distances_against_dense_points(name):
+    """Points lie at most 0.05 mm apart: they are that much farther, or nearer, at most."""
+    rng = np.random.default_rng(1)
+    wheel = parts_of(name).gaps.wheel
+    dense = wheel.samples(1e-4, 0.05)
+    size = float(np.abs(dense).max())
+    points = rng.uniform(-size, size, (40, 2))
+    away = np.hypot(*(dense[None] - points[:, None]).transpose(2, 0, 1))
+    far = farthest(wheel, points).max(axis=1)
+    assert (away.max(axis=1) <= far + ROUNDING).all()
+    assert (away.max(axis=1) >= far - 0.05).all()
+    # short segments that cross no piece
+    ends = points + rng.uniform(-1.0, 1.0, points.shape)
+    clear = away.min(axis=1) > 3.0
+    start, end = points[clear], ends[clear]
+    at = start[:, None] + (end - start)[:, None] * np.linspace(0.0, 1.0, 201)[:, None]
+    least = np.array([np.abs(wheel.signed(row)).min() for row in at])
+    from_all = from_segments(wheel, start, end)
+    assert np.allclose(from_all, least, atol=0.01)  # 0.014 mm of travel between two points
+    assert (from_all <= least + ROUNDING).all()
+    near = near_segments(wheel, start, end, float(least.min()) + 1.0)
+    assert from_segments(near, start, end).min() == from_all.min()
+
+
+def test_short_pieces_are_the_same_outline():
+    for name in ("turret.toml", "quick-index.toml", "offset-slots.toml"):
+        crank = parts_of(name).crank
+        whole, short = Polyarc(crank), short_pieces(crank, math.radians(1.0))
+        points = np.random.default_rng(2).uniform(-80.0, 80.0, (200, 2))
+        apart = np.abs(whole.signed(points)) - np.abs(short.signed(points))
+        assert np.abs(apart).max() < ROUNDING
+        arcs = short.arc
+        assert np.arccos(short.cos_half[arcs]).max() <= math.radians(0.5) * (1.0 + 1e-9)
+
+
+def pairs(parts, window):
+    """Each pair of parts in a motion or dwell, with the gap at input angles."""
+    reach = Reach(parts, -TO_MM)
+    if parts.crank:
+        yield Lock(reach, window), lambda at: parts.gaps.locking(parts.gaps.pose(at))
+    for roller in range(len(parts.assembly.rollers)):
+
+        def gap(at, roller=roller):
+            return parts.gaps.rollers(parts.gaps.pose(at))[:, roller]
+
+        yield FreeRoller(reach, roller), gap
+        if roller == window.motion and not window.rests:
+            engagement, _ = parts.assembly.motions[window.motion]
+            if engagement.slot.curved:
+                yield CurvedSlot(reach, window.motion, greatest_rates(engagement)), gap
+            else:
+                yield StraightSlot(reach, window), gap
+
+
+def check_bounds(parts, rng):
+    for window in windows(parts):
+        for pair, gap in pairs(parts, window):
+            width = (window.end - window.start) * 10.0 ** rng.uniform(-5.0, -0.5, 40)
+            start = window.start + (window.end - window.start - width) * rng.random(40)
+            bounds = pair(intervals(parts.assembly, start, start + width))
+            at = start[:, None] + width[:, None] * np.linspace(0.0, 1.0, 41)
+            dense = gap(at.ravel()).reshape(at.shape).min(axis=1)
+            near = parts.gaps.near  # wider gaps are returned as this
+            assert (np.minimum(bounds.least, near) <= dense + ROUNDING).all()
+            middle = gap(start + 0.5 * width)
+            assert np.allclose(np.minimum(bounds.middle, near), middle, atol=ROUNDING)
+
+
+@pytest.mark.parametrize("name", FLAT)
+@pytest.mark.sampled(4)
+def test_no_gap_within_an_interval_is_below_its_bound(name):
+    parts = parts_of(name)
+    if not unproved_kind(parts):
+        check_bounds(parts, np.random.default_rng(3))
+
+
+def test_no_gap_of_a_random_machine_is_below_its_bound():
+    for i, parts in enumerate(random_machines(1000)):
+        check_bounds(parts, np.random.default_rng(i))
+
+
+@pytest.mark.parametrize("name", FLAT)
+def test_designs_are_proved_to_a_micrometre_of_their_smallest_gap(name):
+    parts = parts_of(name)
+    if unproved_kind(parts):
+        pytest.skip("a kind without certificates")
+    gap = full_turn(parts).smallest.mm
+    to_mm = max(TO_MM, 2.0 * parts.contact)
+    found = proved(parts, gap, to_mm)
+    assert found.proved
+    assert max(gap, 0.0) - to_mm <= found.least_mm <= max(gap, 0.0)
+    assert least_gap(parts, turn_of(parts)) >= found.least_mm
+
+
+def test_random_machines_keep_what_is_proved():
+    """Gaps at dense positions of a turn are at least the proved bound; most are proved."""
+    count = closed_ = 0
+    for parts in random_machines(0):
+        gap = full_turn(parts).smallest.mm
+        found = proved(parts, gap)
+        count += 1
+        closed_ += found.proved
+        dense = least_gap(parts, turn_of(parts))
+        if found.proved:
+            assert dense >= found.least_mm
+            assert found.least_mm >= max(gap, 0.0) - TO_MM
+        elif gap > -parts.contact:
+            assert found.intervals > halving.MOST / 2 or found.open.gap_mm < -TO_MM
+    assert closed_ > 0.8 * count
+
+
+@pytest.mark.parametrize("depth", [0.5 * TO_MM, 0.9 * TO_MM, 1.1 * TO_MM, 0.05, 0.5])
+@pytest.mark.parametrize("name", ["turret.toml", "press-curved.toml", "internal-z6.toml"])
+def test_a_collision_of_known_depth_is_proved_to_no_less(name, depth):
+    """A roller larger than its slot, and a locking disc larger than its recess.
+
+    Walls of a curved slot are up to CURVED from their true place.
+    """
+    parts = parts_of(name)
+    for worse in (with_roller(parts, depth), larger_crank(parts, depth)):
+        found = proved(worse)
+        assert found.proved == (depth < TO_MM)
+        if found.proved:
+            assert found.least_mm <= -depth + parts.close
+        else:
+            assert found.open.gap_mm < -TO_MM
+            assert found.open.gap_mm >= -depth - parts.close - ROUNDING
+
+
+def test_a_spike_that_collides_for_a_moment_is_never_proved_free():
+    """A spike 0.2 mm wide somewhere on the crank; dense positions show how deep it collides."""
+    rng = random.Random(5)
+    collides = free = 0
+    for name in ("turret.toml", "three-slots.toml", "quick-index.toml"):
+        for _ in range(some(100, 12)):
+            parts = with_spike(parts_of(name), rng)
+            if parts is None:
+                continue
+            gap = least_gap(parts, turn_of(parts, 8_000))
+            found = proved(parts)
+            collides += gap < -TO_MM
+            free += found.proved
+            assert not (found.proved and gap < found.least_mm)
+            assert found.proved or gap < TO_MM
+    assert collides
+    assert free
+
+
+def test_an_interval_that_is_left_open_is_named(monkeypatch):
+    monkeypatch.setattr(halving, "MOST", 100)
+    found = proved(parts_of("turret.toml"))
+    assert not found.proved
+    assert found.between == "locking disc and wheel"
+    start, end, gap, least = found.open
+    assert -67.5 <= start < end <= 67.5
+    assert least < -TO_MM <= gap
+
+
+def checked(parts, turn_of=None, to_mm=None):
+    """The check of parts whose sampled turn may be that of other parts."""
+    model = PartsModel(parts.assembly.full, parts)
+    vars(model)["_turn"] = full_turn(turn_of or parts)
+    return least_gap_check("gap_proved_mm", model, to_mm)
+
+
+def test_the_check_passes_with_its_proof_and_fails_where_samples_missed_a_collision():
+    parts = parts_of("turret.toml")
+    check = checked(parts)
+    assert check.passes
+    assert re.fullmatch(r"collision-free, proved to 1 µm \([\d,]+ intervals\)", check.why)
+    assert -TO_MM <= check.value <= 0.0
+    assert checked(parts, to_mm=1e-9).passes is None  # an open interval is no failure
+    worse = with_roller(parts, 0.5)
+    assert checked(worse) is None  # the sampled gap fails already
+    check = checked(worse, turn_of=parts)
+    assert check.passes is False
+    assert check.value == pytest.approx(-0.5)
+    unknown = checked(parts_of("four-bar-z4.toml"))
+    assert (unknown.value, unknown.passes) == (None, None)
+    assert unknown.why.startswith("sampled collision check; ")
+
+
+def test_kinds_without_a_certificate_have_a_reason():
+    reasons = {name: unproved_kind(parts_of(name)) for name in FLAT}
+    assert reasons["turret.toml"] == reasons["press-curved.toml"] == ""
+    assert "gears drive" in reasons["gear-sector.toml"]
+    for name in ("four-bar-z4.toml", "epicyclic-z4.toml", "cam-geneva.toml"):
+        assert "circle" in reasons[name]
+
+
+def test_the_wheel_lies_within_the_circle_that_gaps_are_counted_from():
+    """A roller beyond the rim is as far from the wheel as from the rim, or farther."""
+    for name in FLAT:
+        parts = parts_of(name)
+        rim = Reach(parts, 0.0).rim
+        assert parts.assembly.sign * (parts.sizes.rim - rim) > -ROUNDING
