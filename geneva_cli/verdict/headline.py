@@ -109,7 +109,7 @@ def tightest(checks: Iterable[Check]) -> Iterator[SummaryLine]:
 def _limit_fraction(check: Check) -> float | None:
     """Fraction of its limit that a check uses, 1 at the limit; None if it has no such fraction."""
     value, limit = check.value, check.limit
-    has_margin = check.name not in ("dwell_hold", "parts", "full_turn")
+    has_margin = check.name not in ("dwell_hold", "parts", "full_turn", PROOF)
     if not (check.passes and value and limit and has_margin):
         return None
     return value / limit if check.must_be == "at most" else limit / value

@@ -45,7 +45,7 @@ class Designs:
         return result
 
     @cached_property
-    def setting(self) -> LoadCase:
+    def load_case(self) -> LoadCase:
         """The loads' parameters besides the motion."""
         from geneva_cli.analysis.loads.forces import load_case  # quantities without loads need none
 
@@ -54,7 +54,7 @@ class Designs:
     @cached_property
     def loaded(self) -> Array:
         """1 if something resists the wheel, else NaN."""
-        loaded = self.setting.inertia_Nm + self.setting.resists_Nm > 0.0
+        loaded = self.load_case.inertia_Nm + self.load_case.resists_Nm > 0.0
         return np.ravel(np.where(loaded, 1.0, np.nan))
 
 

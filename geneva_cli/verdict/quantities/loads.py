@@ -33,7 +33,7 @@ def greatest(of: Designs) -> Columns:
     if "kinetic_power_W" in requested:
         power = worst_peaks(of.machine, ["power"])["power"].max
         kinetic = np.ravel(kinetic_power_W(of.machine, parameter(power[:, None])))
-        out["kinetic_power_W"] = np.where(np.ravel(of.setting.inertia_Nm) > 0.0, kinetic, np.nan)
+        out["kinetic_power_W"] = np.where(np.ravel(of.load_case.inertia_Nm) > 0.0, kinetic, np.nan)
     return out
 
 

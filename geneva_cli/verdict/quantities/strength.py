@@ -137,7 +137,7 @@ def bending(of: Designs) -> Columns:
 
 def wear(of: Designs) -> Columns:
     """The roller as a bearing, the work of friction, and the slot's walls."""
-    load, friction = under_load(of), np.ravel(of.setting.friction)
+    load, friction = under_load(of), np.ravel(of.load_case.friction)
     passages, lasts = load.passages, roller.lives(of.machine, load.roller_passages)
     force = np.ravel(lasts.equivalent_force_N)
     with np.errstate(invalid="ignore"):  # without friction, of a force without a bound
