@@ -21,6 +21,7 @@ def headline(checks: Sequence[Check], warnings: Sequence[str]) -> tuple[str, str
     >>> headline([Check("jerk_max", 31.4, "at most", 30.0, False)], [])
     ('fails', '1 of 1 checks fails')
     """
+    checks = [check for check in checks if not _has_no_proof(check)]
     many = len(checks)
     failed = sum(check.passes is False for check in checks)
     not_proved = sum(check.passes is None for check in checks)
@@ -57,7 +58,7 @@ def failure_lines(checks: Iterable[Check]) -> list[SummaryLine]:
 
 def warning_lines(checks: Iterable[Check], warnings: Iterable[str]) -> list[SummaryLine]:
     """A line for each check without a proof, then for each warning."""
-    unproved = [check for check in checks if check.passes is None]
+    unproved = [check for check in checks if check.passes is None and not _has_no_proof(check)]
     lines = [
         SummaryLine("not proved", f"{spoken(c.name)[0]}: {c.why}", "", WARNS) for c in unproved
     ]
@@ -91,8 +92,14 @@ def compared_text(check: Check, unit: str) -> str:
 
 
 def proof_lines(checks: Iterable[Check]) -> Iterator[SummaryLine]:
-    """The line of the proof that no parts collide, or none."""
-    yield from (SummaryLine("turn", c.why) for c in checks if c.name == PROOF and c.passes)
+    """The line of the proof that no parts collide, or of the reason why its kind has none."""
+    proofs = [check for check in checks if check.name == PROOF]
+    yield from (SummaryLine("turn", c.why) for c in proofs if c.passes or _has_no_proof(c))
+
+
+def _has_no_proof(check: Check) -> bool:
+    """Return True if there is no proof for this kind of machine, whose turn is sampled."""
+    return check.name == PROOF and check.limit is None
 
 
 def tightest(checks: Iterable[Check]) -> Iterator[SummaryLine]:

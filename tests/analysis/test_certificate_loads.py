@@ -9,7 +9,7 @@ from typer.testing import CliRunner
 
 from geneva_cli import Design, External, GenevaError, Load
 from geneva_cli.analysis.certificate_loads import LOADS
-from geneva_cli.analysis.loads.forces import setting
+from geneva_cli.analysis.loads.forces import load_case
 from geneva_cli.analysis.loads.loads import greatest
 from geneva_cli.app import app
 from geneva_cli.design import load
@@ -24,7 +24,7 @@ def loaded(name):
 
 def exact(name, a):
     """A load of six slots, whose R/L is 1/2 exactly, at an angle in radians: 50 digits."""
-    given, l = setting(LOADED.mechanism), mpmath.mpf(1) / 2
+    given, l = load_case(LOADED.mechanism), mpmath.mpf(1) / 2
 
     def angle(a):
         return mpmath.atan2(l * mpmath.sin(a), 1 - l * mpmath.cos(a))

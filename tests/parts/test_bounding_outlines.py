@@ -28,7 +28,7 @@ from geneva_cli.parts.turn.free_angles import free_angles
 from geneva_cli.parts.turn.play import windows
 from geneva_cli.spec.tables import Size
 
-SAME = 1e-9  # mm: rounding of places on an outline
+SAME = 1e-7  # mm: the step to which ends of curved walls are rounded
 NEARLY = np.radians(0.02)  # what a play is told short by at most
 
 

@@ -21,7 +21,6 @@ import ezdxf
 import numpy as np
 import pytest
 import repo
-import shapely
 from drawing_witness import apart, backwards, dxf_shapes, svg_shapes
 from shapely import affinity
 from shapely.geometry import LineString, Point, Polygon
@@ -572,12 +571,8 @@ def test_groove_of_a_cam(curves):
     for row in table_of(name, "groove", "--samples", "181"):
         x, y, R = row["x_mm"], row["y_mm"], row["radius_mm"]
         assert math.hypot(x, y) == pytest.approx(R, abs=1e-9)
-        ray = LineString([(0.0, 0.0), (2.0 * x, 2.0 * y)])
-        found = shapely.get_coordinates(ray.intersection(pitch))  # two where chords meet on it
-        # along the ray a curve within the tolerance is off by 1 / cos of its slope, below 2
-        assert len(found) in (1, 2)
-        for place in found:
-            assert math.hypot(*place) == pytest.approx(R, abs=2.0 * TOLERANCE + SAGITTA)
+        # a ray may slip between two chords that meet on it: the distance is taken instead
+        assert pitch.distance(Point(x, y)) < TOLERANCE + SAGITTA
         for side in ("left", "right"):
             flank = Point(row[f"{side}_x_mm"], row[f"{side}_y_mm"])
             near = min(line.distance(flank) for line in lines["GROOVE"])

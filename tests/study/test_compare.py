@@ -116,10 +116,10 @@ def test_picked_quantities_by_whole_and_short_names():
 def test_what_makes_parts_is_shown_only_where_it_is_picked(monkeypatch):
     """Parts take seconds; tolerances.toml has all that they are made for."""
 
-    def made(mechanism):
+    def made(*inputs):
         raise AssertionError("parts are made")
 
-    monkeypatch.setattr("geneva_cli.parts.model.outlines", made)
+    monkeypatch.setattr("geneva_cli.parts.model.drawn", made)
     found = by_quantity(compare([path("tolerances.toml")]))
     assert "acceleration.max" in found
     assert not [q for q in found if q.startswith(("parts", "tolerance", "checks"))]

@@ -100,7 +100,7 @@ def test_a_program_finds_the_same_names_for_every_machine() -> None:
     unproved = [tree["not_proved"] for tree in trees.values()]
     assert unproved[3:] == [[], []]
     for [text] in unproved[:3]:
-        assert text.startswith("gap_proved_mm: sampled collision check; ")
+        assert text.startswith("gap_proved_mm: sampled collision check: ")
     two = trees["two-rollers-side-crank"]
     assert len(two["stations"]) == 2
     assert trees["projector"]["stations"] is None

@@ -21,7 +21,7 @@ def least_gap(name: str, model: PartsModel, to_mm: float | None) -> Check | None
     unproved = Check(name, None, "at least", -to_mm, None)
     reason = unproved_kind(parts)
     if reason:
-        return unproved._replace(why=f"sampled collision check; {reason}")
+        return unproved._replace(limit=None, why=f"sampled collision check: {reason}")
     try:
         found = certificate(model.outlines, gap, to_mm, greatest_rates)
     except WorkLimit as error:

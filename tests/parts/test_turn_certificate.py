@@ -329,7 +329,7 @@ def test_the_check_passes_with_its_proof_and_fails_where_samples_missed_a_collis
     assert check.value == pytest.approx(-0.5)
     unknown = checked(parts_of("four-bar-z4.toml"))
     assert (unknown.value, unknown.passes) == (None, None)
-    assert unknown.why.startswith("sampled collision check; ")
+    assert unknown.why.startswith("sampled collision check: ")
 
 
 def test_kinds_without_a_certificate_have_a_reason():
@@ -345,4 +345,5 @@ def test_the_wheel_lies_within_the_circle_that_gaps_are_counted_from():
     for name in FLAT:
         parts = parts_of(name)
         rim = Reach(parts, 0.0).rim
-        assert parts.assembly.sign * (parts.sizes.rim - rim) > -ROUNDING
+        # the corners of a mouth are rounded to 1e-7 mm, the ends of curved walls
+        assert parts.assembly.sign * (parts.sizes.rim - rim) > -1e-7
