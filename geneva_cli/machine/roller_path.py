@@ -5,18 +5,14 @@ from __future__ import annotations
 import copy
 from abc import ABC, abstractmethod
 from decimal import Decimal
-from typing import TYPE_CHECKING, Protocol, cast
-
-import numpy as np
+from typing import TYPE_CHECKING, Protocol, TypeGuard, cast
 
 from geneva_cli.numerics.arrays import array, parameter
-from geneva_cli.numerics.digits import PI
 from geneva_cli.numerics.jet import Jet, Number, sin_cos
+from geneva_cli.spec.rules import is_array
 
 if TYPE_CHECKING:
-    from geneva_cli.numerics.arrays import Long, Which
-
-LONG_PI = np.longdouble(str(PI))
+    from geneva_cli.numerics.arrays import Array, Long, Which
 
 
 class PointDisplacement(Protocol):
@@ -28,9 +24,7 @@ class PointDisplacement(Protocol):
 
 def rounded(x: Number | Decimal | Long) -> float:
     """Round a Decimal, or long doubles, to doubles; a single number to a float."""
-    if isinstance(x, Decimal) or not np.ndim(x):
-        return float(x)
-    return parameter(np.asarray(x, dtype=np.float64))
+    return parameter(array(x).astype(float)) if _are_many(x) else float(x)
 
 
 def exactly(x: Decimal | Long) -> float:
@@ -63,6 +57,8 @@ class RollerPath(ABC):
 
     def in_long_doubles(self) -> RollerPath:
         """The path with long doubles as exact numbers, as in a batch."""
+        import numpy as np  # a batch has imported it; a list of keys needs none
+
         some = copy.copy(self)
         long = (np.longdouble(str(x)) if isinstance(x, Decimal) else x for x in self.exact)
         some.exact = tuple(long)
@@ -97,4 +93,9 @@ class RollerPath(ABC):
 
 
 def _some(numbers: tuple[float, ...], which: Which) -> tuple[float, ...]:
-    return tuple(parameter(array(x)[which]) if np.ndim(x) else x for x in numbers)
+    return tuple(parameter(array(x)[which]) if _are_many(x) else x for x in numbers)
+
+
+def _are_many(x: object) -> TypeGuard[Array]:
+    """Return True for an array of designs' numbers."""
+    return is_array(x) and cast("Array", x).ndim > 0

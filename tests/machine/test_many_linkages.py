@@ -7,9 +7,9 @@ import pytest
 from words import Drive, Keys, Spec, Wheel
 
 from geneva_cli.errors import GenevaError
+from geneva_cli.machine.linkage.wheels_for_paths import searches_kept
 from geneva_cli.machine.many import changed, many, taken
 from geneva_cli.machine.mechanism import build
-from geneva_cli.machine.wheels_for_paths import searches_kept
 
 # One design is solved in 50 digits, many in long doubles, and both are rounded once: numbers differ
 # by units in the last place, in 900 random designs by 3 at most. Where a long double is a double,
@@ -162,7 +162,7 @@ def test_a_search_that_is_kept_finds_the_same(case, monkeypatch):
     apart = [alone(spec, varied, i) for i in range(60)]
     with searches_kept():
         together = many(spec, varied)
-        monkeypatch.setattr("geneva_cli.machine.wheel_for_path.wheels", searched_again)
+        monkeypatch.setattr("geneva_cli.machine.linkage.wheel_for_path.wheels", searched_again)
         found = [alone(spec, varied, int(i)) for i in together.which]
     assert len(found) > 3
     for i, one in zip(together.which, found, strict=True):

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import copy
-import math
 from abc import abstractmethod
 from decimal import Decimal, localcontext
 from functools import reduce
@@ -11,24 +10,18 @@ from typing import (
     TYPE_CHECKING,
     Annotated,
     ClassVar,
-    Self,
     TypeAlias,
     TypeVar,
     cast,
 )
 
-import numpy as np
-
 from geneva_cli.errors import GenevaError, refuse
+from geneva_cli.machine import linkage
 from geneva_cli.machine.drives.drive import Plan
 from geneva_cli.machine.drives.pin_path import PinPath
 from geneva_cli.machine.layout import Dimension, Joint, Layout, Link, Pivot
 from geneva_cli.machine.link import LinkReactions
-from geneva_cli.machine.linkage_engagement import engagement_of, engagement_of_batch
-from geneva_cli.machine.roller_path import LONG_PI, RollerPath, rounded
-from geneva_cli.machine.wheel_for_path import fit
-from geneva_cli.machine.wheels.poses import HalfStep
-from geneva_cli.machine.wheels_for_paths import fits_of_batch, known
+from geneva_cli.machine.roller_path import RollerPath, rounded
 from geneva_cli.numerics import digits
 from geneva_cli.numerics.angles import radians
 from geneva_cli.numerics.arrays import array, larger, library, parameter, smaller
@@ -37,7 +30,6 @@ from geneva_cli.spec.rules import Range, is_array
 from geneva_cli.spec.tables import DISTANCE_MM
 
 if TYPE_CHECKING:
-    from geneva_cli.machine.engagement import Engagement
     from geneva_cli.machine.motion import Motion
     from geneva_cli.machine.wheels.gearing import Gearing
     from geneva_cli.numerics.arrays import Long
@@ -78,12 +70,12 @@ class Linkage(PinPath, kw_only=True):
             )
         step, path = wheel.step, self.roller_path
         if self.varies or is_array(step.b):
-            engagement, L = self._batch_engagement(step)
+            engagement, L = linkage.solve_batch(path, step, self._wanted, self._alone)
         else:
-            wheel_fit = fit(path, step, self._wanted, known(path, step.b))
-            if wheel_fit is None:
-                raise _none_fits(wheel.z)
-            engagement, L = engagement_of(path, wheel_fit, step)
+            solved = linkage.solve(path, step, self._wanted)
+            if solved is None:
+                raise linkage.none_fits(wheel.z)
+            engagement, L = solved
         x, y = engagement.path(0.0, 0)
         return self.planned(engagement, parameter(library(L).hypot(1.0 - x.c[0], y.c[0])), L)
 
@@ -144,42 +136,14 @@ class Linkage(PinPath, kw_only=True):
         """``entry_deg`` in radians."""
         return None if self.entry_deg is None else radians(self.entry_deg)
 
-    def _one(self, i: int) -> Self:
-        """The linkage of the i-th design. Raises GenevaError for a refused one."""
+    def _alone(self, i: int) -> tuple[RollerPath, float | None]:
+        """Path and entry of the i-th design. Raises GenevaError for a refused one."""
         one = copy.copy(self)
         for key, value in vars(self).items():
             if is_array(value):
                 vars(one)[key] = float(value[i, 0])
         one.__post_init__()
-        return one
-
-    def _batch_engagement(self, step: HalfStep) -> tuple[Engagement, float]:
-        """Engagements and centre distances of a batch; designs without a wheel are refused."""
-        path = self.roller_path.in_long_doubles()
-        fits = fits_of_batch(path, step.b, self._wanted)
-        for i, search in fits.alone.items():
-            p, q = (int(np.broadcast_to(x, fits.entry.shape)[i, 0]) for x in step)
-            try:
-                one = self._one(i)
-                fit_i = fit(one.roller_path, HalfStep(p, q), one._wanted, search)
-            except GenevaError:
-                fit_i = None
-            values = (
-                (float(fit_i.entry), float(fit_i.exit), fit_i.sense) if fit_i else (math.nan,) * 3
-            )
-            for column, value in zip(fits[:3], values, strict=True):
-                column[i, 0] = value
-        refuse(fits.entry != fits.entry, lambda: _none_fits(step.q))
-        return engagement_of_batch(path, fits, step)
-
-
-def _none_fits(z: int) -> GenevaError:
-    return GenevaError(
-        f"no wheel of z = {z} slots fits this path: change the linkage, or z. The path needs two "
-        f"equally long tangents that meet at {360.0 / z:.6g} deg, with the roller nearer to that "
-        "point only between them",
-        ("drive", "kind"),
-    )
+        return one.roller_path, one._wanted
 
 
 def refuse_proportions(**lengths: float) -> None:
@@ -243,6 +207,10 @@ def _exactly(*lengths: float, reach_mm: float, angle_deg: float) -> tuple[Decima
 
 def _long(*lengths: float, reach_mm: float, angle_deg: float) -> tuple[Long, ...]:
     """Lengths, and a point's coordinates from its distance and angle, in long doubles."""
+    import numpy as np  # of a batch
+
+    from geneva_cli.machine.linkage.wheels_for_paths import LONG_PI
+
     turned = np.asarray(angle_deg, dtype=np.longdouble) * (LONG_PI / 180)
     point = reach_mm * np.cos(turned), reach_mm * np.sin(turned)
     return tuple(np.asarray(x, dtype=np.longdouble) for x in (*lengths, *point))

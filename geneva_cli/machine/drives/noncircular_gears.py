@@ -11,9 +11,7 @@ from __future__ import annotations
 import math
 from bisect import bisect_right
 from functools import lru_cache
-from typing import Annotated, ClassVar, NamedTuple
-
-import numpy as np
+from typing import TYPE_CHECKING, Annotated, ClassVar, NamedTuple
 
 from geneva_cli.errors import GenevaError
 from geneva_cli.machine.drives import whitworth
@@ -27,9 +25,11 @@ from geneva_cli.machine.wheels.gearing import Gearing, RollerPlace
 from geneva_cli.numerics.arrays import library
 from geneva_cli.numerics.jet import Jet, Number, sine_versine_of
 from geneva_cli.numerics.roots import boundary
-from geneva_cli.numerics.spline import SPLINE_DEGREE, Doubt, PiecewisePolynomial, doubt, periodic
 from geneva_cli.spec.rules import POSITIVE, Csv, Range
 from geneva_cli.spec.schema import Points
+
+if TYPE_CHECKING:
+    from geneva_cli.numerics.spline import Doubt, PiecewisePolynomial
 
 
 class NoncircularGears(Transmission, kw_only=True):
@@ -117,6 +117,8 @@ class NoncircularGears(Transmission, kw_only=True):
         """Uncertainty of the crank's jerk from the decimals of a ratio file; None without one."""
         if self.ratio is None:
             return None
+        from geneva_cli.numerics.spline import doubt
+
         x, i = zip(*self.ratio.pairs, strict=True)
         rounding = doubt([math.radians(v) for v in x], i, True, 2)
         return rounding._replace(move=rounding.move / i[bisect_right(x, input_deg % 360.0) - 1])
@@ -125,6 +127,9 @@ class NoncircularGears(Transmission, kw_only=True):
 @lru_cache(4)  # advice builds one machine many times
 def _turned(points: tuple[tuple[float, float], ...]) -> PiecewisePolynomial:
     """Crank angle over a turn, scaled to close. GenevaError for an impossible ratio."""
+    # a list of the kinds needs no splines
+    from geneva_cli.numerics.spline import PiecewisePolynomial, periodic
+
     key = ("drive", "ratio_file")
     x, i = zip(*points, strict=True)
     if x[0] != 0.0 or x[-1] != 360.0 or i[0] != i[-1]:
@@ -176,6 +181,10 @@ def _since(crank: PiecewisePolynomial, phi: float) -> PiecewisePolynomial:
     The piece about phi is in powers of the input's rotation, so that the smallest angle has all its
     digits.
     """
+    import numpy as np
+
+    from geneva_cli.numerics.spline import SPLINE_DEGREE, PiecewisePolynomial
+
     here = crank(phi, SPLINE_DEGREE + 1)
     turns = math.tau * np.arange(-1.0, 2.0)
     origins = np.add.outer(turns, crank.origins - phi).ravel()

@@ -9,8 +9,8 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from typing import NamedTuple, TypeAlias
 
+from geneva_cli.machine.linkage.wheels_for_paths import searches_kept
 from geneva_cli.machine.spec import Spec
-from geneva_cli.machine.wheels_for_paths import searches_kept
 from geneva_cli.study.synthesis.best import FamilySearch, Trial
 from geneva_cli.study.synthesis.families.family import Family
 from geneva_cli.study.synthesis.limited import breaks_limit

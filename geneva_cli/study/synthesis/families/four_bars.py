@@ -18,8 +18,8 @@ import numpy as np
 
 from geneva_cli.errors import GenevaError
 from geneva_cli.machine.drives.four_bar import FourBar
-from geneva_cli.machine.path_pairs import ends_at, newton, residual
-from geneva_cli.machine.path_wheels import followed
+from geneva_cli.machine.linkage.pairs import ends_at, newton, residual
+from geneva_cli.machine.linkage.wheels import followed
 from geneva_cli.machine.spec import Spec
 from geneva_cli.machine.wheels.gearing import Gearing
 from geneva_cli.study.sweep.constraints import Constraint

@@ -6,19 +6,23 @@ to ``wheel_for_path``, which solves it alone in 50 digits.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+import math
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from contextvars import ContextVar
 from typing import TYPE_CHECKING, NamedTuple, TypeAlias, cast
 
 import numpy as np
 
-from geneva_cli.machine.path_choice import chosen
-from geneva_cli.machine.path_pairs import DOUBLE_ROOT_SLOPE, ends_at, residual
-from geneva_cli.machine.path_wheels import WheelSearch, wheels
-from geneva_cli.machine.roller_path import LONG_PI, RollerPath, exactly
+from geneva_cli.errors import GenevaError
+from geneva_cli.machine.linkage.choice import chosen
+from geneva_cli.machine.linkage.pairs import DOUBLE_ROOT_SLOPE, ends_at, residual
+from geneva_cli.machine.linkage.wheel_for_path import fit
+from geneva_cli.machine.linkage.wheels import WheelSearch, wheels
+from geneva_cli.machine.roller_path import RollerPath, exactly
 from geneva_cli.machine.wheels.poses import HalfStep
 from geneva_cli.numerics.arrays import rising
+from geneva_cli.numerics.digits import PI
 from geneva_cli.numerics.jet import Jet
 
 if TYPE_CHECKING:
@@ -27,6 +31,9 @@ if TYPE_CHECKING:
     from geneva_cli.numerics.arrays import Array, Long
 
     LongComplex: TypeAlias = NDArray[np.clongdouble]
+
+LONG_PI = np.longdouble(str(PI))
+Alone: TypeAlias = Callable[[int], tuple[RollerPath, float | None]]  # a design's path and entry
 
 # Search results by the kind and numbers of a path, with its number there; None: none are kept.
 _KNOWN: ContextVar[dict[tuple[object, ...], tuple[WheelSearch, int]] | None] = ContextVar(
@@ -70,6 +77,20 @@ def fits_of_batch(path: RollerPath, b: float, wanted: float | None = None) -> Fi
             alone[start + i] = search.of(i)
     entry, exit_, sense = out[:, :, None]
     return Fits(entry, exit_, sense, alone)
+
+
+def solve_alone(fits: Fits, step: HalfStep, alone: Alone) -> None:
+    """Fill in the designs that must be solved one by one, with NaN where no wheel fits."""
+    for i, search in fits.alone.items():
+        p, q = (int(np.broadcast_to(x, fits.entry.shape)[i, 0]) for x in step)
+        try:
+            path, wanted = alone(i)
+            one = fit(path, HalfStep(p, q), wanted, search)
+        except GenevaError:
+            one = None
+        values = (float(one.entry), float(one.exit), one.sense) if one else (math.nan,) * 3
+        for column, value in zip(fits[:3], values, strict=True):
+            column[i, 0] = value
 
 
 @contextmanager

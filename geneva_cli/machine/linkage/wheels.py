@@ -1,6 +1,6 @@
 """Wheels that roller paths can drive: the pairs of points whose roller stays in its slot.
 
-A pair of points gives the wheel's centre. ``path_course`` checks that the roller enters at one
+A pair of points gives the wheel's centre. ``course`` checks that the roller enters at one
 point, leaves at the other and stays outside the slot otherwise.
 """
 
@@ -11,9 +11,9 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from geneva_cli.machine.path_course import PinCourse, PlacedWheel, leaves_slot
-from geneva_cli.machine.path_pairs import DOUBLE_ROOT_SLOPE, EndPairs, pairs, residual
-from geneva_cli.machine.path_samples import PathSamples, joined, points, sampled
+from geneva_cli.machine.linkage.course import PinCourse, PlacedWheel, leaves_slot
+from geneva_cli.machine.linkage.pairs import DOUBLE_ROOT_SLOPE, EndPairs, pairs, residual
+from geneva_cli.machine.linkage.samples import PathSamples, joined, points, sampled
 from geneva_cli.machine.roller_path import RollerPath
 
 if TYPE_CHECKING:

@@ -12,8 +12,8 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from geneva_cli.machine.path_pairs import EndPairs
-from geneva_cli.machine.path_samples import PathPoints, points
+from geneva_cli.machine.linkage.pairs import EndPairs
+from geneva_cli.machine.linkage.samples import PathPoints, points
 from geneva_cli.machine.roller_path import RollerPath
 from geneva_cli.numerics.tolerances import ROUNDED
 

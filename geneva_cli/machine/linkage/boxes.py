@@ -1,7 +1,7 @@
 """Boxes: an interval of a path for the entry and one for the exit that may contain a pair.
 
 Cubics through values and slopes at the corners of a box show if it can contain a pair; see
-``path_pairs``.
+``pairs``.
 """
 
 from __future__ import annotations
@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 from numpy.lib.stride_tricks import sliding_window_view
 
-from geneva_cli.machine.path_samples import PathPoints, PathSamples, joined, points
+from geneva_cli.machine.linkage.samples import PathPoints, PathSamples, joined, points
 from geneva_cli.machine.roller_path import RollerPath
 
 if TYPE_CHECKING:

@@ -26,8 +26,8 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from geneva_cli.machine.path_boxes import OVERLAP, Boxes, boxes_of, halved, newton_steps
-from geneva_cli.machine.path_samples import PathPoints, PathSamples, joined, points
+from geneva_cli.machine.linkage.boxes import OVERLAP, Boxes, boxes_of, halved, newton_steps
+from geneva_cli.machine.linkage.samples import PathPoints, PathSamples, joined, points
 from geneva_cli.machine.roller_path import RollerPath
 from geneva_cli.numerics.tolerances import ROUNDED
 

@@ -10,8 +10,8 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from geneva_cli.machine.path_samples import blocks, joined, points
-from geneva_cli.machine.path_wheels import PathWheels
+from geneva_cli.machine.linkage.samples import blocks, joined, points
+from geneva_cli.machine.linkage.wheels import PathWheels
 from geneva_cli.machine.roller_path import RollerPath
 
 if TYPE_CHECKING:

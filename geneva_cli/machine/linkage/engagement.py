@@ -9,13 +9,13 @@ import numpy as np
 
 from geneva_cli.machine import path_and_slot
 from geneva_cli.machine.engagement import Anchor, Carrier, Engagement
-from geneva_cli.machine.exact_path import ExactPoint, angle, length, unit
 from geneva_cli.machine.link import LinkRate, LinkReactions
+from geneva_cli.machine.linkage.exact_path import ExactPoint, angle, length, unit
+from geneva_cli.machine.linkage.wheel_for_path import Fit
+from geneva_cli.machine.linkage.wheels_for_paths import LONG_PI, Fits, long_point, polished
 from geneva_cli.machine.path_and_slot import AnchoredPath, StraightSlotMotion
-from geneva_cli.machine.roller_path import LONG_PI, PointDisplacement, RollerPath, exactly, rounded
-from geneva_cli.machine.wheel_for_path import Fit
+from geneva_cli.machine.roller_path import PointDisplacement, RollerPath, exactly, rounded
 from geneva_cli.machine.wheels.poses import HalfStep
-from geneva_cli.machine.wheels_for_paths import Fits, long_point, polished
 from geneva_cli.numerics import digits
 from geneva_cli.numerics.angles import radians
 from geneva_cli.numerics.arrays import library, parameter

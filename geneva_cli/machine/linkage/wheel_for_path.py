@@ -14,11 +14,11 @@ from typing import NamedTuple
 
 import numpy as np
 
-from geneva_cli.machine.exact_path import Exact, ExactPoint, cross, length
-from geneva_cli.machine.path_choice import chosen
-from geneva_cli.machine.path_pairs import DOUBLE_ROOT_SLOPE
-from geneva_cli.machine.path_samples import joined
-from geneva_cli.machine.path_wheels import PathWheels, WheelSearch, followed, wheels
+from geneva_cli.machine.linkage.choice import chosen
+from geneva_cli.machine.linkage.exact_path import Exact, ExactPoint, cross, length
+from geneva_cli.machine.linkage.pairs import DOUBLE_ROOT_SLOPE
+from geneva_cli.machine.linkage.samples import joined
+from geneva_cli.machine.linkage.wheels import PathWheels, WheelSearch, followed, wheels
 from geneva_cli.machine.roller_path import RollerPath
 from geneva_cli.machine.wheels.poses import HalfStep
 from geneva_cli.numerics import digits
