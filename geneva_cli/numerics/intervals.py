@@ -102,6 +102,8 @@ class Interval(Enclosed):
         return Interval(*_ends(other)) / self
 
     def __pow__(self, power: int) -> Interval:
+        if power < 0:
+            return 1.0 / self**-power
         base = self if power % 2 else abs(self)
         return _outwards(base.low**power, base.high**power, power)
 

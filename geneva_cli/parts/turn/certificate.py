@@ -55,8 +55,6 @@ def unproved_kind(parts: MachineParts) -> str:
         return "the parts lie on a sphere"
     if any(engagement.paired for engagement, _ in assembly.motions):
         return "gears drive the wheel between two rollers"
-    if any(engagement.groove is not None for engagement, _ in assembly.rollers):
-        return "a cam's groove guides the rollers"
     return ""
 
 

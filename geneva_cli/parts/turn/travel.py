@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from itertools import pairwise
 from typing import TYPE_CHECKING, TypeAlias, cast
 
@@ -13,26 +13,31 @@ from geneva_cli.machine.engagement import Engagement
 from geneva_cli.numerics.arrays import Undecided
 from geneva_cli.numerics.intervals import Interval, size_of
 from geneva_cli.numerics.jet import Jet, Number
+from geneva_cli.parts.groove import dwell_rates
 
 if TYPE_CHECKING:
     from geneva_cli.numerics.jet import Array
 
     Curve: TypeAlias = Callable[[Number, int], tuple[Jet, Jet]]
+    Rates: TypeAlias = tuple[float, float]  # sizes of a curve's two derivatives
 
 UNKNOWN = 1e30  # mm: a bound that is not known, so large that no interval closes with it
+SHORT_DEG = 1e-12  # of the input: an interval that may reach over the end of a formula's piece
 CELL_DEG = 1.0  # of the input: on a longer cell the bounds are much wider
 
 
 class Travel:
     """Bounds of the speed and the second derivative of a curve between two input angles.
 
-    The angles are those of one engagement, from its mid-motion; lengths are mm. A curve that runs
-    all round repeats after ``turn_deg``.
+    The angles are those of one engagement, from its mid-motion; lengths are mm. ``rates`` has the
+    bounds on the cells between ``edges``, infinite if unknown, in units of ``length``. A curve that
+    runs all round repeats after ``turn_deg``.
     """
 
-    def __init__(self, curve: Curve, edges: Sequence[float], length: float, turn_deg: float = 0.0):
-        cells = [_cell(curve, *ends) for ends in pairwise(edges)]
-        speed, bend = np.minimum(length * np.array(cells).T, UNKNOWN)
+    def __init__(
+        self, edges: Sequence[float], rates: Iterable[Rates], length: float, turn_deg: float = 0.0
+    ) -> None:
+        speed, bend = np.minimum(length * np.array([*rates]).T, UNKNOWN)
         self.edges = np.array(edges)
         if turn_deg:  # an interval may begin in one turn and end in the next
             speed, bend = np.tile(speed, 2), np.tile(bend, 2)
@@ -61,14 +66,23 @@ class Travel:
 
 def path_travel(engagement: Engagement, length: float, turn_deg: float) -> Travel:
     """Return the travel of a roller's path through a whole turn in the fixed frame."""
-    half = 0.5 * turn_deg
-    return Travel(engagement.path, _edges(engagement, -half, half), length, turn_deg)
+    half, path, groove = 0.5 * turn_deg, engagement.path, engagement.groove
+    edges = _edges(engagement, -half, half)
+    dwell = None if groove is None else dwell_rates(groove)
+    rates = [
+        dwell
+        if dwell and not engagement.entry_deg <= a < b <= engagement.exit_deg
+        else curve_rates(path, a, b)
+        for a, b in pairwise(edges)
+    ]
+    return Travel(edges, rates, length, turn_deg)
 
 
 def slot_travel(engagement: Engagement, length: float) -> Travel:
     """Return the travel of a roller in its slot, in the wheel's frame."""
     edges = _edges(engagement, engagement.entry_deg, engagement.exit_deg)
-    return Travel(engagement.slot, edges, length)
+    rates = [curve_rates(engagement.slot, a, b) for a, b in pairwise(edges)]
+    return Travel(edges, rates, length)
 
 
 def _edges(engagement: Engagement, start: float, end: float) -> list[float]:
@@ -78,11 +92,19 @@ def _edges(engagement: Engagement, start: float, end: float) -> list[float]:
     return sorted({*np.linspace(start, end, count + 1).tolist(), *seams})
 
 
-def _cell(curve: Curve, start: float, end: float) -> tuple[float, float]:
-    """Return the greatest sizes of a curve's two derivatives; infinite where none is known."""
+def curve_rates(curve: Curve, start: float, end: float) -> Rates:
+    """Return the greatest sizes of a curve's two derivatives; infinite where none is known.
+
+    Where another formula takes over within a cell, it is halved down to that place.
+    """
     try:
         x, y = curve(cast("Number", Interval(start, end)), 2)
     except Undecided:
-        return math.inf, math.inf
+        if end - start < SHORT_DEG:
+            return math.inf, math.inf
+        middle = 0.5 * (start + end)
+        halves = curve_rates(curve, start, middle), curve_rates(curve, middle, end)
+        speed, bend = map(max, *halves)
+        return speed, bend
     first = math.hypot(size_of(x.c[1]), size_of(y.c[1]))
     return first, 2.0 * math.hypot(size_of(x.c[2]), size_of(y.c[2]))
