@@ -221,7 +221,7 @@ def test_a_path_that_is_unknown_closes_no_interval():
     def curve(x, order):
         raise Undecided
 
-    assert curve_rates(curve, 0.0, 1e-10) == (math.inf, math.inf)
+    assert curve_rates(curve, 0.0, 1.0) == (math.inf, math.inf)
     travel = Travel([0.0, 1.0, 2.0], [(math.inf, math.inf), (1.0, 1.0)], 100.0)
     at = np.array([0.5])
     assert travel.most(at, at + 1e-9) == travel.most(at, at + 1.0) == UNKNOWN

@@ -22,7 +22,9 @@ if TYPE_CHECKING:
     Rates: TypeAlias = tuple[float, float]  # sizes of a curve's two derivatives
 
 UNKNOWN = 1e30  # mm: a bound that is not known, so large that no interval closes with it
-SHORT_DEG = 1e-12  # of the input: an interval that may reach over the end of a formula's piece
+# Parts of a cell: an interval may reach over the end of a formula's piece by some 1e-12 degrees, so
+# that each such place takes 80 halves.
+HALVINGS = 400
 CELL_DEG = 1.0  # of the input: on a longer cell the bounds are much wider
 
 
@@ -97,14 +99,18 @@ def curve_rates(curve: Curve, start: float, end: float) -> Rates:
 
     Where another formula takes over within a cell, it is halved down to that place.
     """
-    try:
-        x, y = curve(cast("Number", Interval(start, end)), 2)
-    except Undecided:
-        if end - start < SHORT_DEG:
-            return math.inf, math.inf
-        middle = 0.5 * (start + end)
-        halves = curve_rates(curve, start, middle), curve_rates(curve, middle, end)
-        speed, bend = map(max, *halves)
-        return speed, bend
-    first = math.hypot(size_of(x.c[1]), size_of(y.c[1]))
-    return first, 2.0 * math.hypot(size_of(x.c[2]), size_of(y.c[2]))
+    speed = bend = 0.0
+    left = [(start, end)]
+    for _ in range(HALVINGS):
+        if not left:
+            return speed, bend
+        start, end = left.pop()
+        try:
+            x, y = curve(cast("Number", Interval(start, end)), 2)
+        except Undecided:
+            middle = 0.5 * (start + end)
+            left += [(start, middle), (middle, end)]
+            continue
+        speed = max(speed, math.hypot(size_of(x.c[1]), size_of(y.c[1])))
+        bend = max(bend, 2.0 * math.hypot(size_of(x.c[2]), size_of(y.c[2])))
+    return math.inf, math.inf
