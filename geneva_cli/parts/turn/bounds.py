@@ -146,17 +146,17 @@ class FreeRoller(Roller):
 class StraightSlot(Roller):
     """A roller in its own straight slot: its centre is on the slot's axis."""
 
-    def __init__(self, reach: Reach, window: Window) -> None:
-        super().__init__(reach, window.motion)
-        ends = np.array([window.start, 0.5 * (window.start + window.end)])
-        self.mouth, bottom = self.centre(ends)
-        self.axis = (self.mouth - bottom) / math.dist(self.mouth, bottom)
+    def __init__(self, reach: Reach, number: int, span: tuple[float, float]) -> None:
+        super().__init__(reach, number)
+        ends = np.array([span[0], 0.5 * (span[0] + span[1])])
+        self.first, other = self.centre(ends)
+        self.axis = (self.first - other) / math.dist(self.first, other)
 
     def __call__(self, on: Intervals) -> Bounds:
         """Return the gap along the part of the axis that the centre may reach."""
         centre, gap = self.centre(on.middle), self.gap(on)
         half = self.travel(on, centre)[:, None] * self.axis
-        aside = np.abs((centre - self.mouth) @ (-self.axis[1], self.axis[0]))
+        aside = np.abs((centre - self.first) @ (-self.axis[1], self.axis[0]))
         segments = Segments(centre - half, centre + half, aside)
         return Bounds(gap, self.along(segments, centre, gap))
 
@@ -164,9 +164,9 @@ class StraightSlot(Roller):
 class CurvedSlot(Roller):
     """A roller in its own curved slot: its centre is near a chord of the pitch curve."""
 
-    def __init__(self, reach: Reach, window: Window) -> None:
-        super().__init__(reach, window.motion)
-        engagement, self.middle = self.parts.assembly.motions[window.motion]
+    def __init__(self, reach: Reach, number: int, span: tuple[float, float]) -> None:
+        super().__init__(reach, number)
+        engagement, self.middle = self.parts.assembly.motions[number]
         self.slot = slot_travel(engagement, reach.L)
 
     def __call__(self, on: Intervals) -> Bounds:

@@ -53,8 +53,6 @@ def unproved_kind(parts: MachineParts) -> str:
     assembly = parts.assembly
     if not assembly.mechanism.spec.wheel.FLAT:
         return "the parts lie on a sphere"
-    if any(engagement.paired for engagement, _ in assembly.motions):
-        return "gears drive the wheel between two rollers"
     return ""
 
 
@@ -82,19 +80,39 @@ def _gaps(parts: Outlines, target: float) -> Iterator[tuple[str, Settled]]:
     """Yield the proved bound of each pair of parts in each motion and dwell."""
     reach = Reach(parts, target)
     for window in windows(parts):
-        pairs: list[tuple[str, Pair]] = []
+        ends = window.start, window.end
         if len(parts.crank):
-            pairs.append(("locking disc and wheel", Lock(reach, window)))
-        for roller in range(len(parts.assembly.rollers)):
-            if roller == window.motion and not window.rests:
-                pairs.append(("roller and slot", _slotted(reach, window)))
-            else:
-                pairs.append(("roller and wheel", FreeRoller(reach, roller)))
-        for between, pair in pairs:
-            ends = window.start, window.end
-            yield between, settled(parts.assembly, pair, ends, target)
+            lock = settled(parts.assembly, Lock(reach, window), ends, target)
+            yield "locking disc and wheel", lock
+        for span, driver in spans(parts, window):
+            for roller in range(len(parts.assembly.rollers)):
+                pair: Pair = FreeRoller(reach, roller)
+                if roller == driver:
+                    engagement, _ = parts.assembly.rollers[roller]
+                    slot = CurvedSlot if engagement.slot.curved else StraightSlot
+                    pair = slot(reach, roller, span)
+                between = "roller and slot" if roller == driver else "roller and wheel"
+                yield between, settled(parts.assembly, pair, span, target)
 
 
-def _slotted(reach: Reach, window: Window) -> Pair:
-    engagement, _ = reach.parts.assembly.motions[window.motion]
-    return (CurvedSlot if engagement.slot.curved else StraightSlot)(reach, window)
+def spans(parts: Outlines, window: Window) -> Iterator[tuple[tuple[float, float], int | None]]:
+    """Yield the spans of a motion or dwell, each with the roller that is in its slot, or None.
+
+    Where gears drive between two rollers, each of them is in its slot up to its deepest position,
+    or from there.
+    """
+    motion, start, end = window.motion, window.start, window.end
+    engagement, _ = parts.assembly.motions[motion]
+    if window.rests:
+        yield (start, end), None
+    elif not engagement.paired:
+        yield (start, end), motion
+    else:
+        first, last = 2 * motion, 2 * motion + 1
+        turn = parts.assembly.turn_deg
+        leaves, meets = (
+            start + (parts.assembly.rollers[i][1] - start) % turn for i in (first, last)
+        )
+        yield (start, leaves), first
+        yield (leaves, meets), None
+        yield (meets, end), last
