@@ -15,7 +15,8 @@ from geneva_cli.machine.engagement import Displacement, WheelMotion
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.machine.wheels.gearing import FollowedRate
 from geneva_cli.numerics.angles import radians
-from geneva_cli.numerics.balls import Ball, Undecided
+from geneva_cli.numerics.arrays import Undecided
+from geneva_cli.numerics.balls import Ball
 from geneva_cli.numerics.enclosures import EDGE_DEG
 from geneva_cli.numerics.jet import Jet, Number
 

@@ -60,12 +60,6 @@ def peak(motion: WheelMotion, quantity: str) -> Peak[float]:
     return peaks_of(motion, [quantity])[0]
 
 
-def greatest_rates(engagement: Engagement) -> tuple[float, float]:
-    """Greatest velocity and acceleration of one engagement."""
-    velocity, acceleration = peaks_of(engagement.motion, ("velocity", "acceleration"))
-    return velocity.max, acceleration.max
-
-
 def velocity_peak(engagement: Engagement) -> Peak[float]:
     """Peak velocity of one engagement."""
     return peak(engagement.motion, "velocity")

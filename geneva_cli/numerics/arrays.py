@@ -57,8 +57,14 @@ class Library(Protocol):
     def copysign(self, x: N, y: N, /) -> N: ...
 
 
+class Undecided(ArithmeticError):
+    """A comparison that holds for some of the numbers between two bounds and not for others."""
+
+
 class Enclosed:
-    """A single number that is known by two bounds (``balls.Ball``); it brings its own functions.
+    """A single number that is known by two bounds; it brings its own functions.
+
+    These are ``balls.Ball`` and ``intervals.Interval``.
 
     To the type checker it is a float, as all numbers of formulas are.
     """

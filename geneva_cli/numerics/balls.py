@@ -19,7 +19,7 @@ from typing import ClassVar, NoReturn, cast
 
 from flint import arb, ctx, fmpq
 
-from geneva_cli.numerics.arrays import Enclosed, Library, Number
+from geneva_cli.numerics.arrays import Enclosed, Library, Number, Undecided
 
 BITS = 128  # of a middle: 75 more than a double has, against cancellation in high derivatives
 # How far a ball may reach over the end of its piece of a formula, in the formula's own variable.
@@ -27,10 +27,6 @@ BITS = 128  # of a middle: 75 more than a double has, against cancellation in hi
 REACH = 2.0**-39
 # Share of a radius that is rounding: Arb's radii have 30 bits and are rounded up at each step.
 RADIUS_ROUNDED = 2.0**-24
-
-
-class Undecided(ArithmeticError):
-    """A comparison that holds for some numbers of the balls and not for others."""
 
 
 def _operator(f: Callable[[arb, arb], arb]) -> Callable[[Ball, Ball | float], Ball]:

@@ -18,7 +18,8 @@ from collections.abc import Callable, Iterable, Sequence
 from itertools import pairwise
 from typing import NamedTuple, TypeAlias
 
-from geneva_cli.numerics.balls import Ball, Undecided
+from geneva_cli.numerics.arrays import Undecided
+from geneva_cli.numerics.balls import Ball
 from geneva_cli.numerics.tolerances import TIE
 
 # Taylor coefficients 0 to order at a ball of degrees, by the angle in radians

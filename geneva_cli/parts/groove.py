@@ -13,7 +13,7 @@ from geneva_cli.errors import GenevaError
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.machine.pitch_curve import WALLED
 from geneva_cli.numerics.angles import radians
-from geneva_cli.numerics.arrays import smaller
+from geneva_cli.numerics.arrays import scalar, smaller
 from geneva_cli.numerics.roots import boundary_by_sections, greatest_at
 from geneva_cli.table import Table
 
@@ -23,6 +23,7 @@ if TYPE_CHECKING:
 
 NAMES = ("input_deg", "radius_mm", *WALLED)
 GRID = 3600  # positions all round, between which the greatest pressure angle is searched
+EASED_DEG = 30.0  # of the input: range in which the groove joins its arc in the dwell
 
 
 def distance(groove: Groove, input_deg: Array) -> Array:
@@ -34,6 +35,29 @@ def roller_in_groove(groove: Groove, input_deg: Array) -> Array:
     """Return the roller's centre over a whole turn, in units of L from the wheel's axis: (n, 2)."""
     R, angle = distance(groove, input_deg), np.radians(input_deg)
     return np.column_stack((1.0 - groove.sign * R * np.cos(angle), R * np.sin(angle)))
+
+
+def dwell_rates(groove: Groove) -> tuple[float, float]:
+    """Return bounds of the sizes of a roller path's two derivatives in the dwell, in units of L.
+
+    They are those of the parts that ``_back`` adds, each at its greatest: u (1 - u)² reaches 4/27,
+    (1 - u) (1 - 3 u) lies between -1/3 and 1, and the step's derivatives reach 15/8 and 10/sqrt(3).
+    """
+    span = radians(360.0 - (groove.motion.exit_deg - groove.motion.entry_deg))
+    eased = smaller(math.radians(EASED_DEG), span / 3.0)
+    none, far, slope, bend = np.zeros(1), 0.0, 0.0, 0.0
+    levels = []
+    for end, sense in zip(groove.ends, (-1.0, 1.0), strict=True):
+        R, first, second = (scalar(x) for x in end)
+        levels.append(scalar(_eased(end, eased, none, sense)[3]))
+        m = abs(second) * eased
+        far = max(far, abs(R)) + eased * (abs(first) + m)
+        slope = max(slope, abs(first) + 4.0 / 27.0 * m)
+        bend = max(bend, (1.5 * abs(first) + m) / eased)
+    rise, length = abs(levels[0] - levels[1]), span - 2.0 * eased
+    slope = max(slope, 1.875 * rise / length)
+    bend = max(bend, 10.0 / math.sqrt(3.0) * rise / length**2)
+    return math.hypot(slope, far), bend + 2.0 * slope + far
 
 
 def groove_curve(groove: Groove, L: float, offset: float) -> Callable[[Array], tuple[Array, Array]]:
@@ -79,7 +103,7 @@ def _moving(groove: Groove, input_deg: Array, order: int) -> list[Array]:
 def _back(groove: Groove, input_deg: Array, order: int) -> list[Array]:
     """Return distance and derivatives at input angles in the dwell; see ``_distances``."""
     span = radians(360.0 - (groove.motion.exit_deg - groove.motion.entry_deg))
-    eased = smaller(math.radians(30.0), span / 3.0)
+    eased = smaller(math.radians(EASED_DEG), span / 3.0)
     t = np.radians(input_deg - groove.motion.exit_deg)
     entry, exit_ = groove.ends
     after = _eased(exit_, eased, t, 1.0)

@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 
 from geneva_cli.numerics.angles import radians
-from geneva_cli.numerics.arrays import library, piece_of
-from geneva_cli.numerics.balls import Ball, Undecided, precision
+from geneva_cli.numerics.arrays import Undecided, library, piece_of
+from geneva_cli.numerics.balls import Ball, precision
 from geneva_cli.numerics.enclosures import greatest
 from geneva_cli.numerics.jet import Jet, atan2, piecewise, sin_cos, sqrt
 

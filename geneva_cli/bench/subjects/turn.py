@@ -9,7 +9,6 @@ from functools import partial
 
 import numpy as np
 
-from geneva_cli.analysis.peaks import greatest_rates
 from geneva_cli.bench.method import Method, Subject, Task
 from geneva_cli.machine.drives.crank import Crank
 from geneva_cli.machine.laws.standard import ModifiedSine
@@ -62,6 +61,6 @@ def _turned(machine: Mechanism) -> float:
 def _proved(machine: Mechanism) -> float:
     parts = outlines(machine)
     turn = full_turn(parts)
-    found = certificate(parts, turn.smallest.mm, tolerance_mm(parts), greatest_rates)
+    found = certificate(parts, turn.smallest.mm, tolerance_mm(parts))
     assert found.proved
     return turn.driving.mm

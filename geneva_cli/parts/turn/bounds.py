@@ -1,10 +1,10 @@
 """Proved lower bounds of the gaps between wheel, crank and rollers on intervals of the input angle.
 
-Parts are rigid and turn about fixed axes. A point at a distance r from an axis moves at most r
-times the angle by which its part turns about it. So a gap is at least the gap in the middle of an
-interval, less how far the parts move from there. Three pairs touch by design, and have more exact
-bounds: a roller in its own slot, the locking disc in its recess in the dwell, and both beside the
-dwell. ``geneva help certificates`` derives them.
+Parts are rigid. A point at a distance r from an axis moves at most r times the angle by which its
+part turns about it. So a gap is at least the gap in the middle of an interval, less how far the
+parts move from there. Pairs that touch by design have more exact bounds: a roller in its own slot,
+and the locking disc in its recess, in the dwell and beside it. ``geneva help certificates`` derives
+them.
 """
 
 from __future__ import annotations
@@ -17,10 +17,12 @@ import numpy as np
 from geneva_cli.curves.extents import farthest, from_segments, near_segments, short_pieces
 from geneva_cli.parts.turn.gaps import turned_points
 from geneva_cli.parts.turn.settled import Bounds, Intervals
+from geneva_cli.parts.turn.travel import Travel, path_travel, slot_travel
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
+    from geneva_cli.machine.engagement import Engagement
     from geneva_cli.numerics.jet import Array
     from geneva_cli.parts.outlines import Outlines
     from geneva_cli.parts.turn.play import Window
@@ -34,9 +36,17 @@ class Reach:
 
     def __init__(self, parts: Outlines, target: float) -> None:
         self.parts, self.target = parts, target
+        self._paths: dict[Engagement, Travel] = {}
         outside, wheel = parts.assembly.sign > 0.0, parts.gaps.wheel
         # The circle about the wheel's axis that the wheel reaches, or an internal wheel leaves.
         self.rim = float(farthest(wheel, AXIS).max() if outside else wheel.signed(AXIS)[0])
+
+    def path(self, engagement: Engagement) -> Travel:
+        """Return the travel of an engagement's roller, which several rollers share."""
+        if engagement not in self._paths:
+            turn_deg = self.parts.assembly.turn_deg
+            self._paths[engagement] = path_travel(engagement, self.L, turn_deg)
+        return self._paths[engagement]
 
     @property
     def apart(self) -> float:
@@ -63,13 +73,19 @@ class Segments(NamedTuple):
 
 
 class Roller:
-    """A roller, whose centre moves on a circle about the crank's axis."""
+    """A roller and the wheel; ``path`` bounds the roller's travel in the fixed frame."""
 
     def __init__(self, reach: Reach, number: int) -> None:
         self.reach, self.number = reach, number
         self.parts = reach.parts
-        (x,), (y,) = (self.parts.assembly.pin(number, np.zeros(1)) - (reach.L, 0.0)).T
-        self.arm = math.hypot(x, y)
+        engagement, self.behind = self.parts.assembly.rollers[number]
+        self.path = reach.path(engagement)
+
+    def own(self, on: Intervals) -> tuple[Array, Array]:
+        """Return the ends of intervals as angles of the roller's own engagement."""
+        half, turn = 0.5 * self.parts.assembly.turn_deg, self.parts.assembly.turn_deg
+        start = (on.start - self.behind + half) % turn - half
+        return start, start + (on.end - on.start)
 
     def centre(self, input_deg: Array) -> Array:
         """Return the centre in the wheel's frame at input angles, (n, 2)."""
@@ -78,7 +94,7 @@ class Roller:
 
     def travel(self, on: Intervals, centre: Array) -> Array:
         """Return how far the centre is at most from its place in the middle, ``centre``."""
-        out: Array = self.arm * on.crank + np.hypot(*centre.T) * on.wheel
+        out: Array = self.path.most(*self.own(on)) + np.hypot(*centre.T) * on.wheel
         return out
 
     def gap(self, on: Intervals) -> Array:
@@ -111,7 +127,7 @@ class FreeRoller(Roller):
     def __call__(self, on: Intervals) -> Bounds:
         """Return the gap in the middle, less the roller's travel in the wheel's frame.
 
-        While the wheel rests, the centre is also near the chord of its circle.
+        While the wheel rests, the centre is also near the chord of its path.
         """
         centre = self.centre(on.middle)
         far = self.reach.beyond(centre) - self.parts.sizes.roller
@@ -119,9 +135,10 @@ class FreeRoller(Roller):
         least = gap - self.travel(on, centre)
         doubtful = np.flatnonzero((least < self.reach.target) & (on.wheel == 0.0))
         if len(doubtful):
-            start, end = self.centre(on.start[doubtful]), self.centre(on.end[doubtful])
-            aside = self.arm * (2.0 * on.crank[doubtful]) ** 2 / 8.0
-            chord = self.along(Segments(start, end, aside), centre[doubtful], gap[doubtful])
+            some = Intervals(*(each[doubtful] for each in on))
+            aside = self.path.aside(*self.own(some))
+            segments = Segments(self.centre(some.start), self.centre(some.end), aside)
+            chord = self.along(segments, centre[doubtful], gap[doubtful])
             least[doubtful] = np.maximum(least[doubtful], chord)
         return Bounds(gap, least)
 
@@ -129,38 +146,33 @@ class FreeRoller(Roller):
 class StraightSlot(Roller):
     """A roller in its own straight slot: its centre is on the slot's axis."""
 
-    def __init__(self, reach: Reach, window: Window) -> None:
-        super().__init__(reach, window.motion)
-        ends = np.array([window.start, 0.5 * (window.start + window.end)])
-        self.mouth, bottom = self.centre(ends)
-        self.axis = (self.mouth - bottom) / math.dist(self.mouth, bottom)
+    def __init__(self, reach: Reach, number: int, span: tuple[float, float]) -> None:
+        super().__init__(reach, number)
+        ends = np.array([span[0], 0.5 * (span[0] + span[1])])
+        self.first, other = self.centre(ends)
+        self.axis = (self.first - other) / math.dist(self.first, other)
 
     def __call__(self, on: Intervals) -> Bounds:
         """Return the gap along the part of the axis that the centre may reach."""
         centre, gap = self.centre(on.middle), self.gap(on)
         half = self.travel(on, centre)[:, None] * self.axis
-        aside = np.abs((centre - self.mouth) @ (-self.axis[1], self.axis[0]))
+        aside = np.abs((centre - self.first) @ (-self.axis[1], self.axis[0]))
         segments = Segments(centre - half, centre + half, aside)
         return Bounds(gap, self.along(segments, centre, gap))
 
 
 class CurvedSlot(Roller):
-    """A roller in its own curved slot: its centre is near a chord of the pitch curve.
+    """A roller in its own curved slot: its centre is near a chord of the pitch curve."""
 
-    ``rates`` are the greatest velocity and acceleration of the motion.
-    """
-
-    def __init__(self, reach: Reach, number: int, rates: tuple[float, float]) -> None:
+    def __init__(self, reach: Reach, number: int, span: tuple[float, float]) -> None:
         super().__init__(reach, number)
-        self.rates = rates
+        engagement, self.middle = self.parts.assembly.motions[number]
+        self.slot = slot_travel(engagement, reach.L)
 
     def __call__(self, on: Intervals) -> Bounds:
         """Return the gap along the chord, less the greatest distance of the curve from it."""
         start, end = self.centre(on.start), self.centre(on.end)
-        v, a = self.rates
-        far = np.hypot(*start.T) + 2.0 * self.arm * on.crank
-        bend = (1.0 + 2.0 * v) * self.arm + (a + v * v) * far
-        aside = bend * np.radians(on.end - on.start) ** 2 / 8.0
+        aside = self.slot.aside(on.start - self.middle, on.end - self.middle)
         gap = self.gap(on)
         chord = self.along(Segments(start, end, aside), self.centre(on.middle), gap)
         return Bounds(gap, chord)

@@ -7,28 +7,21 @@ than a tolerance. It takes distances at single positions as exact, up to ``ROUND
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator
-from typing import TYPE_CHECKING, NamedTuple, TypeAlias
+from collections.abc import Iterator
+from typing import TYPE_CHECKING, NamedTuple
 
-import numpy as np
-
-from geneva_cli.numerics.tolerances import SAME_LENGTH
 from geneva_cli.parts.turn.bounds import CurvedSlot, FreeRoller, Lock, Reach, StraightSlot
 from geneva_cli.parts.turn.one_motion import one_motion
 from geneva_cli.parts.turn.play import Window, windows
 from geneva_cli.parts.turn.settled import Open, Pair, Settled, settled
 
 if TYPE_CHECKING:
-    from geneva_cli.machine.engagement import Engagement
-
-    Rates: TypeAlias = Callable[[Engagement], tuple[float, float]]
     from geneva_cli.parts.outlines import Outlines
     from geneva_cli.parts.turn.machine_parts import MachineParts
 
 PROVED_TO_MM = 1e-3  # tolerance of a certificate by default, or
 CONTACTS = 2.0  # times the overlap that counts as touching, if that is more
 ROUNDING = 1e-11  # of the centre distance: greatest rounding of a distance; doubles carry 2e-16
-LOOKS = 361  # input angles of a turn at which the crank's travel is tested
 
 
 class Certificate(NamedTuple):
@@ -60,32 +53,21 @@ def unproved_kind(parts: MachineParts) -> str:
     assembly = parts.assembly
     if not assembly.mechanism.spec.wheel.FLAT:
         return "the parts lie on a sphere"
-    if any(engagement.paired for engagement, _ in assembly.motions):
-        return "gears drive the wheel between two rollers"
-    at = np.linspace(assembly.start_deg, assembly.start_deg + assembly.turn_deg, LOOKS)
-    pins = [assembly.pin(i, at) - (assembly.L, 0.0) for i in range(len(assembly.rollers))]
-    if max(np.ptp(np.hypot(*pin.T)) for pin in pins) > SAME_LENGTH * assembly.L:
-        return "the rollers do not move on a circle about the crank's axis"
-    crank = np.abs(np.unwrap(assembly.crank(at)) - assembly.crank(at[:1]))
-    uneven = np.abs(crank - np.radians(at - at[0])).max() > SAME_LENGTH
-    if uneven and any(engagement.slot.curved for engagement in assembly.kinds):
-        return "the slots are curved, and the crank turns unevenly"
     return ""
 
 
-def certificate(parts: Outlines, gap_mm: float, to_mm: float, rates: Rates) -> Certificate:
+def certificate(parts: Outlines, gap_mm: float, to_mm: float) -> Certificate:
     """Return the certificate that no gap in a full turn is smaller than the smallest by ``to_mm``.
 
-    ``gap_mm`` is the smallest gap of the sampled full turn; an overlap counts as 0. ``rates``
-    returns the greatest velocity and acceleration of a motion. The parts are of a kind with a
-    certificate. Raises WorkLimit.
+    ``gap_mm`` is the smallest gap of the sampled full turn; an overlap counts as 0. The parts are
+    of a kind with a certificate. Raises WorkLimit.
     """
     parts = one_motion(parts)
     parts.gaps.begin()
     spare = ROUNDING * parts.assembly.L
     target = max(gap_mm, 0.0) - to_mm + spare
     least, count = math.inf, 0
-    for between, found in _gaps(parts, target, rates):
+    for between, found in _gaps(parts, target):
         least, count = min(least, found.least - spare), count + found.intervals
         if found.open:
             start, end = (parts.assembly.shown_deg(x) for x in found.open[:2])
@@ -94,25 +76,43 @@ def certificate(parts: Outlines, gap_mm: float, to_mm: float, rates: Rates) -> C
     return Certificate(least, to_mm, count)
 
 
-def _gaps(parts: Outlines, target: float, rates: Rates) -> Iterator[tuple[str, Settled]]:
+def _gaps(parts: Outlines, target: float) -> Iterator[tuple[str, Settled]]:
     """Yield the proved bound of each pair of parts in each motion and dwell."""
     reach = Reach(parts, target)
     for window in windows(parts):
-        pairs: list[tuple[str, Pair]] = []
+        ends = window.start, window.end
         if len(parts.crank):
-            pairs.append(("locking disc and wheel", Lock(reach, window)))
-        for roller in range(len(parts.assembly.rollers)):
-            if roller == window.motion and not window.rests:
-                pairs.append(("roller and slot", _slotted(reach, window, rates)))
-            else:
-                pairs.append(("roller and wheel", FreeRoller(reach, roller)))
-        for between, pair in pairs:
-            ends = window.start, window.end
-            yield between, settled(parts.assembly, pair, ends, target)
+            lock = settled(parts.assembly, Lock(reach, window), ends, target)
+            yield "locking disc and wheel", lock
+        for span, driver in spans(parts, window):
+            for roller in range(len(parts.assembly.rollers)):
+                pair: Pair = FreeRoller(reach, roller)
+                if roller == driver:
+                    engagement, _ = parts.assembly.rollers[roller]
+                    slot = CurvedSlot if engagement.slot.curved else StraightSlot
+                    pair = slot(reach, roller, span)
+                between = "roller and slot" if roller == driver else "roller and wheel"
+                yield between, settled(parts.assembly, pair, span, target)
 
 
-def _slotted(reach: Reach, window: Window, rates: Rates) -> Pair:
-    engagement, _ = reach.parts.assembly.motions[window.motion]
-    if engagement.slot.curved:
-        return CurvedSlot(reach, window.motion, rates(engagement))
-    return StraightSlot(reach, window)
+def spans(parts: Outlines, window: Window) -> Iterator[tuple[tuple[float, float], int | None]]:
+    """Yield the spans of a motion or dwell, each with the roller that is in its slot, or None.
+
+    Where gears drive between two rollers, each of them is in its slot up to its deepest position,
+    or from there.
+    """
+    motion, start, end = window.motion, window.start, window.end
+    engagement, _ = parts.assembly.motions[motion]
+    if window.rests:
+        yield (start, end), None
+    elif not engagement.paired:
+        yield (start, end), motion
+    else:
+        first, last = 2 * motion, 2 * motion + 1
+        turn = parts.assembly.turn_deg
+        leaves, meets = (
+            start + (parts.assembly.rollers[i][1] - start) % turn for i in (first, last)
+        )
+        yield (start, leaves), first
+        yield (leaves, meets), None
+        yield (meets, end), last

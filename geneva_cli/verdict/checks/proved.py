@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from geneva_cli.analysis.peaks import greatest_rates
 from geneva_cli.parts.model import PartsModel
 from geneva_cli.parts.turn.certificate import Certificate, certificate, tolerance_mm, unproved_kind
 from geneva_cli.parts.turn.gaps import WorkLimit
+from geneva_cli.parts.turn.travel import UNKNOWN
 from geneva_cli.verdict.checks.check import Check, compared
 
 
@@ -23,7 +23,7 @@ def least_gap(name: str, model: PartsModel, to_mm: float | None) -> Check | None
     if reason:
         return unproved._replace(limit=None, why=f"sampled collision check: {reason}")
     try:
-        found = certificate(model.outlines, gap, to_mm, greatest_rates)
+        found = certificate(model.outlines, gap, to_mm)
     except WorkLimit as error:
         return unproved._replace(why=str(error))
     if found.open:
@@ -39,8 +39,9 @@ def least_gap(name: str, model: PartsModel, to_mm: float | None) -> Check | None
 def _open(found: Certificate) -> str:
     assert found.open is not None
     start, end, gap, least = found.open
+    bound = "no bound is known" if least <= -0.5 * UNKNOWN else f"at least {least:.4g} mm"
     return (
         f"sampled collision check; the proof is open from {start:.9g} to {end:.9g} deg between "
-        f"{found.between}, where the gap is {gap:.4g} mm in the middle and at least {least:.4g} mm "
+        f"{found.between}, where the gap is {gap:.4g} mm in the middle and {bound} "
         f"throughout, after {found.intervals:,} intervals"
     )

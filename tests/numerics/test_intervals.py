@@ -1,0 +1,110 @@
+"""Intervals of doubles hold the values at fifty digits, and never become floats."""
+
+import math
+import random
+
+import mpmath
+import numpy as np
+import pytest
+
+from geneva_cli.numerics.angles import radians
+from geneva_cli.numerics.arrays import Undecided, library, piece_of
+from geneva_cli.numerics.intervals import Interval, size_of
+from geneva_cli.numerics.jet import Jet, sin_cos, sqrt
+
+ONE_OF = {
+    "sin": mpmath.sin,
+    "cos": mpmath.cos,
+    "sqrt": lambda x: mpmath.sqrt(abs(x)),
+    "exp": mpmath.exp,
+    "asin": lambda x: mpmath.asin(x / 10),
+    "acos": lambda x: mpmath.acos(x / 10),
+}
+
+
+def holds(interval, value):
+    return mpmath.mpf(interval.low) <= value <= mpmath.mpf(interval.high)
+
+
+@pytest.mark.parametrize("take", [float, bool, int, round, math.sin, np.sin, np.float64])
+def test_no_float_comes_of_an_interval(take):
+    with pytest.raises(TypeError):
+        take(Interval(0.5, 1.0))
+
+
+@pytest.mark.parametrize(
+    "ask",
+    [
+        lambda x: x < 0.7,
+        lambda x: x <= 0.7,
+        lambda x: x > 0.7,
+        lambda x: x == 0.7,
+        lambda x: x < Interval(0.9, 2.0),
+        lambda x: library(x).floor(x + 0.25),
+        lambda x: library(x).copysign(1.0, x - 0.7),
+        lambda x: library(x).atan2(x - 0.7, x - 0.8),
+        lambda x: x.piece([0.7]),
+    ],
+)
+def test_an_open_comparison_is_refused(ask):
+    with pytest.raises(Undecided):
+        ask(Interval(0.5, 1.0))
+
+
+def test_a_decided_comparison_is_answered():
+    x = Interval(0.5, 1.0)
+    assert x < 1.5 and x <= 1.5 and x > 0.25 and x >= 0.25 and x != 2.0
+    assert Interval(0.5, 0.5) == 0.5
+    assert x.piece([0.25, 2.0]) == piece_of(0.7, [0.25, 2.0]) == 1
+    assert Interval(0.5, math.nextafter(1.0, 2.0)).piece([1.0]) == 0
+
+
+def test_every_operation_holds_the_exact_values():
+    """At the ends, in the middle and at a random place of random intervals."""
+    rng = random.Random(1)
+    with mpmath.workdps(50):
+        for _ in range(3000):
+            a, b, c, d = (rng.uniform(-9.0, 9.0) * 10.0 ** -rng.randrange(4) for _ in range(4))
+            x, y = Interval(min(a, b), max(a, b)), Interval(min(c, d), max(c, d))
+            u, v = mpmath.mpf(rng.uniform(x.low, x.high)), mpmath.mpf(rng.uniform(y.low, y.high))
+            assert holds(x + y, u + v) and holds(x - y, u - v) and holds(x * y, u * v)
+            assert holds(x * x, u * u) and holds(x**3, u**3) and holds(abs(x), abs(u))
+            assert holds(2.0 - x, 2 - u) and holds(x / y, u / v) and holds(1.0 / y, 1 / v)
+            for name, exact in ONE_OF.items():
+                of = {"sqrt": abs(x), "asin": x / 10.0, "acos": x / 10.0}.get(name, x)
+                assert holds(getattr(library(x), name)(of), exact(u)), name
+            assert holds(library(x).hypot(x, y), mpmath.sqrt(u * u + v * v))
+            try:
+                angle = library(x).atan2(y, x)
+            except Undecided:
+                assert x.low <= 0.0 and y.low <= 0.0 <= y.high
+            else:
+                assert holds(angle, mpmath.atan2(v, u))
+
+
+def test_peaks_of_the_sine_are_inside():
+    for k in range(-3, 4):
+        middle = (k + 0.5) * math.pi
+        wave = library(Interval(0.0, 1.0)).sin(Interval(middle - 0.1, middle + 0.1))
+        assert (wave.high if k % 2 == 0 else -wave.low) == 1.0
+    assert library(Interval(0.0, 1.0)).cos(Interval(0.0, 7.0)).size == 1.0
+
+
+def test_what_is_unknown_has_no_bound():
+    x = Interval(-1.0, 1.0)
+    assert (1.0 / x).size == math.inf
+    assert library(x).sqrt(x).size == math.inf
+    assert size_of(-2.5) == 2.5
+
+
+def test_jets_of_intervals_hold_those_of_floats():
+    def curve(x, order):
+        t = Jet.variable(radians(x), order)
+        sine, cosine = sin_cos(t)
+        return sine * cosine / (cosine + 3.0) + sqrt(t * t + 1.0)
+
+    for low in np.linspace(-170.0, 170.0, 41).tolist():
+        enclosed = curve(Interval(low, low + 1.0), 3)
+        for at in np.linspace(low, low + 1.0, 5).tolist():
+            for bound, value in zip(enclosed.c, curve(at, 3).c, strict=True):
+                assert bound.low <= value <= bound.high
