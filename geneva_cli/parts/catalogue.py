@@ -137,7 +137,7 @@ def part_drawing(model: PartsModel, part: str, tolerance_mm: float, curves: str)
         drawing = _loaded(own.drawing)(model.flat(tolerance_mm, curves))
     else:
         drawing = _loaded(own.flat)(model.ball(tolerance_mm, curves))
-    return drawing
+    return drawing._replace(tolerance=tolerance_mm)
 
 
 def part_sheet(model: PartsModel, part: str, tolerance_mm: float, curves: str) -> Sheet:
