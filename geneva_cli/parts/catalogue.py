@@ -52,6 +52,7 @@ PARTS = {
     "groove": Part("groove:groove_table", "drawings:groove"),
     "groove-plate": Part(drawing="drawings:groove_plate", cut=True),
     "coupon": Part(drawing="coupon:coupon", cut=True),
+    "plate": Part(drawing="print_plate:plate"),
     "sheet": Part(sheet="sheet.sheet:sheet", flat="sphere.sheet:sheet"),
 }
 DRAWINGS = tuple(name for name, part in PARTS.items() if part.drawing)

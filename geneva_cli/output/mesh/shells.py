@@ -1,8 +1,7 @@
 """Shells of a sphere as closed surfaces of triangles.
 
 Seen from the centre, a great circle is a straight line. So a region's face is cut as a plane
-polygon, and then every side that is too long is halved along its great circle. No triangle leaves
-the region, and none folds over another.
+polygon, and then every side that is too long is halved along its great circle.
 """
 
 from __future__ import annotations
@@ -24,6 +23,7 @@ from geneva_cli.curves.sphere import (
     unit,
 )
 from geneva_cli.output.mesh.polygons import Triangle, arc_chords, triangles
+from geneva_cli.output.mesh.sphere_face import SphereFace
 from geneva_cli.output.mesh.surface import Surface, surface
 from geneva_cli.output.solid_part import require_thick
 
@@ -62,12 +62,13 @@ class _ShellMesh:
         corners = [ends[0] for ends in self.ends] + [ends[1] for ends in self.ends]
         radii = [self.shell.inner] * up + [self.shell.outer] * up
         cut: list[Triangle] = []
-        for first, radius, sense in ((0, self.shell.inner, -1), (up, self.shell.outer, 1)):
+        for first, radius, outside in ((0, self.shell.inner, False), (up, self.shell.outer, True)):
             for region, loop in zip(self.shell.regions, loops, strict=True):
                 bored = holes if region is self.shell.regions[-1] else []
                 around = [[number + first for number in one] for one in (loop, *bored)]
                 face = self._face(region, around, corners)
-                cut += [one[::sense] for one in self._halved(face, corners)]  # type: ignore[misc]
+                short = SphereFace(corners, face).triangles(self.longest)
+                cut += short if outside else [(c, b, a) for a, b, c in short]
             radii += [radius] * (len(corners) - len(radii))
         for a, b in self._walls(loops, holes):
             cut += [(a, b, b + up), (a, b + up, a + up)]
@@ -137,28 +138,6 @@ class _ShellMesh:
         return [
             (numbers[a], numbers[b], numbers[c]) for a, b, c in triangles(flat, self.shell.name)
         ]
-
-    def _halved(self, face: Iterable[Triangle], corners: list[Vector]) -> Iterator[Triangle]:
-        """Yield the triangles without a side above ``longest``; adds corners to ``corners``."""
-        middles: dict[tuple[int, int], int] = {}
-        rest = list(face)
-        while rest:
-            a, b, c = rest.pop()
-            # the longest side first: a to b
-            a, b, c = max(
-                ((a, b, c), (b, c, a), (c, a, b)),
-                key=lambda t: math.dist(corners[t[0]], corners[t[1]]),
-            )
-            if math.dist(corners[a], corners[b]) <= self.longest:
-                yield a, b, c
-                continue
-            side = (a, b) if a < b else (b, a)
-            if side not in middles:
-                middles[side] = len(corners)
-                p, q = corners[side[0]], corners[side[1]]
-                corners.append(unit((p[0] + q[0], p[1] + q[1], p[2] + q[2])))
-            middle = middles[side]
-            rest += [(a, middle, c), (middle, b, c)]
 
     def _walls(
         self, loops: Sequence[Sequence[int]], holes: Sequence[Sequence[int]]
