@@ -687,23 +687,37 @@ class Design:
 
     @question
     def save(
-        self, path: str, part: str = "", tolerance_mm: float = 0.001, force: bool = False
+        self,
+        path: str,
+        part: str = "",
+        tolerance_mm: float | None = None,
+        force: bool = False,
     ) -> None:
         """Write a part to a file, as ``geneva profile`` does; the extension gives the format.
 
         ``part`` is one of its parts. Without it, the file's name decides (``wheel.dxf``,
         ``sheet.pdf``, ``slot.csv``), else the assembly is written. ``tolerance_mm`` is the greatest
-        distance from the true curve. Raises GenevaError if the part cannot be drawn, or the file
-        cannot be written. Also raises it if the machine jams, unless ``force``.
+        distance from the true curve, by default 0.001, and 0.01 in meshes. Raises GenevaError if
+        the part cannot be drawn, or the file cannot be written. Also raises it if the machine
+        jams, unless ``force``.
 
         >>> import tempfile
         >>> with tempfile.TemporaryDirectory() as folder:
         ...     Design(External(6)).save(f"{folder}/wheel.dxf")
         """
         from geneva_cli.output import draw, draw_sheet, show
-        from geneva_cli.output.formats import is_drawn, sheet_as, usual_curves
+        from geneva_cli.output.formats import (
+            is_drawn,
+            of_curves,
+            sheet_as,
+            usual_curves,
+            usual_tolerance,
+        )
         from geneva_cli.parts.catalogue import PARTS, is_sheet
 
+        if tolerance_mm is None:
+            tolerance_mm = usual_tolerance(path, "")
+        tolerance_mm = of_curves(tolerance_mm, path, "")
         stem = os.path.splitext(os.path.basename(path))[0]
         part = part or (stem if stem in PARTS else "assembly")
         sheet, files = is_sheet(part), self.spec.files

@@ -15,8 +15,10 @@ from geneva_cli.output.formats import (
     FILLS,
     FORMATS,
     is_drawn,
+    of_curves,
     sheet_as,
     usual_curves,
+    usual_tolerance,
 )
 from geneva_cli.parts.catalogue import PARTS, is_sheet
 
@@ -44,8 +46,12 @@ def run(
         ),
     ] = "slot",
     tolerance: Annotated[
-        float, typer.Option(metavar="MM", help="Greatest distance from the true curve.")
-    ] = 0.001,
+        float | None,
+        typer.Option(
+            metavar="MM",
+            help="Greatest distance from the true curve.  [default: 0.001; of meshes 0.01]",
+        ),
+    ] = None,
     samples: Annotated[
         int | None, typer.Option(metavar="N", help="Number of rows of a table, evenly spaced.")
     ] = None,
@@ -138,6 +144,9 @@ def run(
     from geneva_cli.design import load
 
     curves = curves or usual_curves(output, format)
+    if tolerance is None:
+        tolerance = usual_tolerance(output, format)
+    tolerance = of_curves(tolerance, output, format)
     _require(curves, units)
     if dog_bones and cutter is None:
         raise GenevaError("--dog-bones needs the cutter's diameter: --cutter MM")

@@ -35,7 +35,8 @@ class Drawing(NamedTuple):
 
     ``look`` holds the annotations of a drawing for people; it is None for a drawing to cut from.
     ``solid`` is the drawing as a solid, for formats of solids. ``shells`` replaces it if the
-    drawing is a flattened shell.
+    drawing is a flattened shell. ``tolerance`` is the greatest distance from it, in mm, that
+    chords of a mesh may have.
     """
 
     title: str
@@ -43,6 +44,7 @@ class Drawing(NamedTuple):
     look: Annotations | None = None
     solid: Part | None = None
     shells: Part | None = None
+    tolerance: float = 0.001
 
     @property
     def layers(self) -> tuple[str, ...]:

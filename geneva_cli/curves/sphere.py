@@ -81,6 +81,17 @@ class SphereArc(NamedTuple):
         return SphereArc(turn(self.axis), self.angle, turn(self.start), turn(self.end))
 
     @property
+    def back(self) -> SphereArc:
+        """The arc in the opposite sense."""
+        return SphereArc(opposite(self.axis), math.pi - self.angle, self.end, self.start)
+
+    @property
+    def key(self) -> tuple[Vector, Vector, Vector]:
+        """The identity of an arc: its ends, and the side of its circle's middle."""
+        x, y, z = (round(v, 9) + 0.0 for v in self.axis)
+        return self.start, self.end, (x, y, z)
+
+    @property
     def ahead(self) -> Vector:
         """Unit vector from the axis towards the start, perpendicular to the axis."""
         return self._frame()[0]

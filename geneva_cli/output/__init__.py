@@ -15,6 +15,7 @@ from geneva_cli.output.formats import (
     DOCUMENTS,
     DRAWN,
     FORMATS,
+    MESHES,
     PLOTTED,
     drawn_as,
     format_of,
@@ -72,6 +73,13 @@ class DrawnFormat(Protocol):
 
     def chunks(self, drawing: Drawing, units: str, **own: Any) -> Iterator[str]:
         """The text, in pieces; ``units`` is mm or inch, ``own`` are the format's own options."""
+
+
+class MeshFormat(Protocol):
+    """The interface of a mesh format's module."""
+
+    def data(self, drawing: Drawing, units: str) -> Iterator[bytes]:
+        """The file's bytes, in pieces; ``units`` must be mm."""
 
 
 class SheetFormat(Protocol):
@@ -170,8 +178,11 @@ def draw(
         show(pieces_table(drawing, units), output, name, inputs)
         return
     refuse_columns()
-    module = cast(DrawnFormat, importlib.import_module(f"geneva_cli.output.{DRAWN[name]}"))
-    _put(module.chunks(drawing, units, **own), output, inputs)
+    loaded = importlib.import_module(f"geneva_cli.output.{DRAWN[name]}")
+    if name in MESHES:
+        _put_bytes(cast(MeshFormat, loaded).data(drawing, units), output, name, inputs)
+    else:
+        _put(cast(DrawnFormat, loaded).chunks(drawing, units, **own), output, inputs)
 
 
 def draw_sheet(
@@ -216,13 +227,9 @@ def plot(figure: Figure, output: str = "-", format: str = "", inputs: Iterable[s
 
         _put(plot_text.chunks(figure, *_terminal(output)), output, inputs)
         return
-    from geneva_cli.output.files import write_bytes
-
-    if output == "-":
-        raise GenevaError(f"--format {name}: not for standard output; give -o FILE.{name}")
     from geneva_cli.output.plot_png import png_bytes
 
-    write_bytes(output, [png_bytes(figure)], inputs)
+    _put_bytes((png_bytes(figure) for _ in range(1)), output, name, inputs)
 
 
 def animate(scene: Scene, output: str, inputs: Iterable[str] = ()) -> None:
@@ -305,3 +312,11 @@ def _put(chunks: Iterable[str], output: str, inputs: Iterable[str]) -> None:
     from geneva_cli.output.files import write
 
     write(output, chunks, inputs)
+
+
+def _put_bytes(data: Iterable[bytes], output: str, name: str, inputs: Iterable[str]) -> None:
+    if output == "-":
+        raise GenevaError(f"--format {name}: not for standard output; give -o FILE.{name}")
+    from geneva_cli.output.files import write_bytes
+
+    write_bytes(output, data, inputs)

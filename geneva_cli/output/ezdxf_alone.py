@@ -13,7 +13,7 @@ from configparser import ConfigParser
 from contextlib import contextmanager
 from typing import Any
 
-__all__ = ["BaseLayout", "Document", "Modelspace", "options"]
+__all__ = ["BaseLayout", "Document", "Modelspace", "earcut", "options"]
 
 
 @contextmanager
@@ -41,3 +41,6 @@ with _alone():
     from ezdxf.document import Drawing as Document
     from ezdxf.layouts.base import BaseLayout
     from ezdxf.layouts.layout import Modelspace
+
+    # in Python: the compiled one may round differently on another processor
+    from ezdxf.math._mapbox_earcut import earcut

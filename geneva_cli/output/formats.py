@@ -16,7 +16,8 @@ FORMATS = {
     "md": "markdown",
 }
 # for drawings only; in FORMATS they are written as tables
-DRAWN = {"dxf": "dxf", "svg": "svg", "step": "step"}
+MESHES = {"stl": "mesh.stl", "3mf": "mesh.threemf", "obj": "mesh.obj"}  # of solids, in bytes
+DRAWN = {"dxf": "dxf", "svg": "svg", "step": "step", **MESHES}
 SHEETS = ("dxf", "svg", "pdf")  # for drawing sheets
 PICTURES = ("png", "pdf")  # for figures only
 # for documents; the other formats of tables get their values
@@ -66,6 +67,29 @@ def usual_curves(output: str, format: str) -> str:
     extension = os.path.splitext(output)[1].lower().lstrip(".")
     # In a solid, a wall is one face as a spline, and a hundred faces as arcs.
     return "spline" if (format or EXTENSIONS.get(extension)) == "step" else "arcs"
+
+
+def usual_tolerance(output: str, format: str) -> float:
+    """The default distance from the true curve, mm: that of a printer in meshes.
+
+    >>> usual_tolerance("wheel.stl", ""), usual_tolerance("wheel.dxf", "")
+    (0.01, 0.001)
+    """
+    return 0.01 if _is_mesh(output, format) else 0.001
+
+
+def of_curves(tolerance_mm: float, output: str, format: str) -> float:
+    """The tolerance of curves, mm: in a mesh half, as its chords have the other half.
+
+    >>> of_curves(0.01, "wheel.stl", ""), of_curves(0.01, "wheel.dxf", "")
+    (0.005, 0.01)
+    """
+    return 0.5 * tolerance_mm if _is_mesh(output, format) else tolerance_mm
+
+
+def _is_mesh(output: str, format: str) -> bool:
+    extension = os.path.splitext(output)[1].lower().lstrip(".")
+    return (format or EXTENSIONS.get(extension)) in MESHES
 
 
 def sheet_as(output: str, format: str) -> str:

@@ -52,6 +52,7 @@ PARTS = {
     "groove": Part("groove:groove_table", "drawings:groove"),
     "groove-plate": Part(drawing="drawings:groove_plate", cut=True),
     "coupon": Part(drawing="coupon:coupon", cut=True),
+    "plate": Part(drawing="print_plate:plate"),
     "sheet": Part(sheet="sheet.sheet:sheet", flat="sphere.sheet:sheet"),
 }
 DRAWINGS = tuple(name for name, part in PARTS.items() if part.drawing)
@@ -137,7 +138,7 @@ def part_drawing(model: PartsModel, part: str, tolerance_mm: float, curves: str)
         drawing = _loaded(own.drawing)(model.flat(tolerance_mm, curves))
     else:
         drawing = _loaded(own.flat)(model.ball(tolerance_mm, curves))
-    return drawing
+    return drawing._replace(tolerance=tolerance_mm)
 
 
 def part_sheet(model: PartsModel, part: str, tolerance_mm: float, curves: str) -> Sheet:

@@ -10,7 +10,10 @@ from geneva_cli.curves.shapes import Circle, Point, Shape
 from geneva_cli.machine.mechanism import Mechanism
 
 # in the order of a drawing
-LAYERS = "WHEEL", "CRANK", "ARM", "LINK", "FRAME", "GROOVE", "PITCH", "ROLLER", "BORE", "HUB"
+LAYERS = (
+    *("WHEEL", "CRANK", "ARM", "LINK", "FRAME", "GROOVE"),
+    *("PITCH", "ROLLER", "BORE", "HUB", "SHAFT"),
+)
 
 
 def titled(mechanism: Mechanism, part: str = "") -> str:

@@ -14,7 +14,7 @@ from typing import NamedTuple
 from geneva_cli.curves.plates import Shell
 from geneva_cli.curves.round_holes import RoundHole
 from geneva_cli.curves.sphere import SphereArc, Vector, cross, opposite, square_to, unit
-from geneva_cli.errors import GenevaError
+from geneva_cli.output.solid_part import require_thick
 from geneva_cli.output.step.entities import (
     Entities,
     WallFace,
@@ -48,10 +48,7 @@ def shell_solid(file: Entities, shell: Shell) -> str:
 
     Raises GenevaError for a shell without thickness, or one that reaches the centre.
     """
-    if not 0.0 < shell.inner < shell.outer:
-        raise GenevaError(
-            f"{shell.name}: a shell from {shell.inner:g} to {shell.outer:g} mm is no solid"
-        )
+    require_thick(shell)
     return closed_solid(file, _ShellWriter(file, shell).faces())
 
 
@@ -65,7 +62,7 @@ class _ShellWriter:
         self.sides: dict[tuple[Vector, Vector, Vector], ShellEdges] = {}
 
     def faces(self) -> list[str]:
-        arcs = {_key(arc) for region in self.shell.regions for arc in region.boundary}
+        arcs = {arc.key for region in self.shell.regions for arc in region.boundary}
         bored, faces = [self._hole(hole) for hole in self.shell.holes], []
         for region in self.shell.regions:
             sides = [self._side(arc) for arc in region.boundary]
@@ -78,7 +75,7 @@ class _ShellWriter:
             faces += [
                 self._wall(arc, side)
                 for arc, side in zip(region.boundary, sides, strict=True)
-                if _key(_back(arc)) not in arcs
+                if arc.back.key not in arcs
             ]
         return [*faces, *(hole.face for hole in bored)]
 
@@ -108,7 +105,7 @@ class _ShellWriter:
 
     def _side(self, arc: SphereArc) -> ShellEdges:
         """The edges over an arc, perhaps known already from the adjacent region."""
-        back = self.sides.get(_key(_back(arc)))
+        back = self.sides.get(arc.back.key)
         if back is not None:
             return back._replace(along=False)
         ends = self._corner(arc.start), self._corner(arc.end)
@@ -118,8 +115,8 @@ class _ShellWriter:
             )
             for upper, radius in ((0, self.shell.inner), (1, self.shell.outer))
         )
-        self.sides[_key(arc)] = ShellEdges(low, high, True)
-        return self.sides[_key(arc)]
+        self.sides[arc.key] = ShellEdges(low, high, True)
+        return self.sides[arc.key]
 
     def _corner(self, at: Vector) -> ShellCorner:
         if at not in self.corners:
@@ -195,13 +192,3 @@ def _ahead(v: Vector, length: float, across: Vector, by: float) -> Vector:
 def _wide(arc: SphereArc) -> bool:
     """Return True if the circle's middle is nearer to the other end of its axis."""
     return math.cos(arc.angle) < 0.0
-
-
-def _back(arc: SphereArc) -> SphereArc:
-    return SphereArc(opposite(arc.axis), math.pi - arc.angle, arc.end, arc.start)
-
-
-def _key(arc: SphereArc) -> tuple[Vector, Vector, Vector]:
-    """The identity of an arc: its ends, and the side of its circle's middle."""
-    x, y, z = (round(v, 9) + 0.0 for v in arc.axis)
-    return arc.start, arc.end, (x, y, z)

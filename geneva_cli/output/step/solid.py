@@ -9,12 +9,10 @@ from __future__ import annotations
 import math
 from typing import NamedTuple
 
-from geneva_cli.curves.drawing import Drawing
 from geneva_cli.curves.measure import with_material_left
-from geneva_cli.curves.pieces import prepared
 from geneva_cli.curves.plates import Plate
 from geneva_cli.curves.shapes import Arc, Circle, Contour, Line, Point
-from geneva_cli.errors import GenevaError
+from geneva_cli.output.solid_part import plate_contours
 from geneva_cli.output.step.entities import (
     DIRECTION,
     Entities,
@@ -42,13 +40,9 @@ def solid(file: Entities, plate: Plate) -> str:
 
     Raises GenevaError for a coordinate that is not finite, or a plate without thickness.
     """
-    if not plate.thickness > 0.0:
-        raise GenevaError(
-            f"{plate.name}: a solid of {plate.thickness:g} mm; it must be thicker than 0"
-        )
     faces, lower, upper = [], [], []
     outside = True
-    for shape in _cleaned(plate):
+    for shape in plate_contours(plate):
         walls = (
             [_round(file, plate, shape, outside)]
             if isinstance(shape, Circle)
@@ -61,11 +55,6 @@ def solid(file: Entities, plate: Plate) -> str:
     faces.append(face(file, lower, _level(file, plate.low), False))
     faces.append(face(file, upper, _level(file, plate.high), True))
     return closed_solid(file, faces)
-
-
-def _cleaned(plate: Plate) -> tuple[Contour | Circle, ...]:
-    """A plate's outline and holes without pieces too small for any file."""
-    return prepared(Drawing(plate.name, (plate.outline, *plate.holes))).shapes
 
 
 def _level(file: Entities, z: float) -> str:

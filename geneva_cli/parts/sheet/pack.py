@@ -25,11 +25,11 @@ def packed(blocks: Sequence[Block], taken: Sequence[Block], area: Box) -> list[B
         lambda block: -block.width,
     )
     for order in orders:
-        result = _packed(blocks, taken, area, order, 8.0)  # mm between blocks
+        result = packed_apart(blocks, taken, area, order, 8.0)  # mm between blocks
         if result is None:
             continue
         for apart in (12.0, 18.0, 27.0, 40.0):
-            wider = _packed(blocks, taken, area, order, apart)
+            wider = packed_apart(blocks, taken, area, order, apart)
             if wider is None:
                 break
             result = wider
@@ -37,13 +37,14 @@ def packed(blocks: Sequence[Block], taken: Sequence[Block], area: Box) -> list[B
     return None
 
 
-def _packed(
+def packed_apart(
     blocks: Sequence[Block],
     taken: Sequence[Block],
     area: Box,
     order: Callable[[Block], float],
     apart: float,
 ) -> list[Block] | None:
+    """Return the blocks as ``packed`` does, the least by ``order`` first, ``apart`` mm apart."""
     x0, y0, x1, y1 = area
     placed: dict[int, Block] = {}
     around = [(b.x0, b.y0, b.x1, b.y1) for b in taken]

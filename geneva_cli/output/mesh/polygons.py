@@ -1,0 +1,141 @@
+"""Contours as polygons within a tolerance, and polygons with holes as triangles."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from typing import TypeAlias
+
+from geneva_cli.curves.measure import STRAIGHT, at, with_material_left
+from geneva_cli.curves.shapes import Arc, Circle, Contour, Cubic, Point, Segment, two_arcs
+from geneva_cli.errors import GenevaError
+from geneva_cli.output.ezdxf_alone import earcut
+
+Triangle: TypeAlias = tuple[int, int, int]
+
+DECIMALS = 6  # of coordinates in mm, so that rounding of another processor is not seen
+CORNERS_MAX = 200_000  # of a polygon: a file of about 40 MB
+LEAST = 8  # chords in a whole turn
+# Radians by which a polygon is turned for each attempt. Some polygons have corners exactly in
+# line, which earcut may leave out; turned, they are in line no more.
+TURNS = (0.0, 0.1, 0.7, 1.3)
+
+
+@dataclass(slots=True)
+class Corner:
+    """A corner for earcut: its coordinates and its number."""
+
+    x: float
+    y: float
+    number: int
+
+
+def polygon(shape: Contour | Circle, outside: bool, tolerance: float) -> list[Point]:
+    """Return a closed shape as a polygon with the material on its left.
+
+    Its chords keep the tolerance, mm. Corners have DECIMALS. Raises GenevaError for a polygon with
+    more than CORNERS_MAX corners.
+    """
+    contour = Contour(shape.layer, two_arcs(shape)) if isinstance(shape, Circle) else shape
+    corners: list[Point] = []
+    for segment in with_material_left(contour, outside).segments:
+        count = _chords(segment, tolerance)
+        if len(corners) + count > CORNERS_MAX:
+            raise GenevaError(
+                f"--tolerance: the mesh of layer {shape.layer} takes more than {CORNERS_MAX} "
+                "chords; use a larger tolerance"
+            )
+        corners += [at(segment, k / count) for k in range(count)]
+    return _separate(corners, 0.1 * tolerance)
+
+
+def arc_chords(radius: float, sweep: float, tolerance: float) -> int:
+    """Return the number of chords of an arc of ``sweep`` radians; lengths in mm.
+
+    >>> arc_chords(10.0, 6.283185307179586, 0.01)
+    71
+    """
+    most = 2.0 * math.acos(max(1.0 - tolerance / radius, -1.0))
+    return max(1, math.ceil(abs(sweep) / min(most, math.tau / LEAST)))
+
+
+def _chords(segment: Segment, tolerance: float) -> int:
+    if isinstance(segment, Arc) and abs(segment.bulge) >= STRAIGHT:
+        return arc_chords(segment.radius, segment.sweep, tolerance)
+    if isinstance(segment, Cubic):
+        a, b, c, d = segment
+        bend = max(_bend(a, b, c), _bend(b, c, d))
+        # the second derivative is at most 6 bends, and a chord's error an eighth of it
+        return max(1, math.ceil(math.sqrt(0.75 * bend / tolerance)))
+    return 1
+
+
+def _bend(a: Point, b: Point, c: Point) -> float:
+    return math.hypot(a[0] - 2.0 * b[0] + c[0], a[1] - 2.0 * b[1] + c[1])
+
+
+def _separate(corners: Iterable[Point], apart: float) -> list[Point]:
+    """Return rounded corners without those that are too near to the one before."""
+    kept: list[Point] = []
+    for x, y in corners:
+        corner = round(x, DECIMALS) + 0.0, round(y, DECIMALS) + 0.0
+        if not kept or math.dist(kept[-1], corner) > apart:
+            kept.append(corner)
+    while len(kept) > 3 and math.dist(kept[-1], kept[0]) <= apart:
+        kept.pop()
+    return kept
+
+
+def triangles(loops: Sequence[Sequence[Point]], name: str) -> list[Triangle]:
+    """Return the triangles, counterclockwise, of an outline (the first loop) with its holes.
+
+    Their numbers count the corners of all loops, one after the other. Every side of a loop is a
+    side of one triangle, and all other sides are of two. Raises GenevaError, naming the part, for
+    loops that cross or touch.
+    """
+    starts = [0]
+    for loop in loops:
+        starts.append(starts[-1] + len(loop))
+    for turn in TURNS:
+        c, s = math.cos(turn), math.sin(turn)
+        numbered = [
+            [Corner(c * x - s * y, s * x + c * y, first + i) for i, (x, y) in enumerate(loop)]
+            for loop, first in zip(loops, starts, strict=False)
+        ]
+        cut = [_left((p, q, r)) for p, q, r in earcut(numbered[0], numbered[1:])]
+        if _is_closed(cut, loops):
+            return cut
+    raise GenevaError(
+        f"{name}: its outline and holes leave no wall, so it has no mesh; use a smaller --tolerance"
+    )
+
+
+def _left(corners: tuple[Corner, Corner, Corner]) -> Triangle:
+    """Return the triangle counterclockwise."""
+    p, q, r = corners
+    twice = (q.x - p.x) * (r.y - p.y) - (q.y - p.y) * (r.x - p.x)
+    return (p.number, q.number, r.number) if twice >= 0.0 else (p.number, r.number, q.number)
+
+
+def _is_closed(cut: list[Triangle], loops: Sequence[Sequence[Point]]) -> bool:
+    """Return True if the sides that only one triangle has are those of the loops, in their sense.
+
+    All triangles run counterclockwise, so then they cover the polygon once.
+    """
+    sides = [side for a, b, c in cut for side in ((a, b), (b, c), (c, a))]
+    once = set(sides)
+    if len(once) < len(sides):
+        return False
+    single = {(a, b) for a, b in once if (b, a) not in once}
+    return single == set(edges(loops))
+
+
+def edges(loops: Sequence[Sequence[Point]]) -> list[tuple[int, int]]:
+    """Return the sides of all loops by the numbers of their corners."""
+    pairs, first = [], 0
+    for loop in loops:
+        after = first + len(loop)
+        pairs += [(i, i + 1 if i + 1 < after else first) for i in range(first, after)]
+        first = after
+    return pairs

@@ -1,0 +1,113 @@
+"""The solids of a part as meshes: one for each kind of solid, with its places."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+
+from geneva_cli.curves.drawing import Drawing
+from geneva_cli.curves.plates import Group, Member, Part, Plate, Shell
+from geneva_cli.errors import GenevaError
+from geneva_cli.output.mesh.polygons import edges, polygon, triangles
+from geneva_cli.output.mesh.shells import shell_mesh
+from geneva_cli.output.mesh.surface import Surface, rounded, surface
+from geneva_cli.output.solid_part import plate_contours, solid_part
+
+if TYPE_CHECKING:
+    from geneva_cli.numerics.jet import Array
+
+
+class Place(NamedTuple):
+    """A solid's position: p becomes ``turn`` @ p + ``shift``, in mm."""
+
+    turn: Array  # (3, 3)
+    shift: Array  # (3,)
+
+    def __call__(self, corners: Array) -> Array:
+        """Return corners (n, 3) at this position, rounded as those of a surface."""
+        return rounded(corners @ self.turn.T + self.shift)
+
+
+class Body(NamedTuple):
+    """A kind of solid: its name and layer, its surface, and where it stands."""
+
+    name: str
+    layer: str
+    surface: Surface
+    places: tuple[Place, ...]
+
+
+HERE = Place(np.eye(3), np.zeros(3))
+
+
+def bodies(drawing: Drawing, units: str, format: str) -> list[Body]:
+    """Return the kinds of solids of a drawing; their chords keep the drawing's tolerance.
+
+    Raises GenevaError for a drawing without solids, for a unit other than mm, and for a solid that
+    has no closed surface.
+    """
+    kinds: dict[Plate | Shell, list[Place]] = {}
+    for solid, place in _placed(solid_part(drawing, units, format), HERE):
+        kinds.setdefault(solid, []).append(place)
+    return [
+        Body(solid.name, solid.layer, _surface(solid, drawing.tolerance), tuple(places))
+        for solid, places in kinds.items()
+    ]
+
+
+def _placed(part: Part, at: Place) -> Iterator[tuple[Plate | Shell, Place]]:
+    """Yield every solid of a part at its position."""
+    if not isinstance(part, Group):
+        yield part, at
+        return
+    for member in part.members:
+        own = _place(member)
+        yield from _placed(member.part, Place(at.turn @ own.turn, at.turn @ own.shift + at.shift))
+
+
+def _place(member: Member) -> Place:
+    if member.frame:
+        turn = np.array([member.frame.x, member.frame.y, member.frame.z]).T
+    else:
+        c, s = math.cos(member.turn), math.sin(member.turn)
+        turn = np.array([[c, -s, 0.0], [s, c, 0.0], [0.0, 0.0, 1.0]])
+    return Place(turn, np.array([*member.at, 0.0]))
+
+
+def _surface(solid: Plate | Shell, tolerance: float) -> Surface:
+    if not tolerance > 0.0:
+        raise GenevaError(f"--tolerance {tolerance:g}: it must be above 0 mm")
+    if isinstance(solid, Shell):
+        return shell_mesh(solid, tolerance)
+    return plate_mesh(solid, tolerance)
+
+
+def plate_mesh(plate: Plate, tolerance: float) -> Surface:
+    """Return a plate's surface: both faces cut alike, and two triangles over each chord.
+
+    Raises GenevaError for a plate without thickness, and for contours that cross.
+
+    >>> from geneva_cli.curves.shapes import Circle
+    >>> disc = Plate("disc", "CRANK", Circle("", (0.0, 0.0), 50.0), (), 0.0, 10.0)
+    >>> len(plate_mesh(disc, 0.1).triangles)  # 50 chords: 2 x 48 in the faces, 2 x 50 in the wall
+    196
+    """
+    shapes = plate_contours(plate)
+    loops = [polygon(shape, i == 0, tolerance) for i, shape in enumerate(shapes)]
+    flat = [point for loop in loops for point in loop]
+    up = len(flat)  # from a lower corner's number to the upper one's
+    top = triangles(loops, plate.name)
+    walls = [
+        triangle for a, b in edges(loops) for triangle in ((a, b, b + up), (a, b + up, a + up))
+    ]
+    return surface(
+        [(x, y, z) for z in (plate.low, plate.high) for x, y in flat],
+        [
+            *((c, b, a) for a, b, c in top),
+            *((a + up, b + up, c + up) for a, b, c in top),
+            *walls,
+        ],
+    )

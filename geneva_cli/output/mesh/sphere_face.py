@@ -1,0 +1,104 @@
+"""The triangles of a face on a sphere, with short sides.
+
+Long sides are halved, the longest first. After each, sides are exchanged so that the face is the
+convex hull of its corners wherever its boundary allows (Delaunay, by Lawson's flips): without them
+most triangles would be slivers, and there would be ten times as many.
+"""
+
+from __future__ import annotations
+
+import heapq
+import math
+from collections.abc import Iterable
+
+from geneva_cli.curves.sphere import Vector, cross, dot, unit
+from geneva_cli.errors import GenevaError
+from geneva_cli.output.mesh.polygons import CORNERS_MAX, Triangle
+
+LEVEL = 1e-9  # of the product of three sides: four corners are in one plane
+
+
+class SphereFace:
+    """A face on the unit sphere: triangles counterclockwise from outside, with numbered corners.
+
+    ``corners`` grows by those that are added. ``opposite`` has the third corner of the triangle on
+    the left of each side.
+    """
+
+    def __init__(self, corners: list[Vector], face: Iterable[Triangle]) -> None:
+        self.corners = corners
+        self.opposite: dict[tuple[int, int], int] = {}
+        for triangle in face:
+            self._add(*triangle)
+
+    def triangles(self, longest: float) -> list[Triangle]:
+        """Return the triangles after all sides above ``longest`` are halved.
+
+        Sides of the boundary must be shorter. Raises GenevaError for too many triangles.
+        """
+        self._exchange(list(self.opposite))
+        long = [self._long(a, b) for a, b in self.opposite if a < b]
+        self.waiting = [side for side in long if -side[0] > longest]
+        heapq.heapify(self.waiting)
+        while self.waiting:
+            _, a, b = heapq.heappop(self.waiting)
+            if (a, b) not in self.opposite or (b, a) not in self.opposite:
+                continue
+            if len(self.corners) > CORNERS_MAX:
+                raise GenevaError(
+                    f"--tolerance: the mesh takes more than {CORNERS_MAX} corners; use a larger "
+                    "tolerance"
+                )
+            for side in self._exchange(self._halved(a, b)):
+                entry = self._long(*side)
+                if -entry[0] > longest:
+                    heapq.heappush(self.waiting, entry)
+        return [(a, b, c) for (a, b), c in self.opposite.items() if a < b and a < c]
+
+    def _long(self, a: int, b: int) -> tuple[float, int, int]:
+        """Return minus the length of a side and the side, which a heap sorts."""
+        return -math.dist(self.corners[a], self.corners[b]), min(a, b), max(a, b)
+
+    def _add(self, a: int, b: int, c: int) -> None:
+        self.opposite[a, b] = c
+        self.opposite[b, c] = a
+        self.opposite[c, a] = b
+
+    def _halved(self, a: int, b: int) -> list[tuple[int, int]]:
+        """Halve a side along its great circle, and return the sides of the triangles there."""
+        c, d = self.opposite.pop((a, b)), self.opposite.pop((b, a))
+        p, q = self.corners[a], self.corners[b]
+        middle = len(self.corners)
+        self.corners.append(unit((p[0] + q[0], p[1] + q[1], p[2] + q[2])))
+        for one in ((a, middle, c), (middle, b, c), (b, middle, d), (middle, a, d)):
+            self._add(*one)
+        return [(c, a), (b, c), (d, b), (a, d), (middle, a), (middle, b), (middle, c), (middle, d)]
+
+    def _exchange(self, sides: list[tuple[int, int]]) -> list[tuple[int, int]]:
+        """Exchange sides that the hull has not; return all that are new or were tried."""
+        tried = []
+        while sides:
+            a, b = side = sides.pop()
+            c, d = self.opposite.get((a, b)), self.opposite.get((b, a))
+            if c is None or d is None:
+                continue
+            if not self._is_below(a, b, c, d):
+                tried.append(side)
+                continue
+            del self.opposite[a, b], self.opposite[b, a]
+            self._add(a, d, c)
+            self._add(d, b, c)
+            tried.append((c, d))
+            sides += [(c, a), (a, d), (d, b), (b, c)]
+        return tried
+
+    def _is_below(self, a: int, b: int, c: int, d: int) -> bool:
+        """Return True if the plane of a, b and c is below the corner d."""
+        p, q, r, s = (self.corners[i] for i in (a, b, c, d))
+        u, v, w = _less(q, p), _less(r, p), _less(s, p)
+        normal = cross(u, v)
+        return dot(normal, w) > LEVEL * math.hypot(*u) * math.hypot(*v) * math.hypot(*w)
+
+
+def _less(p: Vector, q: Vector) -> Vector:
+    return p[0] - q[0], p[1] - q[1], p[2] - q[2]

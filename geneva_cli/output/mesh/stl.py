@@ -1,0 +1,58 @@
+"""Binary STL: the triangles of all solids at their positions.
+
+The format has no unit, no names and no colours. Programs that read it take millimetres.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from geneva_cli.curves.drawing import Drawing
+from geneva_cli.output.mesh.solids import bodies
+
+if TYPE_CHECKING:
+    import numpy.typing as npt
+
+    from geneva_cli.numerics.jet import Array
+
+HEADER = b"geneva, millimetres"  # "solid" at its start would mean an STL in text
+RECORD = [("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("attribute", "<u2")]
+
+
+def data(drawing: Drawing, units: str) -> Iterator[bytes]:
+    """The file's bytes. Raises GenevaError as ``bodies`` does."""
+    blocks = [
+        _records(place(body.surface.corners)[body.surface.triangles])
+        for body in bodies(drawing, units, "STL")
+        for place in body.places
+    ]
+    yield HEADER.ljust(80, b"\0")
+    yield sum(map(len, blocks)).to_bytes(4, "little")
+    yield from (block.tobytes() for block in blocks)
+
+
+def _records(corners: Array) -> npt.NDArray[Any]:
+    """Return the records of triangles, (m, 3, 3), in mm.
+
+    Corners nearer than the format's seven digits become one, and a triangle of two is left out.
+    """
+    single = corners.astype("<f4")
+    p, q, r = (single[:, k] for k in range(3))
+    flat = (p == q).all(axis=1) | (q == r).all(axis=1) | (r == p).all(axis=1)
+    single = single[~flat]
+    records = np.zeros(len(single), dtype=RECORD)
+    records["corners"] = single
+    records["normal"] = _normals(corners[~flat])
+    return records
+
+
+def _normals(corners: Array) -> Array:
+    """Return the unit normals of triangles; zeros for one without an area."""
+    p, q, r = (corners[:, k] for k in range(3))
+    out = np.cross(q - p, r - p)
+    length = np.sqrt((out * out).sum(axis=1, keepdims=True))
+    normals: Array = out / np.where(length > 0.0, length, 1.0)
+    return normals

@@ -1,0 +1,45 @@
+"""The part that a drawing shows and its contours, for formats of solids."""
+
+from __future__ import annotations
+
+from geneva_cli.curves.drawing import Drawing
+from geneva_cli.curves.pieces import prepared
+from geneva_cli.curves.plates import Part, Plate, Shell
+from geneva_cli.curves.shapes import Circle, Contour
+from geneva_cli.errors import GenevaError
+
+
+def solid_part(drawing: Drawing, units: str, format: str) -> Part:
+    """Return the part of a drawing; ``format`` is the name in messages.
+
+    Raises GenevaError for a drawing without solids, and for a unit other than mm.
+    """
+    whole = drawing.shells or drawing.solid
+    if whole is None:
+        raise GenevaError(
+            f"no solid to write as {format}: solids are --part wheel, crank, arm and assembly. "
+            "Write other drawings, and paths with --kerf, as .dxf or .svg"
+        )
+    if units != "mm":
+        raise GenevaError(f"--units: {format} is always in mm; leave it out")
+    return whole
+
+
+def plate_contours(plate: Plate) -> tuple[Contour | Circle, ...]:
+    """Return a plate's outline and holes without pieces too small for any file.
+
+    Raises GenevaError for a coordinate that is not finite, or a plate without thickness.
+    """
+    if not plate.thickness > 0.0:
+        raise GenevaError(
+            f"{plate.name}: a solid of {plate.thickness:g} mm; it must be thicker than 0"
+        )
+    return prepared(Drawing(plate.name, (plate.outline, *plate.holes))).shapes
+
+
+def require_thick(shell: Shell) -> None:
+    """Raise GenevaError for a shell without thickness, or one that reaches the centre."""
+    if not 0.0 < shell.inner < shell.outer:
+        raise GenevaError(
+            f"{shell.name}: a shell from {shell.inner:g} to {shell.outer:g} mm is no solid"
+        )

@@ -1,0 +1,262 @@
+"""Meshes, read back by trimesh: closed, oriented, as large as the closed forms of their parts."""
+
+import io
+import math
+import zipfile
+from xml.etree import ElementTree
+
+import numpy as np
+import pytest
+import repo
+import shapely
+import shapely.affinity
+import trimesh
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from geneva_cli import Design, External, Size, Spherical
+from geneva_cli.curves.drawing import Drawing
+from geneva_cli.curves.mass import face
+from geneva_cli.curves.measure import area, bounds
+from geneva_cli.curves.plates import Plate, Shell, solids
+from geneva_cli.curves.shapes import Arc, Circle, Cubic, Line, closed
+from geneva_cli.design import load
+from geneva_cli.errors import GenevaError
+from geneva_cli.output.formats import MESHES
+from geneva_cli.output.inks import INKS
+from geneva_cli.output.mesh import obj, stl, threemf
+from geneva_cli.output.mesh.polygons import DECIMALS, polygon, triangles
+from geneva_cli.output.mesh.solids import bodies
+
+DESIGNS = sorted(repo.DESIGNS.glob("*.toml"))
+NEAR = 10.0**-DECIMALS  # mm: rounding of coordinates
+SHAPE = closed(
+    "WHEEL",
+    [
+        Line((0.0, 0.0), (40.0, 0.0)),
+        Arc((40.0, 0.0), (40.0, 30.0), 0.4),
+        Cubic((40.0, 30.0), (30.0, 36.0), (10.0, 18.0), (0.0, 30.0)),
+        Arc((0.0, 30.0), (0.0, 0.0), -0.2),
+    ],
+)
+HOLES = Circle("BORE", (20.0, 15.0), 4.0), Circle("BORE", (32.0, 15.0), 3.0)
+
+
+def mesh_of(surface):
+    return trimesh.Trimesh(surface.corners, surface.triangles, process=False)
+
+
+def require_closed(mesh):
+    """Each side is of two triangles, in opposite senses, and the outside is outside."""
+    assert mesh.is_watertight and mesh.is_winding_consistent and mesh.volume > 0.0
+
+
+def one(plate, tolerance):
+    (body,) = bodies(Drawing("", (), solid=plate, tolerance=tolerance), "mm", "STL")
+    return mesh_of(body.surface)
+
+
+@pytest.mark.parametrize("tolerance", [1.0, 0.1, 0.01, 1e-4])
+def test_a_plate_is_as_large_as_its_closed_form(tolerance):
+    """A chord is nearer to its curve than the tolerance: so is each wall, over its whole length."""
+    plate = Plate("plate", "WHEEL", SHAPE, HOLES, -3.0, 9.0)
+    mesh = one(plate, tolerance)
+    require_closed(mesh)
+    true, long = face(plate), 200.0  # mm: more than all contours
+    assert mesh.volume == pytest.approx(12.0 * true.area, abs=12.0 * long * tolerance)
+    assert mesh.center_mass[:2] == pytest.approx(true.centroid, abs=10.0 * tolerance)
+    assert mesh.bounds[:, 2].tolist() == [-3.0, 9.0]
+    assert mesh.euler_number == 2 * (1 - len(HOLES))  # a handle for each hole
+
+
+@pytest.mark.parametrize("tolerance", [0.5, 0.01, 1e-5])
+@pytest.mark.parametrize("shape", [SHAPE, *HOLES])
+def test_chords_keep_the_tolerance(shape, tolerance):
+    """Every curve, in thousands of places, is as near to the polygon, which crosses nowhere."""
+    ring = shapely.Polygon(polygon(shape, True, tolerance))
+    assert ring.is_valid
+    fine = shapely.points(polygon(shape, True, 1e-6 if tolerance < 1e-3 else 1e-5))
+    # a corner that is nearer than a tenth of the tolerance is left out
+    assert shapely.distance(fine, ring.exterior).max() < 1.1 * tolerance + 2.0 * NEAR
+    assert ring.area == pytest.approx(abs(area(shape)), abs=ring.length * tolerance)
+
+
+@settings(max_examples=30, deadline=None)
+@given(
+    st.lists(st.tuples(st.floats(20.0, 60.0), st.floats(-0.3, 0.9)), min_size=3, max_size=12),
+    st.floats(0.001, 1.0),
+)
+def test_random_outlines(corners, tolerance):
+    count = len(corners)
+    at = [
+        (r * math.cos(math.tau * i / count), r * math.sin(math.tau * i / count))
+        for i, (r, _) in enumerate(corners)
+    ]
+    pairs = zip(at, [*at[1:], at[0]], corners, strict=True)
+    outline = closed("WHEEL", [Arc(p, q, b or 0.1) for p, q, (_, b) in pairs])
+    hole = Circle("BORE", (0.0, 0.0), 2.0)
+    loops = [polygon(outline, True, tolerance), polygon(hole, False, tolerance)]
+    ring = shapely.Polygon(*[loops[0]], [loops[1]])
+    if not ring.is_valid:
+        return  # crosses itself
+    mesh = one(Plate("plate", "WHEEL", outline, (hole,), 0.0, 1.0), tolerance)
+    require_closed(mesh)
+    assert mesh.volume == pytest.approx(ring.area, rel=1e-9)
+
+
+def test_corners_in_line_stay_corners():
+    """Earcut leaves out corners that are exactly in line, with which the walls would not meet."""
+    square = [(0.0, 0.0), (1.0, 0.0), (2.0, 0.0), (4.0, 0.0), (4.0, 4.0), (2.0, 4.0), (0.0, 4.0)]
+    hole = [(1.0, 1.0), (1.0, 2.0), (2.0, 2.0), (2.0, 1.0)]
+    cut = triangles([square, hole], "square")
+    assert {i for one in cut for i in one} == set(range(11))
+    assert len(cut) == 11  # n + 2 holes - 2
+
+
+def test_an_outline_that_crosses_is_refused():
+    bow = [(0.0, 0.0), (2.0, 2.0), (2.0, 0.0), (0.0, 2.0)]
+    with pytest.raises(GenevaError, match="bow: its outline and holes leave no wall"):
+        triangles([bow], "bow")
+
+
+@pytest.mark.sampled(7)
+@pytest.mark.parametrize("design", DESIGNS, ids=lambda p: p.stem)
+def test_every_part_of_every_design(design):
+    """Closed, and as large as its closed form, within the tolerance at every wall."""
+    tolerance = 0.02
+    drawing = load(str(design)).drawing("assembly", tolerance, "spline")
+    whole = list(dict.fromkeys(solids(drawing.shells or drawing.solid)))
+    for solid, body in zip(whole, bodies(drawing, "mm", "STL"), strict=True):
+        mesh = mesh_of(body.surface)
+        require_closed(mesh)
+        if isinstance(solid, Shell):
+            require_near_spheres(mesh, solid, tolerance)
+            continue
+        true = face(solid)
+        walls = mesh.area_faces[abs(mesh.face_normals[:, 2]) < 0.5].sum()
+        off = tolerance * walls  # mm³
+        assert mesh.volume == pytest.approx(solid.thickness * true.area, abs=off)
+        far = max(map(abs, bounds(solid.outline)))
+        assert mesh.center_mass[:2] == pytest.approx(
+            true.centroid, abs=2.0 * off * far / mesh.volume
+        )
+
+
+def require_near_spheres(mesh, shell, tolerance):
+    """Corners on both spheres, no face farther from them than the tolerance, none folded over."""
+    assert mesh.volume == pytest.approx(shell.volume, abs=tolerance * mesh.area)
+    assert mesh.center_mass == pytest.approx(
+        shell.centroid, abs=2.0 * tolerance * mesh.area * shell.outer / mesh.volume
+    )
+    corners = mesh.vertices[mesh.faces]
+    for radius, sense in ((shell.inner, -1.0), (shell.outer, 1.0)):
+        on = abs(np.linalg.norm(corners, axis=2) - radius).max(axis=1) < 4.0 * NEAR
+        assert on.any()
+        p, q, r = (corners[on, k] for k in range(3))
+        middle = radius - np.linalg.norm(corners[on].mean(axis=1), axis=1)
+        assert middle.max() < tolerance + NEAR
+        # seen from the centre all are counterclockwise, so no two of a region overlap
+        turned = sense * np.einsum("ij,ij->i", p, np.cross(q, r))
+        thin = np.linalg.norm(np.cross(q - p, r - p), axis=1) < 1e-6  # mm²: rounding of corners
+        assert (turned[~thin] > 0.0).all()
+
+
+@pytest.fixture(scope="module")
+def small():
+    """A crank of several parts, in few triangles."""
+    return Design(External(4), size=Size(center_distance_mm=30)).drawing("crank", 0.1)
+
+
+def test_stl(small):
+    mesh = trimesh.load(io.BytesIO(b"".join(stl.data(small, "mm"))), file_type="stl")
+    volume = sum(solid_volume(one) for one in solids(small.solid))
+    assert mesh.volume == pytest.approx(volume, rel=0.02)
+    normals = np.cross(*(mesh.triangles[:, k] - mesh.triangles[:, 0] for k in (1, 2)))
+    assert (np.einsum("ij,ij->i", normals, mesh.face_normals) > 0.0).all()
+
+
+def test_obj(small):
+    text = b"".join(obj.data(small, "mm")).decode()
+    mesh = trimesh.load(io.StringIO(text), file_type="obj")
+    volume = sum(solid_volume(one) for one in solids(small.solid))
+    assert mesh.volume == pytest.approx(volume, rel=0.02)
+    names = [line[2:] for line in text.splitlines() if line.startswith("o ")]
+    assert names == [one.name.replace(" ", "_") for one in solids(small.solid)]
+
+
+def test_3mf(small):
+    """Objects in mm with name and colour, an item for each place, and no date."""
+    archive = zipfile.ZipFile(io.BytesIO(b"".join(threemf.data(small, "mm"))))
+    assert {entry.date_time for entry in archive.infolist()} == {(1980, 1, 1, 0, 0, 0)}
+    root = ElementTree.fromstring(archive.read("3D/3dmodel.model"))
+    assert root.get("unit") == "millimeter"
+    space = {"m": root.tag[1:].partition("}")[0]}
+    colours = [one.get("displaycolor") for one in root.iterfind(".//m:base", space)]
+    objects = {one.get("id"): one for one in root.iterfind(".//m:object", space)}
+    items = root.findall(".//m:item", space)
+    assert len(items) == len(solids(small.solid))
+    for solid, item in zip(solids(small.solid), items, strict=True):
+        part = objects[item.get("objectid")]
+        assert part.get("name") == solid.name
+        assert colours[int(part.get("pindex"))] == INKS[solid.layer].rgb.upper()
+        corners = [[float(v.get(k)) for k in "xyz"] for v in part.iterfind(".//m:vertex", space)]
+        sides = [
+            [int(t.get(k)) for k in ("v1", "v2", "v3")]
+            for t in part.iterfind(".//m:triangle", space)
+        ]
+        mesh = trimesh.Trimesh(corners, sides, process=False)
+        require_closed(mesh)
+        assert mesh.volume == pytest.approx(solid_volume(solid), rel=0.1)
+        x = [float(v) for v in item.get("transform").split()]
+        assert np.linalg.det(np.reshape(x[:9], (3, 3))) == pytest.approx(1.0, abs=1e-9)
+
+
+def solid_volume(solid):
+    return solid.volume if isinstance(solid, Shell) else solid.thickness * face(solid).area
+
+
+@pytest.mark.parametrize("module", [stl, obj, threemf])
+def test_the_same_bytes(small, module):
+    assert b"".join(module.data(small, "mm")) == b"".join(module.data(small, "mm"))
+
+
+@pytest.mark.parametrize("module", [stl, obj, threemf])
+def test_refused(module):
+    drawing = Design(External(4)).drawing("slot", 0.1)
+    with pytest.raises(GenevaError, match="no solid to write"):
+        list(module.data(drawing, "mm"))
+    with pytest.raises(GenevaError, match="is always in mm; leave it out"):
+        list(module.data(Drawing("", (), solid=Plate("p", "ARM", SHAPE, (), 0.0, 1.0)), "inch"))
+
+
+def test_thousands_of_corners_are_refused():
+    with pytest.raises(GenevaError, match="takes more than 200000 chords"):
+        one(Plate("disc", "ARM", Circle("ARM", (0.0, 0.0), 500.0), (), 0.0, 1.0), 1e-9)
+
+
+@pytest.mark.parametrize("format", MESHES)
+def test_a_design_saves_its_parts(tmp_path, format):
+    path = tmp_path / f"wheel.{format}"
+    Design(External(4)).save(str(path))
+    assert path.stat().st_size > 10_000
+
+
+def test_a_plate_has_every_part_once_for_each_in_the_machine():
+    """On z = 0 and apart: no two outlines meet."""
+    made = load(str(repo.DESIGNS / "side-crank-z6.toml"))
+    drawing = made.drawing("plate", 0.1)
+    laid = [
+        shapely.affinity.translate(shapely.Polygon(polygon(m.part.outline, True, 0.1)), *m.at)
+        for m in drawing.solid.members
+    ]
+    rows = made.part_table("parts").to_rows()
+    assert len(laid) == sum(row["count"] for row in rows if row["row"] == "part")
+    assert all(m.part.low == 0.0 for m in drawing.solid.members)
+    for i, a in enumerate(laid):
+        assert a.bounds[0] > 4.9 and a.bounds[1] > 4.9
+        assert all(a.distance(b) > 4.9 for b in laid[:i])
+
+
+def test_a_spherical_machine_has_no_plate():
+    with pytest.raises(GenevaError, match="its parts are not flat"):
+        Design(Spherical(6)).drawing("plate", 0.1)
