@@ -15,6 +15,23 @@ if TYPE_CHECKING:  # for a type checker: one line for each name
     from geneva_cli.design import Design as Design
     from geneva_cli.design import load as load
     from geneva_cli.errors import GenevaError as GenevaError
+    from geneva_cli.kinematics.laws.scca import SineConstantCosine as SineConstantCosine
+    from geneva_cli.kinematics.laws.standard import Cycloidal as Cycloidal
+    from geneva_cli.kinematics.laws.standard import Harmonic as Harmonic
+    from geneva_cli.kinematics.laws.standard import (
+        ModifiedConstantVelocity as ModifiedConstantVelocity,
+    )
+    from geneva_cli.kinematics.laws.standard import ModifiedSine as ModifiedSine
+    from geneva_cli.kinematics.laws.standard import ModifiedTrapezoid as ModifiedTrapezoid
+    from geneva_cli.kinematics.laws.standard import Polynomial345 as Polynomial345
+    from geneva_cli.kinematics.laws.standard import Polynomial4567 as Polynomial4567
+    from geneva_cli.kinematics.laws.standard import SineGroup as SineGroup
+    from geneva_cli.kinematics.laws.table import TableLaw as TableLaw
+    from geneva_cli.kinematics.laws.tuned import Tuned as Tuned
+    from geneva_cli.kinematics.motion import Motion as Motion
+    from geneva_cli.kinematics.wheels.external import External as External
+    from geneva_cli.kinematics.wheels.internal import Internal as Internal
+    from geneva_cli.kinematics.wheels.spherical import Spherical as Spherical
     from geneva_cli.machine.drives.cam import Cam as Cam
     from geneva_cli.machine.drives.crank import Crank as Crank
     from geneva_cli.machine.drives.elliptical_gears import EllipticalGears as EllipticalGears
@@ -25,24 +42,7 @@ if TYPE_CHECKING:  # for a type checker: one line for each name
     from geneva_cli.machine.drives.noncircular_gears import NoncircularGears as NoncircularGears
     from geneva_cli.machine.drives.side_crank import SideCrank as SideCrank
     from geneva_cli.machine.drives.slider_crank import SliderCrank as SliderCrank
-    from geneva_cli.machine.laws.scca import SineConstantCosine as SineConstantCosine
-    from geneva_cli.machine.laws.standard import Cycloidal as Cycloidal
-    from geneva_cli.machine.laws.standard import Harmonic as Harmonic
-    from geneva_cli.machine.laws.standard import (
-        ModifiedConstantVelocity as ModifiedConstantVelocity,
-    )
-    from geneva_cli.machine.laws.standard import ModifiedSine as ModifiedSine
-    from geneva_cli.machine.laws.standard import ModifiedTrapezoid as ModifiedTrapezoid
-    from geneva_cli.machine.laws.standard import Polynomial345 as Polynomial345
-    from geneva_cli.machine.laws.standard import Polynomial4567 as Polynomial4567
-    from geneva_cli.machine.laws.standard import SineGroup as SineGroup
-    from geneva_cli.machine.laws.table import TableLaw as TableLaw
-    from geneva_cli.machine.laws.tuned import Tuned as Tuned
-    from geneva_cli.machine.motion import Motion as Motion
     from geneva_cli.machine.spec import Spec as Spec
-    from geneva_cli.machine.wheels.external import External as External
-    from geneva_cli.machine.wheels.internal import Internal as Internal
-    from geneva_cli.machine.wheels.spherical import Spherical as Spherical
     from geneva_cli.spec.tables import Limits as Limits
     from geneva_cli.spec.tables import Load as Load
     from geneva_cli.spec.tables import Mass as Mass
@@ -78,12 +78,12 @@ _FROM = {
 
 def _rooms() -> dict[str, str]:
     """The module of each public name."""
-    from geneva_cli.machine.registry import DRIVES, GEARINGS, LAWS
+    from geneva_cli.kinematics.registry import DRIVES, GEARINGS, LAWS
 
     rooms = {name: module for module, names in _FROM.items() for name in names}
     for path in (*GEARINGS.values(), *DRIVES.values(), *LAWS.values()):
         module, _, name = path.partition(":")
-        rooms[name] = f"machine.{module}"
+        rooms[name] = module
     return rooms
 
 

@@ -18,12 +18,12 @@ from functools import cached_property, wraps
 from typing import TYPE_CHECKING, Any, Concatenate, ParamSpec, Self, TypeVar
 
 from geneva_cli.errors import GenevaError, Notice, cut
+from geneva_cli.kinematics.drive import Drive
+from geneva_cli.kinematics.motion import Motion
+from geneva_cli.kinematics.wheels.gearing import Gearing
 from geneva_cli.machine.drives.crank import Crank
-from geneva_cli.machine.drives.drive import Drive
 from geneva_cli.machine.mechanism import Mechanism, build
-from geneva_cli.machine.motion import Motion
 from geneva_cli.machine.spec import Spec
-from geneva_cli.machine.wheels.gearing import Gearing
 from geneva_cli.spec.rules import plain
 from geneva_cli.spec.schema import SHOWN_MAX, refuse_keywords, shortly
 from geneva_cli.spec.tables import (
@@ -41,16 +41,16 @@ from geneva_cli.spec.tables import (
 
 if TYPE_CHECKING:
     from geneva_cli.analysis.certificate import Certificate
-    from geneva_cli.analysis.loads.cycle import Cycle
-    from geneva_cli.analysis.loads.summary import QuantitySummary
     from geneva_cli.analysis.peaks import Peaks
     from geneva_cli.analysis.timing import Timing
     from geneva_cli.curves.drawing import Drawing
     from geneva_cli.curves.mass import MassProperties
     from geneva_cli.curves.sheet import Sheet
+    from geneva_cli.drawings.model import PartsModel
     from geneva_cli.figure import Figure
-    from geneva_cli.parts.model import PartsModel
-    from geneva_cli.parts.outlines import Outlines
+    from geneva_cli.loads.cycle import Cycle
+    from geneva_cli.loads.summary import QuantitySummary
+    from geneva_cli.outlines.outlines import Outlines
     from geneva_cli.specfile.reader import Text
     from geneva_cli.table import Table
     from geneva_cli.verdict.checks import Check
@@ -218,7 +218,7 @@ class Design:
         >>> size.center_distance_mm, size.wheel_thickness_mm
         (100.0, 10.0)
         """
-        from geneva_cli.parts.sizes import built
+        from geneva_cli.layout.sizes import built
 
         return built(self.mechanism)
 
@@ -350,7 +350,7 @@ class Design:
         >>> [mark.y for mark in panels[1].curves[0].marks]
         [-6.0]
         """
-        from geneva_cli.analysis.figures import figure
+        from geneva_cli.loads.figures import figure
 
         return self._located(lambda: figure({self.spec.title: self.cycle}, pick)[0])
 
@@ -362,7 +362,7 @@ class Design:
         >>> [round(work, 9) for work in cycle.integrals(lambda at: at.input_torque_Nm)]  # joules
         [15.707963268]
         """
-        from geneva_cli.analysis.loads.cycle import cycle_of
+        from geneva_cli.loads.cycle import cycle_of
 
         return cycle_of(self.mechanism)
 
@@ -377,7 +377,7 @@ class Design:
         >>> round(loaded.loads["pin_force_N"].max, 3)
         649.007
         """
-        from geneva_cli.analysis.loads.summary import summaries
+        from geneva_cli.loads.summary import summaries
 
         return summaries(self.cycle)
 
@@ -391,7 +391,7 @@ class Design:
         return self._loads(for_people=False)
 
     def _loads(self, for_people: bool) -> Table:
-        from geneva_cli.analysis.loads.summary import loads_table, missing
+        from geneva_cli.loads.summary import loads_table, missing
         from geneva_cli.verdict.strength import OF_LIFE
 
         _ = self.loads  # all quantities at once, some of which the life needs
@@ -460,7 +460,7 @@ class Design:
         >>> Design(External(6), load=Load(torque_Nm=15)).load_warnings[0]
         'contact_stress_MPa: needs face_width_mm in [size]'
         """
-        from geneva_cli.analysis.loads.summary import missing
+        from geneva_cli.loads.summary import missing
         from geneva_cli.verdict.warnings import under_load
 
         return [*under_load(self.mechanism), *missing(self.cycle)]
@@ -472,7 +472,7 @@ class Design:
         >>> Design(External(6), load=Load(torque_Nm=15)).load_cycle(4).to_dict()["pin_force_N"]
         array([173.20508076, 173.20508076,   0.        ,   0.        ])
         """
-        from geneva_cli.analysis.loads.summary import cycle_table
+        from geneva_cli.loads.summary import cycle_table
 
         return self._located(lambda: cycle_table(self.cycle, samples))
 
@@ -541,7 +541,7 @@ class Design:
         >>> len(geared.part_table("gears", samples=5))
         5
         """
-        from geneva_cli.parts.catalogue import part_table
+        from geneva_cli.drawings.catalogue import part_table
 
         return self._located(lambda: part_table(self.mechanism, part, tolerance_mm, samples))
 
@@ -552,7 +552,7 @@ class Design:
         >>> wheel.is_table("slot", drawn=False), wheel.is_table("wheel", drawn=False)
         (True, False)
         """
-        from geneva_cli.parts.catalogue import is_table
+        from geneva_cli.drawings.catalogue import is_table
 
         return self._located(lambda: is_table(self.mechanism, part, drawn))
 
@@ -563,7 +563,7 @@ class Design:
         >>> Design(External(6)).proof.turn.holds  # its lock, in the dwell
         True
         """
-        from geneva_cli.parts.model import PartsModel
+        from geneva_cli.drawings.model import PartsModel
 
         return PartsModel(self.mechanism)
 
@@ -586,9 +586,9 @@ class Design:
         >>> Design(External(6)).drawn(0.01).outlines.relief
         'arc'
         """
-        from geneva_cli.parts.catalogue import is_alone, machine_of, require_tolerance
-        from geneva_cli.parts.model import PartsModel
-        from geneva_cli.parts.outlines import outlines
+        from geneva_cli.drawings.catalogue import is_alone, machine_of, require_tolerance
+        from geneva_cli.drawings.model import PartsModel
+        from geneva_cli.outlines.outlines import outlines
 
         mechanism = self._located(lambda: machine_of(self.mechanism, part))
         require_tolerance(mechanism, tolerance_mm)
@@ -618,24 +618,24 @@ class Design:
         >>> Design(External(6)).drawing("wheel").layers
         ('WHEEL', 'BORE')
         """
-        from geneva_cli.parts.catalogue import part_drawing
+        from geneva_cli.drawings.catalogue import part_drawing
 
         if curves not in CURVES:
             raise GenevaError(f"--curves {cut(curves)}: it must be arcs or spline")
         model, of_curves = of or self.drawn(tolerance_mm, part), CURVES[curves]
         picture = self._located(lambda: part_drawing(model, part, tolerance_mm, of_curves))
         if dog_bones_mm is not None:
-            from geneva_cli.parts.milling import with_dog_bones
+            from geneva_cli.drawings.milling import with_dog_bones
 
             picture = self._located(lambda: with_dog_bones(picture, model, dog_bones_mm))
         if centre_marks:
-            from geneva_cli.parts.centre_marks import with_centre_marks
+            from geneva_cli.drawings.centre_marks import with_centre_marks
 
             picture = with_centre_marks(picture)
         if kerf_mm is None:
             return picture
         from geneva_cli.curves.kerf import paths
-        from geneva_cli.parts.catalogue import require_cut
+        from geneva_cli.drawings.catalogue import require_cut
 
         require_cut(part)
         return self._located(lambda: paths(picture, kerf_mm))
@@ -652,8 +652,8 @@ class Design:
         >>> Design(External(6)).cutter("wheel", 12.0)[0].partition(": an ")[2]
         'inner radius of 5 mm is narrower; use a cutter up to 10 mm'
         """
-        from geneva_cli.parts.catalogue import require_cut
-        from geneva_cli.parts.milling import judged
+        from geneva_cli.drawings.catalogue import require_cut
+        from geneva_cli.drawings.milling import judged
 
         require_cut(part, "--cutter")
         model = of or self.drawn(0.001, part)
@@ -678,7 +678,7 @@ class Design:
         >>> small.scale, small.width, small.height
         (2.0, 420.0, 297.0)
         """
-        from geneva_cli.parts.catalogue import part_sheet
+        from geneva_cli.drawings.catalogue import part_sheet
 
         if curves not in CURVES:
             raise GenevaError(f"--curves {cut(curves)}: it must be arcs or spline")
@@ -705,6 +705,7 @@ class Design:
         >>> with tempfile.TemporaryDirectory() as folder:
         ...     Design(External(6)).save(f"{folder}/wheel.dxf")
         """
+        from geneva_cli.drawings.catalogue import PARTS, is_sheet
         from geneva_cli.output import draw, draw_sheet, show
         from geneva_cli.output.formats import (
             is_drawn,
@@ -713,7 +714,6 @@ class Design:
             usual_curves,
             usual_tolerance,
         )
-        from geneva_cli.parts.catalogue import PARTS, is_sheet
 
         if tolerance_mm is None:
             tolerance_mm = usual_tolerance(path, "")

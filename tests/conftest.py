@@ -11,13 +11,13 @@ from sampling import left_out, some
 from words import Drive, Keys, Motion, Spec, Wheel
 
 from geneva_cli import load, study
+from geneva_cli.collisions import full_turn
+from geneva_cli.drawings import model
 from geneva_cli.machine.mechanism import build
-from geneva_cli.parts import model
-from geneva_cli.parts import outlines as outline
-from geneva_cli.parts.turn import full_turn
-from geneva_cli.parts.walls import chain as walls_chain
-from geneva_cli.parts.walls import curved as curved_walls
-from geneva_cli.study.synthesis.families import four_bar_search
+from geneva_cli.outlines import outlines as outline
+from geneva_cli.outlines.walls import chain as walls_chain
+from geneva_cli.outlines.walls import curved as curved_walls
+from geneva_cli.synthesis.families import four_bar_search
 from geneva_cli.verdict import advice, motion_warnings
 
 SHARING = {"made_once", "read_once"}  # fixtures of what costs seconds

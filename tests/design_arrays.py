@@ -4,8 +4,9 @@ import numpy as np
 from words import Motion, Spec, Wheel
 
 from geneva_cli.errors import GenevaError
-from geneva_cli.machine import registry, spec
-from geneva_cli.machine.laws.table import TableLaw
+from geneva_cli.kinematics import registry
+from geneva_cli.kinematics.laws.table import TableLaw
+from geneva_cli.machine import spec
 from geneva_cli.machine.many import changed
 from geneva_cli.machine.mechanism import build
 

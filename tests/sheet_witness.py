@@ -10,7 +10,7 @@ from shapely.geometry import LineString, Polygon, box
 
 from geneva_cli.curves.shapes import Contour
 from geneva_cli.curves.sheet import FRAME
-from geneva_cli.parts.sheet.paper import SCALES
+from geneva_cli.drawings.sheet.paper import SCALES
 
 CHORD = 0.02  # mm: how far the witness's polylines are from the arcs
 LEFT, MARGIN = 20.0, 10.0  # mm, of the frame (ISO 5457)

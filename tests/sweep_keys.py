@@ -6,14 +6,14 @@ import numpy as np
 from design_arrays import MACHINES, drawn, machine
 from words import law
 
-from geneva_cli.analysis.loads.cycle import cycle_of
-from geneva_cli.analysis.loads.summary import summaries
+from geneva_cli.drawings.model import PartsModel
 from geneva_cli.errors import GenevaError
+from geneva_cli.kinematics.motion import Motion
+from geneva_cli.loads.cycle import cycle_of
+from geneva_cli.loads.summary import summaries
 from geneva_cli.machine.many import TABLES, changed, many, may_vary
 from geneva_cli.machine.mechanism import build
-from geneva_cli.machine.motion import Motion
 from geneva_cli.machine.spec import attribute
-from geneva_cli.parts.model import PartsModel
 from geneva_cli.spec.schema import fields
 from geneva_cli.spec.tables import (
     Load,
@@ -26,9 +26,9 @@ from geneva_cli.spec.tables import (
     WheelMaterial,
 )
 from geneva_cli.study.fields import values
-from geneva_cli.study.quantities import in_batch
 from geneva_cli.study.sweep.columns import known_columns
 from geneva_cli.verdict.quantities.groups import GROUPS
+from geneva_cli.verdict.quantities.names import in_batch
 
 GIVEN = {
     "load": Load(inertia_kgm2=0.3, torque_Nm=5.0, friction=0.1, dwell_torque_Nm=3.0),

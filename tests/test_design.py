@@ -38,7 +38,7 @@ from geneva_cli import (
     load,
 )
 from geneva_cli.app import app
-from geneva_cli.machine import registry
+from geneva_cli.kinematics import registry
 from geneva_cli.manual import page
 
 PRESS = {

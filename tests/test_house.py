@@ -13,7 +13,7 @@ from typing import NamedTuple
 import pytest
 
 import geneva_cli
-from geneva_cli.machine import registry
+from geneva_cli.kinematics import registry
 
 ROOT = os.path.dirname(geneva_cli.__file__)
 
@@ -22,20 +22,29 @@ FLOORS = [
     {"errors", "names", "progress"},
     {"table"},
     {"spec", "numerics", "streams", "figure", "scene", "document", "manual"},
-    {"machine", "curves"},
-    {"analysis", "parts", "specfile", "output"},
+    {"kinematics", "curves"},
+    {"linkage"},
+    {"machine"},
+    {"analysis", "layout", "specfile", "output"},
+    {"loads", "collisions"},
+    {"outlines"},
+    {"parts"},
+    {"drawings"},
     {"verdict", "bench"},
     {"design"},
     {"study"},
+    {"synthesis"},
     {"commands"},
     {"app"},
     {"__main__"},
 ]
+# Levels of imports in a room: someone new can follow them.
+DEEPEST = 8
 # Members of one kind, a file each: none imports another. What two share is no member.
 MEMBERS = {
     "machine.drives": {m.partition(":")[0] for m in registry.DRIVES.values()},
-    "machine.wheels": {m.partition(":")[0] for m in registry.GEARINGS.values()},
-    "machine.laws": {m.partition(":")[0] for m in registry.LAWS.values()},
+    "kinematics.wheels": {m.partition(":")[0] for m in registry.GEARINGS.values()},
+    "kinematics.laws": {m.partition(":")[0] for m in registry.LAWS.values()},
 }
 # Folders of like files, none of which imports another, and what stands beside them: what two
 # share, and the list of them.
@@ -57,7 +66,8 @@ ALONE = {
     "specfile.meanings",
     "specfile.json_schema",
     "curves.pieces",
-    "parts.catalogue",
+    "drawings.catalogue",
+    "verdict.quantities.names",
 }
 # A kind's names; "table" is a law, and also what people are shown.
 NAMES = {*registry.DRIVES, *registry.GEARINGS, *registry.LAWS} - {"table"}
@@ -144,7 +154,9 @@ def climbs(module, text):
 
 def beside_designs(text):
     """What a command imports that it should ask a Design or a study for."""
-    inner = {"machine", "spec", "parts", "verdict", "analysis", "curves", "numerics", "specfile"}
+    rooms = {"kinematics", "linkage", "layout", "loads", "collisions", "outlines", "drawings"}
+    inner = rooms | {"machine", "spec", "parts", "verdict", "analysis", "curves", "numerics"}
+    inner.add("specfile")
     return {m for m in ours(text) if room(m) in inner} - ALONE
 
 
@@ -184,19 +196,20 @@ def asks(tree):
                 yield ast.unparse(node)
 
 
-CORE = {"numerics", "machine", "curves", "analysis", "parts"}
+CORE = {"numerics", "kinematics", "linkage", "machine", "curves", "analysis", "loads"}
+CORE |= {"layout", "collisions", "outlines", "parts", "drawings"}
 # Where `Any` stands in the core's annotations, for what is no number of a formula: the cells of a
 # table, a key's value of any type, a class that is found by its name.
 ANY = {
     # jets and values alike; what the searches of numerics hand back to whom they ask, unread
     "numerics.pieces": {"at", "column", "rows", "evaluate", "_turn"},
-    "analysis.loads.summary": {"rows", "_rows", "_cells"},
+    "loads.summary": {"rows", "_rows", "_cells"},
     "analysis.vibration.answers": {"values"},
-    "machine.registry": {"_load_kind"},
+    "kinematics.registry": {"_load_kind"},
     "machine.spec": {"replace", "table"},
-    "parts.catalogue": {"_loaded"},
-    "parts.sheet.composed": {"on_paper", "_composed", "_items"},
-    "parts.sheet.views": {"rows"},
+    "drawings.catalogue": {"_loaded"},
+    "drawings.sheet.composed": {"on_paper", "_composed", "_items"},
+    "drawings.sheet.views": {"rows"},
 }
 
 
@@ -222,7 +235,7 @@ MOST_PARAMETERS = 6
 MANY_PARAMETERS = {
     "design": {"__init__", "drawing"},
     "study.sweep.request": {"request"},
-    "study.synthesis.reading": {"read_target"},
+    "synthesis.reading": {"read_target"},
 }
 
 
@@ -302,9 +315,26 @@ def test_no_circle():
         pytest.fail(f"imports go round: {' -> '.join(error.args[1])}")
 
 
+def levels(module, graph, known):
+    """The length of the longest chain of imports from a module, within its room."""
+    if module not in known:
+        inside = [m for m in graph[module] if room(m) == room(module)]
+        known[module] = 1 + max((levels(m, graph, known) for m in inside), default=0)
+    return known[module]
+
+
+def test_rooms_are_not_deep():
+    """Modules that hold nothing but a docstring, of packages, do not count."""
+    full = [m for m in MODULES if len(ast.parse(source(m)).body) > 1]
+    graph = {m: (ours(source(m), types=True) & set(full)) - {m} for m in full}
+    known = {}
+    deep = {m: n for m in full if (n := levels(m, graph, known)) > DEEPEST}
+    assert not deep
+
+
 @pytest.mark.parametrize("kind", MEMBERS)
 def test_members_of_a_kind_do_not_know_each_other(kind):
-    members = {f"machine.{name}" for name in MEMBERS[kind]}
+    members = MEMBERS[kind]
     for member in members:
         assert not (ours(source(member)) & members) - {member}, member
 
@@ -351,7 +381,7 @@ def test_few_rooms_know_typer():
 
 
 def test_nobody_asks_which_machine_it_is():
-    others = [m for m in MODULES if m != "machine.registry"]
+    others = [m for m in MODULES if m != "kinematics.registry"]
     assert broken(lambda m: read(source(m)).asks, others) == {}
 
 
@@ -361,7 +391,7 @@ def test_nobody_asks_which_machine_it_is():
         "from geneva_cli.analysis.peaks import peak",
         "from geneva_cli import app",
         "import geneva_cli.output.text",
-        "from geneva_cli.curves.shapes import Line",
+        "from geneva_cli.loads.cycle import cycle_of",
         "def late():\n    from geneva_cli.verdict.checks import checks",
     ],
 )

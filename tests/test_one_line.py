@@ -17,19 +17,19 @@ from typer.testing import CliRunner
 from words import Spec, Wheel
 
 from geneva_cli.app import app
-from geneva_cli.machine import registry
+from geneva_cli.drawings.catalogue import PARTS, Part
+from geneva_cli.kinematics import registry
+from geneva_cli.kinematics.engagement import Displacement, Slot
+from geneva_cli.kinematics.laws.law import Law, from_velocity
+from geneva_cli.kinematics.path_and_slot import AnchoredPath, RadialSlot, StraightSlotMotion
+from geneva_cli.kinematics.wheels.gearing import Gearing, RollerPlace
+from geneva_cli.kinematics.wheels.poses import HalfStep, PinPose
 from geneva_cli.machine.drives.transmission import LocalTransmission, Transmission
-from geneva_cli.machine.engagement import Displacement, Slot
-from geneva_cli.machine.example import Example
-from geneva_cli.machine.laws.law import Law, from_velocity
 from geneva_cli.machine.mechanism import Mechanism, build
-from geneva_cli.machine.path_and_slot import AnchoredPath, RadialSlot, StraightSlotMotion
-from geneva_cli.machine.wheels.gearing import Gearing, RollerPlace
-from geneva_cli.machine.wheels.poses import HalfStep, PinPose
 from geneva_cli.numerics.jet import Jet, Number, sine_versine
 from geneva_cli.numerics.roots import boundary
 from geneva_cli.output.formats import FORMATS
-from geneva_cli.parts.catalogue import PARTS, Part
+from geneva_cli.spec.example import Example
 from geneva_cli.spec.rules import Range
 from geneva_cli.specfile import template
 from geneva_cli.table import Table, rows_table
@@ -104,7 +104,7 @@ class Reduced(Transmission, kw_only=True):
 
 
 def test_a_drive(add: Add, run: Callable[..., Any]) -> None:
-    add(registry.DRIVES, "reduced", "drives.added:Reduced", "machine.drives")
+    add(registry.DRIVES, "reduced", "machine.drives.added:Reduced", "machine.drives")
     text = new("reduced")
     assert 'kind = "reduced"' in text and "teeth = 3" in text
     found, plain = run("peaks", text), run("peaks", "[wheel]\nz = 6\n")
@@ -191,7 +191,7 @@ class Leaning(Gearing):
 
 
 def test_a_wheel_whose_crank_is_at_an_angle_and_offset(add: Add, run: Callable[..., Any]) -> None:
-    add(registry.GEARINGS, "leaning", "wheels.added:Leaning", "machine.wheels")
+    add(registry.GEARINGS, "leaning", "kinematics.wheels.added:Leaning", "kinematics.wheels")
     text = new("leaning")
     assert 'gearing = "leaning"' in text and "lean_deg = 20.0" in text
     rows = run("motion", text)["rows"]
@@ -239,7 +239,7 @@ class Flattened(Law):
 
 
 def test_a_law_with_a_parameter(add: Add, run: Callable[..., Any]) -> None:
-    add(registry.LAWS, "flattened", "laws.added:Flattened", "machine.laws")
+    add(registry.LAWS, "flattened", "kinematics.laws.added:Flattened", "kinematics.laws")
     wheel = "[wheel]\nz = 6\n[motion]\n"
     for n, same in ((2, "3-4-5"), (3, "4-5-6-7")):
         found = run("peaks", f'{wheel}law = "flattened"\nn = {n}\n')
@@ -302,6 +302,6 @@ def pins(mechanism: Mechanism, tolerance_mm: float, samples: int | None) -> Tabl
 
 
 def test_a_part(add: Add, run: Callable[..., Any]) -> None:
-    add(PARTS, "pins", Part("added:pins"), "parts")
+    add(PARTS, "pins", Part("drawings.added:pins"), "drawings")
     shown = run("profile", "[wheel]\nz = 6\n[drive]\nrollers = 2\n", "--part", "pins")
     assert json.loads(shown)["rows"] == [{"pins": 2}]

@@ -6,7 +6,7 @@ from typing import NamedTuple
 
 from geneva_cli import design
 from geneva_cli.errors import GenevaError
-from geneva_cli.machine import registry
+from geneva_cli.kinematics import registry
 from geneva_cli.machine import spec as given
 from geneva_cli.spec.schema import Points, fields
 from geneva_cli.specfile.points import read_pairs

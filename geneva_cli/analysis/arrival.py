@@ -1,7 +1,7 @@
 """Check that the wheel follows a roller that stops it with one wall only.
 
 If gears drive between two rollers, the slot of the second one has a wall behind its roller only
-(see ``parts.walls.straight``). The wheel's inertia must hold it on that wall, against the torque
+(see ``outlines.walls.straight``). The wheel's inertia must hold it on that wall, against the torque
 that resists. From the handover at s the wheel coasts, psi'' = -m with m = M_r / (I w²), while the
 slot needs less deceleration, psi'' > -m. It lags by
 
@@ -19,8 +19,8 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
-from geneva_cli.analysis.loads.carried import inertia_kgm2, resisting_torque_Nm
-from geneva_cli.machine.engagement import Engagement
+from geneva_cli.analysis.carried import inertia_kgm2, resisting_torque_Nm
+from geneva_cli.kinematics.engagement import Engagement
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.numerics.angles import DEGREE, omega
 from geneva_cli.numerics.roots import boundary

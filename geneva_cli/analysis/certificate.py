@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, NamedTuple, cast
 from geneva_cli.analysis.certificate_loads import LOADS, load_formula, not_proved
 from geneva_cli.analysis.peaks import QUANTITIES
 from geneva_cli.errors import GenevaError, cut, nearest
-from geneva_cli.machine.engagement import Engagement
+from geneva_cli.kinematics.engagement import Engagement
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.numerics.jet import Jet, Number
 from geneva_cli.numerics.tolerances import TIE

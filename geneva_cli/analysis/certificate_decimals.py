@@ -11,9 +11,9 @@ from collections.abc import Callable
 from fractions import Fraction
 from typing import TypeAlias, cast
 
-from geneva_cli.machine.engagement import Displacement, WheelMotion
+from geneva_cli.kinematics.engagement import Displacement, WheelMotion
+from geneva_cli.kinematics.wheels.gearing import FollowedRate
 from geneva_cli.machine.mechanism import Mechanism
-from geneva_cli.machine.wheels.gearing import FollowedRate
 from geneva_cli.numerics.angles import radians
 from geneva_cli.numerics.arrays import Undecided
 from geneva_cli.numerics.balls import Ball

@@ -8,13 +8,13 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from geneva_cli.analysis.loads.forces import LoadCase, load_case
-from geneva_cli.analysis.loads.quantities import FORCE, TORQUE
+from geneva_cli.analysis.forces import LoadCase, load_case
+from geneva_cli.analysis.quantities import FORCE, TORQUE
 from geneva_cli.numerics.jet import Jet, Number
 
 if TYPE_CHECKING:
     from geneva_cli.analysis.certificate_decimals import Formula
-    from geneva_cli.machine.engagement import Engagement
+    from geneva_cli.kinematics.engagement import Engagement
     from geneva_cli.machine.mechanism import Mechanism
 
 WHEEL_TORQUE = "wheel_torque_Nm"

@@ -14,9 +14,9 @@ from typing import TYPE_CHECKING, NamedTuple, cast
 
 import numpy as np
 
-from geneva_cli.analysis.loads.carried import inertia_kgm2, resisting_torque_Nm
+from geneva_cli.analysis.carried import inertia_kgm2, resisting_torque_Nm
 from geneva_cli.analysis.peak_search import landmarks
-from geneva_cli.machine.engagement import Engagement, WheelMotion
+from geneva_cli.kinematics.engagement import Engagement, WheelMotion
 from geneva_cli.machine.many import designs_in, taken
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.numerics.angles import DEGREE, omega

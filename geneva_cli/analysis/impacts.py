@@ -8,11 +8,11 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from geneva_cli.analysis.change_of_sides import changes, drag_over, impacts_of
-from geneva_cli.analysis.loads.contact import contact as touching
+from geneva_cli.analysis.contact import contact as touching
 from geneva_cli.analysis.mouth import mouth_contacts
 from geneva_cli.analysis.shock import FirstContacts, first_contacts
 from geneva_cli.analysis.shock_force import forces_N, impulse_Nms
-from geneva_cli.machine.engagement import Engagement
+from geneva_cli.kinematics.engagement import Engagement
 from geneva_cli.machine.many import taken
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.numerics.arrays import all_true, library, only_of, parameter

@@ -11,9 +11,9 @@ from typing import NamedTuple
 from geneva_cli.analysis.cam_factors import CamFactors
 from geneva_cli.analysis.peaks import peak
 from geneva_cli.errors import GenevaError
-from geneva_cli.machine import registry
-from geneva_cli.machine.law_motion import LawMotion
-from geneva_cli.machine.laws.law import Law
+from geneva_cli.kinematics import registry
+from geneva_cli.kinematics.law_motion import LawMotion
+from geneva_cli.kinematics.laws.law import Law
 from geneva_cli.spec.schema import REQUIRED, fields
 from geneva_cli.table import Reading, Table, rows_table
 

@@ -31,7 +31,7 @@ from geneva_cli.numerics.jet import Jet, sqrt
 from geneva_cli.numerics.newton import find_roots
 
 if TYPE_CHECKING:
-    from geneva_cli.machine.engagement import Engagement
+    from geneva_cli.kinematics.engagement import Engagement
     from geneva_cli.numerics.arrays import Whole
     from geneva_cli.numerics.jet import Array
 

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from geneva_cli.analysis.loads.forces import load_case
+from geneva_cli.analysis.forces import load_case
 from geneva_cli.machine.mechanism import Mechanism
 
 if TYPE_CHECKING:

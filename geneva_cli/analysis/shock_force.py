@@ -18,8 +18,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from geneva_cli.analysis.loads.carried import MM, inertia_kgm2
-from geneva_cli.analysis.loads.forces import contact_modulus_GPa
+from geneva_cli.analysis.carried import MM, inertia_kgm2
+from geneva_cli.analysis.forces import contact_modulus_GPa
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.numerics.angles import omega
 from geneva_cli.numerics.arrays import N, choose, size

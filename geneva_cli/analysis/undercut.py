@@ -12,8 +12,8 @@ from typing import TYPE_CHECKING, NamedTuple, cast
 
 import numpy as np
 
+from geneva_cli.kinematics.pitch_curve import Pitch, pitch, retraces
 from geneva_cli.machine.mechanism import Mechanism
-from geneva_cli.machine.pitch_curve import Pitch, pitch, retraces
 from geneva_cli.numerics.arrays import choose_record, only_of
 from geneva_cli.numerics.tolerances import TIE
 

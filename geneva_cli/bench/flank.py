@@ -10,8 +10,8 @@ from scipy.spatial import cKDTree
 
 from geneva_cli.curves.measure import at
 from geneva_cli.curves.shapes import Arc, Cubic
+from geneva_cli.layout.slot_profile import slot
 from geneva_cli.machine.mechanism import Mechanism
-from geneva_cli.parts.slot_profile import slot
 
 if TYPE_CHECKING:
     from geneva_cli.curves.shapes import Line

@@ -9,7 +9,7 @@ from __future__ import annotations
 import math
 from typing import Any, NamedTuple
 
-from geneva_cli.machine import registry
+from geneva_cli.kinematics import registry
 
 
 class Proportions(NamedTuple):

@@ -12,8 +12,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from geneva_cli.analysis.loads.cycle import Cycle
 from geneva_cli.bench.truth import digits, motion
+from geneva_cli.loads.cycle import Cycle
 from geneva_cli.machine.mechanism import Mechanism
 
 if TYPE_CHECKING:

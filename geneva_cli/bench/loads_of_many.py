@@ -14,15 +14,11 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from geneva_cli.analysis.loads.contact import mirrored
-from geneva_cli.analysis.loads.cycle import Cycle
-from geneva_cli.analysis.loads.forces import load_case
-from geneva_cli.analysis.loads.load_functions import NO_MORE, LoadFunctions, load_batch
-from geneva_cli.analysis.loads.means import load_means, powers
-from geneva_cli.analysis.loads.quantities import SQUARED
-from geneva_cli.analysis.loads.stretches import spans_of
-from geneva_cli.analysis.loads.summaries import load_peaks, load_summaries
-from geneva_cli.analysis.loads.summary import summaries
+from geneva_cli.analysis.contact import mirrored
+from geneva_cli.analysis.forces import load_case
+from geneva_cli.analysis.load_functions import NO_MORE, LoadFunctions, load_batch
+from geneva_cli.analysis.quantities import SQUARED
+from geneva_cli.analysis.stretches import spans_of
 from geneva_cli.bench import load_truth
 from geneva_cli.bench.kinds import (
     KINDS,
@@ -35,12 +31,16 @@ from geneva_cli.bench.kinds import (
 )
 from geneva_cli.bench.load_truth import LOADS
 from geneva_cli.bench.method import Method, Task
-from geneva_cli.machine.laws.standard import ModifiedSine
+from geneva_cli.kinematics.laws.standard import ModifiedSine
+from geneva_cli.kinematics.motion import Motion
+from geneva_cli.kinematics.wheels.external import External
+from geneva_cli.loads.cycle import Cycle
+from geneva_cli.loads.means import load_means, powers
+from geneva_cli.loads.summaries import load_peaks, load_summaries
+from geneva_cli.loads.summary import summaries
 from geneva_cli.machine.many import taken
 from geneva_cli.machine.mechanism import Mechanism
-from geneva_cli.machine.motion import Motion
 from geneva_cli.machine.spec import Spec
-from geneva_cli.machine.wheels.external import External
 from geneva_cli.numerics.adaptive_quadrature import NODES
 from geneva_cli.numerics.chebyshev import POINTS
 from geneva_cli.numerics.quadrature import rule

@@ -7,6 +7,7 @@ import typer
 
 from geneva_cli.commands import completion
 from geneva_cli.commands.options import Output, Settings, SpecPath, one_of, warn
+from geneva_cli.drawings.catalogue import PARTS, is_sheet
 from geneva_cli.errors import GenevaError, clean, cut
 from geneva_cli.output import draw, draw_sheet, show
 from geneva_cli.output.formats import (
@@ -20,7 +21,6 @@ from geneva_cli.output.formats import (
     usual_curves,
     usual_tolerance,
 )
-from geneva_cli.parts.catalogue import PARTS, is_sheet
 
 if TYPE_CHECKING:
     from geneva_cli.design import Design

@@ -12,7 +12,7 @@ from geneva_cli.errors import GenevaError, clean, cut
 
 if TYPE_CHECKING:
     from geneva_cli.machine.spec import Spec
-    from geneva_cli.study.synthesis.target import Target
+    from geneva_cli.study.target import Target
 
 EXAMPLES = (
     "geneva synth --motion-deg 180 --z 6 --check 0",
@@ -134,7 +134,7 @@ def run(
 
     The machines tried, and the columns: `geneva help search`.
     """
-    from geneva_cli.study.synthesis.reading import read_target
+    from geneva_cli.synthesis.reading import read_target
 
     if settings and not from_:
         raise GenevaError("--set goes with --from: it changes a key of that spec")
@@ -180,8 +180,8 @@ def _inputs(target: "Target") -> Sequence[str]:
 def _show(target: "Target", check: int, buildable: bool, output: str, format: str) -> None:
     from geneva_cli.output import is_seen, show
     from geneva_cli.output.formats import format_of
-    from geneva_cli.study.synthesis.shown import for_people, for_terminal
-    from geneva_cli.study.synthesis.table import synthesis_table
+    from geneva_cli.synthesis.shown import for_people, for_terminal
+    from geneva_cli.synthesis.table import synthesis_table
 
     if output.endswith(".toml") and not format:
         raise GenevaError(f"-o {cut(output, 300)}: a spec is one row of the table; add --write N")
@@ -197,8 +197,8 @@ def _show(target: "Target", check: int, buildable: bool, output: str, format: st
 def _write(target: "Target", number: int, buildable: bool, output: str, format: str) -> None:
     from geneva_cli.design import Design
     from geneva_cli.output import show_text
-    from geneva_cli.study.synthesis.search import search
-    from geneva_cli.study.synthesis.written import chosen
+    from geneva_cli.synthesis.search import search
+    from geneva_cli.synthesis.written import chosen
 
     if format:
         raise GenevaError(f"--format {cut(format)}: --write writes a spec, which is TOML")

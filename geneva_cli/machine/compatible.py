@@ -7,7 +7,7 @@ from functools import partial
 from typing import TYPE_CHECKING, NamedTuple
 
 from geneva_cli.errors import GenevaError, refuse
-from geneva_cli.machine.drives.drive import Needs
+from geneva_cli.kinematics.drive import Needs
 from geneva_cli.spec.rules import is_array
 
 if TYPE_CHECKING:

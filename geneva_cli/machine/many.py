@@ -30,8 +30,8 @@ from typing import TYPE_CHECKING, NamedTuple, TypeAlias, TypeVar, cast
 import numpy as np
 
 from geneva_cli.errors import GenevaError, marking
+from geneva_cli.kinematics.motion import Motion
 from geneva_cli.machine.mechanism import Mechanism, build
-from geneva_cli.machine.motion import Motion
 from geneva_cli.machine.spec import Spec, attribute
 from geneva_cli.numerics.latest import Latest
 from geneva_cli.spec.schema import Field, Points, SpecTable, fields, unknown

@@ -5,10 +5,10 @@ from __future__ import annotations
 import math
 from typing import NamedTuple
 
+from geneva_cli.kinematics.drive import Plan
+from geneva_cli.kinematics.engagement import Engagement
+from geneva_cli.kinematics.laws.law import Law
 from geneva_cli.machine import compatible
-from geneva_cli.machine.drives.drive import Plan
-from geneva_cli.machine.engagement import Engagement
-from geneva_cli.machine.laws.law import Law
 from geneva_cli.machine.size_rules import refuse_sizes
 from geneva_cli.machine.spec import Spec
 from geneva_cli.machine.tolerance_rules import refuse_tolerances

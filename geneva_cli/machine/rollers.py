@@ -7,12 +7,12 @@ from functools import partial
 from typing import TYPE_CHECKING
 
 from geneva_cli.errors import GenevaError, refuse
-from geneva_cli.machine.wheels.classic import refuse_jam
-from geneva_cli.machine.wheels.gearing import Gearing, RollerPlace
-from geneva_cli.machine.wheels.poses import HalfStep
+from geneva_cli.kinematics.wheels.classic import refuse_jam
+from geneva_cli.kinematics.wheels.gearing import Gearing, RollerPlace
+from geneva_cli.kinematics.wheels.poses import HalfStep
 
 if TYPE_CHECKING:
-    from geneva_cli.machine.drives.drive import Drive
+    from geneva_cli.kinematics.drive import Drive
 
 
 ANGLES_KEY = ("drive", "roller_angles_deg")

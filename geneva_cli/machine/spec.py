@@ -7,10 +7,10 @@ from functools import partial
 from typing import Any, Self
 
 from geneva_cli.errors import GenevaError, refuse
+from geneva_cli.kinematics.drive import Drive
+from geneva_cli.kinematics.motion import Motion
+from geneva_cli.kinematics.wheels.gearing import Gearing
 from geneva_cli.machine.drives.crank import Crank
-from geneva_cli.machine.drives.drive import Drive
-from geneva_cli.machine.motion import Motion
-from geneva_cli.machine.wheels.gearing import Gearing
 from geneva_cli.numerics.arrays import all_true
 from geneva_cli.spec.schema import (
     SpecTable,

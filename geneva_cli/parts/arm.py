@@ -18,7 +18,7 @@ from geneva_cli.curves.distance import Polyarc
 from geneva_cli.curves.hull import convex_hull
 from geneva_cli.curves.shapes import Circle, Contour, Shape
 from geneva_cli.errors import GenevaError
-from geneva_cli.parts.arm_sizes import (
+from geneva_cli.layout.arm_sizes import (
     arm_bore,
     bolts_between,
     eye_about,
@@ -26,11 +26,11 @@ from geneva_cli.parts.arm_sizes import (
     hub_and_eye,
     pin_hole,
 )
-from geneva_cli.parts.crank import crank_circles, is_whole, roller_centres
-from geneva_cli.parts.hole_walls import least_wall
-from geneva_cli.parts.keyways import bore, key, reach
-from geneva_cli.parts.outlines import Outlines
-from geneva_cli.parts.reliefs import keyway_direction, sectors
+from geneva_cli.layout.hole_walls import least_wall
+from geneva_cli.layout.keyways import bore, key, reach
+from geneva_cli.layout.reliefs import keyway_direction, sectors
+from geneva_cli.outlines.crank import crank_circles, is_whole, roller_centres
+from geneva_cli.outlines.outlines import Outlines
 
 LAYER, HOLES = "ARM", "BORE"
 

@@ -12,16 +12,16 @@ from collections.abc import Iterator
 
 from geneva_cli.curves.plates import Member, Plate
 from geneva_cli.errors import GenevaError
-from geneva_cli.machine import registry
+from geneva_cli.kinematics import registry
+from geneva_cli.kinematics.wheels.external import External
+from geneva_cli.layout.projection import titled
+from geneva_cli.layout.sizes import thicknesses, wall_min
 from geneva_cli.machine.drives.crank import Crank
 from geneva_cli.machine.mechanism import Mechanism, build
 from geneva_cli.machine.spec import Spec
-from geneva_cli.machine.wheels.external import External
+from geneva_cli.outlines.outlines import Outlines, outlines
 from geneva_cli.parts.links import Links, drawn_links
-from geneva_cli.parts.outlines import Outlines, outlines
 from geneva_cli.parts.plates import locking_plates, wheel_plate
-from geneva_cli.parts.projection import titled
-from geneva_cli.parts.sizes import thicknesses, wall_min
 from geneva_cli.spec.tables import Size
 
 PLANE = 2  # below the wheel's plane: that of the first wheel

@@ -13,24 +13,24 @@ import numpy as np
 
 from geneva_cli.curves.plates import Group, Member, Plate
 from geneva_cli.curves.shapes import Contour, Point
-from geneva_cli.machine.engagement import Engagement
-from geneva_cli.machine.layout import Joint
+from geneva_cli.kinematics.engagement import Engagement
+from geneva_cli.kinematics.layout import Joint
+from geneva_cli.layout.link_positions import links_at
+from geneva_cli.layout.missing import NamedParts
+from geneva_cli.layout.sizes import pin_radius, thicknesses
 from geneva_cli.machine.mechanism import Mechanism
+from geneva_cli.outlines.crank import roller_centres
+from geneva_cli.outlines.outlines import Outlines, outlines, slot_walls
+from geneva_cli.outlines.wheel import wheel_contour
 from geneva_cli.parts.arm import CrankArm, crank_arm, has_arm
-from geneva_cli.parts.crank import roller_centres
 from geneva_cli.parts.first_pair import first_pair, in_front
 from geneva_cli.parts.frame import FrameAndShafts, framed
 from geneva_cli.parts.gear_pair import gear_pair
 from geneva_cli.parts.groove_plate import groove_base, groove_lines, groove_stack
-from geneva_cli.parts.link_positions import links_at
 from geneva_cli.parts.link_sizes import places
 from geneva_cli.parts.links import Links, drawn_links
-from geneva_cli.parts.missing import NamedParts
-from geneva_cli.parts.outlines import Outlines, outlines, slot_walls
 from geneva_cli.parts.plates import arm_plate, locking_plates, roller_plates, wheel_part
 from geneva_cli.parts.shafts import crank_hub
-from geneva_cli.parts.sizes import pin_radius, thicknesses
-from geneva_cli.parts.wheel import wheel_contour
 
 
 class FlatParts:

@@ -14,17 +14,17 @@ from geneva_cli.curves.hull import convex_hull
 from geneva_cli.curves.plates import Member, Plate
 from geneva_cli.curves.shapes import Circle, Point
 from geneva_cli.errors import GenevaError
+from geneva_cli.layout.link_positions import same
+from geneva_cli.layout.sizes import even, thicknesses, wall_min
 from geneva_cli.machine.mechanism import Mechanism
+from geneva_cli.outlines.outlines import Outlines
+from geneva_cli.outlines.wheel_hub import wheel_hub
 from geneva_cli.parts.arm import has_arm
 from geneva_cli.parts.gear_pair import gear_shafts, gear_span
-from geneva_cli.parts.link_positions import same
 from geneva_cli.parts.link_shafts import Ends, link_shafts, outside_links
 from geneva_cli.parts.links import Links, placed_holes
-from geneva_cli.parts.outlines import Outlines
+from geneva_cli.parts.planes import crank_stop
 from geneva_cli.parts.shafts import crank_shaft_radius, shafts, wheel_shaft_radius
-from geneva_cli.parts.sizes import even, thicknesses, wall_min
-from geneva_cli.parts.turn.planes import crank_stop
-from geneva_cli.parts.wheel_hub import wheel_hub
 
 NAME, LAYER, HOLES = "frame", "FRAME", "BORE"
 

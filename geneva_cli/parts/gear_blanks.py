@@ -24,8 +24,8 @@ from geneva_cli.curves.shapes import (
     two_arcs,
 )
 from geneva_cli.errors import GenevaError
-from geneva_cli.machine.layout import Link, Teeth
-from geneva_cli.parts.hole_walls import least_wall
+from geneva_cli.kinematics.layout import Link, Teeth
+from geneva_cli.layout.hole_walls import least_wall
 from geneva_cli.parts.link_sizes import LinkSizes
 from geneva_cli.spec.tables import Size
 

@@ -15,15 +15,15 @@ from geneva_cli.curves import fit
 from geneva_cli.curves.plates import Member, Plate
 from geneva_cli.curves.shapes import Circle, Point, closed
 from geneva_cli.errors import GenevaError
-from geneva_cli.machine.drives.drive import Gears
+from geneva_cli.kinematics.drive import Gears
+from geneva_cli.layout.gear_curves import SAMPLES, ratio_and_turn, required_gears
+from geneva_cli.layout.sizes import even
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.numerics.arrays import array
-from geneva_cli.parts.gear_curves import SAMPLES, ratio_and_turn, required_gears
+from geneva_cli.outlines.outlines import Outlines
 from geneva_cli.parts.link_shafts import Ends
 from geneva_cli.parts.link_sizes import link_sizes
-from geneva_cli.parts.outlines import Outlines
 from geneva_cli.parts.shafts import shaft, shaft_ends
-from geneva_cli.parts.sizes import even
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray

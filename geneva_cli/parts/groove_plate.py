@@ -15,11 +15,11 @@ from geneva_cli.curves import fit
 from geneva_cli.curves.plates import Plate
 from geneva_cli.curves.shapes import Circle, Contour, closed
 from geneva_cli.errors import GenevaError
-from geneva_cli.parts.groove import groove_curve
+from geneva_cli.layout.groove import groove_curve
+from geneva_cli.layout.sizes import even
+from geneva_cli.outlines.outlines import Outlines
+from geneva_cli.outlines.wheel_hub import about_axis
 from geneva_cli.parts.links import Links
-from geneva_cli.parts.outlines import Outlines
-from geneva_cli.parts.sizes import even
-from geneva_cli.parts.wheel_hub import about_axis
 
 LAYER, HOLES, GROOVE, PITCH = "FRAME", "BORE", "GROOVE", "PITCH"
 BELOW = 2  # planes below the wheel: that of the groove, below the crank

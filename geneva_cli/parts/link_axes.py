@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from geneva_cli.curves.shapes import Point
-from geneva_cli.machine.layout import Joint, Link
+from geneva_cli.kinematics.layout import Joint, Link
 from geneva_cli.parts.link_sizes import places
 
 if TYPE_CHECKING:

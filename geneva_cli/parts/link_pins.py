@@ -12,7 +12,7 @@ import numpy as np
 
 from geneva_cli.curves.plates import Member, Plate
 from geneva_cli.curves.shapes import Circle
-from geneva_cli.machine.layout import Joint, Link
+from geneva_cli.kinematics.layout import Joint, Link
 from geneva_cli.parts.link_sizes import LinkSizes, places
 
 if TYPE_CHECKING:

@@ -12,14 +12,14 @@ from collections.abc import Iterable, Iterator
 from typing import NamedTuple
 
 from geneva_cli.curves.plates import Member, Plate
-from geneva_cli.machine.layout import Joint
+from geneva_cli.kinematics.layout import Joint
+from geneva_cli.layout.link_positions import same
+from geneva_cli.layout.sizes import thicknesses
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.numerics.tolerances import SAME_LENGTH
 from geneva_cli.parts.link_axes import LinkAxis
-from geneva_cli.parts.link_positions import same
 from geneva_cli.parts.links import Links, placed_holes
 from geneva_cli.parts.shafts import shaft, shaft_ends
-from geneva_cli.parts.sizes import thicknesses
 
 
 class Ends(NamedTuple):

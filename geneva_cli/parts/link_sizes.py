@@ -13,12 +13,12 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from geneva_cli.errors import GenevaError
-from geneva_cli.machine.layout import Joint, Link
+from geneva_cli.kinematics.layout import Joint, Link
+from geneva_cli.layout.arm_sizes import HUB, eye_about, half_or, pin_hole
+from geneva_cli.layout.sizes import even, pin_radius, thicknesses, wall_min
 from geneva_cli.machine.mechanism import Mechanism
+from geneva_cli.outlines.outlines import Outlines
 from geneva_cli.parts.arm import has_arm, shaft_bore
-from geneva_cli.parts.arm_sizes import HUB, eye_about, half_or, pin_hole
-from geneva_cli.parts.outlines import Outlines
-from geneva_cli.parts.sizes import even, pin_radius, thicknesses, wall_min
 
 if TYPE_CHECKING:
     from geneva_cli.numerics.jet import Array

@@ -18,17 +18,17 @@ from geneva_cli.curves.hull import convex_hull
 from geneva_cli.curves.plates import Member, Plate
 from geneva_cli.curves.shapes import Circle, Contour, Point, Shape
 from geneva_cli.errors import GenevaError
-from geneva_cli.machine.layout import Joint, Link
+from geneva_cli.kinematics.layout import Joint, Link
+from geneva_cli.layout.hole_walls import apart, least_wall
+from geneva_cli.layout.link_positions import links_at, same
+from geneva_cli.layout.sizes import even, pin_radius
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.numerics.tolerances import SAME_LENGTH
+from geneva_cli.outlines.outlines import Outlines
 from geneva_cli.parts.gear_blanks import Gear, link_gear
-from geneva_cli.parts.hole_walls import apart, least_wall
 from geneva_cli.parts.link_axes import LinkAxis, axes
 from geneva_cli.parts.link_pins import pins, rollers
-from geneva_cli.parts.link_positions import links_at, same
 from geneva_cli.parts.link_sizes import SLOT_MARGIN, LinkSizes, link_sizes, places
-from geneva_cli.parts.outlines import Outlines
-from geneva_cli.parts.sizes import even, pin_radius
 
 LAYER, HOLES, SHAFT = "LINK", "BORE", Joint.SHAFT
 

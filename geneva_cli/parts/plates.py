@@ -7,11 +7,11 @@ from __future__ import annotations
 
 from geneva_cli.curves.plates import Group, Member, Plate
 from geneva_cli.curves.shapes import Circle, Contour
+from geneva_cli.outlines.crank import crank_circles, is_whole
+from geneva_cli.outlines.outlines import Outlines
+from geneva_cli.outlines.wheel import wheel_circles
+from geneva_cli.outlines.wheel_hub import wheel_hub
 from geneva_cli.parts.arm import CrankArm, bolts
-from geneva_cli.parts.crank import crank_circles, is_whole
-from geneva_cli.parts.outlines import Outlines
-from geneva_cli.parts.wheel import wheel_circles
-from geneva_cli.parts.wheel_hub import wheel_hub
 
 
 def wheel_plate(parts: Outlines, contour: Contour) -> Plate:

@@ -16,12 +16,12 @@ import numpy as np
 from geneva_cli.curves.plates import Member, Plate
 from geneva_cli.curves.shapes import Circle
 from geneva_cli.errors import GenevaError
+from geneva_cli.layout.link_positions import links_at
 from geneva_cli.numerics.tolerances import SAME_LENGTH
+from geneva_cli.outlines.crank import crank_circles, is_whole
+from geneva_cli.outlines.outlines import Outlines
+from geneva_cli.outlines.wheel_hub import AXIS, HUB, about_axis
 from geneva_cli.parts.arm import has_arm, shaft_bore
-from geneva_cli.parts.crank import crank_circles, is_whole
-from geneva_cli.parts.link_positions import links_at
-from geneva_cli.parts.outlines import Outlines
-from geneva_cli.parts.wheel_hub import AXIS, HUB, about_axis
 from geneva_cli.spec.tables import Size
 
 SHAFT = "SHAFT"

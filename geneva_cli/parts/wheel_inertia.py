@@ -8,13 +8,13 @@ from geneva_cli.curves.mass import MassProperties, added, face_properties, mass_
 from geneva_cli.curves.moments import Moments, moments, total
 from geneva_cli.curves.shapes import Contour, Line, about
 from geneva_cli.errors import GenevaError
-from geneva_cli.machine.engagement import Engagement
+from geneva_cli.kinematics.engagement import Engagement
+from geneva_cli.layout.assembly import Assembly, assembly
+from geneva_cli.layout.sizes import Sizes, sizes
 from geneva_cli.machine.mechanism import Mechanism
-from geneva_cli.parts.assembly import Assembly, assembly
-from geneva_cli.parts.sizes import Sizes, sizes
-from geneva_cli.parts.walls.straight import straight_walls
-from geneva_cli.parts.wheel import LAYER, wheel_circles, wheel_contour
-from geneva_cli.parts.wheel_hub import wheel_hub
+from geneva_cli.outlines.walls.straight import straight_walls
+from geneva_cli.outlines.wheel import LAYER, wheel_circles, wheel_contour
+from geneva_cli.outlines.wheel_hub import wheel_hub
 
 
 def wheel_body(mechanism: Mechanism) -> MassProperties | None:
@@ -70,7 +70,7 @@ def _contour(where: Assembly, size: Sizes) -> Moments:
 def _slot(where: Assembly, size: Sizes, engagement: Engagement) -> tuple[Contour, Moments]:
     """Return a line that closes a slot's mouth, and the area of the slot beyond that line."""
     if engagement.slot.curved:
-        from geneva_cli.parts.walls.rings import removed_face  # not needed for straight slots
+        from geneva_cli.outlines.walls.rings import removed_face  # not needed for straight slots
 
         slot_face = removed_face(where, size, engagement)
         rim = about((0.0, 0.0), size.rim, slot_face.low, slot_face.high - slot_face.low)

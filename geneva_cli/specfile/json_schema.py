@@ -11,8 +11,8 @@ import sys
 from collections.abc import Mapping
 from typing import Any
 
-from geneva_cli.machine import registry
-from geneva_cli.machine.motion import Motion
+from geneva_cli.kinematics import registry
+from geneva_cli.kinematics.motion import Motion
 from geneva_cli.spec.rules import Csv, OneOf, Range, Words
 from geneva_cli.spec.schema import LIST, LIST_MAX, REQUIRED, Field, SpecTable, fields
 from geneva_cli.spec.tables import LISTS, PLAIN

@@ -5,10 +5,10 @@ from __future__ import annotations
 from typing import Any
 
 from geneva_cli.errors import GenevaError, cut, few, nearest
-from geneva_cli.machine import registry
+from geneva_cli.kinematics import registry
+from geneva_cli.kinematics.wheels.external import External
 from geneva_cli.machine.drives.crank import Crank
-from geneva_cli.machine.example import Example
-from geneva_cli.machine.wheels.external import External
+from geneva_cli.spec.example import Example
 from geneva_cli.spec.schema import REQUIRED, Field, fields
 from geneva_cli.spec.tables import LISTS
 from geneva_cli.specfile.json_schema import FILE

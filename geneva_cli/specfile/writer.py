@@ -5,11 +5,11 @@ from __future__ import annotations
 from collections.abc import Iterable
 from typing import Any
 
-from geneva_cli.machine import registry
-from geneva_cli.machine.drives.drive import Drive
-from geneva_cli.machine.motion import Motion
+from geneva_cli.kinematics import registry
+from geneva_cli.kinematics.drive import Drive
+from geneva_cli.kinematics.motion import Motion
+from geneva_cli.kinematics.wheels.gearing import Gearing
 from geneva_cli.machine.spec import Spec, attribute
-from geneva_cli.machine.wheels.gearing import Gearing
 from geneva_cli.spec.rules import OneOf
 from geneva_cli.spec.schema import Field, Points, SpecTable, fields
 from geneva_cli.spec.tables import LISTS, PLAIN

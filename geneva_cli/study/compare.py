@@ -5,9 +5,9 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 
+from geneva_cli.drawings.model import PartsModel
 from geneva_cli.machine.mechanism import Mechanism, build
 from geneva_cli.numerics.tolerances import ROUNDED
-from geneva_cli.parts.model import PartsModel
 from geneva_cli.study.fields import Cell, pick, values
 from geneva_cli.study.spec_texts import spec_texts
 from geneva_cli.study.sweep.constraints import is_number

@@ -9,12 +9,12 @@ import math
 from collections.abc import Iterable, Mapping, Sequence
 from typing import NamedTuple, TypeAlias
 
+from geneva_cli.drawings.model import PartsModel
 from geneva_cli.machine.mechanism import Mechanism
-from geneva_cli.parts.model import PartsModel
-from geneva_cli.study.quantities import group_of, whole_name
 from geneva_cli.table import Table
 from geneva_cli.verdict.quantities.groups import MACHINE, REPORT, QuantityGroup
 from geneva_cli.verdict.quantities.groups import values as values_of
+from geneva_cli.verdict.quantities.names import group_of, whole_name
 
 Cell: TypeAlias = float | int | str | bool | None
 

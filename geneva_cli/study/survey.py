@@ -5,10 +5,10 @@ from __future__ import annotations
 from geneva_cli.analysis.cam_factors import CamFactors, cam_factors
 from geneva_cli.analysis.timing import Timing, timing
 from geneva_cli.errors import GenevaError, cut
-from geneva_cli.machine.wheels import classic
+from geneva_cli.kinematics.wheels import classic
 from geneva_cli.numerics.angles import sin_cos_pi
+from geneva_cli.spec.ranges import RangeText, range_text
 from geneva_cli.spec.rules import SPEED, Z_MAX
-from geneva_cli.study.ranges import RangeText, range_text
 from geneva_cli.table import Reading, Table, rows_table
 
 NAMES = (
@@ -107,7 +107,7 @@ def _general(z: int, gearing: str, n_rpm: float, rollers: int, A: float) -> tupl
     """A row from a built machine, without closed forms."""
     from geneva_cli.analysis.peaks import peaks
     from geneva_cli.analysis.timing import timings
-    from geneva_cli.machine import registry
+    from geneva_cli.kinematics import registry
     from geneva_cli.machine.drives.crank import Crank
     from geneva_cli.machine.drives.side_crank import SideCrank
     from geneva_cli.machine.mechanism import build

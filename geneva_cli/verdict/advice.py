@@ -24,7 +24,7 @@ from geneva_cli.verdict.failures import JAMS
 from geneva_cli.verdict.remedies import remedies
 
 if TYPE_CHECKING:
-    from geneva_cli.parts.model import PartsModel
+    from geneva_cli.drawings.model import PartsModel
 
 # Work of all searches of a design, in units of at most 10 ms: a curved slot's parts take 0.1 s.
 WORK = 800
@@ -216,7 +216,7 @@ class _Search:
 
     def _margins(self, machine: Mechanism) -> Iterator[float]:
         """The margin of each wanted check; parts are built for the first that needs them."""
-        from geneva_cli.parts.model import PartsModel
+        from geneva_cli.drawings.model import PartsModel
 
         model = PartsModel(machine, advice=False)
         built = False
@@ -231,8 +231,8 @@ class _Search:
         spec = changed(self.mechanism.spec, change.table, change.key, value)
         if spec is None:
             return False
-        from geneva_cli.parts.model import PartsModel
-        from geneva_cli.parts.turn.gaps import WorkLimit
+        from geneva_cli.collisions.gaps import WorkLimit
+        from geneva_cli.drawings.model import PartsModel
 
         turn = self.turned or (change.table, change.key) not in APART
         try:
@@ -267,7 +267,7 @@ def _left(model: PartsModel, check: Check) -> float:
     """
     try:
         if check.at_deg is not None and check.name in NEAR:
-            from geneva_cli.parts.turn.glance import gap_about, play_about
+            from geneva_cli.collisions.glance import gap_about, play_about
             from geneva_cli.verdict.checks.play import finds_slot
 
             parts = model.parts

@@ -9,7 +9,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 
-from geneva_cli.analysis.loads.carried import G, inertia_kgm2, weight_kg
+from geneva_cli.analysis.carried import G, inertia_kgm2, weight_kg
 from geneva_cli.curves.mass import MassProperties
 from geneva_cli.errors import Notice
 from geneva_cli.machine.mechanism import Mechanism

@@ -6,9 +6,9 @@ import math
 from collections.abc import Mapping
 
 from geneva_cli.analysis.arrival import arrival
-from geneva_cli.analysis.loads.cycle import Cycle
-from geneva_cli.analysis.loads.summary import QuantitySummary
 from geneva_cli.errors import Notice
+from geneva_cli.loads.cycle import Cycle
+from geneva_cli.loads.summary import QuantitySummary
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.numerics.tolerances import ROUNDED
 

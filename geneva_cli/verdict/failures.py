@@ -8,7 +8,7 @@ from geneva_cli.table import in_digits
 from geneva_cli.verdict.checks.check import Check
 
 if TYPE_CHECKING:
-    from geneva_cli.parts.model import PartsModel
+    from geneva_cli.drawings.model import PartsModel
 
 # A roller that does not find its slot, or meets the rim next to it, jams.
 JAMS = ("hand_over_play_deg", "hand_over_pressure_deg")

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import math
 
-from geneva_cli.analysis.loads import loads
-from geneva_cli.analysis.loads.cycle import Cycle, cycle_of
-from geneva_cli.analysis.loads.quantities import FORCE, STRESS
+from geneva_cli.analysis.quantities import FORCE, STRESS
 from geneva_cli.errors import Notice
+from geneva_cli.loads import loads
+from geneva_cli.loads.cycle import Cycle, cycle_of
 from geneva_cli.machine.mechanism import Mechanism
 
 

@@ -11,13 +11,13 @@ from typing import NamedTuple
 import numpy as np
 
 from geneva_cli.analysis.locking import Lock
+from geneva_cli.layout.assembly import Assembly
+from geneva_cli.layout.reliefs import sectors
+from geneva_cli.layout.sizes import Sizes, sized
 from geneva_cli.machine.many import alone, designs_in
 from geneva_cli.machine.mechanism import Mechanism, build
 from geneva_cli.machine.spec import Spec
 from geneva_cli.numerics.arrays import parameter
-from geneva_cli.parts.assembly import Assembly
-from geneva_cli.parts.reliefs import sectors
-from geneva_cli.parts.sizes import Sizes, sized
 
 
 class LockSizes(NamedTuple):

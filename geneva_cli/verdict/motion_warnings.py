@@ -7,14 +7,14 @@ from functools import lru_cache
 
 from geneva_cli.analysis.peaks import peak
 from geneva_cli.errors import Notice
-from geneva_cli.machine.engagement import WheelMotion
-from geneva_cli.machine.law_motion import LawMotion
-from geneva_cli.machine.laws.law import Law
+from geneva_cli.kinematics.engagement import WheelMotion
+from geneva_cli.kinematics.law_motion import LawMotion
+from geneva_cli.kinematics.laws.law import Law
+from geneva_cli.kinematics.pitch_curve import retraces
+from geneva_cli.layout.fits import loosest_mm
 from geneva_cli.machine.mechanism import Mechanism
-from geneva_cli.machine.pitch_curve import retraces
 from geneva_cli.numerics.angles import DEGREE
 from geneva_cli.numerics.keeps import keeps
-from geneva_cli.parts.fits import loosest_mm
 from geneva_cli.spec.processes import PROCESSES
 from geneva_cli.spec.tables import Z_USUAL
 

@@ -9,10 +9,10 @@ from typing import TYPE_CHECKING, TypeAlias
 
 import numpy as np
 
-from geneva_cli.analysis.loads.quantities import PARALLEL_SHAFTS
-from geneva_cli.analysis.strength import horn, lock, shafts
+from geneva_cli.analysis.quantities import PARALLEL_SHAFTS
 from geneva_cli.errors import Notice
-from geneva_cli.parts.sizes import sized
+from geneva_cli.layout.sizes import sized
+from geneva_cli.loads.strength import horn, lock, shafts
 from geneva_cli.verdict.quantities.designs import single
 from geneva_cli.verdict.quantities.groups import REPORT, only
 from geneva_cli.verdict.quantities.under_load import under_load

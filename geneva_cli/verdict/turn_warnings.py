@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
+from geneva_cli.collisions.full_turn import SAME
+from geneva_cli.drawings.model import PartsModel
 from geneva_cli.errors import GenevaError, Notice
-from geneva_cli.parts.model import PartsModel
-from geneva_cli.parts.turn.full_turn import SAME
 from geneva_cli.verdict.checks.play import motion_play_max
 
 

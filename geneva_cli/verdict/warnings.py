@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from geneva_cli.analysis.loads.cycle import cycle_of
-from geneva_cli.analysis.loads.summary import summaries
+from geneva_cli.drawings.model import PartsModel
 from geneva_cli.errors import Notice
+from geneva_cli.loads.cycle import cycle_of
+from geneva_cli.loads.summary import summaries
 from geneva_cli.machine.mechanism import Mechanism
-from geneva_cli.parts.model import PartsModel
 from geneva_cli.parts.wheel_inertia import known_wheel_body
 from geneva_cli.verdict.carried_warnings import carried_warnings
 from geneva_cli.verdict.cycle_warnings import cycle_warnings

@@ -4,7 +4,7 @@ import mpmath
 import pytest
 
 from geneva_cli import External, Mass, Support
-from geneva_cli.analysis.loads.carried import (
+from geneva_cli.analysis.carried import (
     body_inertia_kgm2,
     inertia_kgm2,
     support_torque_Nm,

@@ -26,7 +26,7 @@ from geneva_cli.analysis.certificate import certificate
 from geneva_cli.analysis.peaks import QUANTITIES
 from geneva_cli.app import app
 from geneva_cli.design import load
-from geneva_cli.machine.law_motion import LawMotion
+from geneva_cli.kinematics.law_motion import LawMotion
 
 DESIGNS = sorted(path.stem for path in repo.DESIGNS.glob("*.toml"))
 # Of a peak: the rounding of both bounds to doubles, and at most 64 units of an end. With decimals

@@ -9,10 +9,10 @@ from typer.testing import CliRunner
 
 from geneva_cli import Design, External, GenevaError, Load
 from geneva_cli.analysis.certificate_loads import LOADS
-from geneva_cli.analysis.loads.forces import load_case
-from geneva_cli.analysis.loads.loads import greatest
+from geneva_cli.analysis.forces import load_case
 from geneva_cli.app import app
 from geneva_cli.design import load
+from geneva_cli.loads.loads import greatest
 
 LOADED = Design(External(6), load=Load(0.4, 15))
 STRAIGHT = ("side-crank-z6", "spherical-60deg", "offset-slots", "unequal-steps", "four-bar-z4")

@@ -5,7 +5,7 @@ import pytest
 from witness import mp, to_radians
 from words import Motion, Spec, Wheel
 
-from geneva_cli.analysis.loads.contact import contact
+from geneva_cli.analysis.contact import contact
 from geneva_cli.machine.mechanism import build
 
 SHARES = (-0.93, -0.4, -1e-3, 1e-4, 0.05, 0.77)  # of half a motion

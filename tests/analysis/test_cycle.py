@@ -12,9 +12,9 @@ from typer.testing import CliRunner
 from words import Drive, Motion, Spec, Wheel, load
 
 from geneva_cli import Design, External, Load, Shaft, Size, Spherical
-from geneva_cli.analysis.loads.cycle import Cycle
-from geneva_cli.analysis.loads.summary import reversals_deg, summaries
 from geneva_cli.app import app
+from geneva_cli.loads.cycle import Cycle
+from geneva_cli.loads.summary import reversals_deg, summaries
 from geneva_cli.machine.mechanism import build
 from geneva_cli.numerics.angles import omega
 from geneva_cli.verdict.cycle_warnings import back_driven_deg, cycle_warnings
@@ -241,7 +241,7 @@ def test_without_a_load_no_force_is_0():
 
 
 def test_a_table_that_is_made_while_it_is_written_has_empty_fields(tmp_path, monkeypatch):
-    monkeypatch.setattr("geneva_cli.analysis.loads.summary.WHOLE_ROWS", 100)
+    monkeypatch.setattr("geneva_cli.loads.summary.WHOLE_ROWS", 100)
     path = tmp_path / "cycle.csv"
     assert run("--samples", "102", "-o", str(path), text=WHEEL).exit_code == 0
     with open(path) as file:

@@ -17,9 +17,9 @@ from geneva_cli import (
     Motion,
     load,
 )
-from geneva_cli.analysis.figures import AXIS_BY_NAME, MACHINES_MAX, USUAL_QUANTITIES, figure
-from geneva_cli.analysis.loads.summary import SHOWN_QUANTITIES
 from geneva_cli.errors import GenevaError
+from geneva_cli.loads.figures import AXIS_BY_NAME, MACHINES_MAX, USUAL_QUANTITIES, figure
+from geneva_cli.loads.summary import SHOWN_QUANTITIES
 from geneva_cli.numerics.sampling import ASPECT, CHORD_ERROR, refined, thinned
 
 DESIGNS = sorted(repo.DESIGNS.glob("*.toml"))

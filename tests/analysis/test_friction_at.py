@@ -7,7 +7,7 @@ import pytest
 from words import Spec, Wheel
 
 from geneva_cli import Design
-from geneva_cli.analysis.loads.forces import rubbing
+from geneva_cli.analysis.forces import rubbing
 from geneva_cli.machine.mechanism import build
 from geneva_cli.spec.tables import Load, Size
 

@@ -11,10 +11,10 @@ from plane_stress import horn as in_plane_stress
 from words import Motion, Spec, Wheel
 
 from geneva_cli import load as read
-from geneva_cli.analysis.loads.loads import state
-from geneva_cli.analysis.strength.horn import horn, horns, product, stoutness
+from geneva_cli.layout.sizes import sized
+from geneva_cli.loads.loads import state
+from geneva_cli.loads.strength.horn import horn, horns, product, stoutness
 from geneva_cli.machine.mechanism import build
-from geneva_cli.parts.sizes import sized
 from geneva_cli.spec.tables import Load, Size
 
 LOAD = Load(torque_Nm=10.0)

@@ -7,10 +7,10 @@ import repo
 from witness import mp
 from words import Motion, Spec, Wheel, load
 
-from geneva_cli.analysis.loads import loads
-from geneva_cli.analysis.loads.contact import contact
-from geneva_cli.analysis.loads.cycle import Cycle
-from geneva_cli.machine import registry
+from geneva_cli.analysis.contact import contact
+from geneva_cli.kinematics import registry
+from geneva_cli.loads import loads
+from geneva_cli.loads.cycle import Cycle
 from geneva_cli.machine.mechanism import build
 from geneva_cli.spec.tables import Load, Size
 

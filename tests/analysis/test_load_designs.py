@@ -6,7 +6,7 @@ import pytest
 import repo
 from words import load
 
-from geneva_cli.analysis.loads.cycle import Cycle
+from geneva_cli.loads.cycle import Cycle
 from geneva_cli.machine.mechanism import build
 from geneva_cli.spec.tables import Load, Support
 

@@ -8,10 +8,10 @@ from design_arrays import MACHINES, alone, drawn
 from loaded_arrays import CARRIED, LOAD, MISSED, NAMES, beyond, dense_means, loaded, missed
 
 from geneva_cli import design
-from geneva_cli.analysis.loads import loads
-from geneva_cli.analysis.loads.cycle import Cycle
-from geneva_cli.analysis.loads.means import load_means
-from geneva_cli.analysis.loads.summaries import load_peaks, load_summaries
+from geneva_cli.loads import loads
+from geneva_cli.loads.cycle import Cycle
+from geneva_cli.loads.means import load_means
+from geneva_cli.loads.summaries import load_peaks, load_summaries
 from geneva_cli.machine.many import many
 from geneva_cli.machine.mechanism import build
 from geneva_cli.numerics.search import BLOCK

@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 from words import Drive, Motion, Spec, Wheel
 
-from geneva_cli.analysis.loads import loads
-from geneva_cli.machine import registry
+from geneva_cli.kinematics import registry
+from geneva_cli.loads import loads
 from geneva_cli.machine.mechanism import build
 from geneva_cli.spec.tables import Load, Size
 

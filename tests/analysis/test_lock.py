@@ -10,9 +10,9 @@ from words import Spec, Wheel
 
 from geneva_cli import load
 from geneva_cli.analysis.locking import Lock
-from geneva_cli.analysis.strength.lock import bending, lock
+from geneva_cli.drawings.model import PartsModel
+from geneva_cli.loads.strength.lock import bending, lock
 from geneva_cli.machine.mechanism import build
-from geneva_cli.parts.model import PartsModel
 from geneva_cli.spec.tables import Load, Size
 from geneva_cli.verdict.strength import strength
 

@@ -12,11 +12,7 @@ from design_arrays import MACHINES, alone, drawn
 
 from geneva_cli.analysis import change_of_sides, impacts, undercut
 from geneva_cli.analysis import positive_drive as positive
-from geneva_cli.analysis.loads import loads
-from geneva_cli.analysis.loads.cycle import Cycle
-from geneva_cli.analysis.loads.sizing import SIZING_NAMES, sizing, sizings
 from geneva_cli.analysis.locking import Lock
-from geneva_cli.analysis.strength import horn, lock, roller, shafts
 from geneva_cli.analysis.tolerance.dimensions import corners
 from geneva_cli.analysis.tolerance.motion_error import motion_errors
 from geneva_cli.analysis.tolerance.spread import spread
@@ -24,7 +20,11 @@ from geneva_cli.analysis.tolerance.worst_effects import entry_jumps_worst, motio
 from geneva_cli.analysis.vibration.answers import values
 from geneva_cli.analysis.vibration.oscillator import required_oscillator
 from geneva_cli.analysis.vibration.vibration import design_vibrations
-from geneva_cli.machine import registry
+from geneva_cli.kinematics import registry
+from geneva_cli.loads import loads
+from geneva_cli.loads.cycle import Cycle
+from geneva_cli.loads.sizing import SIZING_NAMES, sizing, sizings
+from geneva_cli.loads.strength import horn, lock, roller, shafts
 from geneva_cli.machine.many import many
 from geneva_cli.spec.tables import (
     Load,

@@ -6,7 +6,7 @@ import mpmath
 import pytest
 from words import Spec, Wheel
 
-from geneva_cli.analysis.strength.pin import Pin, least_diameter_mm, moment_mm, pin
+from geneva_cli.analysis.pin import Pin, least_diameter_mm, moment_mm, pin
 from geneva_cli.machine.mechanism import build
 from geneva_cli.spec.tables import Size
 

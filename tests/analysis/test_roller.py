@@ -10,9 +10,9 @@ import repo
 from witness import mp
 from words import Drive, Keys, Motion, Spec, Wheel, load
 
-from geneva_cli.analysis.loads.cycle import Cycle
-from geneva_cli.analysis.loads.forces import load_case
-from geneva_cli.analysis.strength.roller import LIFE_EXPONENT, life, passage, passages, wears_mm
+from geneva_cli.analysis.forces import load_case
+from geneva_cli.loads.cycle import Cycle
+from geneva_cli.loads.strength.roller import LIFE_EXPONENT, life, passage, passages, wears_mm
 from geneva_cli.machine.mechanism import build
 from geneva_cli.spec.tables import Load, RollerMaterial, Size, WheelMaterial
 

@@ -8,9 +8,9 @@ from impact_witness import contact_of, force_of, impacts_in
 from geneva_cli import Design, External, Internal, Load, SideCrank, Size, Spherical
 from geneva_cli.analysis import change_of_sides
 from geneva_cli.analysis.shock_force import impulse_Nms
+from geneva_cli.kinematics.laws.standard import Cycloidal
+from geneva_cli.kinematics.motion import Motion
 from geneva_cli.machine.drives.cam import Cam
-from geneva_cli.machine.laws.standard import Cycloidal
-from geneva_cli.machine.motion import Motion
 from geneva_cli.spec.tables import RollerMaterial, WheelMaterial
 
 # A contact is where a square root of the error says: half of a double's digits would be lost of

@@ -11,9 +11,9 @@ import repo
 
 from geneva_cli import Design, External, Load, Mass, Motor, Support, load
 from geneva_cli.analysis.cam_factors import CamFactors
-from geneva_cli.analysis.loads import makers_form as makers
-from geneva_cli.analysis.loads.fluctuation import flywheel_kgm2
-from geneva_cli.analysis.loads.sizing import sizing
+from geneva_cli.loads import makers_form as makers
+from geneva_cli.loads.fluctuation import flywheel_kgm2
+from geneva_cli.loads.sizing import sizing
 from geneva_cli.numerics.angles import omega
 
 DESIGNS = sorted(repo.DESIGNS.glob("*.toml"))

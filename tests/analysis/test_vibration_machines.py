@@ -19,9 +19,9 @@ from geneva_cli.analysis.vibration.vibration import (
     speeds_to_avoid,
 )
 from geneva_cli.bench import truth
-from geneva_cli.machine import registry
+from geneva_cli.kinematics import registry
+from geneva_cli.kinematics.laws.table import TableLaw
 from geneva_cli.machine.drives.noncircular_gears import NoncircularGears
-from geneva_cli.machine.laws.table import TableLaw
 from geneva_cli.machine.mechanism import build
 from geneva_cli.machine.spec import Spec
 

@@ -9,7 +9,7 @@ import pytest
 import repo
 
 from geneva_cli import Design, design
-from geneva_cli.analysis.loads import loads
+from geneva_cli.loads import loads
 from geneva_cli.table import Table
 
 pytestmark = pytest.mark.usefixtures("made_once", "read_once")

@@ -14,26 +14,27 @@ import pytest
 import repo
 from typer.testing import CliRunner
 
-from geneva_cli.analysis import figures, law_values, motion
+from geneva_cli.analysis import law_values, motion
 from geneva_cli.analysis.cam_factors import CamFactors
-from geneva_cli.analysis.loads import summary
-from geneva_cli.analysis.loads.sizing import SHOWN_SIZING
 from geneva_cli.analysis.vibration import answers
 from geneva_cli.analysis.vibration.vibration import SpeedToAvoid
 from geneva_cli.app import app
 from geneva_cli.commands.options import say
 from geneva_cli.design import load
+from geneva_cli.drawings import parts_list
+from geneva_cli.drawings.catalogue import PARTS
 from geneva_cli.errors import GenevaError, Notice
-from geneva_cli.machine import registry
+from geneva_cli.kinematics import registry
+from geneva_cli.layout import gear_curves, groove, slot_sampling
+from geneva_cli.loads import figures, summary
+from geneva_cli.loads.sizing import SHOWN_SIZING
 from geneva_cli.manual import TOPICS
 from geneva_cli.manual.explained import GROUPS, Entry, entries
-from geneva_cli.parts import gear_curves, groove, parts_list, slot_sampling
-from geneva_cli.parts.catalogue import PARTS
 from geneva_cli.specfile.meanings import listed, meanings, names
 from geneva_cli.specfile.template import EXAMPLES
 from geneva_cli.study import batch, survey
 from geneva_cli.study.sweep.run import ERROR
-from geneva_cli.study.synthesis.table import NAMES as SYNTH
+from geneva_cli.synthesis.table import NAMES as SYNTH
 from geneva_cli.verdict.checks import checks
 from geneva_cli.verdict.checks.registry import LIMITS, MOTION, STATIC, TURNING
 from geneva_cli.verdict.checks.registry import PROOFS as PROVED

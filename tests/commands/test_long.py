@@ -24,9 +24,9 @@ from geneva_cli import progress
 from geneva_cli.analysis.motion import SAMPLES_MAX, WHOLE_ROWS, motion_table
 from geneva_cli.analysis.peaks import peaks
 from geneva_cli.errors import GenevaError
+from geneva_cli.layout.slot_sampling import profile_table
 from geneva_cli.output import show
 from geneva_cli.output.bar import TextBar
-from geneva_cli.parts.slot_sampling import profile_table
 from geneva_cli.study.survey import survey
 from geneva_cli.table import Table, record_table, rows_table
 

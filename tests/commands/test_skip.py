@@ -19,9 +19,9 @@ import pytest
 
 from geneva_cli.analysis import peaks as peaks_module
 from geneva_cli.analysis.motion import motion_table
-from geneva_cli.machine import registry
-from geneva_cli.machine.engagement import WheelMotion
-from geneva_cli.machine.wheels.classic_arrays import ClassicArrays
+from geneva_cli.kinematics import registry
+from geneva_cli.kinematics.engagement import WheelMotion
+from geneva_cli.kinematics.wheels.classic_arrays import ClassicArrays
 
 N = 2001
 
@@ -158,23 +158,23 @@ def loaded(*arguments):
     return {m.removeprefix("geneva_cli.") for m in found.stderr.split() if "geneva_cli." in m}
 
 
-ARRAYS = "machine.wheels.classic_arrays"
+ARRAYS = "kinematics.wheels.classic_arrays"
 MOTION = {
     "machine.mechanism",
-    "machine.engagement",
+    "kinematics.engagement",
     "numerics.jet",
-    "machine.wheels.gearing",
+    "kinematics.wheels.gearing",
     "analysis.peaks",
     "numerics.roots",
-    "machine.laws",
+    "kinematics.laws",
     ARRAYS,
     "analysis.motion",
 }
 
 BEYOND = {  # a plain spec's peaks
     ARRAYS,
-    "parts.slot_profile",
-    "analysis.loads.loads",
+    "layout.slot_profile",
+    "loads.loads",
     "verdict.checks",
     "analysis.motion",
 }
@@ -187,7 +187,7 @@ def test_a_plain_table_loads_nothing_of_motions():
 def test_a_tables_side_crank_loads_neither_laws_tables_nor_arrays():
     modules = loaded("table", "--z", "6", "--A", "0.5")
     assert "machine.drives.side_crank" in modules
-    assert not modules & {ARRAYS, "analysis.motion", "machine.laws.table"}
+    assert not modules & {ARRAYS, "analysis.motion", "kinematics.laws.table"}
 
 
 def test_a_plain_spec_loads_no_other_drive(tmp_path):
@@ -197,8 +197,8 @@ def test_a_plain_spec_loads_no_other_drive(tmp_path):
     modules = loaded("peaks", spec)
     assert {"analysis.peaks", "machine.drives.crank"} <= modules
     kinds = registry.GEARINGS | registry.DRIVES | registry.LAWS
-    others = {f"machine.{path.partition(':')[0]}" for path in kinds.values()}
-    assert modules & others == {"machine.wheels.external", "machine.drives.crank"}
+    others = {path.partition(":")[0] for path in kinds.values()}
+    assert modules & others == {"kinematics.wheels.external", "machine.drives.crank"}
     assert not modules & BEYOND
 
 

@@ -18,7 +18,7 @@ from words import load
 from geneva_cli.curves.fit import arcs, cubics
 from geneva_cli.curves.shapes import Arc, Cubic, Line
 from geneva_cli.errors import GenevaError
-from geneva_cli.machine.pitch_curve import pitch, pitch_at_retrace, retraces
+from geneva_cli.kinematics.pitch_curve import pitch, pitch_at_retrace, retraces
 
 KINDS = [arcs, cubics]
 SEEN = 200  # the polylines that errors are measured with stray by the tolerance over this

@@ -16,9 +16,9 @@ from machine_witness import motions
 
 from geneva_cli.analysis.timing import timings
 from geneva_cli.errors import GenevaError
+from geneva_cli.kinematics.wheels.external import External
 from geneva_cli.machine.many import many, may_vary, taken
 from geneva_cli.machine.mechanism import build
-from geneva_cli.machine.wheels.external import External
 from geneva_cli.numerics.jet import turning
 
 # The formulas are the same, but NumPy's sine and the C library's differ in the last place, and so

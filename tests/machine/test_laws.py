@@ -16,12 +16,12 @@ from words import LAWS, Spec, Wheel, named, points
 from geneva_cli.analysis.law_values import characteristic
 from geneva_cli.analysis.peaks import peaks
 from geneva_cli.errors import marking
-from geneva_cli.machine import registry
-from geneva_cli.machine.laws.standard import SineGroup
-from geneva_cli.machine.laws.table import TableLaw
+from geneva_cli.kinematics import registry
+from geneva_cli.kinematics.laws.standard import SineGroup
+from geneva_cli.kinematics.laws.table import TableLaw
+from geneva_cli.kinematics.motion import Motion
 from geneva_cli.machine.many import taken
 from geneva_cli.machine.mechanism import build
-from geneva_cli.machine.motion import Motion
 
 CASES = [
     *[(name, 0.0) for name in LAWS],

@@ -18,11 +18,11 @@ import pytest
 from witness import mp, to_degrees, to_radians
 from words import Spec, load
 
-from geneva_cli.analysis.loads.loads import state
 from geneva_cli.analysis.motion import motion_table
 from geneva_cli.analysis.peaks import QUANTITIES, worst
 from geneva_cli.analysis.timing import timings
-from geneva_cli.machine import registry
+from geneva_cli.kinematics import registry
+from geneva_cli.loads.loads import state
 from geneva_cli.machine.drives.transmission import Transmission
 from geneva_cli.machine.mechanism import build
 

@@ -7,7 +7,7 @@ import pytest
 from words import Drive, Keys, Spec, Wheel
 
 from geneva_cli.errors import GenevaError
-from geneva_cli.machine.linkage.wheels_for_paths import searches_kept
+from geneva_cli.linkage.wheels_for_paths import searches_kept
 from geneva_cli.machine.many import changed, many, taken
 from geneva_cli.machine.mechanism import build
 
@@ -162,7 +162,7 @@ def test_a_search_that_is_kept_finds_the_same(case, monkeypatch):
     apart = [alone(spec, varied, i) for i in range(60)]
     with searches_kept():
         together = many(spec, varied)
-        monkeypatch.setattr("geneva_cli.machine.linkage.wheel_for_path.wheels", searched_again)
+        monkeypatch.setattr("geneva_cli.linkage.wheel_for_path.wheels", searched_again)
         found = [alone(spec, varied, int(i)) for i in together.which]
     assert len(found) > 3
     for i, one in zip(together.which, found, strict=True):

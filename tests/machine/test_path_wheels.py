@@ -8,8 +8,8 @@ import pytest
 from scipy.optimize import root
 
 from geneva_cli.errors import GenevaError
+from geneva_cli.linkage.wheels import wheels
 from geneva_cli.machine.drives.four_bar import FourBar
-from geneva_cli.machine.linkage.wheels import wheels
 
 PLACES = 480  # of the grid
 CHECKED = 4001  # places at which a wheel is checked between entry and exit, and on the way back

@@ -10,7 +10,7 @@ import repo
 
 from geneva_cli import design
 from geneva_cli.errors import GenevaError
-from geneva_cli.machine import registry
+from geneva_cli.kinematics import registry
 from geneva_cli.machine.mechanism import build
 from geneva_cli.spec.schema import checked, fields
 

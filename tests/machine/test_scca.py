@@ -11,8 +11,8 @@ from witness import LAWS, SineLaw, mp
 
 from geneva_cli.analysis.law_values import characteristic
 from geneva_cli.errors import GenevaError
-from geneva_cli.machine.laws import standard
-from geneva_cli.machine.laws.scca import SineConstantCosine
+from geneva_cli.kinematics.laws import standard
+from geneva_cli.kinematics.laws.scca import SineConstantCosine
 
 pi = math.pi
 NAMED = {

@@ -11,7 +11,7 @@ from words import law, load
 from geneva_cli import Design, External, Motion, Tuned
 from geneva_cli.analysis.vibration.shape import law_shape
 from geneva_cli.errors import GenevaError
-from geneva_cli.machine import registry
+from geneva_cli.kinematics import registry
 
 mp = mpmath.mp.clone()
 mp.dps = 50

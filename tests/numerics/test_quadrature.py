@@ -5,8 +5,8 @@ import math
 import numpy as np
 import pytest
 
-from geneva_cli.machine.laws.standard import ModifiedSine
-from geneva_cli.machine.slot_and_motion import _sinc
+from geneva_cli.kinematics.laws.standard import ModifiedSine
+from geneva_cli.kinematics.slot_and_motion import _sinc
 from geneva_cli.numerics.adaptive_quadrature import Integrands, span_integrals
 from geneva_cli.numerics.jet import Jet
 from geneva_cli.numerics.latest import Latest

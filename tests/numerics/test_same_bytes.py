@@ -24,10 +24,10 @@ import numpy as np
 from geneva_cli import design
 from geneva_cli.analysis.motion import motion_table
 from geneva_cli.curves import fit
-from geneva_cli.parts.assembly import assembly
-from geneva_cli.parts.groove import groove_curve
-from geneva_cli.parts.outlines import slot_walls
-from geneva_cli.parts.sizes import sizes
+from geneva_cli.layout.assembly import assembly
+from geneva_cli.layout.groove import groove_curve
+from geneva_cli.outlines.outlines import slot_walls
+from geneva_cli.layout.sizes import sizes
 def load(path):
     return design.load(path).mechanism
 def tell(what):

@@ -18,9 +18,9 @@ from typer.testing import CliRunner
 from geneva_cli import load
 from geneva_cli.app import app
 from geneva_cli.curves.shapes import Circle
-from geneva_cli.machine.layout import Joint
+from geneva_cli.kinematics.layout import Joint
+from geneva_cli.layout.link_positions import links_at
 from geneva_cli.output import animate, moving_gif, page, still_svg
-from geneva_cli.parts.link_positions import links_at
 from geneva_cli.scene import value_at
 from geneva_cli.study.animation.scene import scene
 from geneva_cli.study.animation.turn import MachineTurn

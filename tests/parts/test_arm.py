@@ -17,8 +17,8 @@ from geneva_cli.curves.measure import segment_length
 from geneva_cli.curves.shapes import Arc, Circle, Contour, Line
 from geneva_cli.design import Design, load
 from geneva_cli.errors import GenevaError
+from geneva_cli.layout.keyways import DIN_6885_1, TABLES, key
 from geneva_cli.parts.arm import crank_arm, walls
-from geneva_cli.parts.keyways import DIN_6885_1, TABLES, key
 from geneva_cli.spec.schema import fields
 from geneva_cli.spec.tables import Size
 

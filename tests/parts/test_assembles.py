@@ -19,10 +19,10 @@ from geneva_cli.curves.measure import at as along
 from geneva_cli.curves.plates import Group
 from geneva_cli.curves.shapes import Arc, Circle, Line
 from geneva_cli.errors import GenevaError
-from geneva_cli.machine import registry
-from geneva_cli.machine.layout import Joint
+from geneva_cli.kinematics import registry
+from geneva_cli.kinematics.layout import Joint
+from geneva_cli.layout.link_positions import links_at
 from geneva_cli.parts.flat_parts import FlatParts
-from geneva_cli.parts.link_positions import links_at
 from geneva_cli.parts.link_sizes import places
 from geneva_cli.specfile.template import template
 

@@ -6,26 +6,26 @@ import numpy as np
 import pytest
 from sampling import some
 
+from geneva_cli.collisions.free_angles import free_angles
+from geneva_cli.collisions.play import windows
 from geneva_cli.errors import GenevaError
-from geneva_cli.machine.drives.cam import Cam
-from geneva_cli.machine.drives.crank import Crank
-from geneva_cli.machine.laws.standard import (
+from geneva_cli.kinematics.laws.standard import (
     Cycloidal,
     ModifiedSine,
     ModifiedTrapezoid,
     SineGroup,
 )
+from geneva_cli.kinematics.motion import Motion
+from geneva_cli.kinematics.wheels.external import External
+from geneva_cli.kinematics.wheels.internal import Internal
+from geneva_cli.layout.assembly import assembly
+from geneva_cli.layout.sizes import sizes
+from geneva_cli.machine.drives.cam import Cam
+from geneva_cli.machine.drives.crank import Crank
 from geneva_cli.machine.mechanism import build
-from geneva_cli.machine.motion import Motion
 from geneva_cli.machine.spec import Spec
-from geneva_cli.machine.wheels.external import External
-from geneva_cli.machine.wheels.internal import Internal
-from geneva_cli.parts.assembly import assembly
-from geneva_cli.parts.bounding_outlines import bounding_outlines
-from geneva_cli.parts.outlines import outlines
-from geneva_cli.parts.sizes import sizes
-from geneva_cli.parts.turn.free_angles import free_angles
-from geneva_cli.parts.turn.play import windows
+from geneva_cli.outlines.bounding_outlines import bounding_outlines
+from geneva_cli.outlines.outlines import outlines
 from geneva_cli.spec.tables import Size
 
 SAME = 1e-7  # mm: the step to which ends of curved walls are rounded

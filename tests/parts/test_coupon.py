@@ -9,8 +9,8 @@ import repo
 from shapely.geometry import LineString, Point, Polygon
 
 from geneva_cli.design import load
+from geneva_cli.drawings.coupon import CLEARANCES, DIGITS, STROKES, number
 from geneva_cli.output import draw
-from geneva_cli.parts.coupon import CLEARANCES, DIGITS, STROKES, number
 
 FLAT = 0.01  # mm, of chords; ends of arcs and quarters of circles are kept
 SAME = 1e-9  # mm

@@ -7,8 +7,8 @@ from geneva_cli import Design, External, Size, load
 from geneva_cli.curves.mass import mass_properties
 from geneva_cli.curves.plates import plates
 from geneva_cli.curves.shapes import Circle
+from geneva_cli.drawings.model import PartsModel
 from geneva_cli.errors import GenevaError
-from geneva_cli.parts.model import PartsModel
 
 
 @pytest.fixture(scope="module")

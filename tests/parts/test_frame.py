@@ -11,8 +11,8 @@ from geneva_cli import Design, External, Internal, SideCrank, Size, Spherical, l
 from geneva_cli.curves.plates import plates
 from geneva_cli.curves.shapes import Circle
 from geneva_cli.errors import GenevaError
-from geneva_cli.parts.hole_walls import least_wall
-from geneva_cli.parts.sizes import wall_min
+from geneva_cli.layout.hole_walls import least_wall
+from geneva_cli.layout.sizes import wall_min
 
 # The pivots of the parts list whose shafts reach the frame, of each kind of drive. The crank of a
 # side-crank ends above the input crank, and the wheel's shaft of the four-bar above the wheel.

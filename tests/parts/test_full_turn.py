@@ -20,17 +20,17 @@ from shapely.geometry import Point
 from test_outline import CURVED_SLOTS, STRAIGHT, L, disc, made, name, polygon, turned
 from words import LAWS, Motion, load
 
+from geneva_cli.collisions.full_turn import FullTurn, full_turn, turning
+from geneva_cli.collisions.gaps import Gaps, WorkLimit
+from geneva_cli.collisions.smallest import positions
 from geneva_cli.curves.measure import turned as turned_contour
 from geneva_cli.curves.shapes import Arc, Contour, Line, Segment, about, closed
+from geneva_cli.drawings import model
 from geneva_cli.errors import GenevaError
-from geneva_cli.parts import model
-from geneva_cli.parts.outlines import Outlines
-from geneva_cli.parts.reliefs import reliefs
-from geneva_cli.parts.turn.full_turn import FullTurn, full_turn, turning
-from geneva_cli.parts.turn.gaps import Gaps, WorkLimit
-from geneva_cli.parts.turn.smallest import positions
-from geneva_cli.parts.walls.straight import straight_walls
-from geneva_cli.parts.wheel import wheel_contour
+from geneva_cli.layout.reliefs import reliefs
+from geneva_cli.outlines.outlines import Outlines
+from geneva_cli.outlines.walls.straight import straight_walls
+from geneva_cli.outlines.wheel import wheel_contour
 
 
 def overlaps(found: Outlines, count: int = 60) -> Iterator[float]:

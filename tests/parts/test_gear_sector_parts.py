@@ -18,7 +18,7 @@ from geneva_cli.analysis.arrival import arrival, greatest_drag
 from geneva_cli.curves.shapes import Arc, Circle
 from geneva_cli.errors import GenevaError
 from geneva_cli.parts.links import drawn_links
-from geneva_cli.parts.turn.planes import planes
+from geneva_cli.parts.planes import planes
 from geneva_cli.parts.wheel_inertia import wheel_body
 from geneva_cli.study.animation.pushes import pushes
 from geneva_cli.study.animation.scene import scene

@@ -15,12 +15,12 @@ from geneva_cli import Design, External, Internal, NoncircularGears, load
 from geneva_cli.curves.measure import segment_length
 from geneva_cli.curves.shapes import Circle, Contour
 from geneva_cli.errors import GenevaError
-from geneva_cli.machine import registry
+from geneva_cli.kinematics import registry
+from geneva_cli.layout.assembly import assembly
+from geneva_cli.layout.gear_curves import convexity, gears_table
+from geneva_cli.layout.groove import _distances, groove_table
 from geneva_cli.machine.mechanism import build
-from geneva_cli.parts.assembly import assembly
-from geneva_cli.parts.gear_curves import convexity, gears_table
 from geneva_cli.parts.gear_pair import driven_curve, driver_curve
-from geneva_cli.parts.groove import _distances, groove_table
 from geneva_cli.spec.tables import Limits
 from geneva_cli.verdict.checks import checks
 

@@ -9,9 +9,9 @@ from geneva_cli import Design, External, load
 from geneva_cli.curves.mass import mass_properties
 from geneva_cli.curves.plates import plates
 from geneva_cli.curves.shapes import Circle
+from geneva_cli.drawings.parts_list import parts_list
 from geneva_cli.errors import GenevaError
 from geneva_cli.parts.flat_parts import FlatParts
-from geneva_cli.parts.parts_list import parts_list
 
 SAGITTA = 1e-3  # mm, of the chords that shapely is given
 OFF = 5e-3  # mm: those, the walls' own tolerance of 0.001, and shapely's arcs

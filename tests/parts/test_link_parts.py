@@ -18,8 +18,8 @@ from geneva_cli.curves.mass import mass_properties
 from geneva_cli.curves.shapes import Circle
 from geneva_cli.design import Design
 from geneva_cli.errors import GenevaError
-from geneva_cli.machine.layout import Joint
-from geneva_cli.parts.link_positions import links_at
+from geneva_cli.kinematics.layout import Joint
+from geneva_cli.layout.link_positions import links_at
 from geneva_cli.parts.links import drawn_links, link_wall
 from geneva_cli.spec.tables import Shaft, Size
 

@@ -4,16 +4,16 @@ import math
 
 import numpy as np
 
+from geneva_cli.kinematics.laws.standard import ModifiedSine
+from geneva_cli.kinematics.motion import Motion
+from geneva_cli.kinematics.wheels.internal import Internal
+from geneva_cli.layout.assembly import assembly
+from geneva_cli.layout.sizes import sizes
 from geneva_cli.machine.drives.cam import Cam
-from geneva_cli.machine.laws.standard import ModifiedSine
 from geneva_cli.machine.mechanism import build
-from geneva_cli.machine.motion import Motion
 from geneva_cli.machine.spec import Spec
-from geneva_cli.machine.wheels.internal import Internal
-from geneva_cli.parts import locking_rings, outlines
-from geneva_cli.parts.assembly import assembly
-from geneva_cli.parts.locking_rings import PolarPoints, beyond, inner_arc, polar_points, towards
-from geneva_cli.parts.sizes import sizes
+from geneva_cli.outlines import locking_rings, outlines
+from geneva_cli.outlines.locking_rings import PolarPoints, beyond, inner_arc, polar_points, towards
 
 
 def test_what_is_beyond_is_so_by_the_whole_arc_too():

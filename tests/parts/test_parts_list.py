@@ -19,7 +19,7 @@ from geneva_cli.app import app
 from geneva_cli.curves.moments import moments
 from geneva_cli.design import load
 from geneva_cli.errors import GenevaError
-from geneva_cli.machine import registry
+from geneva_cli.kinematics import registry
 from geneva_cli.output.chosen import only
 
 DESIGNS = sorted(Path(__file__, "../../../designs").resolve().glob("*.toml"))

@@ -17,9 +17,9 @@ from shapely.geometry import Point
 from test_outline import disc, made, polygon, turned
 from words import load
 
-from geneva_cli.parts.outlines import Outlines, outlines
-from geneva_cli.parts.turn.full_turn import full_turn
-from geneva_cli.parts.turn.gaps import Gaps, WorkLimit
+from geneva_cli.collisions.full_turn import full_turn
+from geneva_cli.collisions.gaps import Gaps, WorkLimit
+from geneva_cli.outlines.outlines import Outlines, outlines
 from geneva_cli.verdict.checks.registry import turn_checks
 
 DESIGNS = repo.DESIGNS
@@ -247,7 +247,7 @@ def test_angles_of_a_longer_period_begin_at_its_entry() -> None:
 
 def test_work_is_bounded(monkeypatch: pytest.MonkeyPatch) -> None:
     found = made(6)
-    monkeypatch.setattr("geneva_cli.parts.turn.gaps.WORK", 1e4)
+    monkeypatch.setattr("geneva_cli.collisions.gaps.WORK", 1e4)
     with pytest.raises(WorkLimit, match="it takes more than 1e\\+04 distances"):
         full_turn(found)
     monkeypatch.undo()

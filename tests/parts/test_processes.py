@@ -9,9 +9,9 @@ from typer.testing import CliRunner
 from geneva_cli import Design, External, Size
 from geneva_cli.app import app
 from geneva_cli.errors import GenevaError
+from geneva_cli.layout.assembly import assembly
+from geneva_cli.layout.sizes import sizes
 from geneva_cli.machine.mechanism import build
-from geneva_cli.parts.assembly import assembly
-from geneva_cli.parts.sizes import sizes
 from geneva_cli.spec.processes import PROCESSES
 from geneva_cli.verdict.report.inputs import inputs
 from geneva_cli.verdict.report.sizes import sizes as report_sizes

@@ -6,18 +6,18 @@ import pytest
 from sampling import some
 
 from geneva_cli.errors import GenevaError
+from geneva_cli.kinematics.laws.standard import ModifiedSine
+from geneva_cli.kinematics.motion import Motion
+from geneva_cli.kinematics.wheels.external import External
+from geneva_cli.kinematics.wheels.internal import Internal
+from geneva_cli.layout.assembly import assembly
+from geneva_cli.layout.sizes import sizes
 from geneva_cli.machine.drives.cam import Cam
 from geneva_cli.machine.drives.crank import Crank
-from geneva_cli.machine.laws.standard import ModifiedSine
 from geneva_cli.machine.mechanism import build
-from geneva_cli.machine.motion import Motion
 from geneva_cli.machine.spec import Spec
-from geneva_cli.machine.wheels.external import External
-from geneva_cli.machine.wheels.internal import Internal
-from geneva_cli.parts.assembly import assembly
-from geneva_cli.parts.outlines import outlines
-from geneva_cli.parts.relief_overlap import leave_no_disc
-from geneva_cli.parts.sizes import sizes
+from geneva_cli.outlines.outlines import outlines
+from geneva_cli.outlines.relief_overlap import leave_no_disc
 from geneva_cli.spec.tables import Size
 
 GONE = "nothing is left of the locking disc"

@@ -14,17 +14,17 @@ from sheet_witness import assert_as_listed, assert_measured, beyond, overlaps
 from words import Drive, Keys, Motion, Spec, Wheel
 
 from geneva_cli import load
+from geneva_cli.curves import marks
+from geneva_cli.curves.board import Board
 from geneva_cli.curves.sheet import Label
 from geneva_cli.curves.sphere import place
 from geneva_cli.design import Design
+from geneva_cli.drawings.sheet.paper import FORMATS, SCALES
+from geneva_cli.drawings.sheet.points import gear_tables, polyline, tables
+from geneva_cli.drawings.sphere.drawings import wheel_cone
+from geneva_cli.drawings.sphere.sheet import flat_slot
 from geneva_cli.errors import GenevaError
 from geneva_cli.parts.links import drawn_links
-from geneva_cli.parts.sheet import marks
-from geneva_cli.parts.sheet.board import Board
-from geneva_cli.parts.sheet.paper import FORMATS, SCALES
-from geneva_cli.parts.sheet.points import gear_tables, polyline, tables
-from geneva_cli.parts.sphere.drawings import wheel_cone
-from geneva_cli.parts.sphere.sheet import flat_slot
 from geneva_cli.spec.tables import Size, Tolerance
 
 pytestmark = pytest.mark.usefixtures("made_once")

@@ -7,15 +7,15 @@ import pytest
 from scipy.spatial import cKDTree
 
 from geneva_cli import Crank, Design, External, Size, Spherical
+from geneva_cli.collisions.gaps import NEAR
+from geneva_cli.drawings.model import PartsModel
+from geneva_cli.drawings.sphere.shaft_gap import shaft_gap
 from geneva_cli.errors import GenevaError
-from geneva_cli.parts.model import PartsModel
+from geneva_cli.layout.sphere_sizes import ball
 from geneva_cli.parts.sphere.crank import at_mid_motion, sectors
 from geneva_cli.parts.sphere.gaps import BallGaps
-from geneva_cli.parts.sphere.shaft_gap import shaft_gap
 from geneva_cli.parts.sphere.shells import shells
-from geneva_cli.parts.sphere.sizes import ball
 from geneva_cli.parts.sphere.sphere_parts import SphereParts
-from geneva_cli.parts.turn.gaps import NEAR
 from geneva_cli.verdict.checks import all_pass, checks
 from geneva_cli.verdict.checks.registry import standing_checks
 

@@ -14,16 +14,16 @@ from geneva_cli.curves.measure import area, segment_length
 from geneva_cli.curves.plates import solids
 from geneva_cli.curves.shapes import Contour
 from geneva_cli.curves.sphere_arcs import SphereArcs
+from geneva_cli.drawings.model import PartsModel
+from geneva_cli.drawings.sphere.arm_drawing import arm_cone
+from geneva_cli.drawings.sphere.drawings import crank_cone, wheel_cone
 from geneva_cli.errors import GenevaError
+from geneva_cli.layout.sphere_sizes import ball
+from geneva_cli.outlines.sphere_wheel import POLE, edge_points, wheel_regions
 from geneva_cli.output.step import chunks
-from geneva_cli.parts.model import PartsModel
 from geneva_cli.parts.sphere.arm import crank_arm
-from geneva_cli.parts.sphere.arm_drawing import arm_cone
 from geneva_cli.parts.sphere.crank import at_mid_motion, rollers, sectors
-from geneva_cli.parts.sphere.drawings import crank_cone, wheel_cone
-from geneva_cli.parts.sphere.sizes import ball
 from geneva_cli.parts.sphere.sphere_parts import SphereParts, wheel_shell
-from geneva_cli.parts.sphere.wheel import POLE, edge_points, wheel_regions
 from geneva_cli.verdict.checks.registry import standing_checks
 
 CLEAR = Size(80.0, 5.0, slot_clearance_mm=0.05, lock_clearance_mm=0.04)

@@ -7,10 +7,10 @@ import pytest
 import repo
 from words import load
 
+from geneva_cli.collisions.free_angles import free_angles, search_deg
+from geneva_cli.collisions.play import windows
+from geneva_cli.drawings.model import PartsModel
 from geneva_cli.machine.mechanism import build
-from geneva_cli.parts.model import PartsModel
-from geneva_cli.parts.turn.free_angles import free_angles, search_deg
-from geneva_cli.parts.turn.play import windows
 
 BARE = ("turret", "internal-z6", "four-bar-z4", "press-curved", "three-rollers-z4", "spherical-z6")
 LOOSE = (

@@ -16,27 +16,27 @@ import repo
 from sampling import some
 from words import load
 
+from geneva_cli.collisions import settled as halving
+from geneva_cli.collisions.full_turn import full_turn
+from geneva_cli.collisions.play import windows
+from geneva_cli.collisions.settled import intervals
 from geneva_cli.curves.distance import Polyarc
 from geneva_cli.curves.extents import farthest, from_segments, near_segments, short_pieces
 from geneva_cli.curves.shapes import Line, about, closed
+from geneva_cli.drawings.model import PartsModel
 from geneva_cli.errors import GenevaError
+from geneva_cli.kinematics.laws.standard import Cycloidal, ModifiedSine
+from geneva_cli.kinematics.motion import Motion
+from geneva_cli.kinematics.wheels.external import External
+from geneva_cli.kinematics.wheels.internal import Internal
 from geneva_cli.machine.drives.crank import Crank
-from geneva_cli.machine.laws.standard import Cycloidal, ModifiedSine
 from geneva_cli.machine.mechanism import build
-from geneva_cli.machine.motion import Motion
 from geneva_cli.machine.spec import Spec
-from geneva_cli.machine.wheels.external import External
-from geneva_cli.machine.wheels.internal import Internal
 from geneva_cli.numerics.arrays import Undecided
-from geneva_cli.parts.model import PartsModel
-from geneva_cli.parts.outlines import outlines
-from geneva_cli.parts.turn import settled as halving
-from geneva_cli.parts.turn.bounds import CurvedSlot, FreeRoller, Lock, Reach, StraightSlot
-from geneva_cli.parts.turn.certificate import certificate, spans, unproved_kind
-from geneva_cli.parts.turn.full_turn import full_turn
-from geneva_cli.parts.turn.play import windows
-from geneva_cli.parts.turn.settled import intervals
-from geneva_cli.parts.turn.travel import UNKNOWN, Travel, curve_rates, path_travel, slot_travel
+from geneva_cli.outlines.bounds import CurvedSlot, FreeRoller, Lock, Reach, StraightSlot
+from geneva_cli.outlines.certificate import certificate, spans, unproved_kind
+from geneva_cli.outlines.outlines import outlines
+from geneva_cli.outlines.travel import UNKNOWN, Travel, curve_rates, path_travel, slot_travel
 from geneva_cli.spec.tables import Size
 from geneva_cli.verdict.checks.proved import least_gap as least_gap_check
 

@@ -25,12 +25,12 @@ from geneva_cli import (
     load,
 )
 from geneva_cli.curves.mass import MassProperties
+from geneva_cli.drawings.parts_list import parts_table
+from geneva_cli.layout.assembly import assembly
+from geneva_cli.layout.sizes import sizes
 from geneva_cli.machine.mechanism import build
 from geneva_cli.machine.spec import Spec
-from geneva_cli.parts.assembly import assembly
-from geneva_cli.parts.parts_list import parts_table
-from geneva_cli.parts.sizes import sizes
-from geneva_cli.parts.walls.rings import removed_face
+from geneva_cli.outlines.walls.rings import removed_face
 from geneva_cli.verdict.carried_warnings import carried_warnings
 
 

@@ -16,8 +16,8 @@ import pytest
 from witness import SineLaw, krasniqi, mp, near
 
 from geneva_cli.analysis.timing import timings
-from geneva_cli.machine.laws.standard import SineGroup
-from geneva_cli.machine.pitch_curve import pitch, pitch_at_retrace, retraces
+from geneva_cli.kinematics.laws.standard import SineGroup
+from geneva_cli.kinematics.pitch_curve import pitch, pitch_at_retrace, retraces
 from geneva_cli.numerics.jet import Jet
 
 SHAPES = (-0.25, -0.15, -0.05, 0.0, 0.05, 0.15, 0.25)  # the rows of Table 1, and 0

@@ -14,7 +14,7 @@ from fuzzing import campaign, in_time
 from geneva_cli.analysis.certificate import certificate
 from geneva_cli.analysis.peaks import QUANTITIES, worst
 from geneva_cli.design import load
-from geneva_cli.machine.registry import DRIVES
+from geneva_cli.kinematics.registry import DRIVES
 
 SECONDS = 60  # of one machine; most take 0.1 s, and 2,000 intervals of a four-bar's four peaks 12 s
 NEAR = 1e-6  # of a peak: what decimals and doubles may differ by, magnified by the proportions

@@ -2,7 +2,7 @@
 
 import math
 
-from geneva_cli.machine.registry import DRIVES, LAWS
+from geneva_cli.kinematics.registry import DRIVES, LAWS
 from geneva_cli.machine.spec import LOADED
 from geneva_cli.spec.schema import fields
 from geneva_cli.spec.tables import Size

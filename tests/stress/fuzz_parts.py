@@ -17,9 +17,9 @@ from geneva_cli.analysis.motion import motion_table
 from geneva_cli.analysis.peaks import peaks_table
 from geneva_cli.curves.pieces import pieces_table
 from geneva_cli.design import Design
+from geneva_cli.drawings.catalogue import DRAWINGS, PARTS, is_table, part_drawing, part_table
+from geneva_cli.drawings.model import PartsModel
 from geneva_cli.errors import GenevaError
-from geneva_cli.parts.catalogue import DRAWINGS, PARTS, is_table, part_drawing, part_table
-from geneva_cli.parts.model import PartsModel
 from geneva_cli.study.batch import Verdict, checks_table
 from geneva_cli.table import flat
 from geneva_cli.verdict.advice import judged

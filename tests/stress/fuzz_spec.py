@@ -23,8 +23,8 @@ from geneva_cli import design
 from geneva_cli.analysis.motion import motion_table
 from geneva_cli.analysis.peaks import peaks_table
 from geneva_cli.errors import GenevaError
-from geneva_cli.machine import registry
-from geneva_cli.machine.registry import DRIVES, GEARINGS, LAWS
+from geneva_cli.kinematics import registry
+from geneva_cli.kinematics.registry import DRIVES, GEARINGS, LAWS
 from geneva_cli.spec.rules import OneOf, Words
 from geneva_cli.spec.schema import REQUIRED, fields
 from geneva_cli.spec.tables import LISTS

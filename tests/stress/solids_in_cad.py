@@ -42,10 +42,10 @@ from geneva_cli.curves.plates import Group, Plate
 from geneva_cli.curves.shapes import Contour, Cubic
 from geneva_cli.design import load
 from geneva_cli.errors import GenevaError
+from geneva_cli.outlines.outlines import Outlines
 from geneva_cli.output.inks import INKS
 from geneva_cli.output.step import chunks
 from geneva_cli.parts.arm import has_arm
-from geneva_cli.parts.outlines import Outlines
 from geneva_cli.parts.sphere.arm import has_arm as has_cap
 
 PARTS = ("wheel", "crank", "arm", "assembly")

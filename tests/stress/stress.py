@@ -42,7 +42,7 @@ from witness import LAWS as LAW_WITNESSES
 from witness import mp
 from words import LAWS
 
-from geneva_cli.machine.registry import DRIVES, GEARINGS
+from geneva_cli.kinematics.registry import DRIVES, GEARINGS
 
 
 def missing():

@@ -30,7 +30,7 @@ from typer.testing import CliRunner
 from geneva_cli.analysis.motion import motion_table
 from geneva_cli.analysis.peaks import worst
 from geneva_cli.app import COMMANDS, app
-from geneva_cli.machine.registry import DRIVES
+from geneva_cli.kinematics.registry import DRIVES
 from geneva_cli.output.formats import FORMATS
 from geneva_cli.spec.schema import fields
 from geneva_cli.spec.tables import Limits, Size

@@ -10,7 +10,7 @@ import tomli
 from scipy.optimize import brentq
 
 from geneva_cli import GenevaError, load
-from geneva_cli.parts.model import PartsModel
+from geneva_cli.drawings.model import PartsModel
 from geneva_cli.study.sweep.best_search import SweepSearch
 from geneva_cli.study.sweep.places import closer
 from geneva_cli.study.sweep.request import request

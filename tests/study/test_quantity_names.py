@@ -11,11 +11,11 @@ from typer.testing import CliRunner
 from geneva_cli import GenevaError, load
 from geneva_cli.app import app
 from geneva_cli.study.fields import pick
-from geneva_cli.study.quantities import WORDS, group_of, whole_name
 from geneva_cli.study.survey import NAMES as TABLE
-from geneva_cli.study.synthesis.rows import Candidate
+from geneva_cli.synthesis.rows import Candidate
 from geneva_cli.table import Table
 from geneva_cli.verdict.quantities.groups import GROUPS
+from geneva_cli.verdict.quantities.names import WORDS, group_of, whole_name
 
 pytestmark = pytest.mark.usefixtures("made_once")
 LISTS = {  # of a report's names those of tables and lists, which are no quantities

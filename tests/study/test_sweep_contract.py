@@ -10,8 +10,8 @@ from words import Motion
 
 from geneva_cli import Design, External, GearSector, Load, SideCrank
 from geneva_cli.design import load
+from geneva_cli.kinematics.registry import STANDARD_LAWS
 from geneva_cli.machine.many import alone, many, may_vary, taken
-from geneva_cli.machine.registry import STANDARD_LAWS
 from geneva_cli.machine.spec import Spec
 from geneva_cli.study.sweep.request import request
 

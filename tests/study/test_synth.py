@@ -20,17 +20,17 @@ from geneva_cli.app import app
 from geneva_cli.errors import GenevaError
 from geneva_cli.machine.drives.side_crank import SideCrank
 from geneva_cli.machine.mechanism import build
-from geneva_cli.study.synthesis.built import Built
-from geneva_cli.study.synthesis.families import closed
-from geneva_cli.study.synthesis.families import limit as limits
-from geneva_cli.study.synthesis.families.family import MOTION_TOLERANCE
-from geneva_cli.study.synthesis.parts_data import parts_data
-from geneva_cli.study.synthesis.reading import read_target
-from geneva_cli.study.synthesis.rows import NEAR_DEG, _groove_failure
-from geneva_cli.study.synthesis.search import search, synthesis
-from geneva_cli.study.synthesis.shown import for_people, for_terminal
-from geneva_cli.study.synthesis.table import NAMES, synthesis_table, turned
-from geneva_cli.study.synthesis.written import chosen, commented
+from geneva_cli.synthesis.built import Built
+from geneva_cli.synthesis.families import closed
+from geneva_cli.synthesis.families import limit as limits
+from geneva_cli.synthesis.families.family import MOTION_TOLERANCE
+from geneva_cli.synthesis.parts_data import parts_data
+from geneva_cli.synthesis.reading import read_target
+from geneva_cli.synthesis.rows import NEAR_DEG, _groove_failure
+from geneva_cli.synthesis.search import search, synthesis
+from geneva_cli.synthesis.shown import for_people, for_terminal
+from geneva_cli.synthesis.table import NAMES, synthesis_table, turned
+from geneva_cli.synthesis.written import chosen, commented
 from geneva_cli.verdict.checks import checks
 from geneva_cli.verdict.checks.groove import GROOVE_MAX_DEG, groove_pressure
 

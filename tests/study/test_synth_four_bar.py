@@ -11,19 +11,19 @@ from geneva_cli.analysis.peak_search import worst_peaks
 from geneva_cli.analysis.peaks import peak as peak_of
 from geneva_cli.app import app
 from geneva_cli.design import load
+from geneva_cli.kinematics.wheels.external import External
 from geneva_cli.machine.drives.crank import Crank
 from geneva_cli.machine.drives.four_bar import FourBar
 from geneva_cli.machine.many import many
 from geneva_cli.machine.mechanism import build
 from geneva_cli.machine.spec import Spec
-from geneva_cli.machine.wheels.external import External
 from geneva_cli.spec.tables import Size
-from geneva_cli.study.synthesis.families import four_bars as families
-from geneva_cli.study.synthesis.parts import parts
-from geneva_cli.study.synthesis.reading import read_target
-from geneva_cli.study.synthesis.search import search
-from geneva_cli.study.synthesis.table import turned
-from geneva_cli.study.synthesis.written import chosen
+from geneva_cli.synthesis.families import four_bars as families
+from geneva_cli.synthesis.parts import parts
+from geneva_cli.synthesis.reading import read_target
+from geneva_cli.synthesis.search import search
+from geneva_cli.synthesis.table import turned
+from geneva_cli.synthesis.written import chosen
 from geneva_cli.verdict.checks import checks
 
 KEYS = ("crank_mm", "ground_mm", "coupler_mm", "rocker_mm", "point_mm", "point_deg", "entry_deg")

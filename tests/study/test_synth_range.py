@@ -18,12 +18,12 @@ from geneva_cli.machine.mechanism import build
 from geneva_cli.output.text import chunks
 from geneva_cli.spec.tables import Limits, Load, Size
 from geneva_cli.study.goals import Objective, objective
+from geneva_cli.study.spans import AllowedSpan
 from geneva_cli.study.sweep.columns import columns
-from geneva_cli.study.synthesis.reading import SPANS, read_target, span
-from geneva_cli.study.synthesis.search import search
-from geneva_cli.study.synthesis.shown import for_people
-from geneva_cli.study.synthesis.spans import AllowedSpan
-from geneva_cli.study.synthesis.table import synthesis_table
+from geneva_cli.synthesis.reading import SPANS, read_target, span
+from geneva_cli.synthesis.search import search
+from geneva_cli.synthesis.shown import for_people
+from geneva_cli.synthesis.table import synthesis_table
 
 pytestmark = pytest.mark.usefixtures("few_four_bars")
 DESIGNS = os.path.join(os.path.dirname(__file__), "..", "..", "designs")
@@ -165,7 +165,7 @@ def test_a_dwell_of_several_turns_is_behind_a_first_wheel():
 )
 def test_bounds_on_times_that_nothing_keeps_are_refused_at_once(target, bound, said, monkeypatch):
     """As the options are that say the same, and before any machine is looked for."""
-    monkeypatch.setattr("geneva_cli.study.synthesis.search.families", None)
+    monkeypatch.setattr("geneva_cli.synthesis.search.families", None)
     with pytest.raises(GenevaError) as error:
         search(read_target(**target, subject_to=[bound]))
     assert said in str(error.value)

@@ -7,37 +7,37 @@ import pytest
 
 from geneva_cli.analysis.undercut import depths_mm, undercut
 from geneva_cli.errors import GenevaError
+from geneva_cli.kinematics.laws.standard import Cycloidal, ModifiedConstantVelocity
+from geneva_cli.kinematics.motion import Motion
+from geneva_cli.kinematics.wheels.external import External
+from geneva_cli.kinematics.wheels.internal import Internal
+from geneva_cli.layout.assembly import assembly
+from geneva_cli.layout.groove import greatest_pressure
+from geneva_cli.layout.roller_paths import roller_paths
 from geneva_cli.machine.drives.cam import Cam
 from geneva_cli.machine.drives.crank import Crank
 from geneva_cli.machine.drives.epicyclic import Epicyclic
 from geneva_cli.machine.drives.side_crank import SideCrank
-from geneva_cli.machine.laws.standard import Cycloidal, ModifiedConstantVelocity
 from geneva_cli.machine.mechanism import build
-from geneva_cli.machine.motion import Motion
 from geneva_cli.machine.spec import Spec
-from geneva_cli.machine.wheels.external import External
-from geneva_cli.machine.wheels.internal import Internal
-from geneva_cli.parts.assembly import assembly
-from geneva_cli.parts.groove import greatest_pressure
-from geneva_cli.parts.roller_paths import roller_paths
 from geneva_cli.spec.tables import Load, Size
+from geneva_cli.study.batches import batch_machines, numbers
 from geneva_cli.study.fields import pick
+from geneva_cli.study.law_columns import law_columns
 from geneva_cli.study.sweep.columns import columns
-from geneva_cli.study.synthesis import search as searching
-from geneva_cli.study.synthesis.batches import batch_machines, numbers
-from geneva_cli.study.synthesis.by_law import law_columns
-from geneva_cli.study.synthesis.families.every import kinds
-from geneva_cli.study.synthesis.parts_data import (
+from geneva_cli.synthesis import search as searching
+from geneva_cli.synthesis.families.every import kinds
+from geneva_cli.synthesis.parts_data import (
     UNDERCUT_SAMPLES,
     _alike,
     _kept,
     compute_parts_data,
     parts_data,
 )
-from geneva_cli.study.synthesis.reading import read_target
-from geneva_cli.study.synthesis.rows import COSTS
-from geneva_cli.study.synthesis.search import search
-from geneva_cli.study.synthesis.table import synthesis_table
+from geneva_cli.synthesis.reading import read_target
+from geneva_cli.synthesis.rows import COSTS
+from geneva_cli.synthesis.search import search
+from geneva_cli.synthesis.table import synthesis_table
 
 LAW = Cycloidal()
 MATCHED = Motion(LAW, ratio="matched")

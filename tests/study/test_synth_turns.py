@@ -3,27 +3,27 @@
 import numpy as np
 import pytest
 
+from geneva_cli.collisions.glance import gap_about, play_about
+from geneva_cli.drawings.model import PartsModel
+from geneva_cli.kinematics.laws.standard import ModifiedSine
+from geneva_cli.kinematics.motion import Motion
+from geneva_cli.kinematics.wheels.external import External
+from geneva_cli.kinematics.wheels.internal import Internal
+from geneva_cli.kinematics.wheels.spherical import Spherical
 from geneva_cli.machine.drives.cam import Cam
 from geneva_cli.machine.drives.crank import Crank
 from geneva_cli.machine.drives.elliptical_gears import EllipticalGears
 from geneva_cli.machine.drives.gear_sector import GearSector
 from geneva_cli.machine.drives.side_crank import SideCrank
-from geneva_cli.machine.laws.standard import ModifiedSine
 from geneva_cli.machine.mechanism import build
-from geneva_cli.machine.motion import Motion
 from geneva_cli.machine.spec import Spec
-from geneva_cli.machine.wheels.external import External
-from geneva_cli.machine.wheels.internal import Internal
-from geneva_cli.machine.wheels.spherical import Spherical
-from geneva_cli.parts.model import PartsModel
-from geneva_cli.parts.turn.glance import gap_about, play_about
-from geneva_cli.study.synthesis import turns
-from geneva_cli.study.synthesis.built import built, built_together
-from geneva_cli.study.synthesis.parts import USUAL, exact, parts, with_roller
-from geneva_cli.study.synthesis.parts_data import gap_at_rest, parts_data
-from geneva_cli.study.synthesis.reading import read_target
-from geneva_cli.study.synthesis.search import search
-from geneva_cli.study.synthesis.turns import Failure, Turns, same_turn
+from geneva_cli.synthesis import turns
+from geneva_cli.synthesis.built import built, built_together
+from geneva_cli.synthesis.parts import USUAL, exact, parts, with_roller
+from geneva_cli.synthesis.parts_data import gap_at_rest, parts_data
+from geneva_cli.synthesis.reading import read_target
+from geneva_cli.synthesis.search import search
+from geneva_cli.synthesis.turns import Failure, Turns, same_turn
 from geneva_cli.verdict.checks import checks
 from geneva_cli.verdict.checks.play import finds_slot
 

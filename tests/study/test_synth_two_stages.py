@@ -5,8 +5,8 @@ import math
 import mpmath
 import pytest
 
-from geneva_cli.study.synthesis.reading import read_target
-from geneva_cli.study.synthesis.search import search
+from geneva_cli.synthesis.reading import read_target
+from geneva_cli.synthesis.search import search
 
 NEAR = "0.1"  # joints so near to the crank that the search of four-bars is short
 

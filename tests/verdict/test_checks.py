@@ -11,13 +11,13 @@ from words import Drive, Keys, Motion, Spec, Wheel, law, load
 
 from geneva_cli import Design, External
 from geneva_cli.app import app
+from geneva_cli.collisions.full_turn import Most
+from geneva_cli.drawings.model import PartsModel
 from geneva_cli.errors import GenevaError
 from geneva_cli.machine import spec as machine_spec
 from geneva_cli.machine.mechanism import build
 from geneva_cli.numerics.keeps import keeps
-from geneva_cli.parts.model import PartsModel
-from geneva_cli.parts.outlines import outlines
-from geneva_cli.parts.turn.full_turn import Most
+from geneva_cli.outlines.outlines import outlines
 from geneva_cli.spec.tables import Limits, Load, Size
 from geneva_cli.verdict.checks import Check, checks
 from geneva_cli.verdict.checks.registry import standing_checks

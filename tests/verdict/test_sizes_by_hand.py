@@ -7,7 +7,7 @@ import pytest
 from words import Motion, Spec, Wheel
 
 from geneva_cli.machine.mechanism import build
-from geneva_cli.parts.outlines import outlines
+from geneva_cli.outlines.outlines import outlines
 from geneva_cli.spec.tables import Limits, Size
 from geneva_cli.verdict.checks import checks
 from geneva_cli.verdict.checks.registry import standing_checks

@@ -10,9 +10,9 @@ from typer.testing import CliRunner
 from words import Drive, Motion, Spec, Wheel, load
 
 from geneva_cli import Design, design
-from geneva_cli.analysis.loads.cycle import cycle_of
 from geneva_cli.app import app
 from geneva_cli.errors import GenevaError
+from geneva_cli.loads.cycle import cycle_of
 from geneva_cli.machine.mechanism import build
 from geneva_cli.spec.tables import Limits, Load, RollerMaterial, Shaft, Size, WheelMaterial
 from geneva_cli.verdict.advice import judged

@@ -25,10 +25,10 @@ from geneva_cli.analysis.tolerance.dimensions import Deviations, deviations, slo
 from geneva_cli.analysis.tolerance.entry_jump import entry_jumps
 from geneva_cli.analysis.tolerance.motion_error import motion_errors
 from geneva_cli.design import load
+from geneva_cli.drawings.model import PartsModel
 from geneva_cli.errors import GenevaError
-from geneva_cli.machine.laws.standard import Cycloidal
-from geneva_cli.machine.motion import Motion
-from geneva_cli.parts.model import PartsModel
+from geneva_cli.kinematics.laws.standard import Cycloidal
+from geneva_cli.kinematics.motion import Motion
 from geneva_cli.verdict.tolerance.recesses import locks, sphere_locks
 from tests.repo import ROOT
 

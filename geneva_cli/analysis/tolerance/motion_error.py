@@ -18,7 +18,7 @@ import numpy as np
 
 from geneva_cli.analysis.impacts import arm_mm
 from geneva_cli.analysis.tolerance.dimensions import Deviations
-from geneva_cli.machine.engagement import Engagement
+from geneva_cli.kinematics.engagement import Engagement
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.machine.spec import Spec
 from geneva_cli.numerics.arrays import array, choose, choose_record, parameter, size

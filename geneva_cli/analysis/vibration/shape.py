@@ -10,14 +10,14 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from geneva_cli.analysis.vibration.panels import Panels, panels_of
-from geneva_cli.machine.engagement import Engagement
+from geneva_cli.kinematics.engagement import Engagement
 from geneva_cli.machine.many import taken
 from geneva_cli.numerics.angles import DEGREE
 from geneva_cli.numerics.arrays import Number, read_only
 
 if TYPE_CHECKING:
-    from geneva_cli.machine.engagement import WheelMotion
-    from geneva_cli.machine.laws.law import Law
+    from geneva_cli.kinematics.engagement import WheelMotion
+    from geneva_cli.kinematics.laws.law import Law
     from geneva_cli.numerics.arrays import Array, Whole
 
 

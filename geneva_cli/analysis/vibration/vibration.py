@@ -26,7 +26,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from geneva_cli.analysis.loads.carried import inertia_kgm2
+from geneva_cli.analysis.carried import inertia_kgm2
 from geneva_cli.analysis.peak_search import motion_peaks
 from geneva_cli.analysis.timing import timings
 from geneva_cli.analysis.vibration.load_acceleration import greatest_accelerations
@@ -34,7 +34,7 @@ from geneva_cli.analysis.vibration.lobes import Lobes, highest_ratio, lobes
 from geneva_cli.analysis.vibration.oscillator import PERIOD_RATIO, Oscillator, period_ratio_of
 from geneva_cli.analysis.vibration.shape import law_shape, motion_shapes, shape
 from geneva_cli.analysis.vibration.swing import Swing, residual_swing
-from geneva_cli.machine.engagement import Engagement
+from geneva_cli.kinematics.engagement import Engagement
 from geneva_cli.machine.many import taken
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.numerics.angles import DEGREE

@@ -36,7 +36,7 @@ from geneva_cli.numerics.extrema import BLOCK as SCANNED
 from geneva_cli.numerics.extrema import SCAN_INTERVALS
 
 if TYPE_CHECKING:
-    from geneva_cli.machine.engagement import WheelMotion
+    from geneva_cli.kinematics.engagement import WheelMotion
     from geneva_cli.numerics.jet import Array
 
 PEAK_QUANTITIES = ("velocity", "acceleration")

@@ -11,9 +11,9 @@ import numpy as np
 
 from geneva_cli.bench.method import Method, Subject, Task, missing
 from geneva_cli.bench.truth import digits, motion
+from geneva_cli.kinematics.wheels.external import External
 from geneva_cli.machine.mechanism import build
 from geneva_cli.machine.spec import Spec
-from geneva_cli.machine.wheels.external import External
 from geneva_cli.numerics.angles import DEGREE
 
 if TYPE_CHECKING:

@@ -11,13 +11,13 @@ import numpy as np
 from geneva_cli.bench import flank
 from geneva_cli.bench.method import Method, Subject, Task
 from geneva_cli.curves import fit
-from geneva_cli.machine.laws.standard import Cycloidal
+from geneva_cli.kinematics.laws.standard import Cycloidal
+from geneva_cli.kinematics.motion import Motion
+from geneva_cli.kinematics.wheels.external import External
+from geneva_cli.layout.slot_profile import slot
+from geneva_cli.layout.slot_sampling import chord_errors, nodes
 from geneva_cli.machine.mechanism import Mechanism, build
-from geneva_cli.machine.motion import Motion
 from geneva_cli.machine.spec import Spec
-from geneva_cli.machine.wheels.external import External
-from geneva_cli.parts.slot_profile import slot
-from geneva_cli.parts.slot_sampling import chord_errors, nodes
 from geneva_cli.spec.tables import Size
 
 if TYPE_CHECKING:

@@ -13,9 +13,6 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 
 from geneva_cli.analysis import impacts
-from geneva_cli.analysis.loads.cycle import Cycle
-from geneva_cli.analysis.loads.sizing import sizing, sizings
-from geneva_cli.analysis.strength import horn, roller, shafts
 from geneva_cli.analysis.tolerance.dimensions import corners
 from geneva_cli.analysis.tolerance.motion_error import motion_errors
 from geneva_cli.analysis.tolerance.worst_effects import motion_plays, used
@@ -24,11 +21,14 @@ from geneva_cli.analysis.vibration.shape import shape
 from geneva_cli.analysis.vibration.vibration import design_vibrations, oscillators_of, vibrations
 from geneva_cli.bench.kinds import one_by_one, task_of_many
 from geneva_cli.bench.method import Method, Subject, Task
+from geneva_cli.kinematics.wheels.external import External
+from geneva_cli.loads.cycle import Cycle
+from geneva_cli.loads.sizing import sizing, sizings
+from geneva_cli.loads.strength import horn, roller, shafts
 from geneva_cli.machine.drives.side_crank import SideCrank
 from geneva_cli.machine.many import many
 from geneva_cli.machine.mechanism import Mechanism, build
 from geneva_cli.machine.spec import Spec
-from geneva_cli.machine.wheels.external import External
 from geneva_cli.spec.tables import Load, Shaft, Size, Tolerance
 
 if TYPE_CHECKING:

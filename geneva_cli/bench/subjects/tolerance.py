@@ -15,9 +15,9 @@ from geneva_cli.analysis.tolerance.entry_jump import entry_jumps
 from geneva_cli.analysis.tolerance.motion_error import motion_errors
 from geneva_cli.analysis.tolerance.random_machines import random_machines
 from geneva_cli.bench.method import Method, Subject, Task
+from geneva_cli.kinematics.wheels.external import External
 from geneva_cli.machine.mechanism import build
 from geneva_cli.machine.spec import Spec
-from geneva_cli.machine.wheels.external import External
 from geneva_cli.spec.tables import Size
 
 if TYPE_CHECKING:

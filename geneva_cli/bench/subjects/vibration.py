@@ -17,7 +17,7 @@ from geneva_cli.analysis.vibration.shape import law_shape
 from geneva_cli.analysis.vibration.swing import Swing, residual_swing
 from geneva_cli.bench.method import Method, Subject, Task
 from geneva_cli.bench.truth import digits
-from geneva_cli.machine import registry
+from geneva_cli.kinematics import registry
 
 if TYPE_CHECKING:
     from geneva_cli.numerics.jet import Array

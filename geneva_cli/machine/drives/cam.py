@@ -11,19 +11,19 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING, ClassVar
 
 from geneva_cli.errors import GenevaError, refuse
-from geneva_cli.machine.drives.drive import Needs, Plan
+from geneva_cli.kinematics.drive import Needs, Plan
+from geneva_cli.kinematics.engagement import Carrier, ConstantRate, Engagement, Vector, cross
+from geneva_cli.kinematics.law_motion import LawMotion, refuse_alpha0
+from geneva_cli.kinematics.slot_and_motion import SolvedPath, SolvedPathSlot
 from geneva_cli.machine.drives.pin_path import PinPath
-from geneva_cli.machine.engagement import Carrier, ConstantRate, Engagement, Vector, cross
-from geneva_cli.machine.example import Example
-from geneva_cli.machine.law_motion import LawMotion, refuse_alpha0
-from geneva_cli.machine.slot_and_motion import SolvedPath, SolvedPathSlot
 from geneva_cli.numerics.angles import radians
 from geneva_cli.numerics.arrays import larger, parameter
 from geneva_cli.numerics.jet import Jet, Number
+from geneva_cli.spec.example import Example
 
 if TYPE_CHECKING:
-    from geneva_cli.machine.motion import Motion
-    from geneva_cli.machine.wheels.gearing import Gearing
+    from geneva_cli.kinematics.motion import Motion
+    from geneva_cli.kinematics.wheels.gearing import Gearing
 
 
 class Cam(PinPath, kw_only=True):

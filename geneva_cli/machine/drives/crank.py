@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import ClassVar
 
+from geneva_cli.kinematics.engagement import Displacement
 from geneva_cli.machine.drives.transmission import LocalTransmission, Transmission, same
-from geneva_cli.machine.engagement import Displacement
 
 
 class Crank(Transmission, kw_only=True):

@@ -13,16 +13,16 @@ from collections.abc import Callable
 from typing import Annotated, ClassVar, NamedTuple
 
 from geneva_cli.errors import GenevaError, refuse
-from geneva_cli.machine.drives.drive import Gears, Plan
+from geneva_cli.kinematics.drive import Gears, Plan
+from geneva_cli.kinematics.engagement import Displacement, Path, Reactions
+from geneva_cli.kinematics.layout import Dimension, Layout, Pivot
+from geneva_cli.kinematics.wheels.gearing import Gearing
 from geneva_cli.machine.drives.pushed import Mesh
 from geneva_cli.machine.drives.transmission import LocalTransmission, Transmission
-from geneva_cli.machine.engagement import Displacement, Path, Reactions
-from geneva_cli.machine.example import Example
-from geneva_cli.machine.layout import Dimension, Layout, Pivot
-from geneva_cli.machine.wheels.gearing import Gearing
 from geneva_cli.numerics.angles import sin_cos_deg
 from geneva_cli.numerics.arrays import library
 from geneva_cli.numerics.jet import Jet, Number, cosines_after, sine_versine_of
+from geneva_cli.spec.example import Example
 from geneva_cli.spec.rules import POSITIVE, OneOf, Range
 
 

@@ -13,22 +13,22 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING, Annotated, ClassVar, NamedTuple, cast
 
 from geneva_cli.errors import GenevaError, refuse
-from geneva_cli.machine import path_and_slot
-from geneva_cli.machine.drives.drive import Plan
+from geneva_cli.kinematics import path_and_slot
+from geneva_cli.kinematics.drive import Plan
+from geneva_cli.kinematics.engagement import Anchor, Carrier, ConstantRate, Vector, cross
+from geneva_cli.kinematics.layout import Dimension, Joint, Layout, Link, Pivot, Teeth
+from geneva_cli.kinematics.path_and_slot import AnchoredPath, StraightSlotMotion
+from geneva_cli.kinematics.wheels.classic import gap
 from geneva_cli.machine.drives.pin_path import PinPath
-from geneva_cli.machine.engagement import Anchor, Carrier, ConstantRate, Vector, cross
-from geneva_cli.machine.example import Example
-from geneva_cli.machine.layout import Dimension, Joint, Layout, Link, Pivot, Teeth
-from geneva_cli.machine.path_and_slot import AnchoredPath, StraightSlotMotion
-from geneva_cli.machine.wheels.classic import gap
 from geneva_cli.numerics.angles import radians
 from geneva_cli.numerics.arrays import choose, library
 from geneva_cli.numerics.jet import Jet, Number, sin_cos, sine_versine
+from geneva_cli.spec.example import Example
 from geneva_cli.spec.rules import OneOf, Range, Words
 
 if TYPE_CHECKING:
-    from geneva_cli.machine.motion import Motion
-    from geneva_cli.machine.wheels.gearing import Gearing
+    from geneva_cli.kinematics.motion import Motion
+    from geneva_cli.kinematics.wheels.gearing import Gearing
     from geneva_cli.numerics.jet import Array
 
 

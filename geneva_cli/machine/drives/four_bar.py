@@ -11,13 +11,13 @@ from functools import reduce
 from typing import Annotated, ClassVar, NamedTuple
 
 from geneva_cli.errors import GenevaError, refuse
-from geneva_cli.machine.drives.drive import Plan
+from geneva_cli.kinematics.drive import Plan
+from geneva_cli.kinematics.layout import Dimension, Joint, Layout, Link
+from geneva_cli.kinematics.roller_path import PointDisplacement, rounded
 from geneva_cli.machine.drives.linkage import Linkage, Moving, RodPath, refuse_proportions
-from geneva_cli.machine.example import Example
-from geneva_cli.machine.layout import Dimension, Joint, Layout, Link
-from geneva_cli.machine.roller_path import PointDisplacement, rounded
 from geneva_cli.numerics.arrays import larger, smaller
 from geneva_cli.numerics.jet import Jet, sqrt, turned_at
+from geneva_cli.spec.example import Example
 from geneva_cli.spec.rules import POSITIVE, OneOf, Range
 
 

@@ -15,23 +15,23 @@ import math
 from typing import TYPE_CHECKING, Annotated, ClassVar, NamedTuple
 
 from geneva_cli.errors import GenevaError, refuse
-from geneva_cli.machine.drives.drive import Plan
+from geneva_cli.kinematics.drive import Plan
+from geneva_cli.kinematics.engagement import Anchor, Engagement, Path, Slot, SlotAxis, WheelMotion
+from geneva_cli.kinematics.layout import Dimension, Joint, Layout, Link, Teeth
+from geneva_cli.kinematics.path_and_slot import AnchoredPath, RadialSlot, StraightSlotMotion
+from geneva_cli.kinematics.wheels import poses
 from geneva_cli.machine.drives.pin_path import PinPath
 from geneva_cli.machine.drives.transmission import PinTravel, same
-from geneva_cli.machine.engagement import Anchor, Engagement, Path, Slot, SlotAxis, WheelMotion
-from geneva_cli.machine.example import Example
-from geneva_cli.machine.layout import Dimension, Joint, Layout, Link, Teeth
-from geneva_cli.machine.path_and_slot import AnchoredPath, RadialSlot, StraightSlotMotion
-from geneva_cli.machine.wheels import poses
 from geneva_cli.numerics.angles import radians
 from geneva_cli.numerics.arrays import larger, library, parameter, size
 from geneva_cli.numerics.jet import Jet, Number, piecewise
 from geneva_cli.numerics.roots import boundary
+from geneva_cli.spec.example import Example
 from geneva_cli.spec.rules import POSITIVE, Range, Words
 
 if TYPE_CHECKING:
-    from geneva_cli.machine.motion import Motion
-    from geneva_cli.machine.wheels.gearing import Gearing
+    from geneva_cli.kinematics.motion import Motion
+    from geneva_cli.kinematics.wheels.gearing import Gearing
     from geneva_cli.numerics.jet import Array
 
 

@@ -10,17 +10,17 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING, Annotated, ClassVar, NamedTuple
 
-from geneva_cli.machine.drives.drive import FirstWheel, Plan
+from geneva_cli.kinematics.drive import FirstWheel, Plan
+from geneva_cli.kinematics.engagement import Path, Reactions, Vector
+from geneva_cli.kinematics.layout import Dimension, Joint, Layout, Link, Pivot
+from geneva_cli.kinematics.wheels import poses
+from geneva_cli.kinematics.wheels.gearing import Gearing
 from geneva_cli.machine.drives.pushed import PushedCrank
 from geneva_cli.machine.drives.transmission import LocalTransmission, Transmission
-from geneva_cli.machine.engagement import Path, Reactions, Vector
-from geneva_cli.machine.example import Example
-from geneva_cli.machine.layout import Dimension, Joint, Layout, Link, Pivot
-from geneva_cli.machine.wheels import poses
-from geneva_cli.machine.wheels.gearing import Gearing
 from geneva_cli.numerics.angles import of_each, radians, sin_cos_pi
 from geneva_cli.numerics.arrays import choose, choose_record, library
 from geneva_cli.numerics.jet import Jet, Number, atan2, sin_cos, sine_versine, sine_versine_of
+from geneva_cli.spec.example import Example
 from geneva_cli.spec.rules import POSITIVE, Z_MAX, Range
 
 if TYPE_CHECKING:

@@ -15,13 +15,13 @@ from typing import (
     cast,
 )
 
+from geneva_cli import linkage
 from geneva_cli.errors import GenevaError, refuse
-from geneva_cli.machine import linkage
-from geneva_cli.machine.drives.drive import Plan
+from geneva_cli.kinematics.drive import Plan
+from geneva_cli.kinematics.layout import Dimension, Joint, Layout, Link, Pivot
+from geneva_cli.kinematics.link import LinkReactions
+from geneva_cli.kinematics.roller_path import RollerPath, rounded
 from geneva_cli.machine.drives.pin_path import PinPath
-from geneva_cli.machine.layout import Dimension, Joint, Layout, Link, Pivot
-from geneva_cli.machine.link import LinkReactions
-from geneva_cli.machine.roller_path import RollerPath, rounded
 from geneva_cli.numerics import digits
 from geneva_cli.numerics.angles import radians
 from geneva_cli.numerics.arrays import array, larger, library, parameter, smaller
@@ -30,8 +30,8 @@ from geneva_cli.spec.rules import Range, is_array
 from geneva_cli.spec.tables import DISTANCE_MM
 
 if TYPE_CHECKING:
-    from geneva_cli.machine.motion import Motion
-    from geneva_cli.machine.wheels.gearing import Gearing
+    from geneva_cli.kinematics.motion import Motion
+    from geneva_cli.kinematics.wheels.gearing import Gearing
     from geneva_cli.numerics.arrays import Long
     from geneva_cli.numerics.jet import Array
 
@@ -209,7 +209,7 @@ def _long(*lengths: float, reach_mm: float, angle_deg: float) -> tuple[Long, ...
     """Lengths, and a point's coordinates from its distance and angle, in long doubles."""
     import numpy as np  # of a batch
 
-    from geneva_cli.machine.linkage.wheels_for_paths import LONG_PI
+    from geneva_cli.linkage.wheels_for_paths import LONG_PI
 
     turned = np.asarray(angle_deg, dtype=np.longdouble) * (LONG_PI / 180)
     point = reach_mm * np.cos(turned), reach_mm * np.sin(turned)

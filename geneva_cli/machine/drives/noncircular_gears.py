@@ -14,17 +14,17 @@ from functools import lru_cache
 from typing import TYPE_CHECKING, Annotated, ClassVar, NamedTuple
 
 from geneva_cli.errors import GenevaError
+from geneva_cli.kinematics.drive import Gears, Plan
+from geneva_cli.kinematics.engagement import CarrierVelocity, ClosedPeaks, Path, Reactions
+from geneva_cli.kinematics.layout import Dimension, Layout, Pivot
+from geneva_cli.kinematics.wheels.gearing import Gearing, RollerPlace
 from geneva_cli.machine.drives import whitworth
-from geneva_cli.machine.drives.drive import Gears, Plan
 from geneva_cli.machine.drives.pushed import Mesh
 from geneva_cli.machine.drives.transmission import LocalTransmission, Transmission
-from geneva_cli.machine.engagement import CarrierVelocity, ClosedPeaks, Path, Reactions
-from geneva_cli.machine.example import Example
-from geneva_cli.machine.layout import Dimension, Layout, Pivot
-from geneva_cli.machine.wheels.gearing import Gearing, RollerPlace
 from geneva_cli.numerics.arrays import library
 from geneva_cli.numerics.jet import Jet, Number, sine_versine_of
 from geneva_cli.numerics.roots import boundary
+from geneva_cli.spec.example import Example
 from geneva_cli.spec.rules import POSITIVE, Csv, Range
 from geneva_cli.spec.schema import Points
 

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from typing import ClassVar
 
-from geneva_cli.machine.drives.drive import Drive, Needs, Plan
-from geneva_cli.machine.engagement import Engagement
-from geneva_cli.machine.wheels.classic import refuse_jam, rollers_max
+from geneva_cli.kinematics.drive import Drive, Needs, Plan
+from geneva_cli.kinematics.engagement import Engagement
+from geneva_cli.kinematics.wheels.classic import refuse_jam, rollers_max
 
 
 class PinPath(Drive, kw_only=True):

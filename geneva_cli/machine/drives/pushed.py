@@ -5,7 +5,7 @@ from __future__ import annotations
 from abc import ABC, abstractmethod
 from collections.abc import Sequence
 
-from geneva_cli.machine.engagement import Path, Vector, cross
+from geneva_cli.kinematics.engagement import Path, Vector, cross
 from geneva_cli.numerics.arrays import library
 from geneva_cli.numerics.jet import Jet, Number, turning
 

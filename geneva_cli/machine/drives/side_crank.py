@@ -9,21 +9,21 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Annotated, ClassVar
 
-from geneva_cli.machine.drives import whitworth
-from geneva_cli.machine.drives.drive import Plan
-from geneva_cli.machine.drives.transmission import LocalTransmission, Transmission
-from geneva_cli.machine.engagement import (
+from geneva_cli.kinematics.drive import Plan
+from geneva_cli.kinematics.engagement import (
     CarrierVelocity,
     ClosedPeaks,
     Displacement,
     Path,
     Reactions,
 )
-from geneva_cli.machine.example import Example
-from geneva_cli.machine.layout import Dimension, Joint, Layout, Link, Pivot
-from geneva_cli.machine.wheels.gearing import Gearing, RollerPlace
+from geneva_cli.kinematics.layout import Dimension, Joint, Layout, Link, Pivot
+from geneva_cli.kinematics.wheels.gearing import Gearing, RollerPlace
+from geneva_cli.machine.drives import whitworth
+from geneva_cli.machine.drives.transmission import LocalTransmission, Transmission
 from geneva_cli.numerics.angles import radians
 from geneva_cli.numerics.arrays import library
+from geneva_cli.spec.example import Example
 from geneva_cli.spec.rules import POSITIVE, Range
 
 if TYPE_CHECKING:

@@ -7,9 +7,9 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING, ClassVar, NamedTuple
 
 from geneva_cli.errors import GenevaError, refuse
-from geneva_cli.machine import path_and_motion
-from geneva_cli.machine.drives.drive import Drive, Needs, Plan
-from geneva_cli.machine.engagement import (
+from geneva_cli.kinematics import path_and_motion
+from geneva_cli.kinematics.drive import Drive, Needs, Plan
+from geneva_cli.kinematics.engagement import (
     Anchor,
     Carrier,
     CarrierVelocity,
@@ -20,20 +20,20 @@ from geneva_cli.machine.engagement import (
     Path,
     Reactions,
 )
-from geneva_cli.machine.law_motion import refuse_alpha0
-from geneva_cli.machine.path_and_motion import MiddlePath
-from geneva_cli.machine.path_and_slot import AnchoredPath, ClassicMotion
+from geneva_cli.kinematics.law_motion import refuse_alpha0
+from geneva_cli.kinematics.path_and_motion import MiddlePath
+from geneva_cli.kinematics.path_and_slot import AnchoredPath, ClassicMotion
+from geneva_cli.kinematics.wheels.classic import refuse_jam, rollers_max
+from geneva_cli.kinematics.wheels.gearing import Gearing, RollerPlace
+from geneva_cli.kinematics.wheels.poses import PinPose, middle
 from geneva_cli.machine.rollers import places
-from geneva_cli.machine.wheels.classic import refuse_jam, rollers_max
-from geneva_cli.machine.wheels.gearing import Gearing, RollerPlace
-from geneva_cli.machine.wheels.poses import PinPose, middle
 from geneva_cli.numerics.angles import radians
 from geneva_cli.numerics.arrays import parameter
 from geneva_cli.numerics.jet import Jet, Number, sine_versine
 
 if TYPE_CHECKING:
-    from geneva_cli.machine.laws.law import Law
-    from geneva_cli.machine.motion import Motion
+    from geneva_cli.kinematics.laws.law import Law
+    from geneva_cli.kinematics.motion import Motion
 
 
 class LocalTransmission(NamedTuple):

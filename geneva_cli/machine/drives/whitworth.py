@@ -10,10 +10,10 @@ from __future__ import annotations
 from typing import NamedTuple
 
 from geneva_cli.errors import GenevaError, refuse
+from geneva_cli.kinematics.engagement import Peak, Vector
+from geneva_cli.kinematics.wheels.gearing import Gearing, RollerPlace
 from geneva_cli.machine.drives.pushed import PushedCrank
 from geneva_cli.machine.drives.transmission import LocalTransmission
-from geneva_cli.machine.engagement import Peak, Vector
-from geneva_cli.machine.wheels.gearing import Gearing, RollerPlace
 from geneva_cli.numerics.angles import radians, sin_cos_deg
 from geneva_cli.numerics.arrays import choose, library, parameter
 from geneva_cli.numerics.jet import Jet, Number, cosines_after, sin_cos, sine_versine_of
@@ -44,7 +44,7 @@ class SideCrankPeak(NamedTuple):
             return None
         import numpy as np
 
-        from geneva_cli.machine.wheels import side_crank_arrays as arrays
+        from geneva_cli.kinematics.wheels import side_crank_arrays as arrays
 
         peaks = {"velocity": arrays.velocity_peaks, "acceleration": arrays.acceleration_peaks}
         if quantity not in peaks:

@@ -20,11 +20,11 @@ from geneva_cli.curves.sphere import Region, dot, place
 from geneva_cli.curves.sphere_arcs import SphereArcs
 from geneva_cli.curves.sphere_hull import Cap, convex_hull
 from geneva_cli.errors import GenevaError
-from geneva_cli.parts.arm_sizes import arm_bore, bolts_between, eye_about, hub_and_eye, pin_hole
-from geneva_cli.parts.keyways import ParallelKey, key, reach
-from geneva_cli.parts.sphere.axles import refuse_wide
+from geneva_cli.layout.arm_sizes import arm_bore, bolts_between, eye_about, hub_and_eye, pin_hole
+from geneva_cli.layout.axles import refuse_wide
+from geneva_cli.layout.keyways import ParallelKey, key, reach
+from geneva_cli.outlines.sphere_wheel import POLE
 from geneva_cli.parts.sphere.crank import locked
-from geneva_cli.parts.sphere.wheel import POLE
 
 if TYPE_CHECKING:
     from geneva_cli.parts.sphere.shells import Shells

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from geneva_cli.curves.mass import MM, MassProperties, added, mass_properties
+from geneva_cli.layout.sphere_sizes import ball
 from geneva_cli.machine.mechanism import Mechanism
-from geneva_cli.parts.sphere.sizes import ball
+from geneva_cli.outlines.sphere_wheel import POLE
 from geneva_cli.parts.sphere.sphere_parts import wheel_hub, wheel_shell
-from geneva_cli.parts.sphere.wheel import POLE
 
 
 def wheel_body(mechanism: Mechanism) -> MassProperties:

@@ -14,10 +14,10 @@ import numpy as np
 
 from geneva_cli.curves.sphere import Region, Rotation, SphereArc, cross, opposite, place
 from geneva_cli.curves.sphere_hull import Cap
+from geneva_cli.layout.sphere_sizes import Ball, PartDoesNotFit
 from geneva_cli.numerics.tolerances import SAME_ANGLE
-from geneva_cli.parts.locking_rings import LOCK_FRACTIONS
-from geneva_cli.parts.sphere.sizes import Ball, PartDoesNotFit
-from geneva_cli.parts.sphere.wheel import POLE, QUARTER, edge_points
+from geneva_cli.outlines.locking_rings import LOCK_FRACTIONS
+from geneva_cli.outlines.sphere_wheel import POLE, QUARTER, edge_points
 
 if TYPE_CHECKING:
     from geneva_cli.numerics.jet import Array

@@ -6,10 +6,10 @@ import math
 
 from geneva_cli.curves.sphere import Region
 from geneva_cli.errors import GenevaError
+from geneva_cli.layout.sphere_sizes import Ball, PartDoesNotFit, ball
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.numerics.roots import boundary
 from geneva_cli.parts.sphere.crank import sectors
-from geneva_cli.parts.sphere.sizes import Ball, PartDoesNotFit, ball
 
 
 def fitted(mechanism: Mechanism, advice: bool = True) -> tuple[Ball, list[Region]]:

@@ -10,16 +10,16 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from geneva_cli.collisions.machine_parts import Pose, Stop
+from geneva_cli.collisions.touch import first_stops
 from geneva_cli.curves.sphere import Region, opposite, place
 from geneva_cli.curves.sphere_arcs import SphereArcs
+from geneva_cli.layout.assembly import Assembly
+from geneva_cli.layout.sphere_sizes import Ball
 from geneva_cli.numerics.tolerances import SAME_ANGLE
-from geneva_cli.parts.assembly import Assembly
+from geneva_cli.outlines.sphere_wheel import edge
 from geneva_cli.parts.sphere.crank import at_mid_motion
-from geneva_cli.parts.sphere.sizes import Ball
 from geneva_cli.parts.sphere.stops import WheelCaps, about, caps, polar, round_cap
-from geneva_cli.parts.sphere.wheel import edge
-from geneva_cli.parts.turn.machine_parts import Pose, Stop
-from geneva_cli.parts.turn.touch import first_stops
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray

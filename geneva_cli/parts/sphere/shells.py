@@ -8,14 +8,14 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from geneva_cli.curves.sphere import Region
+from geneva_cli.layout.assembly import Assembly, assembled
+from geneva_cli.layout.sizes import wall_min
+from geneva_cli.layout.sphere_sizes import Ball
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.numerics.tolerances import SAME_LENGTH
-from geneva_cli.parts.assembly import Assembly, assembled
-from geneva_cli.parts.outlines import CONTACT
-from geneva_cli.parts.sizes import wall_min
+from geneva_cli.outlines.outlines import CONTACT
 from geneva_cli.parts.sphere.fitted import fitted
 from geneva_cli.parts.sphere.gaps import BallGaps
-from geneva_cli.parts.sphere.sizes import Ball
 
 if TYPE_CHECKING:
     from geneva_cli.numerics.jet import Array

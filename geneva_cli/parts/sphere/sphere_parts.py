@@ -17,16 +17,16 @@ from geneva_cli.curves.shapes import Circle, Shape
 from geneva_cli.curves.sphere import axis_frame, place
 from geneva_cli.curves.sphere_hull import Cap
 from geneva_cli.errors import GenevaError
-from geneva_cli.parts.keyways import bore, key
-from geneva_cli.parts.missing import NamedParts
+from geneva_cli.layout.axles import crank_hub, refuse_wide
+from geneva_cli.layout.keyways import bore, key
+from geneva_cli.layout.missing import NamedParts
+from geneva_cli.layout.sphere_sizes import Ball
+from geneva_cli.outlines.sphere_wheel import POLE, web_angle, web_region, wheel_regions
+from geneva_cli.outlines.wheel_hub import AXIS, HUB
 from geneva_cli.parts.shafts import SHAFT
 from geneva_cli.parts.sphere.arm import CapArm, crank_arm, has_arm
-from geneva_cli.parts.sphere.axles import crank_hub, refuse_wide
 from geneva_cli.parts.sphere.crank import at_mid_motion
 from geneva_cli.parts.sphere.dial import dial_holes
-from geneva_cli.parts.sphere.sizes import Ball
-from geneva_cli.parts.sphere.wheel import POLE, web_angle, web_region, wheel_regions
-from geneva_cli.parts.wheel_hub import AXIS, HUB
 from geneva_cli.spec.tables import Size
 
 if TYPE_CHECKING:

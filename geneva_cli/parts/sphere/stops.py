@@ -14,9 +14,9 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
+from geneva_cli.collisions.touch import SLACK, WAYS, Touch, triangles, within
 from geneva_cli.curves.sphere_arcs import SphereArcs
 from geneva_cli.numerics.tolerances import SAME_ANGLE
-from geneva_cli.parts.turn.touch import SLACK, WAYS, Touch, triangles, within
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from geneva_cli.analysis.loads.cycle import Cycle
+from geneva_cli.loads.cycle import Cycle
 from geneva_cli.scene import Push
 from geneva_cli.study.animation.turn import MachineTurn, RollerPassage
 

@@ -11,18 +11,18 @@ import numpy as np
 
 from geneva_cli.curves.plates import Plate
 from geneva_cli.errors import GenevaError
-from geneva_cli.machine.engagement import Engagement
-from geneva_cli.machine.layout import Joint, Link
+from geneva_cli.kinematics.engagement import Engagement
+from geneva_cli.kinematics.layout import Joint, Link
+from geneva_cli.layout.groove import roller_in_groove
+from geneva_cli.layout.link_positions import links_at
 from geneva_cli.machine.mechanism import Mechanism
-from geneva_cli.parts.groove import roller_in_groove
-from geneva_cli.parts.link_positions import links_at
 from geneva_cli.parts.links import drawn_links
 from geneva_cli.scene import Bar, CarriedShapes, Place, Track
 from geneva_cli.study.animation.tracks import Moving, cut, resting, sampled, track
 
 if TYPE_CHECKING:
     from geneva_cli.numerics.jet import Array
-    from geneva_cli.parts.outlines import Outlines
+    from geneva_cli.outlines.outlines import Outlines
 
 ANGLE_ERROR = 1e-7  # rad, of wheel and crank: a tenth of the page's own error
 

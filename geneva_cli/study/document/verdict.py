@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from geneva_cli.analysis.loads.summary import missing
 from geneva_cli.design import Design
 from geneva_cli.document import BAD, Block, Grid, Heading, Prose, Row, TextList
+from geneva_cli.loads.summary import missing
 from geneva_cli.study.document.facts import capital
 from geneva_cli.study.document.rest import RemainingValues
 from geneva_cli.study.document.sources import sources

@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import Any
 
-from geneva_cli.analysis.loads.summary import NO_LOAD, QuantitySummary
 from geneva_cli.design import Design
 from geneva_cli.document import WARNS, Answer, Summary, SummaryLine
+from geneva_cli.loads.summary import NO_LOAD, QuantitySummary
 from geneva_cli.numerics.tolerances import TIE
 from geneva_cli.study.fields import pick
 from geneva_cli.study.summary.titles import counted, title_of

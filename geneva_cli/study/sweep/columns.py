@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from geneva_cli.study.quantities import group_of, in_batch
 from geneva_cli.verdict.quantities.designs import Designs
+from geneva_cli.verdict.quantities.names import group_of, in_batch
 
 if TYPE_CHECKING:
     from geneva_cli.machine.mechanism import Mechanism

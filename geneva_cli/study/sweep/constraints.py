@@ -10,7 +10,7 @@ from typing import NamedTuple, TypeGuard
 from geneva_cli.errors import GenevaError, cut
 from geneva_cli.numerics.arrays import N
 from geneva_cli.numerics.keeps import keeps
-from geneva_cli.study.quantities import WORDS
+from geneva_cli.verdict.quantities.names import WORDS
 
 
 class Constraint(NamedTuple):

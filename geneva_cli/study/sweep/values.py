@@ -9,9 +9,9 @@ from decimal import Decimal, InvalidOperation
 from typing import NamedTuple, TypeAlias, overload
 
 from geneva_cli.errors import GenevaError, cut
+from geneva_cli.spec.ranges import RangeText, range_text
 from geneva_cli.specfile.keys import is_whole
 from geneva_cli.specfile.settings import Setting, read_value
-from geneva_cli.study.ranges import RangeText, range_text
 
 Value: TypeAlias = float | int | str
 POINTS_MAX = 100_000_000  # rows of a sweep: some hours and some gigabytes

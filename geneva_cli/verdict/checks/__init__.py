@@ -26,7 +26,7 @@ from geneva_cli.verdict.checks.registry import (
 )
 
 if TYPE_CHECKING:
-    from geneva_cli.parts.model import PartsModel
+    from geneva_cli.drawings.model import PartsModel
 
 
 def checks(
@@ -54,7 +54,7 @@ def checks_turning(model: PartsModel) -> Iterator[Check]:
 
     A check that fails once fails in the end. Raises WorkLimit if the sampling takes too long.
     """
-    from geneva_cli.parts.turn.full_turn import turning
+    from geneva_cli.collisions.full_turn import turning
 
     for closer in turning(model.parts):
         yield from turn_checks(model.parts, closer)
@@ -87,7 +87,7 @@ def single_check(mechanism: Mechanism, name: str, model: PartsModel | None = Non
 
 
 def _proof(mechanism: Mechanism) -> PartsModel:
-    from geneva_cli.parts.model import PartsModel
+    from geneva_cli.drawings.model import PartsModel
 
     return PartsModel(mechanism)
 
@@ -101,7 +101,7 @@ def _parts(mechanism: Mechanism, model: PartsModel | None = None) -> Iterator[Ch
         why = f"not proved: wheels of more than {Z_DRAWN} slots are not drawn"
         yield Check("parts", None, "proved", None, None, why)
         return
-    from geneva_cli.parts.turn.gaps import WorkLimit
+    from geneva_cli.collisions.gaps import WorkLimit
 
     model = model or _proof(mechanism)
     try:

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
+from geneva_cli.outlines.outlines import Outlines
 from geneva_cli.parts.arm import CrankArm, crank_arm, has_arm, walls
-from geneva_cli.parts.outlines import Outlines
 from geneva_cli.verdict.checks.check import Check, at_least
 
 

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from geneva_cli.parts.outlines import Outlines
+from geneva_cli.outlines.outlines import Outlines
 from geneva_cli.verdict.checks.check import Check, compared
 
 

@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Callable
 
 from geneva_cli.errors import GenevaError
+from geneva_cli.outlines.outlines import Outlines
 from geneva_cli.parts.flat_parts import FlatParts
-from geneva_cli.parts.outlines import Outlines
 from geneva_cli.parts.sphere.shells import Shells
 from geneva_cli.parts.sphere.sphere_parts import SphereParts
 from geneva_cli.verdict.checks.check import Check, refused

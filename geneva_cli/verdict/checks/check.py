@@ -9,7 +9,7 @@ from geneva_cli.errors import GenevaError
 from geneva_cli.numerics.keeps import keeps
 
 if TYPE_CHECKING:
-    from geneva_cli.parts.turn.shaft_gap import ShaftGap
+    from geneva_cli.drawings.shaft_gap import ShaftGap
 
 # The reason why a failing check has no advice.
 NONE = "none of the changes of one value that were tried passes all checks"

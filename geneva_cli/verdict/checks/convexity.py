@@ -11,7 +11,7 @@ def gear_convexity(name: str, mechanism: Mechanism) -> Check | None:
     gears = mechanism.spec.drive.gears
     if not gears:
         return None
-    from geneva_cli.parts.gear_curves import convexity
+    from geneva_cli.layout.gear_curves import convexity
 
     least = convexity(gears)._asdict()[name.removesuffix("_gear_convexity")]
     return compared(name, least, "above", 0.0)

@@ -6,9 +6,9 @@ from itertools import combinations
 
 from geneva_cli.curves.distance import Polyarc
 from geneva_cli.curves.shapes import Circle, backwards
-from geneva_cli.parts.hole_walls import apart, beyond
-from geneva_cli.parts.outlines import Outlines
-from geneva_cli.parts.wheel import wheel_circles
+from geneva_cli.layout.hole_walls import apart, beyond
+from geneva_cli.outlines.outlines import Outlines
+from geneva_cli.outlines.wheel import wheel_circles
 from geneva_cli.verdict.checks.check import Check, compared
 
 

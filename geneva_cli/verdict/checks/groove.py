@@ -14,7 +14,7 @@ def groove_pressure(name: str, mechanism: Mechanism) -> Check | None:
     groove = mechanism.engagements[0].groove
     if groove is None:
         return None
-    from geneva_cli.parts.groove import greatest_pressure
+    from geneva_cli.layout.groove import greatest_pressure
 
     value, at_deg = greatest_pressure(groove)
     own_limit = mechanism.spec.limits.pressure_angle_max_deg

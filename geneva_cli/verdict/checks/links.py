@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from geneva_cli.errors import GenevaError
+from geneva_cli.outlines.outlines import Outlines
 from geneva_cli.parts.links import drawn_links, link_wall
-from geneva_cli.parts.outlines import Outlines
-from geneva_cli.parts.turn.planes import planes
+from geneva_cli.parts.planes import planes
 from geneva_cli.verdict.checks.check import Check, compared
 
 

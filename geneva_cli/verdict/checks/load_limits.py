@@ -17,7 +17,7 @@ def limited_load(name: str, mechanism: Mechanism) -> Check | None:
     limit = mechanism.spec.limits.as_dict()[name]
     if limit is None:
         return None
-    from geneva_cli.analysis.loads import loads  # who asks for the names alone needs none
+    from geneva_cli.loads import loads  # who asks for the names alone needs none
 
     peak = loads.greatest(mechanism, QUANTITIES[name])
     return compared(name, peak.max, "at most", limit, peak.at_deg)

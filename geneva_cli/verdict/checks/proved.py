@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from geneva_cli.parts.model import PartsModel
-from geneva_cli.parts.turn.certificate import Certificate, certificate, tolerance_mm, unproved_kind
-from geneva_cli.parts.turn.gaps import WorkLimit
-from geneva_cli.parts.turn.travel import UNKNOWN
+from geneva_cli.collisions.gaps import WorkLimit
+from geneva_cli.drawings.model import PartsModel
+from geneva_cli.outlines.certificate import Certificate, certificate, tolerance_mm, unproved_kind
+from geneva_cli.outlines.travel import UNKNOWN
 from geneva_cli.verdict.checks.check import Check, compared
 
 

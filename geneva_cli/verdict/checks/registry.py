@@ -13,10 +13,10 @@ from geneva_cli.spec.load_named import load_named
 from geneva_cli.verdict.checks.check import Check
 
 if TYPE_CHECKING:
+    from geneva_cli.collisions.full_turn import FullTurn
+    from geneva_cli.collisions.machine_parts import MachineParts
+    from geneva_cli.drawings.model import PartsModel
     from geneva_cli.machine.mechanism import Mechanism
-    from geneva_cli.parts.model import PartsModel
-    from geneva_cli.parts.turn.full_turn import FullTurn
-    from geneva_cli.parts.turn.machine_parts import MachineParts
 
 Checks: TypeAlias = dict[str, str]  # name -> module:function in this folder
 

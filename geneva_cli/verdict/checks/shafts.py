@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from geneva_cli.parts.crank import is_whole
+from geneva_cli.drawings.shaft_gap import gear_gap, shaft_gap
+from geneva_cli.layout.sizes import Sizes
+from geneva_cli.outlines.crank import is_whole
+from geneva_cli.outlines.outlines import Outlines
 from geneva_cli.parts.flat_parts import FlatParts
-from geneva_cli.parts.outlines import Outlines
-from geneva_cli.parts.sizes import Sizes
-from geneva_cli.parts.turn.shaft_gap import gear_gap, shaft_gap
 from geneva_cli.verdict.checks.check import Check, compared, gap
 
 

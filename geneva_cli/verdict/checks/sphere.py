@@ -5,12 +5,12 @@ from __future__ import annotations
 import math
 
 from geneva_cli.curves.round_holes import RoundHole
+from geneva_cli.drawings.sphere.shaft_gap import shaft_gap
+from geneva_cli.outlines.sphere_wheel import POLE
 from geneva_cli.parts.sphere.arm import crank_arm, has_arm
 from geneva_cli.parts.sphere.dial import dial_wall
-from geneva_cli.parts.sphere.shaft_gap import shaft_gap
 from geneva_cli.parts.sphere.shells import Shells
 from geneva_cli.parts.sphere.sphere_parts import SphereParts
-from geneva_cli.parts.sphere.wheel import POLE
 from geneva_cli.verdict.checks.check import Check, at_least, compared, gap
 
 

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from geneva_cli.parts.turn.full_turn import FullTurn
-from geneva_cli.parts.turn.machine_parts import MachineParts
+from geneva_cli.collisions.full_turn import FullTurn
+from geneva_cli.collisions.machine_parts import MachineParts
 from geneva_cli.verdict.checks.check import Check, compared
 
 

@@ -7,11 +7,11 @@ import math
 from geneva_cli.curves.distance import Polyarc
 from geneva_cli.curves.measure import turned
 from geneva_cli.curves.shapes import Arc, Line, Point, Segment, backwards, closed
-from geneva_cli.parts.crank import is_whole, rollers_gap
-from geneva_cli.parts.outlines import Outlines
+from geneva_cli.outlines.crank import is_whole, rollers_gap
+from geneva_cli.outlines.outlines import Outlines
+from geneva_cli.outlines.wheel_hub import wheel_hub
 from geneva_cli.parts.shafts import crank_hub
 from geneva_cli.parts.sphere.shells import Shells
-from geneva_cli.parts.wheel_hub import wheel_hub
 from geneva_cli.verdict.checks.check import Check, compared
 
 NO_WALL = {  # the meaning of a negative wall

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, TypeAlias, TypeVar
 import numpy as np
 
 if TYPE_CHECKING:
-    from geneva_cli.analysis.loads.forces import LoadCase
+    from geneva_cli.analysis.forces import LoadCase
     from geneva_cli.machine.mechanism import Mechanism
     from geneva_cli.numerics.arrays import Number
     from geneva_cli.numerics.jet import Array
@@ -47,7 +47,7 @@ class Designs:
     @cached_property
     def load_case(self) -> LoadCase:
         """The loads' parameters besides the motion."""
-        from geneva_cli.analysis.loads.forces import load_case  # quantities without loads need none
+        from geneva_cli.analysis.forces import load_case  # quantities without loads need none
 
         return load_case(self.machine)
 

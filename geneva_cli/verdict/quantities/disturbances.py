@@ -6,9 +6,9 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from geneva_cli.analysis.carried import inertia_kgm2
 from geneva_cli.analysis.change_of_sides import lasting_drag_Nm
 from geneva_cli.analysis.impacts import Impacts, entry_impacts, reversal_impacts
-from geneva_cli.analysis.loads.carried import inertia_kgm2
 from geneva_cli.analysis.tolerance.worst_effects import entry_jumps_worst, motion_plays, used
 from geneva_cli.analysis.vibration.vibration import Vibrations, design_vibrations
 

@@ -15,8 +15,8 @@ from geneva_cli.spec.tables import Limits, Load, RollerMaterial, Shaft, WheelMat
 from geneva_cli.verdict.checks.registry import PROOFS, every_check
 
 if TYPE_CHECKING:
+    from geneva_cli.drawings.model import PartsModel
     from geneva_cli.numerics.arrays import Number
-    from geneva_cli.parts.model import PartsModel
     from geneva_cli.verdict.quantities.designs import Columns, Designs
     from geneva_cli.verdict.report.values import Values
 

@@ -6,13 +6,13 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from geneva_cli.analysis.loads.loads import kinetic_power_W
-from geneva_cli.analysis.loads.means import load_means
-from geneva_cli.analysis.loads.quantities import REPORTED_PEAKS, known_quantities, multiples
-from geneva_cli.analysis.loads.sizing import sizings
-from geneva_cli.analysis.loads.summaries import load_peaks, load_summaries
 from geneva_cli.analysis.peak_search import worst_peaks
 from geneva_cli.analysis.positive_drive import positive_drives
+from geneva_cli.analysis.quantities import REPORTED_PEAKS, known_quantities, multiples
+from geneva_cli.loads.loads import kinetic_power_W
+from geneva_cli.loads.means import load_means
+from geneva_cli.loads.sizing import sizings
+from geneva_cli.loads.summaries import load_peaks, load_summaries
 from geneva_cli.numerics.arrays import parameter
 
 if TYPE_CHECKING:

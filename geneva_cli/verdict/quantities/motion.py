@@ -14,7 +14,7 @@ from geneva_cli.verdict.quantities.groups import RATES
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from geneva_cli.machine.engagement import WheelMotion
+    from geneva_cli.kinematics.engagement import WheelMotion
     from geneva_cli.machine.mechanism import Mechanism
     from geneva_cli.numerics.arrays import Array, N, Number
     from geneva_cli.verdict.quantities.designs import Columns, Designs

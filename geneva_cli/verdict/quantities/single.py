@@ -4,14 +4,14 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from geneva_cli.analysis.loads.cycle import cycle_of
-from geneva_cli.analysis.loads.sizing import WHEEL_INERTIA, sizing
-from geneva_cli.analysis.loads.summary import summaries
+from geneva_cli.loads.cycle import cycle_of
+from geneva_cli.loads.sizing import WHEEL_INERTIA, sizing
+from geneva_cli.loads.summary import summaries
 from geneva_cli.verdict.checks import checks, proofs
 from geneva_cli.verdict.checks.registry import PROOFS, every_check
 
 if TYPE_CHECKING:
-    from geneva_cli.parts.model import PartsModel
+    from geneva_cli.drawings.model import PartsModel
     from geneva_cli.verdict.report.values import Values
 
 

@@ -6,9 +6,9 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from geneva_cli.analysis.strength import pin as pins
-from geneva_cli.analysis.strength import roller, shafts
-from geneva_cli.analysis.strength.horn import horn_stresses
+from geneva_cli.analysis import pin as pins
+from geneva_cli.loads.strength import roller, shafts
+from geneva_cli.loads.strength.horn import horn_stresses
 from geneva_cli.verdict.quantities.under_load import under_load
 
 if TYPE_CHECKING:

@@ -9,16 +9,16 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from geneva_cli.analysis.loads.cycle import cycle_of
-from geneva_cli.analysis.loads.quantities import FORCE, PV
-from geneva_cli.analysis.loads.summaries import load_peaks
-from geneva_cli.analysis.strength import lock, roller, shafts
-from geneva_cli.parts.sizes import sized
+from geneva_cli.analysis.quantities import FORCE, PV
+from geneva_cli.layout.sizes import sized
+from geneva_cli.loads.cycle import cycle_of
+from geneva_cli.loads.strength import lock, roller, shafts
+from geneva_cli.loads.summaries import load_peaks
 from geneva_cli.verdict.lock_sizes import LockSizes, design_lock_sizes, lock_of
 
 if TYPE_CHECKING:
-    from geneva_cli.analysis.strength.lock import LockUnderTorque
-    from geneva_cli.analysis.strength.roller import SlotPassage
+    from geneva_cli.loads.strength.lock import LockUnderTorque
+    from geneva_cli.loads.strength.roller import SlotPassage
     from geneva_cli.numerics.jet import Array
     from geneva_cli.verdict.quantities.designs import Designs
 

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from geneva_cli.analysis.loads.cycle import cycle_of
-from geneva_cli.analysis.loads.summary import reversals_deg, summaries
-from geneva_cli.parts.model import PartsModel
+from geneva_cli.drawings.model import PartsModel
+from geneva_cli.loads.cycle import cycle_of
+from geneva_cli.loads.summary import reversals_deg, summaries
 from geneva_cli.verdict.report.values import Values
 
 

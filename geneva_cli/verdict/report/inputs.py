@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from geneva_cli.parts.model import PartsModel
+from geneva_cli.drawings.model import PartsModel
 from geneva_cli.verdict.quantities.groups import ECHOED, INPUTS
 from geneva_cli.verdict.report.values import Values
 

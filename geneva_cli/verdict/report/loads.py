@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import math
 
-from geneva_cli.analysis.loads import loads
-from geneva_cli.analysis.loads.carried import inertia_kgm2
-from geneva_cli.analysis.loads.quantities import REPORTED_PEAKS, STRESS
+from geneva_cli.analysis.carried import inertia_kgm2
 from geneva_cli.analysis.peaks import worst
-from geneva_cli.parts.model import PartsModel
+from geneva_cli.analysis.quantities import REPORTED_PEAKS, STRESS
+from geneva_cli.drawings.model import PartsModel
+from geneva_cli.loads import loads
 from geneva_cli.verdict.report.values import Values
 
 

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
+from geneva_cli.drawings.model import PartsModel
 from geneva_cli.errors import GenevaError
-from geneva_cli.parts.model import PartsModel
 from geneva_cli.verdict.quantities.groups import own_names
 from geneva_cli.verdict.report.values import Values
 

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from geneva_cli.parts.model import PartsModel
-from geneva_cli.parts.parts_list import FIRST, KINDS, parts_list
+from geneva_cli.drawings.model import PartsModel
+from geneva_cli.drawings.parts_list import FIRST, KINDS, parts_list
 from geneva_cli.table import Reading, rows_table
 from geneva_cli.verdict.report.values import Values
 

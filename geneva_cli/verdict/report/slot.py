@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from geneva_cli.analysis.positive_drive import positive_drive
-from geneva_cli.parts.model import PartsModel
+from geneva_cli.drawings.model import PartsModel
 from geneva_cli.verdict.report.values import Values
 
 

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from geneva_cli.analysis.vibration.answers import NUMBERS, values
 from geneva_cli.analysis.vibration.oscillator import required_oscillator
+from geneva_cli.drawings.model import PartsModel
 from geneva_cli.errors import GenevaError
-from geneva_cli.parts.model import PartsModel
 from geneva_cli.verdict.report.values import Values
 
 

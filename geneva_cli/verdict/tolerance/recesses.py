@@ -7,7 +7,7 @@ import math
 from geneva_cli.analysis.locking import Lock
 from geneva_cli.analysis.sphere_locking import SphereLock
 from geneva_cli.curves.shapes import Arc, Contour
-from geneva_cli.parts.outlines import Outlines
+from geneva_cli.outlines.outlines import Outlines
 from geneva_cli.parts.sphere.shells import Shells
 
 SAME = 1e-6  # fraction of the centre distance, or radians: nearer radii and angles are equal

@@ -22,9 +22,9 @@ from geneva_cli.analysis.tolerance.motion_error import WorstErrors, motion_error
 from geneva_cli.analysis.tolerance.random_machines import random_machines
 from geneva_cli.analysis.tolerance.spread import Spread, spread
 from geneva_cli.analysis.tolerance.worst_effects import entry_jumps_worst
+from geneva_cli.drawings.model import PartsModel
 from geneva_cli.errors import GenevaError, Notice, cut
 from geneva_cli.machine.mechanism import Mechanism
-from geneva_cli.parts.model import PartsModel
 from geneva_cli.verdict.tolerance.needed import RequiredClearances, required_clearances
 from geneva_cli.verdict.tolerance.recesses import locks, sphere_locks
 

@@ -7,9 +7,9 @@ from typing import Any
 
 from geneva_cli.analysis.tolerance.dimensions import Deviations, tolerances
 from geneva_cli.analysis.tolerance.spread import Spread
+from geneva_cli.drawings.model import PartsModel
 from geneva_cli.errors import GenevaError, Notice
 from geneva_cli.machine.mechanism import Mechanism
-from geneva_cli.parts.model import PartsModel
 from geneva_cli.spec.rules import POSITIVE, require_mm
 from geneva_cli.table import Table, record_table, rows_table
 from geneva_cli.verdict.tolerance.study import Study, study

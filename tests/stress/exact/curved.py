@@ -14,12 +14,12 @@ from exact.rates import SIGN, exactly, radians, variations
 from exact.table import LIMIT, strictly, ulps, unit
 from geneva_cli.analysis.peaks import peaks
 from geneva_cli.errors import GenevaError
-from geneva_cli.machine import registry
+from geneva_cli.kinematics import registry
+from geneva_cli.kinematics.law_motion import MOTION_MIN
+from geneva_cli.layout.slot_profile import slot
+from geneva_cli.layout.slot_sampling import nodes
 from geneva_cli.machine import spec as given
-from geneva_cli.machine.law_motion import MOTION_MIN
 from geneva_cli.machine.mechanism import build
-from geneva_cli.parts.slot_profile import slot
-from geneva_cli.parts.slot_sampling import nodes
 
 
 def law_files(table, sample):

@@ -13,8 +13,8 @@ from witness import mp
 from words import Spec, Wheel, points
 
 from exact.rates import DIGITS, NEAR_1, angle_rates, radians
-from geneva_cli.machine import registry
-from geneva_cli.machine.registry import DRIVES
+from geneva_cli.kinematics import registry
+from geneva_cli.kinematics.registry import DRIVES
 from geneva_cli.spec.tables import Size
 
 

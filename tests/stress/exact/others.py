@@ -14,7 +14,7 @@ from exact.rates import NEAR_1, radians
 from exact.table import strictly, ulps, unit
 from geneva_cli.analysis.peaks import peaks
 from geneva_cli.errors import GenevaError
-from geneva_cli.machine.drives.drive import Drive
+from geneva_cli.kinematics.drive import Drive
 from geneva_cli.numerics.tolerances import TIE
 from geneva_cli.spec.schema import fields
 

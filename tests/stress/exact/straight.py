@@ -11,8 +11,8 @@ from exact.rates import BESIDE, SIGN, angle_rates, chain, exactly, radians, vari
 from exact.table import strictly, ulps, unit
 from geneva_cli.analysis.peaks import peaks
 from geneva_cli.errors import GenevaError
+from geneva_cli.kinematics.wheels.classic_arrays import ClassicArrays
 from geneva_cli.machine.mechanism import build
-from geneva_cli.machine.wheels.classic_arrays import ClassicArrays
 
 
 def ratio_files(table, sample):

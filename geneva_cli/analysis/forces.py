@@ -1,0 +1,242 @@
+"""Forces between roller and slot, as formulas for jets of one angle or of many.
+
+t is the unit tangent of the slot, away from the wheel's axis. The normal n = d i t points towards
+the wall that bears: d is 1 if the torque T drives the wheel, and -1 if it holds the wheel back. The
+contact point is C = M + r n. The wheel's balance about its axis is
+
+    |T| = N |C x n + f s C x t| = N [M . t + f s (d (M x t) - r)]
+
+with M x t = 0 in a radial slot. s is the sign of v, the speed at which the roller, fixed to its
+body, rubs along the wall:
+
+    v = M' . t - d r (rate of that body - rate of the wheel).
+"""
+
+from __future__ import annotations
+
+import math
+from functools import cached_property
+from typing import Generic, NamedTuple
+
+from geneva_cli.analysis.carried import inertia_kgm2, resisting_torque_Nm
+from geneva_cli.analysis.contact import Contact
+from geneva_cli.analysis.pin import pin_diameter_mm
+from geneva_cli.machine.mechanism import Mechanism
+from geneva_cli.machine.spec import Spec
+from geneva_cli.numerics.angles import omega
+from geneva_cli.numerics.arrays import all_true, choose, designs_of, library
+from geneva_cli.numerics.jet import Jet, Number, V
+
+NEGLIGIBLE = 1e-12  # fraction of a torque, of a motion, or of a lever over L that is rounding
+
+
+class LoadCase(NamedTuple):
+    """The data that the loads depend on besides the motion; floats, or (m, 1) for m designs."""
+
+    speed_rad_s: float  # of the input
+    inertia_Nm: float  # inertia times the square of the input speed
+    resists_Nm: float  # torque at the wheel that resists its motion
+    L: float  # metres
+    radius: float  # of the roller, over L
+    friction: float  # ratio of the force along the wall to the force on it
+    efficiency: float
+    # square of the stress on a flat wall, MPa² per newton; None without a face width
+    hertz: float | None
+    design: int = 0  # the design's number in its batch: (m, 1) in a batch
+
+    @property
+    def designs(self) -> int:
+        """The number of designs in the load case."""
+        return designs_of(self.design)
+
+    @property
+    def rubs(self) -> bool:
+        """Return True if there is friction along the wall in any of the designs."""
+        return not all_true(self.friction == 0.0)
+
+
+def load_case(mechanism: Mechanism) -> LoadCase:
+    """The load case of a machine's spec."""
+    spec = mechanism.spec
+    load, size = spec.load, spec.size
+    w = omega(spec.drive.n_rpm)
+    hertz = None
+    if size.face_width_mm is not None:
+        # p0² = N E* / (pi b R_e)
+        modulus = contact_modulus_GPa(spec) * 1e3
+        hertz = modulus / (math.pi * size.face_width_mm * mechanism.roller_radius_mm)
+    return LoadCase(
+        w,
+        inertia_kgm2(spec) * w * w,
+        resisting_torque_Nm(spec),
+        mechanism.center_distance_mm / 1000.0,
+        mechanism.roller_radius_mm / mechanism.center_distance_mm,
+        rubbing(mechanism),
+        load.efficiency,
+        hertz,
+        mechanism.design,
+    )
+
+
+def rubbing(mechanism: Mechanism) -> float:
+    """Ratio of the force along the wall to the force on it, for a roller that moves along it.
+
+    A roller fixed to its pin rubs in the slot, with the coefficient itself. A roller that turns on
+    its pin rolls, held back by the pin. The load passes a circle with the pin's radius times sin
+    rho, tan rho being the coefficient (the friction circle of a journal). So its angle to the
+    wall's normal has the sine: sin rho times pin over roller. The sliding speed on the pin is
+    smaller in the same ratio. In either case the friction work is N times the speed along the wall
+    times the value returned here.
+
+    >>> from geneva_cli import External, Load
+    >>> from geneva_cli.machine.mechanism import build
+    >>> from geneva_cli.machine.spec import Spec
+    >>> turning = Load(torque_Nm=1.0, friction=0.1, friction_at="pin")  # on a pin half as thick
+    >>> round(rubbing(build(Spec(External(6), load=turning))), 6)
+    0.049814
+    """
+    load = mechanism.spec.load
+    if all_true(load.friction == 0.0) or load.rubs_in_slot:
+        return load.friction
+    thickness = 0.5 * pin_diameter_mm(mechanism) / mechanism.roller_radius_mm
+    m = library(thickness, load.friction)
+    sine = thickness * load.friction / m.hypot(1.0, load.friction)
+    turning = sine / m.sqrt((1.0 - sine) * (1.0 + sine))
+    coefficient: float = choose(thickness == 1.0, load.friction, turning)
+    return coefficient
+
+
+def contact_modulus_GPa(spec: Spec) -> float:
+    """E* of roller on wheel, 1/E* = (1 - nu1²)/E1 + (1 - nu2²)/E2."""
+    both = (spec.material_wheel, spec.material_roller)
+    return 1.0 / sum((1.0 - m.poisson_ratio**2) / m.youngs_modulus_GPa for m in both)
+
+
+class QuantityValue(NamedTuple, Generic[V]):
+    """A quantity, and the margin that must be above 0 for the quantity to be bounded.
+
+    Without a margin the quantity is always bounded. ``sign`` is that of the infinity that replaces
+    an unbounded value.
+    """
+
+    value: V
+    margin: V | None = None
+    sign: Number = 1.0
+
+
+def value(quantity: V) -> Number:
+    """The value of a jet; a value unchanged."""
+    return quantity.c[0] if isinstance(quantity, Jet) else quantity
+
+
+def sliding(at: Contact[V], drives: Number, radius: float) -> V:
+    """Speed at which the roller rubs along the wall, over L, per input radian."""
+    return at.along - at.spin * (drives * radius)
+
+
+def wheel_torque(case: LoadCase, at: Contact[V]) -> V:
+    """The torque that the wheel needs for inertia and resistance, N m."""
+    return at.acceleration * case.inertia_Nm + case.resists_Nm
+
+
+def gain(case: LoadCase, at: Contact[V], drives: Number, slides: Number) -> V:
+    """Ratio of the input torque to the wheel's, times ``grip``, so that it is always finite."""
+    lost = sliding(at, drives, case.radius) * at.touches * (case.friction * slides * drives)
+    return at.velocity * _grip(case, at, drives, slides) + lost
+
+
+def _grip(case: LoadCase, at: Contact[V], drives: Number, slides: Number) -> V:
+    if not case.rubs:
+        return at.lever
+    rub = at.touches * (case.friction * slides)
+    return at.lever + rub * (at.offset * drives - at.arm * case.radius)
+
+
+class KnownValues(NamedTuple, Generic[V]):
+    """Torque and sliding, if they are known from the signs already."""
+
+    torque: V | None = None
+    sliding: V | None = None
+
+
+class Forces(Generic[V]):
+    """The forces for a wheel torque of the sign ``drives`` and a sliding of the sign ``slides``.
+
+    They are jets, or their values, each computed at first use. Forces are unbounded where ``grip``
+    <= 0: there friction alone holds the wheel. Stresses are also unbounded where ``edge`` <= 0:
+    there the wall is more sharply curved than the roller.
+    """
+
+    at: Contact[V]
+
+    def __init__(
+        self,
+        case: LoadCase,
+        at: Contact[V],
+        drives: Number,
+        slides: Number,
+        known: KnownValues[V] | None = None,
+    ) -> None:
+        self.case, self.at, self.drives, self.slides = case, at, drives, slides
+        self.known: KnownValues[V] = known or KnownValues()
+
+    @cached_property
+    def torque(self) -> V:
+        """The torque that the wheel needs, N m."""
+        torque = self.known.torque
+        return wheel_torque(self.case, self.at) if torque is None else torque
+
+    @cached_property
+    def sliding(self) -> V:
+        """Speed at which the roller rubs along the wall, over L, per input radian."""
+        speed = self.known.sliding
+        return sliding(self.at, self.drives, self.case.radius) if speed is None else speed
+
+    @cached_property
+    def grip(self) -> V:
+        """Torque on the wheel over L times the pin force."""
+        return _grip(self.case, self.at, self.drives, self.slides)
+
+    @cached_property
+    def force(self) -> V:
+        """The force on the pin, along the wall's normal, N."""
+        return self.torque * self.drives / (self.grip * self.case.L)
+
+    @cached_property
+    def shaft(self) -> V:
+        """Torque on the input shaft before the efficiency, N m."""
+        shaft = self.torque * self.at.velocity
+        if not self.case.rubs:
+            return shaft
+        rub = self.at.touches * (self.case.friction * self.slides)
+        return shaft + self.force * rub * self.sliding * self.case.L
+
+    @cached_property
+    def edge(self) -> V | None:
+        """1 - curvature of the bearing wall's pitch curve times the roller's radius."""
+        # A wall at the roller's radius r from its pitch curve, of curvature k towards the wall, has
+        # 1/R_e = 1/r + k/(1 - k r) = 1/(r (1 - k r)).
+        if self.case.hertz is None:
+            return None
+        return 1.0 - self.at.curvature * (self.drives * self.case.radius)
+
+    @cached_property
+    def square(self) -> V | None:
+        """The square of the contact stress, MPa²; None without a face width."""
+        if self.case.hertz is None or self.edge is None:
+            return None
+        return self.force * self.at.touches * self.case.hertz / self.edge
+
+
+def stress_margin(friction: V | None, edge: V | None) -> V | None:
+    """The lesser of the known margins that bound the contact stress: of friction and of edges."""
+    return edge if friction is None or edge is None else lesser(friction, edge)
+
+
+def lesser(a: V, b: V) -> V:
+    """The lesser of two jets, or of their values, element by element."""
+    first = value(a) < value(b)
+    if not isinstance(a, Jet) or not isinstance(b, Jet):
+        out: V = choose(first, a, b)
+        return out
+    return type(a)([choose(first, c, d) for c, d in zip(a.c, b.c, strict=True)])

@@ -1,0 +1,251 @@
+"""Motion and loads at an input angle while the wheel moves, with signs and in units.
+
+They follow from the forces of ``forces``, and are the columns of the cycle's table and summary.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from functools import cached_property
+from typing import TYPE_CHECKING, Generic
+
+import numpy as np
+
+from geneva_cli.analysis.contact import Contact, contact_values
+from geneva_cli.analysis.forces import (
+    Forces,
+    KnownValues,
+    LoadCase,
+    QuantityValue,
+    stress_margin,
+    value,
+)
+from geneva_cli.numerics.jet import Jet, Number, V, sqrt
+
+if TYPE_CHECKING:
+    from geneva_cli.numerics.jet import Array
+
+# Names of an instant's quantities.
+INSTANT_QUANTITIES = (
+    *("omega_rad_s", "alpha_rad_s2", "wheel_torque_Nm", "pin_force_N", "stress_squared"),
+    *("sliding_m_s", "input_torque_Nm", "power_W", "friction_W", "wheel_bearing_N"),
+    *("crank_bearing_squared", "guide_squared", "drives", "slides", "feeds"),
+    *("grip", "friction_margin", "edge"),
+)
+
+
+class Instant(Generic[V]):
+    """Motion and loads for known signs of wheel torque, sliding and input torque.
+
+    Each quantity is a jet by the input angle in radians, or the jets' values (numbers or arrays).
+    It is computed at first use.
+
+    The wheel turns in the positive direction while it indexes, and a torque that drives it is
+    positive. A pin force is positive on the wall that drives the wheel, and negative on the wall
+    that holds it back. A sliding speed is positive away from the wheel's axis. The input's torque
+    and power are positive where the input drives the wheel, and negative where the wheel drives it.
+    """
+
+    at: Contact[V]
+    forces: Forces[V]
+
+    def __init__(
+        self,
+        case: LoadCase,
+        at: Contact[V],
+        drives: Number,
+        slides: Number,
+        feeds: Number,
+        *,
+        known: KnownValues[V] | None = None,
+    ) -> None:
+        self.case, self.at = case, at
+        self.drives = drives  # sign of the wheel's torque
+        self.slides = slides  # sign of the sliding
+        self.feeds = feeds  # sign of the input's torque
+        self.forces = Forces(case, at, drives, slides, known)
+
+    @classmethod
+    def known(cls, quantities: Mapping[str, object]) -> Instant[Array]:
+        """An instant whose quantities ``INSTANT_QUANTITIES`` are known already."""
+        known: Instant[Array] = cls.__new__(Instant)
+        vars(known).update(quantities)
+        return known
+
+    def quantities(self) -> dict[str, Number | V | None]:
+        """Each of ``INSTANT_QUANTITIES``; None for a quantity that the machine lacks."""
+        return {name: getattr(self, name) for name in INSTANT_QUANTITIES}
+
+    @cached_property
+    def omega_rad_s(self) -> V:
+        """The wheel's speed, rad/s."""
+        return self.at.velocity * self.case.speed_rad_s
+
+    @cached_property
+    def alpha_rad_s2(self) -> V:
+        """The wheel's acceleration, rad/s²."""
+        w = self.case.speed_rad_s
+        return self.at.acceleration * (w * w)
+
+    @cached_property
+    def wheel_torque_Nm(self) -> V:
+        """Torque at the wheel, N m: I alpha plus resistance."""
+        return self.forces.torque
+
+    @cached_property
+    def pin_force_N(self) -> V:
+        """Pin force on the wall that bears, N, with its sign."""
+        return self.forces.force * self.drives
+
+    @cached_property
+    def stress_squared(self) -> V | None:
+        """The square of the contact stress, MPa²; None without a face width."""
+        return self.forces.square
+
+    @cached_property
+    def sliding_m_s(self) -> V:
+        """Sliding speed along the wall of a roller that is fixed to its pin, m/s."""
+        return self._rubs * self.at.touches
+
+    @cached_property
+    def input_torque_Nm(self) -> V:
+        """Torque of the input shaft, N m, losses included."""
+        # The efficiency counts where the input drives. Where the wheel drives, the losses are not
+        # known to exist and reduce nothing: a brake must hold all of the torque.
+        factor = 0.5 * (1.0 + self.feeds) / self.case.efficiency + 0.5 * (1.0 - self.feeds)
+        return self.forces.shaft * factor
+
+    @cached_property
+    def power_W(self) -> V:
+        """Power of the input, W: its torque times its speed."""
+        return self.input_torque_Nm * self.case.speed_rad_s
+
+    @cached_property
+    def friction_W(self) -> V:
+        """Friction power of the contact, W."""
+        return self.forces.force * self._rubs * (self._rub * self.slides)
+
+    @cached_property
+    def wheel_bearing_N(self) -> V:
+        """Size of the force on the wheel, and so of its shaft's reaction, N."""
+        return self.forces.force * (1.0 + self._rub * self._rub) ** 0.5
+
+    @cached_property
+    def crank_bearing_squared(self) -> V:
+        """The square of the reaction on the shaft whose crank carries the roller or link, N²."""
+        if (
+            self.at.reactions is None
+        ):  # the crank is the roller's body, and its drive gives it a couple
+            return self.wheel_bearing_N * self.wheel_bearing_N
+        return self._reaction(0)
+
+    @cached_property
+    def guide_squared(self) -> V | None:
+        """The square of the guide's reaction (rocker, slider, groove, fixed gear), N²; or None."""
+        return None if self.at.reactions is None else self._reaction(1)
+
+    @cached_property
+    def grip(self) -> V:
+        """Margin of forces: where it is not above 0, friction alone holds the wheel."""
+        return self.forces.grip
+
+    @cached_property
+    def friction_margin(self) -> V | None:
+        """Margin of quantities that only friction makes unbounded; None without friction."""
+        return self.grip if self.case.rubs else None
+
+    @cached_property
+    def edge(self) -> V | None:
+        """Margin of the stress: where it is not above 0, the wall is sharper than the roller."""
+        return self.forces.edge
+
+    @property
+    def crank_bearing_N(self) -> V:
+        """Size of the force on the crank's shaft, and so of its bearings' reaction, N."""
+        return _root(self.crank_bearing_squared)
+
+    @property
+    def guide_force_N(self) -> V | None:
+        """Size of the guide's force, N; None without a guide."""
+        return None if self.guide_squared is None else _root(self.guide_squared)
+
+    @property
+    def stress(self) -> QuantityValue[V]:
+        """The square of the contact stress, MPa², and its margin."""
+        assert self.stress_squared is not None  # there is a face width
+        return QuantityValue(self.stress_squared, stress_margin(self.friction_margin, self.edge))
+
+    @property
+    def pressure_speed(self) -> QuantityValue[V]:
+        """The square of p v, greatest Hertz pressure times sliding, W²/m⁴, and its margin."""
+        pv = self.stress.value * (self.sliding_m_s * self.sliding_m_s * 1e12)
+        return QuantityValue(pv, stress_margin(self.friction_margin, self.edge))
+
+    @property
+    def guide(self) -> QuantityValue[V]:
+        """The square of the guide's force, N², and its margin."""
+        assert self.guide_squared is not None  # there is a guide
+        return QuantityValue(self.guide_squared, self.grip)
+
+    @property
+    def pin_force(self) -> QuantityValue[V]:
+        """The pin force, N, and its margin and sign where unbounded."""
+        return QuantityValue(self.pin_force_N, self.grip, self.drives)
+
+    @property
+    def shaft(self) -> QuantityValue[V]:
+        """The input's torque, N m, and the margin that friction leaves."""
+        return QuantityValue(self.input_torque_Nm, self.friction_margin)
+
+    @cached_property
+    def _rubs(self) -> V:
+        """Speed at which the roller rubs along the wall, m/s."""
+        return self.forces.sliding * (self.case.L * self.case.speed_rad_s)
+
+    @property
+    def _rub(self) -> Number:
+        """Ratio of the force along the wall to the force on it."""
+        return self.case.friction * value(self.at.touches)
+
+    def _reaction(self, joint: int) -> V:
+        """The square of the reaction of a joint that holds the roller's body.
+
+        The pin pushes the wall along d i t + f s t; about the pin's centre that force also has a
+        couple.
+        """
+        assert self.at.reactions is not None
+        normal, tangent, couple = self.at.reactions
+        rub = self._rub * self.slides
+        turn = rub * self.drives * self.case.radius
+        x, y = (
+            normal[joint][i] * self.drives + tangent[joint][i] * rub - couple[joint][i] * turn
+            for i in (0, 1)
+        )
+        force = self.forces.force
+        return force * force * (x * x + y * y)
+
+
+def _root(square: V) -> V:
+    return sqrt(square) if isinstance(square, Jet) else np.sqrt(square)
+
+
+def values(instant: Instant[Jet]) -> Instant[Array]:
+    """The instant with values in place of jets."""
+    return Instant(
+        instant.case, contact_values(instant.at), instant.drives, instant.slides, instant.feeds
+    )
+
+
+def bounded(here: Instant[Array]) -> Instant[Array]:
+    """Values with infinity where a force is unbounded, and 0 where no force is needed there."""
+    is_held = here.grip > 0.0
+    bound = np.where(here.wheel_torque_Nm == 0.0, 0.0, np.inf)
+    endless = ["wheel_bearing_N", "crank_bearing_squared"]
+    endless += [] if here.guide_squared is None else ["guide_squared"]
+    endless += [] if here.friction_margin is None else ["input_torque_Nm", "power_W", "friction_W"]
+    out = here.quantities()
+    out |= {name: np.where(is_held, getattr(here, name), bound) for name in endless}
+    out["pin_force_N"] = np.where(is_held, here.pin_force_N, bound * here.drives)
+    if here.edge is not None and here.stress_squared is not None:
+        out["stress_squared"] = np.where(is_held & (here.edge > 0.0), here.stress_squared, bound)
+    return Instant.known(out)

@@ -1,0 +1,174 @@
+"""Loads at mid-motion of curved slots, where slopes nearby are lost to rounding.
+
+There the pin reverses in a cusp of its pitch curve, or crosses the radius. Stretches stop short of
+it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import TYPE_CHECKING, NamedTuple, TypeAlias
+
+import numpy as np
+
+from geneva_cli.analysis.contact import NEAR_CUSP, Contact, contact
+from geneva_cli.analysis.forces import (
+    NEGLIGIBLE,
+    LoadCase,
+    QuantityValue,
+    gain,
+    sliding,
+    value,
+    wheel_torque,
+)
+from geneva_cli.analysis.instant import Instant, bounded, values
+from geneva_cli.kinematics.engagement import Engagement
+from geneva_cli.kinematics.pitch_curve import retraces
+from geneva_cli.numerics.angles import DEGREE
+from geneva_cli.numerics.arrays import array
+from geneva_cli.numerics.jet import Jet, Number
+
+if TYPE_CHECKING:
+    from geneva_cli.numerics.arrays import Mask
+    from geneva_cli.numerics.jet import Array
+
+
+# contact, signs of torque, of sliding and of the input's torque -> the quantities
+Rows: TypeAlias = Callable[[Contact[Jet], Number, Number, Number], list[QuantityValue[Jet]]]
+
+
+class MidMotionValues(NamedTuple):
+    """Values of one of the quantities, of n designs: (n,) each."""
+
+    row: int  # the quantity's number
+    x: Array
+    value: Array  # infinite if unbounded; NaN if undefined
+
+
+def at_mid_motion(
+    engagement: Engagement, case: LoadCase, rows: Rows, n: int = 1
+) -> list[MidMotionValues]:
+    """The values of ``rows`` at mid-motion, and nearer to it than any stretch.
+
+    Where the pin crosses the radius, its lever is 0 and a torque takes an unbounded force. Instead
+    of 0/0 the limits from both sides are returned. At a cusp the wall turns away from the roller on
+    one side. A quantity without margin on the other side goes to 0 there. So does a quantity of a
+    torque that changes sign nearer to mid-motion than the stretches.
+    """
+    middle, near = np.zeros(n), NEAR_CUSP * np.reshape(engagement.entry_deg, (-1, 1))
+    out = []
+    with np.errstate(all="ignore"):
+        at = contact(engagement, np.zeros((n, 1)))
+        torque = value(wheel_torque(case, at))
+        loaded = _is_loaded(engagement, case, torque)
+        near_places = [np.broadcast_to(x, (n, 1)) for x in (near, -near)]
+        limits = [_limits(engagement, case, rows, x) for x in near_places]
+        # The tangent points away from the axis at entry and exit; at a cusp both are one.
+        crosses = np.broadcast_to(~np.asarray(retraces(engagement)), (n, 1))
+        for sense in (1.0, -1.0):
+            here = at._replace(
+                along=at.along * sense, offset=at.offset * sense, curvature=at.curvature * sense
+            )
+            for k, row in enumerate(rows(here, *_signs(case, here))):
+                known = np.broadcast_to(value(row.value), (n, 1))
+                margin = np.inf if row.margin is None else value(row.margin)
+                there = (margin > NEGLIGIBLE) & np.isfinite(known)
+                away = np.isinf(margin) & np.isfinite(known)
+                out.append(MidMotionValues(k, middle, np.where(away, known, np.nan)[:, 0]))
+                # on this side friction alone holds the wheel, whatever the torque
+                by_friction = margin < -NEGLIGIBLE
+                for limit in limits:
+                    none = np.where(by_friction, np.nan, limit[k])
+                    none = np.where(loaded, np.inf * row.sign, none)
+                    limited = np.where(there, known, none)
+                    limited = np.where(crosses, limited, np.nan) if sense < 0.0 else limited
+                    out.append(MidMotionValues(k, middle, limited[:, 0]))
+        for x in near_places:
+            out += _without_torque(engagement, case, rows, torque, x)
+    return out
+
+
+def at_crossing(engagement: Engagement, case: LoadCase) -> dict[str, Array] | None:
+    """The quantities of ``Instant`` at mid-motion, where the pin crosses the slot without a torque.
+
+    They are arrays of one, with the limits of entry. None in all other cases.
+    """
+    if not engagement.slot.curved or retraces(engagement):
+        return None
+    with np.errstate(all="ignore"):
+        middle, near = np.zeros(1), np.array([NEAR_CUSP * engagement.entry_deg])
+        at, before, h = contact(engagement, middle), contact(engagement, near, 2), np.radians(near)
+        if np.any(_is_loaded(engagement, case, value(wheel_torque(case, at)))):
+            return None
+        # the torque's own sign is rounding, and where friction leaves no lever its force is 0/0
+        here, jets = (Instant(case, x, *_signs(case, before)) for x in (at, before))
+        open_ = np.abs(value(here.grip)) <= NEGLIGIBLE
+        known, near_values = bounded(values(here)), bounded(values(jets))
+        out = {}
+        for name, jet in jets.quantities().items():
+            if isinstance(jet, Jet):
+                one, other = getattr(known, name), getattr(near_values, name)
+                limit = np.where(np.isfinite(other), _limit(jet, h), other)
+                out[name] = np.where(open_ & ~np.isfinite(one), limit, one)
+        return out
+
+
+def _limit(jet: Jet, h: Array) -> Array:
+    """The value at mid-motion of a quantity known h radians after it."""
+    return array(jet.c[0] - h * (jet.c[1] - h * jet.c[2]))
+
+
+def _is_loaded(engagement: Engagement, case: LoadCase, torque: Number) -> Mask:
+    """Return True if the wheel's torque at mid-motion is more than rounding."""
+    common = case.inertia_Nm * np.abs(engagement.motion(0.5 * engagement.entry_deg, 2).c[2])
+    loaded: Mask = np.abs(torque) > NEGLIGIBLE * (common + case.resists_Nm)
+    return loaded
+
+
+def _signs(case: LoadCase, at: Contact[Jet]) -> tuple[Array, Array, Array]:
+    """Signs of the wheel's torque, of the sliding and of the input's torque."""
+    drives = np.copysign(1.0, value(wheel_torque(case, at)))
+    slides = np.copysign(1.0, value(sliding(at, drives, case.radius)))
+    return drives, slides, np.copysign(1.0, value(gain(case, at, drives, slides)) * drives)
+
+
+def _limits(engagement: Engagement, case: LoadCase, rows: Rows, x: Array) -> list[Array]:
+    """The limits of 0/0 at mid-motion, from values near it."""
+    at = contact(engagement, x, 2)
+    return [_limit(row.value, np.radians(x)) for row in rows(at, *_signs(case, at))]
+
+
+def _without_torque(
+    engagement: Engagement, case: LoadCase, rows: Rows, middle: Number, near: Array
+) -> list[MidMotionValues]:
+    """The values where the torque changes sign between mid-motion and the nearest stretch."""
+
+    def torque(x: Array) -> tuple[Array, Array]:
+        _, _, acceleration, jerk = engagement.motion(x, 3).derivatives()
+        left = acceleration * case.inertia_Nm + case.resists_Nm
+        return array(left), array(jerk * (case.inertia_Nm * DEGREE))
+
+    end = torque(near)[0]
+    changes = np.broadcast_to(middle * end < 0.0, near.shape)[:, 0]
+    if not changes.any():
+        return []
+    x = near * (middle / (middle - end))
+    for _ in range(2):  # Newton steps from a chord of 1e-4 of the motion: the rest is rounding
+        left, rise = torque(x)
+        x = np.clip(x - left / rise, np.minimum(near, 0.0), np.maximum(near, 0.0))
+    at = contact(engagement, x)
+    _, slides, feeds = _signs(case, at)
+    unforced = at._replace(lever=at.lever + np.inf)  # the rest of the torque takes no force
+    out = []
+    for drives in (1.0, -1.0):  # it is 0 on both sides
+        pairs = zip(*(rows(here, drives, slides, feeds) for here in (at, unforced)), strict=True)
+        for k, (row, none) in enumerate(pairs):
+            known = np.broadcast_to(value(none.value), near.shape)[:, 0]
+            margin = np.inf if row.margin is None else value(row.margin)
+            there = (
+                np.broadcast_to(margin > NEGLIGIBLE, near.shape)[:, 0]
+                & np.isfinite(known)
+                & changes
+            )
+            out.append(MidMotionValues(k, x[:, 0], np.where(there, known, np.nan)))
+    return out

@@ -1,0 +1,138 @@
+"""Division of the motion into stretches in which its loads are smooth.
+
+Loads have a kink or a jump where a sign changes, and at breaks of the motion itself. The signs are
+those of the torque (the roller then bears on the other wall), of the sliding (friction reverses)
+and of the input's torque.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from itertools import pairwise
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+
+from geneva_cli.analysis.contact import NEAR_CUSP
+from geneva_cli.analysis.forces import NEGLIGIBLE, LoadCase
+from geneva_cli.errors import GenevaError
+from geneva_cli.kinematics.engagement import Engagement
+from geneva_cli.numerics.angles import DEGREE
+from geneva_cli.numerics.roots import root
+from geneva_cli.numerics.search import Stretches
+
+if TYPE_CHECKING:
+    from geneva_cli.numerics.arrays import Whole
+    from geneva_cli.numerics.jet import Array
+
+
+def spans_of(engagement: Engagement, n: int) -> list[tuple[Array, Array]]:
+    """Ends of the smooth parts of a motion, one after the other: (n, 1) each."""
+    places = [
+        np.broadcast_to(np.asarray(x, dtype=float), (n, 1)) for x in engagement.motion.breaks_deg
+    ]
+    out = []
+    for i, (a, b) in enumerate(zip(places, places[1:], strict=False)):
+        start = np.nextafter(a, np.inf) if i else a
+        end = np.nextafter(b, -np.inf) if i + 2 < len(places) else b
+        if engagement.slot.curved:
+            start = np.where(a == 0.0, NEAR_CUSP * engagement.exit_deg, start)
+            end = np.where(b == 0.0, NEAR_CUSP * engagement.entry_deg, end)
+        out.append((start, end))
+    return out
+
+
+def mirror_images(pieces: Stretches) -> Whole:
+    """The number of each stretch's mirror image in symmetric motions, or its own number."""
+    design, (a, b), every = pieces.design, pieces.x, np.arange(len(pieces.design))
+    count = np.bincount(design, minlength=1)
+    start = np.cumsum(count) - count
+    other = 2 * start[design] + count[design] - 1 - every
+    # the ends of a mirror image may be off by 1e-9 of the stretch, some rounding
+    close = 1e-9 * (b - a)
+    alike = (np.abs(a + b[other]) <= close) & (np.abs(b + a[other]) <= close)
+    images: Whole = np.where(alike & alike[other], other, every)
+    return images
+
+
+def to_mid_motion(engagement: Engagement, stretches: Stretches, n: int) -> Stretches:
+    """Stretches extended to the mid-motion of a curved slot, where searches stop short."""
+    if not engagement.slot.curved:
+        return stretches
+    x = stretches.x
+    for end in (engagement.entry_deg, engagement.exit_deg):
+        near = np.broadcast_to(np.ravel(NEAR_CUSP * end), n)[stretches.design]
+        x = np.where(x == near, 0.0, x)
+    return stretches._replace(x=x)
+
+
+class Stretch(NamedTuple):
+    """Input angles between which the loads are smooth, and the signs that they have there."""
+
+    start: float
+    end: float
+    drives: float  # sign of the wheel's torque
+    slides: float  # sign of the sliding
+    feeds: float  # sign of the input's torque: 1 if it drives the machine, -1 if it is driven
+
+
+def whole(
+    engagement: Engagement, case: LoadCase, kinds: Sequence[str], result: Stretches
+) -> list[Stretch]:
+    """The stretches of one design's motion without gaps, from those of a search."""
+    signs = dict(zip(kinds, np.where(result.positive, 1.0, -1.0), strict=True))
+    one = np.ones(len(result.design))
+    of = (signs.get(kind, one).tolist() for kind in ("drives", "slides", "feeds"))
+    every = [Stretch(*row) for row in zip(*result.x.tolist(), *of, strict=True)]
+    pieces = every[:1]
+    for piece, (last, span) in zip(every[1:], pairwise(result.span), strict=True):
+        # only signs that do not matter here divide them
+        if span == last and piece[2:] == pieces[-1][2:]:
+            pieces[-1] = pieces[-1]._replace(end=piece.end)
+        else:
+            pieces.append(piece)
+    cuts = [engagement.entry_deg]
+    cuts += [_between(engagement, case, *both) for both in pairwise(pieces)]
+    cuts.append(engagement.exit_deg)
+    placed = zip(pieces, pairwise(cuts), strict=True)
+    return [p._replace(start=a, end=b) for p, (a, b) in placed if a < b]
+
+
+def _between(engagement: Engagement, case: LoadCase, before: Stretch, after: Stretch) -> float:
+    """The place between two stretches: a break, or a change of sign near it."""
+    a, b = before.end, after.start
+    if b - a > NEAR_CUSP * engagement.motion_deg * 1e-3 and before.drives != after.drives:
+
+        def torque(travel: float) -> tuple[float, float]:
+            _, _, epsilon, rise = engagement.motion(a + travel, 3).scalars()
+            return epsilon * case.inertia_Nm + case.resists_Nm, rise * case.inertia_Nm * DEGREE
+
+        if torque(0.0)[0] * torque(b - a)[0] < 0.0:
+            return a + root(torque, 0.0, b - a)
+    return min(max(a, 0.0), b) if a * b <= 0.0 else float(on_breaks(np.array([a]), engagement)[0])
+
+
+def on_breaks(x: Array, engagement: Engagement) -> Array:
+    """Places of designs, replaced by the breaks that they equal apart from rounding: (..., n)."""
+    near = NEGLIGIBLE * np.ravel(engagement.motion_deg)
+    for place in engagement.motion.breaks_deg:
+        at = np.ravel(place)
+        x = np.where(np.abs(x - at) <= near, at, x)
+    return x
+
+
+def refuse_rounding(engagement: Engagement, fastest: float) -> None:
+    """Raise GenevaError for a motion that is too fast for the digits of its angles.
+
+    ``fastest`` is its greatest velocity.
+    """
+    furthest = max(abs(engagement.entry_deg), abs(engagement.exit_deg))
+    fraction = fastest * math.ulp(furthest) * DEGREE / (2.0 * engagement.half_step)
+    if fraction > 1e-10:  # a step between two adjacent angles: the loads keep six digits
+        raise GenevaError(
+            f"the wheel moves {fastest:.2g} times as fast as the input. The last digit of the "
+            f"input angle is {fraction:.1g} of its step, so the loads would be rounding. Make the "
+            "drive more even (elliptical gears: an eccentricity up to 0.999999)",
+            ("drive", "kind"),
+        )

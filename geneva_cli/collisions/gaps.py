@@ -1,0 +1,258 @@
+"""The gaps between wheel, crank and rollers at given positions."""
+
+from __future__ import annotations
+
+import copy
+import math
+from functools import cached_property
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from geneva_cli.collisions.angular_index import AngularIndex, half_angle
+from geneva_cli.collisions.contacts import candidates
+from geneva_cli.collisions.machine_parts import Pose, Stop
+from geneva_cli.collisions.stops import Stops
+from geneva_cli.curves.distance import Polyarc
+from geneva_cli.curves.shapes import Contour, backwards
+from geneva_cli.errors import GenevaError
+from geneva_cli.layout.assembly import Assembly
+from geneva_cli.layout.sizes import Sizes
+from geneva_cli.numerics.tolerances import SAME_LENGTH
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    from geneva_cli.numerics.jet import Array
+
+NEAR = 0.02  # of the centre distance: wider gaps are returned as this
+SAGITTA = 2e-6  # of the centre distance: greatest deviation of an arc's samples from the arc
+TOUCH = 1e-7  # of the locking disc: a smaller overlap counts as touching
+WORK = 1e8  # greatest number of distances between points and pieces in a full turn: about 5 s
+BLOCK = 1 << 19  # points of the wheel that are computed together, so that they fit into the cache
+LONGEST = 0.02  # of the centre distance: greatest distance of samples on a line
+
+
+class WorkLimit(GenevaError):
+    """Error for a full turn that would take too long."""
+
+
+class Gaps:
+    """The gaps between one machine's wheel, crank and rollers at any positions."""
+
+    def __init__(self, assembly: Assembly, sizes: Sizes, wheel: Contour, crank: list[Contour]):
+        self.assembly, self.sizes = assembly, sizes
+        self.wheel = Polyarc([wheel if assembly.sign > 0.0 else backwards(wheel)])
+        self.near = NEAR * assembly.L
+        self.left = math.inf
+        self._sector()
+        self.crank = Polyarc(crank) if crank else None
+
+    def with_crank(self, crank: list[Contour]) -> Gaps:
+        """Return the gaps of this wheel and these rollers with another crank's outline."""
+        out = copy.copy(self)
+        vars(out).pop("_stops", None)
+        out.crank = Polyarc(crank) if crank else None
+        return out
+
+    def begin(self) -> None:
+        """Count work from here on; raise WorkLimit when it exceeds WORK."""
+        self.left = WORK
+
+    def _work(self, count: int) -> None:
+        self.left -= count
+        if self.left < 0.0:
+            raise WorkLimit(
+                f"the full turn is not proved: it takes more than {WORK:.0e} distances between "
+                "parts with so many pieces or such small features; a larger roller or horn takes "
+                "less"
+            )
+
+    def _sector(self) -> None:
+        """Reduce a wheel whose slots are all equal to one slot and its neighbours."""
+        # the outline of an internal wheel runs clockwise
+        count, sense = len(self.assembly.slots), self.assembly.sign
+        repeats = _repeats(self.wheel, count, SAME_LENGTH * self.assembly.L, sense)
+        self.pitch = math.tau / count if repeats else 0.0
+        middle = np.arctan2(self.wheel.y0 + self.wheel.y1, self.wheel.x0 + self.wheel.x1)
+        reach = math.asin(min(1.0, (self.near + self.sizes.roller) / self.sizes.rim))
+        keep = np.flatnonzero(np.abs(middle) <= 1.5 * self.pitch + 2.0 * reach)
+        self.around = self.wheel.subset(keep) if self.pitch else self.wheel
+
+    def repeats(self, count: int) -> bool:
+        """Return True if the parts coincide with themselves after one slot and 1/``count`` turn."""
+        alike = self.crank is None or _repeats(self.crank, count, SAME_LENGTH * self.assembly.L)
+        return bool(self.pitch) and alike
+
+    def _to_wheel(self, points: Array, reach: float) -> Array:
+        """Return the distance of points in the wheel's frame from its outline, as ``signed``."""
+        whole, at = self.wheel, points
+        if self.pitch:
+            slot = np.round(np.arctan2(points[:, 1], points[:, 0]) / self.pitch)
+            whole, at = self.around, turned_points(points, -self.pitch * slot)
+        near = whole.near(at, reach)
+        self._work(len(at) * len(near))
+        out = near.signed(at)
+        # Beyond this distance the nearest piece may have been left out, and the sign may be wrong.
+        far = np.abs(out) > reach
+        if far.any():
+            self._work(int(far.sum()) * len(whole))
+            out[far] = whole.signed(at[far])
+        return out
+
+    def pose(self, input_deg: Array) -> Pose:
+        """Return the positions at input angles (n,), degrees."""
+        pins = [self.assembly.pin(i, input_deg) for i in range(len(self.assembly.rollers))]
+        crank = self.assembly.crank(input_deg, pins[0])
+        return Pose(self.assembly.wheel(input_deg), crank, np.stack(pins, axis=1))
+
+    def gap(self, pose: Pose, lead: Array, near: float) -> Array:
+        """Return the smallest gap, mm (n,), with the wheel turned on by ``lead`` radians."""
+        out: Array = np.minimum(
+            self.locking(pose, lead, near), self.rollers(pose, lead, near).min(axis=1)
+        )
+        return out
+
+    def rollers(self, pose: Pose, lead: Array | float = 0.0, near: float | None = None) -> Array:
+        """Return the gap of each roller, mm (n, m), with the wheel turned on by ``lead`` radians.
+
+        Gaps wider than ``near``, by default NEAR * L, are returned as ``near``.
+        """
+        near = self.near if near is None else near
+        turn = -(pose.wheel + lead)
+        columns: list[Array] = [
+            self._roller(turned_points(pose.pins[:, i], turn), near)
+            for i in range(len(self.assembly.rollers))
+        ]
+        out: Array = np.column_stack(columns)
+        return out
+
+    def _roller(self, centres: Array, near: float) -> Array:
+        """Return the gap of a roller centred at points in the wheel's frame."""
+        r, sign = self.sizes.roller, self.assembly.sign
+        far = sign * (np.hypot(*centres.T) - self.sizes.rim) - r
+        out: Array = np.minimum(far, near)
+        close = far < near
+        if close.any():
+            out[close] = np.minimum(self._to_wheel(centres[close], r + near) - r, near)
+        return out
+
+    def stops(self, pose: Pose, most: float, close: float) -> tuple[Stop, Stop]:
+        """Return the stops of the wheel, turned back and on; see ``Stops.first``."""
+        self._work(2 * len(pose.wheel) * self._stops.pairs)
+        return self._stops.first(pose, most, close)
+
+    @cached_property
+    def _stops(self) -> Stops:
+        each = len(self.wheel) // len(self.assembly.slots)
+        one = self.wheel.subset(np.arange(each)) if self.pitch else self.wheel
+        return Stops(one, self.pitch or math.tau, self.crank, self.assembly.L, self.sizes.roller)
+
+    def locking(self, pose: Pose, lead: Array | float = 0.0, near: float | None = None) -> Array:
+        """Return the gap between the outlines of crank and wheel, mm (n,); see ``rollers``."""
+        near = self.near if near is None else near
+        if self.crank is None:
+            return np.full(len(pose.wheel), near)
+        turn = pose.wheel + lead
+        # Points of the wheel against the crank ...
+        axis = self._axis(turn)
+        self._work(len(axis) * len(self.wheel))
+        reach, (places, size) = self.sizes.lock + near, self._pieces
+        nearby = places.within(-turn, half_angle(reach + size, self.assembly.L))
+        owner, points = candidates(self.wheel, nearby, self.crank, axis, pose.crank - turn, reach)
+        seen = turned_points(points - axis[owner], (turn - pose.crank)[owner])
+        self._work(len(seen) * len(self.crank))
+        out = _least(len(turn), owner, self.crank.signed(seen), near)
+        # ... and corners of the crank against the wheel.
+        x, y = self.crank.x0, self.crank.y0
+        angle = pose.crank - turn
+        c, s = np.cos(angle)[:, None], np.sin(angle)[:, None]
+        qx, qy = axis[:, :1] + x * c - y * s, axis[:, 1:] + x * s + y * c
+        inward = self.assembly.sign * (np.hypot(qx, qy) - self.sizes.rim)
+        owner, which = np.nonzero(inward < near)
+        points = np.column_stack((qx[owner, which], qy[owner, which]))
+        if len(points):
+            signed = self._to_wheel(points, self.near)
+            out = np.minimum(out, _least(len(turn), owner, signed, near))
+        return out
+
+    def swept(self, number: int, step_deg: float, every: int = 1) -> tuple[Array, Array]:
+        """Return the wheel's points that enter the locking disc during one motion, as x and y, mm.
+
+        They are in the crank's frame. The wheel is placed at steps of ``step_deg`` degrees of the
+        input, or at each ``every``-th of them.
+        """
+        at = swept_deg(self.assembly, number, step_deg)[::every]
+        turn, pose = self.assembly.wheel(at), self.assembly.crank(at)
+        step = max(1, BLOCK // len(self._wheel_points[0]))
+        blocks = [
+            self._within_disc(turn[i : i + step], pose[i : i + step])
+            for i in range(0, len(at), step)
+        ]
+        x, y = zip(*blocks, strict=True)
+        return np.concatenate(x), np.concatenate(y)
+
+    def _within_disc(self, turn: Array, pose: Array) -> tuple[Array, Array]:
+        """Return the wheel's points inside the locking disc, in the crank's frame, as x and y."""
+        reach = self.sizes.lock * (1.0 - TOUCH)
+        # Only points near the direction of the crank's axis can be within reach of it.
+        points, places = self._wheel_points
+        owner, which = places.within(-turn, half_angle(reach, self.assembly.L))
+        px, py = points.T
+        ax, ay = self._axis(turn).T
+        x, y = px[which] - ax[owner], py[which] - ay[owner]
+        inside = np.flatnonzero(x * x + y * y < reach * reach)
+        x, y, owner = x[inside], y[inside], owner[inside]
+        c, s = np.cos(turn - pose)[owner], np.sin(turn - pose)[owner]
+        return x * c - y * s, x * s + y * c
+
+    @cached_property
+    def _wheel_points(self) -> tuple[Array, AngularIndex]:
+        """Points along the wheel's outline that come near the locking disc, (n, 2)."""
+        L = self.assembly.L
+        points = self.wheel.samples(SAGITTA * L, LONGEST * L)
+        points = points[np.hypot(*points.T) >= L - self.sizes.lock]
+        return points, AngularIndex(np.arctan2(points[:, 1], points[:, 0]))
+
+    @cached_property
+    def _pieces(self) -> tuple[AngularIndex, float]:
+        """Directions of the pieces of the wheel's outline, and the size of the largest."""
+        return AngularIndex(np.arctan2(self.wheel.oy, self.wheel.ox)), float(self.wheel.size.max())
+
+    def _axis(self, turn: Array) -> Array:
+        """Return the crank's axis in the wheel's frame, (n, 2)."""
+        out: Array = self.assembly.L * np.column_stack((np.cos(turn), -np.sin(turn)))
+        return out
+
+
+def swept_deg(assembly: Assembly, number: int, step_deg: float) -> Array:
+    """Return input angles of a motion, at most ``step_deg`` degrees apart."""
+    engagement, behind = assembly.motions[number]
+    count = max(2, math.ceil(engagement.motion_deg / step_deg)) + 1
+    return behind + np.linspace(engagement.entry_deg, engagement.exit_deg, count)
+
+
+def _repeats(outline: Polyarc, count: int, near: float, sense: float = 1.0) -> bool:
+    """Return True if the outline coincides with itself when turned by 1/``count`` turn."""
+    each, rest = divmod(len(outline), count)
+    if rest:
+        return False
+    corners = np.column_stack((outline.x0, outline.y0))
+    angle = np.full(len(outline), math.tau / count * sense)
+    same = np.abs(turned_points(np.roll(corners, each, axis=0), angle) - corners).max() < near
+    bends = np.column_stack((outline.sense, outline.cos_half))
+    return bool(same and np.abs(np.roll(bends, each, axis=0) - bends).max() < SAME_LENGTH)
+
+
+def turned_points(points: Array, angle: Array) -> Array:
+    """Return points (n, 2), each turned about the origin by its own angle, radians."""
+    c, s = np.cos(angle), np.sin(angle)
+    return np.column_stack(
+        (points[:, 0] * c - points[:, 1] * s, points[:, 0] * s + points[:, 1] * c)
+    )
+
+
+def _least(count: int, owner: NDArray[np.intp], values: Array, most: float) -> Array:
+    out = np.full(count, most)
+    np.minimum.at(out, owner, values)
+    return out

@@ -1,0 +1,221 @@
+"""The wheel's play through a turn: the angle that it can be turned until parts touch.
+
+Slot and lock hold the wheel alternately. Where one takes over from the other, and in a slot that is
+wider than its roller, the wheel has some play. The play must be small. A wheel that is off by its
+play must be pushed into line, not blocked.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from functools import reduce
+from itertools import groupby
+from operator import or_
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+
+from geneva_cli.collisions.free_angles import search_deg, touching, wheel_stops
+from geneva_cli.collisions.machine_parts import MachineParts
+from geneva_cli.numerics.arrays import rising
+from geneva_cli.numerics.tolerances import SAME_INPUT_DEG
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    from geneva_cli.numerics.jet import Array
+
+CHANGE_DEG = 15.0  # of the input, on either side of entry and exit: lock and roller change over
+ENDS = 24  # positions there
+DWELL = 5  # positions in the rest of a dwell
+MOTION = 15  # positions in the rest of a motion; odd, so that mid-motion is one
+AROUND = 5  # parts into which an interval is divided about a peak
+CLOSER = 9  # rounds of refinement; 5**-9 of some degrees is a millionth
+SMALL = 1e-3  # degrees: the interval over which a roller's speed is computed
+NARROW = 1e-6  # degrees: shorter intervals are not divided
+NEARLY = 0.8  # of the greatest: around a lower local maximum no greater play is expected
+MOST = 4  # intervals that are divided in a round for one peak
+JUMP = 30.0  # times the roller's travel: a rim that moves farther is not pushed by the roller
+
+
+class Play(NamedTuple):
+    """The wheel's play back and on, degrees, at ascending input angles.
+
+    ``resting`` is True where the wheel rests, ``guided`` where a roller's centre is past the
+    mouth's corners of its slot. ``speed`` is the roller's in the wheel's frame, mm per degree.
+    ``back_push`` and ``on_push`` are pressure angles, degrees, where a roller stops the wheel; 0
+    where the lock does.
+    """
+
+    input_deg: Array
+    back: Array
+    on: Array
+    resting: NDArray[np.bool_]
+    guided: NDArray[np.bool_]
+    speed: Array
+    back_push: Array
+    on_push: Array
+
+    @property
+    def both(self) -> Array:
+        """The smaller play of both directions: a slot that drives from one wall has none."""
+        out: Array = np.minimum(self.back, self.on)
+        return out
+
+    @property
+    def either(self) -> Array:
+        """The larger play of both directions."""
+        out: Array = np.maximum(self.back, self.on)
+        return out
+
+
+class Window(NamedTuple):
+    """A motion, or the dwell after it: the input angles at its ends, and the motion's number."""
+
+    start: float
+    end: float
+    motion: int
+    rests: bool
+
+
+def windows(parts: MachineParts) -> Iterator[Window]:
+    """Yield the motions and dwells of a turn."""
+    assembly, motions = parts.assembly, parts.assembly.motions
+    for i, (engagement, behind) in enumerate(motions):
+        after, later = motions[(i + 1) % len(motions)]
+        turns = assembly.span_deg if i + 1 == len(motions) else 0.0
+        entry, exit_ = behind + engagement.entry_deg, behind + engagement.exit_deg
+        following = later + turns + after.entry_deg
+        yield Window(entry, exit_, i, False)
+        if following - exit_ > SAME_INPUT_DEG:
+            yield Window(exit_, following, i, True)
+
+
+def no_play() -> Play:
+    """Return the play at no positions."""
+    none, never = np.zeros(0), np.zeros(0, dtype=bool)
+    return Play(none, none, none, never, never, none, none, none)
+
+
+def plays(parts: MachineParts, fits: bool) -> Iterator[Play]:
+    """Yield the play at a grid of positions, then refined where it is greatest or closes fastest.
+
+    ``fits`` says that no parts overlap in the positions of the ideal motion.
+    """
+    play = _play_at(parts, _places(parts), fits)
+    yield play
+    for _ in range(CLOSER):
+        more = rising(np.concatenate([*_peaks(parts, play), *_closing(parts, play)]))
+        if not len(more):
+            break
+        play = _merged(play, _play_at(parts, more, fits))
+    yield play
+
+
+def push_deg(parts: MachineParts, play: Play) -> Array:
+    """Return the pressure angle, degrees, at which the wheel is pushed into line; 0 if it is not.
+
+    It belongs to the intervals between positions. Where the play shrinks as the crank turns,
+    something pushes the wheel. If a roller at the mouth of its slot does, this is the angle between
+    their common normal and the direction in which the wheel's corner moves. A play that ends
+    abruptly means that a corner blocks: 90 degrees.
+    """
+    step = np.diff(play.input_deg)
+    moved = 0.5 * (play.speed[1:] + play.speed[:-1]) * step
+    free = ~(play.guided[:-1] | play.guided[1:])
+    pushes = np.zeros(len(step))
+    for edge, push in ((play.back, play.back_push), (play.on, play.on_push)):
+        closing = parts.sizes.rim * np.radians(-np.diff(edge))
+        angle = np.where(closing > JUMP * moved, 90.0, push[1:])
+        known = np.radians(edge[:-1]) > touching(parts)
+        pushes = np.maximum(pushes, np.where(free & known & (closing > 0.0), angle, 0.0))
+    return pushes
+
+
+def _places(parts: MachineParts) -> Array:
+    """Return input angles of a turn, dense where lock and roller change over."""
+    close = np.concatenate(([0.0], np.geomspace(0.01, 1.0, ENDS)))
+    places = []
+    for a, b, _, rests in windows(parts):
+        near = close * min(CHANGE_DEG, 0.5 * (b - a))
+        places += [a + near, np.linspace(a, b, (DWELL if rests else MOTION) + 2)[1:-1], b - near]
+    return rising(np.concatenate(places))
+
+
+def _play_at(parts: MachineParts, at: Array, fits: bool) -> Play:
+    assembly = parts.assembly
+    back, on = wheel_stops(parts, at, fits)
+    resting, guided = np.zeros(len(at), dtype=bool), np.zeros(len(at), dtype=bool)
+    speed = np.zeros(len(at))
+    last = assembly.start_deg + assembly.span_deg
+    for motion, spans in groupby(windows(parts), key=lambda window: window.motion):
+        inside = [
+            (w, (at >= w.start - SAME_INPUT_DEG) & (at <= w.end + SAME_INPUT_DEG)) for w in spans
+        ]
+        here = np.flatnonzero(reduce(or_, [mask for _, mask in inside]))
+        if not len(here):
+            continue
+        x = at[here]
+        low, high = np.maximum(x - SMALL, assembly.start_deg), np.minimum(x + SMALL, last)
+        before, after = np.split(parts.in_wheel(motion, np.concatenate((low, high))), 2)
+        moved = np.linalg.norm(after - before, axis=1) / (high - low)
+        speed[here] = np.maximum(speed[here], moved)
+        for window, mask in inside:
+            if window.rests:
+                resting |= mask
+            elif mask.any():
+                guided[mask] |= parts.past_mouth(motion, at[mask]) > -SAME_INPUT_DEG * assembly.L
+    known = touching(parts)
+    back_push, on_push = (np.where(s.lead > known, np.degrees(s.pressure), 0.0) for s in (back, on))
+    return Play(
+        at,
+        np.degrees(back.lead),
+        np.degrees(on.lead),
+        resting,
+        guided & ~resting,
+        speed,
+        back_push,
+        on_push,
+    )
+
+
+def _merged(a: Play, b: Play) -> Play:
+    order = np.argsort(np.concatenate((a.input_deg, b.input_deg)), kind="stable")
+    return Play(*[np.concatenate(both)[order] for both in zip(a, b, strict=True)])
+
+
+def _cut(play: Play, intervals: NDArray[np.intp]) -> Array:
+    """Return positions that divide intervals, numbered by their first ends, into equal parts."""
+    last = len(play.input_deg) - 2
+    i = rising(intervals[(intervals >= 0) & (intervals <= last)])
+    low, high = play.input_deg[i], play.input_deg[i + 1]
+    wide = (high - low > NARROW)[:, None]
+    fraction = np.arange(1, AROUND) / AROUND
+    cuts: Array = (low[:, None] + (high - low)[:, None] * fraction)[wide.ravel()].ravel()
+    return cuts
+
+
+def _peaks(parts: MachineParts, play: Play) -> Iterator[Array]:
+    """Yield positions next to the greatest plays, in slots and elsewhere."""
+    least, most = math.degrees(touching(parts)), search_deg(parts)
+    for edge in (play.back, play.on, play.both):
+        for where in (play.guided, ~play.guided):
+            value = np.where(where & (edge < most) & (edge > least), edge, -1.0)
+            before, after = np.append(-1.0, value[:-1]), np.append(value[1:], -1.0)
+            top = np.flatnonzero(
+                (value > 0.0)
+                & (value >= before)
+                & (value >= after)
+                & (value > NEARLY * value.max())
+            )
+            top = top[np.argsort(-value[top], kind="stable")][:MOST]
+            yield _cut(play, np.concatenate((top - 1, top)))
+
+
+def _closing(parts: MachineParts, play: Play) -> Iterator[Array]:
+    """Yield positions where the wheel's play closes fastest."""
+    angle = push_deg(parts, play)
+    if angle.max() > 0.0:
+        top = np.argsort(-angle, kind="stable")[:MOST]
+        yield _cut(play, np.concatenate((top - 1, top, top + 1)))

@@ -1,0 +1,108 @@
+"""Proof that a gap stays above a bound at every input angle, by halving intervals."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING, NamedTuple, Protocol
+
+import numpy as np
+
+if TYPE_CHECKING:
+    from geneva_cli.layout.assembly import Assembly
+    from geneva_cli.numerics.jet import Array
+
+FIRST = 32  # intervals at first
+MOST = 20_000  # intervals of one pair of parts: ten times what the designs take; under a second
+BACK = 1e-12  # radians: the wheel's angle is rounded by less; a wheel that turns back more is seen
+
+
+class Intervals(NamedTuple):
+    """Intervals of the input angle, and how far crank and wheel are at most from their middles.
+
+    The angles are greatest at the ends, because neither crank nor wheel turns back.
+    """
+
+    start: Array  # degrees of the input, (n,)
+    end: Array
+    crank: Array  # radians
+    wheel: Array
+
+    @property
+    def middle(self) -> Array:
+        """Input angles in the middle, degrees."""
+        out: Array = 0.5 * (self.start + self.end)
+        return out
+
+
+class Bounds(NamedTuple):
+    """The gap in the middle of each interval, mm, and a proved lower bound of it throughout."""
+
+    middle: Array
+    least: Array
+
+
+class Pair(Protocol):
+    """Two parts, whose gap is bounded on intervals."""
+
+    def __call__(self, on: Intervals) -> Bounds:
+        """Return the bounds of the gap on intervals."""
+
+
+class Open(NamedTuple):
+    """An interval of input angles, degrees, on which the gap was not proved.
+
+    ``gap_mm`` is the gap in its middle, ``least_mm`` the proved lower bound on it.
+    """
+
+    start_deg: float
+    end_deg: float
+    gap_mm: float
+    least_mm: float
+
+
+class Settled(NamedTuple):
+    """A lower bound of the gap, mm, the number of intervals, and one that was left, if any."""
+
+    least: float
+    intervals: int
+    open: Open | None
+
+
+def settled(assembly: Assembly, pair: Pair, ends: tuple[float, float], target: float) -> Settled:
+    """Return a lower bound of a pair's gap between two input angles, at least ``target`` mm.
+
+    Intervals are halved until the bound on each is at least ``target``. Without success the most
+    doubtful interval is returned as open.
+    """
+    cuts = np.linspace(*ends, FIRST + 1)
+    start, end = cuts[:-1], cuts[1:]
+    least, count = math.inf, 0
+    while len(start):
+        count += len(start)
+        bounds = pair(intervals(assembly, start, end))
+        closed = bounds.least >= target
+        least = min(least, float(bounds.least[closed].min(initial=math.inf)))
+        start, end = start[~closed], end[~closed]
+        collides = bounds.middle[~closed] < target
+        if collides.any() or count + 2 * len(start) > MOST:
+            known = bounds.middle if collides.any() else bounds.least
+            i = int(np.argmin(known[~closed]))
+            values = (float(each[~closed][i]) for each in bounds)
+            return Settled(least, count, Open(float(start[i]), float(end[i]), *values))
+        middle = 0.5 * (start + end)
+        start, end = np.concatenate((start, middle)), np.concatenate((middle, end))
+    return Settled(least, count, None)
+
+
+def intervals(assembly: Assembly, start: Array, end: Array) -> Intervals:
+    """Return intervals of the input angle, with the turn of crank and wheel on them.
+
+    Where the wheel turns back, the ends do not bound its turn. A whole turn does: no point moves
+    farther than twice its radius.
+    """
+    at = (start, 0.5 * (start + end), end)
+    crank = np.unwrap([assembly.crank(x) for x in at], axis=0)
+    wheel = np.array([assembly.wheel(x) for x in at])
+    steps = np.diff(wheel, axis=0)
+    turn = np.where((steps < -BACK).any(axis=0), math.tau, steps.max(axis=0))
+    return Intervals(start, end, np.abs(np.diff(crank, axis=0)).max(axis=0), turn)

@@ -1,0 +1,193 @@
+"""The parts that ``geneva profile`` writes: as tables of points, and as drawings to cut.
+
+A new part is one function, and one line here.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+from geneva_cli.errors import GenevaError, cut, few, nearest
+from geneva_cli.spec.load_named import load_named
+from geneva_cli.spec.rules import Range, require_mm
+from geneva_cli.table import Table
+
+if TYPE_CHECKING:
+    from geneva_cli.curves.drawing import Drawing
+    from geneva_cli.curves.sheet import Sheet
+    from geneva_cli.drawings.model import PartsModel
+    from geneva_cli.machine.mechanism import Mechanism
+
+
+class Part(NamedTuple):
+    """The functions that make a part, each as ``module:function``."""
+
+    table: str | None = None  # its points, if no drawing is requested
+    drawing: str | None = None
+    sphere: str | None = None  # its points for a spherical wheel
+    cut: bool = False  # True if it is cut out of a plate
+    sheet: str | None = None  # as a drawing sheet with dimensions
+    alone: bool = False  # True if it is drawn without the outlines of wheel and crank
+    in_front: bool = False  # True if it belongs to a first wheel, in front of the crank
+    flat: str | None = None  # its drawing or sheet, laid flat, for a spherical wheel
+
+
+PARTS = {
+    "slot": Part("layout.slot_sampling:profile_table", "drawings.part_drawings:slot"),
+    "wheel": Part(
+        drawing="drawings.part_drawings:wheel",
+        sphere="layout.meridians:meridians_table",
+        cut=True,
+        flat="drawings.sphere.drawings:wheel",
+    ),
+    "crank": Part(
+        drawing="drawings.part_drawings:crank", cut=True, flat="drawings.sphere.drawings:crank"
+    ),
+    "arm": Part(
+        drawing="drawings.part_drawings:arm", cut=True, flat="drawings.sphere.arm_drawing:arm"
+    ),
+    "links": Part(drawing="drawings.part_drawings:links", cut=True, alone=True),
+    "first-wheel": Part(drawing="drawings.part_drawings:wheel", cut=True, in_front=True),
+    "first-crank": Part(drawing="drawings.part_drawings:crank", cut=True, in_front=True),
+    "frame": Part(drawing="drawings.part_drawings:frame", cut=True, alone=True),
+    "parts": Part("drawings.parts_list:parts_table"),
+    "assembly": Part(
+        drawing="drawings.machine_drawing:machine", flat="drawings.sphere.drawings:assembly"
+    ),
+    "gears": Part("layout.gear_curves:gears_table", "drawings.part_drawings:gears", alone=True),
+    "groove": Part("layout.groove:groove_table", "drawings.part_drawings:groove"),
+    "groove-plate": Part(drawing="drawings.part_drawings:groove_plate", cut=True),
+    "coupon": Part(drawing="drawings.coupon:coupon", cut=True),
+    "plate": Part(drawing="drawings.print_plate:plate"),
+    "sheet": Part(sheet="drawings.sheet.sheet:sheet", flat="drawings.sphere.sheet:sheet"),
+}
+DRAWINGS = tuple(name for name, part in PARTS.items() if part.drawing)
+CUT = tuple(name for name, part in PARTS.items() if part.cut)
+SHEETS = tuple(name for name, part in PARTS.items() if part.sheet)
+SAMPLES_MAX = 1_000_000
+
+
+def is_sheet(part: str) -> bool:
+    """Return True if a part is drawn as a sheet. Raises GenevaError for an unknown part."""
+    _require_known(part)
+    return part in SHEETS
+
+
+def is_table(mechanism: Mechanism, part: str, drawn: bool) -> bool:
+    """Return True if a part is written as a table; ``drawn`` is True for a drawing's format.
+
+    Raises GenevaError for a part that is unknown, or has no drawing.
+    """
+    _require_known(part)
+    if drawn and part not in DRAWINGS:
+        raise GenevaError(
+            f"--part {part} is a table of points: write it as .csv or .json; these are drawings: "
+            f"{', '.join(DRAWINGS)}"
+        )
+    return not drawn and _table(mechanism, part) is not None
+
+
+def part_table(mechanism: Mechanism, part: str, tolerance_mm: float, samples: int | None) -> Table:
+    """Return a part's points: for a chord tolerance, or at ``samples`` even input angles.
+
+    Raises GenevaError for a part that the machine does not have.
+    """
+    if samples is not None and not 2 <= samples <= SAMPLES_MAX:
+        raise GenevaError(f"--samples {cut(samples)}: must be at least 2, at most {SAMPLES_MAX}")
+    if part in SHEETS or not is_table(mechanism, part, drawn=False):
+        raise GenevaError(f"--part {part} is a drawing: write it as .dxf or .svg")
+    require_tolerance(mechanism, tolerance_mm)
+    table: Table = _loaded(_table(mechanism, part))(mechanism, tolerance_mm, samples)
+    return table
+
+
+def require_tolerance(mechanism: Mechanism, tolerance_mm: float) -> None:
+    """Raise GenevaError for a tolerance that is not above 0, or wider than half a slot.
+
+    A slot may not miss its curve by its own half width.
+    """
+    allowed = Range(0.0, mechanism.roller_radius_mm, "(]")
+    require_mm("--tolerance", tolerance_mm, allowed, "the roller's radius")
+
+
+def is_alone(mechanism: Mechanism, part: str) -> bool:
+    """Return True if a part is drawn without the outlines of wheel and crank."""
+    own = PARTS.get(part)
+    if own is None:
+        return False
+    return own.alone or (own.flat is not None and not _in_plane(mechanism))
+
+
+def machine_of(mechanism: Mechanism, part: str) -> Mechanism:
+    """Return the machine that a part belongs to: itself, or the first of two wheels in series.
+
+    Raises GenevaError for a part of a first wheel if there is none.
+    """
+    if part not in PARTS or not PARTS[part].in_front:
+        return mechanism
+    first: Mechanism = _loaded("first_pair:first_pair")(mechanism)
+    return first
+
+
+def part_drawing(model: PartsModel, part: str, tolerance_mm: float, curves: str) -> Drawing:
+    """Return a part's drawing: lines and arcs, or with ``curves`` = "cubics" also cubics.
+
+    Raises GenevaError for a part that is not drawn, or that the machine does not have.
+    """
+    _require_known(part)
+    if part in SHEETS:
+        raise GenevaError(f"--part {part} is a drawing sheet, not a drawing to cut")
+    is_table(model.mechanism, part, drawn=True)
+    own = PARTS[part]
+    drawing: Drawing
+    if own.flat is None or _in_plane(model.mechanism):
+        drawing = _loaded(own.drawing)(model.flat(tolerance_mm, curves))
+    else:
+        drawing = _loaded(own.flat)(model.ball(tolerance_mm, curves))
+    return drawing._replace(tolerance=tolerance_mm)
+
+
+def part_sheet(model: PartsModel, part: str, tolerance_mm: float, curves: str) -> Sheet:
+    """Return a part, or all of them, as a drawing sheet with dimensions.
+
+    Raises GenevaError for a part without a sheet, or that does not fit on one.
+    """
+    if not is_sheet(part):
+        raise GenevaError(f"--part {part} is no drawing sheet; use {', '.join(SHEETS)}")
+    own = PARTS[part]
+    sheet: Sheet
+    if _in_plane(model.mechanism):
+        sheet = _loaded(own.sheet)(model.flat(tolerance_mm, curves))
+    else:
+        sheet = _loaded(own.flat)(model.ball(tolerance_mm, curves))
+    return sheet
+
+
+def require_cut(part: str, option: str = "--kerf") -> None:
+    """Raise GenevaError, naming an option, for a part that is not cut out of a plate."""
+    if part not in CUT:
+        raise GenevaError(
+            f"{option} applies only to parts that are cut out of a plate ({', '.join(CUT)}), not "
+            f"to {cut(part)}"
+        )
+
+
+def _table(mechanism: Mechanism, part: str) -> str | None:
+    own = PARTS[part]
+    return own.table if _in_plane(mechanism) else own.sphere or own.table
+
+
+def _in_plane(mechanism: Mechanism) -> bool:
+    return mechanism.spec.wheel.FLAT
+
+
+def _require_known(part: str) -> None:
+    if part not in PARTS:
+        raise GenevaError(
+            f"--part {cut(part)}: it must be one of {few(part, PARTS)}{nearest(part, PARTS)}"
+        )
+
+
+def _loaded(by: str | None) -> Any:
+    assert by is not None  # is_table tells tables and drawings apart
+    return load_named(by)

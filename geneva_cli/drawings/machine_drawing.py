@@ -1,0 +1,130 @@
+"""The assembled machine at input angle 0: moving parts, and plates that stand still.
+
+The wheel's axis is the origin, and the crank's is on the x axis. Layers are those of the parts.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+
+import numpy as np
+
+from geneva_cli.curves.drawing import Annotations, Drawing, LevelDistance
+from geneva_cli.curves.measure import turned
+from geneva_cli.curves.plates import Group, Member
+from geneva_cli.curves.shapes import Arc, Circle, Contour, Line, Shape, about
+from geneva_cli.drawings.part_drawings import PITCH, pitch_lines
+from geneva_cli.kinematics.layout import Joint
+from geneva_cli.layout.link_positions import links_at
+from geneva_cli.layout.projection import circle_key, once, outlines_of, placed, shapes, titled
+from geneva_cli.numerics.tolerances import SAME_LENGTH
+from geneva_cli.outlines.crank import roller_centres
+from geneva_cli.outlines.outlines import Outlines
+from geneva_cli.parts.arm import LAYER as ARM
+from geneva_cli.parts.flat_parts import FlatParts
+from geneva_cli.parts.frame import LAYER as STANDING
+from geneva_cli.parts.link_sizes import places
+from geneva_cli.parts.links import LAYER as LINK
+
+BEYOND = 0.04  # of the centre distance: from a part to the arrow that shows how it turns
+
+
+def machine(parts: FlatParts) -> Drawing:
+    """Return the machine at input angle 0, from the frame up to the wheel."""
+    outlines, title = parts.outlines, titled(parts.mechanism)
+    drawn = [*_seen(parts.wheel), *_seen(parts.crank_without_arm), *_arm(parts)]
+    drawn += _links(parts)
+    drawn += outlines_of(Group("", parts.gear_pair))
+    drawn += shapes(parts.first)
+    drawn += _standing(parts, drawn)
+    drawn += _roller_lines(parts)
+    L = outlines.assembly.L
+    look = Annotations((LevelDistance((0.0, 0.0), (L, 0.0), "L"),), tuple(_turns(outlines)))
+    return Drawing(title, tuple(once(drawn)), look, Group(title, parts.members))
+
+
+def _seen(member: Member) -> list[Shape]:
+    return [placed(shape, member.at, member.turn) for shape in outlines_of(member.part)]
+
+
+def _links(parts: FlatParts) -> Iterator[Shape]:
+    """Yield the links, and the round gears by their pitch circles, with all holes."""
+    yield from (shape._replace(layer=LINK) for shape in shapes(parts.links.cut))
+    blanks = list(shapes(parts.round_gears))
+    yield from (shape for shape in blanks if shape.layer == PITCH)
+    yield from (shape._replace(layer=LINK) for shape in blanks if shape.layer != PITCH)
+
+
+def _standing(parts: FlatParts, drawn: list[Shape]) -> list[Shape]:
+    """Return the plates that stand still: outlines, grooves, and holes not covered by a bore."""
+    seen = {circle_key(shape) for shape in drawn if isinstance(shape, Circle)}
+    return [
+        shape._replace(layer=STANDING) if isinstance(shape, Circle) else shape
+        for shape in shapes(parts.standing)
+        if not (isinstance(shape, Circle) and circle_key(shape) in seen)
+    ]
+
+
+def _turns(parts: Outlines) -> Iterator[Arc]:
+    """Yield the senses of rotation of wheel and crank, as arcs outside of them."""
+    assembly, sizes = parts.assembly, parts.sizes
+    reach = max(math.hypot(*s.start) for s in parts.wheel.segments)
+    beyond = (sizes.outer or reach) + BEYOND * assembly.L
+    yield about((0.0, 0.0), beyond, math.radians(115.0), math.radians(50.0))
+    if not assembly.full.spec.drive.ONE_ARM:
+        yield from _link_turns(parts)
+        return
+    step = math.remainder(float(np.diff(assembly.crank(np.array([-0.5, 0.5])))[0]), math.tau)
+    sense = math.copysign(1.0, step)
+    # an internal wheel's crank turns within the wheel, so its arrow is near its shaft
+    far = max(math.hypot(*c) for c in roller_centres(assembly)) + 2.0 * sizes.roller
+    radius = far + BEYOND * assembly.L if assembly.sign > 0.0 else 0.5 * sizes.arm
+    yield about((assembly.L, 0.0), radius, -sense * 0.5, sense)
+
+
+def _link_turns(parts: Outlines) -> Iterator[Arc]:
+    """Yield the sense of rotation of the link on the crank's shaft, beyond its end or the disc."""
+    mechanism, L = parts.assembly.full, parts.assembly.L
+    for link in links_at(mechanism, np.array([-0.5, 0.0, 0.5])):
+        first, *others = places(link)
+        if (
+            link.kinds[0] is not Joint.SHAFT
+            or not others
+            or np.abs(first - L).max() > SAME_LENGTH * L
+        ):
+            continue
+        ahead = others[0] - first
+        sense = math.copysign(1.0, float(np.angle(ahead[2] / ahead[0])))
+        far = max(float(np.abs(ahead).max()), parts.sizes.lock) + 2.0 * BEYOND * L
+        yield about((L, 0.0), far, -sense * 0.5, sense)
+
+
+def _arm(parts: FlatParts) -> list[Shape]:
+    """Return the visible part of the crank arm: its outline, and its bore unless the disc's."""
+    if parts.arm is None:
+        return []
+    bore = parts.arm.bore
+    hidden = bore in outlines_of(parts.crank_without_arm.part)
+    crank = parts.crank
+    visible: list[Shape] = [parts.arm.outline, *([] if hidden else [bore._replace(layer=ARM)])]
+    return [placed(shape, crank.at, crank.turn) for shape in visible]
+
+
+def _roller_lines(parts: FlatParts) -> list[Shape]:
+    """Return the line of centres, and the rollers' paths on their circles and in their slots."""
+    assembly = parts.outlines.assembly
+    lines: list[Shape] = [Contour(PITCH, (Line((0.0, 0.0), (assembly.L, 0.0)),), closed=False)]
+    arms = set()
+    for number, (engagement, behind) in enumerate(assembly.rollers):
+        if not engagement.crank_sense and engagement.groove is None:
+            x, y = assembly.pin(number, np.array([behind]))[0]
+            arms.add(round(math.hypot(x - assembly.L, y), 9))
+    lines += [Circle(PITCH, (assembly.L, 0.0), arm) for arm in sorted(arms)]
+    pitches = {s: pitch_lines(parts, s) for s in assembly.kinds}
+    lines += [
+        turned(line, direction + parts.wheel.turn)
+        for engagement, direction in assembly.slots
+        for line in pitches[engagement]
+    ]
+    return lines

@@ -1,0 +1,217 @@
+"""The list of parts: all that is cut and turned, with every pivot and dimension to rebuild it.
+
+Rows are parts, pivots, dimensions, and parts that cannot be built, with the reason. Pivots are at
+input angle 0, with the wheel's axis as origin and the crank's on the x axis. Mass and moment of
+inertia are of one part, in closed form, about the axis that it turns on. That is the wheel's, the
+crank's or a roller's own axis, or a link's first joint. The centroid is measured from there
+too, in the part's own frame. Coordinate z is along the axis from the wheel's lower face, or on a
+sphere inwards from the wheel's outer face.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+from typing import TypeAlias
+
+from geneva_cli.curves.mass import MM, mass_properties
+from geneva_cli.curves.measure import bounds
+from geneva_cli.curves.plates import Part, Plate, Shell, solids
+from geneva_cli.curves.sphere import opposite
+from geneva_cli.drawings.model import PartsModel
+from geneva_cli.drawings.sphere.dimensions import dimensions
+from geneva_cli.kinematics.layout import Dimension, Pivot
+from geneva_cli.layout.missing import Missing, built_of, or_missing
+from geneva_cli.machine.mechanism import Mechanism
+from geneva_cli.machine.rollers import places
+from geneva_cli.machine.spec import Spec
+from geneva_cli.outlines.sphere_wheel import POLE
+from geneva_cli.spec.schema import Points, fields
+from geneva_cli.table import Reading, Table, rows_table
+
+ROUNDING = 1e-13  # of a part's size: a centroid nearer to its axis is on it
+ACROSS = ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0))  # axes along which a shell's size is measured
+# columns of a row of each kind
+KINDS = {
+    "part": (
+        "name",
+        "count",
+        "material",
+        "density_kgm3",
+        "thickness_mm",
+        "z_low_mm",
+        "z_high_mm",
+        "mass_kg",
+        "inertia_kgm2",
+        "centroid_x_mm",
+        "centroid_y_mm",
+        "size_x_mm",
+        "size_y_mm",
+    ),
+    "pivot": ("name", "x_mm", "y_mm"),
+    "dimension": ("name", "value", "unit"),
+    "missing": ("name", "why"),
+}
+Row: TypeAlias = dict[str, object]
+# The columns from the most important one, for a window that has not room for all.
+FIRST = ("row", "name", "value", "unit", "why", "count", "mass_kg", "size_x_mm", "size_y_mm")
+NAMES = ("row", *dict.fromkeys(name for names in KINDS.values() for name in names))
+
+
+def parts_table(mechanism: Mechanism, tolerance_mm: float, samples: int | None) -> Table:
+    """Return a table with a row for each part, pivot, dimension, and part that cannot be built."""
+    return parts_list(PartsModel(mechanism))
+
+
+def parts_list(model: PartsModel) -> Table:
+    """Return the list of parts of a machine, whose outlines may already be computed."""
+    mechanism = model.mechanism
+    entries = [*_parts(model), *_pivots(mechanism), *_dimensions(model)]
+    mappings = [{"row": "missing", **r._asdict()} if isinstance(r, Missing) else r for r in entries]
+    rows = [[row.get(name) for name in NAMES] for row in mappings]
+    table = rows_table(NAMES, rows, mechanism.spec.title, mixed=True)
+    return table.replaced(reading=Reading(FIRST))
+
+
+def _parts(model: PartsModel) -> Iterator[Row | Missing]:
+    """Yield all parts, and then the reason for each that cannot be built."""
+    spec = model.mechanism.spec
+    missing: list[Missing] = []
+
+    def shells() -> Iterator[Row]:
+        parts = model.ball()
+        yield from part_rows(spec, built_of(parts.by_name(), missing), parts.ball.span_mm[1])
+
+    def plates() -> Iterator[Row]:
+        yield from part_rows(spec, built_of(model.flat().by_name(), missing))
+
+    if not spec.wheel.FLAT:
+        yield from or_missing("wheel and crank", shells)
+    yield from or_missing("all parts", plates)
+    yield from missing
+
+
+def part_rows(spec: Spec, parts: Iterable[Part], outside: float | None = None) -> Iterator[Row]:
+    """Yield a row for each kind of solid among some parts, with its count.
+
+    On a sphere ``outside`` is the radius of the wheel's outer face, from which z counts inwards.
+    """
+    kinds: dict[Plate | tuple[str, str], list[Plate | Shell]] = {}
+    for solid in (one for part in parts for one in solids(part)):
+        # Shells of one kind lie at different places, and may differ by rounding.
+        kind = solid if isinstance(solid, Plate) else (solid.name, f"{solid.volume:.9g}")
+        kinds.setdefault(kind, []).append(solid)
+    for alike in kinds.values():
+        solid = alike[-1]
+        name, material = (
+            ("roller", spec.material_roller)
+            if solid.layer == "ROLLER"
+            else ("wheel", spec.material_wheel)
+        )
+        yield {
+            "row": "part",
+            "name": solid.name,
+            "count": len(alike),
+            "material": f"material.{name}",
+            "density_kgm3": material.density_kgm3,
+            **_properties(solid, material.density_kgm3, outside),
+        }
+
+
+def _properties(solid: Plate | Shell, density: float, outside: float | None) -> Row:
+    """Return heights, mass, inertia and size of a solid; in a flat machine also its centroid."""
+    row: Row = {}
+    if isinstance(solid, Plate):
+        low, high, box = solid.low, solid.high, bounds(solid.outline)
+        wide, deep = box.x1 - box.x0, box.y1 - box.y0
+        body = mass_properties(solid, density)
+        mass, inertia = body.mass_kg, body.inertia_kgm2
+        if outside is None:
+            near = ROUNDING * max(wide, deep)
+            x, y = (at if abs(at) > near else 0.0 for at in body.centroid_mm)
+            row = {"centroid_x_mm": x, "centroid_y_mm": y}
+    else:
+        low, high = solid.inner, solid.outer
+        wide, deep = (solid.reach(axis) + solid.reach(opposite(axis)) for axis in ACROSS)
+        mass, inertia = density * solid.volume * MM**3, density * solid.inertia(POLE) * MM**5
+    thickness = high - low
+    if outside is not None:
+        low, high = outside - high, outside - low
+    return row | {
+        "thickness_mm": thickness,
+        "z_low_mm": low,
+        "z_high_mm": high,
+        "mass_kg": mass,
+        "inertia_kgm2": inertia,
+        "size_x_mm": wide,
+        "size_y_mm": deep,
+    }
+
+
+def _pivots(mechanism: Mechanism) -> Iterator[Row]:
+    L = mechanism.center_distance_mm
+    own = mechanism.spec.drive.layout(mechanism.plan, mechanism.spec.wheel.SIGN)
+    pivots = [p for p in own if isinstance(p, Pivot)]
+    if mechanism.spec.wheel.FLAT:
+        pivots = [Pivot("wheel axis", 0.0, 0.0), Pivot("crank axis", L, 0.0), *pivots]
+    for pivot in pivots:
+        yield {"row": "pivot", **pivot._asdict()}
+
+
+def _dimensions(model: PartsModel) -> Iterator[Row | Missing]:
+    mechanism = model.mechanism
+    spec, L = mechanism.spec, mechanism.center_distance_mm
+    r, clear = mechanism.roller_radius_mm, spec.size.allowances.slot_clearance_mm
+    entries: list[Dimension | Missing] = [
+        Dimension("wheel", spec.wheel.NAME),
+        Dimension("drive", spec.drive.NAME),
+        Dimension("slots", spec.wheel.z),
+        Dimension("centre distance" if spec.wheel.FLAT else "sphere's radius", L, "mm"),
+        Dimension("roller radius", r, "mm"),
+        Dimension("slot width", 2.0 * (r + clear), "mm"),
+    ]
+    entries += [d for d in spec.wheel.layout if isinstance(d, Dimension)]
+    if not spec.wheel.FLAT:
+        entries += or_missing("dimensions of the shells", lambda: dimensions(model.ball()))
+    if mechanism.law is None and spec.drive.CRANKED:
+        entries += _straight(mechanism)
+    elif spec.drive.CRANKED:
+        entries.append(Dimension("crank radius", mechanism.ratio * L, "mm"))
+        entries.append(Dimension("rollers, evenly", spec.drive.rollers))
+    elif spec.drive.rollers > 1:
+        entries.append(Dimension("rollers, evenly", spec.drive.rollers))
+    entries += _motions(mechanism)
+    own = spec.drive.layout(mechanism.plan, spec.wheel.SIGN)
+    entries += [d for d in own if isinstance(d, Dimension)]
+    for entry in entries:
+        yield entry if isinstance(entry, Missing) else {"row": "dimension", **entry._asdict()}
+
+
+def _straight(mechanism: Mechanism) -> Iterator[Dimension]:
+    """Yield crank radius and angle of each roller on the crank, for straight slots."""
+    spec, L = mechanism.spec, mechanism.center_distance_mm
+    stations = places(spec.wheel, spec.drive, spec.given_distance_mm)
+    m = spec.drive.rollers
+    for i in range(max(len(stations), m)):
+        station = stations[i % len(stations)]
+        behind = station.crank_deg if len(stations) > 1 else 360.0 * i / m
+        yield Dimension(f"roller {i + 1}: crank radius", station.ratio * L, "mm")
+        yield Dimension(f"roller {i + 1}: behind the first", behind, "deg")
+
+
+def _motions(mechanism: Mechanism) -> Iterator[Dimension]:
+    """Yield the wheel's step and the input angles of each engagement of a period."""
+    for i, one in enumerate(mechanism.engagements):
+        name = f"engagement {i + 1}: " if len(mechanism.engagements) > 1 else ""
+        yield Dimension(f"{name}wheel's step", mechanism.index_deg(i), "deg")
+        yield Dimension(f"{name}input at mid-motion", one.mid_deg, "deg")
+        yield Dimension(f"{name}entry, from mid-motion", one.entry_deg, "deg")
+        yield Dimension(f"{name}exit, from mid-motion", one.exit_deg, "deg")
+    law = mechanism.law
+    if law is not None:
+        yield Dimension("law", law.NAME)
+        for field in fields(type(law)):
+            value = getattr(law, field.attribute)
+            if isinstance(value, Points):
+                value = value.file
+            if value is not None:
+                yield Dimension(f"law's {field.key}", value)

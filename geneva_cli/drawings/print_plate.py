@@ -1,0 +1,45 @@
+"""All parts of a machine side by side on one bed, each with its lower face on it."""
+
+from __future__ import annotations
+
+import math
+
+from geneva_cli.curves.drawing import Drawing
+from geneva_cli.curves.measure import bounds
+from geneva_cli.curves.plates import Group, Member, Plate, plates
+from geneva_cli.drawings.sheet.pack import packed_apart
+from geneva_cli.drawings.sheet.view import Block
+from geneva_cli.layout.projection import outlines_of, titled
+from geneva_cli.parts.flat_parts import FlatParts
+
+APART = 5.0  # mm between parts, and round them
+LARGER = 1.1  # by which the bed grows until all parts fit
+
+
+def plate(parts: FlatParts) -> Drawing:
+    """Return all parts, each as often as the machine has it, in front of and right of the origin.
+
+    Raises GenevaError for a part that cannot be built.
+    """
+    whole = [one for _, build in parts.by_name() for part in build() for one in plates(part)]
+    title = titled(parts.mechanism, "plate")
+    solid = Group(title, tuple(_laid(whole)))
+    return Drawing(title, outlines_of(solid), solid=solid)
+
+
+def _laid(whole: list[Plate]) -> list[Member]:
+    """Return plates at z = 0 side by side, on a square bed that is as small as they allow."""
+    blocks = [Block(*bounds(one.outline), (), ()) for one in whole]
+    side = math.sqrt(sum((b.width + APART) * (b.height + APART) for b in blocks))
+    placed = None
+    while placed is None:
+        area = (0.0, 0.0, side, side)
+        placed = packed_apart(blocks, (), area, lambda b: -b.width * b.height, APART)
+        side *= LARGER
+    return [
+        Member(
+            one._replace(low=0.0, high=one.thickness),
+            (block.x0 - before.x0, block.y0 - before.y0),
+        )
+        for one, before, block in zip(whole, blocks, placed, strict=True)
+    ]

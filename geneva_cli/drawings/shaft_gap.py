@@ -1,0 +1,155 @@
+"""Gaps between hubs or shafts and parts that turn about another axis, at shared heights.
+
+A part that makes whole turns sweeps a ring about its axis. For a plate that stands still the ring
+is a safe bound. So the least gap in a whole turn is the distance between ring and shaft. Links,
+which swing, are checked in their planes (``planes``). The frame has holes for the shafts.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Iterator
+from typing import NamedTuple, TypeVar
+
+import numpy as np
+
+from geneva_cli.curves.distance import Polyarc
+from geneva_cli.curves.measure import at, with_material_left
+from geneva_cli.curves.plates import Group, Member, Part, Plate
+from geneva_cli.curves.shapes import Arc, Circle, Contour, Point, Segment, closed, two_arcs
+from geneva_cli.layout.projection import placed
+from geneva_cli.numerics.jet import Array
+from geneva_cli.numerics.tolerances import SAME_LENGTH
+from geneva_cli.outlines.wheel_hub import HUB
+from geneva_cli.parts.flat_parts import FlatParts
+from geneva_cli.parts.gear_pair import PITCH, gear_span, pitch_radii
+
+Measure = TypeVar("Measure", float, Array)  # one gap, or an array of one for each sphere
+
+
+class ShaftGap(NamedTuple):
+    """The least gap, mm, between a hub or shaft and a part that passes it."""
+
+    gap: float  # negative where they overlap
+    shaft: str
+    part: str
+
+
+class Ring(NamedTuple):
+    """The ring that a plate sweeps about the axis that it turns on."""
+
+    name: str
+    layer: str
+    axis: Point
+    inner: float
+    outer: float
+    low: float
+    high: float
+
+
+def ring_gap(apart: float, inner: float, outer: Measure, radius: Measure) -> Measure:
+    """Return the gap between a ring and a round part whose axis is ``apart`` from the ring's.
+
+    Lengths are in mm, or on a sphere in radians. A negative gap is the distance that the round part
+    must move to leave the ring: outwards, or into the ring's opening if that is nearer.
+    """
+    gap = apart - outer
+    if inner:
+        gap = np.maximum(gap, inner - apart)
+    return gap - radius
+
+
+def shaft_gap(parts: FlatParts) -> ShaftGap | None:
+    """Return the least gap of all parts; None where nothing passes a hub or shaft.
+
+    Raises GenevaError for sizes that leave no parts.
+    """
+    turning = _rings_of((parts.wheel, parts.crank))
+    others = _rings_of((*parts.first, *parts.groove_plate))
+    return _least(parts, turning, [*turning, *others])
+
+
+def gear_gap(parts: FlatParts) -> ShaftGap | None:
+    """Return the least gap of noncircular gears to hubs and shafts; None without such gears.
+
+    Raises GenevaError for sizes that leave no parts.
+    """
+    if parts.mechanism.spec.drive.gears is None:
+        return None
+    turning = _rings_of((parts.wheel, parts.crank))
+    return _least(parts, turning, list(_noncircular(parts)))
+
+
+def _least(parts: FlatParts, turning: list[Ring], rings: list[Ring]) -> ShaftGap | None:
+    """Return the least gap of rings to the shafts, and to the hubs of wheel and crank."""
+    near = SAME_LENGTH * parts.mechanism.center_distance_mm
+    axes = [ring for ring in turning if ring.layer == HUB] + _rings_of(parts.shafts)
+    return min(
+        (
+            ShaftGap(
+                float(ring_gap(apart, ring.inner, ring.outer, shaft.outer)), shaft.name, ring.name
+            )
+            for shaft in axes
+            for ring in rings
+            if (apart := math.dist(ring.axis, shaft.axis)) > near
+            and min(ring.high, shaft.high) - max(ring.low, shaft.low) > near
+        ),
+        default=None,
+    )
+
+
+def _noncircular(parts: FlatParts) -> Iterator[Ring]:
+    """Yield the rings of noncircular gears, out to the farthest points of their pitch curves."""
+    mechanism = parts.mechanism
+    pair, L = mechanism.spec.drive.gears, mechanism.center_distance_mm
+    if pair is None:
+        return
+    (_, driven), (_, driver) = pitch_radii(pair)
+    low, high = gear_span(mechanism, parts.drawn)
+    yield Ring("driven gear", PITCH, (L, 0.0), 0.0, driven, low, high)
+    yield Ring("driver gear", PITCH, (L + pair.distance_mm, 0.0), 0.0, driver, low, high)
+
+
+def _rings_of(members: Iterable[Member]) -> list[Ring]:
+    return [ring for one in members for ring in _rings(one)]
+
+
+def _rings(member: Member) -> Iterator[Ring]:
+    """Yield the rings of a part's plates about the axis that it turns on."""
+    for plate, origin in _plates(member.part):
+        shapes = [placed(_contour(s), origin, 0.0) for s in (plate.outline, *plate.holes)]
+        sides = [with_material_left(shape, i == 0) for i, shape in enumerate(shapes)]
+        inner = max(0.0, float(Polyarc(sides).signed(np.zeros((1, 2)))[0]))
+        outer = max(math.hypot(*p) for piece in shapes[0].segments for p in _far(piece))
+        yield Ring(plate.name, plate.layer, member.at, inner, outer, plate.low, plate.high)
+
+
+def _plates(part: Part, origin: Point = (0.0, 0.0)) -> Iterator[tuple[Plate, Point]]:
+    """Yield the plates of a part that turns with its axis, and the positions of their origins."""
+    if isinstance(part, Group):
+        for member in part.members:
+            yield from _plates(member.part, member.at)
+    elif isinstance(part, Plate):
+        yield part, origin
+
+
+def _contour(shape: Contour | Circle) -> Contour:
+    return shape if isinstance(shape, Contour) else closed(shape.layer, two_arcs(shape))
+
+
+def _far(piece: Segment) -> Iterator[Point]:
+    """Yield points of a piece, of which one is the farthest from the origin."""
+    yield piece.start
+    yield piece.end
+    if isinstance(piece, Arc):
+        (x, y), radius = piece.centre, piece.radius
+        away = math.hypot(x, y)
+        far = (x * (1.0 + radius / away), y * (1.0 + radius / away)) if away else piece.start
+        off = math.remainder(_turn(far, piece) - _turn(at(piece, 0.5), piece), math.tau)
+        if abs(off) < 0.5 * abs(piece.sweep):
+            yield far
+
+
+def _turn(p: Point, arc: Arc) -> float:
+    (x, y), (u, v) = arc.centre, p
+    return math.atan2(v - y, u - x)

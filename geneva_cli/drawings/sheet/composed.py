@@ -1,0 +1,139 @@
+"""Blocks on a sheet of paper, with the list of items and a title block.
+
+The views have one scale: the largest standard scale at which everything fits on one sheet, A1 at
+most. The sheet is the smallest that fits. Above 1:1 the largest part is no wider than a hand.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable
+from typing import Any
+
+from geneva_cli.curves.sheet import Sheet
+from geneva_cli.drawings.sheet.pack import packed
+from geneva_cli.drawings.sheet.paper import (
+    FORMATS,
+    LEFT,
+    MARGIN,
+    SCALES,
+    TITLE_WIDTH,
+    PaperSize,
+    frame,
+    scale_name,
+    table,
+    title_block,
+)
+from geneva_cli.drawings.sheet.view import Block, number
+from geneva_cli.errors import GenevaError
+from geneva_cli.machine.spec import Spec
+from geneva_cli.spec.tables import Material
+
+
+def on_paper(
+    spec: Spec,
+    rows: list[dict[str, Any]],
+    largest: float,
+    blocks: Callable[[float], Iterable[list[Block]]],
+    area: float = 0.0,
+) -> Sheet:
+    """Return the sheet with blocks at the largest scale at which all fit on it.
+
+    ``rows`` are its list of items. ``blocks`` yields alternatives of what is on it, the best first.
+    ``largest`` is the greatest length that is drawn, mm. ``area``, mm², is the least area that some
+    of it needs. Raises GenevaError where no scale fits.
+    """
+    for scale in SCALES:
+        width, height = FORMATS[-1].width, FORMATS[-1].height
+        most = 170.0 if scale > 1.0 else width  # mm: an enlarged part is no wider than a hand
+        if scale * largest > most or scale * scale * area > width * height:
+            continue
+        drawn = list(blocks(scale))
+        for paper in FORMATS:
+            for one in drawn:
+                sheet = _composed(spec, paper, scale, rows, one)
+                if sheet is not None:
+                    return sheet
+    raise GenevaError(
+        "--part sheet: the parts and their tables do not fit on one A1 sheet; a coarser "
+        "--tolerance makes shorter tables"
+    )
+
+
+def _composed(
+    spec: Spec,
+    paper: PaperSize,
+    scale: float,
+    rows: list[dict[str, Any]],
+    blocks: list[Block],
+) -> Sheet | None:
+    """Return all blocks on one sheet; None where they do not fit."""
+    materials = [_material(spec.material_wheel), _material(spec.material_roller)]
+    fields = {
+        "scale": scale_name(scale),
+        "mass": _mass(sum(r["mass_kg"] * r["count"] for r in rows)),
+        "material": materials[0] if len(set(materials)) == 1 else "see list",
+        "tolerances": "ISO 2768-m",  # of dimensions without their own
+        "units": "mm, degrees",
+        "size": paper.name,
+        "sheet": "1/1",
+    }
+    names = ", ".join(str(row["name"]) for row in rows)
+    head = spec.title or f"Geneva wheel of {spec.wheel.z} slots"
+    right, low = paper.width - MARGIN, MARGIN
+    corner = title_block(fields, head, names).moved(right - TITLE_WIDTH, low)
+    items = _items(rows, materials)
+    items = items.moved(right - items.width, corner.y1)
+    area = LEFT, MARGIN, right, paper.height - MARGIN
+    placed = packed(blocks, [corner, items], area)
+    if placed is None:
+        return None
+    all_blocks = [corner, items, *placed]
+    return Sheet(
+        head,
+        paper.width,
+        paper.height,
+        scale,
+        (*frame(paper), *(s for b in all_blocks for s in b.shapes)),
+        tuple(label for b in all_blocks for label in b.labels),
+        tuple(m for b in all_blocks for m in b.measures),
+    )
+
+
+def _items(rows: list[dict[str, Any]], materials: list[str]) -> Block:
+    """Return the list of items (ISO 7573), numbered from below."""
+    own = {"material.wheel": materials[0], "material.roller": materials[1]}
+    lines = [
+        (
+            str(i),
+            str(row["name"]),
+            str(row["count"]),
+            number(row["thickness_mm"]),
+            _rounded(row["mass_kg"]),
+            own[row["material"]],
+        )
+        for i, row in enumerate(rows, 1)
+    ]
+    heading = ("item", "part", "count", "t", "kg each", "material")
+    columns = (12.0, 66.0, 14.0, 20.0, 24.0, 44.0)  # mm
+    return table((), [heading, *lines], columns)
+
+
+def _material(of: Material) -> str:
+    """Return "steel" for the default material, otherwise the density."""
+    usual = type(of)()
+    same = (of.youngs_modulus_GPa, of.poisson_ratio, of.density_kgm3) == (
+        usual.youngs_modulus_GPa,
+        usual.poisson_ratio,
+        usual.density_kgm3,
+    )
+    return "steel" if same else f"{of.density_kgm3:g} kg/m³"
+
+
+def _mass(kg: float) -> str:
+    """Return a mass with its unit, mg where kg would have too many zeros for the field."""
+    return f"{_rounded(kg)} kg" if kg >= 1e-3 else f"{_rounded(1e6 * kg)} mg"
+
+
+def _rounded(mass: float) -> str:
+    """Return a number of four digits, without exponent."""
+    return number(float(f"{mass:.4g}"), 9)

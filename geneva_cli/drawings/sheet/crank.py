@@ -1,0 +1,160 @@
+"""The views of locking disc, arm, roller with pin, and of the assembled machine."""
+
+from __future__ import annotations
+
+import math
+
+from geneva_cli.curves.measure import at, legs
+from geneva_cli.curves.plates import plates
+from geneva_cli.curves.shapes import Arc, Circle, Contour, Shape
+from geneva_cli.curves.sheet import CENTRE, HIDDEN, OUTLINE
+from geneva_cli.drawings.sheet import sized
+from geneva_cli.drawings.sheet.bores import bolted, bored, circle_of, holes_of, radius_of
+from geneva_cli.drawings.sheet.standing import draw_hub
+from geneva_cli.drawings.sheet.view import View, number, times
+from geneva_cli.layout.sizes import pin_radius
+from geneva_cli.machine.mechanism import Mechanism
+from geneva_cli.numerics.tolerances import SAME_ON_SHEET
+from geneva_cli.outlines.crank import is_whole
+from geneva_cli.outlines.outlines import Outlines
+from geneva_cli.outlines.wheel_hub import HUB
+from geneva_cli.parts.arm import CrankArm
+from geneva_cli.parts.flat_parts import FlatParts
+
+
+def draw_disc(view: View, parts: FlatParts) -> None:
+    """Draw the locking disc, or its sectors, about the crank's axis."""
+    outlines, mechanism = parts.outlines, parts.mechanism
+    assembly, sizes = outlines.assembly, outlines.sizes
+    own = plates(parts.crank.part)
+    discs, hubs = ([plate for plate in own if plate.layer == layer] for layer in ("CRANK", HUB))
+    bores, screwed = holes_of(discs)
+    contours = [disc.outline for disc in discs if isinstance(disc.outline, Contour)]
+    for shape in (*contours, *screwed, *bores, *(hub.outline for hub in hubs)):
+        view.draw(shape, OUTLINE)
+    circle_of(view, screwed)
+    view.cross((0.0, 0.0), sizes.lock if is_whole(assembly, sizes) else 0.2 * sizes.lock)
+    for hub in hubs:
+        draw_hub(view, hub)
+    bored(view, bores, sizes.crank_bore, mechanism.spec.size.crank_keyway)
+    arcs = [s for contour in contours for s in contour.segments if isinstance(s, Arc)]
+    locking = [
+        a for a in arcs if math.hypot(*a.centre) < SAME_ON_SHEET and _is(a.radius, sizes.lock)
+    ]
+    view.of_arcs(locking, sized.lock(mechanism, sizes.lock), whole=True)
+    seen: set[tuple[str, str]] = set()
+    for arc in arcs:
+        if arc in locking:
+            continue
+        middle = at(arc, 0.5)
+        far = math.hypot(*middle)
+        shown = sized.plain(arc.radius, "R "), number(far)
+        if shown in seen:
+            continue
+        seen.add(shown)
+        view.of_arcs([arc], shown[0])
+        if math.hypot(*arc.centre) > SAME_ON_SHEET and far > SAME_ON_SHEET:
+            turn = math.atan2(middle[1], middle[0])
+            view.linear((0.0, 0.0), middle, turn, shown[1], near=True)
+    _gaps(view, sizes.lock, locking)
+    bolted(view, screwed)
+
+
+def _gaps(view: View, lock: float, locking: list[Arc]) -> None:
+    """Draw the angles between the locking arcs."""
+    ends = sorted(legs(arc) for arc in _joined(locking))
+    gaps: dict[str, list[tuple[float, float]]] = {}
+    for (_, end), (start, _) in zip(ends, [*ends[1:], *ends[:1]], strict=True):
+        wide = (start - end) % math.tau
+        if wide > SAME_ON_SHEET:
+            gaps.setdefault(f"{number(math.degrees(wide))}°", []).append((end, end + wide))
+    for text, pairs in gaps.items():
+        view.angular(pairs, lock, lock, times(len(pairs), text))
+
+
+def _joined(arcs: list[Arc]) -> list[Arc]:
+    """Return arcs of one circle, with adjoining ones joined."""
+    joined: list[Arc] = []
+    for arc in arcs:
+        if joined and joined[-1].end == arc.start:
+            sweep = joined[-1].sweep + arc.sweep
+            joined[-1] = Arc(joined[-1].start, arc.end, math.tan(0.25 * sweep))
+        else:
+            joined.append(arc)
+    return joined
+
+
+def draw_arm(view: View, mechanism: Mechanism, arm: CrankArm) -> None:
+    """Draw the crank arm with its holes."""
+    view.draw(arm.outline, OUTLINE)
+    for shape in (arm.bore, *arm.pins, *arm.bolts):
+        view.draw(shape, OUTLINE)
+    view.cross((0.0, 0.0), arm.hub)
+    for pin in arm.pins:
+        view.cross(pin.centre, arm.eye, math.atan2(pin.centre[1], pin.centre[0]))
+    circle_of(view, arm.bolts)
+    deviation = mechanism.spec.tolerance.crank_radius_mm
+    shown: dict[str, list[Circle]] = {}
+    for pin in arm.pins:
+        text = sized.plain(math.hypot(*pin.centre), deviation=deviation)
+        shown.setdefault(text, []).append(pin)
+    for text, some in shown.items():
+        centre = some[0].centre
+        turn = math.atan2(centre[1], centre[0])
+        view.linear((0.0, 0.0), centre, turn, times(len(some), text), near=True)
+    _between(view, arm)
+    bored(view, [arm.bore], radius_of(arm.bore), mechanism.spec.size.crank_keyway)
+    view.diameter(arm.pins, times(len(arm.pins), sized.pin_hole(mechanism, arm.pins[0].radius)))
+    radii: dict[str, list[Arc]] = {}
+    for arc in arm.outline.segments:
+        if isinstance(arc, Arc):
+            radii.setdefault(sized.plain(arc.radius, "R "), []).append(arc)
+    for text, arcs in radii.items():
+        view.of_arcs(arcs, times(len(arcs), text))
+    bolted(view, arm.bolts)
+
+
+def _between(view: View, arm: CrankArm) -> None:
+    """Draw the angles from one pin to the next."""
+    angles = sorted(math.atan2(p.centre[1], p.centre[0]) for p in arm.pins)
+    reach = max(math.hypot(*p.centre) for p in arm.pins) + arm.eye
+    pairs: dict[str, list[tuple[float, float]]] = {}
+    for start, end in zip(angles, [*angles[1:], angles[0] + math.tau], strict=True):
+        wide = end - start
+        if (
+            wide < math.pi - SAME_ON_SHEET
+        ):  # the rest of a turn, and a straight line, need no dimension
+            pairs.setdefault(f"{number(math.degrees(wide))}°", []).append((start, end))
+    for text, some in pairs.items():
+        view.angular(some, reach, reach, times(len(some), text))
+
+
+def draw_roller(view: View, mechanism: Mechanism) -> None:
+    """Draw a roller about its pin."""
+    roller, axis = mechanism.roller_radius_mm, (0.0, 0.0)
+    pin = pin_radius(mechanism.spec.size, roller)
+    circles = [Circle("", axis, roller)] + ([Circle("", axis, pin)] if pin else [])
+    for c in circles:
+        view.draw(c, OUTLINE)
+    view.cross(axis, roller)
+    view.diameter(circles[:1], sized.roller(mechanism, roller))
+    if pin:
+        view.diameter(circles[1:], sized.roller_bore(pin))
+        view.remark(f"turns on its pin {sized.pin(pin)}, which is pressed in")
+
+
+def draw_assembly(view: View, parts: Outlines, shapes: tuple[Shape, ...]) -> None:
+    """Draw the assembled machine, with the centre distance."""
+    layers = {"PITCH": CENTRE, "ARM": HIDDEN, "FRAME": HIDDEN, "GROOVE": HIDDEN, "HUB": HIDDEN}
+    for shape in shapes:
+        view.draw(shape, layers.get(shape.layer, OUTLINE))
+    L = parts.assembly.L
+    deviation = parts.assembly.mechanism.spec.tolerance.center_distance_mm
+    reach = parts.sizes.outer or parts.sizes.rim
+    view.cross((0.0, 0.0), reach)
+    view.cross((L, 0.0), max(parts.sizes.lock, 0.1 * L))
+    view.linear((0.0, 0.0), (L, 0.0), 0.0, sized.plain(L, "L = ", deviation))
+
+
+def _is(a: float, b: float) -> bool:
+    return abs(a - b) < SAME_ON_SHEET

@@ -1,0 +1,80 @@
+"""The views of gears: pitch circles and curves, bores, and bolts of fixed gears."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+
+from geneva_cli.curves.shapes import Arc, Circle, Contour, Point, Shape
+from geneva_cli.curves.sheet import CENTRE, OUTLINE
+from geneva_cli.drawings.sheet import sized
+from geneva_cli.drawings.sheet.bores import bolted, circle_of
+from geneva_cli.drawings.sheet.view import View, number, times
+from geneva_cli.layout.projection import placed
+from geneva_cli.numerics.tolerances import SAME_ON_SHEET
+from geneva_cli.parts.gear_blanks import Gear
+
+TOOTHLESS = "teeth not shown"
+
+
+def draw_gear(view: View, gear: Gear) -> None:
+    """Draw a gear's pitch circle, or its sectors, with its bore and the bolts that hold it."""
+    outline, axis, screwed = gear.plate.outline, (0.0, 0.0), gear.bolts
+    pitch = Circle("", axis, gear.radius)
+    draw_blank(view, gear, axis)
+    circle_of(view, screwed)
+    view.cross(axis, gear.outer)
+    text = f"pitch {sized.plain(2.0 * gear.radius, 'Ø ')}"
+    if isinstance(outline, Contour):
+        _sectors(view, gear, outline, text)
+    else:
+        view.diameter([pitch], text)
+        if gear.teeth.inside:
+            view.diameter([outline], sized.plain(2.0 * outline.radius, "Ø "))
+    if gear.bore:
+        view.diameter([Circle("", axis, gear.bore)], sized.bore(gear.bore))
+    bolted(view, screwed)
+    whole = gear.teeth.sectors * gear.teeth.each_deg >= 360.0
+    view.remark(f"pitch circle; {TOOTHLESS}" + ("" if whole else "; teeth on these sectors only"))
+
+
+def draw_blank(view: View, gear: Gear, at: Point) -> None:
+    """Draw a gear at a position; its arcs on the pitch circle are drawn as centre lines."""
+    outline = gear.plate.outline
+    pieces: list[Shape] = [outline, *gear.plate.holes]
+    if isinstance(outline, Contour):
+        pieces[:1] = [Contour("", (piece,), closed=False) for piece in outline.segments]
+    for shape in pieces:
+        (arc,) = shape.segments if isinstance(shape, Contour) else (shape,)
+        on_pitch = isinstance(arc, (Arc, Circle)) and abs(arc.radius - gear.radius) < SAME_ON_SHEET
+        view.draw(placed(shape, at, 0.0), CENTRE if on_pitch else OUTLINE)
+
+
+def _sectors(view: View, gear: Gear, outline: Contour, pitch: str) -> None:
+    """Draw the toothed arcs, their angles, and the hub's radius between them."""
+    arcs = [piece for piece in outline.segments if isinstance(piece, Arc)]
+    toothed = [arc for arc in arcs if abs(arc.radius - gear.radius) < SAME_ON_SHEET]
+    hub = [arc for arc in arcs if arc not in toothed]
+    count = len(toothed)
+    view.of_arcs(toothed, times(count, pitch) if count > 1 else pitch, whole=True)
+    view.of_arcs(hub, times(len(hub), sized.plain(hub[0].radius, "R ")))
+    legs = [(math.atan2(arc.start[1], arc.start[0]), arc.sweep) for arc in toothed]
+    wide = times(count, f"{number(gear.teeth.each_deg)}°")
+    view.angular([(a, a + sweep) for a, sweep in legs], gear.radius, gear.radius, wide)
+    if count > 1:
+        step = times(count, f"{number(360.0 / count)}°")
+        turn = math.tau / count
+        view.angular([(a, a + turn) for a, _ in legs], gear.radius, gear.radius, step)
+
+
+def draw_gears(view: View, shapes: Sequence[Shape], ends: tuple[Point, Point]) -> None:
+    """Draw two gears' pitch curves in mesh at input angle 0, with bores, about their axes."""
+    for shape in shapes:
+        view.draw(shape, OUTLINE if isinstance(shape, Circle) else CENTRE)
+    view.centre_line(*ends)
+    for bore in shapes:
+        if isinstance(bore, Circle):
+            view.cross(bore.centre, bore.radius)
+            view.diameter([bore], sized.bore(bore.radius))
+    view.linear(*ends, 0.0, sized.plain(math.dist(*ends)))
+    view.remark(f"pitch curves; {TOOTHLESS}")

@@ -1,0 +1,75 @@
+"""The views that do not need the wheel's outline: links, gears, rollers, shafts."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from typing import TypeAlias
+
+from geneva_cli.curves.plates import Group, Member, Plate
+from geneva_cli.drawings.sheet.crank import draw_roller
+from geneva_cli.drawings.sheet.gears import draw_gear, draw_gears
+from geneva_cli.drawings.sheet.links import draw_link
+from geneva_cli.drawings.sheet.standing import draw_shaft
+from geneva_cli.drawings.sheet.view import View, number
+from geneva_cli.layout.projection import outlines_of
+from geneva_cli.machine.mechanism import Mechanism
+from geneva_cli.parts.flat_parts import FlatParts
+
+Begin: TypeAlias = Callable[..., View]
+
+
+def titled(rows: Sequence[Mapping[str, object]], scale: float) -> Begin:
+    """Return a function that begins a view, titled with its parts' numbers and thicknesses."""
+
+    def begin(*names: str, thick: bool = True) -> View:
+        titles = []
+        for i, row in enumerate(rows, 1):
+            if row["name"] in names:
+                long = row["thickness_mm"]
+                assert isinstance(long, float)
+                titles.append(f"{i} {row['name']}" + f", t = {number(long)}" * thick)
+        return View("; ".join(titles) or names[0], scale)
+
+    return begin
+
+
+def linked(begin: Begin, parts: FlatParts) -> Iterator[View]:
+    """Yield views of links and round gears, each once; two wheels in series have no gears."""
+    bars = parts.links
+    for one in {member.part: member for member in bars.cut}.values():
+        view = begin(one.part.name)
+        draw_link(view, one, bars, parts.mechanism)
+        yield view
+    for gear in () if parts.front else bars.gears:
+        view = begin(gear.name)
+        draw_gear(view, gear)
+        yield view
+
+
+def geared(begin: Begin, parts: FlatParts) -> Iterator[View]:
+    """Yield the view of noncircular gears in mesh, if there are any."""
+    if parts.gear_pair:
+        view = begin(*(member.part.name for member in parts.gear_pair))
+        driven, driver = (member.at for member in parts.gear_pair)
+        draw_gears(view, outlines_of(Group("", parts.gear_pair)), (driven, driver))
+        yield view
+
+
+def rolling(begin: Begin, mechanism: Mechanism) -> Iterator[View]:
+    """Yield the view of the roller with its pin."""
+    view = begin("roller", "pin")
+    draw_roller(view, mechanism)
+    yield view
+
+
+def shafted(begin: Begin, shafts: Iterable[Member]) -> Iterator[View]:
+    """Yield a view of each shaft."""
+    for plate in flat_plates(shafts):
+        view = begin(plate.name, thick=False)
+        draw_shaft(view, plate)
+        yield view
+
+
+def flat_plates(members: Iterable[Member]) -> list[Plate]:
+    """Return the plates among some parts."""
+    return [one.part for one in members if isinstance(one.part, Plate)]

@@ -1,0 +1,50 @@
+"""The drawing sheet of a machine: dimensioned parts, the list of items and a title block.
+
+The assembled machine is drawn at the scale of its parts, or at half of it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from geneva_cli.curves.sheet import Sheet
+from geneva_cli.drawings.sheet import links, points
+from geneva_cli.drawings.sheet.composed import on_paper
+from geneva_cli.drawings.sheet.paper import smaller, table
+from geneva_cli.drawings.sheet.view import Block, number
+from geneva_cli.drawings.sheet.views import shown_on_sheet, together, views
+from geneva_cli.kinematics.layout import Dimension, Pivot
+from geneva_cli.machine.mechanism import Mechanism
+from geneva_cli.parts.flat_parts import FlatParts
+
+
+def sheet(parts: FlatParts) -> Sheet:
+    """Return the drawing sheet of a machine. Raises GenevaError where no scale fits on one."""
+    shown, mechanism = shown_on_sheet(parts), parts.mechanism
+    tolerance = parts.tolerance or 0.0
+    fixed = [
+        *points.tables(parts.outlines, tolerance),
+        *points.gear_tables(mechanism, tolerance),
+        *links.round_parts(parts.links.joined, mechanism),
+        *layout(mechanism),
+    ]
+
+    def blocks(scale: float) -> Iterator[list[Block]]:
+        apart = [view.block() for view in views(shown, scale)]
+        for times in (1.0, 2.0):  # the machine's scale, or half of it
+            yield [*apart, together(shown, smaller(scale, times)).block(), *fixed]
+
+    return on_paper(mechanism.spec, shown.rows, shown.largest, blocks, shown.area)
+
+
+def layout(mechanism: Mechanism) -> list[Block]:
+    """Return a table of pivots and lengths of the drive in front of the crank, if any."""
+    own = mechanism.spec.drive.layout(mechanism.plan, mechanism.spec.wheel.SIGN)
+    rows = [("drive", "x or value", "y or unit")]
+    rows += [(p.name, number(p.x_mm), number(p.y_mm)) for p in own if isinstance(p, Pivot)]
+    rows += [
+        (d.name, number(d.value) if isinstance(d.value, (int, float)) else d.value, d.unit)
+        for d in own
+        if isinstance(d, Dimension)
+    ]
+    return [table((), rows, (60.0, 36.0, 20.0))] if len(rows) > 1 else []  # mm

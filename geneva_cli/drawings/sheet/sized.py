@@ -1,0 +1,72 @@
+"""Sizes as texts, with the deviation from the spec or else a fit of ISO 286."""
+
+from __future__ import annotations
+
+from geneva_cli.drawings.sheet.view import number
+from geneva_cli.layout.fits import toleranced
+from geneva_cli.machine.mechanism import Mechanism
+
+
+def plain(value: float, sign: str = "", deviation: float = 0.0) -> str:
+    """Return a size, with a plus-minus deviation if it is not 0.
+
+    >>> plain(5.0, "R "), plain(100.0, deviation=0.02)
+    ('R 5', '100 ±0.02')
+    """
+    return f"{sign}{number(value)}" + (f" ±{deviation:g}" if deviation else "")
+
+
+def fitted(value: float, sign: str, fit: str, deviation: float = 0.0) -> str:
+    """Return a size with its deviation if the spec has one, otherwise with a fit."""
+    shown = plain(value, sign, deviation)
+    return shown if deviation else toleranced(value, shown, fit)
+
+
+def slot_width(mechanism: Mechanism, half: float) -> str:
+    """Return the slot's width."""
+    return fitted(2.0 * half, "", "H7", mechanism.spec.tolerance.slot_width_mm)
+
+
+def roller(mechanism: Mechanism, radius: float) -> str:
+    """Return the roller's diameter; its fit has play in the slot if the spec has no clearance."""
+    spec = mechanism.spec
+    fit = "h6" if spec.size.allowances.slot_clearance_mm else "g6"
+    return fitted(2.0 * radius, "Ø ", fit, spec.tolerance.roller_diameter_mm)
+
+
+def lock(mechanism: Mechanism, radius: float) -> str:
+    """Return the locking disc's diameter; its fit has play unless the spec has a clearance."""
+    spec = mechanism.spec
+    fit = "h6" if spec.size.allowances.lock_clearance_mm else "g6"
+    return fitted(2.0 * radius, "Ø ", fit, 2.0 * spec.tolerance.lock_radius_mm)
+
+
+def recess(mechanism: Mechanism, radius: float) -> str:
+    """Return the diameter of the wheel's recesses."""
+    return fitted(2.0 * radius, "Ø ", "H7", 2.0 * mechanism.spec.tolerance.recess_radius_mm)
+
+
+def pin(radius: float) -> str:
+    """Return the diameter of the pin: it is pressed into a P7 hole, and an F7 bore turns on it."""
+    return fitted(2.0 * radius, "Ø ", "h6")
+
+
+def pin_hole(mechanism: Mechanism, radius: float) -> str:
+    """Return the diameter of the pin's hole: P7, or H7 if ``press_fit_mm`` makes it smaller."""
+    smaller = mechanism.spec.size.allowances.press_fit_mm
+    return fitted(2.0 * radius, "Ø ", "H7" if smaller else "P7")
+
+
+def roller_bore(radius: float) -> str:
+    """Return the diameter of the bore that turns on the pin."""
+    return fitted(2.0 * radius, "Ø ", "F7")
+
+
+def bore(radius: float) -> str:
+    """Return the diameter of a bore."""
+    return fitted(2.0 * radius, "Ø ", "H7")
+
+
+def shaft(radius: float) -> str:
+    """Return the diameter of a shaft that fits into a bore."""
+    return fitted(2.0 * radius, "Ø ", "h6")

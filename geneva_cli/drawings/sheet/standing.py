@@ -1,0 +1,87 @@
+"""The views of frame and groove plate, which stand still, and of hubs and shafts."""
+
+from __future__ import annotations
+
+import math
+
+from geneva_cli.curves.measure import bounds
+from geneva_cli.curves.plates import Plate
+from geneva_cli.curves.shapes import Arc, Circle, Contour, Line, Shape, closed
+from geneva_cli.curves.sheet import CENTRE, OUTLINE
+from geneva_cli.drawings.sheet import sized
+from geneva_cli.drawings.sheet.bores import bolted, circle_of
+from geneva_cli.drawings.sheet.view import View, number, times
+
+
+def draw_frame(view: View, plate: Plate) -> None:
+    """Draw the frame: its size, and diameter and position of each hole from the wheel's axis."""
+    for shape in (plate.outline, *plate.holes):
+        view.draw(shape, OUTLINE)
+    holes = [hole for hole in plate.holes if isinstance(hole, Circle)]
+    for hole in holes:
+        if hole.centre != (0.0, 0.0):
+            view.cross(hole.centre, hole.radius)
+    alike: dict[str, list[Circle]] = {}
+    for hole in holes:
+        alike.setdefault(sized.bore(hole.radius), []).append(hole)
+    for text, some in alike.items():
+        places = ", ".join(f"({number(x)}, {number(y)})" for _, (x, y), _ in some)
+        view.diameter(some, times(len(some), text), f"at {places} from the wheel's axis")
+    box = bounds(plate.outline)
+    up = 0.5 * math.pi
+    view.linear((box.x0, box.y0), (box.x1, box.y0), 0.0, number(box.x1 - box.x0))
+    view.linear((box.x0, box.y0), (box.x0, box.y1), up, number(box.y1 - box.y0))
+    wheel = (0.0, 0.0)  # the wheel's axis, with or without a hole
+    view.cross(wheel, holes[0].radius)
+    view.linear((box.x0, box.y0), wheel, 0.0, number(-box.x0))
+    view.linear((box.x0, box.y0), wheel, up, number(-box.y0))
+    for axis, turn in ((0, 0.0), (1, up)):
+        texts = {number(0.0)}
+        for hole in holes:
+            text = number(abs(hole.centre[axis]))
+            if text not in texts:
+                texts.add(text)
+                view.linear(wheel, hole.centre, turn, text)
+    assert isinstance(plate.outline, Contour)
+    arcs = [piece for piece in plate.outline.segments if isinstance(piece, Arc)]
+    view.of_arcs(arcs, times(len(arcs), sized.plain(arcs[0].radius, "R ")))
+
+
+def draw_groove(
+    view: View, flanks: tuple[Shape, ...], half: float, plate: Plate | None = None
+) -> None:
+    """Draw a cam's groove, in its plate if there is one; a table has the groove's points."""
+    round_ = (plate.outline, *plate.holes) if plate else ()
+    mounts = [hole for hole in round_[1:] if isinstance(hole, Circle) and math.hypot(*hole.centre)]
+    for shape in (*round_, *flanks):
+        view.draw(shape, CENTRE if shape.layer == "PITCH" else OUTLINE)
+    circle_of(view, mounts)
+    places = [
+        piece.start for shape in flanks if isinstance(shape, Contour) for piece in shape.segments
+    ]
+    outer = max(places, key=lambda p: math.hypot(*p))
+    view.cross((0.0, 0.0), math.hypot(*outer))
+    view.note(outer, f"groove {sized.fitted(2.0 * half, '', 'H7')} wide")
+    for hole in round_:
+        if isinstance(hole, Circle) and hole not in mounts:
+            text = sized.plain(2.0 * hole.radius, "Ø ")
+            view.diameter([hole], text if hole is round_[0] else sized.bore(hole.radius))
+    bolted(view, mounts)
+
+
+def draw_hub(view: View, hub: Plate) -> None:
+    """Draw the diameter of a hub that is already drawn."""
+    assert isinstance(hub.outline, Circle)
+    view.diameter([hub.outline], f"{hub.name} {sized.plain(2.0 * hub.outline.radius, 'Ø ')}")
+
+
+def draw_shaft(view: View, shaft: Plate) -> None:
+    """Draw a shaft from the side."""
+    assert isinstance(shaft.outline, Circle)
+    long, radius = shaft.thickness, shaft.outline.radius
+    corners = [(0.0, -radius), (long, -radius), (long, radius), (0.0, radius)]
+    sides = [Line(p, q) for p, q in zip(corners, [*corners[1:], corners[0]], strict=True)]
+    view.draw(closed("", sides), OUTLINE)
+    view.centre_line((0.0, 0.0), (long, 0.0))
+    view.linear((0.0, -radius), (long, -radius), 0.0, number(long))
+    view.linear((0.0, -radius), (0.0, radius), 0.5 * math.pi, sized.shaft(radius))

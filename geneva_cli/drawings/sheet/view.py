@@ -1,0 +1,232 @@
+"""A view: one part at a scale, and its dimensions around it."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Iterator
+from heapq import merge
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+
+from geneva_cli.curves import marks
+from geneva_cli.curves.board import Board, chords
+from geneva_cli.curves.measure import legs, mapped
+from geneva_cli.curves.shapes import Arc, Circle, Contour, Point, Shape
+from geneva_cli.curves.sheet import CENTRE, LARGE, SMALL, Label, Measure, line, polar
+
+if TYPE_CHECKING:
+    from geneva_cli.numerics.jet import Array
+
+FIRST, NEXT = 8.0, 7.0  # mm: from the outline to the first dimension line, and between lines
+RANKS = 14  # rows of dimension lines that are tried
+OVER = 3.0  # mm: length of a centre line beyond its part
+
+
+class Block(NamedTuple):
+    """A part of a sheet that is placed as a whole, and its bounding box."""
+
+    x0: float
+    y0: float
+    x1: float
+    y1: float
+    shapes: tuple[Shape, ...]
+    labels: tuple[Label, ...]
+    measures: tuple[Measure, ...] = ()
+
+    @property
+    def width(self) -> float:
+        """Width, mm."""
+        return self.x1 - self.x0
+
+    @property
+    def height(self) -> float:
+        """Height, mm."""
+        return self.y1 - self.y0
+
+    def moved(self, dx: float, dy: float) -> Block:
+        """Return the block, moved by (dx, dy)."""
+
+        def point(p: Point) -> Point:
+            return p[0] + dx, p[1] + dy
+
+        def written(label: Label) -> Label:
+            return label._replace(at=point(label.at))
+
+        def put(one: Measure) -> Measure:
+            lines = mapped(Contour("", one.lines, closed=False), point).segments
+            return one._replace(
+                points=tuple(map(point, one.points)),
+                label=written(one.label),
+                lines=lines,
+                arrows=tuple(a._replace(tip=point(a.tip)) for a in one.arrows),
+            )
+
+        return Block(
+            self.x0 + dx,
+            self.y0 + dy,
+            self.x1 + dx,
+            self.y1 + dy,
+            tuple(mapped(s, point) for s in self.shapes),
+            tuple(map(written, self.labels)),
+            tuple(map(put, self.measures)),
+        )
+
+
+class View:
+    """One part at a scale; points and lengths are in the part's own millimetres.
+
+    Draw all lines before the first dimension: dimensions are placed outside of them.
+    """
+
+    def __init__(self, title: str, scale: float) -> None:
+        self.title, self.scale = title, scale
+        self.shapes: list[Shape] = []
+        self.corners: list[Array] = []  # start points of the chords of all shapes
+        self.measures: list[Measure] = []
+        self.notes: list[str] = []  # remarks, and dimensions that did not fit
+        self.board = Board()
+
+    def draw(self, shape: Shape, layer: str) -> None:
+        """Draw a shape on a layer."""
+        self._draw(mapped(shape, self._at, self._long)._replace(layer=layer))
+
+    def cross(self, centre: Point, reach: float, turn: float = 0.0) -> None:
+        """Draw both centre lines of a circle."""
+        over = self._long(reach) + OVER
+        for angle in (turn, turn + 0.5 * math.pi):
+            ends = (polar(self._at(centre), side * over, angle) for side in (-1.0, 1.0))
+            self._draw(line(CENTRE, *ends))
+
+    def centre_line(self, start: Point, end: Point) -> None:
+        """Draw a centre line from one point to another, and a little beyond both."""
+        angle = math.atan2(end[1] - start[1], end[0] - start[0])
+        a, b = self._at(start), self._at(end)
+        self._draw(line(CENTRE, polar(a, -OVER, angle), polar(b, OVER, angle)))
+
+    def linear(self, p: Point, q: Point, turn: float, text: str, near: bool = False) -> None:
+        """Draw a distance in a direction; ``near`` allows a line inside the part's outline."""
+        ends = self._at(p), self._at(q)
+        value = abs((q[0] - p[0]) * math.cos(turn) + (q[1] - p[1]) * math.sin(turn))
+        levels = list(self._levels(turn, ends if near else ()))
+        self._put(marks.linear(ends, turn, levels, text, value), text)
+
+    def angular(
+        self, pairs: Iterable[tuple[float, float]], begin: float, radius: float, text: str
+    ) -> None:
+        """Draw an angle about the origin, between one of some pairs of legs, counterclockwise."""
+        reach = self._long(radius)
+        radii = [reach + FIRST + k * NEXT for k in range(RANKS)]
+        start = self._long(begin) + marks.CLEAR
+        candidates = (
+            mark
+            for wide in radii
+            for legs in pairs
+            for mark in marks.angular(legs, start, [wide], text, math.degrees(legs[1] - legs[0]))
+        )
+        self._put(candidates, text)
+
+    def diameter(self, circles: Iterable[Circle], text: str, where: str = "") -> None:
+        """Draw the diameter of one of some circles; ``where`` is added if it stands as a note."""
+        candidates = (
+            marks.diameter(
+                self._at(c.centre),
+                self._long(c.radius),
+                marks.around(),
+                text,
+                2.0 * c.radius,
+            )
+            for c in circles
+        )
+        self._put(_short_first(candidates), f"{text} {where}".rstrip())
+
+    def of_arcs(self, arcs: Iterable[Arc], text: str, whole: bool = False) -> None:
+        """Draw the radius of one of some arcs, or, with ``whole``, its diameter."""
+        kind, factor = (marks.diameter, 2.0) if whole else (marks.radius, 1.0)
+        candidates = (
+            kind(
+                self._at(arc.centre),
+                self._long(arc.radius),
+                marks.within(*legs(arc)),
+                text,
+                factor * arc.radius,
+            )
+            for arc in arcs
+        )
+        self._put(_short_first(candidates), text)
+
+    def note(self, tip: Point, text: str) -> None:
+        """Draw a text that points at a place."""
+        self._put(marks.note(self._at(tip), text), text)
+
+    def remark(self, text: str) -> None:
+        """Add a text below the title."""
+        self.notes.append(text)
+
+    def block(self) -> Block:
+        """Return the view with its title below it."""
+        x0, y0, x1, y1 = self.board.box()
+        labels: list[Label] = []
+        low = y0
+        for text, height in ((self.title, LARGE), *((note, SMALL) for note in self.notes)):
+            low -= 2.2 * height
+            wide = Label(text, (0.0, 0.0), height).width
+            at = 0.5 * (x0 + x1 - wide)
+            labels.append(Label(text, (at, low), height))
+            x0, x1 = min(x0, at), max(x1, at + wide)
+        return Block(
+            x0, low - SMALL, x1, y1, tuple(self.shapes), tuple(labels), tuple(self.measures)
+        )
+
+    def _put(self, candidates: Iterable[Measure], text: str) -> None:
+        dimension = self.board.first(candidates)
+        if dimension is None:
+            self.notes.append(text)
+        else:
+            self.measures.append(dimension)
+
+    def _draw(self, shape: Shape) -> None:
+        self.shapes.append(shape)
+        self.corners.append(chords(shape)[:, :2])
+        self.board.draw(shape)
+
+    def _levels(self, turn: float, near: tuple[Point, ...]) -> Iterator[float]:
+        """Yield levels for a dimension line, normal to its direction, nearest first."""
+        n = -math.sin(turn), math.cos(turn)
+        across = np.concatenate(self.corners) @ np.array(n)
+        low, high = float(across.min()), float(across.max())
+        if near:
+            own = [p[0] * n[0] + p[1] * n[1] for p in near]
+            low, high = min(own), max(own)
+        for k in range(2 * RANKS if near else RANKS):
+            off = FIRST + (0.5 if near else 1.0) * k * NEXT
+            yield from sorted((low - off, high + off), key=abs)
+
+    def _at(self, p: Point) -> Point:
+        return self.scale * p[0], self.scale * p[1]
+
+    def _long(self, length: float) -> float:
+        return self.scale * length
+
+
+def _short_first(rows: Iterable[Iterator[Measure]]) -> Iterator[Measure]:
+    """Yield candidates of all rows, in the order of their leaders' length.
+
+    Each row is already in that order; equal lengths keep the order of rows.
+    """
+    return merge(*rows, key=lambda m: round(math.dist(*m.lines[0]), 6))
+
+
+def number(value: float, decimals: int = 3) -> str:
+    """Return a size as text, without trailing zeros.
+
+    >>> number(173.20508), number(20.0)
+    ('173.205', '20')
+    """
+    text = f"{round(value, decimals) + 0.0:.{decimals}f}"  # no -0
+    return text.rstrip("0").rstrip(".") if "." in text else text
+
+
+def times(count: int, text: str) -> str:
+    """Return a text with the number of times that the size occurs (ISO 129-1)."""
+    return f"{count}× {text}" if count > 1 else text

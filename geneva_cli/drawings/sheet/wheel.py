@@ -1,0 +1,199 @@
+"""The wheel's view on the drawing sheet."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+
+from geneva_cli.curves.measure import turned
+from geneva_cli.curves.plates import plates
+from geneva_cli.curves.shapes import Arc, Contour, Point
+from geneva_cli.curves.sheet import CENTRE, HIDDEN, OUTLINE
+from geneva_cli.drawings.part_drawings import pitch_lines
+from geneva_cli.drawings.sheet import sized
+from geneva_cli.drawings.sheet.bores import bolted, bored, circle_of, holes_of
+from geneva_cli.drawings.sheet.standing import draw_hub
+from geneva_cli.drawings.sheet.view import View, number, times
+from geneva_cli.kinematics.engagement import Engagement
+from geneva_cli.layout.projection import outlines_of
+from geneva_cli.numerics.tolerances import SAME_ON_SHEET
+from geneva_cli.outlines.outlines import Outlines
+from geneva_cli.outlines.wheel_hub import HUB
+from geneva_cli.parts.flat_parts import FlatParts
+
+
+def draw_wheel(view: View, parts: FlatParts) -> None:
+    """Draw the wheel with all its dimensions; a table has the points of curved slots."""
+    outlines = parts.outlines
+    assembly, sizes = outlines.assembly, outlines.sizes
+    wheel, *hubs = plates(parts.wheel.part)
+    for shape in outlines_of(parts.wheel.part):
+        view.draw(shape, HIDDEN if shape.layer == HUB else OUTLINE)
+    edges = [s for s in (wheel.outline, *wheel.holes) if isinstance(s, Contour)]
+    contour = next(s for s in edges if s.layer == wheel.layer)
+    reach = sizes.outer or max(math.hypot(*s.start) for s in contour.segments)
+    view.cross((0.0, 0.0), reach)
+    _axes(view, parts, reach)
+    if sizes.recess:
+        view.cross(_recess_centre(outlines), 0.0)
+    arcs = [s for s in contour.segments if isinstance(s, Arc)]
+    bores, screwed = holes_of([wheel])
+    circle_of(view, screwed)
+    _recesses(view, outlines, arcs)
+    for engagement in assembly.kinds:
+        number_of = sum(1 for one, _ in assembly.slots if one is engagement)
+        if not engagement.slot.curved:
+            _slot(view, outlines, engagement, number_of)
+    up = 0.5 * math.pi
+    view.linear((0.0, -reach), (0.0, reach), up, sized.plain(2.0 * reach, "Ø "))
+    _steps(view, outlines, reach)
+    _rims(view, arcs, reach)
+    for hub in hubs:
+        draw_hub(view, hub)
+    bored(view, bores, sizes.wheel_bore, assembly.mechanism.spec.size.wheel_keyway)
+    bolted(view, screwed)
+
+
+def _axes(view: View, parts: FlatParts, reach: float) -> None:
+    """Draw the axes of straight slots, and the roller's path in a curved one."""
+    outlines = parts.outlines
+    for i, (engagement, direction) in enumerate(outlines.assembly.slots):
+        if not engagement.slot.curved:
+            for end, mouth in _ends(turned(outlines.slots[engagement], direction)):
+                view.centre_line(*((end, mouth) if outlines.assembly.sign > 0.0 else (mouth, end)))
+        elif i == 0:
+            for line in pitch_lines(parts, engagement):
+                view.draw(line, CENTRE)
+
+
+def _ends(walls: Contour) -> list[tuple[Point, Point]]:
+    """Return inner end and mouth of the axis of a straight slot, or of each slot of a pair."""
+    first, *_, last = walls.segments
+    arcs = [piece for piece in walls.segments[1:-1] if isinstance(piece, Arc)]
+    if len(arcs) == 1:
+        return [_axis(first.start, first.end, arcs[0], last.end)]
+    return [_axis(first.start, first.end, arcs[0]), _axis(last.end, last.start, arcs[-1])]
+
+
+def _axis(corner: Point, inner: Point, arc: Arc, *corners: Point) -> tuple[Point, Point]:
+    """Return the axis of a slot: a wall from a corner inwards, a round end, other corners."""
+    x, y = arc.centre
+    turn = math.atan2(inner[1] - corner[1], inner[0] - corner[0])
+    c, s = math.cos(turn), math.sin(turn)
+    farther = min((p[0] - x) * c + (p[1] - y) * s for p in (corner, *corners))
+    return (x + arc.radius * c, y + arc.radius * s), (x + farther * c, y + farther * s)
+
+
+def _slot(view: View, parts: Outlines, engagement: Engagement, count: int) -> None:
+    """Draw width, end and depth of a straight slot, and its offset from the wheel's centre."""
+    direction = next(d for one, d in parts.assembly.slots if one is engagement)
+    walls = turned(parts.slots[engagement], direction)
+    ends = _ends(walls)
+    end, mouth = ends[0]
+    turn = math.atan2(mouth[1] - end[1], mouth[0] - end[0])
+    across = turn + 0.5 * math.pi
+    corner = walls.segments[0].start
+    count *= len(ends)
+    if len(ends) == 1:
+        width = sized.slot_width(parts.assembly.mechanism, parts.sizes.half_width)
+        view.linear(corner, walls.segments[-1].end, across, times(count, width))
+    else:  # one wall each
+        view.linear(corner, mouth, across, times(count, sized.plain(parts.sizes.half_width)))
+    foot = _foot(end, turn)
+    view.linear(foot, end, turn, sized.plain(math.dist(foot, end)), near=True)
+    view.linear(end, mouth, turn, times(count, sized.plain(math.dist(end, mouth))), near=True)
+    if math.hypot(*foot) > SAME_ON_SHEET:
+        normal = math.atan2(foot[1], foot[0])
+        view.linear((0.0, 0.0), foot, normal, sized.plain(math.hypot(*foot)))
+    rounds = [
+        s
+        for one, d in parts.assembly.slots
+        if one is engagement
+        for s in turned(parts.slots[one], d).segments
+        if isinstance(s, Arc) and math.hypot(*s.centre) > SAME_ON_SHEET
+    ]
+    view.of_arcs(rounds, times(count, sized.plain(rounds[0].radius, "R ")))
+
+
+def _foot(p: Point, turn: float) -> Point:
+    """Return the point of a line that is nearest to the origin."""
+    c, s = math.cos(turn), math.sin(turn)
+    along = p[0] * c + p[1] * s
+    return p[0] - along * c, p[1] - along * s
+
+
+def _recesses(view: View, parts: Outlines, arcs: list[Arc]) -> None:
+    """Draw the recesses and the distance of their centres."""
+    assembly, sizes = parts.assembly, parts.sizes
+    L = assembly.L
+    if not sizes.recess:
+        return
+    about = [arc for arc in arcs if abs(math.hypot(*arc.centre) - L) < SAME_ON_SHEET]
+    own = [arc for arc in about if abs(arc.radius - sizes.recess) < SAME_ON_SHEET]
+    deviation = assembly.mechanism.spec.tolerance.center_distance_mm
+    centre = _recess_centre(parts)
+    turn = math.atan2(centre[1], centre[0])
+    view.linear((0.0, 0.0), centre, turn, sized.plain(L, deviation=deviation), near=True)
+    view.of_arcs(own, times(len(own), sized.recess(assembly.mechanism, sizes.recess)), whole=True)
+    for radius, some in _by_radius([arc for arc in about if arc not in own]).items():
+        view.of_arcs(some, times(len(some), sized.plain(radius, "R ")))
+
+
+def _recess_centre(parts: Outlines) -> Point:
+    """Return the leftmost centre of a recess."""
+    L = parts.assembly.L
+    return min(
+        ((L * math.cos(a), L * math.sin(a)) for a in parts.assembly.rests), key=lambda p: p[0]
+    )
+
+
+def _rims(view: View, arcs: list[Arc], reach: float) -> None:
+    """Draw arcs about the wheel's axis other than the outermost one."""
+    own = [arc for arc in arcs if math.hypot(*arc.centre) < SAME_ON_SHEET]
+    for radius, some in _by_radius(own).items():
+        if abs(radius - reach) > SAME_ON_SHEET:
+            view.of_arcs(some, times(len(some), sized.plain(radius, "R ")))
+
+
+def _steps(view: View, parts: Outlines, reach: float) -> None:
+    """Draw the angles between slots, and from a slot to the middle of a recess."""
+    assembly = parts.assembly
+    deviation = assembly.mechanism.spec.tolerance.slot_angle_deg
+    begin = reach
+    angles = sorted(
+        angle
+        for engagement, direction in assembly.slots
+        for angle in _directions(parts, engagement, direction)
+    )
+    steps: dict[str, list[tuple[float, float]]] = {}
+    for start, end in zip(angles, [*angles[1:], angles[0] + math.tau], strict=True):
+        shown = f"{number(math.degrees(end - start))}°" + (f" ±{deviation:g}°" if deviation else "")
+        steps.setdefault(shown, []).append((start, end))
+    for text, pairs in steps.items():
+        view.angular(pairs, begin, reach, times(len(pairs), text))
+    halves: dict[str, list[tuple[float, float]]] = {}
+    for rest in assembly.rests if parts.sizes.recess else ():
+        off = min((rest - angle) % math.tau for angle in angles)
+        halves.setdefault(f"{number(math.degrees(off))}°", []).append((rest - off, rest))
+    for text, pairs in halves.items():
+        view.angular(pairs, begin, reach, times(len(pairs), text))
+
+
+def _directions(parts: Outlines, engagement: Engagement, direction: float) -> Iterator[float]:
+    """Yield the directions in the wheel of the axis of a slot, or of both slots of a pair."""
+    if engagement.slot.curved:
+        yield direction
+        return
+    for (x, y), (u, v) in _ends(turned(parts.slots[engagement], direction)):
+        angle = math.atan2(v - y, u - x)
+        angle += 0.0 if parts.assembly.sign > 0.0 else math.pi
+        yield direction + math.remainder(angle - direction, math.tau)
+
+
+def _by_radius(arcs: list[Arc]) -> dict[float, list[Arc]]:
+    """Return arcs grouped by radius."""
+    groups: dict[float, list[Arc]] = {}
+    for arc in arcs:
+        same = next((r for r in groups if abs(r - arc.radius) < SAME_ON_SHEET), arc.radius)
+        groups.setdefault(same, []).append(arc)
+    return groups

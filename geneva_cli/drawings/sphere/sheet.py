@@ -1,0 +1,197 @@
+"""The drawing sheet of a spherical machine: section, flat wheel and crank, and all angles.
+
+The section is in the plane of both shafts, with a roller at the end of its slot. The sphere's
+centre is the origin, and the wheel's axis points up. Flat views have the apex of their cone as the
+origin, if it is near.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Sequence
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from geneva_cli.curves.measure import at, mapped
+from geneva_cli.curves.plates import plates
+from geneva_cli.curves.shapes import Arc, Contour, Line, Point, Segment, Shape
+from geneva_cli.curves.sheet import CENTRE, OUTLINE, Sheet
+from geneva_cli.drawings.parts_list import part_rows
+from geneva_cli.drawings.sheet import sized
+from geneva_cli.drawings.sheet.bores import bored, radius_of
+from geneva_cli.drawings.sheet.composed import on_paper
+from geneva_cli.drawings.sheet.linked import flat_plates
+from geneva_cli.drawings.sheet.paper import table
+from geneva_cli.drawings.sheet.points import COARSE, MIRRORED, point_table, polyline
+from geneva_cli.drawings.sheet.standing import draw_hub, draw_shaft
+from geneva_cli.drawings.sheet.view import Block, View, number, times
+from geneva_cli.drawings.sphere.arm_drawing import arm_cone, arm_flat
+from geneva_cli.drawings.sphere.dimensions import dimensions
+from geneva_cli.drawings.sphere.drawings import (
+    PITCH,
+    crank_cone,
+    crank_flat,
+    slot_flat,
+    wheel_cone,
+    wheel_flat,
+)
+from geneva_cli.drawings.sphere.laid_flat import Cone
+from geneva_cli.drawings.sphere.section import degrees, section
+from geneva_cli.kinematics.layout import Dimension
+from geneva_cli.layout.sphere_sizes import Ball
+from geneva_cli.numerics.tolerances import SAME_ANGLE
+from geneva_cli.parts.sphere.arm import CapArm
+from geneva_cli.parts.sphere.sphere_parts import ROLLER, SphereParts
+
+if TYPE_CHECKING:
+    from geneva_cli.numerics.jet import Array
+
+SAME = 1e-6  # of a radius, and in mm
+HEADING = ("All walls lead to the sphere's centre: angles are seen from there.",)
+COLUMNS = (80.0, 24.0, 14.0)  # mm, of the table of angles
+DECIMALS = 4  # of an angle in degrees: 0.2 um on 100 mm
+
+
+def sheet(parts: SphereParts) -> Sheet:
+    """Return the drawing sheet of a machine. Raises GenevaError where no scale fits on one."""
+    ball = parts.ball
+    wheel = wheel_flat(parts, wheel_cone(ball))
+    crank = crank_flat(parts, crank_cone(ball))
+    arm = arm_flat(parts, parts.arm) if parts.arm else []
+    rows = [
+        (d.name, number(d.value, DECIMALS), d.unit)
+        for d in dimensions(parts)
+        if isinstance(d, Dimension) and isinstance(d.value, (int, float))
+    ]
+    fixed = [
+        table(HEADING, [("dimension", "value", "unit"), *rows], COLUMNS),
+        flat_slot(ball, parts.tolerance),
+    ]
+
+    def blocks(scale: float) -> Iterator[list[Block]]:
+        views = [
+            section(parts, scale),
+            _flat("wheel", ball, wheel_cone(ball), wheel, scale),
+            _flat("crank", ball, crank_cone(ball), crank, scale),
+        ]
+        if parts.arm:
+            views.append(_arm(parts, parts.arm, arm, scale))
+        views += _axles(parts, scale)
+        yield [*(view.block() for view in views), *fixed]
+
+    spec = parts.mechanism.spec
+    items = list(part_rows(spec, (one.part for one in parts.members), ball.span_mm[1]))
+    return on_paper(spec, items, 2.0 * ball.span_mm[1], blocks)
+
+
+def _arm(parts: SphereParts, arm: CapArm, flat: list[Contour], scale: float) -> View:
+    """Return the view of the arm laid flat, with notes on pins, hub and bolts."""
+    ball = parts.ball
+    view = _flat("crank", ball, arm_cone(ball), flat, scale)
+    view.title = "arm, laid flat"
+    hole, pin = arm.pins[0].radius, ball.pin_mm
+    text = f"{sized.pin_hole(parts.mechanism, hole)} through, to the sphere's centre"
+    view.remark(f"pins: {times(len(arm.pins), text)}; pin {sized.pin(pin)}")
+    view.remark(f"hub: {sized.plain(2.0 * arm.hub, 'Ø ')} through, about the crank's axis")
+    if arm.bolts:
+        text = f"{sized.bore(arm.bolts[0].radius)} through, to the sphere's centre"
+        view.remark(f"locking sectors: {times(len(arm.bolts), text)}")
+    return view
+
+
+def _axles(parts: SphereParts, scale: float) -> Iterator[View]:
+    """Yield views of hubs along their axes, with bores and keyways, and of shafts' sides."""
+    size = parts.mechanism.spec.size
+    for part, standard in ((parts.wheel, size.wheel_keyway), (parts.crank, size.crank_keyway)):
+        for hub in plates(part.part):
+            if hub.layer == ROLLER:
+                continue
+            view = View(hub.name, scale)
+            for shape in (hub.outline, *hub.holes):
+                view.draw(shape, OUTLINE)
+            if hub.holes:
+                bored(view, hub.holes, radius_of(hub.holes[0]), standard)
+            draw_hub(view, hub)
+            view.remark(f"{number(hub.thickness)} long")
+            yield view
+    for shaft in flat_plates(parts.shafts):
+        view = View(shaft.name, scale)
+        draw_shaft(view, shaft)
+        yield view
+
+
+def _flat(whose: str, ball: Ball, cone: Cone, shapes: Sequence[Shape], scale: float) -> View:
+    """Return a cone laid flat: radii from the apex, depth of a slot, angles between slots."""
+    view = View(f"{whose}, laid flat", scale)
+    view.remark(cone.described(whose))
+    shift = _shift(ball, cone)
+    near = shift != 0.0
+    moved = [mapped(s, lambda p: (p[0] + shift, p[1])) for s in shapes]
+    for shape in moved:
+        view.draw(shape, CENTRE if shape.layer == PITCH else OUTLINE)
+    contours = [s for s in moved if isinstance(s, Contour)]
+    if near:
+        view.cross((0.0, 0.0), 0.05 * ball.radius_mm)
+        far = max(math.hypot(*s.start) for c in contours for s in c.segments)
+        _sectors(view, [c.segments[0] for c in contours if c.layer == "CRANK"], far)
+        radii: dict[str, list[Arc]] = {}
+        for arc in (s for c in contours for s in c.segments if isinstance(s, Arc)):
+            if math.hypot(*arc.centre) < SAME * arc.radius:
+                radii.setdefault(sized.plain(arc.radius, "R "), []).append(arc)
+        for text, some in radii.items():
+            view.of_arcs(some, text)
+    axes = [c.segments[0] for c in contours if c.layer == PITCH and isinstance(c.segments[0], Line)]
+    if not axes:
+        return view
+    first, after = axes[:2]
+    view.linear(*first, 0.0, sized.plain(math.dist(*first)), near=True)
+    if near:
+        legs = sorted(math.atan2(line.start[1], line.start[0]) for line in (first, after))
+        text = degrees(abs(legs[1] - legs[0]))
+        view.angular([(legs[0], legs[1])], far, far, times(ball.z - 1, text))
+    else:
+        view.linear(first.start, after.start, 0.5 * math.pi, times(ball.z - 1, sized.plain(
+            abs(after.start[1] - first.start[1]))))  # fmt: skip
+    return view
+
+
+def _shift(ball: Ball, cone: Cone) -> float:
+    """Return the distance from a cone's apex to its contact, mm; 0 if too far for a sheet."""
+    near = abs(math.cos(cone.polar)) > SAME_ANGLE and abs(cone.apex_mm) < 4.0 * ball.radius_mm
+    return cone.apex_mm if near else 0.0
+
+
+def flat_slot(ball: Ball, tolerance: float) -> Block:
+    """Return a table of half of a flat slot: its edge from between two slots to its end."""
+    cone, close = wheel_cone(ball), max(tolerance, COARSE * ball.radius_mm)
+    shift = _shift(ball, cone)
+    points: list[Point] = []
+    # the fitted curve is ten times as accurate as the table that samples it
+    for piece in slot_flat(ball, cone, 0.1 * close, "arcs").segments:
+
+        def curve(t: Array, piece: Segment = piece) -> Array:
+            return np.array([at(piece, float(fraction)) for fraction in t])
+
+        for x, y in polyline(curve, 0.0, 1.0, close, begin=1):
+            apart = not points or math.dist(points[-1], (x, y)) > SAME
+            if y < -SAME * ball.radius_mm and apart:
+                points.append((float(x), float(y)))
+    points.append(cone.point(ball.bottom - ball.half_width, 0.0))
+    shown = np.array(points) + np.array([shift, 0.0])
+    origin = "the cone's apex" if shift else "where the cone touches"
+    title = f"slot 1 laid flat: points of its edge from {origin}{MIRRORED}"
+    return point_table(title, shown, close)
+
+
+def _sectors(view: View, locking: list[Segment], far: float) -> None:
+    """Draw the angles of the locking sectors, and from the first roller to the first."""
+    arcs = [arc for arc in locking if isinstance(arc, Arc)]
+    wide: dict[str, list[tuple[float, float]]] = {}
+    for arc in arcs:
+        start = math.atan2(arc.start[1], arc.start[0])
+        wide.setdefault(degrees(arc.sweep), []).append((start, start + arc.sweep))
+    for text, pairs in wide.items():
+        view.angular(pairs, arcs[0].radius, far, times(len(pairs), text))
+    for start in sorted(pair[0] % math.tau for pairs in wide.values() for pair in pairs)[:1]:
+        view.angular([(0.0, start)], far, far, f"roller to sector {degrees(start)}")

@@ -1,0 +1,1 @@
+"""Pin path, slot and motion: any two give the third."""

@@ -1,0 +1,165 @@
+"""The base of the drives, which turn the crank or move the roller."""
+
+from __future__ import annotations
+
+import math
+from abc import abstractmethod
+from collections.abc import Callable
+from enum import Enum
+from typing import TYPE_CHECKING, Annotated, ClassVar, NamedTuple
+
+from geneva_cli.kinematics.engagement import Displacement, Engagement
+from geneva_cli.kinematics.layout import Layout, Link
+from geneva_cli.spec.example import Example
+from geneva_cli.spec.rules import SPEED, Z_MAX, Range
+from geneva_cli.spec.schema import SpecTable
+
+if TYPE_CHECKING:
+    from geneva_cli.kinematics.laws.law import Law
+    from geneva_cli.kinematics.motion import Motion
+    from geneva_cli.kinematics.wheels.gearing import Gearing
+    from geneva_cli.numerics.jet import Array
+    from geneva_cli.numerics.spline import Doubt
+
+
+class Needs(Enum):
+    """Need of a drive for a motion law: none allowed, optional, or required."""
+
+    NO_LAW = "no law"
+    MAY = "may"
+    LAW = "law"
+
+
+class Plan(NamedTuple):
+    """The engagements of a machine's period, and the proportions that were solved for."""
+
+    engagements: tuple[Engagement, ...]
+    period_deg: float  # input angle after which the engagements repeat
+    ratio: float  # l = R/L at mid-motion
+    rollers_max: int  # greatest number of evenly spaced rollers that do not jam
+    center_distance_mm: float
+
+
+class Gears(NamedTuple):
+    """A pair of gears: the distance of their axes, and the crank's rotation from input angle 0."""
+
+    distance_mm: float
+    advance: Displacement
+
+
+class FirstWheel(NamedTuple):
+    """A wheel in front of the crank: its slots, and the distance of its axis from its own crank."""
+
+    z: int
+    distance_mm: float
+
+
+class Drive(SpecTable, kw_only=True):
+    """A kind of drive; its fields are the keys of ``[drive]``."""
+
+    TABLE: ClassVar[str] = "drive"
+    NAME: ClassVar[str]
+    # name of the drive in a sentence
+    WORDS: ClassVar[str]
+    # example spec, without its kind
+    EXAMPLE: ClassVar[Example]
+    # the only gearings that it drives; empty for any
+    GEARINGS: ClassVar[tuple[str, ...]] = ()
+    LAW: ClassVar[Needs]
+    # True if it carries one roller only; else any number, also unevenly spaced
+    ONE_ROLLER: ClassVar[bool] = False
+    # True if the roller stays as far from the crank's axis as at mid-motion
+    ONE_ARM: ClassVar[bool] = True
+    # True if its slots must be radial and its steps equal
+    RADIAL: ClassVar[bool] = False
+    # True if all rollers on its crank move the wheel alike
+    ALIKE: ClassVar[bool] = False
+    # True if its crank can carry a locking disc about the line of centres
+    LOCKS: ClassVar[bool] = True
+    # True if a crank carries the roller, so that a plain crank drive could replace it
+    CRANKED: ClassVar[bool] = False
+    # True for a pair of noncircular gears, which have pitch curves
+    GEARED: ClassVar[bool] = False
+    # True if it has other gears, with pitch circles
+    TOOTHED: ClassVar[bool] = False
+    # True if a first Geneva wheel turns its crank
+    IN_SERIES: ClassVar[bool] = False
+    # key of [drive] that its link reactions need; empty if none
+    LENGTH: ClassVar[str] = ""
+    n_rpm: Annotated[float, SPEED, "constant speed of the input shaft"] = 60.0
+    rollers: Annotated[int, Range(1, Z_MAX), "number of rollers on the crank, m"] = 1
+    roller_angles_deg: Annotated[
+        tuple[float, ...] | None,
+        Range(0.0, 360.0, "[)"),
+        "angles of the rollers on the crank, if not evenly spaced",
+    ] = None
+
+    @property
+    def turns(self) -> int:
+        """Number of input turns in one turn of the crank."""
+        return 1
+
+    @property
+    def gears(self) -> Gears | None:
+        """Noncircular gears between input and crank; None for a drive without."""
+        return None
+
+    def first_wheel(self, L: float) -> FirstWheel | None:
+        """External wheel that turns the crank, or None; L is the second wheel's centre distance."""
+        return None
+
+    def matched_ratio(self, wheel: Gearing, law: Law, motion_deg: float) -> float:
+        """R/L at which curved slots have a finite pressure angle at mid-motion; NaN if none."""
+        return math.nan
+
+    def may_vary(self, table: str, key: str) -> bool:
+        """True if a number of a table may be an array along a design axis with this drive."""
+        return True
+
+    def doubt(self, input_deg: float) -> Doubt | None:
+        """Uncertainty of the crank's jerk from the decimals of a ratio file.
+
+        It holds the number of decimals, and the change by rounding of the ratio's second
+        derivative. That change is a fraction of the ratio at an input angle. None without a file.
+        """
+        return None
+
+    def input_deg(self, crank_deg: float) -> float:
+        """Input angle from mid-motion at a crank angle from mid-motion, degrees."""
+        return crank_deg
+
+    def layout(self, plan: Plan, sign: float) -> Layout:
+        """Pivots and dimensions of this kind of drive; ``sign`` is the wheel's (-1 inside).
+
+        >>> SideCrank(A=0.6).layout(Design(External(6)).mechanism.plan, 1.0)[0]
+        Pivot(name='input crank axis', x_mm=70.0, y_mm=0.0)
+        """
+        return ()
+
+    def links(self, plan: Plan, sign: float, input_deg: Array) -> tuple[Link, ...]:
+        """Links that turn the crank or carry the roller, at input angles from mid-motion.
+
+        >>> from numpy import array
+        >>> drive, plan = SideCrank(A=0.6), Design(External(6)).mechanism.plan
+        >>> [float(v[0]) for v in drive.links(plan, 1.0, array([0.0]))[0].joints[1]]
+        [20.0, 0.0]
+        """
+        return ()
+
+    def exact_advance(
+        self, half: tuple[float, float], exact: Callable[[float], float]
+    ) -> Displacement | None:
+        """Rotation of the crank about a crank angle, in numbers of any kind, for certificates.
+
+        ``half`` has sine and cosine of half that angle. ``exact`` converts a number of the spec.
+        None for a drive whose proportions are solved for in doubles.
+        """
+        return None
+
+    @abstractmethod
+    def plan(self, wheel: Gearing, motion: Motion | None, L: float) -> Plan:
+        """Engagements and proportions of a machine; without a motion its slots are straight.
+
+        ``L`` is the centre distance, mm, where the drive does not solve for it. Raises GenevaError
+        for impossible values.
+        """

@@ -1,0 +1,57 @@
+"""Engagements with a known pin path and motion, whose curved slot is solved for."""
+
+from __future__ import annotations
+
+from geneva_cli.kinematics.engagement import (
+    Anchor,
+    Carrier,
+    Engagement,
+    Slot,
+    WheelMotion,
+    in_wheel,
+)
+from geneva_cli.kinematics.law_motion import LawMotion
+from geneva_cli.kinematics.laws.law import Law
+from geneva_cli.numerics.jet import Jet, Number
+
+
+class MiddlePath:
+    """The pin's path, written about mid-motion.
+
+    ``mirrored`` is True if its second half is the mirror image of its first.
+    """
+
+    def __init__(self, middle: Anchor, mirrored: bool = True) -> None:
+        self.middle, self.mirrored = middle, mirrored
+
+    def __call__(self, input_deg: Number, order: int = 3) -> tuple[Jet, Jet]:
+        """Pin (x, y) on its circle at input angles in degrees."""
+        return self.middle.place(input_deg, order)
+
+
+class SolvedSlot(Slot):
+    """Slot along the pin's path as seen from the turning wheel."""
+
+    curved = True
+
+    def __init__(self, path: MiddlePath, motion: WheelMotion) -> None:
+        self.path, self.motion = path, motion
+        self.mirrored = path.mirrored
+
+    def __call__(self, input_deg: Number, order: int = 3) -> tuple[Jet, Jet]:
+        """Pin (x, y) in the wheel's frame."""
+        return in_wheel(self.path(input_deg, order), self.motion(input_deg, order))
+
+
+def engagement(
+    mid_deg: float,
+    motion_deg: float,
+    half_step: float,
+    law: Law,
+    path: MiddlePath,
+    carrier: Carrier,
+) -> Engagement:
+    """Build the engagement of a curved slot whose motion is centred on the line of centres."""
+    half = 0.5 * motion_deg
+    motion = LawMotion(-half, half, half_step, law)
+    return Engagement(mid_deg, path, SolvedSlot(path, motion), motion, carrier)

@@ -1,0 +1,148 @@
+"""Entry and exit on a roller's closed path: the pairs of points that a wheel's slots can use.
+
+A wheel with straight radial slots takes a roller without shock if the path enters along one slot
+and leaves along the next. Both points are equally far from the wheel's centre O. With the unit
+tangents t1 and t2 there,
+
+    O = P1 + rho t1 = P2 - rho t2 ,    the angle from -t1 to t2 = the index angle 2b ,
+
+so that the chord P2 - P1 is parallel to t1 + t2. Between the two points the pin goes round the
+wheel's centre in one direction. So the tangent, seen from its ray, turns from -t1 to t2 without
+passing the ray again. From entry to exit it turns by pi - 2b in all, against the wheel. At each end
+it turns in that direction too, or not at all.
+
+The search uses boxes: an interval of crank angles between two samples for the entry, and one for
+the exit. The cubics through the samples' values and slopes bound two quantities in a box: the turn,
+and the chord's component across t1 + t2. A box in which either has only one sign is discarded. The
+others are halved, until both quantities change so evenly that Newton's method finds the only pair
+of the box.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+
+from geneva_cli.kinematics.paths.boxes import OVERLAP, Boxes, boxes_of, halved, newton_steps
+from geneva_cli.kinematics.paths.samples import PathPoints, PathSamples, joined, points
+from geneva_cli.kinematics.roller_path import RollerPath
+from geneva_cli.numerics.tolerances import ROUNDED
+
+if TYPE_CHECKING:
+    from geneva_cli.numerics.arrays import Array, Mask, Which, Whole
+
+# Slope of the index angle along the family of pairs: a root with less is double, or nearly so.
+DOUBLE_ROOT_SLOPE = 1e-5
+
+
+class EndPairs(NamedTuple):
+    """Pairs of points of designs, entry first, in two columns."""
+
+    which: Whole
+    at: PathPoints
+
+    def taken(self, where: Which) -> EndPairs:
+        """Select some of the pairs."""
+        return EndPairs(self.which[where], self.at.taken(where))
+
+
+class PairSearch(NamedTuple):
+    """Pairs, and places that have no pair or may have a double root."""
+
+    pairs: EndPairs
+    doubtful: EndPairs
+
+
+class Residual(NamedTuple):
+    """Residuals of both conditions, and their slopes.
+
+    ``away`` is the chord's component across the sum of the tangents, with its slopes by entry and
+    by exit. ``excess`` is the error of the index angle, which turns with the tangents. ``det`` is
+    the determinant of both.
+    """
+
+    away: Array
+    by_entry: Array
+    by_exit: Array
+    excess: Array
+    det: Array
+    sense: Array
+
+
+def pairs(path: RollerPath, samples: Iterable[PathSamples], b: Array) -> PairSearch:
+    """All pairs for designs with half index angles b, (n, 1), from samples of their paths."""
+    wanted = math.pi - 2.0 * b[:, 0]
+    boxes = joined([boxes_of(some, wanted[some.which]) for some in samples])
+    solved, halvings = [], 8  # of a box
+    for depth in range(halvings + 1):
+        steps = newton_steps(boxes, wanted)
+        last = depth == halvings
+        tried = np.arange(len(steps.near)) if last else np.flatnonzero(steps.alike & steps.near)
+        ends, close = _solved(path, boxes.taken(tried), steps.phi[tried], b)
+        solved.append(ends.taken(close))
+        rest = np.concatenate((np.flatnonzero(~steps.alike), tried[~close]))
+        if last or not len(rest):
+            break
+        boxes = halved(path, boxes.taken(rest), wanted)
+    ends = ends.taken(np.flatnonzero(~close))
+    # a pair without a root whose index angle is this near, in radians, may be a double root
+    near = np.flatnonzero(np.abs(residual(ends, b).excess) < 1e-5)
+    return PairSearch(joined(solved), ends.taken(near))
+
+
+def ends_at(path: RollerPath, which: Whole, phi: Array) -> EndPairs:
+    """Points of designs at entry and exit angles, in two columns."""
+    return EndPairs(which, points(path.roughly(which), phi))
+
+
+def residual(ends: EndPairs, b: Array) -> Residual:
+    """Residuals of pairs; ``b`` holds the half index angles of all designs, (m, 1)."""
+    at = ends.at
+    (p, q), (t, u), (v, w) = at.p.T, at.t.T, at.v.T
+    chord, both = q - p, (t + u).conj()
+    turn, turn_out = at.turn.T
+    by_exit = (w * both + chord * (1j * turn_out * u).conj()).imag
+    by_entry = (chord * (1j * turn * t).conj() - v * both).imag
+    angle = np.angle(-u * t.conj())
+    sense = np.copysign(1.0, angle)
+    excess = sense * angle - 2.0 * b[ends.which, 0]
+    det = by_entry * turn_out + by_exit * turn
+    return Residual((chord * both).imag, by_entry, by_exit, excess, det, sense)
+
+
+def newton(ends: EndPairs, rest: Residual) -> Array:
+    """Newton step from pairs, in two columns."""
+    turn, turn_out = ends.at.turn.T
+    excess = rest.sense * rest.excess
+    by_entry = excess * rest.by_exit - rest.away * turn_out
+    by_exit = -excess * rest.by_entry - rest.away * turn
+    step: Array = np.stack((by_entry, by_exit), axis=1) / rest.det[:, None]
+    return step
+
+
+def _solved(path: RollerPath, boxes: Boxes, phi: Array, b: Array) -> tuple[EndPairs, Mask]:
+    """Newton's method from places in boxes: its end points, and a mask of those in their box."""
+    low = np.stack((boxes.entry.first.phi, boxes.exit.first.phi), axis=1)
+    high = np.stack((boxes.entry.last.phi, boxes.exit.last.phi), axis=1)
+    width = high - low
+    phi = np.clip(phi, low - OVERLAP * width, high + OVERLAP * width)
+    close = np.zeros(len(phi), dtype=bool)
+    live = np.arange(len(phi))
+    for _ in range(12):  # Newton steps
+        if not len(live):
+            break
+        ends = ends_at(path, boxes.which[live], phi[live])
+        rest = residual(ends, b)
+        move = newton(ends, rest)
+        move *= np.minimum(1.0, (width[live] / np.abs(move)).min(axis=1))[:, None]
+        phi[live] += move
+        off = np.maximum(low[live] - phi[live], phi[live] - high[live]) / width[live]
+        inside = (off <= OVERLAP + ROUNDED).all(axis=1)
+        # radians: half of the digits; the next step gives all of them
+        done = np.abs(move).max(axis=1) < 1e-6
+        close[live] = done & inside
+        live = live[~done & inside]
+    return ends_at(path, boxes.which, phi), close

@@ -1,0 +1,199 @@
+"""Samples of a closed path, close enough that its direction is known between them.
+
+Between two samples the direction is the cubic of their directions and of the rates at which they
+turn. If that does not predict the turn to the next sample, the path is sampled again midway. This
+happens near a cusp.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterator, Sequence
+from typing import TYPE_CHECKING, NamedTuple, TypeAlias, cast
+
+import numpy as np
+
+from geneva_cli.kinematics.roller_path import RollerPath
+from geneva_cli.numerics.arrays import Record
+
+if TYPE_CHECKING:
+    from geneva_cli.numerics.arrays import Array, Complex, Mask, Which, Whole
+
+Where: TypeAlias = "Which | tuple[slice | int | Whole, slice | int | Whole]"
+
+
+class PathPoints(NamedTuple):
+    """Points of a path at crank angles ``phi``.
+
+    Position, velocity and acceleration are complex numbers, as is the unit tangent ``t``. ``turn``
+    is the rate at which the tangent turns.
+    """
+
+    phi: Array
+    p: Complex
+    v: Complex
+    a: Complex
+    t: Complex
+    speed: Array
+    turn: Array
+
+    def taken(self, where: Where) -> PathPoints:
+        """Select some of the points."""
+        return PathPoints._make(part[where] for part in self)
+
+
+class PathSamples(NamedTuple):
+    """Samples of a full turn, one row per design: the last column is the first, one turn later.
+
+    ``angle`` is the tangent's angle, without jumps. Rows with fewer samples repeat their last one.
+    """
+
+    which: Whole  # numbers of the designs
+    at: PathPoints
+    angle: Array
+
+
+def points(path: RollerPath, phi: Array) -> PathPoints:
+    """Points of the path; a row holds the angles of one design."""
+    x, y = path.at(phi, 2)
+    shape = np.broadcast_shapes(*(np.shape(c) for c in (*x.c, *y.c)))
+    (px, vx, ax), (py, vy, ay) = x.arrays(), y.arrays()
+    square = vx * vx + vy * vy
+    turn = (vx * ay - vy * ax) / square
+    speed = np.broadcast_to(np.sqrt(square), shape)
+    over = np.where(speed == 0.0, 0.0, 1.0 / speed)  # no direction where the point is at rest
+    places = ((px, py), (vx, vy), (ax, ay), (vx * over, vy * over))
+    p, v, a, t = (_complex(*place, shape) for place in places)
+    return PathPoints(np.broadcast_to(phi, shape), p, v, a, t, speed, turn)
+
+
+def _complex(x: Array, y: Array, shape: tuple[int, ...]) -> Complex:
+    both = np.empty(shape, dtype=complex)
+    both.real, both.imag = x, y
+    return both
+
+
+def sampled(path: RollerPath, count: int) -> Iterator[PathSamples]:
+    """Samples of all ``count`` designs, in blocks with similar numbers of samples."""
+    steps = 48  # samples of a turn that every path has
+    # Samples begin after 0.3 of a step: symmetrical paths have their cusps at 0 and at pi.
+    phi = np.array([(i + 0.3) * (math.tau / steps) for i in range(steps + 1)])
+    every = np.arange(count)
+    # samples of 256 designs stay in the processor's cache
+    base = joined([_rows(path.roughly(every[i]), phi, len(every[i])) for i in blocks(count, 256)])
+    left, right = _neighbours(base)
+    turned = _turned(left, right)
+    row, column = np.nonzero(_missed(left, right, turned))
+    extra = _between(path, row, left.taken((row, column)), right.taken((row, column)))
+    more = np.bincount(extra[0], minlength=count) if extra else np.zeros(count, dtype=int)
+    plain = every[more == 0]
+    for part in _blocks(np.full(len(plain), steps)):
+        yield _samples(plain[part], base.taken(plain[part]), turned[plain[part]])
+    if extra:
+        whose, added = extra
+        crowded = np.flatnonzero(more)
+        crowded = crowded[np.argsort(more[crowded])]
+        for part in _blocks(steps + more[crowded]):
+            at = _padded(crowded[part], base, whose, added)
+            yield _samples(crowded[part], at, _turned(*_neighbours(at)))
+
+
+def _rows(path: RollerPath, phi: Array, count: int) -> PathPoints:
+    """Points at the same angles for ``count`` designs."""
+    at = points(path, phi[None])
+    return PathPoints._make(np.broadcast_to(part, (count, len(phi))) for part in at)
+
+
+def _neighbours(at: PathPoints) -> tuple[PathPoints, PathPoints]:
+    return at.taken((slice(None), slice(None, -1))), at.taken((slice(None), slice(1, None)))
+
+
+def _turned(left: PathPoints, right: PathPoints) -> Array:
+    """Turn of the tangent from one sample to the next, less than half a turn."""
+    (a, b), (c, d) = ((one.t.real, one.t.imag) for one in (left, right))
+    turn: Array = np.arctan2(a * d - b * c, a * c + b * d)
+    return turn
+
+
+def _missed(left: PathPoints, right: PathPoints, turned: Array) -> Mask:
+    """True where the rates at two samples do not predict the turn between them."""
+    half = 0.5 * (right.phi - left.phi) * (left.turn + right.turn)
+    return np.abs(turned - half) > 0.05  # radians
+
+
+def _between(
+    path: RollerPath, which: Whole, left: PathPoints, right: PathPoints
+) -> tuple[Whole, PathPoints] | None:
+    """Extra samples between samples of designs, until every turn is predicted."""
+    added = []
+    for _ in range(14):  # halvings: a bend within a crank angle of 1e-5 radians is a cusp
+        if not len(which):
+            break
+        phi = 0.5 * (left.phi + right.phi)
+        middle = points(path.roughly(which), phi[:, None]).taken((slice(None), 0))
+        added.append((which, middle))
+        halves = ((left, middle), (middle, right))
+        missed = [_missed(*half, _turned(*half)) for half in halves]
+        left, right = (
+            joined([half[side].taken(m) for half, m in zip(halves, missed, strict=True)])
+            for side in (0, 1)
+        )
+        which = np.concatenate([which[m] for m in missed])
+    return joined(added) if added else None
+
+
+def _blocks(counts: Whole) -> Iterator[slice]:
+    """Slices of rows with a limited number of pairs of samples."""
+    start, most = 0, 1 << 19  # pairs that stay in the processor's cache
+    while start < len(counts):
+        rows = max(1, most // int(counts[start]) ** 2)
+        stop = min(start + rows, len(counts))
+        while stop - start > 1 and (stop - start) * int(counts[stop - 1]) ** 2 > 2 * most:
+            stop = (start + stop) // 2
+        yield slice(start, stop)
+        start = stop
+
+
+def _padded(rows: Whole, base: PathPoints, whose: Whole, added: PathPoints) -> PathPoints:
+    """Samples of some designs merged with the added ones, in order."""
+    number = np.full(int(whose.max(initial=0)) + 1, -1)
+    number[rows] = np.arange(len(rows))
+    mine = number[whose] >= 0
+    first = np.repeat(np.arange(len(rows)), base.phi.shape[1])
+    row = np.concatenate((first, number[whose[mine]]))
+    parts = [np.concatenate((a[rows].ravel(), b[mine])) for a, b in zip(base, added, strict=True)]
+    order = np.lexsort((parts[0], row))
+    row = row[order]
+    counts = np.bincount(row)
+    starts = np.cumsum(counts) - counts
+    width = int(counts.max())
+    # After its own last sample a row repeats it.
+    place = order[starts[:, None] + np.minimum(np.arange(width), counts[:, None] - 1)]
+    return PathPoints._make(part[place] for part in parts)
+
+
+def _samples(which: Whole, at: PathPoints, turned: Array) -> PathSamples:
+    """Samples with the tangent's angle, which is the sum of the turns."""
+    angle = np.zeros(at.phi.shape)
+    np.cumsum(turned, axis=1, out=angle[:, 1:])
+    return PathSamples(which, at, angle)
+
+
+def joined(parts: Sequence[Record]) -> Record:
+    """Concatenate records of arrays."""
+    fields = [_joined(field) for field in zip(*parts, strict=True)]
+    make: Callable[..., object] = type(parts[0])
+    return cast("Record", tuple(fields) if make is tuple else make(*fields))
+
+
+def _joined(parts: Sequence[object]) -> object:
+    """Concatenate members of records: arrays, or nested records."""
+    if isinstance(parts[0], tuple):
+        return joined(cast("Sequence[tuple[object, ...]]", parts))
+    return np.concatenate(cast("Sequence[Array]", parts))
+
+
+def blocks(count: int, size: int) -> Iterator[slice]:
+    """Slices of ``size`` rows that cover all ``count`` rows; one empty slice if there are none."""
+    for start in range(0, max(count, 1), size):
+        yield slice(start, min(start + size, count))

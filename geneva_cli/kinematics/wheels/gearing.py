@@ -1,0 +1,165 @@
+"""The base of the gearings: external, internal and spherical wheels."""
+
+from __future__ import annotations
+
+import math
+from abc import abstractmethod
+from collections.abc import Callable
+from dataclasses import field
+from typing import TYPE_CHECKING, Annotated, ClassVar, NamedTuple, TypeAlias
+
+from geneva_cli.kinematics.layout import Layout
+from geneva_cli.kinematics.path_and_slot import AnchoredPath, RadialSlot, StraightSlotMotion
+from geneva_cli.kinematics.wheels.poses import HalfStep, PinPose
+from geneva_cli.kinematics.wheels.skew import Skew
+from geneva_cli.numerics.arrays import larger
+from geneva_cli.numerics.jet import Jet, turning
+from geneva_cli.spec.example import Example
+from geneva_cli.spec.rules import Z_MAX, OneOf, Range
+from geneva_cli.spec.schema import SpecTable
+
+if TYPE_CHECKING:
+    from geneva_cli.kinematics.engagement import CarrierVelocity, Displacement, Slot
+
+
+# The wheel's rate from sin d and 1 - cos d of the crank's rotation d since mid-motion.
+FollowedRate: TypeAlias = Callable[[Jet, Jet], Jet]
+
+
+class RollerPlace(NamedTuple):
+    """A roller on the crank, and its passage through a straight slot.
+
+    ``crank_deg`` is the crank angle at which it crosses the line of centres. ``poses`` are entry,
+    middle and exit on its circle, with crank angles counted from there. ``ratio`` is its arm over
+    the centre distance. ``skew`` describes an offset slot.
+
+    On a sphere ``height`` is the pin's position along the wheel's axis: (top, fall) for top - fall
+    (1 - cos a). ``cone`` is the cosine of the pin's cone.
+    """
+
+    step: HalfStep
+    half_motion_deg: float
+    poses: tuple[PinPose, PinPose, PinPose]
+    ratio: float
+    skew: Skew | None = None
+    crank_deg: float = 0.0
+    height: tuple[float, float] | None = None
+    cone: float = 1.0
+
+    @property
+    def reach_deg(self) -> float:
+        """Greatest crank angle from the line of centres at which it moves the wheel, degrees."""
+        farthest: float = larger(-self.poses[0].crank_deg, self.poses[2].crank_deg)
+        return farthest
+
+
+class Gearing(SpecTable):
+    """A wheel; its fields are the keys of ``[wheel]``. Raises GenevaError for impossible values."""
+
+    TABLE: ClassVar[str] = "wheel"
+    NAME: ClassVar[str]
+    # example spec, without its gearing
+    EXAMPLE: ClassVar[Example]
+    # +1 if the crank's axis is outside the wheel, -1 if inside
+    SIGN: ClassVar[float] = 1.0
+    # True if wheel and crank are flat parts on parallel shafts
+    FLAT: ClassVar[bool] = True
+    # True if they are shells of a sphere, on shafts that meet at its centre
+    SHELLS: ClassVar[bool] = False
+    z: Annotated[int, Range(3, Z_MAX), "number of slots"]
+    held_by: Annotated[
+        str | None,
+        OneOf(("brake", "detent", "pin")),
+        "device that holds the wheel at rest, if no locking disc does",
+    ] = field(default=None, kw_only=True)
+
+    @property
+    def step(self) -> HalfStep:
+        """Half the wheel's step as an exact fraction, for equal steps."""
+        return HalfStep(1, self.z)
+
+    @property
+    def steps(self) -> tuple[float, ...]:
+        """Repeating pattern of unequal steps in degrees; empty if all are equal."""
+        return ()
+
+    @property
+    def skewed(self) -> bool:
+        """True if slots are not radial or not all alike, which some drives and laws cannot use.
+
+        An array of truth values for a batch.
+        """
+        return False
+
+    @property
+    def layout(self) -> Layout:
+        """Dimensions of this kind of wheel, in addition to its number of slots.
+
+        >>> External(6, offset_mm=12.0).layout
+        (Dimension(name="slots' axes offset from the wheel's", value=12.0, unit='mm'),)
+        """
+        return ()
+
+    @property
+    def own_sizes(self) -> dict[str, float]:
+        """Values by name that a report shows for this kind of wheel only."""
+        return {}
+
+    def index_deg(self, i: int) -> float:
+        """The wheel's step at its i-th engagement, degrees."""
+        return self.steps[i] if self.steps else 360.0 / self.z
+
+    @abstractmethod
+    def half_motion_deg(self, step: HalfStep) -> float:
+        """Crank angle in degrees from entry to the line of centres, for an entry without shock."""
+
+    @abstractmethod
+    def place(self, step: HalfStep, center_distance_mm: float) -> RollerPlace:
+        """Place of a roller in a straight slot. Raises GenevaError if it is impossible."""
+
+    def rest(self, ratio: float) -> float:
+        """Least distance of a pin on any circle from the wheel's axis: 1 - l, inside 1 + l."""
+        return 1.0 - self.SIGN * ratio
+
+    def follow(
+        self, path: AnchoredPath, place: RollerPlace, turn: Displacement
+    ) -> tuple[Slot, StraightSlotMotion]:
+        """Straight slot for a roller's path, and the motion that follows.
+
+        ``turn`` is the crank's rotation from mid-motion, as its sine and versine.
+        """
+        return RadialSlot(path), StraightSlotMotion(path, place.step.b)
+
+    def body(self, place: RollerPlace, turn: Displacement) -> CarrierVelocity | None:
+        """Angular velocity of the roller's carrier; None for a crank arm in the plane."""
+        return None
+
+    def hub(self, place: RollerPlace) -> float:
+        """Distance over L from the wheel's axis to the point about which the crank's arm turns."""
+        return 1.0
+
+    def closed_form(self, place: RollerPlace) -> tuple[float, float, float] | None:
+        """Sign, l and 1 - l for the closed forms of a plain crank; None if there are none."""
+        return None
+
+    def exact_rate(
+        self, step: tuple[float, float], L: float, exact: Callable[[float], float]
+    ) -> FollowedRate:
+        """Rate of a wheel with straight slots, in numbers of any kind, for certificates.
+
+        ``step`` has sine and cosine of half the index angle. ``L`` is the centre distance, mm.
+        ``exact`` converts a number of the spec. Differences lose digits of doubles.
+        """
+        l = step[0]
+
+        def rate(sine: Jet, versine: Jet) -> Jet:
+            return turning(versine * (self.SIGN * l) + self.rest(l), sine * l)
+
+        return rate
+
+    def matched_ratio(self, v: float) -> float:
+        """R/L at which the pin crosses the line of centres as fast as the wheel's slot does there.
+
+        ``v`` is the wheel's speed over the crank's. NaN if no R/L below 1 has this property.
+        """
+        return math.nan

@@ -1,0 +1,1 @@
+"""Sizes and positions of the parts, before any outline is drawn."""

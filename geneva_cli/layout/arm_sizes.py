@@ -1,0 +1,91 @@
+"""The sizes of a crank arm, flat or on a sphere: radii, mm, along the surface."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable
+
+from geneva_cli.errors import GenevaError
+from geneva_cli.layout.keyways import reach
+from geneva_cli.layout.sizes import even
+from geneva_cli.machine.spec import Spec
+from geneva_cli.spec.tables import Size
+
+HUB = 1.6  # outside diameter of a hub, as a multiple of its bore
+
+
+def hub_and_eye(
+    size: Size, wall: float, hole: float, bore: float, passing: float, standing: float = 0.0
+) -> tuple[float, float]:
+    """Return the radii of an arm about the ``bore`` of its shaft and about the ``hole`` of a pin.
+
+    ``passing`` is the largest eye that passes the wheel, ``standing`` the radius of a disc on the
+    hub. Raises GenevaError, naming the key, where hub or eye leave nothing around a hole.
+    """
+    deep = reach(size.crank_keyway, bore)
+    hub = half_or(size.arm_hub_mm, max(even(HUB * bore), deep + wall, standing))
+    eye = half_or(size.arm_eye_mm, eye_about(hole, wall, passing))
+    if hub <= deep:
+        raise GenevaError(
+            f"arm_hub_mm = {2.0 * hub:g}: the hub must be above {2.0 * deep:.6g}, the diameter "
+            "over its bore and keyway",
+            ("size", "arm_hub_mm"),
+        )
+    if eye <= hole:
+        raise GenevaError(
+            f"arm_eye_mm = {2.0 * eye:g}: the eye must be above {2.0 * hole:.6g}, the pin's hole",
+            ("size", "arm_eye_mm"),
+        )
+    return hub, eye
+
+
+def pin_hole(size: Size, pin: float) -> float:
+    """Return the radius of the hole that holds a pin. Raises GenevaError where none is left."""
+    fit = size.allowances.press_fit_mm
+    hole = pin - 0.5 * fit
+    if hole <= 0.0:
+        raise GenevaError(
+            f"there is no hole for a pin of pin_mm = {2.0 * pin:g} with press_fit_mm = {fit:g}; "
+            "the pin must be the larger",
+            ("size", "press_fit_mm" if pin else "pin_mm"),
+        )
+    return hole
+
+
+def arm_bore(spec: Spec, disc: float, L: float, space: float) -> float:
+    """Return the radius of the arm's bore: of the spec, of the ``disc`` on it, or of the shaft.
+
+    By default it leaves most of the space up to the nearest pin's hole, ``space``.
+    """
+    diameter = spec.size.arm_bore_mm or 2.0 * disc or spec.shaft.crank_diameter_mm
+    return half_or(diameter, even(min(L / 20.0, 0.35 * space)))
+
+
+def eye_about(hole: float, wall: float, most: float = math.inf) -> float:
+    """Return the radius of the arm around a hole, up to ``most`` if that leaves the least wall."""
+    # twice the hole, where there is space
+    return max(min(2.0 * hole, most), hole + wall)
+
+
+def bolts_between(
+    size: Size, L: float, sectors: Iterable[tuple[float, float]]
+) -> tuple[float, list[list[float]]]:
+    """Return the radius of the bolts that fix locking sectors to the arm, and their directions.
+
+    Each sector is its start and width, radians; its bolts are evenly spaced. Raises GenevaError
+    where there are bolts and no sectors.
+    """
+    count = size.lock_bolts
+    directions = [
+        [start + width * (k + 0.5) / count for k in range(count)] for start, width in sectors
+    ]
+    if count and not directions:
+        raise GenevaError(
+            "lock_bolts: there is no locking disc to fix; remove it", ("size", "lock_bolts")
+        )
+    return half_or(size.lock_bolt_mm, L / 80.0), directions if count else []
+
+
+def half_or(diameter: float | None, default: float) -> float:
+    """Return half of a diameter, or the default radius if that is None."""
+    return default if diameter is None else 0.5 * diameter

@@ -1,0 +1,65 @@
+"""Widths and lengths of bores, hubs and shafts of a spherical machine.
+
+A shell's faces are round, so a part on a shaft needs a hub with flat faces, in a round hole of the
+shell. Heights count as on a plane (``parts.shafts``) from the wheel's lower face, here its outer
+sphere, inwards.
+"""
+
+from __future__ import annotations
+
+import math
+
+from geneva_cli.errors import GenevaError
+from geneva_cli.layout.sizes import even, wall_min
+from geneva_cli.spec.tables import Size
+
+
+def wheel_axle(size: Size, L: float, inside: float, slot_end: float) -> tuple[float, float]:
+    """Return the radii of the wheel's bore and its hub, mm, 0 for none.
+
+    ``inside`` is the radius of the wheel's inner sphere, ``slot_end`` the angle from its axis to
+    the ends of its slots. Raises GenevaError, naming the key, where one of them cuts the slots.
+    """
+    end = inside * math.sin(min(slot_end, 0.5 * math.pi))
+    if size.wheel_bore_mm is not None:
+        bore = 0.5 * size.wheel_bore_mm
+    else:
+        within = 0.4 * size.wheel_hub_mm if size.wheel_hub_mm else math.inf
+        bore = even(min(L / 12.0, 0.4 * end, end - wall_min(size, L), within))
+    if size.wheel_hub_mm is not None:
+        hub = 0.5 * size.wheel_hub_mm
+    else:
+        hub = max(bore, even(min(1.6 * bore, 0.75 * end))) if bore else 0.0
+    for key, radius in (("wheel_bore_mm", bore), ("wheel_hub_mm", hub)):
+        if radius >= end:
+            raise GenevaError(
+                f"{key} = {2.0 * radius:g}: the slots reach this diameter; it must be below "
+                f"{2.0 * end:.6g}, or the roller smaller",
+                ("size", key),
+            )
+    return bore, hub
+
+
+def about_crank(size: Size) -> float:
+    """Return the greater radius of the crank's bore and hub inside the arm, mm, 0 for none."""
+    return max(0.5 * (size.crank_bore_mm or 0.0), crank_hub(size))
+
+
+def crank_hub(size: Size) -> float:
+    """Return the radius of the crank's hub inside the arm, mm; 0 unless the spec has one."""
+    bore = 0.5 * (size.crank_bore_mm or 0.0)
+    if size.crank_hub_mm is None and size.crank_hub_length_mm is None:
+        return 0.0
+    hub = even(1.5 * bore) if size.crank_hub_mm is None else 0.5 * size.crank_hub_mm
+    return hub if hub > bore else 0.0
+
+
+def refuse_wide(key_: str, radius: float, inner: float, outer: float) -> None:
+    """Raise GenevaError for a hub with flat faces that is too wide for its curved shell."""
+    flat = math.sqrt((outer - inner) * (outer + inner))
+    if radius >= flat:
+        raise GenevaError(
+            f"{key_} = {2.0 * radius:g}: a hub with flat faces this wide misses its shell, which "
+            f"is {outer - inner:g} mm thick; it must be below {2.0 * flat:.6g}",
+            ("size", key_),
+        )

@@ -1,0 +1,85 @@
+"""The paths of the rollers' centres, and the slots' mouths, in the wheel and about the crank."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+
+from geneva_cli.kinematics.engagement import Engagement
+from geneva_cli.layout.assembly import Assembly
+from geneva_cli.numerics.arrays import scalar
+
+if TYPE_CHECKING:
+    from geneva_cli.numerics.jet import Array
+
+TURN_SAMPLES = 720  # input angles at which a path is sampled
+
+
+class RollerPaths(NamedTuple):
+    """Least distances of the rollers' centres from the axes, mm, whatever the rollers' radius."""
+
+    # least distance of each kind of slot from the wheel's axis; greatest for internal wheels
+    ends: tuple[float, ...]
+    arm: float  # least distance of the rollers, and of the adjacent slots, from the crank's axis
+
+
+def roller_paths(assembly: Assembly) -> RollerPaths:
+    """Return the paths of a machine's rollers."""
+    kinds = [s.through for s in assembly.kinds]
+    paths = [_pitch(assembly, s) for s in kinds]
+    reach = [np.hypot(*points.T) for points in paths]
+    ends = tuple(float(r.min() if assembly.sign > 0.0 else r.max()) for r in reach)
+    adjacent = [_to_slot(assembly, s, points) for s, points in zip(kinds, paths, strict=True)]
+    return RollerPaths(ends, min(_arm(assembly), *adjacent))
+
+
+def mouth(assembly: Assembly, engagement: Engagement, r: float) -> float:
+    """Return the rim's radius, where a roller of radius r enters and leaves a slot.
+
+    There the roller touches the wall that faces the crank's axis, at the foot of the perpendicular
+    from that axis.
+    """
+    if not engagement.slot.offset:
+        return math.hypot(assembly.L * scalar(engagement.entry_reach), r)
+    return max(math.hypot(*corner(assembly, engagement, end, r)) for end in (-1.0, 1.0))
+
+
+def corner(assembly: Assembly, engagement: Engagement, end: float, r: float) -> tuple[float, float]:
+    """Return the mouth's corner on the crank axis' side at entry (-1) or exit (1), mm."""
+    x, y = engagement.slot(engagement.entry_deg if end < 0.0 else engagement.exit_deg, 0)
+    px, py = assembly.L * scalar(x.c[0]), assembly.L * scalar(y.c[0])
+    cx, cy = rest(assembly, engagement, end)
+    ratio = r / math.dist((px, py), (cx, cy))
+    return px + ratio * (cx - px), py + ratio * (cy - py)
+
+
+def rest(assembly: Assembly, engagement: Engagement, end: float) -> tuple[float, float]:
+    """Return the crank's axis in the wheel's frame before (-1) and after (1) a motion."""
+    b = -end * engagement.half_step
+    return assembly.L * math.cos(b), assembly.L * math.sin(b)
+
+
+def _pitch(assembly: Assembly, engagement: Engagement) -> Array:
+    """Return points of a slot's pitch curve, (n, 2)."""
+    x, y = engagement.slot(
+        np.linspace(engagement.entry_deg, engagement.exit_deg, TURN_SAMPLES + 1), 0
+    )
+    return assembly.L * np.column_stack((x.c[0], y.c[0] + 0.0 * x.c[0]))
+
+
+def _arm(assembly: Assembly) -> float:
+    """Return the least distance of the rollers from the crank's axis."""
+    turn = np.linspace(0.0, assembly.turn_deg, TURN_SAMPLES, endpoint=False)
+    leaders = {engagement: i for i, (engagement, _) in reversed([*enumerate(assembly.rollers)])}
+    # others follow their leaders
+    far = [assembly.pin(i, turn) - (assembly.L, 0.0) for i in leaders.values()]
+    return float(min(np.hypot(*p.T).min() for p in far))
+
+
+def _to_slot(assembly: Assembly, engagement: Engagement, points: Array) -> float:
+    """Return the least distance from the crank's axis to adjacent slots while the wheel rests."""
+    return float(
+        min(np.hypot(*(points - rest(assembly, engagement, e)).T).min() for e in (-1.0, 1.0))
+    )

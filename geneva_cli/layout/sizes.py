@@ -1,0 +1,378 @@
+"""The sizes of the parts, in millimetres: those of the spec, or defaults.
+
+The rim is where the roller enters. On a smaller wheel the roller would lose its slot, on a larger
+one it would touch the rim. The locking disc reaches past the rim and leaves a horn next to the
+slot.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import NamedTuple
+
+from geneva_cli.errors import GenevaError
+from geneva_cli.layout.assembly import Assembly, assembly
+from geneva_cli.layout.keyways import reach
+from geneva_cli.layout.reliefs import arc_floor, has_arcs
+from geneva_cli.layout.roller_paths import RollerPaths, mouth, roller_paths
+from geneva_cli.machine.mechanism import Mechanism
+from geneva_cli.machine.spec import Spec
+from geneva_cli.numerics.tolerances import SAME_LENGTH
+from geneva_cli.spec.tables import Size
+
+
+class Sizes(NamedTuple):
+    """Lengths and radii, mm; bores and hubs are radii too. 0 for parts that do not exist."""
+
+    roller: float
+    half_width: float  # of the slot: roller and clearance
+    rim: float  # of the wheel; of the opening if it is internal
+    outer: float  # of an internal wheel, otherwise 0
+    slot_bottom: float  # clearance between the deepest roller and a straight slot's end
+    slot_end: float  # distance of the slot's bottom from the wheel's axis
+    arm: float  # least distance of a roller's path from the crank's axis
+    lock: float  # locking disc
+    recess: float  # in the wheel: lock and clearance
+    relief: float  # clearance between wheel and relief
+    wall_min: float
+    wheel_bore: float
+    wheel_reach: float  # of the bore with its keyway, from the axis
+    wheel_hub: float
+    crank_bore: float
+    crank_reach: float
+    crank_hub: float
+    pin: float
+    wheel_thickness: float  # along the axis, of the rollers too
+    lock_thickness: float
+    arm_thickness: float
+
+    @property
+    def horn(self) -> float:
+        """Thickness of the horn between slot and recess, thinnest at the mouth."""
+        return self.arm - self.half_width - self.recess
+
+
+def sized(mechanism: Mechanism) -> tuple[Assembly, Sizes] | None:
+    """Return a machine's assembly and sizes; None where no flat parts can be cut."""
+    if not mechanism.spec.is_flat:
+        return None
+    try:
+        where = assembly(mechanism)
+        return where, sizes(where)
+    except GenevaError:
+        return None  # the check of the parts reports the error
+
+
+def sizes(assembly: Assembly, known: RollerPaths | None = None) -> Sizes:
+    """Return the sizes of a machine's parts; ``known`` are its roller paths, if computed already.
+
+    Raises GenevaError, naming the key, where a size leaves no wheel or no lock.
+    """
+    spec, L = assembly.mechanism.spec, assembly.L
+    path, kinds = known or roller_paths(assembly), assembly.kinds
+    size, r = spec.size, assembly.mechanism.roller_radius_mm
+    allowed = size.allowances
+    w = r + allowed.slot_clearance_mm
+    outside = assembly.sign > 0.0
+    rim = _or(size.wheel_radius_mm, max(mouth(assembly, s, r) for s in kinds))
+    bottom = _or(size.slot_bottom_clearance_mm, max(allowed.slot_clearance_mm, r / 20.0))
+    gaps = [0.0 if s.slot.curved else bottom for s in kinds]
+    ends = (
+        assembly.sign * _bottom(deepest, L * s.through.slot.offset, assembly.sign * gap)
+        for s, deepest, gap in zip(kinds, path.ends, gaps, strict=True)
+    )
+    end = (min(ends) - w) * assembly.sign
+    arm = path.arm
+    lock = _lock(assembly, arm, w, rim)
+    depth = abs(L - rim)
+    relief = _or(size.relief_clearance_mm, min(L / 200.0, depth / 4.0))
+    space = (lock or rim) / arm * (L - math.sqrt(max(rim * rim - r * r, 0.0))) if outside else 0.0
+    if any(s.apart for s in kinds):  # gears between rollers widen the relief
+        space = min(space, arc_floor(assembly, lock)) if has_arcs(assembly, lock) else math.inf
+    bore = (
+        0.0
+        if not spec.drive.LOCKS
+        else _crank_bore(assembly.full.spec, min(space, depth - relief), L)
+    )
+    wall = wall_min(size, L)
+    wheel_bore = _or(_half(size.wheel_bore_mm), _bore(size, end, wall, L))
+    wheel_bore = wheel_bore if outside or size.wheel_bore_mm else 0.0
+    wheel_reach = _reach(size.wheel_keyway, wheel_bore)
+    crank_reach = _reach(size.crank_keyway, bore)
+    wheel_hub = _around(wheel_reach, wheel_bore, wall, min(1.6 * wheel_bore, 0.75 * end))
+    thick = thicknesses(size, L)
+    out = Sizes(
+        roller=r,
+        half_width=w,
+        rim=rim,
+        outer=0.0 if outside else _or(size.wheel_outer_radius_mm, end + max(r, L / 20.0)),
+        slot_bottom=bottom,
+        slot_end=end,
+        arm=arm,
+        lock=lock,
+        recess=lock + allowed.lock_clearance_mm if lock else 0.0,
+        relief=relief,
+        wall_min=wall,
+        wheel_bore=wheel_bore,
+        wheel_reach=wheel_reach,
+        wheel_hub=_or(_half(size.wheel_hub_mm), wheel_hub),
+        crank_bore=bore,
+        crank_reach=crank_reach,
+        crank_hub=_or(_half(size.crank_hub_mm), _around(crank_reach, bore, wall, 1.5 * bore)),
+        pin=pin_radius(size, r),
+        wheel_thickness=thick.wheel,
+        lock_thickness=thick.lock,
+        arm_thickness=thick.arm,
+    )
+    _refuse(assembly, out)
+    _refuse_hubs(size, out)
+    return out
+
+
+def built(mechanism: Mechanism) -> Size:
+    """Return the spec's sizes with the machine's values for the keys left out, mm and diameters.
+
+    Without flat parts only centre distance, roller and clearances are added.
+    """
+    size = mechanism.spec.size
+    known: dict[str, float] = {
+        "center_distance_mm": mechanism.center_distance_mm,
+        "roller_radius_mm": mechanism.roller_radius_mm,
+        "slot_clearance_mm": size.allowances.slot_clearance_mm,
+        "lock_clearance_mm": size.allowances.lock_clearance_mm,
+        "press_fit_mm": size.allowances.press_fit_mm,
+    }
+    if flat := sized(mechanism):
+        _, own = flat
+        known |= {
+            "wheel_radius_mm": own.rim,
+            "slot_bottom_clearance_mm": own.slot_bottom,
+            "lock_radius_mm": own.lock,
+            "relief_clearance_mm": own.relief,
+            "wall_min_mm": own.wall_min,
+            "wheel_bore_mm": 2.0 * own.wheel_bore,
+            "wheel_hub_mm": 2.0 * own.wheel_hub,
+            "crank_bore_mm": 2.0 * own.crank_bore,
+            "crank_hub_mm": 2.0 * own.crank_hub,
+            "pin_mm": 2.0 * own.pin,
+            "wheel_thickness_mm": own.wheel_thickness,
+            "lock_thickness_mm": own.lock_thickness,
+            "arm_thickness_mm": own.arm_thickness,
+        }
+        known |= {"wheel_outer_radius_mm": own.outer} if own.outer else {}
+    values = size.as_dict()
+    return size.replace(**{key: x for key, x in known.items() if values[key] is None})
+
+
+class Thicknesses(NamedTuple):
+    """The parts' thicknesses along the axis, mm."""
+
+    wheel: float
+    lock: float
+    arm: float
+    link: float
+
+
+def thicknesses(size: Size, L: float) -> Thicknesses:
+    """Return the thicknesses of a spec; by default all are the wheel's."""
+    wheel = _or(size.wheel_thickness_mm, _or(size.face_width_mm, L / 10.0))
+    arm = _or(size.arm_thickness_mm, wheel)
+    lock = _or(size.lock_thickness_mm, wheel + size.pin_gap_mm)
+    return Thicknesses(wheel, lock, arm, _or(size.link_thickness_mm, arm))
+
+
+def pin_radius(size: Size, r: float) -> float:
+    """Return the radius of a roller's pin, 0 for none."""
+    return _or(_half(size.pin_mm), r / 2.0)
+
+
+def wall_min(size: Size, L: float) -> float:
+    """Return the least wall that ``check`` lets pass, mm."""
+    return _or(size.wall_min_mm, L / 200.0)
+
+
+def _or(value: float | None, default: float) -> float:
+    return default if value is None else value
+
+
+def _half(diameter: float | None) -> float | None:
+    return None if diameter is None else 0.5 * diameter
+
+
+def _bore(size: Size, end: float, wall: float, L: float) -> float:
+    """Return the wheel's default bore: it leaves a wall to the slots' ends, and in the hub."""
+    limit = _within(size.wheel_hub_mm, size.wheel_keyway)
+    return even(min(L / 12.0, 0.4 * end, end - wall, limit))
+
+
+def _crank_bore(spec: Spec, space: float, L: float) -> float:
+    """Return the crank's bore: that of the arm, which has the same shaft, or half of ``space``.
+
+    It is 0 where ``space``, the radius inside the relief, is too small. Then the shaft ends in the
+    arm.
+    """
+    size = spec.size
+    if size.crank_bore_mm is not None:
+        return 0.5 * size.crank_bore_mm
+    own = size.arm_bore_mm if spec.drive.ONE_ARM else None
+    if own is None:
+        own = spec.shaft.crank_diameter_mm
+    if own is not None:
+        # a larger bore leaves no space for its default hub, of 1.5 bores
+        return 0.5 * own if 0.5 * own <= 0.6 * space else 0.0
+    within = _within(size.crank_hub_mm, size.crank_keyway)
+    return even(min(0.45 * space, within)) if 0.45 * space >= L / 40.0 else 0.0
+
+
+def _within(hub_mm: float | None, keyway: str | None) -> float:
+    """Return the largest default bore in a hub of a diameter, infinite without a hub."""
+    # a keyway is up to 0.39 of the bore's radius deep
+    return ((0.5 / 1.6) if keyway else 0.4) * hub_mm if hub_mm else math.inf
+
+
+def _reach(standard: str | None, bore: float) -> float:
+    """Return a bore's radius with its keyway; without it if the standard has none so large."""
+    try:
+        return reach(standard, bore)
+    except GenevaError:  # reported where the part is cut
+        return bore
+
+
+def _around(bored: float, bore: float, wall: float, usual: float) -> float:
+    """Return the default hub around a bore: the usual radius, or a wall around its keyway."""
+    return max(even(usual), bored + wall) if bored > bore else even(usual)
+
+
+def even(radius: float) -> float:
+    """Return a radius rounded down to a diameter of two digits; 0 for no radius."""
+    if radius <= 0.0:
+        return 0.0
+    step = 10.0 ** (math.floor(math.log10(2.0 * radius)) - 1)
+    return 0.5 * step * math.floor(2.0 * radius / step * (1.0 + 1e-12))
+
+
+def _lock(assembly: Assembly, arm: float, w: float, rim: float) -> float:
+    """Return the locking disc's radius: it leaves a horn as thick as the roller's radius.
+
+    The horn is at most a fifth of the available radius. 0 for no disc; linkages have none.
+    """
+    spec, size = assembly.mechanism.spec, assembly.mechanism.spec.size
+    if size.lock_radius_mm == 0.0 or not spec.drive.LOCKS:
+        return 0.0
+    limit = arm - w - size.allowances.lock_clearance_mm
+    least, r = max(assembly.L - rim, 0.0), assembly.mechanism.roller_radius_mm
+    if limit <= least:
+        raise GenevaError(
+            f"the locking disc does not fit: it must be above {least:.4g} mm to reach the rim, but "
+            f"roller and clearances limit it to {limit:.4g}; use "
+            + (f"a roller below {r + limit - least:.4g} mm, or " if r + limit > least else "")
+            + "lock_radius_mm = 0",
+            ("size", "lock_radius_mm"),
+        )
+    if size.lock_radius_mm is None:
+        return lock_between(least, limit, r)
+    require_lock_between(size.lock_radius_mm, least, limit)
+    return size.lock_radius_mm
+
+
+def lock_between(least: float, limit: float, roller: float) -> float:
+    """Return the default reach of a lock: into the rim, and a horn's thickness off the slot."""
+    return max(limit - min(roller, limit / 5.0), 0.5 * (limit + least))
+
+
+def require_lock_between(lock_radius_mm: float, least: float, limit: float) -> None:
+    """Raise GenevaError where the spec's lock does not reach the rim, or leaves no horn."""
+    if not least < lock_radius_mm < limit:
+        raise GenevaError(
+            f"lock_radius_mm = {lock_radius_mm:g}: it must be above {least:.6g} to reach the rim, "
+            f"and below {limit:.6g} to leave a horn; 0 means no lock",
+            ("size", "lock_radius_mm"),
+        )
+
+
+def _bottom(deepest: float, offset: float, gap: float) -> float:
+    """Return the distance of the centre of a slot's round end from the wheel's axis, mm.
+
+    The gap between it and the deepest roller is along the slot, whose axis may be offset from the
+    wheel's. Beyond the wheel's axis the distance is negative.
+    """
+    along = math.sqrt(max(deepest * deepest - offset * offset, 0.0)) - gap
+    return math.copysign(math.hypot(along, offset), along)
+
+
+def _refuse(assembly: Assembly, sizes: Sizes) -> None:
+    outside = assembly.sign > 0.0
+    if sizes.lock and not abs(assembly.L - sizes.rim) < sizes.recess:
+        raise GenevaError(
+            f"wheel_radius_mm = {sizes.rim:g}: the rim lies beyond the locking disc's reach; it "
+            f"must be below {assembly.L + sizes.recess:.6g}",
+            ("size", "wheel_radius_mm"),
+        )
+    if outside and sizes.slot_end <= 0.0:
+        raise GenevaError(
+            "the slots meet in the wheel's centre: reduce roller_radius_mm, slot_clearance_mm and "
+            f"slot_bottom_clearance_mm together by more than {-sizes.slot_end:.4g} mm",
+            ("size", "roller_radius_mm"),
+        )
+    if outside and sizes.wheel_bore >= sizes.slot_end:
+        raise GenevaError(
+            f"wheel_bore_mm = {2.0 * sizes.wheel_bore:g}: the slots reach down to "
+            f"{sizes.slot_end:.6g} mm; it must be below {2.0 * sizes.slot_end:.6g}",
+            ("size", "wheel_bore_mm"),
+        )
+    own = assembly.mechanism.spec.size.arm_bore_mm
+    one_arm = assembly.full.spec.drive.ONE_ARM
+    if (
+        one_arm
+        and own
+        and sizes.crank_bore
+        and abs(0.5 * own - sizes.crank_bore) > SAME_LENGTH * assembly.L
+    ):
+        raise GenevaError(
+            f"arm_bore_mm = {own:g}: the shaft runs through arm and locking disc, so crank_bore_mm "
+            f"= {2.0 * sizes.crank_bore:g} must be equal, or 0 to end it in the arm",
+            ("size", "arm_bore_mm"),
+        )
+    if sizes.lock and sizes.crank_bore >= sizes.lock:
+        raise GenevaError(
+            f"crank_bore_mm = {2.0 * sizes.crank_bore:g}: it must be below the locking disc's "
+            f"{2.0 * sizes.lock:.6g}",
+            ("size", "crank_bore_mm"),
+        )
+    if sizes.pin >= sizes.roller:
+        raise GenevaError(
+            f"pin_mm = {2.0 * sizes.pin:g}: it must be below the roller's {2.0 * sizes.roller:g}",
+            ("size", "pin_mm"),
+        )
+    if not outside and sizes.outer <= max(sizes.slot_end, assembly.L + sizes.recess):
+        raise GenevaError(
+            f"wheel_outer_radius_mm = {sizes.outer:g}: it must be larger: the slots reach "
+            f"{sizes.slot_end:.6g} mm",
+            ("size", "wheel_outer_radius_mm"),
+        )
+    if outside and assembly.mechanism.spec.size.wheel_outer_radius_mm is not None:
+        raise GenevaError(
+            "wheel_outer_radius_mm is for internal wheels only; here set wheel_radius_mm",
+            ("size", "wheel_outer_radius_mm"),
+        )
+
+
+def _refuse_hubs(size: Size, sizes: Sizes) -> None:
+    """Raise GenevaError, naming the key, for parts on an open wheel, and for hubs cut through."""
+    shaft = "wheel_shaft_low_mm", "wheel_shaft_high_mm"
+    axle = "wheel_bore_mm", "wheel_hub_mm", "wheel_hub_length_mm", *shaft
+    on_axis = [key for key in axle if vars(size)[key]]
+    if sizes.outer and on_axis:
+        raise GenevaError(
+            f"{on_axis[0]}: an internal wheel is open in the middle; remove it",
+            ("size", on_axis[0]),
+        )
+    hubs = {"wheel": (sizes.wheel_hub, sizes.wheel_reach, sizes.wheel_bore)}
+    hubs["crank"] = sizes.crank_hub, sizes.crank_reach, sizes.crank_bore
+    for part, (hub, bored, bore) in hubs.items():
+        if bore < hub <= bored:
+            raise GenevaError(
+                f"{part}_hub_mm = {2.0 * hub:g}: it must be above {2.0 * bored:.6g}, the diameter "
+                f"over bore and keyway; a smaller {part}_bore_mm leaves more of it",
+                ("size", f"{part}_hub_mm"),
+            )

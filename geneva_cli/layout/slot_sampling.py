@@ -1,0 +1,87 @@
+"""The slot's profile as a table: sampled so that its chords keep a tolerance."""
+
+from __future__ import annotations
+
+from functools import partial
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from geneva_cli.curves import chords
+from geneva_cli.kinematics.pitch_curve import WALLED, pitch
+from geneva_cli.layout.slot_profile import flanks, slot
+from geneva_cli.machine.mechanism import Mechanism
+from geneva_cli.numerics.arrays import array
+from geneva_cli.numerics.roots import boundary_by_sections
+from geneva_cli.table import Table
+
+if TYPE_CHECKING:
+    from geneva_cli.numerics.jet import Array
+
+NAMES = ("input_deg", "wheel_deg", *WALLED)
+
+
+def nodes(mechanism: Mechanism, tolerance_mm: float, fewest: bool = True) -> Array:
+    """Return input angles to sample the slot at, so that no chord misses a curve by more.
+
+    Cusps are among them: mid-motion, where the pitch curve can have one, and the points where an
+    undercut flank turns back. Without ``fewest`` the first sufficient number is used, some percent
+    more. Raises GenevaError where that takes more rows than are written.
+    """
+    engagement = mechanism.engagements[0].through
+    cusps = _flank_cusps(mechanism)
+    ends = [engagement.entry_deg, *[x for x in cusps if x < 0.0], 0.0]
+    if not engagement.mirrored:
+        ends += [*[x for x in cusps if x > 0.0], engagement.exit_deg]
+    angles = chords.nodes(partial(flanks, mechanism), ends, tolerance_mm, fewest)
+    return np.concatenate((angles[:-1], -angles[::-1])) if engagement.mirrored else angles
+
+
+def _flank_cusps(mechanism: Mechanism) -> list[float]:
+    """Return where a flank stops and turns back, because the roller is as large as the curvature.
+
+    For a slot with two equal branches only those of the first are returned.
+    """
+    engagement, size = mechanism.engagements[0].through, mechanism.spec.size
+    offset = mechanism.roller_radius_mm + size.allowances.slot_clearance_mm
+    offset /= mechanism.center_distance_mm
+
+    def excess(x: Array, side: float) -> Array:
+        at = pitch(engagement, x)
+        return array(at.speed - side * offset * at.turning)
+
+    # Half a step off the grid's ends: mid-motion may be a cusp of the pitch curve itself.
+    intervals = 2048
+    step, mirrored = engagement.motion_deg / intervals, engagement.mirrored
+    count = (intervals + 1) // 2 if mirrored else intervals  # one of two mirrored halves is enough
+    grid = engagement.entry_deg + step * (np.arange(count, dtype=np.float64) + 0.5)
+    at = pitch(engagement, grid)
+    cusps = []
+    for side in (-1.0, 1.0):
+        sign = np.sign(at.speed - side * offset * at.turning)
+        for i in np.flatnonzero(sign[1:] * sign[:-1] < 0.0):
+            a, b = float(grid[i]), float(grid[i + 1])
+            if a < 0.0 < b:
+                continue
+            runs = sign[i]  # sign before the flank stops
+            cusps.append(boundary_by_sections(lambda x: excess(x, side) * runs > 0.0, a, b))  # noqa: B023
+    return sorted(cusps)
+
+
+def chord_errors(mechanism: Mechanism, input_deg: Array) -> Array:
+    """Return the deviation of pitch curve or flanks from each chord between samples, mm."""
+    return chords.chord_errors(partial(flanks, mechanism), input_deg)
+
+
+def profile_table(mechanism: Mechanism, tolerance_mm: float, samples: int | None) -> Table:
+    """Return the slot's table: for a chord tolerance, or at ``samples`` even input angles."""
+    engagement = mechanism.engagements[0].through
+    if samples is None:
+        input_deg = nodes(mechanism, tolerance_mm)
+    else:
+        input_deg = np.linspace(engagement.entry_deg, engagement.exit_deg, samples)
+    at = slot(mechanism, input_deg)
+    columns = [at.input_deg, at.wheel_deg]
+    for points in (at.centre, at.left, at.right):
+        columns += [points[:, 0], points[:, 1]]
+    return Table(NAMES, [*columns, at.pressure_deg, at.radius])

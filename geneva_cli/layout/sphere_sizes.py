@@ -1,0 +1,226 @@
+"""The sizes of a spherical wheel and its crank: angles at the sphere's centre, in radians.
+
+All walls lead to the centre, and so does the surface of the roller, a cone. Its radius, the slots
+and the clearances are arcs on the sphere of radius ``center_distance_mm``. Radii of the lock and of
+bores are distances from their axes. Below the wheel on a plane is outside the wheel here: a height
+above the wheel's lower face is a distance inwards from its outer sphere.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import NamedTuple
+
+from geneva_cli.curves.sphere import Vector, place
+from geneva_cli.errors import GenevaError
+from geneva_cli.layout.axles import about_crank, wheel_axle
+from geneva_cli.layout.sizes import (
+    Thicknesses,
+    lock_between,
+    pin_radius,
+    require_lock_between,
+    thicknesses,
+)
+from geneva_cli.machine.mechanism import Mechanism
+from geneva_cli.machine.rollers import places
+from geneva_cli.spec.tables import Z_DRAWN, Size
+
+
+class PartDoesNotFit(GenevaError):
+    """Error for a part that does not fit, but would with a smaller roller."""
+
+
+class Ball(NamedTuple):
+    """The sizes of a spherical machine, whose slots are meridians.
+
+    Polar angles are from the wheel's axis; for parts of the crank they are from the crank's axis.
+    """
+
+    radius_mm: float  # of the sphere
+    z: int
+    axes: float  # between the shafts
+    arm: float  # of the rollers, from the crank's axis
+    half_motion: float  # crank angle from entry to mid-motion
+    rollers: tuple[float, ...]  # azimuths about the crank's axis
+    roller: float  # half angle of its cone
+    half_width: float  # of the slots
+    bottom: float  # polar angle of the centre of the slot's round end
+    mouth: float  # polar angle where a roller enters
+    rim: float  # polar angle of the wheel's edge
+    inner: float  # polar angle where the slotted ring ends towards its axis
+    lock: float  # polar angle of the locking sectors' edge, 0 for none
+    recess: float  # polar angle of the recess in the wheel, 0 for none
+    span_mm: tuple[float, float]  # radii of the inner and outer face of wheel and rollers
+    lock_span_mm: tuple[float, float]  # of the locking sectors
+    arm_span_mm: tuple[float, float]  # of the crank arm
+    bore_mm: float  # radius of the wheel's bore, 0 for none
+    hub_mm: float  # radius of its hub, 0 for none
+    pin_mm: float  # radius of the rollers' pins, 0 for none
+    about_crank_mm: float  # radius of the crank's shaft or hub inside the arm, 0 for none
+
+    @property
+    def half_step(self) -> float:
+        """Half a step of the wheel."""
+        return math.pi / self.z
+
+    @property
+    def opening_mm(self) -> float:
+        """The radius of the round hole about the wheel's axis; 0 where its ring stays open."""
+        return max(self.bore_mm, self.hub_mm)
+
+    def out(self, height_mm: float) -> float:
+        """Return the distance from the centre to a height above the wheel's lower face."""
+        return self.span_mm[1] - height_mm
+
+    @property
+    def slot_width_deg(self) -> float:
+        """The angle between the walls of a slot at the sphere's centre."""
+        return math.degrees(2.0 * self.half_width)
+
+    def corner(self) -> float:
+        """Return the azimuth of the slot's corner at the rim, from the slot's middle."""
+        return math.asin(math.sin(self.half_width) / math.sin(self.rim))
+
+    def opened(self) -> float:
+        """Return half the azimuth over which a recess opens the rim, 0 without a recess."""
+        if not self.recess:
+            return 0.0
+        c = math.cos(self.recess) - math.cos(self.rim) * math.cos(self.axes)
+        return math.acos(c / (math.sin(self.rim) * math.sin(self.axes)))
+
+    def crank_axis(self, azimuth: float) -> Vector:
+        """Return the crank's axis when it is at an azimuth about the wheel's axis."""
+        return place(self.axes, azimuth)
+
+
+def ball(mechanism: Mechanism, roller_mm: float | None = None) -> Ball:
+    """Return the sizes of a spherical machine; ``roller_mm`` replaces its own roller radius.
+
+    Raises GenevaError, naming the key, where they leave no wheel or no lock.
+    """
+    spec, L = mechanism.spec, mechanism.center_distance_mm
+    size, z = spec.size, spec.wheel.z
+    if z > Z_DRAWN:
+        raise GenevaError(f"z = {z}: parts are drawn up to {Z_DRAWN} slots", ("wheel", "z"))
+    first, *others = places(spec.wheel, spec.drive, spec.given_distance_mm)
+    arm = math.atan2(first.ratio, first.cone)
+    engagement = mechanism.engagements[0]
+    mouth, deepest = (float(engagement.slot(x, 0)[0].c[0]) for x in (engagement.entry_deg, 0.0))
+    axes = deepest + arm
+    radius_mm = mechanism.roller_radius_mm if roller_mm is None else roller_mm
+    roller = radius_mm / L
+    w = roller + size.allowances.slot_clearance_mm / L
+    gap = size.slot_bottom_clearance_mm
+    usual = max(size.allowances.slot_clearance_mm, radius_mm / 20.0)
+    bottom = deepest - (usual if gap is None else gap) / L
+    # the roller touches the wall that faces the crank's axis at the foot of the perpendicular
+    rim = math.acos(math.cos(mouth) * math.cos(w))
+    _refuse_slots(bottom, w, z)
+    thick, pin = thicknesses(size, L), pin_radius(size, radius_mm)
+    _refuse_thick(thick, size, L, roller, pin)
+    inside, outside = L - 0.5 * thick.wheel, L + 0.5 * thick.wheel
+    under = outside + size.pin_gap_mm  # the arm's inner face, on which the sectors stand
+    slot_end = bottom - w
+    bore, hub = wheel_axle(size, L, inside, slot_end)
+    hole = math.asin(max(bore, hub) / inside)
+    inner = slot_end - roller if slot_end - roller > hole else 0.5 * (slot_end + hole)
+    lock = _lock(mechanism, arm - w, abs(axes - rim), roller)
+    many = spec.drive.rollers
+    turns = [p.crank_deg for p in (first, *others)]
+    if len(turns) == 1:
+        turns = [360.0 * i / many for i in range(many)]
+    result = Ball(
+        radius_mm=L,
+        z=z,
+        axes=axes,
+        arm=arm,
+        half_motion=math.radians(first.half_motion_deg),
+        rollers=tuple(math.radians(t) for t in turns),
+        roller=roller,
+        half_width=w,
+        bottom=bottom,
+        mouth=mouth,
+        rim=rim,
+        inner=inner,
+        lock=lock,
+        recess=lock + size.allowances.lock_clearance_mm / L if lock else 0.0,
+        span_mm=(inside, outside),
+        lock_span_mm=(under - thick.lock, under),
+        arm_span_mm=(under, under + thick.arm),
+        bore_mm=bore,
+        hub_mm=hub,
+        pin_mm=pin,
+        about_crank_mm=about_crank(size),
+    )
+    _refuse(result)
+    return result
+
+
+def _lock(mechanism: Mechanism, limit: float, least: float, roller: float) -> float:
+    """Return the angle of the locking sectors' edge; its sine is ``lock_radius_mm`` over L.
+
+    As on a plane, the default leaves a horn as thick as the roller's radius, or a fifth of the
+    space.
+    """
+    size, L = mechanism.spec.size, mechanism.center_distance_mm
+    if size.lock_radius_mm == 0.0 or not mechanism.spec.drive.LOCKS:
+        return 0.0
+    limit -= size.allowances.lock_clearance_mm / L
+    low, high = (L * math.sin(max(0.0, x)) for x in (least, limit))
+    if limit <= least:
+        raise PartDoesNotFit(
+            f"the locking sector does not fit: lock_radius_mm must be above {low:.4g} to reach the "
+            f"rim, but the roller limits it to {high:.4g}; 0 omits it",
+            ("size", "lock_radius_mm"),
+        )
+    if size.lock_radius_mm is None:
+        return lock_between(least, limit, roller)
+    require_lock_between(size.lock_radius_mm, low, high)
+    return math.asin(size.lock_radius_mm / L)
+
+
+def _refuse_slots(bottom: float, w: float, z: int) -> None:
+    if bottom <= 0.0 or math.sin(bottom) * math.sin(math.pi / z) <= math.sin(w):
+        raise PartDoesNotFit(
+            "the slots meet near their ends: reduce roller_radius_mm, slot_clearance_mm or "
+            f"slot_bottom_clearance_mm, or use fewer than {z} slots",
+            ("size", "roller_radius_mm"),
+        )
+
+
+def _refuse(ball: Ball) -> None:
+    if ball.inner <= 0.0:
+        raise PartDoesNotFit(
+            "the wheel's middle is not open: the slots end within a roller's width of its axis; "
+            "set a wheel_bore_mm or reduce the roller",
+            ("size", "wheel_bore_mm"),
+        )
+    # a horn thinner than a thousandth of half a step counts as none
+    if ball.opened() + ball.corner() > (1.0 - 1e-3) * ball.half_step:
+        raise PartDoesNotFit(
+            "no horn is left between slot and recess at the rim: reduce lock_radius_mm",
+            ("size", "roller_radius_mm"),
+        )
+
+
+def _refuse_thick(thick: Thicknesses, size: Size, L: float, roller: float, pin_mm: float) -> None:
+    if thick.wheel >= L:
+        raise GenevaError(
+            f"wheel_thickness_mm = {thick.wheel:g}: half of it lies inside the sphere of radius "
+            f"{L:g} mm; it must be below {L:g}",
+            ("size", "wheel_thickness_mm"),
+        )
+    most = L + 0.5 * thick.wheel + size.pin_gap_mm
+    if thick.lock >= most:
+        raise GenevaError(
+            f"lock_thickness_mm = {thick.lock:g}: the locking sectors reach inwards from the arm, "
+            f"which is {most:g} mm from the sphere's centre; it must be below {most:g}",
+            ("size", "lock_thickness_mm"),
+        )
+    thin = (L - 0.5 * thick.wheel) * math.sin(roller)
+    if pin_mm >= thin:
+        raise GenevaError(
+            f"pin_mm = {2.0 * pin_mm:g}: it must be below {2.0 * thin:.6g}, the diameter of the "
+            "roller's cone where it is thinnest",
+            ("size", "pin_mm"),
+        )

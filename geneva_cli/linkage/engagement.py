@@ -1,0 +1,193 @@
+"""The engagement of a wheel that a linkage's path can drive, for one design or a batch."""
+
+from __future__ import annotations
+
+from decimal import localcontext
+from typing import TYPE_CHECKING, NamedTuple, cast
+
+import numpy as np
+
+from geneva_cli.kinematics import path_and_slot
+from geneva_cli.kinematics.engagement import Anchor, Carrier, Engagement
+from geneva_cli.kinematics.link import LinkRate, LinkReactions
+from geneva_cli.kinematics.path_and_slot import AnchoredPath, StraightSlotMotion
+from geneva_cli.kinematics.roller_path import PointDisplacement, RollerPath, exactly, rounded
+from geneva_cli.kinematics.wheels.poses import HalfStep
+from geneva_cli.linkage.exact_path import ExactPoint, angle, length, unit
+from geneva_cli.linkage.wheel_for_path import Fit
+from geneva_cli.linkage.wheels_for_paths import LONG_PI, Fits, long_point, polished
+from geneva_cli.numerics import digits
+from geneva_cli.numerics.angles import radians
+from geneva_cli.numerics.arrays import library, parameter
+from geneva_cli.numerics.jet import Jet, Number, sine_versine, turning
+
+if TYPE_CHECKING:
+    from geneva_cli.numerics.arrays import Array
+
+ANCHORS = 4  # anchors on either side of the middle: near the wheel the path is strongly curved
+
+
+class LinkageMotion(StraightSlotMotion):
+    """Motion of a wheel on a linkage; ``centre`` is the wheel's centre in the path's frame."""
+
+    def __init__(
+        self,
+        path: AnchoredPath,
+        half_step: float,
+        body: LinkRate,
+        centre: tuple[float, float],
+    ) -> None:
+        super().__init__(path, half_step, mirrored=False)
+        self.body, self.centre = body, centre
+
+    def rough_rates(self, input_deg: Number, order: int = 2) -> tuple[Array, ...]:
+        """Speed and its derivatives at arrays of angles, computed from the path without anchors."""
+        x, y = self.body.path.at(radians(input_deg) + self.body.middle, order + 1)
+        rate = turning(x - self.centre[0], y - self.centre[1]) * self.body.sense
+        return rate.arrays()
+
+
+def engagement_of(path: RollerPath, fit: Fit, step: HalfStep) -> tuple[Engagement, float]:
+    """Engagement of a wheel for a path, and the centre distance in mm.
+
+    The computation uses 50 digits and rounds once.
+    """
+    with localcontext(digits.FIFTY):
+        ox, oy = fit.centre
+        L = (ox * ox + oy * oy).sqrt()
+        middle = (fit.entry + fit.exit) / 2
+        places = [
+            ExactPoint.of(path, middle + (fit.exit - middle) * i / ANCHORS)
+            for i in range(-ANCHORS, ANCHORS + 1)
+        ]
+        rays = [(p.p[0] - ox, p.p[1] - oy) for p in places]
+        first, last = unit(rays[0]), unit(rays[-1])
+        half_way = (first[0] + last[0], first[1] + last[1])
+        inside = [fit.sense * angle(half_way, ray) for ray in rays[1:-1]]
+        ahead = fit.sense * angle((-ox, -oy), rays[ANCHORS])
+        anchors = tuple(
+            Anchor(
+                digits.to_degrees(p.phi - middle),
+                wheel,
+                float(length(ray) / L),
+                along_ray(
+                    path.about(exactly(p.sine), exactly(p.cosine)),
+                    (float(ray[0]), float(ray[1])),
+                    fit.sense,
+                    float(L),
+                    end,
+                ),
+            )
+            for p, ray, wheel, end in zip(
+                places,
+                rays,
+                (-step.b, *inside, step.b),
+                (-1.0, *[0.0] * len(inside), 1.0),
+                strict=True,
+            )
+        )
+    anchored = AnchoredPath(anchors, ahead)
+    body = LinkRate(path, float(middle), fit.sense)
+    motion = LinkageMotion(anchored, step.b, body, (float(ox), float(oy)))
+    ahead_x, ahead_y = float(-ox / L), float(-oy / L)
+    reactions = LinkReactions(path, float(middle), fit.sense, float(L), ahead_x, ahead_y)
+    return path_and_slot.engagement(
+        0.0, anchored, motion, Carrier(-fit.sense, body, reactions)
+    ), float(L)
+
+
+def engagement_of_batch(path: RollerPath, fits: Fits, step: HalfStep) -> tuple[Engagement, float]:
+    """Engagements of wheels for the paths of n designs, and their centre distances (n, 1).
+
+    The computation uses long doubles, if the computer has them, and rounds once.
+    """
+    path, fits, step = _alike(path, fits, step)
+    b, sense = step.b, parameter(fits.sense)
+    with np.errstate(all="ignore"):
+        entry, exit_ = polished(path, fits, step)
+    middle = (entry + exit_) / 2
+    turned = [middle + (exit_ - middle) * i / ANCHORS for i in range(-ANCHORS, ANCHORS + 1)]
+    phi = [np.asarray(x, dtype=np.longdouble) for x in turned]
+    places = [long_point(path, x) for x in phi]
+    (p, t), (q, u) = places[0], places[-1]
+    rho = np.abs(q - p) / np.abs(t + u)
+    centre = ((p + rho * t) + (q - rho * u)) / 2
+    rays = [place - centre for place, _ in places]
+    L = np.abs(centre)
+    half_way = rays[0] / np.abs(rays[0]) + rays[-1] / np.abs(rays[-1])
+    inside = [sense * rounded(np.angle(ray * half_way.conj())) for ray in rays[1:-1]]
+    ends = (-1.0, *[0.0] * len(inside), 1.0)
+    distance = rounded(L)
+    anchors = tuple(
+        Anchor(
+            rounded((x - middle) * (180 / LONG_PI)),
+            wheel,
+            rounded(np.abs(ray) / L),
+            along_ray(
+                path.about(exactly(np.sin(x)), exactly(np.cos(x))),
+                (rounded(ray.real), rounded(ray.imag)),
+                sense,
+                distance,
+                end,
+            ),
+        )
+        for x, ray, wheel, end in zip(phi, rays, (-b, *inside, b), ends, strict=True)
+    )
+    ahead = sense * rounded(np.angle(-rays[ANCHORS] * centre.conj()))
+    anchored = AnchoredPath(anchors, ahead)
+    mid = rounded(middle)
+    line = rounded(-centre.real / L), rounded(-centre.imag / L)
+    reactions = LinkReactions(path, mid, sense, distance, *line)
+    body = LinkRate(path, mid, sense)
+    motion = LinkageMotion(anchored, b, body, (rounded(centre.real), rounded(centre.imag)))
+    return path_and_slot.engagement(
+        0.0, anchored, motion, Carrier(-sense, body, reactions)
+    ), distance
+
+
+def _alike(path: RollerPath, fits: Fits, step: HalfStep) -> tuple[RollerPath, Fits, HalfStep]:
+    """Designs of a batch, with the first that has a wheel in place of those that have none.
+
+    Designs without a wheel are refused already, and NaN in long doubles takes a hundred times as
+    long.
+    """
+    has_wheel = fits.entry[:, 0] == fits.entry[:, 0]
+    if has_wheel.all() or not has_wheel.any():
+        return path, fits, step
+    which = np.where(has_wheel, np.arange(len(has_wheel)), has_wheel.argmax())
+    entry, exit_, sense = (x[which] for x in fits[:3])
+    p, q = (cast(int, np.asarray(x)[which]) if np.ndim(x) else x for x in step)
+    return path.of(which), Fits(entry, exit_, sense, fits.alone), HalfStep(p, q)
+
+
+class AlongRay(NamedTuple):
+    """The pin's displacement along a ray (x, y) and across it, positive with the wheel."""
+
+    displacement: PointDisplacement
+    x: float
+    y: float
+    scale: float
+    sense: float
+    cuts: tuple[float, ...] = ()
+
+    def __call__(self, tau: Number, order: int) -> tuple[Jet, Jet]:
+        """Displacement after ``tau`` radians of crank rotation."""
+        x, y = self.displacement(*sine_versine(Jet.variable(tau, order)))
+        along = (x * self.x + y * self.y) * self.scale
+        across = (y * self.x - x * self.y) * (self.sense * self.scale)
+        return along, across
+
+
+def along_ray(
+    displacement: PointDisplacement, ray: tuple[float, float], sense: float, L: float, end: float
+) -> AlongRay:
+    """Displacement along and across a ray; at an end (-1, 1) the ray is the pin's own direction.
+
+    There the ray is the velocity of ``displacement`` itself, so that the velocity across it is
+    exactly 0.
+    """
+    ux, uy = ray
+    if end:
+        x, y = displacement(*sine_versine(Jet.variable(0.0, 1)))
+        ux, uy = end * parameter(x.c[1]), end * parameter(y.c[1])
+    return AlongRay(displacement, ux, uy, 1.0 / (library(ux).hypot(ux, uy) * L), sense)

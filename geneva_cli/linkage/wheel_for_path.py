@@ -1,0 +1,197 @@
+"""Wheels for one roller's path, in 50 digits.
+
+Pairs of entry and exit form a family of one parameter; a wheel's index angle selects the pair. If
+the path has inflections at both ends, the index angle is stationary along the family and the root
+is double. The acceleration then starts from zero.
+"""
+
+from __future__ import annotations
+
+import cmath
+import math
+from decimal import Decimal, localcontext
+from typing import NamedTuple
+
+import numpy as np
+
+from geneva_cli.kinematics.paths.pairs import DOUBLE_ROOT_SLOPE
+from geneva_cli.kinematics.paths.samples import joined
+from geneva_cli.kinematics.roller_path import RollerPath
+from geneva_cli.kinematics.wheels.poses import HalfStep
+from geneva_cli.linkage.choice import chosen
+from geneva_cli.linkage.exact_path import Exact, ExactPoint, cross, length
+from geneva_cli.linkage.wheels import PathWheels, WheelSearch, followed, wheels
+from geneva_cli.numerics import digits
+from geneva_cli.numerics.angles import scaled_sin_cos
+
+LAST_STEP = 1e-12  # radians: Newton's method ends after a shorter step
+
+
+class Pair(NamedTuple):
+    """Entry and exit on the family of pairs, with the error of the index angle and its slope."""
+
+    entry: float
+    exit: float
+    excess: float
+    slope: float
+
+
+class Fit(NamedTuple):
+    """A wheel that fits: input angles at entry and exit, its centre, and its sense of rotation."""
+
+    entry: Decimal
+    exit: Decimal
+    centre: Exact
+    sense: float  # +1 if the wheel turns counterclockwise on the path's own axes
+
+
+class _PathPoint(NamedTuple):
+    """A point of the path: position, velocity, unit tangent and the rate at which it turns."""
+
+    p: complex
+    v: complex
+    t: complex
+    turn: float
+
+
+def fit(
+    path: RollerPath, step: HalfStep, wanted: float | None = None, search: WheelSearch | None = None
+) -> Fit | None:
+    """Wheel that the path can drive with this index angle, or None.
+
+    If there are several, it is the gentlest, or the one whose entry is nearest to ``wanted``
+    (radians). ``search`` is the result of a batch's search of this path.
+    """
+    candidates, doubtful = search or wheels(path, np.array([[step.b]]))
+    for entry, exit_ in doubtful.at.phi.tolist():
+        root = _double(path, step, entry, exit_)
+        if root:
+            candidates = joined([candidates, root])
+    if not len(candidates.which):
+        return None
+    best = chosen(path, candidates, wanted)[0]
+    (entry, exit_), sense = candidates.phi[best].tolist(), float(candidates.sense[best])
+    with localcontext(digits.FIFTY):
+        pair = _polished(path, step, entry, exit_, sense)
+        if pair is None:
+            return None
+        p, q = (ExactPoint.of(path, phi) for phi in pair)
+        total = (p.t[0] + q.t[0], p.t[1] + q.t[1])
+        far = length((q.p[0] - p.p[0], q.p[1] - p.p[1])) / length(total)
+        centre = (p.p[0] + far * p.t[0], p.p[1] + far * p.t[1])
+    return Fit(*pair, centre, sense)
+
+
+def _double(path: RollerPath, step: HalfStep, entry: float, exit_: float) -> PathWheels | None:
+    """Wheel of a double root, or of two roots too close for Newton's method to separate."""
+    pair = _on_family(path, step.b, entry, exit_)
+    root = _refined(path, step.b, pair) if pair else None
+    if root is None:
+        return None
+    one, two = (_place(path, phi) for phi in root)
+    sense = math.copysign(1.0, cmath.phase(-two.t * one.t.conjugate()))
+    drivable = followed(path, np.array([root]), np.array([sense]))
+    with localcontext(digits.FIFTY):
+        holds = len(drivable.which) and _polished(path, step, *root, sense)
+    return drivable if holds else None
+
+
+def _place(path: RollerPath, phi: float) -> _PathPoint:
+    x, y = path.at(phi, 2)
+    p, v, a = (complex(*z) for z in zip(x.derivatives(), y.derivatives(), strict=True))
+    speed = abs(v)
+    return _PathPoint(p, v, v / speed, (v.conjugate() * a).imag / speed**2)
+
+
+def _on_family(path: RollerPath, b: float, entry: float, exit_: float) -> Pair | None:
+    """Pair of ``entry`` and the exit near ``exit_`` equally far from the meeting point: Newton."""
+    one = _place(path, entry)
+    for _ in range(40):
+        two = _place(path, exit_)
+        chord, both = two.p - one.p, one.t + two.t
+        value = (chord * both.conjugate()).imag
+        by_exit = (two.v * both.conjugate() + chord * (1j * two.turn * two.t).conjugate()).imag
+        if by_exit == 0.0:
+            return None
+        move = max(-0.05, min(0.05, -value / by_exit))
+        exit_ += move
+        if abs(move) < LAST_STEP:
+            break
+    else:
+        return None
+    by_entry = (-one.v * both.conjugate() + chord * (1j * one.turn * one.t).conjugate()).imag
+    angle = cmath.phase(-two.t * one.t.conjugate())
+    slope = math.copysign(1.0, angle) * (-two.turn * by_entry / by_exit - one.turn)
+    return Pair(entry, exit_, abs(angle) - 2.0 * b, slope)
+
+
+def _refined(path: RollerPath, b: float, pair: Pair) -> tuple[float, float] | None:
+    """Pair with the index angle, from a pair of the family: a root, or a double root."""
+    here, step = pair, math.tau / 720  # greatest Newton step along the family, radians
+    for _ in range(60):
+        if here.slope == 0.0:
+            break
+        move = max(-step, min(step, -here.excess / here.slope))
+        after = _on_family(path, b, here.entry + move, here.exit - move)
+        if after is None or abs(after.entry - pair.entry) > 12.0 * step:
+            return None
+        done = abs(after.excess) < 4e-16 or abs(move) < LAST_STEP
+        here = after
+        if done:
+            break
+    flat = _stationary(path, b, here)
+    if flat and abs(flat.excess) < 1e-12:  # radians: a double root, but for rounding
+        here = flat
+    # ``_polished`` corrects an index angle that is wrong by less than 1e-9 radians
+    return (here.entry, here.exit) if abs(here.excess) < 1e-9 else None
+
+
+def _stationary(path: RollerPath, b: float, pair: Pair) -> Pair | None:
+    """Pair at which the index angle is stationary along the family: secant on its slope."""
+    before, here = pair, _on_family(path, b, pair.entry + 1e-4, pair.exit - 1e-4)
+    for _ in range(40):
+        if here is None or here.slope == before.slope:
+            return before if here is None else here
+        move = -here.slope * (here.entry - before.entry) / (here.slope - before.slope)
+        if abs(move) > 0.05:
+            return None
+        before, here = here, _on_family(path, b, here.entry + move, here.exit - move)
+        if here is not None and abs(move) < 4e-16 * max(1.0, abs(here.entry)):
+            return here
+    return here
+
+
+def _polished(
+    path: RollerPath, step: HalfStep, entry: float, exit_: float, sense: float
+) -> tuple[Decimal, Decimal] | None:
+    """A pair in 50 digits: Newton on both conditions, with slopes in doubles.
+
+    At a double root the slope vanishes, and only the equal distances are corrected. None if there
+    is no such pair after all.
+    """
+    first, last = Decimal(entry), Decimal(exit_)
+    sin_2b, cos_2b = (Decimal(n) / Decimal(1 << 128) for n in scaled_sin_cos(2 * step.p, step.q))
+    one, two = _place(path, entry), _place(path, exit_)
+    chord, both = two.p - one.p, one.t + two.t
+    by_exit = (two.v * both.conjugate() + chord * (1j * two.turn * two.t).conjugate()).imag
+    by_entry = (-one.v * both.conjugate() + chord * (1j * one.turn * one.t).conjugate()).imag
+    slope = -two.turn * by_entry - one.turn * by_exit  # of the index angle, times by_exit
+    double = abs(slope) < DOUBLE_ROOT_SLOPE * abs(by_exit)
+    for _ in range(6):  # each step leaves about a millionth of the error
+        p, q = ExactPoint.of(path, first), ExactPoint.of(path, last)
+        apart = (q.p[0] - p.p[0], q.p[1] - p.p[1])
+        total = (p.t[0] + q.t[0], p.t[1] + q.t[1])
+        away = float(cross(total, apart))
+        if double:
+            move = away / by_exit
+            last -= Decimal(move)
+            continue
+        # sine of the error of the index angle, which is the angle from -t1 to t2
+        sine, cosine = -cross(p.t, q.t), -(p.t[0] * q.t[0] + p.t[1] * q.t[1])
+        excess = float(sine * cos_2b - Decimal(sense) * cosine * sin_2b)
+        # by_entry de + by_exit dx = -away,  -turn1 de + turn2 dx = -excess
+        det = by_entry * two.turn + by_exit * one.turn
+        move = (away * two.turn - excess * by_exit) / det
+        first -= Decimal(move)
+        last -= Decimal((by_entry * excess + one.turn * away) / det)
+    return (first, last) if abs(move) < 1e-20 else None  # radians, of the last step

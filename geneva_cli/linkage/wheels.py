@@ -1,0 +1,127 @@
+"""Wheels that roller paths can drive: the pairs of points whose roller stays in its slot.
+
+A pair of points gives the wheel's centre. ``course`` checks that the roller enters at one
+point, leaves at the other and stays outside the slot otherwise.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+
+from geneva_cli.kinematics.paths.course import PinCourse, PlacedWheel, leaves_slot
+from geneva_cli.kinematics.paths.pairs import DOUBLE_ROOT_SLOPE, EndPairs, pairs, residual
+from geneva_cli.kinematics.paths.samples import PathSamples, joined, points, sampled
+from geneva_cli.kinematics.roller_path import RollerPath
+
+if TYPE_CHECKING:
+    from geneva_cli.numerics.arrays import Array, Which, Whole
+
+SAME_ENTRY = 1e-6  # radians: entries nearer to each other are one
+
+
+class PathWheels(NamedTuple):
+    """Wheels of the designs numbered in ``which``.
+
+    ``phi`` holds the crank angles at entry and exit in two columns. ``sense`` is the direction in
+    which the wheel turns on the path's own axes.
+    """
+
+    which: Whole
+    phi: Array
+    sense: Array
+
+    def taken(self, where: Which) -> PathWheels:
+        """Select some of the wheels."""
+        return PathWheels._make(part[where] for part in self)
+
+
+class WheelSearch(NamedTuple):
+    """Wheels of designs, and pairs at which there may be a double or nearly double root."""
+
+    wheels: PathWheels
+    doubtful: EndPairs
+
+    def of(self, i: int) -> WheelSearch:
+        """Result for design ``i``, numbered as a single path."""
+        parts = []
+        for part in self:
+            mine = part.taken(np.flatnonzero(part.which == i))
+            parts.append(mine._replace(which=0 * mine.which))
+        return WheelSearch._make(parts)
+
+
+def wheels(path: RollerPath, b: Array) -> WheelSearch:
+    """All wheels of designs with half index angles b, (n, 1)."""
+    kept = []
+    with np.errstate(all="ignore"):
+        every = list(sampled(path, len(b)))
+        ends, doubtful = pairs(path, every, b)
+        ends = ends.taken(_firsts(ends))
+        rest = residual(ends, b)
+        steep = np.abs(rest.det) >= DOUBLE_ROOT_SLOPE * np.abs(rest.by_exit)
+        doubtful = joined([doubtful, ends.taken(~steep)])
+        # A path that stops has no direction there; boxes around such a point hold no pair.
+        doubtful = doubtful.taken(np.flatnonzero(np.isfinite(doubtful.at.phi).all(axis=1)))
+        # doubtful entries within 1e-4 radians lead to one wheel
+        doubtful = doubtful.taken(_firsts(doubtful, 1e-4))
+        ends, sense = ends.taken(steep), rest.sense[steep]
+        block = np.zeros(len(b), dtype=int)
+        for i, samples in enumerate(every):
+            block[samples.which] = i
+        for i, samples in enumerate(every):
+            mine = block[ends.which] == i
+            kept.append(_followed(path, samples, ends.taken(mine), sense[mine]))
+    return WheelSearch(joined(kept), doubtful)
+
+
+def followed(path: RollerPath, phi: Array, sense: Array) -> PathWheels:
+    """Wheels that a path can drive, among those with entry and exit angles ``phi`` (n, 2)."""
+    with np.errstate(all="ignore"):
+        ends = EndPairs(np.zeros(len(phi), dtype=int), points(path, phi))
+        return _followed(path, next(sampled(path, 1)), ends, sense)
+
+
+def _firsts(ends: EndPairs, same: float = SAME_ENTRY) -> Whole:
+    """First of each group of equal pairs."""
+    place = ends.at.phi[:, 0] % math.tau
+    order = np.lexsort((place, ends.which))
+    new = np.ones(len(order), dtype=bool)
+    new[1:] = (np.diff(ends.which[order]) != 0) | (np.diff(place[order]) > same)
+    return order[new]
+
+
+def _followed(path: RollerPath, samples: PathSamples, ends: EndPairs, sense: Array) -> PathWheels:
+    """Wheels of the pairs between which the roller stays in its slot."""
+    (p, q), (t, u) = ends.at.p.T, ends.at.t.T
+    rho = np.abs(q - p) / np.abs(t + u)
+    centre = 0.5 * ((p + rho * t) + (q - rho * u))
+    wheel = PlacedWheel._make(x[:, None] for x in (centre, rho * rho, sense))
+    number = np.zeros(int(samples.which.max(initial=0)) + 1, dtype=int)
+    number[samples.which] = np.arange(len(samples.which))
+    at = samples.at.taken((number[ends.which], slice(0, -1)))
+    entry, motion = ends.at.phi[:, :1], np.diff(ends.at.phi, axis=1)
+    since = (at.phi - entry) % math.tau
+    course = wheel.course(at)
+    inside = since < motion
+    good = np.where(inside, (course.moment > 0.0) & (course.short > 0.0), course.short < 0.0)
+    at_entry = (since < SAME_ENTRY) | (since > math.tau - SAME_ENTRY)
+    good |= (np.abs(since - motion) < SAME_ENTRY) | at_entry
+    kept = np.flatnonzero(good.all(axis=1))
+    # add the ends to the samples, and the entry again a turn later
+    wheel, ends, since, motion = wheel.taken(kept), ends.taken(kept), since[kept], motion[kept]
+    limits = wheel.course(ends.at)
+    limits = limits._replace(moment=0.0 * limits.moment, short=0.0 * limits.short)
+    since = np.hstack((since, 0.0 * motion, motion, 0.0 * motion + math.tau))
+    order = np.argsort(since, axis=1)
+    nodes = np.take_along_axis(since, order, axis=1)
+    full = PinCourse(
+        *(
+            np.take_along_axis(np.hstack((x[kept], y, y[:, :1])), order, axis=1)
+            for x, y in zip(course, limits, strict=True)
+        )
+    )
+    fails = leaves_slot(path, wheel, ends, nodes, full, motion)
+    return PathWheels(ends.which[~fails], ends.at.phi[~fails], wheel.sense[~fails, 0])

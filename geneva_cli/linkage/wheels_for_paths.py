@@ -1,0 +1,153 @@
+"""Wheels for the paths of a batch of designs, in doubles.
+
+A double or nearly double root is known only to half the digits of a double. Such a design is left
+to ``wheel_for_path``, which solves it alone in 50 digits.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from contextvars import ContextVar
+from typing import TYPE_CHECKING, NamedTuple, TypeAlias, cast
+
+import numpy as np
+
+from geneva_cli.errors import GenevaError
+from geneva_cli.kinematics.paths.pairs import DOUBLE_ROOT_SLOPE, ends_at, residual
+from geneva_cli.kinematics.roller_path import RollerPath, exactly
+from geneva_cli.kinematics.wheels.poses import HalfStep
+from geneva_cli.linkage.choice import chosen
+from geneva_cli.linkage.wheel_for_path import fit
+from geneva_cli.linkage.wheels import WheelSearch, wheels
+from geneva_cli.numerics.arrays import rising
+from geneva_cli.numerics.digits import PI
+from geneva_cli.numerics.jet import Jet
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    from geneva_cli.numerics.arrays import Array, Long
+
+    LongComplex: TypeAlias = NDArray[np.clongdouble]
+
+LONG_PI = np.longdouble(str(PI))
+Alone: TypeAlias = Callable[[int], tuple[RollerPath, float | None]]  # a design's path and entry
+
+# Search results by the kind and numbers of a path, with its number there; None: none are kept.
+_KNOWN: ContextVar[dict[tuple[object, ...], tuple[WheelSearch, int]] | None] = ContextVar(
+    "known", default=None
+)
+
+
+class Fits(NamedTuple):
+    """One wheel for each of n designs: angles in radians, (n, 1); NaN if none fits.
+
+    ``alone`` has the numbers of designs that must be solved one by one, with the search of each.
+    """
+
+    entry: Array
+    exit: Array
+    sense: Array  # +1 if the wheel turns counterclockwise on the path's own axes
+    alone: dict[int, WheelSearch]
+
+
+def fits_of_batch(path: RollerPath, b: float, wanted: float | None = None) -> Fits:
+    """The gentlest wheel of each path, or the one whose entry is nearest to ``wanted`` (radians).
+
+    ``path``, half the index angle b and ``wanted`` hold numbers (n, 1), or one for all.
+    """
+    numbers = (*path.rough, b, 0.0 if wanted is None else wanted)
+    count = np.broadcast_shapes(*(np.shape(x) for x in numbers))[0]
+    out = np.full((3, count), np.nan)
+    alone: dict[int, WheelSearch] = {}
+    half = np.broadcast_to(np.asarray(b, dtype=float), (count, 1))
+    goal = None if wanted is None else np.broadcast_to(np.asarray(wanted, dtype=float), (count, 1))
+    size = 2048  # designs that are searched together
+    for start in range(0, count, size):
+        part = np.arange(start, min(start + size, count))
+        some = path.of(part)
+        search = wheels(some, half[part])
+        _keep(some, half[part], search)
+        candidates = search.wheels
+        best = chosen(some, candidates, goal if goal is None else goal[part])
+        out[:, part[candidates.which[best]]] = *candidates.phi[best].T, candidates.sense[best]
+        for i in rising(search.doubtful.which).tolist():
+            alone[start + i] = search.of(i)
+    entry, exit_, sense = out[:, :, None]
+    return Fits(entry, exit_, sense, alone)
+
+
+def solve_alone(fits: Fits, step: HalfStep, alone: Alone) -> None:
+    """Fill in the designs that must be solved one by one, with NaN where no wheel fits."""
+    for i, search in fits.alone.items():
+        p, q = (int(np.broadcast_to(x, fits.entry.shape)[i, 0]) for x in step)
+        try:
+            path, wanted = alone(i)
+            one = fit(path, HalfStep(p, q), wanted, search)
+        except GenevaError:
+            one = None
+        values = (float(one.entry), float(one.exit), one.sense) if one else (math.nan,) * 3
+        for column, value in zip(fits[:3], values, strict=True):
+            column[i, 0] = value
+
+
+@contextmanager
+def searches_kept() -> Iterator[None]:
+    """Keep batch searches within the block, so that designs built alone after it can use them."""
+    token = _KNOWN.set({})
+    try:
+        yield
+    finally:
+        _KNOWN.reset(token)
+
+
+def _keep(path: RollerPath, half: Array, search: WheelSearch) -> None:
+    kept = _KNOWN.get()
+    if kept is not None:
+        columns = [np.broadcast_to(x, half.shape) for x in path.rough]
+        for i, row in enumerate(np.hstack([*columns, half]).tolist()):
+            kept[type(path), *row] = search, i
+
+
+def known(path: RollerPath, b: float) -> WheelSearch | None:
+    """Search result of one design's path from an earlier batch, or None."""
+    kept = _KNOWN.get()
+    entry = kept.get((type(path), *path.rough, b)) if kept else None
+    return entry[0].of(entry[1]) if entry else None
+
+
+def long_point(path: RollerPath, phi: Long) -> tuple[LongComplex, LongComplex]:
+    """Position and unit tangent at angles in long doubles, as complex numbers."""
+    s, c = exactly(np.sin(phi)), exactly(np.cos(phi))
+    pin = path.place(Jet((s, c)), Jet((c, -s)), exact=True)
+    (x, vx), (y, vy) = cast("list[tuple[Long, Long]]", [jet.c for jet in pin])
+    v: LongComplex = vx + 1j * vy
+    unit: LongComplex = v / np.abs(v)
+    return x + 1j * y, unit
+
+
+def polished(path: RollerPath, fits: Fits, step: HalfStep) -> tuple[Long, Long]:
+    """Entry and exit in long doubles: Newton's method in two unknowns, with slopes in doubles.
+
+    It starts from roots that are known to the last digits of a double.
+    """
+    every = np.arange(len(fits.entry))
+    ends = ends_at(path, every, np.hstack((fits.entry, fits.exit)))
+    rest = residual(ends, np.broadcast_to(step.b, fits.entry.shape))
+    by_entry, by_exit = rest.by_entry[:, None], rest.by_exit[:, None]
+    turn, turn_out = ends.at.turn[:, :1], ends.at.turn[:, 1:]
+    det = rest.det[:, None]
+    double = np.abs(det) < DOUBLE_ROOT_SLOPE * np.abs(by_exit)
+    wanted = 2 * LONG_PI * step.p / step.q
+    entry, exit_ = (np.asarray(x, dtype=np.longdouble) for x in fits[:2])
+    for _ in range(3):  # each step leaves about a millionth of the error
+        (p, t), (q, u) = long_point(path, entry), long_point(path, exit_)
+        away = ((q - p) * (t + u).conj()).imag
+        index = -u * t.conj()
+        excess = index.imag * np.cos(wanted) - fits.sense * index.real * np.sin(wanted)
+        entry = entry - np.where(double, 0.0, (away * turn_out - excess * by_exit) / det)
+        both = np.where(double, away / by_exit, (by_entry * excess + turn * away) / det)
+        exit_ = exit_ - both
+    return entry, exit_

@@ -1,0 +1,217 @@
+"""The whole cycle under load: states at any input angle, extremes and integrals.
+
+The cycle is a period of the machine from the first entry: every engagement, and the dwells between.
+All loads are 0 in a dwell: nothing moves, the lock holds the wheel, and resistance to motion does
+not act at rest.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from functools import cached_property, lru_cache
+from typing import TYPE_CHECKING, NamedTuple, TypeAlias
+
+import numpy as np
+
+from geneva_cli.analysis.contact import contact, contacts
+from geneva_cli.analysis.forces import LoadCase, gain, load_case, sliding
+from geneva_cli.analysis.instant import INSTANT_QUANTITIES, Instant, bounded, values
+from geneva_cli.analysis.load_functions import NO_MORE, LoadFunctions, load_batch
+from geneva_cli.analysis.mid_motion import at_crossing
+from geneva_cli.analysis.motion import local_deg, spans
+from geneva_cli.analysis.quantities import KINETIC, known_quantities, multiples
+from geneva_cli.analysis.stretches import Stretch, refuse_rounding, to_mid_motion, whole
+from geneva_cli.kinematics.engagement import Engagement
+from geneva_cli.loads.summaries import (
+    EngagementExtremes,
+    LoadSummary,
+    search_loads,
+    shown_deg,
+    summaries_from,
+    sums_of,
+)
+from geneva_cli.machine.mechanism import Mechanism
+from geneva_cli.numerics.adaptive_quadrature import Integrands, span_integrals
+from geneva_cli.numerics.angles import DEGREE
+from geneva_cli.numerics.search import SearchResult
+
+if TYPE_CHECKING:
+    from geneva_cli.numerics.arrays import Whole
+    from geneva_cli.numerics.jet import Array
+
+Integrand: TypeAlias = "Callable[[Instant[Array]], Array]"  # of values, at many angles
+
+
+class Extremes(NamedTuple):
+    """The greatest and least value over the motions, and their input angles as shown.
+
+    An unbounded value is infinite.
+    """
+
+    max: float
+    max_at_deg: float
+    min: float
+    min_at_deg: float
+
+
+class Cycle:
+    """A machine under its load, over one period.
+
+    ``case`` are the data that the loads depend on besides the motion. All values are exact to some
+    units in the last place of a quantity's peak; none is taken from samples.
+    """
+
+    def __init__(self, mechanism: Mechanism) -> None:
+        self.mechanism = mechanism
+        self.case: LoadCase = load_case(mechanism)
+
+    @property
+    def is_loaded(self) -> bool:
+        """Return True if an inertia or a resisting torque is known."""
+        return self.mechanism.spec.is_loaded
+
+    @property
+    def period(self) -> float:
+        """Input angle of the period, radians."""
+        return self.mechanism.period_deg * DEGREE
+
+    def states(self, input_deg: Array) -> Instant[Array]:
+        """Arrays at ascending input angles of a period from the first entry; 0 in the dwells.
+
+        A force without a bound is infinite. It is so where friction alone holds the wheel, and at
+        mid-motion of a curved slot that lies across the roller's path.
+        """
+        out: dict[str, Array | None] = {
+            name: np.zeros(len(input_deg)) for name in INSTANT_QUANTITIES
+        }
+        for span in spans(self.mechanism, input_deg):
+            local = local_deg(span, input_deg)
+            if not len(local):
+                continue
+            for name, row in self.moving(span.engagement, local).quantities().items():
+                total = out[name]
+                if row is None or total is None:
+                    out[name] = None
+                else:
+                    total[span.moves] = row
+        return Instant.known(out)
+
+    def moving(self, engagement: Engagement, input_deg: Array) -> Instant[Array]:
+        """Arrays (n,) at input angles of an engagement, degrees from its own mid-motion."""
+        case, at = self.case, contacts(engagement, input_deg)
+        torque = at.acceleration * case.inertia_Nm + case.resists_Nm
+        drives = np.copysign(1.0, torque)
+        slides = np.copysign(1.0, sliding(at, drives, case.radius))
+        feeds = np.copysign(1.0, drives * gain(case, at, drives, slides))
+        with np.errstate(all="ignore"):
+            moving_values = bounded(Instant(case, at, drives, slides, feeds))
+        middle = input_deg == 0.0
+        limits = at_crossing(engagement, case) if middle.any() else None
+        if limits is None:
+            return moving_values
+        every = dict[str, object](moving_values.quantities())
+        for name, limit in limits.items():
+            every[name] = np.where(middle, limit, getattr(moving_values, name))
+        return Instant.known(every)
+
+    def along(self, engagement: Engagement, stretch: Stretch, input_deg: Array) -> Instant[Array]:
+        """Arrays (n,) at input angles of a stretch, degrees from its engagement's mid-motion.
+
+        The signs are the stretch's, so that its ends have the limits from inside.
+        """
+        with np.errstate(all="ignore"):
+            at = contacts(engagement, input_deg)
+            return bounded(Instant(self.case, at, stretch.drives, stretch.slides, stretch.feeds))
+
+    @cached_property
+    def _searches(self) -> list[tuple[LoadFunctions, SearchResult]]:
+        """For each engagement, the search for the extremes of known quantities, and its cuts."""
+        names, out = [*known_quantities(self.mechanism), KINETIC], []
+        for engagement in self.mechanism.engagements:
+            every = load_batch(engagement, self.case, names, NO_MORE)
+            load = LoadFunctions(every, names, ("slides", "feeds"))
+            result = search_loads(load, 1)
+            fastest = result.most[names.index("omega_rad_s"), 0] / self.case.speed_rad_s
+            refuse_rounding(engagement, fastest)
+            out.append((load, result))
+        return out
+
+    @cached_property
+    def known(self) -> Mapping[str, LoadSummary]:
+        """The summaries of all quantities that have a value, (1,) each."""
+        names = [*known_quantities(self.mechanism), KINETIC]
+        names += [
+            name
+            for name, (source, factor, _) in multiples(self.mechanism).items()
+            if factor is not None and source in names
+        ]
+        each = [
+            EngagementExtremes(
+                result.most,
+                shown_deg(self.mechanism, load.engagement, result.x),
+                sums_of(load, result, 1, plain=True),
+            )
+            for load, result in self._searches
+        ]
+        return summaries_from(self.mechanism, names, each, plain=True)
+
+    @cached_property
+    def peaks(self) -> list[tuple[float, float, float]]:
+        """Each engagement's greatest velocity, acceleration and product of both, as invariants."""
+        w, out = self.case.speed_rad_s, []
+        for load, result in self._searches:
+            most = result.most.reshape(2, -1).max(axis=0)
+            places = [load.names.index(n) for n in ("omega_rad_s", "alpha_rad_s2", KINETIC)]
+            v, a, p = (float(most[place]) / w**k for k, place in enumerate(places, 1))
+            out.append((v, a, p))
+        return out
+
+    @cached_property
+    def extremes(self) -> Mapping[str, Extremes]:
+        """The extremes of all quantities that have a value."""
+        return {
+            name: Extremes(*(float(end[0]) for end in one[:4])) for name, one in self.known.items()
+        }
+
+    def integrals(self, *of: Integrand) -> list[float]:
+        """The integral of each function over a period by the input angle in radians.
+
+        For a torque it is work in joules; divided by ``period``, it is a mean over the cycle. The
+        integral of an unbounded function is infinite.
+        """
+        total = np.zeros((len(of), 1))
+        for engagement in self.mechanism.engagements:
+            pieces = [piece for owner, piece in self.stretches if owner is engagement]
+            start, end, *signs = np.array(pieces).T
+
+            def rows(
+                x: Array,
+                which: Whole,
+                engagement: Engagement = engagement,
+                signs: list[Array] = signs,
+            ) -> Array:
+                at = contact(engagement, x)
+                here = values(Instant(self.case, at, *(sign[which, None] for sign in signs)))
+                return np.stack([np.broadcast_to(f(here), x.shape) for f in of])
+
+            one = np.zeros(len(pieces), dtype=int)
+            needed = np.full(total.shape, True)
+            with np.errstate(all="ignore"):
+                total += span_integrals(Integrands(rows, start, end, ends=True), one, needed)
+        return [float(x) for x in total[:, 0] * DEGREE]
+
+    @cached_property
+    def stretches(self) -> list[tuple[Engagement, Stretch]]:
+        """The motions, divided at breaks and where torque, sliding or input torque change sign."""
+        out = []
+        for load, result in self._searches:
+            engagement = load.engagement
+            pieces = to_mid_motion(engagement, result.stretches, 1)
+            out += [(engagement, one) for one in whole(engagement, self.case, load.kinds, pieces)]
+        return out
+
+
+@lru_cache(maxsize=16)
+def cycle_of(mechanism: Mechanism) -> Cycle:
+    """The cycle of a machine, cached for its loads, strength and warnings."""
+    return Cycle(mechanism)

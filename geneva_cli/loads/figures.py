@@ -1,0 +1,288 @@
+"""The curves of one or more machines over a cycle: motion and loads by the input angle.
+
+Each smooth piece of a curve is sampled separately, with both ends from inside, so that a jump has
+both its values. Peaks are those of the analysis, never the highest of the samples.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Mapping, Sequence
+from itertools import pairwise
+from typing import NamedTuple, TypeAlias
+
+import numpy as np
+
+from geneva_cli.analysis import peaks
+from geneva_cli.analysis.motion import first_entry_deg
+from geneva_cli.analysis.quantities import known_quantities, multiples
+from geneva_cli.errors import GenevaError, Notice, cut, few, nearest
+from geneva_cli.figure import Axis, Curve, Figure, Mark, Panel, Piece
+from geneva_cli.loads import summary
+from geneva_cli.loads.cycle import Cycle, Extremes
+from geneva_cli.loads.stages import (
+    MOTION_QUANTITIES,
+    WHEEL_ANGLE,
+    Stage,
+    load_stages,
+    motion_stages,
+    pieces,
+)
+from geneva_cli.machine.mechanism import Mechanism
+from geneva_cli.numerics.tolerances import ROUNDED, SAME_INPUT_DEG
+
+MACHINES_MAX = 6  # machines in one figure that the eye can tell apart
+AXES = (
+    Axis(WHEEL_ANGLE, "Wheel angle", "deg"),
+    Axis("velocity", "Speed of the wheel, relative to the input"),
+    Axis("acceleration", "Acceleration of the wheel, relative to the input"),
+    Axis("jerk", "Jerk of the wheel, relative to the input"),
+    Axis("power", "Speed times acceleration, relative to the input"),
+    Axis("omega_rad_s", "Wheel's velocity", "rad/s"),
+    Axis("alpha_rad_s2", "Wheel's acceleration", "rad/s²"),
+    Axis("wheel_torque_Nm", "Torque on the wheel", "N m"),
+    Axis("pin_force_N", "Pin force", "N"),
+    Axis("contact_stress_MPa", "Contact stress", "MPa"),
+    Axis("sliding_m_s", "Sliding of the roller", "m/s"),
+    Axis("input_torque_Nm", "Torque on the input", "N m"),
+    Axis("power_W", "Power of the input", "W"),
+    Axis("wheel_bearing_N", "Force on the wheel's bearings", "N"),
+    Axis("crank_bearing_N", "Force on the crank's bearings", "N"),
+    Axis("pv_W_m2", "Pressure times sliding", "W/m²"),
+    Axis("guide_force_N", "Force on the guide", "N"),
+    Axis("wheel_near_bearing_N", "Wheel's nearer bearing", "N"),
+    Axis("wheel_far_bearing_N", "Wheel's farther bearing", "N"),
+    Axis("crank_near_bearing_N", "Crank's nearer bearing", "N"),
+    Axis("crank_far_bearing_N", "Crank's farther bearing", "N"),
+)
+AXIS_BY_NAME = {axis.name: axis for axis in AXES}
+USUAL_QUANTITIES = (
+    WHEEL_ANGLE,
+    "velocity",
+    "acceleration",
+    "jerk",
+    "pin_force_N",
+    "input_torque_Nm",
+    "power_W",
+)
+
+
+LeftOut: TypeAlias = tuple[str, str]  # a machine's name, and a sentence on what it lacks
+
+
+class MachineCurves(NamedTuple):
+    """Some quantities of a machine over the window: the pieces, marks and bounds of each."""
+
+    pieces: dict[str, list[Piece]]
+    marks: dict[str, tuple[Mark, ...]]
+    bounds: dict[str, tuple[float, float]]
+
+
+def figure(cycles: Mapping[str, Cycle], pick: Sequence[str] = ()) -> tuple[Figure, list[LeftOut]]:
+    """The figure of machines by their names, and the curves that it lacks, with reasons.
+
+    ``pick`` are names of quantities; by default the known ones of ``USUAL_QUANTITIES``. Raises
+    GenevaError for an unknown name, and for a requested quantity that no machine has.
+
+    >>> from geneva_cli import Design, External
+    >>> velocities, left_out = figure({"six": Design(External(6)).cycle}, ["velocity"])
+    >>> velocities.panels[0].curves[0].marks
+    (Mark(word='peak', x=0.0, y=1.0),)
+    """
+    if len(cycles) > MACHINES_MAX:
+        raise GenevaError(
+            f"{len(cycles)} designs in one figure; at most {MACHINES_MAX} can be told apart"
+        )
+    requested = tuple(dict.fromkeys(pick)) or USUAL_QUANTITIES
+    for name in requested:
+        if name not in AXIS_BY_NAME:
+            raise GenevaError(
+                f"--pick {cut(name)}: no quantity of a cycle{nearest(name, AXIS_BY_NAME)}; "
+                f"it must be one of {few(name, AXIS_BY_NAME)}"
+            )
+    has = {design: _known(cycle) for design, cycle in cycles.items()}
+    shown = [name for name in requested if any(name in known for known in has.values())]
+    missing = [name for name in requested if name not in shown]
+    if missing and pick:
+        raise GenevaError(f"--pick {missing[0]}: {_why(next(iter(cycles.values())), missing[0])}")
+    machines = [cycle.mechanism for cycle in cycles.values()]
+    start = min(first_entry_deg(m) for m in machines)
+    window = start, start + max(m.period_deg for m in machines)
+    drawn = {
+        design: _drawn(cycle, [n for n in shown if n in has[design]], window)
+        for design, cycle in cycles.items()
+    }
+    panels = tuple(_panel(name, drawn) for name in shown)
+    picture = Figure(
+        _title(machines),
+        Axis("input_deg", "Input angle", "deg"),
+        panels,
+        window,
+        tuple(_rests(machines, window)),
+    )
+    left = {d: [n for n in requested if n not in known] for d, known in has.items()}
+    return picture, [(d, line) for d, names in left.items() for line in _left_out(cycles[d], names)]
+
+
+def _title(machines: Sequence[Mechanism]) -> str:
+    if len(machines) > 1:
+        return f"{len(machines)} designs over a cycle"
+    spec = machines[0].spec
+    return spec.title or spec.path or f"Geneva wheel of {spec.wheel.z} slots"
+
+
+def _known(cycle: Cycle) -> set[str]:
+    loads = set(known_quantities(cycle.mechanism))
+    shared = multiples(cycle.mechanism).items()
+    loads |= {name for name, (of, factor, _) in shared if factor is not None and of in loads}
+    return {*MOTION_QUANTITIES, *loads}
+
+
+def _left_out(cycle: Cycle, names: Sequence[str]) -> Iterator[str]:
+    """Sentences on the curves that a figure lacks for a machine, one for each reason."""
+    reasons: dict[str, list[str]] = {}
+    for name in names:
+        reasons.setdefault(_why(cycle, name), []).append(name)
+    for why, lacking in reasons.items():
+        yield Notice("not-known", f"no curve of {', '.join(lacking)}: {why}")
+
+
+def _why(cycle: Cycle, name: str) -> str:
+    """The reason why a machine does not have a quantity."""
+    notices = summary.missing(cycle)
+    if not cycle.is_loaded:
+        return notices[0]
+    for line in notices:
+        names, _, why = line.partition(": ")
+        if name in names.split(", "):
+            return why
+    return "the crank itself carries the roller, and there is no guide"
+
+
+def _panel(name: str, drawn: Mapping[str, MachineCurves]) -> Panel:
+    curves: list[Curve] = []
+    bounds: list[float] = []
+    for number, (design, machine_curves) in enumerate(drawn.items()):
+        if name in machine_curves.pieces:
+            marks = machine_curves.marks[name]
+            if len(drawn) > 1:  # one mark for each design: the greater in size
+                marks = tuple(sorted(marks, key=_size, reverse=True)[:1])
+            curves.append(Curve(number, design, tuple(machine_curves.pieces[name]), marks))
+            bounds += machine_curves.bounds.get(name, ())
+    return Panel(AXIS_BY_NAME[name], tuple(curves), (min(bounds), max(bounds)) if bounds else None)
+
+
+def _size(mark: Mark) -> float:
+    return math.inf if mark.y is None else abs(mark.y)
+
+
+def _drawn(cycle: Cycle, names: Sequence[str], window: tuple[float, float]) -> MachineCurves:
+    machine = cycle.mechanism
+    moves, loads = (
+        [n for n in names if n in MOTION_QUANTITIES],
+        [n for n in names if n not in MOTION_QUANTITIES],
+    )
+    step = math.degrees(sum(2.0 * e.half_step for e in machine.engagements))
+    out = MachineCurves({}, {}, {})
+    if moves:
+        stages = list(motion_stages(machine, moves))
+        rise = [step if n == WHEEL_ANGLE else 0.0 for n in moves]
+        curves = pieces(stages, machine.period_deg, window, rise)
+        out.pieces.update(zip(moves, curves, strict=True))
+        out.marks.update((n, _peak(machine, n, i, stages, window)) for i, n in enumerate(moves))
+    if loads:
+        ends = {name: cycle.extremes[name] for name in loads}
+        out.bounds.update(_bounds(cycle, ends))
+        stages = list(load_stages(cycle, loads, out.bounds))
+        curves = pieces(stages, machine.period_deg, window, [0.0] * len(loads))
+        out.pieces.update(zip(loads, curves, strict=True))
+        for name, bounds in out.bounds.items():
+            out.pieces[name] = [cut for p in out.pieces[name] for cut in _within(p, bounds)]
+        out.marks.update((n, tuple(_ends(machine, ends[n], window))) for n in loads)
+    return out
+
+
+def _peak(
+    machine: Mechanism,
+    name: str,
+    row: int,
+    stages: Sequence[Stage],
+    window: tuple[float, float],
+) -> tuple[Mark, ...]:
+    """The greatest size of a quantity of the motion, with its sign; none for the wheel's angle."""
+    if name == WHEEL_ANGLE:
+        return ()
+    peak = peaks.worst_of(machine, name)
+    first = first_entry_deg(machine)
+    x = _placed(machine, peak.at_deg, (first, first))
+    values = [
+        float(stage.of(np.array([x]))[row, 0])
+        for stage in stages
+        if stage.start - SAME_INPUT_DEG <= x <= stage.end + SAME_INPUT_DEG
+    ]
+    nearest_to = min(values, key=lambda value: abs(abs(value) - peak.max))
+    y = math.copysign(peak.max, nearest_to)
+    return (Mark("peak", _placed(machine, peak.at_deg, window), y),)
+
+
+def _ends(machine: Mechanism, ends: Extremes, window: tuple[float, float]) -> Iterator[Mark]:
+    """The greatest value of a load and, if it goes below 0, the least."""
+    size = max(abs(ends.max), abs(ends.min))
+    for word, value, at_deg, shown in (
+        ("max", ends.max, ends.max_at_deg, ends.max > ROUNDED * size),
+        ("min", ends.min, ends.min_at_deg, ends.min < -ROUNDED * size),
+    ):
+        if shown or math.isinf(value):
+            y = value if math.isfinite(value) else None
+            yield Mark(word, _placed(machine, at_deg, window), y)
+
+
+def _placed(machine: Mechanism, at_deg: float, window: tuple[float, float]) -> float:
+    """An input angle as displayed, moved by whole turns to its first place in the window."""
+    turn = 360.0 * machine.spec.drive.turns
+    return at_deg + turn * math.ceil((window[0] - SAME_INPUT_DEG - at_deg) / turn)
+
+
+def _bounds(cycle: Cycle, ends: Mapping[str, Extremes]) -> dict[str, tuple[float, float]]:
+    """The visible range of each unbounded load, from its sizes half-way between cuts."""
+    endless = [n for n, e in ends.items() if math.isinf(e.max) or math.isinf(e.min)]
+    out = {}
+    for name in endless:
+        sizes = []
+        for engagement, stretch in cycle.stretches:
+            middle = np.array([0.5 * (stretch.start + stretch.end)])
+            here = summary.plain(cycle, cycle.along(engagement, stretch, middle), name)
+            sizes.append(abs(float(here[0])))
+        # an unbounded load is visible up to three times its typical size
+        high = 3.0 * max((size for size in sizes if math.isfinite(size)), default=1.0)
+        low, top = ends[name].min, ends[name].max
+        out[name] = -high if math.isinf(low) else low, high if math.isinf(top) else top
+    return out
+
+
+def _within(piece: Piece, bounds: tuple[float, float]) -> Iterator[Piece]:
+    """A piece that was limited to bounds, without its parts along them."""
+    x, y = piece
+    begin = 0
+    for i, (a, b) in enumerate(pairwise(y), 1):
+        if a == b and a in bounds:
+            if i - begin > 1:
+                yield x[begin:i], y[begin:i]
+            begin = i
+    if len(x) - begin > 1 or len(x) == 1:
+        yield x[begin:], y[begin:]
+
+
+def _rests(
+    machines: Sequence[Mechanism], window: tuple[float, float]
+) -> Iterator[tuple[float, float]]:
+    """The stretches in which all machines rest."""
+    common = [window]
+    for machine in machines:
+        dwells = [(s.start, s.end) for s in motion_stages(machine, [WHEEL_ANGLE]) if s.flat]
+        period = machine.period_deg
+        turns = range(-1, 2 + int((window[1] - window[0]) // period))
+        own = [(a + k * period, b + k * period) for k in turns for a, b in dwells]
+        both = [(max(a, c), min(b, d)) for a, b in common for c, d in own]
+        common = [(a, b) for a, b in both if b - a > SAME_INPUT_DEG]
+    yield from common

@@ -1,0 +1,132 @@
+"""Fluctuation of the input's work about its mean, which a flywheel has to store and return.
+
+The work has its extremes where the torque equals its mean. Motions are divided there too, and
+integrated between to the last digits.
+
+    >>> import numpy as np
+    >>> from geneva_cli import External, Load
+    >>> from geneva_cli.machine.many import many
+    >>> from geneva_cli.machine.spec import Spec
+    >>> spec = Spec(External(4), load=Load(inertia_kgm2=2.0))
+    >>> batch = many(spec, {"wheel.z": np.array([4, 6])}).machine
+    >>> fluctuations(batch, np.zeros(2)).energy_J.round(6)  # I (w psi1max)²/2
+    array([230.09708 ,  39.478418])
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+
+from geneva_cli.analysis.contact import Contact
+from geneva_cli.analysis.forces import LoadCase, QuantityValue, load_case
+from geneva_cli.analysis.instant import Instant
+from geneva_cli.analysis.load_functions import (
+    LoadFunctions,
+    LoadQuantity,
+    SignFunctions,
+    load_batch,
+    signed_instant,
+)
+from geneva_cli.analysis.stretches import spans_of, to_mid_motion
+from geneva_cli.kinematics.engagement import Engagement
+from geneva_cli.loads.groups import parts
+from geneva_cli.machine.many import taken
+from geneva_cli.machine.mechanism import Mechanism
+from geneva_cli.numerics.adaptive_quadrature import Integrands, span_integrals
+from geneva_cli.numerics.angles import DEGREE
+from geneva_cli.numerics.jet import Jet
+from geneva_cli.numerics.search import search
+
+if TYPE_CHECKING:
+    from geneva_cli.numerics.arrays import Mask, Whole
+    from geneva_cli.numerics.jet import Array
+
+
+class Unevenness(NamedTuple):
+    """The input's torque less its mean, which is (m, 1)."""
+
+    mean: Array
+
+    def __call__(self, i: Instant[Jet], at: Contact[Jet]) -> QuantityValue[Jet]:
+        """The quantity, and the margin that bounds it."""
+        return QuantityValue(i.input_torque_Nm - self.mean, i.friction_margin)
+
+
+class Swings(NamedTuple):
+    """Fluctuation of m designs, (m,) each."""
+
+    energy_J: Array  # greatest minus least of the cumulated work less its mean line
+    returned: Array  # integral over the period of the torque's square where the wheel drives
+
+
+def fluctuations(mechanism: Mechanism, mean: Array) -> Swings:
+    """The fluctuation of designs, from the means (m,) of their input torque.
+
+    The mean of an unbounded torque must be infinite.
+    """
+    energy, returned = np.empty((2, len(mean)))
+    for part in parts(load_case(mechanism).friction, len(mean)):
+        energy[part], returned[part] = _group(taken(mechanism, part), mean[part])
+    return Swings(energy, returned)
+
+
+def flywheel_kgm2(energy_J: float, speed_variation: float, w: float) -> float:
+    """Inertia that keeps the variation of a mean speed, rad/s, within a limit: dE / (Cs w²), kg m².
+
+    >>> round(flywheel_kgm2(15125.0, 0.02, 1200.0 * DEGREE), 2)  # 1200 degrees a second
+    1724.04
+    """
+    return energy_J / (speed_variation * w * w)
+
+
+def _group(mechanism: Mechanism, mean: Array) -> Swings:
+    """The fluctuation from the works between places where the torque is its mean."""
+    bounded = np.isfinite(mean)
+    mean = np.where(bounded, mean, 0.0)[:, None]
+    case, end = load_case(mechanism), None
+    each, returned = [0.0 * mean], np.zeros(len(mean))
+    for engagement in mechanism.engagements:
+        if end is not None:
+            dwell = (engagement.mid_deg + engagement.entry_deg - end) * DEGREE
+            each.append(-mean * dwell)
+        works, back = _works(engagement, case, mean, bounded)
+        each.append(works)
+        returned += back
+        end = engagement.mid_deg + engagement.exit_deg
+    sums = np.cumsum(np.hstack(each), axis=1)
+    energy = sums.max(axis=1) - sums.min(axis=1)
+    return Swings(np.where(bounded, energy, np.inf), np.where(bounded, returned, np.inf))
+
+
+def _works(
+    engagement: Engagement, case: LoadCase, mean: Array, bounded: Mask
+) -> tuple[Array, Array]:
+    """Works less the mean's, J, a row for each design padded with zeros, and returned squares."""
+    n = len(mean)
+    own: dict[str, LoadQuantity] = {"unevenness_Nm": Unevenness(mean)}
+    names = tuple(own)
+    load = LoadFunctions(load_batch(engagement, case, names, own), names, ("feeds", "wanted"))
+    spans = spans_of(engagement, n)
+    result = search(SignFunctions(load), spans, n, False)
+    whole = to_mid_motion(engagement, result.stretches, n)
+    design, _, (a, b), positive = whole
+    signs = np.where(positive, 1.0, -1.0)
+
+    def rows(x: Array, which: Whole) -> Array:
+        some, at, _, (uneven,) = load.at(x, design[which], 0)
+        here = signed_instant(load.kinds, some, at, signs[:, which, None]).instant
+        back = 0.5 * (1.0 - here.feeds) * here.input_torque_Nm.c[0]
+        return np.stack(np.broadcast_arrays(uneven(here, at).value.c[0], back * back))
+
+    needed = np.stack((bounded, bounded))
+    with np.errstate(all="ignore"):
+        each = span_integrals(Integrands(rows, a, b, True), design, needed, apart=True) * DEGREE
+    first = np.searchsorted(design, np.arange(n))
+    number = np.arange(len(design)) - first[design]
+    works = np.zeros((n, int(number.max()) + 1))
+    works[design, number] = each[0]
+    returned = np.zeros(n)
+    np.add.at(returned, design, each[1])
+    return works, returned

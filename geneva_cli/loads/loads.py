@@ -1,0 +1,212 @@
+"""Loads of the motion: pin force, torque on the input shaft, contact stress, power.
+
+The wheel needs the torque T = I epsilon + M_r; the formulas are in ``forces``. Lengths are in
+metres, forces in newtons.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Mapping
+from functools import lru_cache
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+
+from geneva_cli.analysis.carried import inertia_kgm2
+from geneva_cli.analysis.contact import Contact, contact, is_straight
+from geneva_cli.analysis.forces import Forces, LoadCase, QuantityValue, load_case, sliding
+from geneva_cli.analysis.instant import Instant
+from geneva_cli.analysis.load_functions import LoadFunctions, LoadQuantity, load_batch
+from geneva_cli.analysis.quantities import FORCE, SQUARED, STRESS, TORQUE
+from geneva_cli.kinematics.engagement import Engagement, Peak
+from geneva_cli.kinematics.pitch_curve import retraces
+from geneva_cli.loads.cycle import cycle_of
+from geneva_cli.loads.summaries import load_peaks, search_loads
+from geneva_cli.machine.mechanism import Mechanism
+from geneva_cli.numerics.angles import omega
+from geneva_cli.numerics.arrays import array
+from geneva_cli.numerics.jet import Jet, Number
+from geneva_cli.numerics.ties import first_greatest
+from geneva_cli.spec.tables import Limits
+
+if TYPE_CHECKING:
+    from geneva_cli.numerics.jet import Array
+
+
+class LoadState(NamedTuple):
+    """The loads at one input angle, or at an array of them.
+
+    Forces and stresses are infinite where they have no bound. It is so where friction alone holds
+    the wheel, where the bearing wall ends in an edge, and where a slot lies across the path.
+    """
+
+    torque_Nm: Number  # torque that the wheel needs
+    pin_force_N: Number
+    input_torque_Nm: Number
+    contact_stress_MPa: Number | None  # None without a face width
+    pressure_deg: Number
+
+
+def state(mechanism: Mechanism, engagement: Engagement, input_deg: Number) -> LoadState:
+    """An engagement's loads at an input angle from its mid-motion, or at an array of angles.
+
+    For m designs at k angles the shape is (m, k), at one angle (m, 1); values equal in all designs
+    lack the m.
+    """
+    case = load_case(mechanism)
+    x = np.atleast_1d(np.asarray(input_deg, dtype=float))
+    at = contact(engagement, x, reactions=False)
+    torque = array(at.acceleration.c[0]) * case.inertia_Nm + case.resists_Nm
+    drives = np.copysign(1.0, torque)
+    slides = np.copysign(1.0, sliding(at, drives, case.radius).c[0])
+    bound = np.where(torque == 0.0, 0.0, np.inf)
+    with np.errstate(all="ignore"):
+        forces = Forces(case, at, drives, slides)
+        is_held = forces.grip.c[0] > 0.0
+        force = np.where(is_held, forces.force.c[0], bound)
+        free = np.equal(case.friction, 0.0)
+        rubbed = np.where(is_held | free, forces.shaft.c[0], bound)
+        shaft = rubbed / np.where(rubbed > 0.0, case.efficiency, 1.0)
+        stress = None
+        if forces.edge is not None and forces.square is not None:
+            square = np.where(is_held & (forces.edge.c[0] > 0.0), forces.square.c[0], bound)
+            stress = np.sqrt(square)
+    pressure: Array = np.degrees(np.arctan2(np.abs(at.offset.c[0]), at.lever.c[0])) + 0.0 * x
+    every = (torque, force, shaft, pressure)
+    if isinstance(input_deg, (int, float)) and all(value.ndim < 2 for value in every):
+        one = None if stress is None else float(stress[0])
+        return LoadState(
+            float(torque[0]), float(force[0]), float(shaft[0]), one, float(pressure[0])
+        )
+    return LoadState(torque, force, shaft, stress, pressure)
+
+
+def greatest(mechanism: Mechanism, name: str) -> Peak[float]:
+    """The greatest size of a quantity of the cycle, and its first input angle in degrees.
+
+    Without a load it is 0.
+    """
+    one = cycle_of(mechanism).extremes.get(name)
+    if one is None:
+        return Peak(0.0, 0.0)
+    first = mechanism.engagements[0]
+    turn = 360.0 * mechanism.spec.drive.turns
+    start = first.mid_deg + first.entry_deg - 1e-9  # less the rounding of an input angle
+    ends = [(one.max, one.max_at_deg), (-one.min, one.min_at_deg)]
+    ends.sort(key=lambda end: (end[1] - start) % turn)
+    value, place = np.array(ends).T[..., None]
+    most, at_deg = first_greatest(value, place, np.zeros(1))
+    return Peak(float(most[0]), float(at_deg[0]))
+
+
+class Slope(NamedTuple):
+    """The square of the pressure angle's tangent, as a quantity of ``load_peaks``."""
+
+    def __call__(self, i: Instant[Jet], at: Contact[Jet]) -> QuantityValue[Jet]:
+        """The quantity, which is bounded where its denominator is not 0."""
+        slope = at.offset / at.lever
+        return QuantityValue(slope * slope)
+
+
+@lru_cache(maxsize=16)
+def greatest_pressure(mechanism: Mechanism) -> Peak[float]:
+    """The greatest pressure angle, degrees, and its input angle.
+
+    It is 90 at mid-motion if the pin crosses the radius there.
+    """
+    for engagement in mechanism.engagements:
+        if not is_straight(engagement) and not retraces(engagement):
+            return Peak(90.0, mechanism.shown_deg(engagement.mid_deg))
+    own: dict[str, LoadQuantity] = {"slope": Slope()}
+    case = load_case(mechanism)._replace(inertia_Nm=0.0, friction=0.0, hertz=None, efficiency=1.0)
+    peak = load_peaks(mechanism, tuple(own), own, case)["slope"]
+    if not peak.max[0]:  # 0 throughout a radial slot
+        return Peak(0.0, 0.0)
+    return Peak(math.degrees(math.atan(math.sqrt(peak.max[0]))), float(peak.at_deg[0]))
+
+
+@lru_cache(maxsize=16)
+def fastest_rpm(mechanism: Mechanism) -> float | None:
+    """The highest input speed at which the limits on force, torque and stress hold.
+
+    Infinite if they hold at any speed or there are none; None if no speed keeps them.
+    """
+    limits = load_limits(mechanism.spec.limits)
+    limited = {name: limit for name, limit in zip(LIMITED_LOADS, limits, strict=True) if limit}
+    at_one = load_case(mechanism)._replace(inertia_Nm=inertia_kgm2(mechanism.spec))  # at 1 rad/s
+    if at_one.hertz is None:
+        limited.pop(STRESS, None)
+    if not limited:
+        return math.inf
+    least = max(_slowness(engagement, at_one, limited) for engagement in mechanism.engagements)
+    rpm = math.sqrt(1.0 / least) / omega(1.0) if least > 0.0 else math.inf
+    # Lower speeds may break a limit where inertia helps against the resistance, and so may this
+    # speed.
+    w = omega(mechanism.spec.drive.n_rpm if math.isinf(rpm) else rpm)
+    tried = at_one._replace(inertia_Nm=at_one.inertia_Nm * w * w)
+    peaks = load_peaks(mechanism, tuple(limited), case=tried)
+    # a limit that is reached at the highest speed may be exceeded by rounding
+    kept = all(peaks[name].max[0] <= limit * (1.0 + 1e-9) for name, limit in limited.items())
+    return rpm if kept else None
+
+
+class Slowness(NamedTuple):
+    """1 / (highest speed that a place allows)², for a load with a factor per unit of wheel torque.
+
+    The load is q1 T, with T = w² I a + M, and its factor q1 does not depend on speed. So the limit
+    holds up to w² = (limit - q1 M) / (q1 I a).
+    """
+
+    of: Callable[[Forces[Jet]], Jet]
+    limit: float
+    case: LoadCase  # at 1 rad/s
+
+    def __call__(self, i: Instant[Jet], at: Contact[Jet]) -> QuantityValue[Jet]:
+        """The quantity, which is unbounded where the place allows no speed."""
+        unit = self.case._replace(inertia_Nm=0.0, resists_Nm=1.0)
+        factor = self.of(Forces(unit, at, i.drives, i.slides))
+        load = at.acceleration * self.case.inertia_Nm * factor
+        left = self.limit - factor * self.case.resists_Nm
+        # Where the wheel is not driven, any speed keeps the limit. The margin is then that next to
+        # it, as at rest the load's sign is rounding.
+        over = (np.asarray(load.c[0]) <= 0.0) & (np.asarray(left.c[0]) < 0.0)
+        return QuantityValue(load / left, Jet([np.where(over, -c, c) for c in left.c]))
+
+
+def _slowness(engagement: Engagement, case: LoadCase, limits: Mapping[str, float]) -> float:
+    """The greatest of 1 / (highest speed that a place allows)²; infinite if one allows no speed."""
+
+    def square(result: Forces[Jet]) -> Jet:
+        assert result.square is not None  # there is a face width
+        return result.square
+
+    eta = case.efficiency
+    factors: dict[str, list[Callable[[Forces[Jet]], Jet]]] = {
+        FORCE: [lambda result: result.force],
+        TORQUE: [lambda result: result.shaft * (1.0 / eta), lambda result: -result.shaft],
+        STRESS: [square],
+    }
+    own: dict[str, LoadQuantity] = {}
+    for name, limit in limits.items():
+        most = limit * limit if name in SQUARED else limit
+        for factor in factors[name]:
+            own[f"slowness {len(own)}"] = Slowness(factor, most, case)
+    names, still = tuple(own), case._replace(resists_Nm=0.0)
+    result = search_loads(LoadFunctions(load_batch(engagement, still, names, own), names), 1)
+    return max(0.0, float(result.most[: len(names)].max()))
+
+
+LIMITED_LOADS = (FORCE, TORQUE, STRESS)
+
+
+def load_limits(limits: Limits) -> tuple[float | None, float | None, float | None]:
+    """The limits on the quantities in ``LIMITED_LOADS``."""
+    return limits.pin_force_max_N, limits.input_torque_max_Nm, limits.contact_stress_max_MPa
+
+
+def kinetic_power_W(mechanism: Mechanism, power_invariant: float) -> float:
+    """Peak power that the inertia takes from the input: I epsilon omega / eta, W."""
+    spec = mechanism.spec
+    w = omega(spec.drive.n_rpm)
+    return inertia_kgm2(spec) * power_invariant * w**3 / spec.load.efficiency

@@ -1,0 +1,180 @@
+"""Means of the loads of a batch: sums of them and of their squares over a period."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Sequence
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+
+from geneva_cli.analysis.contact import NEAR_CUSP, mirrored
+from geneva_cli.analysis.forces import load_case
+from geneva_cli.analysis.load_functions import (
+    NO_MORE,
+    ContactState,
+    LoadBatch,
+    LoadFunctions,
+    SignFunctions,
+    load_batch,
+    signed_instant,
+)
+from geneva_cli.analysis.quantities import SQUARED, multiples, plain_values, square_of
+from geneva_cli.analysis.stretches import mirror_images, spans_of
+from geneva_cli.loads.groups import of_groups
+from geneva_cli.loads.inertia_means import is_balanced, squares
+from geneva_cli.machine.mechanism import Mechanism
+from geneva_cli.numerics.adaptive_quadrature import Integrands, span_integrals
+from geneva_cli.numerics.angles import DEGREE
+from geneva_cli.numerics.arrays import array
+from geneva_cli.numerics.search import search
+from geneva_cli.numerics.spread import gathered, spread
+
+if TYPE_CHECKING:
+    from geneva_cli.numerics.arrays import Mask, Whole
+    from geneva_cli.numerics.jet import Array
+    from geneva_cli.numerics.search import Stretches
+
+
+class LoadMeans(NamedTuple):
+    """Means over a period of m designs, dwells included: (m,) each; infinite if unbounded."""
+
+    mean: Array | None  # None if not requested
+    rms: Array
+
+    def times(self, factor: Array) -> LoadMeans:
+        """The means of a multiple of the quantity."""
+        return LoadMeans(None if self.mean is None else self.mean * factor, self.rms * factor)
+
+
+def load_means(
+    mechanism: Mechanism, names: Sequence[str], requested: Collection[str] = ("mean", "rms")
+) -> dict[str, LoadMeans]:
+    """The means of quantities over a period, without a search for extremes.
+
+    >>> import numpy as np
+    >>> from geneva_cli import External, Load
+    >>> from geneva_cli.machine.many import many
+    >>> from geneva_cli.machine.spec import Spec
+    >>> spec = Spec(External(6), load=Load(inertia_kgm2=2.0, friction=0.1))
+    >>> batch = many(spec, {"drive.n_rpm": np.array([60.0, 120.0])})
+    >>> load_means(batch.machine, ["input_torque_Nm"])["input_torque_Nm"].rms.round(4)
+    array([ 26.8019, 107.2078])
+    """
+    case = load_case(mechanism)
+    multiple_of, sources = sources_of(mechanism, names)
+    every = [load_batch(engagement, case, sources, NO_MORE) for engagement in mechanism.engagements]
+
+    def summed(some: LoadBatch, n: int) -> tuple[Array]:
+        return (_sums_of(LoadFunctions(some, sources), n, "mean" in requested),)
+
+    sums = sum(of_groups(one, summed)[0] for one in every)
+    means = means_from(mechanism, sources, np.asarray(sums), "mean" in requested)
+    return {name: means[source].times(factor) for name, (source, factor) in multiple_of.items()}
+
+
+def sources_of(
+    mechanism: Mechanism, names: Sequence[str]
+) -> tuple[dict[str, tuple[str, Array]], list[str]]:
+    """Each quantity's source and its ratio to it, (m,) or (1,); and the names of all sources."""
+    known = multiples(mechanism)
+    every = {n: known.get(n, (n, 1.0, ""))[:2] for n in names}
+    multiple_of = {
+        n: (source, np.ravel(factor)) for n, (source, factor) in every.items() if factor is not None
+    }
+    return multiple_of, list(dict.fromkeys(source for source, _ in every.values()))
+
+
+def means_from(
+    mechanism: Mechanism, names: Sequence[str], sums: Array, plain: bool
+) -> dict[str, LoadMeans]:
+    """The means of quantities over a period, from their integrals ``sums``: (m,) each."""
+    every, out = sums / (np.ravel(mechanism.period_deg) * DEGREE), {}
+    for i, name in enumerate(names):
+        square, mean = every[i], None
+        if plain:
+            mean = every[len(names) + i]
+            # a mean whose square is so small a fraction of the mean square is rounding
+            nought = np.isfinite(square) & (mean * mean <= 1e-30 * square)
+            mean = np.where(nought, 0.0, mean)
+        out[name] = LoadMeans(mean, np.sqrt(square))
+    return out
+
+
+def _sums_of(load: LoadFunctions, n: int, plain: bool) -> Array:
+    """The integrals without a search for extremes: designs are only divided where signs change."""
+    if is_balanced(load) and not plain:
+        return squares(load, n)
+    spans, only = spans_of(load.engagement, n), SignFunctions(load)
+    pieces = search(only, spans, n, False, w=load.spread).stretches
+    with np.errstate(all="ignore"):
+        bounded = load.bounded(pieces, n)
+    return sums(load, pieces, bounded, n, plain)
+
+
+def sums(load: LoadFunctions, pieces: Stretches, bounded: Mask, n: int, plain: bool) -> Array:
+    """The integrals by the angle in radians of the squares and, with ``plain``, of the quantities.
+
+    The shape is (names, n) for each; integrals that are not ``bounded`` are infinite. Only
+    quantities that are searched by their squares behave as a root at the ends of their stretches.
+    """
+    every = np.arange(len(pieces.design))
+    # the second half of a mirrored motion is evaluated with the first, as further functions
+    other = mirror_images(pieces) if load.mirrored else every
+    kept = np.flatnonzero(every <= other)
+    # pieces of one span together: a motion of several pieces is evaluated in one of them at a time
+    kept = kept[np.argsort(pieces.span[kept], kind="stable")]
+    design, (a, b), other = pieces.design[kept], pieces.x[:, kept], other[kept]
+    signs = np.where(pieces.positive, 1.0, -1.0)
+    sides = signs[:, kept], signs[:, other]
+    paired = other != every[kept]
+
+    def rows(x: Array, which: Whole) -> Array:
+        state = load.at(x, design[which], 0)
+        here = powers(load, state, sides[0][:, which, None], plain)
+        if not paired.any():
+            return here
+        image = state._replace(contact=mirrored(state.contact))
+        # the images are in reverse order
+        back = powers(load, image, sides[1][:, which, None], plain)[..., ::-1]
+        back[:, ~paired[which]] = 0.0
+        return np.concatenate((here, back))
+
+    w = load.spread[design, 0]
+
+    def by_spread(u: Array, which: Whole) -> Array:
+        x, rate = gathered(u, w[which, None])
+        return rows(np.clip(x, a[which, None], b[which, None]), which) * rate
+
+    rooted = plain and any(name in SQUARED for name in load.names)
+    parts = (2 if plain else 1) * (2 if paired.any() else 1)
+    with np.errstate(all="ignore"):
+        needed = np.tile(bounded, (parts, 1))
+        ends = spread(a, w), spread(b, w)
+        poles = 0.5 * np.pi * w
+        total = span_integrals(Integrands(by_spread, *ends, rooted), design, needed, poles=poles)
+        if paired.any():
+            total = total[: len(total) // 2] + total[len(total) // 2 :]
+        engagement = load.engagement
+        if engagement.slot.curved:  # the rest up to mid-motion, which no stretch reaches
+            # the integral of a cubic from 0 to 1 by its values at 1, 2, 3 (Adams and Bashforth)
+            places, weights = np.array([1.0, 2.0, 3.0]), np.array([23.0, -16.0, 5.0]) / 12.0
+            for end in (engagement.entry_deg, engagement.exit_deg):
+                near = np.broadcast_to(np.reshape(NEAR_CUSP * end, (-1, 1)), (n, 1))
+                near_values = powers(load, load.at(near * places, np.arange(n), 0), None, plain)
+                total += (near_values @ weights) * np.abs(near[:, 0])
+        total[~np.tile(bounded, (2 if plain else 1, 1))] = np.inf
+    return total * DEGREE
+
+
+def powers(load: LoadFunctions, state: ContactState, signs: Array | None, plain: bool) -> Array:
+    """The squares of the quantities and, with ``plain``, the quantities themselves after them."""
+    case, at, shape, wanted = state
+    here = signed_instant(load.kinds, case, at, signs).instant
+    count = len(load.names)
+    out = np.empty((2 * count if plain else count, *shape[::-1])).swapaxes(1, 2)
+    for i, (name, quantity) in enumerate(zip(load.names, wanted, strict=True)):
+        value = array(quantity(here, at).value.c[0])
+        out[i] = square_of(value, name)
+        if plain:
+            out[count + i] = plain_values(value, name)
+    return out

@@ -1,0 +1,272 @@
+"""Sizing of motor and flywheel: the form of index-drive makers, and the exact cycle.
+
+>>> import numpy as np
+>>> from geneva_cli import External, Load
+>>> from geneva_cli.machine.many import many
+>>> from geneva_cli.machine.spec import Spec
+>>> spec = Spec(External(6), load=Load(inertia_kgm2=2.0, friction=0.1))
+>>> batch = many(spec, {"load.torque_Nm": np.array([0.0, 20.0])})
+>>> sizings(batch.machine, ["motor_torque_rms_Nm"])["motor_torque_rms_Nm"].round(4)
+array([26.8019, 28.3356])
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Collection
+from typing import TYPE_CHECKING, TypeAlias, cast
+
+import numpy as np
+
+from geneva_cli.analysis.cam_factors import CamFactors, cam_factors
+from geneva_cli.analysis.carried import inertia_kgm2, support_torque_Nm
+from geneva_cli.analysis.forces import load_case
+from geneva_cli.analysis.peak_search import motion_peaks
+from geneva_cli.analysis.quantities import TORQUE
+from geneva_cli.kinematics.engagement import Engagement
+from geneva_cli.loads.fluctuation import fluctuations, flywheel_kgm2
+from geneva_cli.loads.makers_form import MakersForm, ShaftLoad, makers_form
+from geneva_cli.loads.summaries import LoadSummary, load_summaries
+from geneva_cli.machine.mechanism import Mechanism
+from geneva_cli.numerics.angles import DEGREE
+from geneva_cli.numerics.arrays import choose_record, larger, library, parameter
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from geneva_cli.loads.cycle import Cycle
+    from geneva_cli.machine.spec import Spec
+    from geneva_cli.numerics.arrays import N, Number
+    from geneva_cli.numerics.jet import Array
+    from geneva_cli.spec.tables import Motor
+
+Peaks: TypeAlias = "tuple[float, ...]"  # of one engagement, in the order of ``FORM_PEAKS``
+CARRIED = ("inertia_kgm2", "motor_rpm")
+CAM_FACTORS = ("acceleration_rad_s2", "Am", "Vm", "Qm")
+KNOWN_UNLOADED = (*CARRIED, *CAM_FACTORS)  # known without a load
+MAKERS_FORM = (
+    *("inertia_torque_Nm", "friction_torque_Nm", "total_torque_Nm", "design_torque_Nm"),
+    *("input_torque_Nm", "power_W"),
+)
+CYCLE_SUMS = (
+    "energy_fluctuation_J",
+    "flywheel_kgm2",
+    "flywheel_to_add_kgm2",
+    "motor_torque_rms_Nm",
+)
+EXTREMES = ("motor_torque_max_Nm", "input_torque_ratio")
+FORM_PEAKS = ("velocity", "acceleration", "power")  # of each motion, for the makers' form
+ROTOR = ("inertia_ratio", "coasting_speed_share")
+# all but the wheel's own inertia, which follows from its outline
+SIZING_NAMES = (*CARRIED, *CAM_FACTORS, *MAKERS_FORM, *CYCLE_SUMS, *EXTREMES, *ROTOR)
+WHEEL_INERTIA = "wheel_inertia_kgm2"  # known from the parts, not from ``sizing``
+# In the order shown: the inertia at the wheel's shaft, and the wheel's own; the makers' form, for
+# the engagement with the greatest torque at the input; the exact cycle.
+SHOWN_SIZING = (
+    *(
+        "inertia_kgm2",
+        WHEEL_INERTIA,
+        "acceleration_rad_s2",
+        "inertia_torque_Nm",
+        "friction_torque_Nm",
+    ),
+    *("total_torque_Nm", "design_torque_Nm", "input_torque_Nm", "power_W", "Am", "Vm", "Qm"),
+    *("energy_fluctuation_J", "flywheel_kgm2", "motor_rpm", "motor_torque_max_Nm"),
+    *("motor_torque_rms_Nm", "inertia_ratio", "flywheel_to_add_kgm2", "coasting_speed_share"),
+    "input_torque_ratio",
+)
+
+
+def sizing(cycle: Cycle) -> tuple[dict[str, float | None], list[str]]:
+    """The values of one design in the order shown, and the keys that missing values need."""
+    spec = cycle.mechanism.spec
+    names, torque = (
+        (SIZING_NAMES, cycle.known[TORQUE]) if cycle.is_loaded else (KNOWN_UNLOADED, None)
+    )
+    rows = sizings(cycle.mechanism, names, torque, cycle.peaks)
+    values = {name: float(row[0]) for name, row in rows.items()}
+    out = {
+        name: x if math.isfinite(x := values.get(name, math.nan)) else None for name in SHOWN_SIZING
+    }
+    if torque is None:
+        return out, []
+    needs = []
+    if not (np.isfinite(torque.max) & np.isfinite(torque.min)).all():
+        needs.append("sizing: nothing bounds the input's torque, so no motor or flywheel suffices")
+    if out["inertia_kgm2"] is None:
+        needs.append("inertia_kgm2: needs inertia_kgm2 in [load], or a [[mass]]")
+    if out["friction_torque_Nm"] is None:
+        needs.append("friction_torque_Nm: needs friction and radius_mm in [support]")
+    if spec.motor.speed_variation is None:
+        needs.append("flywheel_kgm2, flywheel_to_add_kgm2: need speed_variation in [motor]")
+    if not spec.motor.inertia_kgm2:
+        needs.append("inertia_ratio, coasting_speed_share: need inertia_kgm2 in [motor]")
+    return out, needs
+
+
+def sizings(
+    mechanism: Mechanism,
+    requested: Collection[str] = SIZING_NAMES,
+    torque: LoadSummary | None = None,
+    peaks: Sequence[Peaks] | None = None,
+) -> dict[str, Array]:
+    """Values of ``SIZING_NAMES``: (m,), or (1,) for values equal in all designs; NaN if undefined.
+
+    Names that are not ``requested`` may be included. ``torque`` is the summary of the
+    input's torque, and ``peaks`` are each engagement's greatest velocity, acceleration and power,
+    as invariants, if known already.
+    """
+    spec, case, names = mechanism.spec, load_case(mechanism), set(requested)
+    loaded = np.ravel(case.inertia_Nm + case.resists_Nm > 0.0)
+    values: dict[str, Number] = {}
+    if names & set(CARRIED):
+        rpm = spec.drive.n_rpm * spec.motor.gear_ratio
+        values |= {"inertia_kgm2": _some(inertia_kgm2(spec)), "motor_rpm": rpm}
+    formed = bool(names & {*CAM_FACTORS, *MAKERS_FORM, "input_torque_ratio"})
+    if peaks is None:
+        sought = FORM_PEAKS if formed else FORM_PEAKS[:1] if names & set(ROTOR) else ()
+        peaks = [_peaks(engagement, sought) for engagement in mechanism.engagements]
+    if formed:
+        values |= _form(mechanism, peaks)
+    if names & {*CYCLE_SUMS, *EXTREMES}:
+        if torque is None:
+            means = ("mean", "rms") if names & set(CYCLE_SUMS) else ()
+            torque = load_summaries(mechanism, [TORQUE], means)[TORQUE]
+        values |= _exact(mechanism, torque, values.get("input_torque_Nm"))
+    if names & set(ROTOR):
+        values |= _rotor(mechanism, [velocity for velocity, *_ in peaks])
+    return {
+        name: np.ravel(row) if name in KNOWN_UNLOADED else np.where(loaded, np.ravel(row), np.nan)
+        for name, row in values.items()
+    }
+
+
+def _some(x: Number) -> Array:
+    """The number, with NaN in place of 0."""
+    return np.where(np.asarray(x) > 0.0, x, np.nan)
+
+
+def _peaks(engagement: Engagement, names: Sequence[str]) -> Peaks:
+    """The greatest values of these quantities, (m, 1) each."""
+    peaks = motion_peaks(engagement.motion, names) if names else {}
+    return tuple(parameter(peaks[name].max[:, None]) for name in names)
+
+
+def _form(mechanism: Mechanism, peaks: Sequence[Peaks]) -> dict[str, Number]:
+    """The makers' form, for the engagement with the greatest torque at the input."""
+    spec, w = mechanism.spec, load_case(mechanism).speed_rad_s
+    form, factors = greatest_form(mechanism, peaks)
+    return {
+        "acceleration_rad_s2": form.alpha,
+        **factors._asdict(),
+        "inertia_torque_Nm": _some(form.Ti),
+        "friction_torque_Nm": _some(support_torque_Nm(spec)),
+        "total_torque_Nm": form.Tt,
+        "design_torque_Nm": form.Te,
+        "input_torque_Nm": form.Tc,
+        "power_W": w * form.Tc / (spec.load.efficiency * spec.motor.gear_efficiency),
+    }
+
+
+def _exact(
+    mechanism: Mechanism, torque: LoadSummary, form_torque: Number | None
+) -> dict[str, Number]:
+    """Motor and flywheel from the exact cycle; NaN if the torque is unbounded."""
+    motor, w = mechanism.spec.motor, load_case(mechanism).speed_rad_s
+    bounded = np.isfinite(torque.max) & np.isfinite(torque.min)
+    most, least = (np.where(bounded, x, np.nan)[:, None] for x in (torque.max, torque.min))
+    out: dict[str, Number] = {"motor_torque_max_Nm": greatest_motor_torque_Nm(motor, most, least)}
+    if form_torque is not None:
+        size = np.maximum(most, -least)
+        out["input_torque_ratio"] = form_torque / _some(size)
+    if torque.mean is None or torque.rms is None:
+        return out
+    square = np.where(bounded, torque.rms, np.nan) ** 2
+    # A mean whose square is less than 1e-26 of the mean square is rounding, as for an inertia
+    # alone.
+    mean = np.where(torque.mean**2 > 1e-26 * square, torque.mean, 0.0 * square)
+    swings = fluctuations(mechanism, mean)
+    energy = np.where(bounded, swings.energy_J, np.nan)[:, None]
+    returned = swings.returned / np.ravel(mechanism.period_deg * DEGREE)
+    out["energy_fluctuation_J"] = energy
+    out["motor_torque_rms_Nm"] = rms_motor_torque_Nm(motor, square[:, None], returned[:, None])
+    if motor.speed_variation is not None:
+        whole = flywheel_kgm2(parameter(energy), motor.speed_variation, w)
+        out["flywheel_kgm2"] = whole
+        out["flywheel_to_add_kgm2"] = flywheel_to_add_kgm2(motor, whole)
+    return out
+
+
+def _rotor(mechanism: Mechanism, velocities: Sequence[float]) -> dict[str, Number]:
+    """The values of ``ROTOR``; NaN for designs whose motor's own inertia is not known."""
+    own = mechanism.spec.motor.inertia_kgm2
+    fastest = np.max(np.broadcast_arrays(*velocities), axis=0)
+    with np.errstate(all="ignore"):
+        ratio = inertia_ratio(mechanism.spec, cast("Array", fastest))
+    known = np.asarray(own) > 0.0
+    return {name: np.where(known, x, np.nan) for name, x in zip(ROTOR, ratio, strict=True)}
+
+
+def greatest_form(mechanism: Mechanism, peaks: Sequence[Peaks]) -> tuple[MakersForm, CamFactors]:
+    """The makers' form with the greatest torque at the input, and its motion's factors.
+
+    ``peaks`` are each engagement's ``FORM_PEAKS``, as invariants.
+    """
+    spec = mechanism.spec
+    load = ShaftLoad(
+        inertia_kgm2(spec),
+        support_torque_Nm(spec),
+        spec.load.torque_Nm,
+        spec.motor.service_factor,
+    )
+    every = []
+    for number, (engagement, peak) in enumerate(zip(mechanism.engagements, peaks, strict=True)):
+        step, motion = mechanism.index_deg(number), engagement.motion_deg
+        velocity, acceleration, power = peak
+        factors = cam_factors(velocity, acceleration, power, motion, step)
+        every.append((makers_form(factors, step, motion, spec.drive.n_rpm, load), factors))
+    best, *others = every
+    for other in others:
+        (one, _), (two, _) = best, other
+        more = (two.Tc > one.Tc) | ((two.Tc == one.Tc) & (two.alpha > one.alpha))
+        best = choose_record(more, other, best)
+    return best
+
+
+def greatest_motor_torque_Nm(motor: Motor, most: N, least: N) -> N:
+    """The greatest size of the motor's torque, from the input's greatest and least torque.
+
+    The reducer's losses count whether it drives or is driven. At constant speed the rotor's own
+    inertia takes no torque.
+    """
+    eta = motor.gear_efficiency
+    return larger(most / eta, -least * eta) / motor.gear_ratio
+
+
+def rms_motor_torque_Nm(motor: Motor, square: N, returned: N) -> N:
+    """The root mean square of the motor's torque.
+
+    ``square`` is the mean square of the input's torque; ``returned`` is the part of it where the
+    wheel drives the input.
+    """
+    eta = motor.gear_efficiency
+    spent = larger(square - returned, 0.0 * square)
+    mean = spent / eta**2 + returned * eta**2
+    return library(mean).sqrt(mean) / motor.gear_ratio
+
+
+def flywheel_to_add_kgm2(motor: Motor, whole: N) -> N:
+    """The flywheel's inertia less the motor's own, at the input shaft."""
+    left = whole - motor.inertia_kgm2 * motor.gear_ratio**2
+    return larger(left, 0.0 * left)
+
+
+def inertia_ratio(spec: Spec, fastest: N) -> tuple[N, N]:
+    """The ratio of the wheel's inertia at its fastest to the motor's, and the coasting speed.
+
+    ``fastest`` is the greatest velocity psi1. While coasting without losses, I_input w²/2 + I psi1²
+    w²/2 is constant: w = w0/sqrt(1 + mu psi1²), and the second number is w/w0.
+    """
+    turn = fastest / spec.motor.gear_ratio
+    mu = inertia_kgm2(spec) * (turn * turn) / spec.motor.inertia_kgm2
+    return mu, 1.0 / library(mu).sqrt(1.0 + mu)

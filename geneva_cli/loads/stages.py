@@ -1,0 +1,182 @@
+"""The smooth pieces of a cycle's curves: motions, divided where a curve breaks, and dwells.
+
+They are of one design: each curve of a picture has its own number of points.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from functools import partial
+from itertools import pairwise
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+
+from geneva_cli.analysis.contact import NEAR_CUSP, is_straight
+from geneva_cli.figure import Piece
+from geneva_cli.loads import summary
+from geneva_cli.machine.mechanism import Mechanism
+from geneva_cli.numerics.sampling import ASPECT, CHORD_ERROR, places, refined, thinned
+from geneva_cli.numerics.tolerances import ROUNDED
+
+if TYPE_CHECKING:
+    from geneva_cli.analysis.stretches import Stretch
+    from geneva_cli.kinematics.engagement import Engagement, WheelMotion
+    from geneva_cli.loads.cycle import Cycle
+    from geneva_cli.numerics.jet import Array
+
+WHEEL_ANGLE = "wheel_deg"
+# derivatives 0..3 of the wheel's angle -> the quantity
+MOTION_QUANTITIES: dict[str, Callable[[Sequence[Array]], Array]] = {
+    WHEEL_ANGLE: lambda p: np.degrees(p[0]),
+    "velocity": lambda p: p[1],
+    "acceleration": lambda p: p[2],
+    "jerk": lambda p: p[3],
+    "power": lambda p: p[1] * p[2],
+}
+
+
+class Stage(NamedTuple):
+    """A range of input angles, degrees, in which all curves are smooth."""
+
+    start: float
+    end: float
+    of: Callable[[Array], Array]  # the curves at input angles (n,), one row each
+    flat: bool = False  # True if they are constant, as in a dwell
+
+
+def motion_stages(mechanism: Mechanism, names: Sequence[str]) -> Iterator[Stage]:
+    """Stages of quantities of ``MOTION_QUANTITIES`` over a period from the first entry."""
+    base = -mechanism.engagements[0].half_step  # the wheel's angle before the step
+    for i, engagement in enumerate(mechanism.engagements):
+        mid, motion = engagement.mid_deg, engagement.motion
+        up = base + engagement.half_step
+        for a, b in pairwise(motion.breaks_deg):
+            inside = _inside(engagement, a), b
+            yield Stage(mid + a, mid + b, partial(_moved, motion, names, mid, inside, up))
+        base += 2.0 * engagement.half_step
+        rest = [math.degrees(base) if name == WHEEL_ANGLE else 0.0 for name in names]
+        yield from _dwell(mechanism, i, rest)
+
+
+def load_stages(
+    cycle: Cycle, names: Sequence[str], bounds: Mapping[str, tuple[float, float]]
+) -> Iterator[Stage]:
+    """Stages of loads over a period; those with ``bounds`` are limited to them."""
+    for i, engagement in enumerate(cycle.mechanism.engagements):
+        mid = engagement.mid_deg
+        for owner, stretch in cycle.stretches:
+            if owner is engagement:
+                inside = _clear_of_cusp(engagement, stretch)
+                of = partial(_loaded, cycle, engagement, names, inside, bounds)
+                yield Stage(mid + stretch.start, mid + stretch.end, of)
+        yield from _dwell(cycle.mechanism, i, [0.0] * len(names))
+
+
+def _inside(engagement: Engagement, start: float) -> float:
+    """The first angle in a piece: a break belongs to the piece before it, entry to the motion."""
+    return start if start == engagement.entry_deg else math.nextafter(start, math.inf)
+
+
+def _clear_of_cusp(engagement: Engagement, stretch: Stretch) -> Stretch:
+    """The stretch without its first angle; next to a cusp it ends before values are rounding."""
+    start, end = _inside(engagement, stretch.start), stretch.end
+    if not is_straight(engagement):
+        before, after = NEAR_CUSP * engagement.entry_deg, NEAR_CUSP * engagement.exit_deg
+        start = after if abs(start) < after else start
+        end = before if abs(end) < -before else end
+    return stretch._replace(start=start, end=end)
+
+
+def _moved(
+    motion: WheelMotion,
+    names: Sequence[str],
+    mid: float,
+    inside: tuple[float, float],
+    up: float,
+    x: Array,
+) -> Array:
+    wheel, *rates = motion.derivatives(np.clip(x - mid, *inside))
+    return np.array([MOTION_QUANTITIES[name]([wheel + up, *rates]) for name in names])
+
+
+def _loaded(
+    cycle: Cycle,
+    engagement: Engagement,
+    names: Sequence[str],
+    inside: Stretch,
+    bounds: Mapping[str, tuple[float, float]],
+    x: Array,
+) -> Array:
+    local = np.clip(x - engagement.mid_deg, inside.start, inside.end)
+    here = cycle.along(engagement, inside, local)
+    rows = {name: summary.plain(cycle, here, name) for name in names}
+    return np.array([np.clip(row, *bounds[n]) if n in bounds else row for n, row in rows.items()])
+
+
+def _dwell(mechanism: Mechanism, i: int, values: Sequence[float]) -> Iterator[Stage]:
+    """The dwell after an engagement, if there is one."""
+    here = mechanism.engagements[i]
+    end, dwell = here.mid_deg + here.exit_deg, mechanism.dwell_deg(i)
+    if dwell:
+        column = np.array(values)[:, None]
+        yield Stage(end, end + dwell, lambda x: column + 0.0 * x, flat=True)
+
+
+def pieces(
+    stages: Sequence[Stage],
+    period: float,
+    window: tuple[float, float],
+    rise: Sequence[float],
+) -> list[list[Piece]]:
+    """The pieces of each curve over a window, with the period's stages repeated.
+
+    ``rise`` is the rise of each curve in a period. A stage that only touches the window is a
+    single point, at which the curve jumps.
+    """
+    placed = list(_repeated(stages, period, window))
+    risen = np.array(rise)[:, None]
+    first = [
+        stage.of((places(a, b) if b > a else np.array([a])) - shift)
+        for stage, shift, a, b in placed
+    ]
+    rises = [shift / period * risen for _, shift, _, _ in placed]
+    every = np.concatenate([y + up for y, up in zip(first, rises, strict=True)], axis=1)
+    heights = np.ptp(every, axis=1)
+    heights[heights == 0.0] = 1.0
+    width = window[1] - window[0]
+    out: list[list[Piece]] = [[] for _ in rise]
+    for (stage, shift, a, b), up in zip(placed, rises, strict=True):
+        x = np.array([a, b] if b > a else [a])
+        if not stage.flat and b > a:
+            x = refined(partial(_shifted, stage, shift), a, b, width, heights)
+        for curve, y, height in zip(out, stage.of(x - shift) + up, heights, strict=True):
+            some = thinned(ASPECT / width * x, y / height, CHORD_ERROR / 4.0)
+            curve.append((x[some].tolist(), (y[some] + 0.0).tolist()))
+    return out
+
+
+def _shifted(stage: Stage, shift: float, x: Array) -> Array:
+    return stage.of(x - shift)
+
+
+def _repeated(
+    stages: Sequence[Stage], period: float, window: tuple[float, float]
+) -> Iterator[tuple[Stage, float, float, float]]:
+    """The stages in a window, with their shifts, starts and ends there."""
+    start, end = window
+    tiny, last = ROUNDED * period, -math.inf
+    for number in range(
+        math.floor((start - stages[-1].end) / period), 2 + int((end - start) // period)
+    ):
+        shift = number * period
+        for stage in stages:
+            a, b = max(stage.start + shift, start), min(stage.end + shift, end)
+            a = last if abs(a - last) <= tiny else a  # one place, whatever its last digit
+            if b - a > tiny:
+                yield stage, shift, a, b
+                last = b
+            elif abs(b - a) <= tiny and (a == start or b == end):
+                at = start if a == start else end
+                yield stage, shift, at, at

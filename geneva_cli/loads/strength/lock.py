@@ -1,0 +1,216 @@
+"""The lock under a torque in the dwell: force, contact, and deflection of the wheel.
+
+The wheel turns through its play until disc and recess touch, at an end of either or on their arcs
+(``locking``). The force passes through the axis of the disc or of the recess, at an angle phi to
+the line of centres. A torque M needs F = M / (L sin phi). The deflection has three parts.
+
+The play is exact: the rotation that uses up the clearance.
+
+The approach of the two bodies (Johnson, Contact Mechanics, 5.6: a cylinder of radius R1, and a body
+as thick as the horn) is
+
+    F/(pi b) [(1 - nu1²)/E1 (2 ln(4 R1/a) - 1) + (1 - nu2²)/E2 (2 ln(2 h/a) - nu2/(1 - nu2))]
+
+with Hertz's half width a. If a is more than a quarter of the horn, both yield as columns under the
+pressure below.
+
+The bending of the horn (see ``horn``) is that of a force at its end, in the sections farther
+inwards. Plane stress gives 6 to 30 % more, as the body that carries the horn yields too.
+
+A sharp end has no finite contact stress: the recess's end needs a radius, and an end of the disc
+has none. Without clearance the arcs lie on each other, as they do after wear. The pressure is then
+proportional to the sine of the angle from the line of centres, like the wear of a wheel that turns
+slightly. The greatest is 2 M sin phi/(b R L (phi - sin phi cos phi)).
+"""
+
+from __future__ import annotations
+
+import math
+from functools import reduce
+from typing import TYPE_CHECKING, NamedTuple, cast
+
+import numpy as np
+
+from geneva_cli.analysis.forces import contact_modulus_GPa
+from geneva_cli.analysis.locking import Lock
+from geneva_cli.loads.strength.horn import SHEAR, horns, product
+from geneva_cli.machine.many import taken
+from geneva_cli.numerics.arrays import all_true, blocks, choose_record, only_of, parameter
+
+if TYPE_CHECKING:
+    from geneva_cli.machine.mechanism import Mechanism
+    from geneva_cli.numerics.jet import Array
+
+
+class LockUnderTorque(NamedTuple):
+    """A lock under a torque; None for values that are not known.
+
+    (m,) each for m designs, with NaN for values that are not known.
+    """
+
+    on: str  # part where disc and recess touch, as in ``LockContact``
+    torque_Nm: float
+    force_N: float
+    contact_stress_MPa: float | None  # Hertz; None for a sharp edge, and without clearance
+    pressure_MPa: float  # after wear
+    horn_stress_MPa: float  # bending
+    play_deg: float
+    approach_deg: float | None
+    bending_deg: float
+
+    @property
+    def deflection_deg(self) -> float | None:
+        """Sum of all three parts; None if the approach is not known."""
+        if self.approach_deg is None:
+            return None
+        return self.play_deg + self.approach_deg + self.bending_deg
+
+
+class HornBending(NamedTuple):
+    """Horns under 1 N per mm, (m, 1): an end's deflection, mm, stress, MPa, and thickness, mm."""
+
+    deflection: Array
+    stress: Array
+    thickness: Array
+
+
+def held_torque_Nm(mechanism: Mechanism) -> float:
+    """Torque that the lock holds during the dwell."""
+    load = mechanism.spec.load
+    return load.torque_Nm if load.dwell_torque_Nm is None else load.dwell_torque_Nm
+
+
+def lock(mechanism: Mechanism, half_width_mm: float, by: Lock) -> LockUnderTorque | None:
+    """The lock of a machine whose parts have these radii, with its weakest horn.
+
+    None without a torque to hold, or without a ``face_width_mm``.
+    """
+    batch = loaded_locks(mechanism, half_width_mm, by)
+    if batch is None:
+        return None
+    on, *rows = batch
+    return LockUnderTorque(on, *cast("list[float]", only_of(rows)))
+
+
+def loaded_locks(mechanism: Mechanism, half_width_mm: float, by: Lock) -> LockUnderTorque | None:
+    """Locks of m designs, whose sizes may be (m, 1); NaN for those without a torque or a lock.
+
+    None if all are without a torque.
+    """
+    torque, width = held_torque_Nm(mechanism), mechanism.spec.size.face_width_mm
+    if width is None or all_true(torque == 0.0):
+        return None
+    touch, known = by.contact(), np.atleast_2d(np.where(torque == 0.0, np.nan, torque))
+    sine = np.sin(touch.phi)
+    lever = by.L * sine
+    force = 1e3 * known / lever
+    worn = touch.phi - sine * np.cos(touch.phi)
+    pressure = 2e3 * known * sine / (width * by.lock * by.L * worn)
+    arcs = np.equal(touch.on, "recess")  # no horn is bent
+    give, stress, thick = still = HornBending(*map(np.atleast_2d, (0.0, 0.0, by.recess)))
+    if not arcs.all():
+        bent = bending(mechanism, half_width_mm, by.recess, touch.phi)
+        give, stress, thick = (np.where(arcs, *both) for both in zip(still, bent, strict=True))
+    line = force / width
+    contact, approach = _contact(mechanism, line, touch.radius, by.lock, thick, pressure)
+    rows = (
+        known,
+        force,
+        contact,
+        pressure,
+        stress * line,
+        np.degrees(touch.play),
+        np.degrees(approach / lever),
+        np.degrees(give * line / lever),
+    )
+    every = np.ravel(np.broadcast_arrays(*rows)).reshape(len(rows), -1)
+    every[:, np.isnan(every[1])] = np.nan  # without a force nothing is known
+    return LockUnderTorque(touch.on, *map(parameter, every))
+
+
+def _contact(
+    mechanism: Mechanism, line: Array, radius: float, lock: float, thick: Array, pressure: Array
+) -> tuple[Array, Array]:
+    """Hertz's stress, MPa, and the approach, mm, for a force per mm; NaN for a sharp edge."""
+    modulus = contact_modulus_GPa(mechanism.spec) * 1e3
+    sharp, loose = np.equal(radius, 0.0), np.isfinite(radius)
+    with np.errstate(all="ignore"):
+        stress = np.sqrt(line * modulus / (math.pi * radius))
+        half = np.sqrt(4.0 * line * radius / (math.pi * modulus))
+        wheel, disc = mechanism.spec.material_wheel, mechanism.spec.material_roller
+        nu, mu = disc.poisson_ratio, wheel.poisson_ratio
+        soft = (1.0 - nu * nu) / (1e3 * disc.youngs_modulus_GPa)
+        yields = (1.0 - mu * mu) / (1e3 * wheel.youngs_modulus_GPa)
+        round_ = soft * (2.0 * np.log(4.0 * lock / half) - 1.0)
+        flat = yields * (2.0 * np.log(2.0 * thick / half) - mu / (1.0 - mu))
+        local = line / math.pi * (round_ + flat)
+        columns = pressure * (soft * lock + yields * thick)
+    approach = np.where(half > 0.25 * thick, columns, local)
+    return np.where(loose & ~sharp, stress, np.nan), np.where(sharp, np.nan, approach)
+
+
+def bending(mechanism: Mechanism, half_width: float, recess: float, phi: float) -> HornBending:
+    """The weakest horn of each of m designs."""
+    every = (mechanism, half_width, recess, phi)
+    m = mechanism.designs
+    if m == 1:
+        return _weakest(*every)
+    # the sections of 8 designs stay in the cache
+    groups = [_weakest(*taken(every, block)) for block in blocks(m, 8)]
+    return HornBending(*(np.concatenate(row) for row in zip(*groups, strict=True)))
+
+
+def _weakest(mechanism: Mechanism, half_width: float, recess: float, phi: float) -> HornBending:
+    """The weakest horn of designs that are computed together."""
+    material = mechanism.spec.material_wheel
+    E = 1e3 * material.youngs_modulus_GPa
+    G = E / (2.0 * (1.0 + material.poisson_ratio))
+    every = []
+    for side in horns(mechanism, half_width, recess):
+        # sums by trapezoids over 2001 sections have an error of a ten-thousandth at worst
+        wall, normal = side.wall(side.places(2001))
+        thick, turned = side.feet(wall, normal)
+        middle = wall + 0.5 * thick * normal
+        towards = abs(product(side.centre, side.across)) / np.hypot(*side.centre)
+        ahead = np.arccos(np.minimum(1.0, towards))  # direction of the wheel's axis
+        tilt = phi - ahead  # angle of the force from the mouth's direction
+        x, y = -np.sin(tilt), np.cos(tilt)
+        moment = middle[0] * y - middle[1] * x
+        across = x * normal[0] + y * normal[1]
+        push = abs(x * normal[1] - y * normal[0])
+        give = 12.0 * moment**2 / (E * thick**3) + SHEAR * across**2 / (G * thick)
+        stress = 6.0 * abs(moment) / thick**2 + push / thick
+        past, own = wall[0] - recess * x, side.middle - turned
+        # where another horn has begun, or without a foot, nothing belongs to this one
+        own = np.where(np.logical_and.accumulate(own > 0.0, axis=1), own, np.fmin(own, 0.0))
+        strips = _rises(past), _rises(-own)
+        length = np.hypot(*np.diff(wall)) * np.maximum(strips[1] - strips[0], 0.0)
+        (low, high), stresses = (_ends(of, *strips) for of in (give, stress))
+        rows = (
+            np.where(length > 0.0, 0.5 * (low + high) * length, 0.0).sum(axis=1),
+            np.where(length > 0.0, np.fmax(*stresses), 0.0).max(axis=1),
+            np.where(own > 0.0, thick, np.inf).min(axis=1),
+        )
+        every.append(HornBending(*(row[:, None] for row in rows)))
+    return reduce(_weaker, every)
+
+
+def _ends(of: Array, begins: Array, ends: Array) -> tuple[Array, Array]:
+    """Values at which parts of the strips between sections begin and end."""
+    of = np.where(np.isfinite(of), of, 0.0)
+    rise = np.diff(of)
+    return of[:, :-1] + rise * begins, of[:, :-1] + rise * ends
+
+
+def _rises(of: Array) -> Array:
+    """Fraction of each strip before a quantity becomes positive: 1 if it does not."""
+    low, high = of[:, :-1], of[:, 1:]
+    with np.errstate(all="ignore"):
+        fraction = np.where(high > 0.0, -low / (high - low), 1.0)
+    return np.where(low >= 0.0, 0.0, fraction)
+
+
+def _weaker(one: HornBending, other: HornBending) -> HornBending:
+    """The horn with the greater deflection, in each design."""
+    more = other.deflection > one.deflection
+    return choose_record(more, other, one)

@@ -1,0 +1,232 @@
+"""The roller as a bearing, and its slot: work, turns, life and wear.
+
+Over a motion the roller rolls along its wall under a force N. If it did not turn in the body that
+carries it, it would slide at the speed v_s. A bearing that carries N and turns by |v_s|/r per
+second has the life that it has under the constant force (ISO 281, roller bearings)
+
+    P = (∫ N^p |v_s| dt / ∫ |v_s| dt)^(1/p),  p = 10/3,  L10 = 10^6 (C/P)^p revolutions.
+
+Motions are cut where torque, sliding or the speed along the slot change sign, or the motion has a
+break. Between the cuts they are integrated to the last digits.
+"""
+
+from __future__ import annotations
+
+import math
+from functools import lru_cache
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+
+from geneva_cli.analysis.contact import contact, is_straight
+from geneva_cli.analysis.forces import Forces, load_case, sliding
+from geneva_cli.analysis.load_functions import (
+    NO_MORE,
+    LoadBatch,
+    LoadFunctions,
+    SignFunctions,
+    load_batch,
+)
+from geneva_cli.analysis.quantities import FORCE
+from geneva_cli.analysis.stretches import spans_of, to_mid_motion
+from geneva_cli.loads.groups import of_groups
+from geneva_cli.machine.many import taken
+from geneva_cli.numerics.adaptive_quadrature import Integrands, span_integrals
+from geneva_cli.numerics.angles import DEGREE
+from geneva_cli.numerics.arrays import all_true, array, only_of, parameter
+from geneva_cli.numerics.search import search
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from geneva_cli.analysis.contact import Contact
+    from geneva_cli.analysis.forces import LoadCase
+    from geneva_cli.kinematics.engagement import Engagement
+    from geneva_cli.machine.mechanism import Mechanism
+    from geneva_cli.numerics.arrays import Whole
+    from geneva_cli.numerics.jet import Array, Jet, Number
+
+LIFE_EXPONENT = 10.0 / 3.0  # p, of line contact
+
+
+class SlotPassage(NamedTuple):
+    """One roller's passage through one slot, in SI units; infinite if the force has no bound.
+
+    (m,) each for m designs.
+    """
+
+    travel_m: float  # of the contact along the walls, in and out
+    rolled_m: float  # ∫ |v_s| dt
+    work: float  # ∫ N |v_s| dt, joules: friction work for a coefficient of 1
+    load: float  # ∫ N^p |v_s| dt
+
+
+class Life(NamedTuple):
+    """Life of the most loaded roller; None without a capacity, infinite without a force."""
+
+    equivalent_force_N: float  # P
+    turns_per_motion: float
+    turns: float | None  # L10
+    motions: float | None  # of this roller
+    hours: float | None
+
+
+@lru_cache(maxsize=256)
+def passage(engagement: Engagement, case: LoadCase, half: float = 0.0) -> SlotPassage:
+    """Integrals over one motion; only before mid-motion for a ``half`` of -1, only after it for 1.
+
+    >>> from geneva_cli import External, Load, Size
+    >>> from geneva_cli.machine.mechanism import build
+    >>> from geneva_cli.machine.spec import Spec
+    >>> m = build(Spec(External(6), size=Size(200.0, 8.0), load=Load(torque_Nm=15.0)))
+    >>> round(passage(m.engagements[0], load_case(m)).travel_m, 12)  # 2 L (cos b - (1 - l))
+    0.146410161514
+    """
+    return SlotPassage(*(array(x).item() for x in passage_integrals(engagement, case, half)))
+
+
+def passage_integrals(engagement: Engagement, case: LoadCase, half: float = 0.0) -> SlotPassage:
+    """Integrals over one motion of m designs: (m,) each."""
+    every = load_batch(engagement, case, (FORCE,), NO_MORE)
+    (rows,) = of_groups(every, lambda some, n: (_integrals(some, n, half),))
+    return SlotPassage(*map(parameter, rows))
+
+
+def _integrals(every: LoadBatch, n: int, half: float) -> Array:
+    """Integrals of n designs, one row each; infinite if the force has no bound."""
+    engagement = every.engagement
+    # the integrals are bounded where the force is
+    load = LoadFunctions(
+        every, (FORCE,), ("slides", "along") if turns_back(engagement) else ("slides",)
+    )
+    pieces = search(SignFunctions(load), spans_of(engagement, n), n, False, w=load.spread).stretches
+    design, _, (a, b), positive = to_mid_motion(engagement, pieces, n)
+    own = np.flatnonzero(half * (a + b) >= 0.0)
+    design, a, b, positive = design[own], a[own], b[own], positive[:, own]
+    signs = dict(zip(load.kinds, np.where(positive, 1.0, -1.0)[..., None], strict=True))
+
+    def rows(x: Array, which: Whole) -> Array:
+        some, case, _ = taken(every, design[which]) if n > 1 else every
+        drives, slides = (
+            signs[kind][which] if kind in signs else 1.0 for kind in ("drives", "slides")
+        )
+        integrands = passing(case, contact(some, x, reactions=False), drives, slides)
+        return np.stack(np.broadcast_arrays(*integrands))
+
+    with np.errstate(all="ignore"):
+        (bounded,) = load.bounded(pieces, n)
+    every_one = np.full(n, True)
+    requested = np.stack((every_one, every_one, bounded, bounded))
+    with np.errstate(all="ignore"):
+        total = span_integrals(Integrands(rows, a, b, ends=True), design, requested) * DEGREE
+    return np.where(requested, total, np.inf)
+
+
+def turns_back(engagement: Engagement) -> bool:
+    """Return True if a roller may turn back in its slot elsewhere than at mid-motion.
+
+    A roller on a crank's arm turns back on the line of centres, unless its motion is tilted. In a
+    curved slot both branches begin at mid-motion.
+    """
+    on_arm = all_true(engagement.crank_sense == 0.0)
+    return is_straight(engagement) and not (on_arm and engagement.motion.symmetric)
+
+
+def passing(case: LoadCase, at: Contact[Jet], drives: Number, slides: Number) -> list[Array]:
+    """Integrands of a passage, at places where torque and sliding have these signs."""
+    forces = Forces(case, at, drives, slides)
+    rubs = abs(sliding(at, drives, case.radius).arrays()[0]) * case.L
+    with np.errstate(all="ignore"):
+        # near the torque's change of sign the force may be slightly negative by rounding
+        force = np.maximum(forces.force.c[0], 0.0)
+        force = np.where(forces.grip.c[0] > 0.0, force, np.inf) * at.touches.c[0]
+        # nothing presses on a wall if nothing must be turned
+        force = np.where(forces.torque.c[0] == 0.0, 0.0, force)
+        along = abs(at.along.arrays()[0]) * case.L * at.touches.c[0]
+        return [along, rubs, force * rubs, force**LIFE_EXPONENT * rubs]
+
+
+def passages(mechanism: Mechanism) -> list[SlotPassage]:
+    """Passage of each engagement of a period: (m,) each for m designs."""
+    return [_passage(mechanism, engagement, 0.0) for engagement in mechanism.engagements]
+
+
+def by_roller(mechanism: Mechanism) -> list[SlotPassage]:
+    """Passages of each roller; an engagement has two if one starts and another stops the wheel."""
+    each = [(one, half) for one in mechanism.engagements for half in halves(one)]
+    return [_passage(mechanism, *of) for of in each]
+
+
+def _passage(mechanism: Mechanism, engagement: Engagement, half: float) -> SlotPassage:
+    """Passage of a machine's engagement; for a single design it is cached."""
+    single = isinstance(mechanism.design, int)
+    return (passage if single else passage_integrals)(engagement, load_case(mechanism), half)
+
+
+def halves(engagement: Engagement) -> tuple[float, ...]:
+    """Half of a motion that each of its rollers makes; 0 is the whole."""
+    return (-1.0, 1.0) if engagement.paired else (0.0,)
+
+
+def rollers(mechanism: Mechanism) -> int:
+    """Number of rollers on the crank."""
+    spec = mechanism.spec
+    count = len(spec.wheel.steps or spec.drive.roller_angles_deg or ()) or spec.drive.rollers
+    return count * len(mechanism.engagements[0].ahead_deg)
+
+
+def life(mechanism: Mechanism) -> Life | None:
+    """Life of the roller that wears out first; None if no load is known.
+
+    The rollers move the wheel in turn, so each makes a fraction of the motions.
+    """
+    if not mechanism.spec.is_loaded:
+        return None
+    force, turns, *lasts = only_of(lives(mechanism, by_roller(mechanism)))
+    assert force is not None and turns is not None
+    return Life(force, turns, *lasts)
+
+
+def lives(mechanism: Mechanism, each: Sequence[SlotPassage]) -> Life:
+    """Lives of m designs, (m,) each, or of one, from the passages of their rollers."""
+    spec, m = mechanism.spec, rollers(mechanism)
+    radius_m = np.ravel(mechanism.roller_radius_mm / 1000.0)
+    rows = []
+    for own in (each[i::m] for i in range(min(m, len(each)))):
+        rolled = sum(one.rolled_m for one in own)
+        force = (sum(one.load for one in own) / rolled) ** (1.0 / LIFE_EXPONENT)
+        turns = rolled / len(own) / (2.0 * math.pi * radius_m)
+        often = np.ravel(_periods_per_h(mechanism) * (len(own) if len(each) >= m else 1.0 / m))
+        rows.append(np.stack(np.broadcast_arrays(force, turns, often)))
+    with np.errstate(all="ignore"):
+        every = np.stack(rows)
+        worst = np.argmax(every[:, 0] ** LIFE_EXPONENT * every[:, 1] * every[:, 2], axis=0)
+        force, turns, often = every[worst, :, np.arange(every.shape[2])].T
+        lasts: list[float | None] = [None] * 3
+        capacity = spec.material_roller.dynamic_capacity_N
+        if capacity is not None:  # without a force the life is unlimited
+            # C is rated for a million revolutions
+            rated = 1e6 * (np.ravel(capacity) / force) ** LIFE_EXPONENT
+            lasts = [parameter(x) for x in (rated, rated / turns, rated / turns / often)]
+    return Life(parameter(force), parameter(turns), *lasts)
+
+
+def _periods_per_h(mechanism: Mechanism) -> float:
+    return 60.0 * mechanism.spec.drive.n_rpm * 360.0 / mechanism.period_deg
+
+
+def wears_mm(mechanism: Mechanism, each: Sequence[SlotPassage]) -> Array | None:
+    """Mean wear depths of slots' walls in a million passages of a pin that does not turn: mm, (m,).
+
+    Archard: a volume of k ∫ N |v_s| dt per passage, over the face that the contact sweeps, for the
+    slot with the most wear. ``each`` are the passages of the engagements. None without
+    ``wear_mm3_Nm`` or ``face_width_mm``.
+    """
+    spec = mechanism.spec
+    k, width = spec.material_wheel.wear_mm3_Nm, spec.size.face_width_mm
+    if k is None or width is None:
+        return None
+    rate = np.ravel(1e6 * k / (width * 1000.0))
+    worn: Array = np.asarray([rate * one.work / one.travel_m for one in each])
+    most: Array = worn.max(axis=0)
+    return most

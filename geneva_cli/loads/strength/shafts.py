@@ -1,0 +1,181 @@
+"""The shafts of wheel and crank, in torsion and bending, by the ASME code.
+
+The Code for Design of Transmission Shafting (ASME, later ASA B17c-1927) limits the greatest shear
+stress, with factors for shock and fatigue on both moments:
+
+    tau = 16/(pi d³) sqrt((Kb M)² + (Kt T)²)
+
+For rotating shafts with load applied gradually, Kb = 1.5 and Kt = 1. With sudden loads and minor
+shocks they are 1.5 to 2 and 1 to 1.5, with heavy shocks 2 to 3 and 1.5 to 3. Allowable is the lower
+of 0.3 of the yield strength and 0.18 of the tensile strength, and three quarters of that at a
+keyway. M is the force on the shaft times its overhang, T the torque at the same moment. Their
+greatest combination over the cycle is exact.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+
+from geneva_cli.analysis.forces import QuantityValue
+from geneva_cli.analysis.instant import Instant
+from geneva_cli.loads.summaries import load_peaks
+from geneva_cli.numerics.arrays import only_of, parameter
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from geneva_cli.analysis.contact import Contact
+    from geneva_cli.analysis.load_functions import LoadQuantity
+    from geneva_cli.machine.mechanism import Mechanism
+    from geneva_cli.numerics.arrays import N
+    from geneva_cli.numerics.jet import Array, Jet, Number
+    from geneva_cli.spec.tables import Shaft
+
+    ShaftForces = Callable[[Instant[Jet], Contact[Jet]], tuple[Jet, Jet]]
+
+
+class ShaftStress(NamedTuple):
+    """Results for a shaft over its cycle; None for unknown values; (m,) each for m designs."""
+
+    moment_Nm: float  # greatest sqrt((Kb M)² + (Kt T)²)
+    at_deg: float
+    stress_MPa: float | None
+    least_diameter_mm: float | None
+    twist_deg: float | None  # greatest, over overhang and span
+
+
+class ShaftDimensions(NamedTuple):
+    """Dimensions of one shaft from ``[shaft]``."""
+
+    diameter_mm: float | None
+    overhang_mm: float | None
+    span_mm: float | None
+
+
+def wheel_shaft(table: Shaft) -> ShaftDimensions:
+    """Dimensions of the wheel's shaft."""
+    return ShaftDimensions(table.wheel_diameter_mm, table.wheel_overhang_mm, table.wheel_span_mm)
+
+
+def crank_shaft(table: Shaft) -> ShaftDimensions:
+    """Dimensions of the crank's shaft."""
+    return ShaftDimensions(table.crank_diameter_mm, table.crank_overhang_mm, table.crank_span_mm)
+
+
+def shear_MPa(moment_Nm: N, diameter_mm: N) -> N:
+    """Shear stress of a round shaft under an equivalent torque: 16 T/(pi d³).
+
+    >>> round(shear_MPa(100.0, 20.0), 6)
+    63.661977
+    """
+    return 16e3 * moment_Nm / (math.pi * diameter_mm**3)
+
+
+def least_diameter_mm(moment_Nm: N, allowed_MPa: N) -> N:
+    """Diameter at which the shear stress equals the allowable one."""
+    diameter: N = np.cbrt(16e3 * moment_Nm / (math.pi * allowed_MPa))
+    return diameter
+
+
+def on_wheel(i: Instant[Jet], at: Contact[Jet]) -> tuple[Jet, Jet]:
+    """Squared force on the wheel's shaft, and torque: the loads from slot and wheel."""
+    return i.wheel_bearing_N * i.wheel_bearing_N, i.wheel_torque_Nm
+
+
+def on_crank(i: Instant[Jet], at: Contact[Jet]) -> tuple[Jet, Jet]:
+    """Squared force on the crank's shaft, and torque, if it is or turns with the input shaft."""
+    return i.crank_bearing_squared, i.input_torque_Nm
+
+
+def on_driven_crank(i: Instant[Jet], at: Contact[Jet]) -> tuple[Jet, Jet]:
+    """Squared force on the shaft of a crank behind a transmission, and torque.
+
+    It turns at another rate than the input, that of the roller's body. The torque differs
+    accordingly, since the power is equal.
+    """
+    return i.crank_bearing_squared, i.input_torque_Nm / (at.spin + at.velocity * at.arm)
+
+
+class Moment(NamedTuple):
+    """The square (Kb M)² + (Kt T)², as a row for ``load_peaks``; lever in metres."""
+
+    loaded: ShaftForces
+    lever: float
+    torsion: float
+
+    def __call__(self, i: Instant[Jet], at: Contact[Jet]) -> QuantityValue[Jet]:
+        """The square, and the grip that bounds it."""
+        square, torque = self.loaded(i, at)
+        turned = torque * self.torsion
+        return QuantityValue(square * (self.lever * self.lever) + turned * turned, i.grip)
+
+
+class Torque(NamedTuple):
+    """The squared torque, as a row for ``load_peaks``."""
+
+    loaded: ShaftForces
+
+    def __call__(self, i: Instant[Jet], at: Contact[Jet]) -> QuantityValue[Jet]:
+        """The squared torque, and the grip that bounds it."""
+        _, torque = self.loaded(i, at)
+        return QuantityValue(torque * torque, i.grip)
+
+
+def shaft(mechanism: Mechanism, ends: ShaftDimensions, loaded: ShaftForces) -> ShaftStress | None:
+    """A shaft under the force and torque of a cycle; None without an overhang or without a load.
+
+    Moments are infinite if the force has no bound.
+    """
+    batch = shafts_under_load(mechanism, ends, loaded)
+    if batch is None:
+        return None
+    moment, at_deg, *rest = only_of(batch)
+    assert moment is not None and at_deg is not None
+    return ShaftStress(moment, at_deg, *rest)
+
+
+def shafts_under_load(
+    mechanism: Mechanism, ends: ShaftDimensions, loaded: ShaftForces
+) -> ShaftStress | None:
+    """Shafts of m designs; None if none has an overhang or a load."""
+    if ends.overhang_mm is None or not mechanism.spec.is_loaded:
+        return None
+    own = _wanted(mechanism, ends, loaded)
+    both, turned = load_peaks(mechanism, tuple(own), own).values()
+    return _turned(mechanism, ends, both.max, both.at_deg, turned.max)
+
+
+def _wanted(
+    mechanism: Mechanism, ends: ShaftDimensions, loaded: ShaftForces
+) -> dict[str, LoadQuantity]:
+    """The squares of the equivalent moment and of the torque."""
+    table = mechanism.spec.shaft
+    assert ends.overhang_mm is not None
+    lever = table.bending_factor * ends.overhang_mm / 1000.0
+    return {"moment": Moment(loaded, lever, table.torsion_factor), "torque": Torque(loaded)}
+
+
+def _turned(
+    mechanism: Mechanism,
+    ends: ShaftDimensions,
+    square: Array,
+    at_deg: Number,
+    torque_squared: Number,
+) -> ShaftStress:
+    """Results from the greatest squares of moment and torque, (m,)."""
+    table, d, span = mechanism.spec.shaft, ends.diameter_mm, ends.span_mm
+    moment, allowed = np.sqrt(square), table.shear_stress_max_MPa
+    stress = least = twist = None
+    if d is not None:
+        stress = parameter(shear_MPa(moment, np.ravel(d)))
+    if allowed is not None:
+        least = parameter(least_diameter_mm(moment, np.ravel(allowed)))
+    if d is not None and span is not None and ends.overhang_mm is not None:
+        polar = math.pi * d**4 / 32.0  # N m mm / (GPa mm^4) is 1
+        rate = np.ravel((ends.overhang_mm + span) / (table.shear_modulus_GPa * polar))
+        most = np.where(np.isfinite(torque_squared), np.sqrt(torque_squared), np.nan)
+        twist = parameter(np.degrees(most * rate))
+    return ShaftStress(parameter(moment), parameter(at_deg), stress, least, twist)

@@ -1,0 +1,200 @@
+"""The loads as they are printed: a table of the cycle, and its summary."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from functools import lru_cache
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import numpy as np
+
+from geneva_cli.analysis.instant import Instant
+from geneva_cli.analysis.motion import WHOLE_ROWS, check_samples, derivatives, inputs, times_s
+from geneva_cli.analysis.quantities import (
+    PRESSED,
+    PV,
+    STRESS,
+    known_quantities,
+    multiples,
+    plain_of,
+)
+from geneva_cli.errors import Notice
+from geneva_cli.loads.cycle import Cycle
+from geneva_cli.loads.sizing import WHEEL_INERTIA, sizing
+from geneva_cli.loads.summaries import LoadSummary
+from geneva_cli.table import Reading, Table, pieces, record_table, rows_table
+
+if TYPE_CHECKING:
+    from geneva_cli.machine.spec import Spec
+    from geneva_cli.numerics.jet import Array
+
+PLACE_COLUMNS = ("time_s", "input_deg", "wheel_deg")
+NO_LOAD = (
+    "nothing resists the wheel, so no force is known: set inertia_kgm2 or torque_Nm in [load], or "
+    "a [[mass]]"
+)
+SHOWN_QUANTITIES = (
+    "omega_rad_s",
+    "alpha_rad_s2",
+    "wheel_torque_Nm",
+    "pin_force_N",
+    STRESS,
+    "sliding_m_s",
+    "input_torque_Nm",
+    "power_W",
+    "wheel_bearing_N",
+    "crank_bearing_N",
+    PV,
+    "guide_force_N",
+    "wheel_near_bearing_N",
+    "wheel_far_bearing_N",
+    "crank_near_bearing_N",
+    "crank_far_bearing_N",
+)
+
+
+class QuantitySummary(NamedTuple):
+    """Greatest and least over the motions, mean and root mean square over a period.
+
+    None for an unbounded value, or if its inputs are not known.
+    """
+
+    max: float | None = None
+    max_at_deg: float | None = None
+    min: float | None = None
+    min_at_deg: float | None = None
+    mean: float | None = None
+    rms: float | None = None
+
+
+@lru_cache(maxsize=16)
+def summaries(cycle: Cycle) -> Mapping[str, QuantitySummary]:
+    """The summary of each quantity, by its name; None for each value that is not known."""
+    known = cycle.known
+    return {
+        name: _summary(known[name]) if name in known else QuantitySummary()
+        for name in SHOWN_QUANTITIES
+    }
+
+
+def _summary(summary: LoadSummary) -> QuantitySummary:
+    every = [None if end is None else float(end[0]) for end in summary]
+    return QuantitySummary(*(x if x is not None and math.isfinite(x) else None for x in every))
+
+
+def plain(cycle: Cycle, states: Instant[Array], name: str) -> Array:
+    """A quantity of ``known``, or a multiple of one, at states of the cycle."""
+    source, factor, _ = multiples(cycle.mechanism).get(name, (name, 1.0, ""))
+    assert factor is not None  # known quantities have a factor
+    return plain_of(states, source) * factor
+
+
+def reversals_deg(cycle: Cycle) -> list[float]:
+    """Input angles at which the wheel's torque changes sign and the roller changes walls."""
+    out = []
+    for (one, before), (two, after) in zip(cycle.stretches, cycle.stretches[1:], strict=False):
+        if one is two and before.drives != after.drives:
+            out.append(cycle.mechanism.shown_deg(one.mid_deg + before.end))
+    return out
+
+
+def loads_table(
+    cycle: Cycle,
+    life: Mapping[str, float | None],
+    wheel_inertia_kgm2: float | None,
+    warnings: Sequence[str],
+    for_people: bool = False,
+) -> Table:
+    """The summary of the loads, with sizing, life and warnings.
+
+    ``life`` and the wheel's own inertia are known from its parts. For people the quantities that
+    have a value are rows of a table.
+    """
+    spec = cycle.mechanism.spec
+    values: dict[str, object] = {"spec": spec.path, "title": spec.title}
+    loads = summaries(cycle)
+    if for_people:
+        rows = [(name, *one) for name, one in loads.items() if one != QuantitySummary()]
+        table = rows_table(("quantity", *QuantitySummary._fields), rows, mixed=True)
+        # in order of importance, for a narrow window
+        first = ("quantity", "max", "rms", "max_at_deg", "min", "mean")
+        values["loads"] = table.replaced(reading=Reading(first))
+    else:
+        for name, one in loads.items():
+            values |= {f"{name}.{key}": value for key, value in one._asdict().items()}
+    values["reversals_deg"] = tuple(reversals_deg(cycle)) if cycle.is_loaded else None
+    bought, needed = sizing(cycle)
+    bought[WHEEL_INERTIA] = wheel_inertia_kgm2
+    if cycle.is_loaded and wheel_inertia_kgm2 is None:
+        needed = [*needed, f"{WHEEL_INERTIA}: {_unweighed(spec)}"]
+    for group, answers in (("sizing", bought), ("life", life)):
+        values |= {f"{group}.{key}": value for key, value in answers.items()}
+    values["warnings"] = (*warnings, *needed)
+    return record_table(values)
+
+
+def _unweighed(spec: Spec) -> str:
+    """The reason why the wheel's own inertia is not known."""
+    if not spec.is_flat:
+        return "computed for flat wheels only"
+    if spec.size.face_width_mm is None and spec.size.wheel_thickness_mm is None:
+        return "needs face_width_mm in [size]"
+    return "needs a wheel that can be cut; `geneva profile` shows why it cannot"
+
+
+def missing(cycle: Cycle) -> list[Notice]:
+    """Notes on the keys that the missing quantities need."""
+    if not cycle.is_loaded:
+        return [Notice("not-known", NO_LOAD)]
+    wide = cycle.case.hertz is not None
+    out = [] if wide else [f"{name}: needs face_width_mm in [size]" for name in PRESSED]
+    spec, guide = cycle.mechanism.spec, "guide_force_N"
+    if spec.drive.LENGTH and spec.wheel.FLAT and guide not in known_quantities(cycle.mechanism):
+        needs = f"needs {spec.drive.LENGTH} in [drive]"
+        out.append(f"{guide}, and the share of it in the crank's bearings: {needs}")
+    unknown: dict[str, list[str]] = {}
+    for name, (_, factor, needs) in multiples(cycle.mechanism).items():
+        if factor is None:
+            unknown.setdefault(needs, []).append(name)
+    out += [f"{', '.join(names)}: needs {needs}" for needs, names in unknown.items()]
+    return [Notice("not-known", text) for text in out]
+
+
+def cycle_table(cycle: Cycle, samples: int) -> Table:
+    """``samples`` rows, evenly spaced in the input angle over one period from the first entry.
+
+    A value that is unbounded or not known is None.
+    """
+    check_samples(samples)
+    names = (*PLACE_COLUMNS, *SHOWN_QUANTITIES)
+
+    def rows(begin: int, end: int) -> list[Any]:
+        return _rows(cycle, samples, begin, end)
+
+    if samples > WHOLE_ROWS:
+        return Table(names, pieces(samples, len(names), rows, "object"))
+    return Table(names, rows(0, samples))
+
+
+def _rows(cycle: Cycle, samples: int, begin: int, end: int) -> list[Any]:
+    input_deg = inputs(cycle.mechanism, samples, begin, end)
+    states = cycle.states(input_deg)
+    columns = {name: plain_of(states, name) for name in known_quantities(cycle.mechanism)}
+    for name, (source, factor, _) in multiples(cycle.mechanism).items():
+        if factor is not None and source in columns:
+            columns[name] = columns[source] * factor
+    none = [None] * len(input_deg)
+    return [
+        times_s(cycle.mechanism, input_deg),
+        input_deg,
+        np.degrees(derivatives(cycle.mechanism, input_deg, (0,))[0]),
+        *[_cells(columns[name]) if name in columns else none for name in SHOWN_QUANTITIES],
+    ]
+
+
+def _cells(values: Array) -> Any:
+    """A column of a table: None for unbounded values."""
+    if np.isfinite(values).all():
+        return values
+    return [x if math.isfinite(x) else None for x in values.tolist()]

@@ -1,0 +1,1 @@
+"""Outlines of wheel and crank, and the certificate of their turn."""

@@ -1,0 +1,228 @@
+"""Proved lower bounds of the gaps between wheel, crank and rollers on intervals of the input angle.
+
+Parts are rigid. A point at a distance r from an axis moves at most r times the angle by which its
+part turns about it. So a gap is at least the gap in the middle of an interval, less how far the
+parts move from there. Pairs that touch by design have more exact bounds: a roller in its own slot,
+and the locking disc in its recess, in the dwell and beside it. ``geneva help certificates`` derives
+them.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+
+from geneva_cli.collisions.gaps import turned_points
+from geneva_cli.collisions.settled import Bounds, Intervals
+from geneva_cli.curves.extents import farthest, from_segments, near_segments, short_pieces
+from geneva_cli.outlines.travel import Travel, path_travel, slot_travel
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    from geneva_cli.collisions.play import Window
+    from geneva_cli.kinematics.engagement import Engagement
+    from geneva_cli.numerics.jet import Array
+    from geneva_cli.outlines.outlines import Outlines
+
+STEP = math.radians(1.0)  # of the crank's arcs: pieces that are tested for being in the wheel
+AXIS = np.zeros((1, 2))
+
+
+class Reach:
+    """Distances of the parts from their axes, mm."""
+
+    def __init__(self, parts: Outlines, target: float) -> None:
+        self.parts, self.target = parts, target
+        self._paths: dict[Engagement, Travel] = {}
+        outside, wheel = parts.assembly.sign > 0.0, parts.gaps.wheel
+        # The circle about the wheel's axis that the wheel reaches, or an internal wheel leaves.
+        self.rim = float(farthest(wheel, AXIS).max() if outside else wheel.signed(AXIS)[0])
+
+    def path(self, engagement: Engagement) -> Travel:
+        """Return the travel of an engagement's roller, which several rollers share."""
+        if engagement not in self._paths:
+            turn_deg = self.parts.assembly.turn_deg
+            self._paths[engagement] = path_travel(engagement, self.L, turn_deg)
+        return self._paths[engagement]
+
+    @property
+    def apart(self) -> float:
+        """The distance up to which parts matter, mm."""
+        return max(self.target, 0.0)
+
+    @property
+    def L(self) -> float:
+        """The centre distance."""
+        return self.parts.assembly.L
+
+    def beyond(self, points: Array) -> Array:
+        """Return the distance of points (n, 2) from the circle of the wheel, mm."""
+        out: Array = self.parts.assembly.sign * (np.hypot(*points.T) - self.rim)
+        return out
+
+
+class Segments(NamedTuple):
+    """Segments in the wheel's frame, and how far from them a roller's centre may be, mm."""
+
+    start: Array  # (n, 2)
+    end: Array
+    aside: Array  # (n,)
+
+
+class Roller:
+    """A roller and the wheel; ``path`` bounds the roller's travel in the fixed frame."""
+
+    def __init__(self, reach: Reach, number: int) -> None:
+        self.reach, self.number = reach, number
+        self.parts = reach.parts
+        engagement, self.behind = self.parts.assembly.rollers[number]
+        self.path = reach.path(engagement)
+
+    def own(self, on: Intervals) -> tuple[Array, Array]:
+        """Return the ends of intervals as angles of the roller's own engagement."""
+        half, turn = 0.5 * self.parts.assembly.turn_deg, self.parts.assembly.turn_deg
+        start = (on.start - self.behind + half) % turn - half
+        return start, start + (on.end - on.start)
+
+    def centre(self, input_deg: Array) -> Array:
+        """Return the centre in the wheel's frame at input angles, (n, 2)."""
+        assembly = self.parts.assembly
+        return turned_points(assembly.pin(self.number, input_deg), -assembly.wheel(input_deg))
+
+    def travel(self, on: Intervals, centre: Array) -> Array:
+        """Return how far the centre is at most from its place in the middle, ``centre``."""
+        out: Array = self.path.most(*self.own(on)) + np.hypot(*centre.T) * on.wheel
+        return out
+
+    def gap(self, on: Intervals) -> Array:
+        """Return the gap to the wheel in the middle of intervals."""
+        gap: Array = self.parts.gaps.rollers(self.parts.gaps.pose(on.middle))[:, self.number]
+        return gap
+
+    def along(self, segments: Segments, centre: Array, gap: Array) -> Array:
+        """Return the gap of a roller whose centre moves along segments.
+
+        In the middle of an interval it is at ``centre`` and has the gap ``gap``.
+        """
+        start, end, aside = segments
+        radius = self.parts.sizes.roller
+        off = np.hypot(*(0.5 * (start + end) - centre).T)
+        # A segment that is shorter than its middle's distance from the outline does not cross it.
+        short = 0.5 * np.hypot(*(end - start).T) < radius + gap - off
+        least = np.full(len(gap), -math.inf)
+        if short.any():
+            start, end, reach = start[short], end[short], radius + self.parts.gaps.near
+            wheel = near_segments(self.parts.gaps.wheel, start, end, reach)
+            free = np.minimum(from_segments(wheel, start, end), reach)
+            least[short] = free - aside[short] - radius
+        return least
+
+
+class FreeRoller(Roller):
+    """A roller outside the slot that it drives: the wheel's outline may be anywhere about it."""
+
+    def __call__(self, on: Intervals) -> Bounds:
+        """Return the gap in the middle, less the roller's travel in the wheel's frame.
+
+        While the wheel rests, the centre is also near the chord of its path.
+        """
+        centre = self.centre(on.middle)
+        far = self.reach.beyond(centre) - self.parts.sizes.roller
+        gap = np.maximum(self.gap(on), far)
+        least = gap - self.travel(on, centre)
+        doubtful = np.flatnonzero((least < self.reach.target) & (on.wheel == 0.0))
+        if len(doubtful):
+            some = Intervals(*(each[doubtful] for each in on))
+            aside = self.path.aside(*self.own(some))
+            segments = Segments(self.centre(some.start), self.centre(some.end), aside)
+            chord = self.along(segments, centre[doubtful], gap[doubtful])
+            least[doubtful] = np.maximum(least[doubtful], chord)
+        return Bounds(gap, least)
+
+
+class StraightSlot(Roller):
+    """A roller in its own straight slot: its centre is on the slot's axis."""
+
+    def __init__(self, reach: Reach, number: int, span: tuple[float, float]) -> None:
+        super().__init__(reach, number)
+        ends = np.array([span[0], 0.5 * (span[0] + span[1])])
+        self.first, other = self.centre(ends)
+        self.axis = (self.first - other) / math.dist(self.first, other)
+
+    def __call__(self, on: Intervals) -> Bounds:
+        """Return the gap along the part of the axis that the centre may reach."""
+        centre, gap = self.centre(on.middle), self.gap(on)
+        half = self.travel(on, centre)[:, None] * self.axis
+        aside = np.abs((centre - self.first) @ (-self.axis[1], self.axis[0]))
+        segments = Segments(centre - half, centre + half, aside)
+        return Bounds(gap, self.along(segments, centre, gap))
+
+
+class CurvedSlot(Roller):
+    """A roller in its own curved slot: its centre is near a chord of the pitch curve."""
+
+    def __init__(self, reach: Reach, number: int, span: tuple[float, float]) -> None:
+        super().__init__(reach, number)
+        engagement, self.middle = self.parts.assembly.motions[number]
+        self.slot = slot_travel(engagement, reach.L)
+
+    def __call__(self, on: Intervals) -> Bounds:
+        """Return the gap along the chord, less the greatest distance of the curve from it."""
+        start, end = self.centre(on.start), self.centre(on.end)
+        aside = self.slot.aside(on.start - self.middle, on.end - self.middle)
+        gap = self.gap(on)
+        chord = self.along(Segments(start, end, aside), self.centre(on.middle), gap)
+        return Bounds(gap, chord)
+
+
+class Lock:
+    """The crank's locking disc and the wheel: bounds up to ``Reach.apart``.
+
+    The wheel leaves a circle free about the middle of each recess. In the dwell and beside it, the
+    part of the crank that is within the wheel's rim lies in that circle.
+    """
+
+    def __init__(self, reach: Reach, window: Window) -> None:
+        self.reach, self.window = reach, window
+        self.pieces = short_pieces(reach.parts.crank, STEP)
+        self.disc = float(farthest(self.pieces, AXIS).max())
+
+    def __call__(self, on: Intervals) -> Bounds:
+        """Return the better of two bounds: from the gap, and from the recess's circle."""
+        parts, reach = self.reach.parts, self.reach
+        pose = parts.gaps.pose(on.middle)
+        gap = parts.gaps.locking(pose)
+        far = reach.rim if parts.assembly.sign > 0.0 else reach.L + self.disc + reach.apart
+        least = gap - far * on.wheel - (self.disc + reach.apart) * on.crank
+        doubtful = np.flatnonzero(least < reach.target)
+        if len(doubtful):
+            some = Intervals(*(each[doubtful] for each in on))
+            inside = self._in_recess(some, pose.wheel[doubtful], pose.crank[doubtful])
+            least[doubtful] = np.maximum(least[doubtful], inside)
+        return Bounds(gap, np.minimum(least, reach.apart))
+
+    def _in_recess(self, on: Intervals, wheel: Array, crank: Array) -> Array:
+        """Return how far the crank stays within the circle of the nearer recess, mm."""
+        parts, L = self.reach.parts, self.reach.L
+        start, end = self.window.start, self.window.end
+        nearer = np.where(on.middle - start < end - on.middle, start, end)
+        axis = np.repeat([[L, 0.0]], len(wheel), axis=0)
+        middle = turned_points(axis, -parts.assembly.wheel(nearer))
+        free = parts.gaps.wheel.signed(middle)
+        offset = turned_points(turned_points(middle, wheel) - axis, -crank)
+        far = np.where(self._within_rim(crank, on), farthest(self.pieces, offset), 0.0)
+        out: Array = free - far.max(axis=1) - L * on.wheel - np.hypot(*offset.T) * on.crank
+        return out
+
+    def _within_rim(self, crank: Array, on: Intervals) -> NDArray[np.bool_]:
+        """Return a mask (n, k) of the pieces of the crank that may come within the wheel's rim."""
+        pieces = self.pieces
+        c, s = np.cos(crank)[:, None], np.sin(crank)[:, None]
+        x, y = self.reach.L + c * pieces.ox - s * pieces.oy, s * pieces.ox + c * pieces.oy
+        beyond = self.reach.parts.assembly.sign * (np.hypot(x, y) - self.reach.rim)
+        moved = self.disc * on.crank[:, None] + self.reach.apart
+        out: NDArray[np.bool_] = beyond - pieces.size <= moved
+        return out

@@ -1,0 +1,118 @@
+"""Certificate of the full turn: a proved lower bound of the gap at every input angle.
+
+The sampled full turn gives the smallest gap. The certificate proves that no gap is smaller by more
+than a tolerance. It takes distances at single positions as exact, up to ``ROUNDING``.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from typing import TYPE_CHECKING, NamedTuple
+
+from geneva_cli.collisions.one_motion import one_motion
+from geneva_cli.collisions.play import Window, windows
+from geneva_cli.collisions.settled import Open, Pair, Settled, settled
+from geneva_cli.outlines.bounds import CurvedSlot, FreeRoller, Lock, Reach, StraightSlot
+
+if TYPE_CHECKING:
+    from geneva_cli.collisions.machine_parts import MachineParts
+    from geneva_cli.outlines.outlines import Outlines
+
+PROVED_TO_MM = 1e-3  # tolerance of a certificate by default, or
+CONTACTS = 2.0  # times the overlap that counts as touching, if that is more
+ROUNDING = 1e-11  # of the centre distance: greatest rounding of a distance; doubles carry 2e-16
+
+
+class Certificate(NamedTuple):
+    """A proved lower bound of the gap in a full turn, ``least_mm``.
+
+    It is within ``to_mm`` of the smallest gap. If an interval is ``open``, it holds elsewhere only.
+    ``between`` names the parts there.
+    """
+
+    least_mm: float
+    to_mm: float
+    intervals: int
+    open: Open | None = None
+    between: str = ""
+
+    @property
+    def proved(self) -> bool:
+        """True if no interval is open."""
+        return self.open is None
+
+
+def tolerance_mm(parts: MachineParts) -> float:
+    """Return the tolerance of a certificate by default: how far it is from the smallest gap."""
+    return max(PROVED_TO_MM, CONTACTS * parts.contact)
+
+
+def unproved_kind(parts: MachineParts) -> str:
+    """Return the reason why a kind of machine has no certificate; empty if it has one."""
+    assembly = parts.assembly
+    if not assembly.mechanism.spec.wheel.FLAT:
+        return "the parts lie on a sphere"
+    return ""
+
+
+def certificate(parts: Outlines, gap_mm: float, to_mm: float) -> Certificate:
+    """Return the certificate that no gap in a full turn is smaller than the smallest by ``to_mm``.
+
+    ``gap_mm`` is the smallest gap of the sampled full turn; an overlap counts as 0. The parts are
+    of a kind with a certificate. Raises WorkLimit.
+    """
+    parts = one_motion(parts)
+    parts.gaps.begin()
+    spare = ROUNDING * parts.assembly.L
+    target = max(gap_mm, 0.0) - to_mm + spare
+    least, count = math.inf, 0
+    for between, found in _gaps(parts, target):
+        least, count = min(least, found.least - spare), count + found.intervals
+        if found.open:
+            start, end = (parts.assembly.shown_deg(x) for x in found.open[:2])
+            shown = found.open._replace(start_deg=start, end_deg=end)
+            return Certificate(least, to_mm, count, shown, between)
+    return Certificate(least, to_mm, count)
+
+
+def _gaps(parts: Outlines, target: float) -> Iterator[tuple[str, Settled]]:
+    """Yield the proved bound of each pair of parts in each motion and dwell."""
+    reach = Reach(parts, target)
+    for window in windows(parts):
+        ends = window.start, window.end
+        if len(parts.crank):
+            lock = settled(parts.assembly, Lock(reach, window), ends, target)
+            yield "locking disc and wheel", lock
+        for span, driver in spans(parts, window):
+            for roller in range(len(parts.assembly.rollers)):
+                pair: Pair = FreeRoller(reach, roller)
+                if roller == driver:
+                    engagement, _ = parts.assembly.rollers[roller]
+                    slot = CurvedSlot if engagement.slot.curved else StraightSlot
+                    pair = slot(reach, roller, span)
+                between = "roller and slot" if roller == driver else "roller and wheel"
+                yield between, settled(parts.assembly, pair, span, target)
+
+
+def spans(parts: Outlines, window: Window) -> Iterator[tuple[tuple[float, float], int | None]]:
+    """Yield the spans of a motion or dwell, each with the roller that is in its slot, or None.
+
+    Where gears drive between two rollers, each of them is in its slot up to its deepest position,
+    or from there.
+    """
+    motion, start, end = window.motion, window.start, window.end
+    engagement, _ = parts.assembly.motions[motion]
+    if window.rests:
+        yield (start, end), None
+    elif not engagement.paired:
+        yield (start, end), motion
+    else:
+        first, last = 2 * motion, 2 * motion + 1
+        turn = parts.assembly.turn_deg
+        leaves, meets = (
+            start + (parts.assembly.rollers[i][1] - start) % turn for i in (first, last)
+        )
+        yield (start, leaves), first
+        yield (leaves, meets), None
+        yield (meets, end), last

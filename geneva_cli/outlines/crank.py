@@ -1,0 +1,146 @@
+"""The crank's outline in the wheel's plane: the locking disc and its relief.
+
+It is in the crank's frame: its axis is the origin, and x is through the first roller at
+mid-motion. The disc is whole where it locks, and relieved where a roller moves the wheel.
+"""
+
+from __future__ import annotations
+
+import math
+from itertools import combinations
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from geneva_cli.curves.shapes import (
+    Circle,
+    Contour,
+    Line,
+    Point,
+    Segment,
+    Shape,
+    about,
+    closed,
+)
+from geneva_cli.errors import GenevaError
+from geneva_cli.layout.assembly import Assembly
+from geneva_cli.layout.keyways import bore, key
+from geneva_cli.layout.reliefs import Relief, followed, keyway_direction, merged, reliefs
+from geneva_cli.layout.sizes import Sizes
+from geneva_cli.numerics.tolerances import SAME_ANGLE
+from geneva_cli.outlines.locking_rings import LAYER, polar_points, rings, towards
+
+if TYPE_CHECKING:
+    from geneva_cli.outlines.locking_rings import Swept
+
+
+def crank_contours(
+    assembly: Assembly, sizes: Sizes, relief: str, swept: Swept, spare: float = 0.0
+) -> list[Contour]:
+    """Return the locking disc with one kind of relief: ``"arc"`` or ``"sector"``.
+
+    ``swept(i, every)`` are points where the wheel enters the disc in the i-th motion. Where the
+    wheel sweeps over the crank's axis, as an internal wheel does, only locking sectors are left.
+    The crank carries them next to the wheel's plane. They keep ``spare`` mm more distance from the
+    wheel.
+    """
+    around = reliefs(assembly)
+    if not is_whole(assembly, sizes):
+        return rings(assembly, sizes, around, swept, spare)
+    if relief == "sector":
+        around = merged([_widened(sizes, one, swept) for one in around])
+    cut = _arc if relief == "arc" else _sector
+    if sum(one.end - one.start for one in around) > math.tau - SAME_ANGLE:
+        raise GenevaError(
+            "nothing is left of the locking disc: its reliefs go all the way round; use fewer "
+            f"rollers, or a smaller one than {sizes.roller:g} mm",
+            ("size", "roller_radius_mm"),
+        )
+    segments: list[Segment] = []
+    for one, after in followed(around):
+        segments += cut(assembly, sizes, one)
+        if after - one.end > SAME_ANGLE:
+            segments.append(about((0.0, 0.0), sizes.lock, one.end, after - one.end))
+    return [closed(LAYER, segments)]
+
+
+def is_whole(assembly: Assembly, sizes: Sizes) -> bool:
+    """Return True if some of the disc is left at the crank's axis."""
+    return assembly.sign > 0.0 and assembly.L - sizes.rim > sizes.relief
+
+
+def _widened(sizes: Sizes, one: Relief, swept: Swept) -> Relief:
+    """Return a relief as wide as the wheel needs: offset slots turn horns past its edges."""
+    middle = 0.5 * (one.start + one.end)
+    beyond = towards(*swept(one.motion, 1), middle + math.pi, math.pi - one.half)
+    off = polar_points(*beyond, middle).direction
+    spare = sizes.relief / sizes.lock
+    low, high = float(off.min(initial=0.0)), float(off.max(initial=0.0))
+    start = middle + low - spare if low < -one.half - SAME_ANGLE else one.start
+    end = middle + high + spare if high > one.half + SAME_ANGLE else one.end
+    return one._replace(start=start, end=end)
+
+
+def crank_circles(assembly: Assembly, sizes: Sizes) -> list[Shape]:
+    """Return rollers, pins and bore, which may have a keyway."""
+    shapes: list[Shape] = []
+    for centre in roller_centres(assembly):
+        shapes += [Circle("ROLLER", centre, sizes.roller)]
+        shapes += [Circle("ROLLER", centre, sizes.pin)] if sizes.pin else []
+    if sizes.crank_bore:
+        fitted = key(assembly.mechanism.spec.size.crank_keyway, sizes.crank_bore)
+        shapes.append(bore("BORE", sizes.crank_bore, fitted, keyway_direction(assembly)))
+    return shapes
+
+
+def roller_centres(assembly: Assembly) -> list[Point]:
+    """Return the centres of the rollers on the crank, each at its mid-motion."""
+    centres = []
+    for number, (_, behind) in enumerate(assembly.rollers):
+        at = np.array([behind])
+        x, y = (assembly.pin(number, at) - (assembly.L, 0.0))[0]
+        angle = math.atan2(y, x) - float(assembly.crank(at)[0])
+        reach = math.hypot(x, y)
+        centres.append((reach * math.cos(angle), reach * math.sin(angle)))
+    return centres
+
+
+def rollers_gap(assembly: Assembly, sizes: Sizes) -> float | None:
+    """Return the gap between the roller that starts the wheel and that which stops it, mm.
+
+    It is negative where they overlap, and None if each roller does both.
+    """
+    if len(assembly.rollers) == len(assembly.motions):
+        return None
+    pairs = combinations(roller_centres(assembly), 2)
+    return min(math.dist(one, other) for one, other in pairs) - 2.0 * sizes.roller
+
+
+def _arc(assembly: Assembly, sizes: Sizes, relief: Relief) -> list[Segment]:
+    """Return one arc that meets the disc at right angles at both ends.
+
+    For a radial slot entered without shock it is the triangle of wheel, crank and roller at entry,
+    scaled down to the disc. Its centre is L rk/R from the axis, its radius is L cos b rk/R. Raises
+    GenevaError where the wheel moves over half a turn of the crank or more.
+    """
+    if relief.half > 0.5 * math.pi - SAME_ANGLE:
+        raise GenevaError(
+            f'relief = "arc": the wheel moves over {math.degrees(2.0 * relief.half):.6g} deg of '
+            'the crank, but an arc relieves less than 180 deg; set relief = "sector"',
+            ("size", "relief"),
+        )
+    middle = 0.5 * (relief.start + relief.end)
+    away, radius = sizes.lock / math.cos(relief.half), sizes.lock * math.tan(relief.half)
+    centre = away * math.cos(middle), away * math.sin(middle)
+    half = math.pi / 2.0 - relief.half
+    return [about(centre, radius, middle + math.pi + half, -2.0 * half)]
+
+
+def _sector(assembly: Assembly, sizes: Sizes, relief: Relief) -> list[Segment]:
+    """Return the whole sector, down to where the wheel never comes: L - rim less a clearance."""
+    floor = assembly.L - sizes.rim - sizes.relief
+    width = relief.end - relief.start
+    bottom = about((0.0, 0.0), floor, relief.start, width)
+    start = (sizes.lock * math.cos(relief.start), sizes.lock * math.sin(relief.start))
+    end = (sizes.lock * math.cos(relief.end), sizes.lock * math.sin(relief.end))
+    return [Line(start, bottom.start), bottom, Line(bottom.end, end)]

@@ -1,0 +1,159 @@
+"""The outlines of a machine's parts, and the relief of the crank that clears the wheel."""
+
+from __future__ import annotations
+
+import math
+from functools import cache
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+
+from geneva_cli.collisions.gaps import Gaps, turned_points
+from geneva_cli.collisions.machine_parts import Pose
+from geneva_cli.curves.distance import Polyarc
+from geneva_cli.curves.shapes import Contour
+from geneva_cli.kinematics.engagement import Engagement
+from geneva_cli.layout.assembly import Assembly, assembly
+from geneva_cli.layout.reliefs import has_arcs, without_lock
+from geneva_cli.layout.sizes import Sizes, sizes
+from geneva_cli.machine.mechanism import Mechanism
+from geneva_cli.numerics.tolerances import SAME_LENGTH
+from geneva_cli.outlines.crank import crank_contours, is_whole
+from geneva_cli.outlines.walls.curved import curved_walls
+from geneva_cli.outlines.walls.straight import straight_walls
+from geneva_cli.outlines.wheel import wheel_contour
+
+if TYPE_CHECKING:
+    from geneva_cli.numerics.jet import Array
+
+CURVED = 2e-6  # of the centre distance: accuracy of curved walls
+# Of the centre distance, 0.2 um in 100 mm: parts that overlap by less count as touching. No cutter
+# and no roller is more accurate, nor are curved walls.
+CONTACT = CURVED
+SWEPT_DEG = 0.2  # of the input, between the positions of the wheel that a relief must clear
+
+
+class Outlines(NamedTuple):
+    """The outlines of wheel and crank, for drawings and for the full turn.
+
+    ``slots`` has the walls of each kind of slot. ``close`` is the overlap, mm, that counts as
+    rounding or as the walls' tolerance.
+    """
+
+    assembly: Assembly
+    sizes: Sizes
+    slots: dict[Engagement, Contour]
+    wheel: Contour
+    crank: list[Contour]
+    relief: str
+    gaps: Gaps
+    close: float
+    fine: float  # mm, the tolerance of the curves that are fitted to curved walls
+
+    @property
+    def contact(self) -> float:
+        """The overlap, mm, up to which parts count as touching."""
+        return CONTACT * self.assembly.L
+
+    def over(self, assembly: Assembly) -> Outlines:
+        """Return these parts with another assembly."""
+        return self._replace(assembly=assembly)
+
+    def in_wheel(self, motion: int, at: Array) -> Array:
+        """Return the centre of a motion's roller in the wheel's frame, mm, at input angles.
+
+        It is an array (n, 2).
+        """
+        return turned_points(self.assembly.driving(motion, at), -self.assembly.wheel(at))
+
+    def past_mouth(self, motion: int, at: Array) -> Array:
+        """Return how far a motion's roller is in its slot, beyond the mouth's corners, mm, (n,)."""
+        # the corners are on the rim, half a slot's width from the slot's middle
+        level = math.sqrt(max(self.sizes.rim**2 - self.sizes.half_width**2, 0.0))
+        far = np.hypot(*self.assembly.driving(motion, at).T)
+        past: Array = self.assembly.sign * (level - far)
+        return past
+
+    @property
+    def relief_depth(self) -> float:
+        """The distance of the crank's outline from its axis at the bottom of a relief, mm."""
+        return abs(float(Polyarc(self.crank).signed(np.zeros((1, 2)))[0]))
+
+
+def outlines(mechanism: Mechanism, tolerance: float = 0.0) -> Outlines:
+    """Return the outlines in lines and arcs, within ``tolerance`` mm, as the full turn needs them.
+
+    A tolerance finer than the walls' accuracy is raised to that. The crank's outline is exact.
+    Raises GenevaError where the machine has no flat parts, or its sizes leave none.
+    """
+    where = assembly(mechanism)
+    return drawn(where, sizes(where), tolerance)
+
+
+def drawn(assembly: Assembly, sizes: Sizes, tolerance: float = 0.0) -> Outlines:
+    """Return the outlines of an assembly with known sizes, within ``tolerance`` mm."""
+    kinds, L = assembly.kinds, assembly.L
+    fine = max(0.5 * CURVED * L, tolerance)
+    walls = {engagement: slot_walls(assembly, sizes, engagement, fine) for engagement in kinds}
+    close = (CURVED if any(engagement.slot.curved for engagement in kinds) else SAME_LENGTH) * L
+    wheel = wheel_contour(assembly, sizes, walls)
+    crank, relief, gaps = _relieved(Gaps(assembly, sizes, wheel, []), close)
+    return Outlines(assembly, sizes, walls, wheel, crank, relief, gaps, close, fine)
+
+
+def slot_walls(
+    assembly: Assembly, sizes: Sizes, engagement: Engagement, tolerance: float, curves: str = "arcs"
+) -> Contour:
+    """Return the walls of a slot, straight or curved; ``curves`` is "arcs" or "cubics"."""
+    if engagement.slot.curved:
+        return curved_walls(assembly, sizes, engagement, tolerance, curves)
+    return straight_walls(assembly, sizes, engagement)
+
+
+def _relieved(bare: Gaps, close: float) -> tuple[list[Contour], str, Gaps]:
+    """Return the crank with the relief of the spec, or else the first kind that clears the wheel.
+
+    An arc leaves the most of the disc and is one cut. If it collides, as with many slots, the whole
+    sector is cut down to where the wheel never comes.
+    """
+    assembly, sizes = bare.assembly, bare.sizes
+    if not sizes.lock:
+        return [], "none", bare
+    requested = assembly.mechanism.spec.size.relief
+    whole = is_whole(assembly, sizes)
+    swept = cache(lambda i, every: bare.swept(i, SWEPT_DEG, every))
+    if whole and not requested and not without_lock(assembly) and has_arcs(assembly, sizes.lock):
+        crank = crank_contours(assembly, sizes, "arc", swept)
+        gaps = bare.with_crank(crank)
+        # every 16th position shows most reliefs that collide
+        if all(_overlap(gaps, close, every) <= close for every in (16, 1)):
+            return crank, "arc", gaps
+    kind, spare = requested or "sector", 0.0
+    crank = crank_contours(assembly, sizes, kind, swept)
+    gaps = bare.with_crank(crank)
+    for _ in range(0 if whole else 5):
+        overlap = _overlap(gaps, close)
+        if overlap <= close:
+            break
+        # Between two of these positions the wheel comes nearer still: three times the overlap.
+        spare += 3.0 * overlap + 10.0 * close
+        crank = crank_contours(assembly, sizes, kind, swept, spare)
+        gaps = bare.with_crank(crank)
+    return crank, kind, gaps
+
+
+def _overlap(gaps: Gaps, close: float, every: int = 1) -> float:
+    """Return the greatest overlap of crank and wheel in all motions, mm.
+
+    Only each ``every``-th position is computed. Gaps wider than ``close`` count as ``close``.
+    """
+    least = 0.0
+    for engagement, behind in gaps.assembly.motions:
+        count = 2 + int(engagement.motion_deg / SWEPT_DEG)
+        at = (
+            behind + np.linspace(engagement.entry_deg, engagement.exit_deg, count) + 0.3 * SWEPT_DEG
+        )[::every]
+        # without the rollers, which lock nothing
+        pose = Pose(gaps.assembly.wheel(at), gaps.assembly.crank(at), np.empty((len(at), 0, 2)))
+        least = min(least, float(gaps.locking(pose, near=close).min()))
+    return -least

@@ -1,0 +1,87 @@
+"""The walls of a curved slot as lines, arcs and cubics: the chain of walls, fitted."""
+
+from __future__ import annotations
+
+import itertools
+import math
+from typing import TYPE_CHECKING
+
+from geneva_cli.curves import fit
+from geneva_cli.curves.shapes import Contour, Cubic, Point, Segment, about, joined
+from geneva_cli.kinematics.engagement import Engagement
+from geneva_cli.layout.assembly import Assembly
+from geneva_cli.layout.sizes import Sizes
+from geneva_cli.outlines.walls.chain import WallPiece, chain
+from geneva_cli.outlines.walls.joint import point
+
+if TYPE_CHECKING:
+    from geneva_cli.numerics.jet import Array
+
+# A wall ends at an intersection, whose last bits differ between processors, and many bits where two
+# walls nearly touch. Ends are rounded: of curves in degrees of input, of arcs in radians. That is
+# some 1e-7 mm of 100 mm.
+STEP, ARC_STEP = 2.0**-24, 2.0**-30
+SAME = 1e-10  # of the centre distance: accuracy at which walls count as mirror images
+
+
+def curved_walls(
+    assembly: Assembly, sizes: Sizes, engagement: Engagement, tolerance: float, curves: str = "arcs"
+) -> Contour:
+    """Return a curved slot's walls, counterclockwise from one corner of its mouth to the other.
+
+    They are within ``tolerance`` mm of the true walls, and never inside them. For that the slot of
+    a roller larger by half the tolerance is fitted. So no fit leaves material in the roller's path.
+    ``curves`` is "arcs" or "cubics", the form of walls that are no arcs. Raises GenevaError where
+    the walls do not close.
+    """
+    half = 0.5 * tolerance
+    runs: list[list[Segment]] = []
+    pieces = chain(assembly, sizes._replace(half_width=sizes.half_width + half), engagement)
+    for i, piece in enumerate(pieces):
+        other = len(pieces) - 1 - i
+        both = other < i and engagement.mirrored
+        if both and _mirrors(pieces[other], piece, SAME * assembly.L):
+            runs.append([mirrored(segment) for segment in reversed(runs[other])])
+        else:
+            runs.append(_segments(piece, half, curves))
+    return Contour("WHEEL", joined(itertools.chain(*runs)), closed=False)
+
+
+def _mirrors(one: WallPiece, other: WallPiece, near: float) -> bool:
+    """Return True if a piece is the other's mirror image in the slot's axis, run backwards."""
+    ends = ((one.start, other.end), (one.end, other.start))
+    middles = (0.5 * (one.start + one.end), 0.5 * (other.start + other.end))
+    for t, u in (*ends, middles):
+        (x, y), (v, w) = point(one.wall, t), point(other.wall, u)
+        if math.hypot(v - x, w + y) > near:
+            return False
+    return True
+
+
+def mirrored(segment: Segment) -> Segment:
+    """Return a segment's mirror image in the slot's axis, run backwards."""
+    start, end = _over(segment.end), _over(segment.start)
+    if isinstance(segment, Cubic):
+        return Cubic(start, _over(segment.second), _over(segment.first), end)
+    return segment._replace(start=start, end=end)  # an arc's bulge changes its sign twice
+
+
+def _over(p: Point) -> Point:
+    return p[0], -p[1]
+
+
+def _segments(piece: WallPiece, tolerance: float, curves: str) -> list[Segment]:
+    wall, *ends = piece
+    step = STEP if wall.centre is None else ARC_STEP
+    a, b = (round(end / step) * step for end in ends)
+    if wall.centre is not None:
+        return [about(wall.centre, wall.radius, a, b - a)]
+    fitted = fit.KINDS[curves]
+    if a < b:
+        return [*fitted(wall.curve, a, b, tolerance)]
+
+    def back(t: Array) -> tuple[Array, Array]:
+        points, tangents = wall.curve(-t)
+        return points, -tangents
+
+    return [*fitted(back, -a, -b, tolerance)]

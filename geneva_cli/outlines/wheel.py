@@ -1,0 +1,162 @@
+"""The wheel's outline: slots, rim and recesses in one closed contour."""
+
+from __future__ import annotations
+
+import math
+from typing import NoReturn
+
+from geneva_cli.curves.measure import turned
+from geneva_cli.curves.shapes import Arc, Circle, Contour, Point, Segment, Shape, about, closed
+from geneva_cli.errors import GenevaError
+from geneva_cli.kinematics.engagement import Engagement
+from geneva_cli.layout.assembly import Assembly
+from geneva_cli.layout.keyways import bore, key
+from geneva_cli.layout.sizes import Sizes
+from geneva_cli.numerics.tolerances import SAME_LENGTH
+
+LAYER = "WHEEL"
+# A low mouth is extended to this fraction of the distance from the recess to the rim. The disc then
+# has an arc to lock, and the relief needs to clear little more.
+EXTENDED_MOUTH = 0.2
+
+
+def wheel_contour(assembly: Assembly, sizes: Sizes, slots: dict[Engagement, Contour]) -> Contour:
+    """Return the wheel's contour, counterclockwise; an internal wheel's is its opening.
+
+    ``slots`` has the walls of each kind of slot, from one corner of the mouth round the bottom to
+    the other. They are in the wheel's frame, with that slot ahead. Raises GenevaError where a
+    recess leaves no horn next to a slot.
+    """
+    segments: list[Segment] = []
+    around = assembly.slots
+    walls = [turned(slots[engagement], direction).segments for engagement, direction in around]
+    for i, (_, direction) in enumerate(around):
+        following = (i + 1) % len(around)
+        segments += walls[i]
+        between = _between(assembly, direction, around[following][1])
+        segments += _rim(assembly, sizes, segments[-1].end, walls[following][0].start, between)
+    return closed(LAYER, segments)
+
+
+def wheel_circles(assembly: Assembly, sizes: Sizes) -> list[Shape]:
+    """Return the outside of an internal wheel, the bore with its keyway, and the dial's bolts.
+
+    Raises GenevaError for a keyway without a bore, or one that its standard does not have.
+    """
+    circles: list[Shape] = [Circle(LAYER, (0.0, 0.0), sizes.outer)] if sizes.outer else []
+    standard = assembly.mechanism.spec.size.wheel_keyway
+    if sizes.wheel_bore or standard:
+        fitted = key(standard, sizes.wheel_bore, "wheel")
+        circles.append(bore("BORE", sizes.wheel_bore, fitted, assembly.rests[0]))
+    return [*circles, *dial_bolts(assembly, sizes)]
+
+
+def dial_bolts(assembly: Assembly, sizes: Sizes) -> list[Circle]:
+    """Return the holes for the dial on the wheel, evenly spaced, the first between two slots.
+
+    By default their circle is in the middle between the bore and the slots and recesses.
+    """
+    size, count = assembly.mechanism.spec.size, assembly.mechanism.spec.size.dial_bolts
+    if sizes.outer:
+        low, high = max(sizes.slot_end, assembly.L + sizes.recess), sizes.outer
+    else:
+        low, high = sizes.wheel_reach, sizes.slot_end
+    far, half = 0.5 * (low + high), 0.5 * (high - low)
+    if size.dial_bolt_circle_mm is not None:
+        far = 0.5 * size.dial_bolt_circle_mm
+    r = min(assembly.L / 80.0, 0.5 * half) if size.dial_bolt_mm is None else 0.5 * size.dial_bolt_mm
+    turns = [assembly.rests[0] + math.tau * k / count for k in range(count)]
+    return [Circle("BORE", _on(far, turn), r) for turn in turns]
+
+
+def _between(assembly: Assembly, start: float, end: float) -> float:
+    """Return the direction of the recess between two adjacent slots, after the first one's."""
+    span = (end - start) % math.tau
+    return next(
+        start + off
+        for at in assembly.rests
+        if (off := (at - start) % math.tau) < span or span == 0.0
+    )
+
+
+def _rim(assembly: Assembly, sizes: Sizes, start: Point, end: Point, at: float) -> list[Segment]:
+    """Return the rim from one slot's corner, through the recess, to the next slot's corner.
+
+    Mouths of offset slots and of unequal steps end at different radii. One that the recess does not
+    reach is extended to the recess, along the roller's circle about the crank's axis.
+    """
+    first, last = math.atan2(start[1], start[0]), math.atan2(end[1], end[0])
+    if math.remainder(last - first, math.tau) <= 0.0:
+        raise GenevaError(
+            "the mouths of adjacent slots overlap; a roller_radius_mm below "
+            f"{sizes.roller:g} leaves a rim between them",
+            ("size", "roller_radius_mm"),
+        )
+    last = first + (last - first) % math.tau
+    at = first + (at - first) % math.tau
+    axis = assembly.L * math.cos(at), assembly.L * math.sin(at)
+    distances = math.dist(start, axis), math.dist(end, axis)
+    if sizes.lock and min(distances) <= sizes.recess:
+        _refuse(sizes, min(distances))
+    own = math.hypot(*start), math.hypot(*end)
+    reach = assembly.L - sizes.recess
+    least = reach + EXTENDED_MOUTH * (sizes.rim - reach) if sizes.lock else max(own)
+    raised = [least > rim + SAME_LENGTH * assembly.L and assembly.sign > 0.0 for rim in own]
+    rims = [least if up else rim for up, rim in zip(raised, own, strict=True)]
+    before: list[Segment] = []
+    after: list[Segment] = []
+    if raised[0]:
+        first = at - opening(assembly.L, rims[0], distances[0])
+        before.append(_about(axis, start, _on(rims[0], first), 1.0))
+    if raised[1]:
+        last = at + opening(assembly.L, rims[1], distances[1])
+        after.append(_about(axis, _on(rims[1], last), end, 1.0))
+    if not sizes.lock:
+        return [*before, about((0.0, 0.0), rims[0], first, last - first), *after]
+    low, high = (
+        at + side * opening(assembly.L, rim, sizes.recess)
+        for side, rim in zip((-1.0, 1.0), rims, strict=True)
+    )
+    return [
+        *before,
+        about((0.0, 0.0), rims[0], first, low - first),
+        _about(axis, _on(rims[0], low), _on(rims[1], high), -assembly.sign),
+        about((0.0, 0.0), rims[1], high, last - high),
+        *after,
+    ]
+
+
+def _on(radius: float, angle: float) -> Point:
+    return radius * math.cos(angle), radius * math.sin(angle)
+
+
+def _about(axis: Point, start: Point, end: Point, sense: float) -> Arc:
+    """Return an arc about the crank's axis, counterclockwise (+1) or clockwise (-1)."""
+    a, b = (math.atan2(y - axis[1], x - axis[0]) for x, y in (start, end))
+    sweep = sense * (sense * (b - a) % math.tau)
+    return Arc(start, end, math.tan(0.25 * sweep))
+
+
+def _refuse(sizes: Sizes, distance: float) -> NoReturn:
+    """Raise GenevaError: no horn is left at a slot whose mouth is ``distance`` from the axis."""
+    most = sizes.lock + distance - sizes.recess
+    raise GenevaError(
+        f"no horn is left between slot and recess: lock_radius_mm = {sizes.lock:.6g} must be below "
+        f"{most:.6g}, or the roller smaller",
+        ("size", "lock_radius_mm"),
+    )
+
+
+def opening(L: float, rim: float, radius: float) -> float:
+    """Return half the angle over which a circle about the crank's axis opens the rim.
+
+    Raises GenevaError where the two circles do not meet.
+    """
+    cosine = (L * L + rim * rim - radius * radius) / (2.0 * L * rim)
+    if not abs(cosine) < 1.0:
+        raise GenevaError(
+            f"wheel_radius_mm: a rim of {rim:.6g} mm does not meet the recess's circle of "
+            f"{radius:.6g} mm; it must be between {abs(L - radius):.6g} and {L + radius:.6g}",
+            ("size", "wheel_radius_mm"),
+        )
+    return math.acos(cosine)

@@ -1,0 +1,227 @@
+"""The gaps, in a whole turn, between links and the round parts that pass through their planes.
+
+Each plane below the wheel's has one link, or gears; the arm has a check of its own. Three kinds
+of round parts pass through. One is the wheel's hub and, below it, its shaft. Another is the spacer
+on a pin that joins links of distant planes. The third is the crank's shaft between the planes in
+which it carries something. It leaves the machine below all links, or above through the locking
+disc. If both are blocked, the shaft has no bearing.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+
+from geneva_cli.curves.distance import Polyarc
+from geneva_cli.curves.shapes import Contour
+from geneva_cli.kinematics.layout import Joint, Link
+from geneva_cli.layout.link_positions import links_at
+from geneva_cli.numerics.tolerances import SAME_LENGTH
+from geneva_cli.outlines.outlines import Outlines
+from geneva_cli.outlines.wheel_hub import wheel_hub_length
+from geneva_cli.parts.arm import has_arm
+from geneva_cli.parts.link_pins import joined
+from geneva_cli.parts.link_sizes import LinkSizes, places
+from geneva_cli.parts.links import Links, drawn_links
+from geneva_cli.parts.shafts import wheel_shaft_ends, wheel_shaft_radius
+
+if TYPE_CHECKING:
+    from geneva_cli.numerics.jet import Array
+
+LOOKS = 1440  # input angles in a turn: the error of a gap is quadratic in their distance
+
+
+class Meeting(NamedTuple):
+    """The least gap between a link and a part that passes through its plane."""
+
+    gap: float  # mm, negative where they overlap
+    input_deg: float
+    link: str
+    passing: str
+
+
+class Round(NamedTuple):
+    """A round part that passes through a plane."""
+
+    name: str
+    plane: int
+    way: Array  # complex positions, one at each input angle
+    radius: float
+
+
+class Planes(NamedTuple):
+    """The least gap of all in a whole turn, and that of the crank's shaft to its bearings."""
+
+    nearest: Meeting | None
+    way_out: Meeting | None  # None where the shaft is free
+
+
+def planes(parts: Outlines) -> Planes:
+    """Return the least gaps between links and the parts that pass through their planes.
+
+    Raises GenevaError where the sizes leave no links.
+    """
+    mechanism = parts.assembly.full
+    turns = mechanism.spec.drive.turns
+    turn = np.linspace(-180.0 * turns, 180.0 * turns, LOOKS * turns + 1)
+    links_and_gears = links_at(mechanism, turn)
+    links = [link for link in links_and_gears if not link.radius_mm]
+    if not links_and_gears:
+        return Planes(None, None)
+    bars = drawn_links(mechanism, parts)
+    assert bars.sizes is not None
+    geared = list(_gears(parts, bars, links_and_gears, turn))
+    if not links:
+        return Planes(min(geared, default=None), None)
+    outlines = _outlines(bars)
+    shaft = _Shaft(parts, links, outlines, bars)
+    passing = [*_passing(parts, links, bars.sizes, turn), *shaft.between()]
+    met = [
+        _meeting(link, outlines[link.name], one, turn)
+        for link in links
+        for one in passing
+        if one.plane == link.plane
+    ]
+    met += geared
+    out = shaft.way_out(turn)
+    blocked = out if out is not None and out.gap < 0.0 else None
+    return Planes(min(met, default=None), blocked)
+
+
+def _gears(parts: Outlines, bars: Links, links: tuple[Link, ...], turn: Array) -> Iterator[Meeting]:
+    """Yield the gaps of gears to the wheel's hub and shaft, which pass through their plane.
+
+    A first wheel is no gear: ``shaft_gap`` computes its gap.
+    """
+    assert bars.sizes is not None
+    if parts.assembly.full.spec.drive.IN_SERIES:
+        return
+    gears = [link for link in links if link.radius_mm]
+    for gear, link in zip(bars.gears, gears, strict=True):
+        away = np.abs(places(link)[0])
+        on_shaft = bool(
+            away.max() < SAME_LENGTH * parts.assembly.L
+        )  # a shaft fills the gear's bore, a hub does not
+        for one in _on_wheel(parts, [link], bars.sizes, 0.0 * turn):
+            gaps = away - gear.outer - one.radius
+            if on_shaft:
+                if one.radius <= gear.bore:
+                    continue
+                gaps = away + (gear.bore - one.radius)
+            least = int(np.argmin(gaps))
+            yield Meeting(float(gaps[least]), float(turn[least]), gear.name, one.name)
+
+
+def crank_stop(parts: Outlines, bars: Links) -> float | None:
+    """Return the height at which a link stops the crank's shaft downwards; None if none does."""
+    mechanism = parts.assembly.full
+    turn = np.linspace(-180.0, 180.0, LOOKS + 1) * mechanism.spec.drive.turns
+    links = [link for link in links_at(mechanism, turn) if not link.radius_mm]
+    if not links or bars.sizes is None:
+        return None
+    shaft = _Shaft(parts, links, _outlines(bars), bars)
+    blocked = shaft.below(turn)
+    if blocked is None or blocked.gap >= 0.0:
+        return None
+    return bars.sizes.span(max(shaft.carries))[0] if max(shaft.carries) else -bars.sizes.gap
+
+
+def _outlines(bars: Links) -> dict[str, Contour]:
+    return {
+        plate.name: plate.outline for plate in bars.plates if isinstance(plate.outline, Contour)
+    }
+
+
+def _passing(parts: Outlines, links: list[Link], sizes: LinkSizes, turn: Array) -> Iterator[Round]:
+    yield from _on_wheel(parts, links, sizes, 0.0 * turn)
+    for one in joined(links, SAME_LENGTH * parts.assembly.L):
+        for plane in range(min(one.planes) + 1, max(one.planes)):
+            if plane not in one.planes:
+                name = f"the pin of {' and '.join(one.names)}"
+                yield Round(name, plane, one.way, sizes.ring)
+
+
+def _on_wheel(parts: Outlines, links: list[Link], sizes: LinkSizes, axis: Array) -> Iterator[Round]:
+    """Yield the wheel's hub in the planes that it reaches, and its shaft in those below."""
+    if parts.assembly.sign < 0.0:
+        return
+    hub, shaft = parts.sizes.wheel_hub, wheel_shaft_radius(parts)
+    reach = -wheel_hub_length(parts.assembly.mechanism.spec.size, parts.sizes)
+    low, _ = wheel_shaft_ends(parts, -math.inf)
+    for plane in sorted({link.plane for link in links}):
+        high = sizes.span(plane)[1]
+        if hub and reach < high - SAME_LENGTH * parts.assembly.L:
+            yield Round("the wheel's hub", plane, axis, hub)
+        elif shaft and low < high - SAME_LENGTH * parts.assembly.L:
+            yield Round("the wheel's shaft", plane, axis, shaft)
+
+
+class _Shaft:
+    """The crank's shaft: the planes in which it carries something; 0 is the wheel's plane."""
+
+    def __init__(
+        self,
+        parts: Outlines,
+        links: list[Link],
+        outlines: dict[str, Contour],
+        bars: Links,
+    ) -> None:
+        L, sizes = parts.assembly.L, bars.sizes
+        assert sizes is not None
+        self.links, self.outlines = links, outlines
+        self.way = places(links[0])[0] * 0.0 + L
+        self.carries: set[int] = set()
+        for link in links:
+            at, kind = places(link)[0], link.kinds[0]
+            if kind is Joint.SHAFT and np.abs(at - L).max() < SAME_LENGTH * L:
+                self.carries.add(link.plane)
+        if has_arm(parts):
+            self.carries.add(1)
+        self.through = parts.sizes.crank_bore > 0.0  # through the locking disc
+        if self.through:
+            self.carries.add(0)
+        self.radius = sizes.crank_shaft or bars.shaft((L, 0.0), L)
+        low = parts.assembly.full.spec.size.crank_shaft_low_mm
+        ends = math.inf if low is None else low + SAME_LENGTH * L
+        self.reached = {link.plane for link in links if sizes.span(link.plane)[1] > ends}
+
+    def _in(self, plane: int) -> Round:
+        return Round("the crank's shaft", plane, self.way, self.radius)
+
+    def between(self) -> Iterator[Round]:
+        """Yield the shaft in the planes that it must cross, or that the spec extends it to."""
+        if self.carries:
+            deepest = max(self.carries | self.reached)
+            for plane in range(min(self.carries) + 1, deepest + 1):
+                if plane not in self.carries:
+                    yield self._in(plane)
+
+    def way_out(self, turn: Array) -> Meeting | None:
+        """Return the shaft's least gap on the way to its bearings; None if it meets nothing."""
+        return None if self.through else self.below(turn)
+
+    def below(self, turn: Array) -> Meeting | None:
+        """Return the shaft's least gap to the links below all that it carries; None without any."""
+        if not self.carries:
+            return None
+        deepest = max(self.carries)
+        met = [
+            _meeting(link, self.outlines[link.name], self._in(link.plane), turn)
+            for link in self.links
+            if link.plane > deepest
+        ]
+        return min(met, default=None)
+
+
+def _meeting(link: Link, outline: Contour, one: Round, turn: Array) -> Meeting:
+    joints = places(link)
+    ahead = joints[1] - joints[0]
+    size = np.abs(ahead)
+    unit = np.where(size > 0.0, ahead / np.where(size > 0.0, size, 1.0), 1.0)
+    own = (one.way - joints[0]) / unit
+    gaps = Polyarc([outline]).signed(np.column_stack((own.real, own.imag))) - one.radius
+    least = int(np.argmin(gaps))
+    return Meeting(float(gaps[least]), float(turn[least]), link.name, one.name)

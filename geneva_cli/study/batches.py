@@ -1,0 +1,87 @@
+"""Many specs at once, built as batch machines where possible."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from geneva_cli.machine.many import many, may_vary
+from geneva_cli.machine.mechanism import Mechanism
+from geneva_cli.machine.spec import Spec
+from geneva_cli.spec.schema import SpecTable, fields
+from geneva_cli.study.law_columns import law_columns
+
+
+def numbers(specs: Sequence[Spec], names: Sequence[str]) -> list[list[float] | None]:
+    """The quantities ``names`` of each spec, as ``columns`` computes them.
+
+    None for a spec that cannot be built, or whose engagements have no common number.
+    """
+    out: list[list[float] | None] = [None] * len(specs)
+    for members, machine in batch_machines(specs):
+        values = law_columns(machine, names, len(members))
+        if values is None:
+            continue
+        for i, row in zip(members, np.column_stack(values).tolist(), strict=True):
+            out[i] = row
+    return out
+
+
+def batch_machines(specs: Sequence[Spec]) -> Iterator[tuple[list[int], Mechanism]]:
+    """Batch machines, each with the indices of its specs.
+
+    A spec that cannot be built is in none of them.
+    """
+    apart: dict[Any, list[int]] = {}
+    wide: list[dict[str, float]] = []
+    keys: dict[Any, list[BatchKey]] = {}
+    for i, spec in enumerate(specs):
+        shape, own = _split(spec, keys)
+        wide.append(own)
+        apart.setdefault(shape, []).append(i)
+    for members in apart.values():
+        varied = {k: np.array([wide[i][k] for i in members]) for k in wide[members[0]]}
+        differing = {k: v for k, v in varied.items() if (v != v[0]).any()}
+        batch = many(specs[members[0]], differing or dict([*varied.items()][:1]))
+        if batch.machine is not None:
+            yield [members[i] for i in batch.which.tolist()], batch.machine
+
+
+class BatchKey(NamedTuple):
+    """A key of a kind of machine: its place, and whether it may be an array."""
+
+    table: str
+    attribute: str
+    name: str
+    varies: bool
+
+
+def _split(spec: Spec, keys: dict[Any, list[BatchKey]]) -> tuple[Any, dict[str, float]]:
+    """The values that specs of one batch must share, and the spec's own numbers.
+
+    ``keys`` caches the keys of each kind.
+    """
+    kinds = (type(spec.wheel), type(spec.drive), spec.motion and spec.motion.law)
+    if kinds not in keys:
+        keys[kinds] = [*_keys(spec)]
+    shape: list[Any] = [kinds]
+    own = {}
+    tables = vars(spec)
+    for table, attribute, name, varies in keys[kinds]:
+        value = vars(tables[table])[attribute]
+        if varies and isinstance(value, (int, float)) and not isinstance(value, bool):
+            own[name] = value
+        else:
+            shape.append((name, value))
+    return tuple(shape), own
+
+
+def _keys(spec: Spec) -> Iterator[BatchKey]:
+    """The keys in which machines of one kind may differ; a law includes its own keys."""
+    for table in ("wheel", "drive", "motion"):  # where the machines of a requirement differ
+        part: SpecTable | None = vars(spec)[table]
+        for field in fields(type(part)) if part else ():
+            name = f"{table}.{field.key}"
+            yield BatchKey(table, field.attribute, name, may_vary(spec, name))

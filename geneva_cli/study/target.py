@@ -1,0 +1,237 @@
+"""A requirement for a machine that is not designed yet.
+
+Every requirement about time or angle restricts the motion angle M of one engagement and the cycle
+time T, for m motions in a turn of the input, one of each roller:
+
+    tau = m M/360    k = tau/(1 - tau)    dwell_deg = 360/m - M    motion_s = tau T
+    dwell_s = (1 - tau) T
+
+All of them together leave a range of M, and for each M in it a range of T.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Sequence
+from typing import NamedTuple
+
+from geneva_cli.errors import GenevaError
+from geneva_cli.kinematics.law_motion import MOTION_MIN
+from geneva_cli.machine.spec import Spec
+from geneva_cli.study.goals import Objective
+from geneva_cli.study.spans import AllowedSpan
+from geneva_cli.study.sweep.constraints import Constraint
+
+GEARINGS = ("external", "internal", "spherical")
+USUAL_RPM = 60.0
+PEAK = "acceleration.max"
+SPACE = 3.0  # centre distances that a linkage may take by default
+TURNS = (3, 4, 5, 6)  # of the input in a cycle behind a first wheel: its step is a crank's motion
+
+
+class Target(NamedTuple):
+    """All requirements: ranges by their names in ``SPANS``, and other conditions of a row.
+
+    ``frame`` is a spec whose sizes, loads and limits every machine has.
+    """
+
+    words: str
+    z: tuple[int, ...]
+    gearings: tuple[str, ...] = GEARINGS
+    rollers: int | None = None
+    laws: tuple[str, ...] = ("modified-sine",)
+    spans: dict[str, AllowedSpan] = {}  # noqa: RUF012 - a NamedTuple's default, never changed
+    acceleration_max: float | None = None
+    frame: Spec | None = None
+    sort: Objective | None = None  # the goal by which rows are sorted
+    bounds: tuple[Constraint, ...] = ()
+    space: float = SPACE  # of a linkage: its joints' distance from the crank's axis, over L
+    bounded: frozenset[str] = frozenset()  # names of the ranges that bounds have narrowed
+    strict: bool = False  # whether its bounds include the frame's limits, which many families break
+
+    @property
+    def timed(self) -> bool:
+        """Return True if times in seconds are required, or given with the frame."""
+        return self.frame is not None or not {"cycle", "motion_s", "dwell_s"}.isdisjoint(self.spans)
+
+    @property
+    def peak(self) -> str:
+        """The name of the peak acceleration, the default goal; in rad/s² if times are required."""
+        return "acceleration.max_rad_s2" if self.timed else PEAK
+
+    @property
+    def any_motion(self) -> bool:
+        """Return True if any motion is allowed, and there is some bound."""
+        bounded = bool(self.bounds) or self.acceleration_max is not None
+        return bounded and self.allows_any_motion(1)
+
+    @property
+    def limits(self) -> tuple[Constraint, ...]:
+        """All bounds, the one on the acceleration among them."""
+        most = self.acceleration_max
+        return (*self.bounds, *([Constraint(PEAK, "<=", most)] if most is not None else []))
+
+    @property
+    def by_bounds(self) -> Target:
+        """The requirement with the limit on acceleration as an ordinary bound."""
+        return self._replace(acceleration_max=None, bounds=self.limits)
+
+    @property
+    def quantities(self) -> list[str]:
+        """The quantities that it sorts by and bounds."""
+        return [*([self.sort.name] if self.sort else []), *(b.name for b in self.limits)]
+
+    @property
+    def only_acceleration(self) -> bool:
+        """Return True if a peak acceleration is the only requirement on the motion."""
+        return self.any_motion and not self.bounds
+
+    def with_times(self) -> Target:
+        """The requirement with its bounds on times and angles of a motion turned into ranges.
+
+        Returned unchanged if those ranges allow any motion.
+        """
+        has_cycle = self.frame is not None or "cycle" in self.spans
+        # bounds on times restrict the motion angle if the cycle is known
+        times = ("motion_s", "dwell_s") if has_cycle else ()
+        names = {f"timing.{x}": x for x in ("tau", "k", "motion_deg", "dwell_deg", *times)}
+        spans = dict(self.spans)
+        for bound in self.bounds:
+            if name := names.get(bound.name):
+                low, high = spans.get(name, AllowedSpan())
+                least, most = bound.span
+                spans[name] = AllowedSpan(max(low, least), min(high, most))
+        left = tuple(bound for bound in self.bounds if bound.name not in names)
+        bounded = frozenset(names[b.name] for b in self.bounds if b.name in names)
+        narrowed = self._replace(spans=spans, bounds=left, bounded=bounded)
+        return self if narrowed.allows_any_motion(1) else narrowed
+
+    def cycle_s(self, m: float) -> AllowedSpan:
+        """The required cycle times; with a frame and no other requirement, the frame's own."""
+        if "cycle" in self.spans:
+            return self.spans["cycle"]
+        if self.frame is not None:
+            own = 60.0 / (m * self.frame.drive.n_rpm)
+            return AllowedSpan(own, own)
+        return AllowedSpan(0.0, math.inf)
+
+    def demands(self, m: float) -> Iterator[tuple[str, AllowedSpan]]:
+        """The range of motion angles that each requirement leaves for m rollers, with its name."""
+        spans, turn, cycle = self.spans, 360.0 / m, self.cycle_s(m)
+        options = {name: f"{self._option(name)} {_typed(s)}" for name, s in spans.items()}
+        speed = options.get("cycle", "the spec's n_rpm" if self.frame else "")
+        if "motion_deg" in spans:
+            yield options["motion_deg"], spans["motion_deg"]
+        if "tau" in spans:
+            low, high = spans["tau"]
+            yield options["tau"], AllowedSpan(360.0 * low / m, 360.0 * high / m)
+        if "k" in spans:
+            yield options["k"], AllowedSpan(*(360.0 * _tau(k) / m for k in spans["k"]))
+        if "dwell_deg" in spans:
+            yield options["dwell_deg"], spans["dwell_deg"].mirrored(turn)
+        if "motion_s" in spans and speed:
+            yield f"{options['motion_s']} with {speed}", spans["motion_s"].over(cycle).times(turn)
+        if "dwell_s" in spans and speed:
+            fraction = spans["dwell_s"].over(cycle).times(turn)
+            yield f"{options['dwell_s']} with {speed}", fraction.mirrored(turn)
+        if "motion_s" in spans and "dwell_s" in spans:
+            k = spans["motion_s"].over(spans["dwell_s"])
+            words = f"{options['motion_s']} with {options['dwell_s']}"
+            yield words, AllowedSpan(*(turn * _tau(x) for x in k))
+
+    def allows_any_motion(self, m: float) -> bool:
+        """Return True if any motion angle is allowed."""
+        return not any(s.low > 0.0 or s.high < 360.0 / m for _, s in self.demands(m))
+
+    def motion_for(self, m: float) -> AllowedSpan | None:
+        """The motion angles allowed for m rollers; None if every angle is.
+
+        The range may be empty. It may include 0 or a whole turn over m, where no motion or no dwell
+        is left.
+        """
+        allowed = AllowedSpan(0.0, 360.0 / m)
+        # the motions of several rollers are short, whatever is required
+        if self.allows_any_motion(1) and self.allows_any_motion(m):
+            return None
+        for _, demand in self.demands(m):
+            allowed = allowed.within(demand)
+        return allowed
+
+    def n_rpm(self, m: float, motion_deg: float) -> float:
+        """The input speed for m cycles in a turn: the usual one, or the nearest that is allowed."""
+        fraction = m * motion_deg / 360.0
+        usual = self.frame.drive.n_rpm if self.frame else USUAL_RPM
+        if not self.timed:
+            return usual
+        cycle = self.cycle_s(m)
+        if not cycle.exact:
+            if "motion_s" in self.spans:
+                cycle = cycle.within(self.spans["motion_s"].times(1.0 / fraction))
+            if "dwell_s" in self.spans and fraction < 1.0:  # else there is none, whatever the speed
+                cycle = cycle.within(self.spans["dwell_s"].times(1.0 / (1.0 - fraction)))
+        whole = min(max(60.0 / (m * usual), cycle.low), cycle.high)
+        return usual if whole == 60.0 / (m * usual) else 60.0 / (m * whole)
+
+    @property
+    def counts(self) -> Sequence[float]:
+        """The numbers of motions in a turn that allow a machine."""
+        return [m for m in self._every_count if not self._contradiction(m)]
+
+    def refuse_contradictions(self) -> None:
+        """Raise GenevaError for requirements that no machine meets, alone or together."""
+        if all(map(self._contradiction, self._every_count)):
+            raise GenevaError(self._contradiction(self._every_count[0]))
+
+    @property
+    def _every_count(self) -> Sequence[float]:
+        """All numbers of motions in a turn: of rollers, or of turns behind a first wheel."""
+        most = 60  # more rollers run into each other
+        several = (self.rollers,) if self.rollers else range(1, most + 1)
+        behind = [1.0 / turns for turns in TURNS] if self.rollers in (None, 1) else []
+        return [*several, *behind]
+
+    def _contradiction(self, m: float) -> str:
+        """The contradiction in the requirements for m motions in a turn; empty if there is none."""
+        for name, (low, high) in self.spans.items():
+            if low > high:
+                return f"{self._option(name)}: nothing is at least {low:.7g} and at most {high:.7g}"
+        demands = list(self.demands(m))
+        for i, (one, first) in enumerate(demands):
+            if first.high * m <= MOTION_MIN or first.low * m >= 360.0 - MOTION_MIN:
+                several = f" of {m} rollers" if m > 1 else ""
+                return (
+                    f"{one}: that leaves {_angles(first, m)}; a motion{several} must be above 0 "
+                    f"and below {360.0 / m:.7g} deg (tau below 1)"
+                )
+            for other, second in demands[:i]:
+                if first.within(second).empty:
+                    return (
+                        f"{other} and {one}: no machine does both; the first leaves "
+                        f"{_angles(second, m)}, the second {_angles(first, m)}"
+                    )
+        return ""
+
+    def _option(self, name: str) -> str:
+        """The option that sets a range."""
+        return f"--subject-to {name}" if name in self.bounded else f"--{name.replace('_', '-')}"
+
+
+def _tau(k: float) -> float:
+    return max(k, 0.0) / (1.0 + k) if k < math.inf else 1.0
+
+
+def _typed(s: AllowedSpan) -> str:
+    ends = ("" if abs(x) == math.inf else f"{x:.7g}" for x in s)
+    return f"{s.low:.7g}" if s.exact else "..".join(ends)
+
+
+def _angles(s: AllowedSpan, m: float) -> str:
+    """The motion angles that a requirement leaves, for a message."""
+    whole = 360.0 / m
+    if s.high * m <= MOTION_MIN:
+        return "no time to move"
+    if s.low * m >= 360.0 - MOTION_MIN:
+        return "no dwell"
+    return AllowedSpan(
+        s.low if s.low > 0.0 else -math.inf, s.high if s.high < whole else math.inf
+    ).words("a motion of", " deg")

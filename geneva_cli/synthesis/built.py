@@ -1,0 +1,119 @@
+"""Sizes with which the parts of a chosen machine pass every check in a full turn."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from typing import NamedTuple
+
+from geneva_cli.layout.sizes import wall_min
+from geneva_cli.machine.mechanism import Mechanism, build
+from geneva_cli.machine.spec import Spec
+from geneva_cli.synthesis.parts import SPARE, USUAL, exact, parts, with_roller
+from geneva_cli.synthesis.parts_data import parts_data
+from geneva_cli.synthesis.turns import HAND_OVER_PLAY, LOST, Failure, Turns
+from geneva_cli.verdict.checks import checks
+from geneva_cli.verdict.checks.registry import LIMITS, MOTION, motion_checks
+
+# keys that conflict with a crank's bore
+SHAFT = {"crank_shaft_mm", "crank_hub_mm", "crank_bore_wall_mm"}
+UNDERCUT = "undercut_mm"
+UNSIZED = {*MOTION, *LIMITS} - {UNDERCUT}  # checks that no other roller can mend
+
+
+class Built(NamedTuple):
+    """A spec, and the checks that fail in its parts, empty if none does."""
+
+    spec: Spec
+    trouble: str
+
+
+def built(spec: Spec, fixed: frozenset[str] = frozenset()) -> Built:
+    """The spec with the first of some sizes with which its parts pass every check in a full turn.
+
+    ``fixed`` are keys of its [size] that must not change. If no sizes pass, the spec is unchanged.
+    """
+    return built_together([spec], fixed)[0]
+
+
+def built_together(
+    specs: Sequence[Spec], fixed: frozenset[str] = frozenset(), turns: Turns | None = None
+) -> list[Built]:
+    """The result of ``built`` for several specs; those with the same positions are turned once.
+
+    ``turns`` are the machines that were turned before.
+    """
+    turns = turns or Turns()
+    return [_built(turns, spec, fixed) for spec in specs]
+
+
+def passes(spec: Spec, turns: Turns) -> bool:
+    """Return True if the parts pass every check with the sizes of the spec."""
+    machine = build(spec)
+    return not (_of_motion(machine) or turns.first_failing(machine))
+
+
+def _built(turns: Turns, spec: Spec, fixed: frozenset[str]) -> Built:
+    machine = build(spec)
+    motion = _of_motion(machine)
+    if {one.name for one in motion} & UNSIZED:  # no need to turn them
+        return Built(spec, _names(motion))
+    failing = known = [*motion, *turns.first_failing(machine)]
+    if not failing:
+        return Built(spec, "")
+    if {one.name for one in failing} <= SHAFT:  # test whether other checks fail too
+        failing = known = turns.failing(machine)
+    for other in _others(spec, {one.name for one in failing}, fixed):
+        if any(one.exceeds(LOST) for one in failing):
+            break
+        failing = _other_failing(turns, other, known)
+        if not failing:
+            return Built(other, "")
+        known = [*dict.fromkeys((*failing, *known))]
+    return Built(spec, _names([*motion, *turns.failing(machine)]))
+
+
+def _names(failing: Sequence[Failure]) -> str:
+    return ", ".join(one.name for one in failing)
+
+
+def _others(spec: Spec, trouble: set[str], fixed: frozenset[str]) -> Iterator[Spec]:
+    """The machine with other sizes: smaller rollers, the nearest first, then larger ones.
+
+    Larger ones are tried only if the sole failure is the wheel's play at the ends of a slot with
+    different entry and exit paths. The smaller their distance compared with the roller, the less
+    play.
+    """
+    overhung = "crank_bore_mm" not in fixed and trouble & SHAFT
+    if overhung:
+        spec = spec.with_("size.crank_bore_mm", 0.0)
+        yield spec
+    if trouble <= SHAFT or trouble & UNSIZED or "roller_radius_mm" in fixed:
+        return
+    L = build(spec).center_distance_mm
+    r = spec.roller_radius_mm(L)
+    least = island = SPARE * parts_data(spec).least if spec.is_flat else 0.0
+    if spec.drive.LOCKS and spec.size.lock_radius_mm is None:
+        least = max(least, wall_min(spec.size, L))  # a horn is no thicker than its roller's radius
+    for other in [exact(0.01 * percent * L) for percent in USUAL]:
+        if least <= other < r * (1.0 - 1e-9):
+            yield with_roller(spec, other)
+    if trouble <= {HAND_OVER_PLAY} and island:
+        larger = [with_roller(spec, exact(0.01 * percent * L)) for percent in (8.0, 10.0)]
+        yield from (one for one in larger if not parts(build(one)).why)
+
+
+def _other_failing(turns: Turns, spec: Spec, known: Sequence[Failure]) -> list[Failure]:
+    """Some of the checks that fail with other sizes, after those ``known`` to fail before.
+
+    The sizes change nothing in the motion but the undercut, which a smaller roller reduces.
+    """
+    machine = build(spec)
+    named = dict(LIMITS)
+    if UNDERCUT in {one.name for one in known}:
+        named[UNDERCUT] = MOTION[UNDERCUT]
+    before = [Failure(c.name) for c in motion_checks(named, machine) if c.passes is False]
+    return before or turns.some_failing(machine, known) or _of_motion(machine)
+
+
+def _of_motion(machine: Mechanism) -> list[Failure]:
+    return [Failure(c.name) for c in checks(machine, parts=False) if c.passes is False]

@@ -1,0 +1,68 @@
+"""All families that may meet a requirement, for all numbers of slots, gearings and rollers.
+
+If one motion angle is required, a family's free number has a closed form. If a range is required,
+``best`` chooses the family's best machine.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Sequence
+from typing import TypeAlias
+
+from geneva_cli.kinematics import registry
+from geneva_cli.kinematics.wheels.gearing import Gearing
+from geneva_cli.study.target import Target
+from geneva_cli.synthesis.families import below
+from geneva_cli.synthesis.families.curved import with_laws
+from geneva_cli.synthesis.families.family import Family
+from geneva_cli.synthesis.families.four_bars import four_bars
+from geneva_cli.synthesis.families.straight import straight
+from geneva_cli.synthesis.families.two_numbers import two_numbers
+
+# For a limit of peak acceleration alone, the lowest peak of each drive is added to the list.
+Kind: TypeAlias = Callable[[Target, Sequence[Gearing], list[float]], Iterator[Family]]
+
+
+def kinds(target: Target) -> list[tuple[Kind, Target]]:
+    """Independent kinds of machines: all four-bars; straight slots, and laws, of each gearing."""
+    first, last = (
+        (below.straight, below.with_laws) if target.only_acceleration else (_straight, _laws)
+    )
+    each = [target._replace(gearings=(gearing,)) for gearing in target.gearings]
+    return [
+        (_four_bars, target),
+        *((first, one) for one in each),
+        *((last, one._replace(laws=(law,))) for law in target.laws for one in each),
+    ]
+
+
+def longest_first(target: Target) -> list[int]:
+    """The numbers of the kinds in the order in which two processes finish them soonest.
+
+    Four-bars come first, then the laws of the first gearing; the fastest come last.
+    """
+    wheels, laws = len(target.gearings), len(target.laws)
+    straight = [1, *range(wheels, 1, -1)]
+    curved = range(1 + wheels, 1 + wheels * (1 + laws))
+    others = [i for i in curved if (i - 1) % wheels]
+    return [0, *curved[::wheels], *straight[:2], *others, *straight[2:]]
+
+
+def families(kind: Kind, target: Target, reached: list[float]) -> Iterator[Family]:
+    """The families of one kind that may meet the requirement."""
+    wheels = [registry.gearing(gearing)(z) for gearing in target.gearings for z in target.z]
+    yield from kind(target, wheels, reached)
+
+
+def _straight(target: Target, wheels: Sequence[Gearing], reached: list[float]) -> Iterator[Family]:
+    for wheel in wheels:
+        yield from straight(target, wheel)
+    yield from two_numbers(target, wheels)
+
+
+def _four_bars(target: Target, wheels: Sequence[Gearing], reached: list[float]) -> Iterator[Family]:
+    yield from four_bars(target, wheels)
+
+
+def _laws(target: Target, wheels: Sequence[Gearing], reached: list[float]) -> Iterator[Family]:
+    yield from with_laws(target, wheels)

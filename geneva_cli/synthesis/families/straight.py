@@ -1,0 +1,179 @@
+"""Straight slots: the plain crank, also with offset slots, and drives in front of the crank.
+
+A side-crank, gears and a planet with the roller have one roller: several would move the wheel
+differently. On a sphere the angle between the shafts determines the motion.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterator
+from functools import partial
+
+from geneva_cli.kinematics.wheels.classic import half_motion_deg, rollers_max
+from geneva_cli.kinematics.wheels.gearing import Gearing
+from geneva_cli.machine.drives.crank import Crank
+from geneva_cli.machine.drives.elliptical_gears import EllipticalGears
+from geneva_cli.machine.drives.epicyclic import Epicyclic
+from geneva_cli.machine.drives.side_crank import SideCrank
+from geneva_cli.machine.spec import Spec
+from geneva_cli.numerics.angles import sin_cos_pi
+from geneva_cli.study.spans import AllowedSpan
+from geneva_cli.study.target import Target
+from geneva_cli.synthesis.families import closed
+from geneva_cli.synthesis.families.family import (
+    Family,
+    allowed_motions,
+    allows,
+    closed_span,
+    is_compatible,
+    machine,
+    natural_deg,
+    only,
+    rollers,
+)
+from geneva_cli.synthesis.families.two_stages import two_stages
+
+
+def straight(target: Target, wheel: Gearing) -> Iterator[Family]:
+    """The families with straight slots."""
+    natural = natural_deg(wheel)
+    for m in rollers(target, natural):
+        motion = allowed_motions(target, m, natural)
+        if allows(motion, natural):
+            yield only(plain(target, wheel, m))
+            yield from offset_slots(target, wheel, m)
+            if m == 1:
+                yield from planets(target, wheel)
+    yield from driven(target, wheel)
+    yield from two_stages(target, wheel)
+
+
+def plain(target: Target, wheel: Gearing, m: int) -> Spec:
+    """The plain crank."""
+    natural = natural_deg(wheel)
+    return machine(target, wheel, lambda n: Crank(n_rpm=n, rollers=m), m, natural)
+
+
+def offset_slots(target: Target, wheel: Gearing, m: int) -> Iterator[Family]:
+    """Offset slots, which miss the wheel's centre by a tenth of L, for a gentler entry.
+
+    With bounds or another goal, every other offset is possible too.
+    """
+    if "offset_mm" not in wheel.as_dict():
+        return
+    make = partial(_offset, plain(target, wheel, m))
+    tenth = 0.1
+    yield Family(make, tenth, tenth)
+    if target.limits or target.sort:
+        widest = closed.PARAMETER_MAX * wheel.step.sin_cos[1] ** 2
+        yield Family(make, -widest, widest, known=0.0, plain=tenth)
+
+
+def _offset(spec: Spec, fraction: float) -> Spec:
+    """A spec with slots offset by a fraction of the centre distance."""
+    return spec.with_("wheel.offset_mm", spec.given_distance_mm * fraction)
+
+
+def planets(target: Target, wheel: Gearing) -> Iterator[Family]:
+    """A roller on a planet: without a jump at entry, and with a free crank of the planet."""
+    z = wheel.z
+    if z not in (3, 4, 6):
+        return
+    for fixed in ("sun", "ring"):
+        make = partial(_on_planet, target, wheel, fixed)
+        shockless = make("shockless")
+        if not is_compatible(shockless):
+            return
+        yield only(shockless)
+        l, teeth = sin_cos_pi(1, z)[0], 2 * z // (z - 2)
+        c = 1.0 + teeth if fixed == "sun" else 1.0 - teeth
+        least = -l / (1.0 + c if c > 0.0 else teeth)
+        inside = least * (1.0 - 1e-6), l / (c * c - 1.0) * (1.0 - 1e-9)
+        yield Family(make, *inside, known=0.0)
+
+
+def _on_planet(target: Target, wheel: Gearing, fixed: str, ratio: float | str) -> Spec:
+    """A roller on a planet with a given ratio."""
+
+    def drive(n: float) -> Epicyclic:
+        return Epicyclic(planet_ratio=ratio, fixed=fixed, n_rpm=n)
+
+    return machine(target, wheel, drive, 1, natural_deg(wheel))
+
+
+def driven(target: Target, wheel: Gearing) -> Iterator[Family]:
+    """Changes of the plain crank's motion: a drive in front of it, or the angle of the shafts."""
+    natural = natural_deg(wheel)
+    has_one = target.rollers in (None, 1)
+    motion = closed_span(allowed_motions(target, 1, natural), 1) if has_one else None
+    if motion is not None and not (motion.exact and allows(motion, natural)):
+        yield from _in_front(target, wheel, natural, motion)
+    if not wheel.FLAT:
+        yield from _inclined(target, wheel)
+
+
+def _in_front(
+    target: Target, wheel: Gearing, natural: float, motion: AllowedSpan
+) -> Iterator[Family]:
+    yield from _between(partial(side_crank, target, wheel), closed.side_crank, natural, motion)
+    yield from _between(partial(gears, target, wheel), closed.eccentricity, natural, motion)
+
+
+def _between(
+    make: Callable[[float], Spec],
+    inverse: Callable[[float, float], float],
+    natural: float,
+    motion: AllowedSpan,
+) -> Iterator[Family]:
+    """A drive whose parameter increases with its motion, up to its limits."""
+    low, high = (inverse(natural, x) for x in motion)
+    if low <= closed.PARAMETER_MAX and high >= -closed.PARAMETER_MAX:
+        plain_too = 0.0 if allows(motion, natural) else math.nan
+        yield Family(
+            make, max(low, -closed.PARAMETER_MAX), min(high, closed.PARAMETER_MAX), plain_too, 0.0
+        )
+
+
+def _inclined(target: Target, wheel: Gearing) -> Iterator[Family]:
+    """Plain cranks on shafts that are not at right angles."""
+    z = wheel.z
+    least = 2.0 * half_motion_deg(1.0, 1, z)
+    for m in [target.rollers] if target.rollers else range(1, rollers_max(least) + 1):
+        free = closed_span(allowed_motions(target, m, 180.0), m)
+        if free is None or (free.exact and allows(free, 180.0)):
+            continue
+
+        make = partial(_on_axes, target, wheel, m)
+        low, high = (closed.axes(z, x) for x in free)
+        if low <= 180.0 - closed.AXES_MIN_DEG and high >= closed.AXES_MIN_DEG:
+            right = 90.0 if allows(free, 180.0) else math.nan
+            yield Family(
+                make,
+                max(low, closed.AXES_MIN_DEG),
+                min(high, 180.0 - closed.AXES_MIN_DEG),
+                right,
+                90.0,
+            )
+
+
+def _on_axes(target: Target, wheel: Gearing, m: int, axes: float) -> Spec:
+    """A plain crank on shafts at a given angle, degrees."""
+    inclined, motion = wheel.with_key("axes_deg", axes), closed.axes_motion(wheel.z, axes)
+    return machine(target, inclined, lambda n: Crank(n_rpm=n, rollers=m), m, motion)
+
+
+def side_crank(target: Target, wheel: Gearing, A: float) -> Spec:
+    """A side-crank in front of a wheel, with one roller."""
+    motion = closed.side_crank_motion(natural_deg(wheel), A)
+    return machine(target, wheel, lambda n: SideCrank(A=A, n_rpm=n), 1, motion)
+
+
+def gears(target: Target, wheel: Gearing, e: float) -> Spec:
+    """Elliptical gears in front of a wheel, in the phase given by the sign of e."""
+    size, phase = closed.phased(e)
+
+    def drive(n: float) -> EllipticalGears:
+        return EllipticalGears(eccentricity=size, phase=phase, n_rpm=n)
+
+    return machine(target, wheel, drive, 1, closed.gears_motion(natural_deg(wheel), e))

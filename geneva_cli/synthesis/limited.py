@@ -1,0 +1,68 @@
+"""The limits of a requirement's frame as bounds, and the rows that break them."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+from geneva_cli.study.sweep.constraints import Constraint
+from geneva_cli.study.target import Target
+from geneva_cli.synthesis.rows import PEAKS, MachineRow
+from geneva_cli.verdict.checks.load_limits import QUANTITIES
+
+# Keys of [limits], which name their checks too, and the quantities that they limit from above or
+# below. The lock's load is equal in all machines of a wheel.
+UPPER_LIMITS = {
+    **PEAKS,
+    **{key: f"loads.{load}.max" for key, load in QUANTITIES.items()},
+    "pv_max_W_m2": "life.pv_max_W_m2",
+    "slot_wear_max_mm_per_million": "life.slot_wear_mm_per_million",
+}
+LOWER_LIMITS = {"roller_life_min_h": "life.roller_life_h"}
+
+
+def frame_limits(target: Target) -> tuple[Constraint, ...]:
+    """The frame's limits as bounds."""
+    values = target.frame.limits.as_dict() if target.frame else {}
+    return tuple(
+        Constraint(name, sign, float(values[key]))
+        for names, sign in ((UPPER_LIMITS, "<="), (LOWER_LIMITS, ">="))
+        for key, name in names.items()
+        if values.get(key) is not None
+    )
+
+
+def breaks_limit(row: MachineRow) -> bool:
+    """Return True if a row breaks a limit of its frame."""
+    return not {*UPPER_LIMITS, *LOWER_LIMITS}.isdisjoint(row.trouble.split(", "))
+
+
+def family(row: MachineRow) -> tuple[object, ...]:
+    """A key that is equal for all machines of one family."""
+    candidate, wheel = row.candidate, row.spec.wheel
+    own = candidate.drive, candidate.law, candidate.fixed, candidate.rollers
+    return (type(wheel), wheel.z, *own)
+
+
+def first_of_each(rows: Sequence[MachineRow], linkages: bool = False) -> list[MachineRow]:
+    """The first row of every family, or the first that may be built if that one cannot.
+
+    With ``linkages`` every linkage counts as a family, as several rows stand for those searched.
+    """
+    kept: list[MachineRow] = []
+    can_be: dict[Any, bool] = {}  # by family, whether one of the kept rows may be built
+    for i, row in enumerate(rows):
+        apart = linkages and row.candidate.crank_mm is None
+        own = i if apart else family(row)
+        if own not in can_be or (not can_be[own] and not row.is_impossible):
+            kept.append(row)
+            can_be[own] = not row.is_impossible
+    return kept
+
+
+def with_replacements(rows: Sequence[MachineRow], kept: Sequence[MachineRow]) -> list[MachineRow]:
+    """The rows, with those that break a limit replaced by rows ``kept`` of their family."""
+    broken = {family(row) for row in rows if breaks_limit(row)}
+    instead = [row for row in kept if family(row) in broken and not breaks_limit(row)]
+    mended = {family(row) for row in instead}
+    return [*(row for row in rows if family(row) not in mended), *instead]

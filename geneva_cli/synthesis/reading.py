@@ -1,0 +1,163 @@
+"""A requirement read from the options of the command line, with contradictions refused."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+
+from geneva_cli.errors import GenevaError, cut, few, nearest
+from geneva_cli.kinematics.registry import STANDARD_LAWS as LAWS
+from geneva_cli.machine.spec import Spec
+from geneva_cli.spec.ranges import range_text
+from geneva_cli.spec.rules import POSITIVE, Z_MAX, Range
+from geneva_cli.study.goals import objective
+from geneva_cli.study.spans import AllowedSpan
+from geneva_cli.study.survey import parse_z
+from geneva_cli.study.sweep.constraints import Constraint, constraint, refuse_contradictions
+from geneva_cli.study.target import GEARINGS, PEAK, SPACE, Target
+from geneva_cli.verdict.quantities.names import whole_name
+
+# The requirements for a number or a range: allowed values, and name and unit in words.
+SPANS = {
+    "tau": (Range(0.0, 1.0, "()"), "tau", ""),
+    "motion_deg": (Range(0.0, 360.0, "()"), "a motion of", " deg"),
+    "dwell_deg": (POSITIVE, "a dwell of", " deg"),
+    "motion_s": (POSITIVE, "a motion of", " s"),
+    "dwell_s": (POSITIVE, "a dwell of", " s"),
+    "cycle": (Range(1e-6, 1e6), "a cycle of", " s"),
+}
+
+
+def read_target(
+    *,
+    tau: str = "",
+    motion_deg: str = "",
+    dwell_deg: str = "",
+    motion_s: str = "",
+    dwell_s: str = "",
+    cycle: str = "",
+    z: str = "",
+    internal: bool = False,
+    external: bool = False,
+    spherical: bool = False,
+    rollers: int | None = None,
+    law: str = "modified-sine",
+    frame: Spec | None = None,
+    sort: str = "",
+    subject_to: Sequence[str] = (),
+    space: str = "",
+) -> Target:
+    """Return the requirement that the options state as text; an empty text is an option not given.
+
+    Numbers may be fractions (``1/3``), and those of ``SPANS`` ranges (``0.8..``). Raises
+    GenevaError, naming the option, for contradictions and for values out of range.
+    """
+    texts = {
+        "tau": tau,
+        "motion_deg": motion_deg,
+        "dwell_deg": dwell_deg,
+        "motion_s": motion_s,
+        "dwell_s": dwell_s,
+        "cycle": cycle,
+    }
+    spans = {
+        name: span(f"--{name.replace('_', '-')}", text, SPANS[name][0])
+        for name, text in texts.items()
+        if text
+    }
+    if not (spans or subject_to or frame):
+        raise GenevaError(
+            "no requirement; give one or more of --tau, --motion-deg, --dwell-deg, --motion-s, "
+            "--dwell-s, --cycle and --subject-to"
+        )
+    if rollers is not None and not 1 <= rollers <= Z_MAX:
+        raise GenevaError(f"--rollers {cut(rollers)}: it must be at least 1, at most {Z_MAX}")
+    phrases = [spans[name].words(*SPANS[name][1:]) for name in spans]
+    phrases = [w if w[:2] == "a " else " = ".join(w.split(" ", 1)) for w in phrases]
+    bounds = tuple(constraint(text) for text in subject_to)
+    refuse_contradictions(bounds)
+    phrases += [str(bound) for bound in bounds]
+    peaks = [bound for bound in bounds if _is_peak(bound)]
+    words = ", ".join(phrases) or "the spec alone"
+    chosen = dict(zip(GEARINGS, (external, internal, spherical), strict=True))
+    target = Target(
+        words if words.startswith(("tau", "k ")) else words[:1].upper() + words[1:],
+        _slots(z, frame),
+        tuple(g for g, is_chosen in chosen.items() if is_chosen) or GEARINGS,
+        rollers,
+        _laws(law),
+        spans,
+        min((bound.bound for bound in peaks), default=None),
+        frame,
+        objective(sort, "--sort") if sort else None,
+        tuple(bound for bound in bounds if bound not in peaks),
+        number("--space", space, Range(0.1, 100.0)) if space else SPACE,
+    )
+    target.refuse_contradictions()
+    return target
+
+
+def _slots(text: str, frame: Spec | None) -> tuple[int, ...]:
+    if not text and frame is not None:
+        return (frame.wheel.z,)
+    z = parse_z(text or "3..24")
+    most = 200  # each wheel takes some hundredths of a second
+    if len(z) > most:
+        raise GenevaError(f"--z {cut(text)}: that is more than {most} wheels; give fewer")
+    return tuple(dict.fromkeys(z))
+
+
+def _laws(name: str) -> tuple[str, ...]:
+    if name == "all":
+        return tuple(LAWS)
+    if name not in LAWS:
+        hint = nearest(name, (*LAWS, "all"))
+        raise GenevaError(
+            f'--law "{cut(name)}": unknown{hint}; it must be all or {few(name, LAWS)}'
+        )
+    return (name,)
+
+
+def _is_peak(bound: Constraint) -> bool:
+    """Return True for an upper limit of peak acceleration, which families keep in closed form."""
+    is_limit = bound.sign == "<=" and bound.bound > 0.0
+    return is_limit and whole_name(bound.name, "--subject-to") == PEAK
+
+
+def span(option: str, text: str, rule: Range) -> AllowedSpan:
+    """Return the range in an option's text. Raises GenevaError, naming the option, for others.
+
+    >>> span("--dwell-s", "0.8..", Range(0.0))
+    AllowedSpan(low=0.8, high=inf)
+    """
+    ends = range_text(text, f"{option} {cut(text)}")
+    if not ends:
+        x = number(option, text, rule)
+        return AllowedSpan(x, x)
+    low, high, step = ends
+    if step or not (low or high):
+        raise GenevaError(f"{option} {cut(text)}: a range is LOW..HIGH, LOW.. or ..HIGH")
+    interval = AllowedSpan(
+        number(option, low, rule) if low else -math.inf,
+        number(option, high, rule) if high else math.inf,
+    )
+    if interval.empty:
+        raise GenevaError(f"{option} {cut(text)}: the first number must not be above the second")
+    return interval
+
+
+def number(option: str, text: str, rule: Range) -> float:
+    """Return a number or a fraction of two.
+
+    Raises GenevaError, naming the option, for another text.
+    """
+    above, slash, below = text.partition("/")
+    try:
+        x = float(above) / float(below) if slash else float(text)
+    except (ValueError, ZeroDivisionError):
+        raise GenevaError(
+            f'{option} "{cut(text)}": not a number; write 0.25, 1/4, or a range 0.2..0.3'
+        ) from None
+    if x not in rule:
+        raise GenevaError(f"{option} {cut(text)}: it must be {rule}")
+    return x

@@ -1,0 +1,332 @@
+"""The search for machines that meet a requirement, with their costs, the best first."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Sequence
+from functools import partial
+from typing import NamedTuple
+
+from geneva_cli.errors import GenevaError
+from geneva_cli.kinematics import registry
+from geneva_cli.kinematics.wheels.classic import rollers_max
+from geneva_cli.machine.mechanism import build
+from geneva_cli.machine.spec import Spec
+from geneva_cli.progress import tracked
+from geneva_cli.study.batches import numbers
+from geneva_cli.study.pool import cores, mapped
+from geneva_cli.study.sweep.constraints import Constraint, is_number
+from geneva_cli.study.target import TURNS, Target
+from geneva_cli.synthesis.best import best
+from geneva_cli.synthesis.bounds import known_bounds
+from geneva_cli.synthesis.families import closed
+from geneva_cli.synthesis.families.every import Kind, families, kinds, longest_first
+from geneva_cli.synthesis.families.family import BARE, natural_deg, pieces
+from geneva_cli.synthesis.families.straight import plain
+from geneva_cli.synthesis.limited import (
+    breaks_limit,
+    first_of_each,
+    frame_limits,
+    with_replacements,
+)
+from geneva_cli.synthesis.quantities import (
+    Cells,
+    QuantityRequest,
+    batch_cells,
+    bounded,
+    quantity_request,
+)
+from geneva_cli.synthesis.replacements import replacement_rows
+from geneva_cli.synthesis.rows import Candidate, MachineRow, rows
+from geneva_cli.verdict.quantities.names import in_batch
+
+TURNED = 20  # rows whose parts are turned by default
+
+
+class Ranking(NamedTuple):
+    """The rows that meet a requirement, in order, and the quantities that it requests."""
+
+    rows: list[MachineRow]
+    target: Target  # with its bounds on times as ranges
+    requested: QuantityRequest
+
+    def rank(self, row: MachineRow) -> tuple[object, ...]:
+        """The sort key of a row."""
+        return _rank(self.target, self.requested, row)
+
+    def in_turn(self, row: MachineRow) -> MachineRow | None:
+        """A row with the requested quantities; None if it breaks a bound on them."""
+        if not self.requested.pick:
+            return row
+        try:
+            cells = batch_cells(self.requested.names, [row])
+            return bounded(self.requested, [row], cells)[0]
+        except GenevaError:
+            return None
+
+
+class _KindRows(NamedTuple):
+    """The rows of one kind of machine, and whether one of its machines keeps the bounds."""
+
+    rows: list[MachineRow]
+    requested: list[Cells | None]  # of each row, from ``batch_cells``
+    keeps: bool
+    reached: list[float]
+    errors: list[str]
+
+
+def search(target: Target, meanwhile: Callable[[], None] | None = None) -> Ranking:
+    """The machines that meet the requirement, in order; no part has been turned yet.
+
+    ``meanwhile`` is a task for this process while others search. Raises GenevaError, saying what is
+    within reach, if there is none.
+    """
+    request = _requested(target)
+    target = target._replace(bounds=request.bounds, sort=request.sort)
+    narrowed = target.with_times()
+    narrowed.refuse_contradictions()
+    by_kind = _all_kinds(narrowed, request.names, meanwhile=meanwhile)
+    if not any(kind.keeps for kind in by_kind):  # the error message says how near they come
+        by_kind = _all_kinds(target, request.names, how_near=True)
+    errors = [error for kind in by_kind for error in kind.errors]
+    every = [row for kind in by_kind for row in kind.rows]
+    if not every:
+        reached = [peak for kind in by_kind for peak in kind.reached]
+        if target.acceleration_max is not None and not reached:
+            return search(target.by_bounds)  # its message says how near they come
+        raise GenevaError(_out_of_reach(target, reached, errors))
+    together = [cells for kind in by_kind for cells in kind.requested]
+    ranked = _ranked(target, request, every, together)
+    if frame_limits(target) and narrowed.motion_for(1) and any(map(breaks_limit, ranked)):
+        which = [any(map(breaks_limit, kind.rows)) for kind in by_kind]
+        within = _within_limits(narrowed, request, which)
+        ranked = with_replacements(ranked, within)
+        ranked.sort(key=lambda row: _rank(target, request, row))
+    ranking = Ranking(ranked, narrowed, request)
+    others = map(ranking.in_turn, replacement_rows(narrowed, ranked[:TURNED], ranked))
+    ranked.extend(row for row in others if row)
+    ranked.sort(key=ranking.rank)
+    return ranking
+
+
+def _ranked(
+    target: Target,
+    request: QuantityRequest,
+    machines: list[MachineRow],
+    together: Sequence[Cells | None],
+) -> list[MachineRow]:
+    """The rows that keep the bounds, in order."""
+    if request.pick:
+        machines = bounded(request, machines, together)
+    machines = _worthwhile(target, request, machines)
+    machines.sort(key=lambda row: _rank(target, request, row))
+    return first_of_each(machines, linkages=_is_batched(target))
+
+
+def _within_limits(
+    target: Target, request: QuantityRequest, which: Sequence[bool]
+) -> list[MachineRow]:
+    """The rows of those kinds whose machines keep the frame's limits too."""
+    strict = target._replace(bounds=(*target.bounds, *frame_limits(target)), strict=True)
+    by_kind = _all_kinds(strict, request.names, which=which)
+    pairs = [pair for kind in by_kind for pair in zip(kind.rows, kind.requested, strict=True)]
+    kept = [(row, cells) for row, cells in pairs if not breaks_limit(row)]
+    try:
+        return _ranked(target, request, [row for row, _ in kept], [cells for _, cells in kept])
+    except GenevaError:  # none keeps the bounds as well
+        return []
+
+
+def _is_batched(target: Target) -> bool:
+    """Return True if a batch can compute the quantities of the goal and of the bounds.
+
+    If not, they are computed for several machines of each family, and the best of these is shown.
+    """
+    return in_batch(target.quantities)
+
+
+def _all_kinds(
+    target: Target,
+    names: Sequence[str],
+    how_near: bool = False,
+    meanwhile: Callable[[], None] | None = None,
+    which: Sequence[bool] = (),
+) -> list[_KindRows]:
+    """The results of all kinds of machines, or of ``which``, in order, from all cores."""
+    tasks = kinds(target)
+    order = [i for i in longest_first(target) if not which or which[i]]
+    wheels = len(target.gearings) * len(target.z) * len(target.laws)
+    many = which or wheels > 6  # a smaller search ends before a second process has started
+    workers = min(len(order), cores()) if many else 1
+    work = partial(_kind_rows, names=names, how_near=how_near)
+    done = mapped(work, [tasks[i] for i in order], workers, "machines", meanwhile)
+    done = tracked(done, "kinds of machines", len(order))
+    results = dict(zip(order, done, strict=True))
+    return [results[i] for i in sorted(results)]
+
+
+def _kind_rows(task: tuple[Kind, Target], names: Sequence[str], how_near: bool) -> _KindRows:
+    kind, target = task
+    reached: list[float] = []
+    errors: list[str] = []
+    of_kind = [*families(kind, target, reached)]
+    if not _is_batched(target):
+        of_kind = pieces(of_kind, 120)  # the quantities of each piece's best are computed singly
+    one_each, near = best(of_kind, target, how_near)
+    of = {one.spec: one.family for one in reversed([*one_each, *near])}
+    keeps, kept, broken = _divided(
+        known_bounds(target), [*dict.fromkeys(one.spec for one in one_each)]
+    )
+    shown = [*kept, *broken, *(one.spec for one in near)] if how_near else kept
+    built_rows = [
+        row._replace(family=of[spec].whole) if of[spec].is_free else row
+        for spec, row in zip(shown, rows(target, shown, errors), strict=True)
+        if row
+    ]
+    return _KindRows(built_rows, batch_cells(names, built_rows), keeps, reached, errors)
+
+
+def _requested(target: Target) -> QuantityRequest:
+    """The quantities that a requirement names, by their whole names.
+
+    They are those of a plain crank with one roller or, if the frame's sizes allow none, of the
+    frame.
+    """
+    if not (target.sort or target.bounds):
+        return QuantityRequest(None, (), None)
+    for gearing in target.gearings:
+        for z in target.z:
+            try:
+                spec = plain(target, registry.gearing(gearing)(z), 1)
+                build(spec)
+            except GenevaError:
+                continue
+            return quantity_request(target, spec)
+    return quantity_request(target, target.frame or BARE)
+
+
+def _divided(
+    bounds: Sequence[Constraint], specs: list[Spec]
+) -> tuple[bool, list[Spec], list[Spec]]:
+    """Divide specs by the bounds that do not depend on the roller.
+
+    Returns whether one of them is known to keep all, the specs that may keep them, and the others.
+    """
+    whatever = [b for b in bounds if not b.name.startswith("loads.")]
+    if not whatever:
+        return bool(specs), specs, []
+    values = numbers(specs, [b.name for b in whatever])
+    broken = [
+        own is not None and not all(b.kept(x) for b, x in zip(whatever, own, strict=True))
+        for own in values
+    ]
+    keeps = any(own and not out for own, out in zip(values, broken, strict=True))
+    kept = [spec for spec, out in zip(specs, broken, strict=True) if not out]
+    return keeps, kept, [spec for spec, out in zip(specs, broken, strict=True) if out]
+
+
+def _rank(target: Target, request: QuantityRequest, row: MachineRow) -> tuple[object, ...]:
+    """The sort key of a row: the goal's quantity, then peaks.
+
+    Numbers that differ only by rounding are equal.
+    """
+    candidate = row.candidate
+    first: list[object] = []
+    if request.sort:
+        value = row.extra[request.names.index(request.sort.name)]
+        first = [
+            not is_number(value),
+            float(f"{_first(request, row):.12g}") if is_number(value) else 0.0,
+            "" if is_number(value) else str(value),
+        ]
+    peaks = (candidate.peak, candidate.jerk_max)
+    return (
+        *first,
+        *[float(f"{x:.12g}") for x in peaks],
+        candidate.rollers,
+        candidate.z,
+        candidate.gearing,
+        candidate.drive,
+    )
+
+
+def _worthwhile(
+    target: Target, request: QuantityRequest, machines: list[MachineRow]
+) -> list[MachineRow]:
+    """The rows without machines of two numbers that are hardly better than one of one number.
+
+    If the nearest machine to the plain crank is required, all of them are left out that have one.
+    """
+    one = [row for row in machines if not row.candidate.of_two_numbers]
+
+    def beaten(row: MachineRow) -> bool:
+        own, value = row.candidate, _first(request, row)
+        least_gain = 0.01 * abs(value)  # over a machine of one number
+        return any(
+            (nearest or not value < _first(request, other) - least_gain)
+            for other in one
+            if (own.z, own.rollers, own.law) == (other.candidate.z, other.candidate.rollers, None)
+            and (
+                own.drive == other.candidate.drive
+                or (own.gearing == other.candidate.gearing and not other.candidate.is_driven)
+            )
+        )
+
+    nearest = target.with_times().any_motion and not request.sort
+    return [row for row in machines if not (row.candidate.of_two_numbers and beaten(row))]
+
+
+def _first(request: QuantityRequest, row: MachineRow) -> float:
+    """The first number of the sort key, least first; NaN if there is none."""
+    if not request.sort:
+        return row.candidate.peak
+    value = row.extra[request.names.index(request.sort.name)]
+    return request.sort.sign * float(value) if is_number(value) else math.nan
+
+
+def synthesis(target: Target) -> list[tuple[Spec, Candidate]]:
+    """The machines that meet the requirement, the lowest peak acceleration first, no part turned.
+
+    Raises GenevaError, saying what is within reach, if there is none.
+    """
+    return [(row.spec, row.candidate) for row in search(target).rows]
+
+
+def _out_of_reach(target: Target, reached: list[float], errors: list[str]) -> str:
+    """The error message if no machine was found: what would be within reach."""
+    counts = target.counts
+    m = target.rollers or next((int(m) for m in counts if m >= 1.0), 1)
+    if target.only_acceleration and reached:
+        (limit,) = target.limits
+        return (
+            f"--subject-to {limit}: out of reach; with these wheels the limit "
+            f"must be above {min(reached):.6g}, and more slots allow a lower one"
+        )
+    motion = target.motion_for(m)
+    most = max(
+        rollers_max(natural_deg(registry.gearing(g)(z))) for z in target.z for g in target.gearings
+    )
+    if motion is None:
+        return f"--rollers {m}: they jam on every requested wheel; at most {most}"
+    if target.rollers is None and m > most:
+        return (
+            f"{target.words}: out of reach: it takes {m} rollers, but straight slots carry at "
+            f"most {most} here, and no curved slots or cam with so many can be built"
+        )
+    if motion.low * m >= 360.0:
+        return (
+            f"{target.words}: {m} motions of {motion.low:.7g} deg leave no dwell in a turn of 360; "
+            f"with {m} rollers a motion must be below {360.0 / m:.7g} deg (tau below 1)"
+        )
+    if max(counts) < 1.0:
+        return (
+            f"{target.words}: out of reach: a wheel rests so long only behind a first wheel, which "
+            f"turns the crank once in {TURNS[0]} to {TURNS[-1]} turns; none of these rests so long"
+        )
+    first = f"; the first says: {errors[0]}" if errors else ""
+    return (
+        f"{target.words}: out of reach with {'one roller' if m == 1 else f'{m} rollers'}: curved "
+        "slots turn an internal wheel at most half as fast as the crank"
+        + (f", and no drive goes beyond A or eccentricity {closed.PARAMETER_MAX}" if m == 1 else "")
+        + f"; use more slots or a longer motion{first}"
+    )

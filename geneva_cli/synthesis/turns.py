@@ -1,0 +1,236 @@
+"""Checks that fail in full turns of machines; machines with equal positions are turned once.
+
+A drive in front of a crank changes when the parts reach a position, and not the positions. So
+machines that differ in it, or in the speed, are turned once.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+from functools import cached_property
+from typing import NamedTuple
+
+from geneva_cli.collisions.full_turn import turning
+from geneva_cli.collisions.gaps import WorkLimit
+from geneva_cli.collisions.glance import gap_about, play_about, play_before_entry
+from geneva_cli.collisions.machine_parts import MachineParts
+from geneva_cli.collisions.one_motion import one_motion
+from geneva_cli.drawings.model import PartsModel
+from geneva_cli.errors import GenevaError
+from geneva_cli.layout.assembly import Assembly, assembly
+from geneva_cli.layout.sizes import Sizes, sizes
+from geneva_cli.machine.drives.crank import Crank
+from geneva_cli.machine.mechanism import Mechanism, build
+from geneva_cli.machine.spec import Spec
+from geneva_cli.numerics.keeps import keeps
+from geneva_cli.numerics.tolerances import CLEARLY
+from geneva_cli.outlines.bounding_outlines import bounding_outlines
+from geneva_cli.outlines.crank import rollers_gap
+from geneva_cli.outlines.outlines import drawn
+from geneva_cli.outlines.relief_overlap import leave_no_disc
+from geneva_cli.study.target import USUAL_RPM
+from geneva_cli.verdict.checks.check import Check
+from geneva_cli.verdict.checks.play import finds_slot
+from geneva_cli.verdict.checks.registry import standing_checks, turn_checks
+
+HAND_OVER_PLAY = "hand_over_play_deg"
+# Times the play that lets a roller find its slot. With this much play between lock and slot no
+# smaller roller helps. Of cams with 5 to 12 slots those up to 3.1 were mended by one, and none from
+# 8.4 on.
+LOST = 6.0
+# From here on the true play may exceed LOST, so it must be computed precisely. Of 108 wheels with a
+# law, outlines with more material had an error below this.
+NEARLY = 0.5 * LOST
+
+
+class Failure(NamedTuple):
+    """A failing check: its name, its input angle in the machine of ``same_turn``, its ratio.
+
+    ``ratio`` is the value over its limit, 0 if there is no such ratio.
+    """
+
+    name: str
+    at_deg: float | None = None
+    ratio: float = 0.0
+
+    def exceeds(self, ratio: float) -> bool:
+        """Return True if the play between lock and slot exceeds ``ratio`` times its limit."""
+        return self.name == HAND_OVER_PLAY and self.ratio > ratio
+
+
+def same_turn(spec: Spec) -> Spec:
+    """The machine that represents all machines whose parts go through the same positions."""
+    drive = spec.drive
+    if spec.motion is None and drive.CRANKED:
+        m, angles = drive.rollers, drive.roller_angles_deg
+        return spec.replace(drive=Crank(n_rpm=USUAL_RPM, rollers=m, roller_angles_deg=angles))
+    return spec.replace(drive=drive.replace(n_rpm=USUAL_RPM))
+
+
+class Turns:
+    """Machines as they are turned, each once."""
+
+    def __init__(self) -> None:
+        self._turns: dict[Spec, _Turn] = {}
+
+    def failing(self, machine: Mechanism) -> list[Failure]:
+        """The checks of a machine's parts that fail, or the key that prevents the parts."""
+        turn = self._turn(machine)
+        return [*turn.standing(machine), *turn.every()]
+
+    def first_failing(self, machine: Mechanism) -> list[Failure]:
+        """The checks that fail at rest, or else the first that fail in the turn."""
+        turn = self._turn(machine)
+        return turn.undrawn() or turn.standing(machine) or turn.first()
+
+    def some_failing(self, machine: Mechanism, known: Iterable[Failure]) -> list[Failure]:
+        """Some checks that fail, tried first where checks were ``known`` to fail."""
+        turn = self._turn(machine)
+        early = (
+            turn.undrawn()
+            or turn.overlapping()
+            or turn.play_at_hand_over()
+            or turn.still_failing(known)
+        )
+        return early or turn.standing(machine) or turn.first()
+
+    def _turn(self, machine: Mechanism) -> _Turn:
+        own = same_turn(machine.spec)
+        if own not in self._turns:
+            self._turns[own] = _Turn(machine if own == machine.spec else build(own))
+        return self._turns[own]
+
+
+class _Turn:
+    """The parts of a machine and their full turn, as far as it is checked."""
+
+    def __init__(self, machine: Mechanism) -> None:
+        self._machine = machine
+        self._failing: list[Failure] = []
+        self._begun = False
+
+    @cached_property
+    def _parts(self) -> MachineParts | Failure:
+        """The parts, or the key that prevents them."""
+        try:
+            if self._sized:
+                return drawn(*self._sized)
+            return PartsModel(self._machine, advice=False).parts
+        except GenevaError as error:
+            return _prevented_by(error)
+
+    @cached_property
+    def _closer(self) -> Iterator[list[Failure]]:
+        return iter(()) if isinstance(self._parts, Failure) else _turn_failures(self._parts)
+
+    @cached_property
+    def _sized(self) -> tuple[Assembly, Sizes] | None:
+        """The assembly and the sizes of flat parts; None for other machines."""
+        if not self._machine.spec.wheel.FLAT:
+            return None
+        try:
+            where = assembly(self._machine)
+            return where, sizes(where)
+        except GenevaError:
+            return None
+
+    def undrawn(self) -> list[Failure]:
+        """The key that prevents the parts, if nothing is left of the locking disc.
+
+        This is known before the parts are drawn.
+        """
+        no_disc = self._sized is not None and leave_no_disc(*self._sized)
+        return [Failure("roller_radius_mm")] if no_disc else []
+
+    def overlapping(self) -> list[Failure]:
+        """The check of two rollers on one crank that overlap, which needs no walls."""
+        gap = rollers_gap(*self._sized) if self._sized else None
+        return [] if gap is None or keeps(gap, "at least", 0.0) else [Failure("rollers_apart_mm")]
+
+    def play_at_hand_over(self) -> list[Failure]:
+        """The play between lock and slot from simpler outlines, or the key that prevents parts.
+
+        These have more material than the parts. A wheel near the limit LOST must be drawn.
+        """
+        try:
+            more = bounding_outlines(*self._sized) if self._sized else None
+        except GenevaError as error:
+            return [_prevented_by(error)]
+        ratio = play_before_entry(more) / finds_slot(more) if more else 0.0
+        play = Failure(HAND_OVER_PLAY, ratio=ratio)
+        return [play] if play.ratio > CLEARLY and not play.exceeds(NEARLY) else []
+
+    def standing(self, machine: Mechanism) -> list[Failure]:
+        """The checks at rest that fail, for a machine with the same positions."""
+        if isinstance(self._parts, Failure):
+            return [self._parts]
+        own = self._parts.assembly._replace(full=machine, to_input=machine.spec.drive.input_deg)
+        return _failures(standing_checks(self._parts.over(own)))
+
+    def every(self) -> list[Failure]:
+        """All checks of the turn that fail."""
+        while self._sample():
+            pass
+        return self._failing
+
+    def first(self) -> list[Failure]:
+        """The first checks that fail; closer sampling only reduces gaps and increases play."""
+        while not self._sure() and self._sample():
+            pass
+        return self._failing
+
+    def still_failing(self, known: Iterable[Failure]) -> list[Failure]:
+        """The checks of ``known`` that fail at the same place, if the turn is not sampled yet."""
+        parts = self._parts
+        if self._begun or isinstance(parts, Failure):
+            return []
+        return [one for one in known if _fails_at_the_same_place(parts, one)]
+
+    def _sure(self) -> bool:
+        """Return True if a check fails, and the play is known to be below or above LOST."""
+        nearly = any(one.exceeds(NEARLY) and not one.exceeds(LOST) for one in self._failing)
+        return bool(self._failing) and not nearly
+
+    def _sample(self) -> bool:
+        """Sample the turn more closely; return False if that is no longer possible."""
+        closer = next(self._closer, None)
+        if closer is None:
+            return False
+        self._begun, self._failing = True, closer
+        return True
+
+
+def _prevented_by(error: GenevaError) -> Failure:
+    """The key that an error about parts names."""
+    return Failure(str(error.key[-1]) if error.key else "outline")
+
+
+def _turn_failures(parts: MachineParts) -> Iterator[list[Failure]]:
+    """The checks of a turn that fail, at ever closer sampling."""
+    try:
+        for turn in turning(one_motion(parts)):
+            yield _failures(turn_checks(parts, turn))
+    except WorkLimit:
+        yield [Failure("full_turn")]
+
+
+def _failures(checks: Iterable[Check]) -> list[Failure]:
+    return [
+        Failure(c.name, c.at_deg, c.value / c.limit if c.value and c.limit else 0.0)
+        for c in checks
+        if c.passes is False
+    ]
+
+
+def _fails_at_the_same_place(parts: MachineParts, one: Failure) -> bool:
+    """Return True if a check that failed with other sizes fails with these at the same place."""
+    if one.at_deg is None:
+        return False
+    try:
+        if one.name in ("gap_mm", "idle_roller_mm"):
+            return gap_about(parts, one.at_deg) < -CLEARLY * parts.contact
+        if one.name == HAND_OVER_PLAY:
+            return play_about(parts, one.at_deg) > CLEARLY * finds_slot(parts)
+    except WorkLimit:
+        return False
+    return False
