@@ -206,5 +206,6 @@ def _may_hold(kind: type) -> bool:
     """True for types of a machine or of its spec, whose numbers may be arrays."""
     if issubclass(kind, Points):
         return False
-    ours = kind.__module__.startswith(("geneva_cli.machine.", "geneva_cli.spec."))
+    rooms = ("kinematics", "linkage", "machine", "spec")
+    ours = kind.__module__.startswith(tuple(f"geneva_cli.{room}." for room in rooms))
     return ours or issubclass(kind, (tuple, list))
