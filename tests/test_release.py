@@ -2,6 +2,7 @@
 
 import re
 
+import pytest
 from repo import ROOT
 from typer.main import get_command
 
@@ -21,3 +22,17 @@ def test_the_changes_name_every_command():
     changes = (ROOT / ".github/CHANGELOG.md").read_text()
     commands = set(get_command(app).commands)
     assert {name for name in commands if f"`{name}`" not in changes} == set()
+
+
+@pytest.mark.parametrize(
+    "page", [".github/CONTRIBUTING.md", "geneva_cli/manual/explanation/house.md"]
+)
+def test_files_that_a_page_names_are_there(page: str) -> None:
+    """Files and folders in backquotes, from the top or from the package; dwell.py and build/ are made."""
+    text = (ROOT / page).read_text(encoding="utf-8")
+    named = set(re.findall(r"`([\w.]+(?:/[\w.]+)*/?(?:\.(?:py|md|yml|toml))?)`", text))
+    paths = {name for name in named if "/" in name} - {"verdict/checks/dwell.py", "build/"}
+    assert len(paths) > 5
+    assert {
+        p for p in paths if not any((top / p).exists() for top in (ROOT, ROOT / "geneva_cli"))
+    } == set()
