@@ -13,6 +13,7 @@ import math
 from collections.abc import Iterable, Sequence
 from types import NoneType, UnionType
 from typing import (
+    TYPE_CHECKING,
     Annotated,
     Any,
     ClassVar,
@@ -28,6 +29,9 @@ from typing import (
 
 from geneva_cli.errors import GenevaError, cut, few, nearest, refuse
 from geneva_cli.spec.rules import Csv, OneOf, Words, is_array, plain
+
+if TYPE_CHECKING:
+    import inspect
 
 LIST: TypeAlias = tuple[float, ...]
 LIST_MAX = 1000
@@ -62,19 +66,58 @@ class Field(NamedTuple):
 HASH = "_hash"  # name under which a record stores its own hash
 
 
+class _Signature:
+    """Signature of a table's class, for ``help`` and editors; it is computed when they ask."""
+
+    def __get__(self, table: object, kind: type[SpecTable]) -> inspect.Signature:
+        import inspect
+
+        empty = inspect.Parameter.empty
+        by_keyword = inspect.Parameter.KEYWORD_ONLY
+        either = inspect.Parameter.POSITIONAL_OR_KEYWORD
+        every = sorted(_parameters(kind), key=lambda one: bool(one.kw_only))
+        return inspect.Signature(
+            [
+                inspect.Parameter(
+                    one.name,
+                    by_keyword if one.kw_only else either,
+                    default=empty if one.default is REQUIRED else one.default,
+                    annotation=one.type,
+                )
+                for one in every
+            ]
+        )
+
+
 @dataclass_transform(frozen_default=True, field_specifiers=(dataclasses.field,))
-@dataclasses.dataclass(frozen=True, eq=False, repr=False)
 class SpecTable:
     """A table of the spec. Raises GenevaError, naming table and key, for an invalid value.
 
-    Each class of tables is a frozen dataclass of its annotated fields, without a decorator. Their
-    common methods are written here, as generating them for each class slows the start of a run.
+    Each class of tables is a dataclass of its annotated fields, without a decorator, and frozen.
+    Their methods are written here, as generating them for each class slows the start of a run.
     """
 
     TABLE: ClassVar[str] = ""  # its name in the file
+    __signature__ = _Signature()
 
     def __init_subclass__(cls, kw_only: bool = False) -> None:
-        dataclasses.dataclass(frozen=True, eq=False, repr=False, kw_only=kw_only)(cls)
+        dataclasses.dataclass(init=False, eq=False, repr=False, kw_only=kw_only)(cls)
+
+    def __init__(self, *values: object, **named: object) -> None:
+        own, kind = vars(self), type(self)
+        if values:
+            named = _by_name(kind, values, named)
+        for one in _parameters(kind):
+            value = own[one.name] = named.get(one.name, one.default)
+            if value is REQUIRED:
+                raise TypeError(f"{kind.__name__} needs {one.name}")
+        self.__post_init__()
+
+    def __setattr__(self, name: str, value: object) -> None:
+        raise dataclasses.FrozenInstanceError(f"cannot assign to field {name!r}")
+
+    def __delattr__(self, name: str) -> None:
+        raise dataclasses.FrozenInstanceError(f"cannot delete field {name!r}")
 
     def __new__(cls, *_: object, **named: object) -> Self:
         """Refuse a keyword that is no field, with the nearest."""
@@ -86,7 +129,7 @@ class SpecTable:
             value = getattr(self, field.attribute)
             if value is not field.default:
                 value = checked(self.TABLE, field, value)
-                object.__setattr__(self, field.attribute, value)
+                vars(self)[field.attribute] = value
 
     def _values(self) -> dict[str, Any]:
         """Values by field name."""
@@ -140,6 +183,20 @@ class SpecTable:
         SideCrank(n_rpm=30.0, rollers=1, roller_angles_deg=None, A=0.6, input_crank_mm=None)
         """
         return copied(self, changes)
+
+
+def _by_name(
+    kind: type[SpecTable], values: Sequence[object], named: dict[str, object]
+) -> dict[str, object]:
+    """Arguments by name. Raises TypeError for too many values, or one that is also named."""
+    names = [one.name for one in _parameters(kind) if not one.kw_only]
+    if len(values) > len(names):
+        most = f"at most {len(names)} arguments" if names else "no argument"
+        raise TypeError(f"{kind.__name__} takes {most} without a name, not {len(values)}")
+    by_place = dict(zip(names, values, strict=False))
+    for name in by_place.keys() & named:
+        raise TypeError(f"{kind.__name__} has two values of {name}")
+    return by_place | named
 
 
 T = TypeVar("T")
@@ -199,13 +256,21 @@ def without_hash(record: object) -> dict[str, object]:
     return {name: value for name, value in vars(record).items() if name != HASH}
 
 
+_parameters_of: dict[type, tuple[dataclasses.Field[object], ...]] = {}
 _names_of: dict[type, tuple[str, ...]] = {}
+
+
+def _parameters(kind: type) -> tuple[dataclasses.Field[object], ...]:
+    """Fields of a dataclass, in their order."""
+    if kind not in _parameters_of:
+        _parameters_of[kind] = dataclasses.fields(kind)
+    return _parameters_of[kind]
 
 
 def _names(kind: type) -> tuple[str, ...]:
     """Names of a dataclass's fields."""
     if kind not in _names_of:
-        _names_of[kind] = tuple(one.name for one in dataclasses.fields(kind))
+        _names_of[kind] = tuple(one.name for one in _parameters(kind))
     return _names_of[kind]
 
 
@@ -222,7 +287,7 @@ def fields(table: type[SpecTable]) -> tuple[Field, ...]:
 def _fields(table: type[SpecTable]) -> tuple[Field, ...]:
     hints = get_type_hints(table, include_extras=True)
     out = []
-    for one in dataclasses.fields(table):
+    for one in _parameters(table):
         if get_origin(hints[one.name]) is not Annotated:
             continue  # not a key: an object with its own keys, such as a motion's law
         annotated, rule, meaning = get_args(hints[one.name])
