@@ -9,11 +9,11 @@ and Python users all use that line:
 from __future__ import annotations
 
 import dataclasses
+import inspect
 import math
 from collections.abc import Iterable, Sequence
 from types import NoneType, UnionType
 from typing import (
-    TYPE_CHECKING,
     Annotated,
     Any,
     ClassVar,
@@ -24,14 +24,10 @@ from typing import (
     dataclass_transform,
     get_args,
     get_origin,
-    get_type_hints,
 )
 
 from geneva_cli.errors import GenevaError, cut, few, nearest, refuse
 from geneva_cli.spec.rules import Csv, OneOf, Words, is_array, plain
-
-if TYPE_CHECKING:
-    import inspect
 
 LIST: TypeAlias = tuple[float, ...]
 LIST_MAX = 1000
@@ -70,8 +66,6 @@ class _Signature:
     """Signature of a table's class, for ``help`` and editors; it is computed when they ask."""
 
     def __get__(self, table: object, kind: type[SpecTable]) -> inspect.Signature:
-        import inspect
-
         empty = inspect.Parameter.empty
         by_keyword = inspect.Parameter.KEYWORD_ONLY
         either = inspect.Parameter.POSITIONAL_OR_KEYWORD
@@ -285,17 +279,24 @@ def fields(table: type[SpecTable]) -> tuple[Field, ...]:
 
 
 def _fields(table: type[SpecTable]) -> tuple[Field, ...]:
-    hints = get_type_hints(table, include_extras=True)
-    out = []
-    for one in _parameters(table):
-        if get_origin(hints[one.name]) is not Annotated:
-            continue  # not a key: an object with its own keys, such as a motion's law
-        annotated, rule, meaning = get_args(hints[one.name])
-        # an alternative (a | b) by its parts, anything else as it is; tuple[...] stays whole
-        types = get_args(annotated) if isinstance(annotated, UnionType) else (annotated,)
-        key = rule.key if isinstance(rule, Csv) else one.name.rstrip("_")
-        out.append(Field(key, one.name, types, rule, one.default, meaning))
-    return tuple(out)
+    bases = (base for base in table.__bases__ if issubclass(base, SpecTable) and base != SpecTable)
+    known = {field.attribute: field for base in bases for field in fields(base)}
+    own = inspect.get_annotations(table, eval_str=True)
+    known |= {
+        one.name: _field(one, own[one.name])
+        for one in _parameters(table)
+        # others are no keys: objects with their own keys, such as a motion's law
+        if get_origin(own.get(one.name)) is Annotated
+    }
+    return tuple(known[one.name] for one in _parameters(table) if one.name in known)
+
+
+def _field(one: dataclasses.Field[object], annotation: object) -> Field:
+    annotated, rule, meaning = get_args(annotation)
+    # an alternative (a | b) by its parts, anything else as it is; tuple[...] stays whole
+    types = get_args(annotated) if isinstance(annotated, UnionType) else (annotated,)
+    key = rule.key if isinstance(rule, Csv) else one.name.rstrip("_")
+    return Field(key, one.name, types, rule, one.default, meaning)
 
 
 def checked(table: str, field: Field, value: Any) -> Any:
