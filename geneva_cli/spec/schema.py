@@ -9,6 +9,7 @@ and Python users all use that line:
 from __future__ import annotations
 
 import dataclasses
+import inspect
 import math
 from collections.abc import Iterable, Sequence
 from types import NoneType, UnionType
@@ -23,7 +24,6 @@ from typing import (
     dataclass_transform,
     get_args,
     get_origin,
-    get_type_hints,
 )
 
 from geneva_cli.errors import GenevaError, cut, few, nearest, refuse
@@ -62,19 +62,56 @@ class Field(NamedTuple):
 HASH = "_hash"  # name under which a record stores its own hash
 
 
+class _Signature:
+    """Signature of a table's class, for ``help`` and editors; it is computed when they ask."""
+
+    def __get__(self, table: object, kind: type[SpecTable]) -> inspect.Signature:
+        empty = inspect.Parameter.empty
+        by_keyword = inspect.Parameter.KEYWORD_ONLY
+        either = inspect.Parameter.POSITIONAL_OR_KEYWORD
+        every = sorted(_parameters(kind), key=lambda one: bool(one.kw_only))
+        return inspect.Signature(
+            [
+                inspect.Parameter(
+                    one.name,
+                    by_keyword if one.kw_only else either,
+                    default=empty if one.default is REQUIRED else one.default,
+                    annotation=one.type,
+                )
+                for one in every
+            ]
+        )
+
+
 @dataclass_transform(frozen_default=True, field_specifiers=(dataclasses.field,))
-@dataclasses.dataclass(frozen=True, eq=False, repr=False)
 class SpecTable:
     """A table of the spec. Raises GenevaError, naming table and key, for an invalid value.
 
-    Each class of tables is a frozen dataclass of its annotated fields, without a decorator. Their
-    common methods are written here, as generating them for each class slows the start of a run.
+    Each class of tables is a dataclass of its annotated fields, without a decorator, and frozen.
+    Their methods are written here, as generating them for each class slows the start of a run.
     """
 
     TABLE: ClassVar[str] = ""  # its name in the file
+    __signature__ = _Signature()
 
     def __init_subclass__(cls, kw_only: bool = False) -> None:
-        dataclasses.dataclass(frozen=True, eq=False, repr=False, kw_only=kw_only)(cls)
+        dataclasses.dataclass(init=False, eq=False, repr=False, kw_only=kw_only)(cls)
+
+    def __init__(self, *values: object, **named: object) -> None:
+        own, kind = vars(self), type(self)
+        if values:
+            named = _by_name(kind, values, named)
+        for one in _parameters(kind):
+            value = own[one.name] = named.get(one.name, one.default)
+            if value is REQUIRED:
+                raise TypeError(f"{kind.__name__} needs {one.name}")
+        self.__post_init__()
+
+    def __setattr__(self, name: str, value: object) -> None:
+        raise dataclasses.FrozenInstanceError(f"cannot assign to field {name!r}")
+
+    def __delattr__(self, name: str) -> None:
+        raise dataclasses.FrozenInstanceError(f"cannot delete field {name!r}")
 
     def __new__(cls, *_: object, **named: object) -> Self:
         """Refuse a keyword that is no field, with the nearest."""
@@ -86,7 +123,7 @@ class SpecTable:
             value = getattr(self, field.attribute)
             if value is not field.default:
                 value = checked(self.TABLE, field, value)
-                object.__setattr__(self, field.attribute, value)
+                vars(self)[field.attribute] = value
 
     def _values(self) -> dict[str, Any]:
         """Values by field name."""
@@ -140,6 +177,20 @@ class SpecTable:
         SideCrank(n_rpm=30.0, rollers=1, roller_angles_deg=None, A=0.6, input_crank_mm=None)
         """
         return copied(self, changes)
+
+
+def _by_name(
+    kind: type[SpecTable], values: Sequence[object], named: dict[str, object]
+) -> dict[str, object]:
+    """Arguments by name. Raises TypeError for too many values, or one that is also named."""
+    names = [one.name for one in _parameters(kind) if not one.kw_only]
+    if len(values) > len(names):
+        most = f"at most {len(names)} arguments" if names else "no argument"
+        raise TypeError(f"{kind.__name__} takes {most} without a name, not {len(values)}")
+    by_place = dict(zip(names, values, strict=False))
+    for name in by_place.keys() & named:
+        raise TypeError(f"{kind.__name__} has two values of {name}")
+    return by_place | named
 
 
 T = TypeVar("T")
@@ -199,13 +250,21 @@ def without_hash(record: object) -> dict[str, object]:
     return {name: value for name, value in vars(record).items() if name != HASH}
 
 
+_parameters_of: dict[type, tuple[dataclasses.Field[object], ...]] = {}
 _names_of: dict[type, tuple[str, ...]] = {}
+
+
+def _parameters(kind: type) -> tuple[dataclasses.Field[object], ...]:
+    """Fields of a dataclass, in their order."""
+    if kind not in _parameters_of:
+        _parameters_of[kind] = dataclasses.fields(kind)
+    return _parameters_of[kind]
 
 
 def _names(kind: type) -> tuple[str, ...]:
     """Names of a dataclass's fields."""
     if kind not in _names_of:
-        _names_of[kind] = tuple(one.name for one in dataclasses.fields(kind))
+        _names_of[kind] = tuple(one.name for one in _parameters(kind))
     return _names_of[kind]
 
 
@@ -220,17 +279,24 @@ def fields(table: type[SpecTable]) -> tuple[Field, ...]:
 
 
 def _fields(table: type[SpecTable]) -> tuple[Field, ...]:
-    hints = get_type_hints(table, include_extras=True)
-    out = []
-    for one in dataclasses.fields(table):
-        if get_origin(hints[one.name]) is not Annotated:
-            continue  # not a key: an object with its own keys, such as a motion's law
-        annotated, rule, meaning = get_args(hints[one.name])
-        # an alternative (a | b) by its parts, anything else as it is; tuple[...] stays whole
-        types = get_args(annotated) if isinstance(annotated, UnionType) else (annotated,)
-        key = rule.key if isinstance(rule, Csv) else one.name.rstrip("_")
-        out.append(Field(key, one.name, types, rule, one.default, meaning))
-    return tuple(out)
+    bases = (base for base in table.__bases__ if issubclass(base, SpecTable) and base != SpecTable)
+    known = {field.attribute: field for base in bases for field in fields(base)}
+    own = inspect.get_annotations(table, eval_str=True)
+    known |= {
+        one.name: _field(one, own[one.name])
+        for one in _parameters(table)
+        # others are no keys: objects with their own keys, such as a motion's law
+        if get_origin(own.get(one.name)) is Annotated
+    }
+    return tuple(known[one.name] for one in _parameters(table) if one.name in known)
+
+
+def _field(one: dataclasses.Field[object], annotation: object) -> Field:
+    annotated, rule, meaning = get_args(annotation)
+    # an alternative (a | b) by its parts, anything else as it is; tuple[...] stays whole
+    types = get_args(annotated) if isinstance(annotated, UnionType) else (annotated,)
+    key = rule.key if isinstance(rule, Csv) else one.name.rstrip("_")
+    return Field(key, one.name, types, rule, one.default, meaning)
 
 
 def checked(table: str, field: Field, value: Any) -> Any:
