@@ -15,8 +15,9 @@ from geneva_cli.curves import fit
 from geneva_cli.curves.plates import Plate
 from geneva_cli.curves.shapes import Circle, Contour, closed
 from geneva_cli.errors import GenevaError
+from geneva_cli.layout.assembly import Assembly
 from geneva_cli.layout.groove import groove_curve
-from geneva_cli.layout.sizes import even
+from geneva_cli.layout.sizes import Sizes, even
 from geneva_cli.outlines.outlines import Outlines
 from geneva_cli.outlines.wheel_hub import about_axis
 from geneva_cli.parts.links import Links
@@ -62,7 +63,7 @@ def groove_base(parts: Outlines, bars: Links) -> Plate:
     """
     assert bars.sizes is not None  # the crank is a link
     L = parts.assembly.L
-    far, rim = _reaches(parts)
+    far, rim = groove_reaches(parts.assembly, parts.sizes)
     mount, at = even(0.25 * rim), far + 0.5 * rim
     mounts = [
         Circle(HOLES, (at * math.cos(turn), at * math.sin(turn)), mount)
@@ -92,14 +93,13 @@ def groove_stack(
     )
 
 
-def _reaches(parts: Outlines) -> tuple[float, float]:
+def groove_reaches(assembly: Assembly, sizes: Sizes) -> tuple[float, float]:
     """Return the groove's reach from the crank's axis, and the width of the rim around it, mm.
 
     Raises GenevaError, naming the key, where the wheel's hub leaves no space for the rim.
     """
-    sizes, far = parts.sizes, _farthest(parts)
-    wall = sizes.wall_min
-    space = parts.assembly.L - max(sizes.wheel_bore, sizes.wheel_hub) - wall - far
+    far, wall = _farthest(assembly, sizes), sizes.wall_min
+    space = assembly.L - max(sizes.wheel_bore, sizes.wheel_hub) - wall - far
     rim = min(max(RIM * sizes.roller, 4.0 * wall), space)
     if rim < 4.0 * wall:
         raise GenevaError(
@@ -111,15 +111,15 @@ def _reaches(parts: Outlines) -> tuple[float, float]:
     return far, rim
 
 
-def _farthest(parts: Outlines) -> float:
+def _farthest(assembly: Assembly, sizes: Sizes) -> float:
     """Return the groove's reach from the crank's axis: its farthest middle and half its width.
 
     There a flank is normal to the ray. The result does not depend on the drawing's tolerance.
     """
-    guide = parts.assembly.rollers[0][0].groove
+    guide = assembly.rollers[0][0].groove
     assert guide is not None  # otherwise there is no plate
-    at, _ = groove_curve(guide, parts.assembly.L, 0.0)(np.linspace(0.0, 360.0, SAMPLES))
-    return float(np.hypot(*at.T).max()) + parts.sizes.half_width
+    at, _ = groove_curve(guide, assembly.L, 0.0)(np.linspace(0.0, 360.0, SAMPLES))
+    return float(np.hypot(*at.T).max()) + sizes.half_width
 
 
 def _reach(flank: Contour) -> float:

@@ -28,10 +28,16 @@ from geneva_cli.outlines.bounding_outlines import bounding_outlines
 from geneva_cli.outlines.crank import rollers_gap
 from geneva_cli.outlines.outlines import drawn
 from geneva_cli.outlines.relief_overlap import leave_no_disc
+from geneva_cli.parts.groove_plate import groove_reaches
 from geneva_cli.study.target import USUAL_RPM
 from geneva_cli.verdict.checks.check import Check
 from geneva_cli.verdict.checks.play import finds_slot
-from geneva_cli.verdict.checks.registry import standing_checks, turn_checks
+from geneva_cli.verdict.checks.registry import (
+    check_named,
+    standing,
+    standing_checks,
+    turn_checks,
+)
 
 HAND_OVER_PLAY = "hand_over_play_deg"
 # Times the play that lets a roller find its slot. With this much play between lock and slot no
@@ -89,8 +95,9 @@ class Turns:
         early = (
             turn.undrawn()
             or turn.overlapping()
+            or turn.without_groove_plate()
             or turn.play_at_hand_over()
-            or turn.still_failing(known)
+            or turn.still_failing(machine, known)
         )
         return early or turn.standing(machine) or turn.first()
 
@@ -147,6 +154,18 @@ class _Turn:
         gap = rollers_gap(*self._sized) if self._sized else None
         return [] if gap is None or keeps(gap, "at least", 0.0) else [Failure("rollers_apart_mm")]
 
+    def without_groove_plate(self) -> list[Failure]:
+        """The check of the parts, if the wheel's hub leaves no space for the plate of a groove.
+
+        This is known before the parts are drawn.
+        """
+        try:
+            if self._sized and self._sized[0].rollers[0][0].groove:
+                groove_reaches(*self._sized)
+        except GenevaError:
+            return [Failure("parts")]
+        return []
+
     def play_at_hand_over(self) -> list[Failure]:
         """The play between lock and slot from simpler outlines, or the key that prevents parts.
 
@@ -164,8 +183,7 @@ class _Turn:
         """The checks at rest that fail, for a machine with the same positions."""
         if isinstance(self._parts, Failure):
             return [self._parts]
-        own = self._parts.assembly._replace(full=machine, to_input=machine.spec.drive.input_deg)
-        return _failures(standing_checks(self._parts.over(own)))
+        return _failures(standing_checks(_of_machine(self._parts, machine)))
 
     def every(self) -> list[Failure]:
         """All checks of the turn that fail."""
@@ -179,11 +197,19 @@ class _Turn:
             pass
         return self._failing
 
-    def still_failing(self, known: Iterable[Failure]) -> list[Failure]:
-        """The checks of ``known`` that fail at the same place, if the turn is not sampled yet."""
+    def still_failing(self, machine: Mechanism, known: Iterable[Failure]) -> list[Failure]:
+        """The first check of ``known`` at rest that fails, or else those of the turn.
+
+        The latter are tried at the places where they failed, if the turn is not sampled yet.
+        """
         parts = self._parts
         if self._begun or isinstance(parts, Failure):
             return []
+        own, among = _of_machine(parts, machine), standing(machine)
+        at_rest = (check_named(among, one.name, own) for one in known)
+        first = next((check for check in at_rest if check and check.passes is False), None)
+        if first:
+            return [Failure(first.name)]
         return [one for one in known if _fails_at_the_same_place(parts, one)]
 
     def _sure(self) -> bool:
@@ -198,6 +224,12 @@ class _Turn:
             return False
         self._begun, self._failing = True, closer
         return True
+
+
+def _of_machine(parts: MachineParts, machine: Mechanism) -> MachineParts:
+    """The parts, as those of a machine with the same positions."""
+    own = parts.assembly._replace(full=machine, to_input=machine.spec.drive.input_deg)
+    return parts.over(own)
 
 
 def _prevented_by(error: GenevaError) -> Failure:

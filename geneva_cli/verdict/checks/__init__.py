@@ -30,11 +30,17 @@ if TYPE_CHECKING:
 
 
 def checks(
-    mechanism: Mechanism, model: PartsModel | None = None, parts: bool = True
+    mechanism: Mechanism,
+    model: PartsModel | None = None,
+    parts: bool = True,
+    turned: bool = True,
 ) -> list[Check]:
-    """Every check of one design: its motion, its parts unless left out, its own ``[limits]``."""
+    """Every check of one design: its motion, its parts unless left out, its own ``[limits]``.
+
+    Without ``turned`` those of the whole turn are left out, which take the longest.
+    """
     motion = list(motion_checks(MOTION, mechanism))
-    shown = list(_parts(mechanism, model)) if parts else []
+    shown = list(_parts(mechanism, model, turned)) if parts else []
     return [*motion, *shown, *motion_checks(LIMITS, mechanism)]
 
 
@@ -92,8 +98,8 @@ def _proof(mechanism: Mechanism) -> PartsModel:
     return PartsModel(mechanism)
 
 
-def _parts(mechanism: Mechanism, model: PartsModel | None = None) -> Iterator[Check]:
-    """Walls, shafts and the full turn of a machine whose parts are drawn.
+def _parts(mechanism: Mechanism, model: PartsModel | None, turned: bool) -> Iterator[Check]:
+    """Walls, shafts and, if ``turned``, the full turn of a machine whose parts are drawn.
 
     If wheel or crank cannot be built, or turned, a single check says so instead.
     """
@@ -110,6 +116,8 @@ def _parts(mechanism: Mechanism, model: PartsModel | None = None) -> Iterator[Ch
         yield refused("parts", error)
         return
     yield from rows
+    if not turned:
+        return
     try:
         turn = model.turn
     except WorkLimit as error:

@@ -103,11 +103,20 @@ PROOFS: Checks = {
 }
 
 
+def checks_before_turn() -> tuple[str, ...]:
+    """The names of all checks but those of the whole turn; ``parts``: they can be built."""
+    lists = (MOTION, LIMITS, ("parts",), STATIC, SPHERE)
+    return tuple(dict.fromkeys(name for names in lists for name in names))
+
+
+def checks_of_turn() -> tuple[str, ...]:
+    """The names of the checks of the whole turn; ``full_turn``: the parts can be turned."""
+    return ("full_turn", *TURNING)
+
+
 def every_check() -> tuple[str, ...]:
     """The names of all checks."""
-    # parts and full_turn: the parts can be built and turned
-    lists = (MOTION, LIMITS, ("parts", "full_turn"), STATIC, SPHERE, TURNING)
-    return tuple(dict.fromkeys(name for names in lists for name in names))
+    return (*checks_before_turn(), *checks_of_turn())
 
 
 def motion_checks(among: Checks, mechanism: Mechanism) -> Iterator[Check]:

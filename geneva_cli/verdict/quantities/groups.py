@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, NamedTuple
 from geneva_cli.spec.load_named import load_named
 from geneva_cli.spec.schema import fields
 from geneva_cli.spec.tables import Limits, Load, RollerMaterial, Shaft, WheelMaterial
-from geneva_cli.verdict.checks.registry import PROOFS, every_check
+from geneva_cli.verdict.checks.registry import PROOFS, checks_before_turn, checks_of_turn
 
 if TYPE_CHECKING:
     from geneva_cli.drawings.model import PartsModel
@@ -106,13 +106,14 @@ def only(column: Number | None) -> float | None:
     return value if value is not None and math.isfinite(value) else None
 
 
-def own_names(table: str) -> tuple[str, ...]:
-    """The whole names of a table's quantities.
+def own_names(table: str, alone: str = "") -> tuple[str, ...]:
+    """The whole names of a table's quantities, or only those that the function ``alone`` computes.
 
     >>> own_names("strength.pin")[:2]
     ('strength.pin.diameter_mm', 'strength.pin.bending_MPa')
     """
-    return tuple(name for group in GROUPS if group.table == table for name in group.names)
+    groups = (one for one in GROUPS if one.table == table and alone in ("", one.alone))
+    return tuple(name for group in groups for name in group.names)
 
 
 def values(groups: Iterable[QuantityGroup], model: PartsModel) -> Values:
@@ -208,8 +209,14 @@ REPORT = (
     _group(
         "parts",
         "none rim_radius_mm slot_end_radius_mm lock_radius_mm recess_radius_mm relief horn_mm "
-        "wheel_bore_mm crank_bore_mm smallest_gap_mm smallest_gap_at_deg dwell_play_deg",
+        "wheel_bore_mm crank_bore_mm",
         "report.parts:parts",
+        makes_parts=True,
+    ),
+    _group(
+        "parts",
+        "smallest_gap_mm smallest_gap_at_deg dwell_play_deg",
+        "report.parts:turned",
         makes_parts=True,
     ),
     _group("parts_list", "", "report.parts_list:parts_list_tables", makes_parts=True),
@@ -292,7 +299,13 @@ STUDY = (
     ),
     QuantityGroup(
         "checks",
-        (*every_check(), "passes", "failed"),
+        checks_before_turn(),
+        "quantities.single:values_before_turn",
+        makes_parts=True,
+    ),
+    QuantityGroup(
+        "checks",
+        (*checks_of_turn(), "passes", "failed"),
         "quantities.single:check_values",
         makes_parts=True,
     ),

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 from geneva_cli.loads.cycle import cycle_of
 from geneva_cli.loads.sizing import WHEEL_INERTIA, sizing
 from geneva_cli.loads.summary import summaries
-from geneva_cli.verdict.checks import checks, proofs
-from geneva_cli.verdict.checks.registry import PROOFS, every_check
+from geneva_cli.verdict.checks import Check, checks, proofs
+from geneva_cli.verdict.checks.registry import PROOFS, checks_before_turn, checks_of_turn
 
 if TYPE_CHECKING:
     from geneva_cli.drawings.model import PartsModel
@@ -27,13 +28,22 @@ def machine(model: PartsModel) -> Values:
     }
 
 
+def values_before_turn(model: PartsModel) -> Values:
+    """The value of each check but those of the turn, None for those that do not apply."""
+    return _values(checks_before_turn(), checks(model.mechanism, model, turned=False))
+
+
 def check_values(model: PartsModel) -> Values:
-    """The value of each check, None for those that do not apply, and whether all pass."""
+    """The value of each check of the turn, None without it, and whether all checks pass."""
     rows = checks(model.mechanism, model)
-    values: Values = {f"checks.{name}": None for name in every_check()}
-    values |= {f"checks.{c.name}": c.value for c in rows}
+    values = _values(checks_of_turn(), rows)
     failed = [c.name for c in rows if c.passes is False]
     return values | {"checks.passes": not failed, "checks.failed": " ".join(failed) or None}
+
+
+def _values(names: Sequence[str], rows: Sequence[Check]) -> Values:
+    by_name = {c.name: c.value for c in rows}
+    return {f"checks.{name}": by_name.get(name) for name in names}
 
 
 def proved(model: PartsModel) -> Values:

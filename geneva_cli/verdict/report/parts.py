@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 from geneva_cli.drawings.model import PartsModel
 from geneva_cli.errors import GenevaError
 from geneva_cli.verdict.quantities.groups import own_names
@@ -9,24 +11,39 @@ from geneva_cli.verdict.report.values import Values
 
 
 def parts(model: PartsModel) -> Values:
-    """Sizes and results of the parts; None without parts, with the reason in ``parts.none``.
+    """Sizes of the parts; None without parts, with the reason in ``parts.none``.
 
-    A sphere has results of the turn, and the horn; its sizes are angles, in the list of parts.
+    A sphere has the horn; its other sizes are angles, in the list of parts.
     """
-    values: Values = dict.fromkeys(own_names("parts"))
+    values: Values = dict.fromkeys(own_names("parts", "report.parts:parts"))
+    return values | _or_reason(model, _sizes)
+
+
+def turned(model: PartsModel) -> Values:
+    """Results of the parts' whole turn; None without it, with the reason in ``parts.none``."""
+    values: Values = dict.fromkeys(own_names("parts", "report.parts:turned"))
+    return values | _or_reason(model, _turned)
+
+
+def _or_reason(model: PartsModel, compute: Callable[[PartsModel], Values]) -> Values:
     if not model.mechanism.spec.has_parts:
-        return values
+        return {}
     try:
-        return values | _turned(model) | (cut_sizes(model) if model.mechanism.spec.is_flat else {})
+        return compute(model)
     except GenevaError as error:
-        return values | {"parts.none": str(error)}
+        return {"parts.none": str(error)}
+
+
+def _sizes(model: PartsModel) -> Values:
+    parts = model.parts
+    horn: Values = {"parts.horn_mm": parts.sizes.horn if parts.crank else None}
+    return horn | (cut_sizes(model) if model.mechanism.spec.is_flat else {})
 
 
 def _turned(model: PartsModel) -> Values:
     parts, turn = model.parts, model.turn
     gap, locked = turn.smallest, bool(parts.crank)
     return {
-        "parts.horn_mm": parts.sizes.horn if locked else None,
         "parts.smallest_gap_mm": gap.mm if abs(gap.mm) > parts.contact else 0.0,
         "parts.smallest_gap_at_deg": gap.at_deg,
         "parts.dwell_play_deg": turn.dwell.deg if locked else None,
