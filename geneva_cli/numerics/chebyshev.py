@@ -133,7 +133,8 @@ def on_grid(values: Array) -> tuple[Array, Array]:
 
 def _even_and_odd(values: Array) -> tuple[Array, Array]:
     """Sums (m, points) and differences of values at mirrored points, which halve all products."""
-    first, middle, mirrored = values[:, :MIDDLE], values[:, [MIDDLE]], values[:, :MIDDLE:-1]
+    first, mirrored = values[:, :MIDDLE], values[:, :MIDDLE:-1]
+    middle = values[:, MIDDLE : MIDDLE + 1]
     return np.concatenate((first + mirrored, middle), axis=1), first - mirrored
 
 

@@ -15,7 +15,7 @@ import numpy as np
 
 from geneva_cli.numerics import chebyshev
 from geneva_cli.numerics.angles import DEGREE
-from geneva_cli.numerics.arrays import joined
+from geneva_cli.numerics.arrays import joined, rows_joined, rows_taken
 from geneva_cli.numerics.chebyshev import GRID, MIDDLE, POINTS
 from geneva_cli.numerics.greatest import GreatestValues
 from geneva_cli.numerics.pieces import (
@@ -68,12 +68,13 @@ class CandidateCurves(NamedTuple):
         """Some of the curves, by a mask or their numbers."""
         number, rows, sign, part, value, left = self
         some = number[which], rows.take(which), sign[:, which], part[:, which]
-        return CandidateCurves(*some, value[which], left[which])
+        return CandidateCurves(*some, rows_taken(value, which), left[which])
 
     @property
     def within(self) -> Mask:
         """Masks of the points that lie in the piece: (m, points)."""
-        return np.asarray((self.part[0][:, None] <= POINTS) & (self.part[1][:, None] >= POINTS))
+        points = POINTS[:, None]
+        return np.asarray(((self.part[0] <= points) & (self.part[1] >= points)).T)
 
 
 def search(
@@ -161,11 +162,12 @@ class _ExtremeSearch:
         may = self.greatest.may_pass(pieces.rows.design, low - more, high + more)
         may &= (low != np.inf) & (high != -np.inf)  # it has a bound somewhere
         number, own = np.nonzero(may)
-        value = pieces.value[number, own]
+        value = rows_joined([rows_taken(one, some) for one, some in zip(pieces.value, may, strict=True)])
         rows, sign, part = pieces.rows.take(own), pieces.sign[:, own], pieces.part[:, own]
         curves = CandidateCurves(number, rows, sign, part, value, left[number, own])
         miss = np.full(len(pieces.rows.design), False)
-        miss[own[self._unsettled(curves, sampled.margin[own], sampled.x[own])]] = True
+        margin, x = (rows_taken(every, own) for every in (sampled.margin, sampled.x))
+        miss[own[self._unsettled(curves, margin, x)]] = True
         miss &= ~self.cutter.is_narrow(pieces.rows)
         self.curves.append(curves.take(~miss[own]))
         self.rows.append(pieces.rows.take(~miss))
@@ -183,7 +185,8 @@ class _ExtremeSearch:
         curves, more = curves.take(some), UNFINISHED * curves.left[some]
         low, high = curves.value.min(axis=1) - more, curves.value.max(axis=1) + more
         whole = (curves.part[0] == -1.0) & (curves.part[1] == 1.0)
-        for weight in (margin[some], margin[some] ** 2, np.abs(x[some]), x[some] ** 2):
+        margin, x = rows_taken(margin, some), rows_taken(x, some)
+        for weight in (margin, margin**2, np.abs(x), x**2):
             least = _least_size(curves.value, weight)
             known = whole & (least > 0.0)
             rises, falls = curves.value[:, MIDDLE] > 0.0, curves.value[:, MIDDLE] < 0.0
@@ -256,7 +259,8 @@ class _ExtremeSearch:
         before, after = d[:, :-1], d[:, 1:]
         reach = np.maximum(g[:, :-1], g[:, 1:]) + 0.25 * cell * np.abs(before - after)
         may = (before > 0.0) & (after < 0.0) & ~(reach + left[:, None] < bar[:, None])
-        may &= (GRID[1:] > curves.part[0][:, None]) & (GRID[:-1] < curves.part[1][:, None])
+        grid = GRID[:, None]
+        may &= ((grid[1:] > curves.part[0]) & (grid[:-1] < curves.part[1])).T
         which, k = np.nonzero(may)
         before, after = before[which, k], after[which, k]
         terms = chebyshev.series(sign * curves.value[which])
@@ -293,7 +297,7 @@ class _ExtremeSearch:
 
     def _jets(self, x: Array, curves: CandidateCurves, order: int) -> Array:
         """Value and derivatives by degrees of each curve's function at places (m, k)."""
-        out = np.empty((order + 1, *x.shape))
+        out = np.empty((order + 1, *x.shape[::-1])).swapaxes(1, 2)
         # several functions at once: their common parts cost most
         in_order = np.argsort(curves.number, kind="stable")
         for i in range(0, len(x), BLOCK):
@@ -332,7 +336,7 @@ def _curves_joined(parts: Sequence[CandidateCurves]) -> CandidateCurves:
     """Several groups of curves as one; their values have the points as last axis."""
     number, rows, *others = zip(*parts, strict=True)
     sign, part = (np.concatenate(one, axis=1) for one in others[:2])
-    value, left = (np.concatenate(one) for one in others[2:])
+    value, left = rows_joined(others[2]), np.concatenate(others[3])
     return CandidateCurves(np.concatenate(number), joined(rows), sign, part, value, left)
 
 
