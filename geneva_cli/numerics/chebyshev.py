@@ -71,8 +71,9 @@ def _product(values: Array, matrix: Array) -> Array:
         out = _sum(np.multiply(matrix.reshape(shape), rows[:, None], order="C"))
     else:
         out = np.multiply.outer(matrix[0], rows[0])
+        term = np.empty(out.shape)  # one for all: allocation takes longer than the products
         for row, value in zip(matrix[1:], rows[1:], strict=True):
-            out += np.multiply.outer(row, value)
+            out += np.multiply.outer(row, value, out=term)
     return np.moveaxis(out, 0, -1)
 
 

@@ -15,7 +15,7 @@ import numpy as np
 
 from geneva_cli.numerics import chebyshev
 from geneva_cli.numerics.angles import DEGREE
-from geneva_cli.numerics.arrays import joined, rows_taken
+from geneva_cli.numerics.arrays import columns_taken, joined, rows_taken
 from geneva_cli.numerics.chebyshev import GRID, MIDDLE, POINTS
 from geneva_cli.numerics.spread import gathered, spread
 
@@ -73,8 +73,11 @@ class Rows(NamedTuple):
 
     def take(self, which: Some) -> Rows:
         """Some of the rows, by a mask or their numbers."""
+        if not isinstance(which, slice) and which.dtype == bool:
+            which = which.nonzero()[0]
         design, span, u, x, edge = self
-        return Rows(design[which], span[which], u[:, which], x[:, which], edge[:, which])
+        ends = (columns_taken(u, which), columns_taken(x, which), columns_taken(edge, which))
+        return Rows(columns_taken(design, which), columns_taken(span, which), *ends)
 
     def at(self, t: Array) -> Array:
         """The spread places at positions from -1 to 1 in the rows."""
@@ -97,7 +100,7 @@ class SmoothPieces(NamedTuple):
 
     def take(self, which: Some) -> SmoothPieces:
         """Some of the pieces, by a mask or their numbers."""
-        sign, part = self.sign[:, which], self.part[:, which]
+        sign, part = columns_taken(self.sign, which), columns_taken(self.part, which)
         return SmoothPieces(self.rows.take(which), sign, part, rows_taken(self.value, which))
 
 
@@ -185,11 +188,11 @@ class Cutter:
             if len(cut):
                 number, part = _between(cut, t, part)
                 own, unsure, q = own[number], unsure[number], rows_taken(q, number)
-                sign, value = sign[:, number], rows_taken(value, number)
+                sign, value = columns_taken(sign, number), rows_taken(value, number)
             kept = ~unsure & (part[1] > part[0])
             if not kept.all():
-                own, q = own[kept], rows_taken(q, kept)
-                sign, part, value = sign[:, kept], part[:, kept], rows_taken(value, kept)
+                own, q, value = own[kept], rows_taken(q, kept), rows_taken(value, kept)
+                sign, part = columns_taken(sign, kept), columns_taken(part, kept)
             self._turn(kind, at, own, SmoothPieces(rows.take(own), sign, part, value), q)
         pieces = SmoothPieces(self._cut(rows.take(own), part), sign, part, value[f.signs :])
         margin = np.abs(value[list(f.margins)].prod(axis=0))
