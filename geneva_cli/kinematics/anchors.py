@@ -79,9 +79,11 @@ class EachAnchor(Anchors):
             import numpy as np
 
             # one call for the anchors that serve an angle
-            index = np.searchsorted(self.cuts, input_deg)
-            low, high = int(index.min()), int(index.max())
-            return solve(picked(index - low, self.each[low : high + 1]), input_deg)
+            low, high = np.searchsorted(self.cuts, (input_deg.min(), input_deg.max())).tolist()
+            if low == high:
+                return solve(self.each[low], input_deg)
+            index = np.searchsorted(self.cuts, input_deg) - low
+            return solve(picked(index, self.each[low : high + 1]), input_deg)
 
         def by(anchor: Anchor) -> Callable[[Number], Jet]:
             return lambda x: solve(anchor, x)
@@ -116,7 +118,7 @@ class StackedAnchors(Anchors):
         import numpy as np
 
         x = array(input_deg)
-        index: Whole = np.add.reduce([x > cut for cut in self.cuts], dtype=int)
+        index: Whole = sum((x > cut for cut in self.cuts), np.zeros_like(x, int))
         low, high = int(index.min(initial=len(self) - 1)), int(index.max(initial=0))
         # any anchor will do for no angles
         anchor = self[high] if low >= high else self.stack.picked(index, self.rows)

@@ -14,14 +14,17 @@ from functools import cached_property
 from typing import TYPE_CHECKING, ClassVar, Generic, NamedTuple, Protocol, TypeAlias, TypeVar
 
 from geneva_cli.numerics.angles import radians
-from geneva_cli.numerics.arrays import all_true, array, library
+from geneva_cli.numerics.arrays import all_true, array, blocks, library
 from geneva_cli.numerics.jet import Jet, Number, sin_cos, turning
+from geneva_cli.numerics.memory import keep_freed_memory
 
 if TYPE_CHECKING:
     from geneva_cli.kinematics.laws.law import Law
     from geneva_cli.numerics.jet import Array
 
 K = TypeVar("K", float, "Array")
+
+BLOCK = 12288  # angles: their jets stay in the processor's cache
 
 
 class Path(Protocol):
@@ -235,13 +238,29 @@ class WheelMotion(ABC):
         A symmetric motion at symmetric angles is computed once and mirrored. For n designs the
         values are (n, k).
         """
+        import numpy as np
+
         mirrored = self.symmetric and is_mirrored(input_deg)
         first = input_deg[: (len(input_deg) + 1) // 2] if mirrored else input_deg
-        values = self(first, max(orders)).derivatives()
-        requested = [array(values[k]) for k in orders]
+        if len(first) > BLOCK:
+            keep_freed_memory()
+        out: list[Array] = []
+        for block in blocks(len(first), BLOCK):
+            values = self._requested(first[block], orders)
+            out = out or [np.empty((*value.shape[:-1], len(first))) for value in values]
+            for whole, value in zip(out, values, strict=True):
+                whole[..., block] = value
         if not mirrored:
-            return requested
-        return [mirror(half, len(input_deg), k) for half, k in zip(requested, orders, strict=True)]
+            return out
+        return [mirror(half, len(input_deg), k) for half, k in zip(out, orders, strict=True)]
+
+    def _requested(self, input_deg: Array, orders: Sequence[int]) -> list[Array]:
+        """Derivatives at angles; without the wheel's angle if that is not among them."""
+        if 0 in orders:
+            values = self(input_deg, max(orders)).derivatives()
+            return [array(values[k]) for k in orders]
+        rates = self.rate(input_deg, max(orders) - 1).derivatives()
+        return [array(rates[k - 1]) for k in orders]
 
 
 def is_mirrored(input_deg: Array) -> bool:

@@ -34,6 +34,7 @@ from geneva_cli.kinematics.motion import Motion
 from geneva_cli.machine.mechanism import Mechanism, build
 from geneva_cli.machine.spec import Spec, attribute
 from geneva_cli.numerics.latest import Latest
+from geneva_cli.numerics.memory import keep_freed_memory
 from geneva_cli.spec.schema import Field, Points, SpecTable, fields, unknown
 
 if TYPE_CHECKING:
@@ -83,6 +84,7 @@ def many(spec: Spec, varied: Mapping[str, object]) -> Many:
     if wrong:
         raise ValueError(f"{', '.join(wrong)}: cannot vary within a machine")
     (n,) = lengths
+    keep_freed_memory()
     columns = {**varied, **{key: values[:, None] for key, values in arrays.items()}}
     with np.errstate(all="ignore"), marking() as marks:
         try:

@@ -71,8 +71,9 @@ def _product(values: Array, matrix: Array) -> Array:
         out = _sum(np.multiply(matrix.reshape(shape), rows[:, None], order="C"))
     else:
         out = np.multiply.outer(matrix[0], rows[0])
+        term = np.empty(out.shape)  # one for all: allocation takes longer than the products
         for row, value in zip(matrix[1:], rows[1:], strict=True):
-            out += np.multiply.outer(row, value)
+            out += np.multiply.outer(row, value, out=term)
     return np.moveaxis(out, 0, -1)
 
 
@@ -133,7 +134,8 @@ def on_grid(values: Array) -> tuple[Array, Array]:
 
 def _even_and_odd(values: Array) -> tuple[Array, Array]:
     """Sums (m, points) and differences of values at mirrored points, which halve all products."""
-    first, middle, mirrored = values[:, :MIDDLE], values[:, [MIDDLE]], values[:, :MIDDLE:-1]
+    first, mirrored = values[:, :MIDDLE], values[:, :MIDDLE:-1]
+    middle = values[:, MIDDLE : MIDDLE + 1]
     return np.concatenate((first + mirrored, middle), axis=1), first - mirrored
 
 

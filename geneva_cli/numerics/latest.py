@@ -44,5 +44,5 @@ class Latest:
             self._kept = None
             return jets
         jets = tuple(Jet([read_only(c) for c in jet.c]) for jet in jets)
-        self._kept = x, x.copy(), order, jets
+        self._kept = x, x.copy(order="K"), order, jets
         return jets

@@ -15,7 +15,7 @@ import numpy as np
 
 from geneva_cli.numerics import chebyshev
 from geneva_cli.numerics.angles import DEGREE
-from geneva_cli.numerics.arrays import joined
+from geneva_cli.numerics.arrays import columns_taken, joined, rows_taken
 from geneva_cli.numerics.chebyshev import GRID, MIDDLE, POINTS
 from geneva_cli.numerics.spread import gathered, spread
 
@@ -73,8 +73,11 @@ class Rows(NamedTuple):
 
     def take(self, which: Some) -> Rows:
         """Some of the rows, by a mask or their numbers."""
+        if not isinstance(which, slice) and which.dtype == bool:
+            which = which.nonzero()[0]
         design, span, u, x, edge = self
-        return Rows(design[which], span[which], u[:, which], x[:, which], edge[:, which])
+        ends = (columns_taken(u, which), columns_taken(x, which), columns_taken(edge, which))
+        return Rows(columns_taken(design, which), columns_taken(span, which), *ends)
 
     def at(self, t: Array) -> Array:
         """The spread places at positions from -1 to 1 in the rows."""
@@ -97,8 +100,8 @@ class SmoothPieces(NamedTuple):
 
     def take(self, which: Some) -> SmoothPieces:
         """Some of the pieces, by a mask or their numbers."""
-        sign, part = self.sign[:, which], self.part[:, which]
-        return SmoothPieces(self.rows.take(which), sign, part, self.value[:, which])
+        sign, part = columns_taken(self.sign, which), columns_taken(self.part, which)
+        return SmoothPieces(self.rows.take(which), sign, part, rows_taken(self.value, which))
 
 
 class SampledRows(NamedTuple):
@@ -175,28 +178,31 @@ class Cutter:
         for kind in range(f.signs):
             here = rows.take(own)
             # a pole is multiplied by the distance from it
-            q = value[kind] * np.abs(x[own]) if kind in f.poled else value[kind]
+            q = value[kind]
+            if kind in f.poled:
+                q = q * np.abs(rows_taken(x, own))
             unsure, cut, t = self._zeros(kind, here, sign, part, q)
             unsure &= ~self.is_narrow(here)
             if unsure.any():
                 again.append(self._parts(here, part, unsure))
             if len(cut):
                 number, part = _between(cut, t, part)
-                own, unsure, q = own[number], unsure[number], q[number]
-                sign, value = sign[:, number], value[:, number]
+                own, unsure, q = own[number], unsure[number], rows_taken(q, number)
+                sign, value = columns_taken(sign, number), rows_taken(value, number)
             kept = ~unsure & (part[1] > part[0])
             if not kept.all():
-                own, q = own[kept], q[kept]
-                sign, part, value = sign[:, kept], part[:, kept], value[:, kept]
+                own, q, value = own[kept], rows_taken(q, kept), rows_taken(value, kept)
+                sign, part = columns_taken(sign, kept), columns_taken(part, kept)
             self._turn(kind, at, own, SmoothPieces(rows.take(own), sign, part, value), q)
         pieces = SmoothPieces(self._cut(rows.take(own), part), sign, part, value[f.signs :])
-        return SampledRows(pieces, x[own], np.abs(value[list(f.margins)].prod(axis=0)), again)
+        margin = np.abs(value[list(f.margins)].prod(axis=0))
+        return SampledRows(pieces, rows_taken(x, own), margin, again)
 
     def _turn(self, kind: int, at: Any, own: Whole, pieces: SmoothPieces, q: Array) -> None:
         """Set each sign to its function's in the middle of each piece, and update the values."""
         sign, part, value = pieces[1:]
         some = np.flatnonzero(~pieces.whole)
-        middle = chebyshev.at(chebyshev.series(q[some]), 0.5 * (part[0] + part[1])[some])
+        middle = chebyshev.at(chebyshev.series(rows_taken(q, some)), 0.5 * (part[0] + part[1])[some])
         flip = some[np.where(middle > 0.0, 1.0, -1.0) != sign[kind, some]]
         if len(flip):
             sign[kind, flip] *= -1.0
@@ -237,14 +243,15 @@ class Cutter:
         g, d = chebyshev.on_grid(q)
         # below 1e-12 of its size on a row, a function has no sign
         level = np.maximum(1e-12 * size, rounding)
-        noise = np.repeat(level[:, None], len(GRID), axis=1)
+        noise = np.repeat(level[None], len(GRID), axis=0).T
         for end in (0, -1):
             noise[:, end] = np.maximum(noise[:, end], AT_END * np.abs(d[:, end]))
         below = g < -noise
         change = below[:, 1:] != below[:, :-1]
         twice = _crosses_twice(g, d, below, noise, LATER_TERMS * left[:, None])
         near = np.abs(g[:, 1:-1]) < LATER_TERMS * left[:, None]
-        near &= (GRID[1:-1] >= part[0, some, None]) & (GRID[1:-1] <= part[1, some, None])
+        grid = GRID[1:-1, None]
+        near &= ((grid >= part[0, some]) & (grid <= part[1, some])).T
         # The series may err by 3e-3 of a size for a single zero, and by 1e-9 if several points
         # are within the error of 0.
         open_ = (left > 3e-3 * size) & change.any(axis=1)
@@ -255,7 +262,7 @@ class Cutter:
         if not len(own):
             return unsure, *none
         low, high, a, b = GRID[cell], GRID[cell + 1], g[own, cell], g[own, cell + 1]
-        t = chebyshev.root(chebyshev.series(q[own]), low, high, low + (high - low) * a / (a - b))
+        t = chebyshev.root(chebyshev.series(rows_taken(q, own)), low, high, low + (high - low) * a / (a - b))
         which = some[own]
         kept = (t > part[0, which] + AT_END) & (t < part[1, which] - AT_END)
         which, t = which[kept], t[kept]
@@ -303,7 +310,7 @@ def _may_cross(value: Array, sign: Array) -> tuple[Whole, Array, Array, Array]:
     q = value * sign[:, None]
     # Where a point is below a twentieth of the size, the function may be 0 next to it.
     some = np.flatnonzero(~(q.min(axis=1) >= 0.05 * size + LATER_TERMS * left))
-    return some, q[some], size[some], left[some]
+    return some, rows_taken(q, some), size[some], left[some]
 
 
 def _crosses_twice(g: Array, d: Array, below: Mask, noise: Array, left: Array) -> Mask:

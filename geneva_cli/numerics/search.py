@@ -15,7 +15,7 @@ import numpy as np
 
 from geneva_cli.numerics import chebyshev
 from geneva_cli.numerics.angles import DEGREE
-from geneva_cli.numerics.arrays import joined
+from geneva_cli.numerics.arrays import blocks, columns_taken, joined, rows_joined, rows_taken
 from geneva_cli.numerics.chebyshev import GRID, MIDDLE, POINTS
 from geneva_cli.numerics.greatest import GreatestValues
 from geneva_cli.numerics.pieces import (
@@ -67,13 +67,15 @@ class CandidateCurves(NamedTuple):
     def take(self, which: Some) -> CandidateCurves:
         """Some of the curves, by a mask or their numbers."""
         number, rows, sign, part, value, left = self
-        some = number[which], rows.take(which), sign[:, which], part[:, which]
-        return CandidateCurves(*some, value[which], left[which])
+        ends = columns_taken(sign, which), columns_taken(part, which)
+        some = rows_taken(value, which), columns_taken(left, which)
+        return CandidateCurves(columns_taken(number, which), rows.take(which), *ends, *some)
 
     @property
     def within(self) -> Mask:
         """Masks of the points that lie in the piece: (m, points)."""
-        return np.asarray((self.part[0][:, None] <= POINTS) & (self.part[1][:, None] >= POINTS))
+        points = POINTS[:, None]
+        return np.asarray(((self.part[0] <= points) & (self.part[1] >= points)).T)
 
 
 def search(
@@ -118,9 +120,9 @@ class _ExtremeSearch:
         first = [self._rows(number, *ends) for number, ends in enumerate(spans)]
         for rows in first:
             np.add.at(self.cutter.width, rows.design, rows.u[1] - rows.u[0])
-        blocks = self._first_blocks(first)
+        parts = self._first_blocks(first)
         for depth in range(60):  # halvings: all rows are too narrow for more by then
-            every = [self.cutter.sampled(*block) for block in blocks]
+            every = [self.cutter.sampled(*block) for block in parts]
             for sampled in every:
                 self.greatest.add_samples(sampled.pieces, sampled.x)
             # Rows that were halved four times lie near a pole: their sizes are not typical.
@@ -129,7 +131,7 @@ class _ExtremeSearch:
             again = [rows for sampled in every for rows in (*sampled.again, *self._judged(sampled))]
             if not again:
                 break
-            blocks = _blocks(joined(again))
+            parts = _blocks(joined(again))
 
     def _rows(self, number: int, a: Array, b: Array) -> Rows:
         """The rows of a span, one for each design that has it."""
@@ -161,11 +163,12 @@ class _ExtremeSearch:
         may = self.greatest.may_pass(pieces.rows.design, low - more, high + more)
         may &= (low != np.inf) & (high != -np.inf)  # it has a bound somewhere
         number, own = np.nonzero(may)
-        value = pieces.value[number, own]
+        value = rows_joined([rows_taken(one, some) for one, some in zip(pieces.value, may, strict=True)])
         rows, sign, part = pieces.rows.take(own), pieces.sign[:, own], pieces.part[:, own]
         curves = CandidateCurves(number, rows, sign, part, value, left[number, own])
         miss = np.full(len(pieces.rows.design), False)
-        miss[own[self._unsettled(curves, sampled.margin[own], sampled.x[own])]] = True
+        margin, x = (rows_taken(every, own) for every in (sampled.margin, sampled.x))
+        miss[own[self._unsettled(curves, margin, x)]] = True
         miss &= ~self.cutter.is_narrow(pieces.rows)
         self.curves.append(curves.take(~miss[own]))
         self.rows.append(pieces.rows.take(~miss))
@@ -183,7 +186,8 @@ class _ExtremeSearch:
         curves, more = curves.take(some), UNFINISHED * curves.left[some]
         low, high = curves.value.min(axis=1) - more, curves.value.max(axis=1) + more
         whole = (curves.part[0] == -1.0) & (curves.part[1] == 1.0)
-        for weight in (margin[some], margin[some] ** 2, np.abs(x[some]), x[some] ** 2):
+        margin, x = rows_taken(margin, some), rows_taken(x, some)
+        for weight in (margin, margin**2, np.abs(x), x**2):
             least = _least_size(curves.value, weight)
             known = whole & (least > 0.0)
             rises, falls = curves.value[:, MIDDLE] > 0.0, curves.value[:, MIDDLE] < 0.0
@@ -196,7 +200,12 @@ class _ExtremeSearch:
         """Evaluate the functions at ends and extremes that may be the greatest."""
         curves = _curves_joined(self.curves)
         curves = _curves_joined([curves, *[self._ends(curves, end) for end in (0, 1)]])
-        turns = [self._turns(curves, sign) for sign in (1.0, -1.0)]
+        turns = [
+            _turns(curves.take(own[block]), sign, bar[block], own[block])
+            for sign in (1.0, -1.0)
+            for own, bar in [self._may_turn(curves, sign)]
+            for block in blocks(len(own), BLOCK)
+        ]
         self._refine(curves, *(np.concatenate(one) for one in zip(*turns, strict=True)))
 
     def _ends(self, curves: CandidateCurves, end: int) -> CandidateCurves:
@@ -236,11 +245,10 @@ class _ExtremeSearch:
     def _add(self, curves: CandidateCurves, x: Array, value: Array) -> None:
         self.greatest.add(curves.number, curves.rows.design, x, value)
 
-    def _turns(self, curves: CandidateCurves, sign: float) -> tuple[Whole, Array, Array]:
-        """Maxima of ``sign`` times the functions.
+    def _may_turn(self, curves: CandidateCurves, sign: float) -> tuple[Whole, Array]:
+        """Curves on which a maximum of ``sign`` times the function may be one of the greatest.
 
-        Returns the numbers of the curves, positions from -1 to 1, and the ranges of the search
-        there.
+        Returns their numbers, and the least value that counts as greatest.
         """
         low, high = curves.value.min(axis=1), curves.value.max(axis=1)
         more = OVERSHOOT * (high - low)
@@ -250,24 +258,7 @@ class _ExtremeSearch:
         bar = self.greatest.least(side)[curves.number, curves.rows.design]
         may &= ~((high if sign > 0.0 else -low) + more < bar) & (bar < np.inf)
         own = np.flatnonzero(may)
-        curves, bar = curves.take(own), bar[own]
-        left, cell = LATER_TERMS * curves.left, np.diff(GRID)
-        g, d = chebyshev.on_grid(sign * curves.value)
-        before, after = d[:, :-1], d[:, 1:]
-        reach = np.maximum(g[:, :-1], g[:, 1:]) + 0.25 * cell * np.abs(before - after)
-        may = (before > 0.0) & (after < 0.0) & ~(reach + left[:, None] < bar[:, None])
-        may &= (GRID[1:] > curves.part[0][:, None]) & (GRID[:-1] < curves.part[1][:, None])
-        which, k = np.nonzero(may)
-        before, after = before[which, k], after[which, k]
-        terms = chebyshev.series(sign * curves.value[which])
-        start = GRID[k] + cell[k] * before / (before - after)
-        t = chebyshev.root(chebyshev.slopes(terms), GRID[k], GRID[k + 1], start)
-        kept = ~(chebyshev.at(terms, t) + left[which] < bar[which])
-        a, b = curves.part[:, which]
-        kept &= (a - cell[k] < t) & (t < b + cell[k])
-        # positions in the piece itself
-        t = np.clip((2.0 * t - a - b) / (b - a), -1.0, 1.0)
-        return own[which[kept]], t[kept], (2.0 * cell[k] / (b - a))[kept]
+        return own, bar[own]
 
     def _refine(self, curves: CandidateCurves, which: Whole, t: Array, cell: Array) -> None:
         """Add extremes of the functions themselves, next to the maxima of their series."""
@@ -293,7 +284,7 @@ class _ExtremeSearch:
 
     def _jets(self, x: Array, curves: CandidateCurves, order: int) -> Array:
         """Value and derivatives by degrees of each curve's function at places (m, k)."""
-        out = np.empty((order + 1, *x.shape))
+        out = np.empty((order + 1, *x.shape[::-1])).swapaxes(1, 2)
         # several functions at once: their common parts cost most
         in_order = np.argsort(curves.number, kind="stable")
         for i in range(0, len(x), BLOCK):
@@ -305,6 +296,34 @@ class _ExtremeSearch:
         scale = np.array([1.0, DEGREE, 2.0 * DEGREE * DEGREE])[: order + 1]
         out *= scale[:, None, None]
         return out
+
+
+def _turns(
+    curves: CandidateCurves, sign: float, bar: Array, own: Whole
+) -> tuple[Whole, Array, Array]:
+    """Maxima of ``sign`` times the functions that may reach ``bar``.
+
+    Returns the numbers of the curves among their own numbers, positions from -1 to 1, and the
+    ranges of the search there.
+    """
+    left, cell = LATER_TERMS * curves.left, np.diff(GRID)
+    g, d = chebyshev.on_grid(sign * curves.value)
+    before, after = d[:, :-1], d[:, 1:]
+    reach = np.maximum(g[:, :-1], g[:, 1:]) + 0.25 * cell * np.abs(before - after)
+    may = (before > 0.0) & (after < 0.0) & ~(reach + left[:, None] < bar[:, None])
+    grid = GRID[:, None]
+    may &= ((grid[1:] > curves.part[0]) & (grid[:-1] < curves.part[1])).T
+    which, k = np.nonzero(may)
+    before, after = before[which, k], after[which, k]
+    terms = chebyshev.series(sign * rows_taken(curves.value, which))
+    start = GRID[k] + cell[k] * before / (before - after)
+    t = chebyshev.root(chebyshev.slopes(terms), GRID[k], GRID[k + 1], start)
+    kept = ~(chebyshev.at(terms, t) + left[which] < bar[which])
+    a, b = curves.part[:, which]
+    kept &= (a - cell[k] < t) & (t < b + cell[k])
+    # positions in the piece itself
+    t = np.clip((2.0 * t - a - b) / (b - a), -1.0, 1.0)
+    return own[which[kept]], t[kept], (2.0 * cell[k] / (b - a))[kept]
 
 
 def _least_size(value: Array, weight: Array) -> Array:
@@ -332,7 +351,7 @@ def _curves_joined(parts: Sequence[CandidateCurves]) -> CandidateCurves:
     """Several groups of curves as one; their values have the points as last axis."""
     number, rows, *others = zip(*parts, strict=True)
     sign, part = (np.concatenate(one, axis=1) for one in others[:2])
-    value, left = (np.concatenate(one) for one in others[2:])
+    value, left = rows_joined(others[2]), np.concatenate(others[3])
     return CandidateCurves(np.concatenate(number), joined(rows), sign, part, value, left)
 
 
