@@ -46,19 +46,27 @@ def candidates(
     x, y = other.dy[lines], -other.dx[lines]
     normal_x, normal_y = c * x - s * y, s * x + c * y
 
+    # Along the chord of each arc and outwards, from its centre, over its radius: an arc that was
+    # fitted to a nearly straight wall has its centre too far away to measure from there.
     bent = np.flatnonzero(own.arc[piece])
     i = piece[bent]
-    middle_x, middle_y = own.cx[i], own.cy[i]
-    facing_x = np.concatenate((centre_x[:, bent] - middle_x, normal_x[:, bent]))
-    facing_y = np.concatenate((centre_y[:, bent] - middle_y, normal_y[:, bent]))
-    length = np.maximum(np.sqrt(facing_x**2 + facing_y**2), 1e-300)
-    facing_x, facing_y = facing_x / length, facing_y / length
-    along = facing_x * own.mx[i] + facing_y * own.my[i]
+    mx, my, half, bend = own.mx[i], own.my[i], 0.5 * own.length[i], 1.0 / own.radius[i]
+    px, py = centre_x[:, bent] - own.ox[i], centre_y[:, bent] - own.oy[i]
+    nx, ny = normal_x[:, bent], normal_y[:, bent]
+    aside = np.concatenate((bend * (mx * py - my * px), mx * ny - my * nx))
+    ahead = np.concatenate((bend * (mx * px + my * py) + own.cos_half[i], mx * nx + my * ny))
+    size = np.maximum(np.sqrt(aside**2 + ahead**2), 1e-300)
+    aside, ahead = aside / size, ahead / size
     for side in (1.0, -1.0):
-        which, pair = np.nonzero(side * along >= own.cos_half[i])
-        radius = side * own.radius[i[pair]]
-        x = middle_x[pair] + radius * facing_x[which, pair]
-        y = middle_y[pair] + radius * facing_y[which, pair]
+        within = side * own.sin_half[i] * ahead >= own.cos_half[i] * np.abs(aside)
+        which, pair = np.nonzero(within)
+        k = i[pair]
+        along = side * own.radius[k] * aside[which, pair]
+        # the arc's height above its chord there: its middle's, less that by which it falls off
+        falls = along**2 / (1.0 + side * ahead[which, pair])
+        out = bend[pair] * (half[pair] ** 2 / (1.0 + own.cos_half[k]) - falls)
+        x = own.ox[k] + out * own.mx[k] - along * own.my[k]
+        y = own.oy[k] + out * own.my[k] + along * own.mx[k]
         columns.append((owner[bent[pair]], x, y))
 
     flat = np.flatnonzero(~own.arc[piece])

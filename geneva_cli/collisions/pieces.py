@@ -14,6 +14,8 @@ if TYPE_CHECKING:
 
     from geneva_cli.numerics.jet import Array
 
+ROUNDING = 4e-15  # radians: of a direction that is a sum of some angles
+
 
 class Rounds(NamedTuple):
     """Arcs and corners, an array (k,) of each quantity."""
@@ -24,15 +26,21 @@ class Rounds(NamedTuple):
     sense: Array  # 1 where the material is inside, -1 in a hollow
     mx: Array  # directions to the middles of the arcs
     my: Array
-    least: Array  # cosines of half the angles of the arcs
+    sin_half: Array  # of the angles of the arcs
+    cos_half: Array
+    slack: Array  # radians by which an arc is longer at each end
 
     def face(
         self, which: NDArray[np.intp], x: Array, y: Array, turn: Array, sense: Array | float = 1.0
     ) -> NDArray[np.bool_]:
         """Return True where arcs contain directions (x, y), turned by ``turn``, times ``sense``."""
         c, s = np.cos(turn), np.sin(turn)
-        along = self.mx[which] * (x * c - y * s) + self.my[which] * (x * s + y * c)
-        out: NDArray[np.bool_] = sense * along >= self.least[which]
+        x, y = x * c - y * s, x * s + y * c
+        mx, my = self.mx[which], self.my[which]
+        # the sine of the angle to the nearer end: cosines do not show angles of a millionth
+        ahead, aside = sense * (mx * x + my * y), np.abs(mx * y - my * x)
+        within = self.sin_half[which] * ahead - self.cos_half[which] * aside
+        out: NDArray[np.bool_] = within >= -self.slack[which]
         return out
 
 
@@ -52,8 +60,9 @@ class Lines(NamedTuple):
 def rounds(outline: Polyarc) -> Rounds:
     """Return the arcs of an outline, and those of its corners that are convex."""
     arc, corner = np.flatnonzero(outline.arc), np.flatnonzero(outline.turn_start > 0.0)
-    zero, cos = np.zeros(len(corner)), outline.cos_half[arc]
-    least = cos - SLACK * np.sqrt(np.maximum(1.0 - cos * cos, 0.0)) - SLACK * SLACK
+    zero = np.zeros(len(corner))
+    size = np.hypot(outline.ox, outline.oy) + outline.length
+    slack = SLACK * np.minimum(1.0, size[arc] / outline.radius[arc]) + ROUNDING
     columns = (
         (outline.cx[arc], outline.x0[corner]),
         (outline.cy[arc], outline.y0[corner]),
@@ -61,7 +70,9 @@ def rounds(outline: Polyarc) -> Rounds:
         (outline.sense[arc], zero + 1.0),
         (outline.mx[arc], zero + 1.0),
         (outline.my[arc], zero),
-        (least, zero - 2.0),
+        (outline.sin_half[arc], zero),
+        (outline.cos_half[arc], zero - 1.0),
+        (slack, zero),
     )
     return Rounds(*[np.concatenate(both) for both in columns])
 
@@ -76,18 +87,21 @@ def lines(outline: Polyarc) -> Lines:
     return Lines(np.arctan2(-tx, ty), x * ty - y * tx, start - spare, end + spare)
 
 
-def reach(arcs: Rounds, far: Array, ahead: Array) -> tuple[Array, Array]:
-    """Return the least and greatest distance of arcs from the origin, with a small margin."""
+def spans(outline: Polyarc, arcs: Rounds, far: Array, ahead: Array) -> tuple[Array, Array, Array]:
+    """Return how far each arc's radius exceeds its centre's distance ``far`` from the origin.
+
+    ``arcs`` are the outline's own, with centres in the directions ``ahead``. Also returns their
+    least and greatest distance from the origin, with a small margin.
+    """
+    arc, corner = np.flatnonzero(outline.arc), np.flatnonzero(outline.turn_start > 0.0)
+    side = outline.distances(np.zeros(1), np.zeros(1)).side
+    excess = np.concatenate((outline.sense[arc] * side[arc], -far[len(arc) :]))
+    start, end = np.hypot(outline.x0, outline.y0), np.hypot(outline.x1, outline.y1)
+    nearer, farther = np.minimum(start, end), np.maximum(start, end)
     every, zero = np.arange(len(far)), np.zeros(len(far))
-    half = np.arccos(np.clip(arcs.least, -1.0, 1.0))
-    middle = np.arctan2(arcs.my, arcs.mx)
-    ends = [
-        np.hypot(arcs.x + arcs.radius * np.cos(end), arcs.y + arcs.radius * np.sin(end))
-        for end in (middle - half, middle + half)
-    ]
     inner = arcs.face(every, zero - 1.0, zero, ahead)
     outer = arcs.face(every, zero + 1.0, zero, ahead)
-    low = np.where(inner, np.abs(far - arcs.radius), np.minimum(*ends))
-    high = np.where(outer, far + arcs.radius, np.maximum(*ends))
-    spare = SLACK * (far + arcs.radius)
-    return low - spare, high + spare
+    low = np.where(inner, np.abs(excess), np.concatenate((nearer[arc], start[corner])))
+    high = np.where(outer, far + arcs.radius, np.concatenate((farther[arc], start[corner])))
+    spare = SLACK * high
+    return excess, low - spare, high + spare

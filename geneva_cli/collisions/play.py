@@ -36,6 +36,7 @@ SMALL = 1e-3  # degrees: the interval over which a roller's speed is computed
 NARROW = 1e-6  # degrees: shorter intervals are not divided
 NEARLY = 0.8  # of the greatest: around a lower local maximum no greater play is expected
 MOST = 4  # intervals that are divided in a round for one peak
+STEEP = 10.0  # 1 / the cosine of the steepest pressure angle, 84 degrees, at which walls still hold
 JUMP = 30.0  # times the roller's travel: a rim that moves farther is not pushed by the roller
 
 
@@ -106,7 +107,8 @@ def plays(parts: MachineParts, fits: bool) -> Iterator[Play]:
     play = _play_at(parts, _places(parts), fits)
     yield play
     for _ in range(CLOSER):
-        more = rising(np.concatenate([*_peaks(parts, play), *_closing(parts, play)]))
+        near = (*_peaks(parts, play), *_changes(parts, play), *_closing(parts, play))
+        more = rising(np.concatenate(near))
         if not len(more):
             break
         play = _merged(play, _play_at(parts, more, fits))
@@ -198,9 +200,9 @@ def _cut(play: Play, intervals: NDArray[np.intp]) -> Array:
 
 def _peaks(parts: MachineParts, play: Play) -> Iterator[Array]:
     """Yield positions next to the greatest plays, in slots and elsewhere."""
-    least, most = math.degrees(touching(parts)), search_deg(parts)
-    for edge in (play.back, play.on, play.both):
-        for where in (play.guided, ~play.guided):
+    either, most = math.degrees(touching(parts)), search_deg(parts)
+    for edge, in_slot in ((play.back, either), (play.on, either), (play.both, _held_deg(parts))):
+        for where, least in ((play.guided, in_slot), (~play.guided, either)):
             value = np.where(where & (edge < most) & (edge > least), edge, -1.0)
             before, after = np.append(-1.0, value[:-1]), np.append(value[1:], -1.0)
             top = np.flatnonzero(
@@ -211,6 +213,24 @@ def _peaks(parts: MachineParts, play: Play) -> Iterator[Array]:
             )
             top = top[np.argsort(-value[top], kind="stable")][:MOST]
             yield _cut(play, np.concatenate((top - 1, top)))
+
+
+def _changes(parts: MachineParts, play: Play) -> Iterator[Array]:
+    """Yield positions where the roller changes from one wall of its slot to the other.
+
+    One play grows there as the other vanishes, and the smaller one may have a narrow peak between
+    two positions. Where both change steadily, it is at most the smaller of their greater ends.
+    """
+    ends = [np.maximum(edge[:-1], edge[1:]) for edge in (play.back, play.on)]
+    guided, most = play.guided[:-1] & play.guided[1:], np.minimum(*ends)
+    known = max(_held_deg(parts), play.both[play.guided].max(initial=0.0))
+    top = np.flatnonzero(guided & (most > known))
+    yield _cut(play, top[np.argsort(-most[top], kind="stable")][:MOST])
+
+
+def _held_deg(parts: MachineParts) -> float:
+    """Return the largest play between the walls of a slot that their tolerance alone may give."""
+    return math.degrees(STEEP * parts.close / parts.sizes.rim)
 
 
 def _closing(parts: MachineParts, play: Play) -> Iterator[Array]:

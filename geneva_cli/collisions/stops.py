@@ -17,7 +17,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from geneva_cli.collisions.machine_parts import Pose, Stop
-from geneva_cli.collisions.pieces import Lines, Rounds, lines, reach, rounds
+from geneva_cli.collisions.pieces import Lines, Rounds, lines, rounds, spans
 from geneva_cli.collisions.touch import WAYS, Touch, first_stops, triangles, within
 from geneva_cli.curves.distance import Polyarc
 
@@ -53,7 +53,7 @@ class Stops:
         self.rounds, self.lines = rounds(wheel), lines(wheel)
         self.far = np.hypot(self.rounds.x, self.rounds.y)
         self.ahead = np.arctan2(self.rounds.y, self.rounds.x)
-        self.low, self.high = reach(self.rounds, self.far, self.ahead)
+        self.excess, self.low, self.high = spans(wheel, self.rounds, self.far, self.ahead)
         self.roller = roller
         self.crank = rounds(crank) if crank else None
         self.edges = lines(crank) if crank else None
@@ -80,7 +80,7 @@ class Stops:
     def _nearby(self, pose: Pose) -> NearbyArcs:
         x, y = pose.pins[..., 0], pose.pins[..., 1]
         one, no = np.ones(x.shape[1]), np.zeros(x.shape[1])
-        rollers = Rounds(no, no, self.roller * one, one, one, no, -2.0 * one)
+        rollers = Rounds(no, no, self.roller * one, one, one, no, no, -one, no)
         if self.crank is None:
             return NearbyArcs(rollers, x, y, 0.0 * pose.crank)
         own = self.crank
@@ -98,11 +98,14 @@ class Stops:
         Both are convex, or one of them lies in the other's hollow.
         """
         own, other = self.rounds, others.rounds
-        apart = own.sense[:, None] * own.radius[:, None] + other.sense * other.radius - close
-        both = own.sense[:, None] + other.sense
-        apart = np.where(both > 0.0, apart, -apart)
+        ours, theirs = own.sense[:, None], other.sense * other.radius - close
+        both = ours + other.sense
+        way = np.where(both > 0.0, 1.0, -1.0)
+        apart = way * (ours * own.radius[:, None] + theirs)
+        nearby = self.excess[:, None] + way * theirs
+        excess = np.where(way == ours, nearby, apart - self.far[:, None])
         ps, qs = np.nonzero((both >= 0.0) & (apart > 0.0))
-        ds, hollow = apart[ps, qs], both[ps, qs] == 0.0
+        ds, es, hollow = apart[ps, qs], excess[ps, qs], both[ps, qs] == 0.0
         away, towards = np.hypot(others.x, others.y), np.arctan2(others.y, others.x)
         count, step = len(pose.wheel), max(1, BLOCK // max(1, len(ps)))
         for block in range(0, count, step):
@@ -112,7 +115,7 @@ class Stops:
             row, pair = np.nonzero((low[:, qs] <= self.high[ps]) & (high[:, qs] >= self.low[ps]))
             s, r, d = sigma[row, qs[pair]], self.far[ps[pair]], ds[pair]
             # the angle between the centres, seen from the wheel's axis
-            meet, h, g = triangles(d, r, s, lambda length: length)
+            meet, h, g = triangles(es[pair], r, s, lambda length: length)
             n, pair, s, r, d = row[meet] + block, pair[meet], s[meet], r[meet], d[meet]
             p, q, sign = ps[pair], qs[pair], np.where(hollow[pair], WAYS, -WAYS)
             angle = sign * (2.0 * np.arctan2(h, g))

@@ -35,17 +35,19 @@ class Touch(NamedTuple):
 
 
 def triangles(
-    apart: Array, one: Array, other: Array, measure: Callable[[Array], Array]
+    excess: Array, one: Array, other: Array, measure: Callable[[Array], Array]
 ) -> tuple[tuple[NDArray[np.intp], ...], Array, Array]:
     """Return which triangles exist, and sine and cosine of half the angle between two sides.
 
-    ``one`` and ``other`` are these sides, ``apart`` is the third. ``measure(x)`` is x on a plane
+    ``one`` and ``other`` are these sides, and ``excess`` is the third side minus ``one``: where
+    both are kilometres long, their difference has no digits left. ``measure(x)`` is x on a plane
     and sin x on a sphere.
     """
+    twice = 2.0 * one + excess
     with np.errstate(divide="ignore", invalid="ignore"):
         size = measure(one) * measure(other)
-        sine = measure(0.5 * (apart - one + other)) * measure(0.5 * (apart + one - other)) / size
-        cosine = measure(0.5 * (one + other + apart)) * measure(0.5 * (one + other - apart)) / size
+        sine = measure(0.5 * (excess + other)) * measure(0.5 * (twice - other)) / size
+        cosine = measure(0.5 * (twice + other)) * measure(0.5 * (other - excess)) / size
     exist = np.nonzero((sine >= 0.0) & (cosine >= 0.0))
     return exist, np.sqrt(sine[exist]), np.sqrt(cosine[exist])
 

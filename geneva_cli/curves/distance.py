@@ -27,24 +27,22 @@ if TYPE_CHECKING:
 BLOCK = 1 << 14  # distances in a block: they stay in the processor's cache
 
 
-class _PieceDistances(NamedTuple):
+class PieceDistances(NamedTuple):
     """Distances and sides of points relative to pieces.
 
     ``side`` is the signed distance from the whole line or circle. ``facing`` is True if the nearest
-    point is inside the piece. ``start`` and ``end`` are squared distances from its ends.
+    point is inside the piece. ``along`` is the position along its chord, from the middle.
     """
 
     distance: Array
     side: Array
     facing: NDArray[np.bool_]
-    start: Array
-    end: Array
+    along: Array
 
-    def at(self, which: Which) -> _PieceDistances:
-        distance, side, facing, start, end = self
-        return _PieceDistances(
-            distance[which], side[which], facing[which], start[which], end[which]
-        )
+    def at(self, which: Which) -> PieceDistances:
+        """Those at some indices."""
+        distance, side, facing, along = self
+        return PieceDistances(distance[which], side[which], facing[which], along[which])
 
 
 class Polyarc:
@@ -58,29 +56,31 @@ class Polyarc:
             rows += [_row(piece) for piece in pieces]
             headings = [directions(piece) for piece in pieces]
             turns += [_corner(headings[i - 1][1], headings[i][0]) for i in range(len(headings))]
-        x0, y0, x1, y1, *rest = np.array(rows).T
-        radius, sense, cos_half = rest[2], rest[3], rest[6]
+        x0, y0, x1, y1, cx, cy, radius, sense, sin_half, cos_half = np.array(rows).T
         dx, dy = x1 - x0, y1 - y0
+        dx = np.where((dx == 0.0) & (dy == 0.0), 1e-150, dx)  # a point has a direction too
         square = np.maximum(dx * dx + dy * dy, 1e-300)
         length = np.sqrt(square)
-        wide = (sense != 0.0) & (cos_half < 0.0)
-        size = np.where(wide, 2.0 * radius, 0.5 * length)
+        right = np.where(sense < 0.0, -1.0, 1.0) / length
+        size = np.where(cos_half < 0.0, 2.0 * radius, 0.5 * length)
         after, first = [], 0
         for contour in contours:
             count = len(contour.segments)
             after += [first + (i + 1) % count for i in range(count)]
             first += count
         turn = np.array(turns)
-        ends = (x0, y0, x1, y1, *rest, dx, dy, square, length)
-        self._name(np.array((*ends, 0.5 * (x0 + x1), 0.5 * (y0 + y1), size, turn, turn[after])))
+        arcs = (cx, cy, radius, sense, dy * right, -dx * right, sin_half, cos_half)
+        chords = (dx, dy, square, length, 0.5 * (x0 + x1), 0.5 * (y0 + y1), size)
+        self._name(np.array((x0, y0, x1, y1, *arcs, *chords, turn, turn[after])))
 
     def _name(self, columns: Array) -> None:
         """Set the numbers of the pieces, one row of ``columns`` each."""
         self._columns = columns
         self.x0, self.y0, self.x1, self.y1, *rest = columns
-        # For arcs: centre, radius, left (1) or right (-1), the direction of the middle and the
-        # cosine of half the sweep. All are 0 for lines.
-        self.cx, self.cy, self.radius, self.sense, self.mx, self.my, self.cos_half, *rest = rest
+        # For arcs: centre, radius, left (1) or right (-1); 0 for lines. Then the direction from the
+        # centre to the middle, for lines to the right, and sine and cosine of half the sweep.
+        self.cx, self.cy, self.radius, self.sense, self.mx, self.my, *rest = rest
+        self.sin_half, self.cos_half, *rest = rest
         self.arc = self.sense != 0.0
         self.dx, self.dy, self.square, self.length, *rest = rest  # of the chord
         # A circle about the middle of each piece's chord that holds the piece. Then the turn of the
@@ -120,12 +120,12 @@ class Polyarc:
     def _signed(self, points: Array) -> Array:
         x, y = points.T
         if len(self) < 64:  # with more pieces, selecting those nearby first is faster
-            views = self._upright._distances(x, y)
+            views = self._upright.distances(x, y)
             piece = np.argmin(views.distance, axis=0)
             return self._signs(views.at((piece, np.arange(len(points)))), piece)
         row, pieces = self._nearby(points)
         some = self.subset(pieces)
-        views = some._distances(x[row], y[row])
+        views = some.distances(x[row], y[row])
         # the first of the nearest pieces of each point
         least = np.minimum.reduceat(views.distance, np.flatnonzero(_changes(row)))
         equal = np.flatnonzero(views.distance == least[row])
@@ -142,33 +142,30 @@ class Polyarc:
         out._name(self._columns[:, :, None])
         return out
 
-    def _distances(self, x: Array, y: Array) -> _PieceDistances:
-        """Distances and sides of points relative to pieces; x and y broadcast with the pieces."""
-        ax, ay = x - self.x0, y - self.y0
-        # Lines: the fraction along them. Arcs: True if the point is in the sector seen from the
-        # centre.
-        fraction = (ax * self.dx + ay * self.dy) / self.square
-        vx, vy = x - self.cx, y - self.cy
-        far = np.sqrt(vx * vx + vy * vy)  # takes a tenth of hypot's time; nothing here overflows
-        facing = np.where(
-            self.arc,
-            vx * self.mx + vy * self.my >= far * self.cos_half,
-            (fraction >= 0.0) & (fraction <= 1.0),
-        )
-        side = np.where(
-            self.arc,
-            self.sense * (self.radius - far),
-            (self.dx * ay - self.dy * ax) / self.length,
-        )
-        bx, by = x - self.x1, y - self.y1
-        start, end = ax * ax + ay * ay, bx * bx + by * by
-        distance = np.where(facing, np.abs(side), np.sqrt(np.minimum(start, end)))
-        return _PieceDistances(distance, side, facing, start, end)
+    def distances(self, x: Array, y: Array) -> PieceDistances:
+        """Distances and sides of points relative to pieces; x and y broadcast with the pieces.
 
-    def _signs(self, view: _PieceDistances, piece: NDArray[np.intp]) -> Array:
+        A fitted arc may have a radius of kilometres. So nothing is measured from its centre, but
+        all from the middle of its chord. A line is an arc without curvature.
+        """
+        px, py = x - self.ox, y - self.oy
+        along = (px * self.dx + py * self.dy) / self.length
+        outward = px * self.mx + py * self.my
+        beyond, square = np.abs(along) - 0.5 * self.length, outward * outward
+        facing = self.sin_half * outward >= self.cos_half * beyond
+        # radius - far = (radius^2 - far^2) / (radius + far), with the distance ``far`` from the
+        # centre, over the radius
+        bend = 2.0 * self.sin_half / self.length
+        far = np.sqrt((bend * along) ** 2 + (bend * outward + self.cos_half) ** 2)
+        inside = bend * (0.25 * self.square - along * along - square)
+        side = (inside - 2.0 * self.cos_half * outward) / (1.0 + far)
+        distance = np.where(facing, np.abs(side), np.sqrt(square + beyond * beyond))
+        return PieceDistances(distance, np.where(self.sense < 0.0, -side, side), facing, along)
+
+    def _signs(self, view: PieceDistances, piece: NDArray[np.intp]) -> Array:
         """Signed distances of points from their nearest pieces."""
         # Outside at a convex corner, inside at a hollow one; at a smooth joint the side decides.
-        turn = np.where(view.start < view.end, self.turn_start[piece], self.turn_end[piece])
+        turn = np.where(view.along < 0.0, self.turn_start[piece], self.turn_end[piece])
         corner = ~view.facing & (turn != 0.0)
         inside = np.where(corner, turn < 0.0, view.side > 0.0)
         out: Array = np.where(inside, -1.0, 1.0) * view.distance
@@ -190,17 +187,20 @@ class Polyarc:
     def samples(self, sagitta: float, longest: float) -> Array:
         """Points of the boundary, (n, 2): all corners, and points at the requested spacing."""
         arc, radius = self.arc, np.where(self.arc, self.radius, 1.0)
-        sweep = 2.0 * np.arccos(np.clip(self.cos_half, -1.0, 1.0))
+        sweep = 2.0 * np.arctan2(self.sin_half, self.cos_half)
         step = 4.0 * np.arcsin(np.sqrt(0.5 * np.minimum(sagitta / radius, 1.0)))
         bent = np.maximum(sweep / step, sweep * radius / longest)
         count = np.maximum(np.ceil(np.where(arc, bent, self.length / longest)), 1.0).astype(int)
         first = np.cumsum(count) - count
         which = np.repeat(np.arange(len(self)), count)
         fraction = (np.arange(len(which)) - first[which]) / count[which]
-        start = np.arctan2(self.y0 - self.cy, self.x0 - self.cx)
-        turn = start[which] + (self.sense * sweep)[which] * fraction
-        x = self.cx[which] + radius[which] * np.cos(turn)
-        y = self.cy[which] + radius[which] * np.sin(turn)
+        half, size = 0.5 * sweep[which], 2.0 * radius[which]
+        turn = (2.0 * fraction - 1.0) * half
+        # measured from the chord: the centre may be kilometres away
+        along = 0.5 * size * np.sin(turn) * np.where(self.sense[which] < 0.0, -1.0, 1.0)
+        out = size * np.sin(half * fraction) * np.sin(half * (1.0 - fraction))
+        x = self.ox[which] - along * self.my[which] + out * self.mx[which]
+        y = self.oy[which] + along * self.mx[which] + out * self.my[which]
         flat = ~arc[which] | (fraction == 0.0)
         along, i = fraction[flat], which[flat]
         x[flat], y[flat] = self.x0[i] + along * self.dx[i], self.y0[i] + along * self.dy[i]
@@ -216,21 +216,11 @@ def _changes(numbers: NDArray[np.intp]) -> NDArray[np.bool_]:
 
 def _row(piece: Line | Arc) -> tuple[float, ...]:
     if isinstance(piece, Line):
-        return (*piece.start, *piece.end, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
-    (cx, cy), radius, sweep = piece.centre, piece.radius, piece.sweep
-    start = math.atan2(piece.start[1] - cy, piece.start[0] - cx)
-    middle = start + 0.5 * sweep
-    return (
-        *piece.start,
-        *piece.end,
-        cx,
-        cy,
-        radius,
-        math.copysign(1.0, sweep),
-        math.cos(middle),
-        math.sin(middle),
-        math.cos(0.5 * sweep),
-    )
+        return (*piece.start, *piece.end, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0)
+    half = 0.5 * abs(piece.sweep)
+    sense = math.copysign(1.0, piece.bulge)
+    ends = (*piece.start, *piece.end, *piece.centre)
+    return (*ends, piece.radius, sense, math.sin(half), math.cos(half))
 
 
 def _corner(before: float, after: float) -> float:

@@ -38,17 +38,18 @@ def from_segments(outline: Polyarc, start: Array, end: Array) -> Array:
     (x, y), (dx, dy) = (column[:, :, None] for column in (start.T, (end - start).T))
     square = np.maximum(dx * dx + dy * dy, 1e-300)
 
-    def offset(px: Array, py: Array) -> tuple[Array, Array]:
-        """The vectors from points to the nearest points of the segments."""
+    def nearest(px: Array, py: Array) -> tuple[Array, Array]:
+        """The points of the segments that are nearest to points."""
         along = np.clip(((px - x) * dx + (py - y) * dy) / square, 0.0, 1.0)
-        return x + along * dx - px, y + along * dy - py
+        return x + along * dx, y + along * dy
 
-    corners = np.hypot(*offset(outline.x0, outline.y0)).min(axis=1)
-    last = np.hypot(*offset(outline.x1, outline.y1)).min(axis=1)
-    fx, fy = offset(outline.cx, outline.cy)
-    away = np.hypot(fx, fy)
-    faces = outline.arc & (fx * outline.mx + fy * outline.my >= away * outline.cos_half)
-    arcs = np.where(faces, np.abs(outline.radius - away), np.inf).min(axis=1)
+    def away(px: Array, py: Array) -> Array:
+        fx, fy = nearest(px, py)
+        out: Array = np.hypot(fx - px, fy - py).min(axis=1)
+        return out
+
+    corners, last = away(outline.x0, outline.y0), away(outline.x1, outline.y1)
+    arcs = outline.distances(*nearest(outline.cx, outline.cy)).distance.min(axis=1)
     ends = np.minimum(np.abs(outline.signed(start)), np.abs(outline.signed(end)))
     out: Array = np.minimum.reduce((ends, corners, last, arcs))
     return out

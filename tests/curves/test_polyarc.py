@@ -238,3 +238,48 @@ def test_blocks_of_points_agree() -> None:
 
 def test_no_points_no_distances() -> None:
     assert Polyarc([square()]).signed(np.empty((0, 2))).shape == (0,)
+
+
+@pytest.mark.parametrize("sagitta", [10.0**-n for n in range(1, 14)])
+@pytest.mark.parametrize("flip", [1.0, -1.0])
+def test_nearly_straight_arcs(sagitta: float, flip: float) -> None:
+    """A fitted wall at an inflection: a radius of 31 mm to 31 million km, against 50 digits."""
+    arc = Arc((3.0, 1.0), (7.0, 4.0), flip * 2.0 * sagitta / 5.0)
+    boundary = Polyarc([closed("X", [arc, Line((7.0, 4.0), (3.0, 1.0))])])
+    wall = boundary.subset(np.array([0]))
+    share = np.linspace(-0.3, 1.3, 81)[:, None]
+    points = np.concatenate(
+        [(3.0, 1.0) + share * (4.0, 3.0) + off * np.array((-0.6, 0.8)) for off in (-4.0, 0.3, 1e-3)]
+    )
+    with mpmath.workdps(50):
+        wanted = [exact_side(arc, x, y) for x, y in points.tolist()]
+    found = wall.distances(points[:, 0], points[:, 1])
+    # the sector of the centre: at its ends rounding decides
+    clear = np.abs(np.array([inside for _, _, inside in wanted])) > 1e-12
+    facing = np.array([inside > 0.0 for _, _, inside in wanted])
+    assert np.array_equal(found.facing[clear], facing[clear])
+    # 10 mm: a few units in the last place
+    assert np.abs(found.side - [float(side) for side, _, _ in wanted]).max() < 1e-14
+    assert np.abs(found.distance - [float(away) for _, away, _ in wanted]).max() < 1e-14
+    on = wall.samples(1e-4, 0.1)
+    assert np.abs(wall.signed(on)).max() < 1e-14
+
+
+def exact_side(arc: Arc, x: float, y: float) -> tuple[mpmath.mpf, mpmath.mpf, float]:
+    """The distance from the circle, positive at the left, that from the arc, and how far inside its
+    sector a point is, mm along the arc."""
+    z, a, b = mpmath.mpc(x, y), mpmath.mpc(*arc.start), mpmath.mpc(*arc.end)
+    half = 2 * mpmath.atan(abs(mpmath.mpf(arc.bulge)))
+    left = 1j * mpmath.sign(arc.bulge) * (b - a) / abs(b - a)
+    radius = abs(b - a) / 2 / mpmath.sin(half)
+    centre = (a + b) / 2 + left * radius * mpmath.cos(half)
+    off = abs(mpmath.arg((z - centre) / -left))
+    side = radius - abs(z - centre)
+    away = abs(side) if off <= half else min(abs(z - a), abs(z - b))
+    return mpmath.sign(arc.bulge) * side, away, float(radius * (half - off))
+
+
+def test_a_piece_without_length_is_a_point() -> None:
+    wall = Polyarc([Contour("X", (Line((1.0, 2.0), (1.0, 2.0)),))])
+    found = wall.distances(np.array([4.0]), np.array([6.0]))
+    assert found.distance == pytest.approx([5.0], rel=1e-15)

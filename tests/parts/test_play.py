@@ -15,11 +15,16 @@ from scipy.optimize import brentq
 from shapely import affinity
 from shapely.geometry import Point
 from test_outline import disc, made, polygon, turned
-from words import load
+from words import Motion, load
 
 from geneva_cli.collisions.full_turn import full_turn
 from geneva_cli.collisions.gaps import Gaps, WorkLimit
 from geneva_cli.outlines.outlines import Outlines, outlines
+from geneva_cli.parts.outlines import Outlines, outlines
+from geneva_cli.parts.turn.free_angles import free_angles
+from geneva_cli.parts.turn.full_turn import full_turn
+from geneva_cli.parts.turn.gaps import Gaps, WorkLimit
+from geneva_cli.parts.turn.play import windows
 from geneva_cli.verdict.checks.registry import turn_checks
 
 DESIGNS = repo.DESIGNS
@@ -202,6 +207,31 @@ def test_play_in_the_motion(tmp_path: Path, c: float) -> None:
     assert turn.motion.at_deg == pytest.approx(0.0, abs=1e-4)
     row = next(r for r in turn_checks(found, turn) if r.name == "motion_play_deg")
     assert row.passes == (c < 1.0)
+
+
+CHANGES = {
+    "internal-curved-z8": None,
+    "modified-sine-matched": None,
+    "steep": Motion("modified-sine", alpha0_deg=16.02, ratio="matched"),
+}
+
+
+@pytest.mark.parametrize("name", CHANGES)
+def test_play_where_the_roller_changes_walls(name: str) -> None:
+    """A narrow peak between two positions: 2 to 3 times as high as those, against a dense scan."""
+    motion = CHANGES[name]
+    parts = (
+        made(8, motion=motion, slot_clearance_mm=0.02)
+        if motion
+        else outlines(load(str(DESIGNS / f"{name}.toml")))
+    )
+    window = next(w for w in windows(parts) if not w.rests)
+    at_deg = np.linspace(window.start, window.end, 20_000)
+    play = np.degrees(np.minimum(*free_angles(parts, at_deg, True)))
+    dense = play[parts.past_mouth(0, at_deg) > 0.0].max()
+    # the play changes by a hundredth of itself between two positions of the scan
+    assert full_turn(parts).motion.deg == pytest.approx(dense, rel=0.01)
+    assert full_turn(parts).motion.deg > dense * (1.0 - 1e-9)
 
 
 @settings(max_examples=6)

@@ -5,12 +5,20 @@ import math
 import numpy as np
 import pytest
 import repo
-from words import load
+from test_outline import made
+from words import Motion, load
 
 from geneva_cli.collisions.free_angles import free_angles, search_deg
 from geneva_cli.collisions.play import windows
 from geneva_cli.drawings.model import PartsModel
+from geneva_cli.curves.measure import at
+from geneva_cli.curves.shapes import Arc, Line
 from geneva_cli.machine.mechanism import build
+from geneva_cli.parts.model import PartsModel
+from geneva_cli.parts.turn.free_angles import free_angles, search_deg
+from geneva_cli.parts.turn.full_turn import full_turn
+from geneva_cli.parts.turn.gaps import Gaps
+from geneva_cli.parts.turn.play import windows
 
 BARE = ("turret", "internal-z6", "four-bar-z4", "press-curved", "three-rollers-z4", "spherical-z6")
 LOOSE = (
@@ -62,3 +70,40 @@ def test_a_stop_is_the_first_place_where_parts_overlap(name):
         assert stopped.any()
         behind = parts.gaps.gap(pose, way * (free + PAST), parts.gaps.near)
         assert (behind[stopped] < -parts.close).all()
+
+
+def bent(contour, sagitta):
+    """A contour with the walls of its slots in four, each bowed by a sagitta, in and out."""
+    pieces = []
+    for piece in contour.segments:
+        wall = isinstance(piece, Line) and math.dist(*piece) > 1.0
+        parts = np.linspace(0.0, 1.0, 5) if wall else (0.0, 1.0)
+        for i, (p, q) in enumerate(zip(parts[:-1], parts[1:], strict=True)):
+            ends = at(piece, p), at(piece, q)
+            bulge = 2.0 * (-1.0) ** i * sagitta / math.dist(*ends)
+            pieces.append(Arc(*ends, bulge) if wall else piece)
+    return contour._replace(segments=tuple(pieces))
+
+
+@pytest.mark.parametrize("sagitta", [1e-3, 1e-6, 1e-7, 1e-8, 1e-10, 1e-12])
+def test_nearly_straight_walls_stop_like_straight_ones(sagitta):
+    """Fitted arcs may have a radius of kilometres: stops were missed."""
+    parts = made(6, roller_radius_mm=5.0, slot_clearance_mm=0.1, lock_clearance_mm=0.05)
+    gaps = Gaps(parts.assembly, parts.sizes, bent(parts.wheel, sagitta), parts.crank)
+    at_deg = parts.assembly.start_deg + np.linspace(0.0, 359.0, 360)
+    pose, lead = parts.gaps.pose(at_deg), np.linspace(-0.1, 0.1, 360)
+    for own, other in ((parts.gaps.rollers, gaps.rollers), (parts.gaps.locking, gaps.locking)):
+        # the walls' own difference, and rounding of 100 mm
+        assert np.abs(own(pose, lead) - other(pose, lead)).max() < sagitta + 1e-13
+    straight, curved = free_angles(parts, at_deg), free_angles(parts._replace(gaps=gaps), at_deg)
+    # where the roller is 50 mm or more from the wheel's axis; contacts of corners graze
+    assert np.abs(np.subtract(straight, curved)).max() < sagitta / 50.0 + 1e-7
+
+
+def test_an_arc_at_an_inflection_stops_the_wheel(monkeypatch):
+    """With these places of the joints a wall has a radius of 560 m: the play was 5.27 degrees."""
+    monkeypatch.setattr("geneva_cli.curves.fit.path.WEIGHT", 2.0**-8)
+    parts = made(8, motion=Motion("modified-sine", alpha0_deg=-16.303125, ratio="matched"))
+    assert parts.gaps.wheel.radius.max() > 1e5
+    # twice what the walls are known to, over the roller's distance from the wheel's axis
+    assert full_turn(parts).motion.deg < 2.0 * math.degrees(parts.close / parts.sizes.slot_end)

@@ -87,7 +87,7 @@ class WheelCaps:
         ps, qs = np.nonzero((apart > 0.0) & (apart < np.pi))
         away, towards = polar(axis), _azimuth(axis)
         far, d, rho = away[:, qs], apart[ps, qs], self.polar[ps]
-        (n, pair), h, g = triangles(d, rho, far, np.sin)
+        (n, pair), h, g = triangles(d - rho, rho, far, np.sin)
         p, q = ps[pair], qs[pair]
         angle = 2.0 * np.arctan2(h, g)  # between the axes, about z
         turn = towards[n, q] - WAYS * angle - self.azimuth[p]
