@@ -11,7 +11,7 @@ import sys
 import textwrap
 from collections.abc import Mapping
 from functools import partial
-from typing import Annotated, Any, get_args
+from typing import Annotated, Any, NoReturn, get_args
 
 import typer
 from typer.core import TyperCommand, TyperGroup
@@ -192,6 +192,15 @@ class LazyGroup(PlainValues, TyperGroup):
         super().__init__(**settings)
         self.commands = {n: TyperCommand(n, help=h, callback=_stub) for n, h in COMMANDS.items()}
 
+    def parse_args(self, ctx: Any, args: list[str]) -> list[str]:
+        """Parse the options before the command; a wrong one becomes a line and an exit code."""
+        if not args:  # the help is shown
+            return super().parse_args(ctx, args)
+        try:
+            return super().parse_args(ctx, args)
+        except USAGE as error:
+            _fail(_usage("geneva", error))
+
     def list_commands(self, ctx: Any) -> list[str]:
         """Every command, in the order of the registry."""
         return list(COMMANDS)
@@ -229,8 +238,7 @@ class LazyGroup(PlainValues, TyperGroup):
             _fail(str(error))
         except USAGE as error:
             path = f"geneva {ctx.invoked_subcommand}" if ctx.invoked_subcommand else "geneva"
-            message = error.format_message().rstrip(".")
-            _fail(f"{path}: {message[:1].lower()}{message[1:]}; see {path} -h")
+            _fail(_usage(path, error))
         except OSError as error:
             _fail(f"{error.filename or 'system'}: {error.strerror}")
         except MemoryError:
@@ -271,7 +279,13 @@ def _command(name: str, run: Any) -> Any:
     return command
 
 
-def _fail(message: str) -> None:
+def _usage(path: str, error: Any) -> str:
+    """The message on wrong arguments of ``path``: the program and its command."""
+    message = error.format_message().rstrip(".")
+    return f"{path}: {message[:1].lower()}{message[1:]}; see {path} -h"
+
+
+def _fail(message: str) -> NoReturn:
     close()
     print(cut(clean(message), 1000), file=sys.stderr)  # at most 1000 characters
     raise typer.Exit(2) from None

@@ -28,9 +28,11 @@ def run(
     """Show a page of the manual, the options of a command, or all places of a word."""
     from geneva_cli.manual import TOPICS, Hit, contents, page, search
     from geneva_cli.output import show, show_markdown, show_text
-    from geneva_cli.table import rows_table
+    from geneva_cli.table import Reading, rows_table
 
     commands: Any = context.find_root().command
+    if f"{topic}s" in TOPICS and topic not in commands.list_commands(context):
+        topic = f"{topic}s"
     if not topic:
         show_markdown(contents())
     elif topic not in TOPICS and topic in commands.list_commands(context):
@@ -40,7 +42,8 @@ def run(
     elif topic in TOPICS:
         show_markdown(page(topic))
     elif hits := search(topic):
-        show(rows_table(Hit._fields, hits, f"{topic}: `geneva help TOPIC` shows a page."))
+        table = rows_table(Hit._fields, hits, f"{topic}: `geneva help TOPIC` shows a page.")
+        show(table.replaced(reading=Reading(("topic", "line"))))
     else:
         raise GenevaError(
             f'"{cut(topic)}" is no page of the manual, and on no page{nearest(topic, TOPICS)}'

@@ -32,7 +32,7 @@ STROKES = {
 }
 DIGITS = {
     **{"0": "abcdef", "1": "bc", "2": "abged", "3": "abgcd", "4": "fgbc"},
-    **{"5": "afgcd", "6": "afgedc", "7": "abc", "8": "abcdefg", "9": "abcdfg", "-": "g"},
+    **{"5": "afgcd", "6": "afgedc", "7": "abc", "8": "abcdefg", "9": "abcdfg"},
 }
 
 
@@ -55,7 +55,7 @@ def coupon(parts: FlatParts) -> Drawing:
     if presses:
         for i, press in enumerate(presses):
             x = wall + widest + i * each
-            marks += number(f"-{press:g}" if press else "0", x, up, height)
+            marks += number(f"{press:g}", x, up, height)
             holes.append(Circle(HOLES, (x, up + height + wall + pin), pin - 0.5 * press))
         up += height + 2.0 * (wall + pin)
     for i, clearance in enumerate(clearances):

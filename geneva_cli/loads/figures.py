@@ -120,8 +120,12 @@ def figure(cycles: Mapping[str, Cycle], pick: Sequence[str] = ()) -> tuple[Figur
         window,
         tuple(_rests(machines, window)),
     )
-    left = {d: [n for n in requested if n not in known] for d, known in has.items()}
-    return picture, [(d, line) for d, names in left.items() for line in _left_out(cycles[d], names)]
+    left = []
+    for design, cycle in cycles.items():
+        names = requested if cycle.is_loaded else shown  # forces are not expected without a load
+        lacking = [name for name in names if name not in has[design]]
+        left += [(design, line) for line in _left_out(cycle, lacking)]
+    return picture, left
 
 
 def _title(machines: Sequence[Mechanism]) -> str:

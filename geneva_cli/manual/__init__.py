@@ -90,30 +90,39 @@ class Hit(NamedTuple):
 
 
 def search(word: str) -> list[Hit]:
-    """Sections of all pages that contain a word, in any case; one hit for each section.
+    """Sections of all pages in which a word begins so, in any case; one hit for each section.
+
+    Sections with the word in their heading come first. The output of examples is not searched.
 
     >>> {hit.topic for hit in search("Whitworth")}
     {'kinds'}
+    >>> {hit.topic for hit in search("stl")}  # neither "mostly" nor "costly"
+    {'print'}
     """
-    wanted = word.casefold()
+    wanted = re.compile(rf"(?<![^\W\d_]){re.escape(word)}", re.IGNORECASE)
     hits: dict[tuple[str, str], Hit] = {}
     for topic in TOPICS:
-        section = ""
+        section, is_example = "", False
         for line in page(topic).splitlines():
-            if line.startswith("#"):
+            if line.startswith("```"):
+                is_example = line == "```console"
+            elif is_example and not line.startswith("$ "):
+                continue
+            elif line.startswith("#"):
                 section = line.lstrip("# ")
-            if wanted in line.casefold():
+            if wanted.search(line):
                 hits.setdefault((topic, section), Hit(topic, section, _excerpt(line, wanted)))
-    return list(hits.values())
+    return sorted(hits.values(), key=lambda hit: not wanted.search(hit.section))
 
 
-def _excerpt(line: str, wanted: str) -> str:
+def _excerpt(line: str, wanted: re.Pattern[str]) -> str:
     """The part of a line that has a word in it."""
     plain = " ".join(line.replace("`", "").replace("*", "").lstrip("# ").split())
-    at = max(plain.casefold().find(wanted), 0)
+    match = wanted.search(plain)
+    at, word = (match.start(), match.group()) if match else (0, "")
     around = 24  # characters on each side of the word
     start = max(0, plain.rfind(" ", 0, max(0, at - around)) + 1) if at > around else 0
-    end = plain.find(" ", at + len(wanted) + around)
+    end = plain.find(" ", at + len(word) + around)
     return plain[start : end if end > 0 else len(plain)]
 
 

@@ -79,7 +79,8 @@ def _failure(check: Check) -> SummaryLine:
         return SummaryLine(label, check.why, explained, FAILS)
     change = f"passes with {check.nearest}" if check.nearest else check.why
     note = f"{change} ({explained})" if change else explained
-    return SummaryLine(label, meaning(check) or compared_text(check, unit), note, FAILS)
+    refusal = check.why if check.nearest else ""  # of parts that cannot be built
+    return SummaryLine(label, refusal or meaning(check) or compared_text(check, unit), note, FAILS)
 
 
 def compared_text(check: Check, unit: str) -> str:

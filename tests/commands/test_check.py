@@ -91,6 +91,14 @@ def test_what_fails_says_what_to_change(fails: str) -> None:
     assert run(fails, "--set", f"drive.{change.replace(' ', '')}").exit_code == 0
 
 
+def test_parts_that_cannot_be_built_are_named(watched: None) -> None:
+    """Beside the change that passes; the row has no value that would tell."""
+    spec = str(repo.DESIGNS / "press-straight.toml")
+    shown = " ".join(run(spec, "--set", "size.wheel_bore_mm=400").stdout.split())
+    assert "parts wheel_bore_mm = 400: the slots reach down to 199.945 mm" in shown
+    assert "passes with roller_radius_mm = " in shown
+
+
 def test_a_window_gets_the_answer_and_the_table_on_request(watched: None) -> None:
     short, whole = run(TURRET).stdout, run(TURRET, "-v").stdout
     assert "tightest  crank bore wall 8.256 mm, at least 1.25" in short

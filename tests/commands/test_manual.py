@@ -205,6 +205,7 @@ def test_pages_begin_with_a_title_and_name_pages_that_exist(topic: str) -> None:
 
 def test_help_prints_the_page_the_list_or_the_options_of_a_command() -> None:
     assert invoke(["help", "symbols"]) == page("symbols")
+    assert invoke(["help", "symbol"]) == page("symbols")
     contents = invoke(["help"])
     assert all(f"- {topic}: {about}\n" in contents for topic, about in TOPICS.items())
     assert [line[3:] for line in contents.splitlines() if line.startswith("## ")] == [
@@ -221,3 +222,4 @@ def test_help_searches_all_pages_for_another_word() -> None:
         shown = invoke(["help", word.upper()])
         pages = [topic for topic in TOPICS if word in page(topic).casefold()]
         assert pages and all(f"\n{topic} " in shown for topic in pages)
+    assert {line.split()[0] for line in invoke(["help", "STL"]).splitlines()[4:]} == {"print"}
