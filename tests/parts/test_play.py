@@ -17,14 +17,11 @@ from shapely.geometry import Point
 from test_outline import disc, made, polygon, turned
 from words import Motion, load
 
+from geneva_cli.collisions.free_angles import free_angles
 from geneva_cli.collisions.full_turn import full_turn
 from geneva_cli.collisions.gaps import Gaps, WorkLimit
+from geneva_cli.collisions.play import windows
 from geneva_cli.outlines.outlines import Outlines, outlines
-from geneva_cli.parts.outlines import Outlines, outlines
-from geneva_cli.parts.turn.free_angles import free_angles
-from geneva_cli.parts.turn.full_turn import full_turn
-from geneva_cli.parts.turn.gaps import Gaps, WorkLimit
-from geneva_cli.parts.turn.play import windows
 from geneva_cli.verdict.checks.registry import turn_checks
 
 DESIGNS = repo.DESIGNS

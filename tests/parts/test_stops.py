@@ -9,16 +9,13 @@ from test_outline import made
 from words import Motion, load
 
 from geneva_cli.collisions.free_angles import free_angles, search_deg
+from geneva_cli.collisions.full_turn import full_turn
+from geneva_cli.collisions.gaps import Gaps
 from geneva_cli.collisions.play import windows
-from geneva_cli.drawings.model import PartsModel
 from geneva_cli.curves.measure import at
 from geneva_cli.curves.shapes import Arc, Line
+from geneva_cli.drawings.model import PartsModel
 from geneva_cli.machine.mechanism import build
-from geneva_cli.parts.model import PartsModel
-from geneva_cli.parts.turn.free_angles import free_angles, search_deg
-from geneva_cli.parts.turn.full_turn import full_turn
-from geneva_cli.parts.turn.gaps import Gaps
-from geneva_cli.parts.turn.play import windows
 
 BARE = ("turret", "internal-z6", "four-bar-z4", "press-curved", "three-rollers-z4", "spherical-z6")
 LOOSE = (
