@@ -83,7 +83,7 @@ jam: .venv/dev
 	PYTHONPATH=tests $(BIN)/python tests/stress/jam.py
 
 # A million random specs, 20,000 machines with parts, 10,000 drawing sheets, 100,000 wheels of ever
-# larger clearance, 20,000 outlines with a kerf; hours.
+# larger clearance, 2,000 wheels with curved slots, 20,000 outlines with a kerf; hours.
 # Stopped, it goes on from there; another seed, or new code, begins again: rm build/fuzz-*.json.
 fuzz: .venv/dev
 	@mkdir -p build
