@@ -83,7 +83,7 @@ jam: .venv/dev
 	PYTHONPATH=tests $(BIN)/python tests/stress/jam.py
 
 # A million random specs, 20,000 machines with parts, 10,000 drawing sheets, 100,000 wheels of ever
-# larger clearance, 20,000 outlines with a kerf; hours.
+# larger clearance, 2,000 wheels with curved slots, 20,000 outlines with a kerf; hours.
 # Stopped, it goes on from there; another seed, or new code, begins again: rm build/fuzz-*.json.
 fuzz: .venv/dev
 	@mkdir -p build
@@ -91,6 +91,7 @@ fuzz: .venv/dev
 	PYTHONPATH=tests:tests/machine:tests/parts $(BIN)/python tests/stress/fuzz_parts.py --runs 20000 --jobs 2 --state build/fuzz-parts.json
 	PYTHONPATH=tests:tests/machine:tests/parts $(BIN)/python tests/stress/fuzz_sheets.py --runs 10000 --jobs 2 --state build/fuzz-sheets.json
 	PYTHONPATH=tests:tests/machine:tests/parts $(BIN)/python tests/stress/fuzz_play.py --runs 4000 --jobs 2 --state build/fuzz-play.json
+	PYTHONPATH=tests:tests/machine:tests/parts $(BIN)/python tests/stress/fuzz_stops.py --runs 2000 --jobs 2 --state build/fuzz-stops.json
 	PYTHONPATH=tests:tests/machine:tests/curves $(BIN)/python tests/stress/fuzz_kerf.py --runs 20000 --jobs 2 --state build/fuzz-kerf.json
 
 # Start-up of a table against `import typer` alone: paired whole processes, the ratio's median.
