@@ -13,7 +13,8 @@ array([26.8019, 28.3356])
 from __future__ import annotations
 
 import math
-from collections.abc import Collection
+from collections.abc import Collection, Mapping
+from functools import lru_cache
 from typing import TYPE_CHECKING, TypeAlias, cast
 
 import numpy as np
@@ -77,7 +78,8 @@ SHOWN_SIZING = (
 )
 
 
-def sizing(cycle: Cycle) -> tuple[dict[str, float | None], list[str]]:
+@lru_cache(maxsize=16)
+def sizing(cycle: Cycle) -> tuple[Mapping[str, float | None], tuple[str, ...]]:
     """The values of one design in the order shown, and the keys that missing values need."""
     spec = cycle.mechanism.spec
     names, torque = (
@@ -89,7 +91,7 @@ def sizing(cycle: Cycle) -> tuple[dict[str, float | None], list[str]]:
         name: x if math.isfinite(x := values.get(name, math.nan)) else None for name in SHOWN_SIZING
     }
     if torque is None:
-        return out, []
+        return out, ()
     needs = []
     if not (np.isfinite(torque.max) & np.isfinite(torque.min)).all():
         needs.append("sizing: nothing bounds the input's torque, so no motor or flywheel suffices")
@@ -101,7 +103,7 @@ def sizing(cycle: Cycle) -> tuple[dict[str, float | None], list[str]]:
         needs.append("flywheel_kgm2, flywheel_to_add_kgm2: need speed_variation in [motor]")
     if not spec.motor.inertia_kgm2:
         needs.append("inertia_ratio, coasting_speed_share: need inertia_kgm2 in [motor]")
-    return out, needs
+    return out, tuple(needs)
 
 
 def sizings(

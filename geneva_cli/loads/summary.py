@@ -124,10 +124,10 @@ def loads_table(
         for name, one in loads.items():
             values |= {f"{name}.{key}": value for key, value in one._asdict().items()}
     values["reversals_deg"] = tuple(reversals_deg(cycle)) if cycle.is_loaded else None
-    bought, needed = sizing(cycle)
-    bought[WHEEL_INERTIA] = wheel_inertia_kgm2
+    computed, needed = sizing(cycle)
+    bought = {**computed, WHEEL_INERTIA: wheel_inertia_kgm2}
     if cycle.is_loaded and wheel_inertia_kgm2 is None:
-        needed = [*needed, f"{WHEEL_INERTIA}: {_unweighed(spec)}"]
+        needed = *needed, f"{WHEEL_INERTIA}: {_unweighed(spec)}"
     for group, answers in (("sizing", bought), ("life", life)):
         values |= {f"{group}.{key}": value for key, value in answers.items()}
     values["warnings"] = (*warnings, *needed)
