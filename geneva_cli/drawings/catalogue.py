@@ -125,7 +125,7 @@ def machine_of(mechanism: Mechanism, part: str) -> Mechanism:
     """
     if part not in PARTS or not PARTS[part].in_front:
         return mechanism
-    first: Mechanism = _loaded("first_pair:first_pair")(mechanism)
+    first: Mechanism = _loaded("parts.first_pair:first_pair")(mechanism)
     return first
 
 

@@ -157,8 +157,8 @@ def test_slots_that_coincide_are_a_plain_wheels():
     size = {"slot_clearance_mm": 0.1, "lock_clearance_mm": 0.05}
     pair, plain = made(5, 1e-6, **size), Design(External(5), size=Size(**size))
     values = [{c.name: c.value for c in one.checks} for one in (pair, plain)]
-    assert values[0].pop("gap_proved_mm", None) is None  # gears have no proof
-    assert values[1].pop("gap_proved_mm") > -0.001
+    # a proof ends once it is near enough: the two end elsewhere
+    assert all(one.pop("gap_proved_mm") > -0.001 for one in values)
     assert values[0].pop("rollers_apart_mm") < 0.0  # two of them in one place
     assert values[0].pop("idle_roller_mm") > 0.0 and values[0].pop("link_gap_mm") > 0.0
     # 1e-6 degrees, over the lock's clearance, which opens as the square root of that

@@ -15,10 +15,10 @@ from fuzzing import campaign, in_time
 from test_outline import made
 from words import Motion
 
+from geneva_cli.collisions.free_angles import free_angles, search_deg
+from geneva_cli.collisions.full_turn import full_turn
+from geneva_cli.collisions.play import windows
 from geneva_cli.errors import GenevaError
-from geneva_cli.parts.turn.free_angles import free_angles, search_deg
-from geneva_cli.parts.turn.full_turn import full_turn
-from geneva_cli.parts.turn.play import windows
 
 SECONDS = 30  # of one machine
 LAWS = ("modified-sine", "cycloidal", "modified-trapezoid", "3-4-5", "harmonic")
