@@ -202,7 +202,9 @@ class Cutter:
         """Set each sign to its function's in the middle of each piece, and update the values."""
         sign, part, value = pieces[1:]
         some = np.flatnonzero(~pieces.whole)
-        middle = chebyshev.at(chebyshev.series(rows_taken(q, some)), 0.5 * (part[0] + part[1])[some])
+        middle = chebyshev.at(
+            chebyshev.series(rows_taken(q, some)), 0.5 * (part[0] + part[1])[some]
+        )
         flip = some[np.where(middle > 0.0, 1.0, -1.0) != sign[kind, some]]
         if len(flip):
             sign[kind, flip] *= -1.0
@@ -262,7 +264,9 @@ class Cutter:
         if not len(own):
             return unsure, *none
         low, high, a, b = GRID[cell], GRID[cell + 1], g[own, cell], g[own, cell + 1]
-        t = chebyshev.root(chebyshev.series(rows_taken(q, own)), low, high, low + (high - low) * a / (a - b))
+        t = chebyshev.root(
+            chebyshev.series(rows_taken(q, own)), low, high, low + (high - low) * a / (a - b)
+        )
         which = some[own]
         kept = (t > part[0, which] + AT_END) & (t < part[1, which] - AT_END)
         which, t = which[kept], t[kept]
