@@ -115,8 +115,6 @@ class StackedAnchors(Anchors):
 
     def solved(self, input_deg: Number, solve: Solve) -> Jet:
         """Jet of ``solve(anchor, angles)``, with the anchor that serves each angle in degrees."""
-        import numpy as np
-
         x = array(input_deg)
         first, *others = [x > cut for cut in self.cuts]
         index: Whole = first.astype(int)  # laid out as the angles
