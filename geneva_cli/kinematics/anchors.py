@@ -115,10 +115,11 @@ class StackedAnchors(Anchors):
 
     def solved(self, input_deg: Number, solve: Solve) -> Jet:
         """Jet of ``solve(anchor, angles)``, with the anchor that serves each angle in degrees."""
-        import numpy as np
-
         x = array(input_deg)
-        index: Whole = sum(((x > cut).astype(int) for cut in self.cuts), np.zeros_like(x, int))
+        first, *others = [x > cut for cut in self.cuts]
+        index: Whole = first.astype(int)  # laid out as the angles
+        for past in others:
+            index = index + past
         low, high = int(index.min(initial=len(self) - 1)), int(index.max(initial=0))
         # any anchor will do for no angles
         anchor = self[high] if low >= high else self.stack.picked(index, self.rows)

@@ -101,7 +101,7 @@ def _followed(path: RollerPath, samples: PathSamples, ends: EndPairs, sense: Arr
     wheel = PlacedWheel._make(x[:, None] for x in (centre, rho * rho, sense))
     number = np.zeros(int(samples.which.max(initial=0)) + 1, dtype=int)
     number[samples.which] = np.arange(len(samples.which))
-    at = samples.at.taken((number[ends.which], slice(0, -1)))
+    at = samples.at.taken(number[ends.which]).taken((slice(None), slice(0, -1)))
     entry, motion = ends.at.phi[:, :1], np.diff(ends.at.phi, axis=1)
     since = (at.phi - entry) % math.tau
     course = wheel.course(at)

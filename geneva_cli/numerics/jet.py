@@ -195,11 +195,9 @@ def cosines_after(sine: Number, cosine: Number, order: int) -> list[Number]:
 
 def sine_versine(x: Jet) -> tuple[Jet, Jet]:
     """sin x and 1 - cos x, the latter without cancellation."""
-    m, half = library(x.c[0]), 0.5 * x.c[0]
-    h, g = m.sin(half), m.cos(half)  # both values follow from these two
-    slope = [k * a for k, a in enumerate(x.c)]
-    s, c = _circle(slope, 2.0 * h * g, (g - h) * (g + h))
-    return s, Jet((2.0 * h * h, *[-a for a in c.c[1:]]))
+    s, c = sin_cos(x)
+    half = library(x.c[0]).sin(0.5 * x.c[0])
+    return s, Jet((2.0 * half * half, *[-a for a in c.c[1:]]))
 
 
 def sine_versine_of(rate: Jet, y: Number, x: Number, order: int) -> tuple[Jet, Jet]:

@@ -163,9 +163,8 @@ class _ExtremeSearch:
         may = self.greatest.may_pass(pieces.rows.design, low - more, high + more)
         may &= (low != np.inf) & (high != -np.inf)  # it has a bound somewhere
         number, own = np.nonzero(may)
-        value = rows_joined(
-            [rows_taken(one, some) for one, some in zip(pieces.value, may, strict=True)]
-        )
+        each = [rows_taken(one, some) for one, some in zip(pieces.value, may, strict=True)]
+        value = rows_joined([np.empty((0, len(POINTS))), *each])
         rows, sign, part = pieces.rows.take(own), pieces.sign[:, own], pieces.part[:, own]
         curves = CandidateCurves(number, rows, sign, part, value, left[number, own])
         miss = np.full(len(pieces.rows.design), False)

@@ -1,4 +1,4 @@
-"""The motion of one design at very many angles."""
+"""The motion of one design at very many angles: the plain wheel, then every machine."""
 
 from __future__ import annotations
 
@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from geneva_cli.bench import motion_of_kinds
 from geneva_cli.bench.method import Method, Subject, Task, missing
 from geneva_cli.bench.truth import digits, motion
 from geneva_cli.kinematics.wheels.external import External
@@ -106,9 +107,9 @@ def subject(quick: bool) -> Subject:
         for what, orders in wanted.items()
     ]
     return Subject(
-        f"Motion of a wheel of {Z} slots at N angles",
-        "greatest error, in units of each quantity's peak",
-        tasks,
+        f"Motion of a wheel of {Z} slots, and of every machine, at N angles",
+        "greatest error, in units of each quantity's peak; of every machine against single angles",
+        [*tasks, *motion_of_kinds.tasks(1_000 if quick else 1_000_000)],
         absent=missing("numexpr"),
     )
 

@@ -99,7 +99,7 @@ def boxes_of(samples: PathSamples, wanted: Array) -> Boxes:
     round_ = np.where(exit_ < entry, 1.0, 0.0)
     start = angle[row, exit_] + whole[row, 0] * round_ - angle[row, entry]
     one, two = (
-        CrankInterval(at.taken((row, of)), at.taken((row, of + 1)), turn[row, of])
+        CrankInterval(at.at_samples(row, of), at.at_samples(row, of + 1), turn[row, of])
         for of in (entry, exit_)
     )
     near_end, far_end = (

@@ -39,7 +39,16 @@ class PathPoints(NamedTuple):
 
     def taken(self, where: Where) -> PathPoints:
         """Select some of the points."""
-        return PathPoints._make(part[where] for part in self)
+        if not isinstance(where, np.ndarray):
+            return PathPoints._make(part[where] for part in self)
+        # a third of the time of an index
+        numbers = where.nonzero()[0] if where.dtype == bool else where
+        return PathPoints._make(part.take(numbers, axis=0) for part in self)
+
+    def at_samples(self, row: Whole, column: Whole) -> PathPoints:
+        """Select single points of rows of points: (m,)."""
+        numbers = row * self.phi.shape[1] + column
+        return PathPoints._make(part.take(numbers) for part in self)
 
 
 class PathSamples(NamedTuple):
@@ -84,7 +93,7 @@ def sampled(path: RollerPath, count: int) -> Iterator[PathSamples]:
     left, right = _neighbours(base)
     turned = _turned(left, right)
     row, column = np.nonzero(_missed(left, right, turned))
-    extra = _between(path, row, left.taken((row, column)), right.taken((row, column)))
+    extra = _between(path, row, left.at_samples(row, column), right.at_samples(row, column))
     more = np.bincount(extra[0], minlength=count) if extra else np.zeros(count, dtype=int)
     plain = every[more == 0]
     for part in _blocks(np.full(len(plain), steps)):

@@ -1,0 +1,60 @@
+"""Velocity and acceleration of one design of every machine, at very many angles."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from geneva_cli.bench.kinds import KINDS, VariedMachine, values_of
+from geneva_cli.bench.method import Method, Task
+from geneva_cli.machine.mechanism import build
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from geneva_cli.kinematics.engagement import WheelMotion
+    from geneva_cli.numerics.jet import Array
+
+ORDERS = (1, 2)
+CHECKED = 50  # angles at which the error is measured
+
+
+def tasks(count: int) -> list[Task]:
+    """A task for each machine, over ``count`` angles from entry to exit."""
+    return [_task(kind, count) for kind in KINDS]
+
+
+def _task(kind: VariedMachine, count: int) -> Task:
+    value = values_of(kind, 1)[0].item()
+    motion = build(kind.spec.with_(kind.key, value)).engagements[0].motion
+    angles = np.linspace(motion.entry_deg, motion.exit_deg, count)
+    angles[1] = 0.5 * (angles[0] + angles[1])  # not its own mirror image: no half is copied
+    radians = np.radians(angles)
+    methods = [
+        Method("jets, whole arrays", count, lambda: _jets(motion, angles)),
+        Method("ours", count, lambda: motion.derivatives(angles, ORDERS), True),
+    ]
+    return Task(
+        f"{kind.name}: velocity and acceleration at {count} angles",
+        f"one np.sin + np.cos over {count} angles",
+        lambda: (np.sin(radians), np.cos(radians)),
+        lambda results: _error(motion, angles, results),
+        methods,
+    )
+
+
+def _jets(motion: WheelMotion, angles: Array) -> list[Any]:
+    """The derivatives from one jet; of a copy, as a motion keeps its latest jet."""
+    return list(motion(angles.copy(), ORDERS[-1]).derivatives()[1:])
+
+
+def _error(motion: WheelMotion, angles: Array, results: Sequence[Any]) -> float:
+    """Greatest difference from the values of single angles, by ``math`` instead of NumPy."""
+    some = np.linspace(0, len(angles) - 1, CHECKED).astype(int)
+    exact = np.array([motion(x, ORDERS[-1]).scalars()[1:] for x in angles[some].tolist()]).T
+    errors = [
+        np.abs(values[some] - own).max() / np.abs(values).max()
+        for values, own in zip(results, exact, strict=True)
+    ]
+    return float(max(errors))
