@@ -43,8 +43,9 @@ GROUPS = {
         "sweep": "Thousands of designs, a row each; the best of them.",
     },
     "Draw": {
-        "profile": "Slots, parts and whole machines as csv, dxf, svg, step.",
+        "profile": "Slots, parts and machines as csv, dxf, svg, step, stl, 3mf.",
         "plot": "Curves over the cycle, or of a sweep's csv.",
+        "export": "Everything a shop needs, in a folder.",
         "animate": "A page on which the machine turns; --open shows it.",
     },
     "Learn": {

@@ -69,3 +69,15 @@ def say(path: str, warnings: Iterable[str]) -> None:
 def with_name(warning: str) -> str:
     """A warning with its name for ``geneva explain``."""
     return f"{warning} [{warning.name}]" if isinstance(warning, Notice) else warning
+
+
+def require_written(design: Design, verdict: tuple[str, list[str]], force: bool) -> None:
+    """Exit with status 1 for parts that overlap or cannot be built, unless forced; else warn."""
+    path = design.spec.path
+    refused, warned = verdict
+    if refused and not force:
+        text = f"not written: {refused}; --force writes it anyway"
+        print(clean(f"{path}: {text}"), file=sys.stderr)
+        raise typer.Exit(1)
+    for text in [refused, *warned] if refused else warned:
+        print(clean(f"{path}: warning: {text}"), file=sys.stderr)

@@ -1,14 +1,13 @@
 """``geneva profile``."""
 
-import sys
-from typing import TYPE_CHECKING, Annotated
+from typing import Annotated
 
 import typer
 
 from geneva_cli.commands import completion
-from geneva_cli.commands.options import Output, Settings, SpecPath, one_of, warn
+from geneva_cli.commands.options import Output, Settings, SpecPath, one_of, require_written, warn
 from geneva_cli.drawings.catalogue import PARTS, is_sheet
-from geneva_cli.errors import GenevaError, clean, cut
+from geneva_cli.errors import GenevaError, cut
 from geneva_cli.output import draw, draw_sheet, show
 from geneva_cli.output.formats import (
     DRAWN,
@@ -21,9 +20,6 @@ from geneva_cli.output.formats import (
     usual_curves,
     usual_tolerance,
 )
-
-if TYPE_CHECKING:
-    from geneva_cli.design import Design
 
 EXAMPLES = (
     "geneva profile spec.toml --samples 9",
@@ -165,7 +161,7 @@ def run(
         raise GenevaError("--samples is for tables of points; drawings take --tolerance")
     model = design.drawn(tolerance, part)
     if design.spec.has_parts:
-        _judge(design, design.judge(model), force)
+        require_written(design, design.judge(model), force)
     if sheet:
         _refuse(units, kerf, cutter, center_marks)
         if fill is not None:
@@ -175,7 +171,7 @@ def run(
         draw_sheet(design.sheet(tolerance, curves, model, part), output, format, files, **own)
     else:
         if cutter is not None:
-            _judge(design, design.cutter(part, cutter, dog_bones, model), force)
+            require_written(design, design.cutter(part, cutter, dog_bones, model), force)
         drawing = design.drawing(
             part,
             tolerance,
@@ -218,15 +214,3 @@ def _refuse(
         raise GenevaError("--center-marks is for drawings; this one is a table, or a sheet")
     if own:
         raise GenevaError("--dxf-version and --fill are for drawings; this is a table of points")
-
-
-def _judge(design: "Design", verdict: tuple[str, list[str]], force: bool) -> None:
-    """Exit with status 1 for parts that overlap or cannot be built, unless forced; else warn."""
-    path = design.spec.path
-    refused, warned = verdict
-    if refused and not force:
-        text = f"not written: {refused}; --force writes it anyway"
-        print(clean(f"{path}: {text}"), file=sys.stderr)
-        raise typer.Exit(1)
-    for text in [refused, *warned] if refused else warned:
-        print(clean(f"{path}: warning: {text}"), file=sys.stderr)

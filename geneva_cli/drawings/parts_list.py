@@ -15,12 +15,13 @@ from typing import TypeAlias
 
 from geneva_cli.curves.mass import MM, mass_properties
 from geneva_cli.curves.measure import bounds
-from geneva_cli.curves.plates import Part, Plate, Shell, solids
+from geneva_cli.curves.plates import Part, Plate, Shell
 from geneva_cli.curves.sphere import opposite
 from geneva_cli.drawings.model import PartsModel
 from geneva_cli.drawings.sphere.dimensions import dimensions
 from geneva_cli.kinematics.layout import Dimension, Pivot
-from geneva_cli.layout.missing import Missing, built_of, or_missing
+from geneva_cli.layout.alike import alike
+from geneva_cli.parts.missing import Missing, built_of, or_missing
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.machine.rollers import places
 from geneva_cli.machine.spec import Spec
@@ -95,13 +96,8 @@ def part_rows(spec: Spec, parts: Iterable[Part], outside: float | None = None) -
 
     On a sphere ``outside`` is the radius of the wheel's outer face, from which z counts inwards.
     """
-    kinds: dict[Plate | tuple[str, str], list[Plate | Shell]] = {}
-    for solid in (one for part in parts for one in solids(part)):
-        # Shells of one kind lie at different places, and may differ by rounding.
-        kind = solid if isinstance(solid, Plate) else (solid.name, f"{solid.volume:.9g}")
-        kinds.setdefault(kind, []).append(solid)
-    for alike in kinds.values():
-        solid = alike[-1]
+    for kind in alike(parts):
+        solid = kind[-1]
         name, material = (
             ("roller", spec.material_roller)
             if solid.layer == "ROLLER"
@@ -110,7 +106,7 @@ def part_rows(spec: Spec, parts: Iterable[Part], outside: float | None = None) -
         yield {
             "row": "part",
             "name": solid.name,
-            "count": len(alike),
+            "count": len(kind),
             "material": f"material.{name}",
             "density_kgm3": material.density_kgm3,
             **_properties(solid, material.density_kgm3, outside),

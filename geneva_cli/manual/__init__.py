@@ -30,6 +30,7 @@ GROUPS: dict[str, dict[str, str]] = {
         "laser": "cut it with a laser",
         "mill": "mill it",
         "print": "print it",
+        "hand-over": "hand over to a shop",
         "drawing-sheet": "make a drawing with dimensions",
         "step-cad": "hand over a STEP to CAD",
         "spherical-sheet": "cut a spherical wheel from sheet",

@@ -98,7 +98,7 @@ def _temporary_for(path: str, old: os.stat_result | None) -> Iterator[BinaryIO]:
     number = os.getpid()
     while os.path.lexists(temporary := _temporary(folder, name, number)):
         number += 1  # another run's file, which must not be touched
-    with _stopping_cleanly():
+    with stopping_cleanly():
         try:
             with open(temporary, "xb") as file:
                 _lock(file.fileno())
@@ -114,7 +114,7 @@ def _temporary_for(path: str, old: os.stat_result | None) -> Iterator[BinaryIO]:
 
 
 @contextmanager
-def _stopping_cleanly() -> Iterator[None]:
+def stopping_cleanly() -> Iterator[None]:
     """Make signals that end a run raise SystemExit, which cleans up; ignored ones stay so."""
 
     def stop(number: int, frame: FrameType | None) -> None:

@@ -1,0 +1,48 @@
+"""Every kind of part as a drawing of its own, with the number of its copies."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+from geneva_cli.curves.drawing import Drawing
+from geneva_cli.curves.plates import Plate, Shell
+from geneva_cli.parts.alike import alike
+from geneva_cli.parts.missing import Missing, built_of
+from geneva_cli.parts.model import PartsModel
+from geneva_cli.parts.projection import titled
+
+# layers of parts that are cut out of plates; the others are turned or bought
+CUT_LAYERS = ("WHEEL", "CRANK", "ARM", "LINK", "GROOVE", "FRAME")
+
+
+class SinglePart(NamedTuple):
+    """A kind of part: its name and number, thickness in mm, and drawing with its solid."""
+
+    name: str
+    copies: int  # in the machine
+    thickness_mm: float
+    is_cut: bool  # True for a flat part that is cut out of a plate
+    drawing: Drawing
+
+
+def single_parts(
+    model: PartsModel, tolerance_mm: float, curves: str
+) -> tuple[list[SinglePart], list[Missing]]:
+    """Return every kind of part, with curves as in ``part_drawing``, and those without a drawing.
+
+    A shell of a sphere has a solid and no outline.
+    """
+    spec, missing = model.mechanism.spec, list[Missing]()
+    parts = list(built_of(model.flat(tolerance_mm, curves).by_name(), missing))
+    if not spec.wheel.FLAT:
+        parts = [*built_of(model.ball(tolerance_mm, curves).by_name(), missing), *parts]
+    return [_single(model, kind[0], len(kind), tolerance_mm) for kind in alike(parts)], missing
+
+
+def _single(model: PartsModel, solid: Plate | Shell, count: int, tolerance_mm: float) -> SinglePart:
+    title = titled(model.mechanism, solid.name)
+    flat = isinstance(solid, Plate)
+    shapes = (solid.outline, *solid.holes) if isinstance(solid, Plate) else ()
+    thickness = solid.thickness if isinstance(solid, Plate) else solid.outer - solid.inner
+    drawing = Drawing(title, shapes, solid=solid, tolerance=tolerance_mm)
+    return SinglePart(solid.name, count, thickness, flat and solid.layer in CUT_LAYERS, drawing)

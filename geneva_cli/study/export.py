@@ -1,0 +1,173 @@
+"""All files of a design that a shop needs: drawings, solids, sheet, list of parts, report, spec."""
+
+from __future__ import annotations
+
+import os
+import re
+from collections.abc import Callable, Iterator
+from functools import partial
+from typing import NamedTuple
+
+from geneva_cli.design import CURVES, Design
+from geneva_cli.errors import GenevaError, cut
+from geneva_cli.output import animate, draw, draw_sheet, show, show_document, show_text
+from geneva_cli.output.formats import of_curves, usual_curves, usual_tolerance
+from geneva_cli.parts.missing import Missing
+from geneva_cli.parts.model import PartsModel
+from geneva_cli.parts.single_parts import SinglePart, single_parts
+from geneva_cli.spec.schema import Points, fields
+from geneva_cli.specfile.writer import quoted, spec_lines
+
+
+class ExportFile(NamedTuple):
+    """A file: its name, what it holds, and the function that writes it to a path."""
+
+    name: str
+    content: str
+    write: Callable[[str], None]
+
+
+class Trade(NamedTuple):
+    """The files that a trade needs besides the list of parts and the spec."""
+
+    single: tuple[str, ...]  # formats of each part; outlines only of parts that are cut
+    whole: tuple[str, ...]  # names of the other files
+
+
+TRADES = {
+    "laser": Trade(("dxf",), ("sheet.pdf",)),
+    "mill": Trade(("dxf", "step"), ("sheet.pdf", "assembly.step")),
+    "print": Trade(("stl",), ("plate.3mf",)),
+}
+ALL = Trade(
+    ("dxf", "step", "stl"),
+    (
+        *("sheet.pdf", "assembly.step", "assembly.3mf", "plate.3mf"),
+        *("report.html", "machine.html"),
+    ),
+)
+CONTENTS = {
+    "sheet.pdf": "drawing sheet with dimensions",
+    "assembly.step": "all parts at their places, for CAD",
+    "assembly.3mf": "all parts at their places, as a mesh",
+    "plate.3mf": "all parts flat on one bed",
+    "report.html": "checks, loads, sizes",
+    "machine.html": "the machine in motion",
+}
+SINGLE = {"dxf": "outline to cut", "step": "solid", "stl": "mesh to print"}
+
+
+def trade_of(name: str | None) -> Trade:
+    """The files of a trade; of all trades for None. Raises GenevaError for an unknown one."""
+    if name is None:
+        return ALL
+    if name not in TRADES:
+        raise GenevaError(f"--for {cut(name)}: it must be one of {', '.join(TRADES)}")
+    return TRADES[name]
+
+
+def export_files(
+    design: Design, trade: Trade, model: PartsModel
+) -> tuple[list[ExportFile], list[Missing]]:
+    """The files of a design for a trade, and parts that cannot be built.
+
+    ``model`` has its outlines. A spherical machine has no bed of parts, and its outlines are those
+    of wheel, crank and arm laid flat.
+
+    >>> design = Design(External(6))
+    >>> files, _ = export_files(design, trade_of("laser"), design.drawn(0.001))
+    >>> [file.name for file in files][:3]
+    ['wheel-1x-10mm.dxf', 'locking-disc-1x-10mm.dxf', 'arm-1x-10mm.dxf']
+    """
+    flat = design.spec.wheel.FLAT
+    files: list[ExportFile] = []
+    missing: list[Missing] = []
+    for format in trade.single:
+        curves = CURVES[usual_curves("", format)]
+        fine = of_curves(usual_tolerance("", format), "", format)
+        parts, missing = single_parts(model, fine, curves)
+        if format == "dxf" and not flat:
+            files += _laid_flat(design, model, fine)
+        files += _single(parts, format)
+    names = [name for name in trade.whole if flat or not name.startswith("plate.")]
+    files += [ExportFile(name, CONTENTS[name], _writer(design, model, name)) for name in names]
+    files.append(
+        ExportFile("parts.csv", "list of parts", partial(show, design.part_table("parts")))
+    )
+    return [*files, *_spec_files(design)], missing
+
+
+def _single(parts: list[SinglePart], format: str) -> Iterator[ExportFile]:
+    """Yield a file for each part; parts of one name and size are numbered."""
+    seen: dict[str, int] = {}
+    for part in parts:
+        if format == "dxf" and not part.is_cut:
+            continue
+        stem = f"{_slug(part.name)}-{part.copies}x-{part.thickness_mm:.6g}mm"
+        seen[stem] = seen.get(stem, 0) + 1
+        more = f"-{seen[stem]}" if seen[stem] > 1 else ""
+        content = f"{part.name}: {SINGLE[format]}"
+        yield ExportFile(f"{stem}{more}.{format}", content, partial(draw, part.drawing))
+
+
+def _slug(name: str) -> str:
+    """A name in small letters, digits and hyphens.
+
+    >>> _slug("crank's shaft")
+    'cranks-shaft'
+    """
+    return re.sub("[^a-z0-9]+", "-", name.lower().replace("'", "")).strip("-")
+
+
+def _laid_flat(design: Design, model: PartsModel, tolerance_mm: float) -> Iterator[ExportFile]:
+    """Yield the outlines of a spherical machine's cones."""
+    for part in ("wheel", "crank", "arm"):
+        try:
+            drawing = design.drawing(part, tolerance_mm, of=model)
+        except GenevaError:  # a machine without an arm; the list of parts has the reason
+            continue
+        yield ExportFile(
+            f"{part}-flat.dxf",
+            f"{part} laid flat: outline to cut",
+            partial(draw, drawing),
+        )
+
+
+def _writer(design: Design, model: PartsModel, name: str) -> Callable[[str], None]:
+    """The function that writes a file of the whole machine."""
+
+    def write(path: str) -> None:
+        stem, _, format = name.partition(".")
+        if stem == "report":
+            from geneva_cli.study.document import document
+
+            show_document(document(design), path)
+        elif stem == "machine":
+            from geneva_cli.study.animation.scene import scene
+
+            animate(scene(design), path)
+        elif stem == "sheet":
+            draw_sheet(design.sheet(of=model), path)
+        else:
+            fine = of_curves(usual_tolerance("", format), "", format)
+            draw(design.drawing(stem, fine, usual_curves("", format), model), path)
+
+    return write
+
+
+def _spec_files(design: Design) -> Iterator[ExportFile]:
+    """Yield the spec with all settings, and the points that it names, in the same folder."""
+    spec = design.spec
+    law = spec.motion.law if spec.motion else None
+    if spec.motion and law:
+        for field in fields(type(law)):
+            value = getattr(law, field.attribute)
+            if isinstance(value, Points):
+                name = os.path.basename(value.file) or "points.csv"
+                text = "".join(f"{x!r},{y!r}\n" for x, y in value.pairs)
+                law = law.replace(**{field.attribute: Points(value.pairs, name)})
+                yield ExportFile(name, "points of the law", partial(show_text, text))
+        spec = spec.replace(motion=spec.motion.replace(law=law))
+    title = [f"title = {quoted(spec.title)}"] if spec.title else []
+    whole = "\n".join([*title, *spec_lines(spec)]).lstrip("\n") + "\n"
+    yield ExportFile("spec.toml", "the design, with all settings", partial(show_text, whole))

@@ -1,0 +1,175 @@
+"""`geneva export`: the files of each trade, all or none, and no folder of a person replaced."""
+
+import csv
+import os
+import stat
+
+import ezdxf
+import pytest
+import repo
+import trimesh
+from typer.testing import CliRunner
+
+from geneva_cli.app import app
+from geneva_cli.design import load
+from geneva_cli.study import export
+from geneva_cli.study.export import TRADES, export_files, trade_of
+
+WHEEL = "[wheel]\nz = 4\n[size]\ncenter_distance_mm = 30\n"
+
+
+@pytest.fixture
+def spec(tmp_path):
+    path = tmp_path / "spec.toml"
+    path.write_text(WHEEL)
+    return path
+
+
+def run(*arguments):
+    return CliRunner().invoke(app, ["export", *map(str, arguments)])
+
+
+def bytes_of(folder):
+    return {path.name: path.read_bytes() for path in folder.iterdir()}
+
+
+def test_the_files_of_a_laser(spec, tmp_path):
+    result = run(spec, "--for", "laser", "-o", tmp_path / "out")
+    assert result.exit_code == 0
+    assert "size.process is not set" in result.stderr
+    cut = ["arm", "frame", "locking-disc", "wheel"]
+    names = {f"{name}-1x-3mm.dxf" for name in cut}
+    written = bytes_of(tmp_path / "out")
+    assert set(written) == {*names, "sheet.pdf", "parts.csv", "spec.toml", "contents.csv"}
+    with (tmp_path / "out" / "contents.csv").open(newline="") as file:
+        listed = {row["file"] for row in csv.DictReader(file)}
+    assert listed == set(written) - {"contents.csv"}
+    assert all(name in result.stdout for name in listed)
+    for name in names:
+        drawn = ezdxf.readfile(tmp_path / "out" / name)
+        assert {one.dxf.layer for one in drawn.modelspace()} <= {
+            *("WHEEL", "CRANK", "ARM", "FRAME", "BORE")
+        }
+
+
+def test_what_is_printed_is_as_large_as_the_list_says(spec, tmp_path):
+    """Files alone: mass over density of parts.csv, and the volume that trimesh has."""
+    folder = tmp_path / "out"
+    settings = "--set", "size.process=print", "--set", "size.center_distance_mm=100"
+    result = run(spec, "--for", "print", *settings, "-o", folder)
+    assert (result.exit_code, result.stderr) == (0, "")
+    with (folder / "parts.csv").open(newline="") as file:
+        rows = [row for row in csv.DictReader(file) if row["row"] == "part"]
+    meshes = [path for path in folder.iterdir() if path.suffix == ".stl"]
+    assert len(meshes) == len(rows)
+    for row in rows:
+        (path,) = (
+            m
+            for m in meshes
+            if m.name.startswith(row["name"].replace("'", "").replace(" ", "-") + "-")
+        )
+        volume = 1e9 * float(row["mass_kg"]) / float(row["density_kgm3"])
+        mesh = trimesh.load(path)
+        assert mesh.is_watertight
+        # chords take 2 x 0.005 mm / 2.5 mm of the thinnest pin's volume at most
+        assert mesh.volume == pytest.approx(volume, rel=0.02)
+
+
+def test_the_spec_makes_the_same_files(tmp_path):
+    """With the settings, and the points of the law, which are in the folder too."""
+    first, second = tmp_path / "first", tmp_path / "second"
+    settings = "--set", "size.process=laser", "--set", "size.center_distance_mm=50"
+    assert (
+        run(repo.DESIGNS / "table-law.toml", *settings, "--for", "laser", "-o", first).exit_code
+        == 0
+    )
+    assert run(first / "spec.toml", "--for", "laser", "-o", second).exit_code == 0
+    assert bytes_of(first) == bytes_of(second)
+
+
+@pytest.mark.sampled(12)
+@pytest.mark.parametrize("design", sorted(repo.DESIGNS.glob("*.toml")), ids=lambda p: p.stem)
+@pytest.mark.parametrize("trade", [None, *TRADES])
+def test_every_design_has_files_of_other_names(design, trade):
+    made = load(str(design))
+    files, missing = export_files(made, trade_of(trade), made.drawn(0.001, "assembly"))
+    names = [file.name for file in files]
+    assert len(names) == len(set(names)) and not missing
+    assert {"parts.csv", "spec.toml"} <= set(names)
+
+
+@pytest.mark.long
+def test_everything(tmp_path):
+    folder = tmp_path / "out"
+    assert run(repo.DESIGNS / "turret.toml", "-o", folder).exit_code == 0
+    first = bytes_of(folder)
+    assert {"report.html", "machine.html", "assembly.step", "plate.3mf"} <= set(first)
+    assert run(repo.DESIGNS / "turret.toml", "-o", folder).exit_code == 0
+    assert bytes_of(folder) == first
+
+
+def test_its_own_folder_is_replaced(spec, tmp_path):
+    folder = tmp_path / "out"
+    folder.mkdir()
+    assert run(spec, "--for", "laser", "-o", folder).exit_code == 0
+    assert run(spec, "--for", "print", "-o", folder).exit_code == 0
+    assert not list(folder.glob("*.dxf"))
+    assert sorted(os.listdir(tmp_path)) == ["out", "spec.toml"]
+
+
+@pytest.mark.parametrize("change", ["added", "changed", "foreign"])
+def test_a_persons_folder_stays(spec, tmp_path, change):
+    folder = tmp_path / "out"
+    if change == "foreign":
+        folder.mkdir()
+        (folder / "thesis.txt").write_text("work")
+    else:
+        assert run(spec, "--for", "laser", "-o", folder).exit_code == 0
+        name = "notes.txt" if change == "added" else "spec.toml"
+        (folder / name).write_text("work")
+    before = bytes_of(folder)
+    result = run(spec, "--for", "laser", "-o", folder)
+    assert result.exit_code == 2
+    assert "give -o another folder" in result.stderr
+    assert bytes_of(folder) == before
+
+
+def test_an_input_in_the_folder_stays(spec, tmp_path):
+    folder = tmp_path / "out"
+    assert run(spec, "--for", "laser", "-o", folder).exit_code == 0
+    result = run(folder / "spec.toml", "--for", "laser", "-o", folder)
+    assert "is an input in the folder" in result.stderr
+
+
+def test_all_or_nothing(spec, tmp_path, monkeypatch):
+    folder = tmp_path / "out"
+    assert run(spec, "--for", "print", "-o", folder).exit_code == 0
+    before = bytes_of(folder)
+
+    def fails(*_):
+        raise OSError(28, "No space left on device")
+
+    monkeypatch.setattr(export, "draw_sheet", fails)
+    result = run(spec, "--for", "laser", "-o", folder)
+    assert "cannot write: No space left on device" in result.stderr
+    assert bytes_of(folder) == before
+    assert sorted(os.listdir(tmp_path)) == ["out", "spec.toml"]
+
+
+def test_refused(spec, tmp_path):
+    unknown = run(spec, "--for", "loom", "-o", tmp_path / "out")
+    assert "must be one of laser, mill, print" in unknown.stderr
+    assert "this is a file" in run(spec, "-o", spec).stderr
+    # so small a machine jams with a printer's clearances
+    jams = run(spec, "--for", "print", "--set", "size.process=print", "-o", tmp_path / "out")
+    assert jams.exit_code == 1
+    assert "--force writes it anyway" in jams.stderr
+    assert not (tmp_path / "out").exists()
+
+
+def test_permissions(spec, tmp_path):
+    folder = tmp_path / "out"
+    assert run(spec, "--for", "print", "-o", folder).exit_code == 0
+    usual = tmp_path / "usual"
+    usual.mkdir()
+    assert stat.S_IMODE(folder.stat().st_mode) == stat.S_IMODE(usual.stat().st_mode)
