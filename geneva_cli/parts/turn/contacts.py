@@ -24,19 +24,42 @@ if TYPE_CHECKING:
     Near: TypeAlias = tuple[NDArray[np.intp], NDArray[np.intp]]
 
 
+MARGIN = 1e-9  # of the reach: more than the rounding of a distance
+
+
+def nearest_pieces(
+    own: Polyarc, near: Near, other: Polyarc, origin: Array, angle: Array, reach: float
+) -> Near:
+    """Return the pieces of ``near`` that may hold the nearest point to ``other``.
+
+    ``other`` is placed with its origin at n points, (n, 2), and turned by n angles. It extends to
+    less than ``reach`` from its origin. ``near`` selects pieces of ``own``, each with the index of
+    the position that it belongs to.
+
+    A piece is no nearer than the middle of its chord, less its size, and no farther than that plus
+    its size.
+    """
+    owner, piece = near
+    dx, dy = own.ox[piece] - origin[owner, 0], own.oy[piece] - origin[owner, 1]
+    close = dx * dx + dy * dy <= (own.size[piece] + reach) ** 2
+    owner, piece, dx, dy = owner[close], piece[close], dx[close], dy[close]
+    c, s = np.cos(angle)[owner], np.sin(angle)[owner]
+    away = other.signed(np.column_stack((dx * c + dy * s, dy * c - dx * s)))
+    most, size = np.full(len(origin), np.inf), own.size[piece]
+    np.minimum.at(most, owner, away + size)
+    kept = away - size <= most[owner] + MARGIN * reach
+    return owner[kept], piece[kept]
+
+
 def candidates(
     own: Polyarc, near: Near, other: Polyarc, origin: Array, angle: Array, reach: float
 ) -> tuple[NDArray[np.intp], Array]:
     """Return points of ``own`` that may touch ``other``, within ``reach`` of its origin.
 
-    ``other`` is placed with its origin at n points, (n, 2), and turned by n angles. ``near``
-    selects pieces of ``own``, each with the index of the position that it belongs to. Returns the
-    index of the position of each point, and the points in the frame of ``own``.
+    The arguments are those of ``nearest_pieces``. Returns the index of the position of each point,
+    and the points in the frame of ``own``.
     """
     owner, piece = near
-    dx, dy = own.ox[piece] - origin[owner, 0], own.oy[piece] - origin[owner, 1]
-    close = dx * dx + dy * dy <= (own.size[piece] + reach) ** 2
-    owner, piece = owner[close], piece[close]
     columns = [(owner, own.x0[piece], own.y0[piece])]
     arcs, lines = np.flatnonzero(other.arc)[:, None], np.flatnonzero(~other.arc)[:, None]
     c, s = np.cos(angle)[owner], np.sin(angle)[owner]
@@ -51,12 +74,12 @@ def candidates(
     middle_x, middle_y = own.cx[i], own.cy[i]
     facing_x = np.concatenate((centre_x[:, bent] - middle_x, normal_x[:, bent]))
     facing_y = np.concatenate((centre_y[:, bent] - middle_y, normal_y[:, bent]))
-    length = np.maximum(np.sqrt(facing_x**2 + facing_y**2), 1e-300)
-    facing_x, facing_y = facing_x / length, facing_y / length
+    length = np.maximum(np.sqrt(facing_x * facing_x + facing_y * facing_y), 1e-300)
     along = facing_x * own.mx[i] + facing_y * own.my[i]
+    least = own.cos_half[i] * length
     for side in (1.0, -1.0):
-        which, pair = np.nonzero(side * along >= own.cos_half[i])
-        radius = side * own.radius[i[pair]]
+        which, pair = np.nonzero(side * along >= least)
+        radius = side * own.radius[i[pair]] / length[which, pair]
         x = middle_x[pair] + radius * facing_x[which, pair]
         y = middle_y[pair] + radius * facing_y[which, pair]
         columns.append((owner[bent[pair]], x, y))
