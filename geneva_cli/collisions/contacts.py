@@ -24,19 +24,42 @@ if TYPE_CHECKING:
     Near: TypeAlias = tuple[NDArray[np.intp], NDArray[np.intp]]
 
 
+MARGIN = 1e-9  # of the reach: more than the rounding of a distance
+
+
+def nearest_pieces(
+    own: Polyarc, near: Near, other: Polyarc, origin: Array, angle: Array, reach: float
+) -> Near:
+    """Return the pieces of ``near`` that may hold the nearest point to ``other``.
+
+    ``other`` is placed with its origin at n points, (n, 2), and turned by n angles. It extends to
+    less than ``reach`` from its origin. ``near`` selects pieces of ``own``, each with the index of
+    the position that it belongs to.
+
+    A piece is no nearer than the middle of its chord, less its size, and no farther than that plus
+    its size.
+    """
+    owner, piece = near
+    dx, dy = own.ox[piece] - origin[owner, 0], own.oy[piece] - origin[owner, 1]
+    close = dx * dx + dy * dy <= (own.size[piece] + reach) ** 2
+    owner, piece, dx, dy = owner[close], piece[close], dx[close], dy[close]
+    c, s = np.cos(angle)[owner], np.sin(angle)[owner]
+    away = other.signed(np.column_stack((dx * c + dy * s, dy * c - dx * s)))
+    most, size = np.full(len(origin), np.inf), own.size[piece]
+    np.minimum.at(most, owner, away + size)
+    kept = away - size <= most[owner] + MARGIN * reach
+    return owner[kept], piece[kept]
+
+
 def candidates(
     own: Polyarc, near: Near, other: Polyarc, origin: Array, angle: Array, reach: float
 ) -> tuple[NDArray[np.intp], Array]:
     """Return points of ``own`` that may touch ``other``, within ``reach`` of its origin.
 
-    ``other`` is placed with its origin at n points, (n, 2), and turned by n angles. ``near``
-    selects pieces of ``own``, each with the index of the position that it belongs to. Returns the
-    index of the position of each point, and the points in the frame of ``own``.
+    The arguments are those of ``nearest_pieces``. Returns the index of the position of each point,
+    and the points in the frame of ``own``.
     """
     owner, piece = near
-    dx, dy = own.ox[piece] - origin[owner, 0], own.oy[piece] - origin[owner, 1]
-    close = dx * dx + dy * dy <= (own.size[piece] + reach) ** 2
-    owner, piece = owner[close], piece[close]
     columns = [(owner, own.x0[piece], own.y0[piece])]
     arcs, lines = np.flatnonzero(other.arc)[:, None], np.flatnonzero(~other.arc)[:, None]
     c, s = np.cos(angle)[owner], np.sin(angle)[owner]
@@ -55,7 +78,7 @@ def candidates(
     nx, ny = normal_x[:, bent], normal_y[:, bent]
     aside = np.concatenate((bend * (mx * py - my * px), mx * ny - my * nx))
     ahead = np.concatenate((bend * (mx * px + my * py) + own.cos_half[i], mx * nx + my * ny))
-    size = np.maximum(np.sqrt(aside**2 + ahead**2), 1e-300)
+    size = np.maximum(np.sqrt(aside * aside + ahead * ahead), 1e-300)
     aside, ahead = aside / size, ahead / size
     for side in (1.0, -1.0):
         within = side * own.sin_half[i] * ahead >= own.cos_half[i] * np.abs(aside)

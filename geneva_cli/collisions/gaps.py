@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from geneva_cli.collisions.angular_index import AngularIndex, half_angle
-from geneva_cli.collisions.contacts import candidates
+from geneva_cli.collisions.contacts import candidates, nearest_pieces
 from geneva_cli.collisions.machine_parts import Pose, Stop
 from geneva_cli.collisions.stops import Stops
 from geneva_cli.curves.distance import Polyarc
@@ -159,13 +159,15 @@ class Gaps:
         self._work(len(axis) * len(self.wheel))
         reach, (places, size) = self.sizes.lock + near, self._pieces
         nearby = places.within(-turn, half_angle(reach + size, self.assembly.L))
-        owner, points = candidates(self.wheel, nearby, self.crank, axis, pose.crank - turn, reach)
+        angle = pose.crank - turn
+        nearby = nearest_pieces(self.wheel, nearby, self.crank, axis, angle, reach)
+        self._work(len(nearby[0]) * len(self.crank))
+        owner, points = candidates(self.wheel, nearby, self.crank, axis, angle, reach)
         seen = turned_points(points - axis[owner], (turn - pose.crank)[owner])
         self._work(len(seen) * len(self.crank))
         out = _least(len(turn), owner, self.crank.signed(seen), near)
         # ... and corners of the crank against the wheel.
         x, y = self.crank.x0, self.crank.y0
-        angle = pose.crank - turn
         c, s = np.cos(angle)[:, None], np.sin(angle)[:, None]
         qx, qy = axis[:, :1] + x * c - y * s, axis[:, 1:] + x * s + y * c
         inward = self.assembly.sign * (np.hypot(qx, qy) - self.sizes.rim)

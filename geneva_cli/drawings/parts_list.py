@@ -21,7 +21,7 @@ from geneva_cli.drawings.model import PartsModel
 from geneva_cli.drawings.sphere.dimensions import dimensions
 from geneva_cli.kinematics.layout import Dimension, Pivot
 from geneva_cli.layout.alike import alike
-from geneva_cli.parts.missing import Missing, built_of, or_missing
+from geneva_cli.layout.missing import Missing, built_of, or_missing
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.machine.rollers import places
 from geneva_cli.machine.spec import Spec

@@ -83,6 +83,8 @@ def boundary_by_sections(
 
     fractions = np.arange(1, sections) / sections
     for _ in range(MOST_STEPS):
+        if math.nextafter(good, bad) == bad:
+            break
         x = good + (bad - good) * fractions
         yes = holds(x)
         i = sections - 1 if yes.all() else int(np.argmin(yes))

@@ -20,6 +20,7 @@ from shapely.geometry import Point
 from test_outline import CURVED_SLOTS, STRAIGHT, L, disc, made, name, polygon, turned
 from words import LAWS, Motion, load
 
+from geneva_cli.collisions import gaps
 from geneva_cli.collisions.full_turn import FullTurn, full_turn, turning
 from geneva_cli.collisions.gaps import Gaps, WorkLimit
 from geneva_cli.collisions.smallest import positions
@@ -53,6 +54,20 @@ def overlaps(found: Outlines, count: int = 60) -> Iterator[float]:
         parts += [affinity.translate(turned(crank, poses[i]), assembly.L) for crank in cranks]
         if any(wheel.intersects(turned(part, -turns[i])) for part in parts):
             yield float(at[i])
+
+
+@pytest.mark.parametrize("file", ["press-curved", "internal-z6", "cam-geneva", "three-rollers-z4"])
+def test_the_crank_is_as_near_to_some_pieces_of_the_wheel_as_to_all(file, monkeypatch):
+    """With the wheel in place, where most gaps are 0, and turned on, where parts overlap."""
+    parts = model.PartsModel(load(str(repo.DESIGNS / f"{file}.toml"))).outlines
+    pose = parts.gaps.pose(positions(parts)[::5])
+    leads = (0.0, 0.003, 0.05)
+    some = [parts.gaps.locking(pose, lead) for lead in leads]
+    monkeypatch.setattr(gaps, "nearest_pieces", lambda own, near, *rest: near)
+    every = [parts.gaps.locking(pose, lead) for lead in leads]
+    assert np.min(every) < -0.1
+    # a contact at a corner of two pieces may be rounded as that of the other
+    np.testing.assert_allclose(some, every, rtol=0.0, atol=1e-12 * parts.assembly.L)
 
 
 def finds_slot(found: Outlines) -> float:

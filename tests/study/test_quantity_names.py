@@ -10,6 +10,7 @@ from typer.testing import CliRunner
 
 from geneva_cli import GenevaError, load
 from geneva_cli.app import app
+from geneva_cli.drawings import model
 from geneva_cli.study.fields import pick
 from geneva_cli.study.survey import NAMES as TABLE
 from geneva_cli.synthesis.rows import Candidate
@@ -48,6 +49,16 @@ def test_every_group_has_the_names_that_are_listed(name):
         assert {*values} - LISTS == {name for one in same for name in one.names}
         assert not [n for n in group.names if isinstance(values[n], (tuple, Table))]
         assert {n for n, value in values.items() if isinstance(value, str)} <= WORDS
+
+
+@pytest.mark.parametrize("name", ["parts.horn_mm", "checks.horn_mm"])
+def test_sizes_and_walls_need_no_turn(name, monkeypatch):
+    """Their values are those beside the turn."""
+    machine = load(str(repo.DESIGNS / "press-curved.toml")).mechanism
+    beside = pick([name, "parts.smallest_gap_mm", "checks.gap_mm"]).of(machine)
+    assert None not in beside
+    monkeypatch.setattr(model, "full_turn", None)
+    assert pick([name]).of(machine) == beside[:1]
 
 
 def test_a_column_of_table_and_synth_is_named_alike_everywhere():

@@ -124,6 +124,31 @@ def test_a_lock_of_which_nothing_is_left_is_told_before_parts_are_drawn(monkeypa
     assert Turns().some_failing(machine, []) == refused
 
 
+def test_a_groove_without_space_for_its_plate_fails_before_parts_are_drawn(monkeypatch):
+    """The groove of an internal wheel reaches beyond the wheel's axis, whatever the roller."""
+    motion = Motion(ModifiedSine(), alpha0_deg=105.0)
+    machines = [build(with_roller(Spec(Internal(8), Cam(), motion), r)) for r in (2.0, 0.5)]
+    assert all("parts" in failing_names(machine) for machine in machines)
+    monkeypatch.setattr(turns, "drawn", None)
+    for machine in machines:
+        assert Turns().some_failing(machine, []) == [Failure("parts")]
+
+
+def test_a_check_at_rest_that_failed_before_is_computed_first(monkeypatch):
+    """The crank's shaft meets the input crank whatever the roller; the turn is not begun."""
+    drive = SideCrank(A=0.9999)
+    known = [Failure("link_gap_mm")]
+    machine = build(with_roller(Spec(External(20), drive), 2.0))
+    assert "link_gap_mm" in failing_names(machine)
+    monkeypatch.setattr(turns, "turning", None)
+    monkeypatch.setattr(turns, "standing_checks", None)
+    assert Turns().some_failing(machine, known) == known
+
+
+def failing_names(machine):
+    return [check.name for check in checks(machine) if check.passes is False]
+
+
 @pytest.mark.parametrize("share", [0.05, 0.03, 0.02])
 def test_the_gap_of_a_wheel_at_rest(four_bar, share):
     """Against the drawn wheel, at the same places of the roller."""

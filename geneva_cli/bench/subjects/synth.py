@@ -21,6 +21,8 @@ def subject(quick: bool) -> Subject:
         "--cycle 1.5 --subject-to dwell_s>=0.8",
         "--subject-to timing.tau<=0.3 --subject-to velocity.max<=2",
         "--subject-to acceleration.max<=0.5",
+        "--motion-deg 120..150 --z 6 --subject-to parts.horn_mm>=5",
+        "--motion-deg 120..150 --z 6,8 --sort max:checks.horn_mm",
     )
     checked = {"search": "0", "search, twenty turned": "20"}  # rows whose parts are turned
     if quick:
