@@ -41,6 +41,6 @@ def _open(found: Certificate) -> str:
     start, end, gap, least = found.open
     return (
         f"sampled collision check; the proof is open from {start:.9g} to {end:.9g} deg between "
-        f"{found.between}, where the gap is {gap:.4g} mm in the middle and at least {least:.4g} mm "
-        f"throughout, after {found.intervals:,} intervals"
+        f"{found.between}, after {found.intervals:,} intervals. There the gap is {gap:.4g} mm in "
+        f"the middle and at least {least:.4g} mm throughout"
     )
