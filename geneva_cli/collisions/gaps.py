@@ -64,8 +64,7 @@ class Gaps:
         if self.left < 0.0:
             raise WorkLimit(
                 f"the full turn is not proved: it takes more than {WORK:.0e} distances between "
-                "parts with so many pieces or such small features; a larger roller or horn takes "
-                "less"
+                "parts of so many pieces; a larger roller or horn takes less"
             )
 
     def _sector(self) -> None:

@@ -94,8 +94,8 @@ def positions(parts: MachineParts) -> Array:
     count = math.ceil(total[-1] / feature)
     if count > POSITIONS:
         raise WorkLimit(
-            f"the full turn is not proved: with so small a roller or horn it takes {count:,} "
-            f"positions, more than {POSITIONS:,}; a larger roller or horn takes fewer"
+            f"the full turn is not proved: it takes {count:,} positions, more than {POSITIONS:,}; "
+            "a larger roller or horn takes fewer"
         )
     grid_deg = np.interp(np.linspace(0.0, total[-1], count + 1), total, grid)
     # A rim that is too large collides for less than a degree about entry and exit.

@@ -30,5 +30,5 @@ def run(
     from geneva_cli.specfile.keys import Key, about
     from geneva_cli.table import Reading, rows_table
 
-    reading = Reading(("key", "meaning", "unit", "default", "range", "goes_with"))
+    reading = Reading(("key", "meaning", "table", "unit", "default", "range", "goes_with"))
     show(rows_table(Key._fields, about(word)).replaced(reading=reading), output, format)

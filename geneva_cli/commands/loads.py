@@ -34,20 +34,20 @@ def run(
 ) -> None:
     """Loads of the motion: torque, forces, stress, power and bearings over a cycle.
 
-    The recommended motor comes first, then a summary of each quantity: its greatest and least value
-    over the motions with their input angles, its mean and root mean square over the whole period,
-    dwells included. As csv, or with --samples, the cycle is printed row by row, evenly in the
-    input angle from the first entry. json is always the summary.
+    The recommended motor comes first, then a summary of each quantity. It has the greatest and
+    least value over the motions, with their input angles. Mean and root mean square are over the
+    whole period, dwells included. As csv, or with --samples, the cycle is printed row by row. Rows
+    are evenly spaced in the input angle from the first entry. json is always the summary.
 
     The pin force is positive on the wall that drives the wheel, and negative on the wall that holds
     it back. The input's torque and power are negative where the wheel drives the input. In a dwell
     the lock holds the wheel, and all values are 0.
 
-    Links are rigid and have no mass or weight, and the motor exerts a torque alone. guide_force_N
-    is the force on what guides the roller besides its shaft: a rocker, slider, groove or fixed
-    gear, or what pushes the crank. A coulisse's block or a first wheel's roller needs a length in
-    [drive]; without it the crank's bearings are shown without that force. pv_W_m2 is the greatest
-    Hertz pressure times the sliding speed, for a roller fixed to its pin.
+    Links are rigid and have no mass or weight, and the motor exerts a torque alone. The force
+    guide_force_N acts on what guides the roller besides its shaft: a rocker, slider, groove or
+    fixed gear, or what pushes the crank. A coulisse's block or a first wheel's roller needs a
+    length in [drive]. Without it the crank's bearings are shown without that force. The quantity
+    pv_W_m2 is the greatest Hertz pressure times the sliding speed, for a roller fixed to its pin.
 
     With --certify, wheel_torque_Nm, pin_force_N and input_torque_Nm are each proved to lie between
     two bounds, or are called not proved. It needs the extra geneva-cli[certify]. More: `geneva help

@@ -68,7 +68,7 @@ def with_dog_bones(drawing: Drawing, model: PartsModel, cutter_mm: float) -> Dra
     except TooWide as error:
         most = 2.0 * even(0.5 * boundary(fits, 0.0, cutter_mm, LOOKS))
         helps = f"use a cutter up to {most:g} mm" if most else "no cutter is small enough"
-        raise GenevaError(f"{error}; {helps}, or omit --dog-bones") from None
+        raise GenevaError(f"--dog-bones: {error}; {helps}, or omit it") from None
     shapes = tuple(boned.get(shape, shape) for shape in drawing.shapes)
     if drawing.shells:  # laid flat, they have no dog bones
         return drawing._replace(shapes=shapes, solid=None, shells=None)

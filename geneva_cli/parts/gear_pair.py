@@ -85,7 +85,7 @@ def pitch_radii(pair: Gears) -> tuple[tuple[float, float], tuple[float, float]]:
         if r.min() < THIN * C:
             raise GenevaError(
                 f"the pitch curve of the {name} comes within {r.min():.3g} mm of its axis: that is "
-                f"no gear; a smaller change of the ratio keeps it at {THIN * C:.3g} mm",
+                f"no gear. A smaller change of the ratio keeps it at {THIN * C:.3g} mm",
                 ("drive", "kind"),
             )
     return (

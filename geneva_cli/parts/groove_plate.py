@@ -104,7 +104,7 @@ def groove_reaches(assembly: Assembly, sizes: Sizes) -> tuple[float, float]:
     if rim < 4.0 * wall:
         raise GenevaError(
             f"--part groove-plate: the groove reaches {far:.4g} mm and leaves {space:.4g} mm up to "
-            "the wheel's hub, less than four times wall_min_mm; reduce roller, wheel_hub_mm or "
+            "the wheel's hub, less than four times wall_min_mm. Reduce roller, wheel_hub_mm or "
             "wheel_bore_mm",
             ("size", "wheel_hub_mm"),
         )

@@ -311,17 +311,17 @@ def _out_of_reach(target: Target, reached: list[float], errors: list[str]) -> st
     if target.rollers is None and m > most:
         return (
             f"{target.words}: out of reach: it takes {m} rollers, but straight slots carry at "
-            f"most {most} here, and no curved slots or cam with so many can be built"
+            f"most {most} here. No curved slots or cam with so many can be built"
         )
     if motion.low * m >= 360.0:
         return (
-            f"{target.words}: {m} motions of {motion.low:.7g} deg leave no dwell in a turn of 360; "
-            f"with {m} rollers a motion must be below {360.0 / m:.7g} deg (tau below 1)"
+            f"{target.words}: {m} motions of {motion.low:.7g} deg leave no dwell in a turn of 360. "
+            f"With {m} rollers a motion must be below {360.0 / m:.7g} deg (tau below 1)"
         )
     if max(counts) < 1.0:
         return (
-            f"{target.words}: out of reach: a wheel rests so long only behind a first wheel, which "
-            f"turns the crank once in {TURNS[0]} to {TURNS[-1]} turns; none of these rests so long"
+            f"{target.words}: out of reach: a wheel rests so long only behind a first wheel. That "
+            f"turns the crank once in {TURNS[0]} to {TURNS[-1]} turns: none of these rests so long"
         )
     first = f"; the first says: {errors[0]}" if errors else ""
     return (

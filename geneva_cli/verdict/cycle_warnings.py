@@ -89,7 +89,7 @@ def _heavy(cycle: Cycle) -> list[Notice]:
         Notice(
             "heavy-inertia",
             f"an inertia of {inertia:.4g} kg m² is large for a centre distance of {1e3 * L:.4g} "
-            f"mm: a solid steel table {1e3 * diameter:.4g} mm across and {1e3 * thickness:.4g} "
+            f"mm. A solid steel table {1e3 * diameter:.4g} mm across and {1e3 * thickness:.4g} "
             f"mm thick has {most:.3g} kg m². If it is in kg cm², write {1e-4 * inertia:.4g}",
         )
     ]

@@ -115,7 +115,7 @@ def _overtaken(mechanism: Mechanism) -> list[Notice]:
         Notice(
             "roller-overtakes",
             f"the roller overtakes the wheel by {lead:.4g} deg while the gears drive. Near the "
-            "line of centres its slot would turn the wheel faster than the gears do, so it presses "
+            "line of centres its slot would turn the wheel faster than the gears do. It presses "
             'into the wall that it drove: gear_ratio = "shockless" keeps it behind',
         )
     ]
@@ -203,8 +203,8 @@ def _not_driven(mechanism: Mechanism) -> list[Notice]:
     return [
         Notice(
             "not-positively-driven",
-            f"not positively driven from {where} deg ({percent:.3g} % of the motion): "
-            f"the slot's other branch, up to {drive.loose_gap_mm:.3g} mm off, cuts away the wall "
+            f"not positively driven from {where} deg ({percent:.3g} % of the motion). "
+            f"The slot's other branch, up to {drive.loose_gap_mm:.3g} mm off, cuts away the wall "
             "that the torque needs there. Less torque_Nm against the inertia shortens the "
             'interval; kind = "cam" drives any law through straight slots',
         )

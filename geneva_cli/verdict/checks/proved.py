@@ -42,6 +42,6 @@ def _open(found: Certificate) -> str:
     bound = "no bound is known" if least <= -0.5 * UNKNOWN else f"at least {least:.4g} mm"
     return (
         f"sampled collision check; the proof is open from {start:.9g} to {end:.9g} deg between "
-        f"{found.between}, where the gap is {gap:.4g} mm in the middle and {bound} "
-        f"throughout, after {found.intervals:,} intervals"
+        f"{found.between}, after {found.intervals:,} intervals. There the gap is {gap:.4g} mm in "
+        f"the middle and {bound} throughout"
     )

@@ -141,8 +141,8 @@ def _refuse_large(mechanism: Mechanism, use: dict[str, float]) -> None:
         if not use["center_distance_mm"] + use["crank_radius_mm"] < margin_mm:
             raise GenevaError(
                 "the tolerances are too wide: center_distance_mm and crank_radius_mm must add up "
-                f"to less than {max(margin_mm, 0.0):.6g} mm, or the roller could reach the wheel's "
-                "axis or the crank's",
+                f"to less than {max(margin_mm, 0.0):.6g} mm. Beyond that the roller could reach "
+                "the wheel's axis or the crank's",
                 ("tolerance", "center_distance_mm"),
             )
 
