@@ -8,7 +8,7 @@ import typer
 
 from geneva_cli.commands import completion
 from geneva_cli.commands.options import Settings, SpecPath, require_written, say
-from geneva_cli.errors import clean
+from geneva_cli.errors import GenevaError, clean
 
 EXAMPLES = (
     "geneva export spec.toml -o turret",
@@ -20,8 +20,15 @@ EXAMPLES = (
 def run(
     spec: SpecPath,
     output: Annotated[
-        str, typer.Option("-o", "--output", metavar="FOLDER", help="Write into this folder.")
-    ],
+        str,
+        typer.Option(
+            "-o",
+            "--output",
+            metavar="FOLDER",
+            help="Write into this folder (required).",
+            show_default=False,
+        ),
+    ] = "",
     trade: Annotated[
         str | None,
         typer.Option(
@@ -51,6 +58,8 @@ def run(
     refuse_columns()
     needed = trade_of(trade)
     design = load(spec, settings or ())
+    if not output:
+        raise GenevaError("the files need a folder: give -o FOLDER")
     model = design.drawn(0.001, "assembly")
     if design.spec.has_parts:
         require_written(design, design.judge(model), force)

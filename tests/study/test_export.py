@@ -160,6 +160,7 @@ def test_refused(spec, tmp_path):
     unknown = run(spec, "--for", "loom", "-o", tmp_path / "out")
     assert "must be one of laser, mill, print" in unknown.stderr
     assert "this is a file" in run(spec, "-o", spec).stderr
+    assert "give -o FOLDER" in run(spec).stderr
     # so small a machine jams with a printer's clearances
     jams = run(spec, "--for", "print", "--set", "size.process=print", "-o", tmp_path / "out")
     assert jams.exit_code == 1
