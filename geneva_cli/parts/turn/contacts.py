@@ -24,6 +24,7 @@ if TYPE_CHECKING:
     Near: TypeAlias = tuple[NDArray[np.intp], NDArray[np.intp]]
 
 
+FEW = 64  # pieces: of fewer, computing all contacts takes no longer than their selection
 MARGIN = 1e-9  # of the reach: more than the rounding of a distance
 
 
@@ -42,7 +43,10 @@ def nearest_pieces(
     owner, piece = near
     dx, dy = own.ox[piece] - origin[owner, 0], own.oy[piece] - origin[owner, 1]
     close = dx * dx + dy * dy <= (own.size[piece] + reach) ** 2
-    owner, piece, dx, dy = owner[close], piece[close], dx[close], dy[close]
+    owner, piece = owner[close], piece[close]
+    if len(own) < FEW:
+        return owner, piece
+    dx, dy = dx[close], dy[close]
     c, s = np.cos(angle)[owner], np.sin(angle)[owner]
     away = other.signed(np.column_stack((dx * c + dy * s, dy * c - dx * s)))
     most, size = np.full(len(origin), np.inf), own.size[piece]
@@ -74,12 +78,12 @@ def candidates(
     middle_x, middle_y = own.cx[i], own.cy[i]
     facing_x = np.concatenate((centre_x[:, bent] - middle_x, normal_x[:, bent]))
     facing_y = np.concatenate((centre_y[:, bent] - middle_y, normal_y[:, bent]))
-    length = np.maximum(np.sqrt(facing_x * facing_x + facing_y * facing_y), 1e-300)
+    length = np.maximum(np.sqrt(facing_x**2 + facing_y**2), 1e-300)
+    facing_x, facing_y = facing_x / length, facing_y / length
     along = facing_x * own.mx[i] + facing_y * own.my[i]
-    least = own.cos_half[i] * length
     for side in (1.0, -1.0):
-        which, pair = np.nonzero(side * along >= least)
-        radius = side * own.radius[i[pair]] / length[which, pair]
+        which, pair = np.nonzero(side * along >= own.cos_half[i])
+        radius = side * own.radius[i[pair]]
         x = middle_x[pair] + radius * facing_x[which, pair]
         y = middle_y[pair] + radius * facing_y[which, pair]
         columns.append((owner[bent[pair]], x, y))
