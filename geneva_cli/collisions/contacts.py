@@ -24,6 +24,7 @@ if TYPE_CHECKING:
     Near: TypeAlias = tuple[NDArray[np.intp], NDArray[np.intp]]
 
 
+FEW = 64  # pieces: of fewer, computing all contacts takes no longer than their selection
 MARGIN = 1e-9  # of the reach: more than the rounding of a distance
 
 
@@ -42,7 +43,10 @@ def nearest_pieces(
     owner, piece = near
     dx, dy = own.ox[piece] - origin[owner, 0], own.oy[piece] - origin[owner, 1]
     close = dx * dx + dy * dy <= (own.size[piece] + reach) ** 2
-    owner, piece, dx, dy = owner[close], piece[close], dx[close], dy[close]
+    owner, piece = owner[close], piece[close]
+    if len(own) < FEW:
+        return owner, piece
+    dx, dy = dx[close], dy[close]
     c, s = np.cos(angle)[owner], np.sin(angle)[owner]
     away = other.signed(np.column_stack((dx * c + dy * s, dy * c - dx * s)))
     most, size = np.full(len(origin), np.inf), own.size[piece]

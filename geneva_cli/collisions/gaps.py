@@ -160,7 +160,6 @@ class Gaps:
         nearby = places.within(-turn, half_angle(reach + size, self.assembly.L))
         angle = pose.crank - turn
         nearby = nearest_pieces(self.wheel, nearby, self.crank, axis, angle, reach)
-        self._work(len(nearby[0]) * len(self.crank))
         owner, points = candidates(self.wheel, nearby, self.crank, axis, angle, reach)
         seen = turned_points(points - axis[owner], (turn - pose.crank)[owner])
         self._work(len(seen) * len(self.crank))
