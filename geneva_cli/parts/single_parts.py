@@ -7,9 +7,9 @@ from typing import NamedTuple
 from geneva_cli.curves.drawing import Drawing
 from geneva_cli.curves.plates import Plate, Shell
 from geneva_cli.drawings.model import PartsModel
+from geneva_cli.layout.alike import alike
 from geneva_cli.layout.missing import Missing, built_of
 from geneva_cli.layout.projection import titled
-from geneva_cli.layout.alike import alike
 
 # layers of parts that are cut out of plates; the others are turned or bought
 CUT_LAYERS = ("WHEEL", "CRANK", "ARM", "LINK", "GROOVE", "FRAME")
