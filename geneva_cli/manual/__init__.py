@@ -97,8 +97,8 @@ def search(word: str) -> list[Hit]:
 
     >>> {hit.topic for hit in search("Whitworth")}
     {'kinds'}
-    >>> {hit.topic for hit in search("stl")}  # neither "mostly" nor "costly"
-    {'print'}
+    >>> {hit.topic for hit in search("taplo")}
+    {'spec'}
     """
     wanted = re.compile(rf"(?<![^\W\d_]){re.escape(word)}", re.IGNORECASE)
     hits: dict[tuple[str, str], Hit] = {}

@@ -13,17 +13,20 @@ class TextBar:
     It uses plain characters only, so it works on any terminal, whatever TERM says.
     """
 
+    after_s = 1.0  # shorter work shows no bar
+    every_s = 0.1  # nobody reads faster updates
+
     def __init__(self, what: str, total: int) -> None:
         self.what, self.total = what, total
-        self.begun = self.next = time.monotonic()
-        self.next += 1.0  # seconds: shorter work shows no bar
+        self.begun = time.monotonic()
+        self.next = self.begun + self.after_s
         self.length = 0  # characters of the bar on the screen
 
     def update(self, done: int) -> None:
         """Draw the bar if it is time to."""
         now = time.monotonic()
         if now >= self.next:
-            self.next = now + 0.1  # seconds: nobody reads faster updates
+            self.next = now + self.every_s
             self._write(self._line(done, now - self.begun))
 
     def close(self) -> None:

@@ -10,11 +10,11 @@ from typing import NamedTuple
 
 from geneva_cli.design import CURVES, Design
 from geneva_cli.drawings.model import PartsModel
+from geneva_cli.drawings.single_parts import SinglePart, single_parts
 from geneva_cli.errors import GenevaError, cut
 from geneva_cli.layout.missing import Missing
 from geneva_cli.output import animate, draw, draw_sheet, show, show_document, show_text
 from geneva_cli.output.formats import of_curves, usual_curves, usual_tolerance
-from geneva_cli.parts.single_parts import SinglePart, single_parts
 from geneva_cli.spec.schema import Points, fields
 from geneva_cli.specfile.writer import quoted, spec_lines
 

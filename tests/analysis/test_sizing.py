@@ -148,7 +148,7 @@ def test_motor_and_flywheel():
     mu = 1.2 * psi1**2 / own
     assert found.inertia_ratio == pytest.approx(mu, rel=1e-14)
     assert found.coasting_speed_share == pytest.approx((1 + mu) ** -0.5, rel=1e-14)
-    assert needs == ["friction_torque_Nm: needs friction and radius_mm in [support]"]
+    assert list(needs) == ["friction_torque_Nm: needs friction and radius_mm in [support]"]
 
 
 def test_left_to_coast():

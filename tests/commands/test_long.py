@@ -79,7 +79,7 @@ def test_memory_does_not_grow(text):
 def test_progress_on_a_terminal():
     master, slave = pty.openpty()
     # at once, where it is after a second of work that a bar is shown
-    now = "from geneva_cli.output import bar; bar.AFTER_S = bar.EVERY_S = 0.0"
+    now = "from geneva_cli.output.bar import TextBar as T; T.after_s = T.every_s = 0.0"
     main = "from geneva_cli.__main__ import main; main()"
     arguments = ["motion", "spec.toml", "--samples", "200000", "-o", "out.csv"]
     command = [sys.executable, "-c", f"{now}; {main}", *arguments]

@@ -11,6 +11,7 @@ import os
 import random
 import re
 import shlex
+import shutil
 import tempfile
 
 import certify
@@ -306,7 +307,7 @@ def inputs(words, before):
 def written(rng, sound):
     """Specs for a line: sound ones, or any; what else lies there is removed."""
     for name in set(os.listdir()) - {"law.csv", "ratio.csv", TEMPORARY}:
-        os.remove(name)
+        shutil.rmtree(name) if os.path.isdir(name) else os.remove(name)
     for spec in ("spec.toml", "other.toml"):
         some = [machine_text(rng), spec_text(rng, 0.02), mutated(rng, spec_text(rng, 0.1))]
         text = rng.choice(SOUND_SPECS if sound or rng.random() < 0.6 else some)
