@@ -28,15 +28,17 @@ class Board:
 
     def __init__(self) -> None:
         self._texts: list[Label] = []
-        self._drawn: list[Segment] = []  # straight lines of the part
-        self._ruled: list[Segment] = []  # dimension lines
+        self._drawn: Array = np.empty((0, 4))  # straight lines of the part
+        self._ruled: Array = np.empty((0, 4))  # straight dimension lines
+        self._swept: list[Arc] = []  # dimension lines that are arcs
         self._all: Array = np.empty((0, 4))
 
     def draw(self, shape: Shape) -> None:
         """Add the lines of a shape."""
         self._keep(chords(shape))
         if isinstance(shape, Contour):
-            self._drawn += [piece for piece in shape.segments if isinstance(piece, Line)]
+            lines = _chords(piece for piece in shape.segments if isinstance(piece, Line))
+            self._drawn = np.concatenate((self._drawn, lines))
 
     def write(self, label: Label) -> None:
         """Add a text."""
@@ -46,19 +48,29 @@ class Board:
     def put(self, measure: Measure) -> None:
         """Add a dimension: its lines, arrows and text."""
         self._keep(_lines(measure))
-        self._ruled.append(measure.lines[0])
+        own = measure.lines[0]
+        if isinstance(own, Line):
+            self._ruled = np.concatenate((self._ruled, _chords([own])))
+        elif isinstance(own, Arc):
+            self._swept.append(own)
         self.write(measure.label)
 
     def first(self, candidates: Iterable[Measure]) -> Measure | None:
         """Return the first dimension that is free, and add it; None if none is free."""
         for measure in candidates:
-            own = measure.lines[0]
-            ruled = any(_run_together(own, other, BESIDE) for other in self._ruled)
-            ruled = ruled or any(_run_together(own, other, ON) for other in self._drawn)
-            if not ruled and self.is_free(measure.label, _lines(measure)):
+            if not self._meets(measure.lines[0]) and self.is_free(measure.label, _lines(measure)):
                 self.put(measure)
                 return measure
         return None
+
+    def _meets(self, own: Segment) -> bool:
+        """Return True if a dimension line runs along another one, or along a line of the part."""
+        if isinstance(own, Arc):
+            return any(_arcs_together(own, other) for other in self._swept)
+        if not isinstance(own, Line):
+            return False
+        near = ((self._ruled, BESIDE), (self._drawn, ON))
+        return any(_runs_along(own, lines, apart) for lines, apart in near)
 
     def is_free(self, label: Label, lines: Array) -> bool:
         """Return True if a text and its lines meet nothing on the board."""
@@ -90,23 +102,25 @@ def chords(shape: Shape) -> Array:
     return _chords(shape.segments)
 
 
-def _run_together(a: Segment, b: Segment, apart: float) -> bool:
-    """Return True if two lines, or two arcs, run side by side with less than ``apart`` between."""
-    if isinstance(a, Arc) and isinstance(b, Arc):
-        same = math.dist(a.centre, b.centre) < IN_LINE and abs(a.radius - b.radius) < apart
-        turn = (_middle(b) - _middle(a)) % math.tau
-        off = min(turn, math.tau - turn)
-        return same and (0.5 * (abs(a.sweep) + abs(b.sweep)) - off) * a.radius > IN_LINE
-    if not (isinstance(a, Line) and isinstance(b, Line)):
-        return False
-    (x, y), (u, v) = a
-    long = math.dist(*a)
+def _arcs_together(a: Arc, b: Arc) -> bool:
+    """Return True if two arcs run side by side with less than ``BESIDE`` between."""
+    same = math.dist(a.centre, b.centre) < IN_LINE and abs(a.radius - b.radius) < BESIDE
+    turn = (_middle(b) - _middle(a)) % math.tau
+    off = min(turn, math.tau - turn)
+    return same and (0.5 * (abs(a.sweep) + abs(b.sweep)) - off) * a.radius > IN_LINE
+
+
+def _runs_along(line: Line, lines: Array, apart: float) -> bool:
+    """Return True if a line runs beside one of others, (n, 4), with less than ``apart`` between."""
+    (x, y), (u, v) = line
+    long = math.dist(*line)
     if long < IN_LINE:
         return False
     c, s = (u - x) / long, (v - y) / long
-    along = sorted((p[0] - x) * c + (p[1] - y) * s for p in b)
-    across = max(abs((p[1] - y) * c - (p[0] - x) * s) for p in b)
-    return across < apart and along[0] < long - IN_LINE and along[1] > IN_LINE
+    dx, dy = lines[:, ::2] - x, lines[:, 1::2] - y
+    along, across = dx * c + dy * s, np.abs(dy * c - dx * s).max(axis=1)
+    overlap = (along.min(axis=1) < long - IN_LINE) & (along.max(axis=1) > IN_LINE)
+    return bool((overlap & (across < apart)).any())
 
 
 def _middle(arc: Arc) -> float:

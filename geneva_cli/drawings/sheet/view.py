@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from heapq import merge
 from typing import TYPE_CHECKING, NamedTuple
 
@@ -20,6 +20,7 @@ if TYPE_CHECKING:
 
 FIRST, NEXT = 8.0, 7.0  # mm: from the outline to the first dimension line, and between lines
 RANKS = 14  # rows of dimension lines that are tried
+ARCS = 48  # equal arcs at which a radius is tried: without a limit the time grows as z squared
 OVER = 3.0  # mm: length of a centre line beyond its part
 
 
@@ -140,7 +141,7 @@ class View:
         )
         self._put(_short_first(candidates), f"{text} {where}".rstrip())
 
-    def of_arcs(self, arcs: Iterable[Arc], text: str, whole: bool = False) -> None:
+    def of_arcs(self, arcs: Sequence[Arc], text: str, whole: bool = False) -> None:
         """Draw the radius of one of some arcs, or, with ``whole``, its diameter."""
         kind, factor = (marks.diameter, 2.0) if whole else (marks.radius, 1.0)
         candidates = (
@@ -151,7 +152,7 @@ class View:
                 text,
                 factor * arc.radius,
             )
-            for arc in arcs
+            for arc in arcs[:: 1 + len(arcs) // (ARCS + 1)]
         )
         self._put(_short_first(candidates), text)
 
