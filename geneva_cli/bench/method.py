@@ -43,6 +43,7 @@ class Subject(NamedTuple):
     floor: float = 1e-15  # relative errors below this count as equal
     seconds: float = 1.0  # run time of each method, at least one run
     absent: Sequence[str] = ()  # libraries with methods that are not installed
+    grows: bool = False  # methods of a task are one run of growing size
 
 
 def missing(*distributions: str) -> tuple[str, ...]:
@@ -73,6 +74,8 @@ class BenchRow(NamedTuple):
     ours: bool
     frontier: bool | None = None
     designs_per_s: float | None = None  # of one core
+    time_exponent: float | None = None  # of the growth with size, on the row of the largest
+    memory_exponent: float | None = None
 
 
 def beats(one: BenchRow, other: BenchRow, slack: float, floor: float) -> bool:

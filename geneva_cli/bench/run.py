@@ -12,7 +12,7 @@ from collections.abc import Iterator
 from typing import cast
 
 from geneva_cli.bench.method import BenchRow, Subject, Task, with_frontier
-from geneva_cli.bench.timing_pairs import ratios
+from geneva_cli.bench.timing_pairs import exponent, ratios
 from geneva_cli.errors import GenevaError, cut, few, nearest
 from geneva_cli.table import Table, rows_table
 
@@ -31,6 +31,7 @@ SUBJECTS = (
     "synth",
     "start",
     "export",
+    "growth",
 )
 
 
@@ -78,7 +79,17 @@ def _rows(name: str, subject: Subject, task: Task, quick: bool) -> Iterator[Benc
         )
         for method, answer, time in zip(task.methods, answers, times, strict=True)
     ]
-    yield from with_frontier(rows, subject.slack, subject.floor)
+    rows = with_frontier(rows, subject.slack, subject.floor)
+    yield from _with_exponents(rows) if subject.grows else rows
+
+
+def _with_exponents(rows: list[BenchRow]) -> list[BenchRow]:
+    """Rows of growing size, the largest with the exponents of time and memory."""
+    *others, largest = rows
+    sizes = [row.size or 0.0 for row in rows]
+    time = exponent(sizes, [row.time_ratio for row in rows])
+    memory = exponent(sizes, [row.memory_MB or 0.0 for row in rows])
+    return [*others, largest._replace(time_exponent=time, memory_exponent=memory)]
 
 
 def bench_table(rows: list[BenchRow], for_people: bool) -> Table:
@@ -97,4 +108,4 @@ def _spelled(row: BenchRow) -> tuple[object, ...]:
     size = None if row.size is None else f"{row.size:g}"
     many = row.designs_per_s and f"{row.designs_per_s:.3g}"
     rate = many and f"{float(many):,.0f}"  # three digits: more is noise
-    return (*row[:3], size, row.pieces, error, *row[6:-1], rate)
+    return (*row[:3], size, row.pieces, error, *row[6:-3], rate, *row[-2:])

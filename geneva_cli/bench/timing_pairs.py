@@ -43,6 +43,30 @@ def median_ratio(pairs: Sequence[Pair]) -> float:
     return statistics.median(own / base for base, own in pairs)
 
 
+def exponent(sizes: Sequence[float], costs: Sequence[float]) -> float:
+    """Exponent p of costs that grow as a + b n^p, where a is the cost of the smallest size.
+
+    The slope of a line through the logarithms, by least squares. Growth of less than a fifth of a
+    is noise. The last such size takes part with a fifth, so that a late rise is seen. Without any
+    growth the exponent is 0.
+
+    >>> round(exponent([1, 10, 100, 1000], [1.0, 1.9, 10.9, 100.9]), 2)
+    1.0
+    """
+    least = 0.2 * costs[0]
+    grown = [max(cost - costs[0], least) for cost in costs]
+    first = max((i for i, growth in enumerate(grown) if growth == least), default=0)
+    x = [math.log(size) for size in sizes[first:]]
+    y = [math.log(growth) for growth in grown[first:]]
+    if len(x) > 2:  # the size in the noise only bounds the growth
+        x, y = x[1:], y[1:]
+    if len(x) < 2:
+        return 0.0
+    mean_x, mean_y = sum(x) / len(x), sum(y) / len(y)
+    products = ((u - mean_x) * (v - mean_y) for u, v in zip(x, y, strict=True))
+    return sum(products) / sum((u - mean_x) ** 2 for u in x)
+
+
 def ratios(
     baseline: Callable[[], Any], calls: Sequence[Callable[[], T]], seconds: float
 ) -> tuple[list[T], list[Timed]]:

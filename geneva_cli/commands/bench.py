@@ -15,7 +15,7 @@ def run(
         typer.Argument(
             metavar="[SUBJECT]",
             help="peaks, cranks, many, sweep, motion, loads, slot, tolerance, vibration, turn, "
-            "synth, start, export or all.",
+            "synth, start, export, growth or all.",
         ),
     ] = "all",
     plots: Annotated[

@@ -43,6 +43,7 @@ OURS = {
     "synth": 0.0,
     "start": 0.0,
     "export": 0.0,
+    "growth": 0.0,
 }
 
 
