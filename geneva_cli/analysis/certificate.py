@@ -28,7 +28,6 @@ if TYPE_CHECKING:
 DECIMALS, DOUBLES = "the decimals as written", "the spec's numbers as doubles"
 LIMIT = 2000  # intervals a motion: 12 times what any design here takes, some seconds
 DIGITS = 15  # that are printed: as many as every double keeps
-SHOWN_TO_DEG = 2.0**-42  # rounding of an angle that is counted from another mid-motion
 NARROW_DEG = 1e-6  # a narrower place is one angle for people
 DERIVED = {"velocity": 0, "acceleration": 1, "jerk": 2}  # derivatives of the velocity
 
@@ -214,7 +213,8 @@ class _Found(NamedTuple):
     def shown(self, interval: Interval) -> Place:
         """An interval of the engagement as the machine's; longer by the rounding of both ends."""
         start = self.mechanism.shown_deg(self.engagement.mid_deg + interval.start)
-        slack = 0.0 if start == interval.start else SHOWN_TO_DEG
+        # rounding of an angle that is counted from another mid-motion
+        slack = 0.0 if start == interval.start else (2.0**-42)
         end = interval.end + (start - interval.start)
         return Place(start - slack, end + slack)
 

@@ -24,10 +24,6 @@ if TYPE_CHECKING:
     Near: TypeAlias = tuple[NDArray[np.intp], NDArray[np.intp]]
 
 
-FEW = 64  # pieces: of fewer, computing all contacts takes no longer than their selection
-MARGIN = 1e-9  # of the reach: more than the rounding of a distance
-
-
 def nearest_pieces(
     own: Polyarc, near: Near, other: Polyarc, origin: Array, angle: Array, reach: float
 ) -> Near:
@@ -44,14 +40,16 @@ def nearest_pieces(
     dx, dy = own.ox[piece] - origin[owner, 0], own.oy[piece] - origin[owner, 1]
     close = dx * dx + dy * dy <= (own.size[piece] + reach) ** 2
     owner, piece = owner[close], piece[close]
-    if len(own) < FEW:
+    # with fewer pieces, computing all contacts takes no longer than their selection
+    if len(own) < 64:
         return owner, piece
     dx, dy = dx[close], dy[close]
     c, s = np.cos(angle)[owner], np.sin(angle)[owner]
     away = other.signed(np.column_stack((dx * c + dy * s, dy * c - dx * s)))
     most, size = np.full(len(origin), np.inf), own.size[piece]
     np.minimum.at(most, owner, away + size)
-    kept = away - size <= most[owner] + MARGIN * reach
+    # 1e-9 of the reach is more than the rounding of a distance
+    kept = away - size <= most[owner] + 1e-9 * reach
     return owner[kept], piece[kept]
 
 

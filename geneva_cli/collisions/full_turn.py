@@ -24,7 +24,6 @@ if TYPE_CHECKING:
 
     from geneva_cli.numerics.jet import Array
 
-NO_PLAY = 1e-6  # degrees: a play as small as this is rounding
 SAME = 1e-7  # of a play: its relative accuracy
 
 
@@ -147,7 +146,8 @@ def _earlier(parts: MachineParts) -> Earlier:
 def _most(values: Array, at: Array, earlier: Earlier) -> Most:
     """Return the greatest value and its position; in a plateau, the middle of the first one."""
     size = float(values.max(initial=0.0))
-    if not size > NO_PLAY:
+    # a play of 1e-6 degrees is rounding
+    if not size > 1e-6:
         return Most(0.0, 0.0)
     same = values >= size - max(SAME * size, math.degrees(EXACT))
     first = np.flatnonzero(same & ~np.append(False, same[:-1]))

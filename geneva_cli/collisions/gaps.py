@@ -26,11 +26,7 @@ if TYPE_CHECKING:
     from geneva_cli.numerics.jet import Array
 
 NEAR = 0.02  # of the centre distance: wider gaps are returned as this
-SAGITTA = 2e-6  # of the centre distance: greatest deviation of an arc's samples from the arc
-TOUCH = 1e-7  # of the locking disc: a smaller overlap counts as touching
 WORK = 1e8  # greatest number of distances between points and pieces in a full turn: about 5 s
-BLOCK = 1 << 19  # points of the wheel that are computed together, so that they fit into the cache
-LONGEST = 0.02  # of the centre distance: greatest distance of samples on a line
 
 
 class WorkLimit(GenevaError):
@@ -184,7 +180,8 @@ class Gaps:
         """
         at = swept_deg(self.assembly, number, step_deg)[::every]
         turn, pose = self.assembly.wheel(at), self.assembly.crank(at)
-        step = max(1, BLOCK // len(self._wheel_points[0]))
+        # 2^19 points of the wheel at a time fit into the cache
+        step = max(1, (1 << 19) // len(self._wheel_points[0]))
         blocks = [
             self._within_disc(turn[i : i + step], pose[i : i + step])
             for i in range(0, len(at), step)
@@ -194,7 +191,8 @@ class Gaps:
 
     def _within_disc(self, turn: Array, pose: Array) -> tuple[Array, Array]:
         """Return the wheel's points inside the locking disc, in the crank's frame, as x and y."""
-        reach = self.sizes.lock * (1.0 - TOUCH)
+        # an overlap below 1e-7 of the locking disc counts as touching
+        reach = self.sizes.lock * (1.0 - 1e-7)
         # Only points near the direction of the crank's axis can be within reach of it.
         points, places = self._wheel_points
         owner, which = places.within(-turn, half_angle(reach, self.assembly.L))
@@ -210,7 +208,9 @@ class Gaps:
     def _wheel_points(self) -> tuple[Array, AngularIndex]:
         """Points along the wheel's outline that come near the locking disc, (n, 2)."""
         L = self.assembly.L
-        points = self.wheel.samples(SAGITTA * L, LONGEST * L)
+        # arcs: chords within 2e-6 of the centre distance
+        # lines: samples at most 0.02 of it apart
+        points = self.wheel.samples(2e-6 * L, 0.02 * L)
         points = points[np.hypot(*points.T) >= L - self.sizes.lock]
         return points, AngularIndex(np.arctan2(points[:, 1], points[:, 0]))
 

@@ -14,8 +14,6 @@ if TYPE_CHECKING:
 
     from geneva_cli.numerics.jet import Array
 
-ROUNDING = 4e-15  # radians: of a direction that is a sum of some angles
-
 
 class Rounds(NamedTuple):
     """Arcs and corners, an array (k,) of each quantity."""
@@ -62,7 +60,8 @@ def rounds(outline: Polyarc) -> Rounds:
     arc, corner = np.flatnonzero(outline.arc), np.flatnonzero(outline.turn_start > 0.0)
     zero = np.zeros(len(corner))
     size = np.hypot(outline.ox, outline.oy) + outline.length
-    slack = SLACK * np.minimum(1.0, size[arc] / outline.radius[arc]) + ROUNDING
+    # a direction, a sum of some angles, is rounded by 4e-15 radians
+    slack = SLACK * np.minimum(1.0, size[arc] / outline.radius[arc]) + 4e-15
     columns = (
         (outline.cx[arc], outline.x0[corner]),
         (outline.cy[arc], outline.y0[corner]),

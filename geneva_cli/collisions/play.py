@@ -26,18 +26,9 @@ if TYPE_CHECKING:
 
     from geneva_cli.numerics.jet import Array
 
-CHANGE_DEG = 15.0  # of the input, on either side of entry and exit: lock and roller change over
-ENDS = 24  # positions there
-DWELL = 5  # positions in the rest of a dwell
-MOTION = 15  # positions in the rest of a motion; odd, so that mid-motion is one
 AROUND = 5  # parts into which an interval is divided about a peak
-CLOSER = 9  # rounds of refinement; 5**-9 of some degrees is a millionth
 SMALL = 1e-3  # degrees: the interval over which a roller's speed is computed
-NARROW = 1e-6  # degrees: shorter intervals are not divided
-NEARLY = 0.8  # of the greatest: around a lower local maximum no greater play is expected
 MOST = 4  # intervals that are divided in a round for one peak
-STEEP = 10.0  # 1 / the cosine of the steepest pressure angle, 84 degrees, at which walls still hold
-JUMP = 30.0  # times the roller's travel: a rim that moves farther is not pushed by the roller
 
 
 class Play(NamedTuple):
@@ -106,7 +97,8 @@ def plays(parts: MachineParts, fits: bool) -> Iterator[Play]:
     """
     play = _play_at(parts, _places(parts), fits)
     yield play
-    for _ in range(CLOSER):
+    # 9 rounds: 5**-9 of some degrees is a millionth
+    for _ in range(9):
         near = (*_peaks(parts, play), *_changes(parts, play), *_closing(parts, play))
         more = rising(np.concatenate(near))
         if not len(more):
@@ -129,7 +121,8 @@ def push_deg(parts: MachineParts, play: Play) -> Array:
     pushes = np.zeros(len(step))
     for edge, push in ((play.back, play.back_push), (play.on, play.on_push)):
         closing = parts.sizes.rim * np.radians(-np.diff(edge))
-        angle = np.where(closing > JUMP * moved, 90.0, push[1:])
+        # a rim that moves more than 30 times the roller's travel is not pushed by the roller
+        angle = np.where(closing > 30.0 * moved, 90.0, push[1:])
         known = np.radians(edge[:-1]) > touching(parts)
         pushes = np.maximum(pushes, np.where(free & known & (closing > 0.0), angle, 0.0))
     return pushes
@@ -137,11 +130,15 @@ def push_deg(parts: MachineParts, play: Play) -> Array:
 
 def _places(parts: MachineParts) -> Array:
     """Return input angles of a turn, dense where lock and roller change over."""
-    close = np.concatenate(([0.0], np.geomspace(0.01, 1.0, ENDS)))
+    # 24 positions on either side of entry and exit
+    close = np.concatenate(([0.0], np.geomspace(0.01, 1.0, 24)))
     places = []
     for a, b, _, rests in windows(parts):
-        near = close * min(CHANGE_DEG, 0.5 * (b - a))
-        places += [a + near, np.linspace(a, b, (DWELL if rests else MOTION) + 2)[1:-1], b - near]
+        # lock and roller change over within 15 degrees of entry and exit
+        near = close * min(15.0, 0.5 * (b - a))
+        # 5 positions in the rest of a dwell, and 15 in the rest of a motion,
+        # an odd number, so that mid-motion is one
+        places += [a + near, np.linspace(a, b, (5 if rests else 15) + 2)[1:-1], b - near]
     return rising(np.concatenate(places))
 
 
@@ -192,7 +189,8 @@ def _cut(play: Play, intervals: NDArray[np.intp]) -> Array:
     last = len(play.input_deg) - 2
     i = rising(intervals[(intervals >= 0) & (intervals <= last)])
     low, high = play.input_deg[i], play.input_deg[i + 1]
-    wide = (high - low > NARROW)[:, None]
+    # intervals below 1e-6 degrees are not divided
+    wide = (high - low > 1e-6)[:, None]
     fraction = np.arange(1, AROUND) / AROUND
     cuts: Array = (low[:, None] + (high - low)[:, None] * fraction)[wide.ravel()].ravel()
     return cuts
@@ -205,11 +203,9 @@ def _peaks(parts: MachineParts, play: Play) -> Iterator[Array]:
         for where, least in ((play.guided, in_slot), (~play.guided, either)):
             value = np.where(where & (edge < most) & (edge > least), edge, -1.0)
             before, after = np.append(-1.0, value[:-1]), np.append(value[1:], -1.0)
+            # around a local maximum below 0.8 of the greatest no greater play is expected
             top = np.flatnonzero(
-                (value > 0.0)
-                & (value >= before)
-                & (value >= after)
-                & (value > NEARLY * value.max())
+                (value > 0.0) & (value >= before) & (value >= after) & (value > 0.8 * value.max())
             )
             top = top[np.argsort(-value[top], kind="stable")][:MOST]
             yield _cut(play, np.concatenate((top - 1, top)))
@@ -230,7 +226,8 @@ def _changes(parts: MachineParts, play: Play) -> Iterator[Array]:
 
 def _held_deg(parts: MachineParts) -> float:
     """Return the largest play between the walls of a slot that their tolerance alone may give."""
-    return math.degrees(STEEP * parts.close / parts.sizes.rim)
+    # walls hold up to a pressure angle of 84 degrees, whose cosine is 1/10
+    return math.degrees(10.0 * parts.close / parts.sizes.rim)
 
 
 def _closing(parts: MachineParts, play: Play) -> Iterator[Array]:

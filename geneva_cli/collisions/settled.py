@@ -11,9 +11,7 @@ if TYPE_CHECKING:
     from geneva_cli.layout.assembly import Assembly
     from geneva_cli.numerics.jet import Array
 
-FIRST = 32  # intervals at first
 MOST = 20_000  # intervals of one pair of parts: ten times what the designs take; under a second
-BACK = 1e-12  # radians: the wheel's angle is rounded by less; a wheel that turns back more is seen
 
 
 class Intervals(NamedTuple):
@@ -74,7 +72,8 @@ def settled(assembly: Assembly, pair: Pair, ends: tuple[float, float], target: f
     Intervals are halved until the bound on each is at least ``target``. Without success the most
     doubtful interval is returned as open.
     """
-    cuts = np.linspace(*ends, FIRST + 1)
+    # 32 intervals at first
+    cuts = np.linspace(*ends, 32 + 1)
     start, end = cuts[:-1], cuts[1:]
     least, count = math.inf, 0
     while len(start):
@@ -104,5 +103,6 @@ def intervals(assembly: Assembly, start: Array, end: Array) -> Intervals:
     crank = np.unwrap([assembly.crank(x) for x in at], axis=0)
     wheel = np.array([assembly.wheel(x) for x in at])
     steps = np.diff(wheel, axis=0)
-    turn = np.where((steps < -BACK).any(axis=0), math.tau, steps.max(axis=0))
+    # the wheel's angle is rounded by less than 1e-12 radians
+    turn = np.where((steps < -1e-12).any(axis=0), math.tau, steps.max(axis=0))
     return Intervals(start, end, np.abs(np.diff(crank, axis=0)).max(axis=0), turn)

@@ -20,15 +20,10 @@ if TYPE_CHECKING:
 
     from geneva_cli.numerics.jet import Array
 
-SHARE = 0.25  # of the thinnest feature: parts move no farther between two positions
 POSITIONS = 10_000  # at most: about 0.1 s of the parts alone; a turn that needs more is not proved
 DIP = 1e-9  # mm: gaps that differ by less count as equal
-DIPS = 12  # smallest gaps that are refined
 FINER = 9  # positions in each refinement,
 HALF = FINER // 2  # of which the ends and the middle are mostly known
-ROUNDS = 6
-CHANGE_DEG = 15.0  # of the input, on either side of entry and exit:
-ENDS = 24  # so many positions lie there
 
 Earlier: TypeAlias = Callable[[float], float]
 
@@ -89,7 +84,8 @@ def positions(parts: MachineParts) -> Array:
     grid = np.linspace(assembly.start_deg, assembly.start_deg + assembly.span_deg, 721)
     crank = np.unwrap(assembly.crank(grid))
     travel = sizes.arm * np.abs(np.diff(crank)) + sizes.rim * np.abs(np.diff(assembly.wheel(grid)))
-    feature = min(sizes.roller, max(sizes.horn, 0.2 * sizes.roller)) * SHARE
+    # between two positions parts move a quarter of the thinnest feature
+    feature = min(sizes.roller, max(sizes.horn, 0.2 * sizes.roller)) * 0.25
     total = np.concatenate(([0.0], np.cumsum(travel)))
     count = math.ceil(total[-1] / feature)
     if count > POSITIONS:
@@ -100,7 +96,9 @@ def positions(parts: MachineParts) -> Array:
     grid_deg = np.interp(np.linspace(0.0, total[-1], count + 1), total, grid)
     # A rim that is too large collides for less than a degree about entry and exit.
     ends = np.array([b + e for s, b in assembly.motions for e in (s.entry_deg, s.exit_deg)])
-    offsets = np.geomspace(0.01, CHANGE_DEG, ENDS)
+    # 24 positions lie within 15 degrees of the input
+    # on either side of entry and exit
+    offsets = np.geomspace(0.01, 15.0, 24)
     near = (ends[:, None] + np.concatenate((-offsets, [0.0], offsets))).ravel()
     near = assembly.start_deg + (near - assembly.start_deg) % assembly.span_deg
     return rising(np.concatenate((grid_deg, near)))
@@ -135,11 +133,12 @@ def _least(
         | (values[1:-1] <= values[:-2]) & (values[1:-1] < values[2:] - DIP)
     ]
     # A smaller gap can only lie between positions whose gaps are already near to the smallest.
-    dips = dips[np.argsort(values[dips])][:DIPS]
+    # the 12 smallest gaps are refined
+    dips = dips[np.argsort(values[dips])][:12]
     about = dips[:, None] + (-1, 0, 1)  # each minimum and its two neighbours
     known_at, known = at[about], values[about]
     closer: list[tuple[Array, Array]] = []
-    for _ in range(ROUNDS if len(dips) else 0):
+    for _ in range(6 if len(dips) else 0):
         low, high = known_at[:, :1], known_at[:, -1:]
         x = low + (high - low) * np.linspace(0.0, 1.0, FINER)
         v, fresh = np.empty(x.shape), np.ones(x.shape, dtype=bool)

@@ -14,7 +14,6 @@ if TYPE_CHECKING:
 
     from geneva_cli.numerics.jet import Array
 
-ZERO = 1e-13  # radians: a contact that lies behind by less counts as being here
 WAYS = np.array(((-1.0,), (1.0,)))  # back and on: factors for rows of angles
 SLACK = 1e-9  # radians, and of a length: smoothly joined pieces leave no gap between them
 
@@ -62,7 +61,8 @@ def within(
     back, 1 on), the column, and the angle that the wheel turns.
     """
     lead = WAYS * turn % pitch
-    lead = np.where(lead > pitch - ZERO, 0.0, lead)
+    # a contact that lies behind by less than 1e-13 radians counts as being here
+    lead = np.where(lead > pitch - 1e-13, 0.0, lead)
     row, column = np.nonzero((lead < most) & on_line)
     return row, column, lead[row, column]
 

@@ -24,8 +24,6 @@ from geneva_cli.outlines.locking_rings import LAYER as CRANK
 from geneva_cli.outlines.wheel import LAYER as WHEEL
 from geneva_cli.spec.rules import TOOL_MM, require_mm
 
-LOOKS = 14  # halvings between a cutter whose dog bones fit and one whose do not
-
 
 def judged(drawing: Drawing, cutter_mm: float) -> tuple[str, list[str]]:
     """Return places that a cutter does not reach, "" if none, and notes on what else it leaves.
@@ -66,7 +64,8 @@ def with_dog_bones(drawing: Drawing, model: PartsModel, cutter_mm: float) -> Dra
     try:
         boned = boned_by(cutter_mm)
     except TooWide as error:
-        most = 2.0 * even(0.5 * boundary(fits, 0.0, cutter_mm, LOOKS))
+        # 14 halvings between a cutter whose dog bones fit and one whose do not
+        most = 2.0 * even(0.5 * boundary(fits, 0.0, cutter_mm, 14))
         helps = f"use a cutter up to {most:g} mm" if most else "no cutter is small enough"
         raise GenevaError(f"--dog-bones: {error}; {helps}, or omit it") from None
     shapes = tuple(boned.get(shape, shape) for shape in drawing.shapes)

@@ -37,7 +37,6 @@ from geneva_cli.parts.gear_pair import FINE
 from geneva_cli.parts.plates import arm_plate
 
 PITCH = "PITCH"
-BETWEEN = 0.05  # of the centre distance: gap between links side by side
 
 
 def wheel(parts: FlatParts) -> Drawing:
@@ -90,7 +89,8 @@ def links(parts: FlatParts) -> Drawing:
                 else "--part parts lists what it has"
             )
         )
-    members = tuple(_side_by_side(bars.plates, BETWEEN * mechanism.center_distance_mm))
+    # links side by side are 0.05 of the centre distance apart
+    members = tuple(_side_by_side(bars.plates, 0.05 * mechanism.center_distance_mm))
     title = titled(mechanism, "links")
     return Drawing(title, tuple(shapes(members)), solid=Group(title, members))
 

@@ -29,7 +29,6 @@ from geneva_cli.outlines.sphere_wheel import POLE
 from geneva_cli.spec.schema import Points, fields
 from geneva_cli.table import Reading, Table, rows_table
 
-ROUNDING = 1e-13  # of a part's size: a centroid nearer to its axis is on it
 ACROSS = ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0))  # axes along which a shell's size is measured
 # columns of a row of each kind
 KINDS = {
@@ -122,7 +121,8 @@ def _properties(solid: Plate | Shell, density: float, outside: float | None) -> 
         body = mass_properties(solid, density)
         mass, inertia = body.mass_kg, body.inertia_kgm2
         if outside is None:
-            near = ROUNDING * max(wide, deep)
+            # a centroid within 1e-13 of a part's size of its axis is on it
+            near = 1e-13 * max(wide, deep)
             x, y = (at if abs(at) > near else 0.0 for at in body.centroid_mm)
             row = {"centroid_x_mm": x, "centroid_y_mm": y}
     else:

@@ -13,7 +13,6 @@ from geneva_cli.layout.projection import outlines_of, titled
 from geneva_cli.parts.flat_parts import FlatParts
 
 APART = 5.0  # mm between parts, and round them
-LARGER = 1.1  # by which the bed grows until all parts fit
 
 
 def plate(parts: FlatParts) -> Drawing:
@@ -35,7 +34,8 @@ def _laid(whole: list[Plate]) -> list[Member]:
     while placed is None:
         area = (0.0, 0.0, side, side)
         placed = packed_apart(blocks, (), area, lambda b: -b.width * b.height, APART)
-        side *= LARGER
+        # the bed grows by a tenth until all parts fit
+        side *= 1.1
     return [
         Member(
             one._replace(low=0.0, high=one.thickness),

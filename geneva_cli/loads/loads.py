@@ -132,8 +132,7 @@ def fastest_rpm(mechanism: Mechanism) -> float | None:
 
     Infinite if they hold at any speed or there are none; None if no speed keeps them.
     """
-    limits = load_limits(mechanism.spec.limits)
-    limited = {name: limit for name, limit in zip(LIMITED_LOADS, limits, strict=True) if limit}
+    limited = load_limits(mechanism.spec.limits)
     at_one = load_case(mechanism)._replace(inertia_Nm=inertia_kgm2(mechanism.spec))  # at 1 rad/s
     if at_one.hertz is None:
         limited.pop(STRESS, None)
@@ -197,12 +196,14 @@ def _slowness(engagement: Engagement, case: LoadCase, limits: Mapping[str, float
     return max(0.0, float(result.most[: len(names)].max()))
 
 
-LIMITED_LOADS = (FORCE, TORQUE, STRESS)
-
-
-def load_limits(limits: Limits) -> tuple[float | None, float | None, float | None]:
-    """The limits on the quantities in ``LIMITED_LOADS``."""
-    return limits.pin_force_max_N, limits.input_torque_max_Nm, limits.contact_stress_max_MPa
+def load_limits(limits: Limits) -> dict[str, float]:
+    """The limits that a spec sets on pin force, input torque and contact stress."""
+    every = {
+        FORCE: limits.pin_force_max_N,
+        TORQUE: limits.input_torque_max_Nm,
+        STRESS: limits.contact_stress_max_MPa,
+    }
+    return {name: limit for name, limit in every.items() if limit}
 
 
 def kinetic_power_W(mechanism: Mechanism, power_invariant: float) -> float:

@@ -25,8 +25,6 @@ BITS = 128  # of a middle: 75 more than a double has, against cancellation in hi
 # How far a ball may reach over the end of its piece of a formula, in the formula's own variable.
 # The ends are known to a few units in the last place of doubles (EDGE_DEG of enclosures).
 REACH = 2.0**-39
-# Share of a radius that is rounding: Arb's radii have 30 bits and are rounded up at each step.
-RADIUS_ROUNDED = 2.0**-24
 
 
 def _operator(f: Callable[[arb, arb], arb]) -> Callable[[Ball, Ball | float], Ball]:
@@ -110,7 +108,8 @@ class Ball(Enclosed):
 
         Raises Undecided if it reaches over a cut by more than ``REACH`` and its radius's rounding.
         """
-        middle, radius = self.middle, self.radius * (1.0 - RADIUS_ROUNDED)
+        # 2^-24 of a radius is rounding: Arb's radii have 30 bits, and each step rounds them up.
+        middle, radius = self.middle, self.radius * (1.0 - 2.0**-24)
         for cut in cuts:
             if radius - abs(cut - middle) > REACH:
                 raise Undecided(f"the cut {cut!r} is inside {self!r}")

@@ -29,12 +29,9 @@ ORDER = 5
 # An end of a piece is a double that rounding may have moved: by 8 units in the last place of 180
 # degrees at most. Pieces overlap by as much, so that no angle is left out.
 EDGE_DEG = 2.0**-42
-LEVEL = 1e-15  # of the greatest size: an interval that rises no higher above it is a plateau
 # Of a piece: a shorter interval is not halved, but left open. It is long enough for a seam inside,
 # that should have been known, to be seen (``balls.REACH``).
 SHORTEST = 2.0**-30
-SAME_PLACE = 1e-9  # of all pieces: places nearer to each other are one
-STEPS = 60  # of Newton, which squares the width each time
 
 
 class Interval(NamedTuple):
@@ -147,7 +144,8 @@ class _Search:
         found = [interval for interval in self.found if interval.high >= self._least]
         found += [interval for interval in self.passed if interval.high >= self.low]
         high = max(interval.high for interval in found + left)
-        places = _places(found, SAME_PLACE * (pieces[-1].end - pieces[0].start))
+        # places within 1e-9 of all pieces are one
+        places = _places(found, 1e-9 * (pieces[-1].end - pieces[0].start))
         open_ = max(left, key=lambda interval: interval.high, default=None)
         return Greatest(self.low, high, places, self.looked_at, open_)
 
@@ -173,7 +171,8 @@ class _Search:
                 return
             if enclosure.is_concave and self._top(piece, a, b, enclosure):
                 return
-            if high <= self.low * (1.0 + LEVEL):
+            # an interval that rises by less than 1e-15 of the greatest size is a plateau
+            if high <= self.low * (1.0 + 1e-15):
                 self.found.append(Interval(a, b, high))
                 return
         if b - a < max(SHORTEST * (piece.end - piece.start), 4.0 * EDGE_DEG):
@@ -211,7 +210,8 @@ class _Search:
         The signs of the slopes beside it prove that it is there, and that it is a top.
         """
         x, y = piece.reach(a, b)
-        for _ in range(STEPS):
+        # 60 Newton steps, each of which squares the width
+        for _ in range(60):
             middle = 0.5 * (x + y)
             step = self._values(Ball.exact(middle), 1)[1] / on.bend
             low, high = (middle - step * (180.0 / Ball.library.pi)).bounds()

@@ -20,7 +20,6 @@ from geneva_cli.numerics.arrays import Enclosed, Library, Number, Undecided
 # more than the rounding of both.
 REACH = 2.0**-39
 NEAR = 1e-9  # radians: a peak of the sine this near to an interval counts as inside
-UNIT = 2.0**-52  # of a number: its unit in the last place, or more
 TINY = 2.0**-1074  # the least double
 LIBRARY_UNITS = 2  # in the last place: greatest error of a function of ``math``
 
@@ -144,7 +143,7 @@ def _outwards(low: float, high: float, units: int = 1) -> Interval:
     """An interval with some units in the last place on either side."""
     if math.isnan(low) or math.isnan(high):
         return Interval(-math.inf, math.inf)
-    share = units * UNIT
+    share = units * 2.0**-52  # a unit in the last place of a number, or more
     return Interval(low - (share * abs(low) + TINY), high + (share * abs(high) + TINY))
 
 

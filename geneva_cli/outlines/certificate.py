@@ -19,8 +19,6 @@ if TYPE_CHECKING:
     from geneva_cli.collisions.machine_parts import MachineParts
     from geneva_cli.outlines.outlines import Outlines
 
-PROVED_TO_MM = 1e-3  # tolerance of a certificate by default, or
-CONTACTS = 2.0  # times the overlap that counts as touching, if that is more
 ROUNDING = 1e-11  # of the centre distance: greatest rounding of a distance; doubles carry 2e-16
 
 
@@ -45,7 +43,8 @@ class Certificate(NamedTuple):
 
 def tolerance_mm(parts: MachineParts) -> float:
     """Return the tolerance of a certificate by default: how far it is from the smallest gap."""
-    return max(PROVED_TO_MM, CONTACTS * parts.contact)
+    # 1 um, or twice the overlap that counts as touching, if that is more
+    return max(1e-3, 2.0 * parts.contact)
 
 
 def unproved_kind(parts: MachineParts) -> str:

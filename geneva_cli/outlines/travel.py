@@ -22,10 +22,6 @@ if TYPE_CHECKING:
     Rates: TypeAlias = tuple[float, float]  # sizes of a curve's two derivatives
 
 UNKNOWN = 1e30  # mm: a bound that is not known, so large that no interval closes with it
-# Parts of a cell: an interval may reach over the end of a formula's piece by some 1e-12 degrees, so
-# that each such place takes 80 halves.
-HALVINGS = 400
-CELL_DEG = 1.0  # of the input: on a longer cell the bounds are much wider
 
 
 class Travel:
@@ -89,7 +85,8 @@ def slot_travel(engagement: Engagement, length: float) -> Travel:
 
 def _edges(engagement: Engagement, start: float, end: float) -> list[float]:
     """Return the ends of cells; no formula changes within a cell of the motion."""
-    count = math.ceil((end - start) / CELL_DEG)
+    # on cells longer than a degree of the input the bounds are much wider
+    count = math.ceil((end - start) / 1.0)
     seams = [x for x in engagement.motion.seams_deg if start < x < end]
     return sorted({*np.linspace(start, end, count + 1).tolist(), *seams})
 
@@ -101,7 +98,9 @@ def curve_rates(curve: Curve, start: float, end: float) -> Rates:
     """
     speed = bend = 0.0
     left = [(start, end)]
-    for _ in range(HALVINGS):
+    # an interval may reach over the end of a formula's piece by some 1e-12 degrees: each such place
+    # takes 80 halves
+    for _ in range(400):
         if not left:
             return speed, bend
         start, end = left.pop()

@@ -15,7 +15,6 @@ from geneva_cli.scene import place_at, pose, value_at
 if TYPE_CHECKING:
     from geneva_cli.scene import Bar, Body, Place, Scene
 
-BETWEEN = 0.12  # fraction of the turn: the first roller is in its slot
 GREY, BROWN = "#757575", "#a56752"
 
 
@@ -23,7 +22,8 @@ def chunks(scene: Scene) -> Iterator[str]:
     """The file's text, legible on light and on dark pages."""
     x0, y0, x1, y1 = scene.box
     size = max(x1 - x0, y1 - y0)
-    margin, t = 0.02 * size, BETWEEN * scene.turn_deg
+    # after 0.12 of the turn the first roller is in its slot
+    margin, t = 0.02 * size, 0.12 * scene.turn_deg
     wide, high = x1 - x0 + 2.0 * margin, y1 - y0 + 2.0 * margin
     view = " ".join(f"{v:.6g}" for v in (x0 - margin, -y1 - margin, wide, high))
     width_px = 640.0

@@ -14,7 +14,6 @@ from geneva_cli.output.letters import width
 from geneva_cli.output.strokes import DARK, LIGHT
 from geneva_cli.output.svg_paths import number, path, place, point
 
-TEXT = 5.0  # height of letters, mm in a drawing of size ``svg.SIZE``
 ARROW = 4.5, 0.9  # an arrow's length, and half its width, mm in that drawing
 
 
@@ -45,8 +44,8 @@ def notes(look: Annotations, box: Box, title: str, mm: float, units: str) -> tup
     lines: list[str] = []
     heads: list[str] = []
     texts: list[tuple[Point, str]] = []
-    # All lengths are in mm, for a drawing of size ``svg.SIZE``.
-    unit, text, gap, grey = UNITS[units], mm * TEXT, mm * 3.0, "#757575"
+    # All lengths are in mm, for a drawing of size ``svg.SIZE``; letters are 5 mm high.
+    unit, text, gap, grey = UNITS[units], mm * 5.0, mm * 3.0, "#757575"
     left, right, low, high = box.x0, box.x1, box.y0, box.y1
     for turn in look.turns:
         arc = mapped(Contour("", (turn,), closed=False), lambda p: (p[0] / unit, p[1] / unit))

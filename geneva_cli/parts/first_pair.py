@@ -24,8 +24,6 @@ from geneva_cli.parts.links import Links, drawn_links
 from geneva_cli.parts.plates import locking_plates, wheel_plate
 from geneva_cli.spec.tables import Size
 
-PLANE = 2  # below the wheel's plane: that of the first wheel
-
 
 def first_pair(mechanism: Mechanism, bars: Links | None = None) -> Mechanism:
     """Return the first wheel and its crank as a machine; ``bars`` are the second's links if known.
@@ -70,7 +68,8 @@ def in_front(first: Outlines, bars: Links, L: float) -> Iterator[Member]:
     at the distance L from the second's.
     """
     assert bars.sizes is not None  # the first crank is a link
-    low, high = bars.sizes.span(PLANE)
+    # the first wheel lies two planes below the wheel
+    low, high = bars.sizes.span(2)
 
     def placed(plate: Plate, x: float, turn: float) -> Member:
         own = plate._replace(name=f"first {plate.name}", low=low, high=high)

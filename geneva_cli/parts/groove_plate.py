@@ -24,10 +24,7 @@ from geneva_cli.parts.links import Links
 
 LAYER, HOLES, GROOVE, PITCH = "FRAME", "BORE", "GROOVE", "PITCH"
 BELOW = 2  # planes below the wheel: that of the groove, below the crank
-RIM = 1.5  # of the roller's radius: rim around the groove, where it fits
 MOUNTS = 4
-SAMPLES = 3601  # input angles of a turn: the error of the farthest point is quadratic in them
-TOLERANCE = 1e-3  # mm, of the flanks by default: that of a drawing
 
 
 def groove_lines(
@@ -43,7 +40,8 @@ def groove_lines(
         raise GenevaError(
             f'--part groove, groove-plate: kind = "{kind}" has no groove; "cam" has one'
         )
-    motion, fine = guide.motion, TOLERANCE if tolerance is None else tolerance
+    # the flanks are within 0.001 mm by default, as a drawing's
+    motion, fine = guide.motion, 1e-3 if tolerance is None else tolerance
     ends = (motion.entry_deg, motion.exit_deg, motion.entry_deg + 360.0)
 
     def line(layer: str, side: float) -> Contour:
@@ -100,7 +98,8 @@ def groove_reaches(assembly: Assembly, sizes: Sizes) -> tuple[float, float]:
     """
     far, wall = _farthest(assembly, sizes), sizes.wall_min
     space = assembly.L - max(sizes.wheel_bore, sizes.wheel_hub) - wall - far
-    rim = min(max(RIM * sizes.roller, 4.0 * wall), space)
+    # where it fits, the rim around the groove is 1.5 roller radii wide
+    rim = min(max(1.5 * sizes.roller, 4.0 * wall), space)
     if rim < 4.0 * wall:
         raise GenevaError(
             f"--part groove-plate: the groove reaches {far:.4g} mm and leaves {space:.4g} mm up to "
@@ -118,7 +117,8 @@ def _farthest(assembly: Assembly, sizes: Sizes) -> float:
     """
     guide = assembly.rollers[0][0].groove
     assert guide is not None  # otherwise there is no plate
-    at, _ = groove_curve(guide, assembly.L, 0.0)(np.linspace(0.0, 360.0, SAMPLES))
+    # 3601 angles of a turn: the error of the farthest point is quadratic in their distance
+    at, _ = groove_curve(guide, assembly.L, 0.0)(np.linspace(0.0, 360.0, 3601))
     return float(np.hypot(*at.T).max()) + sizes.half_width
 
 

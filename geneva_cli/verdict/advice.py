@@ -28,9 +28,7 @@ if TYPE_CHECKING:
 
 # Work of all searches of a design, in units of at most 10 ms: a curved slot's parts take 0.1 s.
 WORK = 800
-SHARE = 2  # a search may use one half of the work that is left
 GLANCE, PARTS, TURN = 3, 7, 15  # work of failing checks, of parts for them, of a turn
-LOOKS = 20  # trials between a value that fails and one that passes
 NEARLY = 0.01  # fraction of a change by which the value advised may exceed the least one
 
 # Keys that change no outline: the parts need not be turned again.
@@ -132,7 +130,8 @@ class _Search:
     """The search for the least change with which some failing checks pass, and its trials."""
 
     def __init__(self, adviser: Adviser, wanted: list[Check]) -> None:
-        self.adviser, self.reserve = adviser, adviser.work // SHARE
+        # a search may use one half of the work that is left
+        self.adviser, self.reserve = adviser, adviser.work // 2
         self.mechanism, self.parts = adviser.mechanism, adviser.parts
         self.wanted = sorted(wanted, key=_needs_parts)  # the quick ones first
         self.turned = any(c.name in TURNED for c in wanted)
@@ -172,7 +171,8 @@ class _Search:
 
     def _edge(self, change: Change, now: float, found: Falsi) -> float:
         """The nearest value to the present one that passes the failing checks in quick trials."""
-        for _ in range(LOOKS):
+        # 20 trials between a value that fails and one that passes
+        for _ in range(20):
             if abs(found.good - found.bad) <= NEARLY * abs(found.good - now):
                 break
             middle = found.middle(NEARLY)

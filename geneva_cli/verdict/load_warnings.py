@@ -25,8 +25,7 @@ def load_warnings(mechanism: Mechanism) -> list[Notice]:
 
 def _keeps_limits(cycle: Cycle) -> bool:
     """Return True if the limits on loads are kept at the present speed."""
-    limits = zip(loads.LIMITED_LOADS, loads.load_limits(cycle.mechanism.spec.limits), strict=True)
-    bounds = {name: limit for name, limit in limits if limit}
+    bounds = loads.load_limits(cycle.mechanism.spec.limits)
     if not bounds.keys() <= cycle.extremes.keys():
         return False
     extremes = [(cycle.extremes[name], limit) for name, limit in bounds.items()]
@@ -70,9 +69,13 @@ def _on_an_edge(cycle: Cycle) -> list[Notice]:
 
 
 def _no_speed(mechanism: Mechanism) -> Notice:
-    keys = ("pin_force_max_N", "input_torque_max_Nm", "contact_stress_max_MPa")
-    limits = loads.load_limits(mechanism.spec.limits)
-    broken = " and ".join(f"{k} = {v:g}" for k, v in zip(keys, limits, strict=True) if v)
+    limits = mechanism.spec.limits
+    values = {
+        "pin_force_max_N": limits.pin_force_max_N,
+        "input_torque_max_Nm": limits.input_torque_max_Nm,
+        "contact_stress_max_MPa": limits.contact_stress_max_MPa,
+    }
+    broken = " and ".join(f"{key} = {value:g}" for key, value in values.items() if value)
     return Notice(
         "no-speed",
         f"no speed keeps {broken}, so there is no shortest motion: the resisting torque alone "

@@ -20,7 +20,7 @@ from geneva_cli.app import app
 from geneva_cli.curves.shapes import Circle
 from geneva_cli.kinematics.layout import Joint
 from geneva_cli.layout.link_positions import links_at
-from geneva_cli.output import animate, moving_gif, page, still_svg
+from geneva_cli.output import animate, moving_gif, page
 from geneva_cli.scene import value_at
 from geneva_cli.study.animation.scene import scene
 from geneva_cli.study.animation.turn import MachineTurn
@@ -219,7 +219,7 @@ def test_a_still_picture_is_the_scene_on_its_way(name, tmp_path):
     found, file = scene(design_of(name)), tmp_path / "still.svg"
     animate(found, str(file))
     root = ElementTree.parse(file).getroot()
-    t = still_svg.BETWEEN * found.turn_deg
+    t = 0.12 * found.turn_deg
     turned = re.search(r"rotate\(([^)]*)\)", root[1].get("transform"))[1]
     angle = value_at(found.bodies[0].angle, t)
     assert float(turned) == pytest.approx(-np.degrees(angle), rel=1e-5)  # six digits

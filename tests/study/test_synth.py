@@ -23,7 +23,6 @@ from geneva_cli.machine.mechanism import build
 from geneva_cli.synthesis.built import Built
 from geneva_cli.synthesis.families import closed
 from geneva_cli.synthesis.families import limit as limits
-from geneva_cli.synthesis.families.family import MOTION_TOLERANCE
 from geneva_cli.synthesis.parts_data import parts_data
 from geneva_cli.synthesis.reading import read_target
 from geneva_cli.synthesis.rows import NEAR_DEG, _groove_failure
@@ -360,7 +359,7 @@ def test_curved_slots_of_all_laws():
 
 
 def test_the_plain_crank_fits_within_a_millionth():
-    near, far = 120.0 * (1 + 0.5 * MOTION_TOLERANCE), 120.0 * (1 + 2 * MOTION_TOLERANCE)
+    near, far = 120.0 * (1 + 0.5e-6), 120.0 * (1 + 2e-6)
     assert len(plain(candidates(motion_deg=repr(near), z="6", rollers=1, external=True))) == 1
     assert not plain(candidates(motion_deg=repr(far), z="6", external=True))
     first, *_ = plain(candidates(tau="0.3333333", z="6", external=True))

@@ -15,7 +15,6 @@ from geneva_cli.bench.method import Method, Subject, Task
 from geneva_cli.bench.whole_runs import BASELINE, IMPORT, RUN, run_python
 from geneva_cli.specfile.template import template
 
-QUICK_SIZES = 2
 SIZES = "--set size.roller_radius_mm=0.1 --set size.center_distance_mm"
 SWEEP = f"sweep - {SIZES}=100 --set drive.kind=side-crank --vary drive.A=-0.3..0.5"
 SLOTS = (6, 12, 24, 48, 96, 192, 360)  # parts are drawn for up to 360 slots
@@ -26,7 +25,6 @@ LARGEST = (
     "import resource, subprocess, sys; subprocess.run(sys.argv[1:], stdout=subprocess.DEVNULL);"
     "print(resource.getrusage(resource.RUSAGE_CHILDREN).ru_maxrss)"
 )
-MEGABYTE = 1e6 if sys.platform == "darwin" else 1e3  # in the units of ``ru_maxrss``
 
 
 class Grown(NamedTuple):
@@ -92,7 +90,7 @@ def subject(quick: bool) -> Subject:
     return Subject(
         "Growth of whole runs: time and memory with the size",
         "none",
-        [_task(run, QUICK_SIZES if quick else None) for run in (QUICK_RUNS if quick else RUNS)],
+        [_task(run, 2 if quick else None) for run in (QUICK_RUNS if quick else RUNS)],
         seconds=0.5,
         grows=True,
     )
@@ -139,4 +137,4 @@ def _memory(words: Sequence[str], text: str) -> float:
     """Return the greatest memory of a run, MB."""
     command = [sys.executable, "-c", LARGEST, *_command(words)]
     done = subprocess.run(command, capture_output=True, input=text, text=True, check=True)
-    return float(done.stdout) / MEGABYTE
+    return float(done.stdout) / (1e6 if sys.platform == "darwin" else 1e3)  # bytes or kilobytes

@@ -19,10 +19,6 @@ from geneva_cli.curves.shapes import Arc, Line
 if TYPE_CHECKING:
     from geneva_cli.numerics.jet import Array
 
-ORDER = 3.0
-PAIR = 2  # arcs in a biarc
-SAMPLES = 24  # in an arc: a lobe's peak is seen to 1 %
-
 
 class Arcs(NamedTuple):
     """Arcs end to end."""
@@ -34,13 +30,15 @@ class Arcs(NamedTuple):
 
 def fitted_arcs(path: CurvePath) -> list[Arc | Line]:
     """Arcs with common tangents along a path; the end tangents are the curve's."""
-    return _joined(fewest(path, _biarcs, ORDER, PAIR), path.rounding)
+    # a biarc has 2 arcs
+    return _joined(fewest(path, _biarcs, 3.0, 2), path.rounding)
 
 
 @np.errstate(divide="ignore", invalid="ignore")  # where a biarc's ends are one point
 def _biarcs(path: CurvePath, places: Array) -> tuple[Arcs, Array]:
     """Biarcs that meet the curve at places, and the error of each in mm."""
-    z, tangents = path.inside(places, SAMPLES)
+    # 24 samples in an arc show a lobe's peak to 1 %
+    z, tangents = path.inside(places, 24)
     joints, heading = np.append(z[:, 0], z[-1, -1]), np.append(tangents[::2, 0], tangents[-1, -1])
     knot, middle = joints[::2], joints[1::2]
     before, after = knot[1:-1] - middle[:-1], middle[1:] - knot[1:-1]

@@ -17,13 +17,7 @@ from geneva_cli.curves.shapes import Cubic
 if TYPE_CHECKING:
     from geneva_cli.numerics.jet import Array
 
-SAMPLES = 48  # in a piece
-STEPS = 6  # of least squares
-FEET = 6  # steps of Newton's to the places nearest to the samples
-DAMPING = 1e-3  # of the first step in the handles' difference
-STIFF = 1e9  # the damping that leaves their difference as it is
 SHORTEST, LONGEST = 1e-4, 1.0  # handles, in lengths of the piece: none is lost, none loops
-ORDER = 6.0
 
 
 class FitTargets(NamedTuple):
@@ -54,13 +48,14 @@ class FitState(NamedTuple):
 
 def fitted_cubics(path: CurvePath) -> list[Cubic]:
     """Cubics with common tangents along a path; the end tangents are the curve's."""
-    corners = fewest(path, _cubics, ORDER)
+    corners = fewest(path, _cubics, 6.0)
     return [Cubic(*row) for row in zip(*map(points_of, corners), strict=True)]
 
 
 def _cubics(path: CurvePath, places: Array) -> tuple[tuple[Array, Array, Array, Array], Array]:
     """Control points of cubics between places, and the error of each in mm."""
-    z, tangent = path.inside(places, SAMPLES)
+    # 48 samples in a piece
+    z, tangent = path.inside(places, 48)
     length = np.abs(np.diff(z, axis=1)).sum(axis=1)
     points = (z - z[:, :1]) / length[:, None]
     wanted = FitTargets(length, points, tangent[:, :1], tangent[:, -1:])
@@ -79,10 +74,13 @@ def _handles(wanted: FitTargets) -> Array:
     # At a cusp, and elsewhere, the place w is nearly proportional to the cubic's own parameter.
     even = np.broadcast_to(np.linspace(0.0, 1.0, wanted.points.shape[1]), wanted.points.shape)
     state = _state(wanted, _first_handles(wanted, even), even)
-    damping = np.full(len(even), DAMPING)
-    for _ in range(STEPS):
+    # the first step in the handles' difference is damped by 1e-3
+    damping = np.full(len(even), 1e-3)
+    # 6 steps of least squares
+    for _ in range(6):
         trial = _state(wanted, _improved(wanted, state, damping), state.v)
-        trial = _state(wanted, _improved(wanted, trial, STIFF), trial.v)
+        # a damping of 1e9 leaves their difference as it is
+        trial = _state(wanted, _improved(wanted, trial, 1e9), trial.v)
         damping *= np.where(trial.left < state.left, 0.02, 10.0)
         state = trial.better(state)
     return state.handles
@@ -91,7 +89,8 @@ def _handles(wanted: FitTargets) -> Array:
 def _misses(wanted: FitTargets, handles: Array) -> Array:
     """Distances of the samples from the cubics, mm; the piece's length if they prove nothing."""
     v = np.broadcast_to(np.linspace(0.0, 1.0, wanted.points.shape[1]), wanted.points.shape)
-    for _ in range(FEET):
+    # 6 Newton steps to the places nearest to the samples
+    for _ in range(6):
         v = _projected(wanted, handles, v)
     miss = np.abs(wanted.points - _bezier(wanted, handles, v)[0]).max(axis=1)
     # Nearest points that run back and forth do not prove that the whole cubic is near.

@@ -18,20 +18,10 @@ if TYPE_CHECKING:
 
     Curve: TypeAlias = Callable[[Array], tuple[Array, Array]]
 
-CELLS = 1024  # of the survey
-LEAP = 4.0  # times its neighbours' length: a cell in which the curve may leap
-HALVINGS = 60  # of such a cell, to the last digits of its ends
-FINEST = 64  # tolerances below that many last digits of the coordinates cannot be shown
-LEAST_TURN = 0.1  # radians; below, the places on a curve follow its length alone
 PIECES_MAX = 100_000
-TARGET = 0.99  # of the tolerance: the rest is for what lies between samples
-ATTEMPTS = 40  # numbers of pieces that are tried
-ROUNDS = 10  # of moving the places of one number of pieces
-HOPELESS = 1.25  # the worst weight over the mean, where there are too few pieces anyway
 FLOOR = (
     0.05  # of the mean weight, or of 1: an inflection needs pieces too, and rounding is no weight
 )
-SPARE = 0.01  # share of the pieces that is not worth another attempt
 # Processors differ in the last bits of sines and products. Steps as coarse as these hide that, so
 # that joints are at the same places everywhere.
 PLACE = 2.0**-26  # of the whole path
@@ -50,12 +40,14 @@ class CurvePath:
     def __init__(self, curve: Curve, a: float, b: float, tolerance: float) -> None:
         """Raise GenevaError for a tolerance finer than double precision, or a curve that leaps."""
         self.curve, self.tolerance = curve, tolerance
-        self.t = np.linspace(a, b, CELLS + 1)
+        # the survey has 1024 cells
+        self.t = np.linspace(a, b, 1024 + 1)
         points, tangents = self._complex(self.t)
         # evaluated one by one as a caller would, since sums over an array may round differently
         self.ends = [self._complex(np.array([t])) for t in (a, b)]
         spacing = float(np.spacing(np.abs(points).max()))
-        if not tolerance > FINEST * spacing:
+        # a tolerance below 64 last digits of the coordinates cannot be shown
+        if not tolerance > 64 * spacing:
             raise self.too_fine()
         self.rounding = 4.0 * spacing
         step = np.abs(np.diff(points))
@@ -65,7 +57,8 @@ class CurvePath:
                 "groove do if roller and slot overlap"
             )
         turn = np.abs(np.angle(tangents[1:] / tangents[:-1]))
-        w = np.cumsum(step / step.sum() + turn / max(float(turn.sum()), LEAST_TURN))
+        # below 0.1 radians the places on a curve follow its length alone
+        w = np.cumsum(step / step.sum() + turn / max(float(turn.sum()), 0.1))
         self.w = np.round(np.concatenate(([0.0], w)) / (w[-1] * PLACE)) * PLACE
         self.kind: type[np.complexfloating] = np.complex128
 
@@ -85,9 +78,11 @@ class CurvePath:
         Only a cell that is much longer than both of its neighbours is halved.
         """
         padded = np.pad(step, 1)
-        i = np.flatnonzero(step > LEAP * np.maximum(padded[:-2], padded[2:]) + self.tolerance)
+        # in a cell 4 times as long as its neighbours the curve may leap
+        i = np.flatnonzero(step > 4.0 * np.maximum(padded[:-2], padded[2:]) + self.tolerance)
         t0, t1, p0, p1 = self.t[i], self.t[i + 1], points[i], points[i + 1]
-        for _ in range(HALVINGS if len(i) else 0):
+        # 60 halvings reach the last digits of such a cell's ends
+        for _ in range(60 if len(i) else 0):
             t = 0.5 * (t0 + t1)
             p = self._complex(t)[0]
             first = np.abs(p - p0) > np.abs(p1 - p)
@@ -138,20 +133,25 @@ def fewest(
     """
     best, count, too_few, enough = None, unit, 0, PIECES_MAX
     places, weights = np.array([0.0, 1.0]), np.ones(1)
-    for _ in range(ATTEMPTS):
-        for _ in range(ROUNDS):
+    # at most 40 numbers of pieces are tried
+    for _ in range(40):
+        # the places of one number of pieces move at most 10 times
+        for _ in range(10):
             places = _respread(places, weights, count)
             _, errors = fit(path, places)
-            weights = (errors / (TARGET * path.tolerance)) ** (1.0 / order)
+            # one hundredth of the tolerance is for what lies between samples
+            weights = (errors / (0.99 * path.tolerance)) ** (1.0 / order)
             weights = np.maximum(np.ceil(weights / WEIGHT), 1.0) * WEIGHT
             worst, mean = weights.max(), weights.mean()
-            if worst <= 1.0 or (mean > 1.0 and worst <= HOPELESS * mean):
+            # if the worst weight is 1.25 of the mean or less, there are too few pieces
+            if worst <= 1.0 or (mean > 1.0 and worst <= 1.25 * mean):
                 break
         if worst <= 1.0:
             best, enough = places, count
         else:
             too_few = count
-        step = unit * (1 + int(SPARE * count / unit))
+        # a hundredth of the pieces is not worth another attempt
+        step = unit * (1 + int(0.01 * count / unit))
         if best is not None and enough - too_few <= step:
             return fit(path.long, best)[0]
         need = unit * int(np.ceil(min(weights.sum(), PIECES_MAX) / unit))

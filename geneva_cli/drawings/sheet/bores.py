@@ -15,8 +15,6 @@ from geneva_cli.drawings.sheet.view import View, number, times
 from geneva_cli.layout.keyways import key
 from geneva_cli.outlines.wheel_hub import about_axis
 
-BORE = "BORE"
-
 
 class Holes(NamedTuple):
     """The round holes of plates on one axis: bores about it, and others, such as bolts."""
@@ -27,7 +25,7 @@ class Holes(NamedTuple):
 
 def holes_of(plates: Iterable[Plate]) -> Holes:
     """Return the bores and bolts of plates that lie on each other, each once."""
-    holes = [hole for plate in plates for hole in plate.holes if hole.layer == BORE]
+    holes = [hole for plate in plates for hole in plate.holes if hole.layer == "BORE"]
     bores = dict.fromkeys(about_axis(holes))
     bolts = (hole for hole in holes if isinstance(hole, Circle) and hole not in bores)
     return Holes(tuple(bores), tuple(dict.fromkeys(bolts)))

@@ -20,7 +20,6 @@ if TYPE_CHECKING:
 
 FIRST, NEXT = 8.0, 7.0  # mm: from the outline to the first dimension line, and between lines
 RANKS = 14  # rows of dimension lines that are tried
-ARCS = 48  # equal arcs at which a radius is tried: without a limit the time grows as z squared
 OVER = 3.0  # mm: length of a centre line beyond its part
 
 
@@ -152,7 +151,8 @@ class View:
                 text,
                 factor * arc.radius,
             )
-            for arc in arcs[:: 1 + len(arcs) // (ARCS + 1)]
+            # at most 48 equal arcs are tried: without a limit the time grows as z squared
+            for arc in arcs[:: 1 + len(arcs) // 49]
         )
         self._put(_short_first(candidates), text)
 

@@ -26,7 +26,6 @@ from geneva_cli.drawings.sheet.view import View
 from geneva_cli.drawings.sheet.wheel import draw_wheel
 from geneva_cli.parts.flat_parts import FlatParts
 
-HUB = "crank's hub"  # stands on the disc
 APART = {"WHEEL", "ARM"}  # layers of which each plate has a view
 
 
@@ -75,7 +74,7 @@ def _wheels(parts: FlatParts, begin: Begin) -> Iterator[View]:
         yield view
         if of.outlines.crank:
             view = begin(
-                *(f"{front}{name}" for name in ("locking disc", "locking sector", HUB)),
+                *(f"{front}{name}" for name in ("locking disc", "locking sector", "crank's hub")),
             )
             draw_disc(view, of)
             yield view

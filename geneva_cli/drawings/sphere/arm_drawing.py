@@ -16,8 +16,6 @@ from geneva_cli.layout.sphere_sizes import Ball
 from geneva_cli.parts.sphere.arm import CapArm, crank_arm
 from geneva_cli.parts.sphere.sphere_parts import ARM, SphereParts, arm_solids
 
-HOLES = "BORE"
-
 
 def arm(parts: SphereParts) -> Drawing:
     """Return the arm laid flat; its solid is the cap with its hub.
@@ -61,7 +59,7 @@ def arm_flat(parts: SphereParts, arm: CapArm) -> list[Contour]:
     for hole, azimuth in zip(others, azimuths, strict=True):
         region = Cap(hole.axis, hole.angle(cone.radius_mm)).region
         about = cut + (azimuth - cut) % math.tau
-        holes.append(flat_region(HOLES, region, cone, about, parts))
+        holes.append(flat_region("BORE", region, cone, about, parts))
     return [closed(ARM, outline), *holes]
 
 

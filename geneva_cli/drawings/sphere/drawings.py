@@ -19,7 +19,6 @@ from geneva_cli.outlines.sphere_wheel import edge
 from geneva_cli.parts.sphere.crank import locked, rollers
 from geneva_cli.parts.sphere.sphere_parts import SphereParts
 
-APART = 0.1  # of the sphere's radius: between wheel and crank, side by side
 PITCH = "PITCH"
 CUT = ("WHEEL", "CRANK")  # layers that are cut from sheet
 
@@ -42,7 +41,8 @@ def assembly(parts: SphereParts) -> Drawing:
     """Return both laid flat, side by side; the solid is the machine at input angle 0."""
     ball, title = parts.ball, titled(parts.mechanism)
     left, right = wheel_flat(parts, wheel_cone(ball)), crank_flat(parts, crank_cone(ball))
-    shift = APART * ball.radius_mm + max(bounds(shape).x1 for shape in left)
+    # wheel and crank are 0.1 of the sphere's radius apart
+    shift = 0.1 * ball.radius_mm + max(bounds(shape).x1 for shape in left)
     shift -= min(bounds(shape).x0 for shape in right)
     moved = [mapped(shape, lambda p: (p[0] + shift, p[1])) for shape in right]
     whole = Group(title, parts.members)

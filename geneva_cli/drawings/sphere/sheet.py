@@ -50,7 +50,6 @@ if TYPE_CHECKING:
 SAME = 1e-6  # of a radius, and in mm
 HEADING = ("All walls lead to the sphere's centre: angles are seen from there.",)
 COLUMNS = (80.0, 24.0, 14.0)  # mm, of the table of angles
-DECIMALS = 4  # of an angle in degrees: 0.2 um on 100 mm
 
 
 def sheet(parts: SphereParts) -> Sheet:
@@ -59,8 +58,9 @@ def sheet(parts: SphereParts) -> Sheet:
     wheel = wheel_flat(parts, wheel_cone(ball))
     crank = crank_flat(parts, crank_cone(ball))
     arm = arm_flat(parts, parts.arm) if parts.arm else []
+    # 4 decimals of a degree are 0.2 um on 100 mm
     rows = [
-        (d.name, number(d.value, DECIMALS), d.unit)
+        (d.name, number(d.value, 4), d.unit)
         for d in dimensions(parts)
         if isinstance(d, Dimension) and isinstance(d.value, (int, float))
     ]

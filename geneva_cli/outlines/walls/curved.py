@@ -21,7 +21,6 @@ if TYPE_CHECKING:
 # walls nearly touch. Ends are rounded: of curves in degrees of input, of arcs in radians. That is
 # some 1e-7 mm of 100 mm.
 STEP, ARC_STEP = 2.0**-24, 2.0**-30
-SAME = 1e-10  # of the centre distance: accuracy at which walls count as mirror images
 
 
 def curved_walls(
@@ -40,7 +39,8 @@ def curved_walls(
     for i, piece in enumerate(pieces):
         other = len(pieces) - 1 - i
         both = other < i and engagement.mirrored
-        if both and _mirrors(pieces[other], piece, SAME * assembly.L):
+        # walls count as mirror images within 1e-10 of the centre distance
+        if both and _mirrors(pieces[other], piece, 1e-10 * assembly.L):
             runs.append([mirrored(segment) for segment in reversed(runs[other])])
         else:
             runs.append(_segments(piece, half, curves))

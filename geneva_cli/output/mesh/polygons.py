@@ -16,7 +16,6 @@ Triangle: TypeAlias = tuple[int, int, int]
 
 DECIMALS = 6  # of coordinates in mm, so that rounding of another processor is not seen
 CORNERS_MAX = 200_000  # of a polygon: a file of about 40 MB
-LEAST = 8  # chords in a whole turn
 # Radians by which a polygon is turned for each attempt. Some polygons have corners exactly in
 # line, which earcut may leave out; turned, they are in line no more.
 TURNS = (0.0, 0.1, 0.7, 1.3)
@@ -57,7 +56,8 @@ def arc_chords(radius: float, sweep: float, tolerance: float) -> int:
     71
     """
     most = 2.0 * math.acos(max(1.0 - tolerance / radius, -1.0))
-    return max(1, math.ceil(abs(sweep) / min(most, math.tau / LEAST)))
+    # at least 8 chords in a whole turn
+    return max(1, math.ceil(abs(sweep) / min(most, math.tau / 8)))
 
 
 def _chords(segment: Segment, tolerance: float) -> int:

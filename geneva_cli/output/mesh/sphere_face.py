@@ -15,8 +15,6 @@ from geneva_cli.curves.sphere import Vector, cross, dot, unit
 from geneva_cli.errors import GenevaError
 from geneva_cli.output.mesh.polygons import CORNERS_MAX, Triangle
 
-LEVEL = 1e-9  # of the product of three sides: four corners are in one plane
-
 
 class SphereFace:
     """A face on the unit sphere: triangles counterclockwise from outside, with numbered corners.
@@ -97,7 +95,8 @@ class SphereFace:
         p, q, r, s = (self.corners[i] for i in (a, b, c, d))
         u, v, w = _less(q, p), _less(r, p), _less(s, p)
         normal = cross(u, v)
-        return dot(normal, w) > LEVEL * math.hypot(*u) * math.hypot(*v) * math.hypot(*w)
+        # four corners within 1e-9 of the product of three sides are in one plane
+        return dot(normal, w) > 1e-9 * math.hypot(*u) * math.hypot(*v) * math.hypot(*w)
 
 
 def _less(p: Vector, q: Vector) -> Vector:

@@ -18,8 +18,6 @@ from geneva_cli.machine.spec import Spec
 from geneva_cli.study.spans import AllowedSpan
 from geneva_cli.study.target import Target
 
-# fraction of the motion angle by which the plain crank may miss the required one
-MOTION_TOLERANCE = 1e-6
 # fraction of a turn over m that an open end of a range leaves to motion and to dwell
 OPEN_END = 0.01
 BARE = Spec(registry.gearing("external")(3))  # the tables of a machine without a frame
@@ -136,7 +134,8 @@ def allowed_motions(target: Target, m: float, natural: float) -> AllowedSpan:
 
 def allows(motion: AllowedSpan, natural: float) -> bool:
     """Return True if a motion angle is allowed, within the tolerance of the plain crank."""
-    slack = MOTION_TOLERANCE * natural
+    # fraction of the motion angle by which the plain crank may miss the required one
+    slack = 1e-6 * natural
     return motion.low - slack <= natural <= motion.high + slack
 
 
