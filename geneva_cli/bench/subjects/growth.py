@@ -82,15 +82,15 @@ RUNS = (
     ),
     Grown("synth --motion-deg 100..179 --z 3..{n} --check 0", (4, 10, 24, 100)),
 )
-QUICK_RUNS = (RUNS[0], wheel("peaks -", (6, 60)))
 
 
 def subject(quick: bool) -> Subject:
     """One task for each command and size."""
+    runs = (RUNS[0], wheel("peaks -", (6, 60))) if quick else RUNS
     return Subject(
         "Growth of whole runs: time and memory with the size",
         "none",
-        [_task(run, 2 if quick else None) for run in (QUICK_RUNS if quick else RUNS)],
+        [_task(run, 2 if quick else None) for run in runs],
         seconds=0.5,
         grows=True,
     )

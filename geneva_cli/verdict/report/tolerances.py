@@ -7,6 +7,8 @@ from geneva_cli.spec.tables import Tolerance
 from geneva_cli.verdict.quantities.groups import own_names
 from geneva_cli.verdict.report.values import Values
 
+SAMPLES = 65536  # random machines
+
 
 def tolerances(model: PartsModel) -> Values:
     """The first lines of ``geneva tolerance``, and its warnings; None without tolerances."""
@@ -18,5 +20,5 @@ def tolerances(model: PartsModel) -> Values:
 
     # micrometres need a radius
     L = mechanism.center_distance_mm
-    answers = tolerance_table(mechanism, model, 65536, 0, L).to_dict()
+    answers = tolerance_table(mechanism, model, SAMPLES, 0, L).to_dict()
     return {name: answers[name.removeprefix("tolerance.")] for name in names}
