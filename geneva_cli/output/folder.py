@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import csv
 import hashlib
+import io
 import os
 import shutil
 from collections.abc import Iterable, Iterator
@@ -67,8 +68,9 @@ def replacing_folder(
 
 def _add_list(folder: str, entries: Iterable[Entry]) -> None:
     rows = [(*entry, _digest(os.path.join(folder, entry.file))) for entry in entries]
-    lines = [",".join(COLUMNS), *(f'{file},"{content}",{digest}' for file, content, digest in rows)]
-    write(os.path.join(folder, LIST), [f"{line}\n" for line in lines])
+    text = io.StringIO()
+    csv.writer(text, lineterminator="\n").writerows([COLUMNS, *rows])
+    write(os.path.join(folder, LIST), [text.getvalue()])
 
 
 def _require_own(path: str, real: str) -> None:

@@ -6,7 +6,7 @@ import os
 import re
 from collections.abc import Callable, Iterator
 from functools import partial
-from typing import NamedTuple
+from typing import NamedTuple, TypeVar
 
 from geneva_cli.design import CURVES, Design
 from geneva_cli.drawings.model import PartsModel
@@ -14,9 +14,12 @@ from geneva_cli.drawings.single_parts import SinglePart, single_parts
 from geneva_cli.errors import GenevaError, cut
 from geneva_cli.layout.missing import Missing
 from geneva_cli.output import animate, draw, draw_sheet, show, show_document, show_text
+from geneva_cli.output.folder import LIST
 from geneva_cli.output.formats import of_curves, usual_curves, usual_tolerance
-from geneva_cli.spec.schema import Points, fields
+from geneva_cli.spec.schema import Points, SpecTable, fields
 from geneva_cli.specfile.writer import quoted, spec_lines
+
+T = TypeVar("T", bound=SpecTable)
 
 
 class ExportFile(NamedTuple):
@@ -94,7 +97,7 @@ def export_files(
     files.append(
         ExportFile("parts.csv", "list of parts", partial(show, design.part_table("parts")))
     )
-    return [*files, *_spec_files(design)], missing
+    return [*files, *_spec_files(design, {file.name for file in files})], missing
 
 
 def _single(parts: list[SinglePart], format: str) -> Iterator[ExportFile]:
@@ -155,19 +158,34 @@ def _writer(design: Design, model: PartsModel, name: str) -> Callable[[str], Non
     return write
 
 
-def _spec_files(design: Design) -> Iterator[ExportFile]:
-    """Yield the spec with all settings, and the points that it names, in the same folder."""
-    spec = design.spec
-    law = spec.motion.law if spec.motion else None
-    if spec.motion and law:
-        for field in fields(type(law)):
-            value = getattr(law, field.attribute)
-            if isinstance(value, Points):
-                name = os.path.basename(value.file) or "points.csv"
-                text = "".join(f"{x!r},{y!r}\n" for x, y in value.pairs)
-                law = law.replace(**{field.attribute: Points(value.pairs, name)})
-                yield ExportFile(name, "points of the law", partial(show_text, text))
+def _spec_files(design: Design, taken: set[str]) -> Iterator[ExportFile]:
+    """Yield the spec with all settings, and the points that it names, in the same folder.
+
+    ``taken`` are the names of the other files.
+    """
+    spec, taken = design.spec, {*taken, "spec.toml", LIST}
+    points: dict[str, Points] = {}
+    spec = spec.replace(drive=_named_here(spec.drive, points, taken))
+    if spec.motion:
+        law = _named_here(spec.motion.law, points, taken)
         spec = spec.replace(motion=spec.motion.replace(law=law))
+    for name, own in points.items():
+        text = "".join(f"{x!r},{y!r}\n" for x, y in own.pairs)
+        yield ExportFile(name, "points that the spec names", partial(show_text, text))
     title = [f"title = {quoted(spec.title)}"] if spec.title else []
     whole = "\n".join([*title, *spec_lines(spec)]).lstrip("\n") + "\n"
     yield ExportFile("spec.toml", "the design, with all settings", partial(show_text, whole))
+
+
+def _named_here(table: T, points: dict[str, Points], taken: set[str]) -> T:
+    """A table whose points have names in the folder, with which they are added to ``points``."""
+    for field in fields(type(table)):
+        value = vars(table)[field.attribute]
+        if not isinstance(value, Points):
+            continue
+        name = os.path.basename(value.file) or "points.csv"
+        while name in taken or name in points:
+            name = f"points-{name}"
+        points[name] = Points(value.pairs, name)
+        table = table.replace(**{field.attribute: points[name]})
+    return table

@@ -1,6 +1,7 @@
 """`geneva export`: the files of each trade, all or none, and no folder of a person replaced."""
 
 import csv
+import math
 import os
 import stat
 
@@ -85,6 +86,26 @@ def test_the_spec_makes_the_same_files(tmp_path):
     )
     assert run(first / "spec.toml", "--for", "laser", "-o", second).exit_code == 0
     assert bytes_of(first) == bytes_of(second)
+
+
+@pytest.mark.parametrize("name", ["ratio.csv", "parts.csv", "contents.csv", "a,b.csv"])
+def test_points_of_gears_are_in_the_folder(name, tmp_path):
+    """Whatever their file is called: the folder is replaced, and its spec makes the same files.
+
+    The sheet shows the file's name, which is another one only after the first time.
+    """
+    folders, source = [tmp_path / f"{i}" for i in range(3)], tmp_path / "gears.toml"
+    ratios = [(x, 1.0 - 0.3 * math.cos(math.radians(x))) for x in range(0, 361, 15)]
+    (tmp_path / name).write_text("".join(f"{x},{y:.6f}\n" for x, y in ratios))
+    source.write_text(
+        'title = "gears"\n[wheel]\nz = 6\n'
+        f'[drive]\nkind = "noncircular-gears"\nratio_file = "{name}"\n'
+    )
+    assert run(source, "--for", "laser", "-o", folders[0]).exit_code == 0
+    for spec, folder in zip([source, *(f / "spec.toml" for f in folders)], folders, strict=False):
+        assert run(spec, "--for", "laser", "-o", folder).exit_code == 0
+    assert bytes_of(folders[1]) == bytes_of(folders[2])
+    assert set(bytes_of(folders[0])) == set(bytes_of(folders[1]))
 
 
 @pytest.mark.sampled(12)
