@@ -11,6 +11,7 @@ import repo
 import shapely
 import shapely.affinity
 import trimesh
+from drawing_witness import sides_about_the_origin
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
@@ -25,7 +26,7 @@ from geneva_cli.errors import GenevaError
 from geneva_cli.output.formats import MESHES
 from geneva_cli.output.inks import INKS
 from geneva_cli.output.mesh import obj, stl, threemf
-from geneva_cli.output.mesh.polygons import DECIMALS, polygon, triangles
+from geneva_cli.output.mesh.polygons import DECIMALS, arc_chords, polygon, triangles
 from geneva_cli.output.mesh.solids import bodies
 
 DESIGNS = sorted(repo.DESIGNS.glob("*.toml"))
@@ -87,13 +88,7 @@ def test_chords_keep_the_tolerance(shape, tolerance):
     st.floats(0.001, 1.0),
 )
 def test_random_outlines(corners, tolerance):
-    count = len(corners)
-    at = [
-        (r * math.cos(math.tau * i / count), r * math.sin(math.tau * i / count))
-        for i, (r, _) in enumerate(corners)
-    ]
-    pairs = zip(at, [*at[1:], at[0]], corners, strict=True)
-    outline = closed("WHEEL", [Arc(p, q, b or 0.1) for p, q, (_, b) in pairs])
+    outline = closed("WHEEL", [Arc(p, q, b or 0.1) for p, q, b in sides_about_the_origin(corners)])
     hole = Circle("BORE", (0.0, 0.0), 2.0)
     loops = [polygon(outline, True, tolerance), polygon(hole, False, tolerance)]
     ring = shapely.Polygon(*[loops[0]], [loops[1]])
@@ -102,6 +97,15 @@ def test_random_outlines(corners, tolerance):
     mesh = one(Plate("plate", "WHEEL", outline, (hole,), 0.0, 1.0), tolerance)
     require_closed(mesh)
     assert mesh.volume == pytest.approx(ring.area, rel=1e-9)
+
+
+@pytest.mark.parametrize("bulge", [1e-16, 1e-12, 1e-9, 1e-6, 1e-3])
+def test_chords_of_a_nearly_straight_arc(bulge):
+    """Its height is bulge/2 of its chord, and n chords have 1/n² of it."""
+    arc = Arc((0.0, 0.0), (40.0, 0.0), bulge)
+    enough = max(1, math.ceil(math.sqrt(0.5 * bulge * 40.0 / 1e-3)))
+    assert abs(arc_chords(arc.radius, arc.sweep, 1e-3) - enough) <= 1
+    assert arc_chords(arc.radius, arc.sweep, 1.0) == 1
 
 
 def test_corners_in_line_stay_corners():

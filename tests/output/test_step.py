@@ -9,6 +9,7 @@ import time
 
 import pytest
 import repo
+from drawing_witness import sides_about_the_origin
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from step_witness import File, Solid
@@ -85,13 +86,8 @@ def test_any_outline_is_a_closed_solid(turn, holes, low, high):
     st.floats(0.01, 300.0),
 )
 def test_random_outlines(corners, thickness):
-    count = len(corners)
-    at = [
-        (r * math.cos(math.tau * i / count), r * math.sin(math.tau * i / count))
-        for i, (r, _) in enumerate(corners)
-    ]
-    pairs = zip(at, [*at[1:], at[0]], corners, strict=True)
-    pieces = [Arc(p, q, b) if abs(b) > 0.01 else Line(p, q) for p, q, (_, b) in pairs]
+    sides = sides_about_the_origin(corners)
+    pieces = [Arc(p, q, b) if abs(b) > 0.01 else Line(p, q) for p, q, b in sides]
     plate = Plate("plate", "WHEEL", closed("WHEEL", pieces), (), 0.0, thickness)
     if area(plate.outline) < 100.0:
         return  # crosses itself, or nearly

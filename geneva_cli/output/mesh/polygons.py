@@ -55,7 +55,8 @@ def arc_chords(radius: float, sweep: float, tolerance: float) -> int:
     >>> arc_chords(10.0, 6.283185307179586, 0.01)
     71
     """
-    most = 2.0 * math.acos(max(1.0 - tolerance / radius, -1.0))
+    # as in Polyarc.samples: 1 minus a cosine loses the digits of an arc that is nearly straight
+    most = 4.0 * math.asin(math.sqrt(0.5 * min(tolerance / radius, 1.0)))
     # at least 8 chords in a whole turn
     return max(1, math.ceil(abs(sweep) / min(most, math.tau / 8)))
 
