@@ -11,7 +11,7 @@ from geneva_cli.bench.method import Method, Task
 from geneva_cli.machine.mechanism import build
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Callable, Sequence
 
     from geneva_cli.kinematics.engagement import WheelMotion
     from geneva_cli.numerics.jet import Array
@@ -29,16 +29,24 @@ def _task(kind: VariedMachine, count: int) -> Task:
     motion = build(kind.spec.with_(kind.key, value)).engagements[0].motion
     angles = np.linspace(motion.entry_deg, motion.exit_deg, count)
     angles[1] = 0.5 * (angles[0] + angles[1])  # not its own mirror image: no half is copied
-    radians = np.radians(angles)
     methods = [
         Method("jets, whole arrays", count, lambda: _jets(motion, angles)),
         Method("ours", count, lambda: motion.derivatives(angles, ORDERS), True),
     ]
+    what = f"{kind.name}: velocity and acceleration"
+    return angle_task(what, angles, lambda results: _error(motion, angles, results), methods)
+
+
+def angle_task(
+    what: str, angles: Array, error: Callable[[Any], float], methods: Sequence[Method]
+) -> Task:
+    """A task over angles in degrees, whose baseline is their sine and cosine."""
+    radians = np.radians(angles)
     return Task(
-        f"{kind.name}: velocity and acceleration at {count} angles",
-        f"one np.sin + np.cos over {count} angles",
+        f"{what} at {len(angles)} angles",
+        f"one np.sin + np.cos over {len(angles)} angles",
         lambda: (np.sin(radians), np.cos(radians)),
-        lambda results: _error(motion, angles, results),
+        error,
         methods,
     )
 

@@ -73,7 +73,7 @@ def settled(assembly: Assembly, pair: Pair, ends: tuple[float, float], target: f
     doubtful interval is returned as open.
     """
     # 32 intervals at first
-    cuts = np.linspace(*ends, 32 + 1)
+    cuts = np.linspace(*ends, 33)
     start, end = cuts[:-1], cuts[1:]
     least, count = math.inf, 0
     while len(start):

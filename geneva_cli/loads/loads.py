@@ -28,7 +28,7 @@ from geneva_cli.numerics.angles import omega
 from geneva_cli.numerics.arrays import array
 from geneva_cli.numerics.jet import Jet, Number
 from geneva_cli.numerics.ties import first_greatest
-from geneva_cli.spec.tables import Limits
+from geneva_cli.spec.load_limits import load_limits
 
 if TYPE_CHECKING:
     from geneva_cli.numerics.jet import Array
@@ -194,16 +194,6 @@ def _slowness(engagement: Engagement, case: LoadCase, limits: Mapping[str, float
     names, still = tuple(own), case._replace(resists_Nm=0.0)
     result = search_loads(LoadFunctions(load_batch(engagement, still, names, own), names), 1)
     return max(0.0, float(result.most[: len(names)].max()))
-
-
-def load_limits(limits: Limits) -> dict[str, float]:
-    """The limits that a spec sets on pin force, input torque and contact stress."""
-    every = {
-        FORCE: limits.pin_force_max_N,
-        TORQUE: limits.input_torque_max_Nm,
-        STRESS: limits.contact_stress_max_MPa,
-    }
-    return {name: limit for name, limit in every.items() if limit}
 
 
 def kinetic_power_W(mechanism: Mechanism, power_invariant: float) -> float:

@@ -73,9 +73,19 @@ class Enclosed:
     __slots__ = ()
     library: ClassVar[Library]
 
+    # How far one may reach over the end of its piece of a formula, in the formula's own variable:
+    # the ends are known to a few units in the last place of doubles (EDGE_DEG of enclosures).
+    REACH: ClassVar[float] = 2.0**-39
+
     def piece(self, cuts: Sequence[float]) -> int:
         """Number of the piece between ``cuts`` that holds it."""
         raise NotImplementedError
+
+    def _decided(self, yes: bool, no: bool, other: object) -> bool:
+        """Return the answer to a comparison with ``other``; raises Undecided where it is open."""
+        if yes == no:
+            raise Undecided(f"{self!r} against {other!r}")
+        return yes
 
 
 SINGLE = (float, int, Enclosed)  # the kinds of a single number; any other is an array

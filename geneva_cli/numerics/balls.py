@@ -22,9 +22,6 @@ from flint import arb, ctx, fmpq
 from geneva_cli.numerics.arrays import Enclosed, Library, Number, Undecided
 
 BITS = 128  # of a middle: 75 more than a double has, against cancellation in high derivatives
-# How far a ball may reach over the end of its piece of a formula, in the formula's own variable.
-# The ends are known to a few units in the last place of doubles (EDGE_DEG of enclosures).
-REACH = 2.0**-39
 
 
 def _operator(f: Callable[[arb, arb], arb]) -> Callable[[Ball, Ball | float], Ball]:
@@ -111,7 +108,7 @@ class Ball(Enclosed):
         # 2^-24 of a radius is rounding: Arb's radii have 30 bits, and each step rounds them up.
         middle, radius = self.middle, self.radius * (1.0 - 2.0**-24)
         for cut in cuts:
-            if radius - abs(cut - middle) > REACH:
+            if radius - abs(cut - middle) > self.REACH:
                 raise Undecided(f"the cut {cut!r} is inside {self!r}")
         return bisect_left(cuts, middle)
 
@@ -162,11 +159,6 @@ class Ball(Enclosed):
         return self._decided(self.arb == limit, self.arb != limit, other)
 
     __hash__ = None  # type: ignore[assignment]
-
-    def _decided(self, yes: bool, no: bool, other: object) -> bool:
-        if yes == no:
-            raise Undecided(f"{self!r} against {other!r}")
-        return yes
 
 
 @contextmanager

@@ -30,7 +30,7 @@ ORDER = 5
 # degrees at most. Pieces overlap by as much, so that no angle is left out.
 EDGE_DEG = 2.0**-42
 # Of a piece: a shorter interval is not halved, but left open. It is long enough for a seam inside,
-# that should have been known, to be seen (``balls.REACH``).
+# that should have been known, to be seen (``arrays.Enclosed.REACH``).
 SHORTEST = 2.0**-30
 
 

@@ -16,9 +16,6 @@ from typing import ClassVar, NoReturn, cast
 
 from geneva_cli.numerics.arrays import Enclosed, Library, Number, Undecided
 
-# How far an interval may reach over the end of its piece of a formula, in the formula's variable:
-# more than the rounding of both.
-REACH = 2.0**-39
 NEAR = 1e-9  # radians: a peak of the sine this near to an interval counts as inside
 TINY = 2.0**-1074  # the least double
 LIBRARY_UNITS = 2  # in the last place: greatest error of a function of ``math``
@@ -51,7 +48,7 @@ class Interval(Enclosed):
         Raises Undecided if it reaches over a cut by more than ``REACH``.
         """
         for cut in cuts:
-            if min(cut - self.low, self.high - cut) > REACH:
+            if min(cut - self.low, self.high - cut) > self.REACH:
                 raise Undecided(f"the cut {cut!r} is inside {self!r}")
         return bisect_left(cuts, 0.5 * (self.low + self.high))
 
@@ -110,11 +107,11 @@ class Interval(Enclosed):
 
     def __lt__(self, other: Interval | float) -> bool:
         low, high = _ends(other)
-        return self._decided(self.high < low, self.low >= high)
+        return self._decided(self.high < low, self.low >= high, other)
 
     def __le__(self, other: Interval | float) -> bool:
         low, high = _ends(other)
-        return self._decided(self.high <= low, self.low > high)
+        return self._decided(self.high <= low, self.low > high, other)
 
     def __gt__(self, other: Interval | float) -> bool:
         return not self <= other
@@ -125,14 +122,9 @@ class Interval(Enclosed):
     def __eq__(self, other: object) -> bool:
         low, high = _ends(cast("float", other))
         equal = self.low == self.high == low == high
-        return self._decided(equal, self.high < low or self.low > high)
+        return self._decided(equal, self.high < low or self.low > high, other)
 
     __hash__ = None  # type: ignore[assignment]
-
-    def _decided(self, yes: bool, no: bool) -> bool:
-        if yes == no:
-            raise Undecided(f"an open comparison of {self!r}")
-        return yes
 
 
 def _ends(x: Interval | float) -> tuple[float, float]:

@@ -49,10 +49,7 @@ def tolerance_mm(parts: MachineParts) -> float:
 
 def unproved_kind(parts: MachineParts) -> str:
     """Return the reason why a kind of machine has no certificate; empty if it has one."""
-    assembly = parts.assembly
-    if not assembly.mechanism.spec.wheel.FLAT:
-        return "the parts lie on a sphere"
-    return ""
+    return "" if parts.assembly.mechanism.spec.wheel.FLAT else "the parts lie on a sphere"
 
 
 def certificate(parts: Outlines, gap_mm: float, to_mm: float) -> Certificate:

@@ -86,7 +86,7 @@ def slot_travel(engagement: Engagement, length: float) -> Travel:
 def _edges(engagement: Engagement, start: float, end: float) -> list[float]:
     """Return the ends of cells; no formula changes within a cell of the motion."""
     # on cells longer than a degree of the input the bounds are much wider
-    count = math.ceil((end - start) / 1.0)
+    count = math.ceil(end - start)
     seams = [x for x in engagement.motion.seams_deg if start < x < end]
     return sorted({*np.linspace(start, end, count + 1).tolist(), *seams})
 

@@ -252,3 +252,8 @@ class FlatParts:
         yield "shafts", lambda: [one.part for one in self.shafts]
         yield "groove plate", lambda: [one.part for one in self.groove_plate]
         yield "frame", lambda: [self.frame.part]
+
+
+def flat_parts(outlines: Outlines) -> FlatParts:
+    """Return all parts of a machine with these outlines, as accurate as the checks need."""
+    return FlatParts(outlines.assembly.full, outlines)

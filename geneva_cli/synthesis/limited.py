@@ -5,10 +5,10 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any
 
+from geneva_cli.spec.load_limits import QUANTITIES
 from geneva_cli.study.sweep.constraints import Constraint
 from geneva_cli.study.target import Target
 from geneva_cli.synthesis.rows import PEAKS, MachineRow
-from geneva_cli.verdict.checks.load_limits import QUANTITIES
 
 # Keys of [limits], which name their checks too, and the quantities that they limit from above or
 # below. The lock's load is equal in all machines of a wheel.

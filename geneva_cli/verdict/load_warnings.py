@@ -9,6 +9,7 @@ from geneva_cli.errors import Notice
 from geneva_cli.loads import loads
 from geneva_cli.loads.cycle import Cycle, cycle_of
 from geneva_cli.machine.mechanism import Mechanism
+from geneva_cli.spec.load_limits import limits_by_key, load_limits
 
 
 def load_warnings(mechanism: Mechanism) -> list[Notice]:
@@ -25,7 +26,7 @@ def load_warnings(mechanism: Mechanism) -> list[Notice]:
 
 def _keeps_limits(cycle: Cycle) -> bool:
     """Return True if the limits on loads are kept at the present speed."""
-    bounds = loads.load_limits(cycle.mechanism.spec.limits)
+    bounds = load_limits(cycle.mechanism.spec.limits)
     if not bounds.keys() <= cycle.extremes.keys():
         return False
     extremes = [(cycle.extremes[name], limit) for name, limit in bounds.items()]
@@ -69,13 +70,8 @@ def _on_an_edge(cycle: Cycle) -> list[Notice]:
 
 
 def _no_speed(mechanism: Mechanism) -> Notice:
-    limits = mechanism.spec.limits
-    values = {
-        "pin_force_max_N": limits.pin_force_max_N,
-        "input_torque_max_Nm": limits.input_torque_max_Nm,
-        "contact_stress_max_MPa": limits.contact_stress_max_MPa,
-    }
-    broken = " and ".join(f"{key} = {value:g}" for key, value in values.items() if value)
+    limits = limits_by_key(mechanism.spec.limits)
+    broken = " and ".join(f"{key} = {limit:g}" for key, limit in limits.items())
     return Notice(
         "no-speed",
         f"no speed keeps {broken}, so there is no shortest motion: the resisting torque alone "

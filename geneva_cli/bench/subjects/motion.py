@@ -143,12 +143,8 @@ def _task(count: int, what: str, orders: tuple[int, ...]) -> Task:
             "ours, mirrored", count, lambda: engagement.motion.derivatives(mirrored, orders), True
         ),
     ]
-    return Task(
-        f"{what} at {count} angles",
-        f"one np.sin + np.cos over {count} angles",
-        lambda: (np.sin(x), np.cos(x)),
-        lambda results: _error(results, mirrored, orders),
-        methods,
+    return motion_of_kinds.angle_task(
+        what, skew, lambda results: _error(results, mirrored, orders), methods
     )
 
 

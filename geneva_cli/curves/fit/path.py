@@ -41,7 +41,7 @@ class CurvePath:
         """Raise GenevaError for a tolerance finer than double precision, or a curve that leaps."""
         self.curve, self.tolerance = curve, tolerance
         # the survey has 1024 cells
-        self.t = np.linspace(a, b, 1024 + 1)
+        self.t = np.linspace(a, b, 1025)
         points, tangents = self._complex(self.t)
         # evaluated one by one as a caller would, since sums over an array may round differently
         self.ends = [self._complex(np.array([t])) for t in (a, b)]

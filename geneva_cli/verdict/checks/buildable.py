@@ -6,7 +6,7 @@ from collections.abc import Callable
 
 from geneva_cli.errors import GenevaError
 from geneva_cli.outlines.outlines import Outlines
-from geneva_cli.parts.flat_parts import FlatParts
+from geneva_cli.parts.flat_parts import flat_parts
 from geneva_cli.parts.sphere.shells import Shells
 from geneva_cli.parts.sphere.sphere_parts import SphereParts
 from geneva_cli.verdict.checks.check import Check, refused
@@ -14,7 +14,7 @@ from geneva_cli.verdict.checks.check import Check, refused
 
 def plates(name: str, outlines: Outlines) -> Check | None:
     """The check that fails if a plate of a flat machine cannot be built; else None."""
-    return _refusal(name, lambda: FlatParts(outlines.assembly.full, outlines).require())
+    return _refusal(name, lambda: flat_parts(outlines).require())
 
 
 def solids(name: str, shells: Shells) -> Check | None:

@@ -3,13 +3,8 @@
 from __future__ import annotations
 
 from geneva_cli.machine.mechanism import Mechanism
+from geneva_cli.spec.load_limits import QUANTITIES
 from geneva_cli.verdict.checks.check import Check, compared
-
-QUANTITIES = {
-    "pin_force_max_N": "pin_force_N",
-    "input_torque_max_Nm": "input_torque_Nm",
-    "contact_stress_max_MPa": "contact_stress_MPa",
-}
 
 
 def limited_load(name: str, mechanism: Mechanism) -> Check | None:

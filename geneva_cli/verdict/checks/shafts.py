@@ -6,7 +6,7 @@ from geneva_cli.drawings.shaft_gap import gear_gap, shaft_gap
 from geneva_cli.layout.sizes import Sizes
 from geneva_cli.outlines.crank import is_whole
 from geneva_cli.outlines.outlines import Outlines
-from geneva_cli.parts.flat_parts import FlatParts
+from geneva_cli.parts.flat_parts import flat_parts
 from geneva_cli.verdict.checks.check import Check, compared, gap
 
 
@@ -56,16 +56,12 @@ def passing_parts(name: str, outlines: Outlines) -> Check | None:
     )
     if not (drive.IN_SERIES or any(sizes[key] is not None for key in keys)):
         return None
-    return gap(
-        name, lambda: shaft_gap(FlatParts(outlines.assembly.full, outlines)), outlines.assembly.L
-    )
+    return gap(name, lambda: shaft_gap(flat_parts(outlines)), outlines.assembly.L)
 
 
 def passing_gears(name: str, outlines: Outlines) -> Check | None:
     """The gap between shafts and noncircular gears, at their pitch curves' farthest places."""
-    return gap(
-        name, lambda: gear_gap(FlatParts(outlines.assembly.full, outlines)), outlines.assembly.L
-    )
+    return gap(name, lambda: gear_gap(flat_parts(outlines)), outlines.assembly.L)
 
 
 def _shaft(size: Sizes) -> float:
