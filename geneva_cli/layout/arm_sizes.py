@@ -6,7 +6,7 @@ import math
 from collections.abc import Iterable
 
 from geneva_cli.errors import GenevaError
-from geneva_cli.layout.keyways import reach
+from geneva_cli.layout.bores import bore_of
 from geneva_cli.layout.sizes import even
 from geneva_cli.machine.spec import Spec
 from geneva_cli.spec.tables import Size
@@ -22,7 +22,7 @@ def hub_and_eye(
     ``passing`` is the largest eye that passes the wheel, ``standing`` the radius of a disc on the
     hub. Raises GenevaError, naming the key, where hub or eye leave nothing around a hole.
     """
-    deep = reach(size.crank_keyway, bore)
+    deep = bore_of(size, "crank", bore).reach
     hub = half_or(size.arm_hub_mm, max(even(HUB * bore), deep + wall, standing))
     eye = half_or(size.arm_eye_mm, eye_about(hole, wall, passing))
     if hub <= deep:

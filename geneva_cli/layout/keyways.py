@@ -1,11 +1,9 @@
-"""Bores with a keyway, by a standard's table of the shaft's diameter."""
+"""Parallel keys, by a standard's table of the shaft's diameter."""
 
 from __future__ import annotations
 
-import math
 from typing import NamedTuple
 
-from geneva_cli.curves.shapes import Circle, Line, Shape, about, closed
 from geneva_cli.errors import GenevaError
 
 
@@ -68,36 +66,4 @@ def key(standard: str | None, radius: float, part: str = "crank") -> ParallelKey
         f'{part}_keyway = "{standard}": its table lacks the {part}\'s bore of {diameter:g} mm; '
         f"set {bore_key} above {table[0].above:g} and up to {table[-1].up_to:g}, or remove it",
         ("size", f"{part}_keyway"),
-    )
-
-
-def reach(standard: str | None, radius: float, part: str = "crank") -> float:
-    """Return the radius of a part's bore, or the distance to the top of its keyway.
-
-    Raises GenevaError for a bore that the standard's table does not have.
-
-    >>> reach("DIN 6885-1", 10.0)
-    12.8
-    """
-    fitted = key(standard, radius, part)
-    return radius + fitted.in_hub if fitted else radius
-
-
-def bore(layer: str, radius: float, fitted: ParallelKey | None, direction: float) -> Shape:
-    """Return a bore about the origin, with its keyway, if any, in a direction, radians."""
-    if fitted is None:
-        return Circle(layer, (0.0, 0.0), radius)
-    c, s = math.cos(direction), math.sin(direction)
-    half = math.asin(0.5 * fitted.width / radius)
-    # most of the circle, from one flank of the keyway round to the other
-    most = math.tau - 2.0 * half
-    first = about((0.0, 0.0), radius, direction + half, 0.5 * most)
-    second = about((0.0, 0.0), radius, direction + half + 0.5 * most, 0.5 * most)
-    top = radius + fitted.in_hub
-    low, high = (
-        (top * c - y * s, top * s + y * c) for y in (-0.5 * fitted.width, 0.5 * fitted.width)
-    )
-    return closed(
-        layer,
-        [first, second, Line(second.end, low), Line(low, high), Line(high, first.start)],
     )

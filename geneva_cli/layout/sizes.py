@@ -12,7 +12,7 @@ from typing import NamedTuple
 
 from geneva_cli.errors import GenevaError
 from geneva_cli.layout.assembly import Assembly, assembly
-from geneva_cli.layout.keyways import reach
+from geneva_cli.layout.bores import bore_of, has_shape
 from geneva_cli.layout.reliefs import arc_floor, has_arcs
 from geneva_cli.layout.roller_paths import RollerPaths, mouth, roller_paths
 from geneva_cli.machine.mechanism import Mechanism
@@ -97,8 +97,8 @@ def sizes(assembly: Assembly, known: RollerPaths | None = None) -> Sizes:
     wall = wall_min(size, L)
     wheel_bore = _or(_half(size.wheel_bore_mm), _bore(size, end, wall, L))
     wheel_bore = wheel_bore if outside or size.wheel_bore_mm else 0.0
-    wheel_reach = _reach(size.wheel_keyway, wheel_bore)
-    crank_reach = _reach(size.crank_keyway, bore)
+    wheel_reach = _reach(size, "wheel", wheel_bore)
+    crank_reach = _reach(size, "crank", bore)
     wheel_hub = _around(wheel_reach, wheel_bore, wall, min(1.6 * wheel_bore, 0.75 * end))
     thick = thicknesses(size, L)
     out = Sizes(
@@ -201,7 +201,7 @@ def _half(diameter: float | None) -> float | None:
 
 def _bore(size: Size, end: float, wall: float, L: float) -> float:
     """Return the wheel's default bore: it leaves a wall to the slots' ends, and in the hub."""
-    limit = _within(size.wheel_hub_mm, size.wheel_keyway)
+    limit = _within(size, "wheel")
     return even(min(L / 12.0, 0.4 * end, end - wall, limit))
 
 
@@ -220,20 +220,21 @@ def _crank_bore(spec: Spec, space: float, L: float) -> float:
     if own is not None:
         # a larger bore leaves no space for its default hub, of 1.5 bores
         return 0.5 * own if 0.5 * own <= 0.6 * space else 0.0
-    within = _within(size.crank_hub_mm, size.crank_keyway)
+    within = _within(size, "crank")
     return even(min(0.45 * space, within)) if 0.45 * space >= L / 40.0 else 0.0
 
 
-def _within(hub_mm: float | None, keyway: str | None) -> float:
-    """Return the largest default bore in a hub of a diameter, infinite without a hub."""
-    # a keyway is up to 0.39 of the bore's radius deep
-    return ((0.5 / 1.6) if keyway else 0.4) * hub_mm if hub_mm else math.inf
+def _within(size: Size, part: str) -> float:
+    """Return the largest default bore in the hub of a part, infinite without a hub."""
+    hub_mm: float | None = vars(size)[f"{part}_hub_mm"]
+    # a keyway is up to 0.39 of the bore's radius deep, and a hexagon's corner less
+    return ((0.5 / 1.6) if has_shape(size, part) else 0.4) * hub_mm if hub_mm else math.inf
 
 
-def _reach(standard: str | None, bore: float) -> float:
-    """Return a bore's radius with its keyway; without it if the standard has none so large."""
+def _reach(size: Size, part: str, bore: float) -> float:
+    """Return how far a bore reaches with its keyway; its radius where it cannot be made."""
     try:
-        return reach(standard, bore)
+        return bore_of(size, part, bore).reach
     except GenevaError:  # reported where the part is cut
         return bore
 

@@ -24,7 +24,7 @@ from geneva_cli.curves.shapes import (
 )
 from geneva_cli.errors import GenevaError
 from geneva_cli.layout.assembly import Assembly
-from geneva_cli.layout.keyways import bore, key
+from geneva_cli.layout.bores import bore_of
 from geneva_cli.layout.reliefs import Relief, followed, keyway_direction, merged, reliefs
 from geneva_cli.layout.sizes import Sizes
 from geneva_cli.numerics.tolerances import SAME_ANGLE
@@ -82,14 +82,14 @@ def _widened(sizes: Sizes, one: Relief, swept: Swept) -> Relief:
 
 
 def crank_circles(assembly: Assembly, sizes: Sizes) -> list[Shape]:
-    """Return rollers, pins and bore, which may have a keyway."""
+    """Return rollers, pins and bore in its shape."""
     shapes: list[Shape] = []
     for centre in roller_centres(assembly):
         shapes += [Circle("ROLLER", centre, sizes.roller)]
         shapes += [Circle("ROLLER", centre, sizes.pin)] if sizes.pin else []
     if sizes.crank_bore:
-        fitted = key(assembly.mechanism.spec.size.crank_keyway, sizes.crank_bore)
-        shapes.append(bore("BORE", sizes.crank_bore, fitted, keyway_direction(assembly)))
+        own = bore_of(assembly.mechanism.spec.size, "crank", sizes.crank_bore)
+        shapes.append(own.shape("BORE", keyway_direction(assembly)))
     return shapes
 
 

@@ -10,7 +10,7 @@ from geneva_cli.curves.shapes import Arc, Circle, Contour, Point, Segment, Shape
 from geneva_cli.errors import GenevaError
 from geneva_cli.kinematics.engagement import Engagement
 from geneva_cli.layout.assembly import Assembly
-from geneva_cli.layout.keyways import bore, key
+from geneva_cli.layout.bores import bore_of, has_shape
 from geneva_cli.layout.sizes import Sizes
 from geneva_cli.numerics.tolerances import SAME_LENGTH
 
@@ -39,15 +39,15 @@ def wheel_contour(assembly: Assembly, sizes: Sizes, slots: dict[Engagement, Cont
 
 
 def wheel_circles(assembly: Assembly, sizes: Sizes) -> list[Shape]:
-    """Return the outside of an internal wheel, the bore with its keyway, and the dial's bolts.
+    """Return the outside of an internal wheel, the bore in its shape, and the dial's bolts.
 
-    Raises GenevaError for a keyway without a bore, or one that its standard does not have.
+    Raises GenevaError for a shape or keyway that the bore cannot have.
     """
     circles: list[Shape] = [Circle(LAYER, (0.0, 0.0), sizes.outer)] if sizes.outer else []
-    standard = assembly.mechanism.spec.size.wheel_keyway
-    if sizes.wheel_bore or standard:
-        fitted = key(standard, sizes.wheel_bore, "wheel")
-        circles.append(bore("BORE", sizes.wheel_bore, fitted, assembly.rests[0]))
+    size = assembly.mechanism.spec.size
+    if sizes.wheel_bore or has_shape(size, "wheel"):
+        own = bore_of(size, "wheel", sizes.wheel_bore)
+        circles.append(own.shape("BORE", assembly.rests[0]))
     return [*circles, *dial_bolts(assembly, sizes)]
 
 

@@ -38,7 +38,7 @@ def wheel_hub_length(size: Size, sizes: Sizes) -> float:
 
 
 def about_axis(circles: Iterable[Shape]) -> tuple[Shape, ...]:
-    """Return the bore among some shapes: the one about the axis, which may have a keyway."""
+    """Return the bore among some shapes: the one about the axis."""
     bores = (shape for shape in circles if shape.layer == "BORE")
     return tuple(
         shape

@@ -26,8 +26,8 @@ from geneva_cli.layout.arm_sizes import (
     hub_and_eye,
     pin_hole,
 )
+from geneva_cli.layout.bores import bore_of
 from geneva_cli.layout.hole_walls import least_wall
-from geneva_cli.layout.keyways import bore, key, reach
 from geneva_cli.layout.reliefs import keyway_direction, sectors
 from geneva_cli.outlines.crank import crank_circles, is_whole, roller_centres
 from geneva_cli.outlines.outlines import Outlines
@@ -73,8 +73,9 @@ def crank_arm(parts: Outlines) -> CrankArm:
     passing = passing if assembly.sign > 0.0 else math.inf
     standing = 0.0 if is_whole(assembly, sizes) else sizes.lock  # the sectors stand on the hub
     radius, wall = shaft_bore(parts), sizes.wall_min
+    form = bore_of(spec.size, "crank", radius)
     hub, eye = hub_and_eye(spec.size, wall, hole, radius, passing, standing)
-    if reach(spec.size.crank_keyway, radius) + hole >= min(away):
+    if form.reach + hole >= min(away):
         raise GenevaError(
             f"arm_bore_mm = {2.0 * radius:g}: the bore cuts the pin's hole; with its keyway it "
             f"must be below {2.0 * (min(away) - hole):.6g}",
@@ -83,8 +84,7 @@ def crank_arm(parts: Outlines) -> CrankArm:
     pins, screwed = [Circle(HOLES, c, hole) for c in centres], bolts(parts)
     about = [Circle(LAYER, (0.0, 0.0), hub), *(Circle(LAYER, c, eye) for c in centres)]
     about += [Circle(LAYER, c.centre, eye_about(c.radius, wall)) for c in screwed]
-    fitted = key(spec.size.crank_keyway, radius)
-    bored = bore(HOLES, radius, fitted, keyway_direction(assembly))
+    bored = form.shape(HOLES, keyway_direction(assembly))
     return CrankArm(convex_hull(LAYER, about), bored, pins, screwed, hub, eye, passing - eye)
 
 

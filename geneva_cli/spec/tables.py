@@ -121,7 +121,23 @@ class Size(SpecTable):
     crank_keyway: Annotated[
         str | None, OneOf(("DIN 6885-1",)), "keyway in the bores of crank arm and locking disc"
     ] = None
+    crank_bore: Annotated[
+        str,
+        OneOf(("round", "D", "hex")),
+        "shape of the crank's bores; a hex bore is across flats",
+    ] = "round"
+    crank_flat_mm: Annotated[
+        float | None, POSITIVE, "depth of the flat in the crank's D bore; default bore/10"
+    ] = None
     wheel_keyway: Annotated[str | None, OneOf(("DIN 6885-1",)), "keyway in the wheel's bore"] = None
+    wheel_bore: Annotated[
+        str,
+        OneOf(("round", "D", "hex")),
+        "shape of the wheel's bore; a hex bore is across flats",
+    ] = "round"
+    wheel_flat_mm: Annotated[
+        float | None, POSITIVE, "depth of the flat in the wheel's D bore; default bore/10"
+    ] = None
     dial_bolts: Annotated[int, Range(0, 100), "number of bolts between dial and wheel"] = 0
     dial_bolt_mm: Annotated[float | None, POSITIVE, "dial's bolt holes: diameter, max. L/40"] = None
     dial_bolt_circle_mm: Annotated[

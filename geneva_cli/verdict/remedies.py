@@ -247,6 +247,7 @@ REMEDIES: dict[str, tuple[Change, ...]] = {
         *sized("size", "lock_bolt_circle_mm"),
         fewer("size", "lock_bolts", 0),
         left_out("size", "crank_keyway"),
+        set_to("size", "crank_bore", "round"),
     ),
     "arm_to_hub_mm": (scaled("size", "arm_eye_mm", 0.2),),
     "link_wall_mm": tuple(
@@ -266,6 +267,7 @@ REMEDIES: dict[str, tuple[Change, ...]] = {
         fewer("size", "dial_bolts", 0),
         scaled("size", "wheel_bore_mm", 0.3),
         left_out("size", "wheel_keyway"),
+        set_to("size", "wheel_bore", "round"),
     ),
     "outer_wall_mm": sized("size", "wheel_outer_radius_mm"),
     "branches_apart_mm": _WIDER,

@@ -29,7 +29,7 @@ def test_the_wheels_keyway():
     assert isinstance(bore, Contour) and bore.layer == "BORE"
     top = max((p for s in bore.segments for p in (s.start, s.end)), key=lambda p: math.hypot(*p))
     assert math.hypot(*top) == pytest.approx(math.hypot(12.5 + 3.3, 4.0))
-    low, high = (math.atan2(*reversed(s.start)) for s in bore.segments[-2:])
+    low, high = (math.atan2(*reversed(s.start)) for s in bore.segments[:2])
     lines = [s for s in bore.segments if isinstance(s, Line)]
     assert sorted(round(math.dist(*s), 9) for s in lines)[-1] == 8.0
     assert 0.5 * (low + high) % (math.pi / 3.0) == pytest.approx(math.pi / 6.0)

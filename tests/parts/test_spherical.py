@@ -333,7 +333,7 @@ def test_an_arm_with_bolts_keyway_and_hub_inside():
         ({"lock_bolts": 2, "lock_radius_mm": 0.0}, "no locking disc to fix"),
         (
             {"wheel_bore_mm": 0.0, "wheel_keyway": "DIN 6885-1"},
-            "can have a keyway; set wheel_bore_mm",
+            "only the wheel's hub has a bore that is not round",
         ),
         ({"wheel_shaft_low_mm": 20.0}, "the wheel's shaft would reach from 64 to 76 mm"),
     ],

@@ -46,6 +46,8 @@ WORDED = {
     "pin_held": ("cantilever", "supported", "fixed"),
     "crank_keyway": ("DIN 6885-1",),
     "wheel_keyway": ("DIN 6885-1",),
+    "crank_bore": ("round", "D", "hex"),
+    "wheel_bore": ("round", "D", "hex"),
 }
 TAKEN = ("center_distance_mm", "roller_radius_mm", "face_width_mm")  # keys of [size] set apart
 

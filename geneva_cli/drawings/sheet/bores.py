@@ -12,8 +12,9 @@ from geneva_cli.curves.shapes import Circle, Contour, Shape
 from geneva_cli.curves.sheet import CENTRE
 from geneva_cli.drawings.sheet import sized
 from geneva_cli.drawings.sheet.view import View, number, times
-from geneva_cli.layout.keyways import key
+from geneva_cli.layout.bores import bore_of, radius_of
 from geneva_cli.outlines.wheel_hub import about_axis
+from geneva_cli.spec.tables import Size
 
 
 class Holes(NamedTuple):
@@ -31,24 +32,14 @@ def holes_of(plates: Iterable[Plate]) -> Holes:
     return Holes(tuple(bores), tuple(dict.fromkeys(bolts)))
 
 
-def bored(view: View, bores: Sequence[Shape], radius: float, standard: str | None) -> None:
-    """Draw a bore's diameter, and its keyway's size by a standard."""
-    if not bores:
-        return
-    view.diameter([Circle("", (0.0, 0.0), radius)], sized.bore(radius))
-    if isinstance(bores[0], Contour):
-        fitted = key(standard, radius)
-        assert fitted is not None  # otherwise the bore would be a circle
-        top = bores[0].segments[3]
-        text = f"keyway {fitted.width:g} JS9, {number(2.0 * radius + fitted.in_hub)} over bore"
-        view.note(at(top, 0.5), f"{text} ({standard})")
-
-
-def radius_of(bore: Shape) -> float:
-    """Return a bore's radius, without its keyway."""
-    if isinstance(bore, Circle):
-        return bore.radius
-    return math.hypot(*bore.segments[0].start)
+def bored(view: View, bores: Sequence[Shape], size: Size, part: str) -> None:
+    """Draw the diameter of a part's bore, and what else its shape needs."""
+    for shape in bores[:1]:
+        form = bore_of(size, part, radius_of(shape))
+        if form.diameter:
+            view.diameter([Circle("", (0.0, 0.0), form.radius)], sized.bore(form.radius))
+        if isinstance(shape, Contour):
+            view.note(at(shape.segments[0], 0.5), form.note)
 
 
 def circle_of(view: View, screwed: Sequence[Circle]) -> None:

@@ -9,7 +9,7 @@ from geneva_cli.curves.plates import plates
 from geneva_cli.curves.shapes import Arc, Circle, Contour, Shape
 from geneva_cli.curves.sheet import CENTRE, HIDDEN, OUTLINE
 from geneva_cli.drawings.sheet import sized
-from geneva_cli.drawings.sheet.bores import bolted, bored, circle_of, holes_of, radius_of
+from geneva_cli.drawings.sheet.bores import bolted, bored, circle_of, holes_of
 from geneva_cli.drawings.sheet.standing import draw_hub
 from geneva_cli.drawings.sheet.view import View, number, times
 from geneva_cli.layout.sizes import pin_radius
@@ -36,7 +36,7 @@ def draw_disc(view: View, parts: FlatParts) -> None:
     view.cross((0.0, 0.0), sizes.lock if is_whole(assembly, sizes) else 0.2 * sizes.lock)
     for hub in hubs:
         draw_hub(view, hub)
-    bored(view, bores, sizes.crank_bore, mechanism.spec.size.crank_keyway)
+    bored(view, bores, mechanism.spec.size, "crank")
     arcs = [s for contour in contours for s in contour.segments if isinstance(s, Arc)]
     locking = [
         a for a in arcs if math.hypot(*a.centre) < SAME_ON_SHEET and _is(a.radius, sizes.lock)
@@ -103,7 +103,7 @@ def draw_arm(view: View, mechanism: Mechanism, arm: CrankArm) -> None:
         turn = math.atan2(centre[1], centre[0])
         view.linear((0.0, 0.0), centre, turn, times(len(some), text), near=True)
     _between(view, arm)
-    bored(view, [arm.bore], radius_of(arm.bore), mechanism.spec.size.crank_keyway)
+    bored(view, [arm.bore], mechanism.spec.size, "crank")
     view.diameter(arm.pins, times(len(arm.pins), sized.pin_hole(mechanism, arm.pins[0].radius)))
     radii: dict[str, list[Arc]] = {}
     for arc in arm.outline.segments:

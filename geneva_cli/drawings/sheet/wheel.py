@@ -50,7 +50,7 @@ def draw_wheel(view: View, parts: FlatParts) -> None:
     _rims(view, arcs, reach)
     for hub in hubs:
         draw_hub(view, hub)
-    bored(view, bores, sizes.wheel_bore, assembly.mechanism.spec.size.wheel_keyway)
+    bored(view, bores, assembly.mechanism.spec.size, "wheel")
     bolted(view, screwed)
 
 

@@ -62,7 +62,7 @@ def _arm(ball: Ball, arm: CapArm | None) -> Iterator[Dimension]:
     inner, outer = ball.arm_span_mm
     yield Dimension("arm's inner radius", inner, "mm")
     yield Dimension("arm's outer radius", outer, "mm")
-    yield from _axle("arm", arm.bore, arm.hub)
+    yield from _axle("arm", arm.bore.radius, arm.hub)
     yield Dimension("arm's cap, from the crank's axis", math.degrees(arm.cap), "deg")
     yield Dimension("arm's eyes, half angle", math.degrees(arm.eye), "deg")
     yield Dimension("pins", 2.0 * ball.pin_mm, "mm")

@@ -19,7 +19,7 @@ from geneva_cli.curves.shapes import Arc, Contour, Line, Point, Segment, Shape
 from geneva_cli.curves.sheet import CENTRE, OUTLINE, Sheet
 from geneva_cli.drawings.parts_list import part_rows
 from geneva_cli.drawings.sheet import sized
-from geneva_cli.drawings.sheet.bores import bored, radius_of
+from geneva_cli.drawings.sheet.bores import bored
 from geneva_cli.drawings.sheet.composed import on_paper
 from geneva_cli.drawings.sheet.linked import flat_plates
 from geneva_cli.drawings.sheet.paper import table
@@ -103,15 +103,14 @@ def _arm(parts: SphereParts, arm: CapArm, flat: list[Contour], scale: float) -> 
 def _axles(parts: SphereParts, scale: float) -> Iterator[View]:
     """Yield views of hubs along their axes, with bores and keyways, and of shafts' sides."""
     size = parts.mechanism.spec.size
-    for part, standard in ((parts.wheel, size.wheel_keyway), (parts.crank, size.crank_keyway)):
+    for part, whose in ((parts.wheel, "wheel"), (parts.crank, "crank")):
         for hub in plates(part.part):
             if hub.layer == ROLLER:
                 continue
             view = View(hub.name, scale)
             for shape in (hub.outline, *hub.holes):
                 view.draw(shape, OUTLINE)
-            if hub.holes:
-                bored(view, hub.holes, radius_of(hub.holes[0]), standard)
+            bored(view, hub.holes, size, whose)
             draw_hub(view, hub)
             view.remark(f"{number(hub.thickness)} long")
             yield view

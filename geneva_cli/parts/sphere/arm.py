@@ -22,7 +22,7 @@ from geneva_cli.curves.sphere_hull import Cap, convex_hull
 from geneva_cli.errors import GenevaError
 from geneva_cli.layout.arm_sizes import arm_bore, bolts_between, eye_about, hub_and_eye, pin_hole
 from geneva_cli.layout.axles import refuse_wide
-from geneva_cli.layout.keyways import ParallelKey, key, reach
+from geneva_cli.layout.bores import Bore, bore_of
 from geneva_cli.outlines.sphere_wheel import POLE
 from geneva_cli.parts.sphere.crank import locked
 
@@ -34,8 +34,7 @@ class CapArm(NamedTuple):
     """The arm in the crank's frame; radii in mm, angles in radians."""
 
     boundary: Region
-    bore: float
-    fitted: ParallelKey | None
+    bore: Bore
     keyway: float  # azimuth about the crank's axis
     hub: float
     pins: tuple[RoundHole, ...]
@@ -75,7 +74,8 @@ def crank_arm(parts: Shells) -> CapArm:
     radius = arm_bore(spec, disc, ball.radius_mm, limit)
     hub, eye = hub_and_eye(spec.size, wall, hole, radius, _passing(parts))
     _refuse(parts, hub, hole, eye)
-    around = hub - reach(spec.size.crank_keyway, radius)  # the hub's wall
+    form = bore_of(spec.size, "crank", radius)
+    around = hub - form.reach  # the hub's wall
     pins = tuple(RoundHole(place(ball.arm, azimuth), hole) for azimuth in ball.rollers)
     screwed = bolts(parts)
     round_hub = RoundHole(POLE, hub + max(around, wall)).angle(under)
@@ -86,8 +86,7 @@ def crank_arm(parts: Shells) -> CapArm:
     middle = next((0.5 * (a + b) for a, b in locked(ball)), 0.5 * ball.rollers[-1] + math.pi)
     arm = CapArm(
         boundary=convex_hull(caps),
-        bore=radius,
-        fitted=key(spec.size.crank_keyway, radius),
+        bore=form,
         keyway=middle,
         hub=hub,
         pins=pins,

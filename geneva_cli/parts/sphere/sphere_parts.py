@@ -18,7 +18,7 @@ from geneva_cli.curves.sphere import axis_frame, place
 from geneva_cli.curves.sphere_hull import Cap
 from geneva_cli.errors import GenevaError
 from geneva_cli.layout.axles import crank_hub, refuse_wide
-from geneva_cli.layout.keyways import bore, key
+from geneva_cli.layout.bores import bore_of, has_shape
 from geneva_cli.layout.missing import NamedParts
 from geneva_cli.layout.sphere_sizes import Ball
 from geneva_cli.outlines.sphere_wheel import POLE, web_angle, web_region, wheel_regions
@@ -105,27 +105,27 @@ def wheel_shell(size: Size, ball: Ball) -> Shell:
 def wheel_hub(size: Size, ball: Ball) -> Plate | None:
     """Return the wheel's hub: in its shell and outside it, by default out to the arm's face."""
     wide = ball.hub_mm > ball.bore_mm
-    if size.wheel_keyway and not (wide and ball.bore_mm):
+    if has_shape(size, "wheel") and not (wide and ball.bore_mm):
+        name = "wheel_bore" if size.wheel_keyway is None else "wheel_keyway"
         raise GenevaError(
-            "wheel_keyway: only the hub of a spherical wheel can have a keyway; set wheel_bore_mm "
-            "and wheel_hub_mm, or remove the keyway",
-            ("size", "wheel_keyway"),
+            f"{name}: on a sphere only the wheel's hub has a bore that is not round; set "
+            f"wheel_bore_mm and wheel_hub_mm, or remove {name}",
+            ("size", name),
         )
     if not wide:
         return None
     inside, outside = ball.span_mm
     refuse_wide("wheel_hub_mm", ball.hub_mm, inside, outside)
-    fitted = key(size.wheel_keyway, ball.bore_mm, "wheel")
-    deep = ball.bore_mm + (fitted.in_hub if fitted else 0.0)
-    if ball.hub_mm <= deep:
+    form = bore_of(size, "wheel", ball.bore_mm)
+    if ball.hub_mm <= form.reach:
         raise GenevaError(
-            f"wheel_hub_mm = {2.0 * ball.hub_mm:g}: it must be above {2.0 * deep:.6g}, the "
+            f"wheel_hub_mm = {2.0 * ball.hub_mm:g}: it must be above {2.0 * form.reach:.6g}, the "
             "diameter over the hub's bore and keyway",
             ("size", "wheel_hub_mm"),
         )
     length = size.wheel_hub_length_mm
     long = ball.arm_span_mm[1] if length is None else outside + length
-    bored = (bore("BORE", ball.bore_mm, fitted, ball.half_step),) if ball.bore_mm else ()
+    bored = (form.shape("BORE", ball.half_step),) if ball.bore_mm else ()
     return Plate("wheel's hub", HUB, Circle(HUB, AXIS, ball.hub_mm), bored, inside, long)
 
 
@@ -153,7 +153,7 @@ def crank_group(parts: Shells, arm: CapArm | None) -> Group:
 def arm_solids(ball: Ball, arm: CapArm) -> tuple[Shell, Plate]:
     """Return the arm's cap and its hub, which has flat faces and the bore."""
     cap = Shell("arm", ARM, (arm.boundary,), *ball.arm_span_mm, arm.holes)
-    bored = bore("BORE", arm.bore, arm.fitted, arm.keyway)
+    bored = arm.bore.shape("BORE", arm.keyway)
     return cap, Plate("arm's hub", ARM, Circle(ARM, AXIS, arm.hub), (bored,), *ball.arm_span_mm)
 
 
@@ -167,8 +167,8 @@ def _inner_hub(size: Size, ball: Ball, arm: CapArm | None) -> Plate | None:
     low = ball.span_mm[0] if long is None else high - long
     bored: tuple[Shape, ...] = ()
     if size.crank_bore_mm:
-        fitted = key(size.crank_keyway, 0.5 * size.crank_bore_mm)
-        bored = (bore("BORE", 0.5 * size.crank_bore_mm, fitted, arm.keyway),)
+        form = bore_of(size, "crank", 0.5 * size.crank_bore_mm)
+        bored = (form.shape("BORE", arm.keyway),)
     return Plate("crank's hub", HUB, Circle(HUB, AXIS, radius), bored, low, high)
 
 
@@ -190,7 +190,7 @@ def _shafts(parts: Shells, arm: CapArm | None) -> Iterator[Member]:
         low = lowest if size.crank_shaft_low_mm is None else size.crank_shaft_low_mm
         hub = _inner_hub(size, ball, arm)
         end = (hub.low if hub else ball.lock_span_mm[0]) if size.crank_bore_mm else under
-        shaft = _shaft("crank", ball, arm.bore, low, end, size.crank_shaft_high_mm)
+        shaft = _shaft("crank", ball, arm.bore.radius, low, end, size.crank_shaft_high_mm)
         yield Member(shaft, frame=at_mid_motion(ball))
 
 

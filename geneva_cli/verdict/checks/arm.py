@@ -4,13 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
+from geneva_cli.layout.bores import has_shape
 from geneva_cli.outlines.outlines import Outlines
 from geneva_cli.parts.arm import CrankArm, crank_arm, has_arm, walls
 from geneva_cli.verdict.checks.check import Check, at_least
 
 
 def arm_wall(name: str, outlines: Outlines) -> Check | None:
-    """The least wall around the arm's holes, and around bolts and keyway in the locking disc."""
+    """The least wall around the arm's holes, and around bolts and bore of the locking disc."""
     return _arm_check(name, outlines, lambda arm: walls(arm, outlines), outlines.sizes.wall_min)
 
 
@@ -30,9 +31,9 @@ def _arm_check(
         "arm_hub_mm",
         "arm_eye_mm",
         "press_fit_mm",
-        "crank_keyway",
         "lock_bolts",
     )
-    if not (any(vars(size)[key] for key in keys) and has_arm(outlines)):
+    own = has_shape(size, "crank") or any(vars(size)[key] for key in keys)
+    if not (own and has_arm(outlines)):
         return None
     return at_least(name, lambda: value(crank_arm(outlines)), limit)

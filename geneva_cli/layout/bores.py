@@ -1,0 +1,212 @@
+"""Bores for shafts: round, round with a keyway, with one flat ("D"), or hexagonal.
+
+A bore's radius is that of its circle, or of the circle inside a hexagon. It has a direction about
+its axis: that of the keyway, of the flat, or of one side of the hexagon.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import NamedTuple, TypeAlias
+
+from geneva_cli.curves.shapes import ORIGIN, Arc, Circle, Line, Shape, about, closed
+from geneva_cli.errors import GenevaError
+from geneva_cli.layout.keyways import ParallelKey, key
+from geneva_cli.spec.tables import Size
+
+
+class RoundBore(NamedTuple):
+    """A round bore."""
+
+    radius: float
+
+    @property
+    def reach(self) -> float:
+        """Greatest distance of the bore's wall from its axis."""
+        return self.radius
+
+    @property
+    def note(self) -> str:
+        """What a drawing says besides the diameter."""
+        return ""
+
+    @property
+    def diameter(self) -> float | None:
+        """Diameter to show in a drawing; None for a bore without one."""
+        return 2.0 * self.radius
+
+    def shape(self, layer: str, direction: float) -> Shape:
+        """Return the bore about the origin, with its feature in a direction, radians."""
+        return Circle(layer, ORIGIN, self.radius)
+
+
+class KeyedBore(NamedTuple):
+    """A round bore with a keyway by a standard."""
+
+    radius: float
+    standard: str
+    key: ParallelKey
+
+    @property
+    def reach(self) -> float:
+        """Distance of the keyway's top from the axis."""
+        return self.radius + self.key.in_hub
+
+    @property
+    def note(self) -> str:
+        """Width of the keyway, and the bore's height over it."""
+        over = 2.0 * self.radius + self.key.in_hub
+        return f"keyway {self.key.width:g} JS9, {over:.6g} over bore ({self.standard})"
+
+    @property
+    def diameter(self) -> float | None:
+        """Diameter of the circle."""
+        return 2.0 * self.radius
+
+    def shape(self, layer: str, direction: float) -> Shape:
+        """Return the bore about the origin; its first piece is the keyway's top."""
+        low, high = (
+            _turned(self.reach, y, direction) for y in (-0.5 * self.key.width, 0.5 * self.key.width)
+        )
+        half = math.asin(0.5 * self.key.width / self.radius)
+        first, second = _arcs(self.radius, direction, half)
+        sides = Line(high, first.start), first, second, Line(second.end, low)
+        return closed(layer, [Line(low, high), *sides])
+
+
+class FlatBore(NamedTuple):
+    """A round bore with one flat, for the flattened end of a motor's shaft."""
+
+    radius: float
+    depth: float  # of the flat below the circle
+
+    @property
+    def reach(self) -> float:
+        """Radius of the circle."""
+        return self.radius
+
+    @property
+    def note(self) -> str:
+        """Height of the bore over its flat."""
+        return f"flat, {2.0 * self.radius - self.depth:.6g} to the far side"
+
+    @property
+    def diameter(self) -> float | None:
+        """Diameter of the circle."""
+        return 2.0 * self.radius
+
+    def shape(self, layer: str, direction: float) -> Shape:
+        """Return the bore about the origin; its first piece is the flat."""
+        half = math.acos(1.0 - self.depth / self.radius)
+        first, second = _arcs(self.radius, direction, half)
+        return closed(layer, [Line(second.end, first.start), first, second])
+
+
+class HexBore(NamedTuple):
+    """A hexagonal bore; its radius is half of its width across flats."""
+
+    radius: float
+
+    @property
+    def reach(self) -> float:
+        """Distance of a corner from the axis."""
+        return self.radius / math.cos(math.pi / 6.0)
+
+    @property
+    def note(self) -> str:
+        """Width across flats."""
+        return f"hexagon {2.0 * self.radius:.6g} across flats"
+
+    @property
+    def diameter(self) -> float | None:
+        """None: a hexagon has no diameter."""
+        return None
+
+    def shape(self, layer: str, direction: float) -> Shape:
+        """Return the bore about the origin; its first piece is the side in the direction."""
+        corners = [
+            _turned(self.reach, 0.0, direction + (2 * k - 1) * math.pi / 6.0) for k in range(6)
+        ]
+        after = [*corners[1:], corners[0]]
+        return closed(layer, [Line(p, q) for p, q in zip(corners, after, strict=True)])
+
+
+Bore: TypeAlias = RoundBore | KeyedBore | FlatBore | HexBore
+
+
+def bore_of(size: Size, part: str, radius: float) -> Bore:
+    """Return the bore of a part, "wheel" or "crank", with a radius in mm.
+
+    Raises GenevaError, naming the key, for a keyway that its standard does not have or that is in
+    no round bore, for a flat that leaves no bore, and for a shape without a bore.
+
+    >>> bore_of(Size(crank_keyway="DIN 6885-1"), "crank", 10.0).reach
+    12.8
+    >>> bore_of(Size(wheel_bore="D"), "wheel", 5.0).note
+    'flat, 9 to the far side'
+    """
+    values = vars(size)
+    shape, standard = values[f"{part}_bore"], values[f"{part}_keyway"]
+    if shape == "round":
+        fitted = key(standard, radius, part)
+        return KeyedBore(radius, standard, fitted) if fitted else RoundBore(radius)
+    if standard is not None:
+        raise GenevaError(
+            f'{part}_keyway: {part}_bore = "{shape}" holds the shaft without a key; remove one',
+            ("size", f"{part}_keyway"),
+        )
+    if not radius:
+        raise GenevaError(
+            f'{part}_bore = "{shape}": the {part} has no bore; set {part}_bore_mm, or remove it',
+            ("size", f"{part}_bore"),
+        )
+    return HexBore(radius) if shape == "hex" else _flat(values[f"{part}_flat_mm"], part, radius)
+
+
+def _flat(depth: float | None, part: str, radius: float) -> FlatBore:
+    """Return a bore with a flat; by default a tenth of the diameter deep.
+
+    Motors have 0.5 mm on shafts of 5 mm.
+    """
+    depth = 0.2 * radius if depth is None else depth
+    if depth >= radius:
+        raise GenevaError(
+            f"{part}_flat_mm = {depth:g}: the flat must be less deep than the bore's radius of "
+            f"{radius:g} mm",
+            ("size", f"{part}_flat_mm"),
+        )
+    return FlatBore(radius, depth)
+
+
+def has_shape(size: Size, part: str) -> bool:
+    """Return True if the bore of a part is not merely round."""
+    values = vars(size)
+    return values[f"{part}_keyway"] is not None or values[f"{part}_bore"] != "round"
+
+
+def radius_of(shape: Shape) -> float:
+    """Return the radius of a bore from its shape.
+
+    >>> hexagon = HexBore(4.0).shape("BORE", 0.3)
+    >>> round(radius_of(hexagon), 12), radius_of(FlatBore(4.0, 1.0).shape("BORE", 0.0))
+    (4.0, 4.0)
+    """
+    if isinstance(shape, Circle):
+        return shape.radius
+    arcs = [piece for piece in shape.segments if not isinstance(piece, Line)]
+    if arcs:
+        return math.hypot(*arcs[0].start)
+    (x, y), (u, v) = shape.segments[0].start, shape.segments[0].end
+    return math.hypot(0.5 * (x + u), 0.5 * (y + v))
+
+
+def _turned(x: float, y: float, direction: float) -> tuple[float, float]:
+    c, s = math.cos(direction), math.sin(direction)
+    return x * c - y * s, x * s + y * c
+
+
+def _arcs(radius: float, direction: float, half: float) -> tuple[Arc, Arc]:
+    """Return two arcs round the axis, from ``half`` after a direction to ``half`` before it."""
+    sweep = math.pi - half
+    first = about(ORIGIN, radius, direction + half, sweep)
+    return first, about(ORIGIN, radius, direction + half + sweep, sweep)

@@ -1,0 +1,146 @@
+"""Bores with a flat or six sides: their shapes, their walls, and where they are refused."""
+
+import math
+
+import pytest
+from shapely.geometry import Point
+from step_witness import File, Solid
+from test_arm import polygon
+
+from geneva_cli import Design, External, Size, Spherical
+from geneva_cli.curves.measure import area
+from geneva_cli.curves.plates import plates
+from geneva_cli.curves.shapes import Contour
+from geneva_cli.drawings.model import PartsModel
+from geneva_cli.errors import GenevaError
+from geneva_cli.layout.bores import bore_of, radius_of
+from geneva_cli.output.step import chunks
+from geneva_cli.parts.sphere.sphere_parts import SphereParts
+
+
+def of(**size):
+    return Design(External(6), size=Size(**size))
+
+
+def bore(design, part):
+    """The bore of a part, which is its only contour besides the outline."""
+    _, shape = [s for s in design.drawing(part).shapes if isinstance(s, Contour)]
+    return shape
+
+
+def row(design, name):
+    return next(c for c in design.checks if c.name == name)
+
+
+@pytest.mark.parametrize("direction", [0.0, 1.0, 4.0])
+@pytest.mark.parametrize(
+    ("size", "inside"),
+    [
+        # d²/4 (pi - acos x + x sqrt(1 - x²)), x = 1 - 2 depth/d: a circle less a segment
+        ({"wheel_bore": "D"}, 25.0 * (math.pi - math.acos(0.8) + 0.8 * 0.6)),
+        ({"wheel_bore": "D", "wheel_flat_mm": 2.0}, 25.0 * (math.pi - math.acos(0.6) + 0.6 * 0.8)),
+        ({"wheel_bore": "hex"}, 100.0 * math.sqrt(3.0) / 2.0),
+    ],
+)
+def test_their_area(size, inside, direction):
+    shape = bore_of(Size(**size), "wheel", 5.0).shape("BORE", direction)
+    assert abs(area(shape)) == pytest.approx(inside, rel=1e-12)
+    assert radius_of(shape) == pytest.approx(5.0, rel=1e-12)
+    # the first piece faces the direction, at right angles
+    (x, y), (u, v) = shape.segments[0].start, shape.segments[0].end
+    assert math.remainder(math.atan2(y + v, x + u) - direction, math.tau) == pytest.approx(0.0)
+
+
+@pytest.mark.parametrize("shape", ["D", "hex"])
+def test_walls_are_those_of_the_shape(shape):
+    """In arm, disc and wheel, by shapely's distances of polygons."""
+    design = of(
+        crank_bore=shape, wheel_bore=shape, crank_bore_mm=10.0, wheel_bore_mm=70.0, arm_hub_mm=14.0
+    )
+    arm, disc, wheel = (
+        [polygon(s, 2000) for s in design.drawing(name).shapes if isinstance(s, Contour)]
+        for name in ("arm", "crank", "wheel")
+    )
+    # 2000 chords an arc are within 1e-5 mm of it
+    own = min(outline.exterior.distance(hole) for outline, hole in (arm, disc))
+    assert row(design, "arm_wall_mm").value == pytest.approx(own, abs=1e-4)
+    wall = wheel[0].exterior.distance(wheel[1])
+    assert row(design, "dial_wall_mm").value == pytest.approx(wall, abs=2e-3)
+
+
+@pytest.mark.parametrize("shape", ["D", "hex"])
+def test_a_bore_in_a_hub_leaves_a_wall(shape):
+    """A corner of a hexagon of 12 mm is 12/sqrt(3) mm from the axis."""
+    deep = {"D": 6.0, "hex": 12.0 / math.sqrt(3.0)}[shape]
+    design = of(wheel_bore=shape, wheel_bore_mm=12.0, wheel_hub_mm=15.0)
+    assert row(design, "wheel_bore_wall_mm").value == pytest.approx(7.5 - deep)
+    usual = of(wheel_bore=shape, wheel_hub_mm=20.0)
+    assert row(usual, "wheel_bore_wall_mm").passes
+    wheel, hub = plates(design.drawing("wheel").solid)
+    assert hub.holes == wheel.holes
+
+
+@pytest.mark.parametrize("shape", ["D", "hex"])
+def test_solids_have_the_bores_of_drawings(shape):
+    design = of(crank_bore=shape, wheel_bore=shape)
+    drawing = design.drawing("assembly")
+    file = File("".join(chunks(drawing, "mm")))
+    bodies = dict(
+        zip(dict.fromkeys(plates(drawing.solid)), file.all("MANIFOLD_SOLID_BREP"), strict=True)
+    )
+    for plate, body in bodies.items():
+        if plate.name not in ("wheel", "arm", "locking disc"):
+            continue
+        part = {"locking disc": "crank"}.get(plate.name, plate.name)
+        cut = [s for s in design.drawing(part).shapes if s.layer != "ROLLER"]
+        face = abs(area(cut[0])) - sum(abs(area(hole)) for hole in cut[1:])
+        for volume in Solid(file, body).volumes():
+            assert volume == pytest.approx(face * 10.0, rel=1e-9)
+        assert bore(design, part) in plate.holes
+
+
+def test_a_shaft_fits_a_spherical_hub():
+    """Its bore is in the hub alone, whose round outside is in the shell."""
+    size = Size(80.0, 5.0, wheel_bore="hex", wheel_bore_mm=10.0, wheel_hub_mm=16.0, crank_bore="D")
+    design = Design(Spherical(6), size=size)
+    members = SphereParts(PartsModel(design.mechanism).shells).members
+    every = [one for member in members for one in plates(member.part)]
+    hubs = {one.name: one for one in every if one.holes}
+    assert len(hubs["wheel's hub"].holes[0].segments) == 6
+    assert len(hubs["arm's hub"].holes[0].segments) == 3
+    outside = Point(0.0, 0.0).buffer(8.0)
+    assert outside.contains(polygon(hubs["wheel's hub"].holes[0]))
+
+
+@pytest.mark.parametrize(
+    ("size", "key", "said"),
+    [
+        (
+            {"wheel_bore": "D", "wheel_bore_mm": 0.0},
+            "wheel_bore",
+            "the wheel has no bore; set wheel",
+        ),
+        (
+            {"wheel_bore": "D", "wheel_flat_mm": 9.0},
+            "wheel_flat_mm",
+            "less deep than the bore's rad",
+        ),
+        (
+            {"wheel_bore": "hex", "wheel_keyway": "DIN 6885-1"},
+            "wheel_keyway",
+            "holds the shaft without a key; remove one",
+        ),
+    ],
+)
+def test_refused(size, key, said):
+    with pytest.raises(GenevaError, match=said) as caught:
+        of(**size).drawing("wheel")
+    assert caught.value.key == ("size", key)
+
+
+def test_sheets_say_what_they_are():
+    design = of(crank_bore="D", wheel_bore="hex", crank_bore_mm=10.0, wheel_bore_mm=16.0)
+    texts = [label.text for label in design.sheet().texts]
+    assert "hexagon 16 across flats" in texts
+    assert texts.count("flat, 9 to the far side") == 2  # arm and disc
+    assert not [text for text in texts if text.startswith("Ø 16 H7")][1:]  # the frame's alone
