@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
+from functools import reduce
 from typing import NamedTuple
 
 from geneva_cli.curves.measure import with_material_left
 from geneva_cli.curves.moments import Moments, moments, total
-from geneva_cli.curves.plates import Plate
+from geneva_cli.curves.plates import Plate, Stack
 from geneva_cli.curves.shapes import Circle, Contour, Point
 
 MM = 1e-3  # metres
@@ -30,6 +31,13 @@ def mass_properties(plate: Plate, density_kgm3: float) -> MassProperties:
     0.5
     """
     return face_properties(face(plate), plate.thickness, density_kgm3)
+
+
+def solid_properties(solid: Plate | Stack, density_kgm3: float) -> MassProperties:
+    """Mass, centroid and inertia of a flat or a turned part."""
+    if isinstance(solid, Plate):
+        return mass_properties(solid, density_kgm3)
+    return reduce(added, (mass_properties(one, density_kgm3) for one in solid.plates))
 
 
 def face_properties(section: Moments, thickness_mm: float, density_kgm3: float) -> MassProperties:

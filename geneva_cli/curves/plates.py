@@ -35,6 +35,33 @@ class Plate(NamedTuple):
         return self.high - self.low
 
 
+class Stack(NamedTuple):
+    """A turned part: plates without holes, each on the one before, as one solid.
+
+    Of two neighbours one lies within the other. Where their outlines coincide, they have the same
+    pieces.
+    """
+
+    name: str
+    layer: str
+    plates: tuple[Plate, ...]
+
+    @property
+    def low(self) -> float:
+        """Lower end along the axis."""
+        return self.plates[0].low
+
+    @property
+    def high(self) -> float:
+        """Upper end along the axis."""
+        return self.plates[-1].high
+
+    @property
+    def thickness(self) -> float:
+        """Length along the axis."""
+        return self.high - self.low
+
+
 class Shell(NamedTuple):
     """A solid between two spheres about the origin, over regions that touch along whole arcs.
 
@@ -105,10 +132,11 @@ class Member(NamedTuple):
     frame: Rotation | None = None  # in place of a turn: the directions of its x, y and z
 
 
-Part: TypeAlias = Plate | Shell | Group
+Solid: TypeAlias = Plate | Stack | Shell
+Part: TypeAlias = Solid | Group
 
 
-def solids(part: Part) -> list[Plate | Shell]:
+def solids(part: Part) -> list[Solid]:
     """All solids of a part, each as often as it is used."""
     if isinstance(part, Group):
         return [one for member in part.members for one in solids(member.part)]
@@ -116,5 +144,15 @@ def solids(part: Part) -> list[Plate | Shell]:
 
 
 def plates(part: Part) -> list[Plate]:
-    """The flat solids of a part."""
+    """The flat solids of a part; turned ones are left out."""
     return [one for one in solids(part) if isinstance(one, Plate)]
+
+
+def lowered(part: Plate | Stack) -> Plate | Stack:
+    """A flat or turned part with its lower face at z = 0."""
+    if isinstance(part, Plate):
+        return part._replace(low=0.0, high=part.thickness)
+    down = part.low
+    return part._replace(
+        plates=tuple(p._replace(low=p.low - down, high=p.high - down) for p in part.plates)
+    )

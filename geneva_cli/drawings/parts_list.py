@@ -13,15 +13,16 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 from typing import TypeAlias
 
-from geneva_cli.curves.mass import MM, mass_properties
+from geneva_cli.curves.mass import MM, solid_properties
 from geneva_cli.curves.measure import bounds
-from geneva_cli.curves.plates import Part, Plate, Shell
+from geneva_cli.curves.plates import Part, Shell, Solid
 from geneva_cli.curves.sphere import opposite
 from geneva_cli.drawings.model import PartsModel
 from geneva_cli.drawings.sphere.dimensions import dimensions
 from geneva_cli.kinematics.layout import Dimension, Pivot
 from geneva_cli.layout.alike import alike
 from geneva_cli.layout.missing import Missing, built_of, or_missing
+from geneva_cli.layout.projection import outlines_of
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.machine.rollers import places
 from geneva_cli.machine.spec import Spec
@@ -112,13 +113,15 @@ def part_rows(spec: Spec, parts: Iterable[Part], outside: float | None = None) -
         }
 
 
-def _properties(solid: Plate | Shell, density: float, outside: float | None) -> Row:
+def _properties(solid: Solid, density: float, outside: float | None) -> Row:
     """Return heights, mass, inertia and size of a solid; in a flat machine also its centroid."""
     row: Row = {}
-    if isinstance(solid, Plate):
-        low, high, box = solid.low, solid.high, bounds(solid.outline)
-        wide, deep = box.x1 - box.x0, box.y1 - box.y0
-        body = mass_properties(solid, density)
+    if not isinstance(solid, Shell):
+        low, high = solid.low, solid.high
+        boxes = [bounds(shape) for shape in outlines_of(solid)]
+        wide = max(box.x1 for box in boxes) - min(box.x0 for box in boxes)
+        deep = max(box.y1 for box in boxes) - min(box.y0 for box in boxes)
+        body = solid_properties(solid, density)
         mass, inertia = body.mass_kg, body.inertia_kgm2
         if outside is None:
             # a centroid within 1e-13 of a part's size of its axis is on it

@@ -6,7 +6,7 @@ import math
 
 from geneva_cli.curves.drawing import Drawing
 from geneva_cli.curves.measure import bounds
-from geneva_cli.curves.plates import Group, Member, Plate, plates
+from geneva_cli.curves.plates import Group, Member, Plate, Shell, Stack, lowered, solids
 from geneva_cli.drawings.sheet.pack import packed_apart
 from geneva_cli.drawings.sheet.view import Block
 from geneva_cli.layout.projection import outlines_of, titled
@@ -20,15 +20,16 @@ def plate(parts: FlatParts) -> Drawing:
 
     Raises GenevaError for a part that cannot be built.
     """
-    whole = [one for _, build in parts.by_name() for part in build() for one in plates(part)]
+    every = (one for _, build in parts.by_name() for part in build() for one in solids(part))
+    whole = [one for one in every if not isinstance(one, Shell)]
     title = titled(parts.mechanism, "plate")
     solid = Group(title, tuple(_laid(whole)))
     return Drawing(title, outlines_of(solid), solid=solid)
 
 
-def _laid(whole: list[Plate]) -> list[Member]:
-    """Return plates at z = 0 side by side, on a square bed that is as small as they allow."""
-    blocks = [Block(*bounds(one.outline), (), ()) for one in whole]
+def _laid(whole: list[Plate | Stack]) -> list[Member]:
+    """Return parts at z = 0 side by side, on a square bed that is as small as they allow."""
+    blocks = [_block(one) for one in whole]
     side = math.sqrt(sum((b.width + APART) * (b.height + APART) for b in blocks))
     placed = None
     while placed is None:
@@ -38,8 +39,16 @@ def _laid(whole: list[Plate]) -> list[Member]:
         side *= 1.1
     return [
         Member(
-            one._replace(low=0.0, high=one.thickness),
+            lowered(one),
             (block.x0 - before.x0, block.y0 - before.y0),
         )
         for one, before, block in zip(whole, blocks, placed, strict=True)
     ]
+
+
+def _block(part: Plate | Stack) -> Block:
+    """Return the box around a part, seen from above."""
+    boxes = [bounds(shape) for shape in outlines_of(part)]
+    least = min(box.x0 for box in boxes), min(box.y0 for box in boxes)
+    most = max(box.x1 for box in boxes), max(box.y1 for box in boxes)
+    return Block(*least, *most, (), ())

@@ -15,7 +15,7 @@ import numpy as np
 
 from geneva_cli.curves.distance import Polyarc
 from geneva_cli.curves.measure import at, with_material_left
-from geneva_cli.curves.plates import Group, Member, Part, Plate
+from geneva_cli.curves.plates import Group, Member, Part, Plate, Stack
 from geneva_cli.curves.shapes import Arc, Circle, Contour, Point, Segment, closed, two_arcs
 from geneva_cli.layout.projection import placed
 from geneva_cli.numerics.jet import Array
@@ -129,6 +129,8 @@ def _plates(part: Part, origin: Point = (0.0, 0.0)) -> Iterator[tuple[Plate, Poi
     if isinstance(part, Group):
         for member in part.members:
             yield from _plates(member.part, member.at)
+    elif isinstance(part, Stack):
+        yield from ((plate._replace(name=part.name), origin) for plate in part.plates)
     elif isinstance(part, Plate):
         yield part, origin
 

@@ -5,11 +5,11 @@ from __future__ import annotations
 from typing import NamedTuple
 
 from geneva_cli.curves.drawing import Drawing
-from geneva_cli.curves.plates import Plate, Shell
+from geneva_cli.curves.plates import Plate, Shell, Solid
 from geneva_cli.drawings.model import PartsModel
 from geneva_cli.layout.alike import alike
 from geneva_cli.layout.missing import Missing, built_of
-from geneva_cli.layout.projection import titled
+from geneva_cli.layout.projection import outlines_of, titled
 
 # layers of parts that are cut out of plates; the others are turned or bought
 CUT_LAYERS = ("WHEEL", "CRANK", "ARM", "LINK", "GROOVE", "FRAME")
@@ -39,10 +39,10 @@ def single_parts(
     return [_single(model, kind[0], len(kind), tolerance_mm) for kind in alike(parts)], missing
 
 
-def _single(model: PartsModel, solid: Plate | Shell, count: int, tolerance_mm: float) -> SinglePart:
+def _single(model: PartsModel, solid: Solid, count: int, tolerance_mm: float) -> SinglePart:
     title = titled(model.mechanism, solid.name)
     flat = isinstance(solid, Plate)
-    shapes = (solid.outline, *solid.holes) if isinstance(solid, Plate) else ()
-    thickness = solid.thickness if isinstance(solid, Plate) else solid.outer - solid.inner
+    shapes = () if isinstance(solid, Shell) else outlines_of(solid)
+    thickness = solid.outer - solid.inner if isinstance(solid, Shell) else solid.thickness
     drawing = Drawing(title, shapes, solid=solid, tolerance=tolerance_mm)
     return SinglePart(solid.name, count, thickness, flat and solid.layer in CUT_LAYERS, drawing)

@@ -7,18 +7,28 @@ its axis: that of the keyway, of the flat, or of one side of the hexagon.
 from __future__ import annotations
 
 import math
-from typing import NamedTuple, TypeAlias
+from abc import ABC, abstractmethod
+from dataclasses import dataclass, replace
 
-from geneva_cli.curves.shapes import ORIGIN, Arc, Circle, Line, Shape, about, closed
+from geneva_cli.curves.shapes import ORIGIN, Arc, Circle, Line, Point, Shape, about, closed
 from geneva_cli.errors import GenevaError
 from geneva_cli.layout.keyways import ParallelKey, key
 from geneva_cli.spec.tables import Size
 
 
-class RoundBore(NamedTuple):
-    """A round bore."""
+@dataclass(frozen=True)
+class Bore(ABC):
+    """A bore, and the section of the shaft in it; round in all that a shape does not change."""
 
     radius: float
+
+    @abstractmethod
+    def shape(self, layer: str, direction: float) -> Shape:
+        """Return the bore about the origin, with its feature in a direction, radians."""
+
+    def section(self, layer: str, direction: float) -> Shape:
+        """Return the section of a shaft of this size."""
+        return self.shape(layer, direction)
 
     @property
     def reach(self) -> float:
@@ -26,24 +36,59 @@ class RoundBore(NamedTuple):
         return self.radius
 
     @property
+    def around(self) -> float:
+        """Radius of the circle around the shaft."""
+        return self.radius
+
+    @property
     def note(self) -> str:
-        """What a drawing says besides the diameter."""
+        """What a drawing of the bore says besides the diameter."""
         return ""
 
     @property
-    def diameter(self) -> float | None:
-        """Diameter to show in a drawing; None for a bore without one."""
+    def shaft_note(self) -> str:
+        """What a drawing of the shaft says besides the diameter."""
+        return self.note
+
+    @property
+    def is_round(self) -> bool:
+        """True if a diameter is a dimension of the bore."""
+        return True
+
+    @property
+    def is_plain(self) -> bool:
+        """True if the bore is a circle, which has no direction."""
+        return False
+
+    @property
+    def keyed(self) -> bool:
+        """True if the shaft has a keyway."""
+        return False
+
+    @property
+    def end_diameter(self) -> float | None:
+        """Diameter of a round end of the shaft beyond the bore; None where there is none."""
         return 2.0 * self.radius
 
+
+@dataclass(frozen=True)
+class RoundBore(Bore):
+    """A round bore."""
+
+    @property
+    def is_plain(self) -> bool:
+        """True."""
+        return True
+
     def shape(self, layer: str, direction: float) -> Shape:
-        """Return the bore about the origin, with its feature in a direction, radians."""
+        """Return the circle."""
         return Circle(layer, ORIGIN, self.radius)
 
 
-class KeyedBore(NamedTuple):
+@dataclass(frozen=True)
+class KeyedBore(Bore):
     """A round bore with a keyway by a standard."""
 
-    radius: float
     standard: str
     key: ParallelKey
 
@@ -59,31 +104,43 @@ class KeyedBore(NamedTuple):
         return f"keyway {self.key.width:g} JS9, {over:.6g} over bore ({self.standard})"
 
     @property
-    def diameter(self) -> float | None:
-        """Diameter of the circle."""
-        return 2.0 * self.radius
+    def shaft_note(self) -> str:
+        """Width and depth of the shaft's keyway."""
+        return f"keyway {self.key.width:g} P9, {self.key.in_shaft:g} deep ({self.standard})"
+
+    @property
+    def keyed(self) -> bool:
+        """True."""
+        return True
 
     def shape(self, layer: str, direction: float) -> Shape:
         """Return the bore about the origin; its first piece is the keyway's top."""
-        low, high = (
-            _turned(self.reach, y, direction) for y in (-0.5 * self.key.width, 0.5 * self.key.width)
-        )
-        half = math.asin(0.5 * self.key.width / self.radius)
-        first, second = _arcs(self.radius, direction, half)
+        first, second = self._arcs(direction)
+        low, high = self._across(self.reach, direction)
         sides = Line(high, first.start), first, second, Line(second.end, low)
         return closed(layer, [Line(low, high), *sides])
 
+    def section(self, layer: str, direction: float) -> Shape:
+        """Return the shaft's section with its keyway."""
+        first, second = self._arcs(direction)
+        low, high = self._across(self.radius - self.key.in_shaft, direction)
+        sides = Line(second.end, low), Line(low, high), Line(high, first.start)
+        return closed(layer, [first, second, *sides])
 
-class FlatBore(NamedTuple):
+    def _arcs(self, direction: float) -> tuple[Arc, Arc]:
+        return _arcs(self.radius, direction, math.asin(0.5 * self.key.width / self.radius))
+
+    def _across(self, x: float, direction: float) -> tuple[Point, Point]:
+        """Return both ends of the keyway's bottom or top, at a distance from the axis."""
+        half = 0.5 * self.key.width
+        return _turned(x, -half, direction), _turned(x, half, direction)
+
+
+@dataclass(frozen=True)
+class FlatBore(Bore):
     """A round bore with one flat, for the flattened end of a motor's shaft."""
 
-    radius: float
     depth: float  # of the flat below the circle
-
-    @property
-    def reach(self) -> float:
-        """Radius of the circle."""
-        return self.radius
 
     @property
     def note(self) -> str:
@@ -91,9 +148,9 @@ class FlatBore(NamedTuple):
         return f"flat, {2.0 * self.radius - self.depth:.6g} to the far side"
 
     @property
-    def diameter(self) -> float | None:
-        """Diameter of the circle."""
-        return 2.0 * self.radius
+    def end_diameter(self) -> float | None:
+        """None: the flat is milled up to the shaft's end."""
+        return None
 
     def shape(self, layer: str, direction: float) -> Shape:
         """Return the bore about the origin; its first piece is the flat."""
@@ -102,10 +159,9 @@ class FlatBore(NamedTuple):
         return closed(layer, [Line(second.end, first.start), first, second])
 
 
-class HexBore(NamedTuple):
+@dataclass(frozen=True)
+class HexBore(Bore):
     """A hexagonal bore; its radius is half of its width across flats."""
-
-    radius: float
 
     @property
     def reach(self) -> float:
@@ -113,14 +169,24 @@ class HexBore(NamedTuple):
         return self.radius / math.cos(math.pi / 6.0)
 
     @property
+    def around(self) -> float:
+        """Distance of a corner from the axis."""
+        return self.reach
+
+    @property
     def note(self) -> str:
         """Width across flats."""
         return f"hexagon {2.0 * self.radius:.6g} across flats"
 
     @property
-    def diameter(self) -> float | None:
-        """None: a hexagon has no diameter."""
-        return None
+    def is_round(self) -> bool:
+        """False."""
+        return False
+
+    @property
+    def end_diameter(self) -> float | None:
+        """Diameter that the lathe leaves within the hexagon, a twentieth below its flats."""
+        return 1.9 * self.radius
 
     def shape(self, layer: str, direction: float) -> Shape:
         """Return the bore about the origin; its first piece is the side in the direction."""
@@ -129,9 +195,6 @@ class HexBore(NamedTuple):
         ]
         after = [*corners[1:], corners[0]]
         return closed(layer, [Line(p, q) for p, q in zip(corners, after, strict=True)])
-
-
-Bore: TypeAlias = RoundBore | KeyedBore | FlatBore | HexBore
 
 
 def bore_of(size: Size, part: str, radius: float) -> Bore:
@@ -178,10 +241,35 @@ def _flat(depth: float | None, part: str, radius: float) -> FlatBore:
     return FlatBore(radius, depth)
 
 
+def fitted(size: Size, bore: Bore) -> Bore:
+    """Return the size of a shaft for a bore: its diameter is ``shaft_fit_mm`` smaller.
+
+    Raises GenevaError where nothing is left of the shaft.
+    """
+    radius = bore.radius - 0.5 * size.allowances.shaft_fit_mm
+    if not radius > 0.0:
+        raise GenevaError(
+            f"shaft_fit_mm = {size.allowances.shaft_fit_mm:g}: nothing is left of the shaft in a "
+            f"bore of {2.0 * bore.radius:g} mm",
+            ("size", "shaft_fit_mm"),
+        )
+    return replace(bore, radius=radius)
+
+
 def has_shape(size: Size, part: str) -> bool:
     """Return True if the bore of a part is not merely round."""
     values = vars(size)
     return values[f"{part}_keyway"] is not None or values[f"{part}_bore"] != "round"
+
+
+def rounded(section: Shape) -> Shape:
+    """Return the circle of a shaft's section, with the section's own arcs among its pieces."""
+    if isinstance(section, Circle):
+        return section
+    arcs = [piece for piece in section.segments if isinstance(piece, Arc)]
+    rest = math.tau - sum(arc.sweep for arc in arcs)
+    closing = Arc(arcs[-1].end, arcs[0].start, math.tan(0.25 * rest))
+    return section._replace(segments=(*arcs, closing))
 
 
 def radius_of(shape: Shape) -> float:
@@ -200,7 +288,14 @@ def radius_of(shape: Shape) -> float:
     return math.hypot(0.5 * (x + u), 0.5 * (y + v))
 
 
-def _turned(x: float, y: float, direction: float) -> tuple[float, float]:
+def around(section: Shape) -> float:
+    """Return the radius of the circle around a shaft's section."""
+    if isinstance(section, Circle):
+        return section.radius
+    return max(math.hypot(*piece.start) for piece in section.segments)
+
+
+def _turned(x: float, y: float, direction: float) -> Point:
     c, s = math.cos(direction), math.sin(direction)
     return x * c - y * s, x * s + y * c
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 
 from geneva_cli.curves.measure import S, mapped, turned
-from geneva_cli.curves.plates import Group, Member, Part, Plate
+from geneva_cli.curves.plates import Group, Member, Part, Plate, Stack
 from geneva_cli.curves.shapes import Circle, Point, Shape
 from geneva_cli.machine.mechanism import Mechanism
 
@@ -38,6 +38,8 @@ def shapes(members: Iterable[Member]) -> Iterator[Shape]:
     for one in members:
         if isinstance(one.part, Group):
             own: Iterable[Shape] = shapes(one.part.members)
+        elif isinstance(one.part, Stack):
+            own = [plate.outline for plate in one.part.plates]
         else:
             assert isinstance(one.part, Plate)
             own = (one.part.outline, *one.part.holes)

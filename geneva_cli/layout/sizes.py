@@ -141,6 +141,7 @@ def built(mechanism: Mechanism) -> Size:
         "slot_clearance_mm": size.allowances.slot_clearance_mm,
         "lock_clearance_mm": size.allowances.lock_clearance_mm,
         "press_fit_mm": size.allowances.press_fit_mm,
+        "shaft_fit_mm": size.allowances.shaft_fit_mm,
     }
     if flat := sized(mechanism):
         _, own = flat
@@ -340,9 +341,11 @@ def _refuse(assembly: Assembly, sizes: Sizes) -> None:
             f"{2.0 * sizes.lock:.6g}",
             ("size", "crank_bore_mm"),
         )
-    if sizes.pin >= sizes.roller:
+    loose = assembly.mechanism.spec.size.allowances.shaft_fit_mm
+    if sizes.pin and 2.0 * sizes.pin + loose >= 2.0 * sizes.roller:
         raise GenevaError(
-            f"pin_mm = {2.0 * sizes.pin:g}: it must be below the roller's {2.0 * sizes.roller:g}",
+            f"pin_mm = {2.0 * sizes.pin:g}: it must be below {2.0 * sizes.roller - loose:g}, the "
+            "roller's diameter less shaft_fit_mm",
             ("size", "pin_mm"),
         )
     if not outside and sizes.outer <= max(sizes.slot_end, assembly.L + sizes.recess):

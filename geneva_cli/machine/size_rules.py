@@ -78,6 +78,7 @@ def _bounds(spec: Spec, L: float, ratio: float) -> Iterator[tuple[str, float, fl
         ("crank_hub_mm", 2.0 * short, "twice the crank's arm"),
         ("pin_mm", 2.0 * r, "the roller's diameter"),
         ("press_fit_mm", 2.0 * r, "the roller's diameter"),
+        ("shaft_fit_mm", 2.0 * r, "the roller's diameter"),
         ("arm_bore_mm", 2.0 * short, "twice the crank's arm"),
         ("arm_hub_mm", 2.0 * L, "twice the centre distance"),
         ("arm_eye_mm", 2.0 * L, "twice the centre distance"),

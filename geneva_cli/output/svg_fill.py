@@ -9,7 +9,7 @@ import math
 from collections.abc import Callable, Iterator
 
 from geneva_cli.curves.measure import mapped, turned
-from geneva_cli.curves.plates import Group, Part, Plate
+from geneva_cli.curves.plates import Group, Part, Plate, Stack
 from geneva_cli.curves.shapes import Contour, Point, Shape, about
 from geneva_cli.output.inks import INKS, inks
 from geneva_cli.output.svg_paths import number, path
@@ -68,6 +68,9 @@ def _placed(part: Part, move: Move) -> Iterator[tuple[Plate, Move]]:
     """Each plate with the transformation of its outline to its place."""
     if isinstance(part, Plate):
         yield part, move
+        return
+    if isinstance(part, Stack):
+        yield from ((plate, move) for plate in part.plates)
         return
     assert isinstance(part, Group)
     for member in part.members:

@@ -50,6 +50,7 @@ def first_pair(mechanism: Mechanism, bars: Links | None = None) -> Mechanism:
         slot_clearance_mm=sizes.slot_clearance_mm,
         lock_clearance_mm=sizes.lock_clearance_mm,
         press_fit_mm=sizes.press_fit_mm,
+        shaft_fit_mm=sizes.shaft_fit_mm,
         pin_mm=sizes.pin_mm,
         wall_min_mm=wall_min(sizes, L),
         wheel_thickness_mm=thicknesses(sizes, L).link,

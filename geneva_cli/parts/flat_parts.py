@@ -119,7 +119,9 @@ class FlatParts:
         thick = thicknesses(size, mechanism.center_distance_mm)
         if low is None:
             low = -size.pin_gap_mm - (thick.arm if self.drawn and has_arm(self.drawn) else 0.0)
-        plates = roller_plates(r, pin_radius(size, r), low, thick.wheel)
+        plates = roller_plates(
+            r, pin_radius(size, r), low, thick.wheel, size.allowances.shaft_fit_mm
+        )
         centres = roller_centres(self.drawn.assembly) if self.drawn else self._on_links()
         return tuple(Member(plate, centre) for centre in centres for plate in plates)
 

@@ -1,8 +1,9 @@
 """The frame: one plate with a hole for every shaft that reaches it, and four mounting holes.
 
 It lies below all moving parts. A shaft that ends above it, such as an internal wheel's, has its
-bearing elsewhere. The wheel's axis is the origin, and the crank's is on the x axis. Holes have the
-size of their shafts: allowances for a bush or a bearing are up to the user.
+bearing elsewhere. The wheel's axis is the origin, and the crank's is on the x axis. Holes are as
+wide as the bores on their shafts. Turned shafts have a ball bearing in the frame, which is at least
+as thick.
 """
 
 from __future__ import annotations
@@ -11,9 +12,11 @@ from collections.abc import Iterator, Sequence
 from typing import NamedTuple
 
 from geneva_cli.curves.hull import convex_hull
-from geneva_cli.curves.plates import Member, Plate
+from geneva_cli.curves.plates import Member, Plate, Stack
 from geneva_cli.curves.shapes import Circle, Point
 from geneva_cli.errors import GenevaError
+from geneva_cli.layout.bearings import Bearing, bearing_up_to
+from geneva_cli.layout.bores import around
 from geneva_cli.layout.link_positions import same
 from geneva_cli.layout.sizes import even, thicknesses, wall_min
 from geneva_cli.machine.mechanism import Mechanism
@@ -59,8 +62,13 @@ def framed(
     if mechanism.spec.drive.gears:
         lows.append(gear_span(mechanism, outlines)[0])
     top = min([_lowest(mechanism, outlines, bars), *lows]) - size.washer_mm
-    bottom = top - thicknesses(size, L).arm
-    axles = list(_shafts(mechanism, outlines, bars, bottom, first))
+    thick = thicknesses(size, L).arm
+    if size.shafts == "turned":
+        _refuse_turned(mechanism, bars)
+        top -= L / 50.0  # the least length of a shoulder
+        thick = max([thick, *(bearing.width for bearing in _bearings(outlines))])
+    bottom = top - thick
+    axles = list(_shafts(mechanism, outlines, bars, (bottom, top), first))
     places = list(_standing(mechanism, bars))
     mounts = _mounted(base, L) if base else ()
     holes = [*_drilled(mechanism, axles, places, top), *_fixed(bars), *mounts]
@@ -84,25 +92,48 @@ def _shafts(
     mechanism: Mechanism,
     outlines: Outlines | None,
     bars: Links,
-    lowest: float,
+    frame: tuple[float, float],
     first: Sequence[Member],
 ) -> Iterator[Member]:
-    """Yield all shafts at their positions; ``lowest`` is the frame's lower face."""
+    """Yield all shafts at their positions; ``frame`` has the frame's lower and upper face."""
     stop, own = None, (False, False)
     if outlines:
         stop = crank_stop(outlines, bars)
         own = crank_shaft_radius(outlines) > 0.0, wheel_shaft_radius(outlines) > 0.0
-        yield from shafts(outlines, lowest, stop)
-    ends = Ends(lowest, stop, *own)
+        yield from shafts(outlines, frame, stop)
+    ends = Ends(frame[0], stop, *own)
     yield from link_shafts(mechanism, bars, ends, first)
     yield from gear_shafts(mechanism, outlines, ends)
+
+
+def _refuse_turned(mechanism: Mechanism, bars: Links) -> None:
+    """Raise GenevaError for turned shafts that would carry links or gears too."""
+    if bars.sizes or mechanism.spec.drive.gears:
+        raise GenevaError(
+            f'shafts = "turned": kind = "{mechanism.spec.drive.NAME}" has links or gears on its '
+            "shafts, which leave no space for a shoulder; remove it",
+            ("size", "shafts"),
+        )
+
+
+def _bearings(outlines: Outlines | None) -> Iterator[Bearing]:
+    """Yield the bearings of the turned shafts of wheel and crank."""
+    if outlines is None:
+        return
+    for part, radius in (
+        ("wheel", outlines.sizes.wheel_bore),
+        ("crank", crank_shaft_radius(outlines)),
+    ):
+        if radius:
+            yield bearing_up_to(2.0 * radius, part)
 
 
 def _drilled(
     mechanism: Mechanism, shafts_: Sequence[Member], places: Sequence[Point], top: float
 ) -> Iterator[Circle]:
-    """Yield the holes of the shafts that reach below the frame's upper face, as wide as these.
+    """Yield the holes of the shafts that reach below the frame's upper face.
 
+    They are as wide as bores for these shafts, or as the bearings on them.
     A wheel or a crank without a bore is one piece with its shaft, whose diameter is in [shaft].
     """
     L, shaft = mechanism.center_distance_mm, mechanism.spec.shaft
@@ -110,9 +141,12 @@ def _drilled(
     for at in places:
         here = [one.part for one in shafts_ if same(one.at, at, L)]
         for one in here:
-            assert isinstance(one, Plate) and isinstance(one.outline, Circle)
-            if one.low < top:
-                yield Circle(HOLES, at, one.outline.radius)
+            if isinstance(one, Stack):
+                seat = next(step for step in one.plates if step.high == top)
+                yield Circle(HOLES, at, 0.5 * bearing_up_to(2.0 * around(seat.outline), "").outside)
+            elif isinstance(one, Plate) and one.low < top:
+                wider = 0.5 * mechanism.spec.size.allowances.shaft_fit_mm
+                yield Circle(HOLES, at, around(one.outline) + wider)
         if not here:
             diameter = diameters[at[0]]
             yield Circle(HOLES, at, even(L / 20.0) if diameter is None else 0.5 * diameter)

@@ -23,7 +23,7 @@ from geneva_cli.numerics.arrays import array
 from geneva_cli.outlines.outlines import Outlines
 from geneva_cli.parts.link_shafts import Ends
 from geneva_cli.parts.link_sizes import link_sizes
-from geneva_cli.parts.shafts import shaft, shaft_ends
+from geneva_cli.parts.shafts import round_section, shaft, shaft_ends
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -102,13 +102,13 @@ def gear_shafts(mechanism: Mechanism, parts: Outlines | None, ends: Ends) -> Ite
     """
     if mechanism.spec.drive.gears is None:
         return
-    (on_crank, wide), (at, radius) = _shafts(mechanism, parts)
+    size, ((on_crank, wide), (at, radius)) = mechanism.spec.size, _shafts(mechanism, parts)
     low, high = gear_span(mechanism, parts)
     if not ends.crank_has_one:
-        reach = shaft_ends(mechanism.spec.size, "crank", ends.lowest, high)
-        yield Member(shaft("crank", wide, reach), on_crank)
+        reach = shaft_ends(size, "crank", ends.lowest, high)
+        yield Member(shaft("crank", round_section(size, wide), reach), on_crank)
     top = high if _driver_bore(mechanism, parts) else low
-    yield Member(shaft("driver gear", radius, (ends.lowest, top)), at)
+    yield Member(shaft("driver gear", round_section(size, radius), (ends.lowest, top)), at)
 
 
 def _shafts(mechanism: Mechanism, parts: Outlines | None) -> list[tuple[Point, float]]:

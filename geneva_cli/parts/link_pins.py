@@ -54,21 +54,25 @@ def pins(links: Iterable[Link], sizes: LinkSizes, near: float) -> Iterator[Membe
         where = z.real, z.imag
         spans = [sizes.span(plane) for plane in one.planes]
         origin = (0.0, 0.0)
-        pin = Circle(LAYER, origin, sizes.pin)
+        hole = Circle(LAYER, origin, sizes.pin)
+        pin = hole._replace(radius=sizes.pin - 0.5 * sizes.shaft_fit)
         name = " and ".join(one.names)
         yield Member(Plate(f"pin of {name}", LAYER, pin, (), spans[-1][0], spans[0][1]), where)
         for (high, _), (_, low) in zip(spans, spans[1:], strict=False):
             if high > low:
                 ring = Circle(LAYER, origin, sizes.ring)
                 what = "washer" if high - low <= sizes.washer else "spacer"
-                yield Member(Plate(f"{what} of {name}", LAYER, ring, (pin,), low, high), where)
+                yield Member(Plate(f"{what} of {name}", LAYER, ring, (hole,), low, high), where)
 
 
-def rollers(links: Iterable[Link], sizes: LinkSizes, roller: float, pin: float) -> Iterator[Member]:
+def rollers(
+    links: Iterable[Link], sizes: LinkSizes, roller: float, pin_radius: float
+) -> Iterator[Member]:
     """Yield rollers below the wheel's plane: a first wheel's, with its pin, and a groove's."""
-    if not pin:
+    if not pin_radius:
         return
-    hole, whole = (Circle(ROLLER, (0.0, 0.0), radius) for radius in (pin, roller))
+    bored = pin_radius + 0.5 * sizes.shaft_fit
+    pin, hole, whole = (Circle(ROLLER, (0.0, 0.0), r) for r in (pin_radius, bored, roller))
     for link in links:
         for at, kind in zip(places(link), link.kinds, strict=True):
             z = complex(at[len(at) // 2])
@@ -79,7 +83,7 @@ def rollers(links: Iterable[Link], sizes: LinkSizes, roller: float, pin: float) 
                 yield Member(
                     Plate(f"{link.name}'s roller", ROLLER, whole, (hole,), low, high), where
                 )
-                yield Member(Plate(f"{link.name}'s pin", ROLLER, hole, (), below, high), where)
+                yield Member(Plate(f"{link.name}'s pin", ROLLER, pin, (), below, high), where)
             if kind is Joint.CARRIED:
                 low, high = sizes.span(link.plane + 1)
                 yield Member(

@@ -19,7 +19,7 @@ from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.numerics.tolerances import SAME_LENGTH
 from geneva_cli.parts.link_axes import LinkAxis
 from geneva_cli.parts.links import Links, placed_holes
-from geneva_cli.parts.shafts import shaft, shaft_ends
+from geneva_cli.parts.shafts import round_section, shaft, shaft_ends
 
 
 class Ends(NamedTuple):
@@ -53,9 +53,9 @@ def link_shafts(
             low = ends.stop if on_crank and ends.stop is not None else ends.lowest
             high = thicknesses(size, L).wheel if on_wheel else high
             low, high = shaft_ends(size, whose, low, high)
-            yield Member(shaft(whose, axis.radius, (low, high), what), axis.at)
+            yield Member(shaft(whose, round_section(size, axis.radius), (low, high), what), axis.at)
         elif len(axis.names) > 1 and Joint.PIN not in axis.kinds:  # ``link_pins`` has the pins
-            plate = shaft(axis.names[0], axis.radius, (low, high))
+            plate = shaft(axis.names[0], round_section(size, axis.radius), (low, high))
             yield Member(plate._replace(name=f"shaft of {', '.join(axis.names)}"), axis.at)
 
 
@@ -78,7 +78,9 @@ def _heights(
 def outside_links(shafts: Iterable[Member], bars: Links, L: float) -> Iterator[Member]:
     """Yield the shafts without the lengths that lie in links of one piece with them."""
     for member in shafts:
-        assert isinstance(member.part, Plate)
+        if not isinstance(member.part, Plate):  # a turned one, in a machine without links
+            yield member
+            continue
         spans = [(member.part.low, member.part.high)]
         for plate in bars.one_piece(member.at, L):
             below = [(low, min(high, plate.low)) for low, high in spans]

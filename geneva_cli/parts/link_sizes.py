@@ -19,6 +19,7 @@ from geneva_cli.layout.sizes import even, pin_radius, thicknesses, wall_min
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.outlines.outlines import Outlines
 from geneva_cli.parts.arm import has_arm, shaft_bore
+from geneva_cli.spec.tables import Size
 
 if TYPE_CHECKING:
     from geneva_cli.numerics.jet import Array
@@ -40,6 +41,7 @@ class LinkSizes(NamedTuple):
     arm: float  # thickness of arm or link in the first plane
     gap: float  # from the wheel to the first plane
     washer: float
+    shaft_fit: float  # diameter of a hole minus that of the pin in it
 
     @property
     def ring(self) -> float:
@@ -97,6 +99,12 @@ def link_sizes(
             f"link_width_mm = {2.0 * eye:g}: it must be above {2.0 * pin:.6g}, the pins' diameter",
             ("size", "link_width_mm"),
         )
+    if pin <= 0.5 * size.allowances.shaft_fit_mm:
+        raise GenevaError(
+            f"shaft_fit_mm = {size.allowances.shaft_fit_mm:g}: it leaves no pin in the links' "
+            f"holes of {2.0 * pin:.6g} mm",
+            ("size", "shaft_fit_mm"),
+        )
     limit = _eye_limit(mechanism, links)
     arm = thick.arm if spec.drive.ONE_ARM else thick.link
     return LinkSizes(
@@ -111,11 +119,16 @@ def link_sizes(
         arm=arm,
         gap=size.pin_gap_mm,
         washer=size.washer_mm,
+        shaft_fit=size.allowances.shaft_fit_mm,
     )
 
 
 def _crank_shaft(mechanism: Mechanism, parts: Outlines | None) -> float | None:
-    """Return the radius of the crank's shaft: of arm, locking disc or spec; None for none."""
+    """Return the radius of the crank's shaft: of arm, locking disc or spec; None for none.
+
+    Raises GenevaError for a hexagonal one.
+    """
+    refuse_hexagon(mechanism.spec.size, "crank")
     if parts and has_arm(parts):
         return shaft_bore(parts)
     if parts and parts.sizes.crank_bore:
@@ -151,3 +164,13 @@ def _eye_limit(mechanism: Mechanism, links: Iterable[Link]) -> float:
     w = mechanism.roller_radius_mm * 1.05 + size.allowances.slot_clearance_mm
     hub = 0.75 * (min(near) - w) if size.wheel_hub_mm is None else 0.5 * size.wheel_hub_mm
     return min(near) - hub
+
+
+def refuse_hexagon(size: Size, part: str) -> None:
+    """Raise GenevaError for a hexagonal shaft with links or gears, whose bores are round."""
+    if vars(size)[f"{part}_bore"] == "hex":
+        raise GenevaError(
+            f'{part}_bore = "hex": links or gears on the {part}\'s shaft have round bores; use '
+            '"round" or "D"',
+            ("size", f"{part}_bore"),
+        )

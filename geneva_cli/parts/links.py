@@ -28,7 +28,7 @@ from geneva_cli.outlines.outlines import Outlines
 from geneva_cli.parts.gear_blanks import Gear, link_gear
 from geneva_cli.parts.link_axes import LinkAxis, axes
 from geneva_cli.parts.link_pins import pins, rollers
-from geneva_cli.parts.link_sizes import SLOT_MARGIN, LinkSizes, link_sizes, places
+from geneva_cli.parts.link_sizes import SLOT_MARGIN, LinkSizes, link_sizes, places, refuse_hexagon
 
 LAYER, HOLES, SHAFT = "LINK", "BORE", Joint.SHAFT
 
@@ -120,10 +120,16 @@ def drawn_links(mechanism: Mechanism, parts: Outlines | None = None) -> Links:
 
 
 def _known(axis: LinkAxis, sizes: LinkSizes, parts: Outlines | None, L: float) -> float:
-    """Return the radius of the shaft of wheel or crank, from their own bores; 0 for another."""
+    """Return the radius of the shaft of wheel or crank, from their own bores; 0 for another.
+
+    Raises GenevaError for a hexagonal one.
+    """
     if same(axis.at, (L, 0.0), L):
         return sizes.crank_shaft or 0.0
-    return parts.sizes.wheel_bore if parts and same(axis.at, (0.0, 0.0), L) else 0.0
+    if parts is None or not same(axis.at, (0.0, 0.0), L):
+        return 0.0
+    refuse_hexagon(parts.assembly.mechanism.spec.size, "wheel")
+    return parts.sizes.wheel_bore
 
 
 def _with_shaft(

@@ -59,14 +59,19 @@ def locking_plates(parts: Outlines) -> list[Plate]:
     ]
 
 
-def roller_plates(radius: float, pin_radius: float, low: float, high: float) -> list[Plate]:
-    """Return a roller in the wheel's plane, up to ``high``, and its pin from ``low`` to there."""
+def roller_plates(
+    radius: float, pin_radius: float, low: float, high: float, fit: float
+) -> list[Plate]:
+    """Return a roller in the wheel's plane, up to ``high``, and its pin from ``low`` to there.
+
+    The roller's bore is wider than the pin by ``fit`` mm of the diameter.
+    """
     layer, at = "ROLLER", (0.0, 0.0)
     outline = Circle(layer, at, radius)
     if not pin_radius:
         return [Plate("roller", layer, outline, (), 0.0, high)]
     pin = Circle(layer, at, pin_radius)
     return [
-        Plate("roller", layer, outline, (pin,), 0.0, high),
+        Plate("roller", layer, outline, (Circle(layer, at, pin_radius + 0.5 * fit),), 0.0, high),
         Plate("pin", layer, pin, (), low, high),
     ]

@@ -1,9 +1,10 @@
 """The crank's hub, and the shafts of wheel and crank with their ends along the axis.
 
 The crank's hub stands on the locking disc, or on the arm if there is no disc. It is drawn if the
-spec has one of its sizes; otherwise only its space is kept free. Shafts are as wide as the bores
-that they are in. They end in the frame's lower face, and above with the part that they carry. A
-wheel with ``wheel_hub_mm = 0`` has its shaft only above it, unless that carries a gear below.
+spec has one of its sizes; otherwise only its space is kept free. Shafts have the shape of the bores
+that they are in, less ``shaft_fit_mm``. They end in the frame's lower face, and above with the part
+that they carry; ``turned_shafts`` has those with steps. A wheel with ``wheel_hub_mm = 0`` has its
+shaft only above it, unless that carries a gear below.
 """
 
 from __future__ import annotations
@@ -13,15 +14,18 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from geneva_cli.curves.plates import Member, Plate
-from geneva_cli.curves.shapes import Circle
+from geneva_cli.curves.plates import Member, Plate, Stack
+from geneva_cli.curves.shapes import Circle, Shape
 from geneva_cli.errors import GenevaError
+from geneva_cli.layout.bores import RoundBore, bore_of, fitted
 from geneva_cli.layout.link_positions import links_at
+from geneva_cli.layout.reliefs import keyway_direction
 from geneva_cli.numerics.tolerances import SAME_LENGTH
 from geneva_cli.outlines.crank import crank_circles, is_whole
 from geneva_cli.outlines.outlines import Outlines
-from geneva_cli.outlines.wheel_hub import AXIS, HUB, about_axis
+from geneva_cli.outlines.wheel_hub import AXIS, HUB, about_axis, wheel_hub
 from geneva_cli.parts.arm import has_arm, shaft_bore
+from geneva_cli.parts.turned_shafts import Seat, turned_shaft
 from geneva_cli.spec.tables import Size
 
 SHAFT = "SHAFT"
@@ -55,24 +59,63 @@ def crank_hub(parts: Outlines) -> Plate | None:
     return Plate("crank's hub", HUB, Circle(HUB, AXIS, sizes.crank_hub), bores, low, high)
 
 
-def shafts(parts: Outlines, lowest: float, stop: float | None = None) -> Iterator[Member]:
+def shafts(
+    parts: Outlines, frame: tuple[float, float], stop: float | None = None
+) -> Iterator[Member]:
     """Yield the shafts of wheel and crank at their positions.
 
-    ``lowest`` is the frame's lower face. The crank's shaft ends at ``stop`` if links block it
-    (``turn.planes``). Raises GenevaError where a shaft's lower end is not below its upper one.
+    ``frame`` has the frame's lower and upper face. The crank's shaft ends at ``stop`` if links
+    block it (``turn.planes``). Raises GenevaError where a shaft's lower end is not below its upper
+    one.
     """
-    radius = wheel_shaft_radius(parts)
-    if radius:
-        yield Member(shaft("wheel", radius, wheel_shaft_ends(parts, lowest)))
+    assembly, still = parts.assembly, np.zeros(1)
+    size, lowest = assembly.mechanism.spec.size, frame[0]
+    if parts.sizes.wheel_bore:
+        bore = bore_of(size, "wheel", parts.sizes.wheel_bore)
+        ends = wheel_shaft_ends(parts, lowest)
+        one = Seat("wheel", bore, assembly.rests[0], *_on_wheel(parts), False, frame[1])
+        turn = float(assembly.wheel(still)[0])
+        yield Member(_shaft(size, one, ends, lowest), turn=0.0 if bore.is_plain else turn)
     radius = crank_shaft_radius(parts)
     if radius:
+        bore = bore_of(size, "crank", radius)
         ends = crank_shaft_ends(parts, lowest if stop is None else stop)
-        yield Member(shaft("crank", radius, ends), (parts.assembly.L, 0.0))
+        at = _on_crank(parts)
+        through = parts.sizes.crank_bore > 0.0
+        one = Seat("crank", bore, keyway_direction(assembly), *at, not through, frame[1])
+        turn = float(assembly.crank(still)[0])
+        plate = _shaft(size, one, ends, lowest)
+        yield Member(plate, (assembly.L, 0.0), 0.0 if bore.is_plain else turn)
+
+
+def _shaft(size: Size, seat: Seat, ends: tuple[float, float], lowest: float) -> Plate | Stack:
+    """Return a shaft of wheel or crank; one that ends above the frame is always plain."""
+    if size.shafts == "turned" and ends[0] <= lowest:
+        return turned_shaft(size, seat, SHAFT)
+    return shaft(seat.part, fitted(size, seat.bore).section(SHAFT, seat.direction), ends)
+
+
+def _on_wheel(parts: Outlines) -> tuple[float, float]:
+    """Return the lower and upper face of the wheel with its hub, along the axis."""
+    hub = wheel_hub(parts.assembly, parts.sizes)
+    return hub.low if hub else 0.0, parts.sizes.wheel_thickness
+
+
+def _on_crank(parts: Outlines) -> tuple[float, float]:
+    """Return the lower and upper end of what the crank's shaft carries, along the axis."""
+    size, sizes = parts.assembly.mechanism.spec.size, parts.sizes
+    on_arm = 0.0 - size.pin_gap_mm  # no -0.0
+    high = on_arm
+    if sizes.crank_bore:
+        hub = crank_hub(parts)
+        high = hub.high if hub else on_arm + sizes.lock_thickness
+    return on_arm - (sizes.arm_thickness if has_arm(parts) else 0.0), high
 
 
 def wheel_shaft_radius(parts: Outlines) -> float:
-    """Return the radius of the wheel's shaft, which is that of its bore; 0 without one."""
-    return parts.sizes.wheel_bore
+    """Return the radius around the wheel's shaft; 0 without one."""
+    bore = parts.sizes.wheel_bore
+    return bore_of(parts.assembly.mechanism.spec.size, "wheel", bore).around if bore else 0.0
 
 
 def wheel_shaft_ends(parts: Outlines, lowest: float) -> tuple[float, float]:
@@ -99,12 +142,7 @@ def crank_shaft_radius(parts: Outlines) -> float:
 
 def crank_shaft_ends(parts: Outlines, lowest: float) -> tuple[float, float]:
     """Return the ends of the crank's shaft: upper end in the arm, or in a bored locking disc."""
-    size, sizes = parts.assembly.mechanism.spec.size, parts.sizes
-    high = 0.0 - size.pin_gap_mm
-    if sizes.crank_bore:
-        hub = crank_hub(parts)
-        high = hub.high if hub else high + sizes.lock_thickness
-    return shaft_ends(size, "crank", lowest, high)
+    return shaft_ends(parts.assembly.mechanism.spec.size, "crank", lowest, _on_crank(parts)[1])
 
 
 def shaft_ends(size: Size, part: str, low: float, high: float) -> tuple[float, float]:
@@ -114,7 +152,15 @@ def shaft_ends(size: Size, part: str, low: float, high: float) -> tuple[float, f
     return low if ends[0] is None else ends[0], high if ends[1] is None else ends[1]
 
 
-def shaft(part: str, radius: float, ends: tuple[float, float], what: str = "shaft") -> Plate:
+def round_section(size: Size, radius: float) -> Shape:
+    """Return the section of a round shaft for bores of a radius.
+
+    Raises GenevaError where ``shaft_fit_mm`` leaves nothing of it.
+    """
+    return fitted(size, RoundBore(radius)).section(SHAFT, 0.0)
+
+
+def shaft(part: str, section: Shape, ends: tuple[float, float], what: str = "shaft") -> Plate:
     """Return the shaft of a part about the origin; ``what`` is the last word of its name.
 
     Raises GenevaError, naming the key, where its lower end is not below its upper one.
@@ -127,4 +173,4 @@ def shaft(part: str, radius: float, ends: tuple[float, float], what: str = "shaf
             f"{part}_shaft_high_mm",
             ("size", f"{part}_shaft_low_mm"),
         )
-    return Plate(f"{part}'s {what}", SHAFT, Circle(SHAFT, AXIS, radius), (), low, high)
+    return Plate(f"{part}'s {what}", SHAFT, section, (), low, high)

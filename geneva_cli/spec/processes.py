@@ -18,34 +18,39 @@ class Allowances(NamedTuple):
     slot_clearance_mm: float = 0.0  # per side
     lock_clearance_mm: float = 0.0  # per side
     press_fit_mm: float = 0.0  # difference of diameters, pin minus hole
+    shaft_fit_mm: float = 0.0  # difference of diameters, bore minus shaft or pin in it
     source: str | None = None
 
 
 PROCESSES = {
     # Both parts are off by the standard's deviation, the slot narrow and the roller wide. That is
     # half of 0.2 + 0.2 mm per side, and for the locking disc half of 0.25 + 0.25. A hole wider by
-    # 0.15 mm still holds its pin.
+    # 0.15 mm still holds its pin. A turned shaft enters a bore that is 0.2 mm too narrow.
     "laser": Allowances(
         0.2,
         0.25,
         0.15,
+        0.2,
         "ISO 9013:2017, class 1, plates up to 3.15 mm: ±0.2 mm for 10 to 35 mm, ±0.25 for 35 to "
         "125, holes of 3 to 10 ±0.15",
     ),
     # H8/f7 leaves 16 to 61 um at 10 to 18 mm and 30 to 106 um at 50 to 80 mm: half of the middle
-    # per side. H7/p6 is 0 to 24 um tight at 6 to 10 mm.
+    # per side. H7/p6 is 0 to 24 um tight at 6 to 10 mm. H7/g6 leaves 6 to 35 um at 10 to 18 mm.
     "mill": Allowances(
         0.02,
         0.035,
         0.012,
-        "ISO 286: the middle of running fit H8/f7, roller 10 to 18 mm, disc 50 to 80, and of press "
-        "fit H7/p6, pin 6 to 10",
+        0.02,
+        "ISO 286: the middle of running fit H8/f7, roller 10 to 18 mm, disc 50 to 80, of press "
+        "fit H7/p6, pin 6 to 10, and of H7/g6, shaft 10 to 18",
     ),
-    # A hole is printed slightly too narrow, and holds its pin without a press fit.
+    # A hole is printed slightly too narrow, and holds its pin without a press fit. A printed shaft
+    # and its bore may both be off by 0.2 mm.
     "print": Allowances(
         0.25,
         0.25,
         0.0,
+        0.4,
         "design guides for fused filament, ±0.2 mm: 0.2 to 0.3 mm a side where parts slide "
         "(printparams.com/docs/real-world-fit)",
     ),

@@ -109,6 +109,14 @@ class Size(SpecTable):
         NOT_NEGATIVE,
         "diameter of the pin minus that of its hole in the crank arm; default 0, or by process",
     ] = None
+    shaft_fit_mm: Annotated[
+        float | None,
+        NOT_NEGATIVE,
+        "diameter of bores minus that of their shafts and pins; default 0, or by process",
+    ] = None
+    shafts: Annotated[
+        str, OneOf(("plain", "turned")), "turned: with bearing seat, shoulder and circlip grooves"
+    ] = "plain"
     arm_bore_mm: Annotated[
         float | None, POSITIVE, "diameter of the crank arm's bore; default crank_bore_mm"
     ] = None

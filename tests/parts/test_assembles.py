@@ -16,7 +16,7 @@ from shapely.geometry import Point, Polygon
 
 from geneva_cli import load
 from geneva_cli.curves.measure import at as along
-from geneva_cli.curves.plates import Group
+from geneva_cli.curves.plates import Group, Stack
 from geneva_cli.curves.shapes import Arc, Circle, Line
 from geneva_cli.errors import GenevaError
 from geneva_cli.kinematics import registry
@@ -43,6 +43,7 @@ SIZES = {
     "size.roller_radius_mm": (0.03, 0.07),
     "size.washer_mm": (0.0, 0.01),
     "size.pin_gap_mm": (0.0, 0.02),
+    "size.shaft_fit_mm": (0.0, 0.004),
 }
 OWN = {
     "side-crank": {"drive.A": (-0.95, 0.95), "wheel.z": (4, 12)},
@@ -108,6 +109,7 @@ class Solid:
             if isinstance(hole, Circle) and hole.layer == "BORE"
         ]
         self.radius = plate.outline.radius if isinstance(plate.outline, Circle) else None
+        self.shape = plate.outline
         outside, holes = polygon(plate.outline), [polygon(hole) for hole in plate.holes]
         self.torn = any(not outside.contains(hole) for hole in holes) or any(
             one.intersects(other) for one, other in combinations(holes, 2)
@@ -126,6 +128,9 @@ def flat(part, at, turn, body):
         for one in part.members:
             there = at + cmath.rect(1.0, turn) * complex(*one.at)
             yield from flat(one.part, there, turn + one.turn, body)
+    elif isinstance(part, Stack):
+        for plate in part.plates:
+            yield Solid(plate._replace(name=part.name), at, turn, body)
     else:
         yield Solid(part, at, turn, body)
 
@@ -141,12 +146,13 @@ def solids(parts):
         yield from flat(member.part, complex(*member.at), member.turn, body)
 
 
-def misfits(every, L):
-    """Shafts and the bores about them that are not as wide."""
-    for shaft in (one for one in every if one.layer == "SHAFT"):
+def misfits(every, L, fit):
+    """Round shafts and the bores about them that are not wider by the fit."""
+    for shaft in (one for one in every if one.layer == "SHAFT" and one.radius):
         for one in (one for one in every if one.shares_height(shaft)):
             for at, radius in one.bores:
-                if abs(at - shaft.at) < NEAR and abs(radius - shaft.radius) > 1e-9 * L:
+                loose = 2.0 * (radius - shaft.radius)
+                if abs(at - shaft.at) < NEAR and abs(loose - fit) > 1e-9 * L:
                     yield shaft.name, one.name, radius, shaft.radius
 
 
@@ -269,7 +275,8 @@ def test_the_machine_assembles(kind, tmp_path):
             continue
         whole += 1
         every, L = list(solids(parts)), design.mechanism.center_distance_mm
-        assert not list(misfits(every, L)), given
+        fit = design.spec.size.allowances.shaft_fit_mm
+        assert not list(misfits(every, L, fit)), given
         assert not list(loose(every, turning(design, parts))), given
         met = [one.name for one in every if one.torn]
         met += overlaps(design, every)

@@ -36,6 +36,9 @@ def test_fits_of_a_mill_are_the_middle_of_the_standards() -> None:
     it6, it7, _, _ = iso_286(6.0, 10.0)
     least = it7 - 0.5 * it7 + 0.5 * it6  # p at its least
     assert least - 0.5 <= 1e3 * mill.press_fit_mm <= least + 5.0
+    it6, it7, _, _ = iso_286(10.0, 18.0)
+    g = 2.5 * (math.sqrt(10.0 * 18.0)) ** 0.34  # the standard's formula for a shaft g
+    assert 1e3 * mill.shaft_fit_mm == pytest.approx(g + 0.5 * (it6 + it7), abs=2.5)
 
 
 @pytest.mark.parametrize("process", PROCESSES)
@@ -43,7 +46,7 @@ def test_a_process_is_its_keys(process: str) -> None:
     keys = PROCESSES[process]._asdict()
     source = keys.pop("source")
     named, spelled = Design(External(6), size=Size(process=process)), Size(**keys)
-    assert named.spec.size.allowances[:3] == spelled.allowances[:3]
+    assert named.spec.size.allowances[:4] == spelled.allowances[:4]
     where = assembly(named.mechanism)
     assert sizes(where) == sizes(assembly(Design(External(6), size=spelled).mechanism))
     page = report_sizes(named.proof) | inputs(named.proof)
@@ -54,7 +57,7 @@ def test_a_process_is_its_keys(process: str) -> None:
 def test_a_key_that_is_given_wins() -> None:
     size = Size(process="print", slot_clearance_mm=0.0)
     assert size.allowances[:3] == (0.0, 0.25, 0.0)
-    assert Size().allowances == (0.0, 0.0, 0.0, None)
+    assert Size().allowances == (0.0, 0.0, 0.0, 0.0, None)
 
 
 def test_a_clearance_that_leaves_no_machine_says_whose_it_is() -> None:

@@ -29,6 +29,7 @@ HUGE = [
     "crank_hub_mm",
     "pin_mm",
     "press_fit_mm",
+    "shaft_fit_mm",
     "arm_bore_mm",
     "arm_hub_mm",
     "arm_eye_mm",

@@ -48,6 +48,7 @@ WORDED = {
     "wheel_keyway": ("DIN 6885-1",),
     "crank_bore": ("round", "D", "hex"),
     "wheel_bore": ("round", "D", "hex"),
+    "shafts": ("plain", "turned"),
 }
 TAKEN = ("center_distance_mm", "roller_radius_mm", "face_width_mm")  # keys of [size] set apart
 
@@ -90,6 +91,7 @@ def usual(rng, key, z, L, r, outside):
         "crank_shaft_high_mm": 0.2 * L,
         "pin_mm": r,
         "press_fit_mm": 0.01 * r,
+        "shaft_fit_mm": 0.02 * r,
         "arm_bore_mm": 0.2 * R,
         "arm_hub_mm": 0.4 * R,
         "arm_eye_mm": 2.0 * r,

@@ -36,7 +36,7 @@ def bored(view: View, bores: Sequence[Shape], size: Size, part: str) -> None:
     """Draw the diameter of a part's bore, and what else its shape needs."""
     for shape in bores[:1]:
         form = bore_of(size, part, radius_of(shape))
-        if form.diameter:
+        if form.is_round:
             view.diameter([Circle("", (0.0, 0.0), form.radius)], sized.bore(form.radius))
         if isinstance(shape, Contour):
             view.note(at(shape.segments[0], 0.5), form.note)

@@ -133,13 +133,14 @@ def draw_roller(view: View, mechanism: Mechanism) -> None:
     """Draw a roller about its pin."""
     roller, axis = mechanism.roller_radius_mm, (0.0, 0.0)
     pin = pin_radius(mechanism.spec.size, roller)
-    circles = [Circle("", axis, roller)] + ([Circle("", axis, pin)] if pin else [])
+    loose = 0.5 * mechanism.spec.size.allowances.shaft_fit_mm
+    circles = [Circle("", axis, roller)] + ([Circle("", axis, pin + loose)] if pin else [])
     for c in circles:
         view.draw(c, OUTLINE)
     view.cross(axis, roller)
     view.diameter(circles[:1], sized.roller(mechanism, roller))
     if pin:
-        view.diameter(circles[1:], sized.roller_bore(pin))
+        view.diameter(circles[1:], sized.bore(pin + loose) if loose else sized.roller_bore(pin))
         view.remark(f"turns on its pin {sized.pin(pin)}, which is pressed in")
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from typing import TypeAlias
 
-from geneva_cli.curves.plates import Group, Member, Plate
+from geneva_cli.curves.plates import Group, Member, Plate, Shell
 from geneva_cli.drawings.sheet.crank import draw_roller
 from geneva_cli.drawings.sheet.gears import draw_gear, draw_gears
 from geneva_cli.drawings.sheet.links import draw_link
@@ -64,9 +64,10 @@ def rolling(begin: Begin, mechanism: Mechanism) -> Iterator[View]:
 
 def shafted(begin: Begin, shafts: Iterable[Member]) -> Iterator[View]:
     """Yield a view of each shaft."""
-    for plate in flat_plates(shafts):
-        view = begin(plate.name, thick=False)
-        draw_shaft(view, plate)
+    for member in shafts:
+        assert not isinstance(member.part, Group | Shell)
+        view = begin(member.part.name, thick=False)
+        draw_shaft(view, member.part)
         yield view
 
 

@@ -5,12 +5,13 @@ from __future__ import annotations
 import math
 
 from geneva_cli.curves.measure import bounds
-from geneva_cli.curves.plates import Plate
+from geneva_cli.curves.plates import Plate, Stack
 from geneva_cli.curves.shapes import Arc, Circle, Contour, Line, Shape, closed
 from geneva_cli.curves.sheet import CENTRE, OUTLINE
 from geneva_cli.drawings.sheet import sized
 from geneva_cli.drawings.sheet.bores import bolted, circle_of
 from geneva_cli.drawings.sheet.view import View, number, times
+from geneva_cli.layout.bores import around
 
 
 def draw_frame(view: View, plate: Plate) -> None:
@@ -75,13 +76,20 @@ def draw_hub(view: View, hub: Plate) -> None:
     view.diameter([hub.outline], f"{hub.name} {sized.plain(2.0 * hub.outline.radius, 'Ø ')}")
 
 
-def draw_shaft(view: View, shaft: Plate) -> None:
-    """Draw a shaft from the side."""
-    assert isinstance(shaft.outline, Circle)
-    long, radius = shaft.thickness, shaft.outline.radius
-    corners = [(0.0, -radius), (long, -radius), (long, radius), (0.0, radius)]
-    sides = [Line(p, q) for p, q in zip(corners, [*corners[1:], corners[0]], strict=True)]
-    view.draw(closed("", sides), OUTLINE)
+def draw_shaft(view: View, shaft: Plate | Stack) -> None:
+    """Draw a shaft from the side, with the size and length of each step."""
+    steps = [shaft] if isinstance(shaft, Plate) else list(shaft.plates)
+    long, first = shaft.thickness, around(steps[0].outline)
+    for step in steps:
+        low, high, radius = step.low - shaft.low, step.high - shaft.low, around(step.outline)
+        corners = [(low, -radius), (high, -radius), (high, radius), (low, radius)]
+        sides = [Line(p, q) for p, q in zip(corners, [*corners[1:], corners[0]], strict=True)]
+        view.draw(closed("", sides), OUTLINE)
     view.centre_line((0.0, 0.0), (long, 0.0))
-    view.linear((0.0, -radius), (long, -radius), 0.0, number(long))
-    view.linear((0.0, -radius), (0.0, radius), 0.5 * math.pi, sized.shaft(radius))
+    view.linear((0.0, -first), (long, -first), 0.0, number(long))
+    if isinstance(shaft, Plate):
+        view.linear((0.0, -first), (0.0, first), 0.5 * math.pi, sized.shaft(first))
+        return
+    for step in steps:
+        radius, size = around(step.outline), f"{number(step.thickness)} long"
+        view.remark(f"{sized.plain(2.0 * radius, 'Ø ')}, {size}: {step.name}")

@@ -10,10 +10,11 @@ from collections.abc import Callable, Iterator
 from typing import TypeAlias
 
 from geneva_cli.curves.plates import Plate, plates
-from geneva_cli.curves.shapes import Arc, Circle, Contour, Line, Point, about, closed
+from geneva_cli.curves.shapes import Arc, Contour, Line, Point, about, closed
 from geneva_cli.curves.sheet import CENTRE, HIDDEN, OUTLINE, polar
 from geneva_cli.drawings.sheet import sized
 from geneva_cli.drawings.sheet.view import View, number
+from geneva_cli.layout.bores import around, radius_of
 from geneva_cli.layout.sphere_sizes import Ball
 from geneva_cli.parts.sphere.arm import CapArm
 from geneva_cli.parts.sphere.sphere_parts import ROLLER, SphereParts
@@ -126,20 +127,13 @@ def _plates(parts: SphereParts) -> Iterator[tuple[Plate, float]]:
 
 def _along(plate: Plate, angle: float) -> Iterator[Contour]:
     """Yield a round plate cut along its axis: both sides of its bore, if it has one."""
-    assert isinstance(plate.outline, Circle)
-    wide = plate.outline.radius
-    bore = math.hypot(*_edge(plate)) if plate.holes else 0.0
+    wide = around(plate.outline)
+    bore = radius_of(plate.holes[0]) if plate.holes else 0.0
     for low, high in ((bore, wide), (-wide, -bore)) if bore else ((-wide, wide),):
         corners = [(low, plate.low), (high, plate.low), (high, plate.high), (low, plate.high)]
         c, s = math.cos(angle), math.sin(angle)
         at = [(c * x + s * y, c * y - s * x) for x, y in corners]
         yield closed("", [Line(p, q) for p, q in zip(at, [*at[1:], at[0]], strict=True)])
-
-
-def _edge(plate: Plate) -> Point:
-    """Return a point on a bore's circle."""
-    (hole,) = plate.holes
-    return (hole.radius, 0.0) if isinstance(hole, Circle) else hole.segments[0].start
 
 
 def _far(parts: SphereParts) -> float:

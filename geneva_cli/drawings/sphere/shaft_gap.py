@@ -14,8 +14,8 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from geneva_cli.curves.plates import Plate, plates
-from geneva_cli.curves.shapes import Circle
 from geneva_cli.drawings.shaft_gap import ShaftGap, ring_gap
+from geneva_cli.layout.bores import around
 from geneva_cli.layout.sphere_sizes import Ball
 from geneva_cli.numerics.tolerances import SAME_LENGTH
 from geneva_cli.parts.sphere.sphere_parts import ROLLER, SphereParts
@@ -82,8 +82,7 @@ def shaft_gap(parts: SphereParts) -> ShaftGap | None:
 
 def _round(plate: Plate) -> Iterator[Sweep]:
     """Yield the region that a round plate sweeps on each side of the centre: the plate itself."""
-    assert isinstance(plate.outline, Circle)
-    wide = plate.outline.radius
+    wide = around(plate.outline)
     for back, low, high in ((False, plate.low, plate.high), (True, -plate.high, -plate.low)):
         if high > 0.0:
             flat = max(low, 0.0)

@@ -49,6 +49,13 @@ def polygon(shape: Contour | Circle, outside: bool, tolerance: float) -> list[Po
     return _separate(corners, 0.1 * tolerance)
 
 
+def chord_points(segment: Segment, tolerance: float) -> list[Point]:
+    """Return the ends of a segment's chords, both of its own included, with DECIMALS."""
+    count = _chords(segment, tolerance)
+    between = (at(segment, k / count) for k in range(1, count))
+    return [_rounded(point) for point in (segment.start, *between, segment.end)]
+
+
 def arc_chords(radius: float, sweep: float, tolerance: float) -> int:
     """Return the number of chords of an arc of ``sweep`` radians; lengths in mm.
 
@@ -79,13 +86,16 @@ def _bend(a: Point, b: Point, c: Point) -> float:
 def _separate(corners: Iterable[Point], apart: float) -> list[Point]:
     """Return rounded corners without those that are too near to the one before."""
     kept: list[Point] = []
-    for x, y in corners:
-        corner = round(x, DECIMALS) + 0.0, round(y, DECIMALS) + 0.0
+    for corner in map(_rounded, corners):
         if not kept or math.dist(kept[-1], corner) > apart:
             kept.append(corner)
     while len(kept) > 3 and math.dist(kept[-1], kept[0]) <= apart:
         kept.pop()
     return kept
+
+
+def _rounded(corner: Point) -> Point:
+    return round(corner[0], DECIMALS) + 0.0, round(corner[1], DECIMALS) + 0.0
 
 
 def triangles(loops: Sequence[Sequence[Point]], name: str) -> list[Triangle]:

@@ -9,10 +9,11 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from geneva_cli.curves.drawing import Drawing
-from geneva_cli.curves.plates import Group, Member, Part, Plate, Shell
+from geneva_cli.curves.plates import Group, Member, Part, Plate, Shell, Solid
 from geneva_cli.errors import GenevaError
 from geneva_cli.output.mesh.polygons import edges, polygon, triangles
 from geneva_cli.output.mesh.shells import shell_mesh
+from geneva_cli.output.mesh.stacks import stack_mesh
 from geneva_cli.output.mesh.surface import Surface, rounded, surface
 from geneva_cli.output.solid_part import plate_contours, solid_part
 
@@ -49,7 +50,7 @@ def bodies(drawing: Drawing, units: str, format: str) -> list[Body]:
     Raises GenevaError for a drawing without solids, for a unit other than mm, and for a solid that
     has no closed surface.
     """
-    kinds: dict[Plate | Shell, list[Place]] = {}
+    kinds: dict[Solid, list[Place]] = {}
     for solid, place in _placed(solid_part(drawing, units, format), HERE):
         kinds.setdefault(solid, []).append(place)
     return [
@@ -58,7 +59,7 @@ def bodies(drawing: Drawing, units: str, format: str) -> list[Body]:
     ]
 
 
-def _placed(part: Part, at: Place) -> Iterator[tuple[Plate | Shell, Place]]:
+def _placed(part: Part, at: Place) -> Iterator[tuple[Solid, Place]]:
     """Yield every solid of a part at its position."""
     if not isinstance(part, Group):
         yield part, at
@@ -77,12 +78,14 @@ def _place(member: Member) -> Place:
     return Place(turn, np.array([*member.at, 0.0]))
 
 
-def _surface(solid: Plate | Shell, tolerance: float) -> Surface:
+def _surface(solid: Solid, tolerance: float) -> Surface:
     if not tolerance > 0.0:
         raise GenevaError(f"--tolerance {tolerance:g}: it must be above 0 mm")
     if isinstance(solid, Shell):
         return shell_mesh(solid, tolerance)
-    return plate_mesh(solid, tolerance)
+    return (
+        plate_mesh(solid, tolerance) if isinstance(solid, Plate) else stack_mesh(solid, tolerance)
+    )
 
 
 def plate_mesh(plate: Plate, tolerance: float) -> Surface:

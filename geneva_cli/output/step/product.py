@@ -5,11 +5,12 @@ from __future__ import annotations
 import math
 from typing import NamedTuple
 
-from geneva_cli.curves.plates import Group, Member, Part, Plate, Shell, solids
+from geneva_cli.curves.plates import Group, Member, Part, Plate, Shell, Solid, solids
 from geneva_cli.output.inks import Ink, inks
 from geneva_cli.output.step.entities import Entities, listed, real, words
 from geneva_cli.output.step.shell import shell_solid
 from geneva_cli.output.step.solid import solid
+from geneva_cli.output.step.stack import stack_solid
 
 
 class Product(NamedTuple):
@@ -50,8 +51,11 @@ class Products:
             self.known[part] = product
         return self.known[part]
 
-    def _solid(self, one: Plate | Shell) -> Product:
-        body = solid(self.file, one) if isinstance(one, Plate) else shell_solid(self.file, one)
+    def _solid(self, one: Solid) -> Product:
+        if isinstance(one, Shell):
+            body = shell_solid(self.file, one)
+        else:
+            body = solid(self.file, one) if isinstance(one, Plate) else stack_solid(self.file, one)
         self.styled.append(self._styled(body, self.inks[one.layer]))
         return self._defined(
             one.name,

@@ -52,12 +52,13 @@ def solid(file: Entities, plate: Plate) -> str:
         lower.append(loop(file, [(wall.low, not wall.along) for wall in reversed(walls)]))
         upper.append(loop(file, [(wall.high, wall.along) for wall in walls]))
         outside = False
-    faces.append(face(file, lower, _level(file, plate.low), False))
-    faces.append(face(file, upper, _level(file, plate.high), True))
+    faces.append(face(file, lower, level(file, plate.low), False))
+    faces.append(face(file, upper, level(file, plate.high), True))
     return closed_solid(file, faces)
 
 
-def _level(file: Entities, z: float) -> str:
+def level(file: Entities, z: float) -> str:
+    """The plane across the axis at a height."""
     return file.add(f"PLANE('',{file.placement((0.0, 0.0), z)})")
 
 
@@ -77,13 +78,13 @@ def _place(file: Entities, plate: Plate, at: Point) -> SolidCorner:
 def _wall(
     file: Entities, plate: Plate, piece: Piece, start: SolidCorner, end: SolidCorner
 ) -> WallFace:
-    curves = [_curve(file, piece, z) for z in (plate.low, plate.high)]
+    curves = [curve(file, piece, z) for z in (plate.low, plate.high)]
     along = not isinstance(piece, Arc) or piece.bulge > 0.0
     low = edge(file, start.low, end.low, curves[0], along)
     high = edge(file, start.high, end.high, curves[1], along)
     sides = loop(file, [(low, True), (end.edge, True), (high, False), (start.edge, False)])
     # a cylinder's own normal points away from its axis, that of the others to the right
-    wall = face(file, [sides], _surface(file, piece, plate), along)
+    wall = face(file, [sides], surface(file, piece, plate), along)
     return WallFace(wall, low, high, True)
 
 
@@ -100,7 +101,7 @@ def _round(file: Entities, plate: Plate, circle: Circle, outside: bool) -> WallF
     return WallFace(face(file, [loop(file, sides)], surface, outside), low, high, outside)
 
 
-def _curve(file: Entities, piece: Piece, z: float) -> str:
+def curve(file: Entities, piece: Piece, z: float) -> str:
     """The text of a piece's curve."""
     if isinstance(piece, Line):
         vector = file.shared(f"VECTOR('',{file.direction(*_direction(piece))},1.)")
@@ -125,7 +126,7 @@ def _knots(spline: Spline) -> tuple[str, str]:
     return count, listed([real(knot / spline.knots[-1], DIRECTION) for knot in spline.knots])
 
 
-def _surface(file: Entities, piece: Piece, plate: Plate) -> str:
+def surface(file: Entities, piece: Piece, plate: Plate) -> str:
     """The surface over a piece."""
     if isinstance(piece, Line):
         x, y = _direction(piece)

@@ -18,7 +18,7 @@ from geneva_cli.curves.sphere import axis_frame, place
 from geneva_cli.curves.sphere_hull import Cap
 from geneva_cli.errors import GenevaError
 from geneva_cli.layout.axles import crank_hub, refuse_wide
-from geneva_cli.layout.bores import bore_of, has_shape
+from geneva_cli.layout.bores import bore_of, fitted, has_shape
 from geneva_cli.layout.missing import NamedParts
 from geneva_cli.layout.sphere_sizes import Ball
 from geneva_cli.outlines.sphere_wheel import POLE, web_angle, web_region, wheel_regions
@@ -139,7 +139,8 @@ def crank_group(parts: Shells, arm: CapArm | None) -> Group:
         members.append(Member(sector))
     members += [Member(one) for one in (arm_solids(ball, arm) if arm else ())]
     inner, outer = ball.span_mm
-    hole = (RoundHole(POLE, ball.pin_mm),) if arm else ()
+    bored = ball.pin_mm + 0.5 * size.allowances.shaft_fit_mm
+    hole = (RoundHole(POLE, bored),) if arm else ()
     roller = Shell("roller", ROLLER, (Cap(POLE, ball.roller).region,), inner, outer, hole)
     long = Circle(ROLLER, AXIS, ball.pin_mm)
     pin = Plate("pin", ROLLER, long, (), inner, ball.arm_span_mm[1])
@@ -179,23 +180,30 @@ def _shafts(parts: Shells, arm: CapArm | None) -> Iterator[Member]:
     """
     ball, size = parts.ball, parts.assembly.full.spec.size
     under, over = ball.arm_span_mm
+    if size.shafts == "turned":
+        raise GenevaError(
+            'shafts = "turned": a machine on a sphere has no frame for bearings; remove it',
+            ("size", "shafts"),
+        )
     length = size.wheel_hub_length_mm
     hubs = max(over, ball.span_mm[1] + (length or 0.0) if ball.hub_mm else 0.0)
     lowest = ball.out(hubs + size.washer_mm + over - under)
     if ball.bore_mm:
         low, high = size.wheel_shaft_low_mm, size.wheel_shaft_high_mm
         low = (lowest if ball.hub_mm > ball.bore_mm else 0.0) if low is None else low
-        yield Member(_shaft("wheel", ball, ball.bore_mm, low, ball.span_mm[0], high))
+        section = fitted(size, bore_of(size, "wheel", ball.bore_mm)).section(SHAFT, ball.half_step)
+        yield Member(_shaft("wheel", ball, section, low, ball.span_mm[0], high))
     if arm:
         low = lowest if size.crank_shaft_low_mm is None else size.crank_shaft_low_mm
         hub = _inner_hub(size, ball, arm)
         end = (hub.low if hub else ball.lock_span_mm[0]) if size.crank_bore_mm else under
-        shaft = _shaft("crank", ball, arm.bore.radius, low, end, size.crank_shaft_high_mm)
+        section = fitted(size, arm.bore).section(SHAFT, arm.keyway)
+        shaft = _shaft("crank", ball, section, low, end, size.crank_shaft_high_mm)
         yield Member(shaft, frame=at_mid_motion(ball))
 
 
 def _shaft(
-    part: str, ball: Ball, radius: float, low: float, end: float, high: float | None
+    part: str, ball: Ball, section: Shape, low: float, end: float, high: float | None
 ) -> Plate:
     """Return a shaft from height ``low`` to ``high``, or inwards to ``end`` if that is None."""
     inner, outer = end if high is None else ball.out(high), ball.out(low)
@@ -205,4 +213,4 @@ def _shaft(
             f"from the sphere's centre; lower {part}_shaft_low_mm or raise {part}_shaft_high_mm",
             ("size", f"{part}_shaft_low_mm"),
         )
-    return Plate(f"{part}'s shaft", SHAFT, Circle(SHAFT, AXIS, radius), (), inner, outer)
+    return Plate(f"{part}'s shaft", SHAFT, section, (), inner, outer)

@@ -54,7 +54,8 @@ def passing_parts(name: str, outlines: Outlines) -> Check | None:
         "crank_shaft_low_mm",
         "crank_shaft_high_mm",
     )
-    if not (drive.IN_SERIES or any(sizes[key] is not None for key in keys)):
+    own = sizes["shafts"] == "turned" or any(sizes[key] is not None for key in keys)
+    if not (drive.IN_SERIES or own):
         return None
     return gap(name, lambda: shaft_gap(flat_parts(outlines)), outlines.assembly.L)
 

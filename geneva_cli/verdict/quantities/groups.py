@@ -29,6 +29,7 @@ ECHOED = {  # keys that the numbers of a report depend on, besides the machine's
         "slot_clearance_mm",
         "lock_clearance_mm",
         "press_fit_mm",
+        "shaft_fit_mm",
         "face_width_mm",
         "pin_held",
         "pin_gap_mm",

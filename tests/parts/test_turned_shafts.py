@@ -1,0 +1,236 @@
+"""Turned shafts: standard parts on them, their steps, and their solids in every format."""
+
+import math
+
+import pytest
+import shapely
+import trimesh
+from step_witness import File, Solid
+from test_arm import polygon
+
+from geneva_cli import Design, External, Internal, SideCrank, Size, Spherical
+from geneva_cli.curves.drawing import Drawing
+from geneva_cli.curves.plates import Plate, Stack, lowered, solids
+from geneva_cli.curves.shapes import Circle
+from geneva_cli.drawings.model import PartsModel
+from geneva_cli.errors import GenevaError
+from geneva_cli.layout.bearings import DIN_471, SERIES_60, bearing_up_to, circlip_up_to
+from geneva_cli.output.mesh.solids import bodies
+from geneva_cli.output.step import chunks
+from geneva_cli.parts.sphere.sphere_parts import SphereParts
+
+TURNED = Size(shafts="turned", wheel_bore_mm=16.0, crank_bore_mm=10.0)
+
+
+def of(**keys):
+    return Design(External(6), size=TURNED.replace(**keys))
+
+
+def every(design):
+    return solids(design.drawing("assembly").solid)
+
+
+def shaft(design, part):
+    (one,) = [s for s in every(design) if s.name == f"{part}'s shaft"]
+    return one
+
+
+def steps(stack):
+    """Name, diameter if it is round, and both ends of each step."""
+    return [
+        (p.name, 2.0 * p.outline.radius if isinstance(p.outline, Circle) else None, p.low, p.high)
+        for p in stack.plates
+    ]
+
+
+def test_tables():
+    """Rings: s of DIN 471 is m less 0.1 to 0.15; bearings: each wider one is larger in all."""
+    for small, large in zip(SERIES_60, SERIES_60[1:], strict=False):
+        assert small.bore < large.bore < large.outside > small.outside
+        assert small.width <= large.width
+    for small, large in zip(DIN_471, DIN_471[1:], strict=False):
+        assert small.shaft < large.shaft and small.width <= large.width
+        # grooves are between 1.7 % and 3.4 % of the diameter deep
+        assert 0.017 < 0.5 * (large.shaft - large.groove) / large.shaft < 0.034
+    # from makers' tables: 6004 is 20 x 42 x 12; DIN 471 - 20: d2 = 19, m = 1.3, n = 1.5
+    assert bearing_up_to(24.9, "wheel") == ("6004", 20, 42, 12)
+    assert circlip_up_to(21.5) == (20, 19.0, 1.3) and circlip_up_to(21.5).edge == 1.5
+    assert circlip_up_to(40.0).edge == pytest.approx(3.75)  # 3.8 in the table
+    # least abutments by DIN 5418, which SKF's catalogue has: 608, 6001, 6004, 6010
+    for name, least in (("608", 10.0), ("6001", 14.0), ("6004", 23.2), ("6010", 54.6)):
+        (one,) = [b for b in SERIES_60 if b.name == name]
+        assert least <= one.shoulder < 0.5 * (one.bore + one.outside)
+
+
+def test_steps_of_the_wheels_shaft():
+    """Frame: 2 mm of shoulder below the arm, so from -12 down to -22."""
+    n, m = 1.5 * (15.0 - 14.3), 1.1
+    low = -12.0 - 9.0 - m - n
+    assert steps(shaft(of(), "wheel")) == [
+        ("end", 15.0, pytest.approx(low), pytest.approx(low + n)),
+        ("circlip groove, DIN 471", 14.3, pytest.approx(low + n), pytest.approx(-21.0)),
+        ("seat of bearing 6002", 15.0, pytest.approx(-21.0), pytest.approx(-12.0)),
+        ("shoulder", 20.0, pytest.approx(-12.0), pytest.approx(0.0, abs=1e-9)),
+        ("seat of wheel", 16.0, pytest.approx(0.0, abs=1e-9), pytest.approx(10.0)),
+        ("circlip groove, DIN 471", 15.2, pytest.approx(10.0), pytest.approx(11.1)),
+        ("end", 16.0, pytest.approx(11.1), pytest.approx(12.3)),
+    ]
+    (frame,) = [s for s in every(of()) if s.name == "frame"]
+    assert (frame.low, frame.high) == (-22.0, -12.0)
+    assert {2.0 * h.radius for h in frame.holes if h.centre[1] == 0.0} == {32.0, 26.0}
+
+
+def test_a_frame_is_as_thick_as_its_bearings_are_wide():
+    (frame,) = [s for s in every(of(arm_thickness_mm=3.0)) if s.name == "frame"]
+    assert frame.thickness == 9.0
+
+
+def test_ends_of_the_spec():
+    design = of(wheel_shaft_low_mm=-40.0, wheel_shaft_high_mm=30.0)
+    stack = shaft(design, "wheel")
+    assert (stack.low, stack.high) == (-40.0, pytest.approx(30.0))
+    with pytest.raises(GenevaError, match="crank_shaft_high_mm = 5: the turned shaft needs"):
+        of(crank_shaft_high_mm=5.0).drawing("assembly")
+
+
+def test_an_overhung_crank_has_no_circlip_above_its_arm():
+    """The wheel turns above it."""
+    size = Size(shafts="turned", arm_bore_mm=10.0, crank_bore_mm=0.0)
+    names = [name for name, *_ in steps(shaft(Design(External(6), size=size), "crank"))]
+    assert names[-2:] == ["shoulder", "seat of crank"]
+    inside = Design(Internal(6), size=Size(shafts="turned", arm_bore_mm=10.0))
+    assert [s.name for s in every(inside) if isinstance(s, Stack)] == ["crank's shaft"]
+
+
+SHAPES = [
+    {},
+    {"wheel_keyway": "DIN 6885-1", "crank_keyway": "DIN 6885-1"},
+    {"wheel_bore": "D", "crank_bore": "D"},
+    {"wheel_bore": "hex", "crank_bore": "hex"},
+]
+
+
+@pytest.mark.parametrize("keys", SHAPES)
+@pytest.mark.parametrize("process", [None, "print"])
+@pytest.mark.parametrize("shafts", ["plain", "turned"])
+def test_a_shaft_fits_its_bores(keys, process, shafts):
+    """By polygons: it is inside each hole, and half the fit from its wall.
+
+    A key goes into both keyways. A key is as high as both are deep less some play.
+    """
+    if keys.get("crank_keyway"):
+        keys = keys | {"crank_bore_mm": 12.0}
+    design = of(process=process, shafts=shafts, **keys)
+    fit = design.spec.size.allowances.shaft_fit_mm
+    found = every(design)
+    for name, among in (("wheel", ["wheel"]), ("crank", ["arm", "locking disc"])):
+        whole = shaft(design, name)
+        for plate in [p for p in found if p.name in among]:
+            sections = [p for p in _parts(whole) if min(p.high, plate.high) > max(p.low, plate.low)]
+            sections = [p for p in sections if "groove" not in p.name and p.name != "end"]
+            bore = min((polygon(h, 2000) for h in plate.holes), key=lambda p: p.centroid.x**2)
+            for section in sections:
+                body = polygon(section.outline, 2000)
+                assert bore.buffer(1e-4).contains(body)
+                gap = body.exterior.distance(bore.exterior)
+                assert gap == pytest.approx(0.5 * fit, abs=2e-4)
+
+
+def _parts(solid):
+    return [solid] if isinstance(solid, Plate) else solid.plates
+
+
+@pytest.mark.parametrize("keys", SHAPES)
+def test_solids_of_all_formats_are_one(keys):
+    """STEP's own volumes, trimesh's and polygons' of the steps; all closed."""
+    design = of(crank_bore_mm=12.0, **keys)
+    for name in ("wheel", "crank"):
+        stack = shaft(design, name)
+        assert isinstance(stack, Stack)
+        true = sum(polygon(p.outline, 4096).area * p.thickness for p in stack.plates)
+        drawing = Drawing("", (), solid=stack, tolerance=1e-3)
+        file = File("".join(chunks(drawing, "mm")))
+        (body,) = file.all("MANIFOLD_SOLID_BREP")
+        solid = Solid(file, body)
+        assert solid.euler == 2 and solid.off < 1e-9
+        for volume in solid.volumes():
+            assert volume == pytest.approx(true, rel=1e-6)  # 4096 chords an arc
+        (meshed,) = bodies(drawing, "mm", "STL")
+        mesh = trimesh.Trimesh(meshed.surface.corners, meshed.surface.triangles, process=False)
+        assert mesh.is_watertight and mesh.is_winding_consistent
+        assert mesh.volume == pytest.approx(true, rel=5e-4)  # 1 µm all round of some 5 mm
+        rows = {row["name"]: row for row in design.part_table("parts").to_rows()}
+        row = rows[stack.name]
+        assert row["mass_kg"] == pytest.approx(7850e-9 * true, rel=1e-6)
+        assert row["thickness_mm"] == pytest.approx(stack.high - stack.low)
+        assert row["size_x_mm"] == max(2.0 * _wide(p) for p in stack.plates)
+
+
+def _wide(plate):
+    x0, _, x1, _ = polygon(plate.outline, 64).bounds
+    return max(-x0, x1)
+
+
+def test_a_coarse_mesh_is_refused():
+    """Chords of 1 mm leave nothing of a groove that is 0.35 mm deep, beside a keyway."""
+    keyed = of(wheel_keyway="DIN 6885-1")
+    drawing = Drawing("", (), solid=shaft(keyed, "wheel"), tolerance=1.0)
+    with pytest.raises(GenevaError, match="use a smaller --tolerance"):
+        bodies(drawing, "mm", "STL")
+
+
+def test_on_the_bed_a_shaft_stands():
+    (low, high) = ((s.low, s.high) for s in (lowered(shaft(of(), "wheel")), shaft(of(), "wheel")))
+    assert low[0] == 0.0 and low[1] == pytest.approx(high[1] - high[0])
+    laid = solids(of().drawing("plate").solid)
+    assert {s.low for s in laid} == {0.0} and len(laid) == len(every(of()))
+
+
+def test_checks_see_the_shoulder():
+    """A shoulder of 1.25 bores is as near to the arm's end as a hub of that size."""
+    (row,) = [c for c in of(wheel_bore_mm=60.0).checks if c.name == "beside_shafts_mm"]
+    assert row.value == pytest.approx(100.0 - 50.0 - 5.0 - 37.5)
+
+
+def test_the_sheet_lists_the_steps():
+    texts = [label.text for label in of().sheet().texts]
+    assert "Ø 15, 9 long: seat of bearing 6002" in texts
+
+
+@pytest.mark.parametrize(
+    ("design", "said"),
+    [
+        (of(crank_bore_mm=3.0), "set crank_bore_mm to at least 4"),
+        (Design(External(6), SideCrank(A=0.3), size=TURNED), "has links or gears on its shafts"),
+    ],
+)
+def test_refused(design, said):
+    with pytest.raises(GenevaError, match=said) as caught:
+        design.drawing("assembly")
+    assert caught.value.key == ("size", "shafts")
+
+
+def test_refused_on_a_sphere():
+    shells = PartsModel(
+        Design(Spherical(6), size=Size(80.0, 5.0, shafts="turned")).mechanism
+    ).shells
+    with pytest.raises(GenevaError, match="a machine on a sphere has no frame"):
+        _ = SphereParts(shells).members
+
+
+@pytest.mark.parametrize("shape", ["round", "D", "hex"])
+def test_shafts_of_a_sphere_fit_too(shape):
+    size = Size(80.0, 5.0, wheel_bore=shape, wheel_bore_mm=10.0, wheel_hub_mm=16.0, process="print")
+    parts = SphereParts(PartsModel(Design(Spherical(6), size=size).mechanism).shells)
+    (bar,) = [m.part for m in parts.shafts if m.part.name == "wheel's shaft"]
+    hub = next(s for s in solids(parts.wheel.part) if s.name == "wheel's hub")
+    body, bore = (polygon(s, 2000) for s in (bar.outline, hub.holes[0]))
+    assert bore.contains(body)
+    assert shapely.distance(body.exterior, bore.exterior) == pytest.approx(0.2, abs=1e-4)
+    assert math.isclose(body.centroid.y, bore.centroid.y, abs_tol=0.1)
+
+
+def test_links_on_a_hexagon_are_refused():
+    design = Design(External(6), SideCrank(A=0.3), size=Size(crank_bore="hex"))
+    with pytest.raises(GenevaError, match="shaft have round bores; use"):
+        design.drawing("assembly")
