@@ -75,7 +75,7 @@ def pin(mechanism: Mechanism) -> Pin | None:
     if size.face_width_mm is None:
         return None
     d = pin_diameter_mm(mechanism)
-    moment = moment_mm(size.pin_held, size.face_width_mm, size.pin_gap_mm)
+    moment = moment_mm(size.pin_held, size.face_width_mm, size.allowances.pin_gap_mm)
     plates = 1.0 if size.pin_held == "cantilever" else 2.0  # that share the force
     shear = 16.0 / (3.0 * math.pi * d * d) / plates
     return Pin(d, 32.0 * moment / (math.pi * d**3), shear)

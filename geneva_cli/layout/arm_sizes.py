@@ -68,14 +68,13 @@ def eye_about(hole: float, wall: float, most: float = math.inf) -> float:
 
 
 def bolts_between(
-    size: Size, L: float, sectors: Iterable[tuple[float, float]]
+    size: Size, L: float, sectors: Iterable[tuple[float, float]], count: int
 ) -> tuple[float, list[list[float]]]:
     """Return the radius of the bolts that fix locking sectors to the arm, and their directions.
 
-    Each sector is its start and width, radians; its bolts are evenly spaced. Raises GenevaError
-    where there are bolts and no sectors.
+    Each sector is its start and width, radians; its ``count`` bolts are evenly spaced. Raises
+    GenevaError where there are bolts and no sectors.
     """
-    count = size.lock_bolts
     directions = [
         [start + width * (k + 0.5) / count for k in range(count)] for start, width in sectors
     ]

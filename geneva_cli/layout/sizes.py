@@ -142,6 +142,7 @@ def built(mechanism: Mechanism) -> Size:
         "lock_clearance_mm": size.allowances.lock_clearance_mm,
         "press_fit_mm": size.allowances.press_fit_mm,
         "shaft_fit_mm": size.allowances.shaft_fit_mm,
+        "pin_gap_mm": size.allowances.pin_gap_mm,
     }
     if flat := sized(mechanism):
         _, own = flat
@@ -178,7 +179,7 @@ def thicknesses(size: Size, L: float) -> Thicknesses:
     """Return the thicknesses of a spec; by default all are the wheel's."""
     wheel = _or(size.wheel_thickness_mm, _or(size.face_width_mm, L / 10.0))
     arm = _or(size.arm_thickness_mm, wheel)
-    lock = _or(size.lock_thickness_mm, wheel + size.pin_gap_mm)
+    lock = _or(size.lock_thickness_mm, wheel + size.allowances.pin_gap_mm)
     return Thicknesses(wheel, lock, arm, _or(size.link_thickness_mm, arm))
 
 

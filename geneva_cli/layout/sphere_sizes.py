@@ -119,7 +119,7 @@ def ball(mechanism: Mechanism, roller_mm: float | None = None) -> Ball:
     thick, pin = thicknesses(size, L), pin_radius(size, radius_mm)
     _refuse_thick(thick, size, L, roller, pin)
     inside, outside = L - 0.5 * thick.wheel, L + 0.5 * thick.wheel
-    under = outside + size.pin_gap_mm  # the arm's inner face, on which the sectors stand
+    under = outside + size.allowances.pin_gap_mm  # the arm's inner face, on which the sectors stand
     slot_end = bottom - w
     bore, hub = wheel_axle(size, L, inside, slot_end)
     hole = math.asin(max(bore, hub) / inside)
@@ -210,7 +210,7 @@ def _refuse_thick(thick: Thicknesses, size: Size, L: float, roller: float, pin_m
             f"{L:g} mm; it must be below {L:g}",
             ("size", "wheel_thickness_mm"),
         )
-    most = L + 0.5 * thick.wheel + size.pin_gap_mm
+    most = L + 0.5 * thick.wheel + size.allowances.pin_gap_mm
     if thick.lock >= most:
         raise GenevaError(
             f"lock_thickness_mm = {thick.lock:g}: the locking sectors reach inwards from the arm, "

@@ -34,7 +34,7 @@ def wheel_hub_length(size: Size, sizes: Sizes) -> float:
     """Return the length of the wheel's hub: by default as far down as the crank arm."""
     if size.wheel_hub_length_mm is not None:
         return size.wheel_hub_length_mm
-    return size.pin_gap_mm + sizes.arm_thickness
+    return size.allowances.pin_gap_mm + sizes.arm_thickness
 
 
 def about_axis(circles: Iterable[Shape]) -> tuple[Shape, ...]:

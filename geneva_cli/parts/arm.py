@@ -26,7 +26,7 @@ from geneva_cli.layout.arm_sizes import (
     hub_and_eye,
     pin_hole,
 )
-from geneva_cli.layout.bores import bore_of
+from geneva_cli.layout.bores import bore_of, has_shape
 from geneva_cli.layout.hole_walls import least_wall
 from geneva_cli.layout.reliefs import keyway_direction, sectors
 from geneva_cli.outlines.crank import crank_circles, is_whole, roller_centres
@@ -99,17 +99,42 @@ def shaft_bore(parts: Outlines) -> float:
 def bolts(parts: Outlines) -> list[Circle]:
     """Return the holes of bolts that fix the locking disc to the arm, evenly in each sector.
 
-    Raises GenevaError where there is no disc to fix.
+    By default there are as many as leave walls, up to two in each, unless a key, a flat or a
+    hexagon holds both. Raises GenevaError where there is no disc to fix.
     """
+    size, sizes = parts.assembly.mechanism.spec.size, parts.sizes
+    if size.lock_bolts is not None:
+        return _bolts(parts, size.lock_bolts)
+    held = has_shape(size, "crank") and sizes.crank_bore > 0.0
+    if held or not (parts.crank and has_arm(parts)):
+        return []
+    fitting = (_bolts(parts, count) for count in (2, 1))
+    return next((some for some in fitting if _leave_walls(parts, some)), [])
+
+
+def _bolts(parts: Outlines, count: int) -> list[Circle]:
+    """Return the holes of so many bolts in each sector."""
     size = parts.assembly.mechanism.spec.size
-    spans = sectors(parts.assembly) if parts.crank and size.lock_bolts else []
+    spans = sectors(parts.assembly) if parts.crank and count else []
     widths = [(start, end - start) for start, end in spans]
-    r, directions = bolts_between(size, parts.assembly.L, widths)
+    r, directions = bolts_between(size, parts.assembly.L, widths, count)
     holes = []
     for at in directions:
         far = half_or(size.lock_bolt_circle_mm, 0.0) or _widest(parts, at)
         holes += [Circle(HOLES, (far * math.cos(a), far * math.sin(a)), r) for a in at]
     return holes
+
+
+def _leave_walls(parts: Outlines, screwed: list[Circle]) -> bool:
+    """Return True if bolts leave walls in disc and arm, and the arm passes the wheel's hub."""
+    assembly, sizes = parts.assembly, parts.sizes
+    size, wall = assembly.mechanism.spec.size, sizes.wall_min
+    pins = [Circle(HOLES, c, pin_hole(size, sizes.pin)) for c in roller_centres(assembly)]
+    shaft = Circle(HOLES, (0.0, 0.0), bore_of(size, "crank", shaft_bore(parts)).reach)
+    eye = max(math.hypot(*c.centre) + eye_about(c.radius, wall) for c in screwed)
+    passing = assembly.L - max(sizes.wheel_bore, sizes.wheel_hub) >= eye or assembly.sign < 0.0
+    apart = least_wall([shaft, *pins, *screwed]) >= wall
+    return passing and apart and least_wall(screwed, parts.crank) >= wall
 
 
 def _widest(parts: Outlines, at: list[float]) -> float:
@@ -119,8 +144,8 @@ def _widest(parts: Outlines, at: list[float]) -> float:
     a = np.asarray(at)
     points = [np.outer(radii, f(a)).ravel() for f in (np.cos, np.sin)]
     walls = -Polyarc(parts.crank).signed(np.column_stack(points)).reshape(count, len(at))
-    if parts.sizes.crank_bore:
-        walls = np.minimum(walls, radii[:, None] - parts.sizes.crank_bore)
+    inner = shaft_bore(parts) if has_arm(parts) else parts.sizes.crank_bore
+    walls = np.minimum(walls, radii[:, None] - inner)
     return float(radii[int(walls.min(axis=1).argmax())])
 
 

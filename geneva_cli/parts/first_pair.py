@@ -56,6 +56,7 @@ def first_pair(mechanism: Mechanism, bars: Links | None = None) -> Mechanism:
         wheel_thickness_mm=thicknesses(sizes, L).link,
         crank_bore_mm=2.0 * bore,
         wheel_bore_mm=2.0 * bars.shaft(second, L),
+        lock_bolts=0,  # the link below its disc has no holes for them
     )
     title = f"{titled(mechanism)}, first pair"
     drive = Crank(n_rpm=spec.drive.n_rpm)

@@ -118,7 +118,9 @@ class FlatParts:
         size, r = mechanism.spec.size, mechanism.roller_radius_mm
         thick = thicknesses(size, mechanism.center_distance_mm)
         if low is None:
-            low = -size.pin_gap_mm - (thick.arm if self.drawn and has_arm(self.drawn) else 0.0)
+            low = -size.allowances.pin_gap_mm - (
+                thick.arm if self.drawn and has_arm(self.drawn) else 0.0
+            )
         plates = roller_plates(
             r, pin_radius(size, r), low, thick.wheel, size.allowances.shaft_fit_mm
         )

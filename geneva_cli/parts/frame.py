@@ -193,4 +193,4 @@ def _lowest(mechanism: Mechanism, parts: Outlines | None, bars: Links) -> float:
     hub = wheel_hub(parts.assembly, parts.sizes) if parts else None
     under += [hub.low] if hub else []
     arm = thicknesses(size, L).arm if parts and has_arm(parts) else 0.0
-    return min([*under, -size.pin_gap_mm - arm])
+    return min([*under, -size.allowances.pin_gap_mm - arm])

@@ -117,7 +117,7 @@ def link_sizes(
         crank_shaft=_crank_shaft(mechanism, parts),
         thickness=thick.link,
         arm=arm,
-        gap=size.pin_gap_mm,
+        gap=size.allowances.pin_gap_mm,
         washer=size.washer_mm,
         shaft_fit=size.allowances.shaft_fit_mm,
     )

@@ -32,7 +32,7 @@ def wheel_part(parts: Outlines, contour: Contour) -> Plate | Group:
 
 def arm_plate(parts: Outlines, arm: CrankArm) -> Plate:
     """Return the crank arm below the wheel, at a distance of ``pin_gap_mm``."""
-    high = -parts.assembly.mechanism.spec.size.pin_gap_mm
+    high = -parts.assembly.mechanism.spec.size.allowances.pin_gap_mm
     holes = (arm.bore, *arm.pins, *arm.bolts)
     low = high - parts.sizes.arm_thickness
     return Plate("arm", arm.outline.layer, arm.outline, holes, low, high)
@@ -44,7 +44,7 @@ def locking_plates(parts: Outlines) -> list[Plate]:
     A bore is omitted where the disc has nothing left about the axis: the arm has it.
     """
     assembly, sizes = parts.assembly, parts.sizes
-    low = -assembly.mechanism.spec.size.pin_gap_mm  # the disc stands on the arm
+    low = -assembly.mechanism.spec.size.allowances.pin_gap_mm  # the disc stands on the arm
     high = low + sizes.lock_thickness
     whole = is_whole(assembly, sizes)
     bores = [c for c in crank_circles(assembly, sizes) if c.layer == "BORE" and whole]

@@ -40,7 +40,7 @@ def crank_hub(parts: Outlines) -> Plate | None:
     requested = size.crank_hub_mm is not None or size.crank_hub_length_mm is not None
     if not requested or sizes.crank_hub <= sizes.crank_bore:
         return None
-    on_arm = 0.0 - size.pin_gap_mm  # no -0.0
+    on_arm = 0.0 - size.allowances.pin_gap_mm  # no -0.0
     disc = bool(parts.crank) and is_whole(parts.assembly, sizes)
     if not (disc or has_arm(parts)):
         key = "crank_hub_length_mm" if size.crank_hub_mm is None else "crank_hub_mm"
@@ -104,7 +104,7 @@ def _on_wheel(parts: Outlines) -> tuple[float, float]:
 def _on_crank(parts: Outlines) -> tuple[float, float]:
     """Return the lower and upper end of what the crank's shaft carries, along the axis."""
     size, sizes = parts.assembly.mechanism.spec.size, parts.sizes
-    on_arm = 0.0 - size.pin_gap_mm  # no -0.0
+    on_arm = 0.0 - size.allowances.pin_gap_mm  # no -0.0
     high = on_arm
     if sizes.crank_bore:
         hub = crank_hub(parts)

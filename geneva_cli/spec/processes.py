@@ -1,7 +1,8 @@
 """Clearances for ways to make the parts, selected by ``[size] process``.
 
 Each is the least that two parts need if they are as accurate as the source says. The fit coupon
-shows if a particular machine does better.
+shows if a particular machine does better. The gap between wheel and arm is as thick as a shim ring
+of DIN 988, which fills it.
 """
 
 from __future__ import annotations
@@ -19,6 +20,7 @@ class Allowances(NamedTuple):
     lock_clearance_mm: float = 0.0  # per side
     press_fit_mm: float = 0.0  # difference of diameters, pin minus hole
     shaft_fit_mm: float = 0.0  # difference of diameters, bore minus shaft or pin in it
+    pin_gap_mm: float = 0.0  # along the axis, between wheel and crank arm
     source: str | None = None
 
 
@@ -31,6 +33,7 @@ PROCESSES = {
         0.25,
         0.15,
         0.2,
+        0.5,
         "ISO 9013:2017, class 1, plates up to 3.15 mm: ±0.2 mm for 10 to 35 mm, ±0.25 for 35 to "
         "125, holes of 3 to 10 ±0.15",
     ),
@@ -41,6 +44,7 @@ PROCESSES = {
         0.035,
         0.012,
         0.02,
+        0.2,
         "ISO 286: the middle of running fit H8/f7, roller 10 to 18 mm, disc 50 to 80, of press "
         "fit H7/p6, pin 6 to 10, and of H7/g6, shaft 10 to 18",
     ),
@@ -51,6 +55,7 @@ PROCESSES = {
         0.25,
         0.0,
         0.4,
+        0.3,
         "design guides for fused filament, ±0.2 mm: 0.2 to 0.3 mm a side where parts slide "
         "(printparams.com/docs/real-world-fit)",
     ),

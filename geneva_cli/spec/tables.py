@@ -159,8 +159,10 @@ class Size(SpecTable):
         float | None, POSITIVE, "fixed gear's screw circle; default: amid bore and pitch circle"
     ] = None
     lock_bolts: Annotated[
-        int, Range(0, 100), "bolts or dowels through each sector of the locking disc and the arm"
-    ] = 0
+        int | None,
+        Range(0, 100),
+        "bolts through each sector of the locking disc and the arm; default 2 where they fit",
+    ] = None
     lock_bolt_mm: Annotated[float | None, POSITIVE, "lock's bolt holes; default L/40"] = None
     lock_bolt_circle_mm: Annotated[
         float | None, POSITIVE, "locking disc's bolt circle; default: where the disc is widest"
@@ -170,7 +172,11 @@ class Size(SpecTable):
         OneOf(("cantilever", "supported", "fixed")),
         "support of the roller's pin: fixed in one plate, loose in two, or fixed in two",
     ] = "cantilever"
-    pin_gap_mm: Annotated[float, NOT_NEGATIVE, "gap from a pin's plate to the contact line"] = 0.0
+    pin_gap_mm: Annotated[
+        float | None,
+        NOT_NEGATIVE,
+        "gap from a pin's plate to the contact line; default 0, or by process",
+    ] = None
     lock_edge_mm: Annotated[
         float | None, POSITIVE, "rounding radius at the ends of the wheel's recesses"
     ] = None

@@ -195,7 +195,7 @@ def test_thickness():
     ):
         solid = Design(External(6), size=size).drawing("assembly").solid
         tall = {plate.name: plate.high - plate.low for plate in plates(solid)}
-        gap = size.pin_gap_mm
+        gap = size.allowances.pin_gap_mm
         below = {"arm": wheel, "frame": wheel, "pin": 2.0 * wheel + gap}  # through the arm
         shafts = {"wheel's shaft": 3.0 * wheel + gap, "crank's shaft": 2.0 * wheel + lock}
         above = {"wheel": wheel, "locking disc": lock, "roller": wheel}

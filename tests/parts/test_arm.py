@@ -110,7 +110,7 @@ def test_defaults_work(z, gearing, rollers):
 )
 def test_pins_are_pressed_in(z, gearing, motion):
     """Each hole is the pin less the fit, where the crank's drawing has the pin."""
-    design = of(Wheel(z, gearing), motion, press_fit_mm=0.03, pin_mm=3.0)
+    design = of(Wheel(z, gearing), motion, press_fit_mm=0.03, pin_mm=3.0, lock_bolts=0)
     arm, crank = design.drawing("arm"), design.drawing("crank")
     pins = {s.centre for s in crank.shapes if s.layer == "ROLLER" and s.radius == 1.5}
     holes = [s for s in arm.shapes if isinstance(s, Circle) and s.centre != (0.0, 0.0)]
@@ -136,6 +136,39 @@ def test_the_disc_is_fixed_to_the_arm():
     (check,) = [c for c in design.checks if c.name == "arm_wall_mm"]
     inside = min(polygon(b).distance(disc.exterior) for b in bolts)
     assert check.passes and check.value <= inside + 1e-3
+
+
+@pytest.mark.sampled(6)
+@pytest.mark.parametrize(("z", "gearing", "rollers"), [*crews()])
+def test_bolts_join_disc_and_arm_by_default(z, gearing, rollers):
+    """Two in each sector, with walls all round by shapely; the arm still passes the wheel's hub.
+
+    From 22 slots on, the disc is too small for two bolts of L/40.
+    """
+    found = of(Wheel(z, gearing), drive=Drive(rollers=rollers)).parts
+    made, wall = crank_arm(found), found.sizes.wall_min
+    if z < 22:
+        assert len(made.bolts) in (rollers, 2 * rollers)
+    holes = [polygon(h) for h in (made.bore, *made.pins, *made.bolts)]
+    discs = [polygon(sector) for sector in found.crank]
+    for i, hole in enumerate(holes):
+        assert all(hole.distance(other) > 0.999 * wall for other in holes[:i])
+    for bolt in holes[-len(made.bolts) :] if made.bolts else ():
+        (disc,) = [one for one in discs if one.contains(bolt)]
+        assert bolt.distance(disc.exterior) > 0.999 * wall
+        assert polygon(made.outline).contains(bolt)
+    if gearing == "external":
+        # the arm's farthest points turn past the wheel's hub
+        away = Point(0.0, 0.0).hausdorff_distance(polygon(made.outline))
+        assert away <= found.assembly.L - found.sizes.wheel_hub + 1e-6
+
+
+def test_a_key_needs_no_bolts():
+    """A key, a flat or a hexagon in both bores holds the disc; sectors have no bore."""
+    for size in ({"crank_keyway": "DIN 6885-1"}, {"crank_bore": "D"}, {"crank_bore": "hex"}):
+        assert not crank_arm(of(Wheel(4), **size).parts).bolts
+        assert crank_arm(of(Wheel(6, "internal"), **size).parts).bolts
+    assert not crank_arm(of(Wheel(4), lock_bolts=0).parts).bolts
 
 
 def test_sectors_stand_on_the_hub():

@@ -6,6 +6,7 @@ Solids are compared as shapely's polygons, which know nothing of the sizes that 
 import cmath
 import math
 import random
+import re
 from itertools import combinations
 
 import numpy as np
@@ -24,6 +25,7 @@ from geneva_cli.kinematics.layout import Joint
 from geneva_cli.layout.link_positions import links_at
 from geneva_cli.parts.flat_parts import FlatParts
 from geneva_cli.parts.link_sizes import places
+from geneva_cli.spec.processes import PROCESSES
 from geneva_cli.specfile.template import template
 
 NEAR = 1e-6  # mm: more than rounding, less than any clearance
@@ -284,6 +286,57 @@ def test_the_machine_assembles(kind, tmp_path):
     assert whole > SAMPLES / 2
 
 
+@pytest.mark.usefixtures("no_advice")
+@pytest.mark.parametrize("process", PROCESSES)
+@pytest.mark.parametrize("kind", registry.DRIVES)
+def test_a_process_leaves_space_for_all_but_press_fits(kind, process, tmp_path):
+    """Only pins are wider than their holes, in the arm or a link; shafts go into their bores."""
+    spec = tmp_path / f"{kind}.toml"
+    spec.write_text(template(kind) if kind != "crank" else "[wheel]\nz = 6\n")
+    design = load(str(spec), [f"size.process={process}"])
+    require_space(design)
+
+
+@pytest.mark.usefixtures("no_advice")
+@pytest.mark.parametrize("process", [None, *PROCESSES])
+@pytest.mark.parametrize("shafts", ["plain", "turned"])
+@pytest.mark.parametrize(
+    "shape", ['="round"', '="D"', '="hex"', '_mm=16 {part}_keyway="DIN 6885-1"']
+)
+def test_mountings_leave_space(shape, shafts, process, tmp_path):
+    """Each shape of the bores, with plain and turned shafts."""
+    keys = [f"size.shafts={shafts}", *([f"size.process={process}"] if process else [])]
+    for part in ("wheel", "crank"):
+        text = f"{part}_bore{shape}".format(part=part)
+        keys += [f"size.{one}" for one in re.split(r" (?=wheel|crank)", text)]
+    design = of(tmp_path, "wheel = {z = 4}\nsize = {center_distance_mm = 150}", *keys)
+    require_space(design)
+
+
+def require_space(design):
+    """Nothing overlaps but pins in their press fits, by half the fit; wheel and arm are apart."""
+    allowed = design.spec.size.allowances
+    parts = FlatParts(design.mechanism, design.parts)
+    every = list(solids(parts))
+    if design.spec.size.shafts == "plain":  # turned ones have bearings and grooves
+        assert not list(misfits(every, design.mechanism.center_distance_mm, allowed.shaft_fit_mm))
+    met = {tuple(sorted(pair[:2])) for pair in overlaps(design, every)}
+    pressed = {pair for pair in met if any("pin" in name.split() for name in pair)}
+    assert met == pressed or refused_by_a_check(design), met
+    assert not pressed or allowed.press_fit_mm > DEEP
+    for pin in (one for one in every if one.name == "pin"):
+        holes = [
+            radius
+            for one in every
+            if one.name == "arm" and one.shares_height(pin)
+            for at, radius in one.bores
+            if abs(at - pin.at) < NEAR
+        ]
+        assert holes in ([], [pytest.approx(pin.radius - 0.5 * allowed.press_fit_mm)])
+    if parts.drawn and parts.arm_plate:
+        assert -parts.arm_plate.high == pytest.approx(allowed.pin_gap_mm, abs=1e-12)
+
+
 def spans(design, *names):
     """Radius, if it is round, and lower and upper end of the parts of some names."""
     every = solids(FlatParts(design.mechanism, design.parts))
@@ -365,20 +418,21 @@ def test_arm_and_disc_have_one_shaft(tmp_path):
     """The disc is bored as wide as the arm, or not at all; two sizes are refused."""
     text = "wheel = {z = 6}"
     for bore, disc in ((8.0, [8.0]), (16.0, [])):
-        design = of(tmp_path, text, f"size.arm_bore_mm={bore}")
+        design = of(tmp_path, text, f"size.arm_bore_mm={bore}", "size.lock_bolts=0")
         assert bores(design, "locking disc") == disc
         assert bores(design, "arm")[0] == 2.0 * spans(design, "crank's shaft")[0][0] == bore
     both = of(tmp_path, text, "size.arm_bore_mm=8", "size.crank_bore_mm=6")
     with pytest.raises(GenevaError, match="crank_bore_mm = 6 must be equal, or 0"):
         both.drawing("wheel")
     apart = of(tmp_path, text, "size.arm_bore_mm=8", "size.crank_bore_mm=0")
-    assert bores(apart, "locking disc") == []
+    assert 8.0 not in bores(apart, "locking disc")
 
 
 def test_a_given_crank_shaft_goes_through_all_that_is_on_it(tmp_path):
     """Frame, arm and disc are bored for it; the disc is not where its relief has no room."""
     for wide, disc in ((8.0, [8.0]), (30.0, [])):
-        design = of(tmp_path, "wheel = {z = 6}", f"shaft.crank_diameter_mm={wide}")
+        own = f"shaft.crank_diameter_mm={wide}", "size.lock_bolts=0"
+        design = of(tmp_path, "wheel = {z = 6}", *own)
         ((radius, low, _),) = spans(design, "crank's shaft")
         assert bores(design, "arm")[0] == bores(design, "frame")[1] == 2.0 * radius == wide
         assert bores(design, "locking disc") == disc

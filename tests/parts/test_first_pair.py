@@ -18,7 +18,11 @@ def pair():
 
 
 def bore(drawing):
-    (found,) = (s.radius for s in drawing.shapes if isinstance(s, Circle) and s.layer == "BORE")
+    (found,) = (
+        s.radius
+        for s in drawing.shapes
+        if isinstance(s, Circle) and s.layer == "BORE" and s.centre == (0.0, 0.0)
+    )
     return found
 
 

@@ -352,7 +352,7 @@ def test_refusals():
 
 
 def test_the_drawings_of_the_design():
-    """Six walls, rounds and rims; the pitch lines of both slots; holes for two pins."""
+    """Six walls, rounds and rims; the pitch lines of both slots; holes for pins and bolts."""
     design = load(str(repo.DESIGNS / "gear-sector.toml"))
     contour = design.drawing("wheel").shapes[0]
     assert len(contour.segments) == 3 * (5 + 3)
@@ -367,5 +367,5 @@ def test_the_drawings_of_the_design():
     gears = drawn_links(design.mechanism, design.parts).gears
     assert sum(gear.outer for gear in gears) == pytest.approx(120.0, rel=1e-14)  # and never meet
     holes = [s for s in design.drawing("arm").shapes if isinstance(s, Circle)]
-    assert len(holes) == 3
+    assert len(holes) == 5
     assert to_radians(180.0) == mp.pi

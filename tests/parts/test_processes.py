@@ -46,7 +46,7 @@ def test_a_process_is_its_keys(process: str) -> None:
     keys = PROCESSES[process]._asdict()
     source = keys.pop("source")
     named, spelled = Design(External(6), size=Size(process=process)), Size(**keys)
-    assert named.spec.size.allowances[:4] == spelled.allowances[:4]
+    assert named.spec.size.allowances[:5] == spelled.allowances[:5]
     where = assembly(named.mechanism)
     assert sizes(where) == sizes(assembly(Design(External(6), size=spelled).mechanism))
     page = report_sizes(named.proof) | inputs(named.proof)
@@ -57,7 +57,7 @@ def test_a_process_is_its_keys(process: str) -> None:
 def test_a_key_that_is_given_wins() -> None:
     size = Size(process="print", slot_clearance_mm=0.0)
     assert size.allowances[:3] == (0.0, 0.25, 0.0)
-    assert Size().allowances == (0.0, 0.0, 0.0, 0.0, None)
+    assert Size().allowances == (0.0, 0.0, 0.0, 0.0, 0.0, None)
 
 
 def test_a_clearance_that_leaves_no_machine_says_whose_it_is() -> None:

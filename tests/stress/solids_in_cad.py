@@ -38,7 +38,7 @@ from OCP.XCAFDoc import XCAFDoc_ColorType, XCAFDoc_DocumentTool
 
 from geneva_cli.curves import mass
 from geneva_cli.curves.measure import bounds
-from geneva_cli.curves.plates import Group, Plate
+from geneva_cli.curves.plates import Group, Plate, Stack
 from geneva_cli.curves.shapes import Contour, Cubic
 from geneva_cli.design import load
 from geneva_cli.errors import GenevaError
@@ -142,6 +142,11 @@ def differs(one, at, turn, name, colour, body):
 
 def properties(one):
     """Volume, centroid and polar moment of a solid in its own frame, and how far it reaches."""
+    if isinstance(one, Stack):
+        steps = [properties(plate) for plate in one.plates]
+        volume = sum(step[0] for step in steps)
+        centre = sum(step[0] * np.array(step[1]) for step in steps) / volume
+        return volume, centre, sum(step[2] for step in steps), max(step[3] for step in steps)
     if not isinstance(one, Plate):
         return one.volume, one.centroid, one.inertia((0.0, 0.0, 1.0)), one.outer
     face, h = mass.face(one), one.thickness
@@ -247,7 +252,13 @@ def one(design, proof, name, part, curves, pictures):
         reach = max(
             abs(v)
             for one, *_ in wanted
-            for v in (bounds(one.outline) if isinstance(one, Plate) else (one.outer,))
+            for v in (
+                (properties(one)[3],)
+                if isinstance(one, Stack)
+                else bounds(one.outline)
+                if isinstance(one, Plate)
+                else (one.outer,)
+            )
         )
         picture(Path(pictures) / f"{name}-{part}.png", found, reach)
     return good

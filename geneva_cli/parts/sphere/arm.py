@@ -114,7 +114,7 @@ def bolts(parts: Shells) -> tuple[RoundHole, ...]:
     size, ball = parts.assembly.full.spec.size, parts.ball
     rims = [sector.boundary[0] for sector in parts.crank]
     widths = [(math.atan2(rim.start[1], rim.start[0]), rim.sweep) for rim in rims]
-    r, directions = bolts_between(size, ball.radius_mm, widths)
+    r, directions = bolts_between(size, ball.radius_mm, widths, size.lock_bolts or 0)
     holes = []
     for sector, at in zip(parts.crank, directions, strict=False):
         rim, _, inner, _ = sector.boundary
