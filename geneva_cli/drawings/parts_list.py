@@ -168,6 +168,9 @@ def _dimensions(model: PartsModel) -> Iterator[Row | Missing]:
         Dimension("roller radius", r, "mm"),
         Dimension("slot width", 2.0 * (r + clear), "mm"),
     ]
+    if spec.size.edge_mm:
+        kind = "rounding" if spec.size.edge_chamfer_mm is None else "chamfer"
+        entries.append(Dimension(f"{kind} of all edges", spec.size.edge_mm, "mm"))
     entries += [d for d in spec.wheel.layout if isinstance(d, Dimension)]
     if not spec.wheel.FLAT:
         entries += or_missing("dimensions of the shells", lambda: dimensions(model.ball()))

@@ -177,9 +177,11 @@ class Thicknesses(NamedTuple):
 
 def thicknesses(size: Size, L: float) -> Thicknesses:
     """Return the thicknesses of a spec; by default all are the wheel's."""
-    wheel = _or(size.wheel_thickness_mm, _or(size.face_width_mm, L / 10.0))
+    between = None if size.face_width_mm is None else size.face_width_mm + 2.0 * size.edge_mm
+    wheel = _or(size.wheel_thickness_mm, _or(between, L / 10.0))
     arm = _or(size.arm_thickness_mm, wheel)
-    lock = _or(size.lock_thickness_mm, wheel + size.allowances.pin_gap_mm)
+    # a gap of the process does not ask for a plate of another thickness
+    lock = _or(size.lock_thickness_mm, wheel + _or(size.pin_gap_mm, 0.0))
     return Thicknesses(wheel, lock, arm, _or(size.link_thickness_mm, arm))
 
 
@@ -342,6 +344,7 @@ def _refuse(assembly: Assembly, sizes: Sizes) -> None:
             f"{2.0 * sizes.lock:.6g}",
             ("size", "crank_bore_mm"),
         )
+    _refuse_edges(assembly.mechanism.spec.size, sizes)
     loose = assembly.mechanism.spec.size.allowances.shaft_fit_mm
     if sizes.pin and 2.0 * sizes.pin + loose >= 2.0 * sizes.roller:
         raise GenevaError(
@@ -359,6 +362,25 @@ def _refuse(assembly: Assembly, sizes: Sizes) -> None:
         raise GenevaError(
             "wheel_outer_radius_mm is for internal wheels only; here set wheel_radius_mm",
             ("size", "wheel_outer_radius_mm"),
+        )
+
+
+def _refuse_edges(size: Size, sizes: Sizes) -> None:
+    """Raise GenevaError, naming the key, for edges that leave nothing of the thinnest plate."""
+    chamfer = size.edge_chamfer_mm is not None
+    if chamfer and size.edge_fillet_mm is not None:
+        raise GenevaError(
+            "edge_fillet_mm: edges are either chamfered or rounded; remove one of edge_chamfer_mm "
+            "and edge_fillet_mm",
+            ("size", "edge_fillet_mm"),
+        )
+    thin = min(sizes.wheel_thickness, sizes.lock_thickness, sizes.arm_thickness)
+    if 2.0 * size.edge_mm >= thin:
+        key = "edge_chamfer_mm" if chamfer else "edge_fillet_mm"
+        raise GenevaError(
+            f"{key} = {size.edge_mm:g}: it must be below {0.5 * thin:.6g}, half of the thinnest "
+            "plate",
+            ("size", key),
         )
 
 

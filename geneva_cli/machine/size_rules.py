@@ -22,8 +22,9 @@ def refuse_sizes(spec: Spec, L: float, ratio: float) -> None:
     size = spec.size
     for key, value, below, what in _bounds(spec, L, ratio):
         refuse(value >= below, partial(_too_large, key, value, below, what))
+    edges = 2.0 * size.edge_mm
     if size.face_width_mm is not None and size.wheel_thickness_mm is not None:
-        refuse(size.face_width_mm > size.wheel_thickness_mm, partial(_thin, size))
+        refuse(size.face_width_mm + edges > size.wheel_thickness_mm, partial(_thin, size))
     for part in ("wheel", "crank"):
         bore, hub = getattr(size, f"{part}_bore_mm"), getattr(size, f"{part}_hub_mm")
         if bore is not None and hub is not None:
@@ -40,7 +41,8 @@ def _too_large(key: str, value: float, below: float, what: str) -> GenevaError:
 def _thin(size: Size) -> GenevaError:
     return GenevaError(
         f"wheel_thickness_mm = {size.wheel_thickness_mm:g}: the contact line cannot be longer than "
-        f"the wheel is thick; use at least face_width_mm = {size.face_width_mm:g}",
+        f"the wheel is thick; use at least face_width_mm = {size.face_width_mm:g}"
+        + (f" and two edges of {size.edge_mm:g}" if size.edge_mm > 0.0 else ""),
         ("size", "wheel_thickness_mm"),
     )
 

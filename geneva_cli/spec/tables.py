@@ -202,6 +202,22 @@ class Size(SpecTable):
         float | None, POSITIVE, "thickness of the links; default: the crank arm's"
     ] = None
     washer_mm: Annotated[float, NOT_NEGATIVE, "thickness of washers between stacked links"] = 0.0
+    edge_chamfer_mm: Annotated[
+        float | None, POSITIVE, "chamfer of all edges, at 45 degrees: a note on the sheet"
+    ] = None
+    edge_fillet_mm: Annotated[
+        float | None, POSITIVE, "rounding radius of all edges: a note on the sheet"
+    ] = None
+
+    @property
+    def edge_mm(self) -> float:
+        """Height of a face that its chamfer or rounding takes at each edge; 0 for sharp edges.
+
+        >>> Size(edge_chamfer_mm=0.5).edge_mm
+        0.5
+        """
+        own = self.edge_fillet_mm if self.edge_chamfer_mm is None else self.edge_chamfer_mm
+        return 0.0 if own is None else own
 
     @cached_property
     def allowances(self) -> Allowances:

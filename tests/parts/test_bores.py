@@ -144,3 +144,30 @@ def test_sheets_say_what_they_are():
     assert "hexagon 16 across flats" in texts
     assert texts.count("flat, 9 to the far side") == 2  # arm and disc
     assert not [text for text in texts if text.startswith("Ø 16 H7")][1:]  # the frame's alone
+
+
+def test_edges_are_a_note_and_take_some_of_the_thickness():
+    """8 mm of contact and two edges of 0.5 mm make a wheel of 9 mm."""
+    design = of(edge_chamfer_mm=0.5, face_width_mm=8.0)
+    assert design.parts.sizes.wheel_thickness == 9.0
+    assert "all edges chamfered 0.5 × 45°" in [label.text for label in design.sheet().texts]
+    rows = {row["name"]: row for row in design.part_table("parts").to_rows()}
+    assert rows["chamfer of all edges"]["value"] == 0.5
+    texts = [label.text for label in of(edge_fillet_mm=1.0).sheet().texts]
+    assert "all edges rounded R 1" in texts
+
+
+@pytest.mark.parametrize(
+    ("size", "said"),
+    [
+        ({"edge_chamfer_mm": 0.5, "edge_fillet_mm": 0.5}, "either chamfered or rounded"),
+        ({"edge_chamfer_mm": 5.0}, "edge_chamfer_mm = 5: it must be below 5, half"),
+        (
+            {"edge_fillet_mm": 1.0, "face_width_mm": 9.0, "wheel_thickness_mm": 10.0},
+            "use at least face_width_mm = 9 and two edges of 1",
+        ),
+    ],
+)
+def test_edges_that_are_refused(size, said):
+    with pytest.raises(GenevaError, match=said):
+        of(**size).drawing("wheel")

@@ -111,6 +111,10 @@ def usual(rng, key, z, L, r, outside):
         "gear_bolt_mm": L / 40.0,
         "gear_bolt_circle_mm": 0.8 * L,
         "dial_bolt_circle_mm": L / 2.0,
+        "wheel_flat_mm": 0.02 * L,
+        "crank_flat_mm": 0.02 * R,
+        "edge_chamfer_mm": 0.05 * r,
+        "edge_fillet_mm": 0.05 * r,
     }
     return near(rng, of[key])
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 from geneva_cli.drawings.sheet.view import number
 from geneva_cli.layout.fits import toleranced
 from geneva_cli.machine.mechanism import Mechanism
+from geneva_cli.spec.tables import Size
 
 
 def plain(value: float, sign: str = "", deviation: float = 0.0) -> str:
@@ -70,3 +71,15 @@ def bore(radius: float) -> str:
 def shaft(radius: float) -> str:
     """Return the diameter of a shaft that fits into a bore."""
     return fitted(2.0 * radius, "Ø ", "h6")
+
+
+def edge_note(size: Size) -> str:
+    """Return the note on edges; "" where the spec has none.
+
+    >>> edge_note(Size(edge_chamfer_mm=0.5)), edge_note(Size(edge_fillet_mm=1.0))
+    ('all edges chamfered 0.5 × 45°', 'all edges rounded R 1')
+    """
+    if size.edge_chamfer_mm is not None:
+        return f"all edges chamfered {number(size.edge_chamfer_mm)} × 45°"
+    rounded = size.edge_fillet_mm
+    return "" if rounded is None else f"all edges rounded {plain(rounded, 'R ')}"

@@ -21,6 +21,7 @@ from geneva_cli.drawings.sheet.linked import (
     titled,
 )
 from geneva_cli.drawings.sheet.paper import scale_name
+from geneva_cli.drawings.sheet.sized import edge_note
 from geneva_cli.drawings.sheet.standing import draw_frame, draw_groove
 from geneva_cli.drawings.sheet.view import View
 from geneva_cli.drawings.sheet.wheel import draw_wheel
@@ -98,4 +99,7 @@ def together(shown: SheetContent, scale: float) -> View:
     """Return the view of the assembled machine."""
     view = View(f"assembly ({scale_name(scale)})", scale)
     draw_assembly(view, shown.parts.outlines, shown.together)
+    edges = edge_note(shown.parts.mechanism.spec.size)
+    if edges:
+        view.remark(edges)
     return view
