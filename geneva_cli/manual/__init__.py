@@ -35,6 +35,7 @@ GROUPS: dict[str, dict[str, str]] = {
         "browser": "a page with spec, verdict and machine; nothing to install",
         "step-cad": "hand over a STEP to CAD",
         "spherical-sheet": "cut a spherical wheel from sheet",
+        "electronic-cam": "replay the motion by a servo",
         "write-report": "write a report",
         "plots": "plot curves and show the machine moving",
         "sweep-front": "sweep a million designs and plot the front",
