@@ -31,6 +31,7 @@ from geneva_cli.spec.tables import (
     Load,
     Mass,
     Motor,
+    Product,
     RollerMaterial,
     Shaft,
     Size,
@@ -132,6 +133,7 @@ class Design:
         material_wheel: WheelMaterial | None = None,
         material_roller: RollerMaterial | None = None,
         tolerance: Tolerance | None = None,
+        product: Product | None = None,
         limits: Limits | None = None,
         title: str = "",
     ) -> None:
@@ -148,6 +150,7 @@ class Design:
             material_wheel or WheelMaterial(),
             material_roller or RollerMaterial(),
             tolerance or Tolerance(),
+            product or Product(),
             limits or Limits(),
             title,
         )

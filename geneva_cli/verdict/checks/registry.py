@@ -53,6 +53,8 @@ LIMITS: Checks = {
     "lock_deflection_max_deg": "strength:strength_limit",
     "wheel_shaft_stress_MPa": "strength:strength_limit",
     "crank_shaft_stress_MPa": "strength:strength_limit",
+    "product_acceleration_max_m_s2": "product:acceleration",
+    "product_slip": "product:slipping",
 }
 # Checks of flat parts at rest.
 STATIC: Checks = {
