@@ -5,26 +5,17 @@ The exponent is that of a power of the size: 1 is linear, and n log n is 1.1 to 
 
 from __future__ import annotations
 
-import subprocess
-import sys
 from collections.abc import Sequence
-from functools import partial
 from typing import NamedTuple
 
 from geneva_cli.bench.method import Method, Subject, Task
-from geneva_cli.bench.whole_runs import BASELINE, IMPORT, RUN, run_python
+from geneva_cli.bench.whole_runs import geneva, task
 from geneva_cli.specfile.template import template
 
 SIZES = "--set size.roller_radius_mm=0.1 --set size.center_distance_mm"
 SWEEP = f"sweep - {SIZES}=100 --set drive.kind=side-crank --vary drive.A=-0.3..0.5"
 SLOTS = (6, 12, 24, 48, 96, 192, 360)  # parts are drawn for up to 360 slots
 ROWS = (10, 100, 1_000, 10_000, 100_000)
-# Runs a command and prints its largest memory. The bench's own process is too large for that: a
-# child starts with the memory of its parent.
-LARGEST = (
-    "import resource, subprocess, sys; subprocess.run(sys.argv[1:], stdout=subprocess.DEVNULL);"
-    "print(resource.getrusage(resource.RUSAGE_CHILDREN).ru_maxrss)"
-)
 
 
 class Grown(NamedTuple):
@@ -108,33 +99,6 @@ def words_of(run: Grown, n: int) -> tuple[str, ...]:
 
 def _task(run: Grown, most: int | None) -> Task:
     text = template(run.kind)
-    methods = [
-        Method(
-            "ours",
-            n,
-            partial(_run, words_of(run, n), text),
-            ours=True,
-            memory=partial(_memory, words_of(run, n), text),
-        )
-        for n in run.sizes[:most]
-    ]
-    base = partial(run_python, IMPORT)
-    return Task(f"geneva {run.words}", BASELINE, base, lambda _: 0.0, methods)
-
-
-def _command(words: Sequence[str]) -> list[str]:
-    return [sys.executable, "-c", RUN, *words]
-
-
-def _run(words: Sequence[str], text: str) -> None:
-    done = subprocess.run(_command(words), capture_output=True, input=text, text=True)
-    # 1: a check fails, which is a result
-    if done.returncode not in (0, 1):
-        raise subprocess.CalledProcessError(done.returncode, done.args, stderr=done.stderr)
-
-
-def _memory(words: Sequence[str], text: str) -> float:
-    """Return the greatest memory of a run, MB."""
-    command = [sys.executable, "-c", LARGEST, *_command(words)]
-    done = subprocess.run(command, capture_output=True, input=text, text=True, check=True)
-    return float(done.stdout) / (1e6 if sys.platform == "darwin" else 1e3)  # bytes or kilobytes
+    runs = {n: geneva(*words_of(run, n), text=text) for n in run.sizes[:most]}
+    methods = [Method("ours", n, run.run, True, memory=run.memory_MB) for n, run in runs.items()]
+    return task(f"geneva {run.words}", methods)
