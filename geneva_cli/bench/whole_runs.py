@@ -43,8 +43,8 @@ class WholeRun(NamedTuple):
         done = subprocess.run(
             command, capture_output=True, input=self.text, text=True, env=environment
         )
-        # 1: a check fails, which is a result
-        if done.returncode not in (0, 1) or "Traceback" in done.stderr:
+        # 1: a check fails, which is a result where it is printed
+        if done.returncode > 1 or (done.returncode and not done.stdout):
             raise subprocess.CalledProcessError(done.returncode, command, stderr=done.stderr)
         return done.stdout
 
