@@ -6,7 +6,7 @@ Scripts draw machines with NumPy or SciPy and put them into a handbook's formula
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from functools import partial
 from typing import TYPE_CHECKING, Any, NamedTuple
 
@@ -84,7 +84,7 @@ def _ours() -> Callable[[int], Means]:
 def pseudo_random(count: int) -> Means:
     """Means over machines from NumPy's generator."""
     rng = np.random.default_rng(1)
-    results = textbook(*(rng.uniform(-size, size, count) for size in SIZES))
+    results = textbook([rng.uniform(-size, size, count) for size in SIZES])
     return Means(*(float(values.mean()) for values in results))
 
 
@@ -96,12 +96,13 @@ def quasi_random(count: int, block: int = 1 << 30) -> Means:
     for start in range(0, count, block):
         unit = sequence.random(min(block, count - start))
         deviations = (unit.T * 2.0 - 1.0) * np.reshape(SIZES, (-1, 1))
-        sums += [values.sum() for values in textbook(*deviations)]
+        sums += [values.sum() for values in textbook(deviations)]
     return Means(*(sums / count).tolist())
 
 
-def textbook(dL: Any, dR: Any, dd: Any, dw: Any, da: Any, dk: Any, dr: Any) -> tuple[Any, ...]:
+def textbook(deviations: Iterable[Array]) -> tuple[Any, ...]:
     """Play of the lock, error in motion and jump at entry of machines with these deviations."""
+    dL, dR, dd, dw, da, dk, dr = deviations
     dwell = corner(L, LOCK.recess + dr) - corner(L + dL, LOCK.lock + dk) + da
     return dwell, leaned(dL, dR, 0.5 * (dw - dd)) + da, jumps(L + dL, arm() + dR)
 
