@@ -72,6 +72,8 @@ class VariedMachine(NamedTuple):
     designs: int = 50_000  # of a whole run
     # a handbook's formulas for the peaks of velocity and acceleration, from the varied values
     script: Callable[[Any], Any] | None = None
+    # and for velocity and acceleration of one design at angles in radians
+    formula: Callable[[Any, Any], Any] | None = None
 
 
 KINDS = (
@@ -82,6 +84,7 @@ KINDS = (
         3.0,
         24.0,
         script=plain_cranks,
+        formula=lambda z, x: textbook(np.sin(np.pi / z), x, (1, 2)),
     ),
     VariedMachine(
         "side-crank",
@@ -90,6 +93,7 @@ KINDS = (
         -0.9,
         0.9,
         script=partial(side_cranks, 1.0),
+        formula=lambda A, x: rates(np, Proportions.of(1.0, 6, A), x),
     ),
     VariedMachine(
         "side-crank inside",
@@ -98,6 +102,7 @@ KINDS = (
         -0.9,
         0.9,
         script=partial(side_cranks, -1.0),
+        formula=lambda A, x: np.negative(rates(np, Proportions.of(-1.0, 6, A), x)),
     ),
     VariedMachine(
         "offset slots",

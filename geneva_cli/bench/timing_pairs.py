@@ -45,7 +45,7 @@ def median_ratio(pairs: Sequence[Pair]) -> float:
 
 
 def exponent(sizes: Sequence[float], costs: Sequence[float]) -> float:
-    """Exponent p of costs that grow as a + b n^p, where a is the cost of the smallest size.
+    """Exponent p of costs that grow as a + b n^p, where a is the least cost.
 
     The slope of a line through the logarithms, by least squares. Growth of less than a fifth of a
     is noise. The last such size takes part with a fifth, so that a late rise is seen. Without any
@@ -54,8 +54,9 @@ def exponent(sizes: Sequence[float], costs: Sequence[float]) -> float:
     >>> round(exponent([1, 10, 100, 1000], [1.0, 1.9, 10.9, 100.9]), 1)
     1.0
     """
-    least = 0.2 * costs[0]
-    grown = [max(cost - costs[0], least) for cost in costs]
+    start = min(costs)  # not the first, which noise may raise
+    least = 0.2 * start
+    grown = [max(cost - start, least) for cost in costs]
     first = max((i for i, growth in enumerate(grown) if growth == least), default=0)
     x = [math.log(size) for size in sizes[first:]]
     y = [math.log(growth) for growth in grown[first:]]

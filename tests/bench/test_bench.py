@@ -29,7 +29,7 @@ from geneva_cli.bench.subjects import tolerance as bench_tolerance
 from geneva_cli.bench.subjects.cranks import CrankDesigns
 from geneva_cli.bench.subjects.many import PEAK_QUANTITIES
 from geneva_cli.bench.subjects.motion import blocks, stable, stable_texts
-from geneva_cli.bench.timing_pairs import median_ratio, ratios
+from geneva_cli.bench.timing_pairs import exponent, median_ratio, ratios
 from geneva_cli.bench.truth import acceleration_peak, relative
 from geneva_cli.machine.mechanism import build
 
@@ -250,6 +250,13 @@ def test_scripts_for_batches_find_the_peaks():
         ]
         exact = [[peak(e.motion, name).max for name in PEAK_QUANTITIES] for e in alone]
         assert kind.script(values) == pytest.approx(np.array(exact), rel=5e-3), kind.name
+
+
+def test_costs_have_the_exponent_of_their_growth():
+    sizes = (10, 100, 1_000, 10_000)
+    assert exponent(sizes, [1.2, 1.0, 2.0, 11.0]) == pytest.approx(1.0)  # the first is noise
+    assert exponent(sizes, [1.0 + (n / 1e3) ** 2 for n in sizes]) == pytest.approx(2.0, abs=0.01)
+    assert exponent(sizes, [1.0, 1.1, 0.9, 1.05]) == 0.0
 
 
 def test_means_of_tolerances_are_those_of_an_adaptive_rule():
