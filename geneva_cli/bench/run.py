@@ -107,7 +107,7 @@ def bench_table(rows: list[BenchRow], for_people: bool) -> Table:
 def _spelled(row: BenchRow) -> tuple[object, ...]:
     """A row for people: three digits of what is measured, as more are noise."""
     spelled = {
-        "size": _digits(row.size, 6),
+        "size": _digits(row.size, 12),
         "error": "0" if row.error == 0.0 else row.error and f"{row.error:.1e}",
         "time_ratio": _digits(row.time_ratio, 3),
         "memory_MB": _digits(row.memory_MB, 3),
