@@ -71,6 +71,11 @@ def warning(text: str) -> SummaryLine:
     return SummaryLine("warning", text, explained, WARNS)
 
 
+def input_lines(with_units: Iterable[str]) -> list[SummaryLine]:
+    """A line for each input that has a unit in the spec's file, with the number that was read."""
+    return [SummaryLine("read", text) for text in with_units]
+
+
 def _failure(check: Check) -> SummaryLine:
     """The line of a failing check: its value, its limit, and the change."""
     label, unit = spoken(check.name)
