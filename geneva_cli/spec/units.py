@@ -116,6 +116,15 @@ def in_unit_of(key: str, text: str) -> float:
         raise GenevaError(f'{key} = "{cut(text)}" is too large a number') from None
 
 
+def ratio(unit: str, other: str) -> float:
+    """How many of another unit one unit is.
+
+    >>> ratio("ft", "in")
+    12.0
+    """
+    return float(_unit(unit).size / _unit(other).size)
+
+
 def _hint(text: str, own: str | None) -> str:
     """What is right instead of a text that is no number with a unit."""
     comma = re.fullmatch(r"\s*([+-]?\d+),(\d+)\b.*", text)
