@@ -147,8 +147,8 @@ TABLE = rows_table(("a",), [(1.0,)])
         ),
         (
             lambda: draw(MANY, format="dwg"),
-            "--format dwg: it must be one of dxf, svg, step, stl, 3mf, obj, scad, table, csv, json, "
-            "md",
+            "--format dwg: it must be one of dxf, svg, step, stl, 3mf, obj, scad, table, csv, "
+            "json, md",
         ),
         (lambda: draw(MANY, units="cm"), "--units cm: it must be one of mm, inch"),
     ],
