@@ -10,7 +10,7 @@ from functools import cache
 from typing import Any
 
 from geneva_cli.document import Block, Curves, Document, Fact, Facts, Grid
-from geneva_cli.figure import Curve, Figure, Panel
+from geneva_cli.figure import Axis, Curve, Figure, Panel
 from geneva_cli.names import UNITS, unit_of
 from geneva_cli.spec.units import ratio
 from geneva_cli.table import Column, Table, pieces
@@ -55,8 +55,9 @@ def value_in_inches(value: Any, unit: str) -> tuple[Any, str]:
 
 def _over(value: Any, size: float) -> Any:
     """A number, or each of several, over the size of its unit; anything else unchanged."""
-    if isinstance(value, tuple):
-        return tuple(_over(one, size) for one in value)
+    if isinstance(value, (tuple, list)):
+        over = [_over(one, size) for one in value]
+        return over if isinstance(value, list) else tuple(over)
     is_number = isinstance(value, (int, float)) and not isinstance(value, bool)
     return value / size if is_number and size != 1.0 else value
 
@@ -148,8 +149,18 @@ def document_in_inches(document: Document) -> Document:
 
 
 def figure_in_inches(figure: Figure) -> Figure:
-    """The figure with its curves in inches and pounds."""
-    return figure._replace(panels=tuple(map(_panel, figure.panels)))
+    """The figure with its curves and axes in inches and pounds."""
+    x, size = _axis(figure.x)
+    title = figure.title
+    for axis in (figure.x, *(panel.y for panel in figure.panels)):
+        title = title.replace(axis.label, _axis(axis)[0].label)
+    return Figure(
+        title,
+        x,
+        tuple(_panel(panel, size) for panel in figure.panels),
+        _over(figure.window, size),
+        _over(figure.shaded, size),
+    )
 
 
 def _block(block: Block) -> Block:
@@ -192,14 +203,22 @@ def _grid(grid: Grid) -> Grid:
     return grid._replace(heads=tuple(heads), rows=tuple(rows))
 
 
-def _panel(panel: Panel) -> Panel:
-    unit, size = _other(panel.y.unit)
-    bounds = panel.bounds and (panel.bounds[0] / size, panel.bounds[1] / size)
-    curves = tuple(_curve(curve, size) for curve in panel.curves)
-    return panel._replace(y=panel.y._replace(unit=unit), curves=curves, bounds=bounds)
+def _panel(panel: Panel, size_x: float) -> Panel:
+    y, size = _axis(panel.y)
+    curves = tuple(_curve(curve, size_x, size) for curve in panel.curves)
+    return panel._replace(y=y, curves=curves, bounds=panel.bounds and _over(panel.bounds, size))
 
 
-def _curve(curve: Curve, size: float) -> Curve:
-    some = tuple((x, [v / size for v in y]) for x, y in curve.pieces)
-    marks = tuple(mark._replace(y=_over(mark.y, size)) for mark in curve.marks)
-    return curve._replace(pieces=some, marks=marks)
+def _curve(curve: Curve, size_x: float, size_y: float) -> Curve:
+    some = tuple((_over(x, size_x), _over(y, size_y)) for x, y in curve.pieces)
+    marks = (m._replace(x=_over(m.x, size_x), y=_over(m.y, size_y)) for m in curve.marks)
+    return curve._replace(pieces=some, marks=tuple(marks))
+
+
+def _axis(axis: Axis) -> tuple[Axis, float]:
+    """An axis with its other unit, and the unit's size; a csv's column has it in its name."""
+    if axis.label == axis.name:
+        name, size = _named(axis.name)
+        return axis._replace(label=name), size
+    unit, size = _other(axis.unit)
+    return axis._replace(unit=unit), size

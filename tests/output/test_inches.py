@@ -22,6 +22,7 @@ from geneva_cli.output.inches import (
     value_in_inches,
 )
 from geneva_cli.study.document import document
+from geneva_cli.study.figures import of_table
 from geneva_cli.table import Table, pieces
 
 # What one of a unit is in SI units.
@@ -131,6 +132,17 @@ def test_a_document_keeps_the_keys_of_the_spec():
     assert "Fact(name='Centre distance', value=9.8425196" in texts
     for block, before in zip(other.blocks, page.blocks, strict=True):
         assert type(block) is type(before)
+
+
+def test_a_figure_of_columns_has_its_units_in_its_names(tmp_path):
+    path = tmp_path / "sweep.csv"
+    path.write_text("size.center_distance_mm,loads.pin_force_N.max\n254,4.4482216152605\n508,0\n")
+    words = "--x", "size.center_distance_mm", "--y", "loads.pin_force_N.max"
+    text = run("plot", str(path), *words, "--format", "svg", "--units", "inch").stdout
+    assert ">loads.pin_force_lbf.max by size.center_distance_in<" in text
+    other = figure_in_inches(of_table(str(path), words[1], [words[3]]))
+    assert other.panels[0].curves[0].pieces == (([10.0, 20.0], [1.0, 0.0]),)
+    assert other.window == pytest.approx((9.8, 20.2), rel=1e-15)  # two hundredths beside the points
 
 
 def test_a_figure_is_scaled():
