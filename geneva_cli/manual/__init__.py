@@ -37,6 +37,7 @@ GROUPS: dict[str, dict[str, str]] = {
         "inches": "work in inches and pounds",
         "cad-code": "go on in build123d, FreeCAD or OpenSCAD",
         "spherical-sheet": "cut a spherical wheel from sheet",
+        "electronic-cam": "replay the motion by a servo",
         "write-report": "write a report",
         "plots": "plot curves and show the machine moving",
         "sweep-front": "sweep a million designs and plot the front",
