@@ -35,6 +35,8 @@ GROUPS: dict[str, dict[str, str]] = {
         "drawing-sheet": "make a drawing with dimensions",
         "browser": "a page with spec, verdict and machine; nothing to install",
         "step-cad": "hand over a STEP to CAD",
+        "inches": "work in inches and pounds",
+        "cad-code": "go on in build123d, FreeCAD or OpenSCAD",
         "spherical-sheet": "cut a spherical wheel from sheet",
         "electronic-cam": "replay the motion by a servo",
         "write-report": "write a report",

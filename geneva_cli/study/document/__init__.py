@@ -32,7 +32,7 @@ def document(design: Design) -> Document:
         *pictures.drawn(design),
         key_figures(design),
         *verdict.warnings(left),
-        *inputs.inputs(design.spec),
+        *inputs.inputs(design.spec, design.with_units),
         *answers.timing(left, design.spec.drive.n_rpm),
         *pictures.curves(design),
         *answers.loads(design, left),
