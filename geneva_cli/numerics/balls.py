@@ -67,6 +67,11 @@ class Ball(Enclosed):
         return cls(arb(a).union(arb(b)))
 
     @property
+    def centre(self) -> Ball:
+        """The ball of its exact middle."""
+        return Ball(self.arb.mid())
+
+    @property
     def middle(self) -> float:
         """Middle, to the nearest double."""
         return float(self.arb.mid())
@@ -95,10 +100,17 @@ class Ball(Enclosed):
         return (self.arb > 0) - (self.arb < 0)
 
     def meet(self, other: Ball) -> Ball:
-        """Intersection of two balls that hold one number; an unbounded ball adds nothing."""
+        """Intersection of two balls that hold one number; an unbounded ball adds nothing.
+
+        Two balls without a common number are of two formulas that meet within ``REACH``: their hull
+        holds both.
+        """
         if not other.is_finite:
             return self
-        return Ball(self.arb.intersection(other.arb)) if self.is_finite else other
+        if not self.is_finite:
+            return other
+        one, two = self.arb, other.arb
+        return Ball(one.intersection(two) if one.overlaps(two) else one.union(two))
 
     def piece(self, cuts: Sequence[float]) -> int:
         """Number of the piece between ``cuts`` that holds its middle.

@@ -240,11 +240,11 @@ class _Search:
 
     def _on(self, a: float, b: float) -> _Enclosure | None:
         """Enclosures on an interval by Taylor's theorem; None if the function has no bound."""
-        middle = 0.5 * (a + b)
-        half = max(b - middle, middle - a) * (1.0 + 2.0**-52)
-        t = Ball.between(-half, half) * (Ball.library.pi / 180.0)
-        thin = self._values(Ball.exact(middle), ORDER - 1)
-        thick = self._values(Ball.between(a, b), ORDER)
+        # Both at the exact middle: a double beside it may belong to the formula beyond a seam.
+        on = Ball.between(a, b)
+        t = Ball.between(-on.radius, on.radius) * (Ball.library.pi / 180.0)
+        thin = self._values(on.centre, ORDER - 1)
+        thick = self._values(on, ORDER)
         c = [*thin, thick[ORDER]]
         sums = (
             _sum(c, t).meet(thick[0]),

@@ -14,13 +14,12 @@ import numpy as np
 import pytest
 import repo
 from sampling import some
+from turn_witness import ROUNDING, TO_MM, check_bounds, least_gap, turn_of
 from words import load
 
 from geneva_cli.collisions import settled as halving
-from geneva_cli.collisions.certificate import certificate, spans
+from geneva_cli.collisions.certificate import certificate
 from geneva_cli.collisions.full_turn import full_turn
-from geneva_cli.collisions.play import windows
-from geneva_cli.collisions.settled import intervals
 from geneva_cli.curves.distance import Polyarc
 from geneva_cli.curves.extents import farthest, from_segments, near_segments, short_pieces
 from geneva_cli.curves.shapes import Line, about, closed
@@ -39,9 +38,6 @@ from geneva_cli.outlines.travel import UNKNOWN, Travel, curve_rates, path_travel
 from geneva_cli.spec.tables import Size
 from geneva_cli.verdict.checks.proved import least_gap as least_gap_check
 
-TO_MM = 1e-3
-ROUNDING = 1e-9  # mm: a hundred times the rounding of a distance here
-DENSE = some(20_000, 4_000)  # positions of a turn
 MACHINES = some(300, 12)
 FLAT = [path.name for path in sorted(repo.DESIGNS.glob("*.toml")) if load(path).spec.wheel.FLAT]
 
@@ -53,18 +49,6 @@ def parts_of(name):
 
 def proved(parts, gap_mm=0.0, to_mm=TO_MM):
     return certificate(parts, gap_mm, to_mm)
-
-
-def least_gap(parts, at):
-    """The smallest gap of all parts at input angles."""
-    pose = parts.gaps.pose(at)
-    locking = parts.gaps.locking(pose).min() if parts.crank else math.inf
-    return float(min(parts.gaps.rollers(pose).min(), locking))
-
-
-def turn_of(parts, count=DENSE):
-    start = parts.assembly.start_deg
-    return np.linspace(start, start + parts.assembly.turn_deg, count)
 
 
 def random_parts(seed):
@@ -225,37 +209,6 @@ def test_a_path_that_is_unknown_closes_no_interval():
     at = np.array([0.5])
     assert travel.most(at, at + 1e-9) == travel.most(at, at + 1.0) == UNKNOWN
     assert travel.aside(at, at + 1e-6) > 1e12
-
-
-def pairs(parts, window):
-    """Each pair of parts in a motion or dwell, with the gap at input angles."""
-    every = parts.pairs(-TO_MM)
-    if parts.crank:
-        ends = window.start, window.end
-        yield ends, every.lock(window), lambda at: parts.gaps.locking(parts.gaps.pose(at))
-    for roller in range(len(parts.assembly.rollers)):
-
-        def gap(at, roller=roller):
-            return parts.gaps.rollers(parts.gaps.pose(at))[:, roller]
-
-        yield (window.start, window.end), every.free(roller, window), gap
-        for span, driver in spans(parts, window):
-            if roller == driver:
-                yield span, every.driving(roller, span), gap
-
-
-def check_bounds(parts, rng):
-    for window in windows(parts):
-        for (low, high), pair, gap in pairs(parts, window):
-            width = (high - low) * 10.0 ** rng.uniform(-5.0, -0.5, 40)
-            start = low + (high - low - width) * rng.random(40)
-            bounds = pair(intervals(parts.gaps, start, start + width))
-            at = start[:, None] + width[:, None] * np.linspace(0.0, 1.0, 41)
-            dense = gap(at.ravel()).reshape(at.shape).min(axis=1)
-            near = parts.gaps.near  # wider gaps are returned as this
-            assert (np.minimum(bounds.least, near) <= dense + ROUNDING).all()
-            middle = gap(start + 0.5 * width)
-            assert np.allclose(np.minimum(bounds.middle, near), middle, atol=ROUNDING)
 
 
 @pytest.mark.parametrize("name", FLAT)
