@@ -109,8 +109,12 @@ class Ball(Enclosed):
             return self
         if not self.is_finite:
             return other
-        one, two = self.arb, other.arb
-        return Ball(one.intersection(two) if one.overlaps(two) else one.union(two))
+        overlap = self.arb.overlaps(other.arb)
+        return Ball(self.arb.intersection(other.arb)) if overlap else self.join(other)
+
+    def join(self, other: Ball) -> Ball:
+        """Hull of two balls, which holds the numbers of both."""
+        return Ball(self.arb.union(other.arb))
 
     def piece(self, cuts: Sequence[float]) -> int:
         """Number of the piece between ``cuts`` that holds its middle.
@@ -227,6 +231,7 @@ class _Balls:
 
 
 Ball.library = cast("Library", _Balls())
+NOWHERE = Ball.exact(math.nan)  # a number of which no bound is known
 
 
 def ball_of(x: Number) -> Ball:

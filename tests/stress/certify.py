@@ -1,4 +1,4 @@
-"""Every peak is certified: all designs, then random machines, a thousand of each kind.
+"""Every peak and load is certified: all designs, then random machines, a thousand of each kind.
 
 `python tests/stress/certify.py --runs 10500`. A peak that its certificate does not confirm is a
 bug. One that is `not proved` is counted: its peak may be narrower than balls can enclose.
@@ -12,9 +12,11 @@ from fuzz_spec import read
 from fuzzing import campaign, in_time
 
 from geneva_cli.analysis.certificate import certificate
+from geneva_cli.analysis.certificate_loads import LOADS, not_proved
 from geneva_cli.analysis.peaks import QUANTITIES, worst
 from geneva_cli.design import load
 from geneva_cli.kinematics.registry import DRIVES
+from geneva_cli.loads.loads import greatest
 
 SECONDS = 60  # of one machine; most take 0.1 s, and 2,000 intervals of a four-bar's four peaks 12 s
 NEAR = 1e-6  # of a peak: how far the bounds of decimals and doubles may be apart, by rounding
@@ -36,6 +38,12 @@ def confirmed(mechanism):
             below = found.low <= decimals.high * (1.0 + NEAR)
             above = not found.proved or decimals.low <= found.high * (1.0 + NEAR)
             assert below and above, f"{decimals.text} against {found.text}"
+    loads = [name for name in LOADS if not not_proved(mechanism, name)]
+    for name in loads:
+        found, peak = certificate(mechanism, name), greatest(mechanism, name)
+        if found.proved:
+            assert found.confirms(*peak), f"{peak} against {found.text} {found.places}"
+        open_ += not found.proved
     return f"{open_} not proved" if open_ else "proved"
 
 
