@@ -834,7 +834,9 @@ class Design:
         """
         from geneva_cli.verdict.tolerance.tables import histogram_table
 
-        return self._located(lambda: histogram_table(self.mechanism, self.parts_model, samples, seed))
+        return self._located(
+            lambda: histogram_table(self.mechanism, self.parts_model, samples, seed)
+        )
 
     @answer
     def motion_warnings(self) -> list[Notice]:

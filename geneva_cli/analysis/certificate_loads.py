@@ -8,7 +8,7 @@ enclosed for either.
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from typing import TYPE_CHECKING, TypeAlias
+from typing import TYPE_CHECKING, TypeAlias, cast
 
 from geneva_cli.analysis.contact import Contact, contact
 from geneva_cli.analysis.forces import (
@@ -94,4 +94,4 @@ def _joined(loads: Sequence[Jet]) -> Jet:
     value = ball_of(first.c[0])
     for other in others:
         value = value.join(ball_of(other.c[0]))
-    return Jet([value, *[NOWHERE] * first.order])
+    return Jet(cast("list[Number]", [value, *[NOWHERE] * first.order]))

@@ -165,7 +165,9 @@ def test_play_of_a_lock_on_a_sphere_is_that_of_a_whole_turn(axes_deg, rollers):
     assert (lock.reach <= lock.half + 1e-9) == ((axes_deg, rollers) in ROUND[0:3:2])
     play = lock(at())
     assert not play.jams
-    assert math.degrees(play.angle.c[0]) == pytest.approx(design.parts_model.turn.dwell.deg, rel=2e-6)
+    assert math.degrees(play.angle.c[0]) == pytest.approx(
+        design.parts_model.turn.dwell.deg, rel=2e-6
+    )
 
 
 @pytest.mark.parametrize("axes_deg, rollers", ROUND)
