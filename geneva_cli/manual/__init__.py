@@ -32,6 +32,7 @@ GROUPS: dict[str, dict[str, str]] = {
         "print": "print it",
         "hand-over": "hand over to a shop",
         "drawing-sheet": "make a drawing with dimensions",
+        "browser": "a page with spec, verdict and machine; nothing to install",
         "step-cad": "hand over a STEP to CAD",
         "spherical-sheet": "cut a spherical wheel from sheet",
         "write-report": "write a report",
