@@ -69,9 +69,9 @@ def intervals(gaps: Clearances, start: Array, end: Array) -> Intervals:
     Where the wheel turns back, the ends do not bound its turn. A whole turn does: no point moves
     farther than twice its radius.
     """
-    poses = [gaps.pose(x) for x in (start, 0.5 * (start + end), end)]
-    crank = np.unwrap([pose.crank for pose in poses], axis=0)
-    steps = np.diff([pose.wheel for pose in poses], axis=0)
+    pose = gaps.pose(np.concatenate((start, 0.5 * (start + end), end)))
+    crank = np.unwrap(pose.crank.reshape(3, -1), axis=0)
+    steps = np.diff(pose.wheel.reshape(3, -1), axis=0)
     # the wheel's angle is rounded by less than 1e-12 radians
     turn = np.where((steps < -1e-12).any(axis=0), math.tau, steps.max(axis=0))
     return Intervals(start, end, np.abs(np.diff(crank, axis=0)).max(axis=0), turn)
