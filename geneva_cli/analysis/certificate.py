@@ -159,7 +159,7 @@ def certificate(
         if exact is None:
             formulas = [_formula(mechanism, e, quantity) for e in each]
             found = [
-                greatest(_curve(formula), e.motion.seams_deg, limit)
+                greatest(_curve(formula), {*e.motion.seams_deg, *e.slot.seams_deg}, limit)
                 for formula, e in zip(formulas, each, strict=True)
             ]
         else:

@@ -6,6 +6,7 @@ from collections.abc import Sized
 from typing import TYPE_CHECKING, NamedTuple, Protocol, Self
 
 if TYPE_CHECKING:
+    from geneva_cli.collisions.pairs import Pairs
     from geneva_cli.layout.assembly import Assembly
     from geneva_cli.numerics.jet import Array
 
@@ -119,6 +120,9 @@ class MachineParts(Protocol):
 
     def over(self, assembly: Assembly) -> Self:
         """Return these parts with another assembly."""
+
+    def pairs(self, target: float) -> Pairs:
+        """Return the pairs of parts that may meet, with gaps bounded up to ``target`` mm."""
 
     def in_wheel(self, motion: int, at: Array) -> Array:
         """Return the centre of a motion's roller in the wheel's frame at input angles (n,).

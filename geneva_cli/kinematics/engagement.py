@@ -144,6 +144,11 @@ class Slot(ABC):
     def __call__(self, input_deg: Number, order: int = 3) -> tuple[Jet, Jet]:
         """Pin (x, y) in the wheel's frame; on a sphere its polar angle in the flat development."""
 
+    @property
+    def seams_deg(self) -> tuple[float, ...]:
+        """Input angles, degrees, at which another formula takes over, but for the motion's own."""
+        return ()
+
     def axis(self, input_deg: Number, order: int = 0) -> SlotAxis | None:
         """Lever and speed of a straight slot at input angles; None for a curved slot."""
         return None

@@ -32,15 +32,20 @@ class SolvedPath:
         self.motion, self.sign = motion, sign
         self._latest = Latest()
 
+    @cached_property
+    def seams_deg(self) -> tuple[float, float]:
+        """Input angles between which the series about mid-motion is used, degrees."""
+        motion = self.motion
+        wide = motion.exit_deg - motion.entry_deg
+        near = NEAR * wide if motion.law.ANALYTIC else NEAR_SPLINE_DEG
+        return -near, near
+
     def distances(self, input_deg: Number, order: int = 3) -> tuple[Jet, Jet]:
         """Roller distances from the wheel's axis and from the crank's, in units of L."""
         rho, R = self._latest(self._distances, input_deg, order)
         return rho, R
 
     def _distances(self, input_deg: Number, order: int) -> tuple[Jet, Jet]:
-        motion = self.motion
-        wide = motion.exit_deg - motion.entry_deg
-        near = NEAR * wide if motion.law.ANALYTIC else NEAR_SPLINE_DEG
 
         def whole(x: Number) -> Jet:
             return _stacked(*self._by_sines(x, order))
@@ -48,7 +53,7 @@ class SolvedPath:
         def middle(x: Number) -> Jet:
             return _stacked(*self._by_series(x, order))
 
-        both = piecewise(input_deg, (-near, near), (whole, middle, whole)).c
+        both = piecewise(input_deg, self.seams_deg, (whole, middle, whole)).c
         return Jet(both[: order + 1]), Jet(both[order + 1 :])
 
     def _by_sines(self, x: Number, order: int) -> tuple[Jet, Jet]:
@@ -115,6 +120,11 @@ class SolvedPathSlot(Slot):
 
     def __init__(self, path: SolvedPath) -> None:
         self.path = path
+
+    @property
+    def seams_deg(self) -> tuple[float, ...]:
+        """Input angles at which another formula of the path takes over, degrees."""
+        return self.path.seams_deg
 
     def __call__(self, input_deg: Number, order: int = 3) -> tuple[Jet, Jet]:
         """Pin (x, y) in the wheel, on the slot's straight axis."""

@@ -202,7 +202,7 @@ def test_a_roller_that_overtakes_the_wheel_jams(z, sector, ratio):
         float(rho * mp.sin(ahead))
         for ahead, rho in (lead(b, u, a_t, a_t + k * mp.mpf("0.002")) for k in range(250))
     ]
-    found = design.proof.turn.driving
+    found = design.parts_model.turn.driving
     L = design.mechanism.center_distance_mm
     assert found.mm == pytest.approx(-L * max(depths), rel=1e-5)  # 0.002 off a flat top
     (said,) = [c for c in design.warnings if c.name == "roller-overtakes"]

@@ -89,10 +89,10 @@ def single_check(mechanism: Mechanism, name: str, model: PartsModel | None = Non
     among = standing(mechanism)
     if not mechanism.spec.has_parts or name not in among:
         return None
-    return check_named(among, name, (model or _proof(mechanism)).parts)
+    return check_named(among, name, (model or _model(mechanism)).parts)
 
 
-def _proof(mechanism: Mechanism) -> PartsModel:
+def _model(mechanism: Mechanism) -> PartsModel:
     from geneva_cli.drawings.model import PartsModel
 
     return PartsModel(mechanism)
@@ -109,7 +109,7 @@ def _parts(mechanism: Mechanism, model: PartsModel | None, turned: bool) -> Iter
         return
     from geneva_cli.collisions.gaps import WorkLimit
 
-    model = model or _proof(mechanism)
+    model = model or _model(mechanism)
     try:
         rows = list(standing_checks(model.parts))
     except GenevaError as error:

@@ -20,8 +20,9 @@ class Check(NamedTuple):
     """One check of one design.
 
     ``passes`` is None if it is not known. ``why`` is the reason for an unknown value, or for
-    missing advice on a failing check. ``at_deg`` is the input angle of the value, None if it is not
-    a value at one angle. ``nearest`` is one change of the spec with which all checks pass.
+    missing advice on a failing check; of a check that passes it says what is proved. ``at_deg`` is
+    the input angle of the value, None if it is not a value at one angle. ``nearest`` is one change
+    of the spec with which all checks pass.
     """
 
     name: str
@@ -32,6 +33,11 @@ class Check(NamedTuple):
     why: str = ""
     at_deg: float | None = None
     nearest: str = ""
+
+    @property
+    def is_proof(self) -> bool:
+        """True if it passes by a proof."""
+        return bool(self.passes and self.why)
 
     @property
     def not_computed(self) -> str:
