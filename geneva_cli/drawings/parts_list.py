@@ -78,11 +78,11 @@ def _parts(model: PartsModel) -> Iterator[Row | Missing]:
     missing: list[Missing] = []
 
     def shells() -> Iterator[Row]:
-        parts = model.ball()
+        parts = model.ball
         yield from part_rows(spec, built_of(parts.by_name(), missing), parts.ball.span_mm[1])
 
     def plates() -> Iterator[Row]:
-        yield from part_rows(spec, built_of(model.flat().by_name(), missing))
+        yield from part_rows(spec, built_of(model.flat.by_name(), missing))
 
     if not spec.wheel.FLAT:
         yield from or_missing("wheel and crank", shells)
@@ -167,7 +167,7 @@ def _dimensions(model: PartsModel) -> Iterator[Row | Missing]:
     ]
     entries += [d for d in spec.wheel.layout if isinstance(d, Dimension)]
     if not spec.wheel.FLAT:
-        entries += or_missing("dimensions of the shells", lambda: dimensions(model.ball()))
+        entries += or_missing("dimensions of the shells", lambda: dimensions(model.ball))
     if mechanism.law is None and spec.drive.CRANKED:
         entries += _straight(mechanism)
     elif spec.drive.CRANKED:

@@ -33,9 +33,9 @@ def single_parts(
     A shell of a sphere has a solid and no outline.
     """
     spec, missing = model.mechanism.spec, list[Missing]()
-    parts = list(built_of(model.flat(tolerance_mm, curves).by_name(), missing))
+    parts = list(built_of(model.flat.within(tolerance_mm, curves).by_name(), missing))
     if not spec.wheel.FLAT:
-        parts = [*built_of(model.ball(tolerance_mm, curves).by_name(), missing), *parts]
+        parts = [*built_of(model.ball.within(tolerance_mm, curves).by_name(), missing), *parts]
     return [_single(model, kind[0], len(kind), tolerance_mm) for kind in alike(parts)], missing
 
 

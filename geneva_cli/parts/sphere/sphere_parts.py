@@ -47,6 +47,10 @@ class SphereParts:
         self.mechanism = shells.assembly.full
         self.tolerance, self.curves = tolerance, curves
 
+    def within(self, tolerance: float, curves: str) -> SphereParts:
+        """Return these parts, laid flat with curves of a kind within a tolerance, mm."""
+        return SphereParts(self.shells, tolerance, curves)
+
     @cached_property
     def wheel(self) -> Member:
         """The wheel's shell with its hub."""
