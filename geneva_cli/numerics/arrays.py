@@ -310,7 +310,7 @@ def _are_alike(one: Number, other: Number) -> bool:
     return both and one.shape == other.shape and one.dtype == other.dtype
 
 
-def designs_of(design: int) -> int:
+def designs_of(design: int | Whole) -> int:
     """The number of designs in a batch, from its designs' numbers: (m, 1), or one number.
 
     A batch carries these numbers, as its varied values need not be arrays.
