@@ -29,7 +29,6 @@ from geneva_cli.outlines.sphere_wheel import POLE
 from geneva_cli.spec.schema import Points, fields
 from geneva_cli.table import Reading, Table, rows_table
 
-ACROSS = ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0))  # axes along which a shell's size is measured
 # columns of a row of each kind
 KINDS = {
     "part": (
@@ -127,7 +126,8 @@ def _properties(solid: Plate | Shell, density: float, outside: float | None) -> 
             row = {"centroid_x_mm": x, "centroid_y_mm": y}
     else:
         low, high = solid.inner, solid.outer
-        wide, deep = (solid.reach(axis) + solid.reach(opposite(axis)) for axis in ACROSS)
+        across = (1.0, 0.0, 0.0), (0.0, 1.0, 0.0)  # axes along which its size is measured
+        wide, deep = (solid.reach(axis) + solid.reach(opposite(axis)) for axis in across)
         mass, inertia = density * solid.volume * MM**3, density * solid.inertia(POLE) * MM**5
     thickness = high - low
     if outside is not None:

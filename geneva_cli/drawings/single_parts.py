@@ -11,9 +11,6 @@ from geneva_cli.layout.alike import alike
 from geneva_cli.layout.missing import Missing, built_of
 from geneva_cli.layout.projection import titled
 
-# layers of parts that are cut out of plates; the others are turned or bought
-CUT_LAYERS = ("WHEEL", "CRANK", "ARM", "LINK", "GROOVE", "FRAME")
-
 
 class SinglePart(NamedTuple):
     """A kind of part: its name and number, thickness in mm, and drawing with its solid."""
@@ -45,4 +42,6 @@ def _single(model: PartsModel, solid: Plate | Shell, count: int, tolerance_mm: f
     shapes = (solid.outline, *solid.holes) if isinstance(solid, Plate) else ()
     thickness = solid.thickness if isinstance(solid, Plate) else solid.outer - solid.inner
     drawing = Drawing(title, shapes, solid=solid, tolerance=tolerance_mm)
-    return SinglePart(solid.name, count, thickness, flat and solid.layer in CUT_LAYERS, drawing)
+    # other layers are turned or bought
+    cut = flat and solid.layer in ("WHEEL", "CRANK", "ARM", "LINK", "GROOVE", "FRAME")
+    return SinglePart(solid.name, count, thickness, cut, drawing)

@@ -27,7 +27,6 @@ if TYPE_CHECKING:
     from geneva_cli.numerics.jet import Array
     from geneva_cli.outlines.outlines import Outlines
 
-STEP = math.radians(1.0)  # of the crank's arcs: pieces that are tested for being in the wheel
 AXIS = np.zeros((1, 2))
 
 
@@ -187,7 +186,8 @@ class Lock:
 
     def __init__(self, reach: Reach, window: Window) -> None:
         self.reach, self.window = reach, window
-        self.pieces = short_pieces(reach.parts.crank, STEP)
+        # arcs of a degree, each of which is tested for being in the wheel
+        self.pieces = short_pieces(reach.parts.crank, math.radians(1.0))
         self.disc = float(farthest(self.pieces, AXIS).max())
 
     def __call__(self, on: Intervals) -> Bounds:

@@ -18,6 +18,7 @@ Point: TypeAlias = tuple[float, float]
 Path: TypeAlias = Sequence[Point]
 
 PAGE = 820.0
+INCH = 82.0  # px of the layout in an inch: the page is ten inches wide
 LEFT, RIGHT, MARKS = 72.0, 18.0, 192.0  # MARKS: the column of the peaks' values
 ABOVE, BELOW = 26.0, 44.0  # a panel's name; the last one's ticks and the axis' name
 TITLE, TEXT, SMALL = 15.0, 11.0, 10.0  # heights of letters

@@ -12,6 +12,7 @@ from geneva_cli.output.letters import western
 from geneva_cli.output.pdf_file import POINT, number
 from geneva_cli.output.plot_layout import (
     END,
+    INCH,
     PAGE,
     START,
     TEXT,
@@ -23,18 +24,17 @@ from geneva_cli.output.plot_layout import (
 )
 from geneva_cli.output.strokes import LIGHT, colour, dashes
 
-INCH = 25.4 / 82.0  # mm per px of a figure's own page, which is ten inches wide
-
 
 def chunks(figure: Figure) -> Iterator[str]:
     """Yield the text of a file with the figure alone."""
     parts = list(blocks(figure))
-    tall = INCH * sum(block.high for block in parts)
+    mm = 25.4 / INCH  # one px on a figure's own page
+    tall = mm * sum(block.high for block in parts)
     content, top = f"{POINT:.9f} 0 0 {POINT:.9f} 0 0 cm\n1 J 1 j\n", tall
     for block in parts:
-        content += _drawn(block, 0.0, INCH, top)
-        top -= INCH * block.high
-    page = pdf_file.Page(INCH * PAGE, tall, content, fonts=2)
+        content += _drawn(block, 0.0, mm, top)
+        top -= mm * block.high
+    page = pdf_file.Page(mm * PAGE, tall, content, fonts=2)
     yield from pdf_file.pdf_text(western(figure.title), [page])
 
 

@@ -8,10 +8,9 @@ from typing import Any
 
 from geneva_cli.errors import GenevaError
 from geneva_cli.figure import Figure
-from geneva_cli.output.plot_layout import PAGE, START, TEXT, Frame, Path, Point, blocks
+from geneva_cli.output.plot_layout import INCH, PAGE, START, TEXT, Frame, Path, Point, blocks
 from geneva_cli.output.strokes import LIGHT, colour, dashes
 
-INCH = 82.0  # px of the layout per inch: the page is ten inches wide
 PT = 72.0 / INCH  # points per px
 
 

@@ -16,8 +16,6 @@ from geneva_cli.bench.whole_runs import BASELINE, IMPORT, RUN, run_python
 from geneva_cli.specfile.template import template
 
 SIZES = "--set size.roller_radius_mm=0.1 --set size.center_distance_mm"
-SWEEP = f"sweep - {SIZES}=100 --set drive.kind=side-crank --vary drive.A=-0.3..0.5"
-SLOTS = (6, 12, 24, 48, 96, 192, 360)  # parts are drawn for up to 360 slots
 ROWS = (10, 100, 1_000, 10_000, 100_000)
 # Runs a command and prints its largest memory. The bench's own process is too large for that: a
 # child starts with the memory of its parent.
@@ -35,8 +33,11 @@ class Grown(NamedTuple):
     kind: str = "external"  # template of the spec
 
 
-def wheel(command: str, sizes: Sequence[int] = SLOTS) -> Grown:
-    """Run of a command whose wheel has more slots; its size grows with them."""
+def wheel(command: str, sizes: Sequence[int] = (6, 12, 24, 48, 96, 192, 360)) -> Grown:
+    """Run of a command whose wheel has more slots; its size grows with them.
+
+    Parts are drawn for up to 360 slots.
+    """
     return Grown(f"{command} {SIZES}={{20n}} --set wheel.z={{n}}", sizes)
 
 
@@ -70,7 +71,11 @@ RUNS = (
     Grown(f"check - {SIZES}=100 --set wheel.z=3 --set drive.rollers={{n}}", (1, 2, 3, 4, 5)),
     Grown("compare - --vary drive.n_rpm={1..n}", (2, 10, 100)),
     *(
-        Grown(f"{SWEEP} --random {{n}} --jobs 1 {words}", sizes)
+        Grown(
+            f"sweep - {SIZES}=100 --set drive.kind=side-crank --vary drive.A=-0.3..0.5 "
+            f"--random {{n}} --jobs 1 {words}",
+            sizes,
+        )
         for words, sizes in (
             ("--pick acceleration.max --format csv", ROWS),
             ("--pick pin_force_N.max --set load.inertia_kgm2=1 --format csv", ROWS[:-1]),

@@ -40,9 +40,6 @@ class Body(NamedTuple):
     places: tuple[Place, ...]
 
 
-HERE = Place(np.eye(3), np.zeros(3))
-
-
 def bodies(drawing: Drawing, units: str, format: str) -> list[Body]:
     """Return the kinds of solids of a drawing; their chords keep the drawing's tolerance.
 
@@ -50,7 +47,8 @@ def bodies(drawing: Drawing, units: str, format: str) -> list[Body]:
     has no closed surface.
     """
     kinds: dict[Plate | Shell, list[Place]] = {}
-    for solid, place in _placed(solid_part(drawing, units, format), HERE):
+    here = Place(np.eye(3), np.zeros(3))
+    for solid, place in _placed(solid_part(drawing, units, format), here):
         kinds.setdefault(solid, []).append(place)
     return [
         Body(solid.name, solid.layer, _surface(solid, drawing.tolerance), tuple(places))
