@@ -17,8 +17,8 @@ from geneva_cli.output.plot_layout import (
     START,
     TEXT,
     FigureBlock,
-    Frame,
     Path,
+    Pen,
     Point,
     blocks,
 )
@@ -53,18 +53,12 @@ def _drawn(block: FigureBlock, left: float, scale: float, top: float) -> str:
     return "".join(pen.out)
 
 
-class _PdfPen:
+class _PdfPen(Pen):
     """Operators of a page, in mm; y upwards."""
 
     def __init__(self, left: float, scale: float, top: float) -> None:
         self.left, self.scale, self.top = left, scale, top
         self.out: list[str] = []
-
-    def begin(self, name: str, frame: Frame) -> None:
-        """Begin a panel: a page has no groups."""
-
-    def end(self) -> None:
-        """End a panel."""
 
     def rest(self, x: float, y: float, wide: float, high: float) -> None:
         (left, bottom), k = self._place((x, y + high)), self.scale
@@ -78,9 +72,6 @@ class _PdfPen:
 
     def curve(self, number: int, paths: Iterable[Path]) -> None:
         self._stroke(colour(number, LIGHT), 1.6, paths, dashes(number))
-
-    def sample(self, number: int, place: Point, long: float) -> None:
-        self.curve(number, [[place, (place[0] + long, place[1])]])
 
     def jumps(self, number: int, paths: Iterable[Path]) -> None:
         self._stroke(colour(number, LIGHT), 0.8, paths)
