@@ -15,7 +15,7 @@ from collections.abc import Iterator
 import numpy as np
 
 from geneva_cli.curves.plates import Member, Plate, Stack
-from geneva_cli.curves.shapes import Circle, Shape
+from geneva_cli.curves.shapes import ORIGIN, Circle, Shape
 from geneva_cli.errors import GenevaError
 from geneva_cli.layout.bores import RoundBore, bore_of, fitted
 from geneva_cli.layout.link_positions import links_at
@@ -23,7 +23,7 @@ from geneva_cli.layout.reliefs import keyway_direction
 from geneva_cli.numerics.tolerances import SAME_LENGTH
 from geneva_cli.outlines.crank import crank_circles, is_whole
 from geneva_cli.outlines.outlines import Outlines
-from geneva_cli.outlines.wheel_hub import AXIS, HUB, about_axis, wheel_hub
+from geneva_cli.outlines.wheel_hub import HUB, about_axis, wheel_hub
 from geneva_cli.parts.arm import has_arm, shaft_bore
 from geneva_cli.parts.turned_shafts import Seat, turned_shaft
 from geneva_cli.spec.tables import Size
@@ -56,7 +56,7 @@ def crank_hub(parts: Outlines) -> Plate | None:
     if high <= low:
         return None
     bores = about_axis(crank_circles(parts.assembly, sizes) if sizes.crank_bore else [])
-    return Plate("crank's hub", HUB, Circle(HUB, AXIS, sizes.crank_hub), bores, low, high)
+    return Plate("crank's hub", HUB, Circle(HUB, ORIGIN, sizes.crank_hub), bores, low, high)
 
 
 def shafts(
