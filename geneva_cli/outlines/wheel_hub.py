@@ -11,6 +11,7 @@ from collections.abc import Iterable
 from geneva_cli.curves.plates import Plate
 from geneva_cli.curves.shapes import ORIGIN, Circle, Shape
 from geneva_cli.layout.assembly import Assembly
+from geneva_cli.layout.set_screws import require_thread
 from geneva_cli.layout.sizes import Sizes
 from geneva_cli.outlines.wheel import wheel_circles
 from geneva_cli.spec.tables import Size
@@ -19,7 +20,16 @@ HUB = "HUB"
 
 
 def wheel_hub(assembly: Assembly, sizes: Sizes) -> Plate | None:
-    """Return the hub below the wheel; None unless the spec has its diameter or its length."""
+    """Return the hub below the wheel; None unless the spec has its diameter or its length.
+
+    Raises GenevaError for a set screw that it does not hold.
+    """
+    hub = _plate(assembly, sizes)
+    require_thread(assembly.mechanism.spec.size, "wheel", hub)
+    return hub
+
+
+def _plate(assembly: Assembly, sizes: Sizes) -> Plate | None:
     size = assembly.mechanism.spec.size
     requested = size.wheel_hub_mm is not None or size.wheel_hub_length_mm is not None
     if not requested or sizes.wheel_hub <= sizes.wheel_bore:

@@ -20,6 +20,7 @@ from geneva_cli.errors import GenevaError
 from geneva_cli.layout.bores import RoundBore, bore_of, fitted
 from geneva_cli.layout.link_positions import links_at
 from geneva_cli.layout.reliefs import keyway_direction
+from geneva_cli.layout.set_screws import require_thread
 from geneva_cli.numerics.tolerances import SAME_LENGTH
 from geneva_cli.outlines.crank import crank_circles, is_whole
 from geneva_cli.outlines.outlines import Outlines
@@ -34,8 +35,15 @@ SHAFT = "SHAFT"
 def crank_hub(parts: Outlines) -> Plate | None:
     """Return the crank's hub above the locking disc or the arm; None if omitted or not higher.
 
-    Raises GenevaError, naming the key, if there is neither disc nor arm to carry it.
+    Raises GenevaError, naming the key, if there is neither disc nor arm to carry it, and for a set
+    screw that it does not hold.
     """
+    hub = _crank_hub(parts)
+    require_thread(parts.assembly.mechanism.spec.size, "crank", hub)
+    return hub
+
+
+def _crank_hub(parts: Outlines) -> Plate | None:
     size, sizes = parts.assembly.mechanism.spec.size, parts.sizes
     requested = size.crank_hub_mm is not None or size.crank_hub_length_mm is not None
     if not requested or sizes.crank_hub <= sizes.crank_bore:

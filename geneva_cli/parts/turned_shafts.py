@@ -6,6 +6,7 @@ circlip below. The part stands on the shoulder, with a circlip above it where th
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
 from typing import NamedTuple
 
@@ -45,7 +46,8 @@ def turned_shaft(size: Size, seat: Seat, layer: str) -> Stack:
     """
     bearing = bearing_up_to(2.0 * seat.bore.radius, seat.part)
     own = fitted(size, seat.bore)
-    shoulder = max(bearing.shoulder, 2.5 * own.around)
+    # rounded up to half a millimetre; the last term drops rounding errors
+    shoulder = 0.5 * math.ceil(2.0 * max(bearing.shoulder, 2.5 * seat.bore.around) - 1e-9)
     below = [
         *_retained(layer, circlip_up_to(bearing.bore))[::-1],
         Step(f"seat of bearing {bearing.name}", _circle(layer, bearing.bore), bearing.width),

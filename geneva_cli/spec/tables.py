@@ -146,6 +146,12 @@ class Size(SpecTable):
     wheel_flat_mm: Annotated[
         float | None, POSITIVE, "depth of the flat in the wheel's D bore; default bore/10"
     ] = None
+    wheel_screw_mm: Annotated[
+        float | None, POSITIVE, "set screw through the wheel's hub: its thread's diameter"
+    ] = None
+    crank_screw_mm: Annotated[
+        float | None, POSITIVE, "set screw through the crank's hub: its thread's diameter"
+    ] = None
     dial_bolts: Annotated[int, Range(0, 100), "number of bolts between dial and wheel"] = 0
     dial_bolt_mm: Annotated[float | None, POSITIVE, "dial's bolt holes: diameter, max. L/40"] = None
     dial_bolt_circle_mm: Annotated[

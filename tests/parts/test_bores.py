@@ -171,3 +171,39 @@ def test_edges_are_a_note_and_take_some_of_the_thickness():
 def test_edges_that_are_refused(size, said):
     with pytest.raises(GenevaError, match=said):
         of(**size).drawing("wheel")
+
+
+HUBS = {
+    "wheel_hub_mm": 26.0,
+    "wheel_bore_mm": 16.0,
+    "crank_hub_mm": 20.0,
+    "crank_bore_mm": 10.0,
+    "crank_hub_length_mm": 20.0,
+}
+
+
+def test_set_screws_are_noted():
+    design = of(**HUBS, wheel_bore="D", wheel_screw_mm=5.0, crank_screw_mm=4.0)
+    texts = [label.text for label in design.sheet().texts]
+    assert texts.count("set screw M5 (ISO 4026), radial, onto the flat") == 1
+    assert texts.count("set screw M4 (ISO 4026), radial, onto the shaft") == 1
+    rows = {row["name"]: row for row in design.part_table("parts").to_rows()}
+    assert rows["crank's set screw"]["value"] == 4.0
+
+
+@pytest.mark.parametrize(
+    ("size", "said"),
+    [
+        ({"wheel_screw_mm": 4.0}, "wheel_screw_mm: a set screw needs a hub with a bore"),
+        ({**HUBS, "wheel_screw_mm": 5.1}, "its wall 5 mm thick, which holds a set screw up to 5"),
+        ({**HUBS, "wheel_hub_length_mm": 6.0, "wheel_screw_mm": 4.0}, "a set screw up to 3"),
+        ({**HUBS, "crank_screw_mm": 6.0}, "crank_screw_mm = 6: the hub is 10 mm long"),
+    ],
+)
+@pytest.mark.usefixtures("no_advice")
+def test_set_screws_that_no_hub_holds(size, said):
+    design = of(**size)
+    with pytest.raises(GenevaError, match=said) as caught:
+        design.drawing("assembly")
+    assert caught.value.key[1].endswith("_screw_mm")
+    assert any(check.passes is False and said in (check.why or "") for check in design.checks)

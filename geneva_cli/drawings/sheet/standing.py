@@ -70,10 +70,12 @@ def draw_groove(
     bolted(view, mounts)
 
 
-def draw_hub(view: View, hub: Plate) -> None:
-    """Draw the diameter of a hub that is already drawn."""
+def draw_hub(view: View, hub: Plate, screw: str) -> None:
+    """Draw the diameter of a hub that is already drawn, and note its set screw, if it has one."""
     assert isinstance(hub.outline, Circle)
     view.diameter([hub.outline], f"{hub.name} {sized.plain(2.0 * hub.outline.radius, 'Ø ')}")
+    if screw:
+        view.remark(screw)
 
 
 def draw_shaft(view: View, shaft: Plate | Stack) -> None:

@@ -16,6 +16,7 @@ from geneva_cli.drawings.sheet.standing import draw_hub
 from geneva_cli.drawings.sheet.view import View, number, times
 from geneva_cli.kinematics.engagement import Engagement
 from geneva_cli.layout.projection import outlines_of
+from geneva_cli.layout.set_screws import screw_note
 from geneva_cli.numerics.tolerances import SAME_ON_SHEET
 from geneva_cli.outlines.outlines import Outlines
 from geneva_cli.outlines.wheel_hub import HUB
@@ -49,7 +50,7 @@ def draw_wheel(view: View, parts: FlatParts) -> None:
     _steps(view, outlines, reach)
     _rims(view, arcs, reach)
     for hub in hubs:
-        draw_hub(view, hub)
+        draw_hub(view, hub, screw_note(assembly.mechanism.spec.size, "wheel"))
     bored(view, bores, assembly.mechanism.spec.size, "wheel")
     bolted(view, screwed)
 

@@ -20,6 +20,7 @@ from geneva_cli.errors import GenevaError
 from geneva_cli.layout.axles import crank_hub, refuse_wide
 from geneva_cli.layout.bores import bore_of, fitted, has_shape
 from geneva_cli.layout.missing import NamedParts
+from geneva_cli.layout.set_screws import require_thread
 from geneva_cli.layout.sphere_sizes import Ball
 from geneva_cli.outlines.sphere_wheel import POLE, web_angle, web_region, wheel_regions
 from geneva_cli.outlines.wheel_hub import HUB
@@ -89,6 +90,7 @@ def wheel_group(size: Size, ball: Ball) -> Group:
     Raises GenevaError for a keyway or hub that cannot be made.
     """
     hub = wheel_hub(size, ball)
+    require_thread(size, "wheel", hub)
     return Group("wheel", (Member(wheel_shell(size, ball)), *([Member(hub)] if hub else [])))
 
 
@@ -152,6 +154,7 @@ def crank_group(parts: Shells, arm: CapArm | None) -> Group:
         frame = axis_frame(place(ball.arm, azimuth))
         members += [Member(one, frame=frame) for one in ((roller, pin) if arm else (roller,))]
     hub = _inner_hub(size, ball, arm)
+    require_thread(size, "crank", hub)
     return Group("crank", (*members, *([Member(hub)] if hub else [])))
 
 
