@@ -696,7 +696,7 @@ class Design:
 
         >>> small = Design(External(4), size=Size(center_distance_mm=30)).sheet(0.01)
         >>> small.scale, small.width, small.height
-        (2.0, 420.0, 297.0)
+        (2.0, 594.0, 420.0)
         """
         from geneva_cli.drawings.catalogue import part_sheet
 
