@@ -15,6 +15,7 @@ from geneva_cli.curves.shapes import Circle
 from geneva_cli.drawings.model import PartsModel
 from geneva_cli.errors import GenevaError
 from geneva_cli.layout.bearings import DIN_471, SERIES_60, bearing_up_to, circlip_up_to
+from geneva_cli.output.mesh import scad
 from geneva_cli.output.mesh.solids import bodies
 from geneva_cli.output.step import chunks
 from geneva_cli.parts.sphere.sphere_parts import SphereParts
@@ -169,6 +170,13 @@ def test_solids_of_all_formats_are_one(keys):
 def _wide(plate):
     x0, _, x1, _ = polygon(plate.outline, 64).bounds
     return max(-x0, x1)
+
+
+def test_openscad_has_a_prism_for_each_step():
+    stack = shaft(of(wheel_keyway="DIN 6885-1"), "wheel")
+    text = b"".join(scad.data(Drawing("", (), solid=stack, tolerance=0.01), "mm")).decode()
+    assert text.count("linear_extrude") == len(stack.plates) == 9
+    assert text.count("module ") == 1
 
 
 def test_a_coarse_mesh_is_refused():
