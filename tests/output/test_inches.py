@@ -180,7 +180,7 @@ def test_digits_of_a_table_are_those_of_si():
     ("words", "wants"),
     [
         (["loads", TURRET, "--format", "json"], "json is for programs, and in SI units"),
-        (["motion", TURRET, "--format", "csv"], "csv is for programs"),
+        (["loads", TURRET, "--format", "csv"], "csv is for programs"),
         (["compare", TURRET, "--ratio"], "ratios have no unit"),
         (["profile", TURRET, "--part", "sheet", "--format", "svg"], "a sheet is in millimetres"),
     ],
@@ -194,3 +194,8 @@ def test_another_unit_is_refused():
     assert "--units feet: it must be mm or inch" in run("check", TURRET, "--units", "feet").stderr
     with pytest.raises(GenevaError), choosing(Choice(units="feet")):
         pass
+
+
+def test_only_commands_with_lengths_have_the_option():
+    """A key's unit is that of its name: `geneva keys` shows no other."""
+    assert "no such option: --units" in run("keys", "size", "--units", "inch").stderr.lower()
