@@ -181,6 +181,7 @@ def test_digits_of_a_table_are_those_of_si():
     [
         (["loads", TURRET, "--format", "json"], "json is for programs, and in SI units"),
         (["loads", TURRET, "--format", "csv"], "csv is for programs"),
+        (["sweep", TURRET, "--vary", "wheel.z=6,8"], "csv and parquet are for programs"),
         (["compare", TURRET, "--ratio"], "ratios have no unit"),
         (["profile", TURRET, "--part", "sheet", "--format", "svg"], "a sheet is in millimetres"),
     ],
