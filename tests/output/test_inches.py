@@ -200,3 +200,10 @@ def test_another_unit_is_refused():
 def test_only_commands_with_lengths_have_the_option():
     """A key's unit is that of its name: `geneva keys` shows no other."""
     assert "no such option: --units" in run("keys", "size", "--units", "inch").stderr.lower()
+
+
+@pytest.mark.parametrize("ending", ["html", "md"])
+def test_pictures_of_a_report_have_their_distances_in_inches(tmp_path, ending):
+    path = tmp_path / f"report.{ending}"
+    run("report", TURRET, "--units", "inch", "-o", str(path))
+    assert "L = 9.8425 in" in path.read_text(encoding="utf-8")
