@@ -35,7 +35,7 @@ lint: .venv/dev
 docs: .venv/dev
 	$(DOCS)
 
-# Run time against error, tables and plots in build/bench; some minutes.
+# Run time against error, tables and plots in build/bench; an hour.
 bench: .venv/dev
 	@mkdir -p build/bench
 	$(BIN)/geneva bench --plots build/bench -o build/bench/bench.md
@@ -108,9 +108,10 @@ fuzz: .venv/dev
 	PYTHONPATH=tests:tests/machine:tests/parts $(BIN)/python tests/stress/fuzz_stops.py --runs 2000 --jobs 2 --state build/fuzz-stops.json
 	PYTHONPATH=tests:tests/machine:tests/curves $(BIN)/python tests/stress/fuzz_kerf.py --runs 20000 --jobs 2 --state build/fuzz-kerf.json
 
-# Start-up of a table against `import typer` alone: paired whole processes, the ratio's median.
+# Start-up of every command against `import typer` alone: whole processes in pairs, processor time.
+# The budget of `geneva table --z 6` is 1.05.
 bench-start: .venv/dev
-	PYTHONPATH=tests $(BIN)/python tests/bench/bench_start.py
+	$(BIN)/geneva bench start
 
 # Wheel and sdist in dist/, each installed alone and run, with the lowest and the highest releases of
 # what it needs; some minutes.

@@ -31,6 +31,8 @@ UNITS = {
     "_rad_s3": "rad/s³",
     "_rad2_s3": "rad²/s³",
     "_m_s": "m/s",
+    "_m_s2": "m/s²",
+    "_m_s3": "m/s³",
     "_Nms": "N m s",
     "_Hz": "Hz",
     "_W": "W",

@@ -26,7 +26,7 @@ def run(
         typer.Option(metavar="N", help=f"The cycle in N rows instead (csv: {ROWS})."),
     ] = None,
     certify: Annotated[
-        bool, typer.Option("--certify", help="Prove the greatest loads instead, without friction.")
+        bool, typer.Option("--certify", help="Prove the greatest loads instead.")
     ] = False,
     settings: Settings = None,
     output: Output = "-",

@@ -26,6 +26,7 @@ GROUPS: dict[str, dict[str, str]] = {
         "size-motor": "size the motor and the flywheel",
         "shafts": "size pins, shafts and bearings",
         "stop-swinging": "stop the load from swinging",
+        "product": "see what the product on the dial feels",
         "find-tolerances": "find the tolerances that matter",
         "laser": "cut it with a laser",
         "mill": "mill it",

@@ -40,9 +40,6 @@ class Body(NamedTuple):
     places: tuple[Place, ...]
 
 
-HERE = Place(np.eye(3), np.zeros(3))
-
-
 def bodies(drawing: Drawing, units: str, format: str) -> list[Body]:
     """Return the kinds of solids of a drawing; their chords keep the drawing's tolerance.
 
@@ -61,7 +58,8 @@ def solid_kinds(drawing: Drawing, units: str, format: str) -> dict[Plate | Shell
     Raises GenevaError for a drawing without solids, and for a unit other than mm.
     """
     kinds: dict[Plate | Shell, list[Place]] = {}
-    for solid, place in _placed(solid_part(drawing, units, format), HERE):
+    here = Place(np.eye(3), np.zeros(3))
+    for solid, place in _placed(solid_part(drawing, units, format), here):
         kinds.setdefault(solid, []).append(place)
     return kinds
 

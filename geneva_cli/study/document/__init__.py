@@ -36,6 +36,7 @@ def document(design: Design) -> Document:
         *answers.timing(left, design.spec.drive.n_rpm),
         *pictures.curves(design),
         *answers.loads(design, left),
+        *answers.product(left),
         *answers.sizes(left),
         *answers.strength(left),
         *verdict.checks(design),
