@@ -35,6 +35,10 @@ ONE = {
     "ft": si.foot,
     "m/s": 1.0,
     "in/s": si.inch,
+    "m/s²": 1.0,
+    "in/s²": si.inch,
+    "m/s³": 1.0,
+    "in/s³": si.inch,
     "mm/1e6": si.milli,
     "in/1e6": si.inch,
     "N": 1.0,
@@ -55,7 +59,7 @@ ONE = {
     "lb/in³": si.pound / si.inch**3,
 }
 INCH = {"in", "thou", "ft", "in/s", "in/1e6", "lbf", "lbf in", "lbf in/rad", "ksi"}
-INCH |= {"lb", "lb in²", "lb/in³"}
+INCH |= {"in/s²", "in/s³", "lb", "lb in²", "lb/in³"}
 # six roundings in a product of the constants, and one in the number
 CLOSE = 8.0 * 2.0**-53
 TURRET = str(DESIGNS / "turret.toml")
