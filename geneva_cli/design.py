@@ -31,6 +31,7 @@ from geneva_cli.spec.tables import (
     Load,
     Mass,
     Motor,
+    Product,
     RollerMaterial,
     Shaft,
     Size,
@@ -132,6 +133,7 @@ class Design:
         material_wheel: WheelMaterial | None = None,
         material_roller: RollerMaterial | None = None,
         tolerance: Tolerance | None = None,
+        product: Product | None = None,
         limits: Limits | None = None,
         title: str = "",
     ) -> None:
@@ -148,6 +150,7 @@ class Design:
             material_wheel or WheelMaterial(),
             material_roller or RollerMaterial(),
             tolerance or Tolerance(),
+            product or Product(),
             limits or Limits(),
             title,
         )
@@ -197,6 +200,15 @@ class Design:
             return make()
         with self._text.located():
             return make()
+
+    @answer
+    def with_units(self) -> list[str]:
+        """The inputs that the spec's file has with a unit, each with the number that was read.
+
+        >>> load("designs/side-crank-z6.toml", ["size.center_distance_mm=8 in"]).with_units
+        ['size.center_distance_mm = 203.2, from "8 in"']
+        """
+        return self._text.with_units(self.spec) if self._text else []
 
     @answer
     def mechanism(self) -> Mechanism:
@@ -328,17 +340,24 @@ class Design:
         return with_certificates(self.peaks_table, self.mechanism, for_people)
 
     @question
-    def motion(self, samples: int = 361) -> Table:
+    def motion(self, samples: int = 361, turns: int | None = None) -> Table:
         """``samples`` rows over a period from the first entry, evenly spaced in the input angle.
 
-        Columns: time_s, input_deg, wheel_deg, velocity, acceleration, jerk.
+        With ``turns`` of the input there are rows over all of them, and also one at each entry,
+        exit and jump. Columns: time_s, input_deg, wheel_deg, velocity, acceleration, jerk.
 
         >>> Design(External(6)).motion(4).to_dict()["input_deg"].tolist()
         [-60.0, 60.0, 180.0, 300.0]
         """
-        from geneva_cli.analysis.motion import motion_table
+        from geneva_cli.analysis.electronic_cam import periods
+        from geneva_cli.analysis.motion import motion_table, turns_table
 
-        return self._located(lambda: motion_table(self.mechanism, samples))
+        def table() -> Table:
+            if turns is None:
+                return motion_table(self.mechanism, samples)
+            return turns_table(self.mechanism, samples, periods(self.mechanism, turns))
+
+        return self._located(table)
 
     @question
     def figure(self, pick: Sequence[str] = ()) -> Figure:

@@ -1,7 +1,7 @@
 """Certificate of the full turn: a proved lower bound of the gap at every input angle.
 
 The sampled full turn gives the smallest gap. The certificate proves that no gap is smaller by more
-than a tolerance. It takes distances at single positions as exact, up to ``ROUNDING``.
+than a tolerance. It takes distances at single positions as exact, up to their rounding.
 """
 
 from __future__ import annotations
@@ -17,8 +17,6 @@ from geneva_cli.collisions.settled import Open, Settled, settled
 
 if TYPE_CHECKING:
     from geneva_cli.collisions.machine_parts import MachineParts
-
-ROUNDING = 1e-11  # of the centre distance: greatest rounding of a distance; doubles carry 2e-16
 
 
 class Certificate(NamedTuple):
@@ -54,7 +52,8 @@ def certificate(parts: MachineParts, gap_mm: float, to_mm: float) -> Certificate
     """
     parts = one_motion(parts)
     parts.gaps.begin()
-    spare = ROUNDING * parts.assembly.L
+    # the greatest rounding of a distance; doubles carry 2e-16
+    spare = 1e-11 * parts.assembly.L
     target = max(gap_mm, 0.0) - to_mm + spare
     least, count = math.inf, 0
     for between, found in _gaps(parts, target):

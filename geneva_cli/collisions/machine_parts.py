@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Sized
 from typing import TYPE_CHECKING, NamedTuple, Protocol, Self
 
+import numpy as np
+
 if TYPE_CHECKING:
     from geneva_cli.collisions.pairs import Pairs
     from geneva_cli.layout.assembly import Assembly
@@ -43,9 +45,6 @@ class Clearances(Protocol):
     def pose(self, input_deg: Array) -> Pose:
         """Return the positions at input angles (n,), degrees."""
 
-    def gap(self, pose: Pose, lead: Array, near: float) -> Array:
-        """Return the smallest clearance in each pose, (n,)."""
-
     def rollers(self, pose: Pose, lead: Array | float = 0.0, near: float | None = None) -> Array:
         """Return the clearance of each roller to the wheel, (n, m)."""
 
@@ -61,6 +60,13 @@ class Clearances(Protocol):
         The parts overlap nowhere by ``close`` mm at first. The wheel turns until some do, or by
         ``most`` radians.
         """
+
+
+def smallest_clearance(gaps: Clearances, pose: Pose, lead: Array, near: float) -> Array:
+    """Return the smallest clearance of all parts in each pose, (n,)."""
+    rolling = gaps.rollers(pose, lead, near).min(axis=1)
+    out: Array = np.minimum(gaps.locking(pose, lead, near), rolling)
+    return out
 
 
 class Lengths(Protocol):

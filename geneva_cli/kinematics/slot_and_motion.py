@@ -15,6 +15,7 @@ from functools import cached_property
 from geneva_cli.kinematics.engagement import Slot, SlotAxis
 from geneva_cli.kinematics.law_motion import LawMotion
 from geneva_cli.numerics.angles import radians
+from geneva_cli.numerics.batchable import Batchable
 from geneva_cli.numerics.jet import Jet, Number, piecewise, sin_cos
 from geneva_cli.numerics.latest import Latest
 
@@ -25,7 +26,7 @@ NEAR, TERMS = 1.0 / 30.0, 15
 NEAR_SPLINE_DEG, SPLINE_TERMS = 0.06, 5
 
 
-class SolvedPath:
+class SolvedPath(Batchable):
     """The roller's path in the fixed frame; ``sign`` is +1 outside, -1 inside."""
 
     def __init__(self, motion: LawMotion, sign: float) -> None:

@@ -21,8 +21,6 @@ from flint import arb, ctx, fmpq
 
 from geneva_cli.numerics.arrays import Enclosed, Library, Number, Undecided
 
-BITS = 128  # of a middle: 75 more than a double has, against cancellation in high derivatives
-
 
 def _operator(f: Callable[[arb, arb], arb]) -> Callable[[Ball, Ball | float], Ball]:
     """An operator of a ball and a number; a jet, for one, brings its own."""
@@ -179,8 +177,9 @@ class Ball(Enclosed):
 
 @contextmanager
 def precision() -> Iterator[None]:
-    """Compute with ``BITS`` bits meanwhile."""
-    with ctx.workprec(BITS):
+    """Compute with middles of 128 bits meanwhile."""
+    # 75 more than a double has, against cancellation in high derivatives
+    with ctx.workprec(128):
         yield
 
 

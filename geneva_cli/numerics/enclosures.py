@@ -29,9 +29,6 @@ ORDER = 5
 # An end of a piece is a double that rounding may have moved: by 8 units in the last place of 180
 # degrees at most. Pieces overlap by as much, so that no angle is left out.
 EDGE_DEG = 2.0**-42
-# Of a piece: a shorter interval is not halved, but left open. It is long enough for a seam inside,
-# that should have been known, to be seen (``arrays.Enclosed.REACH``).
-SHORTEST = 2.0**-30
 
 
 class Interval(NamedTuple):
@@ -175,7 +172,9 @@ class _Search:
             if high <= self.low * (1.0 + 1e-15):
                 self.found.append(Interval(a, b, high))
                 return
-        if b - a < max(SHORTEST * (piece.end - piece.start), 4.0 * EDGE_DEG):
+        # A shorter fraction of a piece is not halved, but left open. It is long enough for a seam
+        # inside, that should have been known, to be seen (``arrays.Enclosed.REACH``).
+        if b - a < max(2.0**-30 * (piece.end - piece.start), 4.0 * EDGE_DEG):
             # A jump has no derivatives. Its bound lies above the values beside it by their slope
             # times the shortest interval: for loads by 1e-8 of them.
             settled = self.found if high <= self.low * (1.0 + 1e-6) else self.stuck

@@ -28,7 +28,6 @@ if TYPE_CHECKING:
     from geneva_cli.kinematics.engagement import Engagement
     from geneva_cli.numerics.jet import Array
 
-STEP = math.radians(1.0)  # of the crank's arcs: pieces that are tested for being in the wheel
 AXIS = np.zeros((1, 2))
 
 
@@ -206,7 +205,8 @@ class Lock:
 
     def __init__(self, reach: FlatPairs, window: Window) -> None:
         self.reach, self.window = reach, window
-        self.pieces = short_pieces(reach.crank, STEP)
+        # arcs of a degree, each of which is tested for being in the wheel
+        self.pieces = short_pieces(reach.crank, math.radians(1.0))
         self.disc = float(farthest(self.pieces, AXIS).max())
 
     def __call__(self, on: Intervals) -> Bounds:

@@ -10,7 +10,7 @@ from geneva_cli.names import spoken
 from geneva_cli.table import Table, record_table
 from geneva_cli.verdict.checks.check import Check
 from geneva_cli.verdict.failures import meaning
-from geneva_cli.verdict.measured import measured
+from geneva_cli.verdict.measured import bare, measured
 
 
 def headline(checks: Sequence[Check], warnings: Sequence[str]) -> tuple[str, str]:
@@ -68,6 +68,11 @@ def warning(text: str) -> SummaryLine:
     return SummaryLine("warning", text, explained, WARNS)
 
 
+def input_lines(with_units: Iterable[str]) -> list[SummaryLine]:
+    """A line for each input that has a unit in the spec's file, with the number that was read."""
+    return [SummaryLine("read", text) for text in with_units]
+
+
 def _failure(check: Check) -> SummaryLine:
     """The line of a failing check: its value, its limit, and the change."""
     label, unit = spoken(check.name)
@@ -85,7 +90,7 @@ def compared_text(check: Check, unit: str) -> str:
     assert check.value is not None
     assert check.limit is not None
     where = "" if check.at_deg is None else f" at {measured(check.at_deg, 'deg')}"
-    limit = measured(check.limit, unit if unit == "deg" else "")
+    limit = measured(check.limit, unit) if unit == "deg" else bare(check.limit, unit)
     return f"{measured(check.value, unit)}{where}, {check.must_be} {limit}"
 
 

@@ -68,12 +68,6 @@ class BallGaps:
         pins = np.stack([self._out(one, turn) for one in self._rollers], axis=1)
         return Pose(self.assembly.wheel(input_deg), turn, pins)
 
-    def gap(self, pose: Pose, lead: Array, near: float) -> Array:
-        """Return the smallest gap, mm (n,), with the wheel turned on by ``lead`` radians."""
-        rolling = self.rollers(pose, lead, near).min(axis=1)
-        out: Array = np.minimum(self.locking(pose, lead, near), rolling)
-        return out
-
     def rollers(self, pose: Pose, lead: Array | float = 0.0, near: float | None = None) -> Array:
         """Return the gap of each roller, mm (n, m), with the wheel turned on by ``lead`` radians.
 

@@ -52,7 +52,7 @@ def checks_at_rest(mechanism: Mechanism, model: PartsModel | None) -> Iterator[C
     yield from motion_checks(MOTION, mechanism)
     yield from motion_checks(LIMITS, mechanism)
     if model is not None:
-        yield from standing_checks(model.parts)
+        yield from standing_checks(model.built)
 
 
 def checks_turning(model: PartsModel) -> Iterator[Check]:
@@ -89,7 +89,7 @@ def single_check(mechanism: Mechanism, name: str, model: PartsModel | None = Non
     among = standing(mechanism)
     if not mechanism.spec.has_parts or name not in among:
         return None
-    return check_named(among, name, (model or _model(mechanism)).parts)
+    return check_named(among, name, (model or _model(mechanism)).built)
 
 
 def _model(mechanism: Mechanism) -> PartsModel:
@@ -111,7 +111,7 @@ def _parts(mechanism: Mechanism, model: PartsModel | None, turned: bool) -> Iter
 
     model = model or _model(mechanism)
     try:
-        rows = list(standing_checks(model.parts))
+        rows = list(standing_checks(model.built))
     except GenevaError as error:
         yield refused("parts", error)
         return

@@ -69,12 +69,16 @@ def refused(name: str, error: GenevaError) -> Check:
     return Check(name, 0.0, "at least", 1.0, False, str(error))
 
 
-def at_least(name: str, value: Callable[[], float], limit: float) -> Check:
-    """The check that a value is at least a limit; it fails if parts cannot be built."""
+def at_least(name: str, measure: Callable[[], float | None], limit: float) -> Check | None:
+    """The check that a value, if there is one, is at least a limit.
+
+    It fails if parts cannot be built.
+    """
     try:
-        return compared(name, value(), "at least", limit)
+        value = measure()
     except GenevaError as error:
         return Check(name, None, "at least", limit, False, str(error))
+    return None if value is None else compared(name, value, "at least", limit)
 
 
 def gap(name: str, least: Callable[[], ShaftGap | None], L: float) -> Check | None:
