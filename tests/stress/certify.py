@@ -21,8 +21,8 @@ from geneva_cli.loads.loads import greatest
 
 SECONDS = 60  # of one machine; most take 0.1 s, and 2,000 intervals of a four-bar's four peaks 12 s
 NEAR = 1e-6  # of a peak: how far the bounds of decimals and doubles may be apart, by rounding
-# Of a load: gears of eccentricity 1 - 1e-6 move the wheel by a millionth of its step in the last
-# digit of the input angle.
+# Of a load: behind the most uneven gears the last digit of the input angle is 4e-10 of the wheel's
+# step.
 LOST = 1e-9
 TRIES = 100  # for a machine of a kind; two of three texts are refused, of epicyclic gears most
 
