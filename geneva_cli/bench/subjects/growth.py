@@ -13,7 +13,6 @@ from geneva_cli.bench.whole_runs import geneva, task
 from geneva_cli.specfile.template import template
 
 SWEEP = "sweep - --set drive.kind=side-crank --vary drive.A=-0.3..0.5 --jobs 1 --random {n}"
-SLOTS = (6, 12, 24, 48, 96, 192, 360)  # parts are drawn for up to 360 slots
 ROWS = (10, 100, 1_000, 10_000, 100_000)
 
 
@@ -25,8 +24,11 @@ class Grown(NamedTuple):
     kind: str = "external"  # template of the spec
 
 
-def wheel(command: str, sizes: Sequence[int] = SLOTS) -> Grown:
-    """Run of a command whose wheel has more slots."""
+def wheel(command: str, sizes: Sequence[int] = (6, 12, 24, 48, 96, 192, 360)) -> Grown:
+    """Run of a command whose wheel has more slots.
+
+    Parts are drawn for up to 360 slots.
+    """
     return Grown(f"{command} --set wheel.z={{n}}", sizes)
 
 
