@@ -90,7 +90,7 @@ def test_mutated_specs(seed):
 
 
 def test_specs_of_known_keys():
-    """A machine is consistent, and all that is said of its motion is finite; a quarter are ones."""
+    """A machine is consistent, and all that is said of its motion is finite; a fifth are ones."""
     machines = 0
     cases = some(100, 40)
     for case in range(cases):
