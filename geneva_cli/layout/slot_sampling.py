@@ -64,7 +64,7 @@ def _flank_cusps(mechanism: Mechanism) -> list[float]:
             if a < 0.0 < b:
                 continue
             runs = sign[i]  # sign before the flank stops
-            cusps.append(boundary_by_sections(lambda x: excess(x, side) * runs > 0.0, a, b))  # noqa: B023
+            cusps.append(boundary_by_sections(lambda x: excess(x, side) * runs, a, b))  # noqa: B023
     return sorted(cusps)
 
 
