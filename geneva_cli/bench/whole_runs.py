@@ -7,7 +7,7 @@ import sys
 
 from geneva_cli.bench.method import Method, Task
 
-RUN = "import sys; sys.argv[0] = 'geneva'; from geneva_cli.app import main; main()"
+RUN = "import sys; sys.argv[0] = 'geneva'; from geneva_cli.__main__ import main; main()"
 IMPORT = "import typer"
 BASELINE = f"python -c '{IMPORT}'"
 

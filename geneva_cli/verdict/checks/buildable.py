@@ -3,13 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from typing import TYPE_CHECKING
 
 from geneva_cli.errors import GenevaError
 from geneva_cli.outlines.outlines import Outlines
 from geneva_cli.parts.flat_parts import flat_parts
-from geneva_cli.parts.sphere.shells import Shells
-from geneva_cli.parts.sphere.sphere_parts import SphereParts
 from geneva_cli.verdict.checks.check import Check, refused
+
+if TYPE_CHECKING:
+    from geneva_cli.parts.sphere.shells import Shells
 
 
 def plates(name: str, outlines: Outlines) -> Check | None:
@@ -19,6 +21,8 @@ def plates(name: str, outlines: Outlines) -> Check | None:
 
 def solids(name: str, shells: Shells) -> Check | None:
     """The check that fails if a solid of a spherical machine cannot be built; else None."""
+    from geneva_cli.parts.sphere.sphere_parts import SphereParts  # only on a sphere
+
     return _refusal(name, lambda: SphereParts(shells).members)
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from typing import TYPE_CHECKING
 
 from geneva_cli.curves.distance import Polyarc
 from geneva_cli.curves.measure import turned
@@ -11,8 +12,10 @@ from geneva_cli.outlines.crank import is_whole, rollers_gap
 from geneva_cli.outlines.outlines import Outlines
 from geneva_cli.outlines.wheel_hub import wheel_hub
 from geneva_cli.parts.shafts import crank_hub
-from geneva_cli.parts.sphere.shells import Shells
 from geneva_cli.verdict.checks.check import Check, compared
+
+if TYPE_CHECKING:
+    from geneva_cli.parts.sphere.shells import Shells
 
 NO_WALL = {  # the meaning of a negative wall
     "wall_between_slots_mm": "neighbouring slots cut each other",
