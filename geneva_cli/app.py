@@ -128,14 +128,15 @@ class Command(PlainValues, TyperCommand):
         return rest
 
     def invoke(self, ctx: Any) -> Any:
-        """Run the command; its tables have the columns of --columns and --wide."""
+        """Run the command; its tables have the columns of --columns, and the units of --units."""
         columns, wide = ctx.params.pop("columns", None), ctx.params.pop("wide", False)
-        if not (columns or wide):
+        units = ctx.params.pop("shown_units", "mm")
+        if not (columns or wide or units != "mm"):
             return super().invoke(ctx)
         from geneva_cli.output import Choice, choosing
 
         names = [name.strip() for name in (columns or "").split(",")]
-        with choosing(Choice(tuple(filter(None, names)), wide)):
+        with choosing(Choice(tuple(filter(None, names)), wide, units)):
             return super().invoke(ctx)
 
     def collect_usage_pieces(self, ctx: Any) -> list[str]:
@@ -228,6 +229,9 @@ class LazyGroup(PlainValues, TyperGroup):
         command.examples = module.EXAMPLES
         if name not in {"animate", "schema"}:  # these print no table
             command.params += _command(name, _table_options).params
+        # lengths, forces or masses are in the tables of these; profile has units of its own
+        if name in {"check", "compare", "loads", "plot", "report", "sweep", "synth", "tolerance"}:
+            command.params += _command(name, _unit_option).params
         return name, command, rest
 
     def invoke(self, ctx: Any) -> Any:
@@ -269,6 +273,15 @@ def _table_options(
     ] = False,
 ) -> None:
     """Options of every command that prints a table."""
+
+
+def _unit_option(
+    shown_units: Annotated[
+        str,
+        typer.Option("--units", metavar="UNIT", help="Numbers in mm, or in inch and lb."),
+    ] = "mm",
+) -> None:
+    """The option of commands whose numbers have units."""
 
 
 def _command(name: str, run: Any) -> Any:
