@@ -203,7 +203,7 @@ CORE |= {"layout", "collisions", "outlines", "parts", "drawings"}
 ANY = {
     # jets and values alike; what the searches of numerics hand back to whom they ask, unread
     "numerics.pieces": {"at", "column", "rows", "evaluate", "_turn"},
-    "loads.summary": {"rows", "_rows", "_cells"},
+    "loads.summary": {"_rows", "_cells"},
     "analysis.vibration.answers": {"values"},
     "kinematics.registry": {"_load_kind"},
     "machine.spec": {"replace", "table"},

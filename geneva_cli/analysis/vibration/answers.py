@@ -130,7 +130,7 @@ def spectrum(mechanism: Mechanism, load: Oscillator, samples: int) -> Table:
     n_rpm = mechanism.spec.drive.n_rpm
     every = n_rpm * np.geomspace(SLOWER, FASTER, samples)
 
-    def rows(begin: int, end: int) -> list[Any]:
+    def rows(begin: int, end: int) -> list[object]:
         speed = every[begin:end]
         ratio = load.ratio * (n_rpm / speed)
         oscillators = Oscillators(mechanism, Swing(ratio, np.full(len(speed), load.damping)))
