@@ -53,6 +53,9 @@ LIMITS: Checks = {
     "lock_deflection_max_deg": "strength:strength_limit",
     "wheel_shaft_stress_MPa": "strength:strength_limit",
     "crank_shaft_stress_MPa": "strength:strength_limit",
+    "arm_stress_MPa": "strength:strength_limit",
+    "wheel_key_pressure_MPa": "strength:strength_limit",
+    "crank_key_pressure_MPa": "strength:strength_limit",
 }
 # Checks of flat parts at rest.
 STATIC: Checks = {

@@ -1,0 +1,36 @@
+"""The greatest loads on pin, arm, keys and shafts over a cycle, from which they are sized."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+
+from geneva_cli.analysis.quantities import FORCE
+from geneva_cli.loads.strength.shafts import Torque, on_crank, on_driven_crank, on_wheel
+from geneva_cli.loads.summaries import load_peaks
+
+if TYPE_CHECKING:
+    from geneva_cli.machine.mechanism import Mechanism
+    from geneva_cli.numerics.jet import Array
+
+
+class PartLoads(NamedTuple):
+    """The greatest sizes of loads, (m,) each; infinite if unbounded."""
+
+    pin_N: Array  # of a roller, along the wall's normal
+    wheel_N: Array  # of the wheel's bearings together
+    wheel_Nm: Array  # torque in the wheel's shaft
+    crank_N: Array  # of the crank's bearings together, which is that on the arm
+    crank_Nm: Array  # torque in the crank's shaft
+
+
+def part_loads(mechanism: Mechanism) -> PartLoads:
+    """The greatest loads of m designs."""
+    on = on_driven_crank if mechanism.spec.drive.CRANKED else on_crank
+    own = {"wheel_Nm": Torque(on_wheel), "crank_Nm": Torque(on)}
+    names = FORCE, "wheel_bearing_N", "wheel_Nm", "crank_bearing_N", "crank_Nm"
+    peaks = load_peaks(mechanism, names, own)
+    return PartLoads(
+        *(np.sqrt(peaks[name].max) if name in own else peaks[name].max for name in names)
+    )
