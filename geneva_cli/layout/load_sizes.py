@@ -19,6 +19,7 @@ from geneva_cli.analysis.pin import pin
 from geneva_cli.layout.arm_sizes import hub_around, within_hub
 from geneva_cli.layout.assembly import Assembly
 from geneva_cli.layout.keyways import reach_or_bore
+from geneva_cli.layout.link_positions import links_at
 from geneva_cli.layout.plain_sizes import Sizes, thicknesses
 from geneva_cli.layout.roller_paths import roller_centres
 from geneva_cli.layout.stressed import ShaftSize, lock_of, stressed
@@ -29,6 +30,7 @@ from geneva_cli.loads.strength.horn import horn_stresses
 from geneva_cli.loads.strength.keys import KeyDimensions, key_stress
 from geneva_cli.loads.strength.part_loads import part_loads
 from geneva_cli.loads.strength.shafts import shear_MPa
+from geneva_cli.machine.spec import Spec
 from geneva_cli.numerics.keeps import keeps
 from geneva_cli.numerics.preferred import bores_from, rounded_from
 
@@ -146,7 +148,7 @@ def _wheel_bored(assembly: Assembly, sizes: Sizes, loads: GreatestLoads) -> Size
         trial = _with_wheel_bore(assembly, sizes, 0.5 * d)
         parts = stressed(assembly, trial)
         shaft = _shaft_holds(assembly, parts.wheel_shaft, size.wheel_keyway, loads[1:3])
-        if shaft and _key_holds(assembly, parts.wheel_key, loads.wheel_Nm):
+        if shaft and _key_holds(spec, parts.wheel_key, loads.wheel_Nm):
             break
     return trial
 
@@ -162,7 +164,7 @@ def _with_wheel_bore(assembly: Assembly, sizes: Sizes, bore: float) -> Sizes:
 def _crank_bored(assembly: Assembly, sizes: Sizes, loads: GreatestLoads, space: float) -> Sizes:
     """Return the sizes with the crank's bore, through the disc if a shaft that holds fits there.
 
-    Otherwise the shaft ends in the arm, whose bore may be larger.
+    Otherwise the shaft ends in the arm, whose bore may be larger, unless links are in its way.
     """
     spec = assembly.full.spec
     size = spec.size
@@ -177,7 +179,8 @@ def _crank_bored(assembly: Assembly, sizes: Sizes, loads: GreatestLoads, space: 
             trial = _with_crank_bore(assembly, sizes, 0.5 * d)
             if _crank_holds(assembly, trial, loads):
                 return trial
-    if not sizes.arm_bore:
+    # past links and gears the shaft may have no other way out
+    if not sizes.arm_bore or links_at(assembly.full, np.zeros(1)) or spec.drive.gears:
         return trial
     hole = sizes.pin - 0.5 * size.allowances.press_fit_mm
     reach = min(math.hypot(*centre) for centre in roller_centres(assembly))
@@ -198,9 +201,9 @@ def _with_crank_bore(assembly: Assembly, sizes: Sizes, bore: float) -> Sizes:
 
 
 def _crank_holds(assembly: Assembly, sizes: Sizes, loads: GreatestLoads) -> bool:
-    parts, keyway = stressed(assembly, sizes), assembly.full.spec.size.crank_keyway
-    shaft = _shaft_holds(assembly, parts.crank_shaft, keyway, loads[3:])
-    return shaft and _key_holds(assembly, parts.crank_key, loads.crank_Nm)
+    parts, spec = stressed(assembly, sizes), assembly.full.spec
+    shaft = _shaft_holds(assembly, parts.crank_shaft, spec.size.crank_keyway, loads[3:])
+    return shaft and _key_holds(spec, parts.crank_key, loads.crank_Nm)
 
 
 def _shaft_holds(
@@ -213,9 +216,8 @@ def _shaft_holds(
     return keeps(stress, "at most", float(shear_allowed_MPa(table, keyway is not None)))
 
 
-def _key_holds(assembly: Assembly, key: KeyDimensions, torque: float) -> bool:
+def _key_holds(spec: Spec, key: KeyDimensions, torque: float) -> bool:
     """Return True if a key holds a torque, or where there is none."""
-    spec = assembly.full.spec
     sides, shear = allowed_MPa(spec.material_wheel), shear_allowed_MPa(spec.shaft)
     turned = np.asarray(spec.shaft.torsion_factor * torque)
     stress = key_stress(key, turned, np.asarray(sides), np.asarray(shear))
@@ -225,8 +227,7 @@ def _key_holds(assembly: Assembly, key: KeyDimensions, torque: float) -> bool:
 
 def _arm_holds(assembly: Assembly, sizes: Sizes, loads: GreatestLoads) -> bool:
     """Return True if the arm and its key hold; a shaft that does not needs no thicker arm."""
-    parts = stressed(assembly, sizes)
+    parts, spec = stressed(assembly, sizes), assembly.full.spec
     stress = float(arm_stress_MPa(parts.arm, np.asarray(loads.crank_N)))
-    allowed = float(allowed_MPa(assembly.full.spec.material_wheel))
-    key = _key_holds(assembly, parts.crank_key, loads.crank_Nm)
-    return key and keeps(stress, "at most", allowed)
+    key = _key_holds(spec, parts.crank_key, loads.crank_Nm)
+    return key and keeps(stress, "at most", float(allowed_MPa(spec.material_wheel)))

@@ -6,10 +6,11 @@ pulls, and bends it out of its plane by F c. Let A be the bending stress of the 
 torsion, B the stress of the second. At an angle beta to the arm's normal, the von Mises stress
 squared is (A cos beta + B sin beta)² + 3 tau² cos² beta, which is at most A² + B² + 3 tau².
 
-Both stresses are greatest at corners and torsion in the middle of a side, so the sum is an upper
-bound. The arm's width changes evenly between eye and hub. Three sections can be the weakest: at the
-pin's hole, at the shaft's bore, and where the arm is twice as wide as its eye. There 6 F x/(h w²)
-is greatest.
+Bending is greatest at corners, torsion in the middle of a side, so their sum is an upper bound. The
+arm's width changes evenly between eye and hub. Sections through the pin's hole and the shaft's
+bore, beside these, and where the arm is twice as wide as its eye can be the weakest: 6 F x/(h w²)
+is greatest there. A section through a hole carries half the twist, since the near half of the hole
+passes its share to the arm beside it. Notches are neglected.
 """
 
 from __future__ import annotations
@@ -18,8 +19,9 @@ from typing import NamedTuple, cast
 
 import numpy as np
 
-from geneva_cli.numerics.arrays import Mask
+from geneva_cli.numerics.arrays import Truth, parameter
 from geneva_cli.numerics.jet import Array
+from geneva_cli.numerics.roots import boundary
 
 
 class ArmDimensions(NamedTuple):
@@ -36,16 +38,17 @@ class ArmDimensions(NamedTuple):
 
 def arm_stress_MPa(arm: ArmDimensions, force_N: Array) -> Array:
     """The greatest von Mises stress in an arm, an upper bound for any direction of the force."""
-    wider = np.maximum(arm.hub - arm.eye, 0.0)
+    taper = (arm.hub - arm.eye) / arm.length
     with np.errstate(divide="ignore"):
-        x = np.minimum(arm.length, arm.length * arm.eye / wider)
-    between = 2.0 * (arm.eye + (arm.hub - arm.eye) * x / arm.length)
-    none = 0.0 * x
-    sections = (
+        twice = np.minimum(arm.length, arm.eye / np.maximum(taper, 0.0))
+    sections = [
+        _section(arm, force_N, x, 2.0 * (arm.eye + taper * x), 0.0 * x)
+        for x in (arm.hole, twice, arm.length - arm.bored)
+    ]
+    sections += [
         _section(arm, force_N, arm.hole, 2.0 * arm.eye, 2.0 * arm.hole),
-        _section(arm, force_N, x, between, none),
         _section(arm, force_N, arm.length, 2.0 * arm.hub, 2.0 * arm.bored),
-    )
+    ]
     most: Array = np.max(np.broadcast_arrays(*sections), axis=0)
     return most
 
@@ -55,9 +58,9 @@ def _section(arm: ArmDimensions, force: Array, x: Array, width: Array, hole: Arr
     h, left = arm.thickness, width - hole
     in_plane = 6.0 * force * x * width / (h * (width**3 - hole**3))
     out_of_plane = 6.0 * force * arm.offset / (left * h * h) + force / (left * h)
-    # the walls beside a hole share the torque
-    walls = np.where(hole > 0.0, 2.0, 1.0)
-    shear = torsion_MPa(force * arm.offset / walls, left / walls, h)
+    # each of the two walls beside a hole carries half of half the twist
+    twist, wall = (np.where(hole > 0.0, part, 1.0) for part in (0.25, 0.5))
+    shear = torsion_MPa(force * arm.offset * twist, left * wall, h)
     stress: Array = np.sqrt(in_plane**2 + out_of_plane**2 + 3.0 * shear**2)
     return stress
 
@@ -81,14 +84,10 @@ def least_thickness_mm(arm: ArmDimensions, force_N: Array, allowed_MPa: Array) -
     """
     face = arm.offset - 0.5 * arm.thickness
 
-    def holds(h: Array) -> Mask:
-        thick = arm._replace(thickness=h, offset=face + 0.5 * h)
+    def holds(h: float) -> Truth:
+        thick = arm._replace(thickness=np.asarray(h), offset=face + 0.5 * h)
         return np.asarray(arm_stress_MPa(thick, force_N) <= allowed_MPa)
 
-    most = 1024.0 * arm.thickness
-    low, high = 0.0 * most, np.where(holds(most), most, np.inf)
-    for _ in range(80):  # halvings, beyond the last digit
-        middle = 0.5 * (low + np.where(np.isfinite(high), high, most))
-        enough = holds(middle)
-        low, high = np.where(enough, low, middle), np.where(enough, middle, high)
-    return high
+    most = parameter(32.0 * arm.thickness)
+    least = boundary(holds, most, 0.0 * most, 50)  # halvings: to 1e-13 of the thickness
+    return np.where(holds(most), least, np.inf)

@@ -263,9 +263,10 @@ REPORT = (
     ),
     _group(
         "strength.arm",
-        "thickness_mm stress_MPa allowed_MPa margin least_thickness_mm",
+        "thickness_mm stress_MPa allowed_MPa margin",
         batch="strength:arm",
     ),
+    _group("strength.arm", "least_thickness_mm", batch="strength:arm_thickness"),
     *(
         _group(
             f"strength.{key}",

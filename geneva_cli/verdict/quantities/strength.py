@@ -187,14 +187,21 @@ def arm(of: Designs) -> Columns:
         return out
     force = under_load(of).part_loads.crank_N * of.loaded
     stress = _known(arms.arm_stress_MPa(parts.arm, force))
-    steel = np.ravel(array(allowed_MPa(of.spec.material_wheel)))
-    least = arms.least_thickness_mm(parts.arm, force, steel)
     return out | {
         "thickness_mm": _known(parts.arm.thickness),
         "stress_MPa": stress,
         "margin": margin(stress, allowed),
-        "least_thickness_mm": _known(least),
     }
+
+
+def arm_thickness(of: Designs) -> Columns:
+    """The thickness at which the crank arm just holds."""
+    parts, steel = under_load(of).parts, array(allowed_MPa(of.spec.material_wheel))
+    if parts is None or np.isnan(parts.arm.length).all():
+        return {}
+    force = under_load(of).part_loads.crank_N * of.loaded
+    least = arms.least_thickness_mm(parts.arm, force, steel.ravel())
+    return {"least_thickness_mm": _known(np.where(np.isfinite(force), least, force))}
 
 
 def wheel_key(of: Designs) -> Columns:
