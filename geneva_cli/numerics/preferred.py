@@ -29,6 +29,8 @@ def rounded_from(least: float, most: float) -> list[float]:
     >>> rounded_from(10.0, 15.0)
     [10.0, 11.0, 12.0, 14.0]
     """
+    if not 0.0 < least < most:
+        return [least]
     return [
         least,
         *(
