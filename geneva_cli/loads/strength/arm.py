@@ -4,13 +4,15 @@ The force F acts at a distance c from the arm's mid-plane, in any direction. Acr
 bends it in its plane, by F x at a distance x from the pin, and twists it by F c. Along the arm it
 pulls, and bends it out of its plane by F c. Let A be the bending stress of the first, tau its
 torsion, B the stress of the second. At an angle beta to the arm's normal, the von Mises stress
-squared is (A cos beta + B sin beta)² + 3 tau² cos² beta, which is at most A² + B² + 3 tau².
+squared is (A cos beta + B sin beta)² + 3 tau² cos² beta. Its greatest value over beta is
+(S + sqrt(S² - 12 tau² B²))/2 with S = A² + B² + 3 tau².
 
-Bending is greatest at corners, torsion in the middle of a side, so their sum is an upper bound. The
-arm's width changes evenly between eye and hub. Sections through the pin's hole and the shaft's
+Bending is greatest at corners, torsion in the middle of a side, so their sum is an upper bound.
+The arm's width changes evenly between eye and hub. Sections through the pin's hole and the shaft's
 bore, beside these, and where the arm is twice as wide as its eye can be the weakest: 6 F x/(h w²)
 is greatest there. A section through a hole carries half the twist, since the near half of the hole
-passes its share to the arm beside it. Notches are neglected.
+passes its share to the arm beside it. Its two walls bear it as a couple of shear forces. Notches
+are neglected.
 """
 
 from __future__ import annotations
@@ -37,7 +39,7 @@ class ArmDimensions(NamedTuple):
 
 
 def arm_stress_MPa(arm: ArmDimensions, force_N: Array) -> Array:
-    """The greatest von Mises stress in an arm, an upper bound for any direction of the force."""
+    """The greatest von Mises stress in an arm, over the directions of the force."""
     taper = (arm.hub - arm.eye) / arm.length
     with np.errstate(divide="ignore"):
         twice = np.minimum(arm.length, arm.eye / np.maximum(taper, 0.0))
@@ -58,10 +60,13 @@ def _section(arm: ArmDimensions, force: Array, x: Array, width: Array, hole: Arr
     h, left = arm.thickness, width - hole
     in_plane = 6.0 * force * x * width / (h * (width**3 - hole**3))
     out_of_plane = 6.0 * force * arm.offset / (left * h * h) + force / (left * h)
-    # each of the two walls beside a hole carries half of half the twist
-    twist, wall = (np.where(hole > 0.0, part, 1.0) for part in (0.25, 0.5))
-    shear = torsion_MPa(force * arm.offset * twist, left * wall, h)
-    stress: Array = np.sqrt(in_plane**2 + out_of_plane**2 + 3.0 * shear**2)
+    twist = force * arm.offset
+    # at a hole 3/2 V/(left/2 h), V being half the twist over the walls' distance
+    couple = 1.5 * twist / (0.5 * (width + hole) * left * h)
+    shear = np.where(hole > 0.0, couple, torsion_MPa(twist, left, h))
+    total = in_plane**2 + out_of_plane**2 + 3.0 * shear**2
+    root = np.sqrt(np.maximum(total**2 - 12.0 * (shear * out_of_plane) ** 2, 0.0))
+    stress: Array = np.sqrt(0.5 * (total + root))
     return stress
 
 
@@ -69,7 +74,7 @@ def torsion_MPa(torque_Nmm: Array, width: Array, height: Array) -> Array:
     """The greatest shear stress of a rectangle in torsion, in the middle of its longer side.
 
     Roark, Formulas for Stress and Strain, table of torsion: its polynomial in the ratio of the
-    sides is within 0.1 % of the series.
+    sides is within 0.3 % of the series.
     """
     a, b = np.maximum(width, height), np.minimum(width, height)
     k = b / a
