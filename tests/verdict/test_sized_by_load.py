@@ -137,7 +137,7 @@ def test_an_arm_under_a_force_from_all_directions():
             long, short = max(w, h), min(w, h)
             shear = push * c * (3.0 + 1.8 * short / long) / (long * short**2)
             worst = max(worst, math.sqrt(normal**2 + 3.0 * shear**2))
-    assert bound == pytest.approx(worst, rel=0.01)  # the two formulas for the twist
+    assert worst <= bound == pytest.approx(worst, rel=0.04)
 
 
 def test_the_least_thickness_of_an_arm_has_the_allowed_stress():
