@@ -155,6 +155,7 @@ REMEDIES: dict[str, tuple[Change, ...]] = {
     ),
     "pin_stress_MPa": (
         scaled("size", "pin_mm", 1.9),
+        scaled("size", "roller_radius_mm", 3.0),
         set_to("size", "pin_held", "fixed"),
         scaled("size", "face_width_mm", 0.1),
         _SLOWER,

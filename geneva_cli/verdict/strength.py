@@ -50,6 +50,12 @@ class Strength:
         """The values of ``LIFE``, by these names."""
         return {name: self[f"life.{name}"] for name in LIFE}
 
+    @property
+    def contact_mm(self) -> float | None:
+        """Length of the contact line; None if it is not known."""
+        width = self.load.contact_mm
+        return None if width is None else float(np.ravel(width)[0])
+
     def warnings(self) -> list[Notice]:
         """A note on the limits of a known stress."""
         sizes = self.load.lock_sizes

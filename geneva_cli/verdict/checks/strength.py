@@ -29,7 +29,9 @@ class Bound(NamedTuple):
     least: str = ""
 
 
-def _part(limit: str, part: str, what: str, size: str = "", stress: str = "stress_MPa") -> Bound:
+def _part(
+    limit: str, part: str, what: str = "", size: str = "", stress: str = "stress_MPa"
+) -> Bound:
     """The bound of a part's stress, which has a default limit."""
     name = f"strength.{part}"
     place = f"{name}.at_deg" if part in ("horn", "wheel_shaft", "crank_shaft") else ""
@@ -49,7 +51,7 @@ BOUNDS = {
     ),
     "pin_stress_MPa": _part("material.roller.stress_max_MPa", "pin", "pin_mm", "diameter_mm"),
     # under the roller
-    "horn_stress_MPa": _part("material.wheel.stress_max_MPa", "horn", "face_width_mm"),
+    "horn_stress_MPa": _part("material.wheel.stress_max_MPa", "horn"),
     # under the torque that the lock holds
     "lock_horn_stress_MPa": Bound(
         "material.wheel.stress_max_MPa",
@@ -103,7 +105,7 @@ def strength_limit(name: str, mechanism: Mechanism) -> Check | None:
     if value is not None and limit is not None:
         at_deg = of[bound.place] if bound.place else None
         check = compared(name, value, bound.must_be, limit, at_deg)
-        return check if check.passes else check._replace(why=_needed(bound, of))
+        return check if check.passes else check._replace(why=_needed(bound, of, check))
     reason = of.reason(name)
     # without a limit in the spec, a value that needs another key is not asked for
     if reason is None or (own is None and math.isfinite(of.load.force_N[0])):
@@ -111,9 +113,21 @@ def strength_limit(name: str, mechanism: Mechanism) -> Check | None:
     return Check(name, None, bound.must_be, limit, None, f"not known: it needs {reason}")
 
 
-def _needed(bound: Bound, of: Strength) -> str:
-    """The size on which a stress depends, and what it must be, in words; empty if unknown."""
-    size, least = (of[name] if name else None for name in (bound.size, bound.least))
-    if size is None or least is None:
+def _needed(bound: Bound, of: Strength, check: Check) -> str:
+    """The size on which a failing stress depends, and what it must be; empty if unknown."""
+    if not bound.size:
+        return _needed_width(of, check) if "horn" in check.name else ""
+    size, least = of[bound.size], of[bound.least]
+    if size is None:
         return ""
-    return f"{bound.what} is {size:.4g} mm, but this load needs {least:.4g}"
+    needs = "no value is enough" if least is None else f"this load needs {least:.4g}"
+    return f"{bound.what} is {size:.4g} mm, but {needs}"
+
+
+def _needed_width(of: Strength, check: Check) -> str:
+    """The width of the contact that a horn needs: its stress is in inverse proportion to it."""
+    width = of.contact_mm
+    if width is None or not check.value or not check.limit:
+        return ""
+    least = width * check.value / check.limit
+    return f"the contact is {width:.4g} mm wide, but this load needs {least:.4g}"
