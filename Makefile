@@ -5,7 +5,7 @@ BIN = .venv/bin
 # Not --quiet: mkdocs then counts no warning, and --strict passes whatever is broken.
 DOCS = $(BIN)/mkdocs build --strict --config-file .ci/mkdocs.yml
 
-.PHONY: demo test pytest lint docs stress certify jam cad editors page fuzz bench bench-start dist clean
+.PHONY: demo test pytest lint docs web web-test stress certify jam cad editors page fuzz bench bench-start dist clean
 
 demo: .venv/demo
 	@mkdir -p build
@@ -70,6 +70,18 @@ page: .venv/dev
 	@mkdir -p build/page
 	$(BIN)/pip install --quiet "websocket-client>=1.8,<2"
 	PYTHONPATH=tests:tests/output $(BIN)/python tests/stress/page_in_browser.py build/page
+
+# A static folder, build/web, on which geneva runs in a browser; needs npm and its registry. To try
+# it: python3 -m http.server -d build/web
+web: .venv/demo
+	@mkdir -p build
+	$(BIN)/python .ci/web/build.py build/web
+
+# That page in a headless Chromium, which must be installed: the time to the first answer, verdicts
+# and files against the commands' own, and without a network; a minute.
+web-test: .venv/dev web
+	$(BIN)/pip install --quiet "websocket-client>=1.8,<2"
+	PYTHONPATH=tests:tests/output:tests/stress $(BIN)/python tests/stress/web_in_browser.py build/web
 
 # Every design's STEP files read by a CAD kernel, which is installed for it (0.5 GB); two minutes.
 cad: .venv/dev

@@ -327,17 +327,24 @@ class Design:
         return with_certificates(self.peaks_table, self.mechanism, for_people)
 
     @question
-    def motion(self, samples: int = 361) -> Table:
+    def motion(self, samples: int = 361, turns: int | None = None) -> Table:
         """``samples`` rows over a period from the first entry, evenly spaced in the input angle.
 
-        Columns: time_s, input_deg, wheel_deg, velocity, acceleration, jerk.
+        With ``turns`` of the input there are rows over all of them, and also one at each entry,
+        exit and jump. Columns: time_s, input_deg, wheel_deg, velocity, acceleration, jerk.
 
         >>> Design(External(6)).motion(4).to_dict()["input_deg"].tolist()
         [-60.0, 60.0, 180.0, 300.0]
         """
-        from geneva_cli.analysis.motion import motion_table
+        from geneva_cli.analysis.electronic_cam import periods
+        from geneva_cli.analysis.motion import motion_table, turns_table
 
-        return self._located(lambda: motion_table(self.mechanism, samples))
+        def table() -> Table:
+            if turns is None:
+                return motion_table(self.mechanism, samples)
+            return turns_table(self.mechanism, samples, periods(self.mechanism, turns))
+
+        return self._located(table)
 
     @question
     def figure(self, pick: Sequence[str] = ()) -> Figure:

@@ -19,6 +19,7 @@ FORMATS = {
 MESHES = {"stl": "mesh.stl", "3mf": "mesh.threemf", "obj": "mesh.obj"}  # of solids, in bytes
 DRAWN = {"dxf": "dxf", "svg": "svg", "step": "step", **MESHES}
 SHEETS = ("dxf", "svg", "pdf")  # for drawing sheets
+CAMS = ("cam",)  # for motions only: a file for a controller
 PICTURES = ("png", "pdf")  # for figures only
 # for documents; the other formats of tables get their values
 DOCUMENTS = {"html": "html", "pdf": "pdf", "md": "markdown"}
