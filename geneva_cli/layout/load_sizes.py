@@ -11,7 +11,6 @@ fails.
 from __future__ import annotations
 
 import math
-from typing import NamedTuple
 
 import numpy as np
 
@@ -28,30 +27,22 @@ from geneva_cli.loads.strength.allowed import allowed_MPa, shear_allowed_MPa
 from geneva_cli.loads.strength.arm import arm_stress_MPa
 from geneva_cli.loads.strength.horn import horn_stresses
 from geneva_cli.loads.strength.keys import KeyDimensions, key_stress
-from geneva_cli.loads.strength.part_loads import part_loads
+from geneva_cli.loads.strength.part_loads import PartLoads, part_loads
 from geneva_cli.loads.strength.shafts import shear_MPa
 from geneva_cli.machine.spec import Spec
 from geneva_cli.numerics.keeps import keeps
 from geneva_cli.numerics.preferred import bores_from, rounded_from
 
 
-class GreatestLoads(NamedTuple):
-    """The greatest loads on the parts of one machine; see ``PartLoads``."""
-
-    pin_N: float
-    wheel_N: float
-    wheel_Nm: float
-    crank_N: float
-    crank_Nm: float
-
-
-def load_sizes(assembly: Assembly, usual: Sizes, space: float) -> Sizes:
+def load_sizes(
+    assembly: Assembly, usual: Sizes, space: float, known: PartLoads | None = None
+) -> Sizes:
     """Return the sizes of a machine under its load, from the usual ones.
 
-    ``space`` is the radius about the crank's axis inside the relief, mm. A load without a bound
-    leaves all sizes.
+    ``space`` is the radius about the crank's axis inside the relief, mm; ``known`` are the loads,
+    if computed already. A load without a bound leaves all sizes.
     """
-    loads = GreatestLoads(*(float(rows[0]) for rows in part_loads(assembly.full)))
+    loads = known or part_loads(assembly.full).of(0)
     if not all(map(math.isfinite, loads)):
         return usual
     size = assembly.full.spec.size
@@ -102,7 +93,7 @@ def _wheel_thickness(assembly: Assembly, sizes: Sizes) -> float:
     return next((b for b in trials if keeps(most / b, "at most", allowed)), trials[-1])
 
 
-def _pin(assembly: Assembly, sizes: Sizes, loads: GreatestLoads) -> float:
+def _pin(assembly: Assembly, sizes: Sizes, loads: PartLoads) -> float:
     """Return the radius of a pin that holds; the largest leaves a wall of the roller and the arm.
 
     With friction on the pin it stays the usual one, on which the loads depend.
@@ -127,13 +118,13 @@ def _pin(assembly: Assembly, sizes: Sizes, loads: GreatestLoads) -> float:
     return 0.5 * d
 
 
-def _bored(assembly: Assembly, sizes: Sizes, loads: GreatestLoads, space: float) -> Sizes:
+def _bored(assembly: Assembly, sizes: Sizes, loads: PartLoads, space: float) -> Sizes:
     """Return the sizes with bores of wheel and crank whose shafts and keys hold."""
     wheel = _wheel_bored(assembly, sizes, loads)
     return _crank_bored(assembly, wheel, loads, space)
 
 
-def _wheel_bored(assembly: Assembly, sizes: Sizes, loads: GreatestLoads) -> Sizes:
+def _wheel_bored(assembly: Assembly, sizes: Sizes, loads: PartLoads) -> Sizes:
     spec = assembly.full.spec
     size = spec.size
     fixed = size.wheel_bore_mm is not None or spec.shaft.wheel_diameter_mm is not None
@@ -161,7 +152,7 @@ def _with_wheel_bore(assembly: Assembly, sizes: Sizes, bore: float) -> Sizes:
     return sizes._replace(wheel_bore=bore, wheel_reach=reach, wheel_hub=hub)
 
 
-def _crank_bored(assembly: Assembly, sizes: Sizes, loads: GreatestLoads, space: float) -> Sizes:
+def _crank_bored(assembly: Assembly, sizes: Sizes, loads: PartLoads, space: float) -> Sizes:
     """Return the sizes with the crank's bore, through the disc if a shaft that holds fits there.
 
     Otherwise the shaft ends in the arm, whose bore may be larger, unless links are in its way.
@@ -200,7 +191,7 @@ def _with_crank_bore(assembly: Assembly, sizes: Sizes, bore: float) -> Sizes:
     return sizes._replace(crank_bore=bore, crank_reach=reach, crank_hub=hub, arm_bore=arm)
 
 
-def _crank_holds(assembly: Assembly, sizes: Sizes, loads: GreatestLoads) -> bool:
+def _crank_holds(assembly: Assembly, sizes: Sizes, loads: PartLoads) -> bool:
     parts, spec = stressed(assembly, sizes), assembly.full.spec
     shaft = _shaft_holds(assembly, parts.crank_shaft, spec.size.crank_keyway, loads[3:])
     return shaft and _key_holds(spec, parts.crank_key, loads.crank_Nm)
@@ -225,7 +216,7 @@ def _key_holds(spec: Spec, key: KeyDimensions, torque: float) -> bool:
     return math.isnan(least) or keeps(float(key.length), "at least", least)
 
 
-def _arm_holds(assembly: Assembly, sizes: Sizes, loads: GreatestLoads) -> bool:
+def _arm_holds(assembly: Assembly, sizes: Sizes, loads: PartLoads) -> bool:
     """Return True if the arm and its key hold; a shaft that does not needs no thicker arm."""
     parts, spec = stressed(assembly, sizes), assembly.full.spec
     stress = float(arm_stress_MPa(parts.arm, np.asarray(loads.crank_N)))

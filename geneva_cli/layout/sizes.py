@@ -9,6 +9,7 @@ past the rim and leaves a horn next to the slot.
 from __future__ import annotations
 
 import math
+from typing import TYPE_CHECKING
 
 from geneva_cli.errors import GenevaError
 from geneva_cli.layout.arm_sizes import arm_bore, hub_around, within_hub
@@ -24,21 +25,30 @@ from geneva_cli.numerics.preferred import bore_radius
 from geneva_cli.numerics.tolerances import SAME_LENGTH
 from geneva_cli.spec.tables import Size
 
+if TYPE_CHECKING:
+    from geneva_cli.loads.strength.part_loads import PartLoads
 
-def sized(mechanism: Mechanism) -> tuple[Assembly, Sizes] | None:
-    """Return a machine's assembly and sizes; None where no flat parts can be cut."""
+
+def sized(mechanism: Mechanism, loads: PartLoads | None = None) -> tuple[Assembly, Sizes] | None:
+    """Return a machine's assembly and sizes; None where no flat parts can be cut.
+
+    ``loads`` are those on its parts, if computed already.
+    """
     if not mechanism.spec.is_flat:
         return None
     try:
         where = assembly(mechanism)
-        return where, sizes(where)
+        return where, sizes(where, loads=loads)
     except GenevaError:
         return None  # the check of the parts reports the error
 
 
-def sizes(assembly: Assembly, known: RollerPaths | None = None) -> Sizes:
-    """Return the sizes of a machine's parts; ``known`` are its roller paths, if computed already.
+def sizes(
+    assembly: Assembly, known: RollerPaths | None = None, loads: PartLoads | None = None
+) -> Sizes:
+    """Return the sizes of a machine's parts.
 
+    ``known`` are its roller paths, and ``loads`` those on its parts, if computed already.
     Raises GenevaError, naming the key, where a size leaves no wheel or no lock.
     """
     spec, L = assembly.mechanism.spec, assembly.L
@@ -99,7 +109,7 @@ def sizes(assembly: Assembly, known: RollerPaths | None = None) -> Sizes:
     if assembly.full.spec.is_loaded:
         from geneva_cli.layout.load_sizes import load_sizes  # without a load none is needed
 
-        out = load_sizes(assembly, out, within)
+        out = load_sizes(assembly, out, within, loads)
     _refuse(assembly, out)
     _refuse_hubs(size, out)
     return out

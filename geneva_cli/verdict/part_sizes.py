@@ -15,6 +15,7 @@ from geneva_cli.layout.sizes import sized
 from geneva_cli.layout.stressed import Stressed, stressed
 from geneva_cli.loads.strength.arm import ArmDimensions
 from geneva_cli.loads.strength.keys import KeyDimensions
+from geneva_cli.loads.strength.part_loads import PartLoads
 from geneva_cli.machine.many import alone
 from geneva_cli.machine.mechanism import Mechanism, build
 
@@ -34,9 +35,9 @@ class PartSizes(NamedTuple):
     crank_key: KeyDimensions
 
 
-def part_sizes(mechanism: Mechanism) -> PartSizes | None:
-    """The dimensions of the parts of m designs; None if no design has parts."""
-    rows = [_row(one) for one in _designs(mechanism)]
+def part_sizes(mechanism: Mechanism, loads: PartLoads) -> PartSizes | None:
+    """The dimensions of the parts of m designs under these loads; None if no design has parts."""
+    rows = [_row(one, loads.of(i)) for i, one in enumerate(_designs(mechanism))]
     every = [row for row in rows if row]
     if not every:
         return None
@@ -65,9 +66,9 @@ def _designs(mechanism: Mechanism) -> Iterator[Mechanism]:
         yield build(alone(mechanism.spec, i))
 
 
-def _row(machine: Mechanism) -> list[float]:
+def _row(machine: Mechanism, loads: PartLoads) -> list[float]:
     """The numbers of a machine's parts in one row; none for a machine without flat parts."""
-    parts = sized(machine)
+    parts = sized(machine, loads)
     return _numbers(stressed(*parts)) if parts else []
 
 

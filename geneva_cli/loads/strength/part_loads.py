@@ -9,20 +9,24 @@ import numpy as np
 from geneva_cli.analysis.quantities import FORCE
 from geneva_cli.loads.strength.shafts import Torque, on_crank, on_driven_crank, on_wheel
 from geneva_cli.loads.summaries import load_peaks
+from geneva_cli.numerics.arrays import parameter
 
 if TYPE_CHECKING:
     from geneva_cli.machine.mechanism import Mechanism
-    from geneva_cli.numerics.jet import Array
 
 
 class PartLoads(NamedTuple):
-    """The greatest sizes of loads, (m,) each; infinite if unbounded."""
+    """The greatest sizes of loads, (m,) each, or numbers of one design; infinite if unbounded."""
 
-    pin_N: Array  # of a roller, along the wall's normal
-    wheel_N: Array  # of the wheel's bearings together
-    wheel_Nm: Array  # torque in the wheel's shaft
-    crank_N: Array  # of the crank's bearings together, which is that on the arm
-    crank_Nm: Array  # torque in the crank's shaft
+    pin_N: float  # of a roller, along the wall's normal
+    wheel_N: float  # of the wheel's bearings together
+    wheel_Nm: float  # torque in the wheel's shaft
+    crank_N: float  # of the crank's bearings together, which is that on the arm
+    crank_Nm: float  # torque in the crank's shaft
+
+    def of(self, i: int) -> PartLoads:
+        """The loads of one design of a batch, as numbers."""
+        return PartLoads(*(float(np.ravel(row)[i]) for row in self))
 
 
 def part_loads(mechanism: Mechanism) -> PartLoads:
@@ -32,5 +36,5 @@ def part_loads(mechanism: Mechanism) -> PartLoads:
     names = FORCE, "wheel_bearing_N", "wheel_Nm", "crank_bearing_N", "crank_Nm"
     peaks = load_peaks(mechanism, names, own)
     return PartLoads(
-        *(np.sqrt(peaks[name].max) if name in own else peaks[name].max for name in names)
+        *(parameter(np.sqrt(peaks[name].max) if name in own else peaks[name].max) for name in names)
     )

@@ -44,8 +44,8 @@ def pin(of: Designs) -> Columns:
     width, out = load.contact_mm, {"allowed_MPa": allowed}
     if width is None:
         return out
-    section = pins.pin(of.spec.size, width, _pin_mm(of))
     force = load.force_N[:, None]
+    section = pins.pin(of.spec.size, width, _pin_mm(of, width, force))
     under = section.under(force)
     stress = np.ravel(under.equivalent)
     out |= {
@@ -61,10 +61,15 @@ def pin(of: Designs) -> Columns:
     return out
 
 
-def _pin_mm(of: Designs) -> Number:
+def _pin_mm(of: Designs, width: float, force: Array) -> Number:
     """The pin's diameter, (m, 1): of the spec, or as its machine is drawn."""
-    parts = under_load(of).parts if of.spec.size.pin_mm is None else None
     usual = pins.pin_diameter_mm(of.machine)
+    if of.spec.size.pin_mm is not None:
+        return usual
+    stress = pins.pin(of.spec.size, width, usual).under(force).equivalent
+    # where the usual pin holds, it is drawn
+    holds = ~(stress > allowed_MPa(of.spec.material_roller))
+    parts = None if np.all(holds) else under_load(of).parts
     if parts is None:
         return usual
     return np.where(np.isnan(parts.pin), np.ravel(usual), parts.pin)[:, None]
@@ -120,33 +125,27 @@ def _known(row: Number | None) -> Array:
 
 def wheel_shaft(of: Designs) -> Columns:
     """The wheel's shaft, if it is parallel to the crank's."""
-    parts, keyway = under_load(of).parts, of.spec.size.wheel_keyway
-    ends = shafts.wheel_shaft(of.spec.shaft)
-    return _shaft(of, _drawn(of, ends, parts and parts.wheel_shaft, keyway), shafts.on_wheel)
+    ends = _drawn(of, shafts.wheel_shaft(of.spec.shaft), "wheel")
+    return _shaft(of, ends, shafts.on_wheel)
 
 
 def crank_shaft(of: Designs) -> Columns:
     """The crank's shaft, if it is parallel to the wheel's."""
     on = shafts.on_driven_crank if of.spec.drive.CRANKED else shafts.on_crank
-    parts, keyway = under_load(of).parts, of.spec.size.crank_keyway
-    ends = shafts.crank_shaft(of.spec.shaft)
-    return _shaft(of, _drawn(of, ends, parts and parts.crank_shaft, keyway), on)
+    return _shaft(of, _drawn(of, shafts.crank_shaft(of.spec.shaft), "crank"), on)
 
 
-def _drawn(
-    of: Designs,
-    ends: shafts.ShaftDimensions,
-    drawn: tuple[Array, Array] | None,
-    keyway: str | None,
-) -> shafts.ShaftDimensions:
+def _drawn(of: Designs, ends: shafts.ShaftDimensions, part: str) -> shafts.ShaftDimensions:
     """The dimensions of a loaded shaft, with those of its parts where the spec has none."""
     if not of.spec.is_loaded:
         return ends
-    allowed = parameter(shear_allowed_MPa(of.spec.shaft, keyway is not None))
-    ends = ends._replace(allowed_MPa=allowed)
-    if drawn is None:
+    keyway = vars(of.spec.size)[f"{part}_keyway"] is not None
+    ends = ends._replace(allowed_MPa=parameter(shear_allowed_MPa(of.spec.shaft, keyway)))
+    complete = ends.diameter_mm is not None and ends.overhang_mm is not None
+    parts = None if complete else under_load(of).parts
+    if parts is None:
         return ends
-    diameter, overhang = drawn
+    diameter, overhang = parts.wheel_shaft if part == "wheel" else parts.crank_shaft
     if ends.diameter_mm is None and not np.isnan(diameter).all():
         ends = ends._replace(diameter_mm=_number(of, diameter))
     if ends.overhang_mm is None and not np.isnan(overhang).all():

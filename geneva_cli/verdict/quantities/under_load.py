@@ -71,7 +71,8 @@ class UnderLoad:
     @cached_property
     def parts(self) -> PartSizes | None:
         """The dimensions of stressed parts; None if no design has parts, or a load."""
-        return part_sizes(self.machine) if self.machine.spec.is_loaded else None
+        loaded = self.machine.spec.is_loaded
+        return part_sizes(self.machine, self.part_loads) if loaded else None
 
     @property
     def contact_mm(self) -> float | None:
