@@ -1,11 +1,12 @@
 """Default sizes under a load: thicknesses, pin, bores and hubs as large as the load needs.
 
-The loads follow from the motion, the roller and what the wheel turns, never from these sizes. (With
-friction on the pin they depend on its diameter, which then stays the usual one.) So the sizes are
-computed one after the other: the wheel's thickness from its horns, the pin, then for one thickness
-of the arm after the other the shafts and the arm itself. Each size is the first preferred number
-that keeps the allowable stress, from the usual size on, or else the largest that fits. Then a check
-fails.
+The loads follow from the motion, the roller and what the wheel turns, never from these sizes. Only
+with friction on the pin do they depend on its diameter: then it stays the usual one. The sizes are
+computed one after the other. The wheel's thickness follows from its horns, then the pin from that.
+For one thickness of the arm after the other there are shafts, until the arm holds.
+
+Each size is the first preferred number that keeps the allowable stress, from the usual size on.
+If there is none, it is the largest that fits, and a check fails.
 """
 
 from __future__ import annotations

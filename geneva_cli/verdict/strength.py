@@ -169,10 +169,20 @@ class Strength:
         thick = (ends.diameter_mm is not None or has_shaft, f"{which}_diameter_mm in [shaft]")
         yield [(bool(met), keys) for met, keys in (placed, thick)] + [self._has_load]
 
-    def _part(self) -> Keys:
+    def _arm(self) -> Keys:
+        yield from self._part("arm")
+
+    def _wheel_key(self) -> Keys:
+        yield from self._part("wheel_key")
+
+    def _crank_key(self) -> Keys:
+        yield from self._part("crank_key")
+
+    def _part(self, name: str) -> Keys:
         """The needs of an arm or a key, which a machine may lack."""
-        yield [self._has_load]
-        yield [self._has_bound]
+        if self.load.parts is None or not np.isnan(getattr(self.load.parts, name)[0][0]):
+            yield [self._has_load]
+            yield [self._has_bound]
 
     def _rated(self) -> Keys:
         if self.spec.is_loaded:
@@ -208,9 +218,9 @@ REASONS: dict[str, Callable[[Strength], Keys]] = {
     "lock_horn_stress_MPa": Strength._lock,
     "wheel_shaft_stress_MPa": Strength._wheel_shaft,
     "crank_shaft_stress_MPa": Strength._crank_shaft,
-    "arm_stress_MPa": Strength._part,
-    "wheel_key_pressure_MPa": Strength._part,
-    "crank_key_pressure_MPa": Strength._part,
+    "arm_stress_MPa": Strength._arm,
+    "wheel_key_pressure_MPa": Strength._wheel_key,
+    "crank_key_pressure_MPa": Strength._crank_key,
     "roller_life_min_h": Strength._rated,
     "roller_life_turns": Strength._rated,
     "roller_life_motions": Strength._rated,

@@ -65,7 +65,8 @@ def _section(arm: ArmDimensions, force: Array, x: Array, width: Array, hole: Arr
     couple = 1.5 * twist / (0.5 * (width + hole) * left * h)
     shear = np.where(hole > 0.0, couple, torsion_MPa(twist, left, h))
     total = in_plane**2 + out_of_plane**2 + 3.0 * shear**2
-    root = np.sqrt(np.maximum(total**2 - 12.0 * (shear * out_of_plane) ** 2, 0.0))
+    with np.errstate(invalid="ignore"):  # of a force without a bound
+        root = np.sqrt(np.maximum(total**2 - 12.0 * (shear * out_of_plane) ** 2, 0.0))
     stress: Array = np.sqrt(0.5 * (total + root))
     return stress
 
