@@ -28,7 +28,7 @@ from geneva_cli.loads.strength.allowed import allowed_MPa, shear_allowed_MPa
 from geneva_cli.loads.strength.arm import arm_stress_MPa
 from geneva_cli.loads.strength.horn import horn_stresses
 from geneva_cli.loads.strength.keys import KeyDimensions, key_stress
-from geneva_cli.loads.strength.part_loads import PartLoads, part_loads
+from geneva_cli.loads.strength.part_loads import PartLoads, single_loads
 from geneva_cli.loads.strength.shafts import shear_MPa
 from geneva_cli.machine.spec import Spec
 from geneva_cli.numerics.keeps import keeps
@@ -43,7 +43,7 @@ def load_sizes(
     ``space`` is the radius about the crank's axis inside the relief, mm; ``known`` are the loads,
     if computed already. A load without a bound leaves all sizes.
     """
-    loads = known or part_loads(assembly.full).of(0)
+    loads = known or single_loads(assembly.full)
     if not all(map(math.isfinite, loads)):
         return usual
     size = assembly.full.spec.size

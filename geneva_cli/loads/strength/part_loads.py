@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import lru_cache
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
@@ -27,6 +28,12 @@ class PartLoads(NamedTuple):
     def of(self, i: int) -> PartLoads:
         """The loads of one design of a batch, as numbers."""
         return PartLoads(*(float(np.ravel(row)[i]) for row in self))
+
+
+@lru_cache(maxsize=16)
+def single_loads(mechanism: Mechanism) -> PartLoads:
+    """The greatest loads of a machine as numbers, cached for its sizes and their checks."""
+    return part_loads(mechanism).of(0)
 
 
 def part_loads(mechanism: Mechanism) -> PartLoads:
