@@ -179,7 +179,7 @@ def _bore(spec: Spec, end: float, wall: float, L: float) -> float:
 def _arm_bore(assembly: Assembly, pin: float, disc: float) -> float:
     """Return the radius of the arm's bore, where a disc has a bore of radius ``disc``; or 0."""
     spec = assembly.full.spec
-    if not spec.drive.ONE_ARM:
+    if not (spec.drive.ONE_ARM and pin):  # without pins there is no arm
         return 0.0
     hole = pin - 0.5 * spec.size.allowances.press_fit_mm
     space = min(math.hypot(*c) for c in roller_centres(assembly)) - hole
