@@ -54,11 +54,13 @@ def load_sizes(
     has_arm = sizes.arm_bore > 0.0 and sizes.pin > 0.0
     if not has_arm or size.arm_thickness_mm is not None:
         return _bored(assembly, sizes, loads, space)
-    most = 2.0 * sizes.wheel_thickness  # of a plate beside the wheel
-    for arm in rounded_from(sizes.wheel_thickness, most):
-        trial = _bored(assembly, _thick(assembly, sizes, arm=arm), loads, space)
-        if _arm_holds(assembly, trial, loads):
-            break
+    # a thicker arm, up to twice the wheel, is better for a key than a thicker shaft
+    plates = rounded_from(sizes.wheel_thickness, 2.0 * sizes.wheel_thickness)
+    for keyed in (False, True) if size.crank_keyway else (True,):
+        for arm in plates:
+            trial = _bored(assembly, _thick(assembly, sizes, arm=arm), loads, space, keyed)
+            if _arm_holds(assembly, trial, loads):
+                return trial
     return trial
 
 
@@ -119,10 +121,15 @@ def _pin(assembly: Assembly, sizes: Sizes, loads: PartLoads) -> float:
     return 0.5 * d
 
 
-def _bored(assembly: Assembly, sizes: Sizes, loads: PartLoads, space: float) -> Sizes:
-    """Return the sizes with bores of wheel and crank whose shafts and keys hold."""
+def _bored(
+    assembly: Assembly, sizes: Sizes, loads: PartLoads, space: float, keyed: bool = True
+) -> Sizes:
+    """Return the sizes with bores of wheel and crank whose shafts and keys hold.
+
+    Unless ``keyed``, the crank's bore is not sized by its key.
+    """
     wheel = _wheel_bored(assembly, sizes, loads)
-    return _crank_bored(assembly, wheel, loads, space)
+    return _crank_bored(assembly, wheel, loads, space, keyed)
 
 
 def _wheel_bored(assembly: Assembly, sizes: Sizes, loads: PartLoads) -> Sizes:
@@ -153,7 +160,9 @@ def _with_wheel_bore(assembly: Assembly, sizes: Sizes, bore: float) -> Sizes:
     return sizes._replace(wheel_bore=bore, wheel_reach=reach, wheel_hub=hub)
 
 
-def _crank_bored(assembly: Assembly, sizes: Sizes, loads: PartLoads, space: float) -> Sizes:
+def _crank_bored(
+    assembly: Assembly, sizes: Sizes, loads: PartLoads, space: float, keyed: bool
+) -> Sizes:
     """Return the sizes with the crank's bore, through the disc if a shaft that holds fits there.
 
     Otherwise the shaft ends in the arm, whose bore may be larger, unless links are in its way.
@@ -169,7 +178,7 @@ def _crank_bored(assembly: Assembly, sizes: Sizes, loads: PartLoads, space: floa
         most = min(0.6 * space, within_hub(size.crank_hub_mm, size.crank_keyway))
         for d in bores_from(2.0 * sizes.crank_bore, 2.0 * most):
             trial = _with_crank_bore(assembly, sizes, 0.5 * d)
-            if _crank_holds(assembly, trial, loads):
+            if _crank_holds(assembly, trial, loads, keyed):
                 return trial
     # past links and gears the shaft may have no other way out
     if not sizes.arm_bore or links_at(assembly.full, np.zeros(1)) or spec.drive.gears:
@@ -178,7 +187,7 @@ def _crank_bored(assembly: Assembly, sizes: Sizes, loads: PartLoads, space: floa
     reach = min(math.hypot(*centre) for centre in roller_centres(assembly))
     for d in bores_from(2.0 * sizes.arm_bore, reach - hole):  # half of the space is left as a wall
         other = _with_crank_bore(assembly, sizes, 0.0)._replace(arm_bore=0.5 * d)
-        if _crank_holds(assembly, other, loads):
+        if _crank_holds(assembly, other, loads, keyed):
             break
     return other
 
@@ -192,10 +201,10 @@ def _with_crank_bore(assembly: Assembly, sizes: Sizes, bore: float) -> Sizes:
     return sizes._replace(crank_bore=bore, crank_reach=reach, crank_hub=hub, arm_bore=arm)
 
 
-def _crank_holds(assembly: Assembly, sizes: Sizes, loads: PartLoads) -> bool:
+def _crank_holds(assembly: Assembly, sizes: Sizes, loads: PartLoads, keyed: bool) -> bool:
     parts, spec = stressed(assembly, sizes), assembly.full.spec
     shaft = _shaft_holds(assembly, parts.crank_shaft, spec.size.crank_keyway, loads[3:])
-    return shaft and _key_holds(spec, parts.crank_key, loads.crank_Nm)
+    return shaft and (not keyed or _key_holds(spec, parts.crank_key, loads.crank_Nm))
 
 
 def _shaft_holds(
