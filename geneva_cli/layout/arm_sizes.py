@@ -6,7 +6,9 @@ import math
 from collections.abc import Iterable
 
 from geneva_cli.errors import GenevaError
+from geneva_cli.layout.assembly import Assembly
 from geneva_cli.layout.keyways import reach
+from geneva_cli.layout.plain_sizes import Sizes
 from geneva_cli.machine.spec import Spec
 from geneva_cli.numerics.preferred import bore_radius, rounded_radius
 from geneva_cli.spec.tables import Size
@@ -42,6 +44,12 @@ def hub_and_eye(
 def usual_hub(bored: float, bore: float, wall: float, standing: float) -> float:
     """Return the arm's default radius about a bore that reaches to ``bored`` with its keyway."""
     return max(rounded_radius(HUB * bore), bored + wall, standing)
+
+
+def arm_passing(assembly: Assembly, sizes: Sizes, length: float) -> float:
+    """Return the radius of the largest eye that passes the wheel's hub below the wheel."""
+    passing = assembly.L - length - max(sizes.wheel_bore, sizes.wheel_hub)
+    return passing if assembly.sign > 0.0 else math.inf
 
 
 def pin_hole(size: Size, pin: float) -> float:

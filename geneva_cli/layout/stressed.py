@@ -13,7 +13,7 @@ import numpy as np
 
 from geneva_cli.analysis.locking import Lock
 from geneva_cli.errors import GenevaError
-from geneva_cli.layout.arm_sizes import eye_about, half_or, usual_hub
+from geneva_cli.layout.arm_sizes import arm_passing, eye_about, half_or, usual_hub
 from geneva_cli.layout.assembly import Assembly
 from geneva_cli.layout.keyways import key, reach_or_bore
 from geneva_cli.layout.link_positions import links_at
@@ -97,12 +97,6 @@ def _arm(assembly: Assembly, sizes: Sizes, contact: float) -> ArmDimensions:
     offset = 0.5 * (contact + sizes.arm_thickness) + size.pin_gap_mm
     rows = length, hub, eye, bored, hole, sizes.arm_thickness, offset
     return ArmDimensions(*map(np.asarray, rows))
-
-
-def arm_passing(assembly: Assembly, sizes: Sizes, length: float) -> float:
-    """Return the radius of the largest eye that passes the wheel's hub below the wheel."""
-    passing = assembly.L - length - max(sizes.wheel_bore, sizes.wheel_hub)
-    return passing if assembly.sign > 0.0 else math.inf
 
 
 def lock_of(where: Assembly, size: Sizes) -> Lock:

@@ -28,6 +28,7 @@ from geneva_cli.spec.tables import (
     Load,
     Mass,
     Motor,
+    Product,
     RollerMaterial,
     Shaft,
     Size,
@@ -108,6 +109,7 @@ class Spec:
     material_wheel: WheelMaterial = field(default_factory=WheelMaterial)
     material_roller: RollerMaterial = field(default_factory=RollerMaterial)
     tolerance: Tolerance = field(default_factory=Tolerance)
+    product: Product = field(default_factory=Product)
     limits: Limits = field(default_factory=Limits)
     title: str = ""
     path: str = ""
@@ -127,6 +129,12 @@ class Spec:
         for limit, (key, of, what) in NEEDED.items():
             if limits[limit] is not None and self.table(of)[key] is None:
                 raise GenevaError(f"{limit} needs {what}: set {key} in [{of}]", ("limits", limit))
+        if self.limits.product_acceleration_max_m_s2 is not None and not self.product.lies:
+            raise GenevaError(
+                "product_acceleration_max_m_s2 needs the product's place: set radius_mm in "
+                "[product]",
+                ("limits", "product_acceleration_max_m_s2"),
+            )
         for key in LOADED:
             if limits[key] is not None:
                 refuse(self._unloaded, partial(_no_load, key))

@@ -19,6 +19,7 @@ from geneva_cli.curves.hull import convex_hull
 from geneva_cli.curves.shapes import Circle, Contour, Shape
 from geneva_cli.errors import GenevaError
 from geneva_cli.layout.arm_sizes import (
+    arm_passing,
     bolts_between,
     eye_about,
     half_or,
@@ -28,7 +29,6 @@ from geneva_cli.layout.arm_sizes import (
 from geneva_cli.layout.hole_walls import least_wall
 from geneva_cli.layout.keyways import bore, key, reach
 from geneva_cli.layout.reliefs import keyway_direction, sectors
-from geneva_cli.layout.stressed import arm_passing
 from geneva_cli.outlines.crank import crank_circles, is_whole, roller_centres
 from geneva_cli.outlines.outlines import Outlines
 
