@@ -9,6 +9,7 @@ from geneva_cli.errors import GenevaError
 from geneva_cli.layout.assembly import Assembly
 from geneva_cli.layout.keyways import reach
 from geneva_cli.layout.plain_sizes import Sizes
+from geneva_cli.layout.plain_sizes import half_or as half_or
 from geneva_cli.machine.spec import Spec
 from geneva_cli.numerics.preferred import bore_radius, rounded_radius
 from geneva_cli.spec.tables import Size
@@ -108,8 +109,3 @@ def bolts_between(
             "lock_bolts: there is no locking disc to fix; remove it", ("size", "lock_bolts")
         )
     return half_or(size.lock_bolt_mm, L / 80.0), directions if count else []
-
-
-def half_or(diameter: float | None, default: float) -> float:
-    """Return half of a diameter, or the default radius if that is None."""
-    return default if diameter is None else 0.5 * diameter

@@ -57,25 +57,27 @@ def thicknesses(size: Size, L: float, parts: Sizes | None = None) -> Thicknesses
     if parts:
         own = parts.wheel_thickness, parts.lock_thickness, parts.arm_thickness
         return Thicknesses(*own, parts.link_thickness)
-    wheel = _or(size.wheel_thickness_mm, _or(size.face_width_mm, rounded_below(L / 10.0)))
-    arm = _or(size.arm_thickness_mm, wheel)
-    lock = _or(size.lock_thickness_mm, wheel + size.pin_gap_mm)
-    return Thicknesses(wheel, lock, arm, _or(size.link_thickness_mm, arm))
+    wheel = value_or(size.wheel_thickness_mm, value_or(size.face_width_mm, rounded_below(L / 10.0)))
+    arm = value_or(size.arm_thickness_mm, wheel)
+    lock = value_or(size.lock_thickness_mm, wheel + size.pin_gap_mm)
+    return Thicknesses(wheel, lock, arm, value_or(size.link_thickness_mm, arm))
 
 
 def pin_radius(size: Size, r: float, parts: Sizes | None = None) -> float:
     """Return the radius of a roller's pin, that of ``parts`` or else of a spec; 0 for none."""
-    return parts.pin if parts else _or(_half(size.pin_mm), 0.5 * rounded_below(r))
+    return parts.pin if parts else half_or(size.pin_mm, 0.5 * rounded_below(r))
 
 
 def wall_min(size: Size, L: float) -> float:
     """Return the least wall that ``check`` lets pass, mm."""
-    return _or(size.wall_min_mm, L / 200.0)
+    return value_or(size.wall_min_mm, L / 200.0)
 
 
-def _or(value: float | None, default: float) -> float:
+def value_or(value: float | None, default: float) -> float:
+    """Return a value of the spec, or else the default."""
     return default if value is None else value
 
 
-def _half(diameter: float | None) -> float | None:
-    return None if diameter is None else 0.5 * diameter
+def half_or(diameter: float | None, default: float) -> float:
+    """Return half of a diameter, or the default radius if that is None."""
+    return default if diameter is None else 0.5 * diameter

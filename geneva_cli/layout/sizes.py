@@ -16,7 +16,7 @@ from geneva_cli.layout.arm_sizes import arm_bore, hub_around, within_hub
 from geneva_cli.layout.assembly import Assembly, assembly
 from geneva_cli.layout.keyways import reach_or_bore
 from geneva_cli.layout.plain_sizes import Sizes as Sizes
-from geneva_cli.layout.plain_sizes import pin_radius, thicknesses, wall_min
+from geneva_cli.layout.plain_sizes import half_or, pin_radius, thicknesses, value_or, wall_min
 from geneva_cli.layout.reliefs import arc_floor, has_arcs
 from geneva_cli.layout.roller_paths import RollerPaths, mouth, roller_centres, roller_paths
 from geneva_cli.machine.mechanism import Mechanism
@@ -57,8 +57,8 @@ def sizes(
     allowed = size.allowances
     w = r + allowed.slot_clearance_mm
     outside = assembly.sign > 0.0
-    rim = _or(size.wheel_radius_mm, max(mouth(assembly, s, r) for s in kinds))
-    bottom = _or(size.slot_bottom_clearance_mm, max(allowed.slot_clearance_mm, r / 20.0))
+    rim = value_or(size.wheel_radius_mm, max(mouth(assembly, s, r) for s in kinds))
+    bottom = value_or(size.slot_bottom_clearance_mm, max(allowed.slot_clearance_mm, r / 20.0))
     gaps = [0.0 if s.slot.curved else bottom for s in kinds]
     ends = (
         assembly.sign * _bottom(deepest, L * s.through.slot.offset, assembly.sign * gap)
@@ -68,14 +68,14 @@ def sizes(
     arm = path.arm
     lock = _lock(assembly, arm, w, rim)
     depth = abs(L - rim)
-    relief = _or(size.relief_clearance_mm, min(L / 200.0, depth / 4.0))
+    relief = value_or(size.relief_clearance_mm, min(L / 200.0, depth / 4.0))
     space = (lock or rim) / arm * (L - math.sqrt(max(rim * rim - r * r, 0.0))) if outside else 0.0
     if any(s.apart for s in kinds):  # gears between rollers widen the relief
         space = min(space, arc_floor(assembly, lock)) if has_arcs(assembly, lock) else math.inf
     within = min(space, depth - relief)
     bore = _crank_bore(assembly.full.spec, within, L) if spec.drive.LOCKS else 0.0
     wall = wall_min(size, L)
-    wheel_bore = _or(_half(size.wheel_bore_mm), _bore(assembly.full.spec, end, wall, L))
+    wheel_bore = half_or(size.wheel_bore_mm, _bore(assembly.full.spec, end, wall, L))
     wheel_bore = wheel_bore if outside or size.wheel_bore_mm else 0.0
     wheel_reach = reach_or_bore(size.wheel_keyway, wheel_bore)
     crank_reach = reach_or_bore(size.crank_keyway, bore)
@@ -85,7 +85,7 @@ def sizes(
         roller=r,
         half_width=w,
         rim=rim,
-        outer=0.0 if outside else _or(size.wheel_outer_radius_mm, end + max(r, L / 20.0)),
+        outer=0.0 if outside else value_or(size.wheel_outer_radius_mm, end + max(r, L / 20.0)),
         slot_bottom=bottom,
         slot_end=end,
         arm=arm,
@@ -95,10 +95,10 @@ def sizes(
         wall_min=wall,
         wheel_bore=wheel_bore,
         wheel_reach=wheel_reach,
-        wheel_hub=_or(_half(size.wheel_hub_mm), wheel_hub),
+        wheel_hub=half_or(size.wheel_hub_mm, wheel_hub),
         crank_bore=bore,
         crank_reach=crank_reach,
-        crank_hub=_or(_half(size.crank_hub_mm), hub_around(crank_reach, bore, wall, 1.5 * bore)),
+        crank_hub=half_or(size.crank_hub_mm, hub_around(crank_reach, bore, wall, 1.5 * bore)),
         pin=pin,
         arm_bore=_arm_bore(assembly, pin, bore),
         wheel_thickness=thick.wheel,
@@ -155,14 +155,6 @@ def drawn_pin_radius(mechanism: Mechanism) -> float:
     flat = sized(mechanism)
     parts = flat[1] if flat else None
     return pin_radius(mechanism.spec.size, mechanism.roller_radius_mm, parts)
-
-
-def _or(value: float | None, default: float) -> float:
-    return default if value is None else value
-
-
-def _half(diameter: float | None) -> float | None:
-    return None if diameter is None else 0.5 * diameter
 
 
 def _bore(spec: Spec, end: float, wall: float, L: float) -> float:

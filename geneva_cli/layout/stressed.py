@@ -17,7 +17,7 @@ from geneva_cli.layout.arm_sizes import arm_passing, eye_about, half_or, usual_h
 from geneva_cli.layout.assembly import Assembly
 from geneva_cli.layout.keyways import key, reach_or_bore
 from geneva_cli.layout.link_positions import links_at
-from geneva_cli.layout.plain_sizes import Sizes
+from geneva_cli.layout.plain_sizes import Sizes, value_or
 from geneva_cli.layout.reliefs import is_whole, sectors
 from geneva_cli.layout.roller_paths import roller_centres
 from geneva_cli.loads.strength.arm import ArmDimensions
@@ -51,7 +51,9 @@ def stressed(assembly: Assembly, sizes: Sizes) -> Stressed:
     overhang = _overhang(assembly, sizes)
     crank = sizes.arm_bore or sizes.crank_bore
     hub = size.wheel_hub_mm is not None or size.wheel_hub_length_mm is not None
-    length = _or(size.wheel_hub_length_mm, size.pin_gap_mm + sizes.arm_thickness) if hub else 0.0
+    length = (
+        value_or(size.wheel_hub_length_mm, size.pin_gap_mm + sizes.arm_thickness) if hub else 0.0
+    )
     return Stressed(
         contact,
         2.0 * sizes.pin,
@@ -63,12 +65,8 @@ def stressed(assembly: Assembly, sizes: Sizes) -> Stressed:
     )
 
 
-def _or(value: float | None, usual: float) -> float:
-    return usual if value is None else value
-
-
 def _shaft(diameter: float | None, bore: float, overhang: float | None, usual: float) -> ShaftSize:
-    return ShaftSize(_or(diameter, 2.0 * bore or math.nan), _or(overhang, usual))
+    return ShaftSize(value_or(diameter, 2.0 * bore or math.nan), value_or(overhang, usual))
 
 
 def _overhang(assembly: Assembly, sizes: Sizes) -> float:

@@ -31,14 +31,8 @@ def rounded_from(least: float, most: float) -> list[float]:
     """
     if not 0.0 < least < most:
         return [least]
-    return [
-        least,
-        *(
-            n
-            for n in _rounded(least, most)
-            if least * (1.0 + ROUNDED) < n <= most * (1.0 + ROUNDED)
-        ),
-    ]
+    above, end = least * (1.0 + ROUNDED), most * (1.0 + ROUNDED)
+    return [least, *(n for n in _rounded(least, most) if above < n <= end)]
 
 
 def bore_below(most: float) -> float:
