@@ -87,6 +87,16 @@ class Measure(NamedTuple):
     arrows: tuple[Arrow, ...]
     turn: float = 0.0
 
+    @property
+    def main_lines(self) -> tuple[Segment, ...]:
+        """The dimension line, or the leader and the line under its text."""
+        return self.lines[:1] if self.kind in ("linear", "angular") else self.lines
+
+    @property
+    def extension_lines(self) -> tuple[Segment, ...]:
+        """The lines from the part to the dimension line."""
+        return self.lines[len(self.main_lines) :]
+
 
 class Sheet(NamedTuple):
     """A sheet of paper with its contents."""

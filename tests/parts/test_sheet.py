@@ -10,12 +10,13 @@ import repo
 import shapely
 from shapely import affinity
 from shapely.geometry import LineString, Polygon
-from sheet_witness import assert_as_listed, assert_measured, beyond, overlaps
+from sheet_witness import assert_as_listed, assert_measured, beyond, crossings, overlaps
 from words import Drive, Keys, Motion, Spec, Wheel
 
 from geneva_cli import load
 from geneva_cli.curves import marks
 from geneva_cli.curves.board import Board
+from geneva_cli.curves.shapes import Contour, Line
 from geneva_cli.curves.sheet import Label
 from geneva_cli.curves.sphere import place
 from geneva_cli.design import Design
@@ -31,6 +32,8 @@ pytestmark = pytest.mark.usefixtures("made_once")
 DESIGNS = sorted(repo.DESIGNS.glob("*.toml"))
 
 SPHERICAL = {"spherical-z6": "shafts 90°", "spherical-60deg": "shafts 60°"}
+# a line to a recess's centre crosses an angle; a bore's arrow crosses an extension line
+CROSSED = {"three-slots": 1, "epicyclic-z4": 1}
 TOLERANCE = 0.05  # mm: coarse walls are quick, and look the same on paper
 
 
@@ -56,6 +59,7 @@ def test_no_text_of_a_design_stands_on_anything(path, sheets):
     design, found = sheets(path.stem)
     assert overlaps(found) == []
     assert beyond(found) == []
+    assert len(crossings(found)) <= CROSSED.get(path.stem, 0)
     assert (found.width, found.height) in [(f.width, f.height) for f in FORMATS]
     assert found.scale in SCALES
     assert_measured(found)
@@ -303,6 +307,27 @@ def test_a_link_without_a_round_hole_has_a_view(wheel, A):
     assert_measured(found)
 
 
+def test_dimensions_stay_clear_of_each_other_in_a_narrow_bore(sheets):
+    """250 and 141.729 of the turret once met in its bore, arrow on arrow."""
+    _, found = sheets("turret")
+    texts = {m.label.text for m in found.measures}
+    assert {"250", "141.729"} <= texts
+    assert crossings(found) == []
+
+
+def test_a_leader_is_not_drawn_along_an_edge():
+    """A line under a text that is nearly in the edge's direction, 1 mm away, is not used."""
+    edge = Contour("", (Line((-40.0, 6.0), (40.0, 6.5)),), closed=False)
+    board = Board()
+    board.draw(edge)
+    tries = list(marks.diameter((0.0, 0.0), 1.0, marks.around(), "Ø 2", 2.0))
+    leader = board.first(tries).main_lines
+    whole = LineString([p for piece in leader for p in piece])
+    assert all(whole.distance(shapely.Point(x, 6.0 + (x + 40.0) / 160.0)) > 1.2 for x in (-8, 8))
+    shelf = LineString(leader[1])
+    assert shelf.distance(LineString(edge.segments[0])) > 1.4
+
+
 def test_the_comparison_can_fail():
     found = of(Spec(Wheel(6)))
     on = found.measures[0].lines[0].start
@@ -311,6 +336,8 @@ def test_the_comparison_can_fail():
     m = found.measures[0]
     with pytest.raises(AssertionError):
         assert_measured(found._replace(measures=(m._replace(value=2.0 * m.value),)))
+    twice = (*found.measures, m._replace(label=m.label._replace(text="again")))
+    assert ("again", m.label.text) in crossings(found._replace(measures=twice))
 
 
 def test_refusals():
