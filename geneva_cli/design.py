@@ -35,6 +35,7 @@ from geneva_cli.spec.tables import (
     Shaft,
     Size,
     Support,
+    TitleBlock,
     Tolerance,
     WheelMaterial,
 )
@@ -133,6 +134,7 @@ class Design:
         material_roller: RollerMaterial | None = None,
         tolerance: Tolerance | None = None,
         limits: Limits | None = None,
+        drawing: TitleBlock | None = None,
         title: str = "",
     ) -> None:
         self.spec = Spec(
@@ -149,6 +151,7 @@ class Design:
             material_roller or RollerMaterial(),
             tolerance or Tolerance(),
             limits or Limits(),
+            drawing or TitleBlock(),
             title,
         )
         self._text: Text | None = None

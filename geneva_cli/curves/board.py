@@ -61,17 +61,18 @@ class Board:
             self._swept.append(own)
         self.write(measure.label)
 
-    def first(self, candidates: Iterable[Measure]) -> Measure | None:
+    def first(self, candidates: Iterable[Measure], gap: float = 0.6) -> Measure | None:
         """Return the free dimension with the fewest crossings, and add it; None if none is free.
 
-        Of equal ones it is the first. After the first free one 100 more are tried.
+        ``gap`` is the least distance of its text to what is drawn, mm. Of equal ones it is the
+        first. After the first free one 100 more are tried.
         """
         best, least, left = None, math.inf, 100
         for measure in candidates:
             if not left or not least:
                 break
             left -= best is not None
-            if self._meets(measure) or not self.is_free(measure.label, _lines(measure)):
+            if self._meets(measure) or not self.is_free(measure.label, _lines(measure), gap):
                 continue
             count = self._crossings(measure)
             if count < least:
@@ -101,13 +102,12 @@ class Board:
         grazed = (_grazes(piece, self._part) for piece in measure.main_lines)
         return crossings + sum(grazed)
 
-    def is_free(self, label: Label, lines: Array) -> bool:
-        """Return True if a text and its lines meet nothing on the board."""
-        gap = 0.6  # mm: distance of a text to its nearest neighbour
+    def is_free(self, label: Label, lines: Array, gap: float) -> bool:
+        """Return True if a text keeps ``gap`` mm clear, and its lines meet no text."""
         if crosses(label, self._all, gap):
             return False
         own = np.concatenate((lines, _edges(label)))
-        return not any(crosses(text, own, gap) for text in self._texts)
+        return not any(crosses(text, own, 0.6) for text in self._texts)
 
     def box(self) -> tuple[float, float, float, float]:
         """Return the bounding box of all lines and texts: x0, y0, x1, y1."""

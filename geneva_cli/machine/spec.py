@@ -32,6 +32,7 @@ from geneva_cli.spec.tables import (
     Shaft,
     Size,
     Support,
+    TitleBlock,
     Tolerance,
     WheelMaterial,
 )
@@ -109,6 +110,7 @@ class Spec:
     material_roller: RollerMaterial = field(default_factory=RollerMaterial)
     tolerance: Tolerance = field(default_factory=Tolerance)
     limits: Limits = field(default_factory=Limits)
+    drawing: TitleBlock = field(default_factory=TitleBlock)
     title: str = ""
     path: str = ""
     files: tuple[str, ...] = ()

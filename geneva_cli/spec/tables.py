@@ -360,6 +360,7 @@ class Material(SpecTable):
     poisson_ratio: Annotated[float, Range(0.0, 0.5), "Poisson's ratio nu"] = 0.3
     density_kgm3: Annotated[float, POSITIVE, "density"] = 7850.0
     stress_max_MPa: Annotated[float | None, POSITIVE, "allowable stress"] = None
+    grade: Annotated[str | None, None, "grade, as drawings name it"] = None
 
 
 class WheelMaterial(Material):
@@ -411,6 +412,33 @@ class Tolerance(SpecTable):
     ] = "uniform"
 
 
+class TitleBlock(SpecTable):
+    """``[drawing]``: fields of the title block, and what drawings ask of faces and edges.
+
+    >>> TitleBlock(number="G-106", revision="B").author is None
+    True
+    """
+
+    TABLE: ClassVar[str] = "drawing"
+
+    number: Annotated[str | None, None, "drawing number"] = None
+    revision: Annotated[str | None, None, "revision of the drawing"] = None
+    author: Annotated[str | None, None, "author of the drawing"] = None
+    date: Annotated[str | None, None, 'date of issue, as text: "2026-11-27"'] = None
+    roughness_um: Annotated[
+        float | None, POSITIVE, "roughness Ra of all other faces; default by process"
+    ] = None
+    flank_roughness_um: Annotated[
+        float | None, POSITIVE, "roughness Ra of the faces that roll, slide or lock"
+    ] = None
+    flank_hardness_HRC: Annotated[
+        float | None, Range(20.0, 70.0), "hardness of the faces that roll, slide or lock"
+    ] = None
+    edge_mm: Annotated[
+        float | None, POSITIVE, "greatest chamfer or rounding of outer edges (ISO 13715)"
+    ] = None
+
+
 class Limits(SpecTable):
     """``[limits]``: limits that ``geneva check`` compares the design with.
 
@@ -452,6 +480,7 @@ PLAIN: dict[str, type[SpecTable]] = {
     "material.wheel": WheelMaterial,
     "material.roller": RollerMaterial,
     "tolerance": Tolerance,
+    "drawing": TitleBlock,
     "limits": Limits,
 }
 LISTS = ("mass",)

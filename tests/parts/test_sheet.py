@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 import repo
 import shapely
+from drawing_witness import vertices
 from shapely import affinity
 from shapely.geometry import LineString, Polygon
 from sheet_witness import assert_as_listed, assert_measured, beyond, crossings, overlaps
@@ -20,13 +21,14 @@ from geneva_cli.curves.shapes import Contour, Line
 from geneva_cli.curves.sheet import Label
 from geneva_cli.curves.sphere import place
 from geneva_cli.design import Design
+from geneva_cli.drawings.sheet.cut import faces, positioned
 from geneva_cli.drawings.sheet.paper import FORMATS, SCALES
 from geneva_cli.drawings.sheet.points import gear_tables, polyline, tables
 from geneva_cli.drawings.sphere.drawings import wheel_cone
 from geneva_cli.drawings.sphere.sheet import flat_slot
 from geneva_cli.errors import GenevaError
 from geneva_cli.parts.links import drawn_links
-from geneva_cli.spec.tables import Size, Tolerance
+from geneva_cli.spec.tables import RollerMaterial, Size, TitleBlock, Tolerance, WheelMaterial
 
 pytestmark = pytest.mark.usefixtures("made_once")
 DESIGNS = sorted(repo.DESIGNS.glob("*.toml"))
@@ -147,10 +149,74 @@ def test_the_roller_turns_on_a_pin_that_the_arm_holds():
         assert "turns on its pin Ø 6 h6 (0/-0.008), which is pressed in" in labels
 
 
-def test_a_list_of_parts_that_is_too_long_for_its_field_is_referred_to(sheets):
-    texts = {label.text for label in sheets("four-bar-z4")[1].labels}
-    assert "see list" in texts
-    assert not any(text.endswith("...") for text in texts)
+FIELDS = ("drawing number", "revision", "date", "author", "roughness")
+
+
+def under(found, heading):
+    """The text of the title block's field with a heading; None if it is empty."""
+    at = next(label.at for label in found.labels if label.text == heading)
+    below = (at[0], pytest.approx(at[1] - 5.4))
+    return next((label.text for label in found.labels if label.at == below), None)
+
+
+def test_fields_without_a_key_are_empty(sheets):
+    """No number, date or name is invented."""
+    found = sheets("turret")[1]
+    assert [under(found, heading) for heading in FIELDS] == [None] * len(FIELDS)
+    assert under(found, "edges") == "free of burrs"
+    assert under(found, "faces that roll, slide, lock") is None
+
+
+def test_the_title_block_has_the_keys_of_drawing():
+    block = TitleBlock("G-106", "B", "M. Muster", "2026-11-27", 3.2, 1.6, 58.0, 0.3)
+    steel = WheelMaterial(grade="42CrMo4"), RollerMaterial(grade="100Cr6")
+    found = of(Spec(Wheel(6), drawing=block, material_wheel=steel[0], material_roller=steel[1]))
+    shown = [under(found, heading) for heading in FIELDS]
+    assert shown == ["G-106", "B", "2026-11-27", "M. Muster", "Ra 3.2"]
+    assert under(found, "edges") == "ISO 13715: -0.3"
+    assert under(found, "faces that roll, slide, lock") == "Ra 1.6, 58 HRC"
+    texts = [label.text for label in found.labels]
+    assert (texts.count("42CrMo4"), texts.count("100Cr6")) == (6, 2)
+    assert under(found, "material") == "see list"
+
+
+@pytest.mark.sampled(8)
+@pytest.mark.parametrize("path", DESIGNS, ids=lambda p: p.stem)
+def test_each_item_of_the_list_has_one_balloon(path, sheets):
+    design, found = sheets(path.stem)
+    rows = [row for row in design.part_table("parts").to_rows() if row["row"] == "part"]
+    # a circle of two arcs about a number, with a leader
+    circled = [m.label.text for m in found.measures if len(m.main_lines) == 3]
+    assert sorted(map(int, circled)) == list(range(1, len(rows) + 1))
+
+
+@pytest.mark.parametrize("name", ["turret", "internal-z6", "cam-geneva", "side-crank-z6"])
+def test_the_section_shows_what_the_plane_of_the_axes_cuts(name, sheets):
+    """Against the polygons of the plates at their places, cut by a line in shapely."""
+    parts = sheets(name)[0].drawn(TOLERANCE).flat(TOLERANCE)
+    cut = faces(parts.members, 1.0)
+    for own, plate in positioned(parts.members):
+        rings = [vertices(shape, 0.01) for shape in (plate.outline, *plate.holes)]
+        solid = Polygon(rings[0], rings[1:])
+        x0, _, x1, _ = solid.bounds
+        # a little beside the axis, since walls of slots may lie on it
+        chord = solid.intersection(LineString([(x0 - 1.0, 1e-7), (x1 + 1.0, 1e-7)]))
+        shown = [face for face in cut if face.plate == own]
+        if shown and name != "side-crank-z6":
+            assert len(shown) == len(getattr(chord, "geoms", [chord]))
+        copies = sum(1 for other, _ in positioned(parts.members) if other == own)
+        if copies == 1:
+            # chords of 1.5 mm have sagittas of 0.06 mm on 5 mm, at a crossing aslant more
+            length = sum(face.right - face.left for face in shown)
+            assert length == pytest.approx(chord.length, abs=0.3)
+
+
+def test_a_keyways_direction_is_on_the_sheet():
+    """The crank's keyway of this machine lies opposite to its roller."""
+    size = Size(77.7, lock_bolts=3, crank_bore_mm=12.0, crank_keyway="DIN 6885-1")
+    found = of(Spec(Wheel(8), size=size))
+    texts = [label.text for label in found.labels]
+    assert "keyway at 180°, counterclockwise from the right" in texts
 
 
 LENGTHS = {

@@ -32,16 +32,18 @@ def holes_of(plates: Iterable[Plate]) -> Holes:
 
 
 def bored(view: View, bores: Sequence[Shape], radius: float, standard: str | None) -> None:
-    """Draw a bore's diameter, and its keyway's size by a standard."""
+    """Draw a bore's diameter, and its keyway's size by a standard; a remark has its direction."""
     if not bores:
         return
     view.diameter([Circle("", (0.0, 0.0), radius)], sized.bore(radius))
     if isinstance(bores[0], Contour):
         fitted = key(standard, radius)
         assert fitted is not None  # otherwise the bore would be a circle
-        top = bores[0].segments[3]
+        middle = at(bores[0].segments[3], 0.5)
+        turn = math.degrees(math.atan2(middle[1], middle[0]))
         text = f"keyway {fitted.width:g} JS9, {number(2.0 * radius + fitted.in_hub)} over bore"
-        view.note(at(top, 0.5), f"{text} ({standard})")
+        view.note(middle, f"{text} ({standard})")
+        view.remark(f"keyway at {number(turn, 2)}°, counterclockwise from the right")
 
 
 def radius_of(bore: Shape) -> float:

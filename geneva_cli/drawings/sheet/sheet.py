@@ -1,6 +1,6 @@
 """The drawing sheet of a machine: dimensioned parts, the list of items and a title block.
 
-The assembled machine is drawn at the scale of its parts, or at half of it.
+The assembled machine and its section are drawn at the scale of the parts, or at half of it.
 """
 
 from __future__ import annotations
@@ -31,8 +31,10 @@ def sheet(parts: FlatParts) -> Sheet:
 
     def blocks(scale: float) -> Iterator[list[Block]]:
         apart = [view.block() for view in views(shown, scale)]
-        for times in (1.0, 2.0):  # the machine's scale, or half of it
-            yield [*apart, together(shown, smaller(scale, times)).block(), *fixed]
+        # the scales of the machine and of its section: those of the parts, or half of them
+        for whole, cut in ((1.0, 1.0), (2.0, 1.0), (2.0, 2.0)):
+            scales = smaller(scale, whole), smaller(scale, cut)
+            yield [*apart, *(view.block() for view in together(shown, *scales)), *fixed]
 
     return on_paper(mechanism.spec, shown.rows, shown.largest, blocks, shown.area)
 

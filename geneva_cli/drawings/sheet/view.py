@@ -160,6 +160,16 @@ class View:
         """Draw a text that points at a place."""
         self._put(marks.note(self._at(tip), text), text)
 
+    def balloon(self, tips: Iterable[Point], item: str) -> None:
+        """Draw an item's number in a circle that points at one of some places."""
+        candidates = _short_first(marks.balloon(self._at(tip), item) for tip in tips)
+        # the gap keeps the circle clear of lines, too
+        measure = self.board.first(candidates, gap=3.1)
+        if measure is None:
+            self.notes.append(f"item {item} is not marked")
+        else:
+            self.measures.append(measure)
+
     def remark(self, text: str) -> None:
         """Add a text below the title."""
         self.notes.append(text)

@@ -6,11 +6,12 @@ from collections.abc import Iterator
 from typing import Any, NamedTuple
 
 from geneva_cli.curves.measure import bounds
-from geneva_cli.curves.plates import plates
+from geneva_cli.curves.plates import Plate, plates
 from geneva_cli.curves.shapes import Shape
 from geneva_cli.drawings.machine_drawing import machine
 from geneva_cli.drawings.parts_list import part_rows
 from geneva_cli.drawings.sheet.crank import draw_arm, draw_assembly, draw_disc
+from geneva_cli.drawings.sheet.cut import balloons, balloons_in_section, draw_section, faces
 from geneva_cli.drawings.sheet.linked import (
     Begin,
     flat_plates,
@@ -24,6 +25,7 @@ from geneva_cli.drawings.sheet.paper import scale_name
 from geneva_cli.drawings.sheet.standing import draw_frame, draw_groove
 from geneva_cli.drawings.sheet.view import View
 from geneva_cli.drawings.sheet.wheel import draw_wheel
+from geneva_cli.layout.alike import alike
 from geneva_cli.parts.flat_parts import FlatParts
 
 APART = {"WHEEL", "ARM"}  # layers of which each plate has a view
@@ -94,8 +96,16 @@ def _standing(parts: FlatParts, begin: Begin) -> Iterator[View]:
     yield view
 
 
-def together(shown: SheetContent, scale: float) -> View:
-    """Return the view of the assembled machine."""
+def together(shown: SheetContent, scale: float, cut_scale: float) -> Iterator[View]:
+    """Yield the section of the assembled machine, and its view from above, with balloons."""
+    parts = shown.parts
+    solids = alike(one.part for one in parts.members)
+    items = {kind[0]: i for i, kind in enumerate(solids, 1) if isinstance(kind[0], Plate)}
+    section = View(f"section along the line of centres ({scale_name(cut_scale)})", cut_scale)
+    cut = faces(parts.members, cut_scale)
+    draw_section(section, cut, (0.0, parts.outlines.assembly.L))
     view = View(f"assembly ({scale_name(scale)})", scale)
-    draw_assembly(view, shown.parts.outlines, shown.together)
-    return view
+    draw_assembly(view, parts.outlines, shown.together)
+    marked = balloons_in_section(section, cut, items)
+    balloons(view, parts.members, items, marked)
+    yield from (section, view)

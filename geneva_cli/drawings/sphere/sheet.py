@@ -71,7 +71,7 @@ def sheet(parts: SphereParts) -> Sheet:
 
     def blocks(scale: float) -> Iterator[list[Block]]:
         views = [
-            section(parts, scale),
+            section(parts, scale, {str(row["name"]): i for i, row in enumerate(items, 1)}),
             _flat("wheel", ball, wheel_cone(ball), wheel, scale),
             _flat("crank", ball, crank_cone(ball), crank, scale),
         ]
