@@ -20,7 +20,7 @@ BELOW, ABOVE = 0.3, 1.1  # of a text's height: how far its letters reach below a
 OUTLINE, HIDDEN, CENTRE, HATCH, DIMENSION, TEXT, FRAME = (
     "OUTLINE",
     "HIDDEN",
-    "CENTRE",
+    "CENTER",
     "HATCH",
     "DIMENSION",
     "TEXT",
