@@ -19,6 +19,7 @@ from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.machine.spec import Spec
 from geneva_cli.numerics.tolerances import SAME_LENGTH
 from geneva_cli.spec.tables import Size
+from geneva_cli.spec.workshops import workshop
 
 
 class Sizes(NamedTuple):
@@ -188,7 +189,7 @@ def pin_radius(size: Size, r: float) -> float:
 
 def wall_min(size: Size, L: float) -> float:
     """Return the least wall that ``check`` lets pass, mm."""
-    return _or(size.wall_min_mm, L / 200.0)
+    return _or(size.wall_min_mm, max(L / 200.0, workshop(size.process).wall_mm))
 
 
 def _or(value: float | None, default: float) -> float:

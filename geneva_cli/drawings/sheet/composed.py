@@ -27,6 +27,7 @@ from geneva_cli.drawings.sheet.view import Block, number
 from geneva_cli.errors import GenevaError
 from geneva_cli.machine.spec import Spec
 from geneva_cli.spec.tables import Material, TitleBlock
+from geneva_cli.spec.workshops import Workshop, workshop
 
 
 def on_paper(
@@ -67,20 +68,20 @@ def _composed(
     blocks: list[Block],
 ) -> Sheet | None:
     """Return all blocks on one sheet; None where they do not fit."""
-    materials = [_material(spec.material_wheel), _material(spec.material_roller)]
-    own = spec.drawing
+    own, shop = spec.drawing, workshop(spec.size.process)
+    materials = [_material(one, shop) for one in (spec.material_wheel, spec.material_roller)]
     rows_of_fields = (
         {
             "scale": scale_name(scale),
             "mass": _mass(sum(r["mass_kg"] * r["count"] for r in rows)),
             "material": materials[0] if len(set(materials)) == 1 else "see list",
-            "tolerances": "ISO 2768-m",  # of dimensions without their own
+            "tolerances": shop.tolerances,
             "units": "mm, degrees",
             "size": paper.name,
             "sheet": "1/1",
         },
         {
-            "roughness": _rough(own.roughness_um),
+            "roughness": _rough(own.roughness_um) or shop.roughness,
             "edges": f"ISO 13715: -{own.edge_mm:g}" if own.edge_mm else "free of burrs",
             "faces that roll, slide, lock": _working(own),
         },
@@ -141,8 +142,8 @@ def _items(rows: list[dict[str, Any]], materials: list[str]) -> Block:
     return table((), [heading, *lines], columns)
 
 
-def _material(of: Material) -> str:
-    """Return the grade, or "steel" for the default material, otherwise the density."""
+def _material(of: Material, shop: Workshop) -> str:
+    """Return the grade, or the workshop's for the default material, otherwise the density."""
     if of.grade:
         return of.grade
     usual = type(of)()
@@ -151,7 +152,7 @@ def _material(of: Material) -> str:
         usual.poisson_ratio,
         usual.density_kgm3,
     )
-    return "steel" if same else f"{of.density_kgm3:g} kg/m³"
+    return shop.material if same and shop.material else f"{of.density_kgm3:g} kg/m³"
 
 
 def _mass(kg: float) -> str:

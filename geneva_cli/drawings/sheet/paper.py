@@ -91,13 +91,22 @@ def title_block(title: str, rows: Sequence[Mapping[str, str]]) -> Block:
             long -= 30.0
             shapes += projection((TITLE_WIDTH - 15.0, y + 0.5 * high))
         shapes.append(line(TEXT, (0.0, y + high), (TITLE_WIDTH, y + high)))
-        cell = long / len(fields)
-        for i, (name, value) in enumerate(fields.items()):
-            labels += _field((i * cell, y), name, value, SMALL, cell)
-            if i or long < TITLE_WIDTH:
-                x = i * cell if i else long
-                shapes.append(line(TEXT, (x, y), (x, y + high)))
+        x = 0.0
+        for (name, value), cell in zip(fields.items(), _cells(fields, long), strict=True):
+            labels += _field((x, y), name, value, SMALL, cell)
+            x += cell
+            shapes.append(line(TEXT, (x, y), (x, y + high)))
     return Block(0.0, 0.0, TITLE_WIDTH, top + high, tuple(shapes), tuple(labels))
+
+
+def _cells(fields: Mapping[str, str], long: float) -> list[float]:
+    """Return the widths of fields: what they need, and an equal part of what is left.
+
+    Where they need more than there is, each has as much less.
+    """
+    needed = [max(width(value) * SMALL, width(name) * 1.8) + 4.0 for name, value in fields.items()]
+    spare = (long - sum(needed)) / len(fields)
+    return [need + spare for need in needed]
 
 
 def _field(at: Point, name: str, value: str, height: float, limit: float) -> list[Label]:

@@ -23,7 +23,7 @@ def draw_frame(view: View, plate: Plate) -> None:
         view.cross(centre, radius)
     alike: dict[str, list[Circle]] = {}
     for hole in holes:
-        alike.setdefault(sized.bore(hole.radius), []).append(hole)
+        alike.setdefault(sized.bore(view.fits, hole.radius), []).append(hole)
     for text, some in alike.items():
         places = ", ".join(f"({number(x)}, {number(y)})" for _, (x, y), _ in some)
         view.diameter(some, times(len(some), text), f"at {places} from the wheel's axis")
@@ -61,11 +61,11 @@ def draw_groove(
     ]
     outer = max(places, key=lambda p: math.hypot(*p))
     view.cross((0.0, 0.0), math.hypot(*outer))
-    view.note(outer, f"groove {sized.fitted(2.0 * half, '', 'H7')} wide")
+    view.note(outer, f"groove {sized.fitted(view.fits, 2.0 * half, '', 'H7')} wide")
     for hole in round_:
         if isinstance(hole, Circle) and hole not in mounts:
             text = sized.plain(2.0 * hole.radius, "Ø ")
-            view.diameter([hole], text if hole is round_[0] else sized.bore(hole.radius))
+            view.diameter([hole], text if hole is round_[0] else sized.bore(view.fits, hole.radius))
     bolted(view, mounts)
 
 
@@ -84,4 +84,4 @@ def draw_shaft(view: View, shaft: Plate) -> None:
     view.draw(closed("", sides), OUTLINE)
     view.centre_line((0.0, 0.0), (long, 0.0))
     view.linear((0.0, -radius), (long, -radius), 0.0, number(long))
-    view.linear((0.0, -radius), (0.0, radius), 0.5 * math.pi, sized.shaft(radius))
+    view.linear((0.0, -radius), (0.0, radius), 0.5 * math.pi, sized.shaft(view.fits, radius))

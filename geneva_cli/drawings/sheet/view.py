@@ -14,6 +14,7 @@ from geneva_cli.curves.board import Board, chords
 from geneva_cli.curves.measure import legs, mapped
 from geneva_cli.curves.shapes import Arc, Circle, Contour, Point, Shape
 from geneva_cli.curves.sheet import CENTRE, LARGE, SMALL, Label, Measure, line, polar
+from geneva_cli.layout.fits import Fits
 
 if TYPE_CHECKING:
     from geneva_cli.numerics.jet import Array
@@ -79,8 +80,9 @@ class View:
     Draw all lines before the first dimension: dimensions are placed outside of them.
     """
 
-    def __init__(self, title: str, scale: float) -> None:
+    def __init__(self, title: str, scale: float, fits: Fits | None = None) -> None:
         self.title, self.scale = title, scale
+        self.fits = fits or Fits()  # how the part's sizes are written
         self.shapes: list[Shape] = []
         self.corners: list[Array] = []  # start points of the chords of all shapes
         self.measures: list[Measure] = []

@@ -54,7 +54,8 @@ def shown_on_sheet(parts: FlatParts) -> SheetContent:
 
 def views(shown: SheetContent, scale: float) -> Iterator[View]:
     """Yield a view of each part."""
-    begin, parts = titled(shown.rows, scale), shown.parts
+    parts = shown.parts
+    begin = titled(shown.rows, scale, parts.mechanism.spec.size.process)
     yield from _wheels(parts, begin)
     if parts.arm:
         view = begin("arm")
