@@ -10,7 +10,7 @@ from collections.abc import Iterable, Iterator
 
 from geneva_cli.curves.helvetica import width
 from geneva_cli.curves.shapes import ORIGIN, Circle, Line, Point, Segment, about, two_arcs
-from geneva_cli.curves.sheet import ARROW, BELOW, SMALL, Arrow, Label, Measure, polar
+from geneva_cli.curves.sheet import ARROW, BELOW, LARGE, SMALL, Arrow, Label, Measure, polar
 
 PAST = 1.5  # length of an extension line beyond the dimension line
 CLEAR = 0.8  # gap from the outline to an extension line, and from a line to its text
@@ -169,6 +169,19 @@ def balloon(tip: Point, text: str) -> Iterator[Measure]:
             arrow = Arrow(tip, angle + math.pi)
             label = Label(text, start, SMALL)
             yield Measure("note", (tip,), 0.0, label, (Line(end, tip), *circle), (arrow,))
+
+
+def section(end: Point, outwards: float, letter: str) -> Iterator[Measure]:
+    """Yield candidates of a section's mark beyond one end of its level line, near ones first.
+
+    An arrow points upwards, in which direction the section is seen. ``outwards`` is 1 or -1.
+    """
+    for far in range(4, 80, 4):  # mm
+        x, y = end[0] + outwards * far, end[1]
+        lines = Line((x, y - 10.0), (x, y)), Line((x - 3.0 * outwards, y), (x + outwards, y))
+        start = x - 0.5 * width(letter) * LARGE, y - 12.0 - LARGE
+        arrow = Arrow((x, y), 0.5 * math.pi)
+        yield Measure("note", (end,), 0.0, Label(letter, start, LARGE), lines, (arrow,))
 
 
 def around() -> list[float]:

@@ -211,6 +211,20 @@ def test_the_section_shows_what_the_plane_of_the_axes_cuts(name, sheets):
             assert length == pytest.approx(chord.length, abs=0.3)
 
 
+def test_the_assembly_shows_where_the_section_is(sheets):
+    """An arrow beyond each end of the line of centres, upwards, with the section's letter."""
+    _, found = sheets("turret")
+    marks_ = [m for m in found.measures if m.label.text == "A"]
+    assert "A-A (1:2)" in {label.text for label in found.labels}
+    (left,), (right,) = ([m.arrows[0] for m in one] for one in (marks_[:1], marks_[1:]))
+    assert left.tip[1] == right.tip[1]
+    assert left.turn == right.turn == 0.5 * math.pi
+    (L,) = (m for m in found.measures if m.label.text.startswith("L = "))
+    assert left.tip[0] < min(p[0] for p in L.points[:2])
+    assert right.tip[0] > max(p[0] for p in L.points[:2])
+    assert L.points[0][1] == pytest.approx(left.tip[1])
+
+
 def test_a_keyways_direction_is_on_the_sheet():
     """The crank's keyway of this machine lies opposite to its roller."""
     size = Size(77.7, lock_bolts=3, crank_bore_mm=12.0, crank_keyway="DIN 6885-1")

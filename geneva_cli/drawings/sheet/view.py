@@ -172,6 +172,11 @@ class View:
         else:
             self.measures.append(measure)
 
+    def section(self, left: Point, right: Point, letter: str) -> None:
+        """Draw where a section along a level line is, between two points and beyond."""
+        for end, outwards in ((left, -1.0), (right, 1.0)):
+            self._put(marks.section(self._at(end), outwards, letter), f"section {letter}")
+
     def remark(self, text: str) -> None:
         """Add a text below the title."""
         self.notes.append(text)

@@ -102,11 +102,14 @@ def together(shown: SheetContent, scale: float, cut_scale: float) -> Iterator[Vi
     parts = shown.parts
     solids = alike(one.part for one in parts.members)
     items = {kind[0]: i for i, kind in enumerate(solids, 1) if isinstance(kind[0], Plate)}
-    section = View(f"section along the line of centres ({scale_name(cut_scale)})", cut_scale)
+    section = View(f"A-A ({scale_name(cut_scale)})", cut_scale)
     cut = faces(parts.members, cut_scale)
     draw_section(section, cut, (0.0, parts.outlines.assembly.L))
     view = View(f"assembly ({scale_name(scale)})", scale)
     draw_assembly(view, parts.outlines, shown.together)
+    boxes = [bounds(shape) for shape in shown.together]
+    ends = ((min(box.x0 for box in boxes), 0.0), (max(box.x1 for box in boxes), 0.0))
+    view.section(*ends, "A")
     marked = balloons_in_section(section, cut, items)
     balloons(view, parts.members, items, marked)
     yield from (section, view)
