@@ -128,14 +128,15 @@ class Command(PlainValues, TyperCommand):
         return rest
 
     def invoke(self, ctx: Any) -> Any:
-        """Run the command; its tables have the columns of --columns and --wide."""
+        """Run the command; its tables have the columns of --columns, and the units of --units."""
         columns, wide = ctx.params.pop("columns", None), ctx.params.pop("wide", False)
-        if not (columns or wide):
+        units = ctx.params.pop("shown_units", "mm")
+        if not (columns or wide or units != "mm"):
             return super().invoke(ctx)
         from geneva_cli.output import Choice, choosing
 
         names = [name.strip() for name in (columns or "").split(",")]
-        with choosing(Choice(tuple(filter(None, names)), wide)):
+        with choosing(Choice(tuple(filter(None, names)), wide, units)):
             return super().invoke(ctx)
 
     def collect_usage_pieces(self, ctx: Any) -> list[str]:
@@ -227,7 +228,9 @@ class LazyGroup(PlainValues, TyperGroup):
         command = _command(name, module.run)
         command.examples = module.EXAMPLES
         if name not in {"animate", "schema"}:  # these print no table
-            command.params += _command(name, _table_options).params
+            known = {option for param in command.params for option in param.opts}
+            shared = _command(name, _table_options).params
+            command.params += [param for param in shared if not known & {*param.opts}]
         return name, command, rest
 
     def invoke(self, ctx: Any) -> Any:
@@ -267,6 +270,10 @@ def _table_options(
     wide: Annotated[
         bool, typer.Option("--wide", help="All columns on a terminal, however wide.")
     ] = False,
+    shown_units: Annotated[
+        str,
+        typer.Option("--units", metavar="UNIT", help="Numbers in mm, or in inch and lb."),
+    ] = "mm",
 ) -> None:
     """Options of every command that prints a table."""
 

@@ -31,6 +31,7 @@ from geneva_cli.spec.tables import (
     Load,
     Mass,
     Motor,
+    Product,
     RollerMaterial,
     Shaft,
     Size,
@@ -133,6 +134,7 @@ class Design:
         material_wheel: WheelMaterial | None = None,
         material_roller: RollerMaterial | None = None,
         tolerance: Tolerance | None = None,
+        product: Product | None = None,
         limits: Limits | None = None,
         drawing: TitleBlock | None = None,
         title: str = "",
@@ -150,6 +152,7 @@ class Design:
             material_wheel or WheelMaterial(),
             material_roller or RollerMaterial(),
             tolerance or Tolerance(),
+            product or Product(),
             limits or Limits(),
             drawing or TitleBlock(),
             title,
@@ -200,6 +203,15 @@ class Design:
             return make()
         with self._text.located():
             return make()
+
+    @answer
+    def with_units(self) -> list[str]:
+        """The inputs that the spec's file has with a unit, each with the number that was read.
+
+        >>> load("designs/side-crank-z6.toml", ["size.center_distance_mm=8 in"]).with_units
+        ['size.center_distance_mm = 203.2, from "8 in"']
+        """
+        return self._text.with_units(self.spec) if self._text else []
 
     @answer
     def mechanism(self) -> Mechanism:
@@ -277,8 +289,9 @@ class Design:
         """Proved bounds of a peak, with all places where it may be; needs python-flint.
 
         ``quantity`` is velocity, acceleration, jerk or power; or wheel_torque_Nm, input_torque_Nm
-        or pin_force_N, for a load without friction. It is not proved if it takes more
-        than so many ``intervals`` a motion (2,000). Raises GenevaError for another quantity.
+        or pin_force_N. It is not proved if it takes more than so many ``intervals`` a motion
+        (2,000). Raises GenevaError for another quantity, and for the force and the input's torque
+        of a curved slot.
 
         >>> Design(External(6)).certificate("acceleration").text
         'acceleration.max in [1.34963727590190, 1.34963727590191], at two mirrored places, proved'
@@ -330,17 +343,24 @@ class Design:
         return with_certificates(self.peaks_table, self.mechanism, for_people)
 
     @question
-    def motion(self, samples: int = 361) -> Table:
+    def motion(self, samples: int = 361, turns: int | None = None) -> Table:
         """``samples`` rows over a period from the first entry, evenly spaced in the input angle.
 
-        Columns: time_s, input_deg, wheel_deg, velocity, acceleration, jerk.
+        With ``turns`` of the input there are rows over all of them, and also one at each entry,
+        exit and jump. Columns: time_s, input_deg, wheel_deg, velocity, acceleration, jerk.
 
         >>> Design(External(6)).motion(4).to_dict()["input_deg"].tolist()
         [-60.0, 60.0, 180.0, 300.0]
         """
-        from geneva_cli.analysis.motion import motion_table
+        from geneva_cli.analysis.electronic_cam import periods
+        from geneva_cli.analysis.motion import motion_table, turns_table
 
-        return self._located(lambda: motion_table(self.mechanism, samples))
+        def table() -> Table:
+            if turns is None:
+                return motion_table(self.mechanism, samples)
+            return turns_table(self.mechanism, samples, periods(self.mechanism, turns))
+
+        return self._located(table)
 
     @question
     def figure(self, pick: Sequence[str] = ()) -> Figure:
@@ -560,10 +580,10 @@ class Design:
         return self._located(lambda: is_table(self.mechanism, part, drawn))
 
     @answer
-    def proof(self) -> PartsModel:
+    def parts_model(self) -> PartsModel:
         """Outlines and full turn of the parts, shared by all their results.
 
-        >>> Design(External(6)).proof.turn.holds  # its lock, in the dwell
+        >>> Design(External(6)).parts_model.turn.holds  # its lock, in the dwell
         True
         """
         from geneva_cli.drawings.model import PartsModel
@@ -577,7 +597,7 @@ class Design:
         >>> Design(External(6)).parts.relief
         'arc'
         """
-        return self.proof.outlines
+        return self.parts_model.outlines
 
     @question
     def drawn(self, tolerance_mm: float, part: str = "wheel") -> PartsModel:
@@ -782,7 +802,7 @@ class Design:
         # a machine without parts is judged without NumPy
         if not self.spec.has_parts:
             return judged(self.mechanism)
-        return [*judged(self.mechanism, self.proof), *proofs(self.proof, proof_mm)]
+        return [*judged(self.mechanism, self.parts_model), *proofs(self.parts_model, proof_mm)]
 
     @property
     def passes(self) -> bool:
@@ -821,7 +841,7 @@ class Design:
         from geneva_cli.verdict.tolerance.tables import tolerance_table
 
         return self._located(
-            lambda: tolerance_table(self.mechanism, self.proof, samples, seed, radius_mm)
+            lambda: tolerance_table(self.mechanism, self.parts_model, samples, seed, radius_mm)
         )
 
     @question
@@ -836,7 +856,9 @@ class Design:
         """
         from geneva_cli.verdict.tolerance.tables import histogram_table
 
-        return self._located(lambda: histogram_table(self.mechanism, self.proof, samples, seed))
+        return self._located(
+            lambda: histogram_table(self.mechanism, self.parts_model, samples, seed)
+        )
 
     @answer
     def motion_warnings(self) -> list[Notice]:
@@ -859,7 +881,7 @@ class Design:
         """
         from geneva_cli.verdict.warnings import warnings
 
-        return warnings(self.proof)
+        return warnings(self.parts_model)
 
     @answer
     def report(self) -> Report:
@@ -871,4 +893,4 @@ class Design:
         """
         from geneva_cli.verdict.report import report
 
-        return report(self.proof, self.checks, self.warnings)
+        return report(self.parts_model, self.checks, self.warnings)

@@ -7,6 +7,20 @@ from __future__ import annotations
 
 # Units by the ending of a name; a longer ending stands before a shorter one with the same end.
 UNITS = {
+    # for people who asked for inches
+    "_lbf_in_rad": "lbf in/rad",
+    "_lbf_in": "lbf in",
+    "_lb_in2": "lb in²",
+    "_lb_in3": "lb/in³",
+    "_in_per_million": "in/1e6",
+    "_in_s": "in/s",
+    "_in": "in",
+    "_thou": "thou",
+    "_ft": "ft",
+    "_lbf": "lbf",
+    "_lb": "lb",
+    "_ksi": "ksi",
+    # the units of keys, columns and quantities
     "_kgm2": "kg m²",
     "_kgm3": "kg/m³",
     "_Nm_rad": "N m/rad",
@@ -17,6 +31,8 @@ UNITS = {
     "_rad_s3": "rad/s³",
     "_rad2_s3": "rad²/s³",
     "_m_s": "m/s",
+    "_m_s2": "m/s²",
+    "_m_s3": "m/s³",
     "_Nms": "N m s",
     "_Hz": "Hz",
     "_W": "W",

@@ -159,7 +159,7 @@ def certificate(
         if exact is None:
             formulas = [_formula(mechanism, e, quantity) for e in each]
             found = [
-                greatest(_curve(formula), e.motion.seams_deg, limit)
+                greatest(_curve(formula), {*e.motion.seams_deg, *e.slot.seams_deg}, limit)
                 for formula, e in zip(formulas, each, strict=True)
             ]
         else:
@@ -281,15 +281,13 @@ def load_certificates(mechanism: Mechanism, for_people: bool) -> Table | tuple[s
         refused = [f"{name}.max not proved: {why}" for name, why in reasons.items() if why]
         about = [f"about {DOUBLES}"] if found else []
         return (*[one.text for one in found.values()], *refused, *about)
+    names = ("quantity", "low", "high", "at_deg", "places", "proved", "intervals", "about", "open")
+    none: dict[str, object] = dict.fromkeys(names) | {"places": (), "proved": False, "intervals": 0}
     rows = [
-        (_row(found[name]) if name in found else NO_ROW | {"quantity": name}) | {"why": why or None}
+        (_row(found[name]) if name in found else none | {"quantity": name}) | {"why": why or None}
         for name, why in reasons.items()
     ]
     return rows_table(tuple(rows[0]), [tuple(row.values()) for row in rows])
-
-
-FIELDS = ("quantity", "low", "high", "at_deg", "places", "proved", "intervals", "about", "open")
-NO_ROW: dict[str, object] = dict.fromkeys(FIELDS) | {"places": (), "proved": False, "intervals": 0}
 
 
 def _row(one: Certificate) -> dict[str, object]:

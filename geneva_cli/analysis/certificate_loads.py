@@ -1,15 +1,27 @@
-"""Certificates of loads without friction: the wheel's torque, the input's torque, the pin force.
+"""Certificates of loads: the wheel's torque, the input's torque, the pin force.
 
-The wheel needs the torque T = I epsilon + M. The input gives T velocity / efficiency, and the pin
-presses with T / lever. In a straight slot the lever is the roller's coordinate along the slot.
+The formulas are the program's own (``instant``). They depend on three signs: of the wheel's torque,
+of the sliding, and of the input's torque. Where an interval does not decide a sign, the load is
+enclosed for either.
 """
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from collections.abc import Iterator, Sequence
+from typing import TYPE_CHECKING, TypeAlias, cast
 
-from geneva_cli.analysis.forces import LoadCase, load_case
-from geneva_cli.analysis.quantities import FORCE, TORQUE
+from geneva_cli.analysis.contact import Contact, contact
+from geneva_cli.analysis.forces import (
+    LoadCase,
+    QuantityValue,
+    gain,
+    load_case,
+    sliding,
+    wheel_torque,
+)
+from geneva_cli.analysis.instant import Instant
+from geneva_cli.analysis.quantities import FORCE, QUANTITIES, TORQUE
+from geneva_cli.numerics.arrays import Undecided
 from geneva_cli.numerics.jet import Jet, Number
 
 if TYPE_CHECKING:
@@ -17,43 +29,69 @@ if TYPE_CHECKING:
     from geneva_cli.kinematics.engagement import Engagement
     from geneva_cli.machine.mechanism import Mechanism
 
+    Signs: TypeAlias = tuple[float, float, float]  # of wheel torque, sliding and input torque
+
 WHEEL_TORQUE = "wheel_torque_Nm"
 LOADS = (WHEEL_TORQUE, FORCE, TORQUE)
 
 
 def not_proved(mechanism: Mechanism, quantity: str) -> str:
     """The reason why a load has no certificate; empty if it has one."""
-    spec, first = mechanism.spec, mechanism.engagements[0]
-    if not spec.is_loaded:
+    if not mechanism.spec.is_loaded:
         return "no load: set inertia_kgm2 or torque_Nm in [load]"
-    if quantity == WHEEL_TORQUE:
+    if quantity == WHEEL_TORQUE or mechanism.engagements[0].slot.walls_flat:
         return ""
-    if load_case(mechanism).rubs:
-        return "friction: its force changes direction where the roller does"
-    if not first.slot.walls_flat:
-        return "the slot is curved, or gears drive for part of the motion"
-    if quantity == TORQUE and spec.load.efficiency != 1.0:
-        return "an efficiency below 1 counts only where the input drives"
-    return ""
+    return "the slot is curved, or gears drive for part of the motion"
 
 
 def load_formula(mechanism: Mechanism, engagement: Engagement, quantity: str) -> Formula:
     """A load as a jet by the input angle, at one angle in degrees from mid-motion."""
     case = load_case(mechanism)
 
-    def formula(input_deg: Number, order: int) -> Jet:
+    def torque(input_deg: Number, order: int) -> Jet:
         rates = engagement.motion.rate(input_deg, order + 1)
-        torque = _torque(case, rates)
-        if quantity == WHEEL_TORQUE:
-            return torque
-        if quantity == TORQUE:
-            return torque * Jet(rates.c[:-1])
-        axis = engagement.slot.axis(input_deg, order)
-        assert axis is not None  # the slot is straight
-        return torque / (axis.lever * case.L)
+        return rates.derivative() * case.inertia_Nm + case.resists_Nm
 
-    return formula
+    def load(input_deg: Number, order: int) -> Jet:
+        at = contact(engagement, input_deg, order, reactions=False)
+        instants = (Instant(case, at, *signs) for signs in _signs(case, at))
+        return _joined([_bounded(QUANTITIES[quantity](instant)) for instant in instants])
+
+    return torque if quantity == WHEEL_TORQUE else load
 
 
-def _torque(case: LoadCase, rates: Jet) -> Jet:
-    return rates.derivative() * case.inertia_Nm + case.resists_Nm
+def _signs(case: LoadCase, at: Contact[Jet]) -> Iterator[Signs]:
+    """Yield the signs that are possible; signs that no quantity depends on are 1."""
+    for drives in _signs_of(wheel_torque(case, at)):
+        rubs = _signs_of(sliding(at, drives, case.radius)) if case.rubs else (1.0,)
+        for slides in rubs:
+            lossless = case.efficiency == 1.0
+            feeds = (1.0,) if lossless else _signs_of(gain(case, at, drives, slides) * drives)
+            yield from ((drives, slides, fed) for fed in feeds)
+
+
+def _signs_of(jet: Jet) -> tuple[float, ...]:
+    from geneva_cli.numerics.balls import ball_of
+
+    sign = ball_of(jet.c[0]).sign
+    return (float(sign),) if sign else (1.0, -1.0)
+
+
+def _bounded(load: QuantityValue[Jet]) -> Jet:
+    """Return the value of a load; raises Undecided where friction alone may hold the wheel."""
+    if load.margin is not None and not load.margin.c[0] > 0.0:
+        raise Undecided("the pin force has no bound")
+    return load.value
+
+
+def _joined(loads: Sequence[Jet]) -> Jet:
+    """Return one load, or a jet without derivatives whose value holds those of several."""
+    first, *others = loads
+    if not others:
+        return first
+    from geneva_cli.numerics.balls import NOWHERE, ball_of
+
+    value = ball_of(first.c[0])
+    for other in others:
+        value = value.join(ball_of(other.c[0]))
+    return Jet(cast("list[Number]", [value, *[NOWHERE] * first.order]))

@@ -16,7 +16,7 @@ from __future__ import annotations
 
 import math
 from functools import cached_property
-from typing import Generic, NamedTuple
+from typing import TYPE_CHECKING, Generic, NamedTuple
 
 from geneva_cli.analysis.carried import inertia_kgm2, resisting_torque_Nm
 from geneva_cli.analysis.contact import Contact
@@ -26,6 +26,9 @@ from geneva_cli.machine.spec import Spec
 from geneva_cli.numerics.angles import omega
 from geneva_cli.numerics.arrays import all_true, choose, designs_of, library
 from geneva_cli.numerics.jet import Jet, Number, V
+
+if TYPE_CHECKING:
+    from geneva_cli.numerics.arrays import Whole
 
 NEGLIGIBLE = 1e-12  # fraction of a torque, of a motion, or of a lever over L that is rounding
 
@@ -42,7 +45,7 @@ class LoadCase(NamedTuple):
     efficiency: float
     # square of the stress on a flat wall, MPa² per newton; None without a face width
     hertz: float | None
-    design: int = 0  # the design's number in its batch: (m, 1) in a batch
+    design: int | Whole = 0  # the design's number in its batch: (m, 1) in a batch
 
     @property
     def designs(self) -> int:

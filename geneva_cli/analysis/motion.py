@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
+from geneva_cli.analysis.electronic_cam import knots_deg
 from geneva_cli.errors import GenevaError, cut
 from geneva_cli.kinematics.engagement import Engagement
 from geneva_cli.machine.mechanism import Mechanism
@@ -44,6 +45,35 @@ def motion_table(mechanism: Mechanism, samples: int) -> Table:
             pieces(samples, len(MOTION_COLUMNS), lambda i, j: _rows(mechanism, samples, i, j)),
         )
     return Table(MOTION_COLUMNS, _rows(mechanism, samples, 0, samples))
+
+
+def turns_table(mechanism: Mechanism, samples: int, count: int) -> Table:
+    """Rows as of ``motion_table`` over ``count`` periods, and one at each entry, exit and jump.
+
+    ``samples`` rows are evenly spaced. The wheel's angle goes on from period to period.
+    """
+    check_samples(samples)
+    knots = knots_deg(mechanism, count)
+    whole = count * mechanism.period_deg
+    even = np.linspace(0.0, whole, samples)
+    nearest = np.searchsorted(knots, even)
+    apart = np.minimum(
+        abs(even - knots[np.clip(nearest, 0, len(knots) - 1)]), abs(even - knots[nearest - 1])
+    )
+    # An even row that a knot repeats but for rounding is left out.
+    places = np.sort(np.append(even[apart > 1e-9 * mechanism.period_deg], knots))
+    start = first_entry_deg(mechanism)
+    total = math.fsum(2.0 * one.half_step for one in mechanism.engagements)
+    columns: list[list[Array]] = []
+    for k in range(count):
+        after, before = k * mechanism.period_deg, (k + 1) * mechanism.period_deg
+        last = k + 1 == count
+        here = places[(places >= after) & ((places < before) | last)]
+        wheel, *rates = derivatives(mechanism, start + (here - after), (0, 1, 2, 3))
+        input_deg = start + here
+        time_s = times_s(mechanism, input_deg)
+        columns.append([time_s, input_deg, np.degrees(wheel + k * total), *rates])
+    return Table(MOTION_COLUMNS, [np.concatenate(c) for c in zip(*columns, strict=True)])
 
 
 class Span(NamedTuple):

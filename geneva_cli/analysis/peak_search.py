@@ -109,8 +109,12 @@ def motion_peaks(
 ) -> dict[str, PeakArray]:
     """Greatest sizes over the motions of m designs, ends included, and their input angles, degrees.
 
-    Closed forms are used where a motion has them.
+    Closed forms are used where a motion has them, and one search where all motions have one shape.
     """
+    unit = motion.unit
+    if unit is not None:
+        every = search_peaks(unit, quantities)
+        return {name: _scaled(motion, name, peak) for name, peak in every.items()}
     peaks: dict[str, PeakArray] = {}
     for name in quantities:
         known = motion.closed_peak(name)
@@ -125,6 +129,17 @@ def motion_peaks(
             rest = search_peaks(taken(motion, open_), [name])[name]
             peak.max[open_], peak.at_deg[open_] = rest
     return peaks
+
+
+def _scaled(motion: WheelMotion, quantity: str, peak: PeakArray) -> PeakArray:
+    """Peaks of a batch from that of the unit motion, of 1 radian in 2 degrees."""
+    half, middle = (0.5 * (motion.exit_deg + sign * motion.entry_deg) for sign in (-1.0, 1.0))
+    step = 2.0 * motion.half_step
+    size = step * peak.max / half ** ORDERS[quantity]
+    if quantity == "power":  # velocity times acceleration
+        size = size * step / half
+    place = np.clip(middle + half * peak.at_deg, motion.entry_deg, motion.exit_deg)
+    return PeakArray(*(np.ravel(v) for v in np.broadcast_arrays(size, place)))
 
 
 def landmarks(motion: WheelMotion, quantity: str, m: int) -> Stationary:

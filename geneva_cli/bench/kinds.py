@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from functools import partial
 from typing import Any, NamedTuple
 
 import numpy as np
 
+from geneva_cli.bench.formulas import Proportions, rates, textbook
 from geneva_cli.bench.method import Method, Task
 from geneva_cli.kinematics.laws.standard import ModifiedSine, SineGroup
 from geneva_cli.kinematics.motion import Motion
@@ -28,6 +30,37 @@ QUICK = 100  # designs of a quick run
 CHECKED, QUICK_CHECKED = 20, 4  # designs whose error is measured
 
 
+def peaks_on_grid(d: Proportions, formula: Callable[[Proportions, Any], Any]) -> Any:
+    """Greatest velocity and acceleration of a batch of cranks at 101 even angles."""
+
+    def of_block(d: Proportions) -> Any:
+        best = np.zeros((2, len(d.half)))
+        for i in range(101):
+            for most, rate in zip(best, formula(d, d.half * (i / 100)), strict=True):
+                np.maximum(most, np.abs(rate), out=most)
+        return best.T
+
+    return d.blocks(of_block)
+
+
+def plain_cranks(z: Any) -> Any:
+    """Peaks of plain cranks at even angles, by NumPy."""
+    designs = Proportions.of(1.0, z, 0.0, np)
+    return peaks_on_grid(designs, lambda d, x: textbook(d.l, x, (1, 2)))
+
+
+def side_cranks(sign: float, A: Any) -> Any:
+    """Peaks of side-cranks of six slots at even angles, by NumPy."""
+    return peaks_on_grid(Proportions.of(sign, 6, A, np), partial(rates, np))
+
+
+def modified_sine_peaks(z: int, alpha0: Any) -> Any:
+    """Greatest velocity and acceleration of curved slots for a modified sine, in closed form."""
+    step, motion = 2.0 * np.pi / z, np.pi - 2.0 * np.pi / z - np.radians(alpha0)
+    times = 4.0 * np.pi / (4.0 + np.pi) * step / motion
+    return np.column_stack((times, times * np.pi / motion))
+
+
 class VariedMachine(NamedTuple):
     """A machine, and a key that varies between two values."""
 
@@ -37,12 +70,40 @@ class VariedMachine(NamedTuple):
     low: float
     high: float
     designs: int = 50_000  # of a whole run
+    # a handbook's formulas for the peaks of velocity and acceleration, from the varied values
+    script: Callable[[Any], Any] | None = None
+    # and for velocity and acceleration of one design at angles in radians
+    formula: Callable[[Any, Any], Any] | None = None
 
 
 KINDS = (
-    VariedMachine("plain crank", Spec(External(6), Crank()), "wheel.z", 3.0, 24.0),
-    VariedMachine("side-crank", Spec(External(6), SideCrank(A=0.0)), "drive.A", -0.9, 0.9),
-    VariedMachine("side-crank inside", Spec(Internal(6), SideCrank(A=0.0)), "drive.A", -0.9, 0.9),
+    VariedMachine(
+        "plain crank",
+        Spec(External(6), Crank()),
+        "wheel.z",
+        3.0,
+        24.0,
+        script=plain_cranks,
+        formula=lambda z, x: textbook(np.sin(np.pi / z), x, (1, 2)),
+    ),
+    VariedMachine(
+        "side-crank",
+        Spec(External(6), SideCrank(A=0.0)),
+        "drive.A",
+        -0.9,
+        0.9,
+        script=partial(side_cranks, 1.0),
+        formula=lambda A, x: rates(np, Proportions.of(1.0, 6, A), x),
+    ),
+    VariedMachine(
+        "side-crank inside",
+        Spec(Internal(6), SideCrank(A=0.0)),
+        "drive.A",
+        -0.9,
+        0.9,
+        script=partial(side_cranks, -1.0),
+        formula=lambda A, x: np.negative(rates(np, Proportions.of(-1.0, 6, A), x)),
+    ),
     VariedMachine(
         "offset slots",
         Spec(External(6), size=Size(center_distance_mm=100.0)),
@@ -71,6 +132,7 @@ KINDS = (
         "motion.alpha0_deg",
         -60.0,
         60.0,
+        script=partial(modified_sine_peaks, 6),
     ),
     VariedMachine(
         "curved slots of a tilted law",

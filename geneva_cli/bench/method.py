@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from typing import Any, NamedTuple
 
+from geneva_cli.bench.timing_pairs import processor_s
+
 
 class Method(NamedTuple):
     """One way to do a task. ``size`` is its parameter: points, pieces or tolerance."""
@@ -38,12 +40,12 @@ class Subject(NamedTuple):
     title: str
     error: str  # kind of error, and its reference
     tasks: Sequence[Task]
-    processes: bool = False  # runs are whole processes: times come from ``pairs`` of them
     slack: float = 0.1  # a method is faster if it takes less than 1 - slack of another's time
     floor: float = 1e-15  # relative errors below this count as equal
     seconds: float = 1.0  # run time of each method, at least one run
     absent: Sequence[str] = ()  # libraries with methods that are not installed
     grows: bool = False  # methods of a task are one run of growing size
+    clock: Callable[[], float] = processor_s
 
 
 def missing(*distributions: str) -> tuple[str, ...]:

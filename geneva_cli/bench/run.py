@@ -63,6 +63,7 @@ def _rows(name: str, subject: Subject, task: Task, quick: bool) -> Iterator[Benc
         task.baseline_run,
         [m.run for m in task.methods],
         0.01 if quick else subject.seconds,
+        subject.clock,
     )
     rows = [
         BenchRow(
@@ -75,7 +76,7 @@ def _rows(name: str, subject: Subject, task: Task, quick: bool) -> Iterator[Benc
             time.ratio * method.times,
             method.memory() if method.memory else None,
             method.ours,
-            designs_per_s=task.designs and task.designs / (time.core_s * method.times),
+            designs_per_s=task.designs and task.designs / (time.least_s * method.times),
         )
         for method, answer, time in zip(task.methods, answers, times, strict=True)
     ]
@@ -104,8 +105,19 @@ def bench_table(rows: list[BenchRow], for_people: bool) -> Table:
 
 
 def _spelled(row: BenchRow) -> tuple[object, ...]:
-    error = None if row.error is None else f"{row.error:.1e}" if row.error else "0"
-    size = None if row.size is None else f"{row.size:g}"
-    many = row.designs_per_s and f"{row.designs_per_s:.3g}"
-    rate = many and f"{float(many):,.0f}"  # three digits: more is noise
-    return (*row[:3], size, row.pieces, error, *row[6:-3], rate, *row[-2:])
+    """A row for people: three digits of what is measured, as more are noise."""
+    spelled = {
+        "size": _digits(row.size, 12),
+        "error": "0" if row.error == 0.0 else row.error and f"{row.error:.1e}",
+        "time_ratio": _digits(row.time_ratio, 3),
+        "memory_MB": _digits(row.memory_MB, 3),
+        "designs_per_s": row.designs_per_s and f"{float(f'{row.designs_per_s:.3g}'):,.0f}",
+        "time_exponent": _digits(row.time_exponent, 2),
+        "memory_exponent": _digits(row.memory_exponent, 2),
+    }
+    return tuple((row._asdict() | spelled).values())
+
+
+def _digits(value: float | None, count: int) -> str | None:
+    """Text of a number with some digits, without an exponent; None stays None."""
+    return None if value is None else f"{float(f'{value:.{count}g}'):,.12g}"

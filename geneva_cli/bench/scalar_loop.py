@@ -1,9 +1,9 @@
-"""A loop over side-cranks, number by number, as one would write it for Numba.
+"""Loops over side-cranks and over angles, number by number, as one would write them for Numba.
 
-The formulas are those of a handbook, over the crank's angle f from mid-motion, v = 1 - cos f. An
-internal wheel has a negative l. With C and rho of the side-crank and D of the wheel, the
-acceleration is -l sin f (u - (c - l) w). The wheel's term is u, that of the crank's changing speed
-w. The slope is scanned for sign changes, and each is refined by secants inside its bracket.
+The formulas of side-cranks are those of a handbook, over the crank's angle f from mid-motion, v = 1
+- cos f. An internal wheel has a negative l. With C and rho of the side-crank and D of the wheel,
+the acceleration is -l sin f (u - (c - l) w). The wheel's term is u, that of the crank's changing
+speed w. The slope is scanned for sign changes, and each is refined by secants inside its bracket.
 """
 
 from __future__ import annotations
@@ -35,11 +35,28 @@ def looped(compiled: Callable[[Any], Any]) -> Callable[[Array, Array, Array, Arr
 
 
 @cache
-def by_numba() -> Callable[[Array, Array, Array, Array], None]:
-    """Return the loop compiled by Numba."""
+def by_numba(loop: Callable[[Callable[[Any], Any]], Any]) -> Any:
+    """Return one of the loops, compiled by Numba."""
     import numba
 
-    return looped(numba.njit)
+    return loop(numba.njit)
+
+
+def motion_loop(compiled: Callable[[Any], Any]) -> Callable[[float, Array, Array, Array], None]:
+    """Return the loop from l and angles to velocity and acceleration of a plain wheel."""
+
+    def loop(l: float, x: Array, velocity: Array, acceleration: Array) -> None:
+        rest = 1.0 - l
+        k = l * rest * (1.0 + l)
+        for i in range(len(x)):
+            h, g = math.sin(0.5 * x[i]), math.cos(0.5 * x[i])
+            v = 2.0 * h * h
+            D = rest * rest + 2.0 * l * v
+            velocity[i] = l * (rest - v) / D
+            acceleration[i] = -2.0 * k * h * g / (D * D)
+
+    fast: Callable[[float, Array, Array, Array], None] = compiled(loop)
+    return fast
 
 
 def _terms(l: float, A: float, s: float, c: float, v: float) -> tuple[float, float]:

@@ -7,8 +7,7 @@ from __future__ import annotations
 
 import math
 import statistics
-import subprocess
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Sequence
 from time import perf_counter, process_time
 from typing import Any, NamedTuple, TypeVar
 
@@ -18,24 +17,26 @@ SHORTEST = 2e-3  # seconds: shorter calls are repeated until they take as long
 
 
 class Timed(NamedTuple):
-    """Time of a call, as a ratio to the baseline, and the least processor time in seconds.
-
-    Other work of the computer does not add to the processor time.
-    """
+    """Time of a call, as a ratio to the baseline, and the least time in seconds."""
 
     ratio: float
-    core_s: float
+    least_s: float
 
 
-def process_seconds(
-    command: Sequence[str], environment: Mapping[str, str], text: str | None = None
-) -> float:
-    """Wall time of a whole process, with ``text`` on its standard input."""
-    data = None if text is None else text.encode()
-    stdin = subprocess.DEVNULL if data is None else None
-    start = perf_counter()
-    subprocess.run(list(command), capture_output=True, env=environment, input=data, stdin=stdin)
-    return perf_counter() - start
+def processor_s() -> float:
+    """Processor time of this process and of the processes that it waited for, in seconds.
+
+    Other work of the computer does not add to it. The time of all cores counts.
+    """
+    import resource
+
+    children = resource.getrusage(resource.RUSAGE_CHILDREN)
+    return process_time() + children.ru_utime + children.ru_stime
+
+
+def wall_s() -> float:
+    """Seconds on the wall clock, which a user waits for."""
+    return perf_counter()
 
 
 def median_ratio(pairs: Sequence[Pair]) -> float:
@@ -44,7 +45,7 @@ def median_ratio(pairs: Sequence[Pair]) -> float:
 
 
 def exponent(sizes: Sequence[float], costs: Sequence[float]) -> float:
-    """Exponent p of costs that grow as a + b n^p, where a is the cost of the smallest size.
+    """Exponent p of costs that grow as a + b n^p, where a is the least cost.
 
     The slope of a line through the logarithms, by least squares. Growth of less than a fifth of a
     is noise. The last such size takes part with a fifth, so that a late rise is seen. Without any
@@ -53,8 +54,9 @@ def exponent(sizes: Sequence[float], costs: Sequence[float]) -> float:
     >>> round(exponent([1, 10, 100, 1000], [1.0, 1.9, 10.9, 100.9]), 1)
     1.0
     """
-    least = 0.2 * costs[0]
-    grown = [max(cost - costs[0], least) for cost in costs]
+    start = min(costs)  # not the first, which noise may raise
+    least = 0.2 * start
+    grown = [max(cost - start, least) for cost in costs]
     first = max((i for i, growth in enumerate(grown) if growth == least), default=0)
     x = [math.log(size) for size in sizes[first:]]
     y = [math.log(growth) for growth in grown[first:]]
@@ -68,7 +70,10 @@ def exponent(sizes: Sequence[float], costs: Sequence[float]) -> float:
 
 
 def ratios(
-    baseline: Callable[[], Any], calls: Sequence[Callable[[], T]], seconds: float
+    baseline: Callable[[], Any],
+    calls: Sequence[Callable[[], T]],
+    seconds: float,
+    clock: Callable[[], float] = processor_s,
 ) -> tuple[list[T], list[Timed]]:
     """Answer of each call, and its time as a ratio to the baseline's.
 
@@ -76,41 +81,37 @@ def ratios(
     after round. Each takes part until it has used ``seconds``, but at least once. A call shorter
     than ``SHORTEST`` is repeated in each round.
     """
-    _, base_repeats = _first(baseline)
-    answers, repeats = zip(*[_first(call) for call in calls], strict=True)
+    _, base_repeats = _first(baseline, clock)
+    answers, repeats = zip(*[_first(call, clock) for call in calls], strict=True)
     spent = [0.0] * len(calls)
     pairs: list[list[Pair]] = [[] for _ in calls]
-    least = [math.inf] * len(calls)
     while any(s < seconds for s in spent):
         base = -1.0
         for i, call in enumerate(calls):
             if spent[i] >= seconds:
                 continue
             if base < 0.0 or repeats[i] == 1:  # after a long call the machine may have changed
-                base = _time(baseline, base_repeats)
-            start = process_time()
-            own = _time(call, repeats[i])
-            # a slow processor clock may not have advanced
-            core = (process_time() - start) / repeats[i] or own
-            least[i] = min(least[i], core)
+                base = _time(baseline, base_repeats, clock)
+            own = _time(call, repeats[i], clock)
             spent[i] += own * repeats[i]
             pairs[i].append((base, own))
-    timed = [Timed(median_ratio(p), core) for p, core in zip(pairs, least, strict=True)]
+    timed = [Timed(median_ratio(p), min(own for _, own in p)) for p in pairs]
     return list(answers), timed
 
 
-def _first(call: Callable[[], T]) -> tuple[T, int]:
+def _first(call: Callable[[], T], clock: Callable[[], float]) -> tuple[T, int]:
     """Answer of a call, and the number of its runs per round."""
-    start = perf_counter()
+    start = wall_s()
     answer = call()
-    once = perf_counter() - start
+    once = wall_s() - start
     if once < SHORTEST:
-        once = _time(call, 1)  # warm now
+        once = _time(call, 1, clock)  # warm now
     return answer, max(1, round(SHORTEST / once))
 
 
-def _time(call: Callable[[], Any], repeats: int) -> float:
-    start = perf_counter()
+def _time(call: Callable[[], Any], repeats: int, clock: Callable[[], float]) -> float:
+    start, start_wall = clock(), wall_s()
     for _ in range(repeats):
         call()
-    return (perf_counter() - start) / repeats
+    # some systems' processor clock advances only every few milliseconds
+    return (clock() - start or wall_s() - start_wall) / repeats

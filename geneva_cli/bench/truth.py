@@ -70,7 +70,7 @@ def acceleration_peak(z: int, gearing: str, A: float) -> Any:
     mp = digits()
     crank = np.linspace(0.0, np.pi / 2 - registry.gearing(gearing).SIGN * np.pi / z, 401)
     x = crank + np.arcsin(A * np.sin(crank))
-    slope = jerk(np, Proportions.of(z, gearing, A), x)
+    slope = jerk(np, Proportions.of(registry.gearing(gearing).SIGN, z, A), x)
     end = half_motion(z, gearing, A)
     sizes = [abs(motion(z, gearing, A, end)[2])]
     for i in np.flatnonzero(slope[:-1] * slope[1:] < 0.0):

@@ -2,26 +2,60 @@
 
 from __future__ import annotations
 
+import os
 import subprocess
 import sys
+from collections.abc import Sequence
+from typing import NamedTuple
 
 from geneva_cli.bench.method import Method, Task
 
-RUN = "import sys; sys.argv[0] = 'geneva'; from geneva_cli.app import main; main()"
-IMPORT = "import typer"
-BASELINE = f"python -c '{IMPORT}'"
+# What the installed ``geneva`` does.
+GENEVA = "import sys; sys.argv[0] = 'geneva'; from geneva_cli.__main__ import main; main()"
+# Runs a command and prints its largest memory. The bench's own process is too large for that: a
+# child starts with the memory of its parent.
+LARGEST = (
+    "import resource, subprocess, sys; subprocess.run(sys.argv[1:], stdout=subprocess.DEVNULL);"
+    "print(resource.getrusage(resource.RUSAGE_CHILDREN).ru_maxrss)"
+)
 
 
-def run_python(code: str, words: tuple[str, ...] = ()) -> None:
-    """Run a program in a new Python process; raises CalledProcessError if it fails."""
-    command = [sys.executable, "-c", code, *words]
-    subprocess.run(command, capture_output=True, stdin=subprocess.DEVNULL, check=True)
+class WholeRun(NamedTuple):
+    """A Python process: its code, its arguments, and the text on its standard input."""
+
+    code: str
+    words: tuple[str, ...] = ()
+    text: str = ""
+
+    def run(self) -> None:
+        """Run it. Raises CalledProcessError if it fails."""
+        self._output(())
+
+    def memory_MB(self) -> float:
+        """Greatest memory of a run, MB."""
+        largest = float(self._output((sys.executable, "-c", LARGEST)))
+        return largest / (1e6 if sys.platform == "darwin" else 1e3)  # bytes or kilobytes
+
+    def _output(self, outer: tuple[str, ...]) -> str:
+        command = (*outer, sys.executable, "-c", self.code, *self.words)
+        # an installed program is compiled once
+        environment = {k: v for k, v in os.environ.items() if k != "PYTHONDONTWRITEBYTECODE"}
+        done = subprocess.run(
+            command, capture_output=True, input=self.text, text=True, env=environment
+        )
+        # 1: a check fails, which is a result where it is printed
+        if done.returncode > 1 or (done.returncode and not done.stdout):
+            raise subprocess.CalledProcessError(done.returncode, command, stderr=done.stderr)
+        return done.stdout
 
 
-def task(name: str, runs: dict[str, tuple[str, ...]]) -> Task:
-    """Task of ``geneva`` runs with some arguments, by name; it has no error."""
-    methods = [
-        Method(run, None, lambda words=words: run_python(RUN, words), ours=True)  # type: ignore[misc]
-        for run, words in runs.items()
-    ]
-    return Task(name, BASELINE, lambda: run_python(IMPORT), lambda _: 0.0, methods)
+def geneva(*words: str, text: str = "") -> WholeRun:
+    """A run of the program with some arguments, and a spec on standard input."""
+    return WholeRun(GENEVA, words, text)
+
+
+def task(name: str, methods: Sequence[Method]) -> Task:
+    """Task of whole runs; it has no error."""
+    return Task(
+        name, "python -c 'import typer'", WholeRun("import typer").run, lambda _: 0.0, methods
+    )

@@ -1,1 +1,1 @@
-"""The full turn: a collision check of the parts in all positions."""
+"""The full turn: a collision check of the parts at sampled positions, and its certificate."""

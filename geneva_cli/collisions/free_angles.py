@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from geneva_cli.collisions.machine_parts import MachineParts, Stop
+from geneva_cli.collisions.machine_parts import MachineParts, Stop, smallest_clearance
 
 if TYPE_CHECKING:
     from geneva_cli.numerics.jet import Array
@@ -38,7 +38,7 @@ def wheel_stops(parts: MachineParts, at: Array, fits: bool = False) -> tuple[Sto
     gaps, close = parts.gaps, parts.close
     pose, held = gaps.pose(at), parts.assembly.geared(at)
     if not fits:  # parts that overlap from the start leave no play
-        held |= gaps.gap(pose, np.zeros(len(at)), close) < -close
+        held |= smallest_clearance(gaps, pose, np.zeros(len(at)), close) < -close
     back, on = gaps.stops(pose, math.radians(search_deg(parts)), close)
     for each in (*back, *on):
         each[held] = 0.0

@@ -101,13 +101,6 @@ class Gaps:
         crank = self.assembly.crank(input_deg, pins[0])
         return Pose(self.assembly.wheel(input_deg), crank, np.stack(pins, axis=1))
 
-    def gap(self, pose: Pose, lead: Array, near: float) -> Array:
-        """Return the smallest gap, mm (n,), with the wheel turned on by ``lead`` radians."""
-        out: Array = np.minimum(
-            self.locking(pose, lead, near), self.rollers(pose, lead, near).min(axis=1)
-        )
-        return out
-
     def rollers(self, pose: Pose, lead: Array | float = 0.0, near: float | None = None) -> Array:
         """Return the gap of each roller, mm (n, m), with the wheel turned on by ``lead`` radians.
 

@@ -16,7 +16,6 @@ if TYPE_CHECKING:
     from geneva_cli.numerics.jet import Array
 
 BESIDE = np.geomspace(0.01, 6.0, 14)  # degrees of the input on either side of a position
-BEFORE = np.arange(1.0, 26.0)  # degrees before an entry: large rollers have their play early
 
 
 def gap_about(parts: MachineParts, shown_deg: float) -> float:
@@ -37,7 +36,8 @@ def play_about(parts: MachineParts, shown_deg: float) -> float:
 def play_before_entry(parts: MachineParts) -> float:
     """Return the largest play, degrees, before an entry, where the lock releases the wheel."""
     start, turn = parts.assembly.start_deg, parts.assembly.turn_deg
-    return _loose(parts, start + (-BEFORE) % turn)
+    before = np.arange(1.0, 26.0)  # degrees: large rollers have their play early
+    return _loose(parts, start + (-before) % turn)
 
 
 def _loose(parts: MachineParts, at: Array) -> float:

@@ -5,7 +5,10 @@ from __future__ import annotations
 from collections.abc import Sized
 from typing import TYPE_CHECKING, NamedTuple, Protocol, Self
 
+import numpy as np
+
 if TYPE_CHECKING:
+    from geneva_cli.collisions.pairs import Pairs
     from geneva_cli.layout.assembly import Assembly
     from geneva_cli.numerics.jet import Array
 
@@ -42,9 +45,6 @@ class Clearances(Protocol):
     def pose(self, input_deg: Array) -> Pose:
         """Return the positions at input angles (n,), degrees."""
 
-    def gap(self, pose: Pose, lead: Array, near: float) -> Array:
-        """Return the smallest clearance in each pose, (n,)."""
-
     def rollers(self, pose: Pose, lead: Array | float = 0.0, near: float | None = None) -> Array:
         """Return the clearance of each roller to the wheel, (n, m)."""
 
@@ -60,6 +60,13 @@ class Clearances(Protocol):
         The parts overlap nowhere by ``close`` mm at first. The wheel turns until some do, or by
         ``most`` radians.
         """
+
+
+def smallest_clearance(gaps: Clearances, pose: Pose, lead: Array, near: float) -> Array:
+    """Return the smallest clearance of all parts in each pose, (n,)."""
+    rolling = gaps.rollers(pose, lead, near).min(axis=1)
+    out: Array = np.minimum(gaps.locking(pose, lead, near), rolling)
+    return out
 
 
 class Lengths(Protocol):
@@ -119,6 +126,9 @@ class MachineParts(Protocol):
 
     def over(self, assembly: Assembly) -> Self:
         """Return these parts with another assembly."""
+
+    def pairs(self, target: float) -> Pairs:
+        """Return the pairs of parts that may meet, with gaps bounded up to ``target`` mm."""
 
     def in_wheel(self, motion: int, at: Array) -> Array:
         """Return the centre of a motion's roller in the wheel's frame at input angles (n,).

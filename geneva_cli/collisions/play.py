@@ -18,6 +18,7 @@ import numpy as np
 
 from geneva_cli.collisions.free_angles import search_deg, touching, wheel_stops
 from geneva_cli.collisions.machine_parts import MachineParts
+from geneva_cli.collisions.pairs import Window
 from geneva_cli.numerics.arrays import rising
 from geneva_cli.numerics.tolerances import SAME_INPUT_DEG
 
@@ -60,15 +61,6 @@ class Play(NamedTuple):
         """The larger play of both directions."""
         out: Array = np.maximum(self.back, self.on)
         return out
-
-
-class Window(NamedTuple):
-    """A motion, or the dwell after it: the input angles at its ends, and the motion's number."""
-
-    start: float
-    end: float
-    motion: int
-    rests: bool
 
 
 def windows(parts: MachineParts) -> Iterator[Window]:

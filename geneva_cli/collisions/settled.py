@@ -3,47 +3,17 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, NamedTuple, Protocol
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
+from geneva_cli.collisions.pairs import Intervals, Pair
+
 if TYPE_CHECKING:
-    from geneva_cli.layout.assembly import Assembly
+    from geneva_cli.collisions.machine_parts import Clearances
     from geneva_cli.numerics.jet import Array
 
 MOST = 20_000  # intervals of one pair of parts: ten times what the designs take; under a second
-
-
-class Intervals(NamedTuple):
-    """Intervals of the input angle, and how far crank and wheel are at most from their middles.
-
-    The angles are greatest at the ends, because neither crank nor wheel turns back.
-    """
-
-    start: Array  # degrees of the input, (n,)
-    end: Array
-    crank: Array  # radians
-    wheel: Array
-
-    @property
-    def middle(self) -> Array:
-        """Input angles in the middle, degrees."""
-        out: Array = 0.5 * (self.start + self.end)
-        return out
-
-
-class Bounds(NamedTuple):
-    """The gap in the middle of each interval, mm, and a proved lower bound of it throughout."""
-
-    middle: Array
-    least: Array
-
-
-class Pair(Protocol):
-    """Two parts, whose gap is bounded on intervals."""
-
-    def __call__(self, on: Intervals) -> Bounds:
-        """Return the bounds of the gap on intervals."""
 
 
 class Open(NamedTuple):
@@ -66,7 +36,7 @@ class Settled(NamedTuple):
     open: Open | None
 
 
-def settled(assembly: Assembly, pair: Pair, ends: tuple[float, float], target: float) -> Settled:
+def settled(gaps: Clearances, pair: Pair, ends: tuple[float, float], target: float) -> Settled:
     """Return a lower bound of a pair's gap between two input angles, at least ``target`` mm.
 
     Intervals are halved until the bound on each is at least ``target``. Without success the most
@@ -78,7 +48,7 @@ def settled(assembly: Assembly, pair: Pair, ends: tuple[float, float], target: f
     least, count = math.inf, 0
     while len(start):
         count += len(start)
-        bounds = pair(intervals(assembly, start, end))
+        bounds = pair(intervals(gaps, start, end))
         closed = bounds.least >= target
         least = min(least, float(bounds.least[closed].min(initial=math.inf)))
         start, end = start[~closed], end[~closed]
@@ -93,16 +63,15 @@ def settled(assembly: Assembly, pair: Pair, ends: tuple[float, float], target: f
     return Settled(least, count, None)
 
 
-def intervals(assembly: Assembly, start: Array, end: Array) -> Intervals:
+def intervals(gaps: Clearances, start: Array, end: Array) -> Intervals:
     """Return intervals of the input angle, with the turn of crank and wheel on them.
 
     Where the wheel turns back, the ends do not bound its turn. A whole turn does: no point moves
     farther than twice its radius.
     """
-    at = (start, 0.5 * (start + end), end)
-    crank = np.unwrap([assembly.crank(x) for x in at], axis=0)
-    wheel = np.array([assembly.wheel(x) for x in at])
-    steps = np.diff(wheel, axis=0)
+    pose = gaps.pose(np.concatenate((start, 0.5 * (start + end), end)))
+    crank = np.unwrap(pose.crank.reshape(3, -1), axis=0)
+    steps = np.diff(pose.wheel.reshape(3, -1), axis=0)
     # the wheel's angle is rounded by less than 1e-12 radians
     turn = np.where((steps < -1e-12).any(axis=0), math.tau, steps.max(axis=0))
     return Intervals(start, end, np.abs(np.diff(crank, axis=0)).max(axis=0), turn)

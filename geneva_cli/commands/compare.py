@@ -37,9 +37,11 @@ def run(
     format: Format = "",
 ) -> None:
     """Designs side by side: a column for each design, a row for each quantity."""
-    from geneva_cli.output import show
+    from geneva_cli.output import refuse_inches, show
     from geneva_cli.study.compare import compare
 
+    if ratio:
+        refuse_inches("ratios have no unit")
     picks = [name.strip() for name in pick.split(",")] if pick else []
     table = compare(specs, settings or (), vary or (), picks, ratio, not differing)
     show(table, output, format, specs)

@@ -26,13 +26,13 @@ def run(
         typer.Option(metavar="N", help=f"The cycle in N rows instead (csv: {ROWS})."),
     ] = None,
     certify: Annotated[
-        bool, typer.Option("--certify", help="Prove the greatest loads instead, without friction.")
+        bool, typer.Option("--certify", help="Prove the greatest loads instead.")
     ] = False,
     settings: Settings = None,
     output: Output = "-",
     format: Format = "",
 ) -> None:
-    """Loads of the motion: torque, forces, stress, power and bearings over a cycle.
+    """Loads of the motion: torque, forces, stress and power over a cycle.
 
     The recommended motor comes first, then a summary of each quantity. It has the greatest and
     least value over the motions, with their input angles. Mean and root mean square are over the
@@ -43,15 +43,14 @@ def run(
     it back. The input's torque and power are negative where the wheel drives the input. In a dwell
     the lock holds the wheel, and all values are 0.
 
-    Links are rigid and have no mass or weight, and the motor exerts a torque alone. The force
-    guide_force_N acts on what guides the roller besides its shaft: a rocker, slider, groove or
-    fixed gear, or what pushes the crank. A coulisse's block or a first wheel's roller needs a
-    length in [drive]. Without it the crank's bearings are shown without that force. The quantity
-    pv_W_m2 is the greatest Hertz pressure times the sliding speed, for a roller fixed to its pin.
+    Links are rigid and have no mass, and the motor exerts a torque alone. The force guide_force_N
+    acts on what guides the roller besides its shaft: a rocker, slider, groove or fixed gear, or
+    what pushes the crank. A coulisse's block or a first wheel's roller needs a length in [drive].
+    Without it the crank's bearings are shown without that force. pv_W_m2 is the greatest Hertz
+    pressure times the sliding speed, for a roller fixed to its pin.
 
-    With --certify, wheel_torque_Nm, pin_force_N and input_torque_Nm are each proved to lie between
-    two bounds, or are called not proved. It needs the extra geneva-cli[certify]. More: `geneva help
-    certificates`.
+    With --certify, the torques and the pin force are each proved to lie between two bounds, or
+    called not proved. It needs geneva-cli[certify]. More: `geneva help certificates`.
     """
     from geneva_cli.design import load
     from geneva_cli.output import show, show_answer

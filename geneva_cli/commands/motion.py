@@ -1,31 +1,93 @@
 """``geneva motion``."""
 
+import sys
 from typing import Annotated
 
 import typer
 
-from geneva_cli.commands.options import Format, Output, Settings, SpecPath, warn
+from geneva_cli.commands import completion
+from geneva_cli.commands.options import Output, Settings, SpecPath, one_of, warn
+from geneva_cli.errors import GenevaError, clean
+from geneva_cli.output.formats import CAMS, FORMATS
 
 EXAMPLES = (
     "geneva motion spec.toml --samples 13",
     "geneva motion spec.toml -o motion.csv",
+    "geneva motion spec.toml --turns 8 -o revolution.csv",
+    "geneva motion spec.toml --format cam --for codesys -o cam.st",
 )
+CAM = "An electronic cam"
+CONTROLLERS = ("polynomial", "codesys", "beckhoff")
 
 
 def run(
     spec: SpecPath,
-    samples: Annotated[int, typer.Option(metavar="N", help="Rows, both ends included.")] = 361,
+    samples: Annotated[
+        int | None,
+        typer.Option(metavar="N", help="Rows, both ends included.  [default: 361]"),
+    ] = None,
+    turns: Annotated[
+        int | None,
+        typer.Option(metavar="N", help="Turns of the input, with a row at each entry and jump."),
+    ] = None,
+    controller: Annotated[
+        str | None,
+        typer.Option(
+            "--for",
+            metavar="CONTROLLER",
+            help=f"{one_of(CONTROLLERS)}  [default: polynomial]",
+            autocompletion=completion.words(lambda: CONTROLLERS),
+            rich_help_panel=CAM,
+        ),
+    ] = None,
+    tolerance: Annotated[
+        float | None,
+        typer.Option(
+            metavar="DEG",
+            help="Greatest error of the wheel's angle.  [default: 0.0001]",
+            rich_help_panel=CAM,
+        ),
+    ] = None,
     settings: Settings = None,
     output: Output = "-",
-    format: Format = "",
+    format: Annotated[
+        str,
+        typer.Option(
+            metavar="FORMAT",
+            help=one_of((*FORMATS, *CAMS)),
+            autocompletion=completion.words(lambda: (*FORMATS, *CAMS)),
+        ),
+    ] = "",
 ) -> None:
     """Position, velocity, acceleration and jerk over a cycle from entry.
 
     If the engagements differ, it covers a whole period of the machine.
+
+    --format cam writes an electronic cam: polynomials of degree five as csv, CODESYS points
+    (XYVA), or Beckhoff pairs. Standard error has the number of rows and the greatest error.
     """
     from geneva_cli.design import load
-    from geneva_cli.output import show
+    from geneva_cli.output import show, show_text
 
     design = load(spec, settings or ())
-    show(design.motion(samples), output, format, design.spec.files)
+    files = design.spec.files
+    if format not in CAMS:
+        if controller is not None or tolerance is not None:
+            raise GenevaError("--for and --tolerance are for electronic cams: --format cam")
+        show(design.motion(361 if samples is None else samples, turns), output, format, files)
+        warn(design)
+        return
+    from geneva_cli.study.cam_files import cam
+
+    if samples is not None:
+        raise GenevaError("--samples: a cam has the points that its --tolerance needs")
+    content, rows, error_deg = cam(
+        design, controller or CONTROLLERS[0], turns, 1e-4 if tolerance is None else tolerance
+    )
+    if isinstance(content, str):
+        show_text(content, output, files)
+    else:
+        show(content, output, "csv", files)
+    text = f"{spec}: {rows} rows, greatest error {error_deg:.2g} degrees of the wheel"
+    print(clean(text), file=sys.stderr)
     warn(design)

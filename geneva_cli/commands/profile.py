@@ -8,7 +8,7 @@ from geneva_cli.commands import completion
 from geneva_cli.commands.options import Output, Settings, SpecPath, one_of, require_written, warn
 from geneva_cli.drawings.catalogue import PARTS, is_sheet
 from geneva_cli.errors import GenevaError, cut
-from geneva_cli.output import draw, draw_sheet, show
+from geneva_cli.output import draw, draw_sheet, in_units, show
 from geneva_cli.output.formats import (
     DRAWN,
     DXF_VERSIONS,
@@ -96,7 +96,7 @@ def run(
         str,
         typer.Option(
             metavar="UNIT",
-            help="Unit of drawings: mm or inch.",
+            help="Unit of drawings and tables: mm or inch.",
             autocompletion=completion.words(lambda: ("mm", "inch")),
             rich_help_panel=DRAWING,
         ),
@@ -153,8 +153,9 @@ def run(
     own = {key: value for key, value in options.items() if value is not None}
     files = design.spec.files
     if not sheet and design.is_table(part, drawn):
-        _refuse(units, kerf, cutter, center_marks, own)
-        show(design.part_table(part, tolerance, samples), output, format, files)
+        _refuse(kerf, cutter, center_marks, own)
+        with in_units(units):
+            show(design.part_table(part, tolerance, samples), output, format, files)
         warn(design)
         return
     if samples is not None:
@@ -163,7 +164,9 @@ def run(
     if design.spec.has_parts:
         require_written(design, design.judge(model), force)
     if sheet:
-        _refuse(units, kerf, cutter, center_marks)
+        _refuse(kerf, cutter, center_marks)
+        if units != "mm":
+            raise GenevaError("--units: a sheet is in millimetres, as its fits and tolerances are")
         if fill is not None:
             raise GenevaError(
                 "--fill is for single parts and the assembly; a sheet has lines alone"
@@ -197,15 +200,12 @@ def _require(curves: str, units: str) -> None:
 
 
 def _refuse(
-    units: str,
     kerf: float | None,
     cutter: float | None,
     marks: bool,
     own: dict[str, str] | None = None,
 ) -> None:
     """Raise GenevaError for options of parts to cut, if none is written."""
-    if units != "mm":
-        raise GenevaError("--units is for parts to cut; tables and sheets are in millimetres")
     if kerf is not None:
         raise GenevaError("--kerf is for parts to cut; this one is a table, or a sheet")
     if cutter is not None:

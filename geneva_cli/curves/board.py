@@ -141,10 +141,11 @@ def _runs_along(line: Line, lines: Array, apart: float) -> bool:
     if long < IN_LINE:
         return False
     c, s = (u - x) / long, (v - y) / long
-    dx, dy = lines[:, ::2] - x, lines[:, 1::2] - y
-    along, across = dx * c + dy * s, np.abs(dy * c - dx * s).max(axis=1)
-    overlap = (along.min(axis=1) < long - IN_LINE) & (along.max(axis=1) > IN_LINE)
-    return bool((overlap & (across < apart)).any())
+    dx, dy = lines[:, ::2].T - x, lines[:, 1::2].T - y
+    (start, end), (one, other) = dx * c + dy * s, np.abs(dy * c - dx * s)
+    # a wheel of many slots has thousands of lines: reductions over pairs would take most of a sheet
+    overlap = (np.minimum(start, end) < long - IN_LINE) & (np.maximum(start, end) > IN_LINE)
+    return bool((overlap & (np.maximum(one, other) < apart)).any())
 
 
 def _grazes(piece: Segment, lines: Array) -> bool:

@@ -21,6 +21,7 @@ from geneva_cli.curves.plates import Plate
 from geneva_cli.curves.shapes import Arc, Circle, Contour, Line, Point, Shape
 from geneva_cli.errors import GenevaError
 from geneva_cli.numerics.roots import boundary
+from geneva_cli.numerics.rounding import to_digits
 from geneva_cli.numerics.tolerances import SAME_CUT_MM
 
 
@@ -104,9 +105,8 @@ def _widest(contour: Contour, outside: bool, radius: float) -> float:
     largest = boundary(lambda r: blocked(contour, outside, r) is None, 0.0, radius, 14)
     if not largest:
         return 0.0
-    unit = 10.0 ** (math.floor(math.log10(2.0 * largest)) - 2)
-    near = 0.5 * unit * round(2.0 * largest / unit)
-    return near if blocked(contour, outside, near) is None else near - 0.5 * unit
+    near, below = (0.5 * to_digits(2.0 * largest, 3, way) for way in (round, math.floor))
+    return near if blocked(contour, outside, near) is None else below
 
 
 def freed(

@@ -19,6 +19,7 @@ from geneva_cli.curves.plates import plates
 from geneva_cli.curves.shapes import Arc, Circle, Contour, Line, Point, Segment, closed
 from geneva_cli.errors import GenevaError
 from geneva_cli.numerics.roots import boundary
+from geneva_cli.numerics.rounding import to_digits
 from geneva_cli.numerics.tolerances import SAME_CUT_MM
 from geneva_cli.spec.rules import TOOL_MM, require_mm
 
@@ -79,8 +80,7 @@ def _widest(shape: Contour | Circle, outside: bool, kerf: float) -> str:
     widest = boundary(leaves_a_path, 0.0, kerf, halvings)
     if not widest:
         return f"even {kerf * 0.5**halvings:.2g} mm is too wide"
-    unit = 10.0 ** (math.floor(math.log10(widest)) - 2)
-    return f"use a kerf up to {math.floor(widest / unit) * unit:.6g} mm"
+    return f"use a kerf up to {to_digits(widest, 3, math.floor):g} mm"
 
 
 def offset(shape: Contour | Circle, outside: bool, distance: float) -> Contour | Circle:

@@ -3,9 +3,14 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
+from itertools import combinations
 from typing import NamedTuple
 
-from geneva_cli.curves.sphere import Vector, dot
+import numpy as np
+
+from geneva_cli.curves.sphere import Region, Vector, dot
+from geneva_cli.curves.sphere_arcs import SphereArcs
 
 
 class RoundHole(NamedTuple):
@@ -59,3 +64,14 @@ class RoundHole(NamedTuple):
         square = (self.radius / R) ** 2
         c = math.sqrt(1.0 - square)
         return c, square / (1.0 + c)
+
+
+def least_wall(within: Region, holes: Sequence[RoundHole], sphere: float) -> float:
+    """Return the least wall between holes, and from holes to a boundary, on a sphere, mm."""
+    angles = [hole.angle(sphere) for hole in holes]
+    away, _ = SphereArcs(within.boundary).signed(np.array([hole.axis for hole in holes]))
+    least = float((-away - angles).min())
+    for (one, a), (other, b) in combinations(zip(holes, angles, strict=True), 2):
+        apart = 2.0 * math.asin(min(1.0, 0.5 * math.dist(one.axis, other.axis)))
+        least = min(least, apart - a - b)
+    return sphere * least

@@ -7,7 +7,7 @@ has a corner, or the points and the axes of both circles are on one great circle
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
@@ -18,6 +18,28 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from geneva_cli.numerics.jet import Array
+
+
+class _Nearest(NamedTuple):
+    """Where points are seen from the axes of k arcs: arrays (n, k), radians."""
+
+    off: Array  # from the arc's circle
+    turn: Array  # about the axis, from the arc's start
+    past: Array  # beyond its end, below 0 on the arc
+    short: Array  # of its start
+    beyond: Array  # the smaller of both, 0 on the arc
+    square: Array  # of the half chord to the nearest point of the arc
+
+
+def half_chords(off: Array, across: Array, beyond: Array) -> Array:
+    """Return the squares of half the chords between points and the nearest points of arcs.
+
+    ``off`` is the angle of a point from the arc's circle, ``beyond`` the angle about the axis by
+    which it is past the arc's end. ``across`` is the product of the sines of both angles from the
+    axis. In the triangle of axis, point and end this needs no difference of near numbers.
+    """
+    out: Array = np.sin(0.5 * off) ** 2 + across * np.sin(0.5 * beyond) ** 2
+    return out
 
 
 class SphereArcs:
@@ -72,15 +94,7 @@ class SphereArcs:
 
         Distances are in radians, negative inside.
         """
-        along, sideways = points @ self.x.T, points @ self.y.T
-        across = np.hypot(along, sideways)
-        off = np.arctan2(across, points @ self.axis.T) - self.angle
-        turn = np.remainder(np.arctan2(sideways, along), 2.0 * np.pi)
-        past, short = turn - self.sweep, 2.0 * np.pi - turn
-        beyond = np.where(past <= 0.0, 0.0, np.minimum(past, short))
-        # in the triangle of axis, point and the arc's end, without cancellation
-        square = np.sin(0.5 * off) ** 2
-        square = square + np.sin(self.angle) * across * np.sin(0.5 * beyond) ** 2
+        off, turn, past, short, beyond, square = self._nearest(points)
         near = np.argmin(square, axis=1)
         row = np.arange(len(points))
         away = 2.0 * np.arcsin(np.sqrt(np.minimum(square[row, near], 1.0)))
@@ -91,6 +105,23 @@ class SphereArcs:
         end = np.where(at_start, 0.0, self.sweep[near])
         foot = np.where(past[row, near] <= 0.0, turn[row, near], end)
         return np.where(outside, away, -away), self.at(near, foot)
+
+    def distances(self, points: Array) -> Array:
+        """Distances of points (n, 3) from each arc, radians, (n, k)."""
+        square = self._nearest(points).square
+        out: Array = 2.0 * np.arcsin(np.sqrt(np.minimum(square, 1.0)))
+        return out
+
+    def _nearest(self, points: Array) -> _Nearest:
+        """The nearest points of each arc to points (n, 3)."""
+        along, sideways = points @ self.x.T, points @ self.y.T
+        across = np.hypot(along, sideways)
+        off = np.arctan2(across, points @ self.axis.T) - self.angle
+        turn = np.remainder(np.arctan2(sideways, along), 2.0 * np.pi)
+        past, short = turn - self.sweep, 2.0 * np.pi - turn
+        beyond = np.where(past <= 0.0, 0.0, np.minimum(past, short))
+        square = half_chords(off, np.sin(self.angle) * across, beyond)
+        return _Nearest(off, turn, past, short, beyond, square)
 
     def facing(self, which: NDArray[np.intp], towards: Array) -> tuple[NDArray[np.intp], Array]:
         """Points of some of the arcs that face directions (n, 3), or face away from them.

@@ -141,9 +141,9 @@ def part_drawing(model: PartsModel, part: str, tolerance_mm: float, curves: str)
     own = PARTS[part]
     drawing: Drawing
     if own.flat is None or _in_plane(model.mechanism):
-        drawing = _loaded(own.drawing)(model.flat(tolerance_mm, curves))
+        drawing = _loaded(own.drawing)(model.flat.within(tolerance_mm, curves))
     else:
-        drawing = _loaded(own.flat)(model.ball(tolerance_mm, curves))
+        drawing = _loaded(own.flat)(model.ball.within(tolerance_mm, curves))
     return drawing._replace(tolerance=tolerance_mm)
 
 
@@ -157,9 +157,9 @@ def part_sheet(model: PartsModel, part: str, tolerance_mm: float, curves: str) -
     own = PARTS[part]
     sheet: Sheet
     if _in_plane(model.mechanism):
-        sheet = _loaded(own.sheet)(model.flat(tolerance_mm, curves))
+        sheet = _loaded(own.sheet)(model.flat.within(tolerance_mm, curves))
     else:
-        sheet = _loaded(own.flat)(model.ball(tolerance_mm, curves))
+        sheet = _loaded(own.flat)(model.ball.within(tolerance_mm, curves))
     return sheet
 
 

@@ -18,17 +18,30 @@ from geneva_cli.parts.sphere.sphere_parts import SphereParts
 
 
 class PartsModel:
-    """The outlines and the full turn of one machine, shared by all who need them.
+    """The outlines, the parts and the full turn of one machine, shared by all who need them.
 
+    ``known`` and ``known_shells`` are its outlines or its shells, if they are computed already.
     Without ``advice`` an error does not name the roller that fits, which takes long to find.
     """
 
     def __init__(
-        self, mechanism: Mechanism, known: Outlines | None = None, advice: bool = True
+        self,
+        mechanism: Mechanism,
+        known: Outlines | None = None,
+        advice: bool = True,
+        known_shells: Shells | None = None,
     ) -> None:
         self.mechanism = mechanism
-        self.known = known
+        self.known, self.known_shells = known, known_shells
         self.advice = advice
+
+    def over(self, mechanism: Mechanism) -> PartsModel:
+        """Return the model of a machine whose parts have the same outlines and positions."""
+        drive = mechanism.spec.drive
+        assembly = self.parts.assembly._replace(full=mechanism, to_input=drive.input_deg)
+        if mechanism.spec.wheel.FLAT:
+            return PartsModel(mechanism, self.outlines.over(assembly), self.advice)
+        return PartsModel(mechanism, None, self.advice, self.shells.over(assembly))
 
     @cached_property
     def assembly(self) -> Assembly:
@@ -53,16 +66,22 @@ class PartsModel:
     @cached_property
     def shells(self) -> Shells:
         """The shells of a machine on a sphere; raises GenevaError where the sizes leave none."""
-        return shells(self.mechanism, self.advice)
+        return self.known_shells or shells(self.mechanism, self.advice)
 
-    def flat(self, tolerance: float | None = None, curves: str = "arcs") -> FlatParts:
-        """Return the parts of a flat machine, with curves of a kind within a tolerance in mm."""
-        outlines = self.outlines if self.mechanism.spec.is_flat else None
-        return FlatParts(self.mechanism, outlines, tolerance, curves)
+    @cached_property
+    def flat(self) -> FlatParts:
+        """The parts of a flat machine, as accurate as the checks need them."""
+        return FlatParts(self.mechanism, self.outlines if self.mechanism.spec.is_flat else None)
 
-    def ball(self, tolerance: float = 0.0, curves: str = "arcs") -> SphereParts:
-        """Return the parts of a machine on a sphere; drawings lay them flat within a tolerance."""
-        return SphereParts(self.shells, tolerance, curves)
+    @cached_property
+    def ball(self) -> SphereParts:
+        """The parts of a machine on a sphere."""
+        return SphereParts(self.shells)
+
+    @property
+    def built(self) -> FlatParts | SphereParts:
+        """The parts that the checks at rest measure."""
+        return self.flat if self.mechanism.spec.wheel.FLAT else self.ball
 
     @property
     def parts(self) -> MachineParts:

@@ -29,7 +29,6 @@ from geneva_cli.outlines.sphere_wheel import POLE
 from geneva_cli.spec.schema import Points, fields
 from geneva_cli.table import Reading, Table, rows_table
 
-ACROSS = ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0))  # axes along which a shell's size is measured
 # columns of a row of each kind
 KINDS = {
     "part": (
@@ -78,11 +77,11 @@ def _parts(model: PartsModel) -> Iterator[Row | Missing]:
     missing: list[Missing] = []
 
     def shells() -> Iterator[Row]:
-        parts = model.ball()
+        parts = model.ball
         yield from part_rows(spec, built_of(parts.by_name(), missing), parts.ball.span_mm[1])
 
     def plates() -> Iterator[Row]:
-        yield from part_rows(spec, built_of(model.flat().by_name(), missing))
+        yield from part_rows(spec, built_of(model.flat.by_name(), missing))
 
     if not spec.wheel.FLAT:
         yield from or_missing("wheel and crank", shells)
@@ -127,7 +126,8 @@ def _properties(solid: Plate | Shell, density: float, outside: float | None) -> 
             row = {"centroid_x_mm": x, "centroid_y_mm": y}
     else:
         low, high = solid.inner, solid.outer
-        wide, deep = (solid.reach(axis) + solid.reach(opposite(axis)) for axis in ACROSS)
+        across = (1.0, 0.0, 0.0), (0.0, 1.0, 0.0)  # axes along which its size is measured
+        wide, deep = (solid.reach(axis) + solid.reach(opposite(axis)) for axis in across)
         mass, inertia = density * solid.volume * MM**3, density * solid.inertia(POLE) * MM**5
     thickness = high - low
     if outside is not None:
@@ -167,7 +167,7 @@ def _dimensions(model: PartsModel) -> Iterator[Row | Missing]:
     ]
     entries += [d for d in spec.wheel.layout if isinstance(d, Dimension)]
     if not spec.wheel.FLAT:
-        entries += or_missing("dimensions of the shells", lambda: dimensions(model.ball()))
+        entries += or_missing("dimensions of the shells", lambda: dimensions(model.ball))
     if mechanism.law is None and spec.drive.CRANKED:
         entries += _straight(mechanism)
     elif spec.drive.CRANKED:

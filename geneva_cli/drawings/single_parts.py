@@ -11,9 +11,6 @@ from geneva_cli.layout.alike import alike
 from geneva_cli.layout.missing import Missing, built_of
 from geneva_cli.layout.projection import titled
 
-# layers of parts that are cut out of plates; the others are turned or bought
-CUT_LAYERS = ("WHEEL", "CRANK", "ARM", "LINK", "GROOVE", "FRAME")
-
 
 class SinglePart(NamedTuple):
     """A kind of part: its name and number, thickness in mm, and drawing with its solid."""
@@ -33,16 +30,21 @@ def single_parts(
     A shell of a sphere has a solid and no outline.
     """
     spec, missing = model.mechanism.spec, list[Missing]()
-    parts = list(built_of(model.flat(tolerance_mm, curves).by_name(), missing))
+    parts = list(built_of(model.flat.within(tolerance_mm, curves).by_name(), missing))
     if not spec.wheel.FLAT:
-        parts = [*built_of(model.ball(tolerance_mm, curves).by_name(), missing), *parts]
+        parts = [*built_of(model.ball.within(tolerance_mm, curves).by_name(), missing), *parts]
     return [_single(model, kind[0], len(kind), tolerance_mm) for kind in alike(parts)], missing
 
 
 def _single(model: PartsModel, solid: Plate | Shell, count: int, tolerance_mm: float) -> SinglePart:
     title = titled(model.mechanism, solid.name)
-    flat = isinstance(solid, Plate)
     shapes = (solid.outline, *solid.holes) if isinstance(solid, Plate) else ()
     thickness = solid.thickness if isinstance(solid, Plate) else solid.outer - solid.inner
     drawing = Drawing(title, shapes, solid=solid, tolerance=tolerance_mm)
-    return SinglePart(solid.name, count, thickness, flat and solid.layer in CUT_LAYERS, drawing)
+    cut = isinstance(solid, Plate) and is_cut(solid)
+    return SinglePart(solid.name, count, thickness, cut, drawing)
+
+
+def is_cut(plate: Plate) -> bool:
+    """Return True for a part that is cut out of a plate; others are turned or bought."""
+    return plate.layer in ("WHEEL", "CRANK", "ARM", "LINK", "GROOVE", "FRAME")

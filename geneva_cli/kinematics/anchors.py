@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, TypeAlias
 
 from geneva_cli.kinematics.engagement import Anchor
 from geneva_cli.numerics.arrays import SINGLE, are_alike, are_designs, array, chosen, picked
+from geneva_cli.numerics.batchable import Batchable
 from geneva_cli.numerics.jet import Jet, Number, piecewise
 from geneva_cli.numerics.stacks import Stack, can_stack
 
@@ -19,7 +20,7 @@ if TYPE_CHECKING:
 Solve: TypeAlias = "Callable[[Anchor, Number], Jet]"
 
 
-class Anchors(ABC):
+class Anchors(Batchable, ABC):
     """Anchors from entry to exit, with mid-motion in the middle.
 
     The anchors of both ends serve only near the ends, where the motion vanishes. ``cuts`` are the

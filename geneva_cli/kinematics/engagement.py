@@ -15,6 +15,7 @@ from typing import TYPE_CHECKING, ClassVar, Generic, NamedTuple, Protocol, TypeA
 
 from geneva_cli.numerics.angles import radians
 from geneva_cli.numerics.arrays import all_true, array, blocks, library
+from geneva_cli.numerics.batchable import Batchable
 from geneva_cli.numerics.jet import Jet, Number, sin_cos, turning
 from geneva_cli.numerics.memory import keep_freed_memory
 
@@ -121,7 +122,7 @@ class Level(Protocol):
         """Position ``tau`` input radians after mid-motion."""
 
 
-class Slot(ABC):
+class Slot(Batchable, ABC):
     """The curve in the wheel's own frame along which the pin runs: the slot's pitch curve."""
 
     # True for a curve that was solved for: it has two branches and its own walls.
@@ -143,6 +144,11 @@ class Slot(ABC):
     @abstractmethod
     def __call__(self, input_deg: Number, order: int = 3) -> tuple[Jet, Jet]:
         """Pin (x, y) in the wheel's frame; on a sphere its polar angle in the flat development."""
+
+    @property
+    def seams_deg(self) -> tuple[float, ...]:
+        """Input angles, degrees, at which another formula takes over, but for the motion's own."""
+        return ()
 
     def axis(self, input_deg: Number, order: int = 0) -> SlotAxis | None:
         """Lever and speed of a straight slot at input angles; None for a curved slot."""
@@ -174,7 +180,7 @@ class ClosedPeaks(Protocol):
         """Peak of a quantity, or None if it needs the general search."""
 
 
-class WheelMotion(ABC):
+class WheelMotion(Batchable, ABC):
     """The wheel's angle as the input turns, from rest to rest."""
 
     # motion law, if a law gives the motion
@@ -230,6 +236,11 @@ class WheelMotion(ABC):
 
         None if there is neither; in a batch NaN for each design that has neither.
         """
+        return None
+
+    @property
+    def unit(self) -> WheelMotion | None:
+        """One design's motion that each of a batch is in another scale of angles; else None."""
         return None
 
     def derivatives(self, input_deg: Array, orders: Sequence[int] = (0, 1, 2, 3)) -> list[Array]:
@@ -295,7 +306,7 @@ class Carrier(NamedTuple):
 ARM = Carrier()
 
 
-class Engagement:
+class Engagement(Batchable):
     """Pin path, slot and motion of one roller in one slot.
 
     ``mid_deg`` is the machine's input angle at its mid-motion.

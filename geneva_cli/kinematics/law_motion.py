@@ -50,6 +50,11 @@ class LawMotion(WheelMotion):
         inner = sorted({0.5, *self.law.knots})
         return (self.entry_deg, *[self.entry_deg + u * whole for u in inner], self.exit_deg)
 
+    @property
+    def unit(self) -> LawMotion | None:
+        """The law over a step of 1 radian in a motion of 2 degrees, if all designs have one law."""
+        return None if self.law.varies else LawMotion(-1.0, 1.0, 0.5, self.law)
+
     def __call__(self, input_deg: Number, order: int = 3) -> Jet:
         """Wheel angle with its derivatives; each half of the law is computed from its own end."""
         return self._latest(self._halves, input_deg, order)[0]

@@ -12,10 +12,11 @@ from geneva_cli.kinematics.engagement import (
 )
 from geneva_cli.kinematics.law_motion import LawMotion
 from geneva_cli.kinematics.laws.law import Law
+from geneva_cli.numerics.batchable import Batchable
 from geneva_cli.numerics.jet import Jet, Number
 
 
-class MiddlePath:
+class MiddlePath(Batchable):
     """The pin's path, written about mid-motion.
 
     ``mirrored`` is True if its second half is the mirror image of its first.

@@ -21,6 +21,7 @@ from geneva_cli.kinematics.engagement import (
 from geneva_cli.kinematics.wheels import classic
 from geneva_cli.numerics.angles import radians
 from geneva_cli.numerics.arrays import library, parameter
+from geneva_cli.numerics.batchable import Batchable
 from geneva_cli.numerics.jet import Jet, Number, atan2, sin_cos, sqrt, turning
 from geneva_cli.numerics.latest import Latest
 
@@ -30,7 +31,7 @@ if TYPE_CHECKING:
 END_DEG = 0.05  # nearer than this to entry or exit, angle and velocity keep their relative accuracy
 
 
-class AnchoredPath:
+class AnchoredPath(Batchable):
     """A pin path written about several anchors: entry, mid-motion, exit, and others between.
 
     Each input angle uses the nearest anchor. ``ahead`` is the angle from the line of centres to the

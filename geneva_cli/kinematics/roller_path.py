@@ -8,6 +8,7 @@ from decimal import Decimal
 from typing import TYPE_CHECKING, Protocol, TypeGuard, cast
 
 from geneva_cli.numerics.arrays import array, parameter
+from geneva_cli.numerics.batchable import Batchable
 from geneva_cli.numerics.jet import Jet, Number, sin_cos
 from geneva_cli.spec.rules import is_array
 
@@ -32,7 +33,7 @@ def exactly(x: Decimal | Long) -> float:
     return cast(float, x)
 
 
-class RollerPath(ABC):
+class RollerPath(Batchable, ABC):
     """A roller's closed path about the crank's axis, in millimetres.
 
     ``rough`` holds its numbers: floats, or arrays (n, 1) of a batch. ``exact`` holds them as

@@ -15,6 +15,7 @@ from functools import cached_property
 from geneva_cli.kinematics.engagement import Slot, SlotAxis
 from geneva_cli.kinematics.law_motion import LawMotion
 from geneva_cli.numerics.angles import radians
+from geneva_cli.numerics.batchable import Batchable
 from geneva_cli.numerics.jet import Jet, Number, piecewise, sin_cos
 from geneva_cli.numerics.latest import Latest
 
@@ -25,12 +26,20 @@ NEAR, TERMS = 1.0 / 30.0, 15
 NEAR_SPLINE_DEG, SPLINE_TERMS = 0.06, 5
 
 
-class SolvedPath:
+class SolvedPath(Batchable):
     """The roller's path in the fixed frame; ``sign`` is +1 outside, -1 inside."""
 
     def __init__(self, motion: LawMotion, sign: float) -> None:
         self.motion, self.sign = motion, sign
         self._latest = Latest()
+
+    @cached_property
+    def seams_deg(self) -> tuple[float, float]:
+        """Input angles between which the series about mid-motion is used, degrees."""
+        motion = self.motion
+        wide = motion.exit_deg - motion.entry_deg
+        near = NEAR * wide if motion.law.ANALYTIC else NEAR_SPLINE_DEG
+        return -near, near
 
     def distances(self, input_deg: Number, order: int = 3) -> tuple[Jet, Jet]:
         """Roller distances from the wheel's axis and from the crank's, in units of L."""
@@ -38,9 +47,6 @@ class SolvedPath:
         return rho, R
 
     def _distances(self, input_deg: Number, order: int) -> tuple[Jet, Jet]:
-        motion = self.motion
-        wide = motion.exit_deg - motion.entry_deg
-        near = NEAR * wide if motion.law.ANALYTIC else NEAR_SPLINE_DEG
 
         def whole(x: Number) -> Jet:
             return _stacked(*self._by_sines(x, order))
@@ -48,7 +54,7 @@ class SolvedPath:
         def middle(x: Number) -> Jet:
             return _stacked(*self._by_series(x, order))
 
-        both = piecewise(input_deg, (-near, near), (whole, middle, whole)).c
+        both = piecewise(input_deg, self.seams_deg, (whole, middle, whole)).c
         return Jet(both[: order + 1]), Jet(both[order + 1 :])
 
     def _by_sines(self, x: Number, order: int) -> tuple[Jet, Jet]:
@@ -115,6 +121,11 @@ class SolvedPathSlot(Slot):
 
     def __init__(self, path: SolvedPath) -> None:
         self.path = path
+
+    @property
+    def seams_deg(self) -> tuple[float, ...]:
+        """Input angles at which another formula of the path takes over, degrees."""
+        return self.path.seams_deg
 
     def __call__(self, input_deg: Number, order: int = 3) -> tuple[Jet, Jet]:
         """Pin (x, y) in the wheel, on the slot's straight axis."""

@@ -33,6 +33,8 @@ from geneva_cli.errors import GenevaError, marking
 from geneva_cli.kinematics.motion import Motion
 from geneva_cli.machine.mechanism import Mechanism, build
 from geneva_cli.machine.spec import Spec, attribute
+from geneva_cli.numerics.arrays import record_of
+from geneva_cli.numerics.batchable import Batchable
 from geneva_cli.numerics.latest import Latest
 from geneva_cli.numerics.memory import keep_freed_memory
 from geneva_cli.spec.schema import Field, Points, SpecTable, fields, unknown
@@ -88,7 +90,8 @@ def many(spec: Spec, varied: Mapping[str, object]) -> Many:
     columns = {**varied, **{key: values[:, None] for key, values in arrays.items()}}
     with np.errstate(all="ignore"), marking() as marks:
         try:
-            machine = build(changed(spec, columns))._replace(design=_numbers(n)) if n else None
+            numbers = np.arange(n)[:, None]
+            machine = build(changed(spec, columns))._replace(design=numbers) if n else None
         except GenevaError:  # the error is the same for all designs
             machine = None
     refused = np.full(n, machine is None)
@@ -97,11 +100,6 @@ def many(spec: Spec, varied: Mapping[str, object]) -> Many:
     if machine is None or refused.all():
         return Many(None, np.full(n, True))
     return Many(taken(machine, ~refused) if refused.any() else machine, refused)
-
-
-def _numbers(n: int) -> int:
-    """Numbers of n designs, (n, 1), so that the batch keeps its size if nothing else varies."""
-    return cast("int", np.arange(n)[:, None])
 
 
 def may_vary(spec: Spec, key: str) -> bool:
@@ -187,27 +185,23 @@ def _changed(thing: object, change: Change, done: dict[int, object]) -> object:
 
 
 def _anew(thing: object, change: Change, done: dict[int, object]) -> object:
-    kind: type = type(thing)
     if isinstance(thing, (tuple, list)):
         parts = [_changed(part, change, done) for part in thing]
         if all(a is b for a, b in zip(parts, thing, strict=True)):
             return thing
-        return kind(parts) if kind in (tuple, list) else kind(*parts)
+        return parts if isinstance(thing, list) else record_of(thing, parts)
     old = vars(thing)
     values = {name: _changed(value, change, done) for name, value in old.items()}
     if all(values[name] is value for name, value in old.items()):
         return thing
-    new: object = object.__new__(kind)
+    new: object = object.__new__(type(thing))
     for name, value in values.items():  # a stored result belongs to the old set of designs
         vars(new)[name] = Latest() if isinstance(value, Latest) else value
     return new
 
 
-@cache
+@cache  # by type: most of what a machine holds is None or a number
 def _may_hold(kind: type) -> bool:
-    """True for types of a machine or of its spec, whose numbers may be arrays."""
-    if issubclass(kind, Points):
-        return False
-    rooms = ("kinematics", "linkage", "machine", "spec")
-    ours = kind.__module__.startswith(tuple(f"geneva_cli.{room}." for room in rooms))
-    return ours or issubclass(kind, (tuple, list))
+    """True for tables of a spec, for what is built from them, and for records of both."""
+    holders = SpecTable, Spec, Batchable, tuple, list
+    return issubclass(kind, holders) and not issubclass(kind, Points)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 from geneva_cli.kinematics.drive import Plan
 from geneva_cli.kinematics.engagement import Engagement
@@ -14,6 +14,9 @@ from geneva_cli.machine.spec import Spec
 from geneva_cli.machine.tolerance_rules import refuse_tolerances
 from geneva_cli.numerics.arrays import choose, designs_of, larger, library
 from geneva_cli.numerics.tolerances import SAME_INPUT_DEG
+
+if TYPE_CHECKING:
+    from geneva_cli.numerics.arrays import Whole
 
 
 class Mechanism(NamedTuple):
@@ -29,7 +32,9 @@ class Mechanism(NamedTuple):
     ratio: float  # l = R/L
     rollers_max: int  # most evenly spaced rollers that do not jam
     center_distance_mm: float  # L, from the spec or solved for
-    design: int = 0  # the design's number in its batch: (m, 1) of a batch of m designs
+    # The number of the design in its batch, for a batch of m designs (m, 1). So a batch keeps its
+    # size if nothing else varies.
+    design: int | Whole = 0
 
     @property
     def designs(self) -> int:

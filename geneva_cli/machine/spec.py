@@ -28,6 +28,7 @@ from geneva_cli.spec.tables import (
     Load,
     Mass,
     Motor,
+    Product,
     RollerMaterial,
     Shaft,
     Size,
@@ -109,6 +110,7 @@ class Spec:
     material_wheel: WheelMaterial = field(default_factory=WheelMaterial)
     material_roller: RollerMaterial = field(default_factory=RollerMaterial)
     tolerance: Tolerance = field(default_factory=Tolerance)
+    product: Product = field(default_factory=Product)
     limits: Limits = field(default_factory=Limits)
     drawing: TitleBlock = field(default_factory=TitleBlock)
     title: str = ""
@@ -129,6 +131,12 @@ class Spec:
         for limit, (key, of, what) in NEEDED.items():
             if limits[limit] is not None and self.table(of)[key] is None:
                 raise GenevaError(f"{limit} needs {what}: set {key} in [{of}]", ("limits", limit))
+        if self.limits.product_acceleration_max_m_s2 is not None and not self.product.lies:
+            raise GenevaError(
+                "product_acceleration_max_m_s2 needs the product's place: set radius_mm in "
+                "[product]",
+                ("limits", "product_acceleration_max_m_s2"),
+            )
         for key in LOADED:
             if limits[key] is not None:
                 refuse(self._unloaded, partial(_no_load, key))

@@ -240,7 +240,12 @@ def blocks(count: int, size: int) -> list[slice]:
     return [slice(i, min(i + size, count)) for i in range(0, count, size)] or [slice(0, 0)]
 
 
-def are_alike(records: Sequence[object]) -> bool:
+def is_plain(one: object) -> bool:
+    """Return True for a Python number."""
+    return isinstance(one, _PLAIN)
+
+
+def are_alike(records: Sequence[object], is_number: Callable[[object], bool] = is_plain) -> bool:
     """Return True if records differ in numbers only, as ``picked`` requires.
 
     >>> are_alike(((1.0, len), (2.0, len))), are_alike(((1.0, len), (2.0, max)))
@@ -250,8 +255,8 @@ def are_alike(records: Sequence[object]) -> bool:
     if all(one is first for one in records):
         return True
     if isinstance(first, tuple):
-        return all(map(are_alike, zip(*records, strict=True)))
-    return all(isinstance(one, _PLAIN) for one in records)
+        return all(are_alike(each, is_number) for each in zip(*records, strict=True))
+    return all(map(is_number, records))
 
 
 def are_designs(x: Number, *numbers: Number) -> bool:
@@ -310,7 +315,7 @@ def _are_alike(one: Number, other: Number) -> bool:
     return both and one.shape == other.shape and one.dtype == other.dtype
 
 
-def designs_of(design: int) -> int:
+def designs_of(design: int | Whole) -> int:
     """The number of designs in a batch, from its designs' numbers: (m, 1), or one number.
 
     A batch carries these numbers, as its varied values need not be arrays.

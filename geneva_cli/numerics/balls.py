@@ -21,8 +21,6 @@ from flint import arb, ctx, fmpq
 
 from geneva_cli.numerics.arrays import Enclosed, Library, Number, Undecided
 
-BITS = 128  # of a middle: 75 more than a double has, against cancellation in high derivatives
-
 
 def _operator(f: Callable[[arb, arb], arb]) -> Callable[[Ball, Ball | float], Ball]:
     """An operator of a ball and a number; a jet, for one, brings its own."""
@@ -67,6 +65,11 @@ class Ball(Enclosed):
         return cls(arb(a).union(arb(b)))
 
     @property
+    def centre(self) -> Ball:
+        """The ball of its exact middle."""
+        return Ball(self.arb.mid())
+
+    @property
     def middle(self) -> float:
         """Middle, to the nearest double."""
         return float(self.arb.mid())
@@ -95,10 +98,21 @@ class Ball(Enclosed):
         return (self.arb > 0) - (self.arb < 0)
 
     def meet(self, other: Ball) -> Ball:
-        """Intersection of two balls that hold one number; an unbounded ball adds nothing."""
+        """Intersection of two balls that hold one number; an unbounded ball adds nothing.
+
+        Two balls without a common number are of two formulas that meet within ``REACH``: their hull
+        holds both.
+        """
         if not other.is_finite:
             return self
-        return Ball(self.arb.intersection(other.arb)) if self.is_finite else other
+        if not self.is_finite:
+            return other
+        overlap = self.arb.overlaps(other.arb)
+        return Ball(self.arb.intersection(other.arb)) if overlap else self.join(other)
+
+    def join(self, other: Ball) -> Ball:
+        """Hull of two balls, which holds the numbers of both."""
+        return Ball(self.arb.union(other.arb))
 
     def piece(self, cuts: Sequence[float]) -> int:
         """Number of the piece between ``cuts`` that holds its middle.
@@ -163,8 +177,9 @@ class Ball(Enclosed):
 
 @contextmanager
 def precision() -> Iterator[None]:
-    """Compute with ``BITS`` bits meanwhile."""
-    with ctx.workprec(BITS):
+    """Compute with middles of 128 bits meanwhile."""
+    # 75 more than a double has, against cancellation in high derivatives
+    with ctx.workprec(128):
         yield
 
 
@@ -215,6 +230,7 @@ class _Balls:
 
 
 Ball.library = cast("Library", _Balls())
+NOWHERE = Ball.exact(math.nan)  # a number of which no bound is known
 
 
 def ball_of(x: Number) -> Ball:

@@ -19,7 +19,7 @@ from itertools import pairwise
 from typing import NamedTuple, TypeAlias
 
 from geneva_cli.numerics.arrays import Undecided
-from geneva_cli.numerics.balls import Ball
+from geneva_cli.numerics.balls import NOWHERE, Ball
 from geneva_cli.numerics.tolerances import TIE
 
 # Taylor coefficients 0 to order at a ball of degrees, by the angle in radians
@@ -29,9 +29,6 @@ ORDER = 5
 # An end of a piece is a double that rounding may have moved: by 8 units in the last place of 180
 # degrees at most. Pieces overlap by as much, so that no angle is left out.
 EDGE_DEG = 2.0**-42
-# Of a piece: a shorter interval is not halved, but left open. It is long enough for a seam inside,
-# that should have been known, to be seen (``arrays.Enclosed.REACH``).
-SHORTEST = 2.0**-30
 
 
 class Interval(NamedTuple):
@@ -175,8 +172,13 @@ class _Search:
             if high <= self.low * (1.0 + 1e-15):
                 self.found.append(Interval(a, b, high))
                 return
-        if b - a < max(SHORTEST * (piece.end - piece.start), 4.0 * EDGE_DEG):
-            self.stuck.append(Interval(a, b, high))
+        # A shorter fraction of a piece is not halved, but left open. It is long enough for a seam
+        # inside, that should have been known, to be seen (``arrays.Enclosed.REACH``).
+        if b - a < max(2.0**-30 * (piece.end - piece.start), 4.0 * EDGE_DEG):
+            # A jump has no derivatives. Its bound lies above the values beside it by their slope
+            # times the shortest interval: for loads by 1e-8 of them.
+            settled = self.found if high <= self.low * (1.0 + 1e-6) else self.stuck
+            settled.append(Interval(a, b, high))
             return
         middle = 0.5 * (a + b)
         self._wait(piece, a, middle, high)
@@ -240,11 +242,11 @@ class _Search:
 
     def _on(self, a: float, b: float) -> _Enclosure | None:
         """Enclosures on an interval by Taylor's theorem; None if the function has no bound."""
-        middle = 0.5 * (a + b)
-        half = max(b - middle, middle - a) * (1.0 + 2.0**-52)
-        t = Ball.between(-half, half) * (Ball.library.pi / 180.0)
-        thin = self._values(Ball.exact(middle), ORDER - 1)
-        thick = self._values(Ball.between(a, b), ORDER)
+        # Both at the exact middle: a double beside it may belong to the formula beyond a seam.
+        on = Ball.between(a, b)
+        t = Ball.between(-on.radius, on.radius) * (Ball.library.pi / 180.0)
+        thin = self._values(on.centre, ORDER - 1)
+        thick = self._values(on, ORDER)
         c = [*thin, thick[ORDER]]
         sums = (
             _sum(c, t).meet(thick[0]),
@@ -252,9 +254,6 @@ class _Search:
             _sum([k * (k - 1) * v for k, v in enumerate(c)][2:], t).meet(2 * thick[2]),
         )
         return _Enclosure(thin[0], *sums) if sums[0].is_finite else None
-
-
-NOWHERE = Ball.exact(math.nan)
 
 
 def _sum(coefficients: Sequence[Ball], t: Ball) -> Ball:

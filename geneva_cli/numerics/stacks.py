@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING, Generic, cast
 
-from geneva_cli.numerics.arrays import Record, record_of
+from geneva_cli.numerics.arrays import Record, are_alike, record_of
 
 if TYPE_CHECKING:
     from geneva_cli.numerics.arrays import Array, Whole
@@ -13,16 +13,8 @@ if TYPE_CHECKING:
 
 def can_stack(records: Sequence[object]) -> bool:
     """Return True if records differ in numbers only, some of which are arrays (n, 1)."""
-    return _differ_in_numbers(records) and any(True for _ in _columns(tuple(records)))
-
-
-def _differ_in_numbers(records: Sequence[object]) -> bool:
-    first = records[0]
-    if all(one is first for one in records):
-        return True
-    if isinstance(first, tuple):
-        return all(map(_differ_in_numbers, zip(*records, strict=True)))
-    return all(isinstance(one, float) or _is_column(one) for one in records)
+    alike = are_alike(records, lambda one: isinstance(one, float) or _is_column(one))
+    return alike and any(True for _ in _columns(tuple(records)))
 
 
 def _columns(record: object) -> Iterator[Array]:

@@ -1,1 +1,1 @@
-"""Outlines of wheel and crank, and the certificate of their turn."""
+"""Outlines of wheel and crank, and bounds of the gaps between them."""

@@ -27,14 +27,14 @@ from geneva_cli.curves.shapes import (
 from geneva_cli.errors import GenevaError
 from geneva_cli.kinematics.engagement import Engagement
 from geneva_cli.layout.assembly import Assembly
-from geneva_cli.layout.reliefs import followed, reliefs
+from geneva_cli.layout.reliefs import sectors
 from geneva_cli.layout.roller_paths import rest
 from geneva_cli.layout.sizes import Sizes
 from geneva_cli.numerics.arrays import scalar
-from geneva_cli.numerics.tolerances import CLEARLY, SAME_ANGLE, SAME_LENGTH
+from geneva_cli.numerics.tolerances import CLEARLY, SAME_LENGTH
 from geneva_cli.outlines.crank import is_whole
 from geneva_cli.outlines.locking_rings import LAYER as DISC
-from geneva_cli.outlines.locking_rings import LOCK_FRACTIONS, beyond, polar_points
+from geneva_cli.outlines.locking_rings import beyond, polar_points, widest
 from geneva_cli.outlines.outlines import CURVED, SWEPT_DEG, Outlines, slot_walls
 from geneva_cli.outlines.relief_overlap import corners
 from geneva_cli.outlines.walls.curved import mirrored
@@ -116,17 +116,15 @@ def _sectors(assembly: Assembly, sizes: Sizes) -> list[Contour]:
     x, y = np.concatenate([corners(assembly, sizes, each) for each in at], axis=1)
     within = CLEARLY * np.hypot(x, y) < sizes.lock
     x, y = x[within], y[within]
-    contours = []
-    for one, after in followed(reliefs(assembly)):
-        if after - one.end <= SAME_ANGLE:
-            continue
-        whole, middle = 0.5 * (after - one.end), 0.5 * (after + one.end)
+
+    def sector(start: float, end: float) -> Contour:
+        middle = 0.5 * (end + start)
         wheel = polar_points(x, y, middle)
-        wide = (fraction * whole for fraction in LOCK_FRACTIONS)
-        half = next((each for each in wide if not beyond(sizes, wheel, each)), None)
+        half = widest(0.5 * (end - start), lambda half: not beyond(sizes, wheel, half))
         if half is None:
             raise GenevaError("nothing is left of a locking sector", ("size", "lock_radius_mm"))
         outer = about((0.0, 0.0), sizes.lock, middle - half, 2.0 * half)
         edges = Line(outer.end, (0.0, 0.0)), Line((0.0, 0.0), outer.start)
-        contours.append(closed(DISC, [outer, *edges]))
-    return contours
+        return closed(DISC, [outer, *edges])
+
+    return [sector(*span) for span in sectors(assembly)]

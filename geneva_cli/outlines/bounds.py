@@ -10,43 +10,57 @@ them.
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from geneva_cli.collisions.gaps import turned_points
-from geneva_cli.collisions.settled import Bounds, Intervals
+from geneva_cli.collisions.gaps import Gaps, turned_points
+from geneva_cli.collisions.pairs import Bounds, Intervals, Pair, raised
 from geneva_cli.curves.extents import farthest, from_segments, near_segments, short_pieces
 from geneva_cli.outlines.travel import Travel, path_travel, slot_travel
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from geneva_cli.collisions.play import Window
+    from geneva_cli.collisions.pairs import Window
+    from geneva_cli.curves.shapes import Contour
     from geneva_cli.kinematics.engagement import Engagement
     from geneva_cli.numerics.jet import Array
-    from geneva_cli.outlines.outlines import Outlines
 
-STEP = math.radians(1.0)  # of the crank's arcs: pieces that are tested for being in the wheel
 AXIS = np.zeros((1, 2))
 
 
-class Reach:
-    """Distances of the parts from their axes, mm."""
+class FlatPairs:
+    """Pairs of flat parts, and the distances of parts from their axes, mm."""
 
-    def __init__(self, parts: Outlines, target: float) -> None:
-        self.parts, self.target = parts, target
+    def __init__(self, gaps: Gaps, crank: Sequence[Contour], target: float) -> None:
+        self.gaps, self.crank, self.target = gaps, crank, target
         self._paths: dict[Engagement, Travel] = {}
-        outside, wheel = parts.assembly.sign > 0.0, parts.gaps.wheel
+        outside, wheel = gaps.assembly.sign > 0.0, gaps.wheel
         # The circle about the wheel's axis that the wheel reaches, or an internal wheel leaves.
         self.rim = float(farthest(wheel, AXIS).max() if outside else wheel.signed(AXIS)[0])
 
     def path(self, engagement: Engagement) -> Travel:
         """Return the travel of an engagement's roller, which several rollers share."""
         if engagement not in self._paths:
-            turn_deg = self.parts.assembly.turn_deg
+            turn_deg = self.gaps.assembly.turn_deg
             self._paths[engagement] = path_travel(engagement, self.L, turn_deg)
         return self._paths[engagement]
+
+    def lock(self, window: Window) -> Pair:
+        """Return the crank's locking disc and the wheel, in a motion or dwell."""
+        return Lock(self, window)
+
+    def free(self, roller: int, window: Window) -> Pair:
+        """Return a roller and the wheel, outside the slot that the roller drives."""
+        return FreeRoller(self, roller, window)
+
+    def driving(self, roller: int, span: tuple[float, float]) -> Pair:
+        """Return a roller and the wheel, while it is in its slot between two input angles."""
+        engagement, _ = self.gaps.assembly.rollers[roller]
+        slot = CurvedSlot if engagement.slot.curved else StraightSlot
+        return slot(self, roller, span)
 
     @property
     def apart(self) -> float:
@@ -56,11 +70,11 @@ class Reach:
     @property
     def L(self) -> float:
         """The centre distance."""
-        return self.parts.assembly.L
+        return self.gaps.assembly.L
 
     def beyond(self, points: Array) -> Array:
         """Return the distance of points (n, 2) from the circle of the wheel, mm."""
-        out: Array = self.parts.assembly.sign * (np.hypot(*points.T) - self.rim)
+        out: Array = self.gaps.assembly.sign * (np.hypot(*points.T) - self.rim)
         return out
 
 
@@ -75,21 +89,21 @@ class Segments(NamedTuple):
 class Roller:
     """A roller and the wheel; ``path`` bounds the roller's travel in the fixed frame."""
 
-    def __init__(self, reach: Reach, number: int) -> None:
+    def __init__(self, reach: FlatPairs, number: int) -> None:
         self.reach, self.number = reach, number
-        self.parts = reach.parts
-        engagement, self.behind = self.parts.assembly.rollers[number]
+        self.gaps = reach.gaps
+        engagement, self.behind = self.gaps.assembly.rollers[number]
         self.path = reach.path(engagement)
 
     def own(self, on: Intervals) -> tuple[Array, Array]:
         """Return the ends of intervals as angles of the roller's own engagement."""
-        half, turn = 0.5 * self.parts.assembly.turn_deg, self.parts.assembly.turn_deg
+        half, turn = 0.5 * self.gaps.assembly.turn_deg, self.gaps.assembly.turn_deg
         start = (on.start - self.behind + half) % turn - half
         return start, start + (on.end - on.start)
 
     def centre(self, input_deg: Array) -> Array:
         """Return the centre in the wheel's frame at input angles, (n, 2)."""
-        assembly = self.parts.assembly
+        assembly = self.gaps.assembly
         return turned_points(assembly.pin(self.number, input_deg), -assembly.wheel(input_deg))
 
     def travel(self, on: Intervals, centre: Array) -> Array:
@@ -99,7 +113,7 @@ class Roller:
 
     def gap(self, on: Intervals) -> Array:
         """Return the gap to the wheel in the middle of intervals."""
-        gap: Array = self.parts.gaps.rollers(self.parts.gaps.pose(on.middle))[:, self.number]
+        gap: Array = self.gaps.rollers(self.gaps.pose(on.middle))[:, self.number]
         return gap
 
     def along(self, segments: Segments, centre: Array, gap: Array) -> Array:
@@ -108,14 +122,14 @@ class Roller:
         In the middle of an interval it is at ``centre`` and has the gap ``gap``.
         """
         start, end, aside = segments
-        radius = self.parts.sizes.roller
+        radius = self.gaps.sizes.roller
         off = np.hypot(*(0.5 * (start + end) - centre).T)
         # A segment that is shorter than its middle's distance from the outline does not cross it.
         short = 0.5 * np.hypot(*(end - start).T) < radius + gap - off
         least = np.full(len(gap), -math.inf)
         if short.any():
-            start, end, reach = start[short], end[short], radius + self.parts.gaps.near
-            wheel = near_segments(self.parts.gaps.wheel, start, end, reach)
+            start, end, reach = start[short], end[short], radius + self.gaps.near
+            wheel = near_segments(self.gaps.wheel, start, end, reach)
             free = np.minimum(from_segments(wheel, start, end), reach)
             least[short] = free - aside[short] - radius
         return least
@@ -124,29 +138,33 @@ class Roller:
 class FreeRoller(Roller):
     """A roller outside the slot that it drives: the wheel's outline may be anywhere about it."""
 
+    def __init__(self, reach: FlatPairs, number: int, window: Window) -> None:
+        super().__init__(reach, number)
+        self.rests = window.rests
+
     def __call__(self, on: Intervals) -> Bounds:
         """Return the gap in the middle, less the roller's travel in the wheel's frame.
 
         While the wheel rests, the centre is also near the chord of its path.
         """
         centre = self.centre(on.middle)
-        far = self.reach.beyond(centre) - self.parts.sizes.roller
+        far = self.reach.beyond(centre) - self.gaps.sizes.roller
         gap = np.maximum(self.gap(on), far)
         least = gap - self.travel(on, centre)
-        doubtful = np.flatnonzero((least < self.reach.target) & (on.wheel == 0.0))
-        if len(doubtful):
-            some = Intervals(*(each[doubtful] for each in on))
+
+        def near_chord(which: NDArray[np.intp]) -> Array:
+            some = on.at(which)
             aside = self.path.aside(*self.own(some))
             segments = Segments(self.centre(some.start), self.centre(some.end), aside)
-            chord = self.along(segments, centre[doubtful], gap[doubtful])
-            least[doubtful] = np.maximum(least[doubtful], chord)
-        return Bounds(gap, least)
+            return self.along(segments, centre[which], gap[which])
+
+        return Bounds(gap, raised(least, self.rests & (least < self.reach.target), near_chord))
 
 
 class StraightSlot(Roller):
     """A roller in its own straight slot: its centre is on the slot's axis."""
 
-    def __init__(self, reach: Reach, number: int, span: tuple[float, float]) -> None:
+    def __init__(self, reach: FlatPairs, number: int, span: tuple[float, float]) -> None:
         super().__init__(reach, number)
         ends = np.array([span[0], 0.5 * (span[0] + span[1])])
         self.first, other = self.centre(ends)
@@ -164,9 +182,9 @@ class StraightSlot(Roller):
 class CurvedSlot(Roller):
     """A roller in its own curved slot: its centre is near a chord of the pitch curve."""
 
-    def __init__(self, reach: Reach, number: int, span: tuple[float, float]) -> None:
+    def __init__(self, reach: FlatPairs, number: int, span: tuple[float, float]) -> None:
         super().__init__(reach, number)
-        engagement, self.middle = self.parts.assembly.motions[number]
+        engagement, self.middle = self.gaps.assembly.motions[number]
         self.slot = slot_travel(engagement, reach.L)
 
     def __call__(self, on: Intervals) -> Bounds:
@@ -179,39 +197,40 @@ class CurvedSlot(Roller):
 
 
 class Lock:
-    """The crank's locking disc and the wheel: bounds up to ``Reach.apart``.
+    """The crank's locking disc and the wheel: bounds up to ``FlatPairs.apart``.
 
     The wheel leaves a circle free about the middle of each recess. In the dwell and beside it, the
     part of the crank that is within the wheel's rim lies in that circle.
     """
 
-    def __init__(self, reach: Reach, window: Window) -> None:
+    def __init__(self, reach: FlatPairs, window: Window) -> None:
         self.reach, self.window = reach, window
-        self.pieces = short_pieces(reach.parts.crank, STEP)
+        # arcs of a degree, each of which is tested for being in the wheel
+        self.pieces = short_pieces(reach.crank, math.radians(1.0))
         self.disc = float(farthest(self.pieces, AXIS).max())
 
     def __call__(self, on: Intervals) -> Bounds:
         """Return the better of two bounds: from the gap, and from the recess's circle."""
-        parts, reach = self.reach.parts, self.reach
-        pose = parts.gaps.pose(on.middle)
-        gap = parts.gaps.locking(pose)
-        far = reach.rim if parts.assembly.sign > 0.0 else reach.L + self.disc + reach.apart
+        gaps, reach = self.reach.gaps, self.reach
+        pose = gaps.pose(on.middle)
+        gap = gaps.locking(pose)
+        far = reach.rim if gaps.assembly.sign > 0.0 else reach.L + self.disc + reach.apart
         least = gap - far * on.wheel - (self.disc + reach.apart) * on.crank
-        doubtful = np.flatnonzero(least < reach.target)
-        if len(doubtful):
-            some = Intervals(*(each[doubtful] for each in on))
-            inside = self._in_recess(some, pose.wheel[doubtful], pose.crank[doubtful])
-            least[doubtful] = np.maximum(least[doubtful], inside)
+
+        def in_recess(which: NDArray[np.intp]) -> Array:
+            return self._in_recess(on.at(which), pose.wheel[which], pose.crank[which])
+
+        least = raised(least, least < reach.target, in_recess)
         return Bounds(gap, np.minimum(least, reach.apart))
 
     def _in_recess(self, on: Intervals, wheel: Array, crank: Array) -> Array:
         """Return how far the crank stays within the circle of the nearer recess, mm."""
-        parts, L = self.reach.parts, self.reach.L
+        gaps, L = self.reach.gaps, self.reach.L
         start, end = self.window.start, self.window.end
         nearer = np.where(on.middle - start < end - on.middle, start, end)
         axis = np.repeat([[L, 0.0]], len(wheel), axis=0)
-        middle = turned_points(axis, -parts.assembly.wheel(nearer))
-        free = parts.gaps.wheel.signed(middle)
+        middle = turned_points(axis, -gaps.assembly.wheel(nearer))
+        free = gaps.wheel.signed(middle)
         offset = turned_points(turned_points(middle, wheel) - axis, -crank)
         far = np.where(self._within_rim(crank, on), farthest(self.pieces, offset), 0.0)
         out: Array = free - far.max(axis=1) - L * on.wheel - np.hypot(*offset.T) * on.crank
@@ -222,7 +241,7 @@ class Lock:
         pieces = self.pieces
         c, s = np.cos(crank)[:, None], np.sin(crank)[:, None]
         x, y = self.reach.L + c * pieces.ox - s * pieces.oy, s * pieces.ox + c * pieces.oy
-        beyond = self.reach.parts.assembly.sign * (np.hypot(x, y) - self.reach.rim)
+        beyond = self.reach.gaps.assembly.sign * (np.hypot(x, y) - self.reach.rim)
         moved = self.disc * on.crank[:, None] + self.reach.apart
         out: NDArray[np.bool_] = beyond - pieces.size <= moved
         return out

@@ -44,9 +44,9 @@ def crank_contours(
     The crank carries them next to the wheel's plane. They keep ``spare`` mm more distance from the
     wheel.
     """
-    around = reliefs(assembly)
     if not is_whole(assembly, sizes):
-        return rings(assembly, sizes, around, swept, spare)
+        return rings(assembly, sizes, swept, spare)
+    around = reliefs(assembly)
     if relief == "sector":
         around = merged([_widened(sizes, one, swept) for one in around])
     cut = _arc if relief == "arc" else _sector

@@ -16,7 +16,7 @@ import numpy as np
 from geneva_cli.curves.shapes import Arc, Contour, Line, about, closed
 from geneva_cli.errors import GenevaError
 from geneva_cli.layout.assembly import Assembly
-from geneva_cli.layout.reliefs import Relief, followed
+from geneva_cli.layout.reliefs import sectors
 from geneva_cli.layout.sizes import Sizes
 from geneva_cli.numerics.tolerances import CLEARLY, SAME_ANGLE, SAME_LENGTH
 
@@ -30,8 +30,6 @@ if TYPE_CHECKING:
 LAYER = "CRANK"
 EDGE = 0.035  # radians, two degrees: width of the range that counts as a sector's edge
 THINNEST = 0.1  # least thickness of a locking sector, as a fraction of the disc's radius
-# Fractions of the locking angle; a sector takes the first that clears the wheel.
-LOCK_FRACTIONS = [1.0 - 0.02 * k for k in range(40)]
 
 
 class PolarPoints(NamedTuple):
@@ -60,43 +58,52 @@ def polar_points(x: Array, y: Array, middle: float) -> PolarPoints:
     return PolarPoints(np.hypot(x, y), off)
 
 
-def rings(
-    assembly: Assembly, sizes: Sizes, around: list[Relief], swept: Swept, spare: float
-) -> list[Contour]:
+def rings(assembly: Assembly, sizes: Sizes, swept: Swept, spare: float) -> list[Contour]:
     """Return the sectors between reliefs, each as wide as the wheel leaves it clear.
 
     Raises GenevaError where nothing is left of one.
     """
 
-    def reached(all_points: int) -> tuple[Array, Array]:
-        x, y = zip(*(swept(i, all_points) for i in range(len(assembly.motions))), strict=True)
+    @cache
+    def reached(every: int) -> tuple[Array, Array]:
+        x, y = zip(*(swept(i, every) for i in range(len(assembly.motions))), strict=True)
         return np.concatenate(x), np.concatenate(y)
 
-    some, all_ = reached(16), cache(reached)  # every 16th position shows most collisions
-    limit = (1.0 - THINNEST) * sizes.lock
-    contours = []
-    for one, after in followed(around):
-        if after - one.end <= SAME_ANGLE:
-            continue
-        whole, middle = 0.5 * (after - one.end), 0.5 * (after + one.end)
-        few = polar_points(*towards(*some, middle, whole), middle)
-        all_points = cache(
-            lambda at=middle, half=whole: polar_points(*towards(*all_(1), at, half), at)
-        )
-        for half in (fraction * whole for fraction in LOCK_FRACTIONS):
-            if beyond(sizes, few, half) or beyond(sizes, all_points(), half):
-                continue
-            edge, floor = inner_arc(sizes, half, all_points(), spare)
-            if max(edge, floor) < limit:
-                contours.append(_ring(sizes, middle, half, edge, floor))
-                break
-        else:
+    def ring(start: float, end: float) -> Contour:
+        middle, whole = 0.5 * (end + start), 0.5 * (end - start)
+
+        @cache
+        def wheel(every: int) -> PolarPoints:
+            return polar_points(*towards(*reached(every), middle, whole), middle)
+
+        @cache
+        def arc(half: float) -> tuple[float, float]:
+            return inner_arc(sizes, half, wheel(1), spare)
+
+        def clears(half: float) -> bool:
+            # every 16th position shows most collisions
+            if beyond(sizes, wheel(16), half) or beyond(sizes, wheel(1), half):
+                return False
+            return max(arc(half)) < (1.0 - THINNEST) * sizes.lock
+
+        half = widest(whole, clears)
+        if half is None:
             raise GenevaError(
                 "the wheel sweeps over the whole locking sector: a smaller roller, or another "
                 f"lock_radius_mm than {sizes.lock:.6g}, may leave part of it; 0 omits it",
                 ("size", "lock_radius_mm"),
             )
-    return contours
+        return _ring(sizes, middle, half, *arc(half))
+
+    return [ring(*span) for span in sectors(assembly)]
+
+
+def widest(whole: float, clears: Callable[[float], bool]) -> float | None:
+    """Return half the width of the widest locking sector that clears the wheel, up to ``whole``.
+
+    Steps are a fiftieth of ``whole``. None if none of at least a fifth of it clears the wheel.
+    """
+    return next((half for k in range(40) if clears(half := (1.0 - 0.02 * k) * whole)), None)
 
 
 def beyond(sizes: Sizes, wheel: PolarPoints, half: float) -> bool:

@@ -18,6 +18,7 @@ from geneva_cli.layout.reliefs import has_arcs, without_lock
 from geneva_cli.layout.sizes import Sizes, sizes
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.numerics.tolerances import SAME_LENGTH
+from geneva_cli.outlines.bounds import FlatPairs
 from geneva_cli.outlines.crank import crank_contours, is_whole
 from geneva_cli.outlines.walls.curved import curved_walls
 from geneva_cli.outlines.walls.straight import straight_walls
@@ -73,6 +74,10 @@ class Outlines(NamedTuple):
         far = np.hypot(*self.assembly.driving(motion, at).T)
         past: Array = self.assembly.sign * (level - far)
         return past
+
+    def pairs(self, target: float) -> FlatPairs:
+        """Return the pairs of parts that may meet, with gaps bounded up to ``target`` mm."""
+        return FlatPairs(self.gaps, self.crank, target)
 
     @property
     def relief_depth(self) -> float:

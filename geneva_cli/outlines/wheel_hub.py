@@ -9,14 +9,13 @@ import math
 from collections.abc import Iterable
 
 from geneva_cli.curves.plates import Plate
-from geneva_cli.curves.shapes import Circle, Shape
+from geneva_cli.curves.shapes import ORIGIN, Circle, Shape
 from geneva_cli.layout.assembly import Assembly
 from geneva_cli.layout.sizes import Sizes
 from geneva_cli.outlines.wheel import wheel_circles
 from geneva_cli.spec.tables import Size
 
 HUB = "HUB"
-AXIS = (0.0, 0.0)
 
 
 def wheel_hub(assembly: Assembly, sizes: Sizes) -> Plate | None:
@@ -26,7 +25,7 @@ def wheel_hub(assembly: Assembly, sizes: Sizes) -> Plate | None:
     if not requested or sizes.wheel_hub <= sizes.wheel_bore:
         return None
     bores = about_axis(wheel_circles(assembly, sizes) if sizes.wheel_bore else [])
-    outline = Circle(HUB, AXIS, sizes.wheel_hub)
+    outline = Circle(HUB, ORIGIN, sizes.wheel_hub)
     return Plate("wheel's hub", HUB, outline, bores, -wheel_hub_length(size, sizes), 0.0)
 
 

@@ -6,7 +6,7 @@ import importlib
 import os
 import sys
 from collections.abc import Iterable, Iterator
-from contextlib import contextmanager
+from contextlib import AbstractContextManager, contextmanager
 from itertools import chain
 from typing import TYPE_CHECKING, Any, NamedTuple, Protocol, cast
 
@@ -35,19 +35,28 @@ if TYPE_CHECKING:
 
 
 class Choice(NamedTuple):
-    """The columns that a run shows in its tables: some by name, or all whatever their width."""
+    """The columns that a run shows in its tables: some by name, or all whatever their width.
+
+    ``units`` is mm, or inch for numbers in inches and pounds.
+    """
 
     columns: tuple[str, ...] = ()
     wide: bool = False
+    units: str = "mm"
 
 
-choice = Choice()  # the options --columns and --wide of this run
+choice = Choice()  # the options --columns, --wide and --units of this run
 
 
 @contextmanager
 def choosing(columns: Choice) -> Iterator[None]:
-    """Show tables by this choice of columns within the block."""
+    """Show tables by this choice of columns and units within the block.
+
+    Raises GenevaError for units that are neither mm nor inch.
+    """
     global choice
+    if columns.units not in ("mm", "inch"):
+        raise GenevaError(f"--units {cut(columns.units)}: it must be mm or inch")
     before, choice = choice, columns
     try:
         yield
@@ -55,10 +64,34 @@ def choosing(columns: Choice) -> Iterator[None]:
         choice = before
 
 
+def in_units(units: str) -> AbstractContextManager[None]:
+    """Show numbers in mm or inch within the block."""
+    return choosing(choice._replace(units=units))
+
+
 def refuse_columns() -> None:
     """Raise GenevaError if columns were chosen by name and no table is shown."""
     if choice.columns:
         raise GenevaError("--columns is for tables, and this run prints none; leave it out")
+
+
+def refuse_inches(why: str) -> None:
+    """Raise GenevaError if inches were chosen, where they cannot be."""
+    if choice.units != "mm":
+        raise GenevaError(f"--units {choice.units}: {why}; leave it out")
+
+
+def shown(value: Any, unit: str) -> tuple[Any, str]:
+    """A value and its unit as this run shows them.
+
+    >>> shown(25.4, "mm")
+    (25.4, 'mm')
+    """
+    if choice.units == "mm":
+        return value, unit
+    from geneva_cli.output.inches import value_in_inches
+
+    return value_in_inches(value, unit)
 
 
 class Format(Protocol):
@@ -112,6 +145,12 @@ def _chunks(table: Table, output: str, name: str) -> Iterator[str]:
         from geneva_cli.output.chosen import only
 
         table = only(table, choice.columns)
+    if name not in ("table", "md"):
+        refuse_inches(f"{name} is for programs, and in SI units")
+    if choice.units != "mm":
+        from geneva_cli.output.inches import table_in_inches
+
+        table = table_in_inches(table)
     if name == "table" and is_seen(output):
         from geneva_cli.output.terminal import chunks
         from geneva_cli.output.window import window
@@ -212,6 +251,10 @@ def plot(figure: Figure, output: str = "-", format: str = "", inputs: Iterable[s
         show(figure.table(), output, name, inputs)
         return
     refuse_columns()
+    if choice.units != "mm":
+        from geneva_cli.output.inches import figure_in_inches
+
+        figure = figure_in_inches(figure)
     if name == "svg":
         from geneva_cli.output import plot_svg
 
@@ -266,6 +309,10 @@ def show_document(
     refuse_columns()
     path = f"geneva_cli.output.document.{DOCUMENTS[name]}"
     module = cast(DocumentFormat, importlib.import_module(path))
+    if choice.units != "mm":
+        from geneva_cli.output.inches import document_in_inches
+
+        document = document_in_inches(document)
     _put(module.chunks(document), output, inputs)
 
 

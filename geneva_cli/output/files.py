@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import errno
-import fcntl
 import os
 import re
 import signal
@@ -15,6 +14,7 @@ from types import FrameType
 from typing import BinaryIO
 
 from geneva_cli.errors import GenevaError, cut
+from geneva_cli.output.locks import lock
 
 # Left behind only by kill -9 or a power failure, until the next run that writes this file.
 TEMPORARY = ".{name}.geneva-{number}.tmp"
@@ -101,7 +101,8 @@ def _temporary_for(path: str, old: os.stat_result | None) -> Iterator[BinaryIO]:
     with stopping_cleanly():
         try:
             with open(temporary, "xb") as file:
-                _lock(file.fileno())
+                with suppress(OSError):  # a file system without locks
+                    lock(file.fileno())
                 if old is not None:
                     _take_after(file.fileno(), old)
                 yield file
@@ -178,16 +179,11 @@ def _remove_unlocked(path: str) -> None:
     with suppress(OSError):
         descriptor = os.open(path, os.O_RDONLY | os.O_NOFOLLOW | os.O_NONBLOCK)
         try:
-            fcntl.flock(descriptor, fcntl.LOCK_EX | fcntl.LOCK_NB)
+            lock(descriptor)
             if stat.S_ISREG(os.fstat(descriptor).st_mode):
                 os.unlink(path)
         finally:
             os.close(descriptor)
-
-
-def _lock(descriptor: int) -> None:
-    with suppress(OSError):  # a file system without locks
-        fcntl.flock(descriptor, fcntl.LOCK_EX | fcntl.LOCK_NB)
 
 
 def refuse_input(path: str, old: os.stat_result, inputs: Iterable[str]) -> None:

@@ -16,9 +16,15 @@ FORMATS = {
     "md": "markdown",
 }
 # for drawings only; in FORMATS they are written as tables
-MESHES = {"stl": "mesh.stl", "3mf": "mesh.threemf", "obj": "mesh.obj"}  # of solids, in bytes
+MESHES = {  # of solids, in bytes
+    "stl": "mesh.stl",
+    "3mf": "mesh.threemf",
+    "obj": "mesh.obj",
+    "scad": "mesh.scad",
+}
 DRAWN = {"dxf": "dxf", "svg": "svg", "step": "step", **MESHES}
 SHEETS = ("dxf", "svg", "pdf")  # for drawing sheets
+CAMS = ("cam",)  # for motions only: a file for a controller
 PICTURES = ("png", "pdf")  # for figures only
 # for documents; the other formats of tables get their values
 DOCUMENTS = {"html": "html", "pdf": "pdf", "md": "markdown"}

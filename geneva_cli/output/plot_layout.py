@@ -18,6 +18,7 @@ Point: TypeAlias = tuple[float, float]
 Path: TypeAlias = Sequence[Point]
 
 PAGE = 820.0
+INCH = 82.0  # px of the layout in an inch: the page is ten inches wide
 LEFT, RIGHT, MARKS = 72.0, 18.0, 192.0  # MARKS: the column of the peaks' values
 ABOVE, BELOW = 26.0, 44.0  # a panel's name; the last one's ticks and the axis' name
 TITLE, TEXT, SMALL = 15.0, 11.0, 10.0  # heights of letters
@@ -55,10 +56,12 @@ class Pen(Protocol):
     """A surface to draw on; ``number`` is a curve's, and determines its look."""
 
     def begin(self, name: str, frame: Frame) -> None:
-        """Begin a panel."""
+        """Begin a panel; nothing in a format without groups."""
+        return
 
     def end(self) -> None:
         """End a panel."""
+        return
 
     def rest(self, x: float, y: float, wide: float, high: float) -> None:
         """Shade a stretch at rest."""
@@ -74,6 +77,7 @@ class Pen(Protocol):
 
     def sample(self, number: int, place: Point, long: float) -> None:
         """Draw a level sample of a curve from a place on."""
+        self.curve(number, [[place, (place[0] + long, place[1])]])
 
     def jumps(self, number: int, paths: Iterable[Path]) -> None:
         """Draw jumps as thin upright lines."""

@@ -12,29 +12,29 @@ from geneva_cli.output.letters import western
 from geneva_cli.output.pdf_file import POINT, number
 from geneva_cli.output.plot_layout import (
     END,
+    INCH,
     PAGE,
     START,
     TEXT,
     FigureBlock,
-    Frame,
     Path,
+    Pen,
     Point,
     blocks,
 )
 from geneva_cli.output.strokes import LIGHT, colour, dashes
 
-INCH = 25.4 / 82.0  # mm per px of a figure's own page, which is ten inches wide
-
 
 def chunks(figure: Figure) -> Iterator[str]:
     """Yield the text of a file with the figure alone."""
     parts = list(blocks(figure))
-    tall = INCH * sum(block.high for block in parts)
+    mm = 25.4 / INCH  # one px on a figure's own page
+    tall = mm * sum(block.high for block in parts)
     content, top = f"{POINT:.9f} 0 0 {POINT:.9f} 0 0 cm\n1 J 1 j\n", tall
     for block in parts:
-        content += _drawn(block, 0.0, INCH, top)
-        top -= INCH * block.high
-    page = pdf_file.Page(INCH * PAGE, tall, content, fonts=2)
+        content += _drawn(block, 0.0, mm, top)
+        top -= mm * block.high
+    page = pdf_file.Page(mm * PAGE, tall, content, fonts=2)
     yield from pdf_file.pdf_text(western(figure.title), [page])
 
 
@@ -53,18 +53,12 @@ def _drawn(block: FigureBlock, left: float, scale: float, top: float) -> str:
     return "".join(pen.out)
 
 
-class _PdfPen:
+class _PdfPen(Pen):
     """Operators of a page, in mm; y upwards."""
 
     def __init__(self, left: float, scale: float, top: float) -> None:
         self.left, self.scale, self.top = left, scale, top
         self.out: list[str] = []
-
-    def begin(self, name: str, frame: Frame) -> None:
-        """Begin a panel: a page has no groups."""
-
-    def end(self) -> None:
-        """End a panel."""
 
     def rest(self, x: float, y: float, wide: float, high: float) -> None:
         (left, bottom), k = self._place((x, y + high)), self.scale
@@ -78,9 +72,6 @@ class _PdfPen:
 
     def curve(self, number: int, paths: Iterable[Path]) -> None:
         self._stroke(colour(number, LIGHT), 1.6, paths, dashes(number))
-
-    def sample(self, number: int, place: Point, long: float) -> None:
-        self.curve(number, [[place, (place[0] + long, place[1])]])
 
     def jumps(self, number: int, paths: Iterable[Path]) -> None:
         self._stroke(colour(number, LIGHT), 0.8, paths)

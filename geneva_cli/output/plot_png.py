@@ -8,10 +8,9 @@ from typing import Any
 
 from geneva_cli.errors import GenevaError
 from geneva_cli.figure import Figure
-from geneva_cli.output.plot_layout import PAGE, START, TEXT, Frame, Path, Point, blocks
+from geneva_cli.output.plot_layout import INCH, PAGE, START, TEXT, Path, Pen, Point, blocks
 from geneva_cli.output.strokes import LIGHT, colour, dashes
 
-INCH = 82.0  # px of the layout per inch: the page is ten inches wide
 PT = 72.0 / INCH  # points per px
 
 
@@ -45,17 +44,11 @@ def png_bytes(figure: Figure) -> bytes:
     return out.getvalue()
 
 
-class _PngPen:
+class _PngPen(Pen):
     """Lines and texts on axes as large as the page, in px."""
 
     def __init__(self, axes: Any) -> None:
         self.axes = axes
-
-    def begin(self, name: str, frame: Frame) -> None:
-        """Begin a panel: a picture has no groups."""
-
-    def end(self) -> None:
-        """End a panel."""
 
     def rest(self, x: float, y: float, wide: float, high: float) -> None:
         corners = [x, x + wide, x + wide, x], [y, y, y + high, y + high]
@@ -71,9 +64,6 @@ class _PngPen:
         pattern = dashes(number)
         style: Any = (0.0, [PT * x for x in pattern]) if pattern else "-"
         self._stroke(colour(number, LIGHT), 1.6, paths, style)
-
-    def sample(self, number: int, place: Point, long: float) -> None:
-        self.curve(number, [[place, (place[0] + long, place[1])]])
 
     def jumps(self, number: int, paths: Iterable[Path]) -> None:
         self._stroke(colour(number, LIGHT), 0.8, paths)

@@ -10,7 +10,7 @@ from xml.sax.saxutils import escape, quoteattr
 
 from geneva_cli.errors import clean
 from geneva_cli.figure import Figure
-from geneva_cli.output.plot_layout import LEFT, PAGE, START, TEXT, Frame, Path, Point, blocks
+from geneva_cli.output.plot_layout import LEFT, PAGE, START, TEXT, Frame, Path, Pen, Point, blocks
 from geneva_cli.output.strokes import DARK, LIGHT, Paper, colour, dashes
 from geneva_cli.output.ticks import named
 
@@ -58,7 +58,7 @@ def _dashes(known: Iterable[int]) -> str:
     )
 
 
-class _SvgPen:
+class _SvgPen(Pen):
     """Elements of an SVG."""
 
     def __init__(self) -> None:

@@ -9,7 +9,6 @@ file is whole, a line with the digest of that file replaces the blocks.
 from __future__ import annotations
 
 import errno
-import fcntl
 import hashlib
 import os
 import re
@@ -20,6 +19,7 @@ from typing import BinaryIO
 
 from geneva_cli.errors import GenevaError, cut
 from geneva_cli.output.files import refuse_input
+from geneva_cli.output.locks import lock_alone
 
 SUFFIX = ".geneva"
 TITLE = b"geneva sweep state 1 "
@@ -160,12 +160,9 @@ def _not_ours(path: str) -> GenevaError:
 
 
 def _lock(file: BinaryIO, path: str) -> None:
-    """Lock the file for this process alone, not for its worker processes.
-
-    A worker may outlive a killed run for a moment, and would block the next run.
-    """
+    """Lock the file for this process alone. Raises GenevaError if another run has it."""
     try:
-        fcntl.lockf(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        lock_alone(file.fileno())
     except OSError as error:
         if error.errno in (errno.EAGAIN, errno.EACCES):
             name = cut(os.path.basename(path.removesuffix(SUFFIX)))

@@ -19,10 +19,9 @@ from geneva_cli.output.svg_fill import filled
 from geneva_cli.output.svg_look import notes, style
 from geneva_cli.output.svg_paths import element, number
 
-# For drawings to cut, in mm; for drawings to view, in fractions of SIZE
+# For drawings to cut, in mm; for drawings to view, as if these were 250 mm wide
 STROKE = 0.25
 MARGIN = 2.0
-SIZE = 250.0
 
 
 def chunks(drawing: Drawing, units: str, fill: str = "") -> Iterator[str]:
@@ -40,7 +39,7 @@ def chunks(drawing: Drawing, units: str, fill: str = "") -> Iterator[str]:
     drawing = prepared(drawing, units)
     box, suffix = extent(drawing), SUFFIX[units]
     size = max(box.x1 - box.x0, box.y1 - box.y0)
-    mm = size / SIZE if look else 1.0 / UNITS[units]
+    mm = size / 250.0 if look else 1.0 / UNITS[units]
     title = clean(drawing.title).strip()
     noted, frame = notes(look, box, title, mm, units) if look else ([], box)
     margin = mm * (2.0 * MARGIN if look else MARGIN + STROKE)

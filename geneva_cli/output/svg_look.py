@@ -44,7 +44,7 @@ def notes(look: Annotations, box: Box, title: str, mm: float, units: str) -> tup
     lines: list[str] = []
     heads: list[str] = []
     texts: list[tuple[Point, str]] = []
-    # All lengths are in mm, for a drawing of size ``svg.SIZE``; letters are 5 mm high.
+    # All lengths are in mm, for a drawing 250 mm wide; letters are 5 mm high.
     unit, text, gap, grey = UNITS[units], mm * 5.0, mm * 3.0, "#757575"
     left, right, low, high = box.x0, box.x1, box.y0, box.y1
     for turn in look.turns:

@@ -54,10 +54,14 @@ class FlatParts:
         self.tolerance, self.curves = tolerance, curves
         self._known = known
 
+    def within(self, tolerance: float, curves: str) -> FlatParts:
+        """Return these parts with curves of a kind within a tolerance, mm."""
+        return FlatParts(self.mechanism, self.drawn, tolerance, curves)
+
     def finer(self, tolerance: float) -> FlatParts:
         """Return these parts with curves that are at least so accurate, mm."""
         fine = tolerance if self.tolerance is None else min(tolerance, self.tolerance)
-        return FlatParts(self.mechanism, self.drawn, fine, self.curves)
+        return self.within(fine, self.curves)
 
     @cached_property
     def outlines(self) -> Outlines:
@@ -252,8 +256,3 @@ class FlatParts:
         yield "shafts", lambda: [one.part for one in self.shafts]
         yield "groove plate", lambda: [one.part for one in self.groove_plate]
         yield "frame", lambda: [self.frame.part]
-
-
-def flat_parts(outlines: Outlines) -> FlatParts:
-    """Return all parts of a machine with these outlines, as accurate as the checks need."""
-    return FlatParts(outlines.assembly.full, outlines)

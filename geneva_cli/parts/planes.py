@@ -25,7 +25,7 @@ from geneva_cli.outlines.wheel_hub import wheel_hub_length
 from geneva_cli.parts.arm import has_arm
 from geneva_cli.parts.link_pins import joined
 from geneva_cli.parts.link_sizes import LinkSizes, places
-from geneva_cli.parts.links import Links, drawn_links
+from geneva_cli.parts.links import Links
 from geneva_cli.parts.shafts import wheel_shaft_ends, wheel_shaft_radius
 
 if TYPE_CHECKING:
@@ -59,10 +59,10 @@ class Planes(NamedTuple):
     way_out: Meeting | None  # None where the shaft is free
 
 
-def planes(parts: Outlines) -> Planes:
+def planes(parts: Outlines, bars: Links) -> Planes:
     """Return the least gaps between links and the parts that pass through their planes.
 
-    Raises GenevaError where the sizes leave no links.
+    ``bars`` are the links of the machine with the outlines ``parts``.
     """
     mechanism = parts.assembly.full
     turns = mechanism.spec.drive.turns
@@ -71,7 +71,6 @@ def planes(parts: Outlines) -> Planes:
     links = [link for link in links_and_gears if not link.radius_mm]
     if not links_and_gears:
         return Planes(None, None)
-    bars = drawn_links(mechanism, parts)
     assert bars.sizes is not None
     geared = list(_gears(parts, bars, links_and_gears, turn))
     if not links:

@@ -14,13 +14,13 @@ from collections.abc import Iterator
 import numpy as np
 
 from geneva_cli.curves.plates import Member, Plate
-from geneva_cli.curves.shapes import Circle
+from geneva_cli.curves.shapes import ORIGIN, Circle
 from geneva_cli.errors import GenevaError
 from geneva_cli.layout.link_positions import links_at
 from geneva_cli.numerics.tolerances import SAME_LENGTH
 from geneva_cli.outlines.crank import crank_circles, is_whole
 from geneva_cli.outlines.outlines import Outlines
-from geneva_cli.outlines.wheel_hub import AXIS, HUB, about_axis
+from geneva_cli.outlines.wheel_hub import HUB, about_axis
 from geneva_cli.parts.arm import has_arm, shaft_bore
 from geneva_cli.spec.tables import Size
 
@@ -52,7 +52,7 @@ def crank_hub(parts: Outlines) -> Plate | None:
     if high <= low:
         return None
     bores = about_axis(crank_circles(parts.assembly, sizes) if sizes.crank_bore else [])
-    return Plate("crank's hub", HUB, Circle(HUB, AXIS, sizes.crank_hub), bores, low, high)
+    return Plate("crank's hub", HUB, Circle(HUB, ORIGIN, sizes.crank_hub), bores, low, high)
 
 
 def shafts(parts: Outlines, lowest: float, stop: float | None = None) -> Iterator[Member]:
@@ -127,4 +127,4 @@ def shaft(part: str, radius: float, ends: tuple[float, float], what: str = "shaf
             f"{part}_shaft_high_mm",
             ("size", f"{part}_shaft_low_mm"),
         )
-    return Plate(f"{part}'s {what}", SHAFT, Circle(SHAFT, AXIS, radius), (), low, high)
+    return Plate(f"{part}'s {what}", SHAFT, Circle(SHAFT, ORIGIN, radius), (), low, high)

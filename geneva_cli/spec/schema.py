@@ -28,6 +28,7 @@ from typing import (
 
 from geneva_cli.errors import GenevaError, cut, few, nearest, refuse
 from geneva_cli.spec.rules import Csv, OneOf, Words, is_array, plain
+from geneva_cli.spec.units import in_unit_of
 
 LIST: TypeAlias = tuple[float, ...]
 LIST_MAX = 1000
@@ -318,14 +319,30 @@ def checked(table: str, field: Field, value: Any) -> Any:
     if is_array(value) and LIST in field.types:
         value = value.tolist()
     if isinstance(value, (list, tuple)) and LIST in field.types:
-        if not value or len(value) > LIST_MAX:
-            raise GenevaError(f"{field.key} must be a list of 1 to {LIST_MAX} numbers", place)
-        one = field._replace(types=(float,))
-        return tuple(checked(table, one, v) for v in value)
-    if isinstance(value, str) and str in field.types:
-        return _word(place, field, value, numeric=bool(numeric))
+        return _list(table, field, value)
+    if isinstance(value, str) and {str, float} & set(field.types):
+        if str in field.types:
+            return _word(place, field, value, numeric=bool(numeric))
+        return checked(table, field, _with_unit(place, field, value))
     expected = " or ".join(_NAMES[t] for t in field.types if t in _NAMES)
     raise GenevaError(f"{field.key} must be {expected}, not {shown(value)}", place)
+
+
+def _list(table: str, field: Field, values: Sequence[Any]) -> tuple[float, ...]:
+    """The numbers of a list, each checked."""
+    if not values or len(values) > LIST_MAX:
+        place = (*table.split("."), field.key)
+        raise GenevaError(f"{field.key} must be a list of 1 to {LIST_MAX} numbers", place)
+    one = field._replace(types=(float,))
+    return tuple(checked(table, one, value) for value in values)
+
+
+def _with_unit(place: tuple[str, ...], field: Field, text: str) -> float:
+    """The number that a text such as "8 in" is in the key's unit."""
+    try:
+        return in_unit_of(field.key, text)
+    except GenevaError as error:
+        raise GenevaError(f"{error} ({field.meaning})", place) from None
 
 
 def _number(place: tuple[str, ...], field: Field, value: float, whole: bool) -> float:

@@ -442,6 +442,52 @@ class Tolerance(SpecTable):
     ] = "uniform"
 
 
+class Product(SpecTable):
+    """``[product]``: what the dial, chain or film carries, and how it may slip or swing.
+
+    >>> Product(radius_mm=300.0).friction is None
+    True
+    """
+
+    TABLE: ClassVar[str] = "product"
+
+    radius_mm: Annotated[float | None, POSITIVE, "distance of the product from the axis"] = None
+    sprocket_teeth: Annotated[
+        int | None, Range(3, 10000), "chain, belt or film: teeth of its sprocket on the wheel"
+    ] = None
+    pitch_mm: Annotated[float | None, POSITIVE, "pitch of chain, belt or film"] = None
+    friction: Annotated[
+        float | None, POSITIVE, "friction coefficient between product and its seat"
+    ] = None
+    swing_Hz: Annotated[
+        float | None, POSITIVE, "natural frequency of a product that hangs or sloshes"
+    ] = None
+    swing_damping: Annotated[float, Range(0.0, 1.0, "[)"), "its damping over critical"] = 0.0
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        if (self.sprocket_teeth is None) != (self.pitch_mm is None):
+            raise GenevaError("a sprocket needs sprocket_teeth and pitch_mm", (self.TABLE,))
+        if self.radius_mm is not None and self.pitch_mm is not None:
+            raise GenevaError(
+                "set either radius_mm, or sprocket_teeth and pitch_mm", (self.TABLE, "radius_mm")
+            )
+        if self.radius_mm is None and self.pitch_mm is None and self.friction is not None:
+            raise GenevaError(
+                "friction needs the product's place: set radius_mm", (self.TABLE, "friction")
+            )
+
+    @property
+    def lies(self) -> bool:
+        """True if the product's place is known."""
+        return self.radius_mm is not None or self.pitch_mm is not None
+
+    @property
+    def runs_straight(self) -> bool:
+        """True for a chain, belt or film, whose travel is along a line."""
+        return self.pitch_mm is not None
+
+
 class TitleBlock(SpecTable):
     """``[drawing]``: fields of the title block, and what drawings ask of faces and edges.
 
@@ -496,6 +542,9 @@ class Limits(SpecTable):
     lock_deflection_max_deg: Annotated[
         float | None, POSITIVE, "greatest deflection of the locked wheel under dwell_torque_Nm"
     ] = None
+    product_acceleration_max_m_s2: Annotated[
+        float | None, POSITIVE, "greatest acceleration of the product, in m/s²"
+    ] = None
 
 
 # The tables of every kind of machine, in the order of a file. Each is a field of ``Spec``, with an
@@ -510,6 +559,7 @@ PLAIN: dict[str, type[SpecTable]] = {
     "material.wheel": WheelMaterial,
     "material.roller": RollerMaterial,
     "tolerance": Tolerance,
+    "product": Product,
     "drawing": TitleBlock,
     "limits": Limits,
 }

@@ -1,7 +1,8 @@
 """A spec's tables and keys as JSON Schema, for editors, from the reader's own definitions.
 
 The schema describes the values that depend on the kind of machine. Some rules are left to `geneva
-check`: keys that need others (a limit on force needs a load), whole numbers written 6.0, and nan.
+check`: keys that need others (a limit on force needs a load), whole numbers written 6.0, nan, and
+the kind and range of a value with a unit.
 """
 
 from __future__ import annotations
@@ -16,6 +17,7 @@ from geneva_cli.kinematics.motion import Motion
 from geneva_cli.spec.rules import Csv, OneOf, Range, Words
 from geneva_cli.spec.schema import LIST, LIST_MAX, REQUIRED, Field, SpecTable, fields
 from geneva_cli.spec.tables import LISTS, PLAIN
+from geneva_cli.spec.units import pattern, unit_key
 from geneva_cli.specfile.writer import GEARING, KIND, LAW
 
 FILE = "geneva.schema.json"  # the file that the first line of a new spec names
@@ -48,7 +50,9 @@ def schema() -> Schema:
         "$schema": "http://json-schema.org/draft-07/schema#",
         "title": "A Geneva mechanism: a spec of geneva",
     }
-    return {**head, **_closed(properties), "required": ["wheel"]}
+    with_unit = {"type": "string", "pattern": pattern(), "description": 'as "8 in" or "2 rad/s"'}
+    definitions = {"withUnit": with_unit}
+    return {**head, **_closed(properties), "required": ["wheel"], "definitions": definitions}
 
 
 def _closed(properties: Schema) -> Schema:
@@ -128,17 +132,22 @@ def _value(key: Field) -> Schema:
     """Allowed values of a key."""
     if isinstance(key.rule, Csv):
         return {"type": "string"}
-    kinds = []
+    kinds: list[Schema] = []
     number = next((t for t in key.types if t in (int, float)), None)
+    with_unit = [{"$ref": "#/definitions/withUnit"}] if unit_key(key.key) else []
     if number:
-        kinds.append(_number(key.rule, whole=number is int))
+        kinds += [_number(key.rule, whole=number is int), *with_unit]
     if LIST in key.types:
-        items = _number(key.rule, whole=False)
+        items = _any([_number(key.rule, whole=False), *with_unit])
         kinds.append({"type": "array", "items": items, "minItems": 1, "maxItems": LIST_MAX})
     words = key.rule.words if isinstance(key.rule, Words) else ()
     words = key.rule if isinstance(key.rule, OneOf) else words
     if str in key.types and (words or not number):
         kinds.append({"type": "string", **({"enum": list(words)} if words else {})})
+    return _any(kinds)
+
+
+def _any(kinds: list[Schema]) -> Schema:
     return kinds[0] if len(kinds) == 1 else {"anyOf": kinds}
 
 

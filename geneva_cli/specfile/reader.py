@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import re
 import sys
 from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
@@ -13,9 +14,11 @@ import tomli
 
 from geneva_cli.errors import GenevaError, cut
 from geneva_cli.machine.spec import Spec
+from geneva_cli.spec.units import NUMBER
 from geneva_cli.specfile.lines import line_of
 from geneva_cli.specfile.settings import Setting, applied, option_of, settings
 from geneva_cli.specfile.tree import spec_of
+from geneva_cli.specfile.with_units import texts_with_units
 
 
 class Text(NamedTuple):
@@ -44,8 +47,9 @@ class Text(NamedTuple):
         try:
             tree = _parsed(self.text)
         except tomli.TOMLDecodeError as error:
-            reason = error.msg[:1].lower() + error.msg[1:]
-            raise GenevaError(f"{self.name}:{error.lineno}: not TOML: {cut(reason, 200)}") from None
+            reason = cut(error.msg[:1].lower() + error.msg[1:], 200)
+            hint = _hint(self.text.split("\n")[error.lineno - 1])
+            raise GenevaError(f"{self.name}:{error.lineno}: not TOML: {reason}{hint}") from None
         except RecursionError:
             raise GenevaError(f"{self.name}: not a spec: brackets are nested too deeply") from None
         except ValueError as error:  # a whole number of thousands of digits
@@ -53,9 +57,25 @@ class Text(NamedTuple):
         with self.located():
             return spec_of(applied(tree, self.set_keys), self.name)
 
+    def with_units(self, spec: Spec) -> list[str]:
+        """Values that were written with a unit, each with the number that was read."""
+        return texts_with_units(applied(_parsed(self.text), self.set_keys), spec)
+
 
 # A sweep reads one text many times with other settings; nothing changes a parsed tree.
 _parsed = lru_cache(maxsize=8)(tomli.loads)
+
+
+def _hint(line: str) -> str:
+    """What is right instead of a bare value such as ``12,5``, ``60 rpm`` or ``cycloidal``."""
+    match = re.fullmatch(r"""\s*[\w.-]+\s*=\s*([^\s#"'\[{][^#"'\[{]*?)\s*(#.*)?""", line)
+    value = match[1] if match else ""
+    if comma := re.fullmatch(r"([+-]?\d+),(\d+)(.*)", value):
+        quote = '"' if comma[3] else ""
+        return f"; write {quote}{comma[1]}.{comma[2]}{comma[3]}{quote}, with a point"
+    if re.fullmatch(rf"{NUMBER}\s*[A-Za-zµ°].*", value):
+        return f'; write "{cut(value)}" in quotation marks, or the number alone in the key\'s unit'
+    return f'; write "{cut(value)}" in quotation marks' if value[:1].isalpha() else ""
 
 
 def read(path: str, set_keys: Iterable[str] = ()) -> Text:

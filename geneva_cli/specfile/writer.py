@@ -21,9 +21,6 @@ GEARING = Field(
 KIND = Field("kind", "", (str,), None, "crank", "kind of drive")
 LAW = Field("law", "", (str,), None, None, "motion law of curved slots (`geneva laws`)")
 
-# Keys that a written spec shows even at their defaults, as users change them first.
-SHOWN = {("wheel", "gearing"), ("drive", "kind"), ("drive", "n_rpm"), ("drive", "rollers")}
-
 
 def keys_of(
     gearing: type[Gearing], drive: type[Drive], law_keys: Iterable[Field]
@@ -39,7 +36,8 @@ def keys_of(
 
 
 def spec_lines(spec: Spec) -> list[str]:
-    """Lines of a spec's tables: keys that differ from their defaults, and those in ``SHOWN``."""
+    """Lines of a spec's tables: keys that differ from their defaults, or are changed first."""
+    first = {("wheel", "gearing"), ("drive", "kind"), ("drive", "n_rpm"), ("drive", "rollers")}
     law_keys = fields(type(spec.motion.law)) if spec.motion else ()
     lines: list[str] = []
     for name, keys in keys_of(type(spec.wheel), type(spec.drive), law_keys).items():
@@ -48,7 +46,7 @@ def spec_lines(spec: Spec) -> list[str]:
             block = [
                 (f"{key.key} = {quoted(values[key.key])}", key.meaning)
                 for key in keys
-                if values[key.key] != key.default or (name, key.key) in SHOWN
+                if values[key.key] != key.default or (name, key.key) in first
             ]
             if block:
                 width = max(len(setting) for setting, _ in block)

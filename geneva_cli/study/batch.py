@@ -23,6 +23,7 @@ class Verdict(NamedTuple):
     files: tuple[str, ...] = ()  # all files that the design was read from
     checks: tuple[Check, ...] = ()
     warnings: tuple[Notice, ...] = ()
+    with_units: tuple[str, ...] = ()  # inputs that have a unit in the file
     error: str = ""
 
     @property
@@ -40,7 +41,8 @@ def verdict(path: str, settings: Sequence[str] = (), proof_mm: float | None = No
         design = load(path, settings)
         checks = design.checks if proof_mm is None else design.proved_to(proof_mm)
         warnings = tuple(design.warnings)
-        return Verdict(design.spec.path, design.spec.files, tuple(checks), warnings)
+        files, inputs = design.spec.files, tuple(design.with_units)
+        return Verdict(design.spec.path, files, tuple(checks), warnings, inputs)
     except GenevaError as error:
         return Verdict(path, error=str(error))
 

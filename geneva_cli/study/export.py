@@ -42,13 +42,6 @@ TRADES = {
     "mill": Trade(("dxf", "step"), ("sheet.pdf", "assembly.step")),
     "print": Trade(("stl",), ("plate.3mf",)),
 }
-ALL = Trade(
-    ("dxf", "step", "stl"),
-    (
-        *("sheet.pdf", "assembly.step", "assembly.3mf", "plate.3mf"),
-        *("report.html", "machine.html"),
-    ),
-)
 CONTENTS = {
     "sheet.pdf": "drawing sheet with dimensions",
     "assembly.step": "all parts at their places, for CAD",
@@ -63,7 +56,7 @@ SINGLE = {"dxf": "outline to cut", "step": "solid", "stl": "mesh to print"}
 def trade_of(name: str | None) -> Trade:
     """The files of a trade; of all trades for None. Raises GenevaError for an unknown one."""
     if name is None:
-        return ALL
+        return Trade(("dxf", "step", "stl"), tuple(CONTENTS))
     if name not in TRADES:
         raise GenevaError(f"--for {cut(name)}: it must be one of {', '.join(TRADES)}")
     return TRADES[name]

@@ -21,6 +21,7 @@ from geneva_cli.layout.sizes import sizes, wall_min
 from geneva_cli.layout.sphere_sizes import ball
 from geneva_cli.machine.mechanism import Mechanism, build
 from geneva_cli.machine.spec import Spec
+from geneva_cli.numerics.rounding import to_digits
 from geneva_cli.outlines.outlines import CONTACT
 from geneva_cli.spec.tables import Size
 from geneva_cli.synthesis.parts_data import PartsData, gap_at_rest, parts_data
@@ -174,9 +175,7 @@ def _radii(least: float) -> list[float]:
     """Radii to try in ascending order, in % of L: the usual ones from a least one on."""
     percent = 100.0 * least * SPARE
     usual = [r for r in reversed(USUAL) if r >= percent]
-    step = 10.0 ** (math.floor(math.log10(percent)) - 1) if percent > USUAL[-1] else USUAL[-1]
-    first = step * math.ceil(percent / step)
-    return usual if first <= USUAL[-1] else [exact(first), *usual]
+    return usual if percent <= USUAL[-1] else [to_digits(percent, 2, math.ceil), *usual]
 
 
 def _largest(radii: list[float], obstacle: Callable[[float], str]) -> tuple[float | None, str]:

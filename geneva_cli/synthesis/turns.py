@@ -17,8 +17,8 @@ from geneva_cli.collisions.machine_parts import MachineParts
 from geneva_cli.collisions.one_motion import one_motion
 from geneva_cli.drawings.model import PartsModel
 from geneva_cli.errors import GenevaError
-from geneva_cli.layout.assembly import Assembly, assembly
-from geneva_cli.layout.sizes import Sizes, sizes
+from geneva_cli.layout.assembly import Assembly
+from geneva_cli.layout.sizes import Sizes
 from geneva_cli.machine.drives.crank import Crank
 from geneva_cli.machine.mechanism import Mechanism, build
 from geneva_cli.machine.spec import Spec
@@ -26,7 +26,6 @@ from geneva_cli.numerics.keeps import keeps
 from geneva_cli.numerics.tolerances import CLEARLY
 from geneva_cli.outlines.bounding_outlines import bounding_outlines
 from geneva_cli.outlines.crank import rollers_gap
-from geneva_cli.outlines.outlines import drawn
 from geneva_cli.outlines.relief_overlap import leave_no_disc
 from geneva_cli.parts.groove_plate import groove_reaches
 from geneva_cli.study.target import USUAL_RPM
@@ -112,7 +111,7 @@ class _Turn:
     """The parts of a machine and their full turn, as far as it is checked."""
 
     def __init__(self, machine: Mechanism) -> None:
-        self._machine = machine
+        self._model = PartsModel(machine, advice=False)
         self._failing: list[Failure] = []
         self._begun = False
 
@@ -120,9 +119,7 @@ class _Turn:
     def _parts(self) -> MachineParts | Failure:
         """The parts, or the key that prevents them."""
         try:
-            if self._sized:
-                return drawn(*self._sized)
-            return PartsModel(self._machine, advice=False).parts
+            return self._model.parts
         except GenevaError as error:
             return _prevented_by(error)
 
@@ -133,11 +130,10 @@ class _Turn:
     @cached_property
     def _sized(self) -> tuple[Assembly, Sizes] | None:
         """The assembly and the sizes of flat parts; None for other machines."""
-        if not self._machine.spec.wheel.FLAT:
+        if not self._model.mechanism.spec.wheel.FLAT:
             return None
         try:
-            where = assembly(self._machine)
-            return where, sizes(where)
+            return self._model.assembly, self._model.sizes
         except GenevaError:
             return None
 
@@ -183,7 +179,7 @@ class _Turn:
         """The checks at rest that fail, for a machine with the same positions."""
         if isinstance(self._parts, Failure):
             return [self._parts]
-        return _failures(standing_checks(_of_machine(self._parts, machine)))
+        return _failures(standing_checks(self._model.over(machine).built))
 
     def every(self) -> list[Failure]:
         """All checks of the turn that fail."""
@@ -205,8 +201,8 @@ class _Turn:
         parts = self._parts
         if self._begun or isinstance(parts, Failure):
             return []
-        own, among = _of_machine(parts, machine), standing(machine)
-        at_rest = (check_named(among, one.name, own) for one in known)
+        built, among = self._model.over(machine).built, standing(machine)
+        at_rest = (check_named(among, one.name, built) for one in known)
         first = next((check for check in at_rest if check and check.passes is False), None)
         if first:
             return [Failure(first.name)]
@@ -224,12 +220,6 @@ class _Turn:
             return False
         self._begun, self._failing = True, closer
         return True
-
-
-def _of_machine(parts: MachineParts, machine: Mechanism) -> MachineParts:
-    """The parts, as those of a machine with the same positions."""
-    own = parts.assembly._replace(full=machine, to_input=machine.spec.drive.input_deg)
-    return parts.over(own)
 
 
 def _prevented_by(error: GenevaError) -> Failure:

@@ -10,9 +10,7 @@ from geneva_cli.names import spoken
 from geneva_cli.table import Table, record_table
 from geneva_cli.verdict.checks.check import Check
 from geneva_cli.verdict.failures import meaning
-from geneva_cli.verdict.measured import measured
-
-PROOF = "gap_proved_mm"
+from geneva_cli.verdict.measured import bare, measured
 
 
 def headline(checks: Sequence[Check], warnings: Sequence[str]) -> tuple[str, str]:
@@ -21,7 +19,6 @@ def headline(checks: Sequence[Check], warnings: Sequence[str]) -> tuple[str, str
     >>> headline([Check("jerk_max", 31.4, "at most", 30.0, False)], [])
     ('fails', '1 of 1 checks fails')
     """
-    checks = [check for check in checks if not _has_no_proof(check)]
     many = len(checks)
     failed = sum(check.passes is False for check in checks)
     not_proved = sum(check.passes is None for check in checks)
@@ -58,7 +55,7 @@ def failure_lines(checks: Iterable[Check]) -> list[SummaryLine]:
 
 def warning_lines(checks: Iterable[Check], warnings: Iterable[str]) -> list[SummaryLine]:
     """A line for each check without a proof, then for each warning."""
-    unproved = [check for check in checks if check.passes is None and not _has_no_proof(check)]
+    unproved = [check for check in checks if check.passes is None]
     lines = [
         SummaryLine("not proved", f"{spoken(c.name)[0]}: {c.why}", "", WARNS) for c in unproved
     ]
@@ -69,6 +66,11 @@ def warning(text: str) -> SummaryLine:
     """The line of a warning, and the command that explains it."""
     explained = f"geneva explain {text.name}" if isinstance(text, Notice) else ""
     return SummaryLine("warning", text, explained, WARNS)
+
+
+def input_lines(with_units: Iterable[str]) -> list[SummaryLine]:
+    """A line for each input that has a unit in the spec's file, with the number that was read."""
+    return [SummaryLine("read", text) for text in with_units]
 
 
 def _failure(check: Check) -> SummaryLine:
@@ -88,19 +90,13 @@ def compared_text(check: Check, unit: str) -> str:
     assert check.value is not None
     assert check.limit is not None
     where = "" if check.at_deg is None else f" at {measured(check.at_deg, 'deg')}"
-    limit = measured(check.limit, unit if unit == "deg" else "")
+    limit = measured(check.limit, unit) if unit == "deg" else bare(check.limit, unit)
     return f"{measured(check.value, unit)}{where}, {check.must_be} {limit}"
 
 
 def proof_lines(checks: Iterable[Check]) -> Iterator[SummaryLine]:
-    """The line of the proof that no parts collide, or of the reason why its kind has none."""
-    proofs = [check for check in checks if check.name == PROOF]
-    yield from (SummaryLine("turn", c.why) for c in proofs if c.passes or _has_no_proof(c))
-
-
-def _has_no_proof(check: Check) -> bool:
-    """Return True if there is no proof for this kind of machine, whose turn is sampled."""
-    return check.name == PROOF and check.limit is None
+    """The line of the proof that no parts collide."""
+    yield from (SummaryLine("turn", check.why) for check in checks if check.is_proof)
 
 
 def tightest(checks: Iterable[Check]) -> Iterator[SummaryLine]:
@@ -117,7 +113,7 @@ def tightest(checks: Iterable[Check]) -> Iterator[SummaryLine]:
 def _limit_fraction(check: Check) -> float | None:
     """Fraction of its limit that a check uses, 1 at the limit; None if it has no such fraction."""
     value, limit = check.value, check.limit
-    has_margin = check.name not in ("dwell_hold", "parts", "full_turn", PROOF)
+    has_margin = not check.is_proof and check.name not in ("dwell_hold", "parts", "full_turn")
     if not (check.passes and value and limit and has_margin):
         return None
     return value / limit if check.must_be == "at most" else limit / value

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from geneva_cli.curves.measure import bounds
 from geneva_cli.curves.plates import Plate, plates
 from geneva_cli.drawings.model import PartsModel
-from geneva_cli.drawings.single_parts import CUT_LAYERS
+from geneva_cli.drawings.single_parts import is_cut
 from geneva_cli.errors import GenevaError, Notice
 from geneva_cli.layout.missing import Missing, built_of
 from geneva_cli.layout.sizes import Sizes
@@ -34,10 +34,10 @@ def _small_holes(model: PartsModel, least: float) -> Iterator[Notice]:
     if not least:
         return
     missing: list[Missing] = []  # the check of the parts reports them
-    cut = {one for part in built_of(model.flat().by_name(), missing) for one in plates(part)}
+    cut = {one for part in built_of(model.flat.by_name(), missing) for one in plates(part)}
     small: dict[str, tuple[float, Plate]] = {}
     for plate in cut:
-        if plate.layer not in (*CUT_LAYERS, "ROLLER"):
+        if not is_cut(plate) and plate.layer != "ROLLER":
             continue
         for hole in plate.holes:
             box = bounds(hole)

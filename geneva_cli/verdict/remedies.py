@@ -135,6 +135,8 @@ REMEDIES: dict[str, tuple[Change, ...]] = {
         _LARGER,
         *_MILDER,
     ),
+    "product_acceleration_max_m_s2": (_SLOWER, *_MILDER),
+    "product_slip": (_SLOWER, *_MILDER),
     "stopping_torque_Nm": (scaled("drive", "n_rpm", 30.0),),
     "entry_shock_N": (
         scaled("tolerance", "crank_radius_mm", 0.0),

@@ -23,7 +23,6 @@ if TYPE_CHECKING:
 LOAD = "inertia_kgm2 or torque_Nm in [load], or a [[mass]]"
 # The groups by the names of their tables, and by the whole names of their quantities.
 REPORT_GROUPS = {name: group for group in REPORT for name in (group.table, *group.names)}
-LIFE = tuple(name.removeprefix("life.") for name in REPORT_GROUPS if name.startswith("life."))
 
 # A need: whether it is met, and its keys in words.
 Key: TypeAlias = tuple[bool, str]
@@ -47,8 +46,9 @@ class Strength:
 
     @cached_property
     def life(self) -> dict[str, float | None]:
-        """The values of ``LIFE``, by these names."""
-        return {name: self[f"life.{name}"] for name in LIFE}
+        """The values of the group ``life``, by name."""
+        names = (name for name in REPORT_GROUPS if name.startswith("life."))
+        return {name.removeprefix("life."): self[name] for name in names}
 
     def warnings(self) -> list[Notice]:
         """A note on the limits of a known stress."""

@@ -15,6 +15,7 @@ from geneva_cli import (
     EllipticalGears,
     External,
     GenevaError,
+    ModifiedSine,
     Motion,
     SideCrank,
     SineConstantCosine,
@@ -160,6 +161,21 @@ def test_a_peak_at_a_jump_and_a_plateau():
     assert gears.where.startswith("between ")
     (place,) = gears.places
     assert place.from_deg <= -30.0 and place.to_deg >= 30.0  # the gears drive for 60 degrees
+
+
+def test_a_peak_where_two_formulas_meet():
+    """The law's acceleration peaks where its first sine ends, at a double beside the exact place.
+
+    The middle of an interval about it was rounded to the other formula's side.
+    """
+    motion = Motion(ModifiedSine(), alpha0_deg=16.54737042052723)
+    drive = EllipticalGears(eccentricity=0.4245922304126838, phase="quick")
+    found = Design(External(5), drive, motion)
+    proof = found.certificate("acceleration")
+    assert proof.confirms(*found.peaks.acceleration)
+    assert proof.where == "at two mirrored places"
+    seams = found.mechanism.engagements[0].motion.seams_deg
+    assert proof.at_deg == pytest.approx(seams[1], abs=1e-9)
 
 
 def test_few_intervals_are_not_proved_and_the_open_one_is_named():

@@ -6,9 +6,12 @@ from design_arrays import MACHINES, alone, drawn, machine
 from machine_witness import motions
 from witness import QUANTITIES as EXACT
 
-from geneva_cli.analysis.peak_search import QUANTITIES, motion_peaks, worst_peaks
+from geneva_cli.analysis.peak_search import QUANTITIES, motion_peaks, search_peaks, worst_peaks
 from geneva_cli.analysis.peaks import worst
+from geneva_cli.kinematics import registry
+from geneva_cli.kinematics.motion import Motion
 from geneva_cli.machine.many import many
+from geneva_cli.spec.schema import REQUIRED, fields
 
 # Both are within some 1e-15 of the true peak of the machine as it was built; near its limit a
 # gear sector's slot follows from its keys with some 1e-14 of its own.
@@ -69,6 +72,25 @@ def test_against_50_digits(name):
             assert size == pytest.approx(true(at_deg), rel=1e-14), (quantity, i)
             places = np.linspace(engagement.entry_deg, engagement.exit_deg, 13)
             assert max(true(x) for x in places) <= size * (1.0 + 1e-14)
+
+
+@pytest.mark.sampled(2)
+@pytest.mark.parametrize("law", registry.LAWS)
+@pytest.mark.parametrize("drive", ["crank", "cam"])
+def test_a_law_is_searched_once_for_all_designs(law, drive):
+    """Each design of a law has the peaks that a search of its own motion gives."""
+    kind = registry.law(law)
+    if any(key.default is REQUIRED for key in fields(kind)):
+        pytest.skip("a law of one's own has points")
+    tilted = {key.attribute: 0.05 for key in fields(kind) if key.key == "lambda"}
+    spec = machine(6, drive, motion=Motion(kind(**tilted)))
+    batch = many(spec, {"motion.alpha0_deg": np.linspace(-60.0, 60.0, 25)}).machine
+    motion = batch.engagements[0].motion
+    searched = search_peaks(motion, QUANTITIES)
+    for name, peak in motion_peaks(motion).items():
+        # the power's scale has six roundings
+        assert peak.max == pytest.approx(searched[name].max, rel=2e-15), name
+        assert peak.at_deg == pytest.approx(searched[name].at_deg, abs=1e-6), name
 
 
 def test_of_designs_that_differ_in_nothing_the_motion_knows():

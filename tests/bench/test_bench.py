@@ -12,20 +12,26 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 from sampling import some
+from scipy.integrate import dblquad
 from typer.testing import CliRunner
 
+from geneva_cli.analysis.peaks import peak
 from geneva_cli.app import app
 from geneva_cli.bench.formulas import Proportions
+from geneva_cli.bench.kinds import KINDS, values_of
 from geneva_cli.bench.method import BenchRow, beats, missing, with_frontier
 from geneva_cli.bench.numeric import by_chebpy
 from geneva_cli.bench.run import SUBJECTS, measure
-from geneva_cli.bench.scalar_loop import looped
+from geneva_cli.bench.scalar_loop import looped, motion_loop
 from geneva_cli.bench.subjects import export as bench_export
 from geneva_cli.bench.subjects import start as bench_start
+from geneva_cli.bench.subjects import tolerance as bench_tolerance
 from geneva_cli.bench.subjects.cranks import CrankDesigns
+from geneva_cli.bench.subjects.many import PEAK_QUANTITIES
 from geneva_cli.bench.subjects.motion import blocks, stable, stable_texts
-from geneva_cli.bench.timing_pairs import median_ratio, ratios
+from geneva_cli.bench.timing_pairs import exponent, median_ratio, ratios
 from geneva_cli.bench.truth import acceleration_peak, relative
+from geneva_cli.machine.mechanism import build
 
 # The greatest error that ours may show, in the subject's own measure.
 OURS = {
@@ -37,7 +43,7 @@ OURS = {
     "many": 4e-15,
     "motion": 8 * 2.0**-52,
     "slot": 1e-2 * 1.005,  # mm; 15 points a chord miss 1/256 of its error
-    "tolerance": 1e-3,  # of 20 000 machines; of a million some 1e-6
+    "tolerance": 1e-4,  # of 4,096 machines; of a million some 1e-7
     "vibration": 1e-13,
     "turn": 2e-6,  # how nearly curved walls are known
     "synth": 0.0,
@@ -125,7 +131,7 @@ def test_where_the_clock_of_the_processor_stands_still_the_wall_counts(monkeypat
     """Some systems' clock ticks every sixteen milliseconds."""
     monkeypatch.setattr("geneva_cli.bench.timing_pairs.process_time", lambda: 1.0)
     _, (found,) = ratios(lambda: 0, [lambda: sum(range(1000))], 1e-4)
-    assert 0.0 < found.core_s < 1.0
+    assert 0.0 < found.least_s < 1.0
 
 
 def invoke(*words):
@@ -202,12 +208,13 @@ def test_exports_of_more_rows_than_are_held_are_compared_too(monkeypatch):
         ("peaks", "chebfun", "chebpy, roots of the slope"),
         ("cranks", "numba", "numba, loop over designs"),
         ("motion", "numexpr", "stable formula, numexpr"),
+        ("motion", "numba", "stable formula, numba"),
     ],
 )
 def test_a_library_takes_part_or_is_said_to_be_missing(name, library, method):
     subject, rows = measured(name)
     is_here = not missing(library)
-    assert list(subject.absent) == ([] if is_here else [library])
+    assert (library in subject.absent) != is_here
     assert (method in {row.method for row in rows}) == is_here
 
 
@@ -220,11 +227,52 @@ def test_the_loop_for_numba_finds_the_peaks():
     assert designs.error(found) < 4e-15
 
 
+def test_the_loop_over_angles_is_the_stable_formula():
+    l, x, out = math.sin(math.pi / 3.0), np.linspace(-0.5, 0.5, 101), np.zeros((2, 101))
+    motion_loop(lambda function: function)(l, x, *out)
+    for values, exact in zip(out, stable(l, x, (1, 2)), strict=True):
+        assert np.abs(values - exact).max() < 4e-15 * np.abs(exact).max()  # a few roundings
+
+
 def test_the_expressions_for_numexpr_are_the_stable_formula():
     l, x = math.sin(math.pi / 3.0), np.linspace(-0.5, 0.5, 101)
     for text, exact in zip(stable_texts(), stable(l, x, range(4)), strict=True):
         found = eval(text, {**vars(np), "l": l, "x": x})
         assert np.abs(found - exact).max() < 4e-15 * np.abs(exact).max()
+
+
+def test_scripts_for_batches_find_the_peaks():
+    """The narrowest peaks are 0.3 % higher than a grid of 101 angles shows."""
+    for kind in (k for k in KINDS if k.script):
+        values = values_of(kind, 50)
+        alone = [
+            build(kind.spec.with_(kind.key, value)).engagements[0] for value in values.tolist()
+        ]
+        exact = [[peak(e.motion, name).max for name in PEAK_QUANTITIES] for e in alone]
+        assert kind.script(values) == pytest.approx(np.array(exact), rel=5e-3), kind.name
+
+
+def test_costs_have_the_exponent_of_their_growth():
+    sizes = (10, 100, 1_000, 10_000)
+    assert exponent(sizes, [1.2, 1.0, 2.0, 11.0]) == pytest.approx(1.0)  # the first is noise
+    assert exponent(sizes, [1.0 + (n / 1e3) ** 2 for n in sizes]) == pytest.approx(2.0, abs=0.01)
+    assert exponent(sizes, [1.0, 1.1, 0.9, 1.05]) == 0.0
+
+
+def test_means_of_tolerances_are_those_of_an_adaptive_rule():
+    """The jump begins as a square root at a length of the crank that depends on the distance."""
+    exact = bench_tolerance.exact_means()
+    rough = bench_tolerance.quasi_random(1 << 16)
+    assert tuple(rough) == pytest.approx(tuple(exact), rel=1e-4)  # of 65,536 machines
+    a, b = bench_tolerance.SIZES[:2]
+    total, _ = dblquad(
+        lambda R, away: bench_tolerance.jumps(away, R),
+        *(bench_tolerance.L - a, bench_tolerance.L + a),
+        lambda away: away * math.sin(math.pi / bench_tolerance.Z),
+        bench_tolerance.arm() + b,
+        epsabs=1e-12,
+    )
+    assert total / (4 * a * b) == pytest.approx(exact.jump, rel=1e-8)
 
 
 def test_blocks_are_the_whole():
@@ -247,9 +295,9 @@ class Series(np.polynomial.Chebyshev):
 def test_the_call_of_chebpy_finds_the_peak(monkeypatch):
     stand_in = SimpleNamespace(chebfun=lambda f, ends: Series.interpolate(f, 60, ends))
     monkeypatch.setitem(sys.modules, "chebpy", stand_in)
-    for z, gearing, A in ((3, "external", 0.0), (6, "external", 0.6)):
-        found = by_chebpy(Proportions.of(z, gearing, A))
-        assert relative(found, acceleration_peak(z, gearing, A)) < 1e-14
+    for z, A in ((3, 0.0), (6, 0.6)):
+        found = by_chebpy(Proportions.of(1.0, z, A))
+        assert relative(found, acceleration_peak(z, "external", A)) < 1e-14
 
 
 def test_scripts_of_the_start_print_the_row():

@@ -20,6 +20,8 @@ from geneva_cli.kinematics.wheels.external import External
 from geneva_cli.machine.many import many, may_vary, taken
 from geneva_cli.machine.mechanism import build
 from geneva_cli.numerics.jet import turning
+from geneva_cli.numerics.latest import Latest
+from geneva_cli.numerics.stacks import Stack
 
 # The formulas are the same, but NumPy's sine and the C library's differ in the last place, and so
 # do the places of entry, middle and exit, about which all is written. A motion passes that on as
@@ -169,6 +171,31 @@ def test_it_pickles_and_can_be_taken_apart(case):
     assert np.array_equal(
         np.broadcast_to(part.engagements[0].motion(x).c[1], (some.sum(), 1)), whole[some]
     )
+
+
+def design_arrays_in(thing, seen):
+    """Every array (n, 1) that an object holds, whatever its class; a stack has its own rows."""
+    if id(thing) in seen or isinstance(thing, (Stack, Latest)):
+        return
+    seen[id(thing)] = thing
+    if isinstance(thing, np.ndarray):
+        if thing.shape[1:] == (1,):
+            yield thing
+    elif isinstance(thing, (tuple, list)):
+        for part in thing:
+            yield from design_arrays_in(part, seen)
+    else:
+        for part in getattr(thing, "__dict__", {}).values():
+            yield from design_arrays_in(part, seen)
+
+
+def test_every_object_with_numbers_of_designs_is_reduced(case):
+    """An object of a class that lacks the base ``Batchable`` would keep those of all designs."""
+    whole = case[2].machine
+    for engagement in whole.engagements:  # fills what is computed once
+        _ = engagement.entry_reach, engagement.motion(0.0), engagement.slot(0.0, 1)
+    assert {len(one) for one in design_arrays_in(whole, {})} == {len(case[2].which)}
+    assert {len(one) for one in design_arrays_in(taken(whole, slice(0, 3)), {})} == {3}
 
 
 @pytest.mark.parametrize("name", ["side-crank", "offset", "spherical", "epicyclic", "cycloidal"])

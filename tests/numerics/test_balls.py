@@ -98,6 +98,16 @@ def wave(x, order):
     return sin_cos(Jet.variable(radians(x), order) * 3.0)[0].c
 
 
+def test_balls_of_one_number_meet_and_those_of_two_formulas_are_joined():
+    one, two = Ball.between(0.0, 2.0), Ball.between(1.0, 3.0)
+    low, high = one.meet(two).bounds()
+    assert (low, high) == pytest.approx((1.0, 2.0), abs=1e-8)
+    low, high = Ball.exact(1.0).meet(Ball.exact(2.0)).bounds()
+    assert low <= 1.0 and high >= 2.0
+    nowhere = Ball.exact(math.nan)
+    assert one.meet(nowhere) is one and nowhere.meet(one) is one
+
+
 def test_the_greatest_size_and_all_its_places():
     with precision():
         found = greatest(wave, (0.0, 180.0), 200)

@@ -25,7 +25,7 @@ from geneva_cli.design import load
 from geneva_cli.errors import GenevaError
 from geneva_cli.output.formats import MESHES
 from geneva_cli.output.inks import INKS
-from geneva_cli.output.mesh import obj, stl, threemf
+from geneva_cli.output.mesh import obj, scad, stl, threemf
 from geneva_cli.output.mesh.polygons import DECIMALS, arc_chords, polygon, triangles
 from geneva_cli.output.mesh.solids import bodies
 
@@ -219,12 +219,12 @@ def solid_volume(solid):
     return solid.volume if isinstance(solid, Shell) else solid.thickness * face(solid).area
 
 
-@pytest.mark.parametrize("module", [stl, obj, threemf])
+@pytest.mark.parametrize("module", [stl, obj, threemf, scad])
 def test_the_same_bytes(small, module):
     assert b"".join(module.data(small, "mm")) == b"".join(module.data(small, "mm"))
 
 
-@pytest.mark.parametrize("module", [stl, obj, threemf])
+@pytest.mark.parametrize("module", [stl, obj, threemf, scad])
 def test_refused(module):
     drawing = Design(External(4)).drawing("slot", 0.1)
     with pytest.raises(GenevaError, match="no solid to write"):

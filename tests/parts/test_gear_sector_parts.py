@@ -202,7 +202,7 @@ def test_a_roller_that_overtakes_the_wheel_jams(z, sector, ratio):
         float(rho * mp.sin(ahead))
         for ahead, rho in (lead(b, u, a_t, a_t + k * mp.mpf("0.002")) for k in range(250))
     ]
-    found = design.proof.turn.driving
+    found = design.parts_model.turn.driving
     L = design.mechanism.center_distance_mm
     assert found.mm == pytest.approx(-L * max(depths), rel=1e-5)  # 0.002 off a flat top
     (said,) = [c for c in design.warnings if c.name == "roller-overtakes"]
@@ -362,7 +362,8 @@ def test_the_drawings_of_the_design():
     bare = made(3, 60.0, wheel_hub_mm=0.0).part_table("parts").to_dict()
     z = dict(zip(bare["name"], bare["z_low_mm"], strict=True))
     assert z["wheel's shaft"] < z["wheel gear"]  # which it carries
-    deep = planes(made(3, 60.0, wheel_hub_length_mm=40.0).parts).nearest
+    long = made(3, 60.0, wheel_hub_length_mm=40.0)
+    deep = planes(long.parts, long.proof.flat.links).nearest
     assert deep.gap == pytest.approx(8.0 - 12.5)  # a hub of 1.6 times the bore, in it
     gears = drawn_links(design.mechanism, design.parts).gears
     assert sum(gear.outer for gear in gears) == pytest.approx(120.0, rel=1e-14)  # and never meet

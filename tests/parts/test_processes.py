@@ -193,7 +193,7 @@ def test_a_process_is_its_keys(process: str) -> None:
     assert named.spec.size.allowances[:3] == spelled.allowances[:3]
     where = assembly(named.mechanism)
     assert sizes(where) == sizes(assembly(Design(External(6), size=spelled).mechanism))
-    page = report_sizes(named.proof) | inputs(named.proof)
+    page = report_sizes(named.parts_model) | inputs(named.parts_model)
     assert page["sizes.clearances_from"] == source
     assert {key: page[f"inputs.size.{key}"] for key in keys} == keys
 

@@ -193,7 +193,7 @@ def test_each_item_of_the_list_has_one_balloon(path, sheets):
 @pytest.mark.parametrize("name", ["turret", "internal-z6", "cam-geneva", "side-crank-z6"])
 def test_the_section_shows_what_the_plane_of_the_axes_cuts(name, sheets):
     """Against the polygons of the plates at their places, cut by a line in shapely."""
-    parts = sheets(name)[0].drawn(TOLERANCE).flat(TOLERANCE)
+    parts = sheets(name)[0].drawn(TOLERANCE).flat.within(TOLERANCE, "arcs")
     cut = faces(parts.members, 1.0)
     for own, plate in positioned(parts.members):
         rings = [vertices(shape, 0.01) for shape in (plate.outline, *plate.holes)]

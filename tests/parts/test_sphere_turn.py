@@ -165,7 +165,7 @@ def test_shafts_and_arm_have_room_or_not():
     design = Design(Spherical(6, axes_deg=75), size=given)
 
     def row(name, of=design):
-        return next(c for c in standing_checks(shells(of.mechanism)) if c.name == name)
+        return next(c for c in standing_checks(SphereParts(shells(of.mechanism))) if c.name == name)
 
     ball = shells(design.mechanism).ball
     # the arm is a shell from 84 mm on, and the wheel's one from 76
@@ -175,7 +175,7 @@ def test_shafts_and_arm_have_room_or_not():
     assert row("wheel_bore_wall_mm").value == pytest.approx(80.0 * deepest, rel=1e-12)
     assert row("beside_shafts_mm", design.with_("size.arm_eye_mm", 110.0)).passes is False
     # without an arm one check says why
-    thin = shells(design.with_("size.arm_hub_mm", 3.0).mechanism)
+    thin = SphereParts(shells(design.with_("size.arm_hub_mm", 3.0).mechanism))
     failing = [c for c in standing_checks(thin) if not c.passes]
     assert [c.name for c in failing] == ["arm_wall_mm"]
     assert failing[0].why.startswith("arm_hub_mm = 3: the hub must be above")
@@ -216,6 +216,6 @@ def test_by_default_all_has_its_room():
     for z in (3, 12):
         for axes in (10.0, 60.0, 120.0, 165.0):
             design = Design(Spherical(z, axes_deg=axes), size=Size(100.0, 1.0))
-            rows = list(standing_checks(shells(design.mechanism)))
+            rows = list(standing_checks(SphereParts(shells(design.mechanism))))
             assert all(c.passes for c in rows), rows
             assert {"beside_shafts_mm", "arm_wall_mm"} <= {c.name for c in rows}

@@ -347,14 +347,15 @@ def test_no_arm_or_hub(size, said):
 def test_bolts_for_a_dial():
     """Holes to the centre, half-way from the hub's hole to the cap's edge, evenly amid slots."""
     design = Design(Spherical(6), size=Size(80.0, 5.0, dial_bolts=3, dial_bolt_mm=4.0))
-    found = PartsModel(design.mechanism).shells
+    parts = PartsModel(design.mechanism).ball
+    found = parts.shells
     _, *holes = wheel_shell(design.spec.size, found.ball).holes
     hub = math.asin(found.ball.hub_mm / 76.0)
     far = 0.5 * (hub + found.ball.inner)
     ways = [math.pi / 6.0 + k * math.tau / 3.0 for k in range(3)]
     wanted = [polar(far, way) for way in ways]
     assert np.array([hole.axis for hole in holes]) == pytest.approx(np.array(wanted), abs=1e-15)
-    (wall,) = (c for c in standing_checks(found) if c.name == "dial_wall_mm")
+    (wall,) = (c for c in standing_checks(parts) if c.name == "dial_wall_mm")
     ends = found.ball.bottom - found.ball.half_width
     least = min(far - hub, ends - far) - math.asin(2.0 / 76.0)
     assert wall.value == pytest.approx(76.0 * least, rel=1e-12)
@@ -364,7 +365,7 @@ def test_bolts_for_a_dial():
         ("dial_bolt_circle_mm", 20.0, "they must lie between circles of"),
         ("wheel_bore_mm", 0.0, "the wheel is open about its axis"),
     ):
-        rows = standing_checks(PartsModel(design.with_(f"size.{key}", value).mechanism).shells)
+        rows = standing_checks(PartsModel(design.with_(f"size.{key}", value).mechanism).ball)
         (failing,) = (c for c in rows if not c.passes)
         assert failing.name == "dial_wall_mm"
         assert said in failing.why

@@ -11,6 +11,7 @@ from words import Motion, load
 from geneva_cli.collisions.free_angles import free_angles, search_deg
 from geneva_cli.collisions.full_turn import full_turn
 from geneva_cli.collisions.gaps import Gaps
+from geneva_cli.collisions.machine_parts import smallest_clearance
 from geneva_cli.collisions.play import windows
 from geneva_cli.curves.measure import at
 from geneva_cli.curves.shapes import Arc, Line
@@ -53,7 +54,10 @@ def test_a_stop_is_the_first_place_where_parts_overlap(name):
     parts = parts_of(name)
     at = places(parts)
     pose, most = parts.gaps.pose(at), math.radians(search_deg(parts))
-    apart = parts.gaps.gap(pose, np.zeros(len(at)), parts.gaps.near) + parts.close >= 0.0
+    apart = (
+        smallest_clearance(parts.gaps, pose, np.zeros(len(at)), parts.gaps.near) + parts.close
+        >= 0.0
+    )
     assert apart.mean() > 0.9
     for way, free in zip((-1.0, 1.0), free_angles(parts, at), strict=True):
         assert ((free >= 0.0) & (free <= most)).all()
@@ -61,11 +65,13 @@ def test_a_stop_is_the_first_place_where_parts_overlap(name):
         share = np.linspace(0.0, 1.0, LOOKS)[:, None]
         turned = np.where(apart, share * free, 0.0)
         many = parts.gaps.pose(np.tile(at, LOOKS))
-        gap = parts.gaps.gap(many, way * turned.ravel(), parts.gaps.near).reshape(turned.shape)
+        gap = smallest_clearance(parts.gaps, many, way * turned.ravel(), parts.gaps.near).reshape(
+            turned.shape
+        )
         assert (gap[:, apart] >= -parts.close - ROUNDING).all()
         stopped = apart & (free < most)
         assert stopped.any()
-        behind = parts.gaps.gap(pose, way * (free + PAST), parts.gaps.near)
+        behind = smallest_clearance(parts.gaps, pose, way * (free + PAST), parts.gaps.near)
         assert (behind[stopped] < -parts.close).all()
 
 

@@ -14,12 +14,12 @@ import numpy as np
 import pytest
 import repo
 from sampling import some
+from turn_witness import ROUNDING, TO_MM, check_bounds, least_gap, turn_of
 from words import load
 
 from geneva_cli.collisions import settled as halving
+from geneva_cli.collisions.certificate import certificate
 from geneva_cli.collisions.full_turn import full_turn
-from geneva_cli.collisions.play import windows
-from geneva_cli.collisions.settled import intervals
 from geneva_cli.curves.distance import Polyarc
 from geneva_cli.curves.extents import farthest, from_segments, near_segments, short_pieces
 from geneva_cli.curves.shapes import Line, about, closed
@@ -33,21 +33,13 @@ from geneva_cli.machine.drives.crank import Crank
 from geneva_cli.machine.mechanism import build
 from geneva_cli.machine.spec import Spec
 from geneva_cli.numerics.arrays import Undecided
-from geneva_cli.outlines.bounds import CurvedSlot, FreeRoller, Lock, Reach, StraightSlot
-from geneva_cli.outlines.certificate import certificate, spans, unproved_kind
 from geneva_cli.outlines.outlines import outlines
 from geneva_cli.outlines.travel import UNKNOWN, Travel, curve_rates, path_travel, slot_travel
 from geneva_cli.spec.tables import Size
 from geneva_cli.verdict.checks.proved import least_gap as least_gap_check
 
-TO_MM = 1e-3
-ROUNDING = 1e-9  # mm: a hundred times the rounding of a distance here
-DENSE = some(20_000, 4_000)  # positions of a turn
 MACHINES = some(300, 12)
 FLAT = [path.name for path in sorted(repo.DESIGNS.glob("*.toml")) if load(path).spec.wheel.FLAT]
-
-
-BALL = PartsModel(load(repo.DESIGNS / "spherical-z6.toml"))
 
 
 @functools.cache
@@ -57,18 +49,6 @@ def parts_of(name):
 
 def proved(parts, gap_mm=0.0, to_mm=TO_MM):
     return certificate(parts, gap_mm, to_mm)
-
-
-def least_gap(parts, at):
-    """The smallest gap of all parts at input angles."""
-    pose = parts.gaps.pose(at)
-    locking = parts.gaps.locking(pose).min() if parts.crank else math.inf
-    return float(min(parts.gaps.rollers(pose).min(), locking))
-
-
-def turn_of(parts, count=DENSE):
-    start = parts.assembly.start_deg
-    return np.linspace(start, start + parts.assembly.turn_deg, count)
 
 
 def random_parts(seed):
@@ -231,39 +211,6 @@ def test_a_path_that_is_unknown_closes_no_interval():
     assert travel.aside(at, at + 1e-6) > 1e12
 
 
-def pairs(parts, window):
-    """Each pair of parts in a motion or dwell, with the gap at input angles."""
-    reach = Reach(parts, -TO_MM)
-    if parts.crank:
-        ends = window.start, window.end
-        yield ends, Lock(reach, window), lambda at: parts.gaps.locking(parts.gaps.pose(at))
-    for roller in range(len(parts.assembly.rollers)):
-
-        def gap(at, roller=roller):
-            return parts.gaps.rollers(parts.gaps.pose(at))[:, roller]
-
-        yield (window.start, window.end), FreeRoller(reach, roller), gap
-        for span, driver in spans(parts, window):
-            if roller == driver:
-                engagement, _ = parts.assembly.rollers[roller]
-                slot = CurvedSlot if engagement.slot.curved else StraightSlot
-                yield span, slot(reach, roller, span), gap
-
-
-def check_bounds(parts, rng):
-    for window in windows(parts):
-        for (low, high), pair, gap in pairs(parts, window):
-            width = (high - low) * 10.0 ** rng.uniform(-5.0, -0.5, 40)
-            start = low + (high - low - width) * rng.random(40)
-            bounds = pair(intervals(parts.assembly, start, start + width))
-            at = start[:, None] + width[:, None] * np.linspace(0.0, 1.0, 41)
-            dense = gap(at.ravel()).reshape(at.shape).min(axis=1)
-            near = parts.gaps.near  # wider gaps are returned as this
-            assert (np.minimum(bounds.least, near) <= dense + ROUNDING).all()
-            middle = gap(start + 0.5 * width)
-            assert np.allclose(np.minimum(bounds.middle, near), middle, atol=ROUNDING)
-
-
 @pytest.mark.parametrize("name", FLAT)
 @pytest.mark.sampled(4)
 def test_no_gap_within_an_interval_is_below_its_bound(name):
@@ -370,20 +317,12 @@ def test_the_check_passes_with_its_proof_and_fails_where_samples_missed_a_collis
     check = checked(worse, turn_of=parts)
     assert check.passes is False
     assert check.value == pytest.approx(-0.5)
-    unknown = least_gap_check("gap_proved_mm", BALL, None)
-    assert (unknown.value, unknown.passes) == (None, None)
-    assert unknown.why.startswith("sampled collision check: ")
-
-
-def test_kinds_without_a_certificate_have_a_reason():
-    assert not any(unproved_kind(parts_of(name)) for name in FLAT)
-    assert "sphere" in unproved_kind(BALL.parts)
 
 
 def test_the_wheel_lies_within_the_circle_that_gaps_are_counted_from():
     """A roller beyond the rim is as far from the wheel as from the rim, or farther."""
     for name in FLAT:
         parts = parts_of(name)
-        rim = Reach(parts, 0.0).rim
+        rim = parts.pairs(0.0).rim
         # the corners of a mouth are rounded to 1e-7 mm, the ends of curved walls
         assert parts.assembly.sign * (parts.sizes.rim - rim) > -1e-7

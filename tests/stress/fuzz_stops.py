@@ -17,6 +17,7 @@ from words import Motion
 
 from geneva_cli.collisions.free_angles import free_angles, search_deg
 from geneva_cli.collisions.full_turn import full_turn
+from geneva_cli.collisions.machine_parts import smallest_clearance
 from geneva_cli.collisions.play import windows
 from geneva_cli.errors import GenevaError
 
@@ -33,16 +34,16 @@ WALLS = 50.0  # times the tolerance of the walls over the rim: smaller plays are
 def require_first_contacts(parts, at_deg):
     """No overlap before the stops at input angles, and an overlap behind them."""
     gaps, pose = parts.gaps, parts.gaps.pose(at_deg)
-    apart = gaps.gap(pose, np.zeros(len(at_deg)), gaps.near) + parts.close >= 0.0
+    apart = smallest_clearance(gaps, pose, np.zeros(len(at_deg)), gaps.near) + parts.close >= 0.0
     most = math.radians(search_deg(parts))
     many = gaps.pose(np.tile(at_deg, LOOKS))
     share = np.linspace(0.0, 1.0, LOOKS)[:, None]
     for way, free in zip((-1.0, 1.0), free_angles(parts, at_deg), strict=True):
         turned = np.where(apart, share * free, 0.0)
-        gap = gaps.gap(many, way * turned.ravel(), gaps.near).reshape(turned.shape)
+        gap = smallest_clearance(gaps, many, way * turned.ravel(), gaps.near).reshape(turned.shape)
         assert (gap[:, apart] >= -parts.close - ROUNDING).all(), "a stop is missed"
         stopped = apart & (free < most)
-        behind = gaps.gap(pose, way * (free + PAST), gaps.near)
+        behind = smallest_clearance(gaps, pose, way * (free + PAST), gaps.near)
         assert (behind[stopped] < -parts.close).all(), "nothing is behind a stop"
 
 

@@ -17,7 +17,7 @@ from geneva_cli.errors import GenevaError
 from geneva_cli.machine import spec as machine_spec
 from geneva_cli.machine.mechanism import build
 from geneva_cli.numerics.keeps import keeps
-from geneva_cli.outlines.outlines import outlines
+from geneva_cli.parts.flat_parts import FlatParts
 from geneva_cli.spec.tables import Limits, Load, Size
 from geneva_cli.verdict.checks import Check, checks
 from geneva_cli.verdict.checks.registry import standing_checks
@@ -143,7 +143,7 @@ def test_the_gap_is_known_as_nearly_as_its_outlines() -> None:
 def test_walls_beside_bores(keys: str, row: str, value: float, tmp_path: Path) -> None:
     path = tmp_path / "bore.toml"
     path.write_text(f"[wheel]\nz = 6\n[size]\n{keys}\nlock_radius_mm = 40\n")
-    rows = {c.name: c for c in standing_checks(outlines(load(str(path))))}
+    rows = {c.name: c for c in standing_checks(FlatParts(load(str(path))))}
     assert rows[row].value == pytest.approx(value, abs=1e-5)
     assert rows[row].limit == 0.5
     assert rows[row].passes == (value >= 0.5)
@@ -153,7 +153,7 @@ def test_the_wall_outside_an_internal_wheel(tmp_path: Path) -> None:
     path = tmp_path / "ring.toml"
     size = "[size]\nwheel_outer_radius_mm = 155.5\n"
     path.write_text(f'[wheel]\nz = 6\ngearing = "internal"\n{size}')
-    rows = {c.name: c for c in standing_checks(outlines(load(str(path))))}
+    rows = {c.name: c for c in standing_checks(FlatParts(load(str(path))))}
     # L + R + r + r/20 is 155.25 mm
     assert rows["outer_wall_mm"].value == pytest.approx(0.25, abs=1e-9)
     assert not rows["outer_wall_mm"].passes

@@ -97,9 +97,7 @@ def test_a_program_finds_the_same_names_for_every_machine() -> None:
     plain = names(trees["projector"])
     for name, tree in trees.items():
         assert names(tree) == plain, name
-    unproved = [tree["not_proved"] for tree in trees.values()]
-    assert unproved[1:] == [[], [], [], []]
-    assert unproved[0] == ["gap_proved_mm: sampled collision check: the parts lie on a sphere"]
+    assert all(tree["not_proved"] == [] for tree in trees.values())
     two = trees["two-rollers-side-crank"]
     assert len(two["stations"]) == 2
     assert trees["projector"]["stations"] is None

@@ -72,7 +72,7 @@ def test_printed_bores_and_rollers_are_those_drawn(model):
     found, size, part = model.outlines, sizes(model), cut_sizes(model)
     circles, shapes = (
         wheel_circles(found.assembly, found.sizes),
-        outlines_of(model.flat().crank_without_arm.part),
+        outlines_of(model.flat.crank_without_arm.part),
     )
     assert part["parts.wheel_bore_mm"] == about_axis(circles, "BORE")
     assert part["parts.crank_bore_mm"] == about_axis(shapes, "BORE")

@@ -7,7 +7,7 @@ import pytest
 from words import Motion, Spec, Wheel
 
 from geneva_cli.machine.mechanism import build
-from geneva_cli.outlines.outlines import outlines
+from geneva_cli.parts.flat_parts import FlatParts
 from geneva_cli.spec.tables import Limits, Size
 from geneva_cli.verdict.checks import checks
 from geneva_cli.verdict.checks.registry import standing_checks
@@ -23,9 +23,10 @@ def test_walls_and_shafts_of_a_plain_wheel(z: int) -> None:
     R = L * math.sin(b)
     lock = rk * R / 50.0
     size = Size(L, r, lock_radius_mm=lock, **HUBS)
-    found = outlines(build(Spec(Wheel(z), size=size)))
+    parts = FlatParts(build(Spec(Wheel(z), size=size)))
+    found = parts.outlines
     assert found.relief == "arc"
-    rows = {c.name: c.value for c in standing_checks(found)}
+    rows = {c.name: c.value for c in standing_checks(parts)}
     end = found.sizes.slot_end  # the theory leaves it to the maker, below L - R - r
     assert end <= L - R - r
     by_hand = {
@@ -51,8 +52,8 @@ def krasniqi(x: np.ndarray) -> np.ndarray:
 
 def test_branches_of_a_curved_slot() -> None:
     """2 rho sin(theta - psi) at most, of a slot whose way in leads its way out."""
-    found = outlines(build(curved("sine-group", 0.5)))
-    rows = {c.name: c for c in standing_checks(found)}
+    parts = FlatParts(build(curved("sine-group", 0.5)))
+    rows = {c.name: c for c in standing_checks(parts)}
     phi = np.linspace(-math.pi / 3.0, 0.0, 400_001)
     psi = (krasniqi(math.pi * (phi / (2.0 * math.pi / 3.0) + 0.5)) - 0.5) * math.pi / 3.0
     x, y = 1.0 - 0.5 * np.cos(phi), 0.5 * np.sin(phi)

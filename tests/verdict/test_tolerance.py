@@ -71,7 +71,7 @@ def test_play_of_the_lock_is_that_of_a_whole_turn(name):
     design = load(str(ROOT / "designs" / f"{name}.toml")).with_("size.lock_clearance_mm", 0.05)
     found = [lock(at()).angle.c[0] for lock in locks(design.parts)]
     # parts that overlap by rounding, 1e-9 L, still touch there: as much more clearance
-    assert math.degrees(max(found)) == pytest.approx(design.proof.turn.dwell.deg, rel=1e-5)
+    assert math.degrees(max(found)) == pytest.approx(design.parts_model.turn.dwell.deg, rel=1e-5)
 
 
 def by_points(lock, dL, dk, dr):
@@ -154,7 +154,7 @@ def on_sphere(axes_deg, rollers):
     size = Size(slot_clearance_mm=0.1, lock_clearance_mm=0.1)
     drive = Crank(rollers=rollers)
     design = Design(Spherical(6, axes_deg=axes_deg), drive, size=size)
-    [lock] = sphere_locks(design.proof.shells)
+    [lock] = sphere_locks(design.parts_model.shells)
     return design, lock
 
 
@@ -165,7 +165,9 @@ def test_play_of_a_lock_on_a_sphere_is_that_of_a_whole_turn(axes_deg, rollers):
     assert (lock.reach <= lock.half + 1e-9) == ((axes_deg, rollers) in ROUND[0:3:2])
     play = lock(at())
     assert not play.jams
-    assert math.degrees(play.angle.c[0]) == pytest.approx(design.proof.turn.dwell.deg, rel=2e-6)
+    assert math.degrees(play.angle.c[0]) == pytest.approx(
+        design.parts_model.turn.dwell.deg, rel=2e-6
+    )
 
 
 @pytest.mark.parametrize("axes_deg, rollers", ROUND)

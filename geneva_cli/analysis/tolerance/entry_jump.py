@@ -29,8 +29,9 @@ class Branch(NamedTuple):
 
     side: float
     root: Array  # square root of its distance from the axis, over L
-    speed: Array  # speed of its approach to the axis over that root, nearly constant
-    lever: Array  # of the wheel, to the roller
+    # Speed of its approach to the axis over that root, nearly constant, and as imaginary part the
+    # wheel's lever to the roller: one search interpolates both.
+    speed_and_lever: Array
 
 
 class EntryJumpFunction(NamedTuple):
@@ -53,8 +54,8 @@ class EntryJumpFunction(NamedTuple):
         for branch in self.branches:
             here = np.flatnonzero(offset * branch.side > 0.0)
             at = np.sqrt(abs(offset[here]))
-            speed = at * np.interp(at, branch.root, branch.speed, right=np.nan)
-            lever = np.interp(at, branch.root, branch.lever) + moved[here]
+            both = np.interp(at, branch.root, branch.speed_and_lever, right=np.nan)
+            speed, lever = at * both.real, both.imag + moved[here]
             jump[here] = np.nan_to_num(speed / lever)
             missed[here] = np.isnan(speed)
         return jump, missed
@@ -92,4 +93,5 @@ def _branch(axis: RestingAxis, sense: float) -> Branch:
     leaves = np.append(np.diff(root[first:]) > 0.0, False)
     part = slice(first, first + int(np.argmin(leaves)) + 1)  # as far as it leaves the axis
     side, root = float(np.sign(off[first])), root[part]
-    return Branch(side, root, abs(slope)[part] / root, anchor.along + along.arrays()[0][part])
+    lever = anchor.along + along.arrays()[0][part]
+    return Branch(side, root, abs(slope)[part] / root + 1j * lever)

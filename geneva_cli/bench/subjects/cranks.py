@@ -13,7 +13,7 @@ from geneva_cli.bench.formulas import Proportions, acceleration, jerk
 from geneva_cli.bench.kinds import task_of_many
 from geneva_cli.bench.method import Method, Subject, missing
 from geneva_cli.bench.numeric import NUMERIC, vertex
-from geneva_cli.bench.scalar_loop import by_numba
+from geneva_cli.bench.scalar_loop import by_numba, looped
 from geneva_cli.bench.truth import acceleration_peak, relative
 from geneva_cli.kinematics.wheels.side_crank_arrays import acceleration_peaks, wheels
 from geneva_cli.numerics.angles import one_minus_sin_pi
@@ -29,24 +29,11 @@ class CrankDesigns:
         self.z: Any = random.integers(3, 25, count)
         self.internal = random.random(count) < 0.5
         self.A = random.uniform(-0.9, 0.9, count)
-        sign, b = np.where(self.internal, -1.0, 1.0), np.pi / self.z
-        crank = 0.5 * np.pi - sign * b
-        half = crank + np.arcsin(self.A * np.sin(crank))
-        self.arrays = Proportions(sign, np.sin(b), self.A, half)
+        self.arrays = Proportions.of(np.where(self.internal, -1.0, 1.0), self.z, self.A, np)
 
     def one(self, i: int) -> Proportions:
         """One design, for methods that take single designs."""
         return Proportions(*[float(v[i]) for v in self.arrays])
-
-    def blocks(self, method: Callable[[Proportions], Any]) -> Any:
-        """Results of a vectorised method, in blocks that stay in the cache."""
-        size = 4096
-        return np.concatenate(
-            [
-                method(Proportions(*[v[i : i + size] for v in self.arrays]))
-                for i in range(0, len(self.A), size)
-            ]
-        )
 
     def error(self, peaks: Any) -> float:
         """Greatest relative error of the first designs, as many as were computed."""
@@ -131,7 +118,7 @@ def subject(quick: bool) -> Subject:
     count = 2_000 if quick else 100_000
     designs = CrankDesigns(count)
     methods = [
-        Method(name, n, partial(designs.blocks, partial(_sized, method, n)))
+        Method(name, n, partial(designs.arrays.blocks, partial(_sized, method, n)))
         for name, method, sizes in vectorised
         if method is not find_root or _has_find_root()
         for n in (sizes[:2] if quick else sizes)
@@ -173,7 +160,7 @@ def subject(quick: bool) -> Subject:
 def _compiled(designs: CrankDesigns) -> Any:
     sign, l, A, _ = designs.arrays
     out = np.empty(len(A))
-    by_numba()(sign, l, A, out)
+    by_numba(looped)(sign, l, A, out)
     return out
 
 

@@ -5,26 +5,15 @@ The exponent is that of a power of the size: 1 is linear, and n log n is 1.1 to 
 
 from __future__ import annotations
 
-import subprocess
-import sys
 from collections.abc import Sequence
-from functools import partial
 from typing import NamedTuple
 
 from geneva_cli.bench.method import Method, Subject, Task
-from geneva_cli.bench.whole_runs import BASELINE, IMPORT, RUN, run_python
+from geneva_cli.bench.whole_runs import geneva, task
 from geneva_cli.specfile.template import template
 
-SIZES = "--set size.roller_radius_mm=0.1 --set size.center_distance_mm"
-SWEEP = f"sweep - {SIZES}=100 --set drive.kind=side-crank --vary drive.A=-0.3..0.5"
-SLOTS = (6, 12, 24, 48, 96, 192, 360)  # parts are drawn for up to 360 slots
+SWEEP = "sweep - --set drive.kind=side-crank --vary drive.A=-0.3..0.5 --jobs 1 --random {n}"
 ROWS = (10, 100, 1_000, 10_000, 100_000)
-# Runs a command and prints its largest memory. The bench's own process is too large for that: a
-# child starts with the memory of its parent.
-LARGEST = (
-    "import resource, subprocess, sys; subprocess.run(sys.argv[1:], stdout=subprocess.DEVNULL);"
-    "print(resource.getrusage(resource.RUSAGE_CHILDREN).ru_maxrss)"
-)
 
 
 class Grown(NamedTuple):
@@ -35,9 +24,12 @@ class Grown(NamedTuple):
     kind: str = "external"  # template of the spec
 
 
-def wheel(command: str, sizes: Sequence[int] = SLOTS) -> Grown:
-    """Run of a command whose wheel has more slots; its size grows with them."""
-    return Grown(f"{command} {SIZES}={{20n}} --set wheel.z={{n}}", sizes)
+def wheel(command: str, sizes: Sequence[int] = (6, 12, 24, 48, 96, 192, 360)) -> Grown:
+    """Run of a command whose wheel has more slots.
+
+    Parts are drawn for up to 360 slots.
+    """
+    return Grown(f"{command} --set wheel.z={{n}}", sizes)
 
 
 RUNS = (
@@ -67,15 +59,15 @@ RUNS = (
     Grown("profile - --tolerance {1/n} --format csv", (*ROWS, 1_000_000), "curved"),
     Grown("profile - --part wheel --tolerance {1/n} --format svg", ROWS, "curved"),
     Grown("peaks - --set motion.alpha0_deg=110 --set drive.rollers={n}", (1, 4, 16, 32), "curved"),
-    Grown(f"check - {SIZES}=100 --set wheel.z=3 --set drive.rollers={{n}}", (1, 2, 3, 4, 5)),
+    Grown("check - --set wheel.z=3 --set drive.rollers={n}", (1, 2, 3, 4, 5)),
     Grown("compare - --vary drive.n_rpm={1..n}", (2, 10, 100)),
     *(
-        Grown(f"{SWEEP} --random {{n}} --jobs 1 {words}", sizes)
+        Grown(f"{SWEEP} {words}", sizes)
         for words, sizes in (
             ("--pick acceleration.max --format csv", ROWS),
             ("--pick pin_force_N.max --set load.inertia_kgm2=1 --format csv", ROWS[:-1]),
             ("--pick horn_mm --format csv", ROWS[:-2]),
-            ("--check --format csv", (10, 100)),
+            ("--check --format csv", (10, 100, 1_000)),
             ("--pareto min:acceleration.max,max:dwell_s --format csv", ROWS),
             ("--best min:acceleration.max", ROWS),
         )
@@ -98,7 +90,7 @@ def subject(quick: bool) -> Subject:
 
 def words_of(run: Grown, n: int) -> tuple[str, ...]:
     """Return the arguments of a run of one size."""
-    values = {"{n}": f"{n}", "{1/n}": f"{1.0 / n!r}", "{20n}": f"{20 * n}"}
+    values = {"{n}": f"{n}", "{1/n}": f"{1.0 / n!r}"}
     values["{1..n}"] = ",".join(f"{60 + i}" for i in range(n)) if "{1..n}" in run.words else ""
     text = run.words
     for mark, value in values.items():
@@ -106,35 +98,14 @@ def words_of(run: Grown, n: int) -> tuple[str, ...]:
     return tuple(text.split())
 
 
+def spec_of(run: Grown, n: int) -> str:
+    """Return the spec of a run of one size. With the slots grows L, so that each has its room."""
+    L = 20 * n if "wheel.z={n}" in run.words else 100
+    sizes = f"center_distance_mm = {L}\nroller_radius_mm = 5\nwall_min_mm = 0.5\n"
+    return template(run.kind).replace("[size]\n", f"[size]\n{sizes}", 1)
+
+
 def _task(run: Grown, most: int | None) -> Task:
-    text = template(run.kind)
-    methods = [
-        Method(
-            "ours",
-            n,
-            partial(_run, words_of(run, n), text),
-            ours=True,
-            memory=partial(_memory, words_of(run, n), text),
-        )
-        for n in run.sizes[:most]
-    ]
-    base = partial(run_python, IMPORT)
-    return Task(f"geneva {run.words}", BASELINE, base, lambda _: 0.0, methods)
-
-
-def _command(words: Sequence[str]) -> list[str]:
-    return [sys.executable, "-c", RUN, *words]
-
-
-def _run(words: Sequence[str], text: str) -> None:
-    done = subprocess.run(_command(words), capture_output=True, input=text, text=True)
-    # 1: a check fails, which is a result
-    if done.returncode not in (0, 1):
-        raise subprocess.CalledProcessError(done.returncode, done.args, stderr=done.stderr)
-
-
-def _memory(words: Sequence[str], text: str) -> float:
-    """Return the greatest memory of a run, MB."""
-    command = [sys.executable, "-c", LARGEST, *_command(words)]
-    done = subprocess.run(command, capture_output=True, input=text, text=True, check=True)
-    return float(done.stdout) / (1e6 if sys.platform == "darwin" else 1e3)  # bytes or kilobytes
+    runs = {n: geneva(*words_of(run, n), text=spec_of(run, n)) for n in run.sizes[:most]}
+    methods = [Method("ours", n, run.run, True, memory=run.memory_MB) for n, run in runs.items()]
+    return task(f"geneva {run.words}", methods)

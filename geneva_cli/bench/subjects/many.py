@@ -1,6 +1,7 @@
 """Peaks and loads of large batches of designs of every machine.
 
-They are compared with single designs, and with a grid over all of them. The manual's table of
+They are compared with single designs and with scripts: a grid over a handbook's formulas, or the
+closed form of a law. The manual's table of
 designs per second comes from this subject.
 """
 
@@ -58,10 +59,11 @@ def subject(quick: bool) -> Subject:
 
 def _task(kind: VariedMachine, count: int) -> Task:
     machine, built, alone = drawn(kind, kind.spec, count)
-    varied = {kind.key: values_of(kind, count)}
+    values = values_of(kind, count)
+    varied, script = {kind.key: values}, kind.script and partial(kind.script, values)
     methods = [
         one_by_one(alone, built, _one, LOOP if built > QUICK else QUICK_LOOP),
-        Method("grid of all", 101, partial(_grid, machine, built, 101)),
+        *([Method("a handbook's formulas in NumPy", None, script)] if script else []),
         *_formulas_alone(machine, built),
         Method("together", None, partial(_together, machine), True),
         Method("built and together", None, partial(_built_together, kind.spec, varied), True),
@@ -109,23 +111,6 @@ def _at_places(motion: WheelMotion, count: int, pieces: list[tuple[float, float]
             for k, rate in enumerate(rates[: len(PEAK_QUANTITIES)]):
                 np.maximum(most[which, k], np.abs(rate).max(axis=1), out=most[which, k])
     return most
-
-
-def _grid(machine: Mechanism, count: int, places: int) -> Array:
-    """Greatest values on a grid of places, in blocks of designs that stay in the cache."""
-    motion = machine.engagements[0].motion
-    ends = [np.broadcast_to(np.ravel(x), (count,)) for x in (motion.entry_deg, motion.exit_deg)]
-    rows, block = [], 512
-    for i in range(0, count, block):
-        which = slice(i, i + block)
-        a, b = (side[which, None] for side in ends)
-        x = a + (b - a) * np.linspace(0.0, 1.0, places)
-        p = taken(motion, which)(x, 2).derivatives()
-        rows.append(
-            np.column_stack([np.abs(np.broadcast_to(p[k], x.shape)).max(axis=1) for k in (1, 2)])
-        )
-    both: Array = np.concatenate(rows)
-    return both
 
 
 def _one(machine: Mechanism) -> list[float]:

@@ -10,7 +10,9 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from geneva_cli.bench import motion_of_kinds
+from geneva_cli.bench.formulas import textbook
 from geneva_cli.bench.method import Method, Subject, Task, missing
+from geneva_cli.bench.scalar_loop import by_numba, motion_loop
 from geneva_cli.bench.truth import digits, motion
 from geneva_cli.kinematics.wheels.external import External
 from geneva_cli.machine.mechanism import build
@@ -21,23 +23,6 @@ if TYPE_CHECKING:
     from geneva_cli.numerics.jet import Array
 
 Z = 3  # the wheel that is hardest for a formula
-
-
-def textbook(l: float, x: Array, orders: Sequence[int]) -> list[Array]:
-    """Derivatives by the formulas of handbooks, over whole arrays; x in radians."""
-    sine, cosine = np.sin(x), np.cos(x)
-    D = 1.0 - 2.0 * l * cosine + l * l
-    out = []
-    if 0 in orders:
-        out.append(np.arctan2(l * sine, 1.0 - l * cosine))
-    if 1 in orders:
-        out.append(l * (cosine - l) / D)
-    if 2 in orders:
-        out.append(-l * (1.0 - l * l) * sine / D**2)
-    if 3 in orders:
-        top = 4.0 * l - (1.0 + l * l) * cosine - 2.0 * l * cosine * cosine
-        out.append(l * (1.0 - l * l) * top / (D * D * D))  # three times as quick as D**3
-    return out
 
 
 def stable(l: float, x: Array, orders: Sequence[int]) -> list[Array]:
@@ -98,6 +83,13 @@ def expressions(l: float, x: Array, orders: Sequence[int]) -> list[Array]:
     return [numexpr.evaluate(texts[k], {"l": l, "x": x}) for k in orders]
 
 
+def compiled(l: float, x: Array, orders: Sequence[int]) -> list[Array]:
+    """Velocity and acceleration by the stable formula in a loop that Numba has compiled."""
+    out = [np.empty(len(x)) for _ in orders]
+    by_numba(motion_loop)(l, x, *out)
+    return out
+
+
 def subject(quick: bool) -> Subject:
     """Every formula for velocity and acceleration, and for position to jerk."""
     wanted = {"velocity and acceleration": (1, 2), "position to jerk": (0, 1, 2, 3)}
@@ -110,7 +102,7 @@ def subject(quick: bool) -> Subject:
         f"Motion of a wheel of {Z} slots, and of every machine, at N angles",
         "greatest error, in units of each quantity's peak; of every machine against single angles",
         [*tasks, *motion_of_kinds.tasks(1_000 if quick else 1_000_000)],
-        absent=missing("numexpr"),
+        absent=missing("numexpr", "numba"),
     )
 
 
@@ -131,6 +123,8 @@ def _task(count: int, what: str, orders: tuple[int, ...]) -> Task:
     ]
     if not missing("numexpr"):
         formulas.append(("stable formula, numexpr", expressions))
+    if not missing("numba") and orders == (1, 2):
+        formulas.append(("stable formula, numba", compiled))
     methods = [Method(name, count, partial(formula, l, x, orders)) for name, formula in formulas]
     methods += [
         Method(

@@ -35,7 +35,8 @@ def subject(quick: bool) -> Subject:
 
 
 def _task(z: int, gearing: str, A: float, quick: bool) -> Task:
-    d = Proportions.of(z, gearing, A)
+    wheel = registry.gearing(gearing)(z)
+    d = Proportions.of(wheel.SIGN, z, A)
     methods = [
         Method(numeric.name, size, partial(_run, numeric.run, d, size))
         for numeric in NUMERIC
@@ -43,7 +44,6 @@ def _task(z: int, gearing: str, A: float, quick: bool) -> Task:
     ]
     if not missing(CHEBPY):
         methods.append(Method("chebpy, roots of the slope", None, partial(by_chebpy, d)))
-    wheel = registry.gearing(gearing)(z)
     mechanism = build(Spec(wheel, SideCrank(A=A) if A else Crank()))
     engagement = mechanism.engagements[0]
     outside = wheel.SIGN > 0.0

@@ -1,15 +1,9 @@
-"""Start-up: whole runs as a user waits for them, with and without the lazy imports."""
+"""Start-up: short runs of every command, compared with a Python that imports Typer."""
 
 from __future__ import annotations
 
-import os
-import subprocess
-import sys
-from functools import partial
-
 from geneva_cli.bench.method import Method, Subject, Task
-from geneva_cli.bench.timing_pairs import process_seconds
-from geneva_cli.bench.whole_runs import BASELINE, IMPORT, RUN, run_python
+from geneva_cli.bench.whole_runs import GENEVA, WholeRun, geneva, task
 from geneva_cli.specfile.template import template
 
 # A user's own script instead: a row of the table as in handbooks.
@@ -36,66 +30,86 @@ SCRIPTS = {
 }
 
 
-def commands() -> list[str]:
-    """Names of the commands, from a run of the program, since this module may not import it."""
-    code = "from geneva_cli.app import COMMANDS; print(*COMMANDS)"
-    return subprocess.run(
-        [sys.executable, "-c", code], capture_output=True, text=True, check=True
-    ).stdout.split()
-
-
 def subject(quick: bool) -> Subject:
-    """Bare Python, every command in both ways, and exports to cut; one task each."""
-    spec = template("curved")  # the template that needs most
+    """Bare Python and a row of the table; then a short run of each command."""
+    python = {code: WholeRun(code) for code in ("pass", "import numpy")}
+    tasks = [task("python", [Method(f"python -c '{c}'", None, r.run) for c, r in python.items()])]
+    tasks.append(_table())
+    if not quick:
+        tasks += [_command(words) for words in _without_a_spec()]
+        tasks += [_design(words) for words in _with_a_spec()]
+    return Subject("Start-up of whole runs", "none", tasks, seconds=2.0)
+
+
+def _without_a_spec() -> tuple[str, ...]:
+    return (
+        "--help",
+        "table --help",
+        "table --format csv",
+        "table --A 0.3 --z 6",
+        "explain horn_mm",
+        "explain acceleration.max",
+        "keys",
+        "keys load",
+        "laws",
+        "schema",
+        "new external",
+        "help",
+        "help units",
+        "synth --motion-deg 180 --z 6 --external --rollers 1 --check 0",
+    )
+
+
+def _with_a_spec() -> tuple[str, ...]:
+    return (
+        "peaks -",
+        "motion -",
+        "loads - --set load.inertia_kgm2=0.05",
+        "vibration - --period-ratio 5",
+        "tolerance - --set tolerance.crank_radius_mm=0.01",
+        "check -",
+        "report -",
+        "compare - --vary drive.n_rpm=60,90",
+        "sweep - --vary drive.n_rpm=60,90 --jobs 1",
+        "profile - --format csv",
+        "profile - --part wheel --format svg",
+        "profile - --part wheel --format dxf",
+        "profile - --part sheet --format svg",
+        "plot - --format svg",
+        "animate -",
+    )
+
+
+def _table() -> Task:
+    """One row of the table, as the program, an eager program and scripts print it."""
+    words = ("table", "--z", "6")
     eager = (
         "import importlib, numpy, scipy.optimize, scipy.interpolate, rich.table\n"
         "from geneva_cli.app import COMMANDS\n"
         "for name in COMMANDS: importlib.import_module('geneva_cli.commands.' + name)\n"
     )
-    # arguments of commands, with a spec on standard input; other commands run with --help
-    arguments: dict[str, tuple[str, ...]] = {
-        "table": ("--z", "6"),
-        "peaks": ("-",),
-        "motion": ("-",),
-        "profile": ("-",),
-        "report": ("-",),
-        "check": ("-",),
-        "laws": (),
-        "new": ("external",),
-    }
-    tasks = [_task("python", {"python -c pass": ("pass", ())}, None)]
-    for name in ("table",) if quick else ("--help", *commands()):
-        words = (name, *arguments.get(name, ("--help",) if name != "--help" else ()))
-        runs = {
-            "ours: lazy imports": (RUN, words),
-            "everything imported first": (eager + RUN, words),
-        }
-        if name == "table":
-            runs |= {script: (code, words) for script, code in SCRIPTS.items()}
-        tasks.append(_task("geneva " + " ".join(words), runs, spec))
-    # Wheels to cut: outlines computed, turned against the crank, and written. Templates and keys.
-    wheels: dict[str, tuple[str, tuple[str, ...]]] = {
-        "6 straight slots": ("external", ()),
-        "6 curved slots": ("curved", ()),
-        "24 straight slots": ("external", ("wheel.z=24", "size.roller_radius_mm=2")),
-        "4 slots, 3 rollers": ("external", ("wheel.z=4", "drive.rollers=3")),
-    }
-    export = ("profile", "-", "--part", "wheel", "--format", "dxf")
-    for name, (kind, keys) in () if quick else wheels.items():
-        words = (*export, *(word for key in keys for word in ("--set", key)))
-        runs = {"ours: lazy imports": (RUN, words)}
-        tasks.append(_task(f"geneva profile as dxf: {name}", runs, template(kind)))
-    return Subject("Start-up of whole runs", "none", tasks)
-
-
-def _task(name: str, runs: dict[str, tuple[str, tuple[str, ...]]], spec: str | None) -> Task:
+    complete = (
+        "import os; os.environ.update(_GENEVA_COMPLETE='complete_bash', "
+        "COMP_WORDS='geneva ta', COMP_CWORD='1')\n"
+    )
     methods = [
-        Method(run, None, partial(_run, (sys.executable, "-c", code, *words), spec), "ours" in run)
-        for run, (code, words) in runs.items()
+        Method("ours: lazy imports", None, geneva(*words).run, True),
+        Method("ours: completion of geneva ta", None, WholeRun(complete + GENEVA).run, True),
+        Method("everything imported first", None, WholeRun(eager + GENEVA, words).run),
+        *(Method(name, None, WholeRun(code, words).run) for name, code in SCRIPTS.items()),
     ]
-    base = partial(run_python, IMPORT)
-    return Task(name, BASELINE, base, lambda _: 0.0, methods)
+    return task("geneva table --z 6", methods)
 
 
-def _run(command: tuple[str, ...], text: str | None) -> None:
-    process_seconds(command, os.environ, text)
+def _command(words: str) -> Task:
+    return task(f"geneva {words}", [Method("ours", None, geneva(*words.split()).run, True)])
+
+
+def _design(words: str) -> Task:
+    """A command on the templates of two wheels."""
+    kinds = {"external": "straight slots", "curved": "curved slots"}
+    methods = [
+        Method(f"ours, {slots}", None, geneva(*words.split(), text=template(kind)).run, True)
+        for kind, slots in kinds.items()
+    ]
+    return task(f"geneva {words}", methods)

@@ -10,6 +10,7 @@ from functools import partial
 import numpy as np
 
 from geneva_cli.bench.method import Method, Subject, Task
+from geneva_cli.collisions.certificate import certificate, tolerance_mm
 from geneva_cli.collisions.full_turn import full_turn
 from geneva_cli.kinematics.laws.standard import ModifiedSine
 from geneva_cli.kinematics.motion import Motion
@@ -17,7 +18,6 @@ from geneva_cli.kinematics.wheels.external import External
 from geneva_cli.machine.drives.crank import Crank
 from geneva_cli.machine.mechanism import Mechanism, build
 from geneva_cli.machine.spec import Spec
-from geneva_cli.outlines.certificate import certificate, tolerance_mm
 from geneva_cli.outlines.outlines import outlines
 from geneva_cli.spec.tables import Size
 

@@ -19,9 +19,6 @@ if TYPE_CHECKING:
     Curve: TypeAlias = Callable[[Array], tuple[Array, Array]]
 
 PIECES_MAX = 100_000
-FLOOR = (
-    0.05  # of the mean weight, or of 1: an inflection needs pieces too, and rounding is no weight
-)
 # Processors differ in the last bits of sines and products. Steps as coarse as these hide that, so
 # that joints are at the same places everywhere.
 PLACE = 2.0**-26  # of the whole path
@@ -161,8 +158,9 @@ def fewest(
 
 def _respread(places: Array, weights: Array, count: int) -> Array:
     """Places of ``count`` pieces, each with an equal part of the weights of the present pieces."""
-    # the root, since an arc's error is its neighbours' too
-    weights = np.sqrt(np.maximum(weights, FLOOR * max(weights.mean(), 1.0)))
+    # at least 0.05 of the mean weight, or of 1: an inflection needs pieces too, and rounding is no
+    # weight; the root, since an arc's error is its neighbours' too
+    weights = np.sqrt(np.maximum(weights, 0.05 * max(weights.mean(), 1.0)))
     area = np.concatenate(([0.0], np.cumsum(weights)))
     out: Array = np.interp(np.linspace(0.0, area[-1], count + 1), area, places)
     return out

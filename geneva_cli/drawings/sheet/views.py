@@ -28,8 +28,6 @@ from geneva_cli.drawings.sheet.wheel import draw_wheel
 from geneva_cli.layout.alike import alike
 from geneva_cli.parts.flat_parts import FlatParts
 
-APART = {"WHEEL", "ARM"}  # layers of which each plate has a view
-
 
 class SheetContent(NamedTuple):
     """The content of a sheet, independent of its scale."""
@@ -46,7 +44,8 @@ def shown_on_sheet(parts: FlatParts) -> SheetContent:
     every = [one.part for one in parts.members]
     rows: list[dict[str, Any]] = list(part_rows(parts.mechanism.spec, every))
     sizes = [row[f"size_{axis}_mm"] for row in rows for axis in "xy"]
-    apart = [plate for part in every for plate in plates(part) if plate.layer in APART]
+    # each plate of these layers has a view
+    apart = [one for part in every for one in plates(part) if one.layer in ("WHEEL", "ARM")]
     boxes = [bounds(plate.outline) for plate in (*apart, *plates(parts.frame.part))]
     area = sum((box.x1 - box.x0) * (box.y1 - box.y0) for box in boxes)
     return SheetContent(parts, machine(parts).shapes, rows, max(sizes), area)

@@ -12,15 +12,13 @@ from geneva_cli.curves.measure import bounds, mapped
 from geneva_cli.curves.plates import Group, Member, Part, Plate
 from geneva_cli.curves.shapes import Contour, Line, Point, Segment, Shape, closed, joined
 from geneva_cli.curves.sphere import Region
+from geneva_cli.drawings.part_drawings import PITCH
 from geneva_cli.drawings.sphere.laid_flat import Cone
 from geneva_cli.layout.projection import titled
 from geneva_cli.layout.sphere_sizes import Ball
 from geneva_cli.outlines.sphere_wheel import edge
 from geneva_cli.parts.sphere.crank import locked, rollers
 from geneva_cli.parts.sphere.sphere_parts import SphereParts
-
-PITCH = "PITCH"
-CUT = ("WHEEL", "CRANK")  # layers that are cut from sheet
 
 
 def wheel(parts: SphereParts) -> Drawing:
@@ -55,7 +53,7 @@ def _drawing(parts: SphereParts, title: str, shapes: list[Shape], shells: Part) 
     plates = [
         Member(Plate(s.layer.lower(), s.layer, s, (), 0.0, outer - inner))
         for s in shapes
-        if s.layer in CUT
+        if s.layer in ("WHEEL", "CRANK")  # others are not cut from sheet
     ]
     return Drawing(title, tuple(shapes), solid=Group(title, tuple(plates)), shells=shells)
 

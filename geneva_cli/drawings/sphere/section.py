@@ -16,11 +16,10 @@ from geneva_cli.curves.sheet import CENTRE, HIDDEN, OUTLINE, polar
 from geneva_cli.drawings.sheet import sized
 from geneva_cli.drawings.sheet.view import View, number
 from geneva_cli.layout.sphere_sizes import Ball
+from geneva_cli.numerics.tolerances import SAME_ON_SHEET
+from geneva_cli.outlines.sphere_wheel import QUARTER
 from geneva_cli.parts.sphere.arm import CapArm
 from geneva_cli.parts.sphere.sphere_parts import ROLLER, SphereParts
-
-UP = 0.5 * math.pi
-SAME = 1e-6  # radians
 
 Side: TypeAlias = Callable[[float], float]  # an angle from the wheel's axis, on each sphere
 
@@ -75,8 +74,8 @@ def _dimension_angles(
     angles = {"slot's end": end, "roller": middle, "rim": ball.rim, "shafts": ball.axes}
     angles |= {} if ball.opening_mm else {"opening": ball.inner}
     for name, angle in sorted(angles.items(), key=lambda item: item[1]):
-        view.angular([(UP - angle, UP)], far, far, f"{name} {degrees(angle)}")
-    axis = UP - ball.axes
+        view.angular([(QUARTER - angle, QUARTER)], far, far, f"{name} {degrees(angle)}")
+    axis = QUARTER - ball.axes
     for name, angle in zip(("sector, inside", "sector, lock"), reach, strict=False):
         view.angular([(axis - angle, axis)], far, far, f"{name} {degrees(angle)}")
 
@@ -106,7 +105,7 @@ def _crank(parts: SphereParts) -> Iterator[tuple[str, Contour]]:
 
 def _rollers(ball: Ball) -> list[float]:
     """Return angles of the rollers in the plane of the shafts: the first, and one opposite."""
-    across = any(abs(azimuth - math.pi) < SAME for azimuth in ball.rollers)
+    across = any(abs(azimuth - math.pi) < SAME_ON_SHEET for azimuth in ball.rollers)
     return [ball.axes - ball.arm, *([ball.axes + ball.arm] if across else [])]
 
 
@@ -116,7 +115,7 @@ def _behind(ball: Ball, arm: CapArm) -> list[Side]:
     end = radial(ball.axes + max(polars))
     for hole in (*arm.pins, *arm.bolts):
         x, y, z = hole.axis
-        if x < 0.0 and abs(y) < SAME:
+        if x < 0.0 and abs(y) < SAME_ON_SHEET:
             polar = ball.axes + math.acos(z)
             return [parallel(polar, -hole.radius), parallel(polar, hole.radius), end]
     return [end]
@@ -181,11 +180,11 @@ def _ring(inner: float, outer: float, low: Side, high: Side) -> Contour:
 
 
 def _arc(radius: float, low: float, high: float) -> Arc:
-    return about((0.0, 0.0), radius, UP - low, low - high)
+    return about((0.0, 0.0), radius, QUARTER - low, low - high)
 
 
 def _at(radius: float, angle: float) -> Point:
-    return polar((0.0, 0.0), radius, UP - angle)
+    return polar((0.0, 0.0), radius, QUARTER - angle)
 
 
 def degrees(angle: float) -> str:

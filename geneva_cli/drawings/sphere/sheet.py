@@ -17,6 +17,7 @@ from geneva_cli.curves.measure import at, mapped
 from geneva_cli.curves.plates import plates
 from geneva_cli.curves.shapes import Arc, Contour, Line, Point, Segment, Shape
 from geneva_cli.curves.sheet import CENTRE, OUTLINE, Sheet
+from geneva_cli.drawings.part_drawings import PITCH
 from geneva_cli.drawings.parts_list import part_rows
 from geneva_cli.drawings.sheet import sized
 from geneva_cli.drawings.sheet.bores import bored, radius_of
@@ -29,7 +30,6 @@ from geneva_cli.drawings.sheet.view import Block, View, number, times
 from geneva_cli.drawings.sphere.arm_drawing import arm_cone, arm_flat
 from geneva_cli.drawings.sphere.dimensions import dimensions
 from geneva_cli.drawings.sphere.drawings import (
-    PITCH,
     crank_cone,
     crank_flat,
     slot_flat,
@@ -41,16 +41,12 @@ from geneva_cli.drawings.sphere.section import degrees, section
 from geneva_cli.kinematics.layout import Dimension
 from geneva_cli.layout.fits import Fits
 from geneva_cli.layout.sphere_sizes import Ball
-from geneva_cli.numerics.tolerances import SAME_ANGLE
+from geneva_cli.numerics.tolerances import SAME_ANGLE, SAME_ON_SHEET
 from geneva_cli.parts.sphere.arm import CapArm
 from geneva_cli.parts.sphere.sphere_parts import ROLLER, SphereParts
 
 if TYPE_CHECKING:
     from geneva_cli.numerics.jet import Array
-
-SAME = 1e-6  # of a radius, and in mm
-HEADING = ("All walls lead to the sphere's centre: angles are seen from there.",)
-COLUMNS = (80.0, 24.0, 14.0)  # mm, of the table of angles
 
 
 def sheet(parts: SphereParts) -> Sheet:
@@ -65,8 +61,10 @@ def sheet(parts: SphereParts) -> Sheet:
         for d in dimensions(parts)
         if isinstance(d, Dimension) and isinstance(d.value, (int, float))
     ]
+    heading = ("All walls lead to the sphere's centre: angles are seen from there.",)
+    wide = 80.0, 24.0, 14.0  # mm, of the table's columns
     fixed = [
-        table(HEADING, [("dimension", "value", "unit"), *rows], COLUMNS),
+        table(heading, [("dimension", "value", "unit"), *rows], wide),
         flat_slot(ball, parts.tolerance),
     ]
 
@@ -139,7 +137,7 @@ def _flat(whose: str, ball: Ball, cone: Cone, shapes: Sequence[Shape], scale: fl
         _sectors(view, [c.segments[0] for c in contours if c.layer == "CRANK"], far)
         radii: dict[str, list[Arc]] = {}
         for arc in (s for c in contours for s in c.segments if isinstance(s, Arc)):
-            if math.hypot(*arc.centre) < SAME * arc.radius:
+            if math.hypot(*arc.centre) < SAME_ON_SHEET * arc.radius:
                 radii.setdefault(sized.plain(arc.radius, "R "), []).append(arc)
         for text, some in radii.items():
             view.of_arcs(some, text)
@@ -176,8 +174,8 @@ def flat_slot(ball: Ball, tolerance: float) -> Block:
             return np.array([at(piece, float(fraction)) for fraction in t])
 
         for x, y in polyline(curve, 0.0, 1.0, close, begin=1):
-            apart = not points or math.dist(points[-1], (x, y)) > SAME
-            if y < -SAME * ball.radius_mm and apart:
+            apart = not points or math.dist(points[-1], (x, y)) > SAME_ON_SHEET
+            if y < -SAME_ON_SHEET * ball.radius_mm and apart:
                 points.append((float(x), float(y)))
     points.append(cone.point(ball.bottom - ball.half_width, 0.0))
     shown = np.array(points) + np.array([shift, 0.0])

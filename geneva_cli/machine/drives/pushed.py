@@ -7,10 +7,11 @@ from collections.abc import Sequence
 
 from geneva_cli.kinematics.engagement import Path, Vector, cross
 from geneva_cli.numerics.arrays import library
+from geneva_cli.numerics.batchable import Batchable
 from geneva_cli.numerics.jet import Jet, Number, turning
 
 
-class PushedCrank(ABC):
+class PushedCrank(Batchable, ABC):
     """A crank held by its shaft and pushed round, without friction or mass."""
 
     @abstractmethod

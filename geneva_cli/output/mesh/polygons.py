@@ -16,9 +16,6 @@ Triangle: TypeAlias = tuple[int, int, int]
 
 DECIMALS = 6  # of coordinates in mm, so that rounding of another processor is not seen
 CORNERS_MAX = 200_000  # of a polygon: a file of about 40 MB
-# Radians by which a polygon is turned for each attempt. Some polygons have corners exactly in
-# line, which earcut may leave out; turned, they are in line no more.
-TURNS = (0.0, 0.1, 0.7, 1.3)
 
 
 @dataclass(slots=True)
@@ -98,7 +95,9 @@ def triangles(loops: Sequence[Sequence[Point]], name: str) -> list[Triangle]:
     starts = [0]
     for loop in loops:
         starts.append(starts[-1] + len(loop))
-    for turn in TURNS:
+    # Radians by which the polygon is turned for each attempt. Corners exactly in line, which earcut
+    # may leave out, are in line no more when they are turned.
+    for turn in (0.0, 0.1, 0.7, 1.3):
         c, s = math.cos(turn), math.sin(turn)
         numbered = [
             [Corner(c * x - s * y, s * x + c * y, first + i) for i, (x, y) in enumerate(loop)]

@@ -40,22 +40,28 @@ class Body(NamedTuple):
     places: tuple[Place, ...]
 
 
-HERE = Place(np.eye(3), np.zeros(3))
-
-
 def bodies(drawing: Drawing, units: str, format: str) -> list[Body]:
     """Return the kinds of solids of a drawing; their chords keep the drawing's tolerance.
 
     Raises GenevaError for a drawing without solids, for a unit other than mm, and for a solid that
     has no closed surface.
     """
-    kinds: dict[Plate | Shell, list[Place]] = {}
-    for solid, place in _placed(solid_part(drawing, units, format), HERE):
-        kinds.setdefault(solid, []).append(place)
     return [
         Body(solid.name, solid.layer, _surface(solid, drawing.tolerance), tuple(places))
-        for solid, places in kinds.items()
+        for solid, places in solid_kinds(drawing, units, format).items()
     ]
+
+
+def solid_kinds(drawing: Drawing, units: str, format: str) -> dict[Plate | Shell, list[Place]]:
+    """Return the kinds of solids of a drawing, each with its positions.
+
+    Raises GenevaError for a drawing without solids, and for a unit other than mm.
+    """
+    kinds: dict[Plate | Shell, list[Place]] = {}
+    here = Place(np.eye(3), np.zeros(3))
+    for solid, place in _placed(solid_part(drawing, units, format), here):
+        kinds.setdefault(solid, []).append(place)
+    return kinds
 
 
 def _placed(part: Part, at: Place) -> Iterator[tuple[Plate | Shell, Place]]:

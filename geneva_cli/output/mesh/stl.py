@@ -18,9 +18,6 @@ if TYPE_CHECKING:
 
     from geneva_cli.numerics.jet import Array
 
-HEADER = b"geneva, millimetres"  # "solid" at its start would mean an STL in text
-RECORD = [("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("attribute", "<u2")]
-
 
 def data(drawing: Drawing, units: str) -> Iterator[bytes]:
     """The file's bytes. Raises GenevaError as ``bodies`` does."""
@@ -29,7 +26,8 @@ def data(drawing: Drawing, units: str) -> Iterator[bytes]:
         for body in bodies(drawing, units, "STL")
         for place in body.places
     ]
-    yield HEADER.ljust(80, b"\0")
+    # "solid" at the start would mean an STL in text
+    yield b"geneva, millimetres".ljust(80, b"\0")
     yield sum(map(len, blocks)).to_bytes(4, "little")
     yield from (block.tobytes() for block in blocks)
 
@@ -43,7 +41,8 @@ def _records(corners: Array) -> npt.NDArray[Any]:
     p, q, r = (single[:, k] for k in range(3))
     flat = (p == q).all(axis=1) | (q == r).all(axis=1) | (r == p).all(axis=1)
     single = single[~flat]
-    records = np.zeros(len(single), dtype=RECORD)
+    record = [("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("attribute", "<u2")]
+    records = np.zeros(len(single), dtype=record)
     records["corners"] = single
     records["normal"] = _normals(corners[~flat])
     return records

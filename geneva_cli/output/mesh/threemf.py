@@ -17,7 +17,6 @@ from geneva_cli.output.inks import inks
 from geneva_cli.output.mesh.polygons import DECIMALS
 from geneva_cli.output.mesh.solids import Body, Place, bodies
 
-CORE = "http://schemas.microsoft.com/3dmanufacturing/core/2015/02"
 PACKAGE = "http://schemas.openxmlformats.org/package/2006"
 XML = '<?xml version="1.0" encoding="UTF-8"?>\n'
 TYPES = (
@@ -33,7 +32,6 @@ RELATIONS = (
     'Type="http://schemas.microsoft.com/3dmanufacturing/2013/01/3dmodel"/></Relationships>\n'
 )
 MATERIALS = 1  # the number of the list of colours; objects are counted from the next one
-TURN_DECIMALS = 12  # of a rotation, which acts through a length
 
 
 def data(drawing: Drawing, units: str) -> Iterator[bytes]:
@@ -54,7 +52,8 @@ def data(drawing: Drawing, units: str) -> Iterator[bytes]:
 
 def _model(title: str, kinds: list[Body]) -> Iterator[str]:
     """Yield the text of the model."""
-    yield f'{XML}<model unit="millimeter" xml:lang="en" xmlns="{CORE}">\n'
+    core = "http://schemas.microsoft.com/3dmanufacturing/core/2015/02"
+    yield f'{XML}<model unit="millimeter" xml:lang="en" xmlns="{core}">\n'
     yield f'<metadata name="Title">{_text(title)}</metadata>\n<resources>\n'
     layers = list(dict.fromkeys(body.layer for body in kinds))
     colours = inks(tuple(layers))
@@ -82,7 +81,8 @@ def _model(title: str, kinds: list[Body]) -> Iterator[str]:
 
 def _transform(place: Place) -> str:
     """The position as the format has it: three images of the axes, and the shift."""
-    turn = [f"{round(value, TURN_DECIMALS) + 0.0:.12g}" for value in place.turn.T.ravel().tolist()]
+    # a rotation acts through a length, so it has more decimals than one
+    turn = [f"{round(value, 12) + 0.0:.12g}" for value in place.turn.T.ravel().tolist()]
     return " ".join([*turn, *(_shown(round(value, DECIMALS) + 0.0) for value in place.shift)])
 
 

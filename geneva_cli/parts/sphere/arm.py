@@ -9,15 +9,10 @@ at the centre. The hub has flat faces and the bore; it sits in a round hole abou
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
-from itertools import combinations
 from typing import TYPE_CHECKING, NamedTuple
 
-import numpy as np
-
-from geneva_cli.curves.round_holes import RoundHole
+from geneva_cli.curves.round_holes import RoundHole, least_wall
 from geneva_cli.curves.sphere import Region, dot, place
-from geneva_cli.curves.sphere_arcs import SphereArcs
 from geneva_cli.curves.sphere_hull import Cap, convex_hull
 from geneva_cli.errors import GenevaError
 from geneva_cli.layout.arm_sizes import arm_bore, bolts_between, eye_about, hub_and_eye, pin_hole
@@ -164,14 +159,3 @@ def _walls(arm: CapArm, parts: Shells) -> float:
             ("size", "lock_bolts" if arm.bolts else "arm_hub_mm"),
         )
     return least
-
-
-def least_wall(within: Region, holes: Sequence[RoundHole], sphere: float) -> float:
-    """Return the least wall between holes, and from holes to a boundary, on a sphere, mm."""
-    angles = [hole.angle(sphere) for hole in holes]
-    away, _ = SphereArcs(within.boundary).signed(np.array([hole.axis for hole in holes]))
-    least = float((-away - angles).min())
-    for (one, a), (other, b) in combinations(zip(holes, angles, strict=True), 2):
-        apart = 2.0 * math.asin(min(1.0, 0.5 * math.dist(one.axis, other.axis)))
-        least = min(least, apart - a - b)
-    return sphere * least

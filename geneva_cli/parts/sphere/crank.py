@@ -6,8 +6,8 @@ They are in the crank's frame: its axis is z, and the first roller is on the azi
 from __future__ import annotations
 
 import math
-from bisect import bisect_left
 from collections.abc import Callable
+from functools import cache
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -16,7 +16,7 @@ from geneva_cli.curves.sphere import Region, Rotation, SphereArc, cross, opposit
 from geneva_cli.curves.sphere_hull import Cap
 from geneva_cli.layout.sphere_sizes import Ball, PartDoesNotFit
 from geneva_cli.numerics.tolerances import SAME_ANGLE
-from geneva_cli.outlines.locking_rings import LOCK_FRACTIONS
+from geneva_cli.outlines.locking_rings import widest
 from geneva_cli.outlines.sphere_wheel import POLE, QUARTER, edge_points
 
 if TYPE_CHECKING:
@@ -34,39 +34,33 @@ def sectors(ball: Ball) -> list[Region]:
     about = math.asin(min(1.0, ball.about_crank_mm / ball.lock_span_mm[0]))
     # A sector's inner edge is a fifth of its outer one, or farther out where the wheel needs that.
     least = max(0.2 * ball.lock, about)
-    regions = []
-    spans = locked(ball)
-    paths = swept(ball) if spans else None
-    for start, end in spans:
-        middle, whole = 0.5 * (start + end), 0.5 * (end - start)
-        assert paths
-        reached = _reached(ball, paths, middle)
+    spans, most = locked(ball), (1.0 - 0.05) * ball.lock  # a thinner ring would hold nothing
+    if spans and about > most:
+        wide = 2.0 * ball.lock_span_mm[0] * math.sin(most)
+        raise PartDoesNotFit(
+            "the crank's shaft and hub leave nothing of the locking sector: crank_bore_mm and "
+            f"crank_hub_mm must be below {wide:.4g}, or lock_radius_mm greater, or 0 for none",
+            ("size", "crank_bore_mm"),
+        )
+    paths = cache(lambda: swept(ball))
 
-        def nearest(half: float, reached: Callable[[float], float] = reached) -> float:
+    def sector(start: float, end: float) -> Region:
+        middle = 0.5 * (start + end)
+        reached = _reached(ball, paths(), middle)
+
+        def nearest(half: float) -> float:
             return max(reached(half) + spare, least)
 
-        most = (1.0 - 0.05) * ball.lock  # a thinner ring would hold nothing
-        if about > most:
-            wide = 2.0 * ball.lock_span_mm[0] * math.sin(most)
-            raise PartDoesNotFit(
-                "the crank's shaft and hub leave nothing of the locking sector: crank_bore_mm and "
-                f"crank_hub_mm must be below {wide:.4g}, or lock_radius_mm greater, or 0 for none",
-                ("size", "crank_bore_mm"),
-            )
-        # a narrower sector can begin nearer to the axis, never farther away
-        i = bisect_left(
-            LOCK_FRACTIONS, True, key=lambda fraction: nearest(fraction * whole) <= most
-        )
-        if i < len(LOCK_FRACTIONS):
-            half = LOCK_FRACTIONS[i] * whole
-            regions.append(_sector(ball.lock, nearest(half), middle - half, middle + half))
-        else:
+        half = widest(0.5 * (end - start), lambda half: nearest(half) <= most)
+        if half is None:
             raise PartDoesNotFit(
                 "the wheel sweeps over the whole locking sector: another lock_radius_mm may leave "
                 "part of it; 0 omits it",
                 ("size", "lock_radius_mm"),
             )
-    return regions
+        return _sector(ball.lock, nearest(half), middle - half, middle + half)
+
+    return [sector(*span) for span in spans]
 
 
 def locked(ball: Ball) -> list[tuple[float, float]]:

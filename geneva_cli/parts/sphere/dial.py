@@ -5,13 +5,12 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING
 
-from geneva_cli.curves.round_holes import RoundHole
+from geneva_cli.curves.round_holes import RoundHole, least_wall
 from geneva_cli.curves.sphere import place
 from geneva_cli.curves.sphere_hull import Cap
 from geneva_cli.errors import GenevaError
 from geneva_cli.layout.sphere_sizes import Ball
 from geneva_cli.outlines.sphere_wheel import POLE, web_angle
-from geneva_cli.parts.sphere.arm import least_wall
 
 if TYPE_CHECKING:
     from geneva_cli.spec.tables import Size

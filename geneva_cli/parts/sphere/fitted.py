@@ -9,6 +9,7 @@ from geneva_cli.errors import GenevaError
 from geneva_cli.layout.sphere_sizes import Ball, PartDoesNotFit, ball
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.numerics.roots import boundary
+from geneva_cli.numerics.rounding import to_digits
 from geneva_cli.parts.sphere.crank import sectors
 
 
@@ -27,8 +28,7 @@ def fitted(mechanism: Mechanism, advice: bool = True) -> tuple[Ball, list[Region
         most = boundary(lambda r: _fits(mechanism, r), 0.0, mechanism.roller_radius_mm, 10)
         if not most:
             raise
-        unit = 10.0 ** (math.floor(math.log10(most)) - 1)
-        text = f"{error}; a roller of {math.floor(most / unit) * unit:.4g} mm fits"
+        text = f"{error}; a roller of {to_digits(most, 2, math.floor):g} mm fits"
         raise GenevaError(text, error.key) from None
 
 

@@ -44,7 +44,9 @@ class BallGaps:
         self._turning = WheelCaps(self.around, 2.0 * ball.half_step)
         self._roller = round_cap(ball.roller)
         self._sides = caps(self.sectors) if self.sectors else None
-        self._frame = np.array(at_mid_motion(ball))  # rows: the crank's axes in the wheel's frame
+        self.crank_frame = np.array(
+            at_mid_motion(ball)
+        )  # rows: the crank's axes in the wheel's frame
         self._rollers = np.array([place(ball.arm, azimuth) for azimuth in ball.rollers])
         corners = [
             one.at(np.arange(len(one)), fraction * one.sweep)
@@ -66,12 +68,6 @@ class BallGaps:
         pins = np.stack([self._out(one, turn) for one in self._rollers], axis=1)
         return Pose(self.assembly.wheel(input_deg), turn, pins)
 
-    def gap(self, pose: Pose, lead: Array, near: float) -> Array:
-        """Return the smallest gap, mm (n,), with the wheel turned on by ``lead`` radians."""
-        rolling = self.rollers(pose, lead, near).min(axis=1)
-        out: Array = np.minimum(self.locking(pose, lead, near), rolling)
-        return out
-
     def rollers(self, pose: Pose, lead: Array | float = 0.0, near: float | None = None) -> Array:
         """Return the gap of each roller, mm (n, m), with the wheel turned on by ``lead`` radians.
 
@@ -80,7 +76,7 @@ class BallGaps:
         near = self.near if near is None else near
         columns = []
         for i in range(pose.pins.shape[1]):
-            away, _ = self._to_wheel(about(pose.pins[:, i], -(pose.wheel + lead)))
+            away, _ = self.to_wheel(about(pose.pins[:, i], -(pose.wheel + lead)))
             columns.append(self.ball.radius_mm * (away - self.ball.roller))
         out: Array = np.minimum(np.column_stack(columns), near)
         return out
@@ -106,7 +102,7 @@ class BallGaps:
             axes = [self._out(axis, pose.crank) for axis in self._sides.axis]
 
             def on_crank(points: Array, n: NDArray[np.intp]) -> Array:
-                return self._in_crank(points, pose.crank[n])
+                return self.in_crank(points, pose.crank[n])
 
             axis = np.stack(axes, axis=1)
             locking.append(self._turning.touches(self._sides, axis, on_crank, wheel, most, deep))
@@ -120,7 +116,7 @@ class BallGaps:
             return near + 0.0 * pose.wheel
         turn = pose.wheel + lead
         # The wheel's edge against the sectors: its corners, and points facing their edges' axes ...
-        axis = about(np.tile(self._frame[2], (len(turn), 1)), -turn)
+        axis = about(np.tile(self.crank_frame[2], (len(turn), 1)), -turn)
         far = np.arccos(np.clip(axis @ self.wheel.middle.T, -1.0, 1.0)) - self.wheel.size
         # an angle computed from its cosine is wrong by up to 1e-7 radians
         owner, piece = np.nonzero(far <= self.ball.lock + least[0] + 1e-7)
@@ -135,7 +131,7 @@ class BallGaps:
             owners.append(owner[which])
             points.append(at)
         which_ = np.concatenate(owners)
-        on_crank = self._in_crank(about(np.concatenate(points), turn[which_]), pose.crank[which_])
+        on_crank = self.in_crank(about(np.concatenate(points), turn[which_]), pose.crank[which_])
         close = polar(on_crank) < self.ball.lock + least[0]
         which_, on_crank = which_[close], on_crank[close]
         for sector in self.sectors if len(on_crank) else ():
@@ -146,7 +142,7 @@ class BallGaps:
         at = about(self._out(corner, pose.crank[owner]), -turn[owner])
         here = np.flatnonzero(polar(at) - self.ball.rim < least[owner])
         if len(here):
-            np.minimum.at(least, owner[here], self._to_wheel(at[here])[0])
+            np.minimum.at(least, owner[here], self.to_wheel(at[here])[0])
         return self.ball.radius_mm * least
 
     def in_wheel(self, motion: int, input_deg: Array) -> Array:
@@ -154,7 +150,7 @@ class BallGaps:
         pose = self.pose(input_deg)
         return about(pose.pins[:, motion], -pose.wheel)
 
-    def _to_wheel(self, points: Array) -> tuple[Array, Array]:
+    def to_wheel(self, points: Array) -> tuple[Array, Array]:
         """Return distances from the wheel's edge, radians, and the nearest points of the edge.
 
         ``points`` are in the wheel's frame. Each is turned to the first slot's sector, whose edge
@@ -171,12 +167,12 @@ class BallGaps:
         ``of_crank`` is one direction or n of them. The crank turns clockwise about its axis where
         the wheel turns counterclockwise.
         """
-        out: Array = about(np.broadcast_to(of_crank, (len(turn), 3)), -turn) @ self._frame
+        out: Array = about(np.broadcast_to(of_crank, (len(turn), 3)), -turn) @ self.crank_frame
         return out
 
-    def _in_crank(self, points: Array, turn: Array) -> Array:
+    def in_crank(self, points: Array, turn: Array) -> Array:
         """Return directions in the crank's frame at crank angles."""
-        return about(points @ self._frame.T, turn)
+        return about(points @ self.crank_frame.T, turn)
 
 
 def _same(points: Array, _: NDArray[np.intp]) -> Array:

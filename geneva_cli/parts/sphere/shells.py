@@ -14,6 +14,7 @@ from geneva_cli.layout.sphere_sizes import Ball
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.numerics.tolerances import SAME_LENGTH
 from geneva_cli.outlines.outlines import CONTACT
+from geneva_cli.parts.sphere.bounds import SpherePairs
 from geneva_cli.parts.sphere.fitted import fitted
 from geneva_cli.parts.sphere.gaps import BallGaps
 
@@ -55,6 +56,10 @@ class Shells(NamedTuple):
     def over(self, assembly: Assembly) -> Shells:
         """Return these parts with another assembly."""
         return self._replace(assembly=assembly)
+
+    def pairs(self, target: float) -> SpherePairs:
+        """Return the pairs of parts that may meet, with gaps bounded up to ``target`` mm."""
+        return SpherePairs(self.gaps, self.crank, target)
 
     def in_wheel(self, motion: int, at: Array) -> Array:
         """Return the centre of a motion's roller in the wheel's frame, mm, at input angles (n,).

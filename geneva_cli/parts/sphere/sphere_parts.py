@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING
 
 from geneva_cli.curves.plates import Group, Member, Plate, Shell
 from geneva_cli.curves.round_holes import RoundHole
-from geneva_cli.curves.shapes import Circle, Shape
+from geneva_cli.curves.shapes import ORIGIN, Circle, Shape
 from geneva_cli.curves.sphere import axis_frame, place
 from geneva_cli.curves.sphere_hull import Cap
 from geneva_cli.errors import GenevaError
@@ -22,7 +22,7 @@ from geneva_cli.layout.keyways import bore, key
 from geneva_cli.layout.missing import NamedParts
 from geneva_cli.layout.sphere_sizes import Ball
 from geneva_cli.outlines.sphere_wheel import POLE, web_angle, web_region, wheel_regions
-from geneva_cli.outlines.wheel_hub import AXIS, HUB
+from geneva_cli.outlines.wheel_hub import HUB
 from geneva_cli.parts.shafts import SHAFT
 from geneva_cli.parts.sphere.arm import CapArm, crank_arm, has_arm
 from geneva_cli.parts.sphere.crank import at_mid_motion
@@ -46,6 +46,10 @@ class SphereParts:
         self.shells, self.ball = shells, shells.ball
         self.mechanism = shells.assembly.full
         self.tolerance, self.curves = tolerance, curves
+
+    def within(self, tolerance: float, curves: str) -> SphereParts:
+        """Return these parts, laid flat with curves of a kind within a tolerance, mm."""
+        return SphereParts(self.shells, tolerance, curves)
 
     @cached_property
     def wheel(self) -> Member:
@@ -126,7 +130,7 @@ def wheel_hub(size: Size, ball: Ball) -> Plate | None:
     length = size.wheel_hub_length_mm
     long = ball.arm_span_mm[1] if length is None else outside + length
     bored = (bore("BORE", ball.bore_mm, fitted, ball.half_step),) if ball.bore_mm else ()
-    return Plate("wheel's hub", HUB, Circle(HUB, AXIS, ball.hub_mm), bored, inside, long)
+    return Plate("wheel's hub", HUB, Circle(HUB, ORIGIN, ball.hub_mm), bored, inside, long)
 
 
 def crank_group(parts: Shells, arm: CapArm | None) -> Group:
@@ -141,7 +145,7 @@ def crank_group(parts: Shells, arm: CapArm | None) -> Group:
     inner, outer = ball.span_mm
     hole = (RoundHole(POLE, ball.pin_mm),) if arm else ()
     roller = Shell("roller", ROLLER, (Cap(POLE, ball.roller).region,), inner, outer, hole)
-    long = Circle(ROLLER, AXIS, ball.pin_mm)
+    long = Circle(ROLLER, ORIGIN, ball.pin_mm)
     pin = Plate("pin", ROLLER, long, (), inner, ball.arm_span_mm[1])
     for azimuth in ball.rollers:
         frame = axis_frame(place(ball.arm, azimuth))
@@ -154,7 +158,7 @@ def arm_solids(ball: Ball, arm: CapArm) -> tuple[Shell, Plate]:
     """Return the arm's cap and its hub, which has flat faces and the bore."""
     cap = Shell("arm", ARM, (arm.boundary,), *ball.arm_span_mm, arm.holes)
     bored = bore("BORE", arm.bore, arm.fitted, arm.keyway)
-    return cap, Plate("arm's hub", ARM, Circle(ARM, AXIS, arm.hub), (bored,), *ball.arm_span_mm)
+    return cap, Plate("arm's hub", ARM, Circle(ARM, ORIGIN, arm.hub), (bored,), *ball.arm_span_mm)
 
 
 def _inner_hub(size: Size, ball: Ball, arm: CapArm | None) -> Plate | None:
@@ -169,7 +173,7 @@ def _inner_hub(size: Size, ball: Ball, arm: CapArm | None) -> Plate | None:
     if size.crank_bore_mm:
         fitted = key(size.crank_keyway, 0.5 * size.crank_bore_mm)
         bored = (bore("BORE", 0.5 * size.crank_bore_mm, fitted, arm.keyway),)
-    return Plate("crank's hub", HUB, Circle(HUB, AXIS, radius), bored, low, high)
+    return Plate("crank's hub", HUB, Circle(HUB, ORIGIN, radius), bored, low, high)
 
 
 def _shafts(parts: Shells, arm: CapArm | None) -> Iterator[Member]:
@@ -205,4 +209,4 @@ def _shaft(
             f"from the sphere's centre; lower {part}_shaft_low_mm or raise {part}_shaft_high_mm",
             ("size", f"{part}_shaft_low_mm"),
         )
-    return Plate(f"{part}'s shaft", SHAFT, Circle(SHAFT, AXIS, radius), (), inner, outer)
+    return Plate(f"{part}'s shaft", SHAFT, Circle(SHAFT, ORIGIN, radius), (), inner, outer)

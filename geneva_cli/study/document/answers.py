@@ -91,6 +91,14 @@ def _column(name: str) -> str:
     return f"{fact(name, None).name}, °" if name.endswith("_at_deg") else fact(name, None).name
 
 
+def product(left: RemainingValues) -> Iterator[Block]:
+    """What the product on the dial feels, if its place is known."""
+    values = left.take("product")
+    if any(value is not None for value in values.values()):
+        yield Heading("Product")
+        yield from facts("What the product on the dial feels", values)
+
+
 def sizes(left: RemainingValues) -> Iterator[Block]:
     """Sizes of the machine and its parts."""
     yield Heading("Sizes")

@@ -24,9 +24,12 @@ def fact(name: str, value: Any) -> Fact:
 
     >>> fact("loads.pin_force_N", 42.0)
     Fact(name='Loads, pin force', value=42.0, unit='N')
+    >>> fact("speed_m_s.max", 1.5)
+    Fact(name='Speed, greatest', value=1.5, unit='m/s')
     """
     parts = [described(part) for part in name.split(".")]
-    return Fact(capital(", ".join(words for words, _ in parts)), value, parts[-1][1])
+    unit = next((unit for _, unit in reversed(parts) if unit), "")
+    return Fact(capital(", ".join(words for words, _ in parts)), value, unit)
 
 
 def facts(caption: str, values: Mapping[str, Any]) -> list[Facts]:

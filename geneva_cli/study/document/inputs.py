@@ -2,18 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from typing import Any
 
-from geneva_cli.document import Block, Fact, Facts, Grid, Heading
+from geneva_cli.document import Block, Fact, Facts, Grid, Heading, Prose, TextList
 from geneva_cli.machine.spec import Spec
 from geneva_cli.names import described
 from geneva_cli.spec.schema import Field, fields
 from geneva_cli.specfile.writer import keys_of, values_of
 
 
-def inputs(spec: Spec) -> Iterator[Block]:
-    """The keys that are set, in the order of a file."""
+def inputs(spec: Spec, with_units: Sequence[str]) -> Iterator[Block]:
+    """The keys that are set, in the order of a file; ``with_units`` as in ``Design``."""
     rows = [
         (f"{name}.{key.key}", _shown(value), described(key.key)[1], key.meaning)
         for name, key, value in _known(spec)
@@ -22,6 +22,9 @@ def inputs(spec: Spec) -> Iterator[Block]:
     yield Heading("Inputs")
     caption = "Keys that are set; the appendix has those at their defaults"
     yield Grid(caption, ("Key", "Value", "Unit", "Meaning"), tuple(rows))
+    if with_units:
+        yield Prose("Written with a unit:")
+        yield TextList(tuple(with_units))
 
 
 def defaults(spec: Spec) -> Iterator[Block]:

@@ -9,6 +9,7 @@ from geneva_cli.study.batch import Verdict, checks_record, checks_table
 from geneva_cli.verdict.headline import (
     failure_lines,
     headline,
+    input_lines,
     proof_lines,
     tightest,
     warning_lines,
@@ -41,7 +42,8 @@ def _head(verdict: Verdict) -> Summary:
 
 def _lines(verdict: Verdict) -> tuple[SummaryLine, ...]:
     checks = verdict.checks
-    return (*failure_lines(checks), *warning_lines(checks, verdict.warnings))
+    inputs = input_lines(verdict.with_units)
+    return (*failure_lines(checks), *inputs, *warning_lines(checks, verdict.warnings))
 
 
 def _count(verdicts: Sequence[Verdict]) -> Summary:

@@ -12,7 +12,7 @@ from geneva_cli.numerics.tolerances import TIE
 from geneva_cli.study.fields import pick
 from geneva_cli.study.summary.titles import counted, title_of
 from geneva_cli.verdict.headline import warning
-from geneva_cli.verdict.measured import measured
+from geneva_cli.verdict.measured import bare, measured
 from geneva_cli.verdict.motor import RecommendedMotor, recommended_motor
 
 NO_BOUND = "without bound: see the warnings"
@@ -51,8 +51,8 @@ def cycle_lines(design: Design) -> Iterator[SummaryLine]:
     if torque.max is None or torque.min is None:
         yield SummaryLine("input", f"torque {NO_BOUND}")
     else:
-        text = f"{measured(torque.min)} to {measured(torque.max, 'N m')}"
-        text += f", rms {measured(torque.rms)}" if torque.rms is not None else ""
+        text = f"{bare(torque.min, 'N m')} to {measured(torque.max, 'N m')}"
+        text += f", rms {bare(torque.rms, 'N m')}" if torque.rms is not None else ""
         drives = f"drives the motor with up to {measured(-torque.min, 'N m')}"
         driven = drives if torque.min < 0.0 else "never drives the motor"
         yield SummaryLine("input", f"{text}; the wheel {driven}")

@@ -13,6 +13,7 @@ from geneva_cli.verdict.headline import (
     below_summary,
     failure_lines,
     headline,
+    input_lines,
     tightest,
     warning_lines,
 )
@@ -24,7 +25,8 @@ def of_report(design: Design) -> Answer:
     record = design.report.table
     state, text = headline(design.checks, design.warnings)
     checks, warnings = design.checks, design.warnings
-    lines = (*failure_lines(checks), *key_figures(design), *warning_lines(checks, warnings))
+    first = (*failure_lines(checks), *input_lines(design.with_units))
+    lines = (*first, *key_figures(design), *warning_lines(checks, warnings))
     summary = Summary(f"{title_of(design)}: {text}", lines, state)
     shown = ("title", "passes", "checks_failed", "not_proved")
     return Answer((summary,), below_summary(record, without=shown), record)

@@ -11,7 +11,7 @@ from geneva_cli.errors import is_warning
 from geneva_cli.names import spoken
 from geneva_cli.study.summary.titles import record_answer
 from geneva_cli.table import Table
-from geneva_cli.verdict.measured import measured
+from geneva_cli.verdict.measured import bare, measured
 
 
 def of_tolerance(design: Design, record: Table) -> Answer:
@@ -53,7 +53,7 @@ def _clearances(values: dict[str, Any]) -> str:
         turns
     ]
     parts = [
-        f"{part} {measured(values[f'clearances.{part}_mm'], 'mm')}, needed {measured(needed)}"
+        f"{part} {measured(values[f'clearances.{part}_mm'], 'mm')}, needed {bare(needed, 'mm')}"
         for part in ("slot", "lock")
         if (needed := values[f"clearances.{part}_needed_mm"]) is not None
     ]

@@ -10,6 +10,7 @@ from typing import NamedTuple, TypeAlias, overload
 
 from geneva_cli.errors import GenevaError, cut
 from geneva_cli.spec.ranges import RangeText, range_text
+from geneva_cli.spec.units import in_unit_of, unit_key
 from geneva_cli.specfile.keys import is_whole
 from geneva_cli.specfile.settings import Setting, read_value
 
@@ -69,7 +70,7 @@ def _axis(key: str, text: str, option: str, random: bool) -> VariedKey:
     values: list[Value] = []
     for part in parts:
         some = range_text(part, option)
-        more = _range(some, option) if some else (_one(part, option),)
+        more = _range(some, option) if some else (_one(key, part, option),)
         _refuse_many(option, len(values) + len(more), 1_000_000)  # all of them are in memory
         values += more
     return VariedKey(key, tuple(values))
@@ -102,8 +103,14 @@ def _range(ends: RangeText, option: str) -> Sequence[float]:
     return _steps(low, high, _decimal(ends.step or "1", option), option)
 
 
-def _one(text: str, option: str) -> Value:
+def _one(key: str, text: str, option: str) -> Value:
+    """A number or a word; a text with a unit is a number in the key's unit."""
     value = read_value(text, option)
+    if isinstance(value, str) and unit_key(key):
+        try:
+            return in_unit_of(key, value)
+        except GenevaError as error:
+            raise GenevaError(f"{option}: {error}") from None
     if isinstance(value, bool) or not isinstance(value, (int, float, str)) or not text.strip():
         raise GenevaError(f"{option}: {cut(text)!r} is neither a number nor a word")
     if isinstance(value, float) and not math.isfinite(value):

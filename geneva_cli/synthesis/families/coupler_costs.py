@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
+from geneva_cli.analysis.peak_search import ORDERS
 from geneva_cli.analysis.timing import Timing, timing
 from geneva_cli.study.sweep.constraints import Constraint
 from geneva_cli.study.target import Target
@@ -15,7 +16,6 @@ from geneva_cli.verdict.quantities.groups import RATES
 if TYPE_CHECKING:
     from geneva_cli.numerics.arrays import Array
 
-ORDERS = {"velocity": 1, "acceleration": 2, "power": 2, "jerk": 3}
 # by a quantity in the unit of a time, the power of the speed that it has
 SPEED_POWERS = {f"{end}_{unit}": n for n, unit in RATES.values() for end in ("max", "entry")}
 

@@ -52,7 +52,7 @@ def checks_at_rest(mechanism: Mechanism, model: PartsModel | None) -> Iterator[C
     yield from motion_checks(MOTION, mechanism)
     yield from motion_checks(LIMITS, mechanism)
     if model is not None:
-        yield from standing_checks(model.parts)
+        yield from standing_checks(model.built)
 
 
 def checks_turning(model: PartsModel) -> Iterator[Check]:
@@ -89,10 +89,10 @@ def single_check(mechanism: Mechanism, name: str, model: PartsModel | None = Non
     among = standing(mechanism)
     if not mechanism.spec.has_parts or name not in among:
         return None
-    return check_named(among, name, (model or _proof(mechanism)).parts)
+    return check_named(among, name, (model or _model(mechanism)).built)
 
 
-def _proof(mechanism: Mechanism) -> PartsModel:
+def _model(mechanism: Mechanism) -> PartsModel:
     from geneva_cli.drawings.model import PartsModel
 
     return PartsModel(mechanism)
@@ -109,9 +109,9 @@ def _parts(mechanism: Mechanism, model: PartsModel | None, turned: bool) -> Iter
         return
     from geneva_cli.collisions.gaps import WorkLimit
 
-    model = model or _proof(mechanism)
+    model = model or _model(mechanism)
     try:
-        rows = list(standing_checks(model.parts))
+        rows = list(standing_checks(model.built))
     except GenevaError as error:
         yield refused("parts", error)
         return

@@ -7,21 +7,22 @@ from __future__ import annotations
 
 import numpy as np
 
-from geneva_cli.outlines.outlines import Outlines
+from geneva_cli.parts.flat_parts import FlatParts
 from geneva_cli.verdict.checks.check import Check, compared
 
 
-def apart(name: str, outlines: Outlines) -> Check | None:
+def apart(name: str, parts: FlatParts) -> Check | None:
     """The greatest distance where the branches are on their own sides."""
-    return _greatest(name, outlines, 1.0)
+    return _greatest(name, parts, 1.0)
 
 
-def crossed(name: str, outlines: Outlines) -> Check | None:
+def crossed(name: str, parts: FlatParts) -> Check | None:
     """The greatest distance where the branches have crossed."""
-    return _greatest(name, outlines, -1.0)
+    return _greatest(name, parts, -1.0)
 
 
-def _greatest(name: str, outlines: Outlines, side: float) -> Check | None:
+def _greatest(name: str, parts: FlatParts, side: float) -> Check | None:
+    outlines = parts.outlines
     engagement = outlines.assembly.slots[0][0]
     if not engagement.slot.curved:
         return None

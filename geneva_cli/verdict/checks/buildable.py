@@ -5,21 +5,19 @@ from __future__ import annotations
 from collections.abc import Callable
 
 from geneva_cli.errors import GenevaError
-from geneva_cli.outlines.outlines import Outlines
-from geneva_cli.parts.flat_parts import flat_parts
-from geneva_cli.parts.sphere.shells import Shells
+from geneva_cli.parts.flat_parts import FlatParts
 from geneva_cli.parts.sphere.sphere_parts import SphereParts
 from geneva_cli.verdict.checks.check import Check, refused
 
 
-def plates(name: str, outlines: Outlines) -> Check | None:
+def plates(name: str, parts: FlatParts) -> Check | None:
     """The check that fails if a plate of a flat machine cannot be built; else None."""
-    return _refusal(name, lambda: flat_parts(outlines).require())
+    return _refusal(name, parts.require)
 
 
-def solids(name: str, shells: Shells) -> Check | None:
+def solids(name: str, parts: SphereParts) -> Check | None:
     """The check that fails if a solid of a spherical machine cannot be built; else None."""
-    return _refusal(name, lambda: SphereParts(shells).members)
+    return _refusal(name, lambda: parts.members)
 
 
 def _refusal(name: str, build: Callable[[], object]) -> Check | None:

@@ -20,8 +20,9 @@ class Check(NamedTuple):
     """One check of one design.
 
     ``passes`` is None if it is not known. ``why`` is the reason for an unknown value, or for
-    missing advice on a failing check. ``at_deg`` is the input angle of the value, None if it is not
-    a value at one angle. ``nearest`` is one change of the spec with which all checks pass.
+    missing advice on a failing check; of a check that passes it says what is proved. ``at_deg`` is
+    the input angle of the value, None if it is not a value at one angle. ``nearest`` is one change
+    of the spec with which all checks pass.
     """
 
     name: str
@@ -32,6 +33,11 @@ class Check(NamedTuple):
     why: str = ""
     at_deg: float | None = None
     nearest: str = ""
+
+    @property
+    def is_proof(self) -> bool:
+        """True if it passes by a proof."""
+        return bool(self.passes and self.why)
 
     @property
     def not_computed(self) -> str:
@@ -63,12 +69,16 @@ def refused(name: str, error: GenevaError) -> Check:
     return Check(name, 0.0, "at least", 1.0, False, str(error))
 
 
-def at_least(name: str, value: Callable[[], float], limit: float) -> Check:
-    """The check that a value is at least a limit; it fails if parts cannot be built."""
+def at_least(name: str, measure: Callable[[], float | None], limit: float) -> Check | None:
+    """The check that a value, if there is one, is at least a limit.
+
+    It fails if parts cannot be built.
+    """
     try:
-        return compared(name, value(), "at least", limit)
+        value = measure()
     except GenevaError as error:
         return Check(name, None, "at least", limit, False, str(error))
+    return None if value is None else compared(name, value, "at least", limit)
 
 
 def gap(name: str, least: Callable[[], ShaftGap | None], L: float) -> Check | None:

@@ -7,16 +7,17 @@ from itertools import combinations
 from geneva_cli.curves.distance import Polyarc
 from geneva_cli.curves.shapes import Circle, backwards
 from geneva_cli.layout.hole_walls import apart, beyond
-from geneva_cli.outlines.outlines import Outlines
 from geneva_cli.outlines.wheel import wheel_circles
+from geneva_cli.parts.flat_parts import FlatParts
 from geneva_cli.verdict.checks.check import Check, compared
 
 
-def wall(name: str, outlines: Outlines) -> Check | None:
+def wall(name: str, parts: FlatParts) -> Check | None:
     """The least wall around the bore with its keyway and around the dial's bolts."""
-    size = outlines.assembly.mechanism.spec.size
+    size = parts.mechanism.spec.size
     if not (size.wheel_keyway or size.dial_bolts):
         return None
+    outlines = parts.outlines
     inside = outlines.assembly.sign < 0.0  # the contour is that of the opening
     edge = Polyarc([backwards(outlines.wheel) if inside else outlines.wheel])
     holes = [s for s in wheel_circles(outlines.assembly, outlines.sizes) if s.layer == "BORE"]

@@ -3,33 +3,32 @@
 from __future__ import annotations
 
 from geneva_cli.errors import GenevaError
-from geneva_cli.outlines.outlines import Outlines
-from geneva_cli.parts.links import drawn_links, link_wall
+from geneva_cli.parts.flat_parts import FlatParts
+from geneva_cli.parts.links import link_wall
 from geneva_cli.parts.planes import planes
-from geneva_cli.verdict.checks.check import Check, compared
+from geneva_cli.verdict.checks.check import Check, at_least, compared
 
 
-def wall(name: str, outlines: Outlines) -> Check | None:
+def wall(name: str, parts: FlatParts) -> Check | None:
     """The least wall around the links' holes, if the spec sets one of their keys."""
-    size = vars(outlines.assembly.mechanism.spec.size)
+    size = vars(parts.mechanism.spec.size)
     keys = ("link_pin_mm", "link_bore_mm", "link_width_mm", "press_fit_mm", "pin_mm")
     if not any(size[key] for key in keys):
         return None
-    try:
-        links = drawn_links(outlines.assembly.full, outlines)
-    except GenevaError as error:
-        return Check(name, None, "at least", outlines.sizes.wall_min, False, str(error))
-    least = min(map(link_wall, links.plates), default=None)
-    return None if least is None else compared(name, least, "at least", outlines.sizes.wall_min)
+    return at_least(
+        name,
+        lambda: min(map(link_wall, parts.links.plates), default=None),
+        parts.outlines.sizes.wall_min,
+    )
 
 
-def gap(name: str, outlines: Outlines) -> Check | None:
+def gap(name: str, parts: FlatParts) -> Check | None:
     """The gap in a whole turn between links and hub, shaft and pins through their planes."""
     try:
-        clearance = planes(outlines)
+        clearance = planes(parts.outlines, parts.links)
     except GenevaError as error:
         return Check(name, None, "at least", 0.0, False, str(error))
-    mechanism = outlines.assembly.full
+    mechanism = parts.mechanism
     if clearance.way_out is not None:
         one = clearance.way_out
         return Check(

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
+from geneva_cli.collisions.certificate import Certificate, certificate, tolerance_mm
 from geneva_cli.collisions.gaps import WorkLimit
 from geneva_cli.drawings.model import PartsModel
-from geneva_cli.outlines.certificate import Certificate, certificate, tolerance_mm, unproved_kind
 from geneva_cli.outlines.travel import UNKNOWN
 from geneva_cli.verdict.checks.check import Check, compared
 
@@ -19,11 +19,8 @@ def least_gap(name: str, model: PartsModel, to_mm: float | None) -> Check | None
         return None
     to_mm = to_mm or tolerance_mm(parts)
     unproved = Check(name, None, "at least", -to_mm, None)
-    reason = unproved_kind(parts)
-    if reason:
-        return unproved._replace(limit=None, why=f"sampled collision check: {reason}")
     try:
-        found = certificate(model.outlines, gap, to_mm)
+        found = certificate(parts, gap, to_mm)
     except WorkLimit as error:
         return unproved._replace(why=str(error))
     if found.open:

@@ -17,6 +17,8 @@ if TYPE_CHECKING:
     from geneva_cli.collisions.machine_parts import MachineParts
     from geneva_cli.drawings.model import PartsModel
     from geneva_cli.machine.mechanism import Mechanism
+    from geneva_cli.parts.flat_parts import FlatParts
+    from geneva_cli.parts.sphere.sphere_parts import SphereParts
 
 Checks: TypeAlias = dict[str, str]  # name -> module:function in this folder
 
@@ -53,6 +55,8 @@ LIMITS: Checks = {
     "lock_deflection_max_deg": "strength:strength_limit",
     "wheel_shaft_stress_MPa": "strength:strength_limit",
     "crank_shaft_stress_MPa": "strength:strength_limit",
+    "product_acceleration_max_m_s2": "product:acceleration",
+    "product_slip": "product:slipping",
 }
 # Checks of flat parts at rest.
 STATIC: Checks = {
@@ -81,7 +85,7 @@ STATIC: Checks = {
 # Checks of the shells of a sphere at rest.
 SPHERE: Checks = {
     "wall_between_slots_mm": "sphere:between_slots",
-    "horn_mm": "walls:horn",
+    "horn_mm": "sphere:horn",
     "wheel_bore_wall_mm": "sphere:wheel_bore",
     "crank_shaft_mm": "sphere:crank_shaft",
     "dial_wall_mm": "sphere:dial",
@@ -131,9 +135,9 @@ def standing(mechanism: Mechanism) -> Checks:
     return STATIC if mechanism.spec.wheel.FLAT else SPHERE
 
 
-def standing_checks(parts: MachineParts) -> Iterator[Check]:
+def standing_checks(parts: FlatParts | SphereParts) -> Iterator[Check]:
     """The checks of parts at rest: walls, shafts, branches of a slot."""
-    yield from _applicable(standing(parts.assembly.full), parts)
+    yield from _applicable(standing(parts.mechanism), parts)
 
 
 def turn_checks(parts: MachineParts, turn: FullTurn) -> Iterator[Check]:

@@ -5,14 +5,13 @@ from __future__ import annotations
 from geneva_cli.drawings.shaft_gap import gear_gap, shaft_gap
 from geneva_cli.layout.sizes import Sizes
 from geneva_cli.outlines.crank import is_whole
-from geneva_cli.outlines.outlines import Outlines
-from geneva_cli.parts.flat_parts import flat_parts
+from geneva_cli.parts.flat_parts import FlatParts
 from geneva_cli.verdict.checks.check import Check, compared, gap
 
 
-def crank_shaft(name: str, outlines: Outlines) -> Check | None:
+def crank_shaft(name: str, parts: FlatParts) -> Check | None:
     """The gap between the crank's shaft or hub, whichever is thicker, and the wheel's rim."""
-    assembly, size = outlines.assembly, outlines.sizes
+    assembly, size = parts.outlines.assembly, parts.outlines.sizes
     shaft = _shaft(size)
     if not shaft:
         return None
@@ -21,29 +20,31 @@ def crank_shaft(name: str, outlines: Outlines) -> Check | None:
     return compared(name, gap_mm, "at least", 0.0)
 
 
-def crank_hub(name: str, outlines: Outlines) -> Check | None:
+def crank_hub(name: str, parts: FlatParts) -> Check | None:
     """The gap between the crank's shaft or hub and the bottom of the locking disc's relief."""
+    outlines = parts.outlines
     shaft = _shaft(outlines.sizes)
     if not (shaft and outlines.crank and is_whole(outlines.assembly, outlines.sizes)):
         return None
     return compared(name, outlines.relief_depth - shaft, "at least", 0.0)
 
 
-def wheel_shaft(name: str, outlines: Outlines) -> Check | None:
+def wheel_shaft(name: str, parts: FlatParts) -> Check | None:
     """The gap between the wheel's shaft or hub and a roller at the bottom of its slot."""
-    size = outlines.sizes
+    size = parts.outlines.sizes
     hub = max(size.wheel_bore, size.wheel_hub)
-    if not (hub and outlines.assembly.sign > 0.0):
+    if not (hub and parts.outlines.assembly.sign > 0.0):
         return None
     return compared(name, size.slot_end - hub, "at least", 0.0)
 
 
-def passing_parts(name: str, outlines: Outlines) -> Check | None:
+def passing_parts(name: str, parts: FlatParts) -> Check | None:
     """The gap between hubs or shafts and parts that turn past them, if the spec sets their sizes.
 
     Default sizes always pass, except for a first wheel's.
     """
-    sizes, drive = vars(outlines.assembly.mechanism.spec.size), outlines.assembly.full.spec.drive
+    spec = parts.mechanism.spec
+    sizes = vars(spec.size)
     keys = (
         "wheel_hub_mm",
         "wheel_hub_length_mm",
@@ -54,14 +55,14 @@ def passing_parts(name: str, outlines: Outlines) -> Check | None:
         "crank_shaft_low_mm",
         "crank_shaft_high_mm",
     )
-    if not (drive.IN_SERIES or any(sizes[key] is not None for key in keys)):
+    if not (spec.drive.IN_SERIES or any(sizes[key] is not None for key in keys)):
         return None
-    return gap(name, lambda: shaft_gap(flat_parts(outlines)), outlines.assembly.L)
+    return gap(name, lambda: shaft_gap(parts), parts.outlines.assembly.L)
 
 
-def passing_gears(name: str, outlines: Outlines) -> Check | None:
+def passing_gears(name: str, parts: FlatParts) -> Check | None:
     """The gap between shafts and noncircular gears, at their pitch curves' farthest places."""
-    return gap(name, lambda: gear_gap(flat_parts(outlines)), outlines.assembly.L)
+    return gap(name, lambda: gear_gap(parts), parts.outlines.assembly.L)
 
 
 def _shaft(size: Sizes) -> float:

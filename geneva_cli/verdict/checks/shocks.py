@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.numerics.roots import boundary
+from geneva_cli.numerics.rounding import to_digits
 from geneva_cli.spec.tables import Tolerance
 from geneva_cli.verdict.checks.check import Check, compared
 
@@ -56,7 +57,8 @@ def drag_words(mechanism: Mechanism) -> str:
         return "a smaller slot_clearance_mm reduces it"
     from geneva_cli.analysis.change_of_sides import lasting_drag_Nm
 
-    drag = _rounded_up(lasting_drag_Nm(mechanism))
+    # the last digits of a short number are rounding
+    drag = to_digits(lasting_drag_Nm(mechanism) * (1.0 - 1e-9), 3, math.ceil)
     return f"a drag of {drag:g} N m on the wheel prevents the change of sides"
 
 
@@ -89,7 +91,7 @@ def _tolerable(mechanism: Mechanism, limit: float) -> str:
     low = boundary(holds, 0.0, 1.0)
     tolerance = mechanism.spec.tolerance
     names = [
-        f"{key} = {_rounded_down(low * value):g}"
+        f"{key} = {to_digits(low * value * (1.0 + 1e-9), 2, math.floor):g}"
         for key, value in (
             ("crank_radius_mm", tolerance.crank_radius_mm),
             ("center_distance_mm", tolerance.center_distance_mm),
@@ -97,19 +99,3 @@ def _tolerable(mechanism: Mechanism, limit: float) -> str:
         if value
     ]
     return " and ".join(names) + " in [tolerance]"
-
-
-def _rounded_down(value: float) -> float:
-    """Two digits, rounded down."""
-    if value <= 0.0:
-        return 0.0
-    step = 10.0 ** (math.floor(math.log10(value)) - 1)
-    return float(f"{step * math.floor(value / step * (1.0 + 1e-9)):.6g}")
-
-
-def _rounded_up(value: float) -> float:
-    """Three digits, rounded up."""
-    if value <= 0.0:
-        return 0.0
-    step = 10.0 ** (math.floor(math.log10(value)) - 2)
-    return float(f"{step * math.ceil(value / step * (1.0 - 1e-9)):.6g}")

@@ -7,11 +7,10 @@ import math
 from geneva_cli.curves.distance import Polyarc
 from geneva_cli.curves.measure import turned
 from geneva_cli.curves.shapes import Arc, Line, Point, Segment, backwards, closed
+from geneva_cli.layout.sizes import Sizes
 from geneva_cli.outlines.crank import is_whole, rollers_gap
-from geneva_cli.outlines.outlines import Outlines
 from geneva_cli.outlines.wheel_hub import wheel_hub
-from geneva_cli.parts.shafts import crank_hub
-from geneva_cli.parts.sphere.shells import Shells
+from geneva_cli.parts.flat_parts import FlatParts
 from geneva_cli.verdict.checks.check import Check, compared
 
 NO_WALL = {  # the meaning of a negative wall
@@ -24,8 +23,9 @@ NO_WALL = {  # the meaning of a negative wall
 }
 
 
-def between_slots(name: str, outlines: Outlines) -> Check:
+def between_slots(name: str, parts: FlatParts) -> Check:
     """The wall between adjacent slots at its thinnest place; negative where they cut each other."""
+    outlines = parts.outlines
     around, near = outlines.assembly.slots, math.inf
     for i, (engagement, direction) in enumerate(around):
         following, ahead = around[(i + 1) % len(around)]
@@ -39,7 +39,7 @@ def between_slots(name: str, outlines: Outlines) -> Check:
         near = min(near, float(inside.signed(points).min()))
         if all(s is engagement for s, _ in around):
             break
-    return _wall(name, near, outlines)
+    return _wall(name, near, outlines.sizes)
 
 
 def _mouth(start: Point, end: Point, wide: bool) -> Segment:
@@ -50,48 +50,50 @@ def _mouth(start: Point, end: Point, wide: bool) -> Segment:
     return Arc(start, end, -math.tan(0.25 * back))
 
 
-def rollers_apart(name: str, outlines: Outlines) -> Check | None:
+def rollers_apart(name: str, parts: FlatParts) -> Check | None:
     """The gap between the roller that starts the wheel and the one that stops it, on one crank."""
-    gap = rollers_gap(outlines.assembly, outlines.sizes)
+    gap = rollers_gap(parts.outlines.assembly, parts.outlines.sizes)
     return None if gap is None else compared(name, gap, "at least", 0.0)
 
 
-def horn(name: str, outlines: Outlines | Shells) -> Check | None:
+def horn(name: str, parts: FlatParts) -> Check | None:
     """The wall between a slot and the recess of the locking disc or sectors."""
-    return _wall(name, outlines.sizes.horn, outlines) if outlines.crank else None
+    outlines = parts.outlines
+    return _wall(name, outlines.sizes.horn, outlines.sizes) if outlines.crank else None
 
 
-def wheel_bore(name: str, outlines: Outlines) -> Check | None:
+def wheel_bore(name: str, parts: FlatParts) -> Check | None:
     """The wall between the wheel's bore and its slots' ends, and around the bore in a drawn hub."""
-    size = outlines.sizes
+    size = parts.outlines.sizes
     if not size.wheel_bore:
         return None
-    hub = wheel_hub(outlines.assembly, size)
+    hub = wheel_hub(parts.outlines.assembly, size)
     wall = size.slot_end - size.wheel_bore
-    return _wall(name, min(wall, size.wheel_hub - size.wheel_reach) if hub else wall, outlines)
+    return _wall(name, min(wall, size.wheel_hub - size.wheel_reach) if hub else wall, size)
 
 
-def outside(name: str, outlines: Outlines) -> Check | None:
+def outside(name: str, parts: FlatParts) -> Check | None:
     """The wall between the slots or recesses of an internal wheel and its outside."""
-    size = outlines.sizes
+    size = parts.outlines.sizes
     if not size.outer:
         return None
-    deepest = max(size.slot_end, outlines.assembly.L + size.recess if size.lock else 0.0)
-    return _wall(name, size.outer - deepest, outlines)
+    deepest = max(size.slot_end, parts.outlines.assembly.L + size.recess if size.lock else 0.0)
+    return _wall(name, size.outer - deepest, size)
 
 
-def crank_bore(name: str, outlines: Outlines) -> Check | None:
+def crank_bore(name: str, parts: FlatParts) -> Check | None:
     """The wall between the crank's bore and the bottom of the locking disc's relief.
 
     In a drawn hub it is also the wall around the bore.
     """
+    outlines = parts.outlines
     size = outlines.sizes
     if not (size.crank_bore and outlines.crank and is_whole(outlines.assembly, size)):
         return None
     wall = outlines.relief_depth - size.crank_bore
-    hub = crank_hub(outlines)
-    return _wall(name, min(wall, size.crank_hub - size.crank_reach) if hub else wall, outlines)
+    in_hub = size.crank_hub - size.crank_reach
+    return _wall(name, min(wall, in_hub) if parts.crank_hub else wall, size)
 
 
-def _wall(name: str, value: float, outlines: Outlines | Shells) -> Check:
-    return compared(name, value, "at least", outlines.sizes.wall_min)
+def _wall(name: str, value: float, sizes: Sizes) -> Check:
+    return compared(name, value, "at least", sizes.wall_min)

@@ -198,6 +198,17 @@ REPORT = (
         "report.vibration:vibration",
         "disturbances:vibration",
     )._replace(one_by_one=("none",)),
+    QuantityGroup(
+        "product",
+        (
+            *("travel_mm", "chord_mm", "friction_needed", "swing_mm"),
+            *_product(
+                "speed_m_s acceleration_m_s2 tangential_m_s2 centripetal_m_s2 jerk_m_s3",
+                "max at_deg",
+            ),
+        ),
+        batch="product:product",
+    ),
     _group(
         "sizes",
         "axes_deg sphere_radius_mm crank_arm_mm slot_mouth_polar_deg slot_bottom_polar_deg "

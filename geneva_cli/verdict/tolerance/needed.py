@@ -180,7 +180,7 @@ def _failing_check(spec: Spec) -> tuple[bool | None, str] | None:
         model = PartsModel(build(spec))
         rows = list(turn_checks(model.parts, model.turn))
     except GenevaError as error:
-        return None, f"not proved: {error}"
+        return None, str(error)
     for row in rows:
         if row.passes is False:
             return False, f"{row.name} is {row.value:.4g}, must be {row.must_be} {row.limit:.4g}"

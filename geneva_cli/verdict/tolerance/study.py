@@ -112,7 +112,7 @@ def study(mechanism: Mechanism, model: PartsModel, samples: int, seed: int) -> S
         )
     clearances = required_clearances(mechanism, model, use, least_play)
     if clearances.turns is not True:
-        what = "not every machine turns" if clearances.turns is False else "not proved to turn"
+        what = "not every machine turns" if clearances.turns is False else "no turn was computed"
         warnings.append(Notice("not-every-machine-turns", f"{what}: {clearances.why}"))
     return Study(dwell, motion, at_deg, entry, clearances, drawn.jams, tuple(warnings))
 

@@ -1,7 +1,7 @@
 """Certificate of the full turn: a proved lower bound of the gap at every input angle.
 
 The sampled full turn gives the smallest gap. The certificate proves that no gap is smaller by more
-than a tolerance. It takes distances at single positions as exact, up to ``ROUNDING``.
+than a tolerance. It takes distances at single positions as exact, up to their rounding.
 """
 
 from __future__ import annotations
@@ -11,15 +11,12 @@ from collections.abc import Iterator
 from typing import TYPE_CHECKING, NamedTuple
 
 from geneva_cli.collisions.one_motion import one_motion
-from geneva_cli.collisions.play import Window, windows
-from geneva_cli.collisions.settled import Open, Pair, Settled, settled
-from geneva_cli.outlines.bounds import CurvedSlot, FreeRoller, Lock, Reach, StraightSlot
+from geneva_cli.collisions.pairs import Window
+from geneva_cli.collisions.play import windows
+from geneva_cli.collisions.settled import Open, Settled, settled
 
 if TYPE_CHECKING:
     from geneva_cli.collisions.machine_parts import MachineParts
-    from geneva_cli.outlines.outlines import Outlines
-
-ROUNDING = 1e-11  # of the centre distance: greatest rounding of a distance; doubles carry 2e-16
 
 
 class Certificate(NamedTuple):
@@ -47,20 +44,16 @@ def tolerance_mm(parts: MachineParts) -> float:
     return max(1e-3, 2.0 * parts.contact)
 
 
-def unproved_kind(parts: MachineParts) -> str:
-    """Return the reason why a kind of machine has no certificate; empty if it has one."""
-    return "" if parts.assembly.mechanism.spec.wheel.FLAT else "the parts lie on a sphere"
-
-
-def certificate(parts: Outlines, gap_mm: float, to_mm: float) -> Certificate:
+def certificate(parts: MachineParts, gap_mm: float, to_mm: float) -> Certificate:
     """Return the certificate that no gap in a full turn is smaller than the smallest by ``to_mm``.
 
-    ``gap_mm`` is the smallest gap of the sampled full turn; an overlap counts as 0. The parts are
-    of a kind with a certificate. Raises WorkLimit.
+    ``gap_mm`` is the smallest gap of the sampled full turn; an overlap counts as 0. Raises
+    WorkLimit.
     """
     parts = one_motion(parts)
     parts.gaps.begin()
-    spare = ROUNDING * parts.assembly.L
+    # the greatest rounding of a distance; doubles carry 2e-16
+    spare = 1e-11 * parts.assembly.L
     target = max(gap_mm, 0.0) - to_mm + spare
     least, count = math.inf, 0
     for between, found in _gaps(parts, target):
@@ -72,26 +65,22 @@ def certificate(parts: Outlines, gap_mm: float, to_mm: float) -> Certificate:
     return Certificate(least, to_mm, count)
 
 
-def _gaps(parts: Outlines, target: float) -> Iterator[tuple[str, Settled]]:
+def _gaps(parts: MachineParts, target: float) -> Iterator[tuple[str, Settled]]:
     """Yield the proved bound of each pair of parts in each motion and dwell."""
-    reach = Reach(parts, target)
+    pairs = parts.pairs(target)
     for window in windows(parts):
         ends = window.start, window.end
         if len(parts.crank):
-            lock = settled(parts.assembly, Lock(reach, window), ends, target)
-            yield "locking disc and wheel", lock
+            yield "locking disc and wheel", settled(parts.gaps, pairs.lock(window), ends, target)
         for span, driver in spans(parts, window):
             for roller in range(len(parts.assembly.rollers)):
-                pair: Pair = FreeRoller(reach, roller)
-                if roller == driver:
-                    engagement, _ = parts.assembly.rollers[roller]
-                    slot = CurvedSlot if engagement.slot.curved else StraightSlot
-                    pair = slot(reach, roller, span)
-                between = "roller and slot" if roller == driver else "roller and wheel"
-                yield between, settled(parts.assembly, pair, span, target)
+                driving = roller == driver
+                pair = pairs.driving(roller, span) if driving else pairs.free(roller, window)
+                between = "roller and slot" if driving else "roller and wheel"
+                yield between, settled(parts.gaps, pair, span, target)
 
 
-def spans(parts: Outlines, window: Window) -> Iterator[tuple[tuple[float, float], int | None]]:
+def spans(parts: MachineParts, window: Window) -> Iterator[tuple[tuple[float, float], int | None]]:
     """Yield the spans of a motion or dwell, each with the roller that is in its slot, or None.
 
     Where gears drive between two rollers, each of them is in its slot up to its deepest position,

@@ -1,0 +1,157 @@
+"""What the product on the dial feels: travel, speed, acceleration and jerk in SI units.
+
+A product at the radius r on a dial that turns i times as far as the wheel has, with V = psi',
+A = psi'' and J = psi''' by the input's angle and the input's speed w,
+
+    speed        r w i V
+    acceleration r w² sqrt((i A)² + (i V)^4)     along its path, and towards the axis
+    jerk         r w³ i J                        along its path
+
+A chain, belt or film on a sprocket of N teeth of pitch p has r = N p / (2 pi), so that a step moves
+it by whole pitches, and has no acceleration towards an axis.
+
+Source: circular motion. Between peaks of speed and of acceleration along the path, the resultant
+has peaks of its own, so that its square is searched.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+
+from geneva_cli.analysis.carried import G
+from geneva_cli.analysis.peak_search import PeakArray, greater, worst_peaks
+from geneva_cli.analysis.timing import timings
+from geneva_cli.analysis.vibration.oscillator import PERIOD_RATIO
+from geneva_cli.analysis.vibration.swing import Swing
+from geneva_cli.analysis.vibration.vibration import Oscillators
+from geneva_cli.kinematics.engagement import Engagement
+from geneva_cli.machine.many import designs_in, taken
+from geneva_cli.machine.mechanism import Mechanism
+from geneva_cli.numerics.angles import DEGREE, omega
+from geneva_cli.numerics.arrays import Array, parameter
+from geneva_cli.numerics.extrema import greatest_sizes
+
+if TYPE_CHECKING:
+    from geneva_cli.numerics.extrema import Which
+
+
+class ProductMotion(NamedTuple):
+    """What the products of m designs feel, (m,) each; NaN for what a design does not have."""
+
+    travel_mm: Array  # along the path in the longest step
+    chord_mm: Array  # straight from stop to stop; NaN for a chain
+    speed_m_s: PeakArray
+    tangential_m_s2: PeakArray  # along the path
+    centripetal_m_s2: PeakArray  # towards the axis; 0 for a chain
+    acceleration_m_s2: PeakArray  # of both together
+    jerk_m_s3: PeakArray  # along the path
+    friction_needed: Array  # friction coefficient at which the product just does not slip
+    swing_mm: Array  # amplitude that a step leaves of a product that hangs or sloshes
+
+
+def product_motion(mechanism: Mechanism) -> ProductMotion | None:
+    """The motion of the products of m designs; None if their place is not known.
+
+    Nothing is said of slipping on a dial that stands upright, where the product's weight acts along
+    its seat.
+
+    >>> from geneva_cli import Design, External, Product
+    >>> dial = Design(External(6), product=Product(radius_mm=300.0)).mechanism
+    >>> round(product_motion(dial).travel_mm.item(), 6)
+    314.159265
+    """
+    product, m = mechanism.spec.product, mechanism.designs
+    if not product.lies:
+        return None
+    ratio = _each(mechanism.spec.support.gear_ratio, m)
+    w = _each(omega(mechanism.spec.drive.n_rpm), m)
+    radius_mm = _each(_radius_mm(mechanism), m)
+    scale = 1e-3 * radius_mm * ratio * w
+    straight = product.runs_straight
+    peaks = worst_peaks(mechanism, ["velocity", "acceleration", "jerk"])
+    velocity, along, jerk = (peaks[name] for name in ("velocity", "acceleration", "jerk"))
+    squared = np.zeros(m) if straight else ratio * velocity.max**2
+    inwards = PeakArray(squared, velocity.at_deg)
+    both = along if straight else _resultant(mechanism, ratio)
+    acceleration = _scaled(both, scale * w)
+    step = np.max(
+        [np.broadcast_to(np.ravel(2.0 * one.half_step), m) for one in mechanism.engagements], axis=0
+    )
+    lies_flat = mechanism.spec.support.axis == "vertical"
+    return ProductMotion(
+        radius_mm * ratio * step,
+        np.full(m, np.nan) if straight else 2.0 * radius_mm * abs(np.sin(0.5 * ratio * step)),
+        _scaled(velocity, scale),
+        _scaled(along, scale * w),
+        _scaled(inwards, scale * w),
+        acceleration,
+        _scaled(jerk, scale * w * w),
+        acceleration.max / G if lies_flat else np.full(m, np.nan),
+        radius_mm * ratio * _swing(mechanism),
+    )
+
+
+def _radius_mm(mechanism: Mechanism) -> float:
+    """The product's distance from the axis; of a sprocket its chain's travel per radian."""
+    product = mechanism.spec.product
+    if product.radius_mm is not None:
+        return product.radius_mm
+    assert product.sprocket_teeth is not None and product.pitch_mm is not None
+    return product.sprocket_teeth * product.pitch_mm / (2.0 * math.pi)
+
+
+def _each(value: float | Array, m: int) -> Array:
+    return np.broadcast_to(np.ravel(value), m)
+
+
+def _scaled(peak: PeakArray, scale: Array) -> PeakArray:
+    return PeakArray(np.broadcast_to(peak.max * scale, len(scale)), peak.at_deg)
+
+
+def _resultant(mechanism: Mechanism, ratio: Array) -> PeakArray:
+    """The peak of sqrt(A² + i² V^4) over all engagements, which is a fraction 1/i of the above."""
+    best: PeakArray | None = None
+    for engagement in mechanism.engagements:
+        size, at_deg = _greatest_square(engagement, ratio)
+        place = engagement.mid_deg + parameter(at_deg[:, None])
+        here = PeakArray(np.sqrt(size), np.ravel(mechanism.shown_deg(place)))
+        best = here if best is None else greater(best, here)
+    assert best is not None  # a machine has an engagement
+    return best
+
+
+def _greatest_square(engagement: Engagement, ratio: Array) -> tuple[Array, Array]:
+    motion, m = engagement.motion, len(ratio)
+
+    def square(x: Array, which: Which, order: int) -> list[Array]:
+        some = motion if designs_in(motion) == 1 else taken(motion, which)
+        p = some(np.asfortranarray(x), 2 + order).arrays()[1:]
+        i2 = (ratio * ratio)[which][:, None]
+        out = [p[1] ** 2 + i2 * p[0] ** 4]
+        if order > 0:
+            out.append(2.0 * p[1] * p[2] + 4.0 * i2 * p[0] ** 3 * p[1])
+        if order > 1:
+            curved = 3.0 * p[0] ** 2 * p[1] ** 2 + p[0] ** 3 * p[2]
+            out.append(2.0 * (p[2] ** 2 + p[1] * p[3]) + 4.0 * i2 * curved)
+        return [np.broadcast_to(v * DEGREE**k, x.shape) for k, v in enumerate(out)]
+
+    places = [np.broadcast_to(x, (m, 1)).astype(float) for x in motion.breaks_deg]
+    return greatest_sizes(square, *places)
+
+
+def _swing(mechanism: Mechanism) -> Array:
+    """The amplitude that a step leaves, in radians of the dial; NaN without a swing_Hz.
+
+    It is NaN too where the motion's time over the natural period is out of the range computed.
+    """
+    product, m = mechanism.spec.product, mechanism.designs
+    if product.swing_Hz is None:
+        return np.full(m, np.nan)
+    ratio = _each(timings(mechanism)[0].motion_s * product.swing_Hz, m)
+    known = (ratio >= PERIOD_RATIO.low) & (ratio <= PERIOD_RATIO.high)
+    swing = Swing(np.where(known, ratio, 1.0), _each(product.swing_damping, m))
+    left_deg = Oscillators(mechanism, swing).residual_deg.max(axis=0)
+    return np.where(known, np.radians(left_deg), np.nan)

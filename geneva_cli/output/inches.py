@@ -1,0 +1,224 @@
+"""Numbers for people in inches and pounds. Everything below computes and names in SI units.
+
+Only what people read changes: tables, md, summaries, documents and plots.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from functools import cache
+from typing import Any
+
+from geneva_cli.document import Block, Curves, Document, Fact, Facts, Grid
+from geneva_cli.figure import Axis, Curve, Figure, Panel
+from geneva_cli.names import UNITS, unit_of
+from geneva_cli.spec.units import ratio
+from geneva_cli.table import Column, Table, pieces
+
+
+@cache
+def _other(unit: str) -> tuple[str, float]:
+    """The unit that is shown instead of an SI unit, and how many SI units it is; or unit and 1.
+
+    Numbers are divided by it, so that 25.4 mm are exactly 1 in.
+    """
+    instead = {
+        "mm": "in",
+        "µm": "thou",
+        "m": "ft",
+        "m/s": "in/s",
+        "mm/1e6": "in/1e6",
+        "N": "lbf",
+        "N m": "lbf in",
+        "J": "lbf in",
+        "N m/rad": "lbf in/rad",
+        "MPa": "ksi",
+        "GPa": "ksi",
+        "kg": "lb",
+        "kg m²": "lb in²",
+        "kg/m³": "lb/in³",
+    }.get(unit)
+    if instead is None:
+        return unit, 1.0
+    return instead, ratio(instead.removesuffix("/1e6"), unit.removesuffix("/1e6"))
+
+
+def value_in_inches(value: Any, unit: str) -> tuple[Any, str]:
+    """A value and its unit in inches and pounds; unchanged without a length, force or mass in it.
+
+    >>> value_in_inches(25.4, "mm"), value_in_inches(1.0, "s")
+    ((1.0, 'in'), (1.0, 's'))
+    """
+    other, size = _other(unit)
+    return _over(value, size), other
+
+
+def _over(value: Any, size: float) -> Any:
+    """A number, or each of several, over the size of its unit; anything else unchanged."""
+    if isinstance(value, (tuple, list)):
+        over = [_over(one, size) for one in value]
+        return over if isinstance(value, list) else tuple(over)
+    is_number = isinstance(value, (int, float)) and not isinstance(value, bool)
+    return value / size if is_number and size != 1.0 else value
+
+
+def _named(name: str) -> tuple[str, float]:
+    """A name with the other units at the end of its parts, and the size of its value's unit."""
+    parts, size = [], 1.0
+    for part in name.split("."):
+        end = next((end for end in UNITS if f"_{part}".endswith(end)), "")
+        unit = UNITS.get(end, "")
+        other, own = _other(unit)
+        size = own if unit else size
+        if other != unit:
+            instead = next(e for e, u in UNITS.items() if u == other)
+            part = f"_{part}".removesuffix(end)[1:] + instead
+        parts.append(part.lstrip("_"))
+    return ".".join(parts), size
+
+
+def table_in_inches(table: Table) -> Table:
+    """The table with its lengths, forces, torques, stresses and masses in inches and pounds."""
+    if table.record:
+        values = {}
+        for name, value in zip(table.names, next(table.rows()), strict=True):
+            new, size = _named(name)
+            is_table = isinstance(value, Table)
+            values[new] = table_in_inches(value) if is_table else _over(value, size)
+        return table.replaced(names=tuple(values), columns=[(v,) for v in values.values()])
+    by_row = {"quantity", "check", "unit"} & set(table.names)
+    columns = _by_row(table) if by_row else _scaled(table)
+    reading = table.reading
+    first, in_title = (tuple(_named(n)[0] for n in x) for x in (reading.first, reading.in_title))
+    return table.replaced(
+        names=tuple(_named(name)[0] for name in table.names),
+        columns=columns,
+        reading=reading._replace(first=first, in_title=in_title),
+    )
+
+
+def _scaled(table: Table) -> Sequence[Any]:
+    """The columns, each in the other unit of its name."""
+    sizes = [_named(name)[1] for name in table.names]
+    first = table.columns[0] if table.columns else None
+    if not isinstance(first, Column):
+        return [_column(c, f) for c, f in zip(table.columns, sizes, strict=True)]
+    source = first.pieces
+
+    def make(start: int, stop: int) -> Sequence[Any]:
+        rows = source.make(start, stop)
+        return [_column(c, f) for c, f in zip(rows, sizes, strict=True)]
+
+    return pieces(source.length, len(sizes), make, first.dtype)
+
+
+def _column(column: Any, size: float) -> Any:
+    if size == 1.0:
+        return column
+    return [
+        _over(v, size) for v in (column if isinstance(column, (list, tuple)) else column.tolist())
+    ]
+
+
+def _by_row(table: Table) -> Sequence[Any]:
+    """The columns of a table whose rows have units: by a column with them, or by their names."""
+    rows = []
+    for row in table.rows():
+        values = dict(zip(table.names, row, strict=True))
+        key = next((key for key in ("quantity", "check") if key in values), None)
+        size = 1.0
+        if key:
+            values[key], size = _named(str(values[key]))
+        elif values["unit"]:
+            values["unit"], size = _other(values["unit"])
+        rows.append(
+            [
+                _over(value, _named(name)[1] if unit_of(name) else size)
+                for name, value in values.items()
+            ]
+        )
+    return list(zip(*rows, strict=True)) if rows else table.columns
+
+
+def document_in_inches(document: Document) -> Document:
+    """The document with its facts, tables and curves in inches and pounds.
+
+    Keys of the spec, which have their unit in their names, keep it.
+    """
+    return document._replace(blocks=tuple(map(_block, document.blocks)))
+
+
+def figure_in_inches(figure: Figure) -> Figure:
+    """The figure with its curves and axes in inches and pounds."""
+    x, size = _axis(figure.x)
+    title = figure.title
+    for axis in (figure.x, *(panel.y for panel in figure.panels)):
+        title = title.replace(axis.label, _axis(axis)[0].label)
+    return Figure(
+        title,
+        x,
+        tuple(_panel(panel, size) for panel in figure.panels),
+        _over(figure.window, size),
+        _over(figure.shaded, size),
+    )
+
+
+def _block(block: Block) -> Block:
+    if isinstance(block, Facts):
+        return block._replace(facts=tuple(map(_fact, block.facts)))
+    if isinstance(block, Grid) and "Key" not in block.heads:
+        return _grid(block)
+    if isinstance(block, Curves):
+        return Curves(figure_in_inches(block.figure))
+    return block
+
+
+def _fact(fact: Fact) -> Fact:
+    if unit_of(fact.name):  # a key of the spec
+        return fact
+    unit, size = _other(fact.unit)
+    return fact._replace(value=_over(fact.value, size), unit=unit)
+
+
+def _grid(grid: Grid) -> Grid:
+    """A table whose units stand in a column, or in the heads of its columns."""
+    at = next(
+        (grid.heads.index(head) for head in ("Unit", "Unit at speed") if head in grid.heads), None
+    )
+    heads, sizes = [], []
+    for head in grid.heads:
+        words, comma, unit = head.rpartition(", ")
+        other, size = _other(unit) if comma else (unit, 1.0)
+        heads.append(words + comma + other)
+        sizes.append(size if comma and (other != unit or unit == "°") else None)
+    rows = []
+    for row in grid.rows:
+        unit, of_row = _other(str(row[at])) if at is not None else ("", 1.0)
+        cells = [
+            _over(cell, of_row if f is None else f) for cell, f in zip(row, sizes, strict=True)
+        ]
+        if at is not None:
+            cells[at] = unit
+        rows.append(tuple(cells))
+    return grid._replace(heads=tuple(heads), rows=tuple(rows))
+
+
+def _panel(panel: Panel, size_x: float) -> Panel:
+    y, size = _axis(panel.y)
+    curves = tuple(_curve(curve, size_x, size) for curve in panel.curves)
+    return panel._replace(y=y, curves=curves, bounds=panel.bounds and _over(panel.bounds, size))
+
+
+def _curve(curve: Curve, size_x: float, size_y: float) -> Curve:
+    some = tuple((_over(x, size_x), _over(y, size_y)) for x, y in curve.pieces)
+    marks = (m._replace(x=_over(m.x, size_x), y=_over(m.y, size_y)) for m in curve.marks)
+    return curve._replace(pieces=some, marks=tuple(marks))
+
+
+def _axis(axis: Axis) -> tuple[Axis, float]:
+    """An axis with its other unit, and the unit's size; a csv's column has it in its name."""
+    if axis.label == axis.name:
+        name, size = _named(axis.name)
+        return axis._replace(label=name), size
+    unit, size = _other(axis.unit)
+    return axis._replace(unit=unit), size

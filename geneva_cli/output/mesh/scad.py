@@ -1,0 +1,109 @@
+"""OpenSCAD: a module for each kind of solid, and a line for each position, in mm.
+
+A plate is an outline without its holes, extruded; circles stay circles, so that a person can change
+them. A shell of a sphere is a polyhedron.
+"""
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Iterator, Sequence
+
+from geneva_cli.curves.drawing import Drawing
+from geneva_cli.curves.plates import Plate, Shell
+from geneva_cli.curves.shapes import Circle, Contour
+from geneva_cli.errors import GenevaError, clean
+from geneva_cli.output.inks import inks
+from geneva_cli.output.mesh.polygons import DECIMALS, arc_chords, polygon
+from geneva_cli.output.mesh.shells import shell_mesh
+from geneva_cli.output.mesh.solids import Place, solid_kinds
+from geneva_cli.output.solid_part import plate_contours
+
+
+def data(drawing: Drawing, units: str) -> Iterator[bytes]:
+    """The file's bytes; chords keep the drawing's tolerance. Raises GenevaError as ``bodies``."""
+    if not drawing.tolerance > 0.0:
+        raise GenevaError(f"--tolerance {drawing.tolerance:g}: it must be above 0 mm")
+    kinds = solid_kinds(drawing, units, "SCAD")
+    colours = inks(tuple(dict.fromkeys(solid.layer for solid in kinds)))
+    names = _names([solid.name for solid in kinds])
+    yield f"// {clean(drawing.title).strip()}\n// millimetres\n\n".encode()
+    for name, (solid, places) in zip(names, kinds.items(), strict=True):
+        for place in places:
+            yield f'{_moved(place)}color("{colours[solid.layer].rgb}") {name}();\n'.encode()
+    for name, solid in zip(names, kinds, strict=True):
+        yield f"\nmodule {name}() {{\n{_solid(solid, drawing.tolerance)}}}\n".encode()
+
+
+def _names(words: Sequence[str]) -> list[str]:
+    """Names of modules: letters, digits and underscores, each once.
+
+    >>> _names(["wheel", "wheel's shaft", "wheel"])
+    ['wheel', 'wheels_shaft', 'wheel_2']
+    """
+    names: list[str] = []
+    for word in words:
+        plain = re.sub(r"[^A-Za-z0-9]+", "_", word.replace("'", "")).strip("_")
+        plain = plain if plain[:1].isalpha() else f"part_{plain}".rstrip("_")
+        name, number = plain, 1
+        while name in names:
+            number += 1
+            name = f"{plain}_{number}"
+        names.append(name)
+    return names
+
+
+def _moved(place: Place) -> str:
+    """What moves a solid to its position; nothing where it stands as drawn."""
+    (xx, _, _), (yx, _, _), (_, _, zz) = place.turn.tolist()
+    shift = place.shift.tolist()
+    if zz < 1.0:
+        rows = ([*turn, by] for turn, by in zip(place.turn.tolist(), shift, strict=True))
+        return f"multmatrix([{', '.join(_list(row, 12) for row in rows)}]) "
+    turn = _shown(math.degrees(math.atan2(yx, xx)), 9)
+    moved = f"translate({_list(shift, DECIMALS)}) " if any(shift) else ""
+    return moved + (f"rotate({turn}) " if turn != "0" else "")
+
+
+def _solid(solid: Plate | Shell, tolerance: float) -> str:
+    return _shell(solid, tolerance) if isinstance(solid, Shell) else _plate(solid, tolerance)
+
+
+def _plate(plate: Plate, tolerance: float) -> str:
+    outline, *holes = plate_contours(plate)
+    flat = _flat(outline, True, tolerance)
+    if holes:
+        cut = [_flat(hole, False, tolerance) for hole in holes]
+        flat = "\n".join(("difference() {", *(f"  {one}" for one in (flat, *cut)), "}"))
+    low, high = _shown(plate.low, DECIMALS), _shown(plate.thickness, DECIMALS)
+    above = "" if low == "0" else f"translate([0, 0, {low}]) "
+    flat = flat.replace("\n", "\n    ")
+    return f"  {above}linear_extrude(height = {high})\n    {flat}\n"
+
+
+def _flat(shape: Contour | Circle, outside: bool, tolerance: float) -> str:
+    if isinstance(shape, Circle):
+        count = 2 * arc_chords(shape.radius, math.pi, tolerance)
+        at = f"translate({_list(shape.centre, DECIMALS)}) " if any(shape.centre) else ""
+        return f"{at}circle(r = {_shown(shape.radius, DECIMALS)}, $fn = {count});"
+    corners = ",\n    ".join(_list(p, DECIMALS) for p in polygon(shape, outside, tolerance))
+    return f"polygon([\n    {corners}]);"
+
+
+def _shell(shell: Shell, tolerance: float) -> str:
+    surface = shell_mesh(shell, tolerance)
+    corners = ",\n    ".join(_list(corner, DECIMALS) for corner in surface.corners.tolist())
+    # OpenSCAD wants them clockwise from outside
+    faces = ",\n    ".join(f"[{a}, {c}, {b}]" for a, b, c in surface.triangles.tolist())
+    return f"  polyhedron(points = [\n    {corners}],\n    faces = [\n    {faces}]);\n"
+
+
+def _list(values: Sequence[float], decimals: int) -> str:
+    return f"[{', '.join(_shown(value, decimals) for value in values)}]"
+
+
+def _shown(value: float, decimals: int) -> str:
+    """A number without zeros at its end, and without a negative zero."""
+    text = f"{value:.{decimals}f}".rstrip("0").rstrip(".")
+    return "0" if text == "-0" else text

@@ -1,0 +1,191 @@
+"""Values with a unit, such as ``"8 in"``, in the unit of their key; and numbers shown in inches."""
+
+from __future__ import annotations
+
+import re
+from typing import TYPE_CHECKING, NamedTuple
+
+from geneva_cli.errors import GenevaError, cut, nearest
+from geneva_cli.names import SHORT_UNITS, unit_of
+
+if TYPE_CHECKING:
+    from fractions import Fraction
+
+# Units by the powers of metre, kilogram, second and turn in them, each in these base units. All are
+# exact but the radian, which has 40 digits of 1/(2 pi): NIST SP 811, appendix B (inch, pound,
+# standard gravity 9.80665 m/s², and horsepower of 550 ft lbf/s).
+UNITS: dict[tuple[int, ...], dict[str, str]] = {
+    (1, 0, 0, 0): {
+        "mm": "1e-3",
+        "cm": "1e-2",
+        "m": "1",
+        "in": "0.0254",
+        "ft": "0.3048",
+        "inch": "0.0254",
+        "thou": "25.4e-6",
+        "um": "1e-6",
+    },
+    (0, 1, 0, 0): {"kg": "1", "g": "1e-3", "t": "1e3", "lb": "0.45359237", "oz": "0.028349523125"},
+    (0, 0, 1, 0): {"s": "1", "ms": "1e-3", "min": "60", "h": "3600"},
+    (0, 0, 0, 1): {
+        "deg": "1/360",
+        "rad": "0.1591549430918953357688837633725143620345",
+        "mrad": "0.1591549430918953357688837633725143620345e-3",
+        "arcmin": "1/21600",
+        "arcsec": "1/1296000",
+        "rev": "1",
+    },
+    (0, 0, -1, 1): {"rpm": "1/60"},
+    (1, 1, -2, 0): {
+        "N": "1",
+        "kN": "1e3",
+        "lbf": "4.4482216152605",
+        "ozf": "0.27801385095378125",
+        "kgf": "9.80665",
+    },
+    (2, 1, -2, 0): {"Nm": "1", "J": "1"},
+    (-1, 1, -2, 0): {
+        "Pa": "1",
+        "MPa": "1e6",
+        "GPa": "1e9",
+        "bar": "1e5",
+        "psi": "44482216152605/6451600000",  # lbf/in²
+        "ksi": "44482216152605/6451600",
+    },
+    (2, 1, -3, 0): {"W": "1", "kW": "1e3", "hp": "745.69987158227022"},
+}
+# A number with its unit: decimal, or as on a drawing in inches, 3/8 or 1 1/2.
+NUMBER = (
+    r"[+-]?(?:(?:\d{1,9}[ -])?\d{1,9}/\d{1,9}(?![\d.])"
+    r"|(?:\d{1,40}(?:\.\d{0,40})?|\.\d{1,40})(?:[eE][+-]?\d{1,3})?)(?!\d)"
+)
+
+
+class Unit(NamedTuple):
+    """A unit: its powers of metre, kilogram, second and turn, and its size in them."""
+
+    powers: tuple[int, ...]
+    size: Fraction
+
+
+def unit_key(key: str) -> str | None:
+    """The unit of a key whose values may have another one, None for other keys.
+
+    >>> unit_key("size.center_distance_mm"), unit_key("drive.n_rpm"), unit_key("drive.A")
+    ('mm', 'rpm', None)
+    """
+    unit = unit_of(key) or ""
+    unit = SHORT_UNITS.get(unit, unit)
+    return unit if unit and re.fullmatch(pattern(), f"1 {unit}") else None
+
+
+def pattern() -> str:
+    """Regular expression of a number with its unit, for editors; its units are known ones."""
+    names = sorted((n for names in UNITS.values() for n in names), key=len, reverse=True)
+    one = rf"(?:{'|'.join([*names, '°', 'µm', '1/min'])})(?:\^?-?[1-6]|[²³])?"
+    return rf"^\s*{NUMBER}\s*(?:1/)?\(?{one}(?:(?:\s*[*·/]\s*|\s+|-)\(?{one}\)?)*\)?\s*$"
+
+
+def in_unit_of(key: str, text: str) -> float:
+    """The number that a text with a unit is in the unit of a key.
+
+    Raises GenevaError for a text without a number, and for a unit that is unknown or of another
+    kind.
+
+    >>> in_unit_of("center_distance_mm", "8 in"), in_unit_of("lock_radius_mm", "1 1/2 in")
+    (203.2, 38.1)
+    >>> in_unit_of("torque_Nm", "12 lbf in")
+    1.355817948331...
+    """
+    own = unit_key(key)
+    parts = re.fullmatch(rf"\s*({NUMBER})(.*)", text, re.DOTALL)
+    if own is None or not parts or not parts[2].strip() or parts[2][0] == ",":
+        raise GenevaError(f'{key} must be a number, not "{cut(text)}"{_hint(text, own)}')
+    wanted = _unit(own)
+    try:
+        unit = _unit(parts[2])
+    except GenevaError as error:
+        raise GenevaError(f'{key} = "{cut(text)}": {error}; use {_units_like(own)}') from None
+    if unit.powers != wanted.powers or not re.fullmatch(pattern(), text):
+        raise GenevaError(
+            f'{key} = "{cut(text)}" must be in {_units_like(own)}{_force(parts[2], wanted)}'
+        )
+    try:
+        return float(_number(parts[1]) * unit.size / wanted.size)
+    except (OverflowError, ZeroDivisionError):
+        raise GenevaError(f'{key} = "{cut(text)}" is too large a number') from None
+
+
+def ratio(unit: str, other: str) -> float:
+    """How many of another unit one unit is.
+
+    >>> ratio("ft", "in")
+    12.0
+    """
+    return float(_unit(unit).size / _unit(other).size)
+
+
+def _hint(text: str, own: str | None) -> str:
+    """What is right instead of a text that is no number with a unit."""
+    comma = re.fullmatch(r"\s*([+-]?\d+),(\d+)\b.*", text)
+    if comma:
+        return f": write {comma[1]}.{comma[2]}, with a point"
+    if re.fullmatch(rf"\s*{NUMBER}\s*", text) and "/" not in text:
+        return f": write {text.strip()} without quotation marks"
+    return f'; with a unit it is a text such as "10 {own}"' if own else ""
+
+
+def _units_like(own: str) -> str:
+    """A key's unit and others of the same kind, for a message."""
+    of_kind = UNITS.get(_unit(own).powers, {})
+    others = [name for name in of_kind if name != own]
+    return f"{own} or {', '.join(others[:5])}" if others else f"{own}, or units of that kind"
+
+
+def _force(unit: str, wanted: Unit) -> str:
+    """A hint for a pound of mass where a force is meant."""
+    for mass, force in (("lb", "lbf"), ("oz", "ozf")):
+        instead = re.sub(rf"\b{mass}\b", force, unit)
+        if instead != unit and _unit(instead).powers == wanted.powers:
+            return f"; {mass} is a mass, and {force} a force: write {instead.strip()}"
+    return ""
+
+
+def _unit(text: str) -> Unit:
+    """A unit, or a product of units; everything behind a slash divides."""
+    from fractions import Fraction  # only where a text has a unit: it takes some milliseconds
+
+    powers: tuple[int, ...] = (0, 0, 0, 0)
+    size = Fraction(1)
+    plain = text.translate(str.maketrans("²³()µ", "23  u"))
+    above, *below = plain.replace("°", " deg ").replace("1/min", " rpm ").split("/")
+    for sign, part in ((1, above), *((-1, one) for one in below)):
+        for word in filter(None, re.split(r"[\s*·]+|-(?=[A-Za-z])", part)):
+            match = re.fullmatch(r"([A-Za-z]+)\^?(-?[1-6])?", word)
+            if word == "1" and sign == 1:
+                continue
+            one = _single(match[1] if match else word)
+            power = sign * int((match and match[2]) or 1)
+            powers = tuple(a + power * b for a, b in zip(powers, one.powers, strict=True))
+            size *= one.size**power
+    return Unit(powers, size)
+
+
+def _single(name: str) -> Unit:
+    """A unit by its name. Raises GenevaError, with the nearest name, for an unknown one."""
+    from fractions import Fraction
+
+    for powers, units in UNITS.items():
+        if name in units:
+            return Unit(powers, Fraction(units[name]))
+    known = [one for units in UNITS.values() for one in units]
+    raise GenevaError(f"unknown unit {cut(name, 20)}{nearest(name, known)}")
+
+
+def _number(text: str) -> Fraction:
+    """A decimal number, a fraction, or a whole number and a fraction."""
+    from fractions import Fraction
+
+    words = re.split("[ -]", text.lstrip("+-")) if "/" in text else [text.lstrip("+-")]
+    value = sum(map(Fraction, words), Fraction(0))
+    return -value if text[0] == "-" else value

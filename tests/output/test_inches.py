@@ -1,0 +1,196 @@
+"""Numbers for people in inches and pounds: each is the SI number by the constants of SciPy."""
+
+import json
+import math
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from repo import DESIGNS
+from scipy import constants as si
+from typer.testing import CliRunner
+
+from geneva_cli import GenevaError, load
+from geneva_cli.app import app
+from geneva_cli.names import UNITS, unit_of
+from geneva_cli.output import Choice, choosing
+from geneva_cli.output.inches import (
+    document_in_inches,
+    figure_in_inches,
+    table_in_inches,
+    value_in_inches,
+)
+from geneva_cli.study.document import document
+from geneva_cli.study.figures import of_table
+from geneva_cli.table import Table, pieces
+
+# What one of a unit is in SI units.
+ONE = {
+    "mm": si.milli,
+    "µm": si.micro,
+    "m": 1.0,
+    "in": si.inch,
+    "thou": si.mil,
+    "ft": si.foot,
+    "m/s": 1.0,
+    "in/s": si.inch,
+    "mm/1e6": si.milli,
+    "in/1e6": si.inch,
+    "N": 1.0,
+    "lbf": si.pound_force,
+    "N m": 1.0,
+    "J": 1.0,
+    "lbf in": si.pound_force * si.inch,
+    "N m/rad": 1.0,
+    "lbf in/rad": si.pound_force * si.inch,
+    "MPa": si.mega,
+    "GPa": si.giga,
+    "ksi": si.kilo * si.psi,
+    "kg": 1.0,
+    "lb": si.pound,
+    "kg m²": 1.0,
+    "lb in²": si.pound * si.inch**2,
+    "kg/m³": 1.0,
+    "lb/in³": si.pound / si.inch**3,
+}
+INCH = {"in", "thou", "ft", "in/s", "in/1e6", "lbf", "lbf in", "lbf in/rad", "ksi"}
+INCH |= {"lb", "lb in²", "lb/in³"}
+# six roundings in a product of the constants, and one in the number
+CLOSE = 8.0 * 2.0**-53
+TURRET = str(DESIGNS / "turret.toml")
+
+
+@pytest.mark.parametrize("unit", sorted({*UNITS.values()} - INCH))
+@given(number=st.floats(-1e6, 1e6))
+def test_a_number_is_the_same_quantity(unit, number):
+    value, other = value_in_inches(number, unit)
+    assert (other in INCH) == (unit in ONE)
+    if other != unit:
+        assert value == pytest.approx(number * ONE[unit] / ONE[other], rel=CLOSE, abs=1e-300)
+
+
+def run(*words):
+    return CliRunner().invoke(app, [*words])
+
+
+def leaves(value, name=""):
+    """Numbers of a table by their names, in order."""
+    if isinstance(value, Table) and value.record:
+        for key, one in zip(value.names, next(value.rows()), strict=True):
+            yield from leaves(one, key)
+    elif isinstance(value, Table):
+        for row in value.to_rows():
+            label = row.get("quantity") or row.get("check") or f"x_{row.get('unit')}"
+            for key, one in row.items():
+                yield from leaves(one, key if unit_of(key) else label or key)
+    elif isinstance(value, (tuple, list)):
+        for one in value:
+            yield from leaves(one, name)
+    elif isinstance(value, (int, float)) and not isinstance(value, bool):
+        units = [u for part in name.split(".") if (u := unit_of(part))]
+        yield (units or [""])[-1], value
+
+
+@pytest.mark.parametrize("answer", ["report.table", "loads_page", "peaks_table"])
+def test_a_record_in_inches(answer):
+    table = load(TURRET)
+    for name in answer.split("."):
+        table = getattr(table, name)
+    other = list(leaves(table_in_inches(table)))
+    own = list(leaves(table))
+    assert len(own) == len(other) > 10
+    for (unit, value), (instead, number) in zip(own, other, strict=True):
+        if unit in ONE:
+            assert instead != unit
+            assert number * ONE[instead] == pytest.approx(value * ONE[unit], rel=CLOSE)
+        else:
+            assert (instead, number) == (unit, value)
+
+
+def test_rows_with_a_unit_each():
+    table = Table(
+        ("name", "value", "unit", "size_x_mm"), (["a", "b"], [25.4, 3], ["mm", ""], [5.08, None])
+    )
+    assert list(table_in_inches(table).rows()) == [("a", 1.0, "in", 0.2), ("b", 3, "", None)]
+
+
+def test_a_long_table_is_converted_in_pieces():
+    columns = pieces(70_000, 2, lambda a, b: [np.arange(a, b) * 25.4, np.arange(a, b) * 1.0])
+    table = Table(("x_mm", "input_deg"), columns)
+    other = table_in_inches(table)
+    assert other.names == ("x_in", "input_deg")
+    *_, last = other.rows()
+    assert last == (pytest.approx(69_999.0, rel=1e-15), 69_999.0)
+
+
+def test_a_document_keeps_the_keys_of_the_spec():
+    page = document(load(TURRET))
+    other = document_in_inches(page)
+    texts = repr(other.blocks)
+    assert "'size.center_distance_mm', 250.0, 'mm'" in texts  # the spec's own key and value
+    assert "Fact(name='Centre distance', value=9.8425196" in texts
+    for block, before in zip(other.blocks, page.blocks, strict=True):
+        assert type(block) is type(before)
+
+
+def test_a_figure_of_columns_has_its_units_in_its_names(tmp_path):
+    path = tmp_path / "sweep.csv"
+    path.write_text("size.center_distance_mm,loads.pin_force_N.max\n254,4.4482216152605\n508,0\n")
+    words = "--x", "size.center_distance_mm", "--y", "loads.pin_force_N.max"
+    text = run("plot", str(path), *words, "--format", "svg", "--units", "inch").stdout
+    assert ">loads.pin_force_lbf.max by size.center_distance_in<" in text
+    other = figure_in_inches(of_table(str(path), words[1], [words[3]]))
+    assert other.panels[0].curves[0].pieces == (([10.0, 20.0], [1.0, 0.0]),)
+    assert other.window == pytest.approx((9.8, 20.2), rel=1e-15)  # two hundredths beside the points
+
+
+def test_a_figure_is_scaled():
+    figure = load(TURRET).figure(["pin_force_N", "velocity"])
+    force, speed = figure_in_inches(figure).panels
+    assert force.y.unit == "lbf" and speed == figure.panels[1]
+    peak = max(m.y for m in force.curves[0].marks)
+    assert peak * si.pound_force == pytest.approx(202.5396, rel=1e-6)  # the digits of the tutorial
+
+
+@pytest.mark.parametrize(
+    ("words", "wants"),
+    [
+        (["check", TURRET], "crank bore wall 0.325 in, at least 0.04921"),
+        (["loads", TURRET], "2.456 to 158.9 lbf in, rms 51.47"),
+        (["report", TURRET], "centre distance 9.843 in, wheel Ø 18.21 in"),
+        (["profile", TURRET, "--part", "parts"], "9.84252    in"),
+        (["profile", TURRET, "--samples", "3", "--format", "md"], "left_x_in"),
+        (["compare", TURRET, "--pick", "sizes.center_distance_mm"], "sizes.center_distance_in"),
+    ],
+)
+def test_commands_show_them(words, wants):
+    assert wants in run(*words, "--units", "inch").stdout
+    assert run(*words).stdout == run(*words, "--units", "mm").stdout
+
+
+def test_digits_of_a_table_are_those_of_si():
+    """7 digits of 250 mm in inches, by hand: 250/25.4 = 9.842519685."""
+    assert f"{250 / 25.4:.7g}" in run("report", TURRET, "--units", "inch").stdout
+    value = json.loads(run("report", TURRET, "--format", "json").stdout)["sizes"]
+    assert math.isclose(value["center_distance_mm"], 250.0)
+
+
+@pytest.mark.parametrize(
+    ("words", "wants"),
+    [
+        (["loads", TURRET, "--format", "json"], "json is for programs, and in SI units"),
+        (["motion", TURRET, "--format", "csv"], "csv is for programs"),
+        (["compare", TURRET, "--ratio"], "ratios have no unit"),
+        (["profile", TURRET, "--part", "sheet", "--format", "svg"], "a sheet is in millimetres"),
+    ],
+)
+def test_what_stays_in_si_units_is_refused(words, wants):
+    result = run(*words, "--units", "inch")
+    assert result.exit_code == 2 and wants in result.stderr
+
+
+def test_another_unit_is_refused():
+    assert "--units feet: it must be mm or inch" in run("check", TURRET, "--units", "feet").stderr
+    with pytest.raises(GenevaError), choosing(Choice(units="feet")):
+        pass

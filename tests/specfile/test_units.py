@@ -1,0 +1,262 @@
+"""Values with a unit: read in the unit of their key, against the constants of SciPy."""
+
+import json
+import math
+import re
+import tomllib
+
+import pytest
+import schema_agrees
+from hypothesis import given
+from hypothesis import strategies as st
+from scipy import constants as si
+from typer.testing import CliRunner
+
+from geneva_cli import External, GenevaError, Size, load
+from geneva_cli.app import app
+from geneva_cli.names import UNITS as OF_KEYS
+from geneva_cli.spec.schema import fields
+from geneva_cli.spec.units import UNITS, in_unit_of, pattern, unit_key
+
+# What one of a unit is in SI units and radians, from another source than the table: CODATA's
+# conversion factors in scipy.constants, and products of them.
+ONE = {
+    "m": 1.0,
+    "mm": si.milli,
+    "cm": si.centi,
+    "um": si.micro,
+    "in": si.inch,
+    "inch": si.inch,
+    "ft": si.foot,
+    "thou": si.mil,
+    "kg": 1.0,
+    "g": si.gram,
+    "t": si.metric_ton,
+    "lb": si.pound,
+    "oz": si.ounce,
+    "s": 1.0,
+    "ms": si.milli,
+    "min": si.minute,
+    "h": si.hour,
+    "deg": si.degree,
+    "arcmin": si.arcminute,
+    "arcsec": si.arcsecond,
+    "rad": 1.0,
+    "mrad": si.milli,
+    "rev": 2.0 * math.pi,
+    "rpm": 2.0 * math.pi / si.minute,
+    "N": 1.0,
+    "kN": si.kilo,
+    "lbf": si.pound_force,
+    "ozf": si.ounce * si.g,
+    "kgf": si.kilogram_force,
+    "Nm": 1.0,
+    "J": 1.0,
+    "Pa": 1.0,
+    "MPa": si.mega,
+    "GPa": si.giga,
+    "bar": si.bar,
+    "psi": si.psi,
+    "ksi": si.kilo * si.psi,
+    "W": 1.0,
+    "kW": si.kilo,
+    "hp": si.horsepower,
+}
+# Products and quotients, and the key's unit in SI units and radians.
+PRODUCTS = [
+    ("inertia_kgm2", "lb ft2", si.pound * si.foot**2),
+    ("inertia_kgm2", "lb·ft²", si.pound * si.foot**2),
+    ("inertia_kgm2", "lbf in s2", si.pound_force * si.inch),
+    ("inertia_kgm2", "kg cm^2", si.centi**2),
+    ("torque_Nm", "lbf in", si.pound_force * si.inch),
+    ("torque_Nm", "ft-lbf", si.pound_force * si.foot),
+    ("torque_Nm", "kgf*cm", si.kilogram_force * si.centi),
+    ("torque_Nm", "N mm", si.milli),
+    ("density_kgm3", "lb/in3", si.pound / si.inch**3),
+    ("density_kgm3", "g/cm³", si.gram / si.centi**3),
+    ("density_kgm3", "kg m-3", 1.0),
+    ("stress_max_MPa", "N/mm2", 1.0),
+    ("stress_max_MPa", "lbf/in2", si.psi / si.mega),
+    ("stiffness_Nm_rad", "N m/deg", 1.0 / si.degree),
+    ("stiffness_Nm_rad", "lbf in/rad", si.pound_force * si.inch),
+    ("wear_mm3_Nm", "mm3/(N m)", 1.0),
+    ("wear_mm3_Nm", "in3/(lbf in)", si.inch**3 / si.milli**3 / (si.pound_force * si.inch)),
+    ("pv_max_W_m2", "kW/m2", si.kilo),
+    ("n_rpm", "rad/s", si.minute / (2.0 * math.pi)),
+    ("n_rpm", "rev/s", si.minute),
+    ("n_rpm", "1/min", 1.0),
+    ("n_rpm", "deg/s", si.minute / 360.0),
+]
+# Two roundings in the constants of SciPy and one in the quotient of two of them.
+CLOSE = 4.0 * 2.0**-53
+
+
+def same_kind():
+    """Pairs of units of one kind, each as a key's unit and as a written one."""
+    endings = {unit_key("a" + end): "a" + end for end in OF_KEYS}
+    for units in UNITS.values():
+        for own in units:
+            if own in endings:
+                yield from ((endings[own], own, other) for other in units)
+
+
+def test_every_unit_has_a_witness():
+    assert {name for units in UNITS.values() for name in units} == set(ONE)
+
+
+@pytest.mark.parametrize(("key", "own", "unit"), list(same_kind()))
+@given(number=st.floats(-1e6, 1e6, allow_subnormal=False))
+def test_units_against_codata(key, own, unit, number):
+    expected = number * (ONE[unit] / ONE[own])
+    assert in_unit_of(key, f"{number!r} {unit}") == pytest.approx(expected, rel=CLOSE, abs=1e-300)
+
+
+@pytest.mark.parametrize(("key", "unit", "one"), PRODUCTS)
+def test_products_of_units(key, unit, one):
+    # six roundings in a product of powers
+    assert in_unit_of(key, f"3.5 {unit}") == pytest.approx(3.5 * one, rel=8.0 * 2.0**-53)
+    assert re.fullmatch(pattern(), f"3.5 {unit}")
+
+
+@pytest.mark.parametrize(
+    ("text", "mm"),
+    [
+        ("8 in", 203.2),
+        ("0.1in", 2.54),  # 0.1 x 25.4 in floats is 2.54 too; 0.3 x 25.4 is not 7.62
+        ("0.3 in", 7.62),
+        ("3/8 in", 9.525),
+        ("1 1/2 in", 38.1),
+        ("1-1/2 in", 38.1),
+        ("-1 1/2 in", -38.1),
+        (" 1e3  um ", 1.0),
+        (".5 ft", 152.4),
+        ("5 µm", 0.005),
+    ],
+)
+def test_a_length_is_the_nearest_float(text, mm):
+    assert in_unit_of("radius_mm", text) == mm
+
+
+@pytest.mark.parametrize(
+    ("key", "text", "wants"),
+    [
+        ("a_mm", "8 lb", "must be in mm or cm, m, in, ft"),
+        ("a_mm", "8 inhc", 'unknown unit inhc (did you mean "inch"?); use mm or'),
+        ("a_mm", "12,5", ": write 12.5, with a point"),
+        ("a_mm", "12,5 mm", ": write 12.5, with a point"),
+        ("a_mm", "8", ": write 8 without quotation marks"),
+        ("a_mm", "wide", '; with a unit it is a text such as "10 mm"'),
+        ("a_mm", "8 in/", "must be in mm"),
+        ("a_mm", "8 in2", "must be in mm"),
+        ("a_mm", "1/0 in", "too large"),
+        ("a_mm", "1e400 in", "too large"),
+        ("a_mm", "1e9999 in", "unknown unit"),
+        ("a_mm", "9" * 5000 + " in", "must be a number"),
+        ("torque_Nm", "12 lb ft", "lb is a mass, and lbf a force: write lbf ft"),
+        ("torque_Nm", "3 N", "must be in N m or Nm, J"),
+        ("inertia_kgm2", "3 kg", "must be in kg m², or units of that kind"),
+        ("n_rpm", "2 Hz", "unknown unit Hz"),
+        ("friction", "0.1 in", "must be a number"),
+    ],
+)
+def test_what_is_wrong_is_said(key, text, wants):
+    with pytest.raises(GenevaError, match=re.escape(wants)) as error:
+        in_unit_of(key, text)
+    assert key in str(error.value) and "  " not in str(error.value)
+
+
+@given(st.text())
+def test_no_text_breaks_it(text):
+    try:
+        assert math.isfinite(in_unit_of("a_mm", text))
+    except GenevaError:
+        return
+    assert re.fullmatch(pattern(), text)  # the schema refuses nothing that is read
+
+
+SPEC = """\
+[wheel]
+z = 6
+steps_deg = ["1/6 rev", 60]
+[drive]
+n_rpm = "2 rad/s"
+[size]
+center_distance_mm = "8 in"
+[[mass]]
+shape = "disc"
+mass_kg = "3 lb"
+diameter_mm = "1 1/2 in"
+[material.wheel]
+youngs_modulus_GPa = "29e3 ksi"
+"""
+
+
+@pytest.fixture
+def spec(tmp_path):
+    path = tmp_path / "spec.toml"
+    path.write_text(SPEC)
+    return path
+
+
+def test_a_spec_is_read_and_its_values_are_shown(spec):
+    design = load(str(spec), ["size.roller_radius_mm=1/2 in"])
+    assert design.spec.drive.n_rpm == pytest.approx(60.0 / math.pi, rel=1e-15)
+    assert design.spec.size.roller_radius_mm == 12.7
+    assert design.spec.wheel.steps_deg == (60.0, 60.0)
+    assert design.with_units == [
+        'wheel.steps_deg = [60, 60], from ["1/6 rev", 60]',
+        'drive.n_rpm = 19.09859, from "2 rad/s"',
+        'size.center_distance_mm = 203.2, from "8 in"',
+        'size.roller_radius_mm = 12.7, from "1/2 in"',
+        'mass.0.mass_kg = 1.360777, from "3 lb"',
+        'mass.0.diameter_mm = 38.1, from "1 1/2 in"',
+        'material.wheel.youngs_modulus_GPa = 199.948, from "29e3 ksi"',
+    ]
+    assert not design.with_("wheel.steps_deg", None).with_units
+
+
+def test_a_python_user_may_write_units_too():
+    assert Size(center_distance_mm="8 in") == Size(center_distance_mm=203.2)
+    assert External(6, offset_mm="0.1 in").offset_mm == 2.54
+
+
+def test_the_range_is_that_of_the_key(spec):
+    with pytest.raises(GenevaError, match=r"center_distance_mm = -203\.2 must be above 0"):
+        load(str(spec), ["size.center_distance_mm=-8 in"])
+
+
+def test_the_schema_takes_units_where_the_reader_does():
+    assert schema_agrees.validator().is_valid(tomllib.loads(SPEC))
+    assert not schema_agrees.validator().is_valid(tomllib.loads(SPEC.replace("8 in", "8 inhc")))
+    assert not schema_agrees.validator().is_valid(tomllib.loads('[wheel]\nz = "6 mm"\n'))
+
+
+def test_keys_with_a_unit_are_the_keys_whose_names_end_in_one():
+    assert {f.key for f in fields(Size) if unit_key(f.key)} == {
+        f.key for f in fields(Size) if f.key.endswith("_mm")
+    }
+
+
+@pytest.mark.parametrize(
+    ("value", "wants"),
+    [
+        ("12,5", "write 12.5, with a point"),
+        ("12,5 mm  # wide", 'write "12.5 mm", with a point'),
+        ("60 rpm", 'write "60 rpm" in quotation marks'),
+        ("cycloidal", 'write "cycloidal" in quotation marks'),
+        ("= 5", "invalid value\n"),
+    ],
+)
+def test_a_bare_value_gets_a_hint(tmp_path, value, wants):
+    path = tmp_path / "bare.toml"
+    path.write_text(f"[wheel]\nz = 6\n[drive]\nn_rpm = {value}\n")
+    result = CliRunner().invoke(app, ["peaks", str(path)])
+    assert result.exit_code == 2
+    assert "bare.toml:4: not TOML: " in result.stderr and wants in result.stderr
+
+
+def test_a_sweep_varies_values_with_units(spec):
+    words = ["--vary", "size.center_distance_mm=8 in,220,1 ft", "--format", "json"]
+    result = CliRunner().invoke(app, ["sweep", str(spec), *words, "--pick", "timing.k"])
+    rows = json.loads(result.stdout)["rows"]
+    assert [row["size"]["center_distance_mm"] for row in rows] == [203.2, 220, 304.8]

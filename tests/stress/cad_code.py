@@ -1,0 +1,143 @@
+"""The code of the manual's page cad-code, run: `tests/stress/cad_code.py`; `make cad` installs
+build123d for it.
+
+Solids of build123d have the volumes of their closed forms, and the lengths of their arcs and lines
+are those of the drawing: the kernel joins arcs of one circle. FreeCAD's console and OpenSCAD take
+part if they are installed.
+"""
+
+import math
+import os
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+from collections import Counter
+from pathlib import Path
+
+import repo
+import trimesh
+from build123d import GeomType, import_step
+
+from geneva_cli.curves.mass import face
+from geneva_cli.curves.plates import plates, solids
+from geneva_cli.curves.shapes import Arc, Circle, Line
+from geneva_cli.design import load
+from geneva_cli.errors import GenevaError
+from geneva_cli.manual import page
+
+SAME = 1e-12  # relative: the kernel integrates along these curves to rounding
+DESIGNS = sorted(repo.DESIGNS.glob("*.toml"))
+
+
+def code():
+    """The page's blocks of Python: the functions, what goes on with them, and the macro."""
+    return re.findall(r"^```python\n(.*?)^```$", page("cad-code"), re.S | re.M)
+
+
+def lengths(plate):
+    """The length of a plate's straight lines and of its arcs, mm."""
+    straight = round_ = 0.0
+    for shape in (plate.outline, *plate.holes):
+        if isinstance(shape, Circle):
+            round_ += math.tau * shape.radius
+            continue
+        straight += sum(math.dist(*p) for p in shape.segments if isinstance(p, Line))
+        round_ += sum(p.radius * abs(p.sweep) for p in shape.segments if isinstance(p, Arc))
+    return {GeomType.LINE: straight, GeomType.CIRCLE: round_}
+
+
+def of_build123d(functions):
+    """Every flat part of every design: how many solids, and the greatest error of a volume."""
+    checked, worst, edges = 0, 0.0, Counter()
+    for path in DESIGNS:
+        design = load(str(path))
+        for name in ("wheel", "arm", "frame"):
+            try:
+                own = plates(design.drawing(name, curves="spline").solid)
+            except GenevaError:
+                continue  # no such part
+            for plate, solid in zip(own, functions["part"](str(path), name), strict=True):
+                volume = plate.thickness * face(plate).area
+                error = abs(solid.volume / volume - 1.0)
+                low = [e for e in solid.edges() if abs(e.center().Z - plate.low) < 1e-6]
+                edges += Counter(e.geom_type for e in low)
+                assert solid.is_valid and error < SAME, (path.stem, name, error)
+                for kind, length in lengths(plate).items():
+                    found = sum(e.length for e in low if e.geom_type == kind)
+                    assert abs(found - length) < SAME * (length + 1.0), (path.stem, name, kind)
+                checked, worst = checked + 1, max(worst, error)
+    counts = ", ".join(f"{n} {kind.name}" for kind, n in edges.items())
+    print(f"build123d: {checked} solids, volumes within {worst:.1e}; {counts}")
+
+
+def page_goes_on(functions, goes_on):
+    """The page's own example: the file that it writes has a hole more."""
+    exec(goes_on, functions)
+    wheel, lighter = functions["wheel"], import_step("lighter.step")
+    hole = wheel.volume - lighter.volume
+    assert abs(hole / (math.pi * 15.0**2 * 18.0) - 1.0) < SAME, hole
+    print(f"the page's example: {hole:.3f} mm³ less")
+
+
+def of_freecad(macro):
+    """The macro's function in FreeCAD's console: names and volumes of all solids."""
+    program = shutil.which("freecadcmd") or shutil.which("FreeCADCmd")
+    if not program:
+        print("FreeCAD is not installed: left out")
+        return
+    show = (
+        'd = FreeCAD.newDocument("Geneva")\n'
+        'load_machine("turret.toml", d)\n'
+        "for o in d.Objects:\n"
+        '    if o.TypeId == "Part::Feature":\n'
+        '        print(f"SOLID|{o.Label}|{o.Shape.Volume!r}|{o.Shape.isValid()}", flush=True)\n'
+    )
+    Path("macro.py").write_text(macro + show)
+    run = subprocess.run([program, "macro.py"], capture_output=True, text=True, timeout=300)
+    lines = [line.split("|") for line in run.stdout.splitlines() if "SOLID|" in line]
+    design = load("turret.toml")
+    own = {s.name: s.thickness * face(s).area for s in solids(design.drawing("assembly").solid)}
+    assert {line[1] for line in lines} == set(own), run.stdout
+    for _, name, volume, valid in lines:
+        assert valid == "True" and abs(float(volume) / own[name] - 1.0) < SAME, name
+    print(f"FreeCAD: {len(lines)} solids with their names and volumes")
+
+
+def of_openscad():
+    """Parts rendered by OpenSCAD have the volume of the mesh that we write, and are closed."""
+    if not shutil.which("openscad"):
+        print("OpenSCAD is not installed: left out")
+        return
+    checked = 0
+    for stem in ("turret", "internal-z6", "press-curved", "side-crank-z6", "spherical-z6"):
+        for part in ("wheel", "crank"):
+            design = load(str(repo.DESIGNS / f"{stem}.toml"))
+            design.save("part.scad", part, 0.05)
+            design.save("ours.stl", part, 0.05)
+            command = ["openscad", "-o", "part.stl", "part.scad"]
+            subprocess.run(command, check=True, capture_output=True, timeout=600)
+            theirs, ours = trimesh.load("part.stl"), trimesh.load("ours.stl")
+            # both have chords within 0.05 mm; theirs joins parts that touch
+            assert abs(theirs.volume / ours.volume - 1.0) < 1e-3, (stem, part)
+            assert theirs.is_watertight or part == "crank", (stem, part)
+            checked += 1
+    print(f"OpenSCAD: {checked} parts with the volumes of their meshes")
+
+
+def main():
+    functions = {}
+    definitions, goes_on, macro = code()
+    exec(definitions, functions)
+    of_build123d(functions)
+    with tempfile.TemporaryDirectory() as folder:
+        shutil.copy(repo.DESIGNS / "turret.toml", folder)
+        os.chdir(folder)
+        page_goes_on(functions, goes_on)
+        of_freecad(macro)
+        of_openscad()
+
+
+if __name__ == "__main__":
+    sys.exit(main())

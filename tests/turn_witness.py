@@ -1,0 +1,57 @@
+"""Witnesses of certificates of the full turn, flat or on a sphere: gaps at dense positions."""
+
+import math
+
+import numpy as np
+from sampling import some
+
+from geneva_cli.collisions.certificate import spans
+from geneva_cli.collisions.play import windows
+from geneva_cli.collisions.settled import intervals
+
+TO_MM = 1e-3
+ROUNDING = 1e-9  # mm: a hundred times the rounding of a distance here
+DENSE = some(20_000, 4_000)  # positions of a turn
+
+
+def least_gap(parts, at):
+    """The smallest gap of all parts at input angles."""
+    pose = parts.gaps.pose(at)
+    locking = parts.gaps.locking(pose).min() if parts.crank else math.inf
+    return float(min(parts.gaps.rollers(pose).min(), locking))
+
+
+def turn_of(parts, count=DENSE):
+    start = parts.assembly.start_deg
+    return np.linspace(start, start + parts.assembly.turn_deg, count)
+
+
+def pairs(parts, window):
+    """Each pair of parts in a motion or dwell, with the gap at input angles."""
+    every = parts.pairs(-TO_MM)
+    if parts.crank:
+        ends = window.start, window.end
+        yield ends, every.lock(window), lambda at: parts.gaps.locking(parts.gaps.pose(at))
+    for roller in range(len(parts.assembly.rollers)):
+
+        def gap(at, roller=roller):
+            return parts.gaps.rollers(parts.gaps.pose(at))[:, roller]
+
+        yield (window.start, window.end), every.free(roller, window), gap
+        for span, driver in spans(parts, window):
+            if roller == driver:
+                yield span, every.driving(roller, span), gap
+
+
+def check_bounds(parts, rng):
+    for window in windows(parts):
+        for (low, high), pair, gap in pairs(parts, window):
+            width = (high - low) * 10.0 ** rng.uniform(-5.0, -0.5, 40)
+            start = low + (high - low - width) * rng.random(40)
+            bounds = pair(intervals(parts.gaps, start, start + width))
+            at = start[:, None] + width[:, None] * np.linspace(0.0, 1.0, 41)
+            dense = gap(at.ravel()).reshape(at.shape).min(axis=1)
+            near = parts.gaps.near  # wider gaps are returned as this
+            assert (np.minimum(bounds.least, near) <= dense + ROUNDING).all()
+            middle = gap(start + 0.5 * width)
+            assert np.allclose(np.minimum(bounds.middle, near), middle, atol=ROUNDING)
