@@ -182,6 +182,17 @@ def test_the_title_block_has_the_keys_of_drawing():
 
 @pytest.mark.sampled(8)
 @pytest.mark.parametrize("path", DESIGNS, ids=lambda p: p.stem)
+def test_no_dimension_is_without_a_place_on_a_designs_sheet(path, sheets):
+    """One that fits nowhere stands below its view, as a bare number or a diameter."""
+    _, found = sheets(path.stem)
+    alone = r"(\d+× )?(Ø |R |L = )?[\d.]+( [HgPFh]\d \(.*| ±.*|°)?"
+    cells = [label.at[0] for label in found.labels]  # of tables, numbers stand in columns
+    below = [m for m in found.labels if re.fullmatch(alone, m.text) and cells.count(m.at[0]) == 1]
+    assert below == []
+
+
+@pytest.mark.sampled(8)
+@pytest.mark.parametrize("path", DESIGNS, ids=lambda p: p.stem)
 def test_each_item_of_the_list_has_one_balloon(path, sheets):
     design, found = sheets(path.stem)
     rows = [row for row in design.part_table("parts").to_rows() if row["row"] == "part"]

@@ -21,15 +21,9 @@ def draw_frame(view: View, plate: Plate) -> None:
     wheel = (0.0, 0.0)  # the wheel's axis, with or without a hole
     for centre, radius in {wheel: holes[0].radius, **{h.centre: h.radius for h in holes}}.items():
         view.cross(centre, radius)
-    alike: dict[str, list[Circle]] = {}
-    for hole in holes:
-        alike.setdefault(sized.bore(view.fits, hole.radius), []).append(hole)
-    for text, some in alike.items():
-        places = ", ".join(f"({number(x)}, {number(y)})" for _, (x, y), _ in some)
-        view.diameter(some, times(len(some), text), f"at {places} from the wheel's axis")
     box = bounds(plate.outline)
     up = 0.5 * math.pi
-    # from the shortest to the longest, so that their lines do not cross
+    # from the shortest to the longest, so that their lines do not cross; leaders find places later
     for axis, turn in ((0, 0.0), (1, up)):
         texts = {number(0.0)}
         for hole in sorted(holes, key=lambda hole: abs(hole.centre[axis])):
@@ -42,6 +36,12 @@ def draw_frame(view: View, plate: Plate) -> None:
     view.linear(corner, wheel, up, number(-box.y0))
     view.linear(corner, (box.x1, box.y0), 0.0, number(box.x1 - box.x0))
     view.linear(corner, (box.x0, box.y1), up, number(box.y1 - box.y0))
+    alike: dict[str, list[Circle]] = {}
+    for hole in holes:
+        alike.setdefault(sized.bore(view.fits, hole.radius), []).append(hole)
+    for text, some in alike.items():
+        places = ", ".join(f"({number(x)}, {number(y)})" for _, (x, y), _ in some)
+        view.diameter(some, times(len(some), text), f"at {places} from the wheel's axis")
     assert isinstance(plate.outline, Contour)
     arcs = [piece for piece in plate.outline.segments if isinstance(piece, Arc)]
     view.of_arcs(arcs, times(len(arcs), sized.plain(arcs[0].radius, "R ")))
