@@ -50,7 +50,7 @@ def positioned(members: Iterable[Member]) -> Iterator[tuple[Plate, Plate]]:
 
 
 def faces(members: Iterable[Member], scale: float) -> list[Face]:
-    """Return the faces that the plane y = 0 cuts, within 0.2 mm on paper."""
+    """Return the faces that the plane y = 0 cuts, by chords of 1.5 mm at a scale."""
     return [
         Face(own, left, right)
         for own, plate in positioned(members)
@@ -107,14 +107,13 @@ def _hatch(view: View, face: Face, k: int) -> None:
             view.draw(line("", *ends), HATCH)
 
 
-def balloons_in_section(view: View, cut: list[Face], items: Mapping[Plate, int]) -> set[int]:
-    """Draw a balloon at one face of each item, and return the items' numbers."""
+def balloons_in_section(view: View, cut: list[Face], items: Mapping[Plate, int]) -> None:
+    """Draw a balloon at one face of each item."""
     widest: dict[int, list[Face]] = {}
     for face in sorted(cut, key=lambda f: f.left - f.right):
         widest.setdefault(items[face.plate], []).append(face)
     for item, some in sorted(widest.items()):
         view.balloon([side for face in some for side in face.sides], str(item))
-    return set(widest)
 
 
 def balloons(
