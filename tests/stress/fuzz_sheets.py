@@ -36,7 +36,9 @@ def one(text):
         try:
             made = design.sheet(TOLERANCE * found.center_distance_mm / 100.0)
         except GenevaError as error:
-            assert error.key or "--" in str(error), f"no place: {error}"
+            # of a machine that jams, walls may leap: `profile` refuses it before it draws
+            known = error.key or "--" in str(error) or "roller and slot overlap" in str(error)
+            assert known, f"no place: {error}"
             return "no sheet"
         assert overlaps(made) == []
         assert beyond(made) == []
