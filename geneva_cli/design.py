@@ -36,6 +36,7 @@ from geneva_cli.spec.tables import (
     Shaft,
     Size,
     Support,
+    TitleBlock,
     Tolerance,
     WheelMaterial,
 )
@@ -135,6 +136,7 @@ class Design:
         tolerance: Tolerance | None = None,
         product: Product | None = None,
         limits: Limits | None = None,
+        drawing: TitleBlock | None = None,
         title: str = "",
     ) -> None:
         self.spec = Spec(
@@ -152,6 +154,7 @@ class Design:
             tolerance or Tolerance(),
             product or Product(),
             limits or Limits(),
+            drawing or TitleBlock(),
             title,
         )
         self._text: Text | None = None

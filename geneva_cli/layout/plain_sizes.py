@@ -8,6 +8,7 @@ from geneva_cli.numerics.preferred import rounded_below
 
 if TYPE_CHECKING:
     from geneva_cli.spec.tables import Size
+from geneva_cli.spec.workshops import workshop
 
 
 class Sizes(NamedTuple):
@@ -70,7 +71,7 @@ def pin_radius(size: Size, r: float, parts: Sizes | None = None) -> float:
 
 def wall_min(size: Size, L: float) -> float:
     """Return the least wall that ``check`` lets pass, mm."""
-    return value_or(size.wall_min_mm, L / 200.0)
+    return value_or(size.wall_min_mm, max(L / 200.0, workshop(size.process).wall_mm))
 
 
 def value_or(value: float | None, default: float) -> float:

@@ -294,6 +294,16 @@ REMEDIES: dict[str, tuple[Change, ...]] = {
         left_out("size", "wheel_keyway"),
     ),
     "outer_wall_mm": sized("size", "wheel_outer_radius_mm"),
+    "cut_plate_mm": tuple(
+        change
+        for key in ("wheel_thickness_mm", "face_width_mm", "lock_thickness_mm", "arm_thickness_mm")
+        for change in sized("size", key)
+    ),
+    "cut_slot_mm": (
+        *sized("size", "roller_radius_mm"),
+        *sized("size", "wheel_thickness_mm"),
+        *sized("size", "face_width_mm"),
+    ),
     "branches_apart_mm": _WIDER,
     "branches_crossed_mm": _WIDER,
 }

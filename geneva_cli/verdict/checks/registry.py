@@ -81,6 +81,8 @@ STATIC: Checks = {
     "link_gap_mm": "links:gap",
     "branches_apart_mm": "branches:apart",
     "branches_crossed_mm": "branches:crossed",
+    "cut_plate_mm": "process:thickest_plate",
+    "cut_slot_mm": "process:slot_width",
     "parts": "buildable:plates",
 }
 # Checks of the shells of a sphere at rest.
