@@ -272,6 +272,14 @@ def rounded(section: Shape) -> Shape:
     return section._replace(segments=(*arcs, closing))
 
 
+def reach_or_bore(size: Size, part: str, bore: float) -> float:
+    """Return how far a bore reaches with its shape; its radius where it cannot be made."""
+    try:
+        return bore_of(size, part, bore).reach
+    except GenevaError:  # reported where the part is cut
+        return bore
+
+
 def radius_of(shape: Shape) -> float:
     """Return the radius of a bore from its shape.
 

@@ -33,13 +33,18 @@ def holes_of(plates: Iterable[Plate]) -> Holes:
 
 
 def bored(view: View, bores: Sequence[Shape], size: Size, part: str) -> None:
-    """Draw the diameter of a part's bore, and what else its shape needs."""
+    """Draw the diameter of a part's bore, and what else its shape needs; a remark has its angle."""
     for shape in bores[:1]:
         form = bore_of(size, part, radius_of(shape))
         if form.is_round:
-            view.diameter([Circle("", (0.0, 0.0), form.radius)], sized.bore(form.radius))
+            view.diameter([Circle("", (0.0, 0.0), form.radius)], sized.bore(view.fits, form.radius))
         if isinstance(shape, Contour):
-            view.note(at(shape.segments[0], 0.5), form.note)
+            x, y = at(shape.segments[0], 0.5)
+            turn = math.degrees(math.atan2(y, x))
+            note = form.note if view.fits.is_iso else form.note.replace(" JS9", "")
+            view.note((x, y), note)
+            what = note.split()[0].rstrip(",")
+            view.remark(f"{what} at {number(turn, 2)}°, counterclockwise from the right")
 
 
 def circle_of(view: View, screwed: Sequence[Circle]) -> None:
@@ -53,7 +58,7 @@ def bolted(view: View, screwed: Sequence[Circle]) -> None:
     if not screwed:
         return
     far = math.hypot(*screwed[0].centre)
-    text = times(len(screwed), f"{sized.bore(screwed[0].radius)} on Ø {number(2.0 * far)}")
-    view.diameter(screwed, text)
+    hole = sized.bore(view.fits, screwed[0].radius)
+    view.diameter(screwed, times(len(screwed), f"{hole} on Ø {number(2.0 * far)}"))
     angles = [math.degrees(math.atan2(c.centre[1], c.centre[0])) for c in screwed]
     view.notes.append("holes at " + ", ".join(f"{number(angle, 2)}°" for angle in angles))
