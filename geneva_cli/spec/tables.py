@@ -77,7 +77,9 @@ class Size(SpecTable):
         NOT_NEGATIVE,
         "least wall that passes `check`; default L/200, or by process",
     ] = None
-    wheel_bore_mm: Annotated[float | None, NOT_NEGATIVE, "diameter of the wheel's bore"] = None
+    wheel_bore_mm: Annotated[
+        float | None, NOT_NEGATIVE, "diameter of the wheel's bore; default up to L/6, or by load"
+    ] = None
     wheel_hub_mm: Annotated[
         float | None, NOT_NEGATIVE, "diameter of the wheel's hub, on the side of the crank arm"
     ] = None
@@ -109,14 +111,18 @@ class Size(SpecTable):
     crank_shaft_high_mm: Annotated[
         float | None, LENGTH, "upper end of the crank's shaft, from the wheel's lower face"
     ] = None
-    pin_mm: Annotated[float | None, NOT_NEGATIVE, "diameter of the roller's pin; default r"] = None
+    pin_mm: Annotated[
+        float | None, NOT_NEGATIVE, "diameter of the roller's pin; default r, or by load"
+    ] = None
     press_fit_mm: Annotated[
         float | None,
         NOT_NEGATIVE,
         "diameter of the pin minus that of its hole in the crank arm; default 0, or by process",
     ] = None
     arm_bore_mm: Annotated[
-        float | None, POSITIVE, "diameter of the crank arm's bore; default crank_bore_mm"
+        float | None,
+        POSITIVE,
+        "diameter of the crank arm's bore; default crank_bore_mm, or by load",
     ] = None
     arm_hub_mm: Annotated[
         float | None, POSITIVE, "width of the crank arm round its bore; default 1.6 bores"
@@ -157,13 +163,15 @@ class Size(SpecTable):
         float | None, POSITIVE, "rounding radius at the ends of the wheel's recesses"
     ] = None
     wheel_thickness_mm: Annotated[
-        float | None, POSITIVE, "thickness of wheel and rollers; default face_width_mm, or L/10"
+        float | None,
+        POSITIVE,
+        "thickness of wheel and rollers; default face_width_mm, L/10 or by load",
     ] = None
     lock_thickness_mm: Annotated[
         float | None, POSITIVE, "thickness of the locking disc; default: wheel plus pin_gap_mm"
     ] = None
     arm_thickness_mm: Annotated[
-        float | None, POSITIVE, "thickness of the crank arm; default: the wheel's"
+        float | None, POSITIVE, "thickness of the crank arm; default: the wheel's, or by load"
     ] = None
     link_pin_mm: Annotated[
         float | None, POSITIVE, "diameter of the pins between links; default up to L/20"
@@ -376,7 +384,9 @@ class Shaft(SpecTable):
     ] = None
     crank_span_mm: Annotated[float | None, POSITIVE, "crank's shaft: bearing to bearing"] = None
     shear_stress_max_MPa: Annotated[
-        float | None, POSITIVE, "allowable; ASME B17c: least of 0.3 yield, 0.18 tensile strength"
+        float | None,
+        POSITIVE,
+        "allowable; ASME B17c: 0.3 yield or 0.18 tensile; default 82.5 (C45+N)",
     ] = None
     bending_factor: Annotated[float, Range(1.0, 10.0), "ASME B17c: shock factor in bending"] = 1.5
     torsion_factor: Annotated[float, Range(1.0, 10.0), "ASME B17c: shock factor in torsion"] = 1.0
@@ -389,7 +399,9 @@ class Material(SpecTable):
     youngs_modulus_GPa: Annotated[float, POSITIVE, "Young's modulus E"] = 210.0
     poisson_ratio: Annotated[float, Range(0.0, 0.5), "Poisson's ratio nu"] = 0.3
     density_kgm3: Annotated[float, POSITIVE, "density"] = 7850.0
-    stress_max_MPa: Annotated[float | None, POSITIVE, "allowable stress"] = None
+    stress_max_MPa: Annotated[
+        float | None, POSITIVE, "allowable stress; default of steel 165 (C45+N, 0.6 yield)"
+    ] = None
     grade: Annotated[str | None, None, "grade, as drawings name it"] = None
 
 

@@ -192,7 +192,7 @@ def test_libraries_write_the_same_numbers(name):
 
 def test_exports_of_more_rows_than_are_held_are_compared_too(monkeypatch):
     """A longer table makes its rows while it is written: the other writers want whole arrays."""
-    monkeypatch.setattr("geneva_cli.analysis.motion.WHOLE_ROWS", 1000)
+    monkeypatch.setattr("geneva_cli.table.WHOLE_ROWS", 1000)
     monkeypatch.setattr(bench_export, "COUNTS", (3000,))
     (task,) = bench_export.subject(False).tasks
     assert task.name == "3000 rows x 6"
@@ -254,7 +254,9 @@ def test_scripts_for_batches_find_the_peaks():
 
 def test_costs_have_the_exponent_of_their_growth():
     sizes = (10, 100, 1_000, 10_000)
-    assert exponent(sizes, [1.2, 1.0, 2.0, 11.0]) == pytest.approx(1.0)  # the first is noise
+    assert exponent(sizes, [1.2, 1.0, 2.0, 11.0]) == pytest.approx(
+        1.0, abs=0.01
+    )  # the first is noise
     assert exponent(sizes, [1.0 + (n / 1e3) ** 2 for n in sizes]) == pytest.approx(2.0, abs=0.01)
     assert exponent(sizes, [1.0, 1.1, 0.9, 1.05]) == 0.0
 

@@ -447,7 +447,7 @@ LINKED = "rollers, links, gears, shafts, frame"  # all that needs the links
     [
         ("epicyclic-z4", "gear_bolt_circle_mm", 300.0, "no blank of the fixed gear", LINKED, 2),
         ("epicyclic-z4", "link_bore_mm", 30.0, "no plate is left around the holes", LINKED, 2),
-        ("press-straight", "arm_hub_mm", 3.0, "the hub must be above 43", "arm", 7),
+        ("press-straight", "arm_hub_mm", 3.0, "the hub must be above 40", "arm", 7),
         ("spherical-z6", "dial_bolt_circle_mm", 20.0, "they must lie between circles", "wheel", 7),
     ],
 )

@@ -12,7 +12,7 @@ from geneva_cli.drawings.sheet import sized
 from geneva_cli.drawings.sheet.bores import bolted, bored, circle_of, holes_of, radius_of
 from geneva_cli.drawings.sheet.standing import draw_hub
 from geneva_cli.drawings.sheet.view import View, number, times
-from geneva_cli.layout.sizes import pin_radius
+from geneva_cli.layout.sizes import drawn_pin_radius
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.numerics.tolerances import SAME_ON_SHEET
 from geneva_cli.outlines.crank import is_whole
@@ -133,7 +133,7 @@ def _between(view: View, arm: CrankArm) -> None:
 def draw_roller(view: View, mechanism: Mechanism) -> None:
     """Draw a roller about its pin."""
     roller, axis = mechanism.roller_radius_mm, (0.0, 0.0)
-    pin = pin_radius(mechanism.spec.size, roller)
+    pin = drawn_pin_radius(mechanism)
     circles = [Circle("", axis, roller)] + ([Circle("", axis, pin)] if pin else [])
     for c in circles:
         view.draw(c, OUTLINE)
