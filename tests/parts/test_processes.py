@@ -148,7 +148,7 @@ def test_holes_that_a_laser_cuts_badly_are_named() -> None:
 
 
 def test_a_clearance_for_another_thickness_is_named() -> None:
-    """A four-bar's centre distance, and so its plates of 11.95 mm, are solved for."""
+    """A four-bar's centre distance, and so its plates of 11 mm, are solved for."""
     four_bar = load(str(DESIGNS / "four-bar-z4.toml"), ("size.process=laser",))
     texts = [str(text) for text in four_bar.warnings if text.name == "narrow-for-process"]
     assert len(texts) == 1
