@@ -115,6 +115,16 @@ def contact_modulus_GPa(spec: Spec) -> float:
     return 1.0 / sum((1.0 - m.poisson_ratio**2) / m.youngs_modulus_GPa for m in both)
 
 
+def hertz_MPa(spec: Spec, line_N_mm: V, radius_mm: V) -> V:
+    """Hertz stress of wheel and crank on a line, from the force per length and effective radius.
+
+    p0² = F E* / (pi b R)
+    """
+    modulus = contact_modulus_GPa(spec) * 1e3
+    out: V = library(line_N_mm, radius_mm).sqrt(line_N_mm * modulus / (math.pi * radius_mm))
+    return out
+
+
 class QuantityValue(NamedTuple, Generic[V]):
     """A quantity, and the margin that must be above 0 for the quantity to be bounded.
 

@@ -148,7 +148,7 @@ class Size(SpecTable):
     ] = "cantilever"
     pin_gap_mm: Annotated[float, NOT_NEGATIVE, "gap from a pin's plate to the contact line"] = 0.0
     lock_edge_mm: Annotated[
-        float | None, POSITIVE, "rounding radius at the ends of the wheel's recesses"
+        float | None, POSITIVE, "rounding radius at the recesses' ends, and of the disc's ends at a stop"
     ] = None
     wheel_thickness_mm: Annotated[
         float | None, POSITIVE, "thickness of wheel and rollers; default face_width_mm, or L/10"
@@ -198,6 +198,9 @@ class Load(SpecTable):
     torque_Nm: Annotated[float, NOT_NEGATIVE, "torque that resists the wheel's motion"] = 0.0
     dwell_torque_Nm: Annotated[
         float | None, NOT_NEGATIVE, "torque that the lock holds during the dwell; default torque_Nm"
+    ] = None
+    winding_torque_Nm: Annotated[
+        float | None, POSITIVE, "with stop: torque of the crank against its stops"
     ] = None
     efficiency: Annotated[float, Range(0.0, 1.0, "(]"), "efficiency eta of the wheel"] = 1.0
     friction: Annotated[float, NOT_NEGATIVE, "friction coefficient between roller and slot"] = 0.0

@@ -78,6 +78,10 @@ STATIC: Checks = {
     "link_gap_mm": "links:gap",
     "branches_apart_mm": "branches:apart",
     "branches_crossed_mm": "branches:crossed",
+    "stop_turns": "stop:turns",
+    "stop_gap_mm": "stop:gap",
+    "stop_face_mm": "stop:face",
+    "stop_stress_MPa": "stop:stress",
     "parts": "buildable:plates",
 }
 # Checks of the shells of a sphere at rest.

@@ -230,6 +230,12 @@ REPORT = (
         "report.parts:turned",
         makes_parts=True,
     ),
+    _group(
+        "stop",
+        "turns first_deg last_deg lever_mm face_mm force_N contact_stress_MPa",
+        "report.stop:stop",
+        makes_parts=True,
+    ),
     _group("parts_list", "", "report.parts_list:parts_list_tables", makes_parts=True),
     QuantityGroup(
         "tolerance",
