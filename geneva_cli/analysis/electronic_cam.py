@@ -98,8 +98,8 @@ def periods(mechanism: Mechanism, turns: int | None) -> int:
     z = mechanism.spec.wheel.z
     if mechanism.spec.wheel.stopped and turns > z - 2:
         raise GenevaError(
-            f"--turns {turns}: the stop leaves {z - 2} whole motions between its ends, as the first "
-            f"and the last of {z} are blocked half-way; give at most {z - 2}"
+            f"--turns {turns}: the stop leaves {z - 2} whole motions, as the first and the last of "
+            f"{z} are blocked half-way; give at most {z - 2}"
         )
     return round(count)
 

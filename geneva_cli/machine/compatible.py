@@ -123,6 +123,11 @@ CONFLICTS = (
         ("load", "winding_torque_Nm"),
         "winding_torque_Nm acts on a stop: set stop = true in [wheel] of an external wheel",
     ),
+    Conflict(
+        lambda s: s.limits.stop_stress_max_MPa is not None and s.load.winding_torque_Nm is None,
+        ("limits", "stop_stress_max_MPa"),
+        "stop_stress_max_MPa needs the torque against the stop: set winding_torque_Nm in [load]",
+    ),
 )
 
 

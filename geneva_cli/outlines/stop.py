@@ -38,6 +38,7 @@ class WheelStop(NamedTuple):
     drawn_deg: float  # input angle 0 of the drawings, after the middle of the first engagement
     lever_mm: float  # of the force between disc and face about the crank's axis
     face_mm: float  # along the face, from the contact to the nearer mouth; negative in the mouth
+    overlap_mm: float  # of the circles of disc and face, if nothing stopped them
     crank_deg: float  # of the crank at its last stop, from the middle of that engagement
 
     @property
@@ -66,6 +67,7 @@ def wheel_stop(outlines: Outlines) -> WheelStop | None:
         360.0 * (z // 2),
         L * math.sin(delta),
         ra * (half_face - abs(from_middle)),
+        rk + ra - L,
         math.degrees(crank),
     )
 

@@ -1,4 +1,7 @@
-"""A scene as a moving GIF that repeats one turn, or goes back and forth over it, drawn by Pillow (extra ``plot``)."""
+"""A scene as a moving GIF that repeats one turn, drawn by Pillow (extra ``plot``).
+
+A machine with stops goes back and forth over that turn.
+"""
 
 from __future__ import annotations
 

@@ -308,9 +308,7 @@ def checked(table: str, field: Field, value: Any) -> Any:
         return value  # the usual case
     place = (*table.split("."), field.key)
     value = plain(value)
-    if value is None and NoneType in field.types:
-        return None
-    if isinstance(value, bool) and bool in field.types:
+    if type(value) in (NoneType, bool) and type(value) in field.types:
         return value
     if isinstance(field.rule, Csv):
         return _points(place, field, value)

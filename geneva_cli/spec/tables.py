@@ -148,7 +148,9 @@ class Size(SpecTable):
     ] = "cantilever"
     pin_gap_mm: Annotated[float, NOT_NEGATIVE, "gap from a pin's plate to the contact line"] = 0.0
     lock_edge_mm: Annotated[
-        float | None, POSITIVE, "rounding radius at the recesses' ends, and of the disc's ends at a stop"
+        float | None,
+        POSITIVE,
+        "rounding radius at recesses' ends; with stop, also at the disc's",
     ] = None
     wheel_thickness_mm: Annotated[
         float | None, POSITIVE, "thickness of wheel and rollers; default face_width_mm, or L/10"
@@ -484,6 +486,7 @@ class Limits(SpecTable):
         float | None, POSITIVE, "greatest wear depth of a slot's walls in a million passages"
     ] = None
     lock_stress_max_MPa: Annotated[float | None, POSITIVE, "Hertz stress, disc on wheel"] = None
+    stop_stress_max_MPa: Annotated[float | None, POSITIVE, "Hertz stress at a stop"] = None
     lock_deflection_max_deg: Annotated[
         float | None, POSITIVE, "greatest deflection of the locked wheel under dwell_torque_Nm"
     ] = None

@@ -204,9 +204,8 @@ REMEDIES: dict[str, tuple[Change, ...]] = {
         set_to("wheel", "held_by", "detent"),
     ),
     "stop_turns": (*sized("size", "lock_radius_mm"), _SMALLER),
-    "stop_gap_mm": (*sized("size", "lock_radius_mm"), _SMALLER),
-    "stop_face_mm": (*sized("size", "lock_radius_mm"), _SMALLER),
-    "stop_stress_MPa": (
+    "stop_overlap_mm": (*sized("size", "lock_radius_mm"), _SMALLER),
+    "stop_stress_max_MPa": (
         scaled("size", "lock_edge_mm", 10.0),
         scaled("size", "face_width_mm", 10.0),
         _LARGER,

@@ -43,7 +43,7 @@ class External(Gearing):
     steps_deg: Annotated[
         tuple[float, ...] | None, Range(0.0, 360.0, "()"), "unequal steps, as a repeating pattern"
     ] = None
-    stop: Annotated[bool, None, "one recess is left convex, and stops the crank at both ends"] = False
+    stop: Annotated[bool, None, "a convex face in place of a recess stops the crank"] = False
 
     def __post_init__(self) -> None:
         super().__post_init__()

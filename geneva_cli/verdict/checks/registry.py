@@ -79,9 +79,8 @@ STATIC: Checks = {
     "branches_apart_mm": "branches:apart",
     "branches_crossed_mm": "branches:crossed",
     "stop_turns": "stop:turns",
-    "stop_gap_mm": "stop:gap",
-    "stop_face_mm": "stop:face",
-    "stop_stress_MPa": "stop:stress",
+    "stop_overlap_mm": "stop:overlap",
+    "stop_stress_max_MPa": "stop:stress",
     "parts": "buildable:plates",
 }
 # Checks of the shells of a sphere at rest.

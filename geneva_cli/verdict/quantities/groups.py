@@ -232,7 +232,7 @@ REPORT = (
     ),
     _group(
         "stop",
-        "turns first_deg last_deg lever_mm face_mm force_N contact_stress_MPa",
+        "turns first_deg last_deg overlap_mm lever_mm force_N contact_stress_MPa",
         "report.stop:stop",
         makes_parts=True,
     ),

@@ -26,8 +26,8 @@ def stop(model: PartsModel) -> Values:
         "turns": stops.turns,
         "first_deg": stops.first_deg,
         "last_deg": stops.last_deg,
+        "overlap_mm": stops.overlap_mm,
         "lever_mm": stops.lever_mm,
-        "face_mm": stops.face_mm,
         **contact._asdict(),
     }
     return {f"stop.{name}": value for name, value in named.items()}
