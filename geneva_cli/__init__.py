@@ -15,6 +15,7 @@ if TYPE_CHECKING:  # for a type checker: one line for each name
     from geneva_cli.design import Design as Design
     from geneva_cli.design import load as load
     from geneva_cli.errors import GenevaError as GenevaError
+    from geneva_cli.kinematics.laws.s_curve import SCurve as SCurve
     from geneva_cli.kinematics.laws.scca import SineConstantCosine as SineConstantCosine
     from geneva_cli.kinematics.laws.standard import Cycloidal as Cycloidal
     from geneva_cli.kinematics.laws.standard import Harmonic as Harmonic

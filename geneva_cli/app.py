@@ -228,9 +228,10 @@ class LazyGroup(PlainValues, TyperGroup):
         command = _command(name, module.run)
         command.examples = module.EXAMPLES
         if name not in {"animate", "schema"}:  # these print no table
-            known = {option for param in command.params for option in param.opts}
-            shared = _command(name, _table_options).params
-            command.params += [param for param in shared if not known & {*param.opts}]
+            command.params += _command(name, _table_options).params
+        # lengths, forces or masses are in the tables of these; profile has units of its own
+        if name in {"check", "compare", "loads", "plot", "report", "sweep", "synth", "tolerance"}:
+            command.params += _command(name, _unit_option).params
         return name, command, rest
 
     def invoke(self, ctx: Any) -> Any:
@@ -270,12 +271,17 @@ def _table_options(
     wide: Annotated[
         bool, typer.Option("--wide", help="All columns on a terminal, however wide.")
     ] = False,
+) -> None:
+    """Options of every command that prints a table."""
+
+
+def _unit_option(
     shown_units: Annotated[
         str,
         typer.Option("--units", metavar="UNIT", help="Numbers in mm, or in inch and lb."),
     ] = "mm",
 ) -> None:
-    """Options of every command that prints a table."""
+    """The option of commands whose numbers have units."""
 
 
 def _command(name: str, run: Any) -> Any:

@@ -14,6 +14,8 @@ UNITS = {
     "_lb_in3": "lb/in³",
     "_in_per_million": "in/1e6",
     "_in_s": "in/s",
+    "_in_s2": "in/s²",
+    "_in_s3": "in/s³",
     "_in": "in",
     "_thou": "thou",
     "_ft": "ft",

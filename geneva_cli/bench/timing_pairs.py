@@ -47,9 +47,9 @@ def median_ratio(pairs: Sequence[Pair]) -> float:
 def exponent(sizes: Sequence[float], costs: Sequence[float]) -> float:
     """Exponent p of costs that grow as a + b n^p, where a is the least cost.
 
-    The slope of a line through the logarithms, by least squares. Growth of less than a fifth of a
-    is noise. The last such size takes part with a fifth, so that a late rise is seen. Without any
-    growth the exponent is 0.
+    The slope of a line through the logarithms of growth and of the size beyond the smallest, by
+    least squares. Growth of less than a fifth of a is noise. The last such size takes part with a
+    fifth, so that a late rise is seen. Without any growth the exponent is 0.
 
     >>> round(exponent([1, 10, 100, 1000], [1.0, 1.9, 10.9, 100.9]), 1)
     1.0
@@ -58,10 +58,10 @@ def exponent(sizes: Sequence[float], costs: Sequence[float]) -> float:
     least = 0.2 * start
     grown = [max(cost - start, least) for cost in costs]
     first = max((i for i, growth in enumerate(grown) if growth == least), default=0)
-    x = [math.log(size) for size in sizes[first:]]
+    if first == 0 or len(sizes) - first > 2:  # the size in the noise only bounds the growth
+        first += 1
+    x = [math.log(size - sizes[0]) for size in sizes[first:]]
     y = [math.log(growth) for growth in grown[first:]]
-    if len(x) > 2:  # the size in the noise only bounds the growth
-        x, y = x[1:], y[1:]
     if len(x) < 2:
         return 0.0
     mean_x, mean_y = sum(x) / len(x), sum(y) / len(y)

@@ -27,7 +27,8 @@ def run(
 ) -> None:
     """Run time against error, compared with other tools.
 
-    Errors are against 50 digits. Times are ratios to a baseline of the same run, which has a row.
+    Errors are against 50 digits. Times are ratios of processor time to a baseline of the same run,
+    which has a row.
     """
     import os
     import sys

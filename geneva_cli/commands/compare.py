@@ -1,13 +1,20 @@
 """``geneva compare``."""
 
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
 from geneva_cli.commands import completion
 from geneva_cli.commands.options import Format, Output, Settings
+from geneva_cli.errors import GenevaError
 
-EXAMPLES = ("geneva compare spec.toml --vary wheel.z=4,6,8 --pick dwell_s,acceleration.max",)
+if TYPE_CHECKING:
+    from geneva_cli.table import Table
+
+EXAMPLES = (
+    "geneva compare spec.toml --vary wheel.z=4,6,8 --pick dwell_s,acceleration.max",
+    "geneva compare spec.toml --against cam,servo",
+)
 
 
 def run(
@@ -28,6 +35,14 @@ def run(
             autocompletion=completion.listed(completion.fields),
         ),
     ] = "",
+    against: Annotated[
+        str,
+        typer.Option(
+            metavar="NAME,...",
+            help="One spec with cam, servo: the same step, time and load.",
+            autocompletion=completion.listed(lambda: ("cam", "servo")),
+        ),
+    ] = "",
     ratio: Annotated[
         bool, typer.Option("--ratio", help="Numbers over the first design's.")
     ] = False,
@@ -36,12 +51,27 @@ def run(
     output: Output = "-",
     format: Format = "",
 ) -> None:
-    """Designs side by side: a column for each design, a row for each quantity."""
+    """Designs side by side: a column for each design, a row for each quantity.
+
+    --against compares one spec with a cam indexer and a servo.
+    """
     from geneva_cli.output import refuse_inches, show
     from geneva_cli.study.compare import compare
 
     if ratio:
         refuse_inches("ratios have no unit")
-    picks = [name.strip() for name in pick.split(",")] if pick else []
-    table = compare(specs, settings or (), vary or (), picks, ratio, not differing)
+    if against:
+        table = _against(specs, settings or [], against, bool(vary or pick or ratio or differing))
+    else:
+        picks = [name.strip() for name in pick.split(",")] if pick else []
+        table = compare(specs, settings or (), vary or (), picks, ratio, not differing)
     show(table, output, format, specs)
+
+
+def _against(specs: list[str], settings: list[str], names: str, others: bool) -> "Table":
+    """The comparison of one spec with other kinds of drives."""
+    from geneva_cli.study.against import against
+
+    if len(specs) > 1 or others:
+        raise GenevaError("--against: it compares one spec, without --vary, --pick and --ratio")
+    return against(specs[0], settings, [name.strip() for name in names.split(",")])

@@ -39,6 +39,7 @@ LAWS = {
     "4-5-6-7": "kinematics.laws.standard:Polynomial4567",
     "mcv50": "kinematics.laws.standard:ModifiedConstantVelocity",
     "sine-group": "kinematics.laws.standard:SineGroup",
+    "s-curve": "kinematics.laws.s_curve:SCurve",
     "scca": "kinematics.laws.scca:SineConstantCosine",
     "tuned": "kinematics.laws.tuned:Tuned",
     "table": "kinematics.laws.table:TableLaw",

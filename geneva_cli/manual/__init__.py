@@ -75,6 +75,7 @@ GROUPS: dict[str, dict[str, str]] = {
         "accuracy": "what is promised, how it is tested, and run time against error",
         "certificates": "peaks and the full turn: what is proved, and by what argument",
         "numbers": "why our numbers differ from published ones",
+        "geneva-or-servo": "the same step by a cam indexer or a servo",
         "house": "how the program is built, for people who change it",
     },
 }

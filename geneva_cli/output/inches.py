@@ -27,6 +27,8 @@ def _other(unit: str) -> tuple[str, float]:
         "µm": "thou",
         "m": "ft",
         "m/s": "in/s",
+        "m/s²": "in/s²",
+        "m/s³": "in/s³",
         "mm/1e6": "in/1e6",
         "N": "lbf",
         "N m": "lbf in",

@@ -8,7 +8,7 @@ from functools import partial
 from typing import Any
 
 from geneva_cli.errors import GenevaError, cut
-from geneva_cli.output import refuse_columns
+from geneva_cli.output import refuse_columns, refuse_inches
 from geneva_cli.output.delimited import one_line
 from geneva_cli.output.finite import refuse_nonsense
 from geneva_cli.output.growing import Closable, GrowingFile
@@ -31,6 +31,7 @@ class GrowingTable(Closable):
         inputs: Iterable[str] = (),
     ) -> None:
         refuse_columns()
+        refuse_inches("csv and parquet are for programs, and in SI units")
         self.names, self.output, self.done = names, output, 0
         self.is_whole, self.message = False, ""
         self.file: GrowingFile | None = None

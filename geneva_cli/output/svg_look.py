@@ -63,7 +63,7 @@ def notes(look: Annotations, box: Box, title: str, mm: float, units: str) -> tup
     for span in look.spans:
         low -= gap + 1.4 * text
         lines += _span(span, unit, low, gap)
-        (a, b), shown = _ends(span, unit), _shown(span, units)
+        (a, b), shown = _ends(span, unit), span_text(span, units)
         heads += [_head((a, low), math.pi, mm), _head((b, low), 0.0, mm)]
         start = 0.5 * (a + b - width(shown) * text)
         texts.append(((start, low + 0.35 * text), shown))
@@ -102,7 +102,7 @@ def _ends(span: LevelDistance, unit: float) -> tuple[float, float]:
     return a, b
 
 
-def _shown(span: LevelDistance, units: str) -> str:
+def span_text(span: LevelDistance, units: str) -> str:
     """The name and the length, to four decimals of an inch and three of a millimetre."""
     a, b = _ends(span, UNITS[units])
     value = f"{b - a:.{4 if units == 'inch' else 3}f}".rstrip("0").rstrip(".")

@@ -254,7 +254,9 @@ def test_scripts_for_batches_find_the_peaks():
 
 def test_costs_have_the_exponent_of_their_growth():
     sizes = (10, 100, 1_000, 10_000)
-    assert exponent(sizes, [1.2, 1.0, 2.0, 11.0]) == pytest.approx(1.0)  # the first is noise
+    assert exponent(sizes, [1.2, 1.0, 2.0, 11.0]) == pytest.approx(
+        1.0, abs=0.01
+    )  # the first is noise
     assert exponent(sizes, [1.0 + (n / 1e3) ** 2 for n in sizes]) == pytest.approx(2.0, abs=0.01)
     assert exponent(sizes, [1.0, 1.1, 0.9, 1.05]) == 0.0
 

@@ -92,7 +92,7 @@ HUGE = [
     key("long-table", f'["{LONG}"]\n', 1, "unknown table", "known: "),
     wheel("long-word", f'gearing = "{LONG}"\nz = 6', "must be one of", '"external"'),
     key("long-kind", f'[drive]\nkind = "{LONG}"\n', 2, "kind must be one of"),
-    key("long-law", f'[motion]\nlaw = "{LONG}"\n', 2, "law must be one of", "and 6 more"),
+    key("long-law", f'[motion]\nlaw = "{LONG}"\n', 2, "law must be one of", "and 7 more"),
     key("long-ratio", CURVED + f'ratio = "{LONG}"\n', 3, "must be a number or"),
     key("long-file", TABLE.replace("law.csv", LONG), 3, "cannot read", "too long"),
     case("long-key-twice", f'a = {{"{LONG}" = 1, "{LONG}" = 2}}\n', 1, "not TOML"),

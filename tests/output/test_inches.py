@@ -35,6 +35,10 @@ ONE = {
     "ft": si.foot,
     "m/s": 1.0,
     "in/s": si.inch,
+    "m/s²": 1.0,
+    "in/s²": si.inch,
+    "m/s³": 1.0,
+    "in/s³": si.inch,
     "mm/1e6": si.milli,
     "in/1e6": si.inch,
     "N": 1.0,
@@ -55,7 +59,7 @@ ONE = {
     "lb/in³": si.pound / si.inch**3,
 }
 INCH = {"in", "thou", "ft", "in/s", "in/1e6", "lbf", "lbf in", "lbf in/rad", "ksi"}
-INCH |= {"lb", "lb in²", "lb/in³"}
+INCH |= {"in/s²", "in/s³", "lb", "lb in²", "lb/in³"}
 # six roundings in a product of the constants, and one in the number
 CLOSE = 8.0 * 2.0**-53
 TURRET = str(DESIGNS / "turret.toml")
@@ -180,7 +184,8 @@ def test_digits_of_a_table_are_those_of_si():
     ("words", "wants"),
     [
         (["loads", TURRET, "--format", "json"], "json is for programs, and in SI units"),
-        (["motion", TURRET, "--format", "csv"], "csv is for programs"),
+        (["loads", TURRET, "--format", "csv"], "csv is for programs"),
+        (["sweep", TURRET, "--vary", "wheel.z=6,8"], "csv and parquet are for programs"),
         (["compare", TURRET, "--ratio"], "ratios have no unit"),
         (["profile", TURRET, "--part", "sheet", "--format", "svg"], "a sheet is in millimetres"),
     ],
@@ -194,3 +199,15 @@ def test_another_unit_is_refused():
     assert "--units feet: it must be mm or inch" in run("check", TURRET, "--units", "feet").stderr
     with pytest.raises(GenevaError), choosing(Choice(units="feet")):
         pass
+
+
+def test_only_commands_with_lengths_have_the_option():
+    """A key's unit is that of its name: `geneva keys` shows no other."""
+    assert "no such option: --units" in run("keys", "size", "--units", "inch").stderr.lower()
+
+
+@pytest.mark.parametrize("ending", ["html", "md"])
+def test_pictures_of_a_report_have_their_distances_in_inches(tmp_path, ending):
+    path = tmp_path / f"report.{ending}"
+    run("report", TURRET, "--units", "inch", "-o", str(path))
+    assert "L = 9.8425 in" in path.read_text(encoding="utf-8")

@@ -487,7 +487,7 @@ def test_walls_are_where_the_roller_passes(name):
         (("--tolerance", "0"), "above 0"),
         (("--tolerance", "nan"), "above 0"),
         (("--part", "whel"), '"wheel"'),
-        (("--units", "inch", "-o", "slot.csv"), "millimetres"),
+        (("--units", "inch", "-o", "slot.csv"), "csv is for programs"),
         (("--samples", "9"), "--tolerance"),
     ],
 )

@@ -42,7 +42,7 @@ def least_gap(design, name, where, radius, turn):
 @pytest.mark.parametrize("hub", [2.0, 4.0])
 def test_a_coupler_over_the_wheels_hub(hub):
     design = of("four-bar-z4", f"size.wheel_hub_mm={hub}")
-    found = planes(design.parts, design.proof.flat.links).nearest
+    found = planes(design.parts, design.parts_model.flat.links).nearest
     turn = np.linspace(-180.0, 180.0, 721)
     least = least_gap(design, "coupler", lambda _: (0.0, 0.0), 0.5 * hub, turn)
     # 721 angles and chords of arcs, against twice as many angles and the arcs themselves
@@ -68,7 +68,7 @@ def test_a_crank_past_the_guides_pin():
     x, y = guide.joints[2]
     sizes = drawn_links(design.mechanism, design.parts).sizes
     least = least_gap(design, "crank", lambda i: (x[i], y[i]), sizes.ring, turn)
-    found = planes(design.parts, design.proof.flat.links).nearest
+    found = planes(design.parts, design.parts_model.flat.links).nearest
     assert found.gap == pytest.approx(least, abs=0.02)
     assert found.passing == "the pin of rod and guide"
     # a long slider crank comes no nearer than rod less crank, less the eyes
@@ -84,14 +84,14 @@ def test_a_shaft_that_cannot_get_out():
     outside = Design.of(Spec(Wheel(6), Drive("side-crank"), keys))
     (row,) = [c for c in outside.checks if c.name == "link_gap_mm"]
     assert (
-        row.passes and planes(outside.parts, outside.proof.flat.links).way_out is None
+        row.passes and planes(outside.parts, outside.parts_model.flat.links).way_out is None
     )  # through the locking disc
 
 
 @pytest.mark.parametrize("name", ["cam-geneva", "epicyclic-z4", "epicyclic-soft-z6"])
 def test_designs_are_clear(name):
     design = of(name)
-    found = planes(design.parts, design.proof.flat.links)
+    found = planes(design.parts, design.parts_model.flat.links)
     assert found.way_out is None and found.nearest.gap > 0.0
 
 

@@ -15,7 +15,7 @@ from scipy.spatial import cKDTree
 from turn_witness import ROUNDING, TO_MM, check_bounds, least_gap, turn_of
 from words import load
 
-from geneva_cli import Crank, Design, Size, Spherical
+from geneva_cli import Crank, Design, Size, Spherical, design
 from geneva_cli.collisions.certificate import certificate, tolerance_mm
 from geneva_cli.collisions.full_turn import full_turn
 from geneva_cli.curves.sphere import Rotation, place
@@ -185,7 +185,14 @@ def test_sectors_out_of_their_place_are_never_proved_free():
 
 
 def test_the_check_says_what_is_proved():
-    check = Design(Spherical(6), size=Size(80.0, 5.0)).proved_to(1e-4)[-1]
+    *others, check = Design(Spherical(6), size=Size(80.0, 5.0)).proved_to(1e-4)
     assert (check.name, check.passes, check.is_proof) == ("gap_proved_mm", True, True)
     assert check.why.startswith("collision-free, proved to 0.1 µm")
     assert -1e-4 <= check.value <= 0.0
+    assert not any(other.is_proof for other in others)
+
+
+@pytest.mark.parametrize("name", ["limits.toml", "tolerances.toml", "gear-sector.toml"])
+def test_no_check_but_the_proof_passes_with_words(name, no_advice):
+    checks = design.load(str(repo.DESIGNS / name)).checks
+    assert [check.name for check in checks if check.is_proof] == ["gap_proved_mm"]

@@ -21,6 +21,9 @@ from geneva_cli.loads.loads import greatest
 
 SECONDS = 60  # of one machine; most take 0.1 s, and 2,000 intervals of a four-bar's four peaks 12 s
 NEAR = 1e-6  # of a peak: how far the bounds of decimals and doubles may be apart, by rounding
+# Of a load: behind the most uneven gears the last digit of the input angle is 4e-10 of the wheel's
+# step.
+LOST = 1e-9
 TRIES = 100  # for a machine of a kind; two of three texts are refused, of epicyclic gears most
 
 
@@ -48,7 +51,8 @@ def confirmed(mechanism):
             break  # a motion that is too uneven has no loads
         found = certificate(mechanism, name)
         if found.proved:
-            assert found.confirms(*peak), f"{peak} against {found.text} {found.places}"
+            near = found.low * (1.0 - LOST) <= peak.max <= found.high * (1.0 + LOST)
+            assert near, f"{name}: {peak} against {found.text} {found.places}"
         open_ += not found.proved
     return f"{open_} not proved" if open_ else "proved"
 

@@ -15,8 +15,9 @@ LIMITS = {
     "pin_force_max_N": 100.0, "input_torque_max_Nm": 5.0, "pressure_angle_max_deg": 25.0,
     "contact_stress_max_MPa": 300.0, "pv_max_W_m2": 1e8, "roller_life_min_h": 2e4,
     "lock_stress_max_MPa": 800.0, "lock_deflection_max_deg": 0.05,
-    "slot_wear_max_mm_per_million": 0.1,
+    "slot_wear_max_mm_per_million": 0.1, "product_acceleration_max_m_s2": 10.0,
 }  # fmt: skip
+PRODUCT = {"radius_mm": 300.0, "friction": 0.5, "swing_Hz": 2.0}
 
 
 def in_range(rng, rule, whole):
@@ -245,7 +246,7 @@ def machine_text(rng, kind=None):
                 value = in_range(rng, field.rule, False)
             text.append(f"{field.key} = " + (f'"{value}"' if worded else repr(value)))
     given = {}
-    for about in (LOADS, WEARS, BEARS, LIMITS):
+    for about in (LOADS, WEARS, BEARS, LIMITS, PRODUCT):
         often = rng.choice([0.0, 0.3, 0.8])
         given |= {k: near(rng, v, 0.5) for k, v in about.items() if rng.random() < often}
     if given.keys() & set(LOADED) and rng.random() < 0.95:  # which limit nothing without a load
@@ -254,10 +255,13 @@ def machine_text(rng, kind=None):
         given.setdefault("dynamic_capacity_N", near(rng, BEARS["dynamic_capacity_N"]))
     if "slot_wear_max_mm_per_million" in given:
         given.setdefault("wear_mm3_Nm", near(rng, WEARS["wear_mm3_Nm"]))
+    if given.keys() & {"product_acceleration_max_m_s2", *PRODUCT}:
+        given.setdefault("radius_mm", near(rng, PRODUCT["radius_mm"]))
     tables = (
         ("load", LOADS),
         ("material.wheel", WEARS),
         ("material.roller", BEARS),
+        ("product", PRODUCT),
         ("limits", LIMITS),
     )
     for table, about in tables:

@@ -4,6 +4,7 @@
 """
 
 import fcntl
+import itertools
 import os
 import pty
 import re
@@ -28,14 +29,16 @@ LONGEST = 120  # seconds of one run
 UNBROKEN = re.compile(r"\S+")  # a single word, which is longer than the window
 
 
-def examples():
-    """The commands of the README and the manual, and the help of every command and topic."""
-    pages = [repo.ROOT / "README.md", *(repo.ROOT / "geneva_cli" / "manual").glob("*/*.md")]
-    lines = "\n".join(page.read_text(encoding="utf-8") for page in pages).replace("\\\n", " ")
-    found = re.findall(r"^(?:\$ )?geneva (.*)$", lines, re.MULTILINE)
-    yield from dict.fromkeys(line for line in found if not set("$>|") & set(line))
-    yield from (f"{name} --help" for name in COMMANDS)
-    yield from (f"help {topic}" for topic in TOPICS)
+def steps(page):
+    """The files and commands of a page, in its order: a file's name and text, or a command."""
+    text = page.read_text(encoding="utf-8").replace("\\\n", " ")
+    for kind, block in re.findall(r"```([a-z]+)\n(.*?)```", text, re.DOTALL):
+        name = re.match(r"# (?:add to )?(\S+\.\w+)\n", block)
+        if name and kind != "python":
+            yield name[1], block
+        elif kind in ("console", "sh"):
+            for line in re.findall(r"^(?:\$ )?geneva (.*)$", block, re.MULTILINE):
+                yield "", line
 
 
 def seen(words, columns, look):
@@ -51,35 +54,54 @@ def seen(words, columns, look):
     return ESCAPE.sub("", text).replace("\r\n", "\n").split("\n"), process.returncode
 
 
-def main():
+def screens(line):
+    """The command on each terminal; files of all runs but the last are removed, as `new` keeps any.
+
+    Yields what is wrong: the terminal, the exit status, and lines that are too wide.
+    """
+    few = re.sub(r"--random 10000|--samples 1000000", lambda m: m[0][:-2], line)
+    words, before = shlex.split(few, comments=True), {*os.listdir()}
+    for columns, look in itertools.product(COLUMNS, LOOKS):
+        for new in {*os.listdir()} - before:
+            shutil.rmtree(new) if os.path.isdir(new) else os.remove(new)
+        lines, status = seen(words, columns, look)
+        wide = [
+            part
+            for part in lines
+            if len(part.split("\r")[-1]) > columns and not UNBROKEN.fullmatch(part.strip())
+        ]
+        if wide or status not in (0, 1):
+            yield f"{columns} {look['TERM']} geneva {line}: {status}", *wide[:3]
+
+
+def main(pages):
     wrong = 0
+    for page in pages:
+        with tempfile.TemporaryDirectory() as folder:
+            os.chdir(folder)
+            shutil.copytree(repo.DESIGNS, "designs")
+            shutil.copy("designs/tolerances.toml", "spec.toml")
+            shutil.copy("designs/side-crank-z6.toml", "wish.toml")
+            for name, text in steps(page):
+                if name:
+                    with open(name, "a", encoding="utf-8") as file:
+                        file.write(text)
+                elif not set("$>|") & set(text):
+                    for found in screens(text):
+                        wrong += 1
+                        print(*found, sep="\n  ", flush=True)
+            os.chdir(repo.ROOT)
     with tempfile.TemporaryDirectory() as folder:
         os.chdir(folder)
-        shutil.copytree(repo.DESIGNS, "designs")
-        shutil.copy("designs/tolerances.toml", "spec.toml")
-        shutil.copy("designs/side-crank-z6.toml", "wish.toml")
-        for line in examples():
-            few = re.sub(r"--random 10000|--samples 1000000", lambda m: m[0][:-2], line)
-            words = shlex.split(few, comments=True)
-            for columns in COLUMNS:
-                for look in LOOKS:
-                    lines, status = seen(words, columns, look)
-                    wide = [
-                        part
-                        for part in lines
-                        if len(part.split("\r")[-1]) > columns
-                        and not UNBROKEN.fullmatch(part.strip())
-                    ]
-                    if wide or status not in (0, 1):
-                        wrong += 1
-                        print(
-                            f"{columns} {look['TERM']} geneva {line}: {status}",
-                            *wide[:3],
-                            sep="\n  ",
-                        )
+        helps = [f"{name} --help" for name in COMMANDS] + [f"help {topic}" for topic in TOPICS]
+        for line in helps:
+            for found in screens(line):
+                wrong += 1
+                print(*found, sep="\n  ", flush=True)
     print("no line too wide" if not wrong else f"{wrong} screens wrong")
     sys.exit(bool(wrong))
 
 
 if __name__ == "__main__":
-    main()
+    manual = sorted((repo.ROOT / "geneva_cli" / "manual").glob("*/*.md"))
+    main([repo.ROOT / "README.md", *manual])

@@ -90,7 +90,7 @@ def test_mutated_specs(seed):
 
 
 def test_specs_of_known_keys():
-    """A machine is consistent, and all that is said of its motion is finite; a quarter are ones."""
+    """A machine is consistent, and all that is said of its motion is finite; a fifth are ones."""
     machines = 0
     cases = some(100, 40)
     for case in range(cases):
@@ -105,7 +105,7 @@ def test_specs_of_known_keys():
         turned = sum(math.degrees(2.0 * s.half_step) for s in found.engagements)
         assert wheel[-1] - wheel[0] == pytest.approx(turned, rel=1e-9)
         assert table.columns[3][0] == pytest.approx(0.0, abs=1e-9 * worst(found).velocity.max)
-    assert machines >= cases / 4
+    assert machines >= cases / 5
 
 
 # of the first some with parts, without them, and refused; 13 and 16 take most of the time

@@ -16,6 +16,7 @@ from geneva_cli.machine.spec import Spec
 from geneva_cli.numerics.angles import radians
 from geneva_cli.numerics.arrays import all_true
 from geneva_cli.numerics.jet import Jet, Number
+from geneva_cli.numerics.sobol import Sobol
 
 if TYPE_CHECKING:
     from geneva_cli.numerics.jet import Array
@@ -84,16 +85,12 @@ class Draws(NamedTuple):
     seed: int
 
     def blocks(self, samples: int, size: int) -> Iterator[Deviations]:
-        """Deviations of ``samples`` machines, in blocks of ``size``."""
-        from scipy.stats.qmc import Sobol
-
+        """Deviations of ``samples`` machines, in blocks of ``size``, a power of two."""
         deviate = [i for i, size in enumerate(self.sizes) if size]
-        # bits: as many as a double holds; with SciPy's 30 all means are low by 1e-9 of a size
-        sequence = Sobol(len(deviate), bits=53, rng=np.random.default_rng(self.seed))
+        sequence = Sobol.scrambled(len(deviate), self.seed)
         for start in range(0, samples, size):
             count = min(size, samples - start)
-            # drawn in powers of two, since others unbalance the sequence and give a warning
-            quantiles = sequence.random(1 << (count - 1).bit_length())[:count].T.copy()
+            quantiles = sequence.points(start, 1 << (count - 1).bit_length())[:, :count]
             columns: list[Number] = [0.0] * len(self.sizes)
             for i, quantile in zip(deviate, quantiles, strict=True):
                 columns[i] = self._spread(quantile) * self.sizes[i]

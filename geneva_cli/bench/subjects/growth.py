@@ -67,7 +67,7 @@ RUNS = (
             ("--pick acceleration.max --format csv", ROWS),
             ("--pick pin_force_N.max --set load.inertia_kgm2=1 --format csv", ROWS[:-1]),
             ("--pick horn_mm --format csv", ROWS[:-2]),
-            ("--check --format csv", (10, 100, 1_000)),
+            ("--check --format csv", (4, 16, 64)),
             ("--pareto min:acceleration.max,max:dwell_s --format csv", ROWS),
             ("--best min:acceleration.max", ROWS),
         )

@@ -32,7 +32,7 @@ class Cam(PinPath, kw_only=True):
     It needs a ``Motion``, whose law gives the shape of the groove. The slots stay straight and
     radial.
 
-    >>> Design(External(6), Cam(), Motion(Cycloidal())).peaks.acceleration.max
+    >>> round(Design(External(6), Cam(), Motion(Cycloidal())).peaks.acceleration.max, 12)
     1.5
     """
 

@@ -6,6 +6,7 @@ import os
 from collections.abc import Iterator
 from html import escape
 
+from geneva_cli import output
 from geneva_cli.document import (
     BAD,
     Block,
@@ -75,7 +76,7 @@ def _block(block: Block, number: int) -> Iterator[str]:
     elif isinstance(block, Grid):
         yield from _grid(block)
     elif isinstance(block, Picture):
-        drawn = inline(svg.chunks(block.drawing, "mm"), f"drawing-{number}")
+        drawn = inline(svg.chunks(block.drawing, output.choice.units), f"drawing-{number}")
         yield f'<figure class="drawing" tabindex="0">\n{drawn}</figure>\n'
     else:
         assert isinstance(block, Curves)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from geneva_cli import output
 from geneva_cli.document import (
     Block,
     Curves,
@@ -18,6 +19,7 @@ from geneva_cli.document import (
 from geneva_cli.errors import clean
 from geneva_cli.output.document.values import is_number, value_text
 from geneva_cli.output.markdown import ESCAPES
+from geneva_cli.output.svg_look import span_text
 from geneva_cli.output.ticks import mark_text, named
 
 
@@ -43,17 +45,13 @@ def _block(block: Block) -> Iterator[str]:
         yield from _grid(block)
     elif isinstance(block, Picture):
         look = block.drawing.look
-        spans = [f"{s.name} = {_between(s.start[0], s.end[0])}" for s in look.spans] if look else []
+        spans = [span_text(span, output.choice.units) for span in look.spans] if look else []
         yield from _list(tuple(spans))
         yield "The drawing: `geneva profile SPEC --part assembly -o FILE.svg`\n\n"
     else:
         assert isinstance(block, Curves)
         yield from _grid(_peaks(block))
         yield "The curves: `geneva plot SPEC -o FILE.svg`\n\n"
-
-
-def _between(a: float, b: float) -> str:
-    return value_text(abs(b - a), "mm")
 
 
 def _peaks(curves: Curves) -> Grid:

@@ -6,14 +6,16 @@ import math
 from collections.abc import Callable, Iterator
 from typing import TypeAlias
 
+from geneva_cli import output
 from geneva_cli.curves.drawing import Annotations, Drawing, extent
 from geneva_cli.curves.measure import bounds, mapped
+from geneva_cli.curves.pieces import SUFFIX, UNITS
 from geneva_cli.curves.shapes import Arc, Contour, Point, Shape
 from geneva_cli.output.document.paper import INK, LEFT, SMALL, SOFT, WIDE, Item, rule, wide, words
 from geneva_cli.output.inks import CENTRE_LINES, inks
 from geneva_cli.output.pdf_file import number, outline, point
 from geneva_cli.output.svg_fill import opacity, rings
-from geneva_cli.output.svg_look import round_length
+from geneva_cli.output.svg_look import round_length, span_text
 
 STROKE, THIN = 0.3, 0.16
 SPAN = 6.0  # from one distance to the next
@@ -47,10 +49,13 @@ def drawing(shown: Drawing) -> Item:
         out = "".join(_fills(shown, placed)) + "".join(_lines(shown, placed))
         if shown.look:
             out += "".join(_look(shown.look, at, placed, top - high))
-        bar = round_length(0.25 * (x1 - x0))
+        units = output.choice.units
+        bar = round_length(0.25 * (x1 - x0) / UNITS[units])
+        long = scale * bar * UNITS[units]
         y = top - high - spans * SPAN - SPAN
-        out += rule(LEFT, y, scale * bar, 0.5, INK)
-        return out + words(f"{bar:g} mm", (LEFT + scale * bar + 2.0, y - 0.35 * SMALL), SMALL)
+        out += rule(LEFT, y, long, 0.5, INK)
+        label = f"{bar:g} {SUFFIX[units]}"
+        return out + words(label, (LEFT + long + 2.0, y - 0.35 * SMALL), SMALL)
 
     return Item(high + (spans + 1) * SPAN + 5.0, draw)
 
@@ -88,7 +93,7 @@ def _look(look: Annotations, at: Put, placed: Move, bottom: float) -> Iterator[s
     for number_, span in enumerate(look.spans, 1):
         a, b = sorted((at(span.start), at(span.end)))
         y = bottom - number_ * SPAN + 1.5
-        text = f"{span.name} = {round(abs(span.end[0] - span.start[0]), 3):g} mm"
+        text = span_text(span, output.choice.units)
         yield f"{SOFT} RG {THIN} w\n"
         for p in (a, b):
             yield f"{point(p)} m {point((p[0], y - 1.0))} l S\n"

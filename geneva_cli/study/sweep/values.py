@@ -64,13 +64,18 @@ def refuse_twice(axes: Sequence[VariedKey], settings: Sequence[Setting]) -> None
 def _axis(key: str, text: str, option: str, random: bool) -> VariedKey:
     parts = text.split(",")
     if len(parts) == 1 and (ends := range_text(text, option)):
+        ends = _ends_in_unit_of(key, ends, option)
         if random and not ends.step and not (_whole(ends[:2]) and is_whole(key)):
             return VariedKey(key, _span(ends, option), span=True)
         return VariedKey(key, _range(ends, option))
     values: list[Value] = []
     for part in parts:
         some = range_text(part, option)
-        more = _range(some, option) if some else (_one(key, part, option),)
+        more: Sequence[Value] = (
+            _range(_ends_in_unit_of(key, some, option), option)
+            if some
+            else (_one(key, part, option),)
+        )
         _refuse_many(option, len(values) + len(more), 1_000_000)  # all of them are in memory
         values += more
     return VariedKey(key, tuple(values))
@@ -103,14 +108,41 @@ def _range(ends: RangeText, option: str) -> Sequence[float]:
     return _steps(low, high, _decimal(ends.step or "1", option), option)
 
 
+def _in_unit_of(key: str, text: str, option: str) -> str:
+    """A text with a unit as the number in the key's unit, and any other text unchanged.
+
+    >>> _in_unit_of("size.pin_mm", "1/2 in", ""), _in_unit_of("size.pin_mm", "12", "")
+    ('12.7', '12')
+    """
+    if not text.strip()[-1:].isalnum() or not unit_key(key):
+        return text
+    try:
+        float(text)
+    except ValueError:
+        pass
+    else:
+        return text
+    try:
+        return repr(in_unit_of(key, text))
+    except GenevaError as error:
+        raise GenevaError(f"{option}: {error}") from None
+
+
+def _ends_in_unit_of(key: str, ends: RangeText, option: str) -> RangeText:
+    """A range whose numbers have units as plain numbers.
+
+    Raises GenevaError if some have a unit and others have none: 4..8 in may mean two things.
+    """
+    plain = RangeText(*(_in_unit_of(key, part, option) for part in ends))
+    changed = [new != old for new, old in zip(plain, ends, strict=True) if old]
+    if any(changed) and not all(changed):
+        raise GenevaError(f"{option}: give each number of a range its unit, as 4 in..8 in:0.5 in")
+    return plain
+
+
 def _one(key: str, text: str, option: str) -> Value:
     """A number or a word; a text with a unit is a number in the key's unit."""
-    value = read_value(text, option)
-    if isinstance(value, str) and unit_key(key):
-        try:
-            return in_unit_of(key, value)
-        except GenevaError as error:
-            raise GenevaError(f"{option}: {error}") from None
+    value = read_value(_in_unit_of(key, text, option), option)
     if isinstance(value, bool) or not isinstance(value, (int, float, str)) or not text.strip():
         raise GenevaError(f"{option}: {cut(text)!r} is neither a number nor a word")
     if isinstance(value, float) and not math.isfinite(value):

@@ -17,6 +17,8 @@ from geneva_cli.app import app
 from geneva_cli.names import UNITS as OF_KEYS
 from geneva_cli.spec.schema import fields
 from geneva_cli.spec.units import UNITS, in_unit_of, pattern, unit_key
+from geneva_cli.specfile.keys import all_keys
+from geneva_cli.study.sweep.values import axis
 
 # What one of a unit is in SI units and radians, from another source than the table: CODATA's
 # conversion factors in scipy.constants, and products of them.
@@ -38,6 +40,7 @@ ONE = {
     "ms": si.milli,
     "min": si.minute,
     "h": si.hour,
+    "Hz": 1.0,
     "deg": si.degree,
     "arcmin": si.arcminute,
     "arcsec": si.arcsecond,
@@ -155,7 +158,7 @@ def test_a_length_is_the_nearest_float(text, mm):
         ("torque_Nm", "12 lb ft", "lb is a mass, and lbf a force: write lbf ft"),
         ("torque_Nm", "3 N", "must be in N m or Nm, J"),
         ("inertia_kgm2", "3 kg", "must be in kg m², or units of that kind"),
-        ("n_rpm", "2 Hz", "unknown unit Hz"),
+        ("n_rpm", "2 Hz", "must be in rpm, or units of that kind"),
         ("friction", "0.1 in", "must be a number"),
     ],
 )
@@ -260,3 +263,36 @@ def test_a_sweep_varies_values_with_units(spec):
     result = CliRunner().invoke(app, ["sweep", str(spec), *words, "--pick", "timing.k"])
     rows = json.loads(result.stdout)["rows"]
     assert [row["size"]["center_distance_mm"] for row in rows] == [203.2, 220, 304.8]
+
+
+@pytest.mark.parametrize(
+    ("text", "values"),
+    [
+        ("4 in..6 in:1 in", [101.6, 127.0, 152.4]),
+        ("100..102", [100, 101, 102]),
+        ("1 cm..3 cm:1 cm,8 in", [10.0, 20.0, 30.0, 203.2]),
+    ],
+)
+def test_ranges_with_units(text, values):
+    assert list(axis(f"size.center_distance_mm={text}").values) == values
+
+
+@pytest.mark.parametrize(
+    ("text", "wants"),
+    [
+        ("4..8 in:1", "give each number of a range its unit"),
+        ("4 in..8 in:25.4", "give each number of a range its unit"),
+        ("4 in..8 lb:1 in", '"8 lb" must be in mm or cm'),
+        ("4 in,wide", 'must be a number, not "wide"'),
+    ],
+)
+def test_wrong_ranges_with_units(text, wants):
+    with pytest.raises(GenevaError, match=re.escape(wants)) as error:
+        axis(f"size.center_distance_mm={text}")
+    assert str(error.value).startswith("--vary size.center_distance_mm=4")
+
+
+def test_every_key_with_a_unit_takes_others_but_for_counts():
+    """Wear per million passages is of no unit of the table."""
+    left = {k.key for k in all_keys() if k.unit and not unit_key(k.key)}
+    assert left == {"slot_wear_max_mm_per_million"}
