@@ -18,6 +18,8 @@ from geneva_cli.collisions.gaps import Gaps
 from geneva_cli.errors import GenevaError
 from geneva_cli.machine.drives.side_crank import SideCrank
 from geneva_cli.outlines.stop import clearances_before, wheel_stop
+from geneva_cli.synthesis.reading import read_target
+from geneva_cli.synthesis.search import search
 
 STOPPED = {z: Design(External(z, stop=True)) for z in (3, 4, 5, 6, 8, 12)}
 
@@ -175,3 +177,15 @@ def test_the_wheel_as_cut_has_one_convex_face():
             middle = (2 * k + 1) * math.pi / z
             far = np.hypot(*points[np.abs(ahead - middle) < 0.3 * math.pi / z].T).max()
             assert (far > rim - 1e-3) == (k == z // 2)
+
+
+def test_synth_grants_turns():
+    frame = Design(External(5, stop=True)).spec
+    rows = search(read_target(z="5..8", frame=frame, subject_to=["stop.turns >= 6"])).rows
+    assert rows
+    for row in rows:
+        assert row.spec.wheel.stopped
+        assert row.spec.wheel.z >= 7  # z - 1 turns, and a little
+    for wrong in ({"internal": True}, {"rollers": 2}):
+        with pytest.raises(GenevaError, match="the spec has a stop"):
+            read_target(frame=frame, **wrong)
