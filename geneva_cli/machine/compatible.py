@@ -124,9 +124,9 @@ CONFLICTS = (
         "winding_torque_Nm acts on a stop: set stop = true in [wheel] of an external wheel",
     ),
     Conflict(
-        lambda s: s.limits.stop_stress_max_MPa is not None and s.load.winding_torque_Nm is None,
+        lambda s: not s.wheel.stopped and s.limits.stop_stress_max_MPa is not None,
         ("limits", "stop_stress_max_MPa"),
-        "stop_stress_max_MPa needs the torque against the stop: set winding_torque_Nm in [load]",
+        "stop_stress_max_MPa limits a stop: set stop = true in [wheel] of an external wheel",
     ),
 )
 

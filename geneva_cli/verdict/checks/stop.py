@@ -46,7 +46,10 @@ def stress(name: str, parts: FlatParts) -> Check | None:
         return None
     value = stop_contact(parts.mechanism, stop.lever_mm, parts.outlines.sizes.rim)
     if value.contact_stress_MPa is None:
-        why = "not known: it needs lock_edge_mm in [size]: the end of the disc is sharp"
+        needs = "lock_edge_mm in [size]: the end of the disc is sharp"
+        if value.force_N is None:
+            needs = "winding_torque_Nm in [load]"
+        why = f"not known: it needs {needs}"
         return Check(name, None, "at most", limit, None, why)
     return compared(name, value.contact_stress_MPa, "at most", limit)
 
