@@ -53,6 +53,7 @@ if TYPE_CHECKING:  # for a type checker: one line for each name
     from geneva_cli.spec.tables import Shaft as Shaft
     from geneva_cli.spec.tables import Size as Size
     from geneva_cli.spec.tables import Support as Support
+    from geneva_cli.spec.tables import TitleBlock as TitleBlock
     from geneva_cli.spec.tables import Tolerance as Tolerance
     from geneva_cli.spec.tables import WheelMaterial as WheelMaterial
 
@@ -73,6 +74,7 @@ _FROM = {
         "Shaft",
         "Size",
         "Support",
+        "TitleBlock",
         "Tolerance",
         "WheelMaterial",
     ),

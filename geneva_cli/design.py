@@ -36,6 +36,7 @@ from geneva_cli.spec.tables import (
     Shaft,
     Size,
     Support,
+    TitleBlock,
     Tolerance,
     WheelMaterial,
 )
@@ -135,6 +136,7 @@ class Design:
         tolerance: Tolerance | None = None,
         product: Product | None = None,
         limits: Limits | None = None,
+        drawing: TitleBlock | None = None,
         title: str = "",
     ) -> None:
         self.spec = Spec(
@@ -152,6 +154,7 @@ class Design:
             tolerance or Tolerance(),
             product or Product(),
             limits or Limits(),
+            drawing or TitleBlock(),
             title,
         )
         self._text: Text | None = None
@@ -429,7 +432,7 @@ class Design:
 
         >>> wheel = Design(External(6), size=Size(face_width_mm=20)).wheel_plate
         >>> round(wheel.mass_kg, 3), round(1e3 * wheel.inertia_kgm2, 3)
-        (2.083, 5.157)
+        (2.087, 5.157)
         """
         size = self.spec.size
         if size.face_width_mm is None and size.wheel_thickness_mm is None:
@@ -455,7 +458,7 @@ class Design:
         >>> wide = Size(face_width_mm=20)
         >>> held = Design(External(6), size=wide, load=Load(inertia_kgm2=0.4, torque_Nm=15))
         >>> round(held.strength["strength.pin.stress_MPa"], 1)
-        528.9
+        192.7
         """
         from geneva_cli.verdict.strength import strength
 

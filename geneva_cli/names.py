@@ -46,6 +46,7 @@ UNITS = {
     "_mm_per_million": "mm/1e6",
     "_deg": "deg",
     "_rpm": "1/min",
+    "_HRC": "HRC",
     "_Nm": "N m",
     "_MPa": "MPa",
     "_GPa": "GPa",

@@ -10,6 +10,7 @@ from typing import Any, NamedTuple
 from geneva_cli.errors import GenevaError, cut, few, nearest
 
 PIECE = 65536  # rows of a long table that are computed at once; a multiple of a block
+WHOLE_ROWS = 100_000  # longer tables are computed while they are written
 SHOWN_ROWS = 10  # rows that the interpreter shows
 NO_BOUND = "no bound"  # an infinity, for people
 
@@ -246,6 +247,21 @@ def pieces(
     """
     rows = _ColumnPieces(length, make)
     return [Column(rows, number, dtype) for number in range(count)]
+
+
+def computed_table(
+    names: Sequence[str],
+    length: int,
+    make: Callable[[int, int], Sequence[Any]],
+    dtype: str = "float64",
+) -> Table:
+    """A table whose rows ``make(start, stop)`` gives; a long one is computed as it is written.
+
+    ``dtype`` is that of ``pieces``.
+    """
+    is_long = length > WHOLE_ROWS
+    columns = pieces(length, len(names), make, dtype) if is_long else make(0, length)
+    return Table(tuple(names), columns)
 
 
 def is_floats(column: Any) -> bool:

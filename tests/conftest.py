@@ -12,7 +12,6 @@ from words import Drive, Keys, Motion, Spec, Wheel
 
 from geneva_cli import load, study
 from geneva_cli.collisions import full_turn
-from geneva_cli.drawings import model
 from geneva_cli.machine.mechanism import build
 from geneva_cli.outlines import outlines as outline
 from geneva_cli.outlines.walls import chain as walls_chain
@@ -109,10 +108,8 @@ def made_once():
     The same spec has the same ones. Not for tests of how they are made, or of how long it takes.
     """
     with pytest.MonkeyPatch.context() as patch:
-        for module in (outline, model):
-            patch.setattr(module, "drawn", OUTLINES)
-        for module in (full_turn, model):
-            patch.setattr(module, "full_turn", TURNED)
+        patch.setattr(outline, "drawn", OUTLINES)
+        patch.setattr(full_turn, "full_turn", TURNED)
         patch.setattr(curved_walls, "chain", CHAIN)
         patch.setattr(motion_warnings, "motion_warnings", MOTION_WARNINGS)
         yield

@@ -3,10 +3,12 @@
 import math
 import re
 
+import numpy as np
 import pytest
 import shapely
 from drawing_witness import vertices
 from shapely.geometry import LineString, Polygon, box
+from shapely.ops import substring, unary_union
 
 from geneva_cli.curves.shapes import Contour
 from geneva_cli.curves.sheet import FRAME
@@ -36,6 +38,41 @@ def overlaps(found):
         if hit or not inside.contains(one):
             bad.append((found.texts[i].text, hit))
     return bad
+
+
+def crossings(found):
+    """Pairs of dimensions of which a line or an arrow of one runs into the other's.
+
+    Extension lines may cross other lines. Half a millimetre at the end of a line does not count,
+    nor do the tips of arrows: dimensions in a row meet there.
+    """
+    mains = [[shortened(line) for line in polylines(m.main_lines)] for m in found.measures]
+    arrows = [[blunt(a) for a in m.arrows] for m in found.measures]
+    whole = [unary_union(polylines(m.lines)) for m in found.measures]
+    bad = []
+    for i, m in enumerate(found.measures):
+        main, heads = unary_union(mains[i]), unary_union(arrows[i])
+        for j, other in enumerate(found.measures):
+            across = j < i and main.intersects(unary_union(mains[j]))
+            if across or (j != i and heads.intersects(whole[j])):
+                bad.append((m.label.text, other.label.text))
+    return bad
+
+
+def polylines(pieces):
+    """Lines and arcs as polylines."""
+    return [LineString(vertices(Contour("", (p,), closed=False), CHORD)) for p in pieces]
+
+
+def shortened(line):
+    """A line without its ends."""
+    return substring(line, 0.5, line.length - 0.5) if line.length > 1.0 else line
+
+
+def blunt(arrow):
+    """An arrow without the first quarter."""
+    tip, left, right = (np.array(p) for p in arrow.corners)
+    return Polygon([tip + 0.25 * (left - tip), tip + 0.25 * (right - tip), right, left])
 
 
 def beyond(found):

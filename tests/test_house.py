@@ -25,8 +25,10 @@ FLOORS = [
     {"kinematics", "curves"},
     {"linkage"},
     {"machine"},
-    {"analysis", "layout", "specfile", "output"},
-    {"loads", "collisions"},
+    {"analysis", "specfile", "output"},
+    {"loads"},
+    {"layout"},
+    {"collisions"},
     {"outlines"},
     {"parts"},
     {"drawings"},
@@ -203,7 +205,7 @@ CORE |= {"layout", "collisions", "outlines", "parts", "drawings"}
 ANY = {
     # jets and values alike; what the searches of numerics hand back to whom they ask, unread
     "numerics.pieces": {"at", "column", "rows", "evaluate", "_turn"},
-    "loads.summary": {"rows", "_rows", "_cells"},
+    "loads.summary": {"_rows", "_cells"},
     "analysis.vibration.answers": {"values"},
     "kinematics.registry": {"_load_kind"},
     "machine.spec": {"replace", "table"},

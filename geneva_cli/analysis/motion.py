@@ -16,13 +16,12 @@ from geneva_cli.analysis.electronic_cam import knots_deg
 from geneva_cli.errors import GenevaError, cut
 from geneva_cli.kinematics.engagement import Engagement
 from geneva_cli.machine.mechanism import Mechanism
-from geneva_cli.table import Table, pieces
+from geneva_cli.table import Table, computed_table
 
 if TYPE_CHECKING:
     from geneva_cli.numerics.jet import Array
 
 SAMPLES_MAX = 1_000_000  # some seconds of writing, some 80 MB
-WHOLE_ROWS = 100_000  # longer tables are computed while they are written
 MOTION_COLUMNS = ("time_s", "input_deg", "wheel_deg", "velocity", "acceleration", "jerk")
 
 
@@ -39,12 +38,7 @@ def motion_table(mechanism: Mechanism, samples: int) -> Table:
     end of the last dwell.
     """
     check_samples(samples)
-    if samples > WHOLE_ROWS:
-        return Table(
-            MOTION_COLUMNS,
-            pieces(samples, len(MOTION_COLUMNS), lambda i, j: _rows(mechanism, samples, i, j)),
-        )
-    return Table(MOTION_COLUMNS, _rows(mechanism, samples, 0, samples))
+    return computed_table(MOTION_COLUMNS, samples, lambda i, j: _rows(mechanism, samples, i, j))
 
 
 def turns_table(mechanism: Mechanism, samples: int, count: int) -> Table:

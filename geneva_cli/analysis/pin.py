@@ -5,11 +5,13 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING, NamedTuple, cast
 
-from geneva_cli.numerics.arrays import choose
+from geneva_cli.numerics.arrays import choose, parameter
+from geneva_cli.numerics.preferred import rounded_below
 
 if TYPE_CHECKING:
     from geneva_cli.machine.mechanism import Mechanism
     from geneva_cli.numerics.jet import Number
+    from geneva_cli.spec.tables import Size
 
 
 class Pin(NamedTuple):
@@ -58,24 +60,27 @@ def moment_mm(support: str, width: Number, gap: Number) -> Number:
 
 
 def pin_diameter_mm(mechanism: Mechanism) -> float:
-    """Diameter of the roller's pin; with ``pin_mm = 0`` the roller is its own pin."""
+    """Diameter of the roller's pin, by default r, rounded to a preferred number.
+
+    With ``pin_mm = 0`` the roller is its own pin. A load may need a thicker default (``layout``).
+    """
     size, r = mechanism.spec.size, mechanism.roller_radius_mm
     if size.pin_mm is None:
-        return r
+        if isinstance(r, float | int):
+            return rounded_below(r)
+        import numpy as np
+
+        return parameter(np.array([[rounded_below(x)] for x in np.ravel(r)]))
     diameter: float = choose(size.pin_mm == 0.0, 2.0 * r, size.pin_mm)
     return diameter
 
 
-def pin(mechanism: Mechanism) -> Pin | None:
-    """The pin of a machine's rollers; None without the length of the contact line.
+def pin(size: Size, width: Number, d: Number) -> Pin:
+    """A roller's pin of diameter d; ``width`` is the length of the contact line, mm.
 
     Bending 32 M/(pi d³) at the plate or in the middle, shear 4/3 V/(pi d²/4) in the neutral axis.
     """
-    size = mechanism.spec.size
-    if size.face_width_mm is None:
-        return None
-    d = pin_diameter_mm(mechanism)
-    moment = moment_mm(size.pin_held, size.face_width_mm, size.pin_gap_mm)
+    moment = moment_mm(size.pin_held, width, size.pin_gap_mm)
     plates = 1.0 if size.pin_held == "cantilever" else 2.0  # that share the force
     shear = 16.0 / (3.0 * math.pi * d * d) / plates
     return Pin(d, 32.0 * moment / (math.pi * d**3), shear)

@@ -9,8 +9,8 @@ import math
 from collections.abc import Iterable, Iterator
 
 from geneva_cli.curves.helvetica import width
-from geneva_cli.curves.shapes import ORIGIN, Line, Point, Segment, about
-from geneva_cli.curves.sheet import ARROW, BELOW, SMALL, Arrow, Label, Measure, polar
+from geneva_cli.curves.shapes import ORIGIN, Circle, Line, Point, Segment, about, two_arcs
+from geneva_cli.curves.sheet import ARROW, BELOW, LARGE, SMALL, Arrow, Label, Measure, polar
 
 PAST = 1.5  # length of an extension line beyond the dimension line
 CLEAR = 0.8  # gap from the outline to an extension line, and from a line to its text
@@ -156,6 +156,32 @@ def note(tip: Point, text: str) -> Iterator[Measure]:
     """Yield candidates of a text with a leader to a point."""
     for _, _, end, label in _leaders(tip, 0.0, around(), text):
         yield _led("note", (tip,), 0.0, tip, end, label)
+
+
+def balloon(tip: Point, text: str) -> Iterator[Measure]:
+    """Yield candidates of a number in a circle, with a leader to a point, short ones first."""
+    radius = 4.0  # mm: two digits fit in
+    for length in (8.0, 12.0, 18.0, 27.0, 40.0, 60.0, 90.0):
+        for angle in around():
+            centre, end = polar(tip, length + radius, angle), polar(tip, length, angle)
+            start = centre[0] - 0.5 * width(text) * SMALL, centre[1] - 0.5 * SMALL
+            circle = two_arcs(Circle("", centre, radius))
+            arrow = Arrow(tip, angle + math.pi)
+            label = Label(text, start, SMALL)
+            yield Measure("note", (tip,), 0.0, label, (Line(end, tip), *circle), (arrow,))
+
+
+def section(end: Point, outwards: float, letter: str) -> Iterator[Measure]:
+    """Yield candidates of a section's mark beyond one end of its level line, near ones first.
+
+    An arrow points upwards, in which direction the section is seen. ``outwards`` is 1 or -1.
+    """
+    for far in range(4, 80, 4):  # mm
+        x, y = end[0] + outwards * far, end[1]
+        lines = Line((x, y - 10.0), (x, y)), Line((x - 3.0 * outwards, y), (x + outwards, y))
+        start = x - 0.5 * width(letter) * LARGE, y - 12.0 - LARGE
+        arrow = Arrow((x, y), 0.5 * math.pi)
+        yield Measure("note", (end,), 0.0, Label(letter, start, LARGE), lines, (arrow,))
 
 
 def around() -> list[float]:

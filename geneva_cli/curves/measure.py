@@ -100,16 +100,23 @@ def legs(arc: Arc) -> tuple[float, float]:
 def fraction_at(piece: Line | Arc, point: Point) -> float:
     """Fraction of the length at a point of the piece, or of its whole line or circle.
 
+    With h half the sweep, the point at the fraction t has the direction (2 t - 1) h from the
+    centre, seen from the arc's middle. Over the radius it is (2 a - 1) sin h along the chord and
+    cos h - 2 b sin h across it. Here a and b are the point's places along and across the chord from
+    its start, over the chord. So nothing is measured from a centre that is far away.
+
     >>> fraction_at(Line((0.0, 0.0), (4.0, 0.0)), (1.0, 0.0))
     0.25
     """
     (x, y), (x0, y0), (x1, y1) = point, piece.start, piece.end
-    if isinstance(piece, Line):
-        u, v = x1 - x0, y1 - y0
-        return ((x - x0) * u + (y - y0) * v) / (u * u + v * v)
-    cx, cy = piece.centre
-    middle = math.atan2(y0 - cy, x0 - cx) + 0.5 * piece.sweep
-    return 0.5 + math.remainder(math.atan2(y - cy, x - cx) - middle, math.tau) / piece.sweep
+    u, v = x1 - x0, y1 - y0
+    along = ((x - x0) * u + (y - y0) * v) / (u * u + v * v)
+    if isinstance(piece, Line) or abs(piece.bulge) < STRAIGHT:
+        return along
+    across, half = ((y - y0) * u - (x - x0) * v) / (u * u + v * v), 0.5 * piece.sweep
+    sine, cosine = math.sin(half), math.cos(half)
+    turn = math.atan2((2.0 * along - 1.0) * sine, cosine - 2.0 * across * sine)
+    return 0.5 + 0.5 * turn / half
 
 
 def at(segment: Segment, t: float) -> Point:

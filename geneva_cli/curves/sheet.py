@@ -17,15 +17,19 @@ SMALL, LARGE = 2.5, 3.5  # mm: capitals of dimensions, and of titles (ISO 3098-1
 BELOW, ABOVE = 0.3, 1.1  # of a text's height: how far its letters reach below and above the line
 
 # The layers of a sheet, with the width of their lines in mm (ISO 128-2: two widths, 2 to 1).
-OUTLINE, HIDDEN, CENTRE, DIMENSION, TEXT, FRAME = (
+OUTLINE, HIDDEN, CENTRE, HATCH, DIMENSION, TEXT, FRAME = (
     "OUTLINE",
     "HIDDEN",
-    "CENTRE",
+    "CENTER",
+    "HATCH",
     "DIMENSION",
     "TEXT",
     "FRAME",
 )
-WIDTHS = {OUTLINE: 0.5, HIDDEN: 0.25, CENTRE: 0.25, DIMENSION: 0.25, TEXT: 0.25, FRAME: 0.7}
+WIDTHS = {
+    **{OUTLINE: 0.5, HIDDEN: 0.25, CENTRE: 0.25, HATCH: 0.18, DIMENSION: 0.25, TEXT: 0.25},
+    FRAME: 0.7,
+}
 DASHED = {CENTRE: (8.0, 1.5, 1.0, 1.5), HIDDEN: (3.0, 1.5)}  # mm: dash, gap, dash, gap
 
 
@@ -86,6 +90,16 @@ class Measure(NamedTuple):
     lines: tuple[Segment, ...]
     arrows: tuple[Arrow, ...]
     turn: float = 0.0
+
+    @property
+    def main_lines(self) -> tuple[Segment, ...]:
+        """The dimension line, or the leader and the line under its text."""
+        return self.lines[:1] if self.kind in ("linear", "angular") else self.lines
+
+    @property
+    def extension_lines(self) -> tuple[Segment, ...]:
+        """The lines from the part to the dimension line."""
+        return self.lines[len(self.main_lines) :]
 
 
 class Sheet(NamedTuple):

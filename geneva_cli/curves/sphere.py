@@ -11,6 +11,8 @@ from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 
 import numpy as np
 
+from geneva_cli.numerics.quadrature import rule
+
 if TYPE_CHECKING:
     from geneva_cli.numerics.jet import Array
 
@@ -148,7 +150,7 @@ class Region(NamedTuple):
         of the flow out of the region: the other parts are harmonics of degree 2.
         """
         # 24 points are exact: the integrands are of the second degree in sine and cosine
-        nodes, weights = np.polynomial.legendre.leggauss(24)
+        nodes, weights = rule(24)
         first, second = np.zeros(3), np.eye(3) * self.area / 3.0
         for arc in self.boundary:
             half = 0.5 * arc.sweep

@@ -18,8 +18,6 @@ def with_centre_marks(drawing: Drawing) -> Drawing:
     >>> [mark.segments[0].end for mark in marked.shapes[2:]]
     [(5.0, 0.0), (0.0, 5.0)]
     """
-    if LAYER in drawing.layers:
-        return drawing
     least: dict[tuple[float, float], Circle] = {}
     for circle in _circles(drawing.shapes):
         known = least.get(circle.centre, circle)

@@ -41,11 +41,11 @@ def coupon(parts: FlatParts) -> Drawing:
     sizes = parts.outlines.sizes
     own = sizes.half_width - sizes.roller
     r, pin = sizes.roller, sizes.pin
-    # the spec's own clearance is one of them, to a micrometre
-    clearances = sorted({round(own, 3), *CLEARANCES})
+    clearances = _around(CLEARANCES, own)
     # mm by which a hole's diameter is below the pin's
     interferences = (0.0, 0.01, 0.02, 0.03, 0.05, 0.08, 0.1, 0.15)
-    presses = [press for press in interferences if press < 2.0 * pin]
+    press_fit = parts.mechanism.spec.size.allowances.press_fit_mm
+    presses = [press for press in _around(interferences, press_fit) if press < 2.0 * pin]
     wall, height = max(WALL * r, LEAST), 0.6 * r  # height of the numbers
     widest = r + clearances[-1]
     each = 2.0 * widest + wall
@@ -80,6 +80,16 @@ def coupon(parts: FlatParts) -> Drawing:
     )
     title = titled(parts.mechanism, "fit coupon")
     return Drawing(title, (outline, *holes, disc, *bore, *marks), solid=solid)
+
+
+def _around(usual: tuple[float, ...], own: float) -> list[float]:
+    """Return usual steps and the spec's own, to a micrometre; beyond the usual also steps about it.
+
+    >>> _around((0.0, 0.3), 0.02), _around((0.0, 0.3), 0.4)
+    ([0.0, 0.02, 0.3], [0.0, 0.3, 0.4, 0.5])
+    """
+    about = (0.75, 1.25) if own > usual[-1] else ()
+    return sorted({*usual, round(own, 3), *(round(own * part, 2) for part in about)})
 
 
 def _slot(low: Point, half: float, length: float) -> Contour:

@@ -16,8 +16,9 @@ from geneva_cli.curves.plates import Group, Part, Plate, plates
 from geneva_cli.curves.shapes import Arc, Contour, Line, Shape
 from geneva_cli.drawings.model import PartsModel
 from geneva_cli.errors import GenevaError
-from geneva_cli.layout.sizes import even, wall_min
+from geneva_cli.layout.plain_sizes import wall_min
 from geneva_cli.machine.mechanism import Mechanism
+from geneva_cli.numerics.preferred import rounded_radius
 from geneva_cli.numerics.roots import boundary
 from geneva_cli.numerics.tolerances import SAME_LENGTH
 from geneva_cli.outlines.locking_rings import LAYER as CRANK
@@ -65,7 +66,7 @@ def with_dog_bones(drawing: Drawing, model: PartsModel, cutter_mm: float) -> Dra
         boned = boned_by(cutter_mm)
     except TooWide as error:
         # 14 halvings between a cutter whose dog bones fit and one whose do not
-        most = 2.0 * even(0.5 * boundary(fits, 0.0, cutter_mm, 14))
+        most = 2.0 * rounded_radius(0.5 * boundary(fits, 0.0, cutter_mm, 14))
         helps = f"use a cutter up to {most:g} mm" if most else "no cutter is small enough"
         raise GenevaError(f"--dog-bones: {error}; {helps}, or omit it") from None
     shapes = tuple(boned.get(shape, shape) for shape in drawing.shapes)

@@ -3,23 +3,27 @@
 from __future__ import annotations
 
 from functools import cached_property
+from typing import TYPE_CHECKING
 
-from geneva_cli.collisions.full_turn import FullTurn, full_turn
-from geneva_cli.collisions.gaps import WorkLimit
-from geneva_cli.collisions.machine_parts import MachineParts
-from geneva_cli.layout.assembly import Assembly, assembly
-from geneva_cli.layout.roller_paths import RollerPaths, roller_paths
-from geneva_cli.layout.sizes import Sizes, sizes
 from geneva_cli.machine.mechanism import Mechanism
-from geneva_cli.outlines.outlines import Outlines, drawn
-from geneva_cli.parts.flat_parts import FlatParts
-from geneva_cli.parts.sphere.shells import Shells, shells
-from geneva_cli.parts.sphere.sphere_parts import SphereParts
+
+if TYPE_CHECKING:
+    from geneva_cli.collisions.full_turn import FullTurn
+    from geneva_cli.collisions.gaps import WorkLimit
+    from geneva_cli.collisions.machine_parts import MachineParts
+    from geneva_cli.layout.assembly import Assembly
+    from geneva_cli.layout.roller_paths import RollerPaths
+    from geneva_cli.layout.sizes import Sizes
+    from geneva_cli.outlines.outlines import Outlines
+    from geneva_cli.parts.flat_parts import FlatParts
+    from geneva_cli.parts.sphere.shells import Shells
+    from geneva_cli.parts.sphere.sphere_parts import SphereParts
 
 
 class PartsModel:
     """The outlines, the parts and the full turn of one machine, shared by all who need them.
 
+    What makes them is imported at its first use: most runs need few of the parts.
     ``known`` and ``known_shells`` are its outlines or its shells, if they are computed already.
     Without ``advice`` an error does not name the roller that fits, which takes long to find.
     """
@@ -46,36 +50,50 @@ class PartsModel:
     @cached_property
     def assembly(self) -> Assembly:
         """Positions of flat parts; raises GenevaError for a machine without them."""
+        from geneva_cli.layout.assembly import assembly
+
         return self.known.assembly if self.known else assembly(self.mechanism)
 
     @cached_property
     def paths(self) -> RollerPaths:
         """The paths of the rollers, which do not depend on sizes."""
+        from geneva_cli.layout.roller_paths import roller_paths
+
         return roller_paths(self.assembly)
 
     @cached_property
     def sizes(self) -> Sizes:
         """The sizes of flat parts; raises GenevaError where those of the spec leave no wheel."""
+        from geneva_cli.layout.sizes import sizes
+
         return self.known.sizes if self.known else sizes(self.assembly, self.paths)
 
     @cached_property
     def outlines(self) -> Outlines:
         """The outlines; raises GenevaError where the sizes leave none."""
+        from geneva_cli.outlines.outlines import drawn
+
         return self.known or drawn(self.assembly, self.sizes)
 
     @cached_property
     def shells(self) -> Shells:
         """The shells of a machine on a sphere; raises GenevaError where the sizes leave none."""
+        from geneva_cli.parts.sphere.shells import shells
+
         return self.known_shells or shells(self.mechanism, self.advice)
 
     @cached_property
     def flat(self) -> FlatParts:
         """The parts of a flat machine, as accurate as the checks need them."""
+        from geneva_cli.parts.flat_parts import FlatParts
+
         return FlatParts(self.mechanism, self.outlines if self.mechanism.spec.is_flat else None)
 
     @cached_property
     def ball(self) -> SphereParts:
         """The parts of a machine on a sphere."""
+        from geneva_cli.parts.sphere.sphere_parts import SphereParts
+
         return SphereParts(self.shells)
 
     @property
@@ -91,12 +109,17 @@ class PartsModel:
     @property
     def turn(self) -> FullTurn:
         """The full turn; raises WorkLimit where it takes too long."""
+        from geneva_cli.collisions.gaps import WorkLimit
+
         if isinstance(self._turn, WorkLimit):
             raise self._turn
         return self._turn
 
     @cached_property
     def _turn(self) -> FullTurn | WorkLimit:
+        from geneva_cli.collisions.full_turn import full_turn
+        from geneva_cli.collisions.gaps import WorkLimit
+
         # That it takes too long is remembered too.
         try:
             return full_turn(self.parts)

@@ -1,7 +1,7 @@
 """Drawings of the parts, each in its own frame; ``machine_drawing`` assembles them.
 
 Layers WHEEL, CRANK, ARM, LINK, GROOVE and BORE are cut. ROLLER is a circle. PITCH is the path of
-rollers, and the pitch curve of gears. CENTER has marks. HUB shows a hub, which is a separate part.
+rollers, and the pitch curve of gears. HUB shows a hub, which is a separate part.
 """
 
 from __future__ import annotations
@@ -14,18 +14,15 @@ import numpy as np
 from geneva_cli.curves import fit
 from geneva_cli.curves.drawing import Drawing
 from geneva_cli.curves.measure import bounds, turned
-from geneva_cli.curves.plates import Group, Member, Part, Plate
+from geneva_cli.curves.plates import Group, Member, Plate
 from geneva_cli.curves.shapes import (
     Arc,
-    Circle,
     Contour,
     Line,
     Segment,
-    Shape,
     closed,
     joined,
 )
-from geneva_cli.drawings.centre_marks import centre_marks
 from geneva_cli.errors import GenevaError
 from geneva_cli.kinematics.engagement import Engagement
 from geneva_cli.layout.gear_curves import required_gears
@@ -110,9 +107,9 @@ def _side_by_side(plates: Iterable[Plate], between: float) -> Iterator[Member]:
 
 
 def frame(parts: FlatParts) -> Drawing:
-    """Return the frame as it is drilled, with centre marks."""
+    """Return the frame as it is drilled."""
     solid = parts.frame.part
-    return _marked(titled(parts.mechanism, "frame"), outlines_of(solid), solid)
+    return Drawing(titled(parts.mechanism, "frame"), outlines_of(solid), solid=solid)
 
 
 def gears(parts: FlatParts) -> Drawing:
@@ -132,7 +129,7 @@ def gears(parts: FlatParts) -> Drawing:
         name, drawn = "pitch curves of the gears", outlines_of(Group("", about_crank))
     title, ends = titled(mechanism, name), [one.at for one in about_crank]
     line = Contour(PITCH, (Line(min(ends), max(ends)),), closed=False)
-    return _marked(title, (*drawn, line), Group(title, members))
+    return Drawing(title, (*drawn, line), solid=Group(title, members))
 
 
 def _moved(members: Iterable[Member], x: float) -> tuple[Member, ...]:
@@ -140,7 +137,7 @@ def _moved(members: Iterable[Member], x: float) -> tuple[Member, ...]:
 
 
 def groove_plate(parts: FlatParts) -> Drawing:
-    """Return outline, both flanks, bore and holes of the groove's plate, with centre marks.
+    """Return outline, both flanks, bore and holes of the groove's plate.
 
     The crank's axis is the origin. Raises GenevaError for a machine without a groove, and where the
     plate meets the wheel's shaft.
@@ -148,14 +145,7 @@ def groove_plate(parts: FlatParts) -> Drawing:
     *_, pitch = parts.groove
     title = titled(parts.mechanism, "groove plate")
     stack = Group(title, tuple(Member(one.part) for one in parts.groove_plate))
-    return _marked(title, (*outlines_of(stack), pitch), stack)
-
-
-def _marked(title: str, shapes: Iterable[Shape], solid: Part) -> Drawing:
-    """Return a drawing with centre marks in its bores."""
-    drawn = tuple(shapes)
-    holes = [s for s in drawn if isinstance(s, Circle) and s.layer == "BORE"]
-    return Drawing(title, (*drawn, *centre_marks(holes)), solid=solid)
+    return Drawing(title, (*outlines_of(stack), pitch), solid=stack)
 
 
 def pitch_lines(parts: FlatParts, engagement: Engagement) -> list[Contour]:

@@ -38,10 +38,13 @@ def single_parts(
 
 def _single(model: PartsModel, solid: Plate | Shell, count: int, tolerance_mm: float) -> SinglePart:
     title = titled(model.mechanism, solid.name)
-    flat = isinstance(solid, Plate)
     shapes = (solid.outline, *solid.holes) if isinstance(solid, Plate) else ()
     thickness = solid.thickness if isinstance(solid, Plate) else solid.outer - solid.inner
     drawing = Drawing(title, shapes, solid=solid, tolerance=tolerance_mm)
-    # other layers are turned or bought
-    cut = flat and solid.layer in ("WHEEL", "CRANK", "ARM", "LINK", "GROOVE", "FRAME")
+    cut = isinstance(solid, Plate) and is_cut(solid)
     return SinglePart(solid.name, count, thickness, cut, drawing)
+
+
+def is_cut(plate: Plate) -> bool:
+    """Return True for a part that is cut out of a plate; others are turned or bought."""
+    return plate.layer in ("WHEEL", "CRANK", "ARM", "LINK", "GROOVE", "FRAME")

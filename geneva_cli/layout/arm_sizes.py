@@ -6,9 +6,12 @@ import math
 from collections.abc import Iterable
 
 from geneva_cli.errors import GenevaError
+from geneva_cli.layout.assembly import Assembly
 from geneva_cli.layout.keyways import reach
-from geneva_cli.layout.sizes import even
+from geneva_cli.layout.plain_sizes import Sizes
+from geneva_cli.layout.plain_sizes import half_or as half_or
 from geneva_cli.machine.spec import Spec
+from geneva_cli.numerics.preferred import bore_radius, rounded_radius
 from geneva_cli.spec.tables import Size
 
 HUB = 1.6  # outside diameter of a hub, as a multiple of its bore
@@ -23,7 +26,7 @@ def hub_and_eye(
     hub. Raises GenevaError, naming the key, where hub or eye leave nothing around a hole.
     """
     deep = reach(size.crank_keyway, bore)
-    hub = half_or(size.arm_hub_mm, max(even(HUB * bore), deep + wall, standing))
+    hub = half_or(size.arm_hub_mm, usual_hub(deep, bore, wall, standing))
     eye = half_or(size.arm_eye_mm, eye_about(hole, wall, passing))
     if hub <= deep:
         raise GenevaError(
@@ -37,6 +40,17 @@ def hub_and_eye(
             ("size", "arm_eye_mm"),
         )
     return hub, eye
+
+
+def usual_hub(bored: float, bore: float, wall: float, standing: float) -> float:
+    """Return the arm's default radius about a bore that reaches to ``bored`` with its keyway."""
+    return max(rounded_radius(HUB * bore), bored + wall, standing)
+
+
+def arm_passing(assembly: Assembly, sizes: Sizes, length: float) -> float:
+    """Return the radius of the largest eye that passes the wheel's hub below the wheel."""
+    passing = assembly.L - length - max(sizes.wheel_bore, sizes.wheel_hub)
+    return passing if assembly.sign > 0.0 else math.inf
 
 
 def pin_hole(size: Size, pin: float) -> float:
@@ -58,7 +72,18 @@ def arm_bore(spec: Spec, disc: float, L: float, space: float) -> float:
     By default it leaves most of the space up to the nearest pin's hole, ``space``.
     """
     diameter = spec.size.arm_bore_mm or 2.0 * disc or spec.shaft.crank_diameter_mm
-    return half_or(diameter, even(min(L / 20.0, 0.35 * space)))
+    return half_or(diameter, bore_radius(min(L / 20.0, 0.35 * space)))
+
+
+def within_hub(hub_mm: float | None, keyway: str | None) -> float:
+    """Return the largest default bore in a hub of a diameter, infinite without a hub."""
+    # a keyway is up to 0.39 of the bore's radius deep
+    return ((0.5 / 1.6) if keyway else 0.4) * hub_mm if hub_mm else math.inf
+
+
+def hub_around(bored: float, bore: float, wall: float, usual: float) -> float:
+    """Return the default hub around a bore: the usual radius, or a wall around its keyway."""
+    return max(rounded_radius(usual), bored + wall) if bored > bore else rounded_radius(usual)
 
 
 def eye_about(hole: float, wall: float, most: float = math.inf) -> float:
@@ -84,8 +109,3 @@ def bolts_between(
             "lock_bolts: there is no locking disc to fix; remove it", ("size", "lock_bolts")
         )
     return half_or(size.lock_bolt_mm, L / 80.0), directions if count else []
-
-
-def half_or(diameter: float | None, default: float) -> float:
-    """Return half of a diameter, or the default radius if that is None."""
-    return default if diameter is None else 0.5 * diameter

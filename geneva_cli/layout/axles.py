@@ -10,7 +10,8 @@ from __future__ import annotations
 import math
 
 from geneva_cli.errors import GenevaError
-from geneva_cli.layout.sizes import even, wall_min
+from geneva_cli.layout.plain_sizes import wall_min
+from geneva_cli.numerics.preferred import bore_radius, rounded_radius
 from geneva_cli.spec.tables import Size
 
 
@@ -25,11 +26,11 @@ def wheel_axle(size: Size, L: float, inside: float, slot_end: float) -> tuple[fl
         bore = 0.5 * size.wheel_bore_mm
     else:
         within = 0.4 * size.wheel_hub_mm if size.wheel_hub_mm else math.inf
-        bore = even(min(L / 12.0, 0.4 * end, end - wall_min(size, L), within))
+        bore = bore_radius(min(L / 12.0, 0.4 * end, end - wall_min(size, L), within))
     if size.wheel_hub_mm is not None:
         hub = 0.5 * size.wheel_hub_mm
     else:
-        hub = max(bore, even(min(1.6 * bore, 0.75 * end))) if bore else 0.0
+        hub = max(bore, rounded_radius(min(1.6 * bore, 0.75 * end))) if bore else 0.0
     for key, radius in (("wheel_bore_mm", bore), ("wheel_hub_mm", hub)):
         if radius >= end:
             raise GenevaError(
@@ -50,7 +51,7 @@ def crank_hub(size: Size) -> float:
     bore = 0.5 * (size.crank_bore_mm or 0.0)
     if size.crank_hub_mm is None and size.crank_hub_length_mm is None:
         return 0.0
-    hub = even(1.5 * bore) if size.crank_hub_mm is None else 0.5 * size.crank_hub_mm
+    hub = rounded_radius(1.5 * bore) if size.crank_hub_mm is None else 0.5 * size.crank_hub_mm
     return hub if hub > bore else 0.0
 
 

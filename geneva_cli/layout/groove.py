@@ -19,7 +19,7 @@ from geneva_cli.table import Table
 
 if TYPE_CHECKING:
     from geneva_cli.kinematics.engagement import Groove
-    from geneva_cli.numerics.arrays import Array, Mask, Number
+    from geneva_cli.numerics.arrays import Array, Number
 
 NAMES = ("input_deg", "radius_mm", *WALLED)
 GRID = 3600  # positions all round, between which the greatest pressure angle is searched
@@ -188,12 +188,12 @@ def _steepest(groove: Groove, about: float) -> tuple[float, float]:
     step = 360.0 / GRID
     sense = math.copysign(1.0, _distances(groove, np.array([about]))[1][0])
 
-    def rises(x: Array) -> Mask:
+    def rise(x: Array) -> Array:
         r, dr, ddr = _distances(groove, x)
-        return sense * (r * ddr - dr * dr) > 0.0
+        return sense * (r * ddr - dr * dr)
 
     # a corner of the groove, or a smooth maximum
-    at_deg = boundary_by_sections(rises, about - step, about + step)
+    at_deg = boundary_by_sections(rise, about - step, about + step)
     r, dr, _ = _distances(groove, np.array([at_deg]))
     return float(abs(dr[0]) / r[0]), at_deg
 

@@ -83,6 +83,14 @@ def reach(standard: str | None, radius: float, part: str = "crank") -> float:
     return radius + fitted.in_hub if fitted else radius
 
 
+def reach_or_bore(standard: str | None, radius: float) -> float:
+    """Return the same; the bore's radius if the standard has none so large."""
+    try:
+        return reach(standard, radius)
+    except GenevaError:  # reported where the part is cut
+        return radius
+
+
 def bore(layer: str, radius: float, fitted: ParallelKey | None, direction: float) -> Shape:
     """Return a bore about the origin, with its keyway, if any, in a direction, radians."""
     if fitted is None:

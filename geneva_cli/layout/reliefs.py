@@ -6,6 +6,7 @@ import math
 from typing import NamedTuple
 
 from geneva_cli.layout.assembly import Assembly
+from geneva_cli.layout.plain_sizes import Sizes
 from geneva_cli.numerics.tolerances import SAME_ANGLE
 
 
@@ -20,6 +21,11 @@ class Relief(NamedTuple):
     def half(self) -> float:
         """Half of its width."""
         return 0.5 * (self.end - self.start)
+
+
+def is_whole(assembly: Assembly, sizes: Sizes) -> bool:
+    """Return True if some of the disc is left at the crank's axis."""
+    return assembly.sign > 0.0 and assembly.L - sizes.rim > sizes.relief
 
 
 def reliefs(assembly: Assembly) -> list[Relief]:

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
+from geneva_cli.curves.shapes import Point
 from geneva_cli.kinematics.engagement import Engagement
 from geneva_cli.layout.assembly import Assembly
 from geneva_cli.numerics.arrays import scalar
@@ -59,6 +60,18 @@ def rest(assembly: Assembly, engagement: Engagement, end: float) -> tuple[float,
     """Return the crank's axis in the wheel's frame before (-1) and after (1) a motion."""
     b = -end * engagement.half_step
     return assembly.L * math.cos(b), assembly.L * math.sin(b)
+
+
+def roller_centres(assembly: Assembly) -> list[Point]:
+    """Return the centres of the rollers on the crank, each at its mid-motion."""
+    centres = []
+    for number, (_, behind) in enumerate(assembly.rollers):
+        at = np.array([behind])
+        x, y = (assembly.pin(number, at) - (assembly.L, 0.0))[0]
+        angle = math.atan2(y, x) - float(assembly.crank(at)[0])
+        reach = math.hypot(x, y)
+        centres.append((reach * math.cos(angle), reach * math.sin(angle)))
+    return centres
 
 
 def _pitch(assembly: Assembly, engagement: Engagement) -> Array:

@@ -1,71 +1,54 @@
 """The sizes of the parts, in millimetres: those of the spec, or defaults.
 
-The rim is where the roller enters. On a smaller wheel the roller would lose its slot, on a larger
-one it would touch the rim. The locking disc reaches past the rim and leaves a horn next to the
-slot.
+Default bores are those of standard bearings, other default sizes rounded numbers. Under a load they
+are as large as it needs (``load_sizes``). The rim is where the roller enters. On a smaller wheel
+the roller would lose its slot, on a larger one it would touch the rim. The locking disc reaches
+past the rim and leaves a horn next to the slot.
 """
 
 from __future__ import annotations
 
 import math
-from typing import NamedTuple
+from typing import TYPE_CHECKING
 
 from geneva_cli.errors import GenevaError
+from geneva_cli.layout.arm_sizes import arm_bore, hub_around, within_hub
 from geneva_cli.layout.assembly import Assembly, assembly
-from geneva_cli.layout.keyways import reach
+from geneva_cli.layout.keyways import reach_or_bore
+from geneva_cli.layout.plain_sizes import Sizes as Sizes
+from geneva_cli.layout.plain_sizes import half_or, pin_radius, thicknesses, value_or, wall_min
 from geneva_cli.layout.reliefs import arc_floor, has_arcs
-from geneva_cli.layout.roller_paths import RollerPaths, mouth, roller_paths
+from geneva_cli.layout.roller_paths import RollerPaths, mouth, roller_centres, roller_paths
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.machine.spec import Spec
+from geneva_cli.numerics.preferred import bore_radius
 from geneva_cli.numerics.tolerances import SAME_LENGTH
 from geneva_cli.spec.tables import Size
 
-
-class Sizes(NamedTuple):
-    """Lengths and radii, mm; bores and hubs are radii too. 0 for parts that do not exist."""
-
-    roller: float
-    half_width: float  # of the slot: roller and clearance
-    rim: float  # of the wheel; of the opening if it is internal
-    outer: float  # of an internal wheel, otherwise 0
-    slot_bottom: float  # clearance between the deepest roller and a straight slot's end
-    slot_end: float  # distance of the slot's bottom from the wheel's axis
-    arm: float  # least distance of a roller's path from the crank's axis
-    lock: float  # locking disc
-    recess: float  # in the wheel: lock and clearance
-    relief: float  # clearance between wheel and relief
-    wall_min: float
-    wheel_bore: float
-    wheel_reach: float  # of the bore with its keyway, from the axis
-    wheel_hub: float
-    crank_bore: float
-    crank_reach: float
-    crank_hub: float
-    pin: float
-    wheel_thickness: float  # along the axis, of the rollers too
-    lock_thickness: float
-    arm_thickness: float
-
-    @property
-    def horn(self) -> float:
-        """Thickness of the horn between slot and recess, thinnest at the mouth."""
-        return self.arm - self.half_width - self.recess
+if TYPE_CHECKING:
+    from geneva_cli.loads.strength.part_loads import PartLoads
 
 
-def sized(mechanism: Mechanism) -> tuple[Assembly, Sizes] | None:
-    """Return a machine's assembly and sizes; None where no flat parts can be cut."""
+def sized(mechanism: Mechanism, loads: PartLoads | None = None) -> tuple[Assembly, Sizes] | None:
+    """Return a machine's assembly and sizes; None where no flat parts can be cut.
+
+    ``loads`` are those on its parts, if computed already.
+    """
     if not mechanism.spec.is_flat:
         return None
     try:
         where = assembly(mechanism)
-        return where, sizes(where)
+        return where, sizes(where, loads=loads)
     except GenevaError:
         return None  # the check of the parts reports the error
 
 
-def sizes(assembly: Assembly, known: RollerPaths | None = None) -> Sizes:
-    """Return the sizes of a machine's parts; ``known`` are its roller paths, if computed already.
+def sizes(
+    assembly: Assembly, known: RollerPaths | None = None, loads: PartLoads | None = None
+) -> Sizes:
+    """Return the sizes of a machine's parts.
 
+    ``known`` are its roller paths, and ``loads`` those on its parts, if computed already.
     Raises GenevaError, naming the key, where a size leaves no wheel or no lock.
     """
     spec, L = assembly.mechanism.spec, assembly.L
@@ -74,8 +57,8 @@ def sizes(assembly: Assembly, known: RollerPaths | None = None) -> Sizes:
     allowed = size.allowances
     w = r + allowed.slot_clearance_mm
     outside = assembly.sign > 0.0
-    rim = _or(size.wheel_radius_mm, max(mouth(assembly, s, r) for s in kinds))
-    bottom = _or(size.slot_bottom_clearance_mm, max(allowed.slot_clearance_mm, r / 20.0))
+    rim = value_or(size.wheel_radius_mm, max(mouth(assembly, s, r) for s in kinds))
+    bottom = value_or(size.slot_bottom_clearance_mm, max(allowed.slot_clearance_mm, r / 20.0))
     gaps = [0.0 if s.slot.curved else bottom for s in kinds]
     ends = (
         assembly.sign * _bottom(deepest, L * s.through.slot.offset, assembly.sign * gap)
@@ -85,27 +68,24 @@ def sizes(assembly: Assembly, known: RollerPaths | None = None) -> Sizes:
     arm = path.arm
     lock = _lock(assembly, arm, w, rim)
     depth = abs(L - rim)
-    relief = _or(size.relief_clearance_mm, min(L / 200.0, depth / 4.0))
+    relief = value_or(size.relief_clearance_mm, min(L / 200.0, depth / 4.0))
     space = (lock or rim) / arm * (L - math.sqrt(max(rim * rim - r * r, 0.0))) if outside else 0.0
     if any(s.apart for s in kinds):  # gears between rollers widen the relief
         space = min(space, arc_floor(assembly, lock)) if has_arcs(assembly, lock) else math.inf
-    bore = (
-        0.0
-        if not spec.drive.LOCKS
-        else _crank_bore(assembly.full.spec, min(space, depth - relief), L)
-    )
+    within = min(space, depth - relief)
+    bore = _crank_bore(assembly.full.spec, within, L) if spec.drive.LOCKS else 0.0
     wall = wall_min(size, L)
-    wheel_bore = _or(_half(size.wheel_bore_mm), _bore(size, end, wall, L))
+    wheel_bore = half_or(size.wheel_bore_mm, _bore(assembly.full.spec, end, wall, L))
     wheel_bore = wheel_bore if outside or size.wheel_bore_mm else 0.0
-    wheel_reach = _reach(size.wheel_keyway, wheel_bore)
-    crank_reach = _reach(size.crank_keyway, bore)
-    wheel_hub = _around(wheel_reach, wheel_bore, wall, min(1.6 * wheel_bore, 0.75 * end))
-    thick = thicknesses(size, L)
+    wheel_reach = reach_or_bore(size.wheel_keyway, wheel_bore)
+    crank_reach = reach_or_bore(size.crank_keyway, bore)
+    wheel_hub = hub_around(wheel_reach, wheel_bore, wall, min(1.6 * wheel_bore, 0.75 * end))
+    thick, pin = thicknesses(size, L), pin_radius(size, r)
     out = Sizes(
         roller=r,
         half_width=w,
         rim=rim,
-        outer=0.0 if outside else _or(size.wheel_outer_radius_mm, end + max(r, L / 20.0)),
+        outer=0.0 if outside else value_or(size.wheel_outer_radius_mm, end + max(r, L / 20.0)),
         slot_bottom=bottom,
         slot_end=end,
         arm=arm,
@@ -115,15 +95,21 @@ def sizes(assembly: Assembly, known: RollerPaths | None = None) -> Sizes:
         wall_min=wall,
         wheel_bore=wheel_bore,
         wheel_reach=wheel_reach,
-        wheel_hub=_or(_half(size.wheel_hub_mm), wheel_hub),
+        wheel_hub=half_or(size.wheel_hub_mm, wheel_hub),
         crank_bore=bore,
         crank_reach=crank_reach,
-        crank_hub=_or(_half(size.crank_hub_mm), _around(crank_reach, bore, wall, 1.5 * bore)),
-        pin=pin_radius(size, r),
+        crank_hub=half_or(size.crank_hub_mm, hub_around(crank_reach, bore, wall, 1.5 * bore)),
+        pin=pin,
+        arm_bore=_arm_bore(assembly, pin, bore),
         wheel_thickness=thick.wheel,
         lock_thickness=thick.lock,
         arm_thickness=thick.arm,
+        link_thickness=thick.link,
     )
+    if assembly.full.spec.is_loaded:
+        from geneva_cli.layout.load_sizes import load_sizes  # without a load none is needed
+
+        out = load_sizes(assembly, out, within, loads)
     _refuse(assembly, out)
     _refuse_hubs(size, out)
     return out
@@ -164,45 +150,32 @@ def built(mechanism: Mechanism) -> Size:
     return size.replace(**{key: x for key, x in known.items() if values[key] is None})
 
 
-class Thicknesses(NamedTuple):
-    """The parts' thicknesses along the axis, mm."""
-
-    wheel: float
-    lock: float
-    arm: float
-    link: float
+def drawn_pin_radius(mechanism: Mechanism) -> float:
+    """Return the radius of a roller's pin as its machine has it, 0 for none."""
+    flat = sized(mechanism)
+    parts = flat[1] if flat else None
+    return pin_radius(mechanism.spec.size, mechanism.roller_radius_mm, parts)
 
 
-def thicknesses(size: Size, L: float) -> Thicknesses:
-    """Return the thicknesses of a spec; by default all are the wheel's."""
-    wheel = _or(size.wheel_thickness_mm, _or(size.face_width_mm, L / 10.0))
-    arm = _or(size.arm_thickness_mm, wheel)
-    lock = _or(size.lock_thickness_mm, wheel + size.pin_gap_mm)
-    return Thicknesses(wheel, lock, arm, _or(size.link_thickness_mm, arm))
+def _bore(spec: Spec, end: float, wall: float, L: float) -> float:
+    """Return the wheel's default bore: it leaves a wall to the slots' ends, and in the hub.
+
+    It is that of the spec's shaft if that leaves the wall.
+    """
+    limit, own = within_hub(spec.size.wheel_hub_mm, spec.size.wheel_keyway), spec.shaft
+    if own.wheel_diameter_mm is not None and 0.5 * own.wheel_diameter_mm <= end - wall:
+        return 0.5 * own.wheel_diameter_mm
+    return bore_radius(min(L / 12.0, 0.4 * end, end - wall, limit))
 
 
-def pin_radius(size: Size, r: float) -> float:
-    """Return the radius of a roller's pin, 0 for none."""
-    return _or(_half(size.pin_mm), r / 2.0)
-
-
-def wall_min(size: Size, L: float) -> float:
-    """Return the least wall that ``check`` lets pass, mm."""
-    return _or(size.wall_min_mm, L / 200.0)
-
-
-def _or(value: float | None, default: float) -> float:
-    return default if value is None else value
-
-
-def _half(diameter: float | None) -> float | None:
-    return None if diameter is None else 0.5 * diameter
-
-
-def _bore(size: Size, end: float, wall: float, L: float) -> float:
-    """Return the wheel's default bore: it leaves a wall to the slots' ends, and in the hub."""
-    limit = _within(size.wheel_hub_mm, size.wheel_keyway)
-    return even(min(L / 12.0, 0.4 * end, end - wall, limit))
+def _arm_bore(assembly: Assembly, pin: float, disc: float) -> float:
+    """Return the radius of the arm's bore, where a disc has a bore of radius ``disc``; or 0."""
+    spec = assembly.full.spec
+    if not (spec.drive.ONE_ARM and pin):  # without pins there is no arm
+        return 0.0
+    hole = pin - 0.5 * spec.size.allowances.press_fit_mm
+    space = min(math.hypot(*c) for c in roller_centres(assembly)) - hole
+    return arm_bore(spec, disc, assembly.L, space)
 
 
 def _crank_bore(spec: Spec, space: float, L: float) -> float:
@@ -220,35 +193,8 @@ def _crank_bore(spec: Spec, space: float, L: float) -> float:
     if own is not None:
         # a larger bore leaves no space for its default hub, of 1.5 bores
         return 0.5 * own if 0.5 * own <= 0.6 * space else 0.0
-    within = _within(size.crank_hub_mm, size.crank_keyway)
-    return even(min(0.45 * space, within)) if 0.45 * space >= L / 40.0 else 0.0
-
-
-def _within(hub_mm: float | None, keyway: str | None) -> float:
-    """Return the largest default bore in a hub of a diameter, infinite without a hub."""
-    # a keyway is up to 0.39 of the bore's radius deep
-    return ((0.5 / 1.6) if keyway else 0.4) * hub_mm if hub_mm else math.inf
-
-
-def _reach(standard: str | None, bore: float) -> float:
-    """Return a bore's radius with its keyway; without it if the standard has none so large."""
-    try:
-        return reach(standard, bore)
-    except GenevaError:  # reported where the part is cut
-        return bore
-
-
-def _around(bored: float, bore: float, wall: float, usual: float) -> float:
-    """Return the default hub around a bore: the usual radius, or a wall around its keyway."""
-    return max(even(usual), bored + wall) if bored > bore else even(usual)
-
-
-def even(radius: float) -> float:
-    """Return a radius rounded down to a diameter of two digits; 0 for no radius."""
-    if radius <= 0.0:
-        return 0.0
-    step = 10.0 ** (math.floor(math.log10(2.0 * radius)) - 1)
-    return 0.5 * step * math.floor(2.0 * radius / step * (1.0 + 1e-12))
+    within = within_hub(size.crank_hub_mm, size.crank_keyway)
+    return bore_radius(min(0.45 * space, within)) if 0.45 * space >= L / 40.0 else 0.0
 
 
 def _lock(assembly: Assembly, arm: float, w: float, rim: float) -> float:

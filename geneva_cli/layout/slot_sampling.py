@@ -13,7 +13,7 @@ from geneva_cli.layout.slot_profile import flanks, slot
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.numerics.arrays import array
 from geneva_cli.numerics.roots import boundary_by_sections
-from geneva_cli.table import Table
+from geneva_cli.table import Table, computed_table
 
 if TYPE_CHECKING:
     from geneva_cli.numerics.jet import Array
@@ -64,7 +64,7 @@ def _flank_cusps(mechanism: Mechanism) -> list[float]:
             if a < 0.0 < b:
                 continue
             runs = sign[i]  # sign before the flank stops
-            cusps.append(boundary_by_sections(lambda x: excess(x, side) * runs > 0.0, a, b))  # noqa: B023
+            cusps.append(boundary_by_sections(lambda x: excess(x, side) * runs, a, b))  # noqa: B023
     return sorted(cusps)
 
 
@@ -77,11 +77,21 @@ def profile_table(mechanism: Mechanism, tolerance_mm: float, samples: int | None
     """Return the slot's table: for a chord tolerance, or at ``samples`` even input angles."""
     engagement = mechanism.engagements[0].through
     if samples is None:
-        input_deg = nodes(mechanism, tolerance_mm)
-    else:
-        input_deg = np.linspace(engagement.entry_deg, engagement.exit_deg, samples)
+        return Table(NAMES, _rows(mechanism, nodes(mechanism, tolerance_mm)))
+    entry, exit_ = engagement.entry_deg, engagement.exit_deg
+
+    def rows(begin: int, end: int) -> list[Array]:
+        at: Array = entry + np.arange(begin, end, dtype=np.float64) * (
+            (exit_ - entry) / (samples - 1)
+        )
+        at[samples - 1 - begin :] = exit_  # the last of all, without rounding
+        return _rows(mechanism, at)
+
+    return computed_table(NAMES, samples, rows)
+
+
+def _rows(mechanism: Mechanism, input_deg: Array) -> list[Array]:
+    """Return the columns of the slot's table at input angles."""
     at = slot(mechanism, input_deg)
-    columns = [at.input_deg, at.wheel_deg]
-    for points in (at.centre, at.left, at.right):
-        columns += [points[:, 0], points[:, 1]]
-    return Table(NAMES, [*columns, at.pressure_deg, at.radius])
+    points = [axis for line in (at.centre, at.left, at.right) for axis in line.T]
+    return [at.input_deg, at.wheel_deg, *points, at.pressure_deg, at.radius]

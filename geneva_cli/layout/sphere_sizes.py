@@ -14,13 +14,8 @@ from typing import NamedTuple
 from geneva_cli.curves.sphere import Vector, place
 from geneva_cli.errors import GenevaError
 from geneva_cli.layout.axles import about_crank, wheel_axle
-from geneva_cli.layout.sizes import (
-    Thicknesses,
-    lock_between,
-    pin_radius,
-    require_lock_between,
-    thicknesses,
-)
+from geneva_cli.layout.plain_sizes import Thicknesses, pin_radius, thicknesses
+from geneva_cli.layout.sizes import lock_between, require_lock_between
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.machine.rollers import places
 from geneva_cli.spec.tables import Z_DRAWN, Size

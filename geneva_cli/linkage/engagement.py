@@ -108,7 +108,8 @@ def engagement_of_batch(path: RollerPath, fits: Fits, step: HalfStep) -> tuple[E
     middle = (entry + exit_) / 2
     turned = [middle + (exit_ - middle) * i / ANCHORS for i in range(-ANCHORS, ANCHORS + 1)]
     phi = [np.asarray(x, dtype=np.longdouble) for x in turned]
-    places = [long_point(path, x) for x in phi]
+    cranks = [(np.sin(x), np.cos(x)) for x in phi]  # in long doubles, which take their time
+    places = [long_point(path, *crank) for crank in cranks]
     (p, t), (q, u) = places[0], places[-1]
     rho = np.abs(q - p) / np.abs(t + u)
     centre = ((p + rho * t) + (q - rho * u)) / 2
@@ -124,14 +125,16 @@ def engagement_of_batch(path: RollerPath, fits: Fits, step: HalfStep) -> tuple[E
             wheel,
             rounded(np.abs(ray) / L),
             along_ray(
-                path.about(exactly(np.sin(x)), exactly(np.cos(x))),
+                path.about(exactly(sine), exactly(cosine)),
                 (rounded(ray.real), rounded(ray.imag)),
                 sense,
                 distance,
                 end,
             ),
         )
-        for x, ray, wheel, end in zip(phi, rays, (-b, *inside, b), ends, strict=True)
+        for x, (sine, cosine), ray, wheel, end in zip(
+            phi, cranks, rays, (-b, *inside, b), ends, strict=True
+        )
     )
     ahead = sense * rounded(np.angle(-rays[ANCHORS] * centre.conj()))
     anchored = AnchoredPath(anchors, ahead)

@@ -118,9 +118,9 @@ def known(path: RollerPath, b: float) -> WheelSearch | None:
     return entry[0].of(entry[1]) if entry else None
 
 
-def long_point(path: RollerPath, phi: Long) -> tuple[LongComplex, LongComplex]:
-    """Position and unit tangent at angles in long doubles, as complex numbers."""
-    s, c = exactly(np.sin(phi)), exactly(np.cos(phi))
+def long_point(path: RollerPath, sine: Long, cosine: Long) -> tuple[LongComplex, LongComplex]:
+    """Position and unit tangent for crank directions in long doubles, as complex numbers."""
+    s, c = exactly(sine), exactly(cosine)
     pin = path.place(Jet((s, c)), Jet((c, -s)), exact=True)
     (x, vx), (y, vy) = cast("list[tuple[Long, Long]]", [jet.c for jet in pin])
     v: LongComplex = vx + 1j * vy
@@ -142,8 +142,8 @@ def polished(path: RollerPath, fits: Fits, step: HalfStep) -> tuple[Long, Long]:
     double = np.abs(det) < DOUBLE_ROOT_SLOPE * np.abs(by_exit)
     wanted = 2 * LONG_PI * step.p / step.q
     entry, exit_ = (np.asarray(x, dtype=np.longdouble) for x in fits[:2])
-    for _ in range(3):  # each step leaves about a millionth of the error
-        (p, t), (q, u) = long_point(path, entry), long_point(path, exit_)
+    for _ in range(2):  # each step leaves about a millionth of the error
+        (p, t), (q, u) = (long_point(path, np.sin(x), np.cos(x)) for x in (entry, exit_))
         away = ((q - p) * (t + u).conj()).imag
         index = -u * t.conj()
         excess = index.imag * np.cos(wanted) - fits.sense * index.real * np.sin(wanted)

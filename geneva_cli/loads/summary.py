@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 
 from geneva_cli.analysis.instant import Instant
-from geneva_cli.analysis.motion import WHOLE_ROWS, check_samples, derivatives, inputs, times_s
+from geneva_cli.analysis.motion import check_samples, derivatives, inputs, times_s
 from geneva_cli.analysis.quantities import (
     PRESSED,
     PV,
@@ -23,7 +23,7 @@ from geneva_cli.errors import Notice
 from geneva_cli.loads.cycle import Cycle
 from geneva_cli.loads.sizing import WHEEL_INERTIA, sizing
 from geneva_cli.loads.summaries import LoadSummary
-from geneva_cli.table import Reading, Table, pieces, record_table, rows_table
+from geneva_cli.table import Reading, Table, computed_table, record_table, rows_table
 
 if TYPE_CHECKING:
     from geneva_cli.machine.spec import Spec
@@ -168,13 +168,7 @@ def cycle_table(cycle: Cycle, samples: int) -> Table:
     """
     check_samples(samples)
     names = (*PLACE_COLUMNS, *SHOWN_QUANTITIES)
-
-    def rows(begin: int, end: int) -> list[Any]:
-        return _rows(cycle, samples, begin, end)
-
-    if samples > WHOLE_ROWS:
-        return Table(names, pieces(samples, len(names), rows, "object"))
-    return Table(names, rows(0, samples))
+    return computed_table(names, samples, lambda i, j: _rows(cycle, samples, i, j), "object")
 
 
 def _rows(cycle: Cycle, samples: int, begin: int, end: int) -> list[Any]:

@@ -33,6 +33,7 @@ from geneva_cli.spec.tables import (
     Shaft,
     Size,
     Support,
+    TitleBlock,
     Tolerance,
     WheelMaterial,
 )
@@ -112,6 +113,7 @@ class Spec:
     tolerance: Tolerance = field(default_factory=Tolerance)
     product: Product = field(default_factory=Product)
     limits: Limits = field(default_factory=Limits)
+    drawing: TitleBlock = field(default_factory=TitleBlock)
     title: str = ""
     path: str = ""
     files: tuple[str, ...] = ()

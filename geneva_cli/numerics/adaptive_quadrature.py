@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from geneva_cli.numerics.arrays import joined, read_only
-from geneva_cli.numerics.quadrature import lobatto, rule
+from geneva_cli.numerics.quadrature import legendre, lobatto, rule
 
 if TYPE_CHECKING:
     from geneva_cli.numerics.arrays import Mask, Whole
@@ -127,7 +127,8 @@ def _rule(nodes: int, ends: bool) -> tuple[Array, Array]:
     A kink near an end affects no node of a Gauss rule; a Lobatto rule has a node at the end.
     """
     node, weight = lobatto(nodes) if ends else rule(nodes)
-    series = np.polynomial.legendre.legvander(node, nodes - 1) * (np.arange(nodes) + 0.5)
+    before, last = legendre(node, nodes - 1)
     # The last two terms together: every other term of an even or odd function is 0.
-    sums = weight[:, None] * np.column_stack([np.ones(nodes), series[:, -2:]])
+    terms = np.ones(nodes), (nodes - 1.5) * before, (nodes - 0.5) * last
+    sums = weight[:, None] * np.column_stack(terms)
     return read_only((node, sums))

@@ -10,13 +10,10 @@ import math
 from itertools import combinations
 from typing import TYPE_CHECKING
 
-import numpy as np
-
 from geneva_cli.curves.shapes import (
     Circle,
     Contour,
     Line,
-    Point,
     Segment,
     Shape,
     about,
@@ -26,6 +23,8 @@ from geneva_cli.errors import GenevaError
 from geneva_cli.layout.assembly import Assembly
 from geneva_cli.layout.keyways import bore, key
 from geneva_cli.layout.reliefs import Relief, followed, keyway_direction, merged, reliefs
+from geneva_cli.layout.reliefs import is_whole as is_whole
+from geneva_cli.layout.roller_paths import roller_centres as roller_centres
 from geneva_cli.layout.sizes import Sizes
 from geneva_cli.numerics.tolerances import SAME_ANGLE
 from geneva_cli.outlines.locking_rings import LAYER, polar_points, rings, towards
@@ -64,11 +63,6 @@ def crank_contours(
     return [closed(LAYER, segments)]
 
 
-def is_whole(assembly: Assembly, sizes: Sizes) -> bool:
-    """Return True if some of the disc is left at the crank's axis."""
-    return assembly.sign > 0.0 and assembly.L - sizes.rim > sizes.relief
-
-
 def _widened(sizes: Sizes, one: Relief, swept: Swept) -> Relief:
     """Return a relief as wide as the wheel needs: offset slots turn horns past its edges."""
     middle = 0.5 * (one.start + one.end)
@@ -91,18 +85,6 @@ def crank_circles(assembly: Assembly, sizes: Sizes) -> list[Shape]:
         fitted = key(assembly.mechanism.spec.size.crank_keyway, sizes.crank_bore)
         shapes.append(bore("BORE", sizes.crank_bore, fitted, keyway_direction(assembly)))
     return shapes
-
-
-def roller_centres(assembly: Assembly) -> list[Point]:
-    """Return the centres of the rollers on the crank, each at its mid-motion."""
-    centres = []
-    for number, (_, behind) in enumerate(assembly.rollers):
-        at = np.array([behind])
-        x, y = (assembly.pin(number, at) - (assembly.L, 0.0))[0]
-        angle = math.atan2(y, x) - float(assembly.crank(at)[0])
-        reach = math.hypot(x, y)
-        centres.append((reach * math.cos(angle), reach * math.sin(angle)))
-    return centres
 
 
 def rollers_gap(assembly: Assembly, sizes: Sizes) -> float | None:

@@ -19,7 +19,7 @@ from geneva_cli.curves.hull import convex_hull
 from geneva_cli.curves.shapes import Circle, Contour, Shape
 from geneva_cli.errors import GenevaError
 from geneva_cli.layout.arm_sizes import (
-    arm_bore,
+    arm_passing,
     bolts_between,
     eye_about,
     half_or,
@@ -69,8 +69,7 @@ def crank_arm(parts: Outlines) -> CrankArm:
     centres, hole = roller_centres(assembly), pin_hole(spec.size, sizes.pin)
     away = [math.hypot(*c) for c in centres]
     # the wheel's hub stands on the roller's side, where the arm's end passes below the wheel
-    passing = assembly.L - max(away) - max(sizes.wheel_bore, sizes.wheel_hub)
-    passing = passing if assembly.sign > 0.0 else math.inf
+    passing = arm_passing(assembly, sizes, max(away))
     standing = 0.0 if is_whole(assembly, sizes) else sizes.lock  # the sectors stand on the hub
     radius, wall = shaft_bore(parts), sizes.wall_min
     hub, eye = hub_and_eye(spec.size, wall, hole, radius, passing, standing)
@@ -90,10 +89,7 @@ def crank_arm(parts: Outlines) -> CrankArm:
 
 def shaft_bore(parts: Outlines) -> float:
     """Return the radius of the shaft's bore, which goes through the disc or ends in the arm."""
-    spec = parts.assembly.full.spec
-    hole = parts.sizes.pin - 0.5 * spec.size.allowances.press_fit_mm
-    space = min(math.hypot(*c) for c in roller_centres(parts.assembly)) - hole
-    return arm_bore(spec, parts.sizes.crank_bore, parts.assembly.L, space)
+    return parts.sizes.arm_bore
 
 
 def bolts(parts: Outlines) -> list[Circle]:

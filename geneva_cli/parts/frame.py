@@ -15,8 +15,9 @@ from geneva_cli.curves.plates import Member, Plate
 from geneva_cli.curves.shapes import Circle, Point
 from geneva_cli.errors import GenevaError
 from geneva_cli.layout.link_positions import same
-from geneva_cli.layout.sizes import even, thicknesses, wall_min
+from geneva_cli.layout.plain_sizes import thicknesses, wall_min
 from geneva_cli.machine.mechanism import Mechanism
+from geneva_cli.numerics.preferred import bore_radius, rounded_radius
 from geneva_cli.outlines.outlines import Outlines
 from geneva_cli.outlines.wheel_hub import wheel_hub
 from geneva_cli.parts.arm import has_arm
@@ -59,7 +60,8 @@ def framed(
     if mechanism.spec.drive.gears:
         lows.append(gear_span(mechanism, outlines)[0])
     top = min([_lowest(mechanism, outlines, bars), *lows]) - size.washer_mm
-    bottom = top - thicknesses(size, L).arm
+    drawn = outlines.sizes if outlines else None
+    bottom = top - thicknesses(size, L, drawn).arm
     axles = list(_shafts(mechanism, outlines, bars, bottom, first))
     places = list(_standing(mechanism, bars))
     mounts = _mounted(base, L) if base else ()
@@ -74,7 +76,7 @@ def framed(
     )
     corners = [(x, y) for x in (low[0], high[0]) for y in (low[1], high[1])]
     outline = convex_hull(LAYER, [Circle(LAYER, corner, eye) for corner in corners])
-    holes += [Circle(HOLES, corner, even(0.4 * eye)) for corner in corners]
+    holes += [Circle(HOLES, corner, rounded_radius(0.4 * eye)) for corner in corners]
     return FrameAndShafts(
         Plate(NAME, LAYER, outline, tuple(holes), bottom, top), tuple(outside_links(axles, bars, L))
     )
@@ -93,7 +95,9 @@ def _shafts(
         stop = crank_stop(outlines, bars)
         own = crank_shaft_radius(outlines) > 0.0, wheel_shaft_radius(outlines) > 0.0
         yield from shafts(outlines, lowest, stop)
-    ends = Ends(lowest, stop, *own)
+    size, drawn = mechanism.spec.size, outlines.sizes if outlines else None
+    top = thicknesses(size, mechanism.center_distance_mm, drawn).wheel
+    ends = Ends(lowest, top, stop, *own)
     yield from link_shafts(mechanism, bars, ends, first)
     yield from gear_shafts(mechanism, outlines, ends)
 
@@ -115,7 +119,7 @@ def _drilled(
                 yield Circle(HOLES, at, one.outline.radius)
         if not here:
             diameter = diameters[at[0]]
-            yield Circle(HOLES, at, even(L / 20.0) if diameter is None else 0.5 * diameter)
+            yield Circle(HOLES, at, bore_radius(L / 20.0) if diameter is None else 0.5 * diameter)
 
 
 def _standing(mechanism: Mechanism, bars: Links) -> Iterator[Point]:
@@ -153,10 +157,10 @@ def _mounted(base: Plate, L: float) -> Iterator[Circle]:
 
 def _lowest(mechanism: Mechanism, parts: Outlines | None, bars: Links) -> float:
     """Return the lowest point of the moving parts, along the axis."""
-    size, L = mechanism.spec.size, mechanism.center_distance_mm
+    size = mechanism.spec.size
     under = [one.part.low for one in (*bars.cut, *bars.joined) if isinstance(one.part, Plate)]
     under += [gear.plate.low for gear in bars.gears]
     hub = wheel_hub(parts.assembly, parts.sizes) if parts else None
     under += [hub.low] if hub else []
-    arm = thicknesses(size, L).arm if parts and has_arm(parts) else 0.0
+    arm = parts.sizes.arm_thickness if parts and has_arm(parts) else 0.0
     return min([*under, -size.pin_gap_mm - arm])

@@ -17,9 +17,9 @@ from geneva_cli.curves.shapes import Circle, Point, closed
 from geneva_cli.errors import GenevaError
 from geneva_cli.kinematics.drive import Gears
 from geneva_cli.layout.gear_curves import SAMPLES, ratio_and_turn, required_gears
-from geneva_cli.layout.sizes import even
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.numerics.arrays import array
+from geneva_cli.numerics.preferred import bore_radius
 from geneva_cli.outlines.outlines import Outlines
 from geneva_cli.parts.link_shafts import Ends
 from geneva_cli.parts.link_sizes import link_sizes
@@ -118,7 +118,7 @@ def _shafts(mechanism: Mechanism, parts: Outlines | None) -> list[tuple[Point, f
     """
     pair, L = required_gears(mechanism), mechanism.center_distance_mm
     sizes, ((driven, _), _) = link_sizes(mechanism, [], parts), pitch_radii(pair)
-    usual = even(L / 20.0)
+    usual = bore_radius(L / 20.0)
     on_crank = sizes.crank_shaft or sizes.bore(driven, L) or usual
     ends = (L, 0.0), (L + pair.distance_mm, 0.0)
     return list(zip(ends, (on_crank, _driver_bore(mechanism, parts) or usual), strict=True))

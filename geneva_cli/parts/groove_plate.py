@@ -17,7 +17,8 @@ from geneva_cli.curves.shapes import Circle, Contour, closed
 from geneva_cli.errors import GenevaError
 from geneva_cli.layout.assembly import Assembly
 from geneva_cli.layout.groove import groove_curve
-from geneva_cli.layout.sizes import Sizes, even
+from geneva_cli.layout.sizes import Sizes
+from geneva_cli.numerics.preferred import rounded_radius
 from geneva_cli.outlines.outlines import Outlines
 from geneva_cli.outlines.wheel_hub import about_axis
 from geneva_cli.parts.links import Links
@@ -62,7 +63,7 @@ def groove_base(parts: Outlines, bars: Links) -> Plate:
     assert bars.sizes is not None  # the crank is a link
     L = parts.assembly.L
     far, rim = groove_reaches(parts.assembly, parts.sizes)
-    mount, at = even(0.25 * rim), far + 0.5 * rim
+    mount, at = rounded_radius(0.25 * rim), far + 0.5 * rim
     mounts = [
         Circle(HOLES, (at * math.cos(turn), at * math.sin(turn)), mount)
         for turn in (math.tau * (k + 0.5) / MOUNTS for k in range(MOUNTS))

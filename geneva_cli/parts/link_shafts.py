@@ -14,7 +14,6 @@ from typing import NamedTuple
 from geneva_cli.curves.plates import Member, Plate
 from geneva_cli.kinematics.layout import Joint
 from geneva_cli.layout.link_positions import same
-from geneva_cli.layout.sizes import thicknesses
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.numerics.tolerances import SAME_LENGTH
 from geneva_cli.parts.link_axes import LinkAxis
@@ -26,6 +25,7 @@ class Ends(NamedTuple):
     """Ends of the shafts of wheel and crank, as far as links share them."""
 
     lowest: float  # the frame's lower face
+    top: float  # the wheel's upper face
     stop: float | None = None  # height at which the crank's shaft ends above that face
     crank_has_one: bool = False  # the crank's shaft carries more than links: another function's
     wheel_has_one: bool = False
@@ -51,7 +51,7 @@ def link_shafts(
             what = "shaft" if Joint.SHAFT in axis.kinds else "pivot"
             whose = "crank" if on_crank else "wheel" if on_wheel else axis.names[0]
             low = ends.stop if on_crank and ends.stop is not None else ends.lowest
-            high = thicknesses(size, L).wheel if on_wheel else high
+            high = ends.top if on_wheel else high
             low, high = shaft_ends(size, whose, low, high)
             yield Member(shaft(whose, axis.radius, (low, high), what), axis.at)
         elif len(axis.names) > 1 and Joint.PIN not in axis.kinds:  # ``link_pins`` has the pins

@@ -15,8 +15,9 @@ import numpy as np
 from geneva_cli.errors import GenevaError
 from geneva_cli.kinematics.layout import Joint, Link
 from geneva_cli.layout.arm_sizes import HUB, eye_about, half_or, pin_hole
-from geneva_cli.layout.sizes import even, pin_radius, thicknesses, wall_min
+from geneva_cli.layout.plain_sizes import pin_radius, thicknesses, wall_min
 from geneva_cli.machine.mechanism import Mechanism
+from geneva_cli.numerics.preferred import bore_radius, rounded_radius
 from geneva_cli.outlines.outlines import Outlines
 from geneva_cli.parts.arm import has_arm, shaft_bore
 
@@ -60,12 +61,12 @@ class LinkSizes(NamedTuple):
         """Return the radius of a shaft ``space`` mm from the nearest hole; 0 if it is too thin."""
         if self.shaft is not None:
             return self.shaft
-        radius = even(min(L / 20.0, 0.35 * space))  # leaves most of the space as a wall
+        radius = bore_radius(min(L / 20.0, 0.35 * space))  # leaves most of the space as a wall
         return radius if radius >= 0.01 * L else 0.0
 
     def hub(self, bore: float) -> float:
         """Return the radius of a link's plate around a bore, or on a shaft's end."""
-        return max(even(HUB * bore), bore + self.wall)
+        return max(rounded_radius(HUB * bore), bore + self.wall)
 
     def span(self, plane: int) -> tuple[float, float]:
         """Return lower and upper end, along the axis, of links in a plane below the wheel's."""
@@ -85,12 +86,17 @@ def link_sizes(
     """
     spec, L = mechanism.spec, mechanism.center_distance_mm
     size, links = spec.size, [link for link in links if not link.radius_mm]
-    wall, thick = wall_min(size, L), thicknesses(size, L)
-    stands = pin_radius(size, mechanism.roller_radius_mm)
+    drawn = parts.sizes if parts else None
+    wall, thick = wall_min(size, L), thicknesses(size, L, drawn)
+    stands = pin_radius(size, mechanism.roller_radius_mm, drawn)
     roller = pin_hole(size, stands) if stands else 0.0
     nearest = min((distance for link in links for distance in _pin_distances(link)), default=L)
     # a fifth of the distance to the next joint leaves eyes and a gap between
-    pin = even(min(L / 40.0, 0.2 * nearest)) if size.link_pin_mm is None else size.link_pin_mm / 2
+    pin = (
+        rounded_radius(min(L / 40.0, 0.2 * nearest))
+        if size.link_pin_mm is None
+        else size.link_pin_mm / 2
+    )
     eye = half_or(size.link_width_mm, eye_about(pin, wall))
     if eye <= pin:
         raise GenevaError(

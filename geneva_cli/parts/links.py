@@ -21,8 +21,9 @@ from geneva_cli.errors import GenevaError
 from geneva_cli.kinematics.layout import Joint, Link
 from geneva_cli.layout.hole_walls import apart, least_wall
 from geneva_cli.layout.link_positions import links_at, same
-from geneva_cli.layout.sizes import even, pin_radius
+from geneva_cli.layout.plain_sizes import pin_radius
 from geneva_cli.machine.mechanism import Mechanism
+from geneva_cli.numerics.preferred import bore_radius
 from geneva_cli.numerics.tolerances import SAME_LENGTH
 from geneva_cli.outlines.outlines import Outlines
 from geneva_cli.parts.gear_blanks import Gear, link_gear
@@ -102,10 +103,10 @@ def drawn_links(mechanism: Mechanism, parts: Outlines | None = None) -> Links:
     ]
     _refuse_unused(mechanism, turning, sizes, parts)
     cut = [member for bar in unbored for member in _members(bar, turning, sizes, L)]
-    r = mechanism.roller_radius_mm
+    r, drawn = mechanism.roller_radius_mm, parts.sizes if parts else None
     between = [
         *pins(bars, sizes, SAME_LENGTH * L),
-        *rollers(bars, sizes, r, pin_radius(mechanism.spec.size, r)),
+        *rollers(bars, sizes, r, pin_radius(mechanism.spec.size, r, drawn)),
     ]
     gears = [_gear(link, turning, sizes, mechanism) for link in links if link.radius_mm]
     kinds = {kind for link in bars if link.plane == 1 for kind in link.kinds}
@@ -147,7 +148,7 @@ def _with_shaft(
     limits += [g.radius_mm for g in links if g.radius_mm and g.name in axis.names]
     known = _known(axis, sizes, parts, L)
     own = [radius for limit in limits if (radius := sizes.bore(limit, L)) > 0.0]
-    radius = known or min(own, default=even(L / 20.0))
+    radius = known or min(own, default=bore_radius(L / 20.0))
     if not known and sizes.shaft is not None:  # of the spec: a check reports the wall that is left
         return axis._replace(radius=radius)
     tight = frozenset(name for name, limit in distances.items() if radius + sizes.wall > limit)

@@ -22,16 +22,8 @@ class Allowances(NamedTuple):
 
 
 PROCESSES = {
-    # Both parts are off by the standard's deviation, the slot narrow and the roller wide. That is
-    # half of 0.2 + 0.2 mm per side, and for the locking disc half of 0.25 + 0.25. A hole wider by
-    # 0.15 mm still holds its pin.
-    "laser": Allowances(
-        0.2,
-        0.25,
-        0.15,
-        "ISO 9013:2017, class 1, plates up to 3.15 mm: ±0.2 mm for 10 to 35 mm, ±0.25 for 35 to "
-        "125, holes of 3 to 10 ±0.15",
-    ),
+    # its clearances follow the plates' thicknesses: ``Size.allowances``
+    "laser": Allowances(source="ISO 9013:2017, class 1, at the thickness of each plate"),
     # H8/f7 leaves 16 to 61 um at 10 to 18 mm and 30 to 106 um at 50 to 80 mm: half of the middle
     # per side. H7/p6 is 0 to 24 um tight at 6 to 10 mm.
     "mill": Allowances(

@@ -4,6 +4,7 @@ The attribute of a key that is a Python keyword ends in an underscore. ``None`` 
 other keys. The annotations are objects, since evaluating text on import would take longer.
 """
 
+from collections.abc import Callable
 from functools import cached_property
 from typing import Annotated, ClassVar
 
@@ -11,6 +12,7 @@ from geneva_cli.errors import GenevaError
 from geneva_cli.spec.processes import PROCESSES, Allowances
 from geneva_cli.spec.rules import LENGTH, NOT_NEGATIVE, POSITIVE, OneOf, Range
 from geneva_cli.spec.schema import SpecTable
+from geneva_cli.spec.workshops import workshop
 
 DISTANCE_MM = 100.0  # the centre distance of a spec that gives none
 Z_DRAWN = 360  # slots of a wheel that is drawn: one a degree
@@ -35,7 +37,9 @@ class Size(SpecTable):
     ] = None
     roller_radius_mm: Annotated[float | None, POSITIVE, "roller radius r; default L/20"] = None
     process: Annotated[
-        str | None, OneOf(PROCESSES), "manufacturing process; sets default clearances and press fit"
+        str | None,
+        OneOf(PROCESSES),
+        "manufacturing process; sets clearances, fits and limits",
     ] = None
     slot_clearance_mm: Annotated[
         float | None, NOT_NEGATIVE, "clearance per side, roller to slot; default 0, or by process"
@@ -69,9 +73,13 @@ class Size(SpecTable):
         float | None, NOT_NEGATIVE, "clearance from wheel to bottom of the relief; default L/200"
     ] = None
     wall_min_mm: Annotated[
-        float | None, NOT_NEGATIVE, "least wall thickness that passes `check`; default L/200"
+        float | None,
+        NOT_NEGATIVE,
+        "least wall that passes `check`; default L/200, or by process",
     ] = None
-    wheel_bore_mm: Annotated[float | None, NOT_NEGATIVE, "diameter of the wheel's bore"] = None
+    wheel_bore_mm: Annotated[
+        float | None, NOT_NEGATIVE, "diameter of the wheel's bore; default up to L/6, or by load"
+    ] = None
     wheel_hub_mm: Annotated[
         float | None, NOT_NEGATIVE, "diameter of the wheel's hub, on the side of the crank arm"
     ] = None
@@ -103,14 +111,18 @@ class Size(SpecTable):
     crank_shaft_high_mm: Annotated[
         float | None, LENGTH, "upper end of the crank's shaft, from the wheel's lower face"
     ] = None
-    pin_mm: Annotated[float | None, NOT_NEGATIVE, "diameter of the roller's pin; default r"] = None
+    pin_mm: Annotated[
+        float | None, NOT_NEGATIVE, "diameter of the roller's pin; default r, or by load"
+    ] = None
     press_fit_mm: Annotated[
         float | None,
         NOT_NEGATIVE,
         "diameter of the pin minus that of its hole in the crank arm; default 0, or by process",
     ] = None
     arm_bore_mm: Annotated[
-        float | None, POSITIVE, "diameter of the crank arm's bore; default crank_bore_mm"
+        float | None,
+        POSITIVE,
+        "diameter of the crank arm's bore; default crank_bore_mm, or by load",
     ] = None
     arm_hub_mm: Annotated[
         float | None, POSITIVE, "width of the crank arm round its bore; default 1.6 bores"
@@ -153,13 +165,15 @@ class Size(SpecTable):
         "rounding radius at recesses' ends; with stop, also at the disc's",
     ] = None
     wheel_thickness_mm: Annotated[
-        float | None, POSITIVE, "thickness of wheel and rollers; default face_width_mm, or L/10"
+        float | None,
+        POSITIVE,
+        "thickness of wheel and rollers; default face_width_mm, L/10 or by load",
     ] = None
     lock_thickness_mm: Annotated[
         float | None, POSITIVE, "thickness of the locking disc; default: wheel plus pin_gap_mm"
     ] = None
     arm_thickness_mm: Annotated[
-        float | None, POSITIVE, "thickness of the crank arm; default: the wheel's"
+        float | None, POSITIVE, "thickness of the crank arm; default: the wheel's, or by load"
     ] = None
     link_pin_mm: Annotated[
         float | None, POSITIVE, "diameter of the pins between links; default up to L/20"
@@ -179,12 +193,36 @@ class Size(SpecTable):
     def allowances(self) -> Allowances:
         """Clearances and press fit from the spec, or else from the process.
 
-        >>> Size(process="laser", lock_clearance_mm=0.1).allowances[:3]
+        Those of a cut follow the plates' thicknesses.
+
+        >>> Size(process="laser", wheel_thickness_mm=3.0, lock_clearance_mm=0.1).allowances[:3]
         (0.2, 0.1, 0.15)
         """
         usual = Allowances() if self.process is None else PROCESSES[self.process]
+        if cut_mm := workshop(self.process).cut_mm:
+            usual = self._cut(usual, cut_mm)
         own = {key: vars(self).get(key) for key in usual._fields}
         return usual._replace(**{key: v for key, v in own.items() if v is not None})
+
+    def _cut(self, usual: Allowances, cut_mm: Callable[[float, float], float]) -> Allowances:
+        """Return the clearances of parts that are all off by the deviation of their cut.
+
+        The roller is wide and its slot narrow, each by half a side; and so disc and recess, whose
+        diameter is about the centre distance. A hole that is wide still holds its pin. Sizes that
+        are not set have their defaults without a load.
+        """
+        L = DISTANCE_MM if self.center_distance_mm is None else self.center_distance_mm
+        roller = L / 20.0 if self.roller_radius_mm is None else self.roller_radius_mm
+        wide = L / 10.0 if self.face_width_mm is None else self.face_width_mm
+        wheel = wide if self.wheel_thickness_mm is None else self.wheel_thickness_mm
+        arm = wheel if self.arm_thickness_mm is None else self.arm_thickness_mm
+        disc = wheel + self.pin_gap_mm if self.lock_thickness_mm is None else self.lock_thickness_mm
+        across = L if self.lock_radius_mm is None else 2.0 * self.lock_radius_mm
+        return usual._replace(
+            slot_clearance_mm=cut_mm(wheel, 2.0 * roller),
+            lock_clearance_mm=0.5 * (cut_mm(wheel, across) + cut_mm(disc, across)),
+            press_fit_mm=cut_mm(arm, roller if self.pin_mm is None else self.pin_mm),
+        )
 
 
 class Load(SpecTable):
@@ -351,7 +389,9 @@ class Shaft(SpecTable):
     ] = None
     crank_span_mm: Annotated[float | None, POSITIVE, "crank's shaft: bearing to bearing"] = None
     shear_stress_max_MPa: Annotated[
-        float | None, POSITIVE, "allowable; ASME B17c: least of 0.3 yield, 0.18 tensile strength"
+        float | None,
+        POSITIVE,
+        "allowable; ASME B17c: 0.3 yield or 0.18 tensile; default 82.5 (C45+N)",
     ] = None
     bending_factor: Annotated[float, Range(1.0, 10.0), "ASME B17c: shock factor in bending"] = 1.5
     torsion_factor: Annotated[float, Range(1.0, 10.0), "ASME B17c: shock factor in torsion"] = 1.0
@@ -364,7 +404,10 @@ class Material(SpecTable):
     youngs_modulus_GPa: Annotated[float, POSITIVE, "Young's modulus E"] = 210.0
     poisson_ratio: Annotated[float, Range(0.0, 0.5), "Poisson's ratio nu"] = 0.3
     density_kgm3: Annotated[float, POSITIVE, "density"] = 7850.0
-    stress_max_MPa: Annotated[float | None, POSITIVE, "allowable stress"] = None
+    stress_max_MPa: Annotated[
+        float | None, POSITIVE, "allowable stress; default of steel 165 (C45+N, 0.6 yield)"
+    ] = None
+    grade: Annotated[str | None, None, "grade, as drawings name it"] = None
 
 
 class WheelMaterial(Material):
@@ -462,6 +505,33 @@ class Product(SpecTable):
         return self.pitch_mm is not None
 
 
+class TitleBlock(SpecTable):
+    """``[drawing]``: fields of the title block, and what drawings ask of faces and edges.
+
+    >>> TitleBlock(number="G-106", revision="B").author is None
+    True
+    """
+
+    TABLE: ClassVar[str] = "drawing"
+
+    number: Annotated[str | None, None, "drawing number"] = None
+    revision: Annotated[str | None, None, "revision of the drawing"] = None
+    author: Annotated[str | None, None, "author of the drawing"] = None
+    date: Annotated[str | None, None, 'date of issue, as text: "2026-11-27"'] = None
+    roughness_um: Annotated[
+        float | None, POSITIVE, "roughness Ra of all other faces; default by process"
+    ] = None
+    flank_roughness_um: Annotated[
+        float | None, POSITIVE, "roughness Ra of the faces that roll, slide or lock"
+    ] = None
+    flank_hardness_HRC: Annotated[
+        float | None, Range(20.0, 70.0), "hardness of the faces that roll, slide or lock"
+    ] = None
+    edge_mm: Annotated[
+        float | None, POSITIVE, "greatest chamfer or rounding of outer edges (ISO 13715)"
+    ] = None
+
+
 class Limits(SpecTable):
     """``[limits]``: limits that ``geneva check`` compares the design with.
 
@@ -508,6 +578,7 @@ PLAIN: dict[str, type[SpecTable]] = {
     "material.roller": RollerMaterial,
     "tolerance": Tolerance,
     "product": Product,
+    "drawing": TitleBlock,
     "limits": Limits,
 }
 LISTS = ("mass",)

@@ -29,6 +29,10 @@ _SIZES: dict[str, Callable[[Sizes], float]] = {
     "crank_bore_mm": lambda s: 2.0 * s.crank_bore,
     "crank_hub_mm": lambda s: 2.0 * s.crank_hub,
     "pin_mm": lambda s: 2.0 * s.pin,
+    "arm_bore_mm": lambda s: 2.0 * s.arm_bore,
+    "wheel_thickness_mm": lambda s: s.wheel_thickness,
+    "lock_thickness_mm": lambda s: s.lock_thickness,
+    "arm_thickness_mm": lambda s: s.arm_thickness,
 }
 
 

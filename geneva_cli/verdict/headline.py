@@ -79,10 +79,12 @@ def _failure(check: Check) -> SummaryLine:
     explained = f"geneva explain {check.name}"
     if check.value is None or check.limit is None:
         return SummaryLine(label, check.why, explained, FAILS)
-    change = f"passes with {check.nearest}" if check.nearest else check.why
+    advice = f"passes with {check.nearest}" if check.nearest else ""
+    change = "; ".join(words for words in (check.why, advice) if words)
     note = f"{change} ({explained})" if change else explained
-    refusal = check.why if check.nearest else ""  # of parts that cannot be built
-    return SummaryLine(label, refusal or meaning(check) or compared_text(check, unit), note, FAILS)
+    refused = check.nearest and check.name in ("parts", "full_turn")
+    text = check.why if refused else meaning(check) or compared_text(check, unit)
+    return SummaryLine(label, text, note, FAILS)
 
 
 def compared_text(check: Check, unit: str) -> str:

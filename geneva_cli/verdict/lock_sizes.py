@@ -5,15 +5,13 @@ Parts are sized one design after the other, as their defaults depend on rollers'
 
 from __future__ import annotations
 
-import math
 from typing import NamedTuple
 
 import numpy as np
 
 from geneva_cli.analysis.locking import Lock
-from geneva_cli.layout.assembly import Assembly
-from geneva_cli.layout.reliefs import sectors
-from geneva_cli.layout.sizes import Sizes, sized
+from geneva_cli.layout.sizes import sized
+from geneva_cli.layout.stressed import lock_of
 from geneva_cli.machine.many import alone, designs_in
 from geneva_cli.machine.mechanism import Mechanism, build
 from geneva_cli.machine.spec import Spec
@@ -25,13 +23,6 @@ class LockSizes(NamedTuple):
 
     half_width: float  # half the slot's width: roller and clearance
     lock: Lock  # in its narrowest sector
-
-
-def lock_of(where: Assembly, size: Sizes) -> Lock:
-    """The lock of parts of these sizes, in its narrowest sector."""
-    half = min((0.5 * (end - start) for start, end in sectors(where)), default=math.nan)
-    edge = where.full.spec.size.lock_edge_mm or 0.0
-    return Lock(where.L, where.sign, size.lock, size.recess, size.rim, half, edge)
 
 
 def design_lock_sizes(mechanism: Mechanism) -> LockSizes | None:

@@ -15,7 +15,6 @@ from geneva_cli.layout.fits import loosest_mm
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.numerics.angles import DEGREE
 from geneva_cli.numerics.keeps import keeps
-from geneva_cli.spec.processes import PROCESSES
 from geneva_cli.spec.tables import Z_USUAL
 
 SHOWN_UNDERCUT = 0.005  # mm: a wall cut back by less is within a shop's tolerance
@@ -94,7 +93,7 @@ def _loose_fits(mechanism: Mechanism) -> Iterator[Notice]:
         clearance, fit = getattr(size, key), loosest_mm(2.0 * radius)
         if clearance is None or fit is None:
             continue
-        own = getattr(PROCESSES[size.process], key) if size.process else 0.0
+        own = getattr(size.replace(**{key: None}).allowances, key)
         most = max(0.5 * fit, own)
         if not keeps(clearance, "at most", most):
             helps = "" if size.process else ", or name the process that needs it"

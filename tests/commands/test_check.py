@@ -42,8 +42,8 @@ def test_a_headline_counts_warnings() -> None:
     """A machine whose wall is cut away for half the motion does not read as one that passes."""
     for spec, headline in (
         (PLAIN, "✓ {}: all 16 checks pass"),
-        (TURRET, "! {}: all 15 checks pass, 1 warning"),
-        (CURVED, "! {}: all 20 checks pass, 3 warnings"),
+        (TURRET, "! {}: all 21 checks pass, 1 warning"),
+        (CURVED, "! {}: all 26 checks pass, 3 warnings"),
     ):
         found = run(spec)
         assert found.exit_code == 0
@@ -77,7 +77,7 @@ def test_a_warning_is_printed_once(format: str) -> None:
 def test_csv_is_the_rows_alone() -> None:
     found = run(TURRET, "--format", "csv").stdout.splitlines()
     assert found[0] == "spec,check,value,at_deg,must_be,limit,passes,nearest,why"
-    assert len(found) == 16
+    assert len(found) == 22
 
 
 def test_what_fails_says_what_to_change(fails: str) -> None:
@@ -101,7 +101,7 @@ def test_parts_that_cannot_be_built_are_named(watched: None) -> None:
 
 def test_a_window_gets_the_answer_and_the_table_on_request(watched: None) -> None:
     short, whole = run(TURRET).stdout, run(TURRET, "-v").stdout
-    assert "tightest  crank bore wall 8.256 mm, at least 1.25" in short
+    assert "tightest  crank shaft stress 61.41 MPa at -17.24°, at most 82.5" in short
     assert short.count(TURRET) == 1
     assert "dwell_hold" not in short
     assert "dwell_hold" in whole

@@ -20,15 +20,15 @@ import repo
 from repo import GENEVA
 from words import load
 
-from geneva_cli import progress
-from geneva_cli.analysis.motion import SAMPLES_MAX, WHOLE_ROWS, motion_table
+from geneva_cli import Cycloidal, Design, External, Motion, progress
+from geneva_cli.analysis.motion import SAMPLES_MAX, motion_table
 from geneva_cli.analysis.peaks import peaks
 from geneva_cli.errors import GenevaError
 from geneva_cli.layout.slot_sampling import profile_table
 from geneva_cli.output import show
 from geneva_cli.output.bar import TextBar
 from geneva_cli.study.survey import survey
-from geneva_cli.table import Table, record_table, rows_table
+from geneva_cli.table import WHOLE_ROWS, Table, record_table, rows_table
 
 
 @pytest.fixture(autouse=True)
@@ -51,7 +51,7 @@ def test_a_long_table_is_the_same_as_a_held_one(text, monkeypatch):
     put("spec.toml", text)
     samples = WHOLE_ROWS + 12_345  # no multiple of a piece
     found = motion_table(load("spec.toml"), samples)
-    monkeypatch.setattr("geneva_cli.analysis.motion.WHOLE_ROWS", SAMPLES_MAX)
+    monkeypatch.setattr("geneva_cli.table.WHOLE_ROWS", SAMPLES_MAX)
     held = motion_table(load("spec.toml"), samples)
     rows = np.array(list(found.rows()))
     assert len(rows) == len(found) == samples
@@ -60,16 +60,49 @@ def test_a_long_table_is_the_same_as_a_held_one(text, monkeypatch):
     assert rows[-1, 1] == held.columns[1][-1]
 
 
+@pytest.mark.parametrize(
+    "rows",
+    [
+        lambda design, samples: design.slot(samples=samples),
+        lambda design, samples: design.spectrum(samples, 5.0, 0.1),
+        lambda design, samples: design.spectrum(samples, 5.0),
+    ],
+    ids=["slot", "damped", "undamped"],
+)
+def test_long_tables_of_other_numbers_are_the_same(rows, monkeypatch):
+    """Slot and spectrum, in pieces and whole; the last digits depend on where a piece ends."""
+    samples = 2300
+    design = Design(External(6), motion=Motion(Cycloidal()))
+    whole = rows(design, samples)
+    monkeypatch.setattr("geneva_cli.table.WHOLE_ROWS", 1000)
+    monkeypatch.setattr("geneva_cli.table.PIECE", 512)  # no divisor of them
+    for name, column in rows(design, samples).to_dict().items():
+        expected = np.array(whole[name], dtype=float)
+        assert len(column) == samples
+        assert np.allclose(np.array(column, dtype=float), expected, rtol=1e-12, equal_nan=True)
+
+
 @pytest.mark.sampled(2)
-@pytest.mark.parametrize("text", ["[wheel]\nz = 6\n", CURVED], ids=["straight", "curved"])
-def test_memory_does_not_grow(text):
-    """Half a million rows are 24 MB as numbers, and several times that in the making."""
+@pytest.mark.parametrize(
+    ("command", "text"),
+    [
+        ("motion", "[wheel]\nz = 6\n"),
+        ("motion", CURVED),
+        ("profile", CURVED),
+        ("vibration --period-ratio 5", "[wheel]\nz = 6\n"),
+    ],
+    ids=["straight", "curved", "slot", "spectrum"],
+)
+def test_memory_does_not_grow(command, text):
+    """Half a million rows are 24 to 40 MB as numbers, and several times that in the making."""
     put("spec.toml", text)
 
     def small():
-        resource.setrlimit(resource.RLIMIT_DATA, (120 << 20, 120 << 20))
+        most = 150 << 20 if command.startswith("vibration") else 120 << 20
+        resource.setrlimit(resource.RLIMIT_DATA, (most, most))
 
-    arguments = ["motion", "spec.toml", "--samples", str(SAMPLES_MAX // 2), "-o", "out.csv"]
+    name, *options = command.split()
+    arguments = [name, "spec.toml", *options, "--samples", str(SAMPLES_MAX // 2), "-o", "out.csv"]
     found = subprocess.run([GENEVA, *arguments], capture_output=True, text=True, preexec_fn=small)
     assert (found.returncode, found.stderr) == (0, "")
     with open("out.csv") as file:

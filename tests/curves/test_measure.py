@@ -13,7 +13,15 @@ from scipy.integrate import quad
 from shapely.geometry import LineString, Point, Polygon
 
 from geneva_cli.curves.drawing import Drawing, extent
-from geneva_cli.curves.measure import area, at, bounds, halves, segment_length, turned
+from geneva_cli.curves.measure import (
+    area,
+    at,
+    bounds,
+    fraction_at,
+    halves,
+    segment_length,
+    turned,
+)
 from geneva_cli.curves.shapes import Arc, Circle, Contour, Cubic, Line, about, closed
 from geneva_cli.errors import GenevaError
 
@@ -34,6 +42,23 @@ def on_circle(arc, share):
     (x, y), r = arc.centre, arc.radius
     start = math.atan2(arc.start[1] - y, arc.start[0] - x) + share * arc.sweep
     return x + r * math.cos(start), y + r * math.sin(start)
+
+
+@QUICK
+@given(st.floats(-15.9, 0.7), st.sampled_from((-1.0, 1.0)), st.floats(0.0, 1.0), st.floats(0, 6.2))
+def test_the_fraction_at_a_point(size, sense, fraction, turn):
+    """Arcs of a chord of 40 mm, with radii from 20 mm to 1e17 mm, against circles of 50 digits."""
+    bulge = sense * 10.0**size
+    start, end = (3.0, 4.0), (3.0 + 40.0 * math.cos(turn), 4.0 + 40.0 * math.sin(turn))
+    with mpmath.workdps(50):
+        # the circle through both ends: its centre is on the chord's normal through the middle
+        chord, b = mpmath.mpc(*end) - mpmath.mpc(*start), mpmath.mpf(bulge)
+        sweep = 4 * mpmath.atan(b)
+        centre = mpmath.mpc(*start) + chord / 2 * (1 + 1j * (1 - b * b) / (2 * b))
+        there = centre + (mpmath.mpc(*start) - centre) * mpmath.expjpi(sweep * fraction / mpmath.pi)
+        point = float(there.real), float(there.imag)
+    # coordinates are rounded by 4e-15 mm, of at least 40 mm of length
+    assert fraction_at(Arc(start, end, bulge), point) == pytest.approx(fraction, abs=4e-15)
 
 
 @QUICK

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from witness import near
 
-from geneva_cli.numerics.roots import Falsi, boundary, least, root
+from geneva_cli.numerics.roots import Falsi, boundary, boundary_by_sections, least, root
 
 
 def calls(f):
@@ -79,6 +79,30 @@ def test_boundary():
     with localcontext(Context(prec=50)):
         root = boundary(lambda x: x * x <= 2, Decimal(1), Decimal(2))
         assert 0 <= Decimal(2).sqrt() - root < Decimal("1e-48")
+
+
+@pytest.mark.parametrize(
+    ("margin", "good", "bad", "most"),
+    [
+        (lambda x: 2.0 - x * x, 1.0, 2.0, 5),
+        (lambda x: x * x - 2.0, 2.0, 1.0, 5),
+        (np.cos, 0.0, 3.0, 5),
+        (lambda x: np.exp(-x) - 1e-3, 0.0, 100.0, 7),
+        (lambda x: 1e-9 - x**3, 0.0, 5.0, 8),  # flat where it is positive
+        (lambda x: np.where(x < 0.7, 1.0, -1.0), 0.0, 1.0, 12),  # a leap: 1/32 of it each time
+    ],
+)
+def test_boundary_by_sections(margin, good, bad, most):
+    """The number that halving reaches, in a few calls."""
+    counted, seen = calls(margin)
+    exact = boundary(lambda x: bool(margin(np.float64(x)) > 0.0), good, bad)
+    assert boundary_by_sections(counted, good, bad) == exact
+    assert len(seen) <= most
+
+
+def test_boundary_by_sections_without_a_good_end():
+    """Where no number is good, the first end is returned."""
+    assert boundary_by_sections(lambda x: -1.0 - x, 1.0, 2.0) == 1.0
 
 
 def test_least():

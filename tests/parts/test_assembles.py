@@ -307,7 +307,8 @@ def test_a_planets_arm_and_carrier_have_one_shaft(tmp_path):
     # rp = L sin b / (c² - 1) for z = 4 in a ring, c = 1 - 4; the pin's hole has r/2
     room = 100.0 * math.sqrt(0.5) / 8.0 - 1.52
     (shaft,) = spans(design, "shaft of carrier, planet's arm, planet")
-    assert 2.0 * shaft[0] == pytest.approx(math.floor(20.0 * 0.35 * room) / 10.0) == 5.1
+    assert 2.0 * shaft[0] == pytest.approx(5.0)
+    assert 5.0 < 2.0 * 0.35 * room < 6.0  # the next bore of bearings
     for name in ("carrier", "planet's arm", "planet"):
         assert any(bore == 2.0 * shaft[0] for bore in bores(design, name))
     assert not refused_by_a_check(design)
@@ -344,7 +345,7 @@ def test_links_on_the_cranks_shaft_have_its_bore(tmp_path):
     """``link_bore_mm`` bores for shafts that carry links alone, and is refused without one."""
     design = of(tmp_path, SIDE.format(z=6, A=0.6), "size.link_bore_mm=4")
     ((radius, *_),) = spans(design, "crank's shaft")
-    assert 2.0 * radius == pytest.approx(9.6)
+    assert 2.0 * radius == 9.0  # the bore of bearings below 9.6 mm
     assert bores(design, "coulisse") == bores(design, "arm")[:1] == [2.0 * radius]
     assert 4.0 in bores(design, "input crank")
     cam = of(tmp_path, template("cam"), "size.link_bore_mm=4")
@@ -379,7 +380,7 @@ def test_a_given_crank_shaft_goes_through_all_that_is_on_it(tmp_path):
     own = of(tmp_path, "wheel = {z = 6}", "shaft.crank_diameter_mm=8", "size.crank_bore_mm=6")
     assert bores(own, "frame")[1] == bores(own, "arm")[0] == 2.0 * spans(own, "crank's shaft")[0][0]
     thick = of(tmp_path, "wheel = {z = 6}", "shaft.wheel_diameter_mm=30")
-    assert bores(thick, "frame")[0] == bores(thick, "wheel")[0] == 16.0
+    assert bores(thick, "frame")[0] == bores(thick, "wheel")[0] == 30.0
 
 
 def test_the_crank_of_gears_has_a_shaft_without_an_arm(tmp_path):

@@ -53,6 +53,16 @@ def test_slots_are_wider_than_the_disc_by_their_clearance(tmp_path, name, kerf):
     assert all(s.bounds[3] - s.bounds[1] + 2.0 * half > 3.99 * sizes.roller for s in slots)
 
 
+def test_a_thick_plate_has_steps_about_its_own_clearance(tmp_path):
+    """18 mm by laser: 0.4 mm a side and 0.4 of press fit, with 0.3 and 0.5 beside them."""
+    sizes, found = written(tmp_path, "turret", settings=("size.process=laser",))
+    _, *slots = sorted(found["COUPON"], key=lambda shape: -shape.area)
+    clear = [0.5 * (s.bounds[2] - s.bounds[0]) - sizes.roller for s in slots]
+    assert sorted(round(c, 6) for c in clear)[-3:] == [0.3, 0.4, 0.5]
+    wide = min(s.bounds[2] - s.bounds[0] for s in found["BORE"])
+    assert round(2.0 * sizes.pin - wide, 6) == 0.5
+
+
 @pytest.mark.sampled(2)
 @pytest.mark.parametrize("kerf", [None, 1.0])
 @pytest.mark.parametrize("name", ["turret", "three-slots"])

@@ -12,7 +12,7 @@ from geneva_cli.curves.plates import plates
 from geneva_cli.curves.shapes import Circle
 from geneva_cli.errors import GenevaError
 from geneva_cli.layout.hole_walls import least_wall
-from geneva_cli.layout.sizes import wall_min
+from geneva_cli.layout.plain_sizes import wall_min
 
 # The pivots of the parts list whose shafts reach the frame, of each kind of drive. The crank of a
 # side-crank ends above the input crank, and the wheel's shaft of the four-bar above the wheel.
@@ -52,7 +52,8 @@ def test_a_hole_for_every_shaft_that_reaches_it(name):
     for pivot, hole in zip(STANDING[name], holes, strict=False):
         at = pivots[pivot]["x_mm"], pivots[pivot]["y_mm"]
         assert hole.centre == pytest.approx(at, abs=1e-9)
-    marks = [shape.segments[0] for shape in drawing.shapes if shape.layer == "CENTER"]
+    marked = design.drawing("frame", centre_marks=True)
+    marks = [shape.segments[0] for shape in marked.shapes if shape.layer == "CENTER"]
     middles = [(0.5 * (a[0] + b[0]), 0.5 * (a[1] + b[1])) for a, b in marks[::2]]
     assert middles == [pytest.approx(hole.centre) for hole in holes]
 

@@ -26,7 +26,7 @@ from geneva_cli.collisions.gaps import Gaps, WorkLimit
 from geneva_cli.collisions.smallest import positions
 from geneva_cli.curves.measure import turned as turned_contour
 from geneva_cli.curves.shapes import Arc, Contour, Line, Segment, about, closed
-from geneva_cli.drawings import model
+from geneva_cli.drawings.model import PartsModel
 from geneva_cli.errors import GenevaError
 from geneva_cli.layout.reliefs import reliefs
 from geneva_cli.outlines.outlines import Outlines
@@ -59,7 +59,7 @@ def overlaps(found: Outlines, count: int = 60) -> Iterator[float]:
 @pytest.mark.parametrize("file", ["press-curved", "internal-z6", "cam-geneva", "three-rollers-z4"])
 def test_the_crank_is_as_near_to_some_pieces_of_the_wheel_as_to_all(file, monkeypatch):
     """With the wheel in place, where most gaps are 0, and turned on, where parts overlap."""
-    parts = model.PartsModel(load(str(repo.DESIGNS / f"{file}.toml"))).outlines
+    parts = PartsModel(load(str(repo.DESIGNS / f"{file}.toml"))).outlines
     pose = parts.gaps.pose(positions(parts)[::5])
     leads = (0.0, 0.003, 0.05)
     some = [parts.gaps.locking(pose, lead) for lead in leads]
@@ -146,7 +146,7 @@ FLAT = [path for path in DESIGNS if load(str(path)).spec.is_flat]
 @pytest.mark.parametrize("path", FLAT, ids=lambda p: p.stem)
 def test_every_flat_design_turns(path: Path) -> None:
     """As all commands have its parts and their turn."""
-    parts = model.PartsModel(load(str(path)))
+    parts = PartsModel(load(str(path)))
     found, turn = parts.outlines, parts.turn
     assert passes(found, turn)
     assert not list(overlaps(found, 20))
@@ -497,8 +497,8 @@ def test_a_turn_that_is_not_proved_is_not_tried_again(monkeypatch):
         tries.append(found)
         raise WorkLimit("not within the budget")
 
-    monkeypatch.setattr(model, "full_turn", unproved)
-    one = model.PartsModel(made(6).assembly.mechanism)
+    monkeypatch.setattr("geneva_cli.collisions.full_turn.full_turn", unproved)
+    one = PartsModel(made(6).assembly.mechanism)
     for _ in range(2):
         with pytest.raises(WorkLimit):
             _ = one.turn

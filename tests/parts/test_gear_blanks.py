@@ -50,7 +50,7 @@ def test_elliptical_gears_are_ellipses_that_turn_about_a_focus():
     mass = RHO * math.pi * a * b * thick * 1e-9
     whole = np.array([mass, mass * ((a * a + b * b) / 4.0 + c * c) * 1e-6])
     of = design("elliptical-gears")
-    for name, bore in (("driven gear", 14.0), ("driver gear", 16.0)):
+    for name, bore in (("driven gear", 12.0), ("driver gear", 15.0)):
         assert found(of, name) == pytest.approx(whole - disc(bore / 2.0, thick), rel=FITTED)
 
 
@@ -60,8 +60,8 @@ def test_noncircular_gears_are_what_their_radii_sweep():
     at = dict(zip(*_columns(of), strict=True))
     thick = 16.0
     for name, bore, r, turn in (
-        ("driven gear", 14.0, at["driven_radius_mm"], at["crank_deg"]),
-        ("driver gear", 16.0, at["driver_radius_mm"], at["input_deg"]),
+        ("driven gear", 12.0, at["driven_radius_mm"], at["crank_deg"]),
+        ("driver gear", 15.0, at["driver_radius_mm"], at["input_deg"]),
     ):
         # trapezoids of a period by the input's angle, dturn = ratio dinput: exact beyond digits
         slope = at["ratio"][:-1] if turn is at["crank_deg"] else np.ones(len(r) - 1)
@@ -84,7 +84,7 @@ def test_planet_and_sun_are_discs_with_their_holes():
     of = design("epicyclic-z4")
     R0 = 120.0 * math.sqrt(0.5) * 25.0 / 24.0
     assert found(of, "planet") == pytest.approx(disc(R0 / 5.0, 12.0) - disc(6.0, 12.0), rel=1e-12)
-    sun, bore, bolt = 4.0 * R0 / 5.0, 13.5, 1.5
+    sun, bore, bolt = 4.0 * R0 / 5.0, 12.5, 1.5
     far = (sun + bore) / 2.0
     holes = 4.0 * disc(bolt, 12.0)
     holes[1] += holes[0] * far * far * 1e-6  # Steiner
@@ -95,8 +95,8 @@ def test_planet_and_sun_are_discs_with_their_holes():
 def test_gear_sectors_are_hub_and_sectors():
     """L = 120, u = 1: three sectors of 60 degrees on the wheel, one on the crank."""
     of, r = design("gear-sector"), 60.0
-    # as wide as the shafts of wheel and arm; hubs are 1.6 times that
-    for name, count, hub, bore in (("wheel gear", 3, 16.0, 10.0), ("crank gear", 1, 10.0, 6.5)):
+    # as wide as the shafts of wheel and arm; hubs are some 1.6 times that
+    for name, count, hub, bore in (("wheel gear", 3, 15.0, 10.0), ("crank gear", 1, 9.0, 6.0)):
         share = count * 60.0 / 360.0
         whole = share * disc(r, 12.0) + (1.0 - share) * disc(hub, 12.0) - disc(bore, 12.0)
         assert found(of, name) == pytest.approx(whole, rel=1e-12)
@@ -190,9 +190,9 @@ def test_refusals(z, drive, keys, said):
     ("keys", "gap"),
     [
         # the driven gear, to 65/100 of the gears' distance from the crank's axis, and the wheel's
-        # shaft of 26 mm, 160 mm off; or the driver, likewise, and the crank's shaft of 14 mm
-        ({"drive.gear_distance_mm": 240.0}, 160.0 - 0.65 * 240.0 - 13.0),
-        ({"drive.eccentricity": 0.95}, 50.0 * 0.05 - 7.0),
+        # shaft of 25 mm, 160 mm off; or the driver, likewise, and the crank's shaft of 17 mm
+        ({"drive.gear_distance_mm": 240.0}, 160.0 - 0.65 * 240.0 - 12.5),
+        ({"drive.eccentricity": 0.95}, 50.0 * 0.05 - 8.5),
     ],
 )
 def test_gears_that_meet_a_shaft_fail_their_check(keys, gap):

@@ -14,6 +14,7 @@ from words import Drive, Keys, Motion, Spec, Wheel, points
 from geneva_cli import Design, External, Internal, NoncircularGears, load
 from geneva_cli.curves.measure import segment_length
 from geneva_cli.curves.shapes import Circle, Contour
+from geneva_cli.drawings.centre_marks import with_centre_marks
 from geneva_cli.errors import GenevaError
 from geneva_cli.kinematics import registry
 from geneva_cli.layout.assembly import assembly
@@ -121,9 +122,10 @@ def test_gears_have_bores_at_their_axes_and_marks():
     _, drawing = drawn("noncircular-gears", "arcs")
     bores = [shape for shape in drawing.shapes if isinstance(shape, Circle)]
     assert [bore.centre for bore in bores] == [(0.0, 0.0), (120.0, 0.0)]
-    marks = [shape for shape in drawing.shapes if shape.layer == "CENTER"]
+    marked = with_centre_marks(drawing)
+    marks = [shape for shape in marked.shapes if shape.layer == "CENTER"]
     assert len(marks) == 2 * len(bores)
-    assert drawing.layers == ("PITCH", "BORE", "CENTER")
+    assert marked.layers == (*drawing.layers, "CENTER") == ("PITCH", "BORE", "CENTER")
     with pytest.raises(GenevaError, match='--part gears: kind = "crank" has no gears'):
         Design(External(6)).drawing("gears")
 

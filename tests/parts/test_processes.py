@@ -1,18 +1,24 @@
 """Clearances by the way in which parts are made."""
 
 import math
+import re
 
+import numpy as np
 import pytest
 from repo import DESIGNS
 from typer.testing import CliRunner
 
-from geneva_cli import Design, External, Size
+from geneva_cli import Design, External, Size, load
 from geneva_cli.app import app
 from geneva_cli.errors import GenevaError
 from geneva_cli.layout.assembly import assembly
 from geneva_cli.layout.sizes import sizes
+from geneva_cli.machine.many import many
 from geneva_cli.machine.mechanism import build
+from geneva_cli.spec.iso_9013 import deviation_mm
 from geneva_cli.spec.processes import PROCESSES
+from geneva_cli.spec.workshops import workshop
+from geneva_cli.verdict.checks.check import Check
 from geneva_cli.verdict.report.inputs import inputs
 from geneva_cli.verdict.report.sizes import sizes as report_sizes
 
@@ -38,11 +44,152 @@ def test_fits_of_a_mill_are_the_middle_of_the_standards() -> None:
     assert least - 0.5 <= 1e3 * mill.press_fit_mm <= least + 5.0
 
 
+# Class 1 of ISO 9013:2017, by the greatest thickness: nominal sizes of 3, 10, 35 and 125 mm and
+# more, as modulusmetal.com/iso-9013-thermal-cutting-dimensional-tolerances prints them.
+CLASS_1 = """
+1    0.10 0.10 0.20 0.20
+3.15 0.15 0.20 0.25 0.25
+6.3  0.20 0.25 0.25 0.30
+10   0.25 0.30 0.30 0.35
+15   0.30 0.35 0.40 0.45
+20   0.40 0.40 0.45 0.55
+25   0.45 0.50 0.60 0.70
+32   -    0.70 0.70 0.80
+50   -    0.7  0.70 0.8
+100  -    1.3  1.3  1.4
+"""
+
+
+def test_deviations_of_a_cut_are_the_standards() -> None:
+    """At the ends of each range, one by one and all at once."""
+    rows = [line.split() for line in CLASS_1.split("\n") if line]
+    cases = [
+        (float(most) - inside, size, float(value))
+        for most, *values in rows
+        for value, low, high in zip(
+            values, (3, 10, 35, 125), (9.9, 34.9, 124.9, 314.9), strict=True
+        )
+        for inside in (0.0, 0.01)
+        for size in (low, high)
+        if value != "-"
+    ]
+    assert [deviation_mm(thick, size) for thick, size, _ in cases] == [v for *_, v in cases]
+    thick, size, value = np.array(cases).T
+    assert (deviation_mm(thick, size) == value).all()
+    assert deviation_mm(10.001, 20.0) == 0.35
+
+
+def test_a_lasers_clearances_follow_its_plates() -> None:
+    """Each mate is off by its deviation, half of it a side: wheel 18 mm, disc 6, arm 3."""
+    size = Size(
+        250.0,
+        12.0,
+        process="laser",
+        wheel_thickness_mm=18.0,
+        lock_thickness_mm=6.0,
+        arm_thickness_mm=3.0,
+        lock_radius_mm=70.0,
+        pin_mm=8.0,
+    )
+    assert size.allowances[:3] == (0.4, 0.5 * (0.55 + 0.3), 0.15)
+    assert Size(250.0, 12.0, process="laser").allowances[:3] == (0.5, 0.7, 0.5)  # 25 mm
+    thin = Size(250.0, 12.0, process="laser", face_width_mm=3.0)
+    assert thin.allowances[:3] == (0.2, 0.25, 0.2)
+
+
+def test_a_batch_has_the_clearances_of_its_designs() -> None:
+    far = np.array([30.0, 100.0, 400.0])
+    spec = Design(External(6), size=Size(process="laser")).spec
+    batch = many(spec, {"size.center_distance_mm": far}).machine.spec.size.allowances
+    for i, L in enumerate(far):
+        one = Size(float(L), process="laser").allowances
+        for key in ("slot_clearance_mm", "lock_clearance_mm", "press_fit_mm"):
+            assert float(getattr(batch, key)[i, 0]) == getattr(one, key)
+
+
+def turret(*settings: str) -> Design:
+    return load(str(DESIGNS / "turret.toml"), settings)
+
+
+def named(design: Design) -> dict[str, Check]:
+    return {check.name: check for check in design.checks}
+
+
+def test_limits_of_a_laser() -> None:
+    """40 mm is no plate for it, and a slot of 25.4 mm narrow for that; both have a remedy."""
+    thick = named(turret("size.process=laser", "size.wheel_thickness_mm=40"))
+    assert (thick["cut_plate_mm"].value, thick["cut_plate_mm"].limit) == (40.0, 32.0)
+    assert thick["cut_plate_mm"].passes is False
+    slot = thick["cut_slot_mm"]
+    assert (slot.value, slot.limit) == (pytest.approx(24.0 + 1.4), pytest.approx(28.0))
+    assert slot.passes is False
+    assert "wheel_thickness_mm = 32" in slot.nearest
+    usual = named(turret("size.process=laser"))
+    assert usual["cut_plate_mm"].passes
+    assert usual["cut_slot_mm"].passes
+    assert not {"cut_plate_mm", "cut_slot_mm"} & {
+        *named(turret()),
+        *named(turret("size.process=mill")),
+    }
+
+
+def test_holes_that_a_laser_cuts_badly_are_named() -> None:
+    """Plates of 18 mm need 12.6 mm: the mounting holes of 10 mm are the smallest for theirs."""
+    texts = {text.name: str(text) for text in turret("size.process=laser").warnings}
+    assert "frame Ø 10, " in texts["small-hole"]
+    assert "make the frame at most 14.29 mm thick" in texts["small-hole"]
+    thin = turret("size.process=laser", "size.face_width_mm=12").warnings
+    assert "small-hole" not in {text.name for text in thin}
+
+
+def test_a_clearance_for_another_thickness_is_named() -> None:
+    """A four-bar's centre distance, and so its plates of 11.95 mm, are solved for."""
+    four_bar = load(str(DESIGNS / "four-bar-z4.toml"), ("size.process=laser",))
+    texts = [str(text) for text in four_bar.warnings if text.name == "narrow-for-process"]
+    assert len(texts) == 1
+    assert "slot_clearance_mm = 0.25" in texts[0]
+    assert texts[0].endswith("set slot_clearance_mm to 0.3")
+    told = load(
+        str(DESIGNS / "four-bar-z4.toml"), ("size.process=laser", "size.slot_clearance_mm=0.2")
+    )
+    assert "narrow-for-process" not in {text.name for text in told.warnings}
+
+
+def test_printed_walls_are_two_lines_of_a_nozzle() -> None:
+    small = Size(20.0, process="print")
+    assert {c.limit for c in Design(External(6), size=small).checks if c.name == "horn_mm"} == {0.8}
+    own = small.replace(wall_min_mm=0.5)
+    assert {c.limit for c in Design(External(6), size=own).checks if c.name == "horn_mm"} == {0.5}
+
+
+TEXTS = {
+    None: ("8× 24 H7 (+0.021/0)", "Ø 24 g6 (-0.007/-0.02)", "Ø 41 h6 (0/-0.016)", "ISO 2768-m"),
+    "mill": ("8× 24.04 H7 (+0.021/0)", "Ø 24 h6 (0/-0.013)", "Ø 41 h6 (0/-0.016)", "Ra 3.2"),
+    "laser": ("8× 24.8 ±0.4", "Ø 24 ±0.4", "Ø 41 h6 (0/-0.016)", "ISO 9013 class 1"),
+    "print": ("8× 24.5", "Ø 24", "Ø 41", "±0.2 mm"),
+}
+
+
+@pytest.mark.parametrize("process", TEXTS)
+def test_a_sheet_writes_what_the_process_holds(process: str | None) -> None:
+    """Slot, roller, shaft, and a field of the title block; a printed part has no fit at all."""
+    sheet = turret(*([f"size.process={process}"] if process else [])).sheet(0.05)
+    texts = {label.text for label in sheet.texts}
+    assert set(TEXTS[process]) <= texts
+    fits = {text for text in texts if re.search(r"[A-Za-z]\d \(", text)}
+    cuts = {text for text in texts if re.search(r"Ø .* ±", text)}
+    assert bool(fits) == (process != "print")
+    assert bool(cuts) == (process == "laser")
+    said = any(text.startswith("clearance a side: ") for text in texts)
+    assert said == (process is not None)
+
+
 @pytest.mark.parametrize("process", PROCESSES)
 def test_a_process_is_its_keys(process: str) -> None:
-    keys = PROCESSES[process]._asdict()
+    keys = Size(process=process).allowances._asdict()
     source = keys.pop("source")
-    named, spelled = Design(External(6), size=Size(process=process)), Size(**keys)
+    wall = workshop(process).wall_mm or None
+    named, spelled = Design(External(6), size=Size(process=process)), Size(wall_min_mm=wall, **keys)
     assert named.spec.size.allowances[:3] == spelled.allowances[:3]
     where = assembly(named.mechanism)
     assert sizes(where) == sizes(assembly(Design(External(6), size=spelled).mechanism))
@@ -59,7 +206,7 @@ def test_a_key_that_is_given_wins() -> None:
 
 def test_a_clearance_that_leaves_no_machine_says_whose_it_is() -> None:
     tiny = Size(process="laser", center_distance_mm=0.3)
-    with pytest.raises(GenevaError, match=r"slot_clearance_mm = 0.2: .*; the value comes from"):
+    with pytest.raises(GenevaError, match=r"press_fit_mm = 0.075: .*; the value comes from"):
         build(Design(External(6), size=tiny).spec)
 
 
@@ -70,7 +217,7 @@ def test_the_option_sets_the_key() -> None:
         assert run.exit_code == 0, run.stderr
         return run.stdout
 
-    keys = PROCESSES["laser"]
+    keys = Size(250.0, 12.0, process="laser", face_width_mm=18.0).allowances
     spelled = written("--set", f"size.slot_clearance_mm={keys.slot_clearance_mm}")
     assert written("--set", "size.process=laser") == spelled != written()
     wrong = CliRunner().invoke(

@@ -8,29 +8,34 @@ import numpy as np
 import pytest
 import repo
 import shapely
+from drawing_witness import vertices
 from shapely import affinity
 from shapely.geometry import LineString, Polygon
-from sheet_witness import assert_as_listed, assert_measured, beyond, overlaps
+from sheet_witness import assert_as_listed, assert_measured, beyond, crossings, overlaps
 from words import Drive, Keys, Motion, Spec, Wheel
 
 from geneva_cli import load
 from geneva_cli.curves import marks
 from geneva_cli.curves.board import Board
+from geneva_cli.curves.shapes import Contour, Line
 from geneva_cli.curves.sheet import Label
 from geneva_cli.curves.sphere import place
 from geneva_cli.design import Design
+from geneva_cli.drawings.sheet.cut import faces, positioned
 from geneva_cli.drawings.sheet.paper import FORMATS, SCALES
 from geneva_cli.drawings.sheet.points import gear_tables, polyline, tables
 from geneva_cli.drawings.sphere.drawings import wheel_cone
 from geneva_cli.drawings.sphere.sheet import flat_slot
 from geneva_cli.errors import GenevaError
 from geneva_cli.parts.links import drawn_links
-from geneva_cli.spec.tables import Size, Tolerance
+from geneva_cli.spec.tables import RollerMaterial, Size, TitleBlock, Tolerance, WheelMaterial
 
 pytestmark = pytest.mark.usefixtures("made_once")
 DESIGNS = sorted(repo.DESIGNS.glob("*.toml"))
 
 SPHERICAL = {"spherical-z6": "shafts 90°", "spherical-60deg": "shafts 60°"}
+# a line to a recess's centre crosses an angle; a bore's arrow crosses an extension line
+CROSSED = {"three-slots": 1, "epicyclic-z4": 1}
 TOLERANCE = 0.05  # mm: coarse walls are quick, and look the same on paper
 
 
@@ -56,6 +61,7 @@ def test_no_text_of_a_design_stands_on_anything(path, sheets):
     design, found = sheets(path.stem)
     assert overlaps(found) == []
     assert beyond(found) == []
+    assert len(crossings(found)) <= CROSSED.get(path.stem, 0)
     assert (found.width, found.height) in [(f.width, f.height) for f in FORMATS]
     assert found.scale in SCALES
     assert_measured(found)
@@ -143,10 +149,99 @@ def test_the_roller_turns_on_a_pin_that_the_arm_holds():
         assert "turns on its pin Ø 6 h6 (0/-0.008), which is pressed in" in labels
 
 
-def test_a_list_of_parts_that_is_too_long_for_its_field_is_referred_to(sheets):
-    texts = {label.text for label in sheets("four-bar-z4")[1].labels}
-    assert "see list" in texts
-    assert not any(text.endswith("...") for text in texts)
+FIELDS = ("drawing number", "revision", "date", "author", "roughness")
+
+
+def under(found, heading):
+    """The text of the title block's field with a heading; None if it is empty."""
+    at = next(label.at for label in found.labels if label.text == heading)
+    below = (at[0], pytest.approx(at[1] - 5.4))
+    return next((label.text for label in found.labels if label.at == below), None)
+
+
+def test_fields_without_a_key_are_empty(sheets):
+    """No number, date or name is invented."""
+    found = sheets("turret")[1]
+    assert [under(found, heading) for heading in FIELDS] == [None] * len(FIELDS)
+    assert under(found, "edges") == "free of burrs"
+    assert under(found, "faces that roll, slide, lock") is None
+
+
+def test_the_title_block_has_the_keys_of_drawing():
+    block = TitleBlock("G-106", "B", "M. Muster", "2026-11-27", 3.2, 1.6, 58.0, 0.3)
+    steel = WheelMaterial(grade="42CrMo4"), RollerMaterial(grade="100Cr6")
+    found = of(Spec(Wheel(6), drawing=block, material_wheel=steel[0], material_roller=steel[1]))
+    shown = [under(found, heading) for heading in FIELDS]
+    assert shown == ["G-106", "B", "2026-11-27", "M. Muster", "Ra 3.2"]
+    assert under(found, "edges") == "ISO 13715: -0.3"
+    assert under(found, "faces that roll, slide, lock") == "Ra 1.6, 58 HRC"
+    texts = [label.text for label in found.labels]
+    assert (texts.count("42CrMo4"), texts.count("100Cr6")) == (6, 2)
+    assert under(found, "material") == "see list"
+
+
+@pytest.mark.sampled(8)
+@pytest.mark.parametrize("path", DESIGNS, ids=lambda p: p.stem)
+def test_no_dimension_is_without_a_place_on_a_designs_sheet(path, sheets):
+    """One that fits nowhere stands below its view, as a bare number or a diameter."""
+    _, found = sheets(path.stem)
+    alone = r"(\d+× )?(Ø |R |L = )?[\d.]+( [HgPFh]\d \(.*| ±.*|°)?"
+    cells = [label.at[0] for label in found.labels]  # of tables, numbers stand in columns
+    below = [m for m in found.labels if re.fullmatch(alone, m.text) and cells.count(m.at[0]) == 1]
+    assert below == []
+
+
+@pytest.mark.sampled(8)
+@pytest.mark.parametrize("path", DESIGNS, ids=lambda p: p.stem)
+def test_each_item_of_the_list_has_one_balloon(path, sheets):
+    design, found = sheets(path.stem)
+    rows = [row for row in design.part_table("parts").to_rows() if row["row"] == "part"]
+    # a circle of two arcs about a number, with a leader
+    circled = [m.label.text for m in found.measures if len(m.main_lines) == 3]
+    assert sorted(map(int, circled)) == list(range(1, len(rows) + 1))
+
+
+@pytest.mark.parametrize("name", ["turret", "internal-z6", "cam-geneva", "side-crank-z6"])
+def test_the_section_shows_what_the_plane_of_the_axes_cuts(name, sheets):
+    """Against the polygons of the plates at their places, cut by a line in shapely."""
+    parts = sheets(name)[0].drawn(TOLERANCE).flat.within(TOLERANCE, "arcs")
+    cut = faces(parts.members, 1.0)
+    for own, plate in positioned(parts.members):
+        rings = [vertices(shape, 0.01) for shape in (plate.outline, *plate.holes)]
+        solid = Polygon(rings[0], rings[1:])
+        x0, _, x1, _ = solid.bounds
+        # a little beside the axis, since walls of slots may lie on it
+        chord = solid.intersection(LineString([(x0 - 1.0, 1e-7), (x1 + 1.0, 1e-7)]))
+        shown = [face for face in cut if face.plate == own]
+        if shown and name != "side-crank-z6":
+            assert len(shown) == len(getattr(chord, "geoms", [chord]))
+        copies = sum(1 for other, _ in positioned(parts.members) if other == own)
+        if copies == 1:
+            # chords of 1.5 mm have sagittas of 0.06 mm on 5 mm, at a crossing aslant more
+            length = sum(face.right - face.left for face in shown)
+            assert length == pytest.approx(chord.length, abs=0.3)
+
+
+def test_the_assembly_shows_where_the_section_is(sheets):
+    """An arrow beyond each end of the line of centres, upwards, with the section's letter."""
+    _, found = sheets("turret")
+    marks_ = [m for m in found.measures if m.label.text == "A"]
+    assert "A-A (1:2)" in {label.text for label in found.labels}
+    (left,), (right,) = ([m.arrows[0] for m in one] for one in (marks_[:1], marks_[1:]))
+    assert left.tip[1] == right.tip[1]
+    assert left.turn == right.turn == 0.5 * math.pi
+    (L,) = (m for m in found.measures if m.label.text.startswith("L = "))
+    assert left.tip[0] < min(p[0] for p in L.points[:2])
+    assert right.tip[0] > max(p[0] for p in L.points[:2])
+    assert L.points[0][1] == pytest.approx(left.tip[1])
+
+
+def test_a_keyways_direction_is_on_the_sheet():
+    """The crank's keyway of this machine lies opposite to its roller."""
+    size = Size(77.7, lock_bolts=3, crank_bore_mm=12.0, crank_keyway="DIN 6885-1")
+    found = of(Spec(Wheel(8), size=size))
+    texts = [label.text for label in found.labels]
+    assert "keyway at 180°, counterclockwise from the right" in texts
 
 
 LENGTHS = {
@@ -303,6 +398,27 @@ def test_a_link_without_a_round_hole_has_a_view(wheel, A):
     assert_measured(found)
 
 
+def test_dimensions_stay_clear_of_each_other_in_a_narrow_bore(sheets):
+    """250 and 141.729 of the turret once met in its bore, arrow on arrow."""
+    _, found = sheets("turret")
+    texts = {m.label.text for m in found.measures}
+    assert {"250", "141.729"} <= texts
+    assert crossings(found) == []
+
+
+def test_a_leader_is_not_drawn_along_an_edge():
+    """A line under a text that is nearly in the edge's direction, 1 mm away, is not used."""
+    edge = Contour("", (Line((-40.0, 6.0), (40.0, 6.5)),), closed=False)
+    board = Board()
+    board.draw(edge)
+    tries = list(marks.diameter((0.0, 0.0), 1.0, marks.around(), "Ø 2", 2.0))
+    leader = board.first(tries).main_lines
+    whole = LineString([p for piece in leader for p in piece])
+    assert all(whole.distance(shapely.Point(x, 6.0 + (x + 40.0) / 160.0)) > 1.2 for x in (-8, 8))
+    shelf = LineString(leader[1])
+    assert shelf.distance(LineString(edge.segments[0])) > 1.4
+
+
 def test_the_comparison_can_fail():
     found = of(Spec(Wheel(6)))
     on = found.measures[0].lines[0].start
@@ -311,6 +427,8 @@ def test_the_comparison_can_fail():
     m = found.measures[0]
     with pytest.raises(AssertionError):
         assert_measured(found._replace(measures=(m._replace(value=2.0 * m.value),)))
+    twice = (*found.measures, m._replace(label=m.label._replace(text="again")))
+    assert ("again", m.label.text) in crossings(found._replace(measures=twice))
 
 
 def test_refusals():

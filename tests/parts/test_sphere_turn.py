@@ -192,8 +192,8 @@ def least_beside(**given):
 def test_a_shaft_through_the_centre_to_where_the_crank_comes_round():
     """The rollers are nearest to the centre, from 76 mm on, where the shaft is widest."""
     ball, least = least_beside(axes=168.0, wheel_shaft_high_mm=200.0)
-    apart = math.radians(12.0) - ball.arm - ball.roller - math.asin(0.5 * 13.0 / 76.0)
-    assert ball.bore_mm == 6.5
+    apart = math.radians(12.0) - ball.arm - ball.roller - math.asin(0.5 * 12.0 / 76.0)
+    assert ball.bore_mm == 6.0
     assert (least.shaft, least.part) == ("wheel's shaft", "roller")
     assert least.gap == pytest.approx(76.0 * apart, rel=1e-12)
     assert least.gap < 0.0

@@ -1,8 +1,8 @@
 """Drawing sheets of random machines: `python tests/stress/fuzz_sheets.py --runs 5000 --jobs 2`.
 
 Each is refused with a place in its spec, or all on it is inside the frame, no text stands on
-another or on a line, each dimension says what it spans, and the list of items is the list of parts;
-and it is written as SVG, DXF and PDF, which other readers take.
+another or on a line, few dimensions cross, each dimension says what it spans, and the list of items
+is the list of parts; and it is written as SVG, DXF and PDF, which other readers take.
 """
 
 import io
@@ -13,7 +13,7 @@ import ezdxf
 from fuzz_machines import machine_text
 from fuzz_spec import read
 from fuzzing import campaign, strictly
-from sheet_witness import assert_as_listed, assert_measured, beyond, overlaps
+from sheet_witness import assert_as_listed, assert_measured, beyond, crossings, overlaps
 
 from geneva_cli.curves.sheet import DIMENSION
 from geneva_cli.design import Design
@@ -36,10 +36,14 @@ def one(text):
         try:
             made = design.sheet(TOLERANCE * found.center_distance_mm / 100.0)
         except GenevaError as error:
-            assert error.key or "--" in str(error), f"no place: {error}"
+            # of a machine that jams, walls may leap: `profile` refuses it before it draws
+            known = error.key or "--" in str(error) or "roller and slot overlap" in str(error)
+            assert known, f"no place: {error}"
             return "no sheet"
         assert overlaps(made) == []
         assert beyond(made) == []
+        # a tiny wheel with many dimensions may have no place free of crossings
+        assert len(crossings(made)) <= 4
         assert_measured(made)
         if found.spec.wheel.FLAT:
             assert_as_listed(made, list(design.part_table("parts").to_rows()), CLOSE)

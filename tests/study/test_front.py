@@ -22,6 +22,23 @@ def test_no_other_row_beats_what_is_left_and_one_beats_the_rest(rows):
     assert found == [i for i, a in enumerate(rows) if not any(dominates(b, a) for b in rows)]
 
 
+@pytest.mark.parametrize("costs", [1, 2, 3, 4, 5])
+@pytest.mark.parametrize("levels", [3, 30, 10**9])
+def test_fronts_of_many_rows(costs, levels):
+    """More rows than are compared all at once, with few and with many equal costs."""
+    rows = np.random.default_rng(costs).integers(0, levels, (1200, costs)).astype(float)
+    rows[::7, -1] = np.inf
+    better = [((rows <= row).all(axis=1) & (rows != row).any(axis=1)).any() for row in rows]
+    assert best(rows) == np.flatnonzero(~np.array(better)).tolist()
+
+
+@pytest.mark.parametrize("costs", [2, 3, 4])
+def test_a_front_of_all_rows(costs):
+    """On a sphere no row beats another: each is held against few of the others."""
+    points = np.abs(np.random.default_rng(1).normal(size=(20_000, costs)))
+    assert len(best(-points / np.linalg.norm(points, axis=1)[:, None])) == 20_000
+
+
 def test_rows_without_a_number_are_none_of_them():
     rows = [(1.0, 2.0, "a"), (None, 0.0, "b"), (2.0, 1.0, "c"), (2.0, 2.0, "d")]
     assert front(rows, (0, 1), (1.0, 1.0)) == [0, 2]

@@ -10,7 +10,6 @@ from typer.testing import CliRunner
 
 from geneva_cli import GenevaError, load
 from geneva_cli.app import app
-from geneva_cli.drawings import model
 from geneva_cli.study.fields import pick
 from geneva_cli.study.survey import NAMES as TABLE
 from geneva_cli.synthesis.rows import Candidate
@@ -57,7 +56,7 @@ def test_sizes_and_walls_need_no_turn(name, monkeypatch):
     machine = load(str(repo.DESIGNS / "press-curved.toml")).mechanism
     beside = pick([name, "parts.smallest_gap_mm", "checks.gap_mm"]).of(machine)
     assert None not in beside
-    monkeypatch.setattr(model, "full_turn", None)
+    monkeypatch.setattr("geneva_cli.collisions.full_turn.full_turn", None)
     assert pick([name]).of(machine) == beside[:1]
 
 

@@ -107,7 +107,7 @@ def test_a_play_that_fails_with_more_material_fails_before_parts_are_drawn(
     machine = build(with_roller(Spec(External(24), drive, motion=motion), radius))
     whole = Turns().failing(machine)
     (true,) = [one for one in whole if one.name == "hand_over_play_deg"]
-    monkeypatch.setattr("geneva_cli.drawings.model.drawn", None)
+    monkeypatch.setattr("geneva_cli.outlines.outlines.drawn", None)
     (told,) = Turns().some_failing(machine, [])
     assert told.name == true.name
     assert 1.0 < told.ratio <= true.ratio * (1.0 + 1e-6)
@@ -120,7 +120,7 @@ def test_a_lock_of_which_nothing_is_left_is_told_before_parts_are_drawn(monkeypa
     machine = build(with_roller(Spec(External(24), Cam(), motion=motion), 5.0))
     refused = Turns().failing(machine)
     assert [one.name for one in refused] == ["lock_radius_mm"]
-    monkeypatch.setattr("geneva_cli.drawings.model.drawn", None)
+    monkeypatch.setattr("geneva_cli.outlines.outlines.drawn", None)
     assert Turns().some_failing(machine, []) == refused
 
 
@@ -129,7 +129,7 @@ def test_a_groove_without_space_for_its_plate_fails_before_parts_are_drawn(monke
     motion = Motion(ModifiedSine(), alpha0_deg=105.0)
     machines = [build(with_roller(Spec(Internal(8), Cam(), motion), r)) for r in (2.0, 0.5)]
     assert all("parts" in failing_names(machine) for machine in machines)
-    monkeypatch.setattr("geneva_cli.drawings.model.drawn", None)
+    monkeypatch.setattr("geneva_cli.outlines.outlines.drawn", None)
     for machine in machines:
         assert Turns().some_failing(machine, []) == [Failure("parts")]
 

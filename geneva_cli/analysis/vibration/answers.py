@@ -22,7 +22,7 @@ from geneva_cli.analysis.vibration.vibration import (
 )
 from geneva_cli.errors import Notice
 from geneva_cli.machine.mechanism import Mechanism
-from geneva_cli.table import Table, record_table, rows_table
+from geneva_cli.table import Table, computed_table, record_table, rows_table
 
 SPECTRUM_COLUMNS = (
     "n_rpm",
@@ -128,9 +128,14 @@ def spectrum(mechanism: Mechanism, load: Oscillator, samples: int) -> Table:
     """Table of ``samples`` speeds from half to twice the design's, in geometric progression."""
     check_samples(samples)
     n_rpm = mechanism.spec.drive.n_rpm
-    speed = n_rpm * np.geomspace(SLOWER, FASTER, samples)
-    ratio = load.ratio * (n_rpm / speed)
-    oscillators = Oscillators(mechanism, Swing(ratio, np.full(samples, load.damping)))
-    settled: object = oscillators.steady_share.max(axis=0) if load.damping else [None] * samples
-    share, turned = oscillators.share.max(axis=0), oscillators.residual_deg.max(axis=0)
-    return Table(SPECTRUM_COLUMNS, [speed, ratio, share, turned, oscillators.worst_share, settled])
+    every = n_rpm * np.geomspace(SLOWER, FASTER, samples)
+
+    def rows(begin: int, end: int) -> list[object]:
+        speed = every[begin:end]
+        ratio = load.ratio * (n_rpm / speed)
+        oscillators = Oscillators(mechanism, Swing(ratio, np.full(len(speed), load.damping)))
+        share, turned = oscillators.share.max(axis=0), oscillators.residual_deg.max(axis=0)
+        settled = oscillators.steady_share.max(axis=0) if load.damping else [None] * len(speed)
+        return [speed, ratio, share, turned, oscillators.worst_share, settled]
+
+    return computed_table(SPECTRUM_COLUMNS, samples, rows, "float64" if load.damping else "object")

@@ -32,16 +32,19 @@ def holes_of(plates: Iterable[Plate]) -> Holes:
 
 
 def bored(view: View, bores: Sequence[Shape], radius: float, standard: str | None) -> None:
-    """Draw a bore's diameter, and its keyway's size by a standard."""
+    """Draw a bore's diameter, and its keyway's size by a standard; a remark has its direction."""
     if not bores:
         return
-    view.diameter([Circle("", (0.0, 0.0), radius)], sized.bore(radius))
+    view.diameter([Circle("", (0.0, 0.0), radius)], sized.bore(view.fits, radius))
     if isinstance(bores[0], Contour):
         fitted = key(standard, radius)
         assert fitted is not None  # otherwise the bore would be a circle
-        top = bores[0].segments[3]
-        text = f"keyway {fitted.width:g} JS9, {number(2.0 * radius + fitted.in_hub)} over bore"
-        view.note(at(top, 0.5), f"{text} ({standard})")
+        middle = at(bores[0].segments[3], 0.5)
+        turn = math.degrees(math.atan2(middle[1], middle[0]))
+        fit = " JS9" if view.fits.is_iso else ""
+        text = f"keyway {fitted.width:g}{fit}, {number(2.0 * radius + fitted.in_hub)} over bore"
+        view.note(middle, f"{text} ({standard})")
+        view.remark(f"keyway at {number(turn, 2)}°, counterclockwise from the right")
 
 
 def radius_of(bore: Shape) -> float:
@@ -62,7 +65,7 @@ def bolted(view: View, screwed: Sequence[Circle]) -> None:
     if not screwed:
         return
     far = math.hypot(*screwed[0].centre)
-    text = times(len(screwed), f"{sized.bore(screwed[0].radius)} on Ø {number(2.0 * far)}")
-    view.diameter(screwed, text)
+    hole = sized.bore(view.fits, screwed[0].radius)
+    view.diameter(screwed, times(len(screwed), f"{hole} on Ø {number(2.0 * far)}"))
     angles = [math.degrees(math.atan2(c.centre[1], c.centre[0])) for c in screwed]
     view.notes.append("holes at " + ", ".join(f"{number(angle, 2)}°" for angle in angles))

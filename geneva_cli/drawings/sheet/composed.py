@@ -26,7 +26,8 @@ from geneva_cli.drawings.sheet.paper import (
 from geneva_cli.drawings.sheet.view import Block, number
 from geneva_cli.errors import GenevaError
 from geneva_cli.machine.spec import Spec
-from geneva_cli.spec.tables import Material
+from geneva_cli.spec.tables import Material, TitleBlock
+from geneva_cli.spec.workshops import Workshop, workshop
 
 
 def on_paper(
@@ -67,20 +68,33 @@ def _composed(
     blocks: list[Block],
 ) -> Sheet | None:
     """Return all blocks on one sheet; None where they do not fit."""
-    materials = [_material(spec.material_wheel), _material(spec.material_roller)]
-    fields = {
-        "scale": scale_name(scale),
-        "mass": _mass(sum(r["mass_kg"] * r["count"] for r in rows)),
-        "material": materials[0] if len(set(materials)) == 1 else "see list",
-        "tolerances": "ISO 2768-m",  # of dimensions without their own
-        "units": "mm, degrees",
-        "size": paper.name,
-        "sheet": "1/1",
-    }
-    names = ", ".join(str(row["name"]) for row in rows)
+    own, shop = spec.drawing, workshop(spec.size.process)
+    materials = [_material(one, shop) for one in (spec.material_wheel, spec.material_roller)]
+    rows_of_fields = (
+        {
+            "scale": scale_name(scale),
+            "mass": _mass(sum(r["mass_kg"] * r["count"] for r in rows)),
+            "material": materials[0] if len(set(materials)) == 1 else "see list",
+            "tolerances": shop.tolerances,
+            "units": "mm, degrees",
+            "size": paper.name,
+            "sheet": "1/1",
+        },
+        {
+            "roughness": _rough(own.roughness_um) or shop.roughness,
+            "edges": f"ISO 13715: -{own.edge_mm:g}" if own.edge_mm else "free of burrs",
+            "faces that roll, slide, lock": _working(own),
+        },
+        {
+            "drawing number": own.number or "",
+            "revision": own.revision or "",
+            "date": own.date or "",
+            "author": own.author or "",
+        },
+    )
     head = spec.title or f"Geneva wheel of {spec.wheel.z} slots"
     right, low = paper.width - MARGIN, MARGIN
-    corner = title_block(fields, head, names).moved(right - TITLE_WIDTH, low)
+    corner = title_block(head, rows_of_fields).moved(right - TITLE_WIDTH, low)
     items = _items(rows, materials)
     items = items.moved(right - items.width, corner.y1)
     area = LEFT, MARGIN, right, paper.height - MARGIN
@@ -97,6 +111,16 @@ def _composed(
         tuple(label for b in all_blocks for label in b.labels),
         tuple(m for b in all_blocks for m in b.measures),
     )
+
+
+def _rough(roughness_um: float | None) -> str:
+    return f"Ra {roughness_um:g}" if roughness_um else ""
+
+
+def _working(own: TitleBlock) -> str:
+    """Return roughness and hardness of the faces that work, as far as they are known."""
+    hard = f"{own.flank_hardness_HRC:g} HRC" if own.flank_hardness_HRC else ""
+    return ", ".join(filter(None, (_rough(own.flank_roughness_um), hard)))
 
 
 def _items(rows: list[dict[str, Any]], materials: list[str]) -> Block:
@@ -118,15 +142,17 @@ def _items(rows: list[dict[str, Any]], materials: list[str]) -> Block:
     return table((), [heading, *lines], columns)
 
 
-def _material(of: Material) -> str:
-    """Return "steel" for the default material, otherwise the density."""
+def _material(of: Material, shop: Workshop) -> str:
+    """Return the grade, or the workshop's for the default material, otherwise the density."""
+    if of.grade:
+        return of.grade
     usual = type(of)()
     same = (of.youngs_modulus_GPa, of.poisson_ratio, of.density_kgm3) == (
         usual.youngs_modulus_GPa,
         usual.poisson_ratio,
         usual.density_kgm3,
     )
-    return "steel" if same else f"{of.density_kgm3:g} kg/m³"
+    return shop.material if same and shop.material else f"{of.density_kgm3:g} kg/m³"
 
 
 def _mass(kg: float) -> str:

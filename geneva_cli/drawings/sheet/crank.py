@@ -12,7 +12,7 @@ from geneva_cli.drawings.sheet import sized
 from geneva_cli.drawings.sheet.bores import bolted, bored, circle_of, holes_of, radius_of
 from geneva_cli.drawings.sheet.standing import draw_hub
 from geneva_cli.drawings.sheet.view import View, number, times
-from geneva_cli.layout.sizes import pin_radius
+from geneva_cli.layout.sizes import drawn_pin_radius
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.numerics.tolerances import SAME_ON_SHEET
 from geneva_cli.outlines.crank import is_whole
@@ -41,7 +41,7 @@ def draw_disc(view: View, parts: FlatParts) -> None:
     locking = [
         a for a in arcs if math.hypot(*a.centre) < SAME_ON_SHEET and _is(a.radius, sizes.lock)
     ]
-    view.of_arcs(locking, sized.lock(mechanism, sizes.lock), whole=True)
+    view.of_arcs(locking, sized.lock(view.fits, mechanism, sizes.lock), whole=True)
     seen: set[tuple[str, str]] = set()
     for arc in arcs:
         if arc in locking:
@@ -104,7 +104,8 @@ def draw_arm(view: View, mechanism: Mechanism, arm: CrankArm) -> None:
         view.linear((0.0, 0.0), centre, turn, times(len(some), text), near=True)
     _between(view, arm)
     bored(view, [arm.bore], radius_of(arm.bore), mechanism.spec.size.crank_keyway)
-    view.diameter(arm.pins, times(len(arm.pins), sized.pin_hole(mechanism, arm.pins[0].radius)))
+    hole = sized.pin_hole(view.fits, mechanism, arm.pins[0].radius)
+    view.diameter(arm.pins, times(len(arm.pins), hole))
     radii: dict[str, list[Arc]] = {}
     for arc in arm.outline.segments:
         if isinstance(arc, Arc):
@@ -132,15 +133,15 @@ def _between(view: View, arm: CrankArm) -> None:
 def draw_roller(view: View, mechanism: Mechanism) -> None:
     """Draw a roller about its pin."""
     roller, axis = mechanism.roller_radius_mm, (0.0, 0.0)
-    pin = pin_radius(mechanism.spec.size, roller)
+    pin = drawn_pin_radius(mechanism)
     circles = [Circle("", axis, roller)] + ([Circle("", axis, pin)] if pin else [])
     for c in circles:
         view.draw(c, OUTLINE)
     view.cross(axis, roller)
-    view.diameter(circles[:1], sized.roller(mechanism, roller))
+    view.diameter(circles[:1], sized.roller(view.fits, mechanism, roller))
     if pin:
-        view.diameter(circles[1:], sized.roller_bore(pin))
-        view.remark(f"turns on its pin {sized.pin(pin)}, which is pressed in")
+        view.diameter(circles[1:], sized.roller_bore(view.fits, pin))
+        view.remark(f"turns on its pin {sized.pin(view.fits, pin)}, which is pressed in")
 
 
 def draw_assembly(view: View, parts: Outlines, shapes: tuple[Shape, ...]) -> None:

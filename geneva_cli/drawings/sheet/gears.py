@@ -32,7 +32,7 @@ def draw_gear(view: View, gear: Gear) -> None:
         if gear.teeth.inside:
             view.diameter([outline], sized.plain(2.0 * outline.radius, "Ø "))
     if gear.bore:
-        view.diameter([Circle("", axis, gear.bore)], sized.bore(gear.bore))
+        view.diameter([Circle("", axis, gear.bore)], sized.bore(view.fits, gear.bore))
     bolted(view, screwed)
     whole = gear.teeth.sectors * gear.teeth.each_deg >= 360.0
     view.remark(f"pitch circle; {TOOTHLESS}" + ("" if whole else "; teeth on these sectors only"))
@@ -75,6 +75,6 @@ def draw_gears(view: View, shapes: Sequence[Shape], ends: tuple[Point, Point]) -
     for bore in shapes:
         if isinstance(bore, Circle):
             view.cross(bore.centre, bore.radius)
-            view.diameter([bore], sized.bore(bore.radius))
+            view.diameter([bore], sized.bore(view.fits, bore.radius))
     view.linear(*ends, 0.0, sized.plain(math.dist(*ends)))
     view.remark(f"pitch curves; {TOOTHLESS}")

@@ -11,6 +11,7 @@ from geneva_cli.drawings.sheet.gears import draw_gear, draw_gears
 from geneva_cli.drawings.sheet.links import draw_link
 from geneva_cli.drawings.sheet.standing import draw_shaft
 from geneva_cli.drawings.sheet.view import View, number
+from geneva_cli.layout.fits import Fits
 from geneva_cli.layout.projection import outlines_of
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.parts.flat_parts import FlatParts
@@ -18,17 +19,22 @@ from geneva_cli.parts.flat_parts import FlatParts
 Begin: TypeAlias = Callable[..., View]
 
 
-def titled(rows: Sequence[Mapping[str, object]], scale: float) -> Begin:
-    """Return a function that begins a view, titled with its parts' numbers and thicknesses."""
+def titled(rows: Sequence[Mapping[str, object]], scale: float, process: str | None) -> Begin:
+    """Return a function that begins a view, titled with its parts' numbers and thicknesses.
+
+    Its fits are those of a process, for the thickness of the first part.
+    """
 
     def begin(*names: str, thick: bool = True) -> View:
-        titles = []
+        titles: list[str] = []
+        fits = Fits(process)
         for i, row in enumerate(rows, 1):
             if row["name"] in names:
                 long = row["thickness_mm"]
                 assert isinstance(long, float)
+                fits = fits if titles else Fits(process, long)
                 titles.append(f"{i} {row['name']}" + f", t = {number(long)}" * thick)
-        return View("; ".join(titles) or names[0], scale)
+        return View("; ".join(titles) or names[0], scale, fits)
 
     return begin
 

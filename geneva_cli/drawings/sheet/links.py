@@ -15,6 +15,7 @@ from geneva_cli.drawings.sheet import sized
 from geneva_cli.drawings.sheet.paper import table
 from geneva_cli.drawings.sheet.view import Block, View, number, times
 from geneva_cli.kinematics.layout import Joint
+from geneva_cli.layout.fits import Fits
 from geneva_cli.layout.link_positions import links_at, same
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.numerics.tolerances import SAME_ON_SHEET
@@ -42,7 +43,9 @@ def draw_link(view: View, member: Member, bars: Links, mechanism: Mechanism) -> 
     shown: dict[str, list[Circle]] = {}
     for hole, there in zip(holes, placed_holes(member), strict=True):
         tight = any(same(there.centre, p, mechanism.center_distance_mm) for p in pressed)
-        text = sized.pin_hole(mechanism, hole.radius) if tight else sized.bore(hole.radius)
+        text = sized.bore(view.fits, hole.radius)
+        if tight:
+            text = sized.pin_hole(view.fits, mechanism, hole.radius)
         shown.setdefault(text, []).append(hole)
     for text, some in shown.items():
         view.diameter(some, times(len(some), text))
@@ -94,7 +97,7 @@ def _slot(view: View, slot: Contour, base: Point) -> None:
     view.linear(near.centre, far.centre, turn, sized.plain(math.dist(near.centre, far.centre)))
     half = near.radius
     sides = [(x1 + s * half * math.sin(turn), y1 - s * half * math.cos(turn)) for s in (-1.0, 1.0)]
-    view.linear(sides[0], sides[1], turn + UP, sized.fitted(2.0 * half, "", "H7"))
+    view.linear(sides[0], sides[1], turn + UP, sized.fitted(view.fits, 2.0 * half, "", "H7"))
     degrees = math.degrees(abs(math.remainder(turn, math.tau)))
     if degrees > SAME_ON_SHEET and math.hypot(*base) < SAME_ON_SHEET:
         legs = (0.0, turn) if turn > 0.0 else (turn, 0.0)
@@ -113,7 +116,7 @@ def _outline(view: View, plate: Plate, slides: bool) -> None:
     if slides:
         half, (x, _) = arcs[0].radius, arcs[0].centre
         end = abs(x) + half
-        view.linear((0.0, -half), (0.0, half), UP, sized.fitted(2.0 * half, "", "g6"))
+        view.linear((0.0, -half), (0.0, half), UP, sized.fitted(view.fits, 2.0 * half, "", "g6"))
         view.linear((-end, 0.0), (end, 0.0), 0.0, sized.plain(2.0 * end))
         return
     radii: dict[str, list[Arc]] = {}
@@ -135,12 +138,13 @@ def round_parts(members: Sequence[Member], mechanism: Mechanism) -> list[Block]:
 def _rows(members: Sequence[Member], mechanism: Mechanism) -> Iterator[tuple[str, str, str, str]]:
     for plate in dict.fromkeys(one.part for one in members if isinstance(one.part, Plate)):
         assert isinstance(plate.outline, Circle)
+        fits = Fits(mechanism.spec.size.process, plate.thickness)
         outer, bores = plate.outline.radius, [h for h in plate.holes if isinstance(h, Circle)]
         rolls = plate.layer == "ROLLER"
         outside = sized.plain(2.0 * outer, "Ø ")
         if not bores:
-            outside = sized.pin(outer)
+            outside = sized.pin(fits, outer)
         elif rolls:
-            outside = sized.roller(mechanism, outer)
-        inside = "".join(sized.roller_bore(bore.radius) for bore in bores)
+            outside = sized.roller(fits, mechanism, outer)
+        inside = "".join(sized.roller_bore(fits, bore.radius) for bore in bores)
         yield plate.name, outside, inside, number(plate.thickness)

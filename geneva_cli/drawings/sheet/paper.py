@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import NamedTuple
 
 from geneva_cli.curves.helvetica import width
@@ -74,23 +74,39 @@ def frame(paper: PaperSize) -> list[Shape]:
     return shapes
 
 
-def title_block(fields: dict[str, str], title: str, parts: str) -> Block:
-    """Return the title block; its lower left corner is the origin."""
-    shapes: list[Shape] = [rectangle(FRAME, 0.0, 0.0, TITLE_WIDTH, 36.0)]
-    labels: list[Label] = []
-    shapes += [line(TEXT, (0.0, y), (TITLE_WIDTH, y)) for y in (12.0, 24.0)]
-    labels += _field((0.0, 24.0), "title", title, LARGE, TITLE_WIDTH)
-    listed = parts if _fits(parts, SMALL, TITLE_WIDTH - 34.0) else "see list"
-    labels += _field((0.0, 12.0), "parts", listed, SMALL, TITLE_WIDTH - 30.0)
-    shapes.append(line(TEXT, (TITLE_WIDTH - 30.0, 12.0), (TITLE_WIDTH - 30.0, 24.0)))
-    symbol_shapes = projection((TITLE_WIDTH - 15.0, 18.0))
-    shapes += symbol_shapes
-    cell = TITLE_WIDTH / len(fields)
-    for i, (name, value) in enumerate(fields.items()):
-        labels += _field((i * cell, 0.0), name, value, SMALL, cell)
-        if i:
-            shapes.append(line(TEXT, (i * cell, 0.0), (i * cell, 12.0)))
-    return Block(0.0, 0.0, TITLE_WIDTH, 36.0, tuple(shapes), tuple(labels))
+def title_block(title: str, rows: Sequence[Mapping[str, str]]) -> Block:
+    """Return the title block of a title and rows of fields; its lower left corner is the origin.
+
+    Fields without a value are empty, for a pen. The rows are given from below; the second one has
+    the symbol of projection at its end.
+    """
+    high = 12.0  # mm, of a row
+    top = high * len(rows)
+    shapes: list[Shape] = [rectangle(FRAME, 0.0, 0.0, TITLE_WIDTH, top + high)]
+    labels = _field((0.0, top), "title", title, LARGE, TITLE_WIDTH)
+    for k, fields in enumerate(rows):
+        y = high * k
+        long = TITLE_WIDTH
+        if k == 1:
+            long -= 30.0
+            shapes += projection((TITLE_WIDTH - 15.0, y + 0.5 * high))
+        shapes.append(line(TEXT, (0.0, y + high), (TITLE_WIDTH, y + high)))
+        x = 0.0
+        for (name, value), cell in zip(fields.items(), _cells(fields, long), strict=True):
+            labels += _field((x, y), name, value, SMALL, cell)
+            x += cell
+            shapes.append(line(TEXT, (x, y), (x, y + high)))
+    return Block(0.0, 0.0, TITLE_WIDTH, top + high, tuple(shapes), tuple(labels))
+
+
+def _cells(fields: Mapping[str, str], long: float) -> list[float]:
+    """Return the widths of fields: what they need, and an equal part of what is left.
+
+    Where they need more than there is, each has as much less.
+    """
+    needed = [max(width(value) * SMALL, width(name) * 1.8) + 4.0 for name, value in fields.items()]
+    spare = (long - sum(needed)) / len(fields)
+    return [need + spare for need in needed]
 
 
 def _field(at: Point, name: str, value: str, height: float, limit: float) -> list[Label]:

@@ -11,6 +11,7 @@ import numpy as np
 from geneva_cli.drawings.sheet import sized
 from geneva_cli.drawings.sheet.paper import table
 from geneva_cli.drawings.sheet.view import Block, number, times
+from geneva_cli.layout.fits import Fits
 from geneva_cli.layout.groove import groove_curve
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.numerics.tolerances import SAME_LENGTH
@@ -41,7 +42,8 @@ def tables(parts: Outlines, tolerance: float) -> list[Block]:
 
         last = 0.0 if symmetric else engagement.exit_deg
         points = polyline(centre, engagement.entry_deg, last, close)
-        width = sized.slot_width(assembly.mechanism, parts.sizes.half_width)
+        fits = Fits(assembly.mechanism.spec.size.process, parts.sizes.wheel_thickness)
+        width = sized.slot_width(fits, assembly.mechanism, parts.sizes.half_width)
         what = f"{times(count, 'slot')}, {width} wide: points of its centre line, slot 1"
         more = MIRRORED if symmetric else ""
         blocks.append(point_table(what + more, points, close))

@@ -1,6 +1,6 @@
 """The drawing sheet of a machine: dimensioned parts, the list of items and a title block.
 
-The assembled machine is drawn at the scale of its parts, or at half of it.
+The assembled machine and its section are drawn at the scale of the parts, or at half of it.
 """
 
 from __future__ import annotations
@@ -12,7 +12,7 @@ from geneva_cli.drawings.sheet import links, points
 from geneva_cli.drawings.sheet.composed import on_paper
 from geneva_cli.drawings.sheet.paper import smaller, table
 from geneva_cli.drawings.sheet.view import Block, number
-from geneva_cli.drawings.sheet.views import shown_on_sheet, together, views
+from geneva_cli.drawings.sheet.views import section, shown_on_sheet, together, views
 from geneva_cli.kinematics.layout import Dimension, Pivot
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.parts.flat_parts import FlatParts
@@ -31,8 +31,13 @@ def sheet(parts: FlatParts) -> Sheet:
 
     def blocks(scale: float) -> Iterator[list[Block]]:
         apart = [view.block() for view in views(shown, scale)]
-        for times in (1.0, 2.0):  # the machine's scale, or half of it
-            yield [*apart, together(shown, smaller(scale, times)).block(), *fixed]
+        # the scales of the machine and of its section: those of the parts, or half of them
+        half = smaller(scale, 2.0)
+        wholes, cuts = (
+            [make(shown, s).block() for s in (scale, half)] for make in (together, section)
+        )
+        for whole, cut in ((0, 0), (1, 0), (1, 1)):
+            yield [*apart, cuts[cut], wholes[whole], *fixed]
 
     return on_paper(mechanism.spec, shown.rows, shown.largest, blocks, shown.area)
 

@@ -1,9 +1,9 @@
-"""Sizes as texts, with the deviation from the spec or else a fit of ISO 286."""
+"""Sizes as texts, with the deviation from the spec, or else as the part's workshop keeps it."""
 
 from __future__ import annotations
 
 from geneva_cli.drawings.sheet.view import number
-from geneva_cli.layout.fits import toleranced
+from geneva_cli.layout.fits import Fits
 from geneva_cli.machine.mechanism import Mechanism
 
 
@@ -16,57 +16,57 @@ def plain(value: float, sign: str = "", deviation: float = 0.0) -> str:
     return f"{sign}{number(value)}" + (f" ±{deviation:g}" if deviation else "")
 
 
-def fitted(value: float, sign: str, fit: str, deviation: float = 0.0) -> str:
+def fitted(fits: Fits, value: float, sign: str, fit: str, deviation: float = 0.0) -> str:
     """Return a size with its deviation if the spec has one, otherwise with a fit."""
     shown = plain(value, sign, deviation)
-    return shown if deviation else toleranced(value, shown, fit)
+    return shown if deviation else fits.text(value, shown, fit)
 
 
-def slot_width(mechanism: Mechanism, half: float) -> str:
+def slot_width(fits: Fits, mechanism: Mechanism, half: float) -> str:
     """Return the slot's width."""
-    return fitted(2.0 * half, "", "H7", mechanism.spec.tolerance.slot_width_mm)
+    return fitted(fits, 2.0 * half, "", "H7", mechanism.spec.tolerance.slot_width_mm)
 
 
-def roller(mechanism: Mechanism, radius: float) -> str:
+def roller(fits: Fits, mechanism: Mechanism, radius: float) -> str:
     """Return the roller's diameter; its fit has play in the slot if the spec has no clearance."""
     spec = mechanism.spec
     fit = "h6" if spec.size.allowances.slot_clearance_mm else "g6"
-    return fitted(2.0 * radius, "Ø ", fit, spec.tolerance.roller_diameter_mm)
+    return fitted(fits, 2.0 * radius, "Ø ", fit, spec.tolerance.roller_diameter_mm)
 
 
-def lock(mechanism: Mechanism, radius: float) -> str:
+def lock(fits: Fits, mechanism: Mechanism, radius: float) -> str:
     """Return the locking disc's diameter; its fit has play unless the spec has a clearance."""
     spec = mechanism.spec
     fit = "h6" if spec.size.allowances.lock_clearance_mm else "g6"
-    return fitted(2.0 * radius, "Ø ", fit, 2.0 * spec.tolerance.lock_radius_mm)
+    return fitted(fits, 2.0 * radius, "Ø ", fit, 2.0 * spec.tolerance.lock_radius_mm)
 
 
-def recess(mechanism: Mechanism, radius: float) -> str:
+def recess(fits: Fits, mechanism: Mechanism, radius: float) -> str:
     """Return the diameter of the wheel's recesses."""
-    return fitted(2.0 * radius, "Ø ", "H7", 2.0 * mechanism.spec.tolerance.recess_radius_mm)
+    return fitted(fits, 2.0 * radius, "Ø ", "H7", 2.0 * mechanism.spec.tolerance.recess_radius_mm)
 
 
-def pin(radius: float) -> str:
+def pin(fits: Fits, radius: float) -> str:
     """Return the diameter of the pin: it is pressed into a P7 hole, and an F7 bore turns on it."""
-    return fitted(2.0 * radius, "Ø ", "h6")
+    return fitted(fits.turned, 2.0 * radius, "Ø ", "h6")
 
 
-def pin_hole(mechanism: Mechanism, radius: float) -> str:
+def pin_hole(fits: Fits, mechanism: Mechanism, radius: float) -> str:
     """Return the diameter of the pin's hole: P7, or H7 if ``press_fit_mm`` makes it smaller."""
     smaller = mechanism.spec.size.allowances.press_fit_mm
-    return fitted(2.0 * radius, "Ø ", "H7" if smaller else "P7")
+    return fitted(fits, 2.0 * radius, "Ø ", "H7" if smaller else "P7")
 
 
-def roller_bore(radius: float) -> str:
+def roller_bore(fits: Fits, radius: float) -> str:
     """Return the diameter of the bore that turns on the pin."""
-    return fitted(2.0 * radius, "Ø ", "F7")
+    return fitted(fits, 2.0 * radius, "Ø ", "F7")
 
 
-def bore(radius: float) -> str:
+def bore(fits: Fits, radius: float) -> str:
     """Return the diameter of a bore."""
-    return fitted(2.0 * radius, "Ø ", "H7")
+    return fitted(fits, 2.0 * radius, "Ø ", "H7")
 
 
-def shaft(radius: float) -> str:
+def shaft(fits: Fits, radius: float) -> str:
     """Return the diameter of a shaft that fits into a bore."""
-    return fitted(2.0 * radius, "Ø ", "h6")
+    return fitted(fits.turned, 2.0 * radius, "Ø ", "h6")

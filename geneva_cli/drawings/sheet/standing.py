@@ -18,30 +18,30 @@ def draw_frame(view: View, plate: Plate) -> None:
     for shape in (plate.outline, *plate.holes):
         view.draw(shape, OUTLINE)
     holes = [hole for hole in plate.holes if isinstance(hole, Circle)]
-    for hole in holes:
-        if hole.centre != (0.0, 0.0):
-            view.cross(hole.centre, hole.radius)
-    alike: dict[str, list[Circle]] = {}
-    for hole in holes:
-        alike.setdefault(sized.bore(hole.radius), []).append(hole)
-    for text, some in alike.items():
-        places = ", ".join(f"({number(x)}, {number(y)})" for _, (x, y), _ in some)
-        view.diameter(some, times(len(some), text), f"at {places} from the wheel's axis")
+    wheel = (0.0, 0.0)  # the wheel's axis, with or without a hole
+    for centre, radius in {wheel: holes[0].radius, **{h.centre: h.radius for h in holes}}.items():
+        view.cross(centre, radius)
     box = bounds(plate.outline)
     up = 0.5 * math.pi
-    view.linear((box.x0, box.y0), (box.x1, box.y0), 0.0, number(box.x1 - box.x0))
-    view.linear((box.x0, box.y0), (box.x0, box.y1), up, number(box.y1 - box.y0))
-    wheel = (0.0, 0.0)  # the wheel's axis, with or without a hole
-    view.cross(wheel, holes[0].radius)
-    view.linear((box.x0, box.y0), wheel, 0.0, number(-box.x0))
-    view.linear((box.x0, box.y0), wheel, up, number(-box.y0))
+    # from the shortest to the longest, so that their lines do not cross; leaders find places later
     for axis, turn in ((0, 0.0), (1, up)):
         texts = {number(0.0)}
-        for hole in holes:
+        for hole in sorted(holes, key=lambda hole: abs(hole.centre[axis])):
             text = number(abs(hole.centre[axis]))
             if text not in texts:
                 texts.add(text)
                 view.linear(wheel, hole.centre, turn, text)
+    corner = (box.x0, box.y0)
+    view.linear(corner, wheel, 0.0, number(-box.x0))
+    view.linear(corner, wheel, up, number(-box.y0))
+    view.linear(corner, (box.x1, box.y0), 0.0, number(box.x1 - box.x0))
+    view.linear(corner, (box.x0, box.y1), up, number(box.y1 - box.y0))
+    alike: dict[str, list[Circle]] = {}
+    for hole in holes:
+        alike.setdefault(sized.bore(view.fits, hole.radius), []).append(hole)
+    for text, some in alike.items():
+        places = ", ".join(f"({number(x)}, {number(y)})" for _, (x, y), _ in some)
+        view.diameter(some, times(len(some), text), f"at {places} from the wheel's axis")
     assert isinstance(plate.outline, Contour)
     arcs = [piece for piece in plate.outline.segments if isinstance(piece, Arc)]
     view.of_arcs(arcs, times(len(arcs), sized.plain(arcs[0].radius, "R ")))
@@ -61,11 +61,11 @@ def draw_groove(
     ]
     outer = max(places, key=lambda p: math.hypot(*p))
     view.cross((0.0, 0.0), math.hypot(*outer))
-    view.note(outer, f"groove {sized.fitted(2.0 * half, '', 'H7')} wide")
+    view.note(outer, f"groove {sized.fitted(view.fits, 2.0 * half, '', 'H7')} wide")
     for hole in round_:
         if isinstance(hole, Circle) and hole not in mounts:
             text = sized.plain(2.0 * hole.radius, "Ø ")
-            view.diameter([hole], text if hole is round_[0] else sized.bore(hole.radius))
+            view.diameter([hole], text if hole is round_[0] else sized.bore(view.fits, hole.radius))
     bolted(view, mounts)
 
 
@@ -84,4 +84,4 @@ def draw_shaft(view: View, shaft: Plate) -> None:
     view.draw(closed("", sides), OUTLINE)
     view.centre_line((0.0, 0.0), (long, 0.0))
     view.linear((0.0, -radius), (long, -radius), 0.0, number(long))
-    view.linear((0.0, -radius), (0.0, radius), 0.5 * math.pi, sized.shaft(radius))
+    view.linear((0.0, -radius), (0.0, radius), 0.5 * math.pi, sized.shaft(view.fits, radius))

@@ -14,6 +14,7 @@ from geneva_cli.curves.board import Board, chords
 from geneva_cli.curves.measure import legs, mapped
 from geneva_cli.curves.shapes import Arc, Circle, Contour, Point, Shape
 from geneva_cli.curves.sheet import CENTRE, LARGE, SMALL, Label, Measure, line, polar
+from geneva_cli.layout.fits import Fits
 
 if TYPE_CHECKING:
     from geneva_cli.numerics.jet import Array
@@ -79,8 +80,9 @@ class View:
     Draw all lines before the first dimension: dimensions are placed outside of them.
     """
 
-    def __init__(self, title: str, scale: float) -> None:
+    def __init__(self, title: str, scale: float, fits: Fits | None = None) -> None:
         self.title, self.scale = title, scale
+        self.fits = fits or Fits()  # how the part's sizes are written
         self.shapes: list[Shape] = []
         self.corners: list[Array] = []  # start points of the chords of all shapes
         self.measures: list[Measure] = []
@@ -159,6 +161,21 @@ class View:
     def note(self, tip: Point, text: str) -> None:
         """Draw a text that points at a place."""
         self._put(marks.note(self._at(tip), text), text)
+
+    def balloon(self, tips: Iterable[Point], item: str) -> None:
+        """Draw an item's number in a circle that points at one of some places."""
+        candidates = _short_first(marks.balloon(self._at(tip), item) for tip in tips)
+        # the gap keeps the circle clear of lines, too
+        measure = self.board.first(candidates, gap=3.1)
+        if measure is None:
+            self.notes.append(f"item {item} is not marked")
+        else:
+            self.measures.append(measure)
+
+    def section(self, left: Point, right: Point, letter: str) -> None:
+        """Draw where a section along a level line is, between two points and beyond."""
+        for end, outwards in ((left, -1.0), (right, 1.0)):
+            self._put(marks.section(self._at(end), outwards, letter), f"section {letter}")
 
     def remark(self, text: str) -> None:
         """Add a text below the title."""

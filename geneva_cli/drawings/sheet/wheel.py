@@ -48,6 +48,11 @@ def draw_wheel(view: View, parts: FlatParts) -> None:
     view.linear((0.0, -reach), (0.0, reach), up, sized.plain(2.0 * reach, "Ø "))
     _steps(view, outlines, reach)
     _rims(view, arcs, reach)
+    clear = assembly.mechanism.spec.size.allowances
+    if clear.source:  # of a process, whose fits do not say it
+        text = f"clearance a side: {number(clear.slot_clearance_mm)} from roller to slot"
+        lock = f", {number(clear.lock_clearance_mm)} from locking disc to recess"
+        view.remark(text + (lock if sizes.lock else ""))
     for hub in hubs:
         draw_hub(view, hub)
     bored(view, bores, sizes.wheel_bore, assembly.mechanism.spec.size.wheel_keyway)
@@ -95,7 +100,7 @@ def _slot(view: View, parts: Outlines, engagement: Engagement, count: int) -> No
     corner = walls.segments[0].start
     count *= len(ends)
     if len(ends) == 1:
-        width = sized.slot_width(parts.assembly.mechanism, parts.sizes.half_width)
+        width = sized.slot_width(view.fits, parts.assembly.mechanism, parts.sizes.half_width)
         view.linear(corner, walls.segments[-1].end, across, times(count, width))
     else:  # one wall each
         view.linear(corner, mouth, across, times(count, sized.plain(parts.sizes.half_width)))
@@ -134,7 +139,8 @@ def _recesses(view: View, parts: Outlines, arcs: list[Arc]) -> None:
     centre = _recess_centre(parts)
     turn = math.atan2(centre[1], centre[0])
     view.linear((0.0, 0.0), centre, turn, sized.plain(L, deviation=deviation), near=True)
-    view.of_arcs(own, times(len(own), sized.recess(assembly.mechanism, sizes.recess)), whole=True)
+    recess = sized.recess(view.fits, assembly.mechanism, sizes.recess)
+    view.of_arcs(own, times(len(own), recess), whole=True)
     for radius, some in _by_radius([arc for arc in about if arc not in own]).items():
         view.of_arcs(some, times(len(some), sized.plain(radius, "R ")))
 

@@ -6,9 +6,10 @@ The sphere's centre is the origin, the wheel's axis points up, the crank's is to
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
 from typing import TypeAlias
 
+from geneva_cli.curves.measure import at
 from geneva_cli.curves.plates import Plate, plates
 from geneva_cli.curves.shapes import Arc, Circle, Contour, Line, Point, about, closed
 from geneva_cli.curves.sheet import CENTRE, HIDDEN, OUTLINE, polar
@@ -23,10 +24,11 @@ from geneva_cli.parts.sphere.sphere_parts import ROLLER, SphereParts
 Side: TypeAlias = Callable[[float], float]  # an angle from the wheel's axis, on each sphere
 
 
-def section(parts: SphereParts, scale: float) -> View:
+def section(parts: SphereParts, scale: float, items: Mapping[str, int]) -> View:
     """Return all parts cut by the plane of the shafts, with angles from the wheel's axis.
 
-    Locking sectors are turned into that plane.
+    Balloons have the numbers of ``items``, by their names. Locking sectors are turned into that
+    plane.
     """
     ball, view = parts.ball, View("section through both shafts", scale)
     inner, outer = ball.span_mm
@@ -36,14 +38,16 @@ def section(parts: SphereParts, scale: float) -> View:
     back = between if ball.z % 2 else end
     opening = parallel(0.0, ball.opening_mm) if ball.opening_mm else radial(ball.inner)
     closing = parallel(0.0, -ball.opening_mm) if ball.opening_mm else radial(-ball.inner)
+    cut: dict[str, list[Contour]] = {"wheel": []}
     for low, high in ((opening, radial(end)), (radial(-back), closing)):
-        view.draw(_ring(inner, outer, low, high), OUTLINE)
-    view.draw(_ring(inner, outer, radial(end), radial(ball.rim)), HIDDEN)  # the slot's wall, beyond
-    for ring in _crank(parts):
-        view.draw(ring, OUTLINE)
+        cut["wheel"].append(_ring(inner, outer, low, high))
+    for name, ring in _crank(parts):
+        cut.setdefault(name, []).append(ring)
     for plate, angle in _plates(parts):
-        for shape in _along(plate, angle):
-            view.draw(shape, OUTLINE)
+        cut.setdefault(plate.name, []).extend(_along(plate, angle))
+    for face in (one for some in cut.values() for one in some):
+        view.draw(face, OUTLINE)
+    view.draw(_ring(inner, outer, radial(end), radial(ball.rim)), HIDDEN)  # the slot's wall, beyond
     middle, far = ball.axes - ball.arm, max(_far(parts), outer)
     for angle in (0.0, ball.axes, middle):
         view.centre_line((0.0, 0.0), _at(far + 0.1 * ball.radius_mm, angle))
@@ -57,6 +61,9 @@ def section(parts: SphereParts, scale: float) -> View:
             arc = _arc(radius, start - 0.5 * parts.arm.cap, start)
             view.of_arcs([arc], sized.plain(radius, "SR "))
     _dimension_angles(view, ball, end, middle, _reach(parts), far)
+    for name, item in items.items():
+        tips = [at(piece, 0.5) for face in cut.get(name, ()) for piece in face.segments]
+        view.balloon(tips, str(item))
     return view
 
 
@@ -73,24 +80,27 @@ def _dimension_angles(
         view.angular([(axis - angle, axis)], far, far, f"{name} {degrees(angle)}")
 
 
-def _crank(parts: SphereParts) -> Iterator[Contour]:
-    """Yield the cut faces of rollers, locking sector and arm."""
+def _crank(parts: SphereParts) -> Iterator[tuple[str, Contour]]:
+    """Yield the cut faces of rollers, locking sector and arm, with their parts' names."""
     ball, arm = parts.ball, parts.arm
     for middle in _rollers(ball):
         sides = [radial(middle - ball.roller), radial(middle + ball.roller)]
         if arm:
             sides[1:1] = [parallel(middle, -ball.pin_mm), parallel(middle, ball.pin_mm)]
         for low, high in zip(sides[::2], sides[1::2], strict=True):
-            yield _ring(*ball.span_mm, low, high)
+            yield "roller", _ring(*ball.span_mm, low, high)
     reach = _reach(parts)
     if reach:
-        yield _ring(*ball.lock_span_mm, *(radial(ball.axes + angle) for angle in reach))
+        yield (
+            "locking sector",
+            _ring(*ball.lock_span_mm, *(radial(ball.axes + angle) for angle in reach)),
+        )
     if arm:
         middle, hole = ball.axes - ball.arm, arm.pins[0].radius
         sides = [radial(middle - arm.eye), parallel(middle, -hole), parallel(middle, hole)]
         sides += [parallel(ball.axes, -arm.hub), parallel(ball.axes, arm.hub), *_behind(ball, arm)]
         for low, high in zip(sides[::2], sides[1::2], strict=True):
-            yield _ring(*ball.arm_span_mm, low, high)
+            yield "arm", _ring(*ball.arm_span_mm, low, high)
 
 
 def _rollers(ball: Ball) -> list[float]:
@@ -106,8 +116,8 @@ def _behind(ball: Ball, arm: CapArm) -> list[Side]:
     for hole in (*arm.pins, *arm.bolts):
         x, y, z = hole.axis
         if x < 0.0 and abs(y) < SAME_ON_SHEET:
-            at = ball.axes + math.acos(z)
-            return [parallel(at, -hole.radius), parallel(at, hole.radius), end]
+            polar = ball.axes + math.acos(z)
+            return [parallel(polar, -hole.radius), parallel(polar, hole.radius), end]
     return [end]
 
 
@@ -116,8 +126,8 @@ def _plates(parts: SphereParts) -> Iterator[tuple[Plate, float]]:
     axes = parts.ball.axes
     yield from ((plate, 0.0) for plate in plates(parts.wheel.part))
     for plate in dict.fromkeys(plates(parts.crank.part)):
-        at = _rollers(parts.ball) if plate.layer == ROLLER else [axes]
-        yield from ((plate, angle) for angle in at)
+        angles = _rollers(parts.ball) if plate.layer == ROLLER else [axes]
+        yield from ((plate, angle) for angle in angles)
     for member in parts.shafts:
         assert isinstance(member.part, Plate)
         yield member.part, axes if member.frame else 0.0
@@ -131,8 +141,8 @@ def _along(plate: Plate, angle: float) -> Iterator[Contour]:
     for low, high in ((bore, wide), (-wide, -bore)) if bore else ((-wide, wide),):
         corners = [(low, plate.low), (high, plate.low), (high, plate.high), (low, plate.high)]
         c, s = math.cos(angle), math.sin(angle)
-        at = [(c * x + s * y, c * y - s * x) for x, y in corners]
-        yield closed("", [Line(p, q) for p, q in zip(at, [*at[1:], at[0]], strict=True)])
+        ring = [(c * x + s * y, c * y - s * x) for x, y in corners]
+        yield closed("", [Line(p, q) for p, q in zip(ring, [*ring[1:], ring[0]], strict=True)])
 
 
 def _edge(plate: Plate) -> Point:

@@ -39,6 +39,7 @@ from geneva_cli.drawings.sphere.drawings import (
 from geneva_cli.drawings.sphere.laid_flat import Cone
 from geneva_cli.drawings.sphere.section import degrees, section
 from geneva_cli.kinematics.layout import Dimension
+from geneva_cli.layout.fits import Fits
 from geneva_cli.layout.sphere_sizes import Ball
 from geneva_cli.numerics.tolerances import SAME_ANGLE, SAME_ON_SHEET
 from geneva_cli.parts.sphere.arm import CapArm
@@ -69,7 +70,7 @@ def sheet(parts: SphereParts) -> Sheet:
 
     def blocks(scale: float) -> Iterator[list[Block]]:
         views = [
-            section(parts, scale),
+            section(parts, scale, {str(row["name"]): i for i, row in enumerate(items, 1)}),
             _flat("wheel", ball, wheel_cone(ball), wheel, scale),
             _flat("crank", ball, crank_cone(ball), crank, scale),
         ]
@@ -88,12 +89,13 @@ def _arm(parts: SphereParts, arm: CapArm, flat: list[Contour], scale: float) -> 
     ball = parts.ball
     view = _flat("crank", ball, arm_cone(ball), flat, scale)
     view.title = "arm, laid flat"
+    view.fits = Fits(parts.mechanism.spec.size.process)
     hole, pin = arm.pins[0].radius, ball.pin_mm
-    text = f"{sized.pin_hole(parts.mechanism, hole)} through, to the sphere's centre"
-    view.remark(f"pins: {times(len(arm.pins), text)}; pin {sized.pin(pin)}")
+    text = f"{sized.pin_hole(view.fits, parts.mechanism, hole)} through, to the sphere's centre"
+    view.remark(f"pins: {times(len(arm.pins), text)}; pin {sized.pin(view.fits, pin)}")
     view.remark(f"hub: {sized.plain(2.0 * arm.hub, 'Ø ')} through, about the crank's axis")
     if arm.bolts:
-        text = f"{sized.bore(arm.bolts[0].radius)} through, to the sphere's centre"
+        text = f"{sized.bore(view.fits, arm.bolts[0].radius)} through, to the sphere's centre"
         view.remark(f"locking sectors: {times(len(arm.bolts), text)}")
     return view
 
@@ -105,7 +107,7 @@ def _axles(parts: SphereParts, scale: float) -> Iterator[View]:
         for hub in plates(part.part):
             if hub.layer == ROLLER:
                 continue
-            view = View(hub.name, scale)
+            view = View(hub.name, scale, Fits(size.process))
             for shape in (hub.outline, *hub.holes):
                 view.draw(shape, OUTLINE)
             if hub.holes:
@@ -114,7 +116,7 @@ def _axles(parts: SphereParts, scale: float) -> Iterator[View]:
             view.remark(f"{number(hub.thickness)} long")
             yield view
     for shaft in flat_plates(parts.shafts):
-        view = View(shaft.name, scale)
+        view = View(shaft.name, scale, Fits(size.process))
         draw_shaft(view, shaft)
         yield view
 

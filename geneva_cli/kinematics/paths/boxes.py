@@ -80,11 +80,13 @@ def boxes_of(samples: PathSamples, wanted: Array) -> Boxes:
     per_sense = []
     for sense in (1.0, -1.0):
         use = possible & _against(width, turn, *rates, sense)
-        least, most = np.where(use, low, np.inf), np.where(use, high, -np.inf)
-        target = -sense * wanted[:, None]
+        some = np.flatnonzero(use.any(axis=1))  # most paths turn one way only
+        use = use[some]
+        least, most = np.where(use, low[some], np.inf), np.where(use, high[some], -np.inf)
+        target = -sense * wanted[some, None]
         # exits from the entry's own interval onwards, over a full turn
         first_exit, last_exit = (
-            sliding_window_view(np.concatenate((x, x + whole), axis=1), count, axis=1)[:, :count]
+            sliding_window_view(np.hstack((x, x + whole[some])), count, axis=1)[:, :count]
             for x in (least, most)
         )
         near = first_exit <= (most + target)[:, :, None]
@@ -92,6 +94,7 @@ def boxes_of(samples: PathSamples, wanted: Array) -> Boxes:
         near[:, :, 0] = False
         cell, ahead = np.divmod(np.flatnonzero(near), count)
         row, entry = np.divmod(cell, count)
+        row = some[row]
         exit_ = (entry + ahead) % count
         may = _may_meet_of(at, width, row, entry, exit_)
         per_sense.append((row[may], entry[may], exit_[may], np.full(int(may.sum()), sense)))

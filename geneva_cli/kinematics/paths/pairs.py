@@ -95,7 +95,8 @@ def pairs(path: RollerPath, samples: Iterable[PathSamples], b: Array) -> PairSea
 
 def ends_at(path: RollerPath, which: Whole, phi: Array) -> EndPairs:
     """Points of designs at entry and exit angles, in two columns."""
-    return EndPairs(which, points(path.roughly(which), phi))
+    # by columns in memory, along which the designs' numbers vary too: a fifth faster
+    return EndPairs(which, points(path.roughly(which), np.asfortranarray(phi)))
 
 
 def residual(ends: EndPairs, b: Array) -> Residual:

@@ -77,7 +77,7 @@ def points(path: RollerPath, phi: Array) -> PathPoints:
 
 
 def _complex(x: Array, y: Array, shape: tuple[int, ...]) -> Complex:
-    both = np.empty(shape, dtype=complex)
+    both = np.empty_like(x, dtype=complex, shape=shape)  # in memory in the order of x
     both.real, both.imag = x, y
     return both
 
@@ -153,7 +153,7 @@ def _between(
 
 def _blocks(counts: Whole) -> Iterator[slice]:
     """Slices of rows with a limited number of pairs of samples."""
-    start, most = 0, 1 << 19  # pairs that stay in the processor's cache
+    start, most = 0, 1 << 20  # pairs that stay in the processor's cache
     while start < len(counts):
         rows = max(1, most // int(counts[start]) ** 2)
         stop = min(start + rows, len(counts))

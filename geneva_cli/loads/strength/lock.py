@@ -39,7 +39,7 @@ from geneva_cli.numerics.arrays import all_true, blocks, choose_record, only_of,
 
 if TYPE_CHECKING:
     from geneva_cli.machine.mechanism import Mechanism
-    from geneva_cli.numerics.jet import Array
+    from geneva_cli.numerics.jet import Array, Number
 
 
 class LockUnderTorque(NamedTuple):
@@ -80,25 +80,29 @@ def held_torque_Nm(mechanism: Mechanism) -> float:
     return load.torque_Nm if load.dwell_torque_Nm is None else load.dwell_torque_Nm
 
 
-def lock(mechanism: Mechanism, half_width_mm: float, by: Lock) -> LockUnderTorque | None:
-    """The lock of a machine whose parts have these radii, with its weakest horn.
+def lock(
+    mechanism: Mechanism, half_width_mm: float, by: Lock, width_mm: float
+) -> LockUnderTorque | None:
+    """The lock of a machine whose parts have these radii and width, with its weakest horn.
 
-    None without a torque to hold, or without a ``face_width_mm``.
+    None without a torque to hold.
     """
-    batch = loaded_locks(mechanism, half_width_mm, by)
+    batch = loaded_locks(mechanism, half_width_mm, by, width_mm)
     if batch is None:
         return None
     on, *rows = batch
     return LockUnderTorque(on, *cast("list[float]", only_of(rows)))
 
 
-def loaded_locks(mechanism: Mechanism, half_width_mm: float, by: Lock) -> LockUnderTorque | None:
+def loaded_locks(
+    mechanism: Mechanism, half_width_mm: float, by: Lock, width_mm: Number
+) -> LockUnderTorque | None:
     """Locks of m designs, whose sizes may be (m, 1); NaN for those without a torque or a lock.
 
     None if all are without a torque.
     """
-    torque, width = held_torque_Nm(mechanism), mechanism.spec.size.face_width_mm
-    if width is None or all_true(torque == 0.0):
+    torque, width = held_torque_Nm(mechanism), width_mm
+    if all_true(torque == 0.0):
         return None
     touch, known = by.contact(), np.atleast_2d(np.where(torque == 0.0, np.nan, torque))
     sine = np.sin(touch.phi)

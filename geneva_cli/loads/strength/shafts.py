@@ -8,8 +8,9 @@ stress, with factors for shock and fatigue on both moments:
 For rotating shafts with load applied gradually, Kb = 1.5 and Kt = 1. With sudden loads and minor
 shocks they are 1.5 to 2 and 1 to 1.5, with heavy shocks 2 to 3 and 1.5 to 3. Allowable is the lower
 of 0.3 of the yield strength and 0.18 of the tensile strength, and three quarters of that at a
-keyway. M is the force on the shaft times its overhang, T the torque at the same moment. Their
-greatest combination over the cycle is exact.
+keyway; without a limit in the spec that of the default steel (``allowed``). M is the force on the
+shaft times its overhang, T the torque at the same moment. Their greatest combination over the cycle
+is exact.
 """
 
 from __future__ import annotations
@@ -48,21 +49,24 @@ class ShaftStress(NamedTuple):
 
 
 class ShaftDimensions(NamedTuple):
-    """Dimensions of one shaft from ``[shaft]``."""
+    """Dimensions of one shaft, from ``[shaft]`` or its parts, and its allowable stress."""
 
     diameter_mm: float | None
     overhang_mm: float | None
     span_mm: float | None
+    allowed_MPa: float | None
 
 
 def wheel_shaft(table: Shaft) -> ShaftDimensions:
     """Dimensions of the wheel's shaft."""
-    return ShaftDimensions(table.wheel_diameter_mm, table.wheel_overhang_mm, table.wheel_span_mm)
+    own = table.wheel_diameter_mm, table.wheel_overhang_mm, table.wheel_span_mm
+    return ShaftDimensions(*own, table.shear_stress_max_MPa)
 
 
 def crank_shaft(table: Shaft) -> ShaftDimensions:
     """Dimensions of the crank's shaft."""
-    return ShaftDimensions(table.crank_diameter_mm, table.crank_overhang_mm, table.crank_span_mm)
+    own = table.crank_diameter_mm, table.crank_overhang_mm, table.crank_span_mm
+    return ShaftDimensions(*own, table.shear_stress_max_MPa)
 
 
 def shear_MPa(moment_Nm: N, diameter_mm: N) -> N:
@@ -167,7 +171,7 @@ def _turned(
 ) -> ShaftStress:
     """Results from the greatest squares of moment and torque, (m,)."""
     table, d, span = mechanism.spec.shaft, ends.diameter_mm, ends.span_mm
-    moment, allowed = np.sqrt(square), table.shear_stress_max_MPa
+    moment, allowed = np.sqrt(square), ends.allowed_MPa
     stress = least = twist = None
     if d is not None:
         stress = parameter(shear_MPa(moment, np.ravel(d)))

@@ -20,11 +20,10 @@ from geneva_cli.kinematics.engagement import Engagement
 from geneva_cli.layout.assembly import Assembly
 from geneva_cli.layout.sizes import Sizes
 from geneva_cli.numerics.roots import boundary_by_sections
-from geneva_cli.outlines.walls.joint import WallPlace, joint, point, runs
+from geneva_cli.outlines.walls.joint import WallPlace, joint, points_at, runs
 from geneva_cli.outlines.walls.ways import Wall, walls
 
 if TYPE_CHECKING:
-    from geneva_cli.numerics.arrays import Mask
     from geneva_cli.numerics.jet import Array
 
 
@@ -43,7 +42,7 @@ def chain(assembly: Assembly, sizes: Sizes, engagement: Engagement) -> list[Wall
     crossings = [c for wall in around for c in rim.crossings(wall)]
     if not crossings:
         raise _lost()
-    place, t = min(crossings, key=lambda c: math.atan2(*point(c[0].wall, c[1])[::-1]))
+    place, t = min(crossings, key=lambda c: math.atan2(*points_at(c[0].wall, c[1])[0][::-1]))
     pieces: list[WallPiece] = []
     for _ in range(64):  # many times the walls of any slot
         last, leaves = _run(rim, place)
@@ -59,7 +58,7 @@ def chain(assembly: Assembly, sizes: Sizes, engagement: Engagement) -> list[Wall
 
 
 def _long(piece: WallPiece, least: float) -> bool:
-    return math.dist(point(piece.wall, piece.start), point(piece.wall, piece.end)) > least
+    return math.dist(*points_at(piece.wall, piece.start, piece.end)) > least
 
 
 def _lost() -> GenevaError:
@@ -99,11 +98,9 @@ class _Rim:
     def crossing(self, wall: Wall, outside: float, inside: float) -> float:
         """Return the parameter at which a wall crosses the rim."""
 
-        def within(t: Array) -> Mask:
-            out: Mask = self.depth(wall.curve(t)[0]) > 0.0
-            return out
-
-        return boundary_by_sections(within, float(inside), float(outside))
+        return boundary_by_sections(
+            lambda t: self.depth(wall.curve(t)[0]), float(inside), float(outside)
+        )
 
 
 def _run(rim: _Rim, place: WallPlace) -> tuple[WallPlace, float | None]:
@@ -125,7 +122,7 @@ def _run(rim: _Rim, place: WallPlace) -> tuple[WallPlace, float | None]:
 def _next(around: list[Wall], last: WallPlace) -> WallPlace:
     """Return the place where the next wall continues: on the nearest free wall but this one."""
     here = last.wall.points[last.i]
-    travel = last.sense * last.wall.curve(last.wall.t[last.i : last.i + 1])[1][0]
+    travel = last.sense * last.wall.tangents[last.i]
     ahead = []
     for wall in around:
         for start, end in runs(wall):
@@ -139,7 +136,7 @@ def _next(around: list[Wall], last: WallPlace) -> WallPlace:
     for far, wall, start, i, end in sorted(ahead, key=lambda one: one[0]):
         if best is not None and far > best[0]:
             break
-        along = float((wall.curve(wall.t[i : i + 1])[1][0] * travel).sum())
+        along = float((wall.tangents[i] * travel).sum())
         sense = 1 if i == start else -1 if i == end else (1 if along > 0.0 else -1)
         rest_of_run = end - i if sense > 0 else i - start
         score = (far, -rest_of_run)

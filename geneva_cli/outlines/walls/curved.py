@@ -12,7 +12,7 @@ from geneva_cli.kinematics.engagement import Engagement
 from geneva_cli.layout.assembly import Assembly
 from geneva_cli.layout.sizes import Sizes
 from geneva_cli.outlines.walls.chain import WallPiece, chain
-from geneva_cli.outlines.walls.joint import point
+from geneva_cli.outlines.walls.joint import points_at
 
 if TYPE_CHECKING:
     from geneva_cli.numerics.jet import Array
@@ -49,13 +49,10 @@ def curved_walls(
 
 def _mirrors(one: WallPiece, other: WallPiece, near: float) -> bool:
     """Return True if a piece is the other's mirror image in the slot's axis, run backwards."""
-    ends = ((one.start, other.end), (one.end, other.start))
-    middles = (0.5 * (one.start + one.end), 0.5 * (other.start + other.end))
-    for t, u in (*ends, middles):
-        (x, y), (v, w) = point(one.wall, t), point(other.wall, u)
-        if math.hypot(v - x, w + y) > near:
-            return False
-    return True
+    there = points_at(one.wall, one.start, one.end, 0.5 * (one.start + one.end))
+    back = points_at(other.wall, other.end, other.start, 0.5 * (other.start + other.end))
+    pairs = zip(there, back, strict=True)
+    return all(math.hypot(v - x, w + y) <= near for (x, y), (v, w) in pairs)
 
 
 def mirrored(segment: Segment) -> Segment:

@@ -27,8 +27,8 @@ class WallPlace(NamedTuple):
 def joint(last: WallPlace, following: WallPlace) -> tuple[float, float]:
     """Return the parameters on both walls of the point where they meet."""
     a, b = float(last.wall.t[last.i]), float(following.wall.t[following.i])
+    p, q = last.wall.points[last.i].tolist(), following.wall.points[following.i].tolist()
     at_ends = all(p.i in (0, len(p.wall.t) - 1) for p in (last, following))
-    p, q = point(last.wall, a), point(following.wall, b)
     if at_ends and math.dist(p, q) < 1e-6 * max(1.0, math.hypot(*p)):
         return a, b
     met = _crossing(last, following)
@@ -37,9 +37,9 @@ def joint(last: WallPlace, following: WallPlace) -> tuple[float, float]:
     # They merge: continue from the point of the one to the nearest free point of the other.
     low, high = _free_run(following)
     for _ in range(8):
-        q, v = _at(following.wall, b)
+        q, v, speed = _course(following, b)
         step = (p[0] - q[0]) * v[0] + (p[1] - q[1]) * v[1]
-        b = min(max(_within(following, b + step / _speed(following, b)), low), high)
+        b = min(max(_within(following, b + step / speed), low), high)
     return a, b
 
 
@@ -57,15 +57,15 @@ def _crossing(last: WallPlace, following: WallPlace) -> tuple[float, float] | No
     last, following = start
     a, b = float(last.wall.t[last.i]), float(following.wall.t[following.i])
     for _ in range(50):
-        p, u = _at(last.wall, a)
-        q, v = _at(following.wall, b)
+        p, u, p_speed = _course(last, a)
+        q, v, q_speed = _course(following, b)
         x, y = q[0] - p[0], q[1] - p[1]
         cross = u[0] * v[1] - u[1] * v[0]
         # walls at an angle below 1e-7 radians merge and do not cross
         if math.hypot(x, y) < 1e-12 * math.hypot(*p) or abs(cross) < 1e-7:
             break
-        a = _within(last, a + (x * v[1] - y * v[0]) / cross / _speed(last, a))
-        b = _within(following, b + (x * u[1] - y * u[0]) / cross / _speed(following, b))
+        a = _within(last, a + (x * v[1] - y * v[0]) / cross / p_speed)
+        b = _within(following, b + (x * u[1] - y * u[0]) / cross / q_speed)
     # the points are one to 1e-7 of their distance from the wheel's axis
     return (a, b) if math.hypot(x, y) < 1e-7 * math.hypot(*p) else None
 
@@ -102,22 +102,20 @@ def _within(place: WallPlace, t: float) -> float:
     return min(max(t, float(grid[max(i - REACH, 0)])), float(grid[min(i + REACH, len(grid) - 1)]))
 
 
-def _at(wall: Wall, t: float) -> tuple[tuple[float, float], tuple[float, float]]:
-    points, tangents = wall.curve(np.array([t]))
-    return tuple(points[0].tolist()), tuple(tangents[0].tolist())
+def points_at(wall: Wall, *t: float) -> list[list[float]]:
+    """Return the points of a wall at some parameters."""
+    out: list[list[float]] = wall.curve(np.array(t))[0].tolist()
+    return out
 
 
-def point(wall: Wall, t: float) -> tuple[float, float]:
-    """Return the point of a wall at a parameter."""
-    return _at(wall, t)[0]
-
-
-def _speed(place: WallPlace, t: float) -> float:
-    """Return the speed of a wall's point with its parameter."""
+def _course(place: WallPlace, t: float) -> tuple[list[float], list[float], float]:
+    """Return a wall's point and tangent at a parameter, and the point's speed with it."""
     step = 1e-6 * float(place.wall.t[-1] - place.wall.t[0])
     low, high = _within(place, t - step), _within(place, t + step)
-    moved = math.dist(point(place.wall, low), point(place.wall, high))
-    return max(moved / (high - low), 1e-12)
+    points, tangents = place.wall.curve(np.array([low, t, high]))
+    before, here, after = points.tolist()
+    speed = max(math.dist(before, after) / (high - low), 1e-12)
+    return here, tangents[1].tolist(), speed
 
 
 def runs(wall: Wall) -> Iterator[tuple[int, int]]:

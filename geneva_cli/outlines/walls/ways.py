@@ -29,7 +29,9 @@ if TYPE_CHECKING:
 
 Curve: TypeAlias = "Callable[[Array], tuple[Array, Array]]"  # parameters -> points and tangents
 
-FINE = 1e-7  # of the centre distance: greatest deviation of the sampled path from the true one
+# Of the centre distance, the greatest deviation of the sampled path from the true one: less than
+# half of the overlap that does not count as covered.
+FINE = 4e-7
 CIRCLE_SAMPLES = 97  # of the roller's circle, at least, and of its own outline
 
 
@@ -39,6 +41,7 @@ class Wall(NamedTuple):
     curve: Curve
     t: Array
     points: Array
+    tangents: Array
     free: NDArray[np.bool_]  # samples that no other position of the roller covers
     centre: tuple[float, float] | None = None  # where the wall is an arc, by its angle
     radius: float = 0.0
@@ -65,8 +68,8 @@ def walls(assembly: Assembly, sizes: Sizes, engagement: Engagement) -> list[Wall
         for side in (-w, w):
             curve = parallel(assembly, engagement, side, outward)
             t = part if at is None else _unfolded(curve, part, at, assembly.L, side)
-            points = curve(t)[0]
-            flanks.append(Wall(curve, t, points, _free(points, path, near)))
+            points, tangents = curve(t)
+            flanks.append(Wall(curve, t, points, tangents, _free(points, path, near)))
     if not back:
         return [*arcs, *flanks]
     x, y = _pitch(assembly, engagement, np.zeros(1))[0]
@@ -125,8 +128,8 @@ def _arc(
         points = np.column_stack((centre[0] + radius * c, centre[1] + radius * s))
         return points, np.column_stack((-s, c))
 
-    points = curve(angles)[0]
-    return Wall(curve, angles, points, _free(points, path, near), centre, radius)
+    points, tangents = curve(angles)
+    return Wall(curve, angles, points, tangents, _free(points, path, near), centre, radius)
 
 
 def parallel(assembly: Assembly, engagement: Engagement, side: float, outward: bool) -> Curve:
@@ -158,13 +161,13 @@ def _unfolded(curve: Curve, t: Array, at: Pitch, L: float, side: float) -> Array
     first = int(np.argmin(folded))
     centre = L * np.array((array(at.x)[order[0]], array(at.y)[order[0]]))
 
-    def out(x: Array) -> NDArray[np.bool_]:
-        outside: NDArray[np.bool_] = np.hypot(*(curve(x)[0] - centre).T) > abs(side)
-        return outside
+    def outside(x: Array) -> Array:
+        out: Array = np.hypot(*(curve(x)[0] - centre).T) - abs(side)
+        return out
 
-    while first < len(t) - 1 and not out(t[order[first : first + 1]])[0]:
+    while first < len(t) - 1 and not outside(t[order[first : first + 1]])[0] > 0.0:
         first += 1
-    b = boundary_by_sections(out, float(t[order[first]]), float(t[order[first - 1]]))
+    b = boundary_by_sections(outside, float(t[order[first]]), float(t[order[first - 1]]))
     kept = np.sort(t[order[first:]])
     return np.append(kept, b) if b < 0.0 else np.insert(kept, 0, b)
 

@@ -121,7 +121,8 @@ def sizes(left: RemainingValues) -> Iterator[Block]:
 def strength(left: RemainingValues) -> Iterator[Block]:
     """Strength and life of the parts."""
     blocks: list[Facts] = []
-    for part in ("pin", "horn", "lock", "wheel_shaft", "crank_shaft"):
+    shafts = "wheel_shaft", "wheel_key", "crank_shaft", "crank_key"
+    for part in ("pin", "horn", "lock", "arm", *shafts):
         blocks += facts(capital(part.replace("_", " ")), left.take(f"strength.{part}"))
     blocks += facts("Life", left.take("life"))
     if blocks:

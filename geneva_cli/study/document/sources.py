@@ -21,6 +21,7 @@ def sources(spec: Spec) -> tuple[str, ...]:
         "Derivatives: Taylor coefficients that are carried along; peaks: roots of the next "
         "derivative.",
         "Contact stress: Hertz, line contact. Life of the roller: ISO 281. Shafts: the ASME code "
-        "for transmission shafting (B17c). Pins: bending and shear by von Mises.",
+        "for transmission shafting (B17c). Pins and arm: beams, by von Mises. Keys: DIN 6892. "
+        "Default steel: C45+N, EN 10083-2.",
         "Formula and source of each value and check: geneva explain NAME.",
     )

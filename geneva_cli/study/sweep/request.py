@@ -68,12 +68,15 @@ class SweepRequest(NamedTuple):
 
         at = [names.index(o.name) for o in self.objectives]
         signs = [o.sign for o in self.objectives]
-        front_rows: list[list[Cell]] = []
-        for block in kept:  # the front so far is enough: a row that it dominates never returns
-            rows = [*front_rows, *block]
-            front_rows = [rows[i] for i in front(rows, at, signs)]
-        if front_rows:
-            yield front_rows
+        rows, size = list[list[Cell]](), 0  # the front so far, its size, and the rows after it
+        for block in kept:  # a row that the front dominates never returns
+            rows += block
+            if len(rows) >= 2 * size:  # not for a few rows more, if the front is long
+                rows = [rows[i] for i in front(rows, at, signs)]
+                size = len(rows)
+        rows = [rows[i] for i in front(rows, at, signs)]
+        if rows:
+            yield rows
 
     def best(self, every: Iterable[list[list[Cell]]]) -> list[str]:
         """The best design, refined, as the lines of a spec."""

@@ -55,6 +55,9 @@ LIMITS: Checks = {
     "lock_deflection_max_deg": "strength:strength_limit",
     "wheel_shaft_stress_MPa": "strength:strength_limit",
     "crank_shaft_stress_MPa": "strength:strength_limit",
+    "arm_stress_MPa": "strength:strength_limit",
+    "wheel_key_pressure_MPa": "strength:strength_limit",
+    "crank_key_pressure_MPa": "strength:strength_limit",
     "product_acceleration_max_m_s2": "product:acceleration",
     "product_slip": "product:slipping",
 }
@@ -81,6 +84,8 @@ STATIC: Checks = {
     "stop_turns": "stop:turns",
     "stop_overlap_mm": "stop:overlap",
     "stop_stress_max_MPa": "stop:stress",
+    "cut_plate_mm": "process:thickest_plate",
+    "cut_slot_mm": "process:slot_width",
     "parts": "buildable:plates",
 }
 # Checks of the shells of a sphere at rest.

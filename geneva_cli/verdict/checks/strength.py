@@ -1,20 +1,42 @@
-"""Stresses and life of pin, horn, lock, shafts and roller, if the spec gives limits."""
+"""Stresses of loaded parts against what their steel allows, and their life against limits."""
 
 from __future__ import annotations
 
-from typing import NamedTuple
+import math
+from typing import TYPE_CHECKING, NamedTuple
 
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.verdict.checks.check import Check, compared
 
+if TYPE_CHECKING:
+    from geneva_cli.verdict.strength import Strength
+
 
 class Bound(NamedTuple):
-    """A limit of the spec, and the whole name of the limited quantity."""
+    """A limit of the spec, and the whole names of quantities: the limited one, and others.
+
+    ``allowed`` is the limit of the default steel, ``size`` and ``least`` the size on which the
+    stress depends, and its least value.
+    """
 
     limit: str  # table.key
     quantity: str
     place: str = ""  # the quantity with its input angle
     must_be: str = "at most"
+    allowed: str = ""
+    what: str = ""  # the size, in words
+    size: str = ""
+    least: str = ""
+
+
+def _part(
+    limit: str, part: str, what: str = "", size: str = "", stress: str = "stress_MPa"
+) -> Bound:
+    """The bound of a part's stress, which has a default limit."""
+    name = f"strength.{part}"
+    place = f"{name}.at_deg" if part in ("horn", "wheel_shaft", "crank_shaft") else ""
+    sizes = (f"{name}.{size}", f"{name}.least_{size}") if size else ("", "")
+    return Bound(limit, f"{name}.{stress}", place, "at most", f"{name}.allowed_MPa", what, *sizes)
 
 
 BOUNDS = {
@@ -27,13 +49,15 @@ BOUNDS = {
     "slot_wear_max_mm_per_million": Bound(
         "limits.slot_wear_max_mm_per_million", "life.slot_wear_mm_per_million"
     ),
-    "pin_stress_MPa": Bound("material.roller.stress_max_MPa", "strength.pin.stress_MPa"),
+    "pin_stress_MPa": _part("material.roller.stress_max_MPa", "pin", "pin_mm", "diameter_mm"),
     # under the roller
-    "horn_stress_MPa": Bound(
-        "material.wheel.stress_max_MPa", "strength.horn.stress_MPa", "strength.horn.at_deg"
-    ),
+    "horn_stress_MPa": _part("material.wheel.stress_max_MPa", "horn"),
     # under the torque that the lock holds
-    "lock_horn_stress_MPa": Bound("material.wheel.stress_max_MPa", "strength.lock.horn_stress_MPa"),
+    "lock_horn_stress_MPa": Bound(
+        "material.wheel.stress_max_MPa",
+        "strength.lock.horn_stress_MPa",
+        allowed="strength.horn.allowed_MPa",
+    ),
     # between disc and recess: on the recess's end, or between the arcs
     "lock_stress_max_MPa": Bound("limits.lock_stress_max_MPa", "strength.lock.greatest_MPa"),
     # the wheel turns by the lock's play, the contact's approach and the horn's bending
@@ -41,15 +65,21 @@ BOUNDS = {
         "limits.lock_deflection_max_deg", "strength.lock.deflection_deg"
     ),
     # shear stresses, by the ASME code
-    "wheel_shaft_stress_MPa": Bound(
-        "shaft.shear_stress_max_MPa",
-        "strength.wheel_shaft.stress_MPa",
-        "strength.wheel_shaft.at_deg",
+    "wheel_shaft_stress_MPa": _part(
+        "shaft.shear_stress_max_MPa", "wheel_shaft", "the wheel's shaft", "diameter_mm"
     ),
-    "crank_shaft_stress_MPa": Bound(
-        "shaft.shear_stress_max_MPa",
-        "strength.crank_shaft.stress_MPa",
-        "strength.crank_shaft.at_deg",
+    "crank_shaft_stress_MPa": _part(
+        "shaft.shear_stress_max_MPa", "crank_shaft", "the crank's shaft", "diameter_mm"
+    ),
+    "arm_stress_MPa": _part(
+        "material.wheel.stress_max_MPa", "arm", "arm_thickness_mm", "thickness_mm"
+    ),
+    # on a key's sides
+    "wheel_key_pressure_MPa": _part(
+        "material.wheel.stress_max_MPa", "wheel_key", "the key", "length_mm", "pressure_MPa"
+    ),
+    "crank_key_pressure_MPa": _part(
+        "material.wheel.stress_max_MPa", "crank_key", "the key", "length_mm", "pressure_MPa"
     ),
 }
 
@@ -57,22 +87,47 @@ BOUNDS = {
 def strength_limit(name: str, mechanism: Mechanism) -> Check | None:
     """A limited value of strength or life; None without a limit, or without the part.
 
-    It is not proved if a key is missing.
+    Loaded parts are limited by the spec, or else by their default steel. It is not proved if a key
+    is missing.
     """
     bound = BOUNDS[name]
     table, _, key = bound.limit.rpartition(".")
-    limit = mechanism.spec.table(table)[key]
-    if limit is None:
+    own = mechanism.spec.table(table)[key]
+    if own is None and not (bound.allowed and mechanism.spec.is_loaded):
         return None
-    # A spec without such limits is checked without NumPy.
+    # A spec without limits or loads is checked without NumPy.
     from geneva_cli.verdict.strength import strength
 
     of = strength(mechanism)
+    # a key may also be limited by its shear
+    limit = of[bound.allowed] if bound.allowed and (own is None or "key" in name) else own
     value = of[bound.quantity]
-    if value is not None:
+    if value is not None and limit is not None:
         at_deg = of[bound.place] if bound.place else None
-        return compared(name, value, bound.must_be, limit, at_deg)
+        check = compared(name, value, bound.must_be, limit, at_deg)
+        return check if check.passes else check._replace(why=_needed(bound, of, check))
     reason = of.reason(name)
-    if reason is None:
+    # without a limit in the spec, a value that needs another key is not asked for
+    if reason is None or (own is None and math.isfinite(of.load.force_N[0])):
         return None
     return Check(name, None, bound.must_be, limit, None, f"not known: it needs {reason}")
+
+
+def _needed(bound: Bound, of: Strength, check: Check) -> str:
+    """The size on which a failing stress depends, and what it must be; empty if unknown."""
+    if not bound.size:
+        return _needed_width(of, check) if "horn" in check.name else ""
+    size, least = of[bound.size], of[bound.least]
+    if size is None:
+        return ""
+    needs = "no value is enough" if least is None else f"this load needs {least:.4g}"
+    return f"{bound.what} is {size:.4g} mm, but {needs}"
+
+
+def _needed_width(of: Strength, check: Check) -> str:
+    """The width of the contact that a horn needs: its stress is in inverse proportion to it."""
+    width = of.contact_mm
+    if width is None or not check.value or not check.limit:
+        return ""
+    least = width * check.value / check.limit
+    return f"the contact is {width:.4g} mm wide, but this load needs {least:.4g}"

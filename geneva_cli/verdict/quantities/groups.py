@@ -279,6 +279,20 @@ REPORT = (
         for shaft in ("wheel_shaft", "crank_shaft")
     ),
     _group(
+        "strength.arm",
+        "thickness_mm stress_MPa allowed_MPa margin",
+        batch="strength:arm",
+    ),
+    _group("strength.arm", "least_thickness_mm", batch="strength:arm_thickness"),
+    *(
+        _group(
+            f"strength.{key}",
+            "length_mm pressure_MPa shear_MPa allowed_MPa margin least_length_mm",
+            batch=f"strength:{key}",
+        )
+        for key in ("wheel_key", "crank_key")
+    ),
+    _group(
         "life",
         "slot_travel_m roller_turns_per_motion equivalent_force_N friction_work_J",
         batch="strength:wear",

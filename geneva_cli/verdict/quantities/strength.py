@@ -1,4 +1,4 @@
-"""Strength and life of designs: pin, horn, lock, shafts, the roller and the walls of its slot."""
+"""Strength and life of designs: pin, horn, lock, shafts, arm, keys, roller, walls of its slot."""
 
 from __future__ import annotations
 
@@ -7,13 +7,18 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from geneva_cli.analysis import pin as pins
+from geneva_cli.loads.strength import arm as arms
 from geneva_cli.loads.strength import roller, shafts
+from geneva_cli.loads.strength.allowed import allowed_MPa, shear_allowed_MPa
 from geneva_cli.loads.strength.horn import horn_stresses
+from geneva_cli.loads.strength.keys import KeyDimensions, key_stress
+from geneva_cli.numerics.arrays import array, parameter
 from geneva_cli.verdict.quantities.under_load import under_load
 
 if TYPE_CHECKING:
     from geneva_cli.numerics.arrays import Number
     from geneva_cli.numerics.jet import Array
+    from geneva_cli.spec.tables import Material
     from geneva_cli.verdict.quantities.designs import Columns, Designs
 
 
@@ -34,12 +39,13 @@ def margin(stress: Number, allowed: Number | None) -> Array | None:
 
 
 def pin(of: Designs) -> Columns:
-    """The roller's pin under the greatest force; it needs a face width."""
-    section, allowed = pins.pin(of.machine), of.spec.material_roller.stress_max_MPa
-    out: dict[str, Number | None] = {"allowed_MPa": allowed}
-    if section is None:
+    """The roller's pin under the greatest force; it needs a width of the contact."""
+    load, allowed = under_load(of), _allowed(of, of.spec.material_roller)
+    width, out = load.contact_mm, {"allowed_MPa": allowed}
+    if width is None:
         return out
-    force = under_load(of).force_N[:, None]
+    force = load.force_N[:, None]
+    section = pins.pin(of.spec.size, width, _pin_mm(of, width, force))
     under = section.under(force)
     stress = np.ravel(under.equivalent)
     out |= {
@@ -50,13 +56,33 @@ def pin(of: Designs) -> Columns:
         "margin": margin(stress, allowed),
     }
     if allowed is not None:
-        out["least_diameter_mm"] = pins.least_diameter_mm(section, force, allowed)
+        least = pins.least_diameter_mm(section, force, allowed)
+        out["least_diameter_mm"] = np.where(np.isfinite(allowed), least, np.inf)
     return out
 
 
+def _pin_mm(of: Designs, width: float, force: Array) -> Number:
+    """The pin's diameter, (m, 1): of the spec, or as its machine is drawn."""
+    usual = pins.pin_diameter_mm(of.machine)
+    if of.spec.size.pin_mm is not None:
+        return usual
+    stress = pins.pin(of.spec.size, width, usual).under(force).equivalent
+    # where the usual pin holds, it is drawn
+    holds = ~(stress > allowed_MPa(of.spec.material_roller))
+    parts = None if np.all(holds) else under_load(of).parts
+    if parts is None:
+        return usual
+    return np.where(np.isnan(parts.pin), np.ravel(usual), parts.pin)[:, None]
+
+
+def _allowed(of: Designs, material: Material) -> Number | None:
+    """The allowable stress of a material; without a load only that of the spec."""
+    return allowed_MPa(material) if of.spec.is_loaded else material.stress_max_MPa
+
+
 def horn(of: Designs) -> Columns:
-    """The horn at the place where the roller bends it most; it needs a face width."""
-    width, allowed = of.spec.size.face_width_mm, of.spec.material_wheel.stress_max_MPa
+    """The horn at the place where the roller bends it most; it needs a width of the contact."""
+    width, allowed = under_load(of).contact_mm, _allowed(of, of.spec.material_wheel)
     out: dict[str, Number | None] = {"allowed_MPa": allowed}
     sizes = None if width is None else under_load(of).lock_sizes
     if width is None or sizes is None:
@@ -72,7 +98,7 @@ def horn(of: Designs) -> Columns:
 
 
 def lock(of: Designs) -> Columns:
-    """The lock under the torque in the dwell; it needs a face width.
+    """The lock under the torque in the dwell; it needs a width of the contact.
 
     ``greatest_MPa`` is the stress between disc and recess, on an end or between the arcs.
     """
@@ -99,13 +125,38 @@ def _known(row: Number | None) -> Array:
 
 def wheel_shaft(of: Designs) -> Columns:
     """The wheel's shaft, if it is parallel to the crank's."""
-    return _shaft(of, shafts.wheel_shaft(of.spec.shaft), shafts.on_wheel)
+    ends = _drawn(of, shafts.wheel_shaft(of.spec.shaft), "wheel")
+    return _shaft(of, ends, shafts.on_wheel)
 
 
 def crank_shaft(of: Designs) -> Columns:
     """The crank's shaft, if it is parallel to the wheel's."""
     on = shafts.on_driven_crank if of.spec.drive.CRANKED else shafts.on_crank
-    return _shaft(of, shafts.crank_shaft(of.spec.shaft), on)
+    return _shaft(of, _drawn(of, shafts.crank_shaft(of.spec.shaft), "crank"), on)
+
+
+def _drawn(of: Designs, ends: shafts.ShaftDimensions, part: str) -> shafts.ShaftDimensions:
+    """The dimensions of a loaded shaft, with those of its parts where the spec has none."""
+    if not of.spec.is_loaded:
+        return ends
+    keyway = vars(of.spec.size)[f"{part}_keyway"] is not None
+    ends = ends._replace(allowed_MPa=parameter(shear_allowed_MPa(of.spec.shaft, keyway)))
+    complete = ends.diameter_mm is not None and ends.overhang_mm is not None
+    parts = None if complete else under_load(of).parts
+    if parts is None:
+        return ends
+    diameter, overhang = parts.wheel_shaft if part == "wheel" else parts.crank_shaft
+    if ends.diameter_mm is None and not np.isnan(diameter).all():
+        ends = ends._replace(diameter_mm=_number(of, diameter))
+    if ends.overhang_mm is None and not np.isnan(overhang).all():
+        # a design without parts has no diameter either, and so no stress
+        ends = ends._replace(overhang_mm=_number(of, np.nan_to_num(overhang)))
+    return ends
+
+
+def _number(of: Designs, values: Array) -> float:
+    """Values (m,) as a machine has its numbers: a float, or (m, 1) in a batch."""
+    return values.item() if of.single else parameter(values[:, None])
 
 
 def _shaft(of: Designs, ends: shafts.ShaftDimensions, on: shafts.ShaftForces) -> Columns:
@@ -116,12 +167,73 @@ def _shaft(of: Designs, ends: shafts.ShaftDimensions, on: shafts.ShaftForces) ->
         return out
     moment = np.asarray(turned.moment_Nm) * of.loaded
     rows = {name: value for name, value in turned._asdict().items() if value is not None}
-    allowed = of.spec.shaft.shear_stress_max_MPa
+    allowed = ends.allowed_MPa
     if allowed is not None:
         rows["allowed_MPa"] = np.ravel(allowed)
+    if allowed is not None and turned.least_diameter_mm is not None:
+        known = np.isfinite(np.ravel(allowed))
+        rows["least_diameter_mm"] = np.where(known, np.ravel(turned.least_diameter_mm), np.inf)
     if turned.stress_MPa is not None and allowed is not None:
         rows["margin"] = margin(turned.stress_MPa, allowed)
     return out | {name: np.where(np.isfinite(moment), row, moment) for name, row in rows.items()}
+
+
+def arm(of: Designs) -> Columns:
+    """The crank arm under the greatest force on the crank."""
+    parts, allowed = under_load(of).parts, _allowed(of, of.spec.material_wheel)
+    out: dict[str, Number | None] = {"allowed_MPa": allowed}
+    if parts is None or np.isnan(parts.arm.length).all():
+        return out
+    force = under_load(of).part_loads.crank_N * of.loaded
+    stress = _known(arms.arm_stress_MPa(parts.arm, force))
+    return out | {
+        "thickness_mm": _known(parts.arm.thickness),
+        "stress_MPa": stress,
+        "margin": margin(stress, allowed),
+    }
+
+
+def arm_thickness(of: Designs) -> Columns:
+    """The thickness at which the crank arm just holds."""
+    parts, steel = under_load(of).parts, array(allowed_MPa(of.spec.material_wheel))
+    if parts is None or np.isnan(parts.arm.length).all():
+        return {}
+    force = under_load(of).part_loads.crank_N * of.loaded
+    least = arms.least_thickness_mm(parts.arm, force, steel.ravel())
+    return {"least_thickness_mm": _known(np.where(np.isfinite(force), least, force))}
+
+
+def wheel_key(of: Designs) -> Columns:
+    """The key in the wheel's bore."""
+    parts = under_load(of).parts
+    return _key(of, parts and parts.wheel_key, "wheel_Nm")
+
+
+def crank_key(of: Designs) -> Columns:
+    """The key in the arm's bore."""
+    parts = under_load(of).parts
+    return _key(of, parts and parts.crank_key, "crank_Nm")
+
+
+def _key(of: Designs, key: KeyDimensions | None, torque: str) -> Columns:
+    """A key under a shaft's greatest torque; the pressure allowed keeps the shear, too."""
+    if key is None or np.isnan(key.shaft).all():
+        return {}
+    most = getattr(under_load(of).part_loads, torque) * of.loaded
+    most = most * np.ravel(of.spec.shaft.torsion_factor)
+    sides = np.ravel(allowed_MPa(of.spec.material_wheel))
+    shear = np.ravel(shear_allowed_MPa(of.spec.shaft))
+    stress = key_stress(key, most, sides, shear)
+    allowed = np.minimum(sides, shear * key.width / key.bearing)
+    pressure = _known(stress.pressure_MPa)
+    return {
+        "length_mm": _known(key.length),
+        "pressure_MPa": pressure,
+        "shear_MPa": _known(stress.shear_MPa),
+        "allowed_MPa": _known(allowed),
+        "margin": margin(pressure, _known(allowed)),
+        "least_length_mm": _known(stress.least_length_mm),
+    }
 
 
 def pressure_speed(of: Designs) -> Columns:

@@ -11,10 +11,14 @@ import numpy as np
 
 from geneva_cli.analysis.quantities import FORCE, PV
 from geneva_cli.layout.sizes import sized
+from geneva_cli.layout.stressed import lock_of
 from geneva_cli.loads.cycle import cycle_of
 from geneva_cli.loads.strength import lock, roller, shafts
+from geneva_cli.loads.strength.part_loads import PartLoads, part_loads
 from geneva_cli.loads.summaries import load_peaks
-from geneva_cli.verdict.lock_sizes import LockSizes, design_lock_sizes, lock_of
+from geneva_cli.numerics.arrays import parameter
+from geneva_cli.verdict.lock_sizes import LockSizes, design_lock_sizes
+from geneva_cli.verdict.part_sizes import PartSizes, part_sizes
 
 if TYPE_CHECKING:
     from geneva_cli.loads.strength.lock import LockUnderTorque
@@ -59,8 +63,29 @@ class UnderLoad:
     @cached_property
     def lock(self) -> LockUnderTorque | None:
         """The lock under the torque that it holds in the dwell; None if no design has one."""
-        sizes = self.lock_sizes
-        return sizes and lock.loaded_locks(self.machine, sizes.half_width, sizes.lock)
+        sizes, width = self.lock_sizes, self.contact_mm
+        if sizes is None or width is None:
+            return None
+        return lock.loaded_locks(self.machine, sizes.half_width, sizes.lock, width)
+
+    @cached_property
+    def parts(self) -> PartSizes | None:
+        """The dimensions of stressed parts; None if no design has parts, or a load."""
+        loaded = self.machine.spec.is_loaded
+        return part_sizes(self.machine, self.part_loads) if loaded else None
+
+    @property
+    def contact_mm(self) -> float | None:
+        """Length of the contact line, (m, 1): by default the thickness of the loaded wheel."""
+        width = self.machine.spec.size.face_width_mm
+        if width is not None or self.parts is None:
+            return width
+        return parameter(self.parts.contact[:, None])
+
+    @cached_property
+    def part_loads(self) -> PartLoads:
+        """The greatest loads on arm, keys and shafts."""
+        return part_loads(self.machine)
 
     def shaft(
         self, ends: shafts.ShaftDimensions, loaded: shafts.ShaftForces

@@ -1,0 +1,234 @@
+"""Default sizes under a load: thicknesses, pin, bores and hubs as large as the load needs.
+
+The loads follow from the motion, the roller and what the wheel turns, never from these sizes. Only
+with friction on the pin do they depend on its diameter: then it stays the usual one. The sizes are
+computed one after the other. The wheel's thickness follows from its horns, then the pin from that.
+For one thickness of the arm after the other there are shafts, until the arm holds.
+
+Each size is the first preferred number that keeps the allowable stress, from the usual size on.
+If there is none, it is the largest that fits, and a check fails.
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from geneva_cli.analysis.pin import pin
+from geneva_cli.layout.arm_sizes import hub_around, within_hub
+from geneva_cli.layout.assembly import Assembly
+from geneva_cli.layout.keyways import reach_or_bore
+from geneva_cli.layout.link_positions import links_at
+from geneva_cli.layout.plain_sizes import Sizes, thicknesses
+from geneva_cli.layout.roller_paths import roller_centres
+from geneva_cli.layout.stressed import ShaftSize, lock_of, stressed
+from geneva_cli.loads.strength import lock
+from geneva_cli.loads.strength.allowed import allowed_MPa, shear_allowed_MPa
+from geneva_cli.loads.strength.arm import arm_stress_MPa
+from geneva_cli.loads.strength.horn import horn_stresses
+from geneva_cli.loads.strength.keys import KeyDimensions, key_stress
+from geneva_cli.loads.strength.part_loads import PartLoads, single_loads
+from geneva_cli.loads.strength.shafts import shear_MPa
+from geneva_cli.machine.spec import Spec
+from geneva_cli.numerics.keeps import keeps
+from geneva_cli.numerics.preferred import bores_from, rounded_from
+
+
+def load_sizes(
+    assembly: Assembly, usual: Sizes, space: float, known: PartLoads | None = None
+) -> Sizes:
+    """Return the sizes of a machine under its load, from the usual ones.
+
+    ``space`` is the radius about the crank's axis inside the relief, mm; ``known`` are the loads,
+    if computed already. A load without a bound leaves all sizes.
+    """
+    loads = known or single_loads(assembly.full)
+    if not all(map(math.isfinite, loads)):
+        return usual
+    size = assembly.full.spec.size
+    sizes = usual
+    if size.wheel_thickness_mm is None and size.face_width_mm is None:
+        sizes = _thick(assembly, sizes, wheel=_wheel_thickness(assembly, sizes))
+    sizes = sizes._replace(pin=_pin(assembly, sizes, loads))
+    has_arm = sizes.arm_bore > 0.0 and sizes.pin > 0.0
+    if not has_arm or size.arm_thickness_mm is not None:
+        return _bored(assembly, sizes, loads, space)
+    # a thicker arm, up to twice the wheel, is better for a key than a thicker shaft
+    plates = rounded_from(sizes.wheel_thickness, 2.0 * sizes.wheel_thickness)
+    for keyed in (False, True) if size.crank_keyway else (True,):
+        for arm in plates:
+            trial = _bored(assembly, _thick(assembly, sizes, arm=arm), loads, space, keyed)
+            if _arm_holds(assembly, trial, loads):
+                return trial
+    return trial
+
+
+def _thick(
+    assembly: Assembly, sizes: Sizes, wheel: float | None = None, arm: float | None = None
+) -> Sizes:
+    """Return the sizes with another thickness of the wheel, or of the arm."""
+    size = assembly.full.spec.size.replace(
+        wheel_thickness_mm=wheel or sizes.wheel_thickness,
+        **({"arm_thickness_mm": arm} if arm else {}),
+    )
+    thick = thicknesses(size, assembly.L)
+    return sizes._replace(
+        wheel_thickness=thick.wheel,
+        lock_thickness=thick.lock,
+        arm_thickness=thick.arm,
+        link_thickness=thick.link,
+    )
+
+
+def _wheel_thickness(assembly: Assembly, sizes: Sizes) -> float:
+    """Return the wheel's thickness at which its horns hold, at most twice the usual one."""
+    usual = sizes.wheel_thickness
+    if not sizes.lock:
+        return usual
+    machine = assembly.full
+    per_mm = [horn_stresses(machine, sizes.half_width, sizes.recess, 1.0).stress_MPa]
+    held = lock.loaded_locks(machine, sizes.half_width, lock_of(assembly, sizes), 1.0)
+    per_mm += [held.horn_stress_MPa] if held else []
+    most = float(np.nanmax(np.hstack([np.ravel(0.0), *map(np.ravel, per_mm)])))
+    allowed = float(allowed_MPa(machine.spec.material_wheel))
+    trials = rounded_from(usual, 2.0 * usual)  # a thicker wheel bends its pins more than its horns
+    return next((b for b in trials if keeps(most / b, "at most", allowed)), trials[-1])
+
+
+def _pin(assembly: Assembly, sizes: Sizes, loads: PartLoads) -> float:
+    """Return the radius of a pin that holds; the largest leaves a wall of the roller and the arm.
+
+    With friction on the pin it stays the usual one, on which the loads depend.
+    """
+    machine = assembly.full
+    spec = machine.spec
+    rubs = spec.load.friction and not spec.load.rubs_in_slot
+    if spec.size.pin_mm is not None or rubs or not sizes.pin:
+        return sizes.pin
+    # the roller keeps three tenths of its radius as a wall; the eye passes the largest wheel's hub
+    most = 0.7 * sizes.roller
+    if assembly.sign > 0.0 and sizes.arm_bore:
+        reach = max(math.hypot(*centre) for centre in roller_centres(assembly))
+        passing = assembly.L - reach - max(sizes.wheel_hub, 0.75 * sizes.slot_end)
+        most = min(most, passing - sizes.wall_min)
+    contact = stressed(assembly, sizes).contact
+    allowed = float(allowed_MPa(spec.material_roller))
+    for d in rounded_from(2.0 * sizes.pin, 2.0 * most):
+        stress = float(pin(spec.size, contact, d).under(loads.pin_N).equivalent)
+        if keeps(stress, "at most", allowed):
+            break
+    return 0.5 * d
+
+
+def _bored(
+    assembly: Assembly, sizes: Sizes, loads: PartLoads, space: float, keyed: bool = True
+) -> Sizes:
+    """Return the sizes with bores of wheel and crank whose shafts and keys hold.
+
+    Unless ``keyed``, the crank's bore is not sized by its key.
+    """
+    wheel = _wheel_bored(assembly, sizes, loads)
+    return _crank_bored(assembly, wheel, loads, space, keyed)
+
+
+def _wheel_bored(assembly: Assembly, sizes: Sizes, loads: PartLoads) -> Sizes:
+    spec = assembly.full.spec
+    size = spec.size
+    fixed = size.wheel_bore_mm is not None or spec.shaft.wheel_diameter_mm is not None
+    if fixed or not sizes.wheel_bore:
+        return sizes
+    end, wall = sizes.slot_end, sizes.wall_min
+    # a third of the wheel up to its slots is left as a wall
+    within = within_hub(size.wheel_hub_mm, size.wheel_keyway)
+    most = min(end * 2.0 / 3.0, end - wall, within)
+    trial = sizes
+    for d in bores_from(2.0 * sizes.wheel_bore, 2.0 * most):
+        trial = _with_wheel_bore(assembly, sizes, 0.5 * d)
+        parts = stressed(assembly, trial)
+        shaft = _shaft_holds(assembly, parts.wheel_shaft, size.wheel_keyway, loads[1:3])
+        if shaft and _key_holds(spec, parts.wheel_key, loads.wheel_Nm):
+            break
+    return trial
+
+
+def _with_wheel_bore(assembly: Assembly, sizes: Sizes, bore: float) -> Sizes:
+    size = assembly.full.spec.size
+    reach = reach_or_bore(size.wheel_keyway, bore)
+    hub = hub_around(reach, bore, sizes.wall_min, min(1.6 * bore, 0.75 * sizes.slot_end))
+    hub = hub if size.wheel_hub_mm is None else 0.5 * size.wheel_hub_mm
+    return sizes._replace(wheel_bore=bore, wheel_reach=reach, wheel_hub=hub)
+
+
+def _crank_bored(
+    assembly: Assembly, sizes: Sizes, loads: PartLoads, space: float, keyed: bool
+) -> Sizes:
+    """Return the sizes with the crank's bore, through the disc if a shaft that holds fits there.
+
+    Otherwise the shaft ends in the arm, whose bore may be larger, unless links are in its way.
+    """
+    spec = assembly.full.spec
+    size = spec.size
+    own = (size.crank_bore_mm, size.arm_bore_mm, spec.shaft.crank_diameter_mm)
+    if any(key is not None for key in own):
+        return sizes
+    trial = sizes
+    if sizes.crank_bore:
+        # a larger bore leaves no space for its default hub, of 1.5 bores
+        most = min(0.6 * space, within_hub(size.crank_hub_mm, size.crank_keyway))
+        for d in bores_from(2.0 * sizes.crank_bore, 2.0 * most):
+            trial = _with_crank_bore(assembly, sizes, 0.5 * d)
+            if _crank_holds(assembly, trial, loads, keyed):
+                return trial
+    # past links and gears the shaft may have no other way out
+    if not sizes.arm_bore or links_at(assembly.full, np.zeros(1)) or spec.drive.gears:
+        return trial
+    hole = sizes.pin - 0.5 * size.allowances.press_fit_mm
+    reach = min(math.hypot(*centre) for centre in roller_centres(assembly))
+    for d in bores_from(2.0 * sizes.arm_bore, reach - hole):  # half of the space is left as a wall
+        other = _with_crank_bore(assembly, sizes, 0.0)._replace(arm_bore=0.5 * d)
+        if _crank_holds(assembly, other, loads, keyed):
+            break
+    return other
+
+
+def _with_crank_bore(assembly: Assembly, sizes: Sizes, bore: float) -> Sizes:
+    size = assembly.full.spec.size
+    reach = reach_or_bore(size.crank_keyway, bore)
+    hub = hub_around(reach, bore, sizes.wall_min, 1.5 * bore)
+    hub = hub if size.crank_hub_mm is None else 0.5 * size.crank_hub_mm
+    arm = bore if sizes.arm_bore else 0.0
+    return sizes._replace(crank_bore=bore, crank_reach=reach, crank_hub=hub, arm_bore=arm)
+
+
+def _crank_holds(assembly: Assembly, sizes: Sizes, loads: PartLoads, keyed: bool) -> bool:
+    parts, spec = stressed(assembly, sizes), assembly.full.spec
+    shaft = _shaft_holds(assembly, parts.crank_shaft, spec.size.crank_keyway, loads[3:])
+    return shaft and (not keyed or _key_holds(spec, parts.crank_key, loads.crank_Nm))
+
+
+def _shaft_holds(
+    assembly: Assembly, shaft: ShaftSize, keyway: str | None, loads: tuple[float, ...]
+) -> bool:
+    """Return True if a shaft holds force and torque, as if both were greatest at once."""
+    table, (force, torque) = assembly.full.spec.shaft, loads
+    bending = table.bending_factor * force * shaft.overhang / 1000.0
+    stress = shear_MPa(math.hypot(bending, table.torsion_factor * torque), shaft.diameter)
+    return keeps(stress, "at most", float(shear_allowed_MPa(table, keyway is not None)))
+
+
+def _key_holds(spec: Spec, key: KeyDimensions, torque: float) -> bool:
+    """Return True if a key holds a torque, or where there is none."""
+    sides, shear = allowed_MPa(spec.material_wheel), shear_allowed_MPa(spec.shaft)
+    turned = np.asarray(spec.shaft.torsion_factor * torque)
+    stress = key_stress(key, turned, np.asarray(sides), np.asarray(shear))
+    least = float(stress.least_length_mm)
+    return math.isnan(least) or keeps(float(key.length), "at least", least)
+
+
+def _arm_holds(assembly: Assembly, sizes: Sizes, loads: PartLoads) -> bool:
+    """Return True if the arm and its key hold; a shaft that does not needs no thicker arm."""
+    parts, spec = stressed(assembly, sizes), assembly.full.spec
+    stress = float(arm_stress_MPa(parts.arm, np.asarray(loads.crank_N)))
+    key = _key_holds(spec, parts.crank_key, loads.crank_Nm)
+    return key and keeps(stress, "at most", float(allowed_MPa(spec.material_wheel)))

@@ -1,0 +1,84 @@
+"""The record of all sizes, and those that follow from the spec alone; mm."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, NamedTuple
+
+from geneva_cli.numerics.preferred import rounded_below
+
+if TYPE_CHECKING:
+    from geneva_cli.spec.tables import Size
+from geneva_cli.spec.workshops import workshop
+
+
+class Sizes(NamedTuple):
+    """Lengths and radii, mm; bores and hubs are radii too. 0 for parts that do not exist."""
+
+    roller: float
+    half_width: float  # of the slot: roller and clearance
+    rim: float  # of the wheel; of the opening if it is internal
+    outer: float  # of an internal wheel, otherwise 0
+    slot_bottom: float  # clearance between the deepest roller and a straight slot's end
+    slot_end: float  # distance of the slot's bottom from the wheel's axis
+    arm: float  # least distance of a roller's path from the crank's axis
+    lock: float  # locking disc
+    recess: float  # in the wheel: lock and clearance
+    relief: float  # clearance between wheel and relief
+    wall_min: float
+    wheel_bore: float
+    wheel_reach: float  # of the bore with its keyway, from the axis
+    wheel_hub: float
+    crank_bore: float
+    crank_reach: float
+    crank_hub: float
+    pin: float
+    arm_bore: float  # of the shaft in the arm, also where it ends there
+    wheel_thickness: float  # along the axis, of the rollers too
+    lock_thickness: float
+    arm_thickness: float
+    link_thickness: float
+
+    @property
+    def horn(self) -> float:
+        """Thickness of the horn between slot and recess, thinnest at the mouth."""
+        return self.arm - self.half_width - self.recess
+
+
+class Thicknesses(NamedTuple):
+    """The parts' thicknesses along the axis, mm."""
+
+    wheel: float
+    lock: float
+    arm: float
+    link: float
+
+
+def thicknesses(size: Size, L: float, parts: Sizes | None = None) -> Thicknesses:
+    """Return the thicknesses of ``parts``, or else of a spec; by default all are the wheel's."""
+    if parts:
+        own = parts.wheel_thickness, parts.lock_thickness, parts.arm_thickness
+        return Thicknesses(*own, parts.link_thickness)
+    wheel = value_or(size.wheel_thickness_mm, value_or(size.face_width_mm, rounded_below(L / 10.0)))
+    arm = value_or(size.arm_thickness_mm, wheel)
+    lock = value_or(size.lock_thickness_mm, wheel + size.pin_gap_mm)
+    return Thicknesses(wheel, lock, arm, value_or(size.link_thickness_mm, arm))
+
+
+def pin_radius(size: Size, r: float, parts: Sizes | None = None) -> float:
+    """Return the radius of a roller's pin, that of ``parts`` or else of a spec; 0 for none."""
+    return parts.pin if parts else half_or(size.pin_mm, 0.5 * rounded_below(r))
+
+
+def wall_min(size: Size, L: float) -> float:
+    """Return the least wall that ``check`` lets pass, mm."""
+    return value_or(size.wall_min_mm, max(L / 200.0, workshop(size.process).wall_mm))
+
+
+def value_or(value: float | None, default: float) -> float:
+    """Return a value of the spec, or else the default."""
+    return default if value is None else value
+
+
+def half_or(diameter: float | None, default: float) -> float:
+    """Return half of a diameter, or the default radius if that is None."""
+    return default if diameter is None else 0.5 * diameter

@@ -1,0 +1,116 @@
+"""The dimensions of the parts that their strength depends on: pin, shafts, arm and keys.
+
+A shaft's bearing is in the middle of the frame, below all that turns. Its overhang is the distance
+of that bearing from the middle of the wheel's thickness, unless the spec has one.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import NamedTuple
+
+import numpy as np
+
+from geneva_cli.analysis.locking import Lock
+from geneva_cli.errors import GenevaError
+from geneva_cli.layout.arm_sizes import arm_passing, eye_about, half_or, usual_hub
+from geneva_cli.layout.assembly import Assembly
+from geneva_cli.layout.keyways import key, reach_or_bore
+from geneva_cli.layout.link_positions import links_at
+from geneva_cli.layout.plain_sizes import Sizes, value_or
+from geneva_cli.layout.reliefs import is_whole, sectors
+from geneva_cli.layout.roller_paths import roller_centres
+from geneva_cli.loads.strength.arm import ArmDimensions
+from geneva_cli.loads.strength.keys import KeyDimensions
+
+
+class ShaftSize(NamedTuple):
+    """Diameter and overhang of a shaft, mm; NaN for none."""
+
+    diameter: float
+    overhang: float
+
+
+class Stressed(NamedTuple):
+    """Dimensions of stressed parts, mm; NaN where a part does not exist."""
+
+    contact: float  # length of the contact line, by default the wheel's thickness
+    pin: float  # diameter; 0 for a roller that is its own pin
+    wheel_shaft: ShaftSize
+    crank_shaft: ShaftSize
+    arm: ArmDimensions
+    wheel_key: KeyDimensions
+    crank_key: KeyDimensions
+
+
+def stressed(assembly: Assembly, sizes: Sizes) -> Stressed:
+    """Return the dimensions of a machine's parts, for parts of these sizes."""
+    spec = assembly.full.spec
+    size, table = spec.size, spec.shaft
+    contact = sizes.wheel_thickness if size.face_width_mm is None else size.face_width_mm
+    overhang = _overhang(assembly, sizes)
+    crank = sizes.arm_bore or sizes.crank_bore
+    hub = size.wheel_hub_mm is not None or size.wheel_hub_length_mm is not None
+    length = (
+        value_or(size.wheel_hub_length_mm, size.pin_gap_mm + sizes.arm_thickness) if hub else 0.0
+    )
+    return Stressed(
+        contact,
+        2.0 * sizes.pin,
+        _shaft(table.wheel_diameter_mm, sizes.wheel_bore, table.wheel_overhang_mm, overhang),
+        _shaft(table.crank_diameter_mm, crank, table.crank_overhang_mm, overhang),
+        _arm(assembly, sizes, contact),
+        _key(size.wheel_keyway, sizes.wheel_bore, sizes.wheel_thickness + length),
+        _key(size.crank_keyway, sizes.arm_bore, sizes.arm_thickness),
+    )
+
+
+def _shaft(diameter: float | None, bore: float, overhang: float | None, usual: float) -> ShaftSize:
+    return ShaftSize(value_or(diameter, 2.0 * bore or math.nan), value_or(overhang, usual))
+
+
+def _overhang(assembly: Assembly, sizes: Sizes) -> float:
+    """Return the distance of the frame's middle from that of the wheel's thickness."""
+    size, machine = assembly.full.spec.size, assembly.full
+    planes = [link.plane for link in links_at(machine, np.zeros(1))]
+    planes += [2] if machine.spec.drive.gears else []  # below the arm
+    below = (max(planes, default=1) - 1) * (sizes.link_thickness + size.washer_mm)
+    down = size.pin_gap_mm + sizes.arm_thickness + below
+    down = max(down, size.wheel_hub_length_mm or 0.0)
+    return 0.5 * sizes.wheel_thickness + down + size.washer_mm + 0.5 * sizes.arm_thickness
+
+
+def _arm(assembly: Assembly, sizes: Sizes, contact: float) -> ArmDimensions:
+    """Return the arm's dimensions; NaN without an arm."""
+    size = assembly.full.spec.size
+    if not (sizes.arm_bore and sizes.pin):
+        return ArmDimensions(*[np.asarray(math.nan)] * len(ArmDimensions._fields))
+    length = max(math.hypot(*centre) for centre in roller_centres(assembly))
+    passing = arm_passing(assembly, sizes, length)
+    standing = 0.0 if is_whole(assembly, sizes) else sizes.lock
+    hole = sizes.pin - 0.5 * size.allowances.press_fit_mm
+    bored = reach_or_bore(size.crank_keyway, sizes.arm_bore)
+    hub = half_or(size.arm_hub_mm, usual_hub(bored, sizes.arm_bore, sizes.wall_min, standing))
+    eye = half_or(size.arm_eye_mm, eye_about(hole, sizes.wall_min, passing))
+    offset = 0.5 * (contact + sizes.arm_thickness) + size.pin_gap_mm
+    rows = length, hub, eye, bored, hole, sizes.arm_thickness, offset
+    return ArmDimensions(*map(np.asarray, rows))
+
+
+def lock_of(where: Assembly, size: Sizes) -> Lock:
+    """Return the lock of parts of these sizes, in its narrowest sector."""
+    half = min((0.5 * (end - start) for start, end in sectors(where)), default=math.nan)
+    edge = where.full.spec.size.lock_edge_mm or 0.0
+    return Lock(where.L, where.sign, size.lock, size.recess, size.rim, half, edge)
+
+
+def _key(standard: str | None, bore: float, length: float) -> KeyDimensions:
+    """Return the dimensions of a key in a bore; NaN without one."""
+    try:
+        fitted = key(standard, bore) if bore else None
+    except GenevaError:  # reported where the part is cut
+        fitted = None
+    if fitted is None:
+        return KeyDimensions(*[np.asarray(math.nan)] * len(KeyDimensions._fields))
+    bearing = fitted.height - fitted.in_shaft
+    return KeyDimensions(*map(np.asarray, (2.0 * bore, fitted.width, bearing, length)))

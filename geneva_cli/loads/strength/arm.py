@@ -1,0 +1,99 @@
+"""The crank arm as a beam between shaft and pin, under the force on the roller.
+
+The force F acts at a distance c from the arm's mid-plane, in any direction. Across the arm it
+bends it in its plane, by F x at a distance x from the pin, and twists it by F c. Along the arm it
+pulls, and bends it out of its plane by F c. Let A be the bending stress of the first, tau its
+torsion, B the stress of the second. At an angle beta to the arm's normal, the von Mises stress
+squared is (A cos beta + B sin beta)² + 3 tau² cos² beta. Its greatest value over beta is
+(S + sqrt(S² - 12 tau² B²))/2 with S = A² + B² + 3 tau².
+
+Bending is greatest at corners, torsion in the middle of a side, so their sum is an upper bound.
+The arm's width changes evenly between eye and hub. Sections through the pin's hole and the shaft's
+bore, beside these, and where the arm is twice as wide as its eye can be the weakest: 6 F x/(h w²)
+is greatest there. A section through a hole carries half the twist, since the near half of the hole
+passes its share to the arm beside it. Its two walls bear it as a couple of shear forces. Notches
+are neglected.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple, cast
+
+import numpy as np
+
+from geneva_cli.numerics.arrays import Truth, parameter
+from geneva_cli.numerics.jet import Array
+from geneva_cli.numerics.roots import boundary
+
+
+class ArmDimensions(NamedTuple):
+    """An arm's dimensions, mm: radii but for lengths along and across it; (m,) for m designs."""
+
+    length: Array  # from the shaft's axis to the pin's
+    hub: Array
+    eye: Array
+    bored: Array  # of the shaft's bore, with its keyway
+    hole: Array  # of the pin
+    thickness: Array
+    offset: Array  # c, from the force to the arm's mid-plane
+
+
+def arm_stress_MPa(arm: ArmDimensions, force_N: Array) -> Array:
+    """The greatest von Mises stress in an arm, over the directions of the force."""
+    taper = (arm.hub - arm.eye) / arm.length
+    with np.errstate(divide="ignore"):
+        twice = np.minimum(arm.length, arm.eye / np.maximum(taper, 0.0))
+    sections = [
+        _section(arm, force_N, x, 2.0 * (arm.eye + taper * x), 0.0 * x)
+        for x in (arm.hole, twice, arm.length - arm.bored)
+    ]
+    sections += [
+        _section(arm, force_N, arm.hole, 2.0 * arm.eye, 2.0 * arm.hole),
+        _section(arm, force_N, arm.length, 2.0 * arm.hub, 2.0 * arm.bored),
+    ]
+    most: Array = np.max(np.broadcast_arrays(*sections), axis=0)
+    return most
+
+
+def _section(arm: ArmDimensions, force: Array, x: Array, width: Array, hole: Array) -> Array:
+    """The von Mises stress of the section at x, a width with a hole in its middle."""
+    h, left = arm.thickness, width - hole
+    in_plane = 6.0 * force * x * width / (h * (width**3 - hole**3))
+    out_of_plane = 6.0 * force * arm.offset / (left * h * h) + force / (left * h)
+    twist = force * arm.offset
+    # at a hole 3/2 V/(left/2 h), V being half the twist over the walls' distance
+    couple = 1.5 * twist / (0.5 * (width + hole) * left * h)
+    shear = np.where(hole > 0.0, couple, torsion_MPa(twist, left, h))
+    total = in_plane**2 + out_of_plane**2 + 3.0 * shear**2
+    with np.errstate(invalid="ignore"):  # of a force without a bound
+        root = np.sqrt(np.maximum(total**2 - 12.0 * (shear * out_of_plane) ** 2, 0.0))
+    stress: Array = np.sqrt(0.5 * (total + root))
+    return stress
+
+
+def torsion_MPa(torque_Nmm: Array, width: Array, height: Array) -> Array:
+    """The greatest shear stress of a rectangle in torsion, in the middle of its longer side.
+
+    Roark, Formulas for Stress and Strain, table of torsion: its polynomial in the ratio of the
+    sides is within 0.3 % of the series.
+    """
+    a, b = np.maximum(width, height), np.minimum(width, height)
+    k = b / a
+    sides = 1.0 + 0.6095 * k + 0.8865 * k**2 - 1.8023 * k**3 + 0.91 * k**4
+    return cast("Array", 3.0 * torque_Nmm / (a * b * b) * sides)
+
+
+def least_thickness_mm(arm: ArmDimensions, force_N: Array, allowed_MPa: Array) -> Array:
+    """The thickness at which an arm's stress equals the allowable one, mm; infinite for none.
+
+    The gap between arm and roller stays: the force is farther from a thicker arm's mid-plane.
+    """
+    face = arm.offset - 0.5 * arm.thickness
+
+    def holds(h: float) -> Truth:
+        thick = arm._replace(thickness=np.asarray(h), offset=face + 0.5 * h)
+        return np.asarray(arm_stress_MPa(thick, force_N) <= allowed_MPa)
+
+    most = parameter(32.0 * arm.thickness)
+    least = boundary(holds, most, 0.0 * most, 50)  # halvings: to 1e-13 of the thickness
+    return np.where(holds(most), least, np.inf)

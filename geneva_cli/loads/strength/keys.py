@@ -1,0 +1,40 @@
+"""Parallel keys: pressure on their sides and shear, under the torque that they transmit.
+
+A key of width b is as long as the bore, l. Its height h stands in the shaft by t1. The torque T
+acts on the shaft's circle, of diameter d, so the force is 2 T/d (DIN 6892, method C). The side in
+the hub bears 2 T/(d (h - t1) l), and the key's section 2 T/(d b l) of shear. Rounded ends and the
+fit between hub and shaft are neglected.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+
+from geneva_cli.numerics.jet import Array
+
+
+class KeyDimensions(NamedTuple):
+    """A key, mm; (m,) for m designs, NaN for those without."""
+
+    shaft: Array  # diameter
+    width: Array
+    bearing: Array  # height that stands in the hub, h - t1
+    length: Array
+
+
+class KeyStress(NamedTuple):
+    """Stresses of a key, MPa, and the least length, mm, that keeps both allowable ones."""
+
+    pressure_MPa: Array
+    shear_MPa: Array
+    least_length_mm: Array
+
+
+def key_stress(key: KeyDimensions, torque_Nm: Array, pressure: Array, shear: Array) -> KeyStress:
+    """The stresses of keys under a torque; ``pressure`` and ``shear`` are the allowable ones."""
+    force = 2e3 * torque_Nm / key.shaft
+    sides, section = key.bearing * key.length, key.width * key.length
+    least = np.maximum(force / (key.bearing * pressure), force / (key.width * shear))
+    return KeyStress(force / sides, force / section, least)

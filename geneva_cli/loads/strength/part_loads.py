@@ -1,0 +1,47 @@
+"""The greatest loads on pin, arm, keys and shafts over a cycle, from which they are sized."""
+
+from __future__ import annotations
+
+from functools import lru_cache
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+
+from geneva_cli.analysis.quantities import FORCE
+from geneva_cli.loads.strength.shafts import Torque, on_crank, on_driven_crank, on_wheel
+from geneva_cli.loads.summaries import load_peaks
+from geneva_cli.numerics.arrays import parameter
+
+if TYPE_CHECKING:
+    from geneva_cli.machine.mechanism import Mechanism
+
+
+class PartLoads(NamedTuple):
+    """The greatest sizes of loads, (m,) each, or numbers of one design; infinite if unbounded."""
+
+    pin_N: float  # of a roller, along the wall's normal
+    wheel_N: float  # of the wheel's bearings together
+    wheel_Nm: float  # torque in the wheel's shaft
+    crank_N: float  # of the crank's bearings together, which is that on the arm
+    crank_Nm: float  # torque in the crank's shaft
+
+    def of(self, i: int) -> PartLoads:
+        """The loads of one design of a batch, as numbers."""
+        return PartLoads(*(float(np.ravel(row)[i]) for row in self))
+
+
+@lru_cache(maxsize=16)
+def single_loads(mechanism: Mechanism) -> PartLoads:
+    """The greatest loads of a machine as numbers, cached for its sizes and their checks."""
+    return part_loads(mechanism).of(0)
+
+
+def part_loads(mechanism: Mechanism) -> PartLoads:
+    """The greatest loads of m designs."""
+    on = on_driven_crank if mechanism.spec.drive.CRANKED else on_crank
+    own = {"wheel_Nm": Torque(on_wheel), "crank_Nm": Torque(on)}
+    names = FORCE, "wheel_bearing_N", "wheel_Nm", "crank_bearing_N", "crank_Nm"
+    peaks = load_peaks(mechanism, names, own)
+    return PartLoads(
+        *(parameter(np.sqrt(peaks[name].max) if name in own else peaks[name].max) for name in names)
+    )

@@ -1,0 +1,94 @@
+"""Preferred numbers: bores of standard bearings, and rounded numbers for other sizes.
+
+Default sizes are taken from them, so that the bearings, reamers and plates of the trade fit.
+"""
+
+from __future__ import annotations
+
+import math
+from bisect import bisect_right
+from functools import cache
+
+from geneva_cli.numerics.tolerances import ROUNDED
+
+
+def rounded_below(most: float) -> float:
+    """Return the greatest rounded number up to ``most``, of the series R''20 of ISO 497; or 0.
+
+    >>> rounded_below(41.0), rounded_below(8.3), rounded_below(10.0)
+    (40.0, 8.0, 10.0)
+    """
+    if most <= 0.0:
+        return 0.0
+    return max(n for n in _rounded(most, most) if n <= most * (1.0 + ROUNDED))
+
+
+def rounded_from(least: float, most: float) -> list[float]:
+    """Return ``least``, and after it the rounded numbers up to ``most``.
+
+    >>> rounded_from(10.0, 15.0)
+    [10.0, 11.0, 12.0, 14.0]
+    """
+    if not 0.0 < least < most:
+        return [least]
+    above, end = least * (1.0 + ROUNDED), most * (1.0 + ROUNDED)
+    return [least, *(n for n in _rounded(least, most) if above < n <= end)]
+
+
+def bore_below(most: float) -> float:
+    """Return the greatest bore of standard bearings up to ``most`` mm; or 0.
+
+    >>> bore_below(16.7), bore_below(41.0)
+    (15.0, 40.0)
+    """
+    bores = _bores()
+    if not bores[0] <= most <= bores[-1]:
+        return rounded_below(most)
+    return bores[bisect_right(bores, most * (1.0 + ROUNDED)) - 1]
+
+
+def bores_from(least: float, most: float) -> list[float]:
+    """Return ``least``, and after it the bores of standard bearings up to ``most`` mm.
+
+    >>> bores_from(15.0, 26.0)
+    [15.0, 17.0, 20.0, 25.0]
+    """
+    bores = _bores()
+    if not bores[0] <= least <= most <= bores[-1]:
+        return rounded_from(least, most)
+    first, end = (bisect_right(bores, d * (1.0 + ROUNDED)) for d in (least, most))
+    return [least, *bores[first:end]]
+
+
+def rounded_radius(most: float) -> float:
+    """Return the radius up to ``most`` whose diameter is a rounded number; or 0.
+
+    >>> rounded_radius(20.5)
+    20.0
+    """
+    return 0.5 * rounded_below(2.0 * most)
+
+
+def bore_radius(most: float) -> float:
+    """Return the radius up to ``most`` mm of a standard bearing's bore; or 0.
+
+    >>> bore_radius(8.3)
+    7.5
+    """
+    return 0.5 * bore_below(2.0 * most)
+
+
+def _rounded(low: float, high: float) -> list[float]:
+    """Return the rounded numbers of all decades from that of ``low`` to that of ``high``."""
+    tens = (10, 11, 12, 14, 16, 18, 20, 22, 25, 28, 30, 35, 40, 45, 50, 55, 60, 70, 80, 90)
+    # decades by their powers of ten; one more at either end, for powers that are rounded
+    first, last = math.floor(math.log10(low)) - 2, math.ceil(math.log10(high))
+    return [float(f"{n}e{k}") for k in range(first, last + 1) for n in tens]
+
+
+@cache
+def _bores() -> tuple[float, ...]:
+    """Return the bores of radial bearings by ISO 15, mm, from 1 to 500."""
+    small = (1, 1.5, 2, 2.5, 3, 4, 5, 6, 7, 8, 9, 10, 12, 15, 17)
+    large = (*range(20, 110, 5), *range(110, 200, 10), *range(200, 501, 20))
+    return tuple(float(d) for d in (*small, *large))

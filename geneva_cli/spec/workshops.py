@@ -1,0 +1,50 @@
+"""How drawings speak to the workshop of a process: fits, tolerances, roughness and limits."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import NamedTuple
+
+from geneva_cli.spec.iso_9013 import deviation_mm
+
+
+class Workshop(NamedTuple):
+    """What a process can hold. Limits that it does not have are 0 or infinite."""
+
+    tolerances: str  # of dimensions without their own
+    fits: bool = True  # whether it holds fits of ISO 286
+    # deviation of a size that it cuts, by thickness and size in mm; None: by fits, or not known
+    cut_mm: Callable[[float, float], float] | None = None
+    roughness: str = ""
+    material: str = "steel"  # of the default density and stiffness
+    wall_mm: float = 0.0  # thinnest wall
+    hole: float = 0.0  # smallest hole, over the plate's thickness
+    plate_mm: float = float("inf")  # thickest plate
+
+
+WORKSHOPS = {
+    # ISO 9013 is for lasers up to 32 mm. A hole of 0.7 thicknesses is the least that cutters take
+    # (acutelaser.com.au/resources/laser-cutting). Fibre lasers keep its second range of roughness
+    # (laserspechub.com/guides/iso-9013-practical-guide).
+    "laser": Workshop(
+        "ISO 9013 class 1",
+        cut_mm=deviation_mm,
+        roughness="ISO 9013 range 2",
+        hole=0.7,
+        plate_mm=32.0,
+    ),
+    # Milling leaves Ra 0.8 to 6.3 (tables after ASME B46.1): 3.2 is the grade between them.
+    "mill": Workshop("ISO 2768-m", roughness="Ra 3.2"),
+    # A wall needs two lines of a 0.4 mm nozzle (rigidprints.co.uk/design-guide/wall-thickness);
+    # sizes are within 0.2 mm (printparams.com/docs/real-world-fit).
+    "print": Workshop("±0.2 mm", fits=False, material="", wall_mm=0.8),
+}
+
+
+def workshop(process: str | None) -> Workshop:
+    """Return the workshop of a process; without one that of usual machining.
+
+    >>> workshop(None).tolerances, workshop("print").fits
+    ('ISO 2768-m', False)
+    """
+    return WORKSHOPS[process] if process else Workshop("ISO 2768-m")

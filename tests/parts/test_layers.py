@@ -1,0 +1,75 @@
+"""Layers of all drawings: their names are the manual's, and only an option adds centre crosses."""
+
+import io
+import re
+from pathlib import Path
+
+import ezdxf
+import pytest
+import repo
+
+from geneva_cli import load
+from geneva_cli.drawings.catalogue import CUT, DRAWINGS
+from geneva_cli.errors import GenevaError
+from geneva_cli.output.dxf import chunks
+from geneva_cli.output.sheets.dxf import chunks as sheet_chunks
+
+pytestmark = pytest.mark.usefixtures("made_once")
+DESIGNS = sorted(repo.DESIGNS.glob("*.toml"))
+TOLERANCE = 0.05  # mm: coarse walls are quick, and have the same layers
+FORMATS = Path(repo.ROOT, "geneva_cli/manual/reference/formats.md")
+
+
+def listed():
+    """The names of layers in the manual's page of formats."""
+    text = FORMATS.read_text(encoding="utf-8")
+    table = text.partition("| layer | content |")[2].partition("\n\n")[0]
+    first = [line.split("|")[1] for line in table.splitlines()[2:]]
+    return set(re.findall(r"`([A-Z]+)`", " ".join(first)))
+
+
+def drawings(path):
+    """Each drawing that a machine has, by its part's name."""
+    design = load(str(path))
+    for part in DRAWINGS:
+        try:
+            yield part, design.drawing(part, TOLERANCE)
+        except GenevaError:  # a part that this machine does not have
+            continue
+
+
+@pytest.mark.sampled(6)
+@pytest.mark.parametrize("path", DESIGNS, ids=lambda p: p.stem)
+def test_no_part_has_centre_crosses_unless_they_are_requested(path):
+    names = listed()
+    seen = set()
+    for part, drawing in drawings(path):
+        seen.add(part)
+        assert "CENTER" not in drawing.layers, part
+        assert set(drawing.layers) <= names, part
+    assert seen >= ({"wheel", "assembly"} if "spherical" in path.stem else {"wheel", "frame"})
+
+
+@pytest.mark.parametrize("name", ["turret", "epicyclic-z4", "cam-geneva"])
+def test_requested_crosses_are_on_a_layer_of_their_own(name):
+    """Nothing else changes; read by another reader of DXF, too."""
+    design = load(str(repo.DESIGNS / f"{name}.toml"))
+    for part, plain in drawings(repo.DESIGNS / f"{name}.toml"):
+        if part not in CUT:
+            continue
+        marked = design.drawing(part, TOLERANCE, centre_marks=True)
+        assert marked.shapes[: len(plain.shapes)] == plain.shapes
+        assert {shape.layer for shape in marked.shapes[len(plain.shapes) :]} <= {"CENTER"}
+    texts = ["".join(chunks(design.drawing("frame", TOLERANCE, centre_marks=on), "mm"))
+             for on in (False, True)]  # fmt: skip
+    layers = [{e.dxf.layer for e in ezdxf.read(io.StringIO(text)).modelspace()} for text in texts]
+    assert layers[1] - layers[0] == {"CENTER"}
+
+
+@pytest.mark.parametrize("name", ["turret", "spherical-z6"])
+def test_a_sheets_layers_have_the_manuals_names(name):
+    text = "".join(sheet_chunks(load(str(repo.DESIGNS / f"{name}.toml")).sheet(TOLERANCE)))
+    document = ezdxf.read(io.StringIO(text))
+    own = {layer.dxf.name for layer in document.layers} - {"0", "Defpoints"}
+    assert own <= listed()
+    assert "CENTER" in own
