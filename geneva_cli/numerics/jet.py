@@ -341,9 +341,6 @@ def _by_parts(x: Array, index: Whole, pieces: Sequence[Callable[[Array], Jet]]) 
 
     if not x.size:
         return pieces[0](x)
-    first = int(index.min())
-    if first == index.max():
-        return pieces[first](x)
     # np.unique would import numpy.ma, a sixth of a short run
     parts: dict[Callable[[Array], Jet], Mask] = {}
     for i in np.flatnonzero(np.bincount(index.ravel())).tolist():

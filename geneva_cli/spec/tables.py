@@ -209,7 +209,7 @@ class Size(SpecTable):
 
         The roller is wide and its slot narrow, each by half a side; and so disc and recess, whose
         diameter is about the centre distance. A hole that is wide still holds its pin. Sizes that
-        are not set have their defaults without a load.
+        are not set have their defaults without a load, before they are rounded down.
         """
         L = DISTANCE_MM if self.center_distance_mm is None else self.center_distance_mm
         roller = L / 20.0 if self.roller_radius_mm is None else self.roller_radius_mm

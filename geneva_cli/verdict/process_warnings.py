@@ -34,7 +34,8 @@ def _small_holes(model: PartsModel, least: float) -> Iterator[Notice]:
     if not least:
         return
     missing: list[Missing] = []  # the check of the parts reports them
-    cut = {one for part in built_of(model.flat.by_name(), missing) for one in plates(part)}
+    parts = built_of(model.flat.by_name(), missing)
+    cut = dict.fromkeys(one for part in parts for one in plates(part))
     small: dict[str, tuple[float, Plate]] = {}
     for plate in cut:
         if not is_cut(plate) and plate.layer != "ROLLER":
