@@ -135,3 +135,4 @@ class Scene(NamedTuple):
     states: tuple[Phase, ...]
     figure: Figure
     box: Box  # of all shapes during the turn
+    stops: tuple[float, float] | None = None  # from the start: the machine goes back and forth

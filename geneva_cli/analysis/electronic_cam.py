@@ -95,6 +95,12 @@ def periods(mechanism: Mechanism, turns: int | None) -> int:
             f"--turns {turns}: this machine repeats after {whole} turns of its input; "
             f"give a multiple of {whole}"
         )
+    z = mechanism.spec.wheel.z
+    if mechanism.spec.wheel.stopped and turns > z - 2:
+        raise GenevaError(
+            f"--turns {turns}: the stop leaves {z - 2} whole motions, as the first and the last of "
+            f"{z} are blocked half-way; give at most {z - 2}"
+        )
     return round(count)
 
 

@@ -24,7 +24,7 @@ from geneva_cli.analysis.pin import pin_diameter_mm
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.machine.spec import Spec
 from geneva_cli.numerics.angles import omega
-from geneva_cli.numerics.arrays import all_true, choose, designs_of, library
+from geneva_cli.numerics.arrays import N, all_true, choose, designs_of, library
 from geneva_cli.numerics.jet import Jet, Number, V
 
 if TYPE_CHECKING:
@@ -113,6 +113,16 @@ def contact_modulus_GPa(spec: Spec) -> float:
     """E* of roller on wheel, 1/E* = (1 - nu1²)/E1 + (1 - nu2²)/E2."""
     both = (spec.material_wheel, spec.material_roller)
     return 1.0 / sum((1.0 - m.poisson_ratio**2) / m.youngs_modulus_GPa for m in both)
+
+
+def hertz_MPa(spec: Spec, line_N_mm: N, radius_mm: float) -> N:
+    """Hertz stress of wheel and crank on a line, from the force per length and effective radius.
+
+    p0² = F E* / (pi b R)
+    """
+    modulus = contact_modulus_GPa(spec) * 1e3
+    out: N = library(line_N_mm, radius_mm).sqrt(line_N_mm * modulus / (math.pi * radius_mm))
+    return out
 
 
 class QuantityValue(NamedTuple, Generic[V]):

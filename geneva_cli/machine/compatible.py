@@ -98,6 +98,36 @@ CONFLICTS = (
         "{rollers} rollers on a {drive} move the wheel differently, so one curved slot cannot "
         "serve them all; use rollers = 1, or straight slots (no law)",
     ),
+    Conflict(
+        lambda s: s.wheel.stopped and (not s.drive.CRANKED or s.drive.IN_SERIES or s.motion),
+        ("wheel", "stop"),
+        "stop needs straight slots and a crank without a first wheel: remove stop, or law and kind",
+    ),
+    Conflict(
+        lambda s: s.wheel.stopped and (s.drive.rollers > 1 or s.drive.roller_angles_deg),
+        ("wheel", "stop"),
+        "stop needs a crank with one roller: remove rollers and roller_angles_deg",
+    ),
+    Conflict(
+        lambda s: s.wheel.stopped and s.wheel.skewed,
+        ("wheel", "stop"),
+        "stop needs radial slots and equal steps: remove offset_mm and steps_deg",
+    ),
+    Conflict(
+        lambda s: s.wheel.stopped and s.size.lock_radius_mm == 0.0,
+        ("size", "lock_radius_mm"),
+        "stop needs the locking disc, which meets the convex face: remove lock_radius_mm = 0",
+    ),
+    Conflict(
+        lambda s: not s.wheel.stopped and s.load.winding_torque_Nm is not None,
+        ("load", "winding_torque_Nm"),
+        "winding_torque_Nm acts on a stop: set stop = true in [wheel] of an external wheel",
+    ),
+    Conflict(
+        lambda s: not s.wheel.stopped and s.limits.stop_stress_max_MPa is not None,
+        ("limits", "stop_stress_max_MPa"),
+        "stop_stress_max_MPa limits a stop: set stop = true in [wheel] of an external wheel",
+    ),
 )
 
 

@@ -54,6 +54,7 @@ NEEDED = {
             "contact_stress_max_MPa",
             "pv_max_W_m2",
             "lock_stress_max_MPa",
+            "stop_stress_max_MPa",
             "lock_deflection_max_deg",
         ),
         ("face_width_mm", "size", "the length of the line of contact"),

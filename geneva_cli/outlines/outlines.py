@@ -38,7 +38,8 @@ class Outlines(NamedTuple):
     """The outlines of wheel and crank, for drawings and for the full turn.
 
     ``slots`` has the walls of each kind of slot. ``close`` is the overlap, mm, that counts as
-    rounding or as the walls' tolerance.
+    rounding or as the walls' tolerance. ``gaps`` has all recesses of a wheel, also that which a
+    stop leaves convex: the wheel never turns it towards the crank.
     """
 
     assembly: Assembly
@@ -103,6 +104,8 @@ def drawn(assembly: Assembly, sizes: Sizes, tolerance: float = 0.0) -> Outlines:
     close = (CURVED if any(engagement.slot.curved for engagement in kinds) else SAME_LENGTH) * L
     wheel = wheel_contour(assembly, sizes, walls)
     crank, relief, gaps = _relieved(Gaps(assembly, sizes, wheel, []), close)
+    if assembly.full.spec.wheel.stopped:
+        wheel = wheel_contour(assembly, sizes, walls, convex=True)
     return Outlines(assembly, sizes, walls, wheel, crank, relief, gaps, close, fine)
 
 

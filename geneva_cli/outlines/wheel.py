@@ -20,8 +20,14 @@ LAYER = "WHEEL"
 EXTENDED_MOUTH = 0.2
 
 
-def wheel_contour(assembly: Assembly, sizes: Sizes, slots: dict[Engagement, Contour]) -> Contour:
+def wheel_contour(
+    assembly: Assembly, sizes: Sizes, slots: dict[Engagement, Contour], convex: bool = False
+) -> Contour:
     """Return the wheel's contour, counterclockwise; an internal wheel's is its opening.
+
+    With ``convex`` the recess opposite the first slot is left convex, at the rim: it stops the
+    crank, and at input angle 0 the crank is as far from one stop as from the other, or half a turn
+    nearer to one.
 
     ``slots`` has the walls of each kind of slot, from one corner of the mouth round the bottom to
     the other. They are in the wheel's frame, with that slot ahead. Raises GenevaError where a
@@ -34,7 +40,11 @@ def wheel_contour(assembly: Assembly, sizes: Sizes, slots: dict[Engagement, Cont
         following = (i + 1) % len(around)
         segments += walls[i]
         between = _between(assembly, direction, around[following][1])
-        segments += _rim(assembly, sizes, segments[-1].end, walls[following][0].start, between)
+        ends = segments[-1].end, walls[following][0].start
+        if convex and i == len(around) // 2:
+            segments.append(_face(*ends))
+        else:
+            segments += _rim(assembly, sizes, *ends, between)
     return closed(LAYER, segments)
 
 
@@ -77,6 +87,12 @@ def _between(assembly: Assembly, start: float, end: float) -> float:
         for at in assembly.rests
         if (off := (at - start) % math.tau) < span or span == 0.0
     )
+
+
+def _face(start: Point, end: Point) -> Arc:
+    """Return the convex face from one slot's corner to the next, which is as far out."""
+    turn = (math.atan2(end[1], end[0]) - math.atan2(start[1], start[0])) % math.tau
+    return Arc(start, end, math.tan(0.25 * turn))
 
 
 def _rim(assembly: Assembly, sizes: Sizes, start: Point, end: Point, at: float) -> list[Segment]:

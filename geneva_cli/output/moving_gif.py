@@ -1,4 +1,7 @@
-"""A scene as a moving GIF that repeats one turn, drawn by Pillow (extra ``plot``)."""
+"""A scene as a moving GIF that repeats one turn, drawn by Pillow (extra ``plot``).
+
+A machine with stops goes back and forth over that turn.
+"""
 
 from __future__ import annotations
 
@@ -65,6 +68,8 @@ def gif_bytes(scene: Scene) -> bytes:
         small = image.resize((WIDE, high), Image.Resampling.LANCZOS)
         colours = {"palette": frames[0]} if frames else {"colors": 48}  # one palette for all
         frames.append(small.quantize(**colours, dither=Image.Dither.NONE))
+    if scene.stops:  # a wheel with stops turns back
+        frames += frames[-2:0:-1]
     out = io.BytesIO()
     each = round(1000.0 * 6.0 / FRAMES)  # ms: a turn takes six seconds on the screen
     frames[0].save(

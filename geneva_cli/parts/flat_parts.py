@@ -88,7 +88,8 @@ class FlatParts:
         walls = {slot: self.walls(slot) for slot in parts.slots}
         contour = parts.wheel
         if walls != parts.slots:
-            contour = wheel_contour(parts.assembly, parts.sizes, walls)
+            stopped = self.mechanism.spec.wheel.stopped
+            contour = wheel_contour(parts.assembly, parts.sizes, walls, stopped)
         turn = float(parts.assembly.wheel(np.zeros(1))[0])
         return Member(wheel_part(parts, contour), turn=turn)
 

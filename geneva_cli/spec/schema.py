@@ -39,6 +39,7 @@ _NAMES: dict[Any, str] = {
     str: "text",
     int: "a whole number",
     float: "a number",
+    bool: "true or false",
 }
 
 
@@ -150,7 +151,7 @@ class SpecTable:
         """Values by key.
 
         >>> External(6).as_dict()
-        {'z': 6, 'held_by': None, 'offset_mm': 0.0, 'steps_deg': None}
+        {'z': 6, 'held_by': None, 'offset_mm': 0.0, 'steps_deg': None, 'stop': False}
         """
         return {field.key: getattr(self, field.attribute) for field in fields(type(self))}
 
@@ -307,8 +308,8 @@ def checked(table: str, field: Field, value: Any) -> Any:
         return value  # the usual case
     place = (*table.split("."), field.key)
     value = plain(value)
-    if value is None and NoneType in field.types:
-        return None
+    if type(value) in (NoneType, bool) and type(value) in field.types:
+        return value
     if isinstance(field.rule, Csv):
         return _points(place, field, value)
     numeric = [t for t in field.types if t in (int, float)]

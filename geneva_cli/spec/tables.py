@@ -196,7 +196,9 @@ class Size(SpecTable):
         "gap from a pin's plate to the contact line; default 0, or by process",
     ] = None
     lock_edge_mm: Annotated[
-        float | None, POSITIVE, "rounding radius at the ends of the wheel's recesses"
+        float | None,
+        POSITIVE,
+        "rounding radius at recesses' ends; with stop, also at the disc's",
     ] = None
     wheel_thickness_mm: Annotated[
         float | None,
@@ -292,6 +294,9 @@ class Load(SpecTable):
     torque_Nm: Annotated[float, NOT_NEGATIVE, "torque that resists the wheel's motion"] = 0.0
     dwell_torque_Nm: Annotated[
         float | None, NOT_NEGATIVE, "torque that the lock holds during the dwell; default torque_Nm"
+    ] = None
+    winding_torque_Nm: Annotated[
+        float | None, POSITIVE, "with stop: torque of the crank against its stops"
     ] = None
     efficiency: Annotated[float, Range(0.0, 1.0, "(]"), "efficiency eta of the wheel"] = 1.0
     friction: Annotated[float, NOT_NEGATIVE, "friction coefficient between roller and slot"] = 0.0
@@ -607,6 +612,7 @@ class Limits(SpecTable):
         float | None, POSITIVE, "greatest wear depth of a slot's walls in a million passages"
     ] = None
     lock_stress_max_MPa: Annotated[float | None, POSITIVE, "Hertz stress, disc on wheel"] = None
+    stop_stress_max_MPa: Annotated[float | None, POSITIVE, "Hertz stress at a stop"] = None
     lock_deflection_max_deg: Annotated[
         float | None, POSITIVE, "greatest deflection of the locked wheel under dwell_torque_Nm"
     ] = None

@@ -132,7 +132,7 @@ def _value(key: Field) -> Schema:
     """Allowed values of a key."""
     if isinstance(key.rule, Csv):
         return {"type": "string"}
-    kinds: list[Schema] = []
+    kinds: list[Schema] = [{"type": "boolean"}] if bool in key.types else []
     number = next((t for t in key.types if t in (int, float)), None)
     with_unit = [{"$ref": "#/definitions/withUnit"}] if unit_key(key.key) else []
     if number:

@@ -40,6 +40,10 @@ EXAMPLES = {
         "steps of two sizes, a roller for each",
         {"wheel": {"z": 6, "steps_deg": [72, 48]}},
     ),
+    "stop": Example(
+        "a Geneva stop: the crank is blocked after four turns",
+        {"wheel": {"z": 5, "stop": True}, "load": {"winding_torque_Nm": 0.5}},
+    ),
     "elliptical-internal": Example(
         "an internal wheel behind elliptical gears: a shorter motion",
         {

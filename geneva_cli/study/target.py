@@ -16,7 +16,9 @@ from collections.abc import Iterator, Sequence
 from typing import NamedTuple
 
 from geneva_cli.errors import GenevaError
+from geneva_cli.kinematics import registry
 from geneva_cli.kinematics.law_motion import MOTION_MIN
+from geneva_cli.kinematics.wheels.gearing import Gearing
 from geneva_cli.machine.spec import Spec
 from geneva_cli.study.goals import Objective
 from geneva_cli.study.spans import AllowedSpan
@@ -58,6 +60,13 @@ class Target(NamedTuple):
     def peak(self) -> str:
         """The name of the peak acceleration, the default goal; in rad/s² if times are required."""
         return "acceleration.max_rad_s2" if self.timed else PEAK
+
+    def wheel(self, gearing: str, z: int) -> Gearing:
+        """A wheel of a gearing and a number of slots, with a stop if the frame's has one."""
+        kind = registry.gearing(gearing)
+        stops = self.frame is not None and self.frame.wheel.stopped
+        wheel = kind(z)
+        return wheel.with_key("stop", True) if stops else wheel
 
     @property
     def any_motion(self) -> bool:

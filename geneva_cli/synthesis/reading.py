@@ -6,10 +6,12 @@ import math
 from collections.abc import Sequence
 
 from geneva_cli.errors import GenevaError, cut, few, nearest
+from geneva_cli.kinematics import registry
 from geneva_cli.kinematics.registry import STANDARD_LAWS as LAWS
 from geneva_cli.machine.spec import Spec
 from geneva_cli.spec.ranges import range_text
 from geneva_cli.spec.rules import POSITIVE, Z_MAX, Range
+from geneva_cli.spec.schema import fields
 from geneva_cli.study.goals import objective
 from geneva_cli.study.spans import AllowedSpan
 from geneva_cli.study.survey import parse_z
@@ -70,8 +72,6 @@ def read_target(
             "no requirement; give one or more of --tau, --motion-deg, --dwell-deg, --motion-s, "
             "--dwell-s, --cycle and --subject-to"
         )
-    if rollers is not None and not 1 <= rollers <= Z_MAX:
-        raise GenevaError(f"--rollers {cut(rollers)}: it must be at least 1, at most {Z_MAX}")
     phrases = [spans[name].words(*SPANS[name][1:]) for name in spans]
     phrases = [w if w[:2] == "a " else " = ".join(w.split(" ", 1)) for w in phrases]
     bounds = tuple(constraint(text) for text in subject_to)
@@ -83,8 +83,8 @@ def read_target(
     target = Target(
         words if words.startswith(("tau", "k ")) else words[:1].upper() + words[1:],
         _slots(z, frame),
-        tuple(g for g, is_chosen in chosen.items() if is_chosen) or GEARINGS,
-        rollers,
+        _gearings(tuple(g for g, is_chosen in chosen.items() if is_chosen), frame),
+        _rollers(rollers, frame),
         _laws(law),
         spans,
         min((bound.bound for bound in peaks), default=None),
@@ -95,6 +95,31 @@ def read_target(
     )
     target.refuse_contradictions()
     return target
+
+
+def _gearings(chosen: tuple[str, ...], frame: Spec | None) -> tuple[str, ...]:
+    """The gearings to try; with a frame that has a stop those that may have one."""
+    if frame is None or not frame.wheel.stopped:
+        return chosen or GEARINGS
+    stopped = tuple(
+        name
+        for name in chosen or GEARINGS
+        if any(field.key == "stop" for field in fields(registry.gearing(name)))
+    )
+    if not stopped:
+        raise GenevaError(f"--{chosen[0]}: the spec has a stop, which this wheel cannot have")
+    return stopped
+
+
+def _rollers(rollers: int | None, frame: Spec | None) -> int | None:
+    """The number of rollers: None for any, 1 for a frame that has a stop."""
+    if rollers is not None and not 1 <= rollers <= Z_MAX:
+        raise GenevaError(f"--rollers {cut(rollers)}: it must be at least 1, at most {Z_MAX}")
+    if frame is None or not frame.wheel.stopped:
+        return rollers
+    if rollers not in (None, 1):
+        raise GenevaError(f"--rollers {rollers}: the spec has a stop, which needs one roller")
+    return 1
 
 
 def _slots(text: str, frame: Spec | None) -> tuple[int, ...]:

@@ -8,7 +8,6 @@ from functools import partial
 from typing import NamedTuple
 
 from geneva_cli.errors import GenevaError
-from geneva_cli.kinematics import registry
 from geneva_cli.kinematics.wheels.classic import rollers_max
 from geneva_cli.machine.mechanism import build
 from geneva_cli.machine.spec import Spec
@@ -197,7 +196,7 @@ def _requested(target: Target) -> QuantityRequest:
     for gearing in target.gearings:
         for z in target.z:
             try:
-                spec = plain(target, registry.gearing(gearing)(z), 1)
+                spec = plain(target, target.wheel(gearing, z), 1)
                 build(spec)
             except GenevaError:
                 continue
@@ -304,7 +303,7 @@ def _out_of_reach(target: Target, reached: list[float], errors: list[str]) -> st
         )
     motion = target.motion_for(m)
     most = max(
-        rollers_max(natural_deg(registry.gearing(g)(z))) for z in target.z for g in target.gearings
+        rollers_max(natural_deg(target.wheel(g, z))) for z in target.z for g in target.gearings
     )
     if motion is None:
         return f"--rollers {m}: they jam on every requested wheel; at most {most}"

@@ -97,8 +97,11 @@ def compared_text(check: Check, unit: str) -> str:
 
 
 def proof_lines(checks: Iterable[Check]) -> Iterator[SummaryLine]:
-    """The line of the proof that no parts collide."""
-    yield from (SummaryLine("turn", check.why) for check in checks if check.is_proof)
+    """The lines of what is proved: that no parts collide, and that a stop blocks the crank."""
+    labels = {"stop_turns": "stop"}
+    for check in checks:
+        if check.is_proof:
+            yield SummaryLine(labels.get(check.name, "turn"), check.why)
 
 
 def tightest(checks: Iterable[Check]) -> Iterator[SummaryLine]:

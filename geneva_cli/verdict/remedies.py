@@ -227,6 +227,13 @@ REMEDIES: dict[str, tuple[Change, ...]] = {
         Change("size", "lock_radius_mm", lambda now: [None] if now == 0.0 else []),
         set_to("wheel", "held_by", "detent"),
     ),
+    "stop_turns": (*sized("size", "lock_radius_mm"), _SMALLER),
+    "stop_overlap_mm": (*sized("size", "lock_radius_mm"), _SMALLER),
+    "stop_stress_max_MPa": (
+        scaled("size", "lock_edge_mm", 10.0),
+        scaled("size", "face_width_mm", 10.0),
+        _LARGER,
+    ),
     "wall_between_slots_mm": (_SMALLER, scaled("size", "slot_clearance_mm", 0.0)),
     "horn_mm": (
         *sized("size", "lock_radius_mm"),

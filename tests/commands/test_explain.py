@@ -8,6 +8,7 @@ import shlex
 import shutil
 import tomllib
 from functools import cache
+from itertools import chain
 from pathlib import Path
 
 import pytest
@@ -103,7 +104,8 @@ def quantities() -> set[str]:
     model = load(str(repo.DESIGNS / "turret.toml")).parts_model
     quick = [group for group in groups.GROUPS if not group.makes_parts]
     out = {*groups.values(quick, model)}
-    out |= {*groups.own_names("parts"), *groups.own_names("tolerance"), "tolerance.warnings"}
+    parts = (groups.own_names(table) for table in ("parts", "stop", "tolerance"))
+    out |= {*chain.from_iterable(parts), "tolerance.warnings"}
     out |= {f"parts_list.{kind}" for kind in parts_list.KINDS} | {"checks.passes", "checks.failed"}
     out |= {"passes", "checks_failed", "not_proved", "warnings", "spec", "title"}  # the report's
     of_loads = {

@@ -17,6 +17,8 @@ from typer.testing import CliRunner
 
 from geneva_cli import load
 from geneva_cli.app import app
+from geneva_cli.collisions.gaps import Gaps
+from geneva_cli.collisions.machine_parts import Pose
 from geneva_cli.curves.shapes import Circle
 from geneva_cli.kinematics.layout import Joint
 from geneva_cli.layout.link_positions import links_at
@@ -301,3 +303,29 @@ def test_curves_have_scales():
             assert panel["low"] <= value <= panel["high"]
             assert float(text) == value
     assert data["panels"][0]["name"] == "Speed of the wheel, relative to the input"
+
+
+def test_a_machine_with_stops_goes_back_and_forth_between_them():
+    """Steps of 100 degrees turn back at both ends, where wheel and disc are as they are cut."""
+    engine, data = script("geneva-stop")
+    run = "let at = 0, sense = 1; const seen = []; for (let i = 0; i < 60; i++) "
+    step = "{ [at, sense] = between(scene.stops, at + sense * 100, sense); seen.push(at); }"
+    seen = np.array(json.loads(engine.eval(f"{run}{step} JSON.stringify(seen)")))
+    low, high = data["stops"]
+    assert (seen >= low).all()
+    assert (seen <= high).all()
+    assert seen.min() < low + 100.0
+    assert seen.max() > high - 100.0
+    outlines = design_of("geneva-stop").parts
+    gaps = Gaps(outlines.assembly, outlines.sizes, outlines.wheel, outlines.crank)
+    for end in (low, high):
+        turns = math.floor(end / data["turn"])
+        ask = f"scene.bodies.map(b => afterTurns(b.angle, {end} - {turns} * scene.turn, {turns}))"
+        wheel, crank, *_ = json.loads(engine.eval(f"JSON.stringify({ask})"))
+        pose = Pose(np.array([wheel]), np.array([crank]), np.empty((1, 0, 2)))
+        assert abs(gaps.locking(pose)[0]) < PLACE * data["size"]
+
+
+def test_a_machine_without_stops_runs_on():
+    engine, _ = script("turret")
+    assert json.loads(engine.eval("JSON.stringify(between(scene.stops, 1e6, 1))")) == [1e6, 1]

@@ -278,4 +278,10 @@ def machine_text(rng, kind=None):
         text += [f"[{table}]", *[f"{k} = {v!r}" for k, v in given.items() if k in about]]
         if about is LOADS and rng.random() < 0.3:
             text.append(f'friction_at = "{rng.choice(["pin", "pin", "slot"])}"')
+    # last, so that the random numbers of other machines stay as they are
+    skewed = any(line.startswith(("offset_mm", "rollers")) for line in text)
+    if kind in ("crank", "side-crank") and straight and not skewed and rng.random() < 0.3:
+        text.insert(1, "stop = true")
+        text.insert(1 + text.index("[load]"), f"winding_torque_Nm = {near(rng, 2.0)!r}")
+        text.append(f"stop_stress_max_MPa = {near(rng, 900.0)!r}")
     return "\n".join(text) + "\n"

@@ -26,7 +26,8 @@ class External(Gearing):
     """The crank turns outside the wheel: less motion than dwell.
 
     ``z`` is the number of slots, 3 or more. ``offset_mm`` is the distance by which the slots' axes
-    miss the wheel's axis. ``steps_deg`` are unequal steps, a pattern that repeats over a turn.
+    miss the wheel's axis. ``steps_deg`` are unequal steps, a pattern that repeats over a turn. With
+    ``stop`` one recess is left convex, so that the crank is blocked after z - 1 turns.
 
     >>> Design(External(6)).timing.motion_deg
     120.0
@@ -42,6 +43,7 @@ class External(Gearing):
     steps_deg: Annotated[
         tuple[float, ...] | None, Range(0.0, 360.0, "()"), "unequal steps, as a repeating pattern"
     ] = None
+    stop: Annotated[bool, None, "a convex face in place of a recess stops the crank"] = False
 
     def __post_init__(self) -> None:
         super().__post_init__()
@@ -82,6 +84,11 @@ class External(Gearing):
     def steps(self) -> tuple[float, ...]:
         """Repeating pattern of unequal steps in degrees; empty if all are equal."""
         return self.steps_deg or ()
+
+    @property
+    def stopped(self) -> bool:
+        """True if a convex face in place of a recess stops the crank at both ends."""
+        return self.stop
 
     @property
     def skewed(self) -> bool:

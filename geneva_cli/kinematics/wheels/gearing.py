@@ -84,6 +84,11 @@ class Gearing(SpecTable):
         return ()
 
     @property
+    def stopped(self) -> bool:
+        """True if a convex face in place of a recess stops the crank at both ends."""
+        return False
+
+    @property
     def skewed(self) -> bool:
         """True if slots are not radial or not all alike, which some drives and laws cannot use.
 

@@ -31,7 +31,7 @@ from typing import TYPE_CHECKING, NamedTuple, cast
 
 import numpy as np
 
-from geneva_cli.analysis.forces import contact_modulus_GPa
+from geneva_cli.analysis.forces import contact_modulus_GPa, hertz_MPa
 from geneva_cli.analysis.locking import Lock
 from geneva_cli.loads.strength.horn import SHEAR, horns, product
 from geneva_cli.machine.many import taken
@@ -139,7 +139,7 @@ def _contact(
     modulus = contact_modulus_GPa(mechanism.spec) * 1e3
     sharp, loose = np.equal(radius, 0.0), np.isfinite(radius)
     with np.errstate(all="ignore"):
-        stress = np.sqrt(line * modulus / (math.pi * radius))
+        stress = hertz_MPa(mechanism.spec, line, radius)
         half = np.sqrt(4.0 * line * radius / (math.pi * modulus))
         wheel, disc = mechanism.spec.material_wheel, mechanism.spec.material_roller
         nu, mu = disc.poisson_ratio, wheel.poisson_ratio

@@ -77,6 +77,7 @@ def _data(scene: Scene) -> dict[str, Any]:
     return {
         "start": scene.start_deg,
         "turn": scene.turn_deg,
+        "stops": scene.stops,
         "seconds": scene.seconds,
         "size": max(x1 - x0, y1 - y0),
         "bodies": [

@@ -22,6 +22,15 @@ function afterTurns(track, t, turns) {
   return valueAt(track, t) + turns * (track.g || 0);
 }
 
+// Where a machine that ran on for some degrees is, and its sense: it turns back at its stops.
+function between(stops, degrees, sense) {
+  if (!stops) return [degrees, sense];
+  const [low, high] = stops;
+  if (degrees > high) return [Math.max(low, 2 * high - degrees), -1];
+  if (degrees < low) return [Math.min(high, 2 * low - degrees), 1];
+  return [degrees, sense];
+}
+
 // Contact and force of a push at t, or nothing: [x, y, fx, fy].
 function pushAt(push, t) {
   const a = push[0], last = a.length - 1;

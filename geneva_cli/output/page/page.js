@@ -99,7 +99,7 @@
     return value;
   }
 
-  let t = 0, turns = 0, said = "";
+  let t = 0, turns = 0, sense = 1, said = "";
   function show() {
     for (const { id, centre: [x, y], angle } of scene.bodies) {
       const turned = -afterTurns(angle, t, turns) * degrees;
@@ -166,9 +166,11 @@
     if (!playing) return;
     const seconds = Math.min(0.1, (now - before) / 1000);
     before = now;
-    let next = t + (scene.turn * seconds * speed.value) / scene.seconds;
-    while (next >= scene.turn) { next -= scene.turn; turns++; }
-    go(next);
+    const run = (sense * scene.turn * seconds * speed.value) / scene.seconds;
+    let next;
+    [next, sense] = between(scene.stops, turns * scene.turn + t + run, sense);
+    turns = Math.floor(next / scene.turn);
+    go(next - turns * scene.turn);
     requestAnimationFrame(frame);
   }
   function play(on) {

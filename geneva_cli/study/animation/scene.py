@@ -12,6 +12,7 @@ from geneva_cli.curves.measure import at, bounds
 from geneva_cli.curves.shapes import Circle, Shape
 from geneva_cli.design import Design
 from geneva_cli.errors import GenevaError
+from geneva_cli.outlines.stop import wheel_stop
 from geneva_cli.scene import Bar, Body, Box, Phase, Place, Scene, pose
 from geneva_cli.specfile.writer import quoted, spec_lines
 from geneva_cli.study.animation.bodies import bodies
@@ -22,6 +23,7 @@ from geneva_cli.verdict.report.words import words
 
 if TYPE_CHECKING:
     from geneva_cli.figure import Figure
+    from geneva_cli.outlines.outlines import Outlines
 
 
 def scene(design: Design) -> Scene:
@@ -57,7 +59,16 @@ def scene(design: Design) -> Scene:
         tuple(_states(design, turn)),
         _figure(design),
         _box(parts, bars, rollers, mechanism.roller_radius_mm, turn.whole),
+        _stops(outlines, turn),
     )
+
+
+def _stops(outlines: Outlines | None, turn: MachineTurn) -> tuple[float, float] | None:
+    """Both stops of the crank, degrees from the turn's start; None without them."""
+    stop = outlines and wheel_stop(outlines)
+    if not stop:
+        return None
+    return stop.first_deg - stop.drawn_deg - turn.start, stop.last_deg - stop.drawn_deg - turn.start
 
 
 def _remark(design: Design, bars: tuple[Bar, ...]) -> str:

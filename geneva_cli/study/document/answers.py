@@ -99,6 +99,14 @@ def product(left: RemainingValues) -> Iterator[Block]:
         yield from facts("What the product on the dial feels", values)
 
 
+def stop(left: RemainingValues) -> Iterator[Block]:
+    """Where a Geneva stop blocks the crank, if there is one."""
+    values = left.take("stop")
+    if any(value is not None for value in values.values()):
+        yield Heading("Stop")
+        yield from facts("Where the convex face blocks the crank", values)
+
+
 def sizes(left: RemainingValues) -> Iterator[Block]:
     """Sizes of the machine and its parts."""
     yield Heading("Sizes")

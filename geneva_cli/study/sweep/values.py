@@ -141,9 +141,9 @@ def _ends_in_unit_of(key: str, ends: RangeText, option: str) -> RangeText:
 
 
 def _one(key: str, text: str, option: str) -> Value:
-    """A number or a word; a text with a unit is a number in the key's unit."""
+    """A number, a word, or true or false; a text with a unit is a number in the key's unit."""
     value = read_value(_in_unit_of(key, text, option), option)
-    if isinstance(value, bool) or not isinstance(value, (int, float, str)) or not text.strip():
+    if not isinstance(value, (int, float, str)) or not text.strip():
         raise GenevaError(f"{option}: {cut(text)!r} is neither a number nor a word")
     if isinstance(value, float) and not math.isfinite(value):
         raise GenevaError(f"{option}: {cut(text)} is no finite number")

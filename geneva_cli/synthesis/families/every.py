@@ -9,7 +9,6 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Sequence
 from typing import TypeAlias
 
-from geneva_cli.kinematics import registry
 from geneva_cli.kinematics.wheels.gearing import Gearing
 from geneva_cli.study.target import Target
 from geneva_cli.synthesis.families import below
@@ -50,7 +49,7 @@ def longest_first(target: Target) -> list[int]:
 
 def families(kind: Kind, target: Target, reached: list[float]) -> Iterator[Family]:
     """The families of one kind that may meet the requirement."""
-    wheels = [registry.gearing(gearing)(z) for gearing in target.gearings for z in target.z]
+    wheels = [target.wheel(gearing, z) for gearing in target.gearings for z in target.z]
     yield from kind(target, wheels, reached)
 
 

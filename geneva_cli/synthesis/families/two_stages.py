@@ -74,6 +74,8 @@ def pairs(target: Target, wheel: Gearing) -> Iterator[Family]:
     """
     for first_z in range(3, int(360.0 / natural_deg(wheel)) + 1):
         spec = BARE.replace(wheel=wheel, drive=GenevaPair(first_z=first_z))
+        if not is_compatible(spec):
+            return
         natural = build(spec).engagements[0].motion_deg
         m = 1.0 / first_z  # motions in a turn of the input
         if allows(allowed_motions(target, m, natural), natural):

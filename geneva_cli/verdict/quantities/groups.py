@@ -231,6 +231,12 @@ REPORT = (
         "report.parts:turned",
         makes_parts=True,
     ),
+    _group(
+        "stop",
+        "turns first_deg last_deg overlap_mm lever_mm force_N contact_stress_MPa",
+        "report.stop:stop",
+        makes_parts=True,
+    ),
     _group("parts_list", "", "report.parts_list:parts_list_tables", makes_parts=True),
     QuantityGroup(
         "tolerance",

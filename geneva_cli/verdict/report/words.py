@@ -27,6 +27,8 @@ def words(mechanism: Mechanism) -> str:
         if spec.motion.alpha0_deg:
             text += f", with {spec.motion.alpha0_deg:g} deg of extra dwell"
         text += "; its slots are cut to suit." if slot.curved else "; the groove is cut to suit."
+    if wheel.stopped:
+        text += f" A convex face in place of a recess blocks the crank after {wheel.z - 1} turns."
     each = [timings(mechanism)[i] for i in range(len(mechanism.engagements))]
     steps = sorted({mechanism.index_deg(i) for i in range(len(mechanism.engagements))})
     turn = "turns by " + " or ".join(f"{step:.6g}" for step in steps) + " deg"

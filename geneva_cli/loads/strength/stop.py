@@ -1,0 +1,35 @@
+"""The contact of locking disc and convex face at a stop, under the torque that winds the crank.
+
+The face is an arc about the wheel's axis. So the force between the end of the disc and the face
+passes through that axis, turns no wheel, and loads no roller. About the crank's axis its lever is
+h = L sin delta, where delta is the contact's direction from the line of centres, seen from the
+wheel's axis: F = T/h.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, NamedTuple
+
+from geneva_cli.analysis.forces import hertz_MPa
+
+if TYPE_CHECKING:
+    from geneva_cli.machine.mechanism import Mechanism
+
+
+class StopContact(NamedTuple):
+    """Force and Hertz stress at a stop; None where a key is missing."""
+
+    force_N: float | None
+    contact_stress_MPa: float | None
+
+
+def stop_contact(mechanism: Mechanism, lever_mm: float, face_radius_mm: float) -> StopContact:
+    """Return the contact under ``winding_torque_Nm``; a sharp end of the disc has no stress."""
+    size, torque = mechanism.spec.size, mechanism.spec.load.winding_torque_Nm
+    if torque is None:
+        return StopContact(None, None)
+    force = 1e3 * torque / lever_mm
+    if size.face_width_mm is None or size.lock_edge_mm is None:
+        return StopContact(force, None)
+    radius = 1.0 / (1.0 / size.lock_edge_mm + 1.0 / face_radius_mm)
+    return StopContact(force, hertz_MPa(mechanism.spec, force / size.face_width_mm, radius))
