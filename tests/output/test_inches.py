@@ -160,7 +160,7 @@ def test_a_figure_is_scaled():
 @pytest.mark.parametrize(
     ("words", "wants"),
     [
-        (["check", TURRET], "crank bore wall 0.325 in, at least 0.04921"),
+        (["check", TURRET], "crank shaft stress 8.907 ksi at"),
         (["loads", TURRET], "2.456 to 158.9 lbf in, rms 51.47"),
         (["report", TURRET], "centre distance 9.843 in, wheel Ø 18.21 in"),
         (["profile", TURRET, "--part", "parts"], "9.84252    in"),

@@ -293,6 +293,6 @@ def test_wrong_ranges_with_units(text, wants):
 
 
 def test_every_key_with_a_unit_takes_others_but_for_counts():
-    """Wear per million passages is of no unit of the table."""
+    """Wear per million passages and hardness are of no unit of the table."""
     left = {k.key for k in all_keys() if k.unit and not unit_key(k.key)}
-    assert left == {"slot_wear_max_mm_per_million"}
+    assert left == {"slot_wear_max_mm_per_million", "flank_hardness_HRC"}
