@@ -146,6 +146,8 @@ def _refined(
         tail = np.abs(rates @ SERIES[TERMS - 6 :].T).max(axis=2)
         # 1e-13 is some hundred roundings; panels narrower than 1e-12 of the motion are not halved
         ended = (tail <= 1e-13 * greatest[:, motion]).all(axis=0) | (width[:, 0] < 1e-12)
+        if order == LOWEST:  # what ten times as many panels show is the rounding of the motion
+            ended |= (count > 10 * most)[motion]
         closed.append(_Refined(motion[ended], open_[ended], rates[:, ended]))
         rest, of = open_[~ended], motion[~ended]
         middle = rest.mean(axis=1)
