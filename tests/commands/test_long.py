@@ -89,7 +89,7 @@ def test_long_tables_of_other_numbers_are_the_same(rows, monkeypatch):
         ("motion", "[wheel]\nz = 6\n"),
         ("motion", CURVED),
         ("profile", CURVED),
-        ("vibration --period-ratio 5", "[wheel]\nz = 6\n"),
+        pytest.param("vibration --period-ratio 5", "[wheel]\nz = 6\n", marks=pytest.mark.long),
     ],
     ids=["straight", "curved", "slot", "spectrum"],
 )

@@ -97,11 +97,12 @@ def test_nearest_and_farthest_distances_against_dense_points(name):
     assert (farthest(wheel, points).max(axis=1) >= far - ROUNDING).all()
     x, y, axis = np.linalg.qr(rng.normal(size=(3, 3)))[0]
     circle = Circle(axis, x, y, 0.7)
-    middle, half = rng.uniform(-9.0, 9.0, 300), rng.uniform(0.0, 0.05, 300)
+    arcs = some(300, 50)
+    middle, half = rng.uniform(-9.0, 9.0, arcs), rng.uniform(0.0, 0.05, arcs)
     along = middle[:, None] + half[:, None] * np.linspace(-1.0, 1.0, 1001)
     away = angles(circle.at(along.ravel()), tree).reshape(along.shape).min(axis=1)
     clear = away > 0.01  # arcs that cross no edge
-    assert clear.sum() > 100
+    assert clear.sum() > arcs // 3
     least = FromCircle(wheel, circle)(middle[clear], half[clear])
     assert (least <= away[clear] + ROUNDING).all()
     assert np.allclose(least, away[clear], atol=1e-3)
@@ -172,7 +173,7 @@ def test_sectors_out_of_their_place_are_never_proved_free():
     rng = random.Random(5)
     collides = free = 0
     for name in DESIGNS:
-        for _ in range(some(60, 10)):
+        for _ in range(some(60, 5)):
             parts = with_sectors(parts_of(name), math.radians(10.0 ** rng.uniform(-4.0, 0.5)))
             gap = least_gap(parts, turn_of(parts, 8_000))
             found = certificate(parts, 0.0, TO_MM)
