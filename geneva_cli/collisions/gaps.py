@@ -17,7 +17,7 @@ from geneva_cli.curves.distance import Polyarc
 from geneva_cli.curves.shapes import Contour, backwards
 from geneva_cli.errors import GenevaError
 from geneva_cli.layout.assembly import Assembly
-from geneva_cli.layout.sizes import Sizes
+from geneva_cli.layout.plain_sizes import Sizes
 from geneva_cli.numerics.tolerances import SAME_LENGTH
 
 if TYPE_CHECKING:

@@ -18,8 +18,8 @@ from geneva_cli.drawings.part_drawings import PITCH, pitch_lines
 from geneva_cli.kinematics.layout import Joint
 from geneva_cli.layout.link_positions import links_at
 from geneva_cli.layout.projection import circle_key, once, outlines_of, placed, shapes, titled
+from geneva_cli.layout.roller_paths import roller_reaches
 from geneva_cli.numerics.tolerances import SAME_LENGTH
-from geneva_cli.outlines.crank import roller_centres
 from geneva_cli.outlines.outlines import Outlines
 from geneva_cli.parts.arm import LAYER as ARM
 from geneva_cli.parts.flat_parts import FlatParts
@@ -78,7 +78,7 @@ def _turns(parts: Outlines) -> Iterator[Arc]:
     step = math.remainder(float(np.diff(assembly.crank(np.array([-0.5, 0.5])))[0]), math.tau)
     sense = math.copysign(1.0, step)
     # an internal wheel's crank turns within the wheel, so its arrow is near its shaft
-    far = max(math.hypot(*c) for c in roller_centres(assembly)) + 2.0 * sizes.roller
+    far = max(roller_reaches(assembly)) + 2.0 * sizes.roller
     radius = far + BEYOND * assembly.L if assembly.sign > 0.0 else 0.5 * sizes.arm
     yield about((assembly.L, 0.0), radius, -sense * 0.5, sense)
 

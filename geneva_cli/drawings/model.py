@@ -12,8 +12,8 @@ if TYPE_CHECKING:
     from geneva_cli.collisions.gaps import WorkLimit
     from geneva_cli.collisions.machine_parts import MachineParts
     from geneva_cli.layout.assembly import Assembly
+    from geneva_cli.layout.plain_sizes import Sizes
     from geneva_cli.layout.roller_paths import RollerPaths
-    from geneva_cli.layout.sizes import Sizes
     from geneva_cli.outlines.outlines import Outlines
     from geneva_cli.parts.flat_parts import FlatParts
     from geneva_cli.parts.sphere.shells import Shells

@@ -7,9 +7,8 @@ from collections.abc import Iterable
 
 from geneva_cli.errors import GenevaError
 from geneva_cli.layout.assembly import Assembly
-from geneva_cli.layout.bores import bore_of, has_shape
-from geneva_cli.layout.plain_sizes import Sizes
-from geneva_cli.layout.plain_sizes import half_or as half_or
+from geneva_cli.layout.bores import bore_of, has_shape, reach_or_bore
+from geneva_cli.layout.plain_sizes import Sizes, half_or
 from geneva_cli.machine.spec import Spec
 from geneva_cli.numerics.preferred import bore_radius, rounded_radius
 from geneva_cli.spec.tables import Size
@@ -53,10 +52,14 @@ def arm_passing(assembly: Assembly, sizes: Sizes, length: float) -> float:
     return passing if assembly.sign > 0.0 else math.inf
 
 
+def hole_radius(size: Size, pin: float) -> float:
+    """Return the radius of the hole of a pin, 0 or less where the fit leaves none."""
+    return pin - 0.5 * size.allowances.press_fit_mm
+
+
 def pin_hole(size: Size, pin: float) -> float:
     """Return the radius of the hole that holds a pin. Raises GenevaError where none is left."""
-    fit = size.allowances.press_fit_mm
-    hole = pin - 0.5 * fit
+    fit, hole = size.allowances.press_fit_mm, hole_radius(size, pin)
     if hole <= 0.0:
         raise GenevaError(
             f"there is no hole for a pin of pin_mm = {2.0 * pin:g} with press_fit_mm = {fit:g}; "
@@ -82,9 +85,26 @@ def within_hub(size: Size, part: str) -> float:
     return ((0.5 / 1.6) if has_shape(size, part) else 0.4) * hub_mm if hub_mm else math.inf
 
 
-def hub_around(bored: float, bore: float, wall: float, usual: float) -> float:
-    """Return the default hub around a bore: the usual radius, or a wall around its keyway."""
-    return max(rounded_radius(usual), bored + wall) if bored > bore else rounded_radius(usual)
+def wheel_reach_and_hub(size: Size, bore: float, wall: float, end: float) -> tuple[float, float]:
+    """Return how far the wheel's bore reaches with its shape, and the radius of its hub.
+
+    ``end`` is the distance of the slots' ends from the axis.
+    """
+    return _reach_and_hub(size, "wheel", bore, wall, min(HUB * bore, 0.75 * end))
+
+
+def crank_reach_and_hub(size: Size, bore: float, wall: float) -> tuple[float, float]:
+    """Return how far the crank's bore reaches with its shape, and the radius of its hub."""
+    return _reach_and_hub(size, "crank", bore, wall, 1.5 * bore)
+
+
+def _reach_and_hub(
+    size: Size, part: str, bore: float, wall: float, usual: float
+) -> tuple[float, float]:
+    """Return reach and hub; by default the usual radius, or a wall around the bore's keyway."""
+    reach, usual = reach_or_bore(size, part, bore), rounded_radius(usual)
+    default = max(usual, reach + wall) if reach > bore else usual
+    return reach, half_or(vars(size)[f"{part}_hub_mm"], default)
 
 
 def eye_about(hole: float, wall: float, most: float = math.inf) -> float:

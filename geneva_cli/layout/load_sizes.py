@@ -16,12 +16,16 @@ import math
 import numpy as np
 
 from geneva_cli.analysis.pin import pin
-from geneva_cli.layout.arm_sizes import hub_around, within_hub
+from geneva_cli.layout.arm_sizes import (
+    crank_reach_and_hub,
+    hole_radius,
+    wheel_reach_and_hub,
+    within_hub,
+)
 from geneva_cli.layout.assembly import Assembly
-from geneva_cli.layout.bores import reach_or_bore
 from geneva_cli.layout.link_positions import links_at
 from geneva_cli.layout.plain_sizes import Sizes, thicknesses
-from geneva_cli.layout.roller_paths import roller_centres
+from geneva_cli.layout.roller_paths import roller_reaches
 from geneva_cli.layout.stressed import ShaftSize, lock_of, stressed
 from geneva_cli.loads.strength import lock
 from geneva_cli.loads.strength.allowed import allowed_MPa, shear_allowed_MPa
@@ -109,8 +113,9 @@ def _pin(assembly: Assembly, sizes: Sizes, loads: PartLoads) -> float:
     # the roller keeps three tenths of its radius as a wall; the eye passes the largest wheel's hub
     most = 0.7 * sizes.roller
     if assembly.sign > 0.0 and sizes.arm_bore:
-        reach = max(math.hypot(*centre) for centre in roller_centres(assembly))
-        passing = assembly.L - reach - max(sizes.wheel_hub, 0.75 * sizes.slot_end)
+        passing = (
+            assembly.L - max(roller_reaches(assembly)) - max(sizes.wheel_hub, 0.75 * sizes.slot_end)
+        )
         most = min(most, passing - sizes.wall_min)
     contact = stressed(assembly, sizes).contact
     allowed = float(allowed_MPa(spec.material_roller))
@@ -154,9 +159,7 @@ def _wheel_bored(assembly: Assembly, sizes: Sizes, loads: PartLoads) -> Sizes:
 
 def _with_wheel_bore(assembly: Assembly, sizes: Sizes, bore: float) -> Sizes:
     size = assembly.full.spec.size
-    reach = reach_or_bore(size, "wheel", bore)
-    hub = hub_around(reach, bore, sizes.wall_min, min(1.6 * bore, 0.75 * sizes.slot_end))
-    hub = hub if size.wheel_hub_mm is None else 0.5 * size.wheel_hub_mm
+    reach, hub = wheel_reach_and_hub(size, bore, sizes.wall_min, sizes.slot_end)
     return sizes._replace(wheel_bore=bore, wheel_reach=reach, wheel_hub=hub)
 
 
@@ -183,9 +186,8 @@ def _crank_bored(
     # past links and gears the shaft may have no other way out
     if not sizes.arm_bore or links_at(assembly.full, np.zeros(1)) or spec.drive.gears:
         return trial
-    hole = sizes.pin - 0.5 * size.allowances.press_fit_mm
-    reach = min(math.hypot(*centre) for centre in roller_centres(assembly))
-    for d in bores_from(2.0 * sizes.arm_bore, reach - hole):  # half of the space is left as a wall
+    space = min(roller_reaches(assembly)) - hole_radius(size, sizes.pin)
+    for d in bores_from(2.0 * sizes.arm_bore, space):  # half of it is left as a wall
         other = _with_crank_bore(assembly, sizes, 0.0)._replace(arm_bore=0.5 * d)
         if _crank_holds(assembly, other, loads, keyed):
             break
@@ -194,9 +196,7 @@ def _crank_bored(
 
 def _with_crank_bore(assembly: Assembly, sizes: Sizes, bore: float) -> Sizes:
     size = assembly.full.spec.size
-    reach = reach_or_bore(size, "crank", bore)
-    hub = hub_around(reach, bore, sizes.wall_min, 1.5 * bore)
-    hub = hub if size.crank_hub_mm is None else 0.5 * size.crank_hub_mm
+    reach, hub = crank_reach_and_hub(size, bore, sizes.wall_min)
     arm = bore if sizes.arm_bore else 0.0
     return sizes._replace(crank_bore=bore, crank_reach=reach, crank_hub=hub, arm_bore=arm)
 

@@ -5,10 +5,10 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, NamedTuple
 
 from geneva_cli.numerics.preferred import rounded_below
+from geneva_cli.spec.workshops import workshop
 
 if TYPE_CHECKING:
     from geneva_cli.spec.tables import Size
-from geneva_cli.spec.workshops import workshop
 
 
 class Sizes(NamedTuple):

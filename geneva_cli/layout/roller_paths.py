@@ -74,6 +74,11 @@ def roller_centres(assembly: Assembly) -> list[Point]:
     return centres
 
 
+def roller_reaches(assembly: Assembly) -> list[float]:
+    """Return the distances of the rollers' centres from the crank's axis, at mid-motion."""
+    return [math.hypot(*centre) for centre in roller_centres(assembly)]
+
+
 def _pitch(assembly: Assembly, engagement: Engagement) -> Array:
     """Return points of a slot's pitch curve, (n, 2)."""
     x, y = engagement.slot(

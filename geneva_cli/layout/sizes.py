@@ -12,13 +12,24 @@ import math
 from typing import TYPE_CHECKING
 
 from geneva_cli.errors import GenevaError
-from geneva_cli.layout.arm_sizes import arm_bore, hub_around, within_hub
+from geneva_cli.layout.arm_sizes import (
+    arm_bore,
+    crank_reach_and_hub,
+    hole_radius,
+    wheel_reach_and_hub,
+    within_hub,
+)
 from geneva_cli.layout.assembly import Assembly, assembly
-from geneva_cli.layout.bores import reach_or_bore
-from geneva_cli.layout.plain_sizes import Sizes as Sizes
-from geneva_cli.layout.plain_sizes import half_or, pin_radius, thicknesses, value_or, wall_min
+from geneva_cli.layout.plain_sizes import (
+    Sizes,
+    half_or,
+    pin_radius,
+    thicknesses,
+    value_or,
+    wall_min,
+)
 from geneva_cli.layout.reliefs import arc_floor, has_arcs
-from geneva_cli.layout.roller_paths import RollerPaths, mouth, roller_centres, roller_paths
+from geneva_cli.layout.roller_paths import RollerPaths, mouth, roller_paths, roller_reaches
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.machine.spec import Spec
 from geneva_cli.numerics.preferred import bore_radius
@@ -77,9 +88,8 @@ def sizes(
     wall = wall_min(size, L)
     wheel_bore = half_or(size.wheel_bore_mm, _bore(assembly.full.spec, end, wall, L))
     wheel_bore = wheel_bore if outside or size.wheel_bore_mm else 0.0
-    wheel_reach = reach_or_bore(size, "wheel", wheel_bore)
-    crank_reach = reach_or_bore(size, "crank", bore)
-    wheel_hub = hub_around(wheel_reach, wheel_bore, wall, min(1.6 * wheel_bore, 0.75 * end))
+    wheel_reach, wheel_hub = wheel_reach_and_hub(size, wheel_bore, wall, end)
+    crank_reach, crank_hub = crank_reach_and_hub(size, bore, wall)
     thick, pin = thicknesses(size, L), pin_radius(size, r)
     out = Sizes(
         roller=r,
@@ -95,10 +105,10 @@ def sizes(
         wall_min=wall,
         wheel_bore=wheel_bore,
         wheel_reach=wheel_reach,
-        wheel_hub=half_or(size.wheel_hub_mm, wheel_hub),
+        wheel_hub=wheel_hub,
         crank_bore=bore,
         crank_reach=crank_reach,
-        crank_hub=half_or(size.crank_hub_mm, hub_around(crank_reach, bore, wall, 1.5 * bore)),
+        crank_hub=crank_hub,
         pin=pin,
         arm_bore=_arm_bore(assembly, pin, bore),
         wheel_thickness=thick.wheel,
@@ -175,8 +185,7 @@ def _arm_bore(assembly: Assembly, pin: float, disc: float) -> float:
     spec = assembly.full.spec
     if not (spec.drive.ONE_ARM and pin):  # without pins there is no arm
         return 0.0
-    hole = pin - 0.5 * spec.size.allowances.press_fit_mm
-    space = min(math.hypot(*c) for c in roller_centres(assembly)) - hole
+    space = min(roller_reaches(assembly)) - hole_radius(spec.size, pin)
     return arm_bore(spec, disc, assembly.L, space)
 
 

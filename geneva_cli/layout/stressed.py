@@ -13,14 +13,14 @@ import numpy as np
 
 from geneva_cli.analysis.locking import Lock
 from geneva_cli.errors import GenevaError
-from geneva_cli.layout.arm_sizes import arm_passing, eye_about, half_or, usual_hub
+from geneva_cli.layout.arm_sizes import arm_passing, eye_about, hole_radius, usual_hub
 from geneva_cli.layout.assembly import Assembly
 from geneva_cli.layout.bores import reach_or_bore
 from geneva_cli.layout.keyways import key
 from geneva_cli.layout.link_positions import links_at
-from geneva_cli.layout.plain_sizes import Sizes, value_or
+from geneva_cli.layout.plain_sizes import Sizes, half_or, value_or
 from geneva_cli.layout.reliefs import is_whole, sectors
-from geneva_cli.layout.roller_paths import roller_centres
+from geneva_cli.layout.roller_paths import roller_reaches
 from geneva_cli.loads.strength.arm import ArmDimensions
 from geneva_cli.loads.strength.keys import KeyDimensions
 
@@ -88,10 +88,10 @@ def _arm(assembly: Assembly, sizes: Sizes, contact: float) -> ArmDimensions:
     size = assembly.full.spec.size
     if not (sizes.arm_bore and sizes.pin):
         return ArmDimensions(*[np.asarray(math.nan)] * len(ArmDimensions._fields))
-    length = max(math.hypot(*centre) for centre in roller_centres(assembly))
+    length = max(roller_reaches(assembly))
     passing = arm_passing(assembly, sizes, length)
     standing = 0.0 if is_whole(assembly, sizes) else sizes.lock
-    hole = sizes.pin - 0.5 * size.allowances.press_fit_mm
+    hole = hole_radius(size, sizes.pin)
     bored = reach_or_bore(size, "crank", sizes.arm_bore)
     hub = half_or(size.arm_hub_mm, usual_hub(bored, sizes.arm_bore, sizes.wall_min, standing))
     eye = half_or(size.arm_eye_mm, eye_about(hole, sizes.wall_min, passing))

@@ -27,9 +27,9 @@ from geneva_cli.curves.shapes import (
 from geneva_cli.errors import GenevaError
 from geneva_cli.kinematics.engagement import Engagement
 from geneva_cli.layout.assembly import Assembly
+from geneva_cli.layout.plain_sizes import Sizes
 from geneva_cli.layout.reliefs import sectors
 from geneva_cli.layout.roller_paths import rest
-from geneva_cli.layout.sizes import Sizes
 from geneva_cli.numerics.arrays import scalar
 from geneva_cli.numerics.tolerances import CLEARLY, SAME_LENGTH
 from geneva_cli.outlines.crank import is_whole

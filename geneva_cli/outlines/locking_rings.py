@@ -16,8 +16,8 @@ import numpy as np
 from geneva_cli.curves.shapes import Arc, Contour, Line, about, closed
 from geneva_cli.errors import GenevaError
 from geneva_cli.layout.assembly import Assembly
+from geneva_cli.layout.plain_sizes import Sizes
 from geneva_cli.layout.reliefs import sectors
-from geneva_cli.layout.sizes import Sizes
 from geneva_cli.numerics.tolerances import CLEARLY, SAME_ANGLE, SAME_LENGTH
 
 if TYPE_CHECKING:

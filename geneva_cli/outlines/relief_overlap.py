@@ -14,8 +14,8 @@ import numpy as np
 
 from geneva_cli.collisions.angular_index import half_angle
 from geneva_cli.layout.assembly import Assembly
+from geneva_cli.layout.plain_sizes import Sizes
 from geneva_cli.layout.reliefs import Relief, followed, reliefs
-from geneva_cli.layout.sizes import Sizes
 from geneva_cli.outlines.crank import is_whole
 from geneva_cli.outlines.locking_rings import polar_points
 from geneva_cli.outlines.wheel import opening

@@ -11,7 +11,7 @@ from geneva_cli.errors import GenevaError
 from geneva_cli.kinematics.engagement import Engagement
 from geneva_cli.layout.assembly import Assembly
 from geneva_cli.layout.bores import bore_of, has_shape
-from geneva_cli.layout.sizes import Sizes
+from geneva_cli.layout.plain_sizes import Sizes
 from geneva_cli.numerics.tolerances import SAME_LENGTH
 
 LAYER = "WHEEL"

@@ -11,8 +11,8 @@ from collections.abc import Iterable
 from geneva_cli.curves.plates import Plate
 from geneva_cli.curves.shapes import ORIGIN, Circle, Shape
 from geneva_cli.layout.assembly import Assembly
+from geneva_cli.layout.plain_sizes import Sizes
 from geneva_cli.layout.set_screws import require_thread
-from geneva_cli.layout.sizes import Sizes
 from geneva_cli.outlines.wheel import wheel_circles
 from geneva_cli.spec.tables import Size
 

@@ -18,16 +18,10 @@ from geneva_cli.curves.distance import Polyarc
 from geneva_cli.curves.hull import convex_hull
 from geneva_cli.curves.shapes import Circle, Contour, Shape
 from geneva_cli.errors import GenevaError
-from geneva_cli.layout.arm_sizes import (
-    arm_passing,
-    bolts_between,
-    eye_about,
-    half_or,
-    hub_and_eye,
-    pin_hole,
-)
+from geneva_cli.layout.arm_sizes import arm_passing, bolts_between, eye_about, hub_and_eye, pin_hole
 from geneva_cli.layout.bores import bore_of, has_shape
 from geneva_cli.layout.hole_walls import least_wall
+from geneva_cli.layout.plain_sizes import half_or
 from geneva_cli.layout.reliefs import keyway_direction, sectors
 from geneva_cli.outlines.crank import crank_circles, is_whole, roller_centres
 from geneva_cli.outlines.outlines import Outlines

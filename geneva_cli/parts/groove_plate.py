@@ -17,7 +17,7 @@ from geneva_cli.curves.shapes import Circle, Contour, closed
 from geneva_cli.errors import GenevaError
 from geneva_cli.layout.assembly import Assembly
 from geneva_cli.layout.groove import groove_curve
-from geneva_cli.layout.sizes import Sizes
+from geneva_cli.layout.plain_sizes import Sizes
 from geneva_cli.numerics.preferred import rounded_radius
 from geneva_cli.outlines.outlines import Outlines
 from geneva_cli.outlines.wheel_hub import about_axis

@@ -10,7 +10,8 @@ from geneva_cli.curves.shapes import Contour, Line, about
 from geneva_cli.errors import GenevaError
 from geneva_cli.kinematics.engagement import Engagement
 from geneva_cli.layout.assembly import Assembly, assembly
-from geneva_cli.layout.sizes import Sizes, sizes
+from geneva_cli.layout.plain_sizes import Sizes
+from geneva_cli.layout.sizes import sizes
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.outlines.walls.straight import straight_walls
 from geneva_cli.outlines.wheel import LAYER, wheel_circles, wheel_contour

@@ -18,7 +18,7 @@ from geneva_cli.collisions.one_motion import one_motion
 from geneva_cli.drawings.model import PartsModel
 from geneva_cli.errors import GenevaError
 from geneva_cli.layout.assembly import Assembly
-from geneva_cli.layout.sizes import Sizes
+from geneva_cli.layout.plain_sizes import Sizes
 from geneva_cli.machine.drives.crank import Crank
 from geneva_cli.machine.mechanism import Mechanism, build
 from geneva_cli.machine.spec import Spec

@@ -9,7 +9,7 @@ from geneva_cli.errors import GenevaError
 from geneva_cli.machine.mechanism import Mechanism
 
 if TYPE_CHECKING:
-    from geneva_cli.layout.sizes import Sizes
+    from geneva_cli.layout.plain_sizes import Sizes
 
 Value: TypeAlias = float | int | str | None  # None: the key is left out
 # From the present value to the last one tried: values beyond a passing one may fail.

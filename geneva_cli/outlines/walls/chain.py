@@ -18,7 +18,7 @@ import numpy as np
 from geneva_cli.errors import GenevaError
 from geneva_cli.kinematics.engagement import Engagement
 from geneva_cli.layout.assembly import Assembly
-from geneva_cli.layout.sizes import Sizes
+from geneva_cli.layout.plain_sizes import Sizes
 from geneva_cli.numerics.roots import boundary_by_sections
 from geneva_cli.outlines.walls.joint import WallPlace, joint, points_at, runs
 from geneva_cli.outlines.walls.ways import Wall, walls

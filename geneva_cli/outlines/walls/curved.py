@@ -10,7 +10,7 @@ from geneva_cli.curves import fit
 from geneva_cli.curves.shapes import Contour, Cubic, Point, Segment, about, joined
 from geneva_cli.kinematics.engagement import Engagement
 from geneva_cli.layout.assembly import Assembly
-from geneva_cli.layout.sizes import Sizes
+from geneva_cli.layout.plain_sizes import Sizes
 from geneva_cli.outlines.walls.chain import WallPiece, chain
 from geneva_cli.outlines.walls.joint import points_at
 

@@ -26,7 +26,7 @@ if TYPE_CHECKING:
 
     from geneva_cli.kinematics.engagement import Engagement
     from geneva_cli.layout.assembly import Assembly
-    from geneva_cli.layout.sizes import Sizes
+    from geneva_cli.layout.plain_sizes import Sizes
     from geneva_cli.numerics.jet import Array
 
     Complex: TypeAlias = NDArray[np.complex128]

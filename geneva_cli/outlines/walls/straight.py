@@ -18,8 +18,8 @@ from geneva_cli.curves.shapes import Arc, Contour, Line, Segment, about, joined
 from geneva_cli.errors import GenevaError
 from geneva_cli.kinematics.engagement import Engagement
 from geneva_cli.layout.assembly import Assembly
+from geneva_cli.layout.plain_sizes import Sizes
 from geneva_cli.layout.roller_paths import corner, mouth, rest
-from geneva_cli.layout.sizes import Sizes
 from geneva_cli.numerics.arrays import array, scalar
 from geneva_cli.numerics.tolerances import SAME_ANGLE
 

@@ -15,8 +15,8 @@ import numpy as np
 from geneva_cli.kinematics.engagement import Engagement
 from geneva_cli.kinematics.pitch_curve import Pitch, retraces
 from geneva_cli.layout.assembly import Assembly
+from geneva_cli.layout.plain_sizes import Sizes
 from geneva_cli.layout.roller_paths import rest
-from geneva_cli.layout.sizes import Sizes
 from geneva_cli.layout.slot_profile import heading_at, pitch_at
 from geneva_cli.layout.slot_sampling import nodes
 from geneva_cli.numerics.arrays import array

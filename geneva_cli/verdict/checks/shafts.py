@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from geneva_cli.drawings.shaft_gap import gear_gap, shaft_gap
-from geneva_cli.layout.sizes import Sizes
+from geneva_cli.layout.plain_sizes import Sizes
 from geneva_cli.outlines.crank import is_whole
 from geneva_cli.parts.flat_parts import FlatParts
 from geneva_cli.verdict.checks.check import Check, compared, gap

@@ -7,7 +7,7 @@ import math
 from geneva_cli.curves.distance import Polyarc
 from geneva_cli.curves.measure import turned
 from geneva_cli.curves.shapes import Arc, Line, Point, Segment, backwards, closed
-from geneva_cli.layout.sizes import Sizes
+from geneva_cli.layout.plain_sizes import Sizes
 from geneva_cli.outlines.crank import is_whole, rollers_gap
 from geneva_cli.outlines.wheel_hub import wheel_hub
 from geneva_cli.parts.flat_parts import FlatParts
