@@ -8,7 +8,7 @@ import typer
 from geneva_cli.commands import completion
 from geneva_cli.commands.options import Output, Settings, SpecPath, one_of, warn
 from geneva_cli.errors import GenevaError, clean
-from geneva_cli.output.formats import CAMS, FORMATS
+from geneva_cli.output.formats import CAMS, CONTROLLERS, FORMATS
 
 EXAMPLES = (
     "geneva motion spec.toml --samples 13",
@@ -17,7 +17,6 @@ EXAMPLES = (
     "geneva motion spec.toml --format cam --for codesys -o cam.st",
 )
 CAM = "An electronic cam"
-CONTROLLERS = ("polynomial", "codesys", "beckhoff")
 
 
 def run(

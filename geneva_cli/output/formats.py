@@ -25,6 +25,7 @@ MESHES = {  # of solids, in bytes
 DRAWN = {"dxf": "dxf", "svg": "svg", "step": "step", **MESHES}
 SHEETS = ("dxf", "svg", "pdf")  # for drawing sheets
 CAMS = ("cam",)  # for motions only: a file for a controller
+CONTROLLERS = ("polynomial", "codesys", "beckhoff")  # what reads a cam
 PICTURES = ("png", "pdf")  # for figures only
 # for documents; the other formats of tables get their values
 DOCUMENTS = {"html": "html", "pdf": "pdf", "md": "markdown"}

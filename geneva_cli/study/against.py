@@ -22,6 +22,7 @@ from geneva_cli.machine.drives.crank import Crank
 from geneva_cli.machine.mechanism import Mechanism, build
 from geneva_cli.machine.spec import Spec
 from geneva_cli.spec.tables import Load
+from geneva_cli.study.compare import over
 from geneva_cli.study.fields import Cell, pick
 from geneva_cli.table import Table, rows_table
 
@@ -122,14 +123,10 @@ def _values(design: Design, name: str) -> dict[str, Cell]:
     names = ("loads.torque_Nm.max", "loads.wheel_torque_Nm.rms", "cycle.power_W.max")
     most, rms, power = pick(names).of(rotating)
     values |= {
-        "motor_torque_max_Nm": _over(most, motor.gear_ratio),
-        "motor_torque_rms_Nm": _over(rms, motor.gear_ratio),
+        "motor_torque_max_Nm": over(most, motor.gear_ratio),
+        "motor_torque_rms_Nm": over(rms, motor.gear_ratio),
         "power_max_W": power,
     }
     inertia = inertia_kgm2(design.spec)
-    values["inertia_ratio"] = _over(inertia, motor.inertia_kgm2 * motor.gear_ratio**2)
+    values["inertia_ratio"] = over(inertia, motor.inertia_kgm2 * motor.gear_ratio**2)
     return values
-
-
-def _over(value: Cell, divisor: float) -> float | None:
-    return value / divisor if isinstance(value, float) and divisor else None

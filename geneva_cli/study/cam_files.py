@@ -17,6 +17,7 @@ from geneva_cli.analysis.electronic_cam import (
 )
 from geneva_cli.design import Design
 from geneva_cli.errors import GenevaError, cut
+from geneva_cli.output.formats import CONTROLLERS
 from geneva_cli.table import Table
 
 
@@ -54,9 +55,6 @@ def beckhoff(cam: CamPoints, title: str) -> Iterator[str]:
 def _plain(title: str) -> str:
     """A title that ends no comment, in letters that every controller reads."""
     return title.encode("ascii", "replace").decode().replace("*)", "").replace("\n", " ")
-
-
-CONTROLLERS = ("polynomial", "codesys", "beckhoff")
 
 
 def cam(

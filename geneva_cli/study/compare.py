@@ -63,10 +63,11 @@ def _ratios(cells: Sequence[Cell]) -> list[Cell]:
     Words stay as they are; a ratio to a missing value or to 0 is None.
     """
     first, *others = cells
-    return [first, *(_over(c, first) for c in others)]
+    return [first, *(over(c, first) for c in others)]
 
 
-def _over(cell: Cell, first: Cell) -> Cell:
+def over(cell: Cell, first: Cell) -> Cell:
+    """A number divided by another; words as they are, and None where there is no quotient."""
     if isinstance(cell, bool) or not is_number(cell):
         return cell
     return cell / first if is_number(first) and first else None

@@ -111,6 +111,10 @@ _MILDER = (
 )
 _SLOWER = scaled("drive", "n_rpm", 1e-3)
 _LARGER = scaled("size", "center_distance_mm", 20.0)
+_LESS_LOAD = (_SLOWER, _LARGER)
+_WIDER_FACE = scaled("size", "face_width_mm", 10.0)
+_BLUNTER = (scaled("size", "lock_edge_mm", 10.0), _WIDER_FACE, _LARGER)
+_OTHER_LOCK = sized("size", "lock_radius_mm")
 _SMALLER = scaled("size", "roller_radius_mm", 0.2)
 _CRANK = (
     scaled("size", "crank_bore_mm", 0.2),
@@ -131,7 +135,7 @@ REMEDIES: dict[str, tuple[Change, ...]] = {
     "input_torque_max_Nm": (_SLOWER, *_MILDER),
     "contact_stress_max_MPa": (
         _SLOWER,
-        scaled("size", "face_width_mm", 10.0),
+        _WIDER_FACE,
         _LARGER,
         *_MILDER,
     ),
@@ -144,78 +148,65 @@ REMEDIES: dict[str, tuple[Change, ...]] = {
         _SLOWER,
     ),
     "reversal_shock_N": (scaled("size", "slot_clearance_mm", 0.0), _SLOWER),
-    "pv_max_W_m2": (_SLOWER, scaled("size", "face_width_mm", 10.0), _LARGER),
+    "pv_max_W_m2": (_SLOWER, _WIDER_FACE, _LARGER),
     "roller_life_min_h": (
         scaled("material.roller", "dynamic_capacity_N", 10.0),
-        _SLOWER,
-        _LARGER,
+        *_LESS_LOAD,
     ),
     "slot_wear_max_mm_per_million": (
-        scaled("size", "face_width_mm", 10.0),
-        _SLOWER,
-        _LARGER,
+        _WIDER_FACE,
+        *_LESS_LOAD,
     ),
     "pin_stress_MPa": (
         scaled("size", "pin_mm", 1.9),
         scaled("size", "roller_radius_mm", 3.0),
         set_to("size", "pin_held", "fixed"),
         scaled("size", "face_width_mm", 0.1),
-        _SLOWER,
-        _LARGER,
+        *_LESS_LOAD,
     ),
     "horn_stress_MPa": (
-        scaled("size", "face_width_mm", 10.0),
+        _WIDER_FACE,
         scaled("size", "lock_radius_mm", 0.5),
-        _SLOWER,
-        _LARGER,
+        *_LESS_LOAD,
     ),
     "lock_horn_stress_MPa": (
-        scaled("size", "face_width_mm", 10.0),
+        _WIDER_FACE,
         scaled("size", "lock_radius_mm", 0.5),
         _LARGER,
     ),
-    "lock_stress_max_MPa": (
-        scaled("size", "lock_edge_mm", 10.0),
-        scaled("size", "face_width_mm", 10.0),
-        _LARGER,
-    ),
+    "lock_stress_max_MPa": _BLUNTER,
     "lock_deflection_max_deg": (
         scaled("size", "lock_clearance_mm", 0.1),
-        scaled("size", "face_width_mm", 10.0),
+        _WIDER_FACE,
         _LARGER,
     ),
     "wheel_shaft_stress_MPa": (
         scaled("shaft", "wheel_diameter_mm", 5.0),
         scaled("shaft", "wheel_overhang_mm", 0.1),
         scaled("size", "wheel_bore_mm", 5.0),
-        _SLOWER,
-        _LARGER,
+        *_LESS_LOAD,
     ),
     "crank_shaft_stress_MPa": (
         scaled("shaft", "crank_diameter_mm", 5.0),
         scaled("shaft", "crank_overhang_mm", 0.1),
         scaled("size", "arm_bore_mm", 5.0),
-        _SLOWER,
-        _LARGER,
+        *_LESS_LOAD,
     ),
     "arm_stress_MPa": (
         scaled("size", "arm_thickness_mm", 10.0),
         scaled("size", "arm_eye_mm", 3.0),
         scaled("size", "arm_hub_mm", 3.0),
-        _SLOWER,
-        _LARGER,
+        *_LESS_LOAD,
     ),
     "wheel_key_pressure_MPa": (
         scaled("size", "wheel_thickness_mm", 10.0),
         scaled("size", "wheel_bore_mm", 5.0),
-        _SLOWER,
-        _LARGER,
+        *_LESS_LOAD,
     ),
     "crank_key_pressure_MPa": (
         scaled("size", "arm_thickness_mm", 10.0),
         scaled("size", "arm_bore_mm", 5.0),
-        _SLOWER,
-        _LARGER,
+        *_LESS_LOAD,
     ),
     "pressure_angle_deg": (set_to("motion", "ratio", "matched"), *_MOTION, _SLOTS),
     "undercut_mm": (_SMALLER, *_MOTION),
@@ -227,16 +218,11 @@ REMEDIES: dict[str, tuple[Change, ...]] = {
         Change("size", "lock_radius_mm", lambda now: [None] if now == 0.0 else []),
         set_to("wheel", "held_by", "detent"),
     ),
-    "stop_turns": (*sized("size", "lock_radius_mm"), _SMALLER),
-    "stop_overlap_mm": (*sized("size", "lock_radius_mm"), _SMALLER),
-    "stop_stress_max_MPa": (
-        scaled("size", "lock_edge_mm", 10.0),
-        scaled("size", "face_width_mm", 10.0),
-        _LARGER,
-    ),
+    **dict.fromkeys(("stop_turns", "stop_overlap_mm"), (*_OTHER_LOCK, _SMALLER)),
+    "stop_stress_max_MPa": _BLUNTER,
     "wall_between_slots_mm": (_SMALLER, scaled("size", "slot_clearance_mm", 0.0)),
     "horn_mm": (
-        *sized("size", "lock_radius_mm"),
+        *_OTHER_LOCK,
         _SMALLER,
         scaled("size", "lock_clearance_mm", 0.0),
         scaled("size", "slot_clearance_mm", 0.0),

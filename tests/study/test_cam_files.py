@@ -9,7 +9,8 @@ from scipy.interpolate import BPoly, PPoly
 
 from geneva_cli import GenevaError, load
 from geneva_cli.manual import page
-from geneva_cli.study.cam_files import CONTROLLERS, cam
+from geneva_cli.output.formats import CONTROLLERS
+from geneva_cli.study.cam_files import cam
 
 DESIGNS = sorted(Path("designs").glob("*.toml"))
 SOME = ("turret", "two-pins-z4", "unequal-steps", "side-crank-z6", "gear-sector", "sine-group")

@@ -16,7 +16,8 @@ class Bound(NamedTuple):
     """A limit of the spec, and the whole names of quantities: the limited one, and others.
 
     ``allowed`` is the limit of the default steel, ``size`` and ``least`` the size on which the
-    stress depends, and its least value.
+    stress depends, and its least value. A stress that ``spreads`` is in inverse proportion to the
+    contact's width. One that ``shears`` is limited by its allowable shear, too.
     """
 
     limit: str  # table.key
@@ -27,6 +28,8 @@ class Bound(NamedTuple):
     what: str = ""  # the size, in words
     size: str = ""
     least: str = ""
+    spreads: bool = False
+    shears: bool = False
 
 
 def _part(
@@ -51,12 +54,13 @@ BOUNDS = {
     ),
     "pin_stress_MPa": _part("material.roller.stress_max_MPa", "pin", "pin_mm", "diameter_mm"),
     # under the roller
-    "horn_stress_MPa": _part("material.wheel.stress_max_MPa", "horn"),
+    "horn_stress_MPa": _part("material.wheel.stress_max_MPa", "horn")._replace(spreads=True),
     # under the torque that the lock holds
     "lock_horn_stress_MPa": Bound(
         "material.wheel.stress_max_MPa",
         "strength.lock.horn_stress_MPa",
         allowed="strength.horn.allowed_MPa",
+        spreads=True,
     ),
     # between disc and recess: on the recess's end, or between the arcs
     "lock_stress_max_MPa": Bound("limits.lock_stress_max_MPa", "strength.lock.greatest_MPa"),
@@ -75,12 +79,12 @@ BOUNDS = {
         "material.wheel.stress_max_MPa", "arm", "arm_thickness_mm", "thickness_mm"
     ),
     # on a key's sides
-    "wheel_key_pressure_MPa": _part(
-        "material.wheel.stress_max_MPa", "wheel_key", "the key", "length_mm", "pressure_MPa"
-    ),
-    "crank_key_pressure_MPa": _part(
-        "material.wheel.stress_max_MPa", "crank_key", "the key", "length_mm", "pressure_MPa"
-    ),
+    **{
+        f"{key}_pressure_MPa": _part(
+            "material.wheel.stress_max_MPa", key, "the key", "length_mm", "pressure_MPa"
+        )._replace(shears=True)
+        for key in ("wheel_key", "crank_key")
+    },
 }
 
 
@@ -99,8 +103,7 @@ def strength_limit(name: str, mechanism: Mechanism) -> Check | None:
     from geneva_cli.verdict.strength import strength
 
     of = strength(mechanism)
-    # a key may also be limited by its shear
-    limit = of[bound.allowed] if bound.allowed and (own is None or "key" in name) else own
+    limit = of[bound.allowed] if bound.shears or (bound.allowed and own is None) else own
     value = of[bound.quantity]
     if value is not None and limit is not None:
         at_deg = of[bound.place] if bound.place else None
@@ -116,7 +119,7 @@ def strength_limit(name: str, mechanism: Mechanism) -> Check | None:
 def _needed(bound: Bound, of: Strength, check: Check) -> str:
     """The size on which a failing stress depends, and what it must be; empty if unknown."""
     if not bound.size:
-        return _needed_width(of, check) if "horn" in check.name else ""
+        return _needed_width(of, check) if bound.spreads else ""
     size, least = of[bound.size], of[bound.least]
     if size is None:
         return ""
