@@ -75,8 +75,8 @@ ROWS = [
     Row("peaks internal-z6.toml", "tomli"),
     Row("peaks side-crank-z6.toml", "tomli numpy"),
     Row("peaks press-straight.toml --format json", "tomli json"),
-    Row("peaks press-straight.toml --certify", "tomli"),
-    Row("peaks press-curved.toml", "tomli"),
+    Row("peaks press-straight.toml --certify", "tomli numpy"),
+    Row("peaks press-curved.toml", "tomli numpy"),  # whether its slot drives positively
     Row("peaks table-law.toml", "tomli numpy scipy json"),  # its spline; json: SciPy's
     Row("motion press-straight.toml --samples 9", "tomli numpy"),
     Row("motion press-curved.toml --samples 9", "tomli numpy"),
