@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Iterator
-from typing import NamedTuple, TypeVar
+from typing import TypeVar
 
 import numpy as np
 
@@ -23,6 +23,7 @@ from geneva_cli.numerics.tolerances import SAME_LENGTH
 from geneva_cli.outlines.wheel_hub import HUB
 from geneva_cli.parts.flat_parts import FlatParts
 from geneva_cli.parts.gear_pair import PITCH, gear_span, pitch_radii
+from geneva_cli.record import NamedTuple
 
 Measure = TypeVar("Measure", float, Array)  # one gap, or an array of one for each sphere
 

@@ -9,8 +9,6 @@ curves can be hobbed. With derivatives by the driver's angle, the curves are con
 
 from __future__ import annotations
 
-from typing import NamedTuple
-
 import numpy as np
 
 from geneva_cli.curves import chords
@@ -20,6 +18,7 @@ from geneva_cli.kinematics.drive import Gears
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.numerics.arrays import array
 from geneva_cli.numerics.jet import Jet
+from geneva_cli.record import NamedTuple
 from geneva_cli.table import Table
 
 NAMES = (

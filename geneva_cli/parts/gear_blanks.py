@@ -9,7 +9,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from typing import NamedTuple
 
 from geneva_cli.curves.plates import Member, Plate
 from geneva_cli.curves.shapes import (
@@ -27,6 +26,7 @@ from geneva_cli.errors import GenevaError
 from geneva_cli.kinematics.layout import Link, Teeth
 from geneva_cli.layout.hole_walls import least_wall
 from geneva_cli.parts.link_sizes import LinkSizes
+from geneva_cli.record import NamedTuple
 from geneva_cli.spec.tables import Size
 
 PITCH, HOLES, RIM = "PITCH", "BORE", "LINK"

@@ -6,7 +6,7 @@ import math
 from abc import abstractmethod
 from collections.abc import Callable
 from dataclasses import field
-from typing import TYPE_CHECKING, Annotated, ClassVar, NamedTuple, TypeAlias
+from typing import TYPE_CHECKING, Annotated, ClassVar, TypeAlias
 
 from geneva_cli.kinematics.layout import Layout
 from geneva_cli.kinematics.path_and_slot import AnchoredPath, RadialSlot, StraightSlotMotion
@@ -14,6 +14,7 @@ from geneva_cli.kinematics.wheels.poses import HalfStep, PinPose
 from geneva_cli.kinematics.wheels.skew import Skew
 from geneva_cli.numerics.arrays import larger
 from geneva_cli.numerics.jet import Jet, turning
+from geneva_cli.record import NamedTuple
 from geneva_cli.spec.example import Example
 from geneva_cli.spec.rules import Z_MAX, OneOf, Range
 from geneva_cli.spec.schema import SpecTable

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from functools import lru_cache
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -11,6 +11,7 @@ from geneva_cli.analysis.quantities import FORCE
 from geneva_cli.loads.strength.shafts import Torque, on_crank, on_driven_crank, on_wheel
 from geneva_cli.loads.summaries import load_peaks
 from geneva_cli.numerics.arrays import parameter
+from geneva_cli.record import NamedTuple
 
 if TYPE_CHECKING:
     from geneva_cli.machine.mechanism import Mechanism

@@ -8,7 +8,7 @@ at an angle from the line AB. The wheel's centre is solved for.
 from __future__ import annotations
 
 from functools import reduce
-from typing import Annotated, ClassVar, NamedTuple
+from typing import Annotated, ClassVar
 
 from geneva_cli.errors import GenevaError, refuse
 from geneva_cli.kinematics.drive import Plan
@@ -17,6 +17,7 @@ from geneva_cli.kinematics.roller_path import PointDisplacement, rounded
 from geneva_cli.machine.drives.linkage import Linkage, Moving, RodPath, refuse_proportions
 from geneva_cli.numerics.arrays import larger, smaller
 from geneva_cli.numerics.jet import Jet, sqrt, turned_at
+from geneva_cli.record import NamedTuple
 from geneva_cli.spec.example import Example
 from geneva_cli.spec.rules import POSITIVE, OneOf, Range
 

@@ -11,7 +11,7 @@ from __future__ import annotations
 import math
 from bisect import bisect_right
 from functools import lru_cache
-from typing import TYPE_CHECKING, Annotated, ClassVar, NamedTuple
+from typing import TYPE_CHECKING, Annotated, ClassVar
 
 from geneva_cli.errors import GenevaError
 from geneva_cli.kinematics.drive import Gears, Plan
@@ -24,6 +24,7 @@ from geneva_cli.machine.drives.transmission import LocalTransmission, Transmissi
 from geneva_cli.numerics.arrays import library
 from geneva_cli.numerics.jet import Jet, Number, sine_versine_of
 from geneva_cli.numerics.roots import boundary
+from geneva_cli.record import NamedTuple
 from geneva_cli.spec.example import Example
 from geneva_cli.spec.rules import POSITIVE, Csv, Range
 from geneva_cli.spec.schema import Points

@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING
 
 from geneva_cli.errors import GenevaError
 from geneva_cli.numerics.keeps import keeps
+from geneva_cli.record import NamedTuple
 
 if TYPE_CHECKING:
     from geneva_cli.drawings.shaft_gap import ShaftGap
