@@ -119,7 +119,7 @@ def gears(parts: FlatParts) -> Drawing:
     """
     mechanism = parts.mechanism
     if mechanism.spec.drive.TOOTHED:
-        members = tuple(gear.member for gear in parts.links.gears)
+        members = parts.round_gears
         about_crank = _moved(members, -mechanism.center_distance_mm)
         name, drawn = "gears", tuple(once(shapes(about_crank)))
     else:

@@ -19,6 +19,7 @@ from geneva_cli.curves.plates import Member, Plate
 from geneva_cli.curves.shapes import Circle, Contour, Point, Shape
 from geneva_cli.errors import GenevaError
 from geneva_cli.kinematics.layout import Joint, Link
+from geneva_cli.layout.gear_mesh import ToothedGear, gear_mesh
 from geneva_cli.layout.hole_walls import apart, least_wall
 from geneva_cli.layout.link_positions import links_at, same
 from geneva_cli.layout.plain_sizes import pin_radius
@@ -108,7 +109,7 @@ def drawn_links(mechanism: Mechanism, parts: Outlines | None = None) -> Links:
         *pins(bars, sizes, SAME_LENGTH * L),
         *rollers(bars, sizes, r, pin_radius(mechanism.spec.size, r, drawn)),
     ]
-    gears = [_gear(link, turning, sizes, mechanism) for link in links if link.radius_mm]
+    gears = _gears([link for link in links if link.radius_mm], turning, sizes, mechanism)
     kinds = {kind for link in bars if link.plane == 1 for kind in link.kinds}
     pin_low = None
     if kinds & {Joint.ROLLER, Joint.CARRIED}:
@@ -175,13 +176,28 @@ def _refuse_unused(
         )
 
 
-def _gear(link: Link, turning: list[LinkAxis], sizes: LinkSizes, mechanism: Mechanism) -> Gear:
-    """Return a gear, bored for the shaft of its axis."""
-    (path,), L = places(link), mechanism.center_distance_mm
+def _gears(
+    links: list[Link], turning: list[LinkAxis], sizes: LinkSizes, mechanism: Mechanism
+) -> list[Gear]:
+    """Return the gears, each bored for the shaft of its axis."""
+    L, size = mechanism.center_distance_mm, mechanism.spec.size
+    at = [_axis(link) for link in links]
+    cut: dict[str, ToothedGear] = {}
+    if mechanism.spec.drive.TOOTHED and size.gear_module_mm is not None:
+        driver, driven = links
+        cut = gear_mesh(driver, driven, (at[0], at[1]), size).gears
+    bores = [next(axis.radius for axis in turning if same(axis.at, p, L)) for p in at]
+    return [
+        link_gear(link, p, bore, sizes, mechanism, cut.get(link.name))
+        for link, p, bore in zip(links, at, bores, strict=True)
+    ]
+
+
+def _axis(link: Link) -> Point:
+    """Return the axis of a gear at input angle 0."""
+    (path,) = places(link)
     z = complex(path[len(path) // 2])
-    at = z.real, z.imag
-    bore = next(axis.radius for axis in turning if same(axis.at, at, L))
-    return link_gear(link, at, bore, sizes, mechanism.spec.size, L)
+    return z.real, z.imag
 
 
 def _bar(link: Link, sizes: LinkSizes, L: float) -> _UnboredLink:

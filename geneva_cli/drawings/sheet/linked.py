@@ -46,7 +46,7 @@ def linked(begin: Begin, parts: FlatParts) -> Iterator[View]:
         view = begin(one.part.name)
         draw_link(view, one, bars, parts.mechanism)
         yield view
-    for gear in () if parts.front else bars.gears:
+    for gear in parts.toothed:
         view = begin(gear.name)
         draw_gear(view, gear)
         yield view
