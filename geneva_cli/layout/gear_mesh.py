@@ -14,12 +14,13 @@ from __future__ import annotations
 
 import cmath
 import math
+from collections.abc import Iterator
 from typing import NamedTuple
 
 from geneva_cli.curves.gear_teeth import Rack, RoundTeeth, involute
 from geneva_cli.curves.shapes import Point
 from geneva_cli.errors import GenevaError
-from geneva_cli.kinematics.layout import Link
+from geneva_cli.kinematics.layout import Dimension, Layout, Link
 from geneva_cli.numerics.preferred import modules_below
 from geneva_cli.spec.tables import Size
 
@@ -32,6 +33,23 @@ class ToothedGear(NamedTuple):
     shift: float  # profile shift in modules, before the backlash is taken off
     middles: tuple[tuple[float, ...], ...]  # of each sector, radians; of a ring, of its spaces
 
+    @property
+    def span(self) -> tuple[int, float]:
+        """A number of teeth, and the distance over them between parallel jaws, mm.
+
+        The jaws touch the flanks near their middle. The number is 0 for a ring, and for a sector
+        with fewer teeth.
+        """
+        teeth, rack = self.teeth, self.teeth.rack
+        base_pitch = rack.pitch * math.cos(rack.angle)
+        # a tooth on the base circle, as long as its arc
+        thick = teeth.thickness(teeth.base)
+        middle = teeth.radius + self.shift * rack.module
+        count = 1 + max(1, round((2.0 * teeth.tangent(middle) - thick) / base_pitch))
+        if teeth.opening or count > len(self.middles[0]):
+            return 0, 0.0
+        return count, (count - 1) * base_pitch + thick
+
 
 class GearMesh(NamedTuple):
     """Two gears in mesh, by their names, and the mean number of their teeth in contact."""
@@ -39,6 +57,32 @@ class GearMesh(NamedTuple):
     gears: dict[str, ToothedGear]
     pressure_angle: float  # at work, radians
     contact_ratio: float
+
+    @property
+    def layout(self) -> Layout:
+        """Dimensions of both gears and of their mesh."""
+        return (*self._gears(), *self._common())
+
+    def _gears(self) -> Iterator[Dimension]:
+        for name, gear in self.gears.items():
+            teeth, (over, span) = gear.teeth, gear.span
+            each = len(gear.middles[0])
+            yield Dimension(f"{name}: teeth{' of a sector' * (gear.z != each)}", each)
+            yield Dimension(f"{name}: profile shift x", gear.shift)
+            yield Dimension(f"{name}: reference diameter", 2.0 * teeth.radius, "mm")
+            yield Dimension(f"{name}: base diameter", 2.0 * teeth.base, "mm")
+            yield Dimension(f"{name}: tip diameter", 2.0 * (teeth.opening or teeth.tip), "mm")
+            root = teeth.tip if teeth.opening else teeth.root
+            yield Dimension(f"{name}: root diameter", 2.0 * root, "mm")
+            if over:
+                yield Dimension(f"{name}: span over {over} teeth", span, "mm")
+
+    def _common(self) -> Iterator[Dimension]:
+        rack = next(iter(self.gears.values())).teeth.rack
+        yield Dimension("gears' module", rack.module, "mm")
+        yield Dimension("gears' pressure angle", math.degrees(rack.angle), "deg")
+        yield Dimension("gears' pressure angle at work", math.degrees(self.pressure_angle), "deg")
+        yield Dimension("gears' contact ratio", self.contact_ratio)
 
 
 def gear_mesh(driver: Link, driven: Link, at: tuple[Point, Point], size: Size) -> GearMesh:

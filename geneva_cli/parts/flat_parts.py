@@ -16,7 +16,7 @@ from geneva_cli.curves import fit
 from geneva_cli.curves.plates import Group, Member, Plate
 from geneva_cli.curves.shapes import Contour, Point
 from geneva_cli.kinematics.engagement import Engagement
-from geneva_cli.kinematics.layout import Joint
+from geneva_cli.kinematics.layout import Joint, Layout
 from geneva_cli.layout.link_positions import links_at
 from geneva_cli.layout.missing import NamedParts
 from geneva_cli.layout.plain_sizes import pin_radius, thicknesses
@@ -190,6 +190,11 @@ class FlatParts:
             return ()
         write = self._writer(FINE["cubics"] * self.mechanism.center_distance_mm)
         return tuple(gear.with_teeth(write) for gear in self.links.gears)
+
+    @property
+    def tooth_dimensions(self) -> Layout:
+        """Dimensions of the gears' teeth; none without teeth."""
+        return self.links.mesh.layout if self.links.mesh else ()
 
     @property
     def round_gears(self) -> tuple[Member, ...]:
