@@ -84,13 +84,13 @@ def circle(radius: float) -> Curve:
     return curve
 
 
-def flank(pitch: Curve, rack: Rack, middle: float, side: int) -> Curve:
+def flank(pitch: Curve, rack: Rack, middle: float | Array, side: int) -> Curve:
     """Return a flank of the tooth whose middle is at a length of the pitch curve, by the roll."""
     c, n = math.cos(rack.angle), math.sin(rack.angle)
 
     def curve(s: Array) -> tuple[Array, Array]:
         place, along = pitch(s)
-        out = _right(along)
+        out = right(along)
         far = ((rack.half - side * (s - middle)) * c)[:, None]
         return place + far * (side * c * along + n * out), n * along - side * c * out
 
@@ -103,14 +103,14 @@ def fillet(pitch: Curve, rack: Rack, middle: float, side: int) -> Curve:
 
     def curve(u: Array) -> tuple[Array, Array]:
         place, along = pitch(-u)
-        away = (side * ahead + u + middle)[:, None] * along + height * _right(along)
+        away = (side * ahead + u + middle)[:, None] * along + height * right(along)
         normal = away / np.hypot(away[:, 0], away[:, 1])[:, None]
-        return place + away + radius * normal, _right(normal)
+        return place + away + radius * normal, right(normal)
 
     return curve
 
 
-def _right(direction: Array) -> Array:
+def right(direction: Array) -> Array:
     """Return vectors turned clockwise by a right angle."""
     return np.column_stack((direction[:, 1], -direction[:, 0]))
 

@@ -123,8 +123,10 @@ def gears(parts: FlatParts) -> Drawing:
         about_crank = _moved(members, -mechanism.center_distance_mm)
         name, drawn = "gears", tuple(once(shapes(about_crank)))
     else:
-        fine = FINE[parts.curves] * required_gears(mechanism).distance_mm
-        members = parts.finer(fine).gear_pair
+        pair = required_gears(mechanism)
+        if mechanism.spec.size.gear_module_mm is None:
+            parts = parts.finer(FINE[parts.curves] * pair.distance_mm)
+        members = parts.gear_pair
         about_crank = _moved(members, -mechanism.center_distance_mm)
         name, drawn = "pitch curves of the gears", outlines_of(Group("", about_crank))
     title, ends = titled(mechanism, name), [one.at for one in about_crank]

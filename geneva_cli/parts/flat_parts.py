@@ -32,6 +32,7 @@ from geneva_cli.parts.gear_pair import FINE, gear_pair
 from geneva_cli.parts.groove_plate import groove_base, groove_lines, groove_stack
 from geneva_cli.parts.link_sizes import places
 from geneva_cli.parts.links import Links, drawn_links
+from geneva_cli.parts.pair_teeth import pair_teeth
 from geneva_cli.parts.plates import arm_plate, locking_plates, roller_plates, wheel_part
 from geneva_cli.parts.shafts import crank_hub
 
@@ -194,7 +195,9 @@ class FlatParts:
     @property
     def tooth_dimensions(self) -> Layout:
         """Dimensions of the gears' teeth; none without teeth."""
-        return self.links.mesh.layout if self.links.mesh else ()
+        teeth = pair_teeth(self.mechanism.spec.drive.gears, self.mechanism.spec.size)
+        mesh = teeth or self.links.mesh
+        return mesh.layout if mesh else ()
 
     @property
     def round_gears(self) -> tuple[Member, ...]:
@@ -210,8 +213,13 @@ class FlatParts:
 
     @cached_property
     def gear_pair(self) -> tuple[Member, ...]:
-        """The noncircular gears in front of a crank, as blanks up to their pitch curves."""
-        return gear_pair(self.mechanism, self.drawn, self.tolerance, self.curves)
+        """The noncircular gears in front of a crank, with teeth or up to their pitch curves."""
+        pair, size = self.mechanism.spec.drive.gears, self.mechanism.spec.size
+        if pair is None:
+            return ()
+        # teeth are spaced along the pitch curves, whose lengths must agree better than the teeth
+        fine = FINE["cubics"] if size.gear_module_mm is None else 1e-6
+        return gear_pair(self.mechanism, self.drawn, self._writer(fine * pair.distance_mm))
 
     @cached_property
     def _base(self) -> Plate | None:

@@ -1,4 +1,4 @@
-"""The views of gears: pitch circles and curves, bores, and bolts of fixed gears."""
+"""The views of gears: teeth or pitch curves, bores, and bolts of fixed gears."""
 
 from __future__ import annotations
 
@@ -13,8 +13,7 @@ from geneva_cli.drawings.sheet.view import View, number, times
 from geneva_cli.layout.gear_mesh import ToothedGear
 from geneva_cli.numerics.tolerances import SAME_ON_SHEET
 from geneva_cli.parts.gear_blanks import Gear
-
-TOOTHLESS = "teeth not shown"
+from geneva_cli.parts.pair_teeth import PairTeeth
 
 
 def draw_gear(view: View, gear: Gear) -> None:
@@ -43,7 +42,9 @@ def draw_gear(view: View, gear: Gear) -> None:
     if gear.cut:
         return
     whole = gear.teeth.sectors * gear.teeth.each_deg >= 360.0
-    view.remark(f"pitch circle; {TOOTHLESS}" + ("" if whole else "; teeth on these sectors only"))
+    view.remark(
+        "pitch circle; teeth not shown" + ("" if whole else "; teeth on these sectors only")
+    )
 
 
 def _teeth(view: View, gear: ToothedGear) -> None:
@@ -93,14 +94,22 @@ def _sectors(view: View, gear: Gear, outline: Contour, pitch: str) -> None:
         view.angular([(a, a + turn) for a, _ in legs], gear.radius, gear.radius, step)
 
 
-def draw_gears(view: View, shapes: Sequence[Shape], ends: tuple[Point, Point]) -> None:
-    """Draw two gears' pitch curves in mesh at input angle 0, with bores, about their axes."""
+def draw_gears(
+    view: View, shapes: Sequence[Shape], ends: tuple[Point, Point], teeth: PairTeeth | None
+) -> None:
+    """Draw two noncircular gears in mesh at input angle 0, with bores, about their axes."""
     for shape in shapes:
-        view.draw(shape, OUTLINE if isinstance(shape, Circle) else CENTRE)
+        view.draw(shape, OUTLINE if teeth or isinstance(shape, Circle) else CENTRE)
     view.centre_line(*ends)
     for bore in shapes:
         if isinstance(bore, Circle):
             view.cross(bore.centre, bore.radius)
             view.diameter([bore], sized.bore(view.fits, bore.radius))
     view.linear(*ends, 0.0, sized.plain(math.dist(*ends)))
-    view.remark(f"pitch curves; {TOOTHLESS}")
+    if teeth:
+        each, rack = f"{teeth.count} teeth each", teeth.driver
+        view.remark(f"{each}, m = {number(rack.module, 6)}, {number(math.degrees(rack.angle))}°")
+        if teeth.shift:
+            view.remark(f"x = {number(teeth.shift, 4)} of the driver, and minus that")
+    else:
+        view.remark("pitch curves; teeth not shown")
