@@ -17,7 +17,7 @@ from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 
 import numpy as np
 
-from geneva_cli.curves.shapes import ORIGIN, Segment, about
+from geneva_cli.curves.shapes import ORIGIN, Point, Segment, about
 
 if TYPE_CHECKING:
     from geneva_cli.curves.fit.path import Curve
@@ -115,6 +115,15 @@ def right(direction: Array) -> Array:
     return np.column_stack((direction[:, 1], -direction[:, 0]))
 
 
+class SpaceCorner(NamedTuple):
+    """A rounded corner of a ring's space: centre and radius, mm, and where its arc touches."""
+
+    at: Point
+    radius: float
+    direction: float  # of its centre, and of its end on the root circle, radians
+    tangent: float  # of the base circle, to its end on the flank, mm
+
+
 class RoundTeeth(NamedTuple):
     """The teeth of a round gear about the origin, or the spaces of a ring gear.
 
@@ -187,27 +196,35 @@ class RoundTeeth(NamedTuple):
         ]
 
     def _space(self, write: Writer) -> list[Segment]:
-        """Return a ring's space: its corners are arcs that touch the flank and the root circle.
-
-        A curve parallel to an involute is an involute of the same base circle. So the centre of a
-        corner lies on one that is turned by its radius over the base circle's.
-        """
-        rack, pitch = self.rack, circle(self.radius)
-        corner = 0.25 * rack.module  # below 0.38, for which the space of a ring is too narrow
-        far = self.tip - corner
-        touch = self.tangent(far) + corner
-        rolled = corner / self.base
-        centre = self.half_angle(far) - rolled
+        """Return a ring's space: its corners are arcs that touch the flank and the root circle."""
+        rack, pitch, corner = self.rack, circle(self.radius), self.space_corner
+        assert corner
+        (x, y), radius, centre, touch = corner
         begin = self.half_angle(self.base) - touch / self.base + 0.5 * math.pi
-        at = (far * math.cos(centre), far * math.sin(centre))
         inner, outer = self.roll(self.tangent(self.opening)), self.roll(touch)
         return [
             *write(flank(pitch, rack, 0.0, -1), -inner, -outer),
-            about((at[0], -at[1]), corner, -begin, begin - centre),
+            about((x, -y), radius, -begin, begin - centre),
             about(ORIGIN, self.tip, -centre, 2.0 * centre),
-            about(at, corner, centre, begin - centre),
+            about((x, y), radius, centre, begin - centre),
             *write(flank(pitch, rack, 0.0, 1), outer, inner),
         ]
+
+    @property
+    def space_corner(self) -> SpaceCorner | None:
+        """The rounded corner of a ring's space; None if the space or the tooth is too narrow.
+
+        A curve parallel to an involute is an involute of the same base circle. So the centre of a
+        corner lies on one that is turned by the corner's radius over the base circle's.
+        """
+        radius = 0.25 * self.rack.module  # below 0.38, for which the space of a ring is too narrow
+        far = self.tip - radius
+        if far <= self.opening or self.step - 2.0 * self.half_angle(self.opening) <= 0.0:
+            return None
+        centre, touch = self.half_angle(far) - radius / self.base, self.tangent(far) + radius
+        if centre <= 0.0:
+            return None
+        return SpaceCorner((far * math.cos(centre), far * math.sin(centre)), radius, centre, touch)
 
 
 def involute(angle: float) -> float:

@@ -69,6 +69,12 @@ def _tips(
     return s.tolist(), foot.tolist()
 
 
+def least_tip(pitch: Curve, rack: Rack, middles: Array, tip: float) -> float:
+    """Return the least thickness of teeth at their tips, along the pitch curve, mm."""
+    (_, begins), (_, ends) = (_tips(pitch, rack, middles, side, tip) for side in (-1, 1))
+    return min(end - begin for begin, end in zip(begins, ends, strict=True))
+
+
 def curvatures(pitch: Curve, length: float, count: int) -> tuple[float, float]:
     """Return the least and the greatest curvature at places of a closed pitch curve, per mm."""
     s = np.linspace(0.0, length, count + 1)

@@ -135,6 +135,8 @@ class _Pair:
 
     def mesh(self) -> GearMesh:
         """Return the teeth of both gears; raises GenevaError where they do not mesh."""
+        if max(self.counts) > 1000.0:  # as many as gear_teeth allows
+            raise self._error("teeth are more than the 1000 of a gear")
         apart = 0.5 * self.module * (self.counts[1] + self.sign * self.counts[0])
         cosine = math.cos(self.rack.angle) * apart / self.distance
         if cosine >= 1.0:
@@ -144,8 +146,7 @@ class _Pair:
         shifts = self._shifts(angle, off)
         small, large = self._teeth(shifts, off, angle)
         for teeth, link in ((small, self.small), (large, self.large)):
-            if not teeth.opening:
-                self._refuse(teeth, link)
+            self._refuse(teeth, link)
         far = self.distance * math.sin(angle)
         path = small.tangent(small.tip) - self.sign * far
         path += self.sign * large.tangent(large.opening or large.tip)
@@ -215,11 +216,18 @@ class _Pair:
         return small, large
 
     def _refuse(self, teeth: RoundTeeth, link: Link) -> None:
-        """Raise GenevaError for teeth that the rack undercuts, or that are pointed."""
-        if teeth.rack.least_radius > teeth.radius * (1.0 + 1e-9):
-            raise self._error(f"teeth of the {link.name} would be undercut")
-        # DIN 3960 keeps a fifth of a module at the tip
-        if teeth.tip <= teeth.base or teeth.thickness(teeth.tip) < 0.2 * self.module:
+        """Raise GenevaError for teeth that are undercut, pointed or shifted too far."""
+        if teeth.opening:
+            pointed = teeth.space_corner is None
+        else:
+            # the rack's corners must pass below the pitch circle, a hundredth of a module or more
+            if teeth.rack.corner[1] > -0.01 * self.module:
+                raise self._error(f"teeth of the {link.name} would be shifted by more than 0.86")
+            if teeth.rack.least_radius > teeth.radius * (1.0 + 1e-9):
+                raise self._error(f"teeth of the {link.name} would be undercut")
+            # DIN 3960 keeps a fifth of a module at the tip
+            pointed = teeth.tip <= teeth.base or teeth.thickness(teeth.tip) < 0.2 * self.module
+        if pointed:
             raise self._error(f"teeth of the {link.name} would be pointed")
 
     def _error(self, what: str) -> GenevaError:

@@ -79,7 +79,7 @@ class Gear(NamedTuple):
         """Return the gear with its teeth drawn, if it has any; ``write`` fits curves."""
         if self.cut is None:
             return self
-        plate = self.plate
+        plate = self.plate._replace(layer=RIM)  # which is cut
         if self.teeth.inside:
             opening = _toothed(self.cut, 0.0, write)
             return self._replace(plate=plate._replace(holes=(opening, *plate.holes[1:])))

@@ -66,11 +66,13 @@ def gear_pair(mechanism: Mechanism, parts: Outlines | None, write: Writer) -> tu
     bores = gear_bores(mechanism, parts)
     for name, (curve, along), (at, bore) in zip(NAMES, both, bores, strict=True):
         if teeth:
-            outline = closed(CUT, toothed_outline(teeth, name == NAMES[1], curve, along, write))
+            layer = CUT
+            outline = closed(layer, toothed_outline(teeth, name == NAMES[1], curve, along, write))
         else:
-            outline = closed(PITCH, write(curve, -np.pi, np.pi))
+            layer = PITCH
+            outline = closed(layer, write(curve, -np.pi, np.pi))
         holes = (Circle(BORE, (0.0, 0.0), bore),) if bore else ()
-        members.append(Member(Plate(name, PITCH, outline, holes, low, high), at))
+        members.append(Member(Plate(name, layer, outline, holes, low, high), at))
     return tuple(members)
 
 

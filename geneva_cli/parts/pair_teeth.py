@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from geneva_cli.curves.gear_teeth import Rack
-from geneva_cli.curves.rolling_teeth import curvatures, teeth_along
+from geneva_cli.curves.rolling_teeth import curvatures, least_tip, teeth_along
 from geneva_cli.curves.shapes import Segment
 from geneva_cli.errors import GenevaError
 from geneva_cli.kinematics.drive import Gears
@@ -71,6 +71,12 @@ def pair_teeth(gears: Gears | None, size: Size) -> PairTeeth | None:
     whole = length.whole
     real = whole / (math.pi * module)
     count = max(round(real), 3) if size.gear_teeth is None else size.gear_teeth
+    if count > 1000:
+        raise GenevaError(
+            f"gear_module_mm = {module:g}: {count} teeth are more than the 1000 of a gear; "
+            f"at least {whole / (1000.0 * math.pi):.4g} fits",
+            ("size", "gear_module_mm"),
+        )
     # a thousandth is a tooth's error that files and cutters do not show; the teeth stay even
     if abs(real / count - 1.0) > 1e-3:
         raise GenevaError(
@@ -105,6 +111,12 @@ def toothed_outline(
     rack, tip = (teeth.driver, teeth.tips[1]) if driver else (teeth.driven, teeth.tips[0])
     _refuse(curvatures(pitch, teeth.length.whole, 4096), rack, tip)
     middles = rack.pitch * (np.arange(teeth.count) + (0.0 if driver else 0.5))
+    # DIN 3960 keeps a fifth of a module at the tip
+    if least_tip(pitch, rack, middles, tip) < 0.2 * rack.module:
+        raise GenevaError(
+            f"gear_shift = {teeth.shift:g}: teeth would be pointed; nearer to 0 they are thicker",
+            ("size", "gear_shift"),
+        )
     return list(teeth_along(pitch, rack, middles, tip, write))
 
 

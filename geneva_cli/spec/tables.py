@@ -177,7 +177,7 @@ class Size(SpecTable):
     ] = None
     gear_shift: Annotated[
         float | None,
-        Range(-1.0, 2.0),
+        Range(-1.0, 0.86),
         "smaller gear's profile shift, in modules; default: half of the sum, without undercut",
     ] = None
     gear_backlash_mm: Annotated[

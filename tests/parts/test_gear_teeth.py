@@ -324,7 +324,7 @@ def test_refusals(drive, z, keys, said):
 @pytest.mark.parametrize(("key", "value"), [("gear_shift", 0.2), ("gear_teeth", 20)])
 def test_teeth_without_a_module_are_refused(key, value):
     with pytest.raises(GenevaError, match="set gear_module_mm, or remove"):
-        Design(External(4), SOFT, size=Size(**{key: value})).mechanism
+        _ = Design(External(4), SOFT, size=Size(**{key: value})).mechanism
 
 
 def test_solids_lists_and_drawings_have_the_teeth():
