@@ -108,8 +108,9 @@ class CurveLength(NamedTuple):
     def angle(self, s: np.ndarray) -> np.ndarray:
         """Return the input's angles, radians, at lengths of the curve from input angle 0 on."""
         first = self.ahead.origins[0]
-        out: np.ndarray = math.tau * s / self.whole
-        return out + self.ahead(first + np.mod(s - first, self.whole), 0)[0]
+        ahead: np.ndarray = self.ahead(first + np.mod(s - first, self.whole), 0)[0]
+        angle: np.ndarray = math.tau * s / self.whole + ahead
+        return angle
 
 
 def curve_length(gears: Gears) -> CurveLength:

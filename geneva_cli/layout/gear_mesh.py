@@ -20,7 +20,7 @@ from typing import NamedTuple
 from geneva_cli.curves.gear_teeth import Rack, RoundTeeth, involute
 from geneva_cli.curves.shapes import Point
 from geneva_cli.errors import GenevaError
-from geneva_cli.kinematics.layout import Dimension, Layout, Link
+from geneva_cli.kinematics.layout import Dimension, Link
 from geneva_cli.numerics.preferred import modules_below
 from geneva_cli.spec.tables import Size
 
@@ -59,7 +59,7 @@ class GearMesh(NamedTuple):
     contact_ratio: float
 
     @property
-    def layout(self) -> Layout:
+    def layout(self) -> tuple[Dimension, ...]:
         """Dimensions of both gears and of their mesh."""
         return (*self._gears(), *self._common())
 

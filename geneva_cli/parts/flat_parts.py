@@ -16,7 +16,7 @@ from geneva_cli.curves import fit
 from geneva_cli.curves.plates import Group, Member, Plate
 from geneva_cli.curves.shapes import Contour, Point
 from geneva_cli.kinematics.engagement import Engagement
-from geneva_cli.kinematics.layout import Joint, Layout
+from geneva_cli.kinematics.layout import Dimension, Joint
 from geneva_cli.layout.link_positions import links_at
 from geneva_cli.layout.missing import NamedParts
 from geneva_cli.layout.plain_sizes import pin_radius, thicknesses
@@ -193,7 +193,7 @@ class FlatParts:
         return tuple(gear.with_teeth(write) for gear in self.links.gears)
 
     @property
-    def tooth_dimensions(self) -> Layout:
+    def tooth_dimensions(self) -> tuple[Dimension, ...]:
         """Dimensions of the gears' teeth; none without teeth."""
         teeth = pair_teeth(self.mechanism.spec.drive.gears, self.mechanism.spec.size)
         mesh = teeth or self.links.mesh

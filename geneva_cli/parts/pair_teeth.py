@@ -16,7 +16,7 @@ from geneva_cli.curves.rolling_teeth import curvatures, least_tip, teeth_along
 from geneva_cli.curves.shapes import Segment
 from geneva_cli.errors import GenevaError
 from geneva_cli.kinematics.drive import Gears
-from geneva_cli.kinematics.layout import Dimension, Layout
+from geneva_cli.kinematics.layout import Dimension
 from geneva_cli.layout.gear_curves import CurveLength, curve_length
 from geneva_cli.spec.tables import Size
 
@@ -30,7 +30,7 @@ class PairTeeth(NamedTuple):
     """The teeth of both gears; the profile shift of one is minus that of the other."""
 
     length: CurveLength
-    count: int
+    z: int  # teeth of each gear
     driver: Rack
     driven: Rack
     shift: float  # of the driver, in modules, before the backlash is taken off
@@ -48,10 +48,10 @@ class PairTeeth(NamedTuple):
         return driven, driver
 
     @property
-    def layout(self) -> Layout:
+    def layout(self) -> tuple[Dimension, ...]:
         """Dimensions of the teeth."""
         return (
-            Dimension("teeth of each gear", self.count),
+            Dimension("teeth of each gear", self.z),
             Dimension("gears' module", self.driver.module, "mm"),
             Dimension("gears' pressure angle", math.degrees(self.driver.angle), "deg"),
             Dimension("driver gear: profile shift x", self.shift),
@@ -110,7 +110,7 @@ def toothed_outline(
 
     rack, tip = (teeth.driver, teeth.tips[1]) if driver else (teeth.driven, teeth.tips[0])
     _refuse(curvatures(pitch, teeth.length.whole, 4096), rack, tip)
-    middles = rack.pitch * (np.arange(teeth.count) + (0.0 if driver else 0.5))
+    middles = rack.pitch * (np.arange(float(teeth.z)) + (0.0 if driver else 0.5))
     # DIN 3960 keeps a fifth of a module at the tip
     if least_tip(pitch, rack, middles, tip) < 0.2 * rack.module:
         raise GenevaError(

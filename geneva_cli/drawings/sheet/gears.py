@@ -107,7 +107,7 @@ def draw_gears(
             view.diameter([bore], sized.bore(view.fits, bore.radius))
     view.linear(*ends, 0.0, sized.plain(math.dist(*ends)))
     if teeth:
-        each, rack = f"{teeth.count} teeth each", teeth.driver
+        each, rack = f"{teeth.z} teeth each", teeth.driver
         view.remark(f"{each}, m = {number(rack.module, 6)}, {number(math.degrees(rack.angle))}°")
         if teeth.shift:
             view.remark(f"x = {number(teeth.shift, 4)} of the driver, and minus that")
