@@ -129,6 +129,16 @@ CONFLICTS = (
         ("limits", "stop_stress_max_MPa"),
         "stop_stress_max_MPa limits a stop: set stop = true in [wheel] of an external wheel",
     ),
+    Conflict(
+        lambda s: s.size.gear_module_mm is None and s.size.gear_shift is not None,
+        ("size", "gear_shift"),
+        "gear_shift moves the teeth of gears: set gear_module_mm, or remove gear_shift",
+    ),
+    Conflict(
+        lambda s: s.size.gear_module_mm is None and s.size.gear_teeth is not None,
+        ("size", "gear_teeth"),
+        "gear_teeth counts the teeth of gears: set gear_module_mm, or remove gear_teeth",
+    ),
 )
 
 
