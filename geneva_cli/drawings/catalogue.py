@@ -79,6 +79,7 @@ def is_table(mechanism: Mechanism, part: str, drawn: bool) -> bool:
     Raises GenevaError for a part that is unknown, or has no drawing.
     """
     _require_known(part)
+    require_drawn(mechanism, part)
     if drawn and part not in DRAWINGS:
         raise GenevaError(
             f"--part {part} is a table of points: write it as .csv or .json; these are drawings: "
@@ -99,6 +100,16 @@ def part_table(mechanism: Mechanism, part: str, tolerance_mm: float, samples: in
     require_tolerance(mechanism, tolerance_mm)
     table: Table = _loaded(_table(mechanism, part))(mechanism, tolerance_mm, samples)
     return table
+
+
+def require_drawn(mechanism: Mechanism, part: str) -> None:
+    """Raise GenevaError for any part but the slot of a wheel that is neither flat nor a shell."""
+    wheel = mechanism.spec.wheel
+    if part != "slot" and not (wheel.FLAT or wheel.SHELLS):
+        raise GenevaError(
+            f"--part {part}: {mechanism.spec.no_parts}; `--part slot -o FILE.csv` has its slot",
+            ("wheel", "gearing"),
+        )
 
 
 def require_tolerance(mechanism: Mechanism, tolerance_mm: float) -> None:
@@ -152,6 +163,7 @@ def part_sheet(model: PartsModel, part: str, tolerance_mm: float, curves: str) -
 
     Raises GenevaError for a part without a sheet, or that does not fit on one.
     """
+    require_drawn(model.mechanism, part)
     if not is_sheet(part):
         raise GenevaError(f"--part {part} is no drawing sheet; use {', '.join(SHEETS)}")
     own = PARTS[part]
