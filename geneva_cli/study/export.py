@@ -76,7 +76,7 @@ def export_files(
     >>> [file.name for file in files][:3]
     ['wheel-1x-10mm.dxf', 'locking-disc-1x-10mm.dxf', 'arm-1x-10mm.dxf']
     """
-    require_drawn(design.mechanism, "assembly")
+    require_drawn(design.mechanism, "sheet")
     flat = design.spec.wheel.FLAT
     files: list[ExportFile] = []
     missing: list[Missing] = []

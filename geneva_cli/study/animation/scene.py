@@ -38,7 +38,7 @@ def scene(design: Design) -> Scene:
     (['wheel', 'crank'], 360.0, 2)
     """
     mechanism = design.mechanism
-    require_drawn(mechanism, "assembly")
+    require_drawn(design.mechanism, "sheet")
     turn = MachineTurn(mechanism)
     parts = tuple(body for body in bodies(design, turn) if body.shapes)
     outlines = None
