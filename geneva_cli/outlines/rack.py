@@ -1,8 +1,8 @@
 """The rack of a linear Geneva, and the locking sector of its crank.
 
-In the rack's frame its slots run along x, and the first roller is at the origin at mid-motion. The
-rack's edge x = R passes through the crank's axis: there the roller enters. So the rack sweeps over
-the axis, and no disc can lock it. A ring does, half way round, opposite the roller.
+In the rack's frame its slots run along x, and the roller is at the origin at mid-motion. The rack's
+edge, by default x = R, passes through the crank's axis: there the roller enters. So the rack sweeps
+over the axis, and no disc can lock it. A ring does, half way round, opposite the roller.
 
 The recesses have the radius rho, and their axes are R from those of the slots. With the crank d
 radians after entry, one recess is y = R (1 - cos d) past the crank's axis, and the end of the ring
@@ -40,6 +40,7 @@ class RackSizes(NamedTuple):
     arm: float  # R, the crank's radius
     roller: float
     half_width: float  # of the slot
+    edge: float  # distance of the rack's edge from the deepest roller
     slot_bottom: float  # clearance between the deepest roller and the slot's end
     lock: float  # outer radius of the locking sector
     floor: float  # its inner radius
@@ -48,8 +49,9 @@ class RackSizes(NamedTuple):
 
     @property
     def horn(self) -> float:
-        """Thickness of the horn between slot and recess, thinnest at the edge."""
-        return self.arm - self.half_width - self.recess
+        """Thickness of the horn between slot and recess at its thinnest place."""
+        below = min(self.edge - self.arm, 0.0)  # an edge below the crank's axis has wider horns
+        return self.arm - self.half_width - math.sqrt(self.recess**2 - below**2)
 
 
 def rack_sizes(mechanism: Mechanism) -> RackSizes:
@@ -68,7 +70,14 @@ def rack_sizes(mechanism: Mechanism) -> RackSizes:
     lock = _lock(mechanism, arm, arm - w - allowed.lock_clearance_mm, relief)
     recess = lock + allowed.lock_clearance_mm if lock else 0.0
     floor = arm - recess + relief if lock else 0.0
-    return RackSizes(arm, r, w, bottom, lock, floor, recess, max(r, arm / 10.0))
+    edge = value_or(size.wheel_radius_mm, arm)
+    if lock and abs(edge - arm) >= recess:
+        raise GenevaError(
+            f"wheel_radius_mm = {edge:g}: the rack's edge must meet its recesses, between "
+            f"{arm - recess:.6g} and {arm + recess:.6g} mm",
+            ("size", "wheel_radius_mm"),
+        )
+    return RackSizes(arm, r, w, edge, bottom, lock, floor, recess, max(r, arm / 10.0))
 
 
 def _lock(mechanism: Mechanism, arm: float, limit: float, relief: float) -> float:
@@ -107,11 +116,11 @@ def rack_contour(sizes: RackSizes, count: int) -> Contour:
         pairs = zip(recesses, [*cuts, []], strict=True)
         cuts = [cut for pair in pairs for cut in pair if cut]
     edge: list[Segment] = []
-    at = (R, low)
+    at = (sizes.edge, low)
     for cut in cuts:
         edge += [Line(at, cut[0].start), *cut]
         at = cut[-1].end
-    corners = (R, high), (back, high), (back, low), (R, low)
+    corners = (sizes.edge, high), (back, high), (back, low), (sizes.edge, low)
     sides = [Line(at, corners[0])]
     sides += [Line(a, b) for a, b in zip(corners, corners[1:], strict=False)]
     return closed("WHEEL", [*edge, *sides])
@@ -119,14 +128,15 @@ def rack_contour(sizes: RackSizes, count: int) -> Contour:
 
 def slot_walls(sizes: RackSizes, y: float) -> list[Segment]:
     """Return the walls of a slot at y, from the lower corner of its mouth to the upper one."""
-    R, w, bottom = sizes.arm, sizes.half_width, -sizes.slot_bottom
+    edge, w, bottom = sizes.edge, sizes.half_width, -sizes.slot_bottom
     end = about((bottom, y), w, -0.5 * math.pi, -math.pi)
-    return [Line((R, y - w), end.start), end, Line(end.end, (R, y + w))]
+    return [Line((edge, y - w), end.start), end, Line(end.end, (edge, y + w))]
 
 
 def _recess(sizes: RackSizes, y: float) -> list[Segment]:
-    arc: Segment = about((sizes.arm, y), sizes.recess, -0.5 * math.pi, -math.pi)
-    return [arc]
+    beyond = math.asin((sizes.edge - sizes.arm) / sizes.recess)
+    start, sweep = beyond - 0.5 * math.pi, -math.pi - 2.0 * beyond
+    return [about((sizes.arm, y), sizes.recess, start, sweep)]
 
 
 def locking_sector(sizes: RackSizes) -> Contour | None:

@@ -52,7 +52,10 @@ class Size(SpecTable):
         float | None, POSITIVE, "length of the contact line between roller and slot"
     ] = None
     wheel_radius_mm: Annotated[
-        float | None, POSITIVE, "rim radius (internal: of the opening); default: roller at entry"
+        float | None,
+        POSITIVE,
+        "rim radius (internal: of the opening; linear: distance of the edge); default: roller at "
+        "entry",
     ] = None
     wheel_outer_radius_mm: Annotated[
         float | None,

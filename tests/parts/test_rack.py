@@ -74,6 +74,14 @@ def test_a_ring_that_reaches_the_axis_collides():
     assert smallest_gap(s._replace(lock=s.recess + 0.1)).mm == pytest.approx(-0.1, rel=1e-6)
 
 
+def test_a_rack_beyond_the_axis_meets_the_roller_before_it_enters():
+    """Without a lock and a clearance the roller, e before the axis, is e²/(2 R) off the slot."""
+    for e in (1.0, 2.0):
+        s = sizes_of(lock_radius_mm=0.0, wheel_radius_mm=R + e)
+        deepest = R - math.sqrt(R * R - e * e)  # the corner is where the roller is widest
+        assert smallest_gap(s).mm == pytest.approx(-deepest, rel=0.02)
+
+
 def in_recess(s, q: float, d: float) -> bool:
     """Whether a point of the ring's end, q from the axis, lies in the recess, d after entry."""
     y = R * (1.0 - math.cos(d))
@@ -106,6 +114,7 @@ def test_checks():
     [
         ({"roller_radius_mm": 30.0}, "the locking sector does not fit"),
         ({"lock_radius_mm": 20.0}, "lock_radius_mm = 20: it must be above 25.125"),
+        ({"wheel_radius_mm": 99.0}, "the rack's edge must meet its recesses"),
     ],
 )
 def test_sizes_that_leave_no_lock_are_refused(size, text):
