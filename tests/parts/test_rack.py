@@ -75,11 +75,17 @@ def test_a_ring_that_reaches_the_axis_collides():
 
 
 def test_a_rack_beyond_the_axis_meets_the_roller_before_it_enters():
-    """Without a lock and a clearance the roller, e before the axis, is e²/(2 R) off the slot."""
-    for e in (1.0, 2.0):
+    """At d before entry the roller is R (1 - cos d) off the slot, whose corner is e beyond R.
+
+    There the gap is that to the wall, and further out that to the corner; d is a multiple of half
+    a degree.
+    """
+    d = np.radians(np.arange(0.0, 10.0, 0.5))
+    off, out = R * (1.0 - np.cos(d)), R * np.sin(d)
+    for e in (1.0, 3.0):
         s = sizes_of(lock_radius_mm=0.0, wheel_radius_mm=R + e)
-        deepest = R - math.sqrt(R * R - e * e)  # the corner is where the roller is widest
-        assert smallest_gap(s).mm == pytest.approx(-deepest, rel=0.02)
+        overlap = np.where(out <= e, off, r - np.hypot(out - e, r - off))
+        assert smallest_gap(s).mm == pytest.approx(-overlap.max(), rel=1e-9)
 
 
 def in_recess(s, q: float, d: float) -> bool:
