@@ -159,6 +159,11 @@ class Slot(Batchable, ABC):
         """Cosine of the angle between the roller's axis and the wheel's."""
         return 1.0
 
+    def play(self, clearance: Number) -> Number:
+        """Free angle of the wheel, radians, for a clearance per side over the lever."""
+        angle: Number = 2.0 * library(clearance).asin(clearance)
+        return angle
+
     def touches(self, input_deg: Number) -> Number:
         """1 where the roller drives the wheel, 0 where something else does."""
         return 1.0
