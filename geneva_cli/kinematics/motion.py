@@ -34,6 +34,15 @@ class Motion(SpecTable):
         super().__post_init__()
         refuse_kind(self.law, "law", Law, "Cycloidal()")
 
+    @property
+    def backwards(self) -> Self:
+        """The motion that the same law gives a machine that turns the other way.
+
+        >>> Motion(SineGroup(0.1)).backwards.law(0.5, 0) + Motion(SineGroup(0.1)).law(0.5, 0)
+        Jet((1.0,))
+        """
+        return self.replace(law=self.law.backwards)
+
     def with_key(self, key: str, value: object) -> Self:
         """Return a copy with one key of the motion or of its law changed; None sets the default.
 
