@@ -14,8 +14,15 @@ direction differs: friction, the driving wall, impacts, the jumps at entry, what
 from __future__ import annotations
 
 from functools import lru_cache
+from typing import TYPE_CHECKING
 
+from geneva_cli.errors import marking
 from geneva_cli.machine.mechanism import Mechanism, build
+from geneva_cli.numerics.arrays import all_true
+from geneva_cli.spec.rules import is_array
+
+if TYPE_CHECKING:
+    from geneva_cli.spec.schema import SpecTable
 
 
 def backwards(mechanism: Mechanism) -> Mechanism:
@@ -24,22 +31,34 @@ def backwards(mechanism: Mechanism) -> Mechanism:
     Angles are counted in the direction of rotation, so that it enters where the first one leaves.
     """
     spec = mechanism.spec
-    return build(
-        spec.replace(
+    with marking():  # what is refused in one direction is refused in both
+        turned = spec.replace(
             wheel=spec.wheel.backwards,
             drive=spec.drive.backwards(mechanism.plan),
             motion=spec.motion and spec.motion.backwards,
         )
-    )
+        return build(turned)._replace(design=mechanism.design)
 
 
-@lru_cache(maxsize=16)  # checks, sizes and warnings of a design ask for the same one
 def every_way(mechanism: Mechanism) -> tuple[Mechanism, ...]:
-    """The machine in each direction in which it must serve, forwards first.
+    """The machine in each direction in which it must serve, the first of them its own.
 
-    A machine that is its own mirror image is the same both ways, and stands there once.
+    A machine that is its own mirror image is the same both ways, and appears once.
     """
     if not mechanism.spec.drive.both_ways:
         return (mechanism,)
-    other = backwards(mechanism)
-    return (mechanism,) if other.spec == mechanism.spec else (mechanism, other)
+    of = _ways.__wrapped__ if is_array(mechanism.design) else _ways
+    return of(mechanism)
+
+
+@lru_cache(maxsize=16)  # sizes, checks and warnings of a design need the same machine
+def _ways(mechanism: Mechanism) -> tuple[Mechanism, ...]:
+    other, one = backwards(mechanism), mechanism.spec
+    same = _alike(one.wheel, other.spec.wheel) and _alike(one.drive, other.spec.drive)
+    same = same and one.motion == other.spec.motion
+    return (mechanism,) if same else (mechanism, other)
+
+
+def _alike(one: SpecTable, other: SpecTable) -> bool:
+    """True if two tables are equal, in each design of a batch."""
+    return all(all_true(value == other.as_dict()[key]) for key, value in one.as_dict().items())

@@ -13,7 +13,10 @@ from geneva_cli.study.pool import cores, mapped
 from geneva_cli.table import Table, record_table, rows_table
 from geneva_cli.verdict.checks import Check, all_pass
 
-NAMES = ("spec", "check", "value", "at_deg", "must_be", "limit", "passes", "nearest", "why")
+NAMES = (
+    *("spec", "check", "value", "at_deg", "must_be", "limit", "passes", "nearest", "why"),
+    "direction",
+)
 
 
 class Verdict(NamedTuple):
@@ -64,7 +67,7 @@ def verdicts(
 def checks_table(verdicts: Sequence[Verdict]) -> Table:
     """A table with one row for each check of each spec."""
     rows = [
-        (v.path, c.name, c.value, c.at_deg, c.must_be, c.limit, c.passes, c.nearest, c.why)
+        (v.path, *c[:2], c.at_deg, *c[2:5], c.nearest, c.why, c.direction)
         for v in verdicts
         for c in v.checks
     ]

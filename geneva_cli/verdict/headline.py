@@ -92,6 +92,7 @@ def compared_text(check: Check, unit: str) -> str:
     assert check.value is not None
     assert check.limit is not None
     where = "" if check.at_deg is None else f" at {measured(check.at_deg, 'deg')}"
+    where += f" {check.direction}" if check.direction else ""
     limit = measured(check.limit, unit) if unit == "deg" else bare(check.limit, unit)
     return f"{measured(check.value, unit)}{where}, {check.must_be} {limit}"
 

@@ -89,7 +89,7 @@ class FourBar(Linkage, kw_only=True):
         refuse(self.crank_mm >= limit, error)
 
     def backwards(self, plan: Plan) -> Self:
-        """The mirrored linkage: the other branch, and the roller on the other side of the coupler."""
+        """The mirrored linkage: the other branch, the roller across the coupler."""
         other = "-" if self.branch == "+" else "+"
         return super().backwards(plan).replace(branch=other, point_deg=0.0 - self.point_deg)
 

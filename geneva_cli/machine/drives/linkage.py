@@ -84,7 +84,9 @@ class Linkage(PinPath, kw_only=True):
         """The drive on the same path, which it enters where it left it; a kind adds its mirror."""
         at = cast(LinkReactions, plan.engagements[0].reactions)
         entry_deg = 0.0 - (at.middle / DEGREE + plan.engagements[0].exit_deg)
-        return self.replace(entry_deg=entry_deg - 360.0 * library(entry_deg).floor(entry_deg / 360.0))
+        return self.replace(
+            entry_deg=entry_deg - 360.0 * library(entry_deg).floor(entry_deg / 360.0)
+        )
 
     def placed(self, plan: Plan, name: str, x: float, y: float) -> Pivot:
         """Pivot at a point (mm) of the linkage's own frame, whose origin is the crank's axis."""
