@@ -6,7 +6,7 @@ from typing import Annotated
 
 import typer
 
-from geneva_cli.commands.options import Format, Output, Settings, SpecPath, say
+from geneva_cli.commands.options import Format, Output, Reverse, Settings, SpecPath, say
 from geneva_cli.errors import clean, is_warning
 
 ROWS = 361
@@ -28,6 +28,7 @@ def run(
     certify: Annotated[
         bool, typer.Option("--certify", help="Prove the greatest loads instead.")
     ] = False,
+    reverse: Reverse = False,
     settings: Settings = None,
     output: Output = "-",
     format: Format = "",
@@ -57,7 +58,7 @@ def run(
     from geneva_cli.output.formats import format_of, table_as
     from geneva_cli.study.summary.loads import of_loads
 
-    design = load(spec, settings or ())
+    design = load(spec, settings or (), reverse)
     if certify:
         people = table_as(output, format) not in ("json", "csv")
         show(design.certified_loads(people), output, format, design.spec.files)

@@ -28,6 +28,7 @@ class Verdict(NamedTuple):
     warnings: tuple[Notice, ...] = ()
     with_units: tuple[str, ...] = ()  # inputs that have a unit in the file
     error: str = ""
+    both_ways: bool = False  # True if the machine must turn both ways
 
     @property
     def passes(self) -> bool:
@@ -45,7 +46,8 @@ def verdict(path: str, settings: Sequence[str] = (), proof_mm: float | None = No
         checks = design.checks if proof_mm is None else design.proved_to(proof_mm)
         warnings = tuple(design.warnings)
         files, inputs = design.spec.files, tuple(design.with_units)
-        return Verdict(design.spec.path, files, tuple(checks), warnings, inputs)
+        both_ways = design.spec.drive.both_ways
+        return Verdict(design.spec.path, files, tuple(checks), warnings, inputs, "", both_ways)
     except GenevaError as error:
         return Verdict(path, error=str(error))
 

@@ -192,10 +192,9 @@ class Backwards(Law):
 
     def __post_init__(self) -> None:
         super().__post_init__()
-        # what a law's class declares
-        vars(self).update(
-            {key: getattr(self.of, key) for key in ("NAME", "ANALYTIC", "TURNS_BACK")}
-        )
+        # a law's class declares these
+        own = {"NAME": f"{self.of.NAME}, backwards", "TURNS_BACK": self.of.TURNS_BACK}
+        vars(self).update(own, ANALYTIC=self.of.ANALYTIC)
 
     def as_dict(self) -> dict[str, Any]:
         """Values of the law by key."""

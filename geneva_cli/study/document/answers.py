@@ -130,6 +130,14 @@ def strength(left: RemainingValues) -> Iterator[Block]:
         yield from blocks
 
 
+def both_ways(left: RemainingValues) -> Iterator[Block]:
+    """What differs between the directions of a machine that turns both ways."""
+    table: Table | None = left.one("both_ways")
+    if table is not None:
+        yield Heading("Both ways")
+        yield grid("What differs between the directions", table)
+
+
 def swinging(left: RemainingValues) -> Iterator[Block]:
     """Vibration and tolerances, if the report has them."""
     for text, group in (("Vibration", "vibration"), ("Tolerances", "tolerance")):
