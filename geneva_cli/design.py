@@ -233,7 +233,7 @@ class Design:
 
         >>> offset = Design(External(6, offset_mm=12.0))
         >>> [round(d.peaks.ends.acceleration_entry, 4) for d in (offset, offset.backwards)]
-        [0.5348, 0.6304]
+        [0.5342, 0.6281]
         """
         from geneva_cli.machine.both_ways import backwards
 

@@ -60,6 +60,7 @@ def run(
     """
     from geneva_cli.output import refuse_inches, show
     from geneva_cli.study.compare import compare
+    from geneva_cli.study.compare import differing as only_differing
 
     if ratio:
         refuse_inches("ratios have no unit")
@@ -69,7 +70,8 @@ def run(
         )
     else:
         picks = [name.strip() for name in pick.split(",")] if pick else []
-        table = compare(specs, settings or (), vary or (), picks, ratio, not differing, reverse)
+        table = compare(specs, settings or (), vary or (), picks, ratio, reverse)
+        table = only_differing(table) if differing else table
     show(table, output, format, specs)
 
 

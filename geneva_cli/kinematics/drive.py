@@ -105,9 +105,9 @@ class Drive(SpecTable, kw_only=True):
 
         ``plan`` is the plan of the machine that turns forwards.
 
-        >>> crank = Crank(roller_angles_deg=(0.0, 120.0, 250.0))
+        >>> crank = Crank(roller_angles_deg=(0.0, 130.0))
         >>> crank.backwards(Design(External(6), crank).mechanism.plan).roller_angles_deg
-        (0.0, 110.0, 240.0)
+        (0.0, 230.0)
         """
         if not self.roller_angles_deg:
             return self

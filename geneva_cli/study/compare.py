@@ -20,16 +20,14 @@ def compare(
     vary: Sequence[str] = (),
     picks: Sequence[str] = (),
     ratio: bool = False,
-    alike: bool = True,
     reverse: bool = False,
 ) -> Table:
     """Return the comparison: ``quantity``, one column for each design, and ``differs``.
 
     Either one design is varied through values of keys (``vary``, texts ``KEY=VALUES``), or several
     specs are compared. ``picks`` are the quantities to show; without them all that need no parts
-    are shown. ``ratio`` divides numbers by those of the first design. ``alike`` also shows
-    quantities that do not differ. Numbers differ if they do so by more than rounding. ``reverse``
-    adds a column for each design turning the other way.
+    are shown. ``ratio`` divides numbers by those of the first design. Numbers differ if they
+    do so by more than rounding. ``reverse`` adds a column for each design turning the other way.
 
     Raises GenevaError for a design that cannot be read or built.
     """
@@ -47,10 +45,16 @@ def compare(
             continue
         cells = [own.get(quantity) for own in each]
         differs = not all(_same(c, cells[0]) for c in cells[1:])
-        if any(c is not None for c in cells) and (differs or alike):
+        if any(c is not None for c in cells):
             rows.append((quantity, *(_ratios(cells) if ratio else cells), differs))
     table = rows_table(("quantity", *designs, "differs"), rows, mixed=True)
     return table.replaced(reading=Reading(designs=True))
+
+
+def differing(table: Table) -> Table:
+    """The rows of a comparison whose cells differ."""
+    rows = [row for row in table.rows() if row[-1]]
+    return rows_table(table.names, rows, mixed=True).replaced(reading=table.reading)
 
 
 def _same(cell: Cell, first: Cell) -> bool:

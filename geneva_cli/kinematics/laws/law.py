@@ -9,7 +9,7 @@ from __future__ import annotations
 from abc import abstractmethod
 from collections.abc import Callable
 from functools import cached_property
-from typing import TYPE_CHECKING, Any, ClassVar
+from typing import TYPE_CHECKING, ClassVar
 
 from geneva_cli.numerics.arrays import all_true, choose
 from geneva_cli.numerics.jet import Jet, Number, integral, piecewise
@@ -195,10 +195,6 @@ class Backwards(Law):
         # a law's class declares these
         own = {"NAME": f"{self.of.NAME}, backwards", "TURNS_BACK": self.of.TURNS_BACK}
         vars(self).update(own, ANALYTIC=self.of.ANALYTIC)
-
-    def as_dict(self) -> dict[str, Any]:
-        """Values of the law by key."""
-        return self.of.as_dict()
 
     @property
     def backwards(self) -> Law:
