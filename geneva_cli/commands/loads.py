@@ -35,10 +35,10 @@ def run(
 ) -> None:
     """Loads of the motion: torque, forces, stress and power over a cycle.
 
-    The recommended motor comes first, then a summary of each quantity. It has the greatest and
-    least value over the motions, with their input angles. Mean and root mean square are over the
-    whole period, dwells included. As csv, or with --samples, the cycle is printed row by row. Rows
-    are evenly spaced in the input angle from the first entry. json is always the summary.
+    The recommended motor comes first, then each quantity: its greatest and least value over the
+    motions, with their input angles. Mean and root mean square are over the whole period. As csv,
+    or with --samples, the cycle is printed in rows, evenly spaced in the input angle from entry.
+    json is always the summary.
 
     The pin force is positive on the wall that drives the wheel, and negative on the wall that holds
     it back. The input's torque and power are negative where the wheel drives the input. In a dwell

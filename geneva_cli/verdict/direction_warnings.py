@@ -12,18 +12,14 @@ from geneva_cli.machine.mechanism import Mechanism
 
 
 def direction_warnings(mechanism: Mechanism) -> Iterator[Notice]:
-    """The warnings about ends that differ, and about a law that is tuned for one direction."""
+    """The warnings about motions that differ, and about a law that is tuned for one direction."""
     for other in every_way(mechanism)[1:]:
-        ends, back = worst(mechanism).ends._asdict(), worst(other).ends._asdict()
-        differ = [key for key in ends if not math.isclose(ends[key], back[key], rel_tol=1e-4)]
-        if differ:
-            what, _, end = differ[0].partition("_")
+        difference = _difference(mechanism, other)
+        if difference:
             yield Notice(
                 "differs-backwards",
-                f"the {what} at {end} is {ends[differ[0]]:.4g} forwards and "
-                f"{back[differ[0]]:.4g} backwards, because of "
-                f"{', '.join(_reasons(mechanism, other))}. Backwards the wheel starts where it "
-                "stops forwards: choose drive and load for the harder end",
+                f"{difference}, because of {', '.join(_reasons(mechanism, other))}. Backwards the "
+                "wheel starts where it stops forwards: choose drive and load for the harder end",
             )
         if _is_tuned(mechanism) and not _is_tuned(other):
             yield Notice(
@@ -31,6 +27,22 @@ def direction_warnings(mechanism: Mechanism) -> Iterator[Notice]:
                 "the tuned law leaves the load at rest forwards only. Backwards its damping acts "
                 "the other way: damping_ratio = 0 in [motion] serves both directions alike",
             )
+
+
+def _difference(forwards: Mechanism, backwards: Mechanism) -> str:
+    """The first end of the motion, or else the law's half-way, that differs; empty if none does."""
+    ends, back = (worst(machine).ends._asdict() for machine in (forwards, backwards))
+    for key, one in ends.items():
+        if not math.isclose(one, back[key], rel_tol=1e-4):
+            what, _, end = key.partition("_")
+            return f"the {what} at {end} is {one:.4g} forwards and {back[key]:.4g} backwards"
+    half = 0.5 if forwards.law is None else forwards.law.half_way
+    if math.isclose(half, 0.5, rel_tol=1e-4):
+        return ""
+    return (
+        f"the wheel is half-way after {half:.4g} of the motion forwards and "
+        f"{1.0 - half:.4g} backwards"
+    )
 
 
 def _is_tuned(mechanism: Mechanism) -> bool:
