@@ -1,14 +1,15 @@
 """A machine that turns both ways: backwards it is another machine that turns forwards.
 
 Pin path, slot and motion bind the wheel's angle psi to the input's angle theta, whichever way the
-input turns. Backwards both run backwards. Seen from its other side, a mirror image about the line
-of centres, such a machine turns forwards: psi'(theta) = -psi(-theta), and x + iy of its path and of
-its slot at theta are x - iy at -theta. So entry and exit change places, slots are offset to the
-other side, and a law runs from its end: s'(u) = 1 - s(1 - u). That machine has a spec, and every
-result of it is the result of the first machine backwards.
+input turns. So a machine turns backwards along the same curves. Seen from its other side, in a
+mirror about the line of centres, it turns forwards: its psi at theta is -psi at -theta. Its path
+and slot at theta are x - iy where the first machine has x + iy at -theta. So entry and exit change
+places, slots are offset to the other side, and a law runs from its end: s(u) becomes 1 - s(1 - u).
+That machine has a spec, and each of its results is one of the first machine turning backwards.
 
-At one speed velocities, accelerations and jerks keep their sizes at each place. What acts in one
-direction differs: friction, the driving wall, impacts, the jumps at entry, what the play does.
+At one speed velocity, acceleration and jerk keep their sizes at each place, as in a film that runs
+backwards. So does the torque of the inertia, but what resists the motion changes its sense: the
+torque on the wheel is I w² psi'' + M_r in both machines, with psi'' at theta now -psi'' at -theta.
 """
 
 from __future__ import annotations

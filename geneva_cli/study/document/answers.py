@@ -135,7 +135,12 @@ def both_ways(left: RemainingValues) -> Iterator[Block]:
     table: Table | None = left.one("both_ways")
     if table is not None:
         yield Heading("Both ways")
-        yield grid("What differs between the directions", table)
+        rows: list[Row] = []
+        for name, forwards, backwards in table.rows():
+            named = fact(name, None)
+            rows.append((named.name, named.unit, forwards, backwards))
+        heads = ("Quantity", "Unit", "Forwards", "Backwards")
+        yield Grid("What differs between the directions", heads, tuple(rows))
 
 
 def swinging(left: RemainingValues) -> Iterator[Block]:

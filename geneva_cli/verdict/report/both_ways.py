@@ -16,13 +16,15 @@ def both_ways(model: PartsModel) -> Values:
 
     Places are left out, and what needs the parts: they are the same parts.
     """
+    forwards, *others = every_way(model.mechanism)
     groups = [group for group in REPORT if not group.makes_parts and group.own]
-    each = [values(groups, PartsModel(machine)) for machine in every_way(model.mechanism)]
-    rows = []
-    for name, one in each[0].items():
-        other = each[-1][name]
-        if not isinstance(one, float) or not isinstance(other, float) or name.endswith("_deg"):
-            continue
-        if not math.isclose(one, other, rel_tol=1e-6):  # searches end within 1e-9 of a peak
-            rows.append((name, one, other))
+    rows: list[tuple[str, float, float]] = []
+    for backwards in others:
+        back = values(groups, PartsModel(backwards))
+        for name, one in values(groups, PartsModel(forwards)).items():
+            other = back[name]
+            if name.endswith("_deg") or not (isinstance(one, float) and isinstance(other, float)):
+                continue
+            if not math.isclose(one, other, rel_tol=1e-6):  # searches end within 1e-9 of a peak
+                rows.append((name, one, other))
     return {"both_ways": rows_table(("quantity", "forwards", "backwards"), rows) if rows else None}
