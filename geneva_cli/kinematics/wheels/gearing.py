@@ -7,6 +7,7 @@ from abc import abstractmethod
 from collections.abc import Callable
 from dataclasses import field
 from typing import TYPE_CHECKING, Annotated, ClassVar, TypeAlias
+from typing import TYPE_CHECKING, Annotated, ClassVar, NamedTuple, Self, TypeAlias
 
 from geneva_cli.kinematics.layout import Layout
 from geneva_cli.kinematics.path_and_slot import AnchoredPath, RadialSlot, StraightSlotMotion
@@ -121,6 +122,15 @@ class Gearing(SpecTable):
         An array of truth values for a batch.
         """
         return False
+
+    @property
+    def backwards(self) -> Self:
+        """The wheel that turns the other way, as seen from its other side.
+
+        >>> External(6, offset_mm=12.0).backwards.offset_mm
+        -12.0
+        """
+        return self
 
     @property
     def layout(self) -> Layout:

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from functools import reduce
 from typing import Annotated, ClassVar
+from typing import Annotated, ClassVar, NamedTuple, Self
 
 from geneva_cli.errors import GenevaError, refuse
 from geneva_cli.kinematics.drive import Plan
@@ -88,6 +89,11 @@ class FourBar(Linkage, kw_only=True):
             )
 
         refuse(self.crank_mm >= limit, error)
+
+    def backwards(self, plan: Plan) -> Self:
+        """The mirrored linkage: the other branch, the roller across the coupler."""
+        other = "-" if self.branch == "+" else "+"
+        return super().backwards(plan).replace(branch=other, point_deg=0.0 - self.point_deg)
 
     def layout(self, plan: Plan, sign: float) -> Layout:
         """Joints at input 0, and lengths of the links."""

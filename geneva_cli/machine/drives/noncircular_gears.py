@@ -12,6 +12,7 @@ import math
 from bisect import bisect_right
 from functools import lru_cache
 from typing import TYPE_CHECKING, Annotated, ClassVar
+from typing import TYPE_CHECKING, Annotated, ClassVar, NamedTuple, Self
 
 from geneva_cli.errors import GenevaError
 from geneva_cli.kinematics.drive import Gears, Plan
@@ -76,6 +77,14 @@ class NoncircularGears(Transmission, kw_only=True):
         """False for numbers that change the angles at which the points are interpolated."""
         at = table in ("wheel", "drive", "motion") and key != "n_rpm"
         return self.ratio is None or not (at or (table, key) == ("size", "center_distance_mm"))
+
+    def backwards(self, plan: Plan) -> Self:
+        """The drive with the points of its ratio in reverse order."""
+        turned = super().backwards(plan)
+        if self.ratio is None:
+            return turned
+        pairs = tuple((360.0 - x, i) for x, i in reversed(self.ratio.pairs))
+        return turned.replace(ratio=Points(pairs, self.ratio.file))
 
     @property
     def gears(self) -> Gears:

@@ -312,6 +312,7 @@ REPORT = (
         batch="strength:wear",
     ),
     _group("strength", "", "report.needs:needs"),
+    _group("", "", "report.both_ways:both_ways"),
 )
 # Further quantities, for studies.
 STUDY = (
