@@ -112,8 +112,9 @@ def _pin(assembly: Assembly, sizes: Sizes, loads: PartLoads) -> float:
     rubs = spec.load.friction and not spec.load.rubs_in_slot
     if spec.size.pin_mm is not None or rubs or not sizes.pin:
         return sizes.pin
-    # the roller keeps three tenths of its radius as a wall; the eye passes the largest wheel's hub
-    most = 0.7 * sizes.roller
+    # the roller keeps three tenths of its radius as a wall about the hole for its pin; the eye
+    # passes the largest wheel's hub
+    most = 0.7 * sizes.roller - 0.5 * spec.size.allowances.shaft_fit_mm
     if assembly.sign > 0.0 and sizes.arm_bore:
         passing = (
             assembly.L - max(roller_reaches(assembly)) - max(sizes.wheel_hub, 0.75 * sizes.slot_end)

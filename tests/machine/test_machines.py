@@ -34,6 +34,7 @@ GEARS = 'kind = "elliptical-gears", eccentricity = '
 QUICK = ', phase = "quick"'
 SPHERE = 'gearing = "spherical"'
 INSIDE = 'gearing = "internal"'
+RACK = 'gearing = "linear"'
 NONCIRCULAR = 'kind = "noncircular-gears", A = '
 FOUR_BAR = 'kind = "four-bar", crank_mm = 40, ground_mm = 90, coupler_mm = 100, rocker_mm = 100, '
 SLIDER = 'kind = "slider-crank", crank_mm = 40, rod_mm = 120, '
@@ -56,6 +57,10 @@ CASES = {
     "spherical-130-deg": text(f"z = 4, {SPHERE}, axes_deg = 130"),
     "spherical-nearly-flat": text(f"z = 6, {SPHERE}, axes_deg = 0.7"),
     "spherical-two-rollers": text(f"z = 6, {SPHERE}, axes_deg = 50", "rollers = 2"),
+    "rack": text(f"z = 6, {RACK}"),
+    "rack-side-crank": text(f"z = 6, {RACK}", f"{SIDE}0.4"),
+    "rack-gears": text(f"z = 6, {RACK}", f"{GEARS}0.3"),
+    "rack-noncircular": text(f"z = 6, {RACK}", f"{NONCIRCULAR}-0.2"),
     "offset": text("z = 6, offset_mm = 20"),
     "offset-negative": text("z = 4, offset_mm = -13.7"),
     "offset-near-its-limit": text("z = 5, offset_mm = 40"),
@@ -305,6 +310,9 @@ def test_the_pin_lies_on_its_slot(machine, witness, exact, case):
                 continue  # 0/0 in the law of sines
             true = w.path(to_radians(x[j]))
             assert abs(complex(px[j], py[j]) - complex(true)) <= bar
+        if w.parallel:  # the rack has moved by its angle, and did not turn
+            assert np.max(np.hypot(u - px, v - (py - wheel))) <= 1e-14
+            continue
         if not machine(case).spec.wheel.FLAT:
             assert np.max(np.abs(across)) <= 1e-14
             polar = [float(w.polar(to_radians(t))) for t in x]
@@ -342,10 +350,12 @@ def test_lever_and_speed_in_the_slot(machine, witness, case):
 def test_loads_keep_the_energy(machine, case):
     """Without friction the input does what the wheel takes, and nothing is lost between."""
     m = machine(case)
+    L = m.center_distance_mm / 1000.0
     load_ = m.spec.load.replace(inertia_kgm2=0.02, torque_Nm=3.0)
+    if not m.output.turns:  # a mass and a force at the pinion's radius
+        load_ = m.spec.load.replace(mass_kg=0.02 / L**2, force_N=3.0 / L)
     loaded = m._replace(spec=m.spec.replace(load=load_))
     w = m.spec.drive.n_rpm * math.pi / 30.0
-    L = m.center_distance_mm / 1000.0
     for s in m.engagements:
         for t in (0.8, 0.3, -0.4):
             x = t * (s.entry_deg if t > 0.0 else -s.exit_deg)
@@ -403,7 +413,8 @@ def test_motions_and_dwells_fill_the_period(machine, case):
     columns = motion_table(m, 721).columns
     wheel, velocity = np.array(columns[2]), np.array(columns[3])
     assert np.all(np.diff(wheel) >= -1e-12)  # never back
-    assert wheel[-1] - wheel[0] == pytest.approx(math.fsum(t.index_deg for t in times), abs=1e-12)
+    moved = math.fsum(t.index_deg or t.index_mm for t in times)
+    assert wheel[-1] - wheel[0] == pytest.approx(moved, abs=1e-12)
     assert np.min(velocity) >= -1e-15
 
 

@@ -11,7 +11,6 @@ from typing import TYPE_CHECKING
 from geneva_cli.errors import GenevaError
 from geneva_cli.machine.both_ways import every_way
 from geneva_cli.machine.mechanism import Mechanism
-from geneva_cli.spec.tables import Z_DRAWN
 from geneva_cli.verdict.checks.check import Check as Check
 from geneva_cli.verdict.checks.check import all_pass as all_pass
 from geneva_cli.verdict.checks.check import refused, worst
@@ -116,8 +115,7 @@ def _parts(mechanism: Mechanism, model: PartsModel | None, turned: bool) -> Iter
     If wheel or crank cannot be built, or turned, a single check says so instead.
     """
     if not mechanism.spec.has_parts:
-        why = f"wheels of more than {Z_DRAWN} slots are not drawn"
-        yield Check("parts", None, "proved", None, None, why)
+        yield Check("parts", None, "proved", None, None, mechanism.spec.no_parts)
         return
     from geneva_cli.collisions.gaps import WorkLimit
 

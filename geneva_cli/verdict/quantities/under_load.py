@@ -14,7 +14,7 @@ from geneva_cli.layout.sizes import sized
 from geneva_cli.layout.stressed import lock_of
 from geneva_cli.loads.cycle import cycle_of
 from geneva_cli.loads.strength import lock, roller, shafts
-from geneva_cli.loads.strength.part_loads import PartLoads, part_loads, sizing_loads
+from geneva_cli.loads.strength.part_loads import PartLoads, part_loads, single_loads, sizing_loads
 from geneva_cli.loads.summaries import load_peaks
 from geneva_cli.numerics.arrays import parameter
 from geneva_cli.verdict.lock_sizes import LockSizes, design_lock_sizes
@@ -128,6 +128,11 @@ class SingleUnderLoad(UnderLoad):
         if not math.isinf(self.force_N[0]):
             return every
         return [one._replace(work=math.inf, load=math.inf) for one in every]
+
+    @cached_property
+    def part_loads(self) -> PartLoads:
+        """The greatest loads on arm, keys and shafts, from which its parts are sized."""
+        return single_loads(self.machine)
 
     @cached_property
     def lock_sizes(self) -> LockSizes | None:
