@@ -4,10 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from functools import partial
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING
 
 from geneva_cli.errors import GenevaError, refuse
 from geneva_cli.kinematics.drive import Needs
+from geneva_cli.record import NamedTuple
 from geneva_cli.spec.rules import is_array
 
 if TYPE_CHECKING:
@@ -151,6 +152,16 @@ CONFLICTS = (
         lambda s: not s.wheel.stopped and s.limits.stop_stress_max_MPa is not None,
         ("limits", "stop_stress_max_MPa"),
         "stop_stress_max_MPa limits a stop: set stop = true in [wheel] of an external wheel",
+    ),
+    Conflict(
+        lambda s: s.size.gear_module_mm is None and s.size.gear_shift is not None,
+        ("size", "gear_shift"),
+        "gear_shift moves the teeth of gears: set gear_module_mm, or remove gear_shift",
+    ),
+    Conflict(
+        lambda s: s.size.gear_module_mm is None and s.size.gear_teeth is not None,
+        ("size", "gear_teeth"),
+        "gear_teeth counts the teeth of gears: set gear_module_mm, or remove gear_teeth",
     ),
 )
 

@@ -159,7 +159,7 @@ class Spec:
         """Values of a table by key; those of ``motion`` include the keys of its law.
 
         >>> Spec(External(6)).table("drive")
-        {'n_rpm': 60.0, 'rollers': 1, 'roller_angles_deg': None}
+        {'n_rpm': 60.0, 'rollers': 1, 'roller_angles_deg': None, 'both_ways': False}
         """
         if name == "motion":
             return {} if self.motion is None else self.motion.law.as_dict() | self.motion.as_dict()

@@ -173,6 +173,20 @@ class Size(SpecTable):
     dial_bolt_circle_mm: Annotated[
         float | None, POSITIVE, "dial's bolt circle: diameter; default: amid bore and slots"
     ] = None
+    gear_module_mm: Annotated[
+        float | None, POSITIVE, "module of gear teeth; default: pitch curves without teeth"
+    ] = None
+    gear_teeth: Annotated[
+        int | None, Range(3, 1000), "teeth of the smaller gear; default: nearest by module"
+    ] = None
+    gear_shift: Annotated[
+        float | None,
+        Range(-1.0, 0.86),
+        "smaller gear's profile shift, in modules; default: half of the sum, without undercut",
+    ] = None
+    gear_backlash_mm: Annotated[
+        float, NOT_NEGATIVE, "backlash of gear teeth along their pitch circles"
+    ] = 0.0
     gear_bolts: Annotated[
         int, Range(0, 100), "number of screws between a fixed gear and the frame, evenly spaced"
     ] = 4

@@ -23,6 +23,7 @@ from geneva_cli.analysis.peaks import QUANTITIES, worst
 from geneva_cli.analysis.timing import timings
 from geneva_cli.kinematics import registry
 from geneva_cli.loads.loads import state
+from geneva_cli.machine.both_ways import backwards
 from geneva_cli.machine.drives.transmission import Transmission
 from geneva_cli.machine.mechanism import build
 
@@ -662,3 +663,35 @@ def test_cam_groove(machine, witness):
         assert last.c[0] == pytest.approx(math.sin(s.half_step) / math.sin(end + g * s.half_step))
         angle = 1.0 / math.tan(end + g * s.half_step)
         assert last.c[1] / last.c[0] == pytest.approx(-angle, abs=1e-12)
+
+
+@every
+def test_backwards_is_the_witness_in_a_mirror(machine, witness, case):
+    """psi'(x) = -psi(-x): the machine that the spec in the mirror makes, solved for anew.
+
+    Even derivatives change sign. What is rounded are the places of two machines: twice the bars.
+    """
+    m = machine(case)
+    turned = backwards(m)
+    n = len(m.engagements)
+    assert (len(turned.engagements), turned.period_deg) == (n, m.period_deg)
+    for i, (s, w) in enumerate(zip(m.engagements, witness(case), strict=True)):
+        back = turned.engagements[-i % n]
+        places = (back.mid_deg + s.mid_deg) / m.period_deg
+        assert places == pytest.approx(round(places), abs=1e-13)
+        # a linkage's exit is found anew, to some units of a whole turn
+        assert back.entry_deg == pytest.approx(-s.exit_deg, abs=2e-13)
+        x = np.array([0.9 * s.entry_deg, 0.3 * s.entry_deg, 0.5 * s.exit_deg, 0.8 * s.exit_deg])
+        reference = np.array([w.derivatives(v) for v in x]).T
+        got = back.motion(-x, 3).derivatives()
+        for k in range(4):
+            values = np.array([mp.mpf(float(v)) for v in got[k]]) * (1 if k % 2 else -1)
+            error = np.abs(values - reference[k]).astype(float)
+            slope = np.abs(reference[k + 1]).astype(float)
+            # the places of these four angles against those of the new linkage
+            moved = 2e-13 * math.pi / 180.0 * slope if case in ON_PATH else 0.0
+            assert (error <= 2.0 * bars(s, x, reference, k, 16.0, case) + moved).all(), k
+        for curve, other in ((s.path, back.path), (s.slot, back.slot)):
+            here, there = curve(x, 0), other(-x, 0)
+            assert here[0].c[0] + 0.0 * x == pytest.approx(there[0].c[0] + 0.0 * x, abs=1e-13)
+            assert here[1].c[0] + 0.0 * x == pytest.approx(-there[1].c[0] + 0.0 * x, abs=1e-13)

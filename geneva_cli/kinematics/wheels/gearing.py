@@ -6,7 +6,8 @@ import math
 from abc import abstractmethod
 from collections.abc import Callable
 from dataclasses import field
-from typing import TYPE_CHECKING, Annotated, ClassVar, NamedTuple, TypeAlias
+from typing import TYPE_CHECKING, Annotated, ClassVar, TypeAlias
+from typing import TYPE_CHECKING, Annotated, ClassVar, NamedTuple, Self, TypeAlias
 
 from geneva_cli.kinematics.layout import Layout
 from geneva_cli.kinematics.path_and_slot import AnchoredPath, RadialSlot, StraightSlotMotion
@@ -14,6 +15,7 @@ from geneva_cli.kinematics.wheels.poses import HalfStep, PinPose
 from geneva_cli.kinematics.wheels.skew import Skew
 from geneva_cli.numerics.arrays import larger
 from geneva_cli.numerics.jet import Jet, turning
+from geneva_cli.record import NamedTuple
 from geneva_cli.spec.example import Example
 from geneva_cli.spec.rules import Z_MAX, OneOf, Range
 from geneva_cli.spec.schema import SpecTable
@@ -120,6 +122,15 @@ class Gearing(SpecTable):
         An array of truth values for a batch.
         """
         return False
+
+    @property
+    def backwards(self) -> Self:
+        """The wheel that turns the other way, as seen from its other side.
+
+        >>> External(6, offset_mm=12.0).backwards.offset_mm
+        -12.0
+        """
+        return self
 
     @property
     def layout(self) -> Layout:

@@ -8,6 +8,7 @@ from typing import Any
 from geneva_cli.design import Design
 from geneva_cli.document import WARNS, Answer, Summary, SummaryLine
 from geneva_cli.loads.summary import QuantitySummary, no_load
+from geneva_cli.machine.both_ways import every_way
 from geneva_cli.numerics.tolerances import TIE
 from geneva_cli.study.fields import pick
 from geneva_cli.study.summary.titles import counted, title_of
@@ -35,11 +36,22 @@ def load_lines(design: Design) -> Iterator[SummaryLine]:
         return
     yield motor_line(design)
     yield from cycle_lines(design)
+    yield from _backwards(design)
     sizing = _sizing(design)
     if sizing["flywheel_to_add_kgm2"] is not None:
         add = measured(sizing["flywheel_to_add_kgm2"], "kg m²")
         variation = measured(100.0 * (design.spec.motor.speed_variation or 0.0), "%")
         yield SummaryLine("flywheel", f"{add} on the input for a speed variation of {variation}")
+
+
+def _backwards(design: Design) -> Iterator[SummaryLine]:
+    """The lines on motor, input, pin and wheel that differ backwards, if it must turn both ways."""
+    for machine in every_way(design.mechanism)[1:]:
+        other = Design.of(machine.spec)
+        own = (motor_line(design), *cycle_lines(design))
+        for here, there in zip(own, (motor_line(other), *cycle_lines(other)), strict=True):
+            if here.text != there.text:
+                yield there._replace(label=f"{there.label}, backwards")
 
 
 def cycle_lines(design: Design) -> Iterator[SummaryLine]:

@@ -11,6 +11,7 @@ from geneva_cli.study.summary.loads import cycle_lines, motor_line
 from geneva_cli.study.summary.titles import title_of
 from geneva_cli.verdict.headline import (
     below_summary,
+    both_ways_lines,
     failure_lines,
     headline,
     input_lines,
@@ -26,7 +27,8 @@ def of_report(design: Design) -> Answer:
     state, text = headline(design.checks, design.warnings)
     checks, warnings = design.checks, design.warnings
     first = (*failure_lines(checks), *input_lines(design.with_units))
-    lines = (*first, *key_figures(design), *warning_lines(checks, warnings))
+    both = both_ways_lines(checks) if design.spec.drive.both_ways else ()
+    lines = (*first, *key_figures(design), *both, *warning_lines(checks, warnings))
     summary = Summary(f"{title_of(design)}: {text}", lines, state)
     shown = ("title", "passes", "checks_failed", "not_proved")
     return Answer((summary,), below_summary(record, without=shown), record)

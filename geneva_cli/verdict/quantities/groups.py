@@ -7,8 +7,9 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterable
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING
 
+from geneva_cli.record import NamedTuple
 from geneva_cli.spec.load_named import load_named
 from geneva_cli.spec.schema import fields
 from geneva_cli.spec.tables import Limits, Load, RollerMaterial, Shaft, WheelMaterial
@@ -311,6 +312,7 @@ REPORT = (
         batch="strength:wear",
     ),
     _group("strength", "", "report.needs:needs"),
+    _group("", "", "report.both_ways:both_ways"),
 )
 # Further quantities, for studies.
 STUDY = (
