@@ -20,9 +20,9 @@ from geneva_cli.kinematics.drive import Gears
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.numerics.arrays import array
 from geneva_cli.numerics.jet import Jet
-from geneva_cli.record import NamedTuple
 from geneva_cli.numerics.quadrature import rule
 from geneva_cli.numerics.spline import PiecewisePolynomial, periodic
+from geneva_cli.record import NamedTuple
 from geneva_cli.table import Table
 
 NAMES = (

@@ -2,17 +2,17 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
 from functools import lru_cache, reduce
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from geneva_cli.analysis.quantities import FORCE
 from geneva_cli.loads.strength.shafts import Torque, on_crank, on_driven_crank, on_wheel
 from geneva_cli.loads.summaries import load_peaks
-from geneva_cli.record import NamedTuple
 from geneva_cli.machine.both_ways import every_way
 from geneva_cli.numerics.arrays import larger, parameter
+from geneva_cli.record import NamedTuple
 
 if TYPE_CHECKING:
     from geneva_cli.machine.mechanism import Mechanism

@@ -8,7 +8,6 @@ at an angle from the line AB. The wheel's centre is solved for.
 from __future__ import annotations
 
 from functools import reduce
-from typing import Annotated, ClassVar
 from typing import Annotated, ClassVar, NamedTuple, Self
 
 from geneva_cli.errors import GenevaError, refuse

@@ -7,7 +7,6 @@ from the line AB. The wheel's centre is solved for.
 
 from __future__ import annotations
 
-from typing import Annotated, ClassVar
 from typing import Annotated, ClassVar, NamedTuple, Self
 
 from geneva_cli.errors import GenevaError, refuse

@@ -14,8 +14,7 @@ from geneva_cli.layout.sizes import sized
 from geneva_cli.layout.stressed import lock_of
 from geneva_cli.loads.cycle import cycle_of
 from geneva_cli.loads.strength import lock, roller, shafts
-from geneva_cli.loads.strength.part_loads import PartLoads, part_loads, single_loads
-from geneva_cli.loads.strength.part_loads import PartLoads, part_loads, sizing_loads
+from geneva_cli.loads.strength.part_loads import PartLoads, part_loads, single_loads, sizing_loads
 from geneva_cli.loads.summaries import load_peaks
 from geneva_cli.numerics.arrays import parameter
 from geneva_cli.verdict.lock_sizes import LockSizes, design_lock_sizes
