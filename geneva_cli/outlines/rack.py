@@ -18,7 +18,7 @@ covers all but R - rho to R + rho. After it the next recess mirrors the first.
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
@@ -29,7 +29,6 @@ from geneva_cli.layout.plain_sizes import value_or
 from geneva_cli.layout.sizes import lock_between, require_lock_between
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.numerics.angles import DEGREE
-from geneva_cli.record import NamedTuple
 
 if TYPE_CHECKING:
     from geneva_cli.numerics.jet import Array
