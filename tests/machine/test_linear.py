@@ -231,7 +231,15 @@ def test_what_needs_a_wheel_is_refused_with_the_reason(tmp_path):
         (["animate", str(path), "-o", str(tmp_path / "a.html")], "not available for a rack"),
         (["export", str(path), "-o", str(tmp_path / "all")], "not available for a rack"),
         (["profile", str(path), "--part", "arm", "-o", str(tmp_path / "a.dxf")], "not available"),
-        (["check", str(path), "--set", "support.friction=0.1"], "is for a wheel that turns"),
+        (
+            ["check", str(path), "--set", "support.friction=0.1"],
+            "is for a wheel on a shaft; a rack's load is mass_kg",
+        ),
+        (
+            ["check", str(path), "--set", "tolerance.crank_radius_mm=0.1"],
+            "not available for a rack",
+        ),
+        (["check", str(path), "--set", "load.dwell_torque_Nm=1"], "not available for a rack"),
         (["check", str(path), "--set", "motion.law=cycloidal"], "has straight slots only"),
     ):
         refused = CliRunner().invoke(app, words)
