@@ -233,7 +233,7 @@ def test_what_needs_a_wheel_is_refused_with_the_reason(tmp_path):
         (["profile", str(path), "--part", "arm", "-o", str(tmp_path / "a.dxf")], "not available"),
         (
             ["check", str(path), "--set", "support.friction=0.1"],
-            "is for a wheel on a shaft; a rack's load is mass_kg",
+            "a rack's load is mass_kg",
         ),
         (
             ["check", str(path), "--set", "tolerance.crank_radius_mm=0.1"],
