@@ -15,7 +15,7 @@ array([1.   , 0.625,   nan])
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, NamedTuple, TypeAlias
+from typing import TYPE_CHECKING, TypeAlias
 
 import numpy as np
 
@@ -26,6 +26,7 @@ from geneva_cli.numerics.angles import DEGREE
 from geneva_cli.numerics.arrays import Array, blocks, joined, parameter
 from geneva_cli.numerics.extrema import GROUP, Rough, Stationary, greatest_sizes, stationary_points
 from geneva_cli.numerics.tolerances import TIE
+from geneva_cli.record import NamedTuple
 
 if TYPE_CHECKING:
     from geneva_cli.numerics.extrema import Which
@@ -111,10 +112,6 @@ def motion_peaks(
 
     Closed forms are used where a motion has them, and one search where all motions have one shape.
     """
-    unit = motion.unit
-    if unit is not None:
-        every = search_peaks(unit, quantities)
-        return {name: _scaled(motion, name, peak) for name, peak in every.items()}
     peaks: dict[str, PeakArray] = {}
     for name in quantities:
         known = motion.closed_peak(name)
@@ -122,7 +119,9 @@ def motion_peaks(
             peaks[name] = PeakArray(*(np.ravel(v) for v in np.broadcast_arrays(*known)))
     sought = [name for name in quantities if name not in peaks]
     if sought:
-        peaks |= search_peaks(motion, sought)
+        unit = motion.unit
+        searched = search_peaks(motion if unit is None else unit, sought)
+        peaks |= {n: p if unit is None else _scaled(motion, n, p) for n, p in searched.items()}
     for name, peak in peaks.items():
         open_ = np.flatnonzero(np.isnan(peak.max))
         if len(open_):

@@ -7,8 +7,7 @@ here too.
 
 from __future__ import annotations
 
-from typing import NamedTuple
-
+from geneva_cli.record import NamedTuple
 from geneva_cli.spec.workshops import workshop
 
 

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING
 
 from geneva_cli.numerics.preferred import rounded_below
+from geneva_cli.record import NamedTuple
 from geneva_cli.spec.workshops import workshop
 
 if TYPE_CHECKING:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from geneva_cli.record import NamedTuple
 
 
 class Ink(NamedTuple):

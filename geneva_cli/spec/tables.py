@@ -33,7 +33,8 @@ class Size(SpecTable):
     center_distance_mm: Annotated[
         float | None,
         POSITIVE,
-        "centre distance L; spherical: sphere radius; default 100; linkages solve for it",
+        "centre distance L; spherical: sphere radius; linear: crank radius; default 100; linkages "
+        "solve for it",
     ] = None
     roller_radius_mm: Annotated[float | None, POSITIVE, "roller radius r; default L/20"] = None
     process: Annotated[
@@ -51,7 +52,10 @@ class Size(SpecTable):
         float | None, POSITIVE, "length of the contact line between roller and slot"
     ] = None
     wheel_radius_mm: Annotated[
-        float | None, POSITIVE, "rim radius (internal: of the opening); default: roller at entry"
+        float | None,
+        POSITIVE,
+        "rim radius (internal: of the opening; linear: distance of the edge); default: roller at "
+        "entry",
     ] = None
     wheel_outer_radius_mm: Annotated[
         float | None,
@@ -306,6 +310,8 @@ class Load(SpecTable):
 
     inertia_kgm2: Annotated[float, NOT_NEGATIVE, "inertia of everything the wheel turns"] = 0.0
     torque_Nm: Annotated[float, NOT_NEGATIVE, "torque that resists the wheel's motion"] = 0.0
+    mass_kg: Annotated[float, NOT_NEGATIVE, "linear: mass of the rack and all it moves"] = 0.0
+    force_N: Annotated[float, NOT_NEGATIVE, "linear: force that resists the rack's motion"] = 0.0
     dwell_torque_Nm: Annotated[
         float | None, NOT_NEGATIVE, "torque that the lock holds during the dwell; default torque_Nm"
     ] = None

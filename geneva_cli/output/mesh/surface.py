@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from geneva_cli.output.mesh.polygons import DECIMALS, Triangle
+from geneva_cli.record import NamedTuple
 
 if TYPE_CHECKING:
     import numpy.typing as npt

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -17,6 +17,7 @@ from geneva_cli.outlines.outlines import CONTACT
 from geneva_cli.parts.sphere.bounds import SpherePairs
 from geneva_cli.parts.sphere.fitted import fitted
 from geneva_cli.parts.sphere.gaps import BallGaps
+from geneva_cli.record import NamedTuple
 
 if TYPE_CHECKING:
     from geneva_cli.numerics.jet import Array

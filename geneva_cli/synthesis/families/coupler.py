@@ -15,11 +15,12 @@ which is no solution; the other one is the solution.
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from geneva_cli.numerics.jet import Jet, atan2, sin_cos, sqrt
+from geneva_cli.record import NamedTuple
 
 if TYPE_CHECKING:
     from geneva_cli.numerics.arrays import Array, Complex, Mask, Number, Whole
