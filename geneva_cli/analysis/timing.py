@@ -3,10 +3,9 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 from geneva_cli.numerics.arrays import choose
-from geneva_cli.record import NamedTuple
 
 if TYPE_CHECKING:
     from geneva_cli.machine.mechanism import Mechanism

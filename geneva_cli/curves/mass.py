@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from functools import reduce
+from typing import NamedTuple
 
 from geneva_cli.curves.measure import with_material_left
 from geneva_cli.curves.moments import Moments, moments, total
 from geneva_cli.curves.plates import Plate, Stack
 from geneva_cli.curves.shapes import Circle, Contour, Point
-from geneva_cli.record import NamedTuple
 
 MM = 1e-3  # metres
 

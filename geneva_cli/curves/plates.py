@@ -7,12 +7,11 @@ millimetres, angles in radians.
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, TypeAlias
+from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 
 import numpy as np
 
 from geneva_cli.curves.sphere_arcs import SphereArcs
-from geneva_cli.record import NamedTuple
 
 if TYPE_CHECKING:
     from geneva_cli.curves.round_holes import RoundHole

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Iterator
-from typing import TypeVar
+from typing import NamedTuple, TypeVar
 
 import numpy as np
 
@@ -24,7 +24,6 @@ from geneva_cli.outlines.wheel_hub import HUB
 from geneva_cli.parts.flat_parts import FlatParts
 from geneva_cli.parts.gear_pair import PITCH, gear_span, pitch_radii
 from geneva_cli.parts.pair_teeth import pair_teeth
-from geneva_cli.record import NamedTuple
 
 Measure = TypeVar("Measure", float, Array)  # one gap, or an array of one for each sphere
 

@@ -10,7 +10,6 @@ from typing import TYPE_CHECKING, Annotated, ClassVar, NamedTuple, Self
 
 from geneva_cli.kinematics.engagement import Displacement, Engagement
 from geneva_cli.kinematics.layout import Layout, Link
-from geneva_cli.record import NamedTuple
 from geneva_cli.spec.example import Example
 from geneva_cli.spec.rules import SPEED, Z_MAX, Range
 from geneva_cli.spec.schema import SpecTable

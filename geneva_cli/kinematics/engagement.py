@@ -11,14 +11,13 @@ import math
 from abc import ABC, abstractmethod
 from collections.abc import Sequence
 from functools import cached_property
-from typing import TYPE_CHECKING, ClassVar, Generic, Protocol, TypeAlias, TypeVar
+from typing import TYPE_CHECKING, ClassVar, Generic, NamedTuple, Protocol, TypeAlias, TypeVar
 
 from geneva_cli.numerics.angles import radians
 from geneva_cli.numerics.arrays import all_true, array, blocks, library
 from geneva_cli.numerics.batchable import Batchable
 from geneva_cli.numerics.jet import Jet, Number, sin_cos, turning
 from geneva_cli.numerics.memory import keep_freed_memory
-from geneva_cli.record import NamedTuple
 
 if TYPE_CHECKING:
     from geneva_cli.kinematics.laws.law import Law

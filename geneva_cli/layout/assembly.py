@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
@@ -19,7 +19,6 @@ from geneva_cli.kinematics.engagement import Engagement
 from geneva_cli.layout.groove import roller_in_groove
 from geneva_cli.machine.drives.crank import Crank
 from geneva_cli.machine.mechanism import Mechanism, build
-from geneva_cli.record import NamedTuple
 from geneva_cli.spec.tables import Z_DRAWN
 
 if TYPE_CHECKING:

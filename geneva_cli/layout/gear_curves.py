@@ -10,6 +10,7 @@ curves can be hobbed. With derivatives by the driver's angle, the curves are con
 from __future__ import annotations
 
 import math
+from typing import NamedTuple
 
 import numpy as np
 
@@ -22,7 +23,6 @@ from geneva_cli.numerics.arrays import array
 from geneva_cli.numerics.jet import Jet
 from geneva_cli.numerics.quadrature import rule
 from geneva_cli.numerics.spline import PiecewisePolynomial, periodic
-from geneva_cli.record import NamedTuple
 from geneva_cli.table import Table
 
 NAMES = (

@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 from geneva_cli.numerics.preferred import rounded_below
-from geneva_cli.record import NamedTuple
 from geneva_cli.spec.workshops import workshop
 
 if TYPE_CHECKING:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
@@ -11,7 +11,6 @@ from geneva_cli.curves.shapes import Point
 from geneva_cli.kinematics.engagement import Engagement
 from geneva_cli.layout.assembly import Assembly
 from geneva_cli.numerics.arrays import scalar
-from geneva_cli.record import NamedTuple
 
 if TYPE_CHECKING:
     from geneva_cli.numerics.jet import Array

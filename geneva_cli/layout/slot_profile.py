@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import TYPE_CHECKING, TypeVar
+from typing import TYPE_CHECKING, NamedTuple, TypeVar
 
 import numpy as np
 
@@ -19,7 +19,6 @@ from geneva_cli.kinematics.pitch_curve import (
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.numerics.arrays import array
 from geneva_cli.numerics.tolerances import SAME_INPUT_DEG
-from geneva_cli.record import NamedTuple
 
 if TYPE_CHECKING:
     from geneva_cli.numerics.jet import Array, Number

@@ -9,6 +9,7 @@ above the wheel's lower face is a distance inwards from its outer sphere.
 from __future__ import annotations
 
 import math
+from typing import NamedTuple
 
 from geneva_cli.curves.sphere import Vector, place
 from geneva_cli.errors import GenevaError
@@ -17,7 +18,6 @@ from geneva_cli.layout.plain_sizes import Thicknesses, pin_radius, thicknesses
 from geneva_cli.layout.sizes import lock_between, require_lock_between
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.machine.rollers import places
-from geneva_cli.record import NamedTuple
 from geneva_cli.spec.tables import Z_DRAWN, Size
 
 

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from functools import cached_property, lru_cache
-from typing import TYPE_CHECKING, TypeAlias
+from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 
 import numpy as np
 
@@ -34,7 +34,6 @@ from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.numerics.adaptive_quadrature import Integrands, span_integrals
 from geneva_cli.numerics.angles import DEGREE
 from geneva_cli.numerics.search import SearchResult
-from geneva_cli.record import NamedTuple
 
 if TYPE_CHECKING:
     from geneva_cli.numerics.arrays import Whole

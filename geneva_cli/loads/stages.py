@@ -9,7 +9,7 @@ import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from functools import partial
 from itertools import pairwise
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
@@ -19,7 +19,6 @@ from geneva_cli.loads import summary
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.numerics.sampling import ASPECT, CHORD_ERROR, places, refined, thinned
 from geneva_cli.numerics.tolerances import ROUNDED
-from geneva_cli.record import NamedTuple
 
 if TYPE_CHECKING:
     from geneva_cli.analysis.stretches import Stretch

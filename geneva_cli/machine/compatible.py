@@ -4,11 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from functools import partial
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 from geneva_cli.errors import GenevaError, refuse
 from geneva_cli.kinematics.drive import Needs
-from geneva_cli.record import NamedTuple
 from geneva_cli.spec.rules import is_array
 
 if TYPE_CHECKING:

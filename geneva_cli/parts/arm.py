@@ -10,6 +10,7 @@ carries the locking sectors.
 from __future__ import annotations
 
 import math
+from typing import NamedTuple
 
 import numpy as np
 
@@ -24,7 +25,6 @@ from geneva_cli.layout.plain_sizes import half_or
 from geneva_cli.layout.reliefs import keyway_direction, sectors
 from geneva_cli.outlines.crank import crank_circles, is_whole, roller_centres
 from geneva_cli.outlines.outlines import Outlines
-from geneva_cli.record import NamedTuple
 
 LAYER, HOLES = "ARM", "BORE"
 

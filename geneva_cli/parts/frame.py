@@ -9,6 +9,7 @@ as thick.
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from typing import NamedTuple
 
 from geneva_cli.curves.hull import convex_hull
 from geneva_cli.curves.plates import Member, Plate, Stack
@@ -28,7 +29,6 @@ from geneva_cli.parts.link_shafts import Ends, link_shafts, outside_links
 from geneva_cli.parts.links import Links, placed_holes
 from geneva_cli.parts.planes import crank_stop
 from geneva_cli.parts.shafts import crank_shaft_radius, shafts, wheel_shaft_radius
-from geneva_cli.record import NamedTuple
 
 NAME, LAYER, HOLES = "frame", "FRAME", "BORE"
 

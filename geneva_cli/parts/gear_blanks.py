@@ -30,7 +30,6 @@ from geneva_cli.layout.gear_mesh import ToothedGear
 from geneva_cli.layout.hole_walls import least_wall
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.parts.link_sizes import LinkSizes
-from geneva_cli.record import NamedTuple
 from geneva_cli.spec.tables import Size
 
 if TYPE_CHECKING:

@@ -8,7 +8,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Iterator
 from itertools import combinations
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
@@ -20,7 +20,6 @@ from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.numerics.preferred import bore_radius, rounded_radius
 from geneva_cli.outlines.outlines import Outlines
 from geneva_cli.parts.arm import has_arm, shaft_bore
-from geneva_cli.record import NamedTuple
 from geneva_cli.spec.tables import Size
 
 if TYPE_CHECKING:

@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import cmath
 from collections.abc import Iterable, Iterator
+from typing import NamedTuple
 
 import numpy as np
 
@@ -30,7 +31,6 @@ from geneva_cli.parts.gear_blanks import Gear, link_gear
 from geneva_cli.parts.link_axes import LinkAxis, axes
 from geneva_cli.parts.link_pins import pins, rollers
 from geneva_cli.parts.link_sizes import SLOT_MARGIN, LinkSizes, link_sizes, places, refuse_hexagon
-from geneva_cli.record import NamedTuple
 
 LAYER, HOLES, SHAFT = "LINK", "BORE", Joint.SHAFT
 

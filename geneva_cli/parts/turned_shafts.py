@@ -8,13 +8,13 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
+from typing import NamedTuple
 
 from geneva_cli.curves.plates import Plate, Stack
 from geneva_cli.curves.shapes import ORIGIN, Circle, Shape
 from geneva_cli.errors import GenevaError
 from geneva_cli.layout.bearings import Circlip, bearing_up_to, circlip_up_to
 from geneva_cli.layout.bores import Bore, fitted, rounded
-from geneva_cli.record import NamedTuple
 from geneva_cli.spec.tables import Size
 
 

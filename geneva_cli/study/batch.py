@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from functools import partial
+from typing import NamedTuple
 
 from geneva_cli.design import load
 from geneva_cli.errors import GenevaError, Notice
 from geneva_cli.progress import tracked
-from geneva_cli.record import NamedTuple
 from geneva_cli.study.pool import cores, mapped
 from geneva_cli.table import Table, record_table, rows_table
 from geneva_cli.verdict.checks import Check, all_pass

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import Any
+from typing import Any, NamedTuple
 
 from geneva_cli.curves.measure import bounds
 from geneva_cli.curves.plates import Plate, Stack, plates
@@ -35,7 +35,6 @@ from geneva_cli.drawings.sheet.view import View
 from geneva_cli.drawings.sheet.wheel import draw_wheel
 from geneva_cli.layout.alike import alike
 from geneva_cli.parts.flat_parts import FlatParts
-from geneva_cli.record import NamedTuple
 
 
 class SheetContent(NamedTuple):

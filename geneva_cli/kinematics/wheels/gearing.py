@@ -14,7 +14,6 @@ from geneva_cli.kinematics.wheels.poses import HalfStep, PinPose
 from geneva_cli.kinematics.wheels.skew import Skew
 from geneva_cli.numerics.arrays import larger
 from geneva_cli.numerics.jet import Jet, turning
-from geneva_cli.record import NamedTuple
 from geneva_cli.spec.example import Example
 from geneva_cli.spec.rules import Z_MAX, OneOf, Range
 from geneva_cli.spec.schema import SpecTable

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from functools import lru_cache, reduce
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
@@ -12,7 +12,6 @@ from geneva_cli.loads.strength.shafts import Torque, on_crank, on_driven_crank, 
 from geneva_cli.loads.summaries import load_peaks
 from geneva_cli.machine.both_ways import every_way
 from geneva_cli.numerics.arrays import larger, parameter
-from geneva_cli.record import NamedTuple
 
 if TYPE_CHECKING:
     from geneva_cli.machine.mechanism import Mechanism

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
@@ -16,7 +16,6 @@ from geneva_cli.output.mesh.shells import shell_mesh
 from geneva_cli.output.mesh.stacks import stack_mesh
 from geneva_cli.output.mesh.surface import Surface, rounded, surface
 from geneva_cli.output.solid_part import plate_contours, solid_part
-from geneva_cli.record import NamedTuple
 
 if TYPE_CHECKING:
     from geneva_cli.numerics.jet import Array

@@ -7,6 +7,7 @@ counterclockwise: the lower edge, up at its end, the upper edge back, and down a
 from __future__ import annotations
 
 import math
+from typing import NamedTuple
 
 from geneva_cli.curves.measure import with_material_left
 from geneva_cli.curves.plates import Plate
@@ -24,7 +25,6 @@ from geneva_cli.output.step.entities import (
     real,
 )
 from geneva_cli.output.step.splines import Piece, Spline, pieces
-from geneva_cli.record import NamedTuple
 
 
 class SolidCorner(NamedTuple):

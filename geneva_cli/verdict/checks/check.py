@@ -4,11 +4,10 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterable, Iterator, Sequence
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 from geneva_cli.errors import GenevaError
 from geneva_cli.numerics.keeps import keeps
-from geneva_cli.record import NamedTuple
 
 if TYPE_CHECKING:
     from geneva_cli.drawings.shaft_gap import ShaftGap
