@@ -134,12 +134,17 @@ def _toothed(gear: ToothedGear, hub: float, write: Writer) -> Contour:
     ``hub`` is the radius of the outline between sectors.
     """
     one, step = Contour(RIM, tuple(gear.teeth.one(write)), closed=False), gear.teeth.step
+    last = one
+    if gear.last_tip:
+        lower = gear.teeth._replace(tip=gear.last_tip)
+        last = Contour(RIM, tuple(lower.one(write)), closed=False)
     between = Contour(RIM, (gear.teeth.between(),), closed=False)
     pieces: list[Segment] = []
     for sector, after in zip(gear.middles, (*gear.middles[1:], gear.middles[0]), strict=True):
         for k, middle in enumerate(sector):
-            pieces += turned(one, middle).segments
-            if k + 1 < len(sector) or not hub:
+            at_end = k + 1 == len(sector)
+            pieces += turned(last if at_end else one, middle).segments
+            if not (at_end and hub):
                 pieces += turned(between, middle).segments
         if hub:
             end = math.atan2(*reversed(pieces[-1].end))
