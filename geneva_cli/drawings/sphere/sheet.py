@@ -79,9 +79,6 @@ def sheet(parts: SphereParts) -> Sheet:
         if parts.arm:
             views.append(_arm(parts, parts.arm, arm, scale))
         views += _axles(parts, scale)
-        edges = sized.edge_note(parts.mechanism.spec.size)
-        if edges:
-            views[0].remark(edges)
         yield [*(view.block() for view in views), *fixed]
 
     spec = parts.mechanism.spec

@@ -167,7 +167,7 @@ def arm_solids(ball: Ball, arm: CapArm) -> tuple[Shell, Plate]:
 
 def _inner_hub(size: Size, ball: Ball, arm: CapArm | None) -> Plate | None:
     """Return the crank's hub on the arm's inner face; None unless the spec has one."""
-    radius = crank_hub(size)
+    radius = crank_hub(size, ball.radius_mm)
     if not (radius and arm):
         return None
     long = size.crank_hub_length_mm
