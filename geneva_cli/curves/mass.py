@@ -5,6 +5,7 @@ from __future__ import annotations
 from functools import reduce
 from typing import NamedTuple
 
+from geneva_cli.curves.cross_holes import drilled
 from geneva_cli.curves.measure import with_material_left
 from geneva_cli.curves.moments import Moments, moments, total
 from geneva_cli.curves.plates import Plate, Stack
@@ -30,7 +31,12 @@ def mass_properties(plate: Plate, density_kgm3: float) -> MassProperties:
     >>> round(steel.inertia_kgm2 / steel.mass_kg / 0.05**2, 12)  # m r²/2
     0.5
     """
-    return face_properties(face(plate), plate.thickness, density_kgm3)
+    whole = face_properties(face(plate), plate.thickness, density_kgm3)
+    if not plate.cross:
+        return whole
+    contours = drilled((plate.outline, *plate.holes), plate.cross)
+    taken = total(hole.removed(contours) for hole in plate.cross)
+    return added(whole, face_properties(taken, -1.0, density_kgm3))  # moments of 1 mm
 
 
 def solid_properties(solid: Plate | Stack, density_kgm3: float) -> MassProperties:
