@@ -11,7 +11,6 @@ from collections.abc import Iterable, Sequence
 from typing import NamedTuple
 
 from geneva_cli.curves.measure import fraction_at
-from geneva_cli.curves.moments import Moments
 from geneva_cli.curves.shapes import Arc, Circle, Contour, Line, Point, Shape, closed, two_arcs
 from geneva_cli.errors import GenevaError
 
@@ -99,28 +98,6 @@ class CrossHole(NamedTuple):
     def _on(self, opening: Opening, y: float) -> bool:
         fraction = fraction_at(opening.seen, (opening.x(y), y))
         return 0.0 < fraction < 1.0
-
-    def removed(self, shapes: Sequence[Shape]) -> Moments:
-        """Return the moments of the material that the hole takes, added up along the plate's axis.
-
-        With y = r sin t the integrals over the width are those of smooth periodic functions, whose
-        means over evenly spaced t converge faster than any power of their number.
-        """
-        entry, exit_ = self.openings(shapes)
-        ax, ay = self.seen((0.0, 0.0))  # the axis in the hole's frame
-        count, r = 128, self.radius  # to rounding, up to a hole of 0.97 of its wall's width
-        volume = first_x = first_y = polar = 0.0
-        for k in range(count):
-            t = math.tau * (k + 0.5) / count
-            y, weight = r * math.sin(t), r * r * math.cos(t) ** 2 * math.tau / count
-            low, high = entry.x(y), exit_.x(y)
-            volume += weight * (high - low)
-            first_x += weight * 0.5 * (high * high - low * low)
-            first_y += weight * y * (high - low)
-            cubes = ((high - ax) ** 3 - (low - ax) ** 3) / 3.0
-            polar += weight * (cubes + (y - ay) ** 2 * (high - low))
-        x, y = self.placed(first_x / volume, first_y / volume)
-        return Moments(volume, volume * x, volume * y, polar)
 
 
 def drilled(shapes: Sequence[Shape], holes: Sequence[CrossHole]) -> tuple[Contour | Circle, ...]:
