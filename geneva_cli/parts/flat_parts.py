@@ -147,6 +147,12 @@ class FlatParts:
         """The crank's hub above the disc or the arm, if the spec has one."""
         return crank_hub(self.outlines)
 
+    def hub_radii(self, part: str) -> tuple[float, float]:
+        """Return the radii of the bore and the hub of a part, "wheel" or "crank", mm."""
+        sizes = self.outlines.sizes
+        hubs = {"wheel": sizes.wheel_hub, "crank": sizes.crank_hub}
+        return {"wheel": sizes.wheel_bore, "crank": sizes.crank_bore}[part], hubs[part]
+
     @cached_property
     def crank(self) -> Member:
         """The crank: locking disc or sectors, arm, rollers on their pins, hub."""

@@ -18,9 +18,9 @@ from geneva_cli.curves.plates import Member, Plate, Stack
 from geneva_cli.curves.shapes import ORIGIN, Circle, Shape
 from geneva_cli.errors import GenevaError
 from geneva_cli.layout.bores import RoundBore, bore_of, fitted
+from geneva_cli.layout.held_hubs import held_hub
 from geneva_cli.layout.link_positions import links_at
 from geneva_cli.layout.reliefs import keyway_direction
-from geneva_cli.layout.set_screws import with_set_screw
 from geneva_cli.numerics.tolerances import SAME_LENGTH
 from geneva_cli.outlines.crank import crank_circles, is_whole
 from geneva_cli.outlines.outlines import Outlines
@@ -40,7 +40,7 @@ def crank_hub(parts: Outlines) -> Plate | None:
     """
     assembly = parts.assembly
     direction = keyway_direction(assembly)
-    return with_set_screw(assembly.mechanism.spec.size, "crank", _crank_hub(parts), direction)
+    return held_hub(assembly.mechanism.spec.size, "crank", _crank_hub(parts), direction)
 
 
 def _crank_hub(parts: Outlines) -> Plate | None:

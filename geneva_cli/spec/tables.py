@@ -167,6 +167,12 @@ class Size(SpecTable):
     crank_screw_mm: Annotated[
         float | None, POSITIVE, "set screw through the crank's hub: its thread's diameter"
     ] = None
+    wheel_clamp_mm: Annotated[
+        float | None, POSITIVE, "clamp screw of the wheel's slit hub: its thread's diameter"
+    ] = None
+    crank_clamp_mm: Annotated[
+        float | None, POSITIVE, "clamp screw of the crank's slit hub: its thread's diameter"
+    ] = None
     dial_bolts: Annotated[int, Range(0, 100), "number of bolts between dial and wheel"] = 0
     dial_bolt_mm: Annotated[float | None, POSITIVE, "dial's bolt holes: diameter, max. L/40"] = None
     dial_bolt_circle_mm: Annotated[
