@@ -25,12 +25,11 @@ from geneva_cli.curves.shapes import (
 )
 from geneva_cli.errors import GenevaError
 from geneva_cli.kinematics.layout import Link, Teeth
-from geneva_cli.layout.gear_mesh import ToothedGear
 from geneva_cli.layout.bolt_holes import bolt_circle
+from geneva_cli.layout.gear_mesh import ToothedGear
 from geneva_cli.layout.hole_walls import least_wall
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.parts.link_sizes import LinkSizes
-from geneva_cli.spec.tables import Size
 
 if TYPE_CHECKING:
     from geneva_cli.curves.gear_teeth import Writer
