@@ -19,7 +19,7 @@ ROOT = os.path.dirname(geneva_cli.__file__)
 
 # From the ground up. A room imports rooms of the floors below its own.
 FLOORS = [
-    {"errors", "names", "progress", "record"},
+    {"errors", "names", "progress"},
     {"table"},
     {"spec", "numerics", "streams", "figure", "scene", "document", "manual"},
     {"kinematics", "curves"},

@@ -10,7 +10,7 @@ engagement's own mid-motion.
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, cast
+from typing import TYPE_CHECKING, NamedTuple, cast
 
 import numpy as np
 
@@ -23,7 +23,6 @@ from geneva_cli.numerics.angles import DEGREE, omega
 from geneva_cli.numerics.arrays import blocks, choose, joined, larger
 from geneva_cli.numerics.newton import find_roots
 from geneva_cli.numerics.tolerances import ROUNDED
-from geneva_cli.record import NamedTuple
 
 if TYPE_CHECKING:
     from geneva_cli.numerics.arrays import Whole

@@ -16,7 +16,7 @@ from __future__ import annotations
 
 import math
 from functools import cached_property
-from typing import TYPE_CHECKING, Generic
+from typing import TYPE_CHECKING, Generic, NamedTuple
 
 from geneva_cli.analysis.carried import inertia_kgm2, resisting_torque_Nm
 from geneva_cli.analysis.contact import Contact
@@ -26,7 +26,6 @@ from geneva_cli.machine.spec import Spec
 from geneva_cli.numerics.angles import omega
 from geneva_cli.numerics.arrays import N, all_true, choose, designs_of, library
 from geneva_cli.numerics.jet import Jet, Number, V
-from geneva_cli.record import NamedTuple
 
 if TYPE_CHECKING:
     from geneva_cli.numerics.arrays import Whole

@@ -23,7 +23,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from typing import cast
+from typing import NamedTuple, cast
 
 import numpy as np
 
@@ -40,7 +40,6 @@ from geneva_cli.numerics.arrays import (
     smaller,
 )
 from geneva_cli.numerics.jet import Jet, atan2, sqrt
-from geneva_cli.record import NamedTuple
 
 ROUNDING = 1e-13  # of an angle, or of the centre distance
 

@@ -7,7 +7,7 @@ it.
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import TYPE_CHECKING, TypeAlias
+from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 
 import numpy as np
 
@@ -27,7 +27,6 @@ from geneva_cli.kinematics.pitch_curve import retraces
 from geneva_cli.numerics.angles import DEGREE
 from geneva_cli.numerics.arrays import array
 from geneva_cli.numerics.jet import Jet, Number
-from geneva_cli.record import NamedTuple
 
 if TYPE_CHECKING:
     from geneva_cli.numerics.arrays import Mask

@@ -19,7 +19,7 @@ P' / (P - C) . (z x C), for any path of the roller. On a sphere P and C are dire
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
@@ -29,7 +29,6 @@ from geneva_cli.numerics.angles import DEGREE, radians
 from geneva_cli.numerics.arrays import library, parameter
 from geneva_cli.numerics.jet import Jet, sqrt
 from geneva_cli.numerics.newton import find_roots
-from geneva_cli.record import NamedTuple
 
 if TYPE_CHECKING:
     from geneva_cli.kinematics.engagement import Engagement

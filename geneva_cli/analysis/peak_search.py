@@ -15,7 +15,7 @@ array([1.   , 0.625,   nan])
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, TypeAlias
+from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 
 import numpy as np
 
@@ -26,7 +26,6 @@ from geneva_cli.numerics.angles import DEGREE
 from geneva_cli.numerics.arrays import Array, blocks, joined, parameter
 from geneva_cli.numerics.extrema import GROUP, Rough, Stationary, greatest_sizes, stationary_points
 from geneva_cli.numerics.tolerances import TIE
-from geneva_cli.record import NamedTuple
 
 if TYPE_CHECKING:
     from geneva_cli.numerics.extrema import Which

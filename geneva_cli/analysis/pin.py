@@ -3,11 +3,10 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, cast
+from typing import TYPE_CHECKING, NamedTuple, cast
 
 from geneva_cli.numerics.arrays import choose, parameter
 from geneva_cli.numerics.preferred import rounded_below
-from geneva_cli.record import NamedTuple
 
 if TYPE_CHECKING:
     from geneva_cli.machine.mechanism import Mechanism

@@ -17,7 +17,7 @@ has peaks of its own, so that its square is searched.
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
@@ -33,7 +33,6 @@ from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.numerics.angles import DEGREE, omega
 from geneva_cli.numerics.arrays import Array, parameter
 from geneva_cli.numerics.extrema import greatest_sizes
-from geneva_cli.record import NamedTuple
 
 if TYPE_CHECKING:
     from geneva_cli.numerics.extrema import Which

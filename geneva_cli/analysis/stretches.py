@@ -10,7 +10,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from itertools import pairwise
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
@@ -21,7 +21,6 @@ from geneva_cli.kinematics.engagement import Engagement
 from geneva_cli.numerics.angles import DEGREE
 from geneva_cli.numerics.roots import root
 from geneva_cli.numerics.search import Stretches
-from geneva_cli.record import NamedTuple
 
 if TYPE_CHECKING:
     from geneva_cli.numerics.arrays import Whole

@@ -10,7 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from functools import partial
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
@@ -44,7 +44,6 @@ from geneva_cli.machine.spec import Spec
 from geneva_cli.numerics.adaptive_quadrature import NODES
 from geneva_cli.numerics.chebyshev import POINTS
 from geneva_cli.numerics.quadrature import rule
-from geneva_cli.record import NamedTuple
 from geneva_cli.spec.tables import Load
 
 if TYPE_CHECKING:

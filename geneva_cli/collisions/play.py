@@ -12,7 +12,7 @@ from collections.abc import Iterator
 from functools import reduce
 from itertools import groupby
 from operator import or_
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
@@ -21,7 +21,6 @@ from geneva_cli.collisions.machine_parts import MachineParts
 from geneva_cli.collisions.pairs import Window
 from geneva_cli.numerics.arrays import rising
 from geneva_cli.numerics.tolerances import SAME_INPUT_DEG
-from geneva_cli.record import NamedTuple
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray

@@ -3,12 +3,11 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
 from geneva_cli.collisions.pairs import Intervals, Pair
-from geneva_cli.record import NamedTuple
 
 if TYPE_CHECKING:
     from geneva_cli.collisions.machine_parts import Clearances

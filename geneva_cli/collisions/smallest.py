@@ -6,7 +6,7 @@ import math
 from collections.abc import Callable, Iterator
 from functools import partial
 from itertools import repeat
-from typing import TYPE_CHECKING, TypeAlias
+from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 
 import numpy as np
 
@@ -14,7 +14,6 @@ from geneva_cli.collisions.gaps import WorkLimit
 from geneva_cli.collisions.machine_parts import MachineParts
 from geneva_cli.numerics.arrays import rising
 from geneva_cli.numerics.tolerances import SAME_INPUT_DEG
-from geneva_cli.record import NamedTuple
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator
+from typing import NamedTuple
 
 import numpy as np
 
@@ -22,7 +23,6 @@ from geneva_cli.errors import GenevaError
 from geneva_cli.numerics.roots import boundary
 from geneva_cli.numerics.rounding import to_digits
 from geneva_cli.numerics.tolerances import SAME_CUT_MM
-from geneva_cli.record import NamedTuple
 
 
 class Fault(NamedTuple):

@@ -7,9 +7,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable
-from typing import TypeAlias
-
-from geneva_cli.record import NamedTuple
+from typing import NamedTuple, TypeAlias
 
 Point: TypeAlias = tuple[float, float]
 ORIGIN: Point = (0.0, 0.0)

@@ -7,10 +7,10 @@ corner.
 from __future__ import annotations
 
 import math
+from typing import NamedTuple
 
 from geneva_cli.curves.helvetica import width
 from geneva_cli.curves.shapes import Contour, Line, Point, Segment, Shape
-from geneva_cli.record import NamedTuple
 
 ARROW = 3.0, 0.4  # mm: an arrow's length, and half its width (ISO 129-1: filled, 15 degrees)
 SMALL, LARGE = 2.5, 3.5  # mm: capitals of dimensions, and of titles (ISO 3098-1)
@@ -78,7 +78,7 @@ class Arrow(NamedTuple):
 class Measure(NamedTuple):
     """A dimension as drawn: lines (its own before its extension lines), arrows and text.
 
-    ``kind`` names the meaning of ``points``. ``linear``: both ends and a place on the dimension
+    ``kind`` names the meaning of ``points``. ``length``: both ends and a place on the dimension
     line, all in the direction ``turn``. ``angular``: the apex, a point on each leg and one on the
     arc. ``radius``: the centre and the point on the arc. ``diameter``: both points on the circle.
     """
@@ -94,7 +94,7 @@ class Measure(NamedTuple):
     @property
     def main_lines(self) -> tuple[Segment, ...]:
         """The dimension line, or the leader and the line under its text."""
-        return self.lines[:1] if self.kind in ("linear", "angular") else self.lines
+        return self.lines[:1] if self.kind in ("length", "angular") else self.lines
 
     @property
     def extension_lines(self) -> tuple[Segment, ...]:

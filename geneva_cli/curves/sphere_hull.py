@@ -7,10 +7,10 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Sequence
+from typing import NamedTuple
 
 from geneva_cli.curves.sphere import Region, SphereArc, Vector, cross, dot, square_to, unit
 from geneva_cli.numerics.tolerances import SAME_LENGTH
-from geneva_cli.record import NamedTuple
 
 
 class Cap(NamedTuple):

@@ -169,9 +169,10 @@ def _dimensions(model: PartsModel) -> Iterator[Row | Missing]:
         Dimension("slot width", 2.0 * (r + clear), "mm"),
     ]
     for part in ("wheel", "crank"):
-        screw = vars(spec.size)[f"{part}_screw_mm"]
-        if screw is not None:
-            entries.append(Dimension(f"{part}'s set screw", screw, "mm"))
+        for key, name in (("screw", "set screw"), ("clamp", "clamp screw")):
+            screw = vars(spec.size)[f"{part}_{key}_mm"]
+            if screw is not None:
+                entries.append(Dimension(f"{part}'s {name}", screw, "mm"))
     if spec.size.edge_mm:
         kind = "rounding" if spec.size.edge_chamfer_mm is None else "chamfer"
         entries.append(Dimension(f"{kind} of all edges", spec.size.edge_mm, "mm"))
@@ -188,6 +189,8 @@ def _dimensions(model: PartsModel) -> Iterator[Row | Missing]:
     entries += _motions(mechanism)
     own = spec.drive.layout(mechanism.plan, spec.wheel.SIGN)
     entries += [d for d in own if isinstance(d, Dimension)]
+    if spec.size.gear_module_mm is not None:
+        entries += or_missing("teeth of the gears", lambda: model.flat.tooth_dimensions)
     for entry in entries:
         yield entry if isinstance(entry, Missing) else {"row": "dimension", **entry._asdict()}
 

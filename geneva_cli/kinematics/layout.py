@@ -6,9 +6,7 @@ The wheel's axis is the origin, and the crank's axis is on the x axis, as in the
 from __future__ import annotations
 
 from enum import Enum
-from typing import TYPE_CHECKING, TypeAlias
-
-from geneva_cli.record import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 
 if TYPE_CHECKING:
     from geneva_cli.numerics.jet import Array

@@ -5,12 +5,11 @@ The formulas hold for jets of floats and of arrays. Lengths are in units of the 
 
 from __future__ import annotations
 
-from typing import cast
+from typing import NamedTuple, cast
 
 from geneva_cli.kinematics.engagement import Engagement
 from geneva_cli.numerics.arrays import library, size
 from geneva_cli.numerics.jet import Number
-from geneva_cli.record import NamedTuple
 
 # table columns for a pitch curve with a wall on either side
 WALLED = (

@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
@@ -19,7 +19,6 @@ from geneva_cli.kinematics.engagement import Engagement
 from geneva_cli.layout.groove import roller_in_groove
 from geneva_cli.machine.drives.crank import Crank
 from geneva_cli.machine.mechanism import Mechanism, build
-from geneva_cli.record import NamedTuple
 from geneva_cli.spec.tables import Z_DRAWN
 
 if TYPE_CHECKING:
@@ -152,6 +151,8 @@ def assembly(mechanism: Mechanism) -> Assembly:
     Raises GenevaError for a machine whose parts are not flat outlines.
     """
     spec = mechanism.spec
+    if not (spec.wheel.FLAT or spec.wheel.SHELLS):
+        raise GenevaError(spec.no_parts, ("wheel", "gearing"))
     if not spec.wheel.FLAT:
         raise GenevaError(
             f'gearing = "{spec.wheel.NAME}": its parts are not flat; write `--part wheel`, `crank` '

@@ -7,7 +7,8 @@ here too.
 
 from __future__ import annotations
 
-from geneva_cli.record import NamedTuple
+from typing import NamedTuple
+
 from geneva_cli.spec.workshops import workshop
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
@@ -15,7 +15,6 @@ from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.numerics.angles import radians
 from geneva_cli.numerics.arrays import scalar, smaller
 from geneva_cli.numerics.roots import boundary_by_sections, greatest_at
-from geneva_cli.record import NamedTuple
 from geneva_cli.table import Table
 
 if TYPE_CHECKING:

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+from typing import NamedTuple
+
 from geneva_cli.errors import GenevaError
-from geneva_cli.record import NamedTuple
 
 
 class ParallelKey(NamedTuple):

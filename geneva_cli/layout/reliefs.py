@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import math
+from typing import NamedTuple
 
 from geneva_cli.layout.assembly import Assembly
 from geneva_cli.layout.plain_sizes import Sizes
 from geneva_cli.numerics.tolerances import SAME_ANGLE
-from geneva_cli.record import NamedTuple
 
 
 class Relief(NamedTuple):

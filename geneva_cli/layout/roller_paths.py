@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
@@ -11,7 +11,6 @@ from geneva_cli.curves.shapes import Point
 from geneva_cli.kinematics.engagement import Engagement
 from geneva_cli.layout.assembly import Assembly
 from geneva_cli.numerics.arrays import scalar
-from geneva_cli.record import NamedTuple
 
 if TYPE_CHECKING:
     from geneva_cli.numerics.jet import Array
@@ -41,10 +40,12 @@ def mouth(assembly: Assembly, engagement: Engagement, r: float) -> float:
     """Return the rim's radius, where a roller of radius r enters and leaves a slot.
 
     There the roller touches the wall that faces the crank's axis, at the foot of the perpendicular
-    from that axis.
+    from that axis. If it enters and leaves at two radii, no wall may stand in its way at either.
     """
     if not engagement.slot.offset:
-        return math.hypot(assembly.L * scalar(engagement.entry_reach), r)
+        nearest = min if assembly.sign > 0.0 else max
+        reaches = (scalar(reach) for reach in (engagement.entry_reach, engagement.exit_reach))
+        return math.hypot(assembly.L * nearest(reaches), r)
     return max(math.hypot(*corner(assembly, engagement, end, r)) for end in (-1.0, 1.0))
 
 

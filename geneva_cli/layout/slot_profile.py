@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import TYPE_CHECKING, TypeVar
+from typing import TYPE_CHECKING, NamedTuple, TypeVar
 
 import numpy as np
 
@@ -19,7 +19,6 @@ from geneva_cli.kinematics.pitch_curve import (
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.numerics.arrays import array
 from geneva_cli.numerics.tolerances import SAME_INPUT_DEG
-from geneva_cli.record import NamedTuple
 
 if TYPE_CHECKING:
     from geneva_cli.numerics.jet import Array, Number
@@ -36,7 +35,7 @@ class SlotProfile(NamedTuple):
     """
 
     input_deg: Array
-    wheel_deg: Array
+    output: Array  # the wheel's angle, or a rack's travel, in its unit
     centre: Array  # (n, 2)
     left: Array
     right: Array
@@ -56,7 +55,7 @@ def slot(mechanism: Mechanism, input_deg: Array) -> SlotProfile:
     straight = engagement.slot.axis(engagement.entry_deg) is not None
     return SlotProfile(
         input_deg,
-        np.degrees(engagement.motion(input_deg, 0).c[0]),
+        array(engagement.motion(input_deg, 0).c[0]) * mechanism.output.per_radian,
         *_offsets(mechanism, at, side),
         np.degrees(at.pressure),
         np.where(straight | (at.turning == 0.0), np.inf, radius),

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from decimal import localcontext
-from typing import TYPE_CHECKING, cast
+from typing import TYPE_CHECKING, NamedTuple, cast
 
 import numpy as np
 
@@ -20,7 +20,6 @@ from geneva_cli.numerics import digits
 from geneva_cli.numerics.angles import radians
 from geneva_cli.numerics.arrays import library, parameter
 from geneva_cli.numerics.jet import Jet, Number, sine_versine, turning
-from geneva_cli.record import NamedTuple
 
 if TYPE_CHECKING:
     from geneva_cli.numerics.arrays import Array

@@ -4,12 +4,11 @@ from __future__ import annotations
 
 import math
 from decimal import Decimal
-from typing import TypeAlias, cast
+from typing import NamedTuple, TypeAlias, cast
 
 from geneva_cli.kinematics.roller_path import RollerPath, exactly
 from geneva_cli.numerics import digits
 from geneva_cli.numerics.jet import Jet
-from geneva_cli.record import NamedTuple
 
 Exact: TypeAlias = tuple[Decimal, Decimal]  # a vector in the plane
 

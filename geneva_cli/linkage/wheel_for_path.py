@@ -10,6 +10,7 @@ from __future__ import annotations
 import cmath
 import math
 from decimal import Decimal, localcontext
+from typing import NamedTuple
 
 import numpy as np
 
@@ -22,7 +23,6 @@ from geneva_cli.linkage.exact_path import Exact, ExactPoint, cross, length
 from geneva_cli.linkage.wheels import PathWheels, WheelSearch, followed, wheels
 from geneva_cli.numerics import digits
 from geneva_cli.numerics.angles import scaled_sin_cos
-from geneva_cli.record import NamedTuple
 
 LAST_STEP = 1e-12  # radians: Newton's method ends after a shorter step
 

@@ -10,7 +10,7 @@ import math
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from contextvars import ContextVar
-from typing import TYPE_CHECKING, TypeAlias, cast
+from typing import TYPE_CHECKING, NamedTuple, TypeAlias, cast
 
 import numpy as np
 
@@ -24,7 +24,6 @@ from geneva_cli.linkage.wheels import WheelSearch, wheels
 from geneva_cli.numerics.arrays import rising
 from geneva_cli.numerics.digits import PI
 from geneva_cli.numerics.jet import Jet
-from geneva_cli.record import NamedTuple
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray

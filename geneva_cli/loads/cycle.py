@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from functools import cached_property, lru_cache
-from typing import TYPE_CHECKING, TypeAlias
+from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 
 import numpy as np
 
@@ -19,7 +19,7 @@ from geneva_cli.analysis.instant import INSTANT_QUANTITIES, Instant, bounded, va
 from geneva_cli.analysis.load_functions import NO_MORE, LoadFunctions, load_batch
 from geneva_cli.analysis.mid_motion import at_crossing
 from geneva_cli.analysis.motion import local_deg, spans
-from geneva_cli.analysis.quantities import KINETIC, known_quantities, multiples
+from geneva_cli.analysis.quantities import KINETIC, known_quantities, sources
 from geneva_cli.analysis.stretches import Stretch, refuse_rounding, to_mid_motion, whole
 from geneva_cli.kinematics.engagement import Engagement
 from geneva_cli.loads.summaries import (
@@ -34,7 +34,6 @@ from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.numerics.adaptive_quadrature import Integrands, span_integrals
 from geneva_cli.numerics.angles import DEGREE
 from geneva_cli.numerics.search import SearchResult
-from geneva_cli.record import NamedTuple
 
 if TYPE_CHECKING:
     from geneva_cli.numerics.arrays import Whole
@@ -140,12 +139,8 @@ class Cycle:
     @cached_property
     def known(self) -> Mapping[str, LoadSummary]:
         """The summaries of all quantities that have a value, (1,) each."""
-        names = [*known_quantities(self.mechanism), KINETIC]
-        names += [
-            name
-            for name, (source, factor, _) in multiples(self.mechanism).items()
-            if factor is not None and source in names
-        ]
+        searched, known = known_quantities(self.mechanism), sources(self.mechanism)
+        names = [*searched, KINETIC, *known]
         each = [
             EngagementExtremes(
                 result.most,
@@ -154,7 +149,8 @@ class Cycle:
             )
             for load, result in self._searches
         ]
-        return summaries_from(self.mechanism, names, each, plain=True)
+        every = summaries_from(self.mechanism, names, each, plain=True)
+        return {name: every[name] for name in (*known, KINETIC)}
 
     @cached_property
     def peaks(self) -> list[tuple[float, float, float]]:

@@ -9,7 +9,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Mapping
 from functools import lru_cache
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
@@ -28,7 +28,6 @@ from geneva_cli.numerics.angles import omega
 from geneva_cli.numerics.arrays import array
 from geneva_cli.numerics.jet import Jet, Number
 from geneva_cli.numerics.ties import first_greatest
-from geneva_cli.record import NamedTuple
 from geneva_cli.spec.load_limits import load_limits
 
 if TYPE_CHECKING:

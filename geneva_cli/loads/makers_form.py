@@ -6,9 +6,10 @@ for its transfer to the input. The exact cycle is in ``cycle``.
 
 from __future__ import annotations
 
+from typing import NamedTuple
+
 from geneva_cli.analysis.cam_factors import CamFactors
 from geneva_cli.numerics.angles import radians
-from geneva_cli.record import NamedTuple
 
 
 class ShaftLoad(NamedTuple):

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Sequence
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
@@ -28,7 +28,6 @@ from geneva_cli.numerics.angles import DEGREE
 from geneva_cli.numerics.arrays import array
 from geneva_cli.numerics.search import search
 from geneva_cli.numerics.spread import gathered, spread
-from geneva_cli.record import NamedTuple
 
 if TYPE_CHECKING:
     from geneva_cli.numerics.arrays import Mask, Whole

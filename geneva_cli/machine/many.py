@@ -25,7 +25,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from functools import cache
-from typing import TYPE_CHECKING, TypeAlias, TypeVar, cast
+from typing import TYPE_CHECKING, NamedTuple, TypeAlias, TypeVar, cast
 
 import numpy as np
 
@@ -37,7 +37,6 @@ from geneva_cli.numerics.arrays import record_of
 from geneva_cli.numerics.batchable import Batchable
 from geneva_cli.numerics.latest import Latest
 from geneva_cli.numerics.memory import keep_freed_memory
-from geneva_cli.record import NamedTuple
 from geneva_cli.spec.schema import Field, Points, SpecTable, fields, unknown
 
 if TYPE_CHECKING:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 from geneva_cli.kinematics.drive import Plan
 from geneva_cli.kinematics.engagement import Engagement
@@ -14,9 +14,9 @@ from geneva_cli.machine.spec import Spec
 from geneva_cli.machine.tolerance_rules import refuse_tolerances
 from geneva_cli.numerics.arrays import choose, designs_of, larger, library
 from geneva_cli.numerics.tolerances import SAME_INPUT_DEG
-from geneva_cli.record import NamedTuple
 
 if TYPE_CHECKING:
+    from geneva_cli.kinematics.wheels.gearing import Output
     from geneva_cli.numerics.arrays import Whole
 
 
@@ -51,6 +51,11 @@ class Mechanism(NamedTuple):
     def law(self) -> Law | None:
         """Motion law, or None if the motion follows from path and slot."""
         return self.engagements[0].motion.law
+
+    @property
+    def output(self) -> Output:
+        """What the wheel gives out, with its unit."""
+        return self.spec.output
 
     @property
     def roller_radius_mm(self) -> float:

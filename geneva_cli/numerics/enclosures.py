@@ -16,12 +16,11 @@ import heapq
 import math
 from collections.abc import Callable, Iterable, Sequence
 from itertools import pairwise
-from typing import TypeAlias
+from typing import NamedTuple, TypeAlias
 
 from geneva_cli.numerics.arrays import Undecided
 from geneva_cli.numerics.balls import NOWHERE, Ball
 from geneva_cli.numerics.tolerances import TIE
-from geneva_cli.record import NamedTuple
 
 # Taylor coefficients 0 to order at a ball of degrees, by the angle in radians
 Curve: TypeAlias = Callable[[Ball, int], "Sequence[Ball]"]

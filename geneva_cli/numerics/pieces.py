@@ -9,7 +9,7 @@ halved if a series does not show where its zeros are.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, Any, Protocol, TypeAlias
+from typing import TYPE_CHECKING, Any, NamedTuple, Protocol, TypeAlias
 
 import numpy as np
 
@@ -18,7 +18,6 @@ from geneva_cli.numerics.angles import DEGREE
 from geneva_cli.numerics.arrays import columns_taken, joined, rows_taken
 from geneva_cli.numerics.chebyshev import GRID, MIDDLE, POINTS
 from geneva_cli.numerics.spread import gathered, spread
-from geneva_cli.record import NamedTuple
 
 if TYPE_CHECKING:
     from geneva_cli.numerics.arrays import Array, Mask, Whole

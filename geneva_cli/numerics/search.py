@@ -9,7 +9,7 @@ function may exceed the known values; there the function itself is evaluated, by
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
@@ -27,7 +27,6 @@ from geneva_cli.numerics.pieces import (
     SampledRows,
     SpreadPlaces,
 )
-from geneva_cli.record import NamedTuple
 
 if TYPE_CHECKING:
     from geneva_cli.numerics.arrays import Array, Mask, Whole

@@ -12,11 +12,11 @@ import math
 from collections.abc import Sequence
 from decimal import Decimal
 from itertools import pairwise
+from typing import NamedTuple
 
 import numpy as np
 
 from geneva_cli.numerics.arrays import SINGLE, Array, N, piece_of
-from geneva_cli.record import NamedTuple
 
 SPLINE_DEGREE = 5
 

@@ -11,7 +11,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
@@ -19,7 +19,6 @@ from geneva_cli.collisions.gaps import Gaps, turned_points
 from geneva_cli.collisions.pairs import Bounds, Intervals, Pair, raised
 from geneva_cli.curves.extents import farthest, from_segments, near_segments, short_pieces
 from geneva_cli.outlines.travel import Travel, path_travel, slot_travel
-from geneva_cli.record import NamedTuple
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray

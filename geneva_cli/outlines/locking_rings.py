@@ -9,7 +9,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from functools import cache
-from typing import TYPE_CHECKING, TypeAlias
+from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 
 import numpy as np
 
@@ -19,7 +19,6 @@ from geneva_cli.layout.assembly import Assembly
 from geneva_cli.layout.plain_sizes import Sizes
 from geneva_cli.layout.reliefs import sectors
 from geneva_cli.numerics.tolerances import CLEARLY, SAME_ANGLE, SAME_LENGTH
-from geneva_cli.record import NamedTuple
 
 if TYPE_CHECKING:
     from geneva_cli.numerics.jet import Array

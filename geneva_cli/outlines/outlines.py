@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from functools import cache
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
@@ -24,7 +24,6 @@ from geneva_cli.outlines.crank import crank_contours, is_whole
 from geneva_cli.outlines.walls.curved import curved_walls
 from geneva_cli.outlines.walls.straight import straight_walls
 from geneva_cli.outlines.wheel import wheel_contour
-from geneva_cli.record import NamedTuple
 
 if TYPE_CHECKING:
     from geneva_cli.numerics.jet import Array

@@ -18,13 +18,12 @@ no other point of the disc comes as near to the wheel's axis as its end.
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
 from geneva_cli.collisions.gaps import Gaps
 from geneva_cli.numerics.tolerances import SAME_LENGTH
-from geneva_cli.record import NamedTuple
 
 if TYPE_CHECKING:
     from geneva_cli.numerics.jet import Array

@@ -8,7 +8,7 @@ import sys
 from collections.abc import Iterable, Iterator
 from contextlib import AbstractContextManager, contextmanager
 from itertools import chain
-from typing import TYPE_CHECKING, Any, Protocol, cast
+from typing import TYPE_CHECKING, Any, NamedTuple, Protocol, cast
 
 from geneva_cli.errors import GenevaError, cut
 from geneva_cli.output.formats import (
@@ -24,7 +24,6 @@ from geneva_cli.output.formats import (
     sheet_as,
     table_as,
 )
-from geneva_cli.record import NamedTuple
 from geneva_cli.table import Table
 
 if TYPE_CHECKING:

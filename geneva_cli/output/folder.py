@@ -13,10 +13,10 @@ import os
 import shutil
 from collections.abc import Iterable, Iterator
 from contextlib import contextmanager, suppress
+from typing import NamedTuple
 
 from geneva_cli.errors import GenevaError, cut
 from geneva_cli.output.files import stopping_cleanly, write, write_errors
-from geneva_cli.record import NamedTuple
 
 LIST = "contents.csv"
 COLUMNS = ("file", "content", "sha256")

@@ -6,6 +6,7 @@ import re
 import sys
 import textwrap
 from collections.abc import Iterable, Iterator
+from typing import NamedTuple
 
 from geneva_cli.document import FAILS, PASSES, WARNS, Summary, SummaryLine
 from geneva_cli.errors import clean
@@ -13,7 +14,6 @@ from geneva_cli.output.document.values import RAISED, TIMES
 from geneva_cli.output.layout import DIM, styled
 from geneva_cli.output.markdown import escaped
 from geneva_cli.output.window import window
-from geneva_cli.record import NamedTuple
 
 SIGNS = {PASSES: "✓", WARNS: "!", FAILS: "✗"}
 INKS = {PASSES: "\x1b[32m", WARNS: "\x1b[33m", FAILS: "\x1b[31m"}  # green, yellow, red

@@ -5,11 +5,11 @@ from __future__ import annotations
 import os
 import shutil
 from collections.abc import Iterator
+from typing import NamedTuple
 
 from geneva_cli.errors import clean
 from geneva_cli.output.layout import styled, wrapped
 from geneva_cli.output.text import WIDTH
-from geneva_cli.record import NamedTuple
 
 
 class Window(NamedTuple):

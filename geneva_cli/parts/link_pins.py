@@ -6,7 +6,7 @@ Pins that stand in the frame belong to the frame, like shafts, and are omitted h
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
@@ -14,7 +14,6 @@ from geneva_cli.curves.plates import Member, Plate
 from geneva_cli.curves.shapes import Circle
 from geneva_cli.kinematics.layout import Joint, Link
 from geneva_cli.parts.link_sizes import LinkSizes, places
-from geneva_cli.record import NamedTuple
 
 if TYPE_CHECKING:
     from geneva_cli.numerics.jet import Array

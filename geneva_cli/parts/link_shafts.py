@@ -9,6 +9,7 @@ without a bore is one piece with its shaft, which ends at the link's faces.
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
+from typing import NamedTuple
 
 from geneva_cli.curves.plates import Member, Plate
 from geneva_cli.kinematics.layout import Joint
@@ -18,7 +19,6 @@ from geneva_cli.numerics.tolerances import SAME_LENGTH
 from geneva_cli.parts.link_axes import LinkAxis
 from geneva_cli.parts.links import Links, placed_holes
 from geneva_cli.parts.shafts import round_section, shaft, shaft_ends
-from geneva_cli.record import NamedTuple
 
 
 class Ends(NamedTuple):

@@ -8,19 +8,18 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Iterator
 from itertools import combinations
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
 from geneva_cli.errors import GenevaError
 from geneva_cli.kinematics.layout import Joint, Link
 from geneva_cli.layout.arm_sizes import HUB, eye_about, pin_hole
-from geneva_cli.layout.plain_sizes import half_or, pin_radius, thicknesses, wall_min
+from geneva_cli.layout.plain_sizes import drawn_thicknesses, half_or, pin_radius, wall_min
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.numerics.preferred import bore_radius, rounded_radius
 from geneva_cli.outlines.outlines import Outlines
 from geneva_cli.parts.arm import has_arm, shaft_bore
-from geneva_cli.record import NamedTuple
 from geneva_cli.spec.tables import Size
 
 if TYPE_CHECKING:
@@ -90,7 +89,7 @@ def link_sizes(
     spec, L = mechanism.spec, mechanism.center_distance_mm
     size, links = spec.size, [link for link in links if not link.radius_mm]
     drawn = parts.sizes if parts else None
-    wall, thick = wall_min(size, L), thicknesses(size, L, drawn)
+    wall, thick = wall_min(size, L), drawn_thicknesses(size, L, drawn)
     stands = pin_radius(size, mechanism.roller_radius_mm, drawn)
     roller = pin_hole(size, stands) if stands else 0.0
     nearest = min((distance for link in links for distance in _pin_distances(link)), default=L)

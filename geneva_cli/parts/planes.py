@@ -11,7 +11,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
@@ -27,7 +27,6 @@ from geneva_cli.parts.link_pins import joined
 from geneva_cli.parts.link_sizes import LinkSizes, places
 from geneva_cli.parts.links import Links
 from geneva_cli.parts.shafts import wheel_shaft_ends, wheel_shaft_radius
-from geneva_cli.record import NamedTuple
 
 if TYPE_CHECKING:
     from geneva_cli.numerics.jet import Array

@@ -17,6 +17,7 @@ from typing import (
     Annotated,
     Any,
     ClassVar,
+    NamedTuple,
     Self,
     TypeAlias,
     TypeVar,
@@ -26,7 +27,6 @@ from typing import (
 )
 
 from geneva_cli.errors import GenevaError, cut, few, nearest, refuse
-from geneva_cli.record import NamedTuple
 from geneva_cli.spec.rules import Csv, OneOf, Words, is_array, plain
 from geneva_cli.spec.units import in_unit_of
 
@@ -175,8 +175,8 @@ class SpecTable:
     def replace(self, **changes: Any) -> Self:
         """Return a copy with some fields changed and checked.
 
-        >>> SideCrank(A=0.6).replace(n_rpm=30.0)
-        SideCrank(n_rpm=30.0, rollers=1, roller_angles_deg=None, A=0.6, input_crank_mm=None)
+        >>> Spherical(6).replace(axes_deg=60.0)
+        Spherical(z=6, held_by=None, axes_deg=60.0)
         """
         return copied(self, changes)
 

@@ -9,10 +9,13 @@ from functools import cached_property
 from typing import Annotated, ClassVar
 
 from geneva_cli.errors import GenevaError
+from geneva_cli.spec.default_sizes import Thicknesses, unrounded, value_or
 from geneva_cli.spec.processes import PROCESSES, Allowances
 from geneva_cli.spec.rules import LENGTH, NOT_NEGATIVE, POSITIVE, OneOf, Range
 from geneva_cli.spec.schema import SpecTable
 from geneva_cli.spec.workshops import workshop
+
+Rounding = Callable[[float], float]
 
 DISTANCE_MM = 100.0  # the centre distance of a spec that gives none
 Z_DRAWN = 360  # slots of a wheel that is drawn: one a degree
@@ -33,7 +36,8 @@ class Size(SpecTable):
     center_distance_mm: Annotated[
         float | None,
         POSITIVE,
-        "centre distance L; spherical: sphere radius; default 100; linkages solve for it",
+        "centre distance L; spherical: sphere radius; linear: crank radius; default 100; linkages "
+        "solve for it",
     ] = None
     roller_radius_mm: Annotated[float | None, POSITIVE, "roller radius r; default L/20"] = None
     process: Annotated[
@@ -51,7 +55,10 @@ class Size(SpecTable):
         float | None, POSITIVE, "length of the contact line between roller and slot"
     ] = None
     wheel_radius_mm: Annotated[
-        float | None, POSITIVE, "rim radius (internal: of the opening); default: roller at entry"
+        float | None,
+        POSITIVE,
+        "rim radius (internal: of the opening; linear: distance of the edge); default: roller at "
+        "entry",
     ] = None
     wheel_outer_radius_mm: Annotated[
         float | None,
@@ -164,11 +171,31 @@ class Size(SpecTable):
     crank_screw_mm: Annotated[
         float | None, POSITIVE, "set screw through the crank's hub: its thread's diameter"
     ] = None
+    wheel_clamp_mm: Annotated[
+        float | None, POSITIVE, "clamp screw of the wheel's slit hub: its thread's diameter"
+    ] = None
+    crank_clamp_mm: Annotated[
+        float | None, POSITIVE, "clamp screw of the crank's slit hub: its thread's diameter"
+    ] = None
     dial_bolts: Annotated[int, Range(0, 100), "number of bolts between dial and wheel"] = 0
     dial_bolt_mm: Annotated[float | None, POSITIVE, "dial's bolt holes: diameter, max. L/40"] = None
     dial_bolt_circle_mm: Annotated[
         float | None, POSITIVE, "dial's bolt circle: diameter; default: amid bore and slots"
     ] = None
+    gear_module_mm: Annotated[
+        float | None, POSITIVE, "module of gear teeth; default: pitch curves without teeth"
+    ] = None
+    gear_teeth: Annotated[
+        int | None, Range(3, 1000), "teeth of the smaller gear; default: nearest by module"
+    ] = None
+    gear_shift: Annotated[
+        float | None,
+        Range(-1.0, 0.86),
+        "smaller gear's profile shift, in modules; default: half of the sum, without undercut",
+    ] = None
+    gear_backlash_mm: Annotated[
+        float, NOT_NEGATIVE, "backlash of gear teeth along their pitch circles"
+    ] = 0.0
     gear_bolts: Annotated[
         int, Range(0, 100), "number of screws between a fixed gear and the frame, evenly spaced"
     ] = 4
@@ -181,7 +208,7 @@ class Size(SpecTable):
         Range(0, 100),
         "bolts through each sector of the locking disc and the arm; default 2 where they fit",
     ] = None
-    lock_bolt_mm: Annotated[float | None, POSITIVE, "lock's bolt holes; default L/40"] = None
+    lock_bolt_mm: Annotated[float | None, POSITIVE, "lock's bolt holes: diameter, max. L/40"] = None
     lock_bolt_circle_mm: Annotated[
         float | None, POSITIVE, "locking disc's bolt circle; default: where the disc is widest"
     ] = None
@@ -241,6 +268,23 @@ class Size(SpecTable):
         own = self.edge_fillet_mm if self.edge_chamfer_mm is None else self.edge_chamfer_mm
         return 0.0 if own is None else own
 
+    def roller_radius(self, L: float) -> float:
+        """Radius of a roller for a centre distance, mm; by default a twentieth of it."""
+        return value_or(self.roller_radius_mm, L / 20.0)
+
+    def pin_diameter(self, roller: float, rounded: Rounding = unrounded) -> float:
+        """Diameter of a roller's pin, mm: by default half of the roller's; 0 for no pin."""
+        return value_or(self.pin_mm, rounded(roller))
+
+    def thicknesses(self, L: float, rounded: Rounding = unrounded) -> Thicknesses:
+        """Thicknesses of the plates for a centre distance, mm; by default all are the wheel's."""
+        between = None if self.face_width_mm is None else self.face_width_mm + 2.0 * self.edge_mm
+        wheel = value_or(self.wheel_thickness_mm, value_or(between, rounded(L / 10.0)))
+        arm = value_or(self.arm_thickness_mm, wheel)
+        # a gap of the process does not ask for a plate of another thickness
+        lock = value_or(self.lock_thickness_mm, wheel + value_or(self.pin_gap_mm, 0.0))
+        return Thicknesses(wheel, lock, arm, value_or(self.link_thickness_mm, arm))
+
     @cached_property
     def allowances(self) -> Allowances:
         """Clearances and press fit from the spec, or else from the process.
@@ -264,20 +308,15 @@ class Size(SpecTable):
         narrow bore lets in its turned shaft. Sizes that are not set have their defaults without a
         load, before they are rounded down.
         """
-        L = DISTANCE_MM if self.center_distance_mm is None else self.center_distance_mm
-        roller = L / 20.0 if self.roller_radius_mm is None else self.roller_radius_mm
-        wide = L / 10.0 if self.face_width_mm is None else self.face_width_mm
-        wheel = wide if self.wheel_thickness_mm is None else self.wheel_thickness_mm
-        arm = wheel if self.arm_thickness_mm is None else self.arm_thickness_mm
-        gap = 0.0 if self.pin_gap_mm is None else self.pin_gap_mm
-        disc = wheel + gap if self.lock_thickness_mm is None else self.lock_thickness_mm
-        bore = L / 6.0 if self.wheel_bore_mm is None else self.wheel_bore_mm
+        L = value_or(self.center_distance_mm, DISTANCE_MM)
+        roller, thick = self.roller_radius(L), self.thicknesses(L)
+        bore = value_or(self.wheel_bore_mm, L / 6.0)
         across = L if self.lock_radius_mm is None else 2.0 * self.lock_radius_mm
         return usual._replace(
-            slot_clearance_mm=cut_mm(wheel, 2.0 * roller),
-            lock_clearance_mm=0.5 * (cut_mm(wheel, across) + cut_mm(disc, across)),
-            press_fit_mm=cut_mm(arm, roller if self.pin_mm is None else self.pin_mm),
-            shaft_fit_mm=cut_mm(wheel, bore),
+            slot_clearance_mm=cut_mm(thick.wheel, 2.0 * roller),
+            lock_clearance_mm=0.5 * (cut_mm(thick.wheel, across) + cut_mm(thick.lock, across)),
+            press_fit_mm=cut_mm(thick.arm, self.pin_diameter(roller)),
+            shaft_fit_mm=cut_mm(thick.wheel, bore),
         )
 
 
@@ -292,6 +331,8 @@ class Load(SpecTable):
 
     inertia_kgm2: Annotated[float, NOT_NEGATIVE, "inertia of everything the wheel turns"] = 0.0
     torque_Nm: Annotated[float, NOT_NEGATIVE, "torque that resists the wheel's motion"] = 0.0
+    mass_kg: Annotated[float, NOT_NEGATIVE, "linear: mass of the rack and all it moves"] = 0.0
+    force_N: Annotated[float, NOT_NEGATIVE, "linear: force that resists the rack's motion"] = 0.0
     dwell_torque_Nm: Annotated[
         float | None, NOT_NEGATIVE, "torque that the lock holds during the dwell; default torque_Nm"
     ] = None
@@ -582,9 +623,6 @@ class TitleBlock(SpecTable):
     ] = None
     flank_hardness_HRC: Annotated[
         float | None, Range(20.0, 70.0), "hardness of the faces that roll, slide or lock"
-    ] = None
-    edge_mm: Annotated[
-        float | None, POSITIVE, "greatest chamfer or rounding of outer edges (ISO 13715)"
     ] = None
 
 

@@ -3,11 +3,10 @@
 from __future__ import annotations
 
 import re
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 from geneva_cli.errors import GenevaError, cut, nearest
 from geneva_cli.names import SHORT_UNITS, unit_of
-from geneva_cli.record import NamedTuple
 
 if TYPE_CHECKING:
     from fractions import Fraction

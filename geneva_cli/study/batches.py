@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from geneva_cli.machine.many import many, may_vary
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.machine.spec import Spec
-from geneva_cli.record import NamedTuple
 from geneva_cli.spec.schema import SpecTable, fields
 from geneva_cli.study.law_columns import law_columns
 

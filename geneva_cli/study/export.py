@@ -6,9 +6,10 @@ import os
 import re
 from collections.abc import Callable, Iterator
 from functools import partial
-from typing import TypeVar
+from typing import NamedTuple, TypeVar
 
 from geneva_cli.design import CURVES, Design
+from geneva_cli.drawings.catalogue import require_drawn
 from geneva_cli.drawings.model import PartsModel
 from geneva_cli.drawings.single_parts import SinglePart, single_parts
 from geneva_cli.errors import GenevaError, cut
@@ -16,7 +17,6 @@ from geneva_cli.layout.missing import Missing
 from geneva_cli.output import animate, draw, draw_sheet, show, show_document, show_text
 from geneva_cli.output.folder import LIST
 from geneva_cli.output.formats import of_curves, usual_curves, usual_tolerance
-from geneva_cli.record import NamedTuple
 from geneva_cli.spec.schema import Points, SpecTable, fields
 from geneva_cli.specfile.writer import quoted, spec_lines
 
@@ -76,6 +76,7 @@ def export_files(
     >>> [file.name for file in files][:3]
     ['wheel-1x-10mm.dxf', 'locking-disc-1x-10mm.dxf', 'arm-1x-10mm.dxf']
     """
+    require_drawn(design.mechanism, "sheet")
     flat = design.spec.wheel.FLAT
     files: list[ExportFile] = []
     missing: list[Missing] = []

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import math
+from typing import NamedTuple
 
 from geneva_cli.numerics.tolerances import ROUNDED
-from geneva_cli.record import NamedTuple
 
 
 class AllowedSpan(NamedTuple):

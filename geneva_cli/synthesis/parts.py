@@ -12,6 +12,7 @@ import math
 from bisect import bisect_left
 from collections.abc import Callable
 from functools import lru_cache
+from typing import NamedTuple
 
 from geneva_cli.analysis.undercut import depths_mm
 from geneva_cli.errors import GenevaError
@@ -23,7 +24,6 @@ from geneva_cli.machine.mechanism import Mechanism, build
 from geneva_cli.machine.spec import Spec
 from geneva_cli.numerics.rounding import to_digits
 from geneva_cli.outlines.outlines import CONTACT
-from geneva_cli.record import NamedTuple
 from geneva_cli.spec.tables import Size
 from geneva_cli.synthesis.parts_data import PartsData, gap_at_rest, parts_data
 from geneva_cli.verdict.checks.undercut import undercut_depth

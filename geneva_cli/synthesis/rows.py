@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import NamedTuple
 
 from geneva_cli.analysis.timing import timings
 from geneva_cli.errors import GenevaError
@@ -11,7 +12,6 @@ from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.machine.spec import Spec
 from geneva_cli.numerics.angles import omega
 from geneva_cli.numerics.keeps import keeps
-from geneva_cli.record import NamedTuple
 from geneva_cli.study.batches import numbers
 from geneva_cli.study.law_columns import law_peaks
 from geneva_cli.study.target import Target

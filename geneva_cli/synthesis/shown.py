@@ -4,10 +4,9 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from typing import Any
+from typing import Any, NamedTuple
 
 from geneva_cli.output.text import cell
-from geneva_cli.record import NamedTuple
 from geneva_cli.table import Reading, Table
 
 # Columns and their short names, the least important last; empty ones are left out.

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 from functools import cached_property
+from typing import NamedTuple
 
 from geneva_cli.collisions.full_turn import turning
 from geneva_cli.collisions.gaps import WorkLimit
@@ -27,7 +28,6 @@ from geneva_cli.outlines.bounding_outlines import bounding_outlines
 from geneva_cli.outlines.crank import rollers_gap
 from geneva_cli.outlines.relief_overlap import leave_no_disc
 from geneva_cli.parts.groove_plate import groove_reaches
-from geneva_cli.record import NamedTuple
 from geneva_cli.study.target import USUAL_RPM
 from geneva_cli.verdict.checks.check import Check
 from geneva_cli.verdict.checks.play import finds_slot

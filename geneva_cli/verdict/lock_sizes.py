@@ -5,6 +5,8 @@ Parts are sized one design after the other, as their defaults depend on rollers'
 
 from __future__ import annotations
 
+from typing import NamedTuple
+
 import numpy as np
 
 from geneva_cli.analysis.locking import Lock
@@ -14,7 +16,6 @@ from geneva_cli.machine.many import alone, designs_in
 from geneva_cli.machine.mechanism import Mechanism, build
 from geneva_cli.machine.spec import Spec
 from geneva_cli.numerics.arrays import parameter
-from geneva_cli.record import NamedTuple
 
 
 class LockSizes(NamedTuple):

@@ -6,7 +6,7 @@ Parts are sized one design after the other, as their defaults depend on rollers'
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
@@ -17,7 +17,6 @@ from geneva_cli.loads.strength.keys import KeyDimensions
 from geneva_cli.loads.strength.part_loads import PartLoads
 from geneva_cli.machine.many import alone
 from geneva_cli.machine.mechanism import Mechanism, build
-from geneva_cli.record import NamedTuple
 
 if TYPE_CHECKING:
     from geneva_cli.numerics.jet import Array

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from itertools import product
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
@@ -17,7 +17,6 @@ from geneva_cli.numerics.angles import radians
 from geneva_cli.numerics.arrays import all_true
 from geneva_cli.numerics.jet import Jet, Number
 from geneva_cli.numerics.sobol import Sobol
-from geneva_cli.record import NamedTuple
 
 if TYPE_CHECKING:
     from geneva_cli.numerics.jet import Array

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
@@ -12,7 +12,6 @@ from geneva_cli.analysis.tolerance.dimensions import Draws
 from geneva_cli.analysis.tolerance.entry_jump import EntryJumpFunction
 from geneva_cli.analysis.tolerance.motion_error import MotionError
 from geneva_cli.progress import tracked
-from geneva_cli.record import NamedTuple
 
 if TYPE_CHECKING:
     from geneva_cli.numerics.jet import Array

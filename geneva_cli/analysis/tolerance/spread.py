@@ -4,13 +4,12 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
 from geneva_cli.analysis.tolerance.dimensions import Deviations, deviations, slope_of
 from geneva_cli.numerics.jet import Jet, Number
-from geneva_cli.record import NamedTuple
 
 if TYPE_CHECKING:
     from geneva_cli.numerics.jet import Array

@@ -17,7 +17,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from itertools import product
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
@@ -39,7 +39,6 @@ from geneva_cli.analysis.tolerance.motion_error import (
 from geneva_cli.machine.many import taken
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.numerics.arrays import array, blocks, joined, parameter
-from geneva_cli.record import NamedTuple
 
 if TYPE_CHECKING:
     from geneva_cli.numerics.arrays import Array

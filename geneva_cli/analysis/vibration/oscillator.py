@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import math
+from typing import NamedTuple
 
 from geneva_cli.analysis.carried import inertia_kgm2
 from geneva_cli.analysis.timing import timings
 from geneva_cli.errors import GenevaError
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.numerics.arrays import library
-from geneva_cli.record import NamedTuple
 from geneva_cli.spec.rules import Range
 
 PERIOD_RATIO = Range(1e-6, 1e5)  # the range that is computed

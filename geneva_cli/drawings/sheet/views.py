@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import Any
+from typing import Any, NamedTuple
 
 from geneva_cli.curves.measure import bounds
 from geneva_cli.curves.plates import Plate, Stack, plates
@@ -29,13 +29,11 @@ from geneva_cli.drawings.sheet.linked import (
     titled,
 )
 from geneva_cli.drawings.sheet.paper import scale_name
-from geneva_cli.drawings.sheet.sized import edge_note
 from geneva_cli.drawings.sheet.standing import draw_frame, draw_groove
 from geneva_cli.drawings.sheet.view import View
 from geneva_cli.drawings.sheet.wheel import draw_wheel
 from geneva_cli.layout.alike import alike
 from geneva_cli.parts.flat_parts import FlatParts
-from geneva_cli.record import NamedTuple
 
 
 class SheetContent(NamedTuple):
@@ -129,7 +127,4 @@ def together(shown: SheetContent, scale: float) -> View:
     view.section(*ends, "A")
     marked = {shown.items[face.plate] for face in shown.cut}
     balloons(view, shown.parts.members, shown.items, marked)
-    edges = edge_note(shown.parts.mechanism.spec.size)
-    if edges:
-        view.remark(edges)
     return view

@@ -9,7 +9,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 from itertools import product
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
@@ -19,7 +19,6 @@ from geneva_cli.layout.bores import around
 from geneva_cli.layout.sphere_sizes import Ball
 from geneva_cli.numerics.tolerances import SAME_LENGTH
 from geneva_cli.parts.sphere.sphere_parts import ROLLER, SphereParts
-from geneva_cli.record import NamedTuple
 
 if TYPE_CHECKING:
     from geneva_cli.numerics.jet import Array

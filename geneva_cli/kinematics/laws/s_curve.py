@@ -3,11 +3,10 @@
 from __future__ import annotations
 
 from functools import cached_property, partial
-from typing import Annotated, ClassVar
+from typing import Annotated, ClassVar, NamedTuple
 
 from geneva_cli.kinematics.laws.law import Law
 from geneva_cli.numerics.jet import Jet, Number, piecewise
-from geneva_cli.record import NamedTuple
 from geneva_cli.spec.rules import Range
 
 

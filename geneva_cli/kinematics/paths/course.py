@@ -8,7 +8,7 @@ wrong sign. Otherwise the interval is sampled more closely.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
@@ -16,7 +16,6 @@ from geneva_cli.kinematics.paths.pairs import EndPairs
 from geneva_cli.kinematics.paths.samples import PathPoints, points
 from geneva_cli.kinematics.roller_path import RollerPath
 from geneva_cli.numerics.tolerances import ROUNDED
-from geneva_cli.record import NamedTuple
 
 if TYPE_CHECKING:
     from geneva_cli.numerics.arrays import Array, Complex, Mask, Number, Which

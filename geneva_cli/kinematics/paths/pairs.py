@@ -22,7 +22,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
@@ -30,7 +30,6 @@ from geneva_cli.kinematics.paths.boxes import OVERLAP, Boxes, boxes_of, halved, 
 from geneva_cli.kinematics.paths.samples import PathPoints, PathSamples, joined, points
 from geneva_cli.kinematics.roller_path import RollerPath
 from geneva_cli.numerics.tolerances import ROUNDED
-from geneva_cli.record import NamedTuple
 
 if TYPE_CHECKING:
     from geneva_cli.numerics.arrays import Array, Mask, Which, Whole

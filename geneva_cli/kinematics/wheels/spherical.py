@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import TYPE_CHECKING, Annotated, ClassVar
+from typing import TYPE_CHECKING, Annotated, ClassVar, NamedTuple
 
 from geneva_cli.errors import GenevaError, refuse
 from geneva_cli.kinematics.layout import Dimension, Layout
@@ -13,7 +13,6 @@ from geneva_cli.kinematics.wheels.poses import HalfStep, PinPose
 from geneva_cli.numerics.angles import radians, sin_cos_deg
 from geneva_cli.numerics.arrays import choose, library
 from geneva_cli.numerics.jet import Jet, Number, turning
-from geneva_cli.record import NamedTuple
 from geneva_cli.spec.example import Example
 from geneva_cli.spec.rules import Range
 

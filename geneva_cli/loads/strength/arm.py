@@ -17,14 +17,13 @@ are neglected.
 
 from __future__ import annotations
 
-from typing import cast
+from typing import NamedTuple, cast
 
 import numpy as np
 
 from geneva_cli.numerics.arrays import Truth, parameter
 from geneva_cli.numerics.jet import Array
 from geneva_cli.numerics.roots import boundary
-from geneva_cli.record import NamedTuple
 
 
 class ArmDimensions(NamedTuple):

@@ -22,7 +22,7 @@ from __future__ import annotations
 
 import math
 from functools import lru_cache
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
@@ -32,7 +32,6 @@ from geneva_cli.loads.loads import state
 from geneva_cli.machine.many import taken
 from geneva_cli.numerics.arrays import array, blocks, joined, parameter
 from geneva_cli.numerics.tolerances import TIE
-from geneva_cli.record import NamedTuple
 
 if TYPE_CHECKING:
     from collections.abc import Sequence

@@ -8,10 +8,11 @@ fit between hub and shaft are neglected.
 
 from __future__ import annotations
 
+from typing import NamedTuple
+
 import numpy as np
 
 from geneva_cli.numerics.jet import Array
-from geneva_cli.record import NamedTuple
 
 
 class KeyDimensions(NamedTuple):

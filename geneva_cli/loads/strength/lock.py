@@ -27,7 +27,7 @@ from __future__ import annotations
 
 import math
 from functools import reduce
-from typing import TYPE_CHECKING, cast
+from typing import TYPE_CHECKING, NamedTuple, cast
 
 import numpy as np
 
@@ -36,7 +36,6 @@ from geneva_cli.analysis.locking import Lock
 from geneva_cli.loads.strength.horn import SHEAR, horns, product
 from geneva_cli.machine.many import taken
 from geneva_cli.numerics.arrays import all_true, blocks, choose_record, only_of, parameter
-from geneva_cli.record import NamedTuple
 
 if TYPE_CHECKING:
     from geneva_cli.machine.mechanism import Mechanism

@@ -16,7 +16,7 @@ is exact.
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
@@ -24,7 +24,6 @@ from geneva_cli.analysis.forces import QuantityValue
 from geneva_cli.analysis.instant import Instant
 from geneva_cli.loads.summaries import load_peaks
 from geneva_cli.numerics.arrays import only_of, parameter
-from geneva_cli.record import NamedTuple
 
 if TYPE_CHECKING:
     from collections.abc import Callable

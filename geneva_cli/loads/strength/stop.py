@@ -8,10 +8,9 @@ wheel's axis: F = T/h.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 from geneva_cli.analysis.forces import hertz_MPa
-from geneva_cli.record import NamedTuple
 
 if TYPE_CHECKING:
     from geneva_cli.machine.mechanism import Mechanism

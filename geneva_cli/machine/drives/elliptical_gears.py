@@ -10,7 +10,7 @@ Source: the focal property of the ellipse; Kepler's true anomaly follows this la
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Annotated, ClassVar
+from typing import Annotated, ClassVar, NamedTuple
 
 from geneva_cli.errors import GenevaError, refuse
 from geneva_cli.kinematics.drive import Gears, Plan
@@ -22,7 +22,6 @@ from geneva_cli.machine.drives.transmission import LocalTransmission, Transmissi
 from geneva_cli.numerics.angles import sin_cos_deg
 from geneva_cli.numerics.arrays import library
 from geneva_cli.numerics.jet import Jet, Number, cosines_after, sine_versine_of
-from geneva_cli.record import NamedTuple
 from geneva_cli.spec.example import Example
 from geneva_cli.spec.rules import POSITIVE, OneOf, Range
 

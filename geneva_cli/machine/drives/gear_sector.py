@@ -12,7 +12,7 @@ circles are R and L - R. The step is 2 (b - psi_t) + u D.
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, Annotated, ClassVar
+from typing import TYPE_CHECKING, Annotated, ClassVar, NamedTuple
 
 from geneva_cli.errors import GenevaError, refuse
 from geneva_cli.kinematics.drive import Plan
@@ -26,7 +26,6 @@ from geneva_cli.numerics.angles import radians
 from geneva_cli.numerics.arrays import larger, library, parameter, size
 from geneva_cli.numerics.jet import Jet, Number, piecewise
 from geneva_cli.numerics.roots import boundary
-from geneva_cli.record import NamedTuple
 from geneva_cli.spec.example import Example
 from geneva_cli.spec.rules import POSITIVE, Range, Words
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from abc import abstractmethod
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, ClassVar
+from typing import TYPE_CHECKING, ClassVar, NamedTuple
 
 from geneva_cli.errors import GenevaError, refuse
 from geneva_cli.kinematics import path_and_motion
@@ -30,7 +30,6 @@ from geneva_cli.machine.rollers import places
 from geneva_cli.numerics.angles import radians
 from geneva_cli.numerics.arrays import parameter
 from geneva_cli.numerics.jet import Jet, Number, sine_versine
-from geneva_cli.record import NamedTuple
 
 if TYPE_CHECKING:
     from geneva_cli.kinematics.laws.law import Law

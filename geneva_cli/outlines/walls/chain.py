@@ -11,7 +11,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
@@ -22,7 +22,6 @@ from geneva_cli.layout.plain_sizes import Sizes
 from geneva_cli.numerics.roots import boundary_by_sections
 from geneva_cli.outlines.walls.joint import WallPlace, joint, points_at, runs
 from geneva_cli.outlines.walls.ways import Wall, walls
-from geneva_cli.record import NamedTuple
 
 if TYPE_CHECKING:
     from geneva_cli.numerics.jet import Array

@@ -4,12 +4,11 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
 from geneva_cli.outlines.walls.ways import Wall
-from geneva_cli.record import NamedTuple
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray

@@ -12,7 +12,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from typing import TYPE_CHECKING, TypeAlias
+from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 
 import numpy as np
 
@@ -20,7 +20,6 @@ from geneva_cli.curves.moments import Moments
 from geneva_cli.layout.roller_paths import rest
 from geneva_cli.numerics.arrays import array
 from geneva_cli.numerics.quadrature import rule
-from geneva_cli.record import NamedTuple
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from typing import TYPE_CHECKING, TypeAlias
+from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 
 import numpy as np
 
@@ -21,7 +21,6 @@ from geneva_cli.layout.slot_profile import heading_at, pitch_at
 from geneva_cli.layout.slot_sampling import nodes
 from geneva_cli.numerics.arrays import array
 from geneva_cli.numerics.roots import boundary_by_sections
-from geneva_cli.record import NamedTuple
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator
+from typing import NamedTuple
 
 from geneva_cli.output import pdf_file
 from geneva_cli.output.letters import western
 from geneva_cli.output.pdf_file import POINT, Page, number
-from geneva_cli.record import NamedTuple
 
 WIDTH, HEIGHT = 210.0, 297.0
 LEFT, TOP, BOTTOM = 16.0, 281.0, 20.0

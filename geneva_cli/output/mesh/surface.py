@@ -3,12 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
 from geneva_cli.output.mesh.polygons import DECIMALS, Triangle
-from geneva_cli.record import NamedTuple
 
 if TYPE_CHECKING:
     import numpy.typing as npt

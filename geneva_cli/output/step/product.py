@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from typing import NamedTuple
 
 from geneva_cli.curves.plates import Group, Member, Part, Plate, Shell, Solid, solids
 from geneva_cli.output.inks import Ink, inks
@@ -10,7 +11,6 @@ from geneva_cli.output.step.entities import Entities, listed, real, words
 from geneva_cli.output.step.shell import shell_solid
 from geneva_cli.output.step.solid import solid
 from geneva_cli.output.step.stack import stack_solid
-from geneva_cli.record import NamedTuple
 
 
 class Product(NamedTuple):

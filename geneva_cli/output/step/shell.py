@@ -9,6 +9,7 @@ line through the centre, which meets both spheres in circles.
 from __future__ import annotations
 
 import math
+from typing import NamedTuple
 
 from geneva_cli.curves.plates import Shell
 from geneva_cli.curves.round_holes import RoundHole
@@ -23,7 +24,6 @@ from geneva_cli.output.step.entities import (
     loop,
     real,
 )
-from geneva_cli.record import NamedTuple
 
 FLAT = 1e-12  # cosine of a cone's angle below which it is a plane
 

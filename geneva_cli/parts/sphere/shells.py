@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
@@ -17,7 +17,6 @@ from geneva_cli.outlines.outlines import CONTACT
 from geneva_cli.parts.sphere.bounds import SpherePairs
 from geneva_cli.parts.sphere.fitted import fitted
 from geneva_cli.parts.sphere.gaps import BallGaps
-from geneva_cli.record import NamedTuple
 
 if TYPE_CHECKING:
     from geneva_cli.numerics.jet import Array

@@ -7,12 +7,12 @@ import itertools
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import suppress
 from functools import partial
+from typing import NamedTuple
 
 from geneva_cli import __version__
 from geneva_cli.errors import GenevaError, cut
 from geneva_cli.machine.mechanism import Mechanism, build
 from geneva_cli.machine.spec import Spec
-from geneva_cli.record import NamedTuple
 from geneva_cli.specfile.reader import Text
 from geneva_cli.specfile.settings import Setting, setting
 from geneva_cli.study.fields import Cell, Pick, pick

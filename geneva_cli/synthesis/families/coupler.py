@@ -15,12 +15,11 @@ which is no solution; the other one is the solution.
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
 from geneva_cli.numerics.jet import Jet, atan2, sin_cos, sqrt
-from geneva_cli.record import NamedTuple
 
 if TYPE_CHECKING:
     from geneva_cli.numerics.arrays import Array, Complex, Mask, Number, Whole

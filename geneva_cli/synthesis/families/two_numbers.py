@@ -13,6 +13,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator, Sequence
+from typing import NamedTuple
 
 import numpy as np
 from numpy.lib.stride_tricks import sliding_window_view
@@ -25,7 +26,6 @@ from geneva_cli.machine.drives.side_crank import SideCrank
 from geneva_cli.machine.many import many
 from geneva_cli.machine.spec import Spec
 from geneva_cli.numerics.arrays import Array, Whole
-from geneva_cli.record import NamedTuple
 from geneva_cli.study.goals import Objective
 from geneva_cli.study.spans import AllowedSpan
 from geneva_cli.study.sweep.columns import columns

@@ -34,6 +34,8 @@ MOTION: Checks = {
     "entry_shock_N": "shocks:entry_shock",
     "reversal_shock_N": "shocks:reversal_shock",
     "stopping_torque_Nm": "arrival:stopping_torque",
+    "rack_horn_mm": "rack:rack_horn",
+    "rack_gap_mm": "rack:rack_gap",
 }
 # Checks of limits that the spec sets.
 LIMITS: Checks = {
@@ -68,6 +70,8 @@ STATIC: Checks = {
     "rollers_apart_mm": "walls:rollers_apart",
     "wheel_bore_wall_mm": "walls:wheel_bore",
     "outer_wall_mm": "walls:outside",
+    "wheel_clamp_Nm": "clamps:held_torque",
+    "crank_clamp_Nm": "clamps:held_torque",
     "dial_wall_mm": "dial:wall",
     "crank_bore_wall_mm": "walls:crank_bore",
     "crank_shaft_mm": "shafts:crank_shaft",
@@ -94,6 +98,8 @@ SPHERE: Checks = {
     "horn_mm": "sphere:horn",
     "wheel_bore_wall_mm": "sphere:wheel_bore",
     "crank_shaft_mm": "sphere:crank_shaft",
+    "wheel_clamp_Nm": "clamps:held_torque",
+    "crank_clamp_Nm": "clamps:held_torque",
     "dial_wall_mm": "sphere:dial",
     "beside_shafts_mm": "sphere:passing_parts",
     "arm_wall_mm": "sphere:arm_wall",

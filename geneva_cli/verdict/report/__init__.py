@@ -6,10 +6,10 @@ A section is a group of quantities in ``verdict.quantities.groups``, and its fun
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import NamedTuple
 
 from geneva_cli.drawings.model import PartsModel
 from geneva_cli.errors import Notice
-from geneva_cli.record import NamedTuple
 from geneva_cli.table import Table, in_digits, record_table
 from geneva_cli.verdict.checks.check import Check, all_pass
 from geneva_cli.verdict.quantities.groups import REPORT
@@ -50,6 +50,7 @@ def _in_one_line(check: Check) -> str:
     if check.value is None or check.limit is None:
         return check.not_computed
     where = "" if check.at_deg is None else f" at {check.at_deg:.6g} deg"
+    where += f" {check.direction}" if check.direction else ""
     value, limit = in_digits(check.value, 6), in_digits(check.limit, 6)
     change = f"; nearest change: {check.nearest}" if check.nearest else ""
     why = f"; {check.why}" if check.why else ""

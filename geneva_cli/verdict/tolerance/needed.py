@@ -12,7 +12,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from typing import TypeAlias
+from typing import NamedTuple, TypeAlias
 
 from geneva_cli.analysis.impacts import arm_mm
 from geneva_cli.drawings.model import PartsModel
@@ -22,7 +22,6 @@ from geneva_cli.layout.sphere_sizes import Ball
 from geneva_cli.machine.mechanism import Mechanism, build
 from geneva_cli.machine.spec import Spec
 from geneva_cli.outlines.outlines import Outlines
-from geneva_cli.record import NamedTuple
 from geneva_cli.verdict.checks.registry import turn_checks
 
 # The lock's need, None for none, and the spec of the tightest machine (-1) or the loosest (+1)
