@@ -84,9 +84,9 @@ CONFLICTS = (
         'kind = "{drive}" carries one roller only',
     ),
     Conflict(
-        lambda s: s.wheel.steps and s.drive.roller_angles_deg,
-        ("wheel", "steps_deg"),
-        "steps_deg already places the rollers: remove roller_angles_deg",
+        lambda s: s.wheel.steps and len(s.drive.roller_angles_deg or s.wheel.steps) != _several(s),
+        ("drive", "roller_angles_deg"),
+        "each of the {several} steps has a roller: roller_angles_deg needs as many angles",
     ),
     Conflict(
         lambda s: _several(s) and s.drive.rollers not in (1, _several(s)),
