@@ -14,10 +14,11 @@ from typing import NamedTuple
 from geneva_cli.curves.sphere import Vector, place
 from geneva_cli.errors import GenevaError
 from geneva_cli.layout.axles import about_crank, wheel_axle
-from geneva_cli.layout.plain_sizes import Thicknesses, pin_radius, thicknesses
+from geneva_cli.layout.plain_sizes import drawn_thicknesses, pin_radius
 from geneva_cli.layout.sizes import lock_between, require_lock_between
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.machine.rollers import places
+from geneva_cli.spec.default_sizes import Thicknesses
 from geneva_cli.spec.tables import Z_DRAWN, Size
 
 
@@ -111,7 +112,7 @@ def ball(mechanism: Mechanism, roller_mm: float | None = None) -> Ball:
     # the roller touches the wall that faces the crank's axis at the foot of the perpendicular
     rim = math.acos(math.cos(mouth) * math.cos(w))
     _refuse_slots(bottom, w, z)
-    thick, pin = thicknesses(size, L), pin_radius(size, radius_mm)
+    thick, pin = drawn_thicknesses(size, L), pin_radius(size, radius_mm)
     _refuse_thick(thick, size, L, roller, pin)
     inside, outside = L - 0.5 * thick.wheel, L + 0.5 * thick.wheel
     under = outside + size.allowances.pin_gap_mm  # the arm's inner face, on which the sectors stand
@@ -145,7 +146,7 @@ def ball(mechanism: Mechanism, roller_mm: float | None = None) -> Ball:
         bore_mm=bore,
         hub_mm=hub,
         pin_mm=pin,
-        about_crank_mm=about_crank(size),
+        about_crank_mm=about_crank(size, L),
     )
     _refuse(result)
     return result

@@ -23,6 +23,7 @@ from geneva_cli.drawings.sheet.paper import (
     table,
     title_block,
 )
+from geneva_cli.drawings.sheet.sized import edge_note
 from geneva_cli.drawings.sheet.view import Block, number
 from geneva_cli.errors import GenevaError
 from geneva_cli.machine.spec import Spec
@@ -82,7 +83,7 @@ def _composed(
         },
         {
             "roughness": _rough(own.roughness_um) or shop.roughness,
-            "edges": f"ISO 13715: -{own.edge_mm:g}" if own.edge_mm else "free of burrs",
+            "edges": edge_note(spec.size) or "free of burrs",
             "faces that roll, slide, lock": _working(own),
         },
         {
