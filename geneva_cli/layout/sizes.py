@@ -9,6 +9,7 @@ past the rim and leaves a horn next to the slot.
 from __future__ import annotations
 
 import math
+from functools import lru_cache
 from typing import TYPE_CHECKING
 
 from geneva_cli.errors import GenevaError
@@ -48,10 +49,27 @@ def sized(mechanism: Mechanism, loads: PartLoads | None = None) -> tuple[Assembl
     if not mechanism.spec.is_flat:
         return None
     try:
-        where = assembly(mechanism)
-        return where, sizes(where, loads=loads)
+        return layout(mechanism, loads)
     except GenevaError:
         return None  # the check of the parts reports the error
+
+
+def layout(mechanism: Mechanism, loads: PartLoads | None = None) -> tuple[Assembly, Sizes]:
+    """Return a machine's assembly and sizes, cached for its parts, checks and strength.
+
+    Raises GenevaError for a machine without flat parts, and where a size leaves none.
+    """
+    if loads is None and mechanism.spec.is_loaded:
+        from geneva_cli.loads.strength.part_loads import single_loads  # without a load none
+
+        loads = single_loads(mechanism)
+    return _layout(mechanism, loads)
+
+
+@lru_cache(maxsize=16)
+def _layout(mechanism: Mechanism, loads: PartLoads | None) -> tuple[Assembly, Sizes]:
+    where = assembly(mechanism)
+    return where, sizes(where, loads=loads)
 
 
 def sizes(

@@ -20,7 +20,6 @@ from geneva_cli.study.pool import cores, mapped
 from geneva_cli.study.sweep import batch
 from geneva_cli.study.sweep.plan import BLOCK, WHOLE, Shard, SweepPlan
 from geneva_cli.study.sweep.values import Value, VariedKey
-from geneva_cli.verdict.quantities.names import in_batch
 
 DEFAULT = ("timing.motion_deg", "timing.dwell_s", "velocity.max", "acceleration.max", "jerk.max")
 ERROR = "error"  # the column that says why a design cannot be built
@@ -59,15 +58,12 @@ class Sweep(NamedTuple):
     def rows_of(self, every: Sequence[Sequence[Value]]) -> list[list[Cell]]:
         """The rows of designs by the values of their keys."""
         known = self.known(every)
-        return [
-            [*some, *known[i], None] if i in known else self.row(some)
-            for i, some in enumerate(every)
-        ]
+        return [self.row(some, known.get(i)) for i, some in enumerate(every)]
 
     def known(self, every: Sequence[Sequence[Value]]) -> Mapping[int, list[Cell]]:
-        """The quantities of the designs that a batch can compute, by their numbers."""
-        keys = [a.key for a in self.plan.axes]
-        return batch.table(every, keys, self.pick.names, self._spec) if self.is_batched else {}
+        """The quantities that a batch can compute, of the designs of batches by their numbers."""
+        keys, names = [a.key for a in self.plan.axes], self.pick.batched
+        return batch.table(every, keys, names, self._spec) if names else {}
 
     @property
     def task_size(self) -> int:
@@ -80,7 +76,7 @@ class Sweep(NamedTuple):
     @property
     def is_batched(self) -> bool:
         """Return True if all quantities can be computed for a batch of designs."""
-        return bool(self.pick.names) and in_batch(self.pick.names)
+        return bool(self.pick.names) and not self.pick.rest.names
 
     def _spec(self, some: Sequence[Value]) -> Spec:
         return with_values(self.text, self.plan.axes, some).spec()
@@ -97,10 +93,15 @@ class Sweep(NamedTuple):
                 return own
         return None
 
-    def row(self, some: Sequence[Value]) -> list[Cell]:
-        """The row of the design with these values of the keys."""
+    def row(self, some: Sequence[Value], known: Sequence[Cell] | None = None) -> list[Cell]:
+        """The row of the design with these values of the keys.
+
+        ``known`` are the quantities of ``pick.batched``, if a batch has computed them.
+        """
+        if known is not None and self.is_batched:
+            return [*some, *known, None]
         try:
-            return [*some, *self.pick.of(self.machine(some)), None]
+            return [*some, *self.pick.of(self.machine(some), known), None]
         except GenevaError as error:
             return [*some, *[None] * len(self.pick.names), str(error)]
 

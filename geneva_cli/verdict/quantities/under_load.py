@@ -14,7 +14,7 @@ from geneva_cli.layout.sizes import sized
 from geneva_cli.layout.stressed import lock_of
 from geneva_cli.loads.cycle import cycle_of
 from geneva_cli.loads.strength import lock, roller, shafts
-from geneva_cli.loads.strength.part_loads import PartLoads, part_loads
+from geneva_cli.loads.strength.part_loads import PartLoads, part_loads, single_loads
 from geneva_cli.loads.summaries import load_peaks
 from geneva_cli.numerics.arrays import parameter
 from geneva_cli.verdict.lock_sizes import LockSizes, design_lock_sizes
@@ -100,10 +100,12 @@ class SingleUnderLoad(UnderLoad):
     @cached_property
     def force_N(self) -> Array:
         """The greatest force on a roller."""
-        if np.isnan(self.loaded[0]):
-            return self.loaded
-        force = cycle_of(self.machine).extremes[FORCE]
-        return np.array([max(force.max, -force.min)])
+        return np.array([self.part_loads.pin_N]) * self.loaded
+
+    @cached_property
+    def part_loads(self) -> PartLoads:
+        """The greatest loads on arm, keys and shafts, from which the parts are sized."""
+        return single_loads(self.machine)
 
     @cached_property
     def pv_W_m2(self) -> Array:
