@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import math
 from functools import lru_cache
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, TypeAlias
 
 from geneva_cli.errors import GenevaError
 from geneva_cli.layout.arm_sizes import (
@@ -41,7 +41,10 @@ if TYPE_CHECKING:
     from geneva_cli.loads.strength.part_loads import PartLoads
 
 
-def sized(mechanism: Mechanism, loads: PartLoads | None = None) -> tuple[Assembly, Sizes] | None:
+Layout: TypeAlias = tuple[Assembly, Sizes]  # of one machine
+
+
+def sized(mechanism: Mechanism, loads: PartLoads | None = None) -> Layout | None:
     """Return a machine's assembly and sizes; None where no flat parts can be cut.
 
     ``loads`` are those on its parts, if computed already.
@@ -54,7 +57,7 @@ def sized(mechanism: Mechanism, loads: PartLoads | None = None) -> tuple[Assembl
         return None  # the check of the parts reports the error
 
 
-def layout(mechanism: Mechanism, loads: PartLoads | None = None) -> tuple[Assembly, Sizes]:
+def layout(mechanism: Mechanism, loads: PartLoads | None = None) -> Layout:
     """Return a machine's assembly and sizes, cached for its parts, checks and strength.
 
     Raises GenevaError for a machine without flat parts, and where a size leaves none.
@@ -67,7 +70,7 @@ def layout(mechanism: Mechanism, loads: PartLoads | None = None) -> tuple[Assemb
 
 
 @lru_cache(maxsize=16)
-def _layout(mechanism: Mechanism, loads: PartLoads | None) -> tuple[Assembly, Sizes]:
+def _layout(mechanism: Mechanism, loads: PartLoads | None) -> Layout:
     where = assembly(mechanism)
     return where, sizes(where, loads=loads)
 

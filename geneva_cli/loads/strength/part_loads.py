@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from functools import lru_cache
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
@@ -11,6 +10,7 @@ from geneva_cli.analysis.quantities import FORCE
 from geneva_cli.loads.strength.shafts import Torque, on_crank, on_driven_crank, on_wheel
 from geneva_cli.loads.summaries import load_peaks
 from geneva_cli.numerics.arrays import parameter
+from geneva_cli.numerics.known import Known
 
 if TYPE_CHECKING:
     from geneva_cli.machine.mechanism import Mechanism
@@ -30,7 +30,7 @@ class PartLoads(NamedTuple):
         return PartLoads(*(float(np.ravel(row)[i]) for row in self))
 
 
-@lru_cache(maxsize=16)
+@Known
 def single_loads(mechanism: Mechanism) -> PartLoads:
     """The greatest loads of a machine as numbers, cached for its sizes and their checks."""
     return part_loads(mechanism).of(0)

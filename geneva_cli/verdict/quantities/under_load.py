@@ -10,14 +10,13 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from geneva_cli.analysis.quantities import FORCE, PV
-from geneva_cli.layout.sizes import sized
-from geneva_cli.layout.stressed import lock_of
+from geneva_cli.layout.sizes import Layout, sized
 from geneva_cli.loads.cycle import cycle_of
 from geneva_cli.loads.strength import lock, roller, shafts
 from geneva_cli.loads.strength.part_loads import PartLoads, part_loads, single_loads
 from geneva_cli.loads.summaries import load_peaks
 from geneva_cli.numerics.arrays import parameter
-from geneva_cli.verdict.lock_sizes import LockSizes, design_lock_sizes
+from geneva_cli.verdict.lock_sizes import LockSizes, design_lock_sizes, layouts_lock_sizes
 from geneva_cli.verdict.part_sizes import PartSizes, part_sizes
 
 if TYPE_CHECKING:
@@ -31,7 +30,7 @@ class UnderLoad:
     """The m designs of a machine under their loads: (m,) each, computed once."""
 
     def __init__(self, of: Designs) -> None:
-        self.machine = of.machine
+        self.machine, self.designs = of.machine, of
         self.loaded = of.loaded
 
     @cached_property
@@ -58,7 +57,17 @@ class UnderLoad:
     @cached_property
     def lock_sizes(self) -> LockSizes | None:
         """The sizes of horn and lock, (m, 1); None if no design has a lock."""
+        if self.designs.are_built:
+            return layouts_lock_sizes(self.layouts)
         return design_lock_sizes(self.machine)
+
+    @cached_property
+    def layouts(self) -> Sequence[Layout | None]:
+        """Assembly and sizes of each design; None for one without flat parts."""
+        return [sized(one, self._loads_of(i)) for i, one in enumerate(self.designs.each)]
+
+    def _loads_of(self, i: int) -> PartLoads | None:
+        return self.part_loads.of(i) if self.machine.spec.is_loaded else None
 
     @cached_property
     def lock(self) -> LockUnderTorque | None:
@@ -72,7 +81,7 @@ class UnderLoad:
     def parts(self) -> PartSizes | None:
         """The dimensions of stressed parts; None if no design has parts, or a load."""
         loaded = self.machine.spec.is_loaded
-        return part_sizes(self.machine, self.part_loads) if loaded else None
+        return part_sizes(self.layouts) if loaded else None
 
     @property
     def contact_mm(self) -> float | None:
@@ -129,14 +138,6 @@ class SingleUnderLoad(UnderLoad):
         if not math.isinf(self.force_N[0]):
             return every
         return [one._replace(work=math.inf, load=math.inf) for one in every]
-
-    @cached_property
-    def lock_sizes(self) -> LockSizes | None:
-        """The sizes of horn and lock; None without a lock."""
-        parts = sized(self.machine)
-        if parts is None or not parts[1].lock:
-            return None
-        return LockSizes(parts[1].half_width, lock_of(*parts))
 
     def shaft(
         self, ends: shafts.ShaftDimensions, loaded: shafts.ShaftForces
