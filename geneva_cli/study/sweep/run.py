@@ -181,7 +181,7 @@ def sweep(
 def _refuse_hopeless(text: Text, plan: SweepPlan) -> None:
     """Raise GenevaError if neither the middle design nor any of a sample can be built.
 
-    The middle design comes first: it needs no random numbers, for which SciPy would be loaded.
+    The middle design comes first: most ranges have one that can be built.
     """
     most = 1000  # designs of the sample
     reasons = []
