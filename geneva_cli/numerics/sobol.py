@@ -1,7 +1,7 @@
 """Sobol's sequence, scrambled: points that fill a cube more evenly than random ones.
 
-SciPy has it in ``scipy.stats``, whose import takes three times as long as a short run. The points of
-``tolerance`` and of ``sweep --random`` are these.
+SciPy has it in ``scipy.stats``, whose import takes three times as long as a short run. The points
+of ``tolerance`` and of ``sweep --random`` are these.
 
 Digits are binary. Digit k of a coordinate is the sum, modulo 2, of those digits of the point's
 number that the direction numbers of its dimension choose. A random lower triangular matrix, then a
@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 
 DIGITS = 53  # of a double
 # Inner coefficients of the primitive polynomial as a number, and the first direction numbers: Joe
-# and Kuo, SIAM J. Sci. Comput. 30, 2008, 2635-2654, dimensions 1 to 32. The first has no polynomial.
+# and Kuo, SIAM J. Sci. Comput. 30, 2008, 2635-2654, dimensions 1 to 32. The first has none.
 DIRECTIONS = (
     (0, ()),
     (0, (1,)),
