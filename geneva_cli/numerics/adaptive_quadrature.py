@@ -69,8 +69,8 @@ def span_integrals(
 
     ``design`` (spans,) is the design of each span. ``needed`` (functions, n) selects the integrals
     that are needed; others, such as unbounded ones, are meaningless. The functions may clear
-    elements of it while they are evaluated. Unbounded integrals are infinite. Those of a design whose
-    functions are noise are NaN: halving its spans does not help.
+    elements of it while they are evaluated. Unbounded integrals are infinite. Those of noise are
+    NaN, since halving their spans does not help.
 
     With ``apart`` the result is the integral of each span, (functions, spans), to the same
     fraction of its design's. ``poles`` (spans,) is the distance of the nearest poles from the real
