@@ -52,27 +52,22 @@ def sized(mechanism: Mechanism, loads: PartLoads | None = None) -> Layout | None
     if not mechanism.spec.is_flat:
         return None
     try:
-        return layout(mechanism, loads)
+        if loads is None:
+            return machine_sizes(mechanism)
+        where = assembly(mechanism)
+        return where, sizes(where, loads=loads)
     except GenevaError:
         return None  # the check of the parts reports the error
 
 
-def layout(mechanism: Mechanism, loads: PartLoads | None = None) -> Layout:
-    """Return a machine's assembly and sizes, cached for its parts, checks and strength.
-
-    Raises GenevaError for a machine without flat parts, and where a size leaves none.
-    """
-    if loads is None and mechanism.spec.is_loaded:
-        from geneva_cli.loads.strength.part_loads import single_loads  # without a load none
-
-        loads = single_loads(mechanism)
-    return _layout(mechanism, loads)
-
-
 @lru_cache(maxsize=16)
-def _layout(mechanism: Mechanism, loads: PartLoads | None) -> Layout:
+def machine_sizes(mechanism: Mechanism) -> Layout:
+    """Return a machine's assembly and sizes, cached for its strength, checks and parts.
+
+    Raises GenevaError, naming the key, where a size leaves no wheel or no lock.
+    """
     where = assembly(mechanism)
-    return where, sizes(where, loads=loads)
+    return where, sizes(where)
 
 
 def sizes(

@@ -19,7 +19,7 @@ from geneva_cli.analysis.forces import Forces, LoadCase, QuantityValue, load_cas
 from geneva_cli.analysis.instant import Instant
 from geneva_cli.analysis.load_functions import LoadFunctions, LoadQuantity, load_batch
 from geneva_cli.analysis.peak_search import PeakArray
-from geneva_cli.analysis.quantities import FORCE, SQUARED, STRESS, TORQUE, known_quantities
+from geneva_cli.analysis.quantities import FORCE, SQUARED, STRESS, TORQUE, sources
 from geneva_cli.kinematics.engagement import Engagement, Peak
 from geneva_cli.kinematics.pitch_curve import retraces
 from geneva_cli.loads.cycle import cycle_of
@@ -122,7 +122,7 @@ def limited_load_peaks(mechanism: Mechanism) -> dict[str, PeakArray]:
 
     A load without a value, such as a stress without a face width, is left out.
     """
-    known, limited = known_quantities(mechanism), load_limits(mechanism.spec.limits)
+    known, limited = sources(mechanism), load_limits(mechanism.spec.limits)
     names = [name for name in limited if name in known]
     return load_peaks(mechanism, names) if names else {}
 

@@ -11,7 +11,7 @@ from geneva_cli.analysis.peak_search import PeakArray
 from geneva_cli.errors import GenevaError
 from geneva_cli.kinematics.engagement import Peak
 from geneva_cli.loads import loads
-from geneva_cli.loads.strength.part_loads import PartLoads, single_loads
+from geneva_cli.loads.strength.part_loads import PartLoads, own_loads, single_loads
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.verdict.quantities.designs import BatchMember, Designs, single
 from geneva_cli.verdict.quantities.under_load import under_load
@@ -27,12 +27,14 @@ def share(batch: Mechanism, machines: Sequence[Mechanism]) -> None:
     computed for the design alone. There are at most ``known.KEPT`` machines.
     """
     designs = Designs(batch, each=machines)
-    on_parts = _unless_refused(lambda: under_load(designs).part_loads)
+    own = _unless_refused(lambda: under_load(designs).part_loads)
+    sizing = _unless_refused(lambda: under_load(designs).sizing_loads)
     pressures = _unless_refused(lambda: loads.greatest_pressures(batch))
     limited = _unless_refused(lambda: loads.limited_load_peaks(batch))
     for i, machine in enumerate(machines):
         single.put(machine, partial(BatchMember, designs, i))
-        single_loads.put(machine, partial(_taken, on_parts, partial(_loads_of, i=i)))
+        own_loads.put(machine, partial(_taken, own, partial(_loads_of, i=i)))
+        single_loads.put(machine, partial(_taken, sizing, partial(_loads_of, i=i)))
         loads.greatest_pressure.put(machine, partial(_taken, pressures, partial(_peak, i=i)))
         loads.limited_peaks.put(machine, partial(_taken, limited, partial(_limited_peaks, i=i)))
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import reduce
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
@@ -9,7 +10,8 @@ import numpy as np
 from geneva_cli.analysis.quantities import FORCE
 from geneva_cli.loads.strength.shafts import Torque, on_crank, on_driven_crank, on_wheel
 from geneva_cli.loads.summaries import load_peaks
-from geneva_cli.numerics.arrays import parameter
+from geneva_cli.machine.both_ways import every_way
+from geneva_cli.numerics.arrays import larger, parameter
 from geneva_cli.numerics.known import Known
 
 if TYPE_CHECKING:
@@ -31,9 +33,25 @@ class PartLoads(NamedTuple):
 
 
 @Known
-def single_loads(mechanism: Mechanism) -> PartLoads:
-    """The greatest loads of a machine as numbers, cached for its sizes and their checks."""
+def own_loads(mechanism: Mechanism) -> PartLoads:
+    """The greatest loads of a machine in its own direction as numbers, cached for its checks."""
     return part_loads(mechanism).of(0)
+
+
+@Known
+def single_loads(mechanism: Mechanism) -> PartLoads:
+    """The loads for which a machine is sized as numbers, cached for its sizes and their checks."""
+    return sizing_loads(mechanism, own_loads(mechanism)).of(0)
+
+
+def sizing_loads(mechanism: Mechanism, forwards: PartLoads | None = None) -> PartLoads:
+    """The greatest loads of m designs in every direction in which they turn.
+
+    ``forwards`` are those of this machine's own direction, if computed already.
+    """
+    _, *others = every_way(mechanism)
+    each = [forwards or part_loads(mechanism), *map(part_loads, others)]
+    return PartLoads(*(reduce(larger, rows) for rows in zip(*each, strict=True)))
 
 
 def part_loads(mechanism: Mechanism) -> PartLoads:

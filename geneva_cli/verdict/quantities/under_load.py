@@ -13,7 +13,7 @@ from geneva_cli.analysis.quantities import FORCE, PV
 from geneva_cli.layout.sizes import Layout, sized
 from geneva_cli.loads.cycle import cycle_of
 from geneva_cli.loads.strength import lock, roller, shafts
-from geneva_cli.loads.strength.part_loads import PartLoads, part_loads, single_loads
+from geneva_cli.loads.strength.part_loads import PartLoads, own_loads, part_loads, sizing_loads
 from geneva_cli.loads.summaries import load_peaks
 from geneva_cli.numerics.arrays import parameter
 from geneva_cli.verdict.lock_sizes import LockSizes, design_lock_sizes, layouts_lock_sizes
@@ -64,10 +64,15 @@ class UnderLoad:
     @cached_property
     def layouts(self) -> Sequence[Layout | None]:
         """Assembly and sizes of each design; None for one without flat parts."""
-        return [sized(one, self._loads_of(i)) for i, one in enumerate(self.designs.each)]
+        each = self.designs.each
+        if self.designs.are_built or not self.machine.spec.is_loaded:
+            return [sized(one) for one in each]
+        return [sized(one, self.sizing_loads.of(i)) for i, one in enumerate(each)]
 
-    def _loads_of(self, i: int) -> PartLoads | None:
-        return self.part_loads.of(i) if self.machine.spec.is_loaded else None
+    @cached_property
+    def sizing_loads(self) -> PartLoads:
+        """The loads for which the parts are sized: the greatest of all directions."""
+        return sizing_loads(self.machine, self.part_loads)
 
     @cached_property
     def lock(self) -> LockUnderTorque | None:
@@ -80,8 +85,7 @@ class UnderLoad:
     @cached_property
     def parts(self) -> PartSizes | None:
         """The dimensions of stressed parts; None if no design has parts, or a load."""
-        loaded = self.machine.spec.is_loaded
-        return part_sizes(self.layouts) if loaded else None
+        return part_sizes(self.layouts) if self.machine.spec.is_loaded else None
 
     @property
     def contact_mm(self) -> float | None:
@@ -113,8 +117,8 @@ class SingleUnderLoad(UnderLoad):
 
     @cached_property
     def part_loads(self) -> PartLoads:
-        """The greatest loads on arm, keys and shafts, from which the parts are sized."""
-        return single_loads(self.machine)
+        """The greatest loads on arm, keys and shafts."""
+        return own_loads(self.machine)
 
     @cached_property
     def pv_W_m2(self) -> Array:
