@@ -108,7 +108,7 @@ def span_integrals(
         _add(total, into[of[~open_]], whole[:, ~open_])
         parts = np.bincount(design[of[open_]], minlength=n)
         # a kink or a pole leaves some open parts at each depth, noise twice as many as before
-        lost_in_noise = (parts > 2000)[design[of]]
+        lost_in_noise = (parts > 20_000)[design[of]]
         total[:, into[of[open_ & lost_in_noise]]] = np.nan
         open_ &= ~lost_in_noise
         if not open_.any():
