@@ -10,6 +10,7 @@ from __future__ import annotations
 import math
 
 from geneva_cli.errors import GenevaError
+from geneva_cli.layout.arm_sizes import wheel_reach_and_hub
 from geneva_cli.layout.plain_sizes import wall_min
 from geneva_cli.numerics.preferred import bore_radius, rounded_radius
 from geneva_cli.spec.tables import Size
@@ -27,10 +28,7 @@ def wheel_axle(size: Size, L: float, inside: float, slot_end: float) -> tuple[fl
     else:
         within = 0.4 * size.wheel_hub_mm if size.wheel_hub_mm else math.inf
         bore = bore_radius(min(L / 12.0, 0.4 * end, end - wall_min(size, L), within))
-    if size.wheel_hub_mm is not None:
-        hub = 0.5 * size.wheel_hub_mm
-    else:
-        hub = max(bore, rounded_radius(min(1.6 * bore, 0.75 * end))) if bore else 0.0
+    hub = hub_about(size, L, bore, end)
     for key, radius in (("wheel_bore_mm", bore), ("wheel_hub_mm", hub)):
         if radius >= end:
             raise GenevaError(
@@ -39,6 +37,12 @@ def wheel_axle(size: Size, L: float, inside: float, slot_end: float) -> tuple[fl
                 ("size", key),
             )
     return bore, hub
+
+
+def hub_about(size: Size, L: float, bore: float, end: float) -> float:
+    """Return the radius of the wheel's hub about a bore; ``end`` is that of the slots' ends."""
+    _, hub = wheel_reach_and_hub(size, bore, wall_min(size, L), end)
+    return hub if size.wheel_hub_mm is not None else max(bore, hub)
 
 
 def about_crank(size: Size) -> float:

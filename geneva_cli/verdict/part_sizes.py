@@ -11,7 +11,10 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
+from geneva_cli.errors import GenevaError
 from geneva_cli.layout.sizes import sized
+from geneva_cli.layout.sphere_sizes import ball
+from geneva_cli.layout.sphere_stressed import sphere_stressed
 from geneva_cli.layout.stressed import Stressed, stressed
 from geneva_cli.loads.strength.arm import ArmDimensions
 from geneva_cli.loads.strength.keys import KeyDimensions
@@ -67,9 +70,19 @@ def _designs(mechanism: Mechanism) -> Iterator[Mechanism]:
 
 
 def _row(machine: Mechanism, loads: PartLoads) -> list[float]:
-    """The numbers of a machine's parts in one row; none for a machine without flat parts."""
+    """The numbers of a machine's parts in one row; none for a machine without parts."""
+    if machine.spec.has_parts and not machine.spec.is_flat:
+        return _of_sphere(machine)
     parts = sized(machine, loads)
     return _numbers(stressed(*parts)) if parts else []
+
+
+def _of_sphere(machine: Mechanism) -> list[float]:
+    try:
+        sizes = ball(machine)
+    except GenevaError:  # the check of the parts reports the error
+        return []
+    return _numbers(sphere_stressed(machine.spec, sizes))
 
 
 def _numbers(of: Stressed) -> list[float]:

@@ -39,9 +39,9 @@ from geneva_cli.drawings.sphere.drawings import (
 from geneva_cli.drawings.sphere.laid_flat import Cone
 from geneva_cli.drawings.sphere.section import degrees, section
 from geneva_cli.kinematics.layout import Dimension
+from geneva_cli.layout.ball import Ball
 from geneva_cli.layout.fits import Fits
 from geneva_cli.layout.set_screws import screw_note
-from geneva_cli.layout.sphere_sizes import Ball
 from geneva_cli.numerics.tolerances import SAME_ANGLE, SAME_ON_SHEET
 from geneva_cli.outlines.wheel_hub import HUB
 from geneva_cli.parts.sphere.arm import CapArm
