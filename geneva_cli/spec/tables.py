@@ -437,11 +437,15 @@ class Shaft(SpecTable):
     wheel_diameter_mm: Annotated[float | None, POSITIVE, "diameter of the wheel's shaft"] = None
     crank_diameter_mm: Annotated[float | None, POSITIVE, "diameter of the crank's shaft"] = None
     wheel_overhang_mm: Annotated[
-        float | None, NOT_NEGATIVE, "wheel's shaft: slots' mid-plane to the nearer bearing; on a sphere from its radius L"
+        float | None,
+        NOT_NEGATIVE,
+        "wheel's shaft: slots' mid-plane (a sphere's radius L) to the nearer bearing",
     ] = None
     wheel_span_mm: Annotated[float | None, POSITIVE, "wheel's shaft: bearing to bearing"] = None
     crank_overhang_mm: Annotated[
-        float | None, NOT_NEGATIVE, "crank's shaft: roller's mid-plane to the nearer bearing; on a sphere from its radius L"
+        float | None,
+        NOT_NEGATIVE,
+        "crank's shaft: roller's mid-plane (a sphere's radius L) to the nearer bearing",
     ] = None
     crank_span_mm: Annotated[float | None, POSITIVE, "crank's shaft: bearing to bearing"] = None
     shear_stress_max_MPa: Annotated[

@@ -9,8 +9,9 @@ from geneva_cli.curves.shapes import Arc, Circle, Contour, Point, Shape
 from geneva_cli.curves.sheet import CENTRE, OUTLINE
 from geneva_cli.drawings.sheet import sized
 from geneva_cli.drawings.sheet.bores import bolted, circle_of
-from geneva_cli.drawings.sheet.view import View, number, times
+from geneva_cli.drawings.sheet.view import View, times
 from geneva_cli.layout.projection import placed
+from geneva_cli.layout.written import number
 from geneva_cli.numerics.tolerances import SAME_ON_SHEET
 from geneva_cli.parts.gear_blanks import Gear
 
