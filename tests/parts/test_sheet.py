@@ -448,21 +448,18 @@ def test_sheets_in_inches(path, sheets):
     # shorter texts may find a place for a larger scale
     assert found.scale >= metric.scale
     assert not [text for text in texts if re.search(r"\d mm", text)]
-    angles = [
-        sorted(m.value for m in one.measures if m.kind == "angular") for one in (found, metric)
-    ]
-    assert angles[0] == pytest.approx(angles[1])
 
 
 def test_fits_and_masses_in_inches():
-    """H7 of 24 mm is +21 µm, 0.00083 in; a deviation of 0.02 mm is 0.0008 in; 1 lb is 0.45359237 kg."""
+    """H7 of 24 mm is +21 µm, 0.00083 in; ±0.02 mm is 0.0008 in; a pound is 0.45359237 kg."""
     spec = load(str(repo.DESIGNS / "turret.toml")).spec
     design = Design.of(spec.replace(tolerance=Tolerance(center_distance_mm=0.02)))
     found = design.sheet(TOLERANCE, units="inch")
     texts = {label.text for label in found.texts}
     assert "8× 0.9449 H7 (+0.0008/0)" in texts
     assert "9.8425 ±0.0008" in texts
-    kg = sum(row["mass_kg"] * row["count"] for row in design.part_table("parts").to_rows())
+    rows = design.part_table("parts").to_rows()
+    kg = sum(row["mass_kg"] * row["count"] for row in rows if row["mass_kg"])
     assert f"{kg / 0.45359237:.2f} lb" in texts
     milled = Design.of(spec.with_("size.process", "mill")).sheet(TOLERANCE, units="inch")
     assert "Ra 3.2 µm" in {label.text for label in milled.texts}
