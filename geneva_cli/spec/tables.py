@@ -463,7 +463,9 @@ class Material(SpecTable):
 
     youngs_modulus_GPa: Annotated[float, POSITIVE, "Young's modulus E"] = 210.0
     poisson_ratio: Annotated[float, Range(0.0, 0.5), "Poisson's ratio nu"] = 0.3
-    density_kgm3: Annotated[float, POSITIVE, "density"] = 7850.0
+    density_kgm3: Annotated[
+        float | None, POSITIVE, "density; default of steel 7850, of prints 1240 (PLA)"
+    ] = None
     stress_max_MPa: Annotated[
         float | None, POSITIVE, "allowable stress; default of steel 165 (C45+N, 0.6 yield)"
     ] = None
@@ -487,8 +489,8 @@ class WheelMaterial(Material):
 class RollerMaterial(Material):
     """``[material.roller]``: material of the roller and its pin.
 
-    >>> RollerMaterial(stress_max_MPa=1500.0).density_kgm3
-    7850.0
+    >>> RollerMaterial(stress_max_MPa=1500.0).poisson_ratio
+    0.3
     """
 
     TABLE: ClassVar[str] = "material.roller"

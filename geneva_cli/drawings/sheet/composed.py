@@ -162,9 +162,10 @@ def _material(of: Material, shop: Workshop) -> str:
     )
     if same and shop.material:
         return shop.material
+    density = shop.density_kgm3 if of.density_kgm3 is None else of.density_kgm3
     if is_metric():
-        return f"{of.density_kgm3:g} kg/m³"
-    return f"{value_in_inches(of.density_kgm3, 'kg/m³')[0]:.4g} lb/in³"
+        return f"{density:g} kg/m³"
+    return f"{value_in_inches(density, 'kg/m³')[0]:.4g} lb/in³"
 
 
 def _mass(kg: float) -> str:
