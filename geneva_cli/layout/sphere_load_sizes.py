@@ -19,6 +19,7 @@ from geneva_cli.layout.plain_sizes import half_or, wall_min
 from geneva_cli.layout.sphere_stressed import sphere_stressed
 from geneva_cli.loads.strength.part_loads import PartLoads, single_loads
 from geneva_cli.loads.strength.shafts import ShaftDimensions, crank_forces, shaft, wheel_forces
+from geneva_cli.machine.both_ways import every_way
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.machine.spec import Spec
 from geneva_cli.numerics.preferred import bores_from, rounded_from
@@ -142,5 +143,6 @@ def _hub_fits(spec: Spec, ball: Ball) -> bool:
 @lru_cache(maxsize=64)
 def _moment_Nm(mechanism: Mechanism, forces: ShaftForces, overhang_mm: float) -> float:
     """Return the greatest equivalent torque of a shaft; it needs a search of the whole cycle."""
-    result = shaft(mechanism, ShaftDimensions(None, overhang_mm, None, None), forces)
-    return result.moment_Nm if result else 0.0
+    ends = ShaftDimensions(None, overhang_mm, None, None)
+    each = [shaft(way, ends, forces) for way in every_way(mechanism)]
+    return max(one.moment_Nm if one else 0.0 for one in each)

@@ -19,7 +19,6 @@ from geneva_cli.verdict.quantities.under_load import under_load
 if TYPE_CHECKING:
     from geneva_cli.machine.mechanism import Mechanism
 
-LOAD = "inertia_kgm2 or torque_Nm in [load], or a [[mass]]"
 # The groups by the names of their tables, and by the whole names of their quantities.
 REPORT_GROUPS = {name: group for group in REPORT for name in (group.table, *group.names)}
 
@@ -81,7 +80,8 @@ class Strength:
         for keys in REASONS[name](self):
             missing = [words for there, words in keys if not there]
             if missing:  # without a load nothing else helps
-                return LOAD if LOAD in missing else " and ".join(missing)
+                needs_load = self.spec.load_keys
+                return needs_load if needs_load in missing else " and ".join(missing)
         return None
 
     def missing(self, among: Sequence[str]) -> list[str]:
@@ -91,8 +91,8 @@ class Strength:
             keys = self.reason(name)
             if keys:
                 by_key.setdefault(keys, []).append(name)
-        if LOAD in by_key:  # nearly all
-            by_key[LOAD] = ["forces", "stresses", "life"]
+        if self.spec.load_keys in by_key:  # nearly all
+            by_key[self.spec.load_keys] = ["forces", "stresses", "life"]
         return [
             f"{', '.join(names)}: need{'s' * (len(names) == 1)} {keys}"
             for keys, names in by_key.items()
@@ -109,7 +109,7 @@ class Strength:
 
     @property
     def _has_load(self) -> Key:
-        return self.spec.is_loaded, LOAD
+        return self.spec.is_loaded, self.spec.load_keys
 
     @property
     def _has_bound(self) -> Key:
@@ -159,6 +159,9 @@ class Strength:
         yield from self._shaft("crank", shafts.crank_shaft(self.spec.shaft))
 
     def _shaft(self, which: str, ends: shafts.ShaftDimensions) -> Keys:
+        wheel = self.spec.wheel
+        words = "a wheel on a shaft: the shafts of a rack's machine are not computed"
+        yield [(wheel.FLAT or wheel.SHELLS, words)]
         if self.spec.is_loaded:
             yield [self._has_bound]
         drawn = self.load.parts and getattr(self.load.parts, f"{which}_shaft")

@@ -109,12 +109,12 @@ def on_driven_crank(i: Instant[Jet], at: Contact[Jet], overhang: Number) -> tupl
 
 def wheel_forces(spec: Spec) -> ShaftForces:
     """The loads of the wheel's shaft."""
-    return on_wheel if spec.wheel.FLAT else on_sphere_wheel
+    return on_sphere_wheel if spec.wheel.SHELLS else on_wheel
 
 
 def crank_forces(spec: Spec) -> ShaftForces:
     """The loads of the crank's shaft."""
-    if not spec.wheel.FLAT:
+    if spec.wheel.SHELLS:
         return on_sphere_crank
     return on_driven_crank if spec.drive.CRANKED else on_crank
 
