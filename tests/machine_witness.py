@@ -136,6 +136,8 @@ def rollers(spec):
     b = mp.pi / wheel.z
     if wheel.steps:
         halves = [to_radians(s) / 2 for s in wheel.steps]
+        if drive.roller_angles_deg:
+            return list(zip(map(to_radians, drive.roller_angles_deg), halves, strict=True))
         # equal dwells between motions of pi - 2 b
         dwell = (2 * mp.pi - sum(mp.pi - 2 * h for h in halves)) / len(halves)
         out, at = [], mp.mpf(0)

@@ -14,13 +14,17 @@ import numpy as np
 from geneva_cli.curves.sphere_arcs import SphereArcs
 
 if TYPE_CHECKING:
+    from geneva_cli.curves.cross_holes import CrossHole
     from geneva_cli.curves.round_holes import RoundHole
     from geneva_cli.curves.shapes import Circle, Contour, Point
     from geneva_cli.curves.sphere import Region, Rotation, Vector
 
 
 class Plate(NamedTuple):
-    """A flat part: the inside of an outline without its holes, from ``low`` to ``high``."""
+    """A flat part: the inside of an outline without its holes, from ``low`` to ``high``.
+
+    Cross holes go across its axis.
+    """
 
     name: str
     layer: str
@@ -28,6 +32,7 @@ class Plate(NamedTuple):
     holes: tuple[Contour | Circle, ...]
     low: float
     high: float
+    cross: tuple[CrossHole, ...] = ()
 
     @property
     def thickness(self) -> float:
@@ -151,7 +156,8 @@ def plates(part: Part) -> list[Plate]:
 def lowered(part: Plate | Stack) -> Plate | Stack:
     """A flat or turned part with its lower face at z = 0."""
     if isinstance(part, Plate):
-        return part._replace(low=0.0, high=part.thickness)
+        cross = tuple(h._replace(height=h.height - part.low) for h in part.cross)
+        return part._replace(low=0.0, high=part.thickness, cross=cross)
     down = part.low
     return part._replace(
         plates=tuple(p._replace(low=p.low - down, high=p.high - down) for p in part.plates)

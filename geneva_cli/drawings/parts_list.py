@@ -171,9 +171,10 @@ def _dimensions(model: PartsModel) -> Iterator[Row | Missing]:
         Dimension("slot width", 2.0 * (r + clear), "mm"),
     ]
     for part in ("wheel", "crank"):
-        screw = vars(spec.size)[f"{part}_screw_mm"]
-        if screw is not None:
-            entries.append(Dimension(f"{part}'s set screw", screw, "mm"))
+        for key, name in (("screw", "set screw"), ("clamp", "clamp screw")):
+            screw = vars(spec.size)[f"{part}_{key}_mm"]
+            if screw is not None:
+                entries.append(Dimension(f"{part}'s {name}", screw, "mm"))
     if spec.size.edge_mm:
         kind = "rounding" if spec.size.edge_chamfer_mm is None else "chamfer"
         entries.append(Dimension(f"{kind} of all edges", spec.size.edge_mm, "mm"))

@@ -91,7 +91,7 @@ class Drive(SpecTable, kw_only=True):
     roller_angles_deg: Annotated[
         tuple[float, ...] | None,
         Range(0.0, 360.0, "[)"),
-        "angles of the rollers on the crank, if not evenly spaced",
+        "angles of the rollers on the crank, if not evenly spaced or with equal dwells",
     ] = None
     both_ways: Annotated[bool, None, "the input shaft turns either way"] = False
 

@@ -24,7 +24,7 @@ from geneva_cli.layout.arm_sizes import (
 from geneva_cli.layout.assembly import Assembly
 from geneva_cli.layout.holds import arm_holds, key_holds, pin_that_holds, shaft_holds
 from geneva_cli.layout.link_positions import links_at
-from geneva_cli.layout.plain_sizes import Sizes, thicknesses
+from geneva_cli.layout.plain_sizes import Sizes, drawn_thicknesses
 from geneva_cli.layout.roller_paths import roller_reaches
 from geneva_cli.layout.stressed import ShaftSize, lock_of, stressed
 from geneva_cli.loads.strength import lock
@@ -73,7 +73,7 @@ def _thick(
         wheel_thickness_mm=wheel or sizes.wheel_thickness,
         **({"arm_thickness_mm": arm} if arm else {}),
     )
-    thick = thicknesses(size, assembly.L)
+    thick = drawn_thicknesses(size, assembly.L)
     return sizes._replace(
         wheel_thickness=thick.wheel,
         lock_thickness=thick.lock,

@@ -14,11 +14,12 @@ from geneva_cli.errors import GenevaError
 from geneva_cli.layout.arm_sizes import arm_bore, hole_radius
 from geneva_cli.layout.axles import about_crank, wheel_axle
 from geneva_cli.layout.ball import Ball, inner_edge
-from geneva_cli.layout.plain_sizes import Thicknesses, pin_radius, thicknesses
+from geneva_cli.layout.plain_sizes import drawn_thicknesses, pin_radius
 from geneva_cli.layout.sizes import lock_between, require_lock_between
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.machine.rollers import places
 from geneva_cli.machine.spec import Spec
+from geneva_cli.spec.default_sizes import Thicknesses
 from geneva_cli.spec.tables import Z_DRAWN, Size
 
 
@@ -50,7 +51,7 @@ def ball(mechanism: Mechanism, roller_mm: float | None = None) -> Ball:
     # the roller touches the wall that faces the crank's axis at the foot of the perpendicular
     rim = math.acos(math.cos(mouth) * math.cos(w))
     _refuse_slots(bottom, w, z)
-    thick, pin = thicknesses(size, L), pin_radius(size, radius_mm)
+    thick, pin = drawn_thicknesses(size, L), pin_radius(size, radius_mm)
     _refuse_thick(thick, size, L, roller, pin)
     inside, outside = L - 0.5 * thick.wheel, L + 0.5 * thick.wheel
     under = outside + size.allowances.pin_gap_mm  # the arm's inner face, on which the sectors stand
@@ -83,7 +84,7 @@ def ball(mechanism: Mechanism, roller_mm: float | None = None) -> Ball:
         hub_mm=hub,
         pin_mm=pin,
         arm_bore_mm=_arm_bore(spec, pin, L, arm),
-        about_crank_mm=about_crank(size),
+        about_crank_mm=about_crank(size, L),
     )
     if spec.is_loaded:
         from geneva_cli.layout.sphere_load_sizes import sphere_load_sizes  # else none is needed

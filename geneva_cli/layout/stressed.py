@@ -18,11 +18,12 @@ from geneva_cli.layout.assembly import Assembly
 from geneva_cli.layout.bores import reach_or_bore
 from geneva_cli.layout.keyways import key
 from geneva_cli.layout.link_positions import links_at
-from geneva_cli.layout.plain_sizes import Sizes, half_or, value_or
+from geneva_cli.layout.plain_sizes import Sizes, half_or
 from geneva_cli.layout.reliefs import is_whole, sectors
 from geneva_cli.layout.roller_paths import roller_reaches
 from geneva_cli.loads.strength.arm import ArmDimensions
 from geneva_cli.loads.strength.keys import KeyDimensions
+from geneva_cli.spec.default_sizes import value_or
 
 
 class ShaftSize(NamedTuple):

@@ -84,9 +84,9 @@ CONFLICTS = (
         'kind = "{drive}" carries one roller only',
     ),
     Conflict(
-        lambda s: s.wheel.steps and s.drive.roller_angles_deg,
-        ("wheel", "steps_deg"),
-        "steps_deg already places the rollers: remove roller_angles_deg",
+        lambda s: s.wheel.steps and len(s.drive.roller_angles_deg or s.wheel.steps) != _several(s),
+        ("drive", "roller_angles_deg"),
+        "each of the {several} steps has a roller: roller_angles_deg needs as many angles",
     ),
     Conflict(
         lambda s: _several(s) and s.drive.rollers not in (1, _several(s)),
@@ -114,13 +114,26 @@ CONFLICTS = (
         ("load", "inertia_kgm2"),
         "inertia_kgm2 and torque_Nm are of a wheel that turns; a rack has mass_kg and force_N",
     ),
+    Conflict(
+        lambda s: not s.output.turns and s.load.dwell_torque_Nm is not None,
+        ("load", "dwell_torque_Nm"),
+        "dwell_torque_Nm acts on a wheel's shaft, and is not available for a rack: remove it",
+    ),
     *(
         Conflict(
             partial(_table_of_wheels, table),
             (table.strip("[]"),),
-            f"{table} is for a wheel that turns; of a rack set mass_kg and force_N in [load]",
+            f"{table} is for a wheel on a shaft; a rack's load is mass_kg and force_N in [load]",
         )
-        for table in ("[[mass]]", "[support]", "[shaft]", "[tolerance]", "[product]")
+        for table in ("[[mass]]", "[support]")
+    ),
+    *(
+        Conflict(
+            partial(_table_of_wheels, table),
+            (table.strip("[]"),),
+            f"{table} is for a wheel on a shaft, and not available for a rack: remove it",
+        )
+        for table in ("[shaft]", "[tolerance]", "[product]")
     ),
     Conflict(
         lambda s: s.wheel.stopped and (not s.drive.CRANKED or s.drive.IN_SERIES or s.motion),

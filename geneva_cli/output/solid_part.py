@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from geneva_cli.curves.cross_holes import drilled
 from geneva_cli.curves.drawing import Drawing
 from geneva_cli.curves.pieces import prepared
 from geneva_cli.curves.plates import Part, Plate, Shell
@@ -34,7 +35,8 @@ def plate_contours(plate: Plate) -> tuple[Contour | Circle, ...]:
         raise GenevaError(
             f"{plate.name}: a solid of {plate.thickness:g} mm; it must be thicker than 0"
         )
-    return prepared(Drawing(plate.name, (plate.outline, *plate.holes))).shapes
+    shapes = prepared(Drawing(plate.name, (plate.outline, *plate.holes))).shapes
+    return drilled(shapes, plate.cross) if plate.cross else shapes
 
 
 def require_thick(shell: Shell) -> None:

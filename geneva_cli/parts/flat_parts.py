@@ -19,7 +19,7 @@ from geneva_cli.kinematics.engagement import Engagement
 from geneva_cli.kinematics.layout import Dimension, Joint
 from geneva_cli.layout.link_positions import links_at
 from geneva_cli.layout.missing import NamedParts
-from geneva_cli.layout.plain_sizes import pin_radius, thicknesses
+from geneva_cli.layout.plain_sizes import drawn_thicknesses, pin_radius
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.outlines.crank import roller_centres
 from geneva_cli.outlines.outlines import Outlines, outlines, slot_walls
@@ -129,7 +129,7 @@ class FlatParts:
         mechanism, low = self.mechanism, self.links.pin_low
         size, r = mechanism.spec.size, mechanism.roller_radius_mm
         sizes = self.drawn.sizes if self.drawn else None
-        thick = thicknesses(size, mechanism.center_distance_mm, sizes)
+        thick = drawn_thicknesses(size, mechanism.center_distance_mm, sizes)
         if low is None:
             low = -size.allowances.pin_gap_mm - (
                 thick.arm if self.drawn and has_arm(self.drawn) else 0.0
@@ -153,6 +153,12 @@ class FlatParts:
     def crank_hub(self) -> Plate | None:
         """The crank's hub above the disc or the arm, if the spec has one."""
         return crank_hub(self.outlines)
+
+    def hub_radii(self, part: str) -> tuple[float, float]:
+        """Return the radii of the bore and the hub of a part, "wheel" or "crank", mm."""
+        sizes = self.outlines.sizes
+        hubs = {"wheel": sizes.wheel_hub, "crank": sizes.crank_hub}
+        return {"wheel": sizes.wheel_bore, "crank": sizes.crank_bore}[part], hubs[part]
 
     @cached_property
     def crank(self) -> Member:

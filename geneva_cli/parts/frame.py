@@ -18,7 +18,7 @@ from geneva_cli.errors import GenevaError
 from geneva_cli.layout.bearings import Bearing, bearing_up_to
 from geneva_cli.layout.bores import around
 from geneva_cli.layout.link_positions import same
-from geneva_cli.layout.plain_sizes import thicknesses, wall_min
+from geneva_cli.layout.plain_sizes import drawn_thicknesses, wall_min
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.numerics.preferred import bore_radius, rounded_radius
 from geneva_cli.outlines.outlines import Outlines
@@ -64,7 +64,7 @@ def framed(
         lows.append(gear_span(mechanism, outlines)[0])
     top = min([_lowest(mechanism, outlines, bars), *lows]) - size.washer_mm
     drawn = outlines.sizes if outlines else None
-    thick = thicknesses(size, L, drawn).arm
+    thick = drawn_thicknesses(size, L, drawn).arm
     if size.shafts == "turned":
         _refuse_turned(mechanism, bars)
         top -= L / 50.0  # the least length of a shoulder
@@ -104,7 +104,7 @@ def _shafts(
         own = crank_shaft_radius(outlines) > 0.0, wheel_shaft_radius(outlines) > 0.0
         yield from shafts(outlines, frame, stop)
     size, drawn = mechanism.spec.size, outlines.sizes if outlines else None
-    top = thicknesses(size, mechanism.center_distance_mm, drawn).wheel
+    top = drawn_thicknesses(size, mechanism.center_distance_mm, drawn).wheel
     ends = Ends(frame[0], top, stop, *own)
     yield from link_shafts(mechanism, bars, ends, first)
     yield from gear_shafts(mechanism, outlines, ends)

@@ -21,6 +21,7 @@ from words import Spec, load
 from geneva_cli.analysis.motion import motion_table
 from geneva_cli.analysis.peaks import QUANTITIES, worst
 from geneva_cli.analysis.timing import timings
+from geneva_cli.errors import GenevaError
 from geneva_cli.kinematics import registry
 from geneva_cli.loads.loads import state
 from geneva_cli.machine.both_ways import backwards
@@ -65,6 +66,7 @@ CASES = {
     "offset-near-its-limit": text("z = 5, offset_mm = 40"),
     "steps": text("z = 6, steps_deg = [70, 50]"),
     "steps-three": text("z = 3, steps_deg = [100, 122.5, 137.5]"),
+    "steps-angles": text("z = 4, steps_deg = [50, 130]", "roller_angles_deg = [0, 120]"),
     "angles": text("z = 4", "roller_angles_deg = [0, 90]"),
     "angles-spherical": text(f"z = 6, {SPHERE}, axes_deg = 50", "roller_angles_deg = [0, 161.3]"),
     "side-crank": text("z = 6", f"{SIDE}0.6"),
@@ -538,6 +540,28 @@ def test_unequal_steps_are_wheels_of_their_own(machine):
         assert m.engagements[0].motion(x).derivatives() == wanted
     x, y = (c.c[0] for c in m.engagements[1].path(30.0, 0))
     assert math.hypot(1.0 - x, y) == pytest.approx(math.sin(math.radians(24.0)), rel=1e-15)
+
+
+def test_alternating_steps_with_chosen_dwells(machine):
+    """Steps of 50 and 130 degrees: motions of 130 and 50 degrees, and dwells by the angles."""
+    m = machine("steps-angles")
+    assert [t.index_deg for t in timings(m)] == [50.0, 130.0]
+    assert [t.motion_deg for t in timings(m)] == pytest.approx([130.0, 50.0], rel=1e-15)
+    # 120 - 65 - 25 degrees to the second roller, and the rest of the turn
+    assert [t.dwell_deg for t in timings(m)] == pytest.approx([30.0, 150.0], rel=1e-14)
+
+
+@pytest.mark.parametrize(
+    "angles, message",
+    [
+        ("[0, 89]", "the rollers at 0 and 89 deg jam: half of both motions takes 90 deg"),
+        ("[0, 271]", "the rollers at 271 and 0 deg jam"),
+        ("[0, 100, 200]", "each of the 2 steps has a roller"),
+    ],
+)
+def test_angles_that_do_not_fit_the_steps(machine, angles, message):
+    with pytest.raises(GenevaError, match=message):
+        machine(text("z = 4, steps_deg = [50, 130]", f"roller_angles_deg = {angles}"))
 
 
 def test_four_slots_and_two_pins_90_degrees_apart(machine):

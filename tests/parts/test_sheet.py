@@ -170,12 +170,15 @@ def test_fields_without_a_key_are_empty(sheets):
 
 
 def test_the_title_block_has_the_keys_of_drawing():
-    block = TitleBlock("G-106", "B", "M. Muster", "2026-11-27", 3.2, 1.6, 58.0, 0.3)
+    block = TitleBlock("G-106", "B", "M. Muster", "2026-11-27", 3.2, 1.6, 58.0)
     steel = WheelMaterial(grade="42CrMo4"), RollerMaterial(grade="100Cr6")
-    found = of(Spec(Wheel(6), drawing=block, material_wheel=steel[0], material_roller=steel[1]))
+    size = Size(edge_chamfer_mm=0.3)
+    found = of(
+        Spec(Wheel(6), size=size, drawing=block, material_wheel=steel[0], material_roller=steel[1])
+    )
     shown = [under(found, heading) for heading in FIELDS]
     assert shown == ["G-106", "B", "2026-11-27", "M. Muster", "Ra 3.2"]
-    assert under(found, "edges") == "ISO 13715: -0.3"
+    assert under(found, "edges") == "chamfered 0.3 × 45°"
     assert under(found, "faces that roll, slide, lock") == "Ra 1.6, 58 HRC"
     texts = [label.text for label in found.labels]
     assert (texts.count("42CrMo4"), texts.count("100Cr6")) == (6, 2)

@@ -23,9 +23,10 @@ from geneva_cli.drawings.sheet.paper import (
     table,
     title_block,
 )
+from geneva_cli.drawings.sheet.sized import edge_note
 from geneva_cli.drawings.sheet.view import Block
 from geneva_cli.errors import GenevaError
-from geneva_cli.layout.written import deviation, is_metric, length, number
+from geneva_cli.layout.written import is_metric, length, number
 from geneva_cli.machine.spec import Spec
 from geneva_cli.output.inches import value_in_inches
 from geneva_cli.spec.tables import Material, TitleBlock
@@ -84,7 +85,7 @@ def _composed(
         },
         {
             "roughness": _rough(own.roughness_um) or _micro(shop.roughness),
-            "edges": f"ISO 13715: -{deviation(own.edge_mm)}" if own.edge_mm else "free of burrs",
+            "edges": edge_note(spec.size) or "free of burrs",
             "faces that roll, slide, lock": _working(own),
         },
         {

@@ -12,7 +12,7 @@ from geneva_cli.drawings.sheet import sized
 from geneva_cli.drawings.sheet.bores import bolted, bored, circle_of, holes_of
 from geneva_cli.drawings.sheet.standing import draw_hub
 from geneva_cli.drawings.sheet.view import View, times
-from geneva_cli.layout.set_screws import screw_note
+from geneva_cli.layout.held_hubs import hub_note
 from geneva_cli.layout.sizes import drawn_pin_radius
 from geneva_cli.layout.written import length, number
 from geneva_cli.machine.mechanism import Mechanism
@@ -37,7 +37,7 @@ def draw_disc(view: View, parts: FlatParts) -> None:
     circle_of(view, screwed)
     view.cross((0.0, 0.0), sizes.lock if is_whole(assembly, sizes) else 0.2 * sizes.lock)
     for hub in hubs:
-        draw_hub(view, hub, screw_note(mechanism.spec.size, "crank"))
+        draw_hub(view, hub, hub_note(mechanism.spec.size, "crank"))
     bored(view, bores, mechanism.spec.size, "crank")
     arcs = [s for contour in contours for s in contour.segments if isinstance(s, Arc)]
     locking = [

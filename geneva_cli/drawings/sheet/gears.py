@@ -64,6 +64,8 @@ def _teeth(view: View, gear: ToothedGear) -> None:
         f"x = {number(gear.shift, 4)}, {number(math.degrees(rack.angle))}°"
         + (f"; {length(span, fine=True)} over {over} teeth" if over else "")
     )
+    if gear.last_tip:
+        view.remark(f"tip of the last tooth {sized.plain(2.0 * gear.last_tip, 'Ø ')}")
 
 
 def _draw_blank(view: View, gear: Gear) -> None:

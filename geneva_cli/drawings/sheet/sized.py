@@ -78,9 +78,9 @@ def edge_note(size: Size) -> str:
     """Return the note on edges; "" where the spec has none.
 
     >>> edge_note(Size(edge_chamfer_mm=0.5)), edge_note(Size(edge_fillet_mm=1.0))
-    ('all edges chamfered 0.5 × 45°', 'all edges rounded R 1')
+    ('chamfered 0.5 × 45°', 'rounded R 1')
     """
     if size.edge_chamfer_mm is not None:
-        return f"all edges chamfered {length(size.edge_chamfer_mm)} × 45°"
+        return f"chamfered {length(size.edge_chamfer_mm)} × 45°"
     rounded = size.edge_fillet_mm
-    return "" if rounded is None else f"all edges rounded {plain(rounded, 'R ')}"
+    return "" if rounded is None else f"rounded {plain(rounded, 'R ')}"

@@ -6,7 +6,7 @@ import math
 
 from geneva_cli.curves.measure import bounds
 from geneva_cli.curves.plates import Plate, Stack
-from geneva_cli.curves.shapes import Arc, Circle, Contour, Line, Shape, closed
+from geneva_cli.curves.shapes import ORIGIN, Arc, Circle, Contour, Line, Shape, closed
 from geneva_cli.curves.sheet import CENTRE, OUTLINE
 from geneva_cli.drawings.sheet import sized
 from geneva_cli.drawings.sheet.bores import bolted, circle_of
@@ -72,9 +72,10 @@ def draw_groove(
 
 
 def draw_hub(view: View, hub: Plate, screw: str) -> None:
-    """Draw the diameter of a hub that is already drawn, and note its set screw, if it has one."""
-    assert isinstance(hub.outline, Circle)
-    view.diameter([hub.outline], f"{hub.name} {sized.plain(2.0 * hub.outline.radius, 'Ø ')}")
+    """Draw the diameter of a hub that is already drawn, and note its screw, if it has one."""
+    radius = around(hub.outline)
+    whole = Circle(hub.layer, ORIGIN, radius)
+    view.diameter([whole], f"{hub.name} {sized.plain(2.0 * radius, 'Ø ')}")
     if screw:
         view.remark(screw)
 

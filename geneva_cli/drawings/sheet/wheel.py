@@ -15,8 +15,8 @@ from geneva_cli.drawings.sheet.bores import bolted, bored, circle_of, holes_of
 from geneva_cli.drawings.sheet.standing import draw_hub
 from geneva_cli.drawings.sheet.view import View, times
 from geneva_cli.kinematics.engagement import Engagement
+from geneva_cli.layout.held_hubs import hub_note
 from geneva_cli.layout.projection import outlines_of
-from geneva_cli.layout.set_screws import screw_note
 from geneva_cli.layout.written import length, number
 from geneva_cli.numerics.tolerances import SAME_ON_SHEET
 from geneva_cli.outlines.outlines import Outlines
@@ -56,7 +56,7 @@ def draw_wheel(view: View, parts: FlatParts) -> None:
         lock = f", {length(clear.lock_clearance_mm)} from locking disc to recess"
         view.remark(text + (lock if sizes.lock else ""))
     for hub in hubs:
-        draw_hub(view, hub, screw_note(assembly.mechanism.spec.size, "wheel"))
+        draw_hub(view, hub, hub_note(assembly.mechanism.spec.size, "wheel"))
     bored(view, bores, assembly.mechanism.spec.size, "wheel")
     bolted(view, screwed)
 

@@ -41,7 +41,7 @@ from geneva_cli.drawings.sphere.section import degrees, section
 from geneva_cli.kinematics.layout import Dimension
 from geneva_cli.layout.ball import Ball
 from geneva_cli.layout.fits import Fits
-from geneva_cli.layout.set_screws import screw_note
+from geneva_cli.layout.held_hubs import hub_note
 from geneva_cli.layout.written import length, quantity
 from geneva_cli.numerics.tolerances import SAME_ANGLE, SAME_ON_SHEET
 from geneva_cli.outlines.wheel_hub import HUB
@@ -80,9 +80,6 @@ def sheet(parts: SphereParts) -> Sheet:
         if parts.arm:
             views.append(_arm(parts, parts.arm, arm, scale))
         views += _axles(parts, scale)
-        edges = sized.edge_note(parts.mechanism.spec.size)
-        if edges:
-            views[0].remark(edges)
         yield [*(view.block() for view in views), *fixed]
 
     spec = parts.mechanism.spec
@@ -117,7 +114,7 @@ def _axles(parts: SphereParts, scale: float) -> Iterator[View]:
             for shape in (hub.outline, *hub.holes):
                 view.draw(shape, OUTLINE)
             bored(view, hub.holes, size, whose)
-            draw_hub(view, hub, screw_note(size, whose) if hub.layer == HUB else "")
+            draw_hub(view, hub, hub_note(size, whose) if hub.layer == HUB else "")
             view.remark(f"{length(hub.thickness)} long")
             yield view
     for shaft in flat_plates(parts.shafts):

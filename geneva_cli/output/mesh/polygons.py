@@ -50,7 +50,7 @@ def chord_points(segment: Segment, tolerance: float) -> list[Point]:
     """Return the ends of a segment's chords, both of its own included, with DECIMALS."""
     count = _chords(segment, tolerance)
     between = (at(segment, k / count) for k in range(1, count))
-    return [_rounded(point) for point in (segment.start, *between, segment.end)]
+    return [rounded_point(point) for point in (segment.start, *between, segment.end)]
 
 
 def arc_chords(radius: float, sweep: float, tolerance: float) -> int:
@@ -83,7 +83,7 @@ def _bend(a: Point, b: Point, c: Point) -> float:
 def _separate(corners: Iterable[Point], apart: float) -> list[Point]:
     """Return rounded corners without those that are too near to the one before."""
     kept: list[Point] = []
-    for corner in map(_rounded, corners):
+    for corner in map(rounded_point, corners):
         if not kept or math.dist(kept[-1], corner) > apart:
             kept.append(corner)
     while len(kept) > 3 and math.dist(kept[-1], kept[0]) <= apart:
@@ -91,7 +91,8 @@ def _separate(corners: Iterable[Point], apart: float) -> list[Point]:
     return kept
 
 
-def _rounded(corner: Point) -> Point:
+def rounded_point(corner: Point) -> Point:
+    """Return a corner with DECIMALS, and without negative zeros."""
     return round(corner[0], DECIMALS) + 0.0, round(corner[1], DECIMALS) + 0.0
 
 

@@ -8,11 +8,13 @@ from __future__ import annotations
 
 import math
 import re
+import textwrap
 from collections.abc import Iterator, Sequence
 
+from geneva_cli.curves.cross_holes import CrossHole
 from geneva_cli.curves.drawing import Drawing
 from geneva_cli.curves.plates import Plate, Shell, Solid
-from geneva_cli.curves.shapes import Circle, Contour
+from geneva_cli.curves.shapes import Circle, Contour, Shape
 from geneva_cli.errors import GenevaError, clean
 from geneva_cli.output.inks import inks
 from geneva_cli.output.mesh.polygons import DECIMALS, arc_chords, polygon
@@ -77,12 +79,32 @@ def _plate(plate: Plate, tolerance: float) -> str:
     outline, *holes = plate_contours(plate)
     flat = _flat(outline, True, tolerance)
     if holes:
-        cut = [_flat(hole, False, tolerance) for hole in holes]
-        flat = "\n".join(("difference() {", *(f"  {one}" for one in (flat, *cut)), "}"))
+        inside = [_flat(hole, False, tolerance) for hole in holes]
+        flat = "\n".join(("difference() {", *(f"  {one}" for one in (flat, *inside)), "}"))
     low, high = _shown(plate.low, DECIMALS), _shown(plate.thickness, DECIMALS)
     above = "" if low == "0" else f"translate([0, 0, {low}]) "
     flat = flat.replace("\n", "\n    ")
-    return f"  {above}linear_extrude(height = {high})\n    {flat}\n"
+    solid = f"  {above}linear_extrude(height = {high})\n    {flat}\n"
+    if not plate.cross:
+        return solid
+    cut = "".join(_cross(hole, (outline, *holes), tolerance) for hole in plate.cross)
+    return f"  difference() {{\n{textwrap.indent(solid + cut, '  ')}  }}\n"
+
+
+def _cross(hole: CrossHole, shapes: Sequence[Shape], tolerance: float) -> str:
+    """A cylinder that goes through both walls of a hole, and ends in the open."""
+    low, high = hole.openings(shapes)
+    ys = [hole.radius * math.sin(math.pi * (k / 16.0 - 0.5)) for k in range(17)]
+    start, end = min(map(low.x, ys)), max(map(high.x, ys))
+    more = 0.05 * (end - start)
+    at = *hole.placed(start - more, 0.0), hole.height
+    count = 2 * arc_chords(hole.radius, math.pi, tolerance)
+    return (
+        f"  translate({_list(at, DECIMALS)}) "
+        f"rotate([0, 90, {_shown(math.degrees(hole.turn), 9)}])\n"
+        f"    cylinder(h = {_shown(end - start + 2.0 * more, DECIMALS)}, "
+        f"r = {_shown(hole.radius, DECIMALS)}, $fn = {count});\n"
+    )
 
 
 def _flat(shape: Contour | Circle, outside: bool, tolerance: float) -> str:

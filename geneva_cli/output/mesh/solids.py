@@ -9,8 +9,9 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from geneva_cli.curves.drawing import Drawing
-from geneva_cli.curves.plates import Group, Member, Part, Plate, Shell, Solid
+from geneva_cli.curves.plates import Group, Member, Part, Plate, Shell, Solid, Stack
 from geneva_cli.errors import GenevaError
+from geneva_cli.output.mesh.drilled import drilled_mesh
 from geneva_cli.output.mesh.polygons import edges, polygon, triangles
 from geneva_cli.output.mesh.shells import shell_mesh
 from geneva_cli.output.mesh.stacks import stack_mesh
@@ -89,9 +90,9 @@ def _surface(solid: Solid, tolerance: float) -> Surface:
         raise GenevaError(f"--tolerance {tolerance:g}: it must be above 0 mm")
     if isinstance(solid, Shell):
         return shell_mesh(solid, tolerance)
-    return (
-        plate_mesh(solid, tolerance) if isinstance(solid, Plate) else stack_mesh(solid, tolerance)
-    )
+    if isinstance(solid, Stack):
+        return stack_mesh(solid, tolerance)
+    return drilled_mesh(solid, tolerance) if solid.cross else plate_mesh(solid, tolerance)
 
 
 def plate_mesh(plate: Plate, tolerance: float) -> Surface:

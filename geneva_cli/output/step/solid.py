@@ -13,6 +13,7 @@ from geneva_cli.curves.measure import with_material_left
 from geneva_cli.curves.plates import Plate
 from geneva_cli.curves.shapes import Arc, Circle, Contour, Line, Point
 from geneva_cli.output.solid_part import plate_contours
+from geneva_cli.output.step.cross_holes import bored_walls
 from geneva_cli.output.step.entities import (
     DIRECTION,
     Entities,
@@ -42,16 +43,19 @@ def solid(file: Entities, plate: Plate) -> str:
     """
     faces, lower, upper = [], [], []
     outside = True
-    for shape in plate_contours(plate):
+    shapes = plate_contours(plate)
+    bored = bored_walls(file, plate, shapes)
+    for shape in shapes:
         walls = (
             [_round(file, plate, shape, outside)]
             if isinstance(shape, Circle)
-            else _walls(file, plate, with_material_left(shape, outside))
+            else _walls(file, plate, with_material_left(shape, outside), bored.loops)
         )
         faces += [wall.face for wall in walls]
         lower.append(loop(file, [(wall.low, not wall.along) for wall in reversed(walls)]))
         upper.append(loop(file, [(wall.high, wall.along) for wall in walls]))
         outside = False
+    faces += bored.faces
     faces.append(face(file, lower, level(file, plate.low), False))
     faces.append(face(file, upper, level(file, plate.high), True))
     return closed_solid(file, faces)
@@ -62,11 +66,16 @@ def level(file: Entities, z: float) -> str:
     return file.add(f"PLANE('',{file.placement((0.0, 0.0), z)})")
 
 
-def _walls(file: Entities, plate: Plate, contour: Contour) -> list[WallFace]:
+def _walls(
+    file: Entities, plate: Plate, contour: Contour, bored: dict[Piece, list[str]]
+) -> list[WallFace]:
     chain = pieces(contour.segments)
     corners = [_place(file, plate, piece.start) for piece in chain]
     pairs = zip(corners, [*corners[1:], corners[0]], strict=True)
-    return [_wall(file, plate, piece, *ends) for piece, ends in zip(chain, pairs, strict=True)]
+    return [
+        _wall(file, plate, piece, ends, bored.get(piece, []))
+        for piece, ends in zip(chain, pairs, strict=True)
+    ]
 
 
 def _place(file: Entities, plate: Plate, at: Point) -> SolidCorner:
@@ -76,15 +85,20 @@ def _place(file: Entities, plate: Plate, at: Point) -> SolidCorner:
 
 
 def _wall(
-    file: Entities, plate: Plate, piece: Piece, start: SolidCorner, end: SolidCorner
+    file: Entities,
+    plate: Plate,
+    piece: Piece,
+    ends: tuple[SolidCorner, SolidCorner],
+    holes: list[str],
 ) -> WallFace:
+    start, end = ends
     curves = [curve(file, piece, z) for z in (plate.low, plate.high)]
     along = not isinstance(piece, Arc) or piece.bulge > 0.0
     low = edge(file, start.low, end.low, curves[0], along)
     high = edge(file, start.high, end.high, curves[1], along)
     sides = loop(file, [(low, True), (end.edge, True), (high, False), (start.edge, False)])
     # a cylinder's own normal points away from its axis, that of the others to the right
-    wall = face(file, [sides], surface(file, piece, plate), along)
+    wall = face(file, [sides, *holes], surface(file, piece, plate), along)
     return WallFace(wall, low, high, True)
 
 

@@ -20,8 +20,8 @@ from geneva_cli.errors import GenevaError
 from geneva_cli.layout.axles import crank_hub, refuse_wide
 from geneva_cli.layout.ball import Ball
 from geneva_cli.layout.bores import bore_of, fitted, has_shape
+from geneva_cli.layout.held_hubs import held_hub
 from geneva_cli.layout.missing import NamedParts
-from geneva_cli.layout.set_screws import require_thread
 from geneva_cli.outlines.sphere_wheel import POLE, web_angle, web_region, wheel_regions
 from geneva_cli.outlines.wheel_hub import HUB
 from geneva_cli.parts.shafts import SHAFT
@@ -72,6 +72,13 @@ class SphereParts:
         """The shafts of wheel and crank."""
         return tuple(_shafts(self.shells, self.arm))
 
+    def hub_radii(self, part: str) -> tuple[float, float]:
+        """Return the radii of the bore and the hub of a part, "wheel" or "crank", mm."""
+        size, ball = self.mechanism.spec.size, self.ball
+        if part == "wheel":
+            return ball.bore_mm, ball.hub_mm
+        return 0.5 * (size.crank_bore_mm or 0.0), crank_hub(size, ball.radius_mm)
+
     @property
     def members(self) -> tuple[Member, ...]:
         """All parts."""
@@ -90,7 +97,6 @@ def wheel_group(size: Size, ball: Ball) -> Group:
     Raises GenevaError for a keyway or hub that cannot be made.
     """
     hub = wheel_hub(size, ball)
-    require_thread(size, "wheel", hub)
     return Group("wheel", (Member(wheel_shell(size, ball)), *([Member(hub)] if hub else [])))
 
 
@@ -109,7 +115,14 @@ def wheel_shell(size: Size, ball: Ball) -> Shell:
 
 
 def wheel_hub(size: Size, ball: Ball) -> Plate | None:
-    """Return the wheel's hub: in its shell and outside it, by default out to the arm's face."""
+    """Return the wheel's hub: in its shell and outside it, by default out to the arm's face.
+
+    Raises GenevaError, naming the key, where it cannot be made.
+    """
+    return held_hub(size, "wheel", _wheel_hub(size, ball), ball.half_step)
+
+
+def _wheel_hub(size: Size, ball: Ball) -> Plate | None:
     wide = ball.hub_mm > ball.bore_mm
     if has_shape(size, "wheel") and not (wide and ball.bore_mm):
         name = "wheel_bore" if size.wheel_keyway is None else "wheel_keyway"
@@ -152,8 +165,7 @@ def crank_group(parts: Shells, arm: CapArm | None) -> Group:
     for azimuth in ball.rollers:
         frame = axis_frame(place(ball.arm, azimuth))
         members += [Member(one, frame=frame) for one in ((roller, pin) if arm else (roller,))]
-    hub = _inner_hub(size, ball, arm)
-    require_thread(size, "crank", hub)
+    hub = held_hub(size, "crank", _inner_hub(size, ball, arm), arm.keyway if arm else 0.0)
     return Group("crank", (*members, *([Member(hub)] if hub else [])))
 
 
@@ -166,7 +178,7 @@ def arm_solids(ball: Ball, arm: CapArm) -> tuple[Shell, Plate]:
 
 def _inner_hub(size: Size, ball: Ball, arm: CapArm | None) -> Plate | None:
     """Return the crank's hub on the arm's inner face; None unless the spec has one."""
-    radius = crank_hub(size)
+    radius = crank_hub(size, ball.radius_mm)
     if not (radius and arm):
         return None
     long = size.crank_hub_length_mm
