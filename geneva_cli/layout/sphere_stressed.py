@@ -18,10 +18,11 @@ import numpy as np
 from geneva_cli.layout.arm_sizes import eye_about, hole_radius, usual_hub
 from geneva_cli.layout.ball import Ball
 from geneva_cli.layout.bores import reach_or_bore
-from geneva_cli.layout.plain_sizes import half_or, value_or, wall_min
+from geneva_cli.layout.plain_sizes import half_or, wall_min
 from geneva_cli.layout.stressed import Stressed, key_of, shaft_of
 from geneva_cli.loads.strength.arm import ArmDimensions
 from geneva_cli.machine.spec import Spec
+from geneva_cli.spec.default_sizes import value_or
 
 
 def sphere_stressed(spec: Spec, ball: Ball) -> Stressed:
