@@ -28,6 +28,7 @@ from geneva_cli.machine.rollers import places
 from geneva_cli.machine.spec import Spec
 from geneva_cli.outlines.sphere_wheel import POLE
 from geneva_cli.spec.schema import Points, fields
+from geneva_cli.spec.tables import Size
 from geneva_cli.spec.workshops import density_kgm3
 from geneva_cli.table import Reading, Table, rows_table
 
@@ -170,11 +171,7 @@ def _dimensions(model: PartsModel) -> Iterator[Row | Missing]:
         Dimension("roller radius", r, "mm"),
         Dimension("slot width", 2.0 * (r + clear), "mm"),
     ]
-    for part in ("wheel", "crank"):
-        for key, name in (("screw", "set screw"), ("clamp", "clamp screw")):
-            screw = vars(spec.size)[f"{part}_{key}_mm"]
-            if screw is not None:
-                entries.append(Dimension(f"{part}'s {name}", screw, "mm"))
+    entries += _screws(spec.size)
     if spec.size.edge_mm:
         kind = "rounding" if spec.size.edge_chamfer_mm is None else "chamfer"
         entries.append(Dimension(f"{kind} of all edges", spec.size.edge_mm, "mm"))
@@ -195,6 +192,14 @@ def _dimensions(model: PartsModel) -> Iterator[Row | Missing]:
         entries += or_missing("teeth of the gears", lambda: model.flat.tooth_dimensions)
     for entry in entries:
         yield entry if isinstance(entry, Missing) else {"row": "dimension", **entry._asdict()}
+
+
+def _screws(size: Size) -> Iterator[Dimension]:
+    for part in ("wheel", "crank"):
+        for key, name in (("screw", "set screw"), ("clamp", "clamp screw")):
+            screw = vars(size)[f"{part}_{key}_mm"]
+            if screw is not None:
+                yield Dimension(f"{part}'s {name}", screw, "mm")
 
 
 def _straight(mechanism: Mechanism) -> Iterator[Dimension]:

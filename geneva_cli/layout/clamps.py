@@ -163,4 +163,5 @@ def clamp_note(size: Size, part: str) -> str:
     if thread is None:
         return ""
     slit = Clamp(screw(f"{part}_clamp_mm", thread), 0.0, 0.0).slit
-    return f"slit {length(slit)}, clamp screw M{thread:g}-8.8 (ISO 4762); fixed opposite the slit only"
+    wide = length(slit)
+    return f"slit {wide}, clamp screw M{thread:g}-8.8 (ISO 4762); fixed opposite the slit only"
