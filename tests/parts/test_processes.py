@@ -215,7 +215,7 @@ def test_a_laser_cuts_no_shell_from_a_plate() -> None:
 
 def test_small_holes_of_shells_are_named() -> None:
     """Shells of 8 mm need 5.6 mm: pins of 5 mm less their press fit are below, hubs above."""
-    ball = sphere("size.process=laser")
+    ball = sphere("size.process=laser", "size.lock_bolts=0")
     (text,) = (str(text) for text in ball.warnings if text.name == "small-hole")
     hole = 5.0 - ball.spec.size.allowances.press_fit_mm
     assert f"arm Ø {hole:.4g}, " in text
