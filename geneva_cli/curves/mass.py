@@ -95,6 +95,8 @@ def _between(plate: Plate) -> Moments:
         (lines_and_arcs(with_material_left(_contour(shape), i == 0)), 1.0 if i == 0 else -1.0)
         for i, shape in enumerate((plate.outline, *plate.holes))
     ]
+    for pieces, _ in oriented:
+        inset(pieces, "", plate.chamfer)  # refuses a chamfer that is too wide, by its own size
     half = 0.5 * plate.chamfer
     return total(
         _counterclockwise(inset(pieces, "", half * (1.0 + sign * node))).times(weight * half * side)
