@@ -22,7 +22,12 @@ if TYPE_CHECKING:
     from geneva_cli.numerics.jet import Array
 
 SAMPLES_MAX = 1_000_000  # some seconds of writing, some 80 MB
-MOTION_COLUMNS = ("time_s", "input_deg", "wheel_deg", "velocity", "acceleration", "jerk")
+
+
+def motion_columns(mechanism: Mechanism) -> tuple[str, ...]:
+    """Names of the columns of a table of motion."""
+    output = mechanism.output.column
+    return ("time_s", "input_deg", output, "velocity", "acceleration", "jerk")
 
 
 def check_samples(samples: int) -> None:
@@ -38,7 +43,8 @@ def motion_table(mechanism: Mechanism, samples: int) -> Table:
     end of the last dwell.
     """
     check_samples(samples)
-    return computed_table(MOTION_COLUMNS, samples, lambda i, j: _rows(mechanism, samples, i, j))
+    names = motion_columns(mechanism)
+    return computed_table(names, samples, lambda i, j: _rows(mechanism, samples, i, j))
 
 
 def turns_table(mechanism: Mechanism, samples: int, count: int) -> Table:
@@ -66,8 +72,9 @@ def turns_table(mechanism: Mechanism, samples: int, count: int) -> Table:
         wheel, *rates = derivatives(mechanism, start + (here - after), (0, 1, 2, 3))
         input_deg = start + here
         time_s = times_s(mechanism, input_deg)
-        columns.append([time_s, input_deg, np.degrees(wheel + k * total), *rates])
-    return Table(MOTION_COLUMNS, [np.concatenate(c) for c in zip(*columns, strict=True)])
+        shown = (wheel + k * total) * mechanism.output.per_radian
+        columns.append([time_s, input_deg, shown, *rates])
+    return Table(motion_columns(mechanism), [np.concatenate(c) for c in zip(*columns, strict=True)])
 
 
 class Span(NamedTuple):
@@ -121,7 +128,8 @@ def _rows(mechanism: Mechanism, samples: int, begin: int, end: int) -> list[Arra
     """The columns' rows ``begin`` to ``end - 1`` of ``samples``."""
     input_deg = inputs(mechanism, samples, begin, end)
     wheel, *rates = derivatives(mechanism, input_deg, (0, 1, 2, 3))
-    return [times_s(mechanism, input_deg), input_deg, np.degrees(wheel), *rates]
+    shown = wheel * mechanism.output.per_radian
+    return [times_s(mechanism, input_deg), input_deg, shown, *rates]
 
 
 def derivatives(mechanism: Mechanism, input_deg: Array, orders: Sequence[int]) -> list[Array]:

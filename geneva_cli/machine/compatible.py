@@ -21,13 +21,19 @@ class Conflict(NamedTuple):
     """
 
     when: Callable[[Spec], object]
-    key: tuple[str, str]
+    key: tuple[str, ...]
     text: str
 
 
 def _several(spec: Spec) -> int:
     """Number of rollers that ``steps_deg`` or ``roller_angles_deg`` place; 0 without either."""
     return len(spec.wheel.steps or spec.drive.roller_angles_deg or ())
+
+
+def _table_of_wheels(table: str, spec: Spec) -> bool:
+    """True if a rack's spec sets a table that only wheels have."""
+    own = getattr(spec, table.strip("[]"))
+    return not spec.output.turns and bool(own != type(own)())
 
 
 CONFLICTS = (
@@ -78,9 +84,9 @@ CONFLICTS = (
         'kind = "{drive}" carries one roller only',
     ),
     Conflict(
-        lambda s: s.wheel.steps and s.drive.roller_angles_deg,
-        ("wheel", "steps_deg"),
-        "steps_deg already places the rollers: remove roller_angles_deg",
+        lambda s: s.wheel.steps and len(s.drive.roller_angles_deg or s.wheel.steps) != _several(s),
+        ("drive", "roller_angles_deg"),
+        "each of the {several} steps has a roller: roller_angles_deg needs as many angles",
     ),
     Conflict(
         lambda s: _several(s) and s.drive.rollers not in (1, _several(s)),
@@ -97,6 +103,37 @@ CONFLICTS = (
         ("drive", "rollers"),
         "{rollers} rollers on a {drive} move the wheel differently, so one curved slot cannot "
         "serve them all; use rollers = 1, or straight slots (no law)",
+    ),
+    Conflict(
+        lambda s: s.output.turns & ((s.load.mass_kg != 0.0) | (s.load.force_N != 0.0)),
+        ("load", "mass_kg"),
+        "mass_kg and force_N are a rack's load; a wheel that turns has inertia_kgm2 and torque_Nm",
+    ),
+    Conflict(
+        lambda s: (not s.output.turns) & ((s.load.inertia_kgm2 != 0.0) | (s.load.torque_Nm != 0.0)),
+        ("load", "inertia_kgm2"),
+        "inertia_kgm2 and torque_Nm are of a wheel that turns; a rack has mass_kg and force_N",
+    ),
+    Conflict(
+        lambda s: not s.output.turns and s.load.dwell_torque_Nm is not None,
+        ("load", "dwell_torque_Nm"),
+        "dwell_torque_Nm acts on a wheel's shaft, and is not available for a rack: remove it",
+    ),
+    *(
+        Conflict(
+            partial(_table_of_wheels, table),
+            (table.strip("[]"),),
+            f"{table} is for a wheel on a shaft; a rack's load is mass_kg and force_N in [load]",
+        )
+        for table in ("[[mass]]", "[support]")
+    ),
+    *(
+        Conflict(
+            partial(_table_of_wheels, table),
+            (table.strip("[]"),),
+            f"{table} is for a wheel on a shaft, and not available for a rack: remove it",
+        )
+        for table in ("[shaft]", "[tolerance]", "[product]")
     ),
     Conflict(
         lambda s: s.wheel.stopped and (not s.drive.CRANKED or s.drive.IN_SERIES or s.motion),
@@ -127,6 +164,16 @@ CONFLICTS = (
         lambda s: not s.wheel.stopped and s.limits.stop_stress_max_MPa is not None,
         ("limits", "stop_stress_max_MPa"),
         "stop_stress_max_MPa limits a stop: set stop = true in [wheel] of an external wheel",
+    ),
+    Conflict(
+        lambda s: s.size.gear_module_mm is None and s.size.gear_shift is not None,
+        ("size", "gear_shift"),
+        "gear_shift moves the teeth of gears: set gear_module_mm, or remove gear_shift",
+    ),
+    Conflict(
+        lambda s: s.size.gear_module_mm is None and s.size.gear_teeth is not None,
+        ("size", "gear_teeth"),
+        "gear_teeth counts the teeth of gears: set gear_module_mm, or remove gear_teeth",
     ),
 )
 

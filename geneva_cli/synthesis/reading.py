@@ -99,6 +99,11 @@ def read_target(
 
 def _gearings(chosen: tuple[str, ...], frame: Spec | None) -> tuple[str, ...]:
     """The gearings to try; with a frame that has a stop those that may have one."""
+    if frame is not None and not frame.output.turns:
+        raise GenevaError(
+            "--from: the spec has a rack, and only wheels are searched: its step is twice "
+            "center_distance_mm, and a side-crank or gears change its motion of 180 deg"
+        )
     if frame is None or not frame.wheel.stopped:
         return chosen or GEARINGS
     stopped = tuple(

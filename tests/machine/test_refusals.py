@@ -98,20 +98,20 @@ STEP = [
     case("spherical", BALL + "steps_deg = @", "[70, 50]", 4, "external"),
     case("law", WHEEL + "steps_deg = @\n" + LAW, "[70, 50]", 3, "law", "remove"),
     case("rollers", WHEEL + STEPS + "[drive]\nrollers = @", "3", 5, "2 steps", "remove rollers"),
-    case("angles", WHEEL + "steps_deg = @\n" + ANGLES + "[0, 180]", "[50, 70]", 3, "remove roller"),
+    case("angles", WHEEL + STEPS + ANGLES + "@", "[0, 100, 200]", 5, "2 steps", "as many angles"),
 ]
 
 ROLLERS = [
     case("close", WHEEL + ANGLES + "@", "[0, 90]", 4, "0 and 90", "120", "90 deg apart"),
     case("close-behind", WHEEL + ANGLES + "@", "[0, 241]", 4, "241 and 0", "120", "119 deg apart"),
-    case("no-dwell", WHEEL + ANGLES + "@", "[0, 120, 240]", 4, "3 motions of 120", "dwell"),
+    case("no-dwell", WHEEL + ANGLES + "@", "[0, 120, 240]", 4, "3 motions", "360", "dwell"),
     case("unsorted", WHEEL + ANGLES + "@", "[0, 150, 140]", 4, "rise from 0"),
     case("twice", WHEEL + ANGLES + "@", "[0, 0]", 4, "rise from 0"),
     case("not-from-0", WHEEL + ANGLES + "@", "[10, 150]", 4, "rise from 0"),
     case("whole-turn", WHEEL + ANGLES + "@", "[0, 360]", 4, "below 360"),
     case("empty", WHEEL + ANGLES + "@", "[]", 4, "list of 1"),
     case("internal", INSIDE + ANGLES + "@", "[0, 180]", 5, "240", "180 deg apart"),
-    case("spherical", BALL + ANGLES + "@", "[0, 180]", 5, "180", "dwell"),
+    case("spherical", BALL + ANGLES + "@", "[0, 180]", 5, "2 motions", "dwell"),
     case("law", WHEEL + ANGLES + "@\n" + LAW, "[0, 150]", 4, "straight", "remove"),
     case("count", WHEEL + ANGLES + "[0, 150]\nrollers = @", "3", 5, "2 angles", "remove rollers"),
 ]
@@ -257,7 +257,7 @@ BOUNDS = [
     bound("ring-high", RING, "0.39", r"at most (\S+)", -1),
     bound("slider", WHEEL + SLIDER.replace("40", "@"), "115", r"it must be below (\S+)", -1),
 ]
-TAKE = r"motion takes (\S+) deg"
+TAKE = r"motions takes (\S+) deg"
 # Values that messages name, and how they are put into the gap.
 NAMED = [
     (WHEEL + GEARS + "rollers = @", "3", r"at most (\d+)", str),
