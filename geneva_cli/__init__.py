@@ -34,6 +34,7 @@ if TYPE_CHECKING:  # for a type checker: one line for each name
     from geneva_cli.kinematics.wheels.internal import Internal as Internal
     from geneva_cli.kinematics.wheels.spherical import Spherical as Spherical
     from geneva_cli.machine.drives.cam import Cam as Cam
+    from geneva_cli.machine.drives.carousel import Carousel as Carousel
     from geneva_cli.machine.drives.crank import Crank as Crank
     from geneva_cli.machine.drives.elliptical_gears import EllipticalGears as EllipticalGears
     from geneva_cli.machine.drives.epicyclic import Epicyclic as Epicyclic

@@ -38,7 +38,18 @@ def motion_table(mechanism: Mechanism, samples: int) -> Table:
     end of the last dwell.
     """
     check_samples(samples)
-    return computed_table(MOTION_COLUMNS, samples, lambda i, j: _rows(mechanism, samples, i, j))
+    names = columns_of(mechanism)
+    return computed_table(names, samples, lambda i, j: _rows(mechanism, samples, i, j))
+
+
+def columns_of(mechanism: Mechanism) -> tuple[str, ...]:
+    """Names of a motion's columns; on a carrier also those of the wheel's motion from the ground.
+
+    Absolute angle, velocity and acceleration are positive as the carrier turns.
+    """
+    if not mechanism.frame:
+        return MOTION_COLUMNS
+    return (*MOTION_COLUMNS, "absolute_deg", "absolute_velocity", "absolute_acceleration")
 
 
 def turns_table(mechanism: Mechanism, samples: int, count: int) -> Table:
@@ -66,8 +77,10 @@ def turns_table(mechanism: Mechanism, samples: int, count: int) -> Table:
         wheel, *rates = derivatives(mechanism, start + (here - after), (0, 1, 2, 3))
         input_deg = start + here
         time_s = times_s(mechanism, input_deg)
-        columns.append([time_s, input_deg, np.degrees(wheel + k * total), *rates])
-    return Table(MOTION_COLUMNS, [np.concatenate(c) for c in zip(*columns, strict=True)])
+        wheel_deg = np.degrees(wheel + k * total)
+        own = [time_s, input_deg, wheel_deg, *rates]
+        columns.append([*own, *_from_ground(mechanism, input_deg, wheel_deg, rates)])
+    return Table(columns_of(mechanism), [np.concatenate(c) for c in zip(*columns, strict=True)])
 
 
 class Span(NamedTuple):
@@ -121,7 +134,19 @@ def _rows(mechanism: Mechanism, samples: int, begin: int, end: int) -> list[Arra
     """The columns' rows ``begin`` to ``end - 1`` of ``samples``."""
     input_deg = inputs(mechanism, samples, begin, end)
     wheel, *rates = derivatives(mechanism, input_deg, (0, 1, 2, 3))
-    return [times_s(mechanism, input_deg), input_deg, np.degrees(wheel), *rates]
+    own = [times_s(mechanism, input_deg), input_deg, np.degrees(wheel), *rates]
+    return [*own, *_from_ground(mechanism, input_deg, np.degrees(wheel), rates)]
+
+
+def _from_ground(
+    mechanism: Mechanism, input_deg: Array, wheel_deg: Array, rates: Sequence[Array]
+) -> list[Array]:
+    """Absolute angle, velocity and acceleration of a wheel on a carrier; nothing without one."""
+    if not mechanism.frame:
+        return []
+    sense, turns = mechanism.spec.wheel.SIGN, mechanism.spec.drive.FRAME_TURNS
+    angle = mechanism.absolute_deg(input_deg, wheel_deg)
+    return [angle, turns + sense * rates[0], sense * rates[1]]
 
 
 def derivatives(mechanism: Mechanism, input_deg: Array, orders: Sequence[int]) -> list[Array]:

@@ -84,6 +84,8 @@ class Drive(SpecTable, kw_only=True):
     TOOTHED: ClassVar[bool] = False
     # True if a first Geneva wheel turns its crank
     IN_SERIES: ClassVar[bool] = False
+    # turns of the wheel's frame in one turn of the input; 0 for a frame on the ground
+    FRAME_TURNS: ClassVar[float] = 0.0
     # key of [drive] that its link reactions need; empty if none
     LENGTH: ClassVar[str] = ""
     n_rpm: Annotated[float, SPEED, "constant speed of the input shaft"] = 60.0

@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 import numpy as np
 
 from geneva_cli.analysis.contact import contact, contacts
-from geneva_cli.analysis.forces import LoadCase, gain, load_case, sliding
+from geneva_cli.analysis.forces import LoadCase, feeding, load_case, sliding
 from geneva_cli.analysis.instant import INSTANT_QUANTITIES, Instant, bounded, values
 from geneva_cli.analysis.load_functions import NO_MORE, LoadFunctions, load_batch
 from geneva_cli.analysis.mid_motion import at_crossing
@@ -102,7 +102,7 @@ class Cycle:
         torque = at.acceleration * case.inertia_Nm + case.resists_Nm
         drives = np.copysign(1.0, torque)
         slides = np.copysign(1.0, sliding(at, drives, case.radius))
-        feeds = np.copysign(1.0, drives * gain(case, at, drives, slides))
+        feeds = np.copysign(1.0, feeding(case, at, drives, slides))
         with np.errstate(all="ignore"):
             moving_values = bounded(Instant(case, at, drives, slides, feeds))
         middle = input_deg == 0.0

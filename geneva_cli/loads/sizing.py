@@ -36,7 +36,6 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from geneva_cli.loads.cycle import Cycle
-    from geneva_cli.machine.spec import Spec
     from geneva_cli.numerics.arrays import N, Number
     from geneva_cli.numerics.jet import Array
     from geneva_cli.spec.tables import Motor
@@ -204,7 +203,7 @@ def _rotor(mechanism: Mechanism, velocities: Sequence[float]) -> dict[str, Numbe
     own = mechanism.spec.motor.inertia_kgm2
     fastest = np.max(np.broadcast_arrays(*velocities), axis=0)
     with np.errstate(all="ignore"):
-        ratio = inertia_ratio(mechanism.spec, cast("Array", fastest))
+        ratio = inertia_ratio(mechanism, cast("Array", fastest))
     known = np.asarray(own) > 0.0
     return {name: np.where(known, x, np.nan) for name, x in zip(ROTOR, ratio, strict=True)}
 
@@ -220,6 +219,7 @@ def greatest_form(mechanism: Mechanism, peaks: Sequence[Peaks]) -> tuple[MakersF
         support_torque_Nm(spec),
         spec.load.torque_Nm,
         spec.motor.service_factor,
+        mechanism.frame,
     )
     every = []
     for number, (engagement, peak) in enumerate(zip(mechanism.engagements, peaks, strict=True)):
@@ -263,12 +263,16 @@ def flywheel_to_add_kgm2(motor: Motor, whole: N) -> N:
     return larger(left, 0.0 * left)
 
 
-def inertia_ratio(spec: Spec, fastest: N) -> tuple[N, N]:
+def inertia_ratio(mechanism: Mechanism, fastest: N) -> tuple[N, N]:
     """The ratio of the wheel's inertia at its fastest to the motor's, and the coasting speed.
 
     ``fastest`` is the greatest velocity psi1. While coasting without losses, I_input w²/2 + I psi1²
-    w²/2 is constant: w = w0/sqrt(1 + mu psi1²), and the second number is w/w0.
+    w²/2 is constant: w = w0/sqrt(1 + mu psi1²), and the second number is w/w0. On a carrier the
+    wheel has the frame's speed in its dwell, and psi1 is added to it.
     """
-    turn = fastest / spec.motor.gear_ratio
-    mu = inertia_kgm2(spec) * (turn * turn) / spec.motor.inertia_kgm2
-    return mu, 1.0 / library(mu).sqrt(1.0 + mu)
+    spec, frame = mechanism.spec, mechanism.frame
+    still, mu = (
+        inertia_kgm2(spec) * (turn * turn) / spec.motor.inertia_kgm2
+        for turn in ((x + frame) / spec.motor.gear_ratio for x in (0.0 * fastest, fastest))
+    )
+    return larger(mu, still), library(mu).sqrt((1.0 + still) / (1.0 + mu))

@@ -21,7 +21,7 @@ class Conflict(NamedTuple):
     """
 
     when: Callable[[Spec], object]
-    key: tuple[str, str]
+    key: tuple[str, ...]
     text: str
 
 
@@ -97,6 +97,23 @@ CONFLICTS = (
         ("drive", "rollers"),
         "{rollers} rollers on a {drive} move the wheel differently, so one curved slot cannot "
         "serve them all; use rollers = 1, or straight slots (no law)",
+    ),
+    Conflict(
+        lambda s: s.drive.FRAME_TURNS and any(one.count == 1 and one.radius_mm for one in s.mass),
+        ("mass", "radius_mm"),
+        'kind = "{drive}" needs balanced wheels, as its centrifugal force would turn them: set '
+        "count to 2 or more evenly spaced bodies, or radius_mm = 0",
+    ),
+    Conflict(
+        lambda s: s.drive.FRAME_TURNS and s.product.lies,
+        ("product",),
+        '[product] is for a wheel on the ground, not for kind = "{drive}": remove radius_mm, or '
+        "sprocket_teeth and pitch_mm",
+    ),
+    Conflict(
+        lambda s: s.drive.FRAME_TURNS and s.support.gear_ratio != 1.0,
+        ("support", "gear_ratio"),
+        'gear_ratio is for a table on the ground, not for kind = "{drive}": set it to 1',
     ),
     Conflict(
         lambda s: s.wheel.stopped and (not s.drive.CRANKED or s.drive.IN_SERIES or s.motion),

@@ -12,7 +12,7 @@ from geneva_cli.machine import compatible
 from geneva_cli.machine.size_rules import refuse_sizes
 from geneva_cli.machine.spec import Spec
 from geneva_cli.machine.tolerance_rules import refuse_tolerances
-from geneva_cli.numerics.arrays import choose, designs_of, larger, library
+from geneva_cli.numerics.arrays import N, choose, designs_of, larger, library
 from geneva_cli.numerics.tolerances import SAME_INPUT_DEG
 
 if TYPE_CHECKING:
@@ -88,6 +88,18 @@ class Mechanism(NamedTuple):
             whole == 360.0, input_deg - 360.0 * m.rint(input_deg / 360.0), counted
         )
         return shown
+
+    @property
+    def frame(self) -> float:
+        """Turns of the wheel's frame in one turn of the input, positive as the wheel turns in it.
+
+        It is 0 but for wheels on a carrier.
+        """
+        return self.spec.drive.FRAME_TURNS * self.spec.wheel.SIGN
+
+    def absolute_deg(self, input_deg: N, wheel_deg: N) -> N:
+        """Wheel's angle from the ground, positive as its frame turns, from that in its frame."""
+        return self.spec.drive.FRAME_TURNS * input_deg + self.spec.wheel.SIGN * wheel_deg
 
     def index_deg(self, i: int) -> float:
         """Wheel step of engagement i, in degrees."""

@@ -41,6 +41,8 @@ def _back_driven(cycle: Cycle, loads: Mapping[str, QuantitySummary]) -> list[Not
     if least is None or alpha.min is None or not least < -ROUNDED * abs(most or least):
         return []
     driven = back_driven_deg(cycle)
+    if not driven:
+        return []
     where = ", ".join(f"{round(a, 9):.4g} to {round(b, 9):.4g}" for a, b in driven)
     # With this resistance the wheel is braked without the input even at its greatest deceleration.
     inertia = cycle.case.inertia_Nm / cycle.case.speed_rad_s**2
@@ -49,6 +51,8 @@ def _back_driven(cycle: Cycle, loads: Mapping[str, QuantitySummary]) -> list[Not
     helps += "input always drives)"
     if arrival(cycle.mechanism):
         helps = "but no drag on the wheel, which would take it off the roller that stops it"
+    if cycle.case.frame:
+        helps = "as no drag on the wheel stops it from pushing the carrier"
     return [
         Notice(
             "drives-the-motor",
