@@ -144,9 +144,9 @@ def _from_ground(
     """Absolute angle, velocity and acceleration of a wheel on a carrier; nothing without one."""
     if not mechanism.frame:
         return []
-    sense, turns = mechanism.spec.wheel.SIGN, mechanism.spec.drive.FRAME_TURNS
+    sense = mechanism.spec.wheel.SIGN
     angle = mechanism.absolute_deg(input_deg, wheel_deg)
-    return [angle, turns + sense * rates[0], sense * rates[1]]
+    return [angle, 1.0 + sense * rates[0], sense * rates[1]]
 
 
 def derivatives(mechanism: Mechanism, input_deg: Array, orders: Sequence[int]) -> list[Array]:

@@ -84,8 +84,6 @@ class Drive(SpecTable, kw_only=True):
     TOOTHED: ClassVar[bool] = False
     # True if a first Geneva wheel turns its crank
     IN_SERIES: ClassVar[bool] = False
-    # turns of the wheel's frame in one turn of the input; 0 for a frame on the ground
-    FRAME_TURNS: ClassVar[float] = 0.0
     # key of [drive] that its link reactions need; empty if none
     LENGTH: ClassVar[str] = ""
     n_rpm: Annotated[float, SPEED, "constant speed of the input shaft"] = 60.0
@@ -100,6 +98,11 @@ class Drive(SpecTable, kw_only=True):
     def turns(self) -> int:
         """Number of input turns in one turn of the crank."""
         return 1
+
+    @property
+    def wheels_on_carrier(self) -> int:
+        """Number of wheels that orbit on a carrier, which the input turns; 0 without a carrier."""
+        return 0
 
     @property
     def gears(self) -> Gears | None:

@@ -1,6 +1,7 @@
 """The whole cycle under load: states at any input angle, extremes and integrals.
 
 The cycle is a period of the machine from the first entry: every engagement, and the dwells between.
+With several wheels on a carrier it ends at the entry of the next wheel.
 All loads are 0 in a dwell: nothing moves, the lock holds the wheel, and resistance to motion does
 not act at rest.
 """
@@ -62,7 +63,7 @@ class Cycle:
     """
 
     def __init__(self, mechanism: Mechanism) -> None:
-        self.mechanism = mechanism
+        self.mechanism = mechanism.under_load
         self.case: LoadCase = load_case(mechanism)
 
     @property

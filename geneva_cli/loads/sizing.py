@@ -188,7 +188,7 @@ def _exact(
     mean = np.where(torque.mean**2 > 1e-26 * square, torque.mean, 0.0 * square)
     swings = fluctuations(mechanism, mean)
     energy = np.where(bounded, swings.energy_J, np.nan)[:, None]
-    returned = swings.returned / np.ravel(mechanism.period_deg * DEGREE)
+    returned = swings.returned / np.ravel(mechanism.under_load.period_deg * DEGREE)
     out["energy_fluctuation_J"] = energy
     out["motor_torque_rms_Nm"] = rms_motor_torque_Nm(motor, square[:, None], returned[:, None])
     if motor.speed_variation is not None:
@@ -267,12 +267,14 @@ def inertia_ratio(mechanism: Mechanism, fastest: N) -> tuple[N, N]:
     """The ratio of the wheel's inertia at its fastest to the motor's, and the coasting speed.
 
     ``fastest`` is the greatest velocity psi1. While coasting without losses, I_input w²/2 + I psi1²
-    w²/2 is constant: w = w0/sqrt(1 + mu psi1²), and the second number is w/w0. On a carrier the
-    wheel has the frame's speed in its dwell, and psi1 is added to it.
+    w²/2 is constant: w = w0/sqrt(1 + mu psi1²), and the second number is w/w0. On a carrier all
+    wheels have the frame's speed, and psi1 is added to that of one.
     """
     spec, frame = mechanism.spec, mechanism.frame
+    others = max(0, spec.drive.wheels_on_carrier - 1) * frame * frame
     still, mu = (
-        inertia_kgm2(spec) * (turn * turn) / spec.motor.inertia_kgm2
-        for turn in ((x + frame) / spec.motor.gear_ratio for x in (0.0 * fastest, fastest))
+        inertia_kgm2(spec) * (turn * turn + others) / spec.motor.gear_ratio**2
+        for turn in (0.0 * fastest + frame, fastest + frame)
     )
+    still, mu = (x / spec.motor.inertia_kgm2 for x in (still, mu))
     return larger(mu, still), library(mu).sqrt((1.0 + still) / (1.0 + mu))

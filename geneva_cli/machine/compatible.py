@@ -99,19 +99,32 @@ CONFLICTS = (
         "serve them all; use rollers = 1, or straight slots (no law)",
     ),
     Conflict(
-        lambda s: s.drive.FRAME_TURNS and any(one.count == 1 and one.radius_mm for one in s.mass),
+        lambda s: (
+            s.drive.wheels_on_carrier and any(one.count == 1 and one.radius_mm for one in s.mass)
+        ),
         ("mass", "radius_mm"),
         'kind = "{drive}" needs balanced wheels, as its centrifugal force would turn them: set '
         "count to 2 or more evenly spaced bodies, or radius_mm = 0",
     ),
     Conflict(
-        lambda s: s.drive.FRAME_TURNS and s.product.lies,
+        lambda s: s.drive.wheels_on_carrier > 1 and (s.drive.rollers > 1 or _several(s)),
+        ("drive", "wheels"),
+        "several wheels meet one finger, each in turn: remove rollers, roller_angles_deg and "
+        "steps_deg, or set wheels = 1",
+    ),
+    Conflict(
+        lambda s: s.drive.wheels_on_carrier > 1 and s.wheel.SIGN < 0.0,
+        ("drive", "wheels"),
+        "an internal wheel surrounds the finger, so that one alone fits: set wheels = 1",
+    ),
+    Conflict(
+        lambda s: s.drive.wheels_on_carrier and s.product.lies,
         ("product",),
         '[product] is for a wheel on the ground, not for kind = "{drive}": remove radius_mm, or '
         "sprocket_teeth and pitch_mm",
     ),
     Conflict(
-        lambda s: s.drive.FRAME_TURNS and s.support.gear_ratio != 1.0,
+        lambda s: s.drive.wheels_on_carrier and s.support.gear_ratio != 1.0,
         ("support", "gear_ratio"),
         'gear_ratio is for a table on the ground, not for kind = "{drive}": set it to 1',
     ),

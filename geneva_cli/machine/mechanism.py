@@ -95,11 +95,17 @@ class Mechanism(NamedTuple):
 
         It is 0 but for wheels on a carrier.
         """
-        return self.spec.drive.FRAME_TURNS * self.spec.wheel.SIGN
+        return self.spec.wheel.SIGN if self.spec.drive.wheels_on_carrier else 0.0
 
     def absolute_deg(self, input_deg: N, wheel_deg: N) -> N:
-        """Wheel's angle from the ground, positive as its frame turns, from that in its frame."""
-        return self.spec.drive.FRAME_TURNS * input_deg + self.spec.wheel.SIGN * wheel_deg
+        """Angle from the ground of a wheel on a carrier, positive as the carrier turns."""
+        return input_deg + self.spec.wheel.SIGN * wheel_deg
+
+    @property
+    def under_load(self) -> Mechanism:
+        """The machine with the period of its loads: up to the entry of the next wheel."""
+        wheels = self.spec.drive.wheels_on_carrier
+        return self._replace(period_deg=360.0 / wheels) if wheels > 1 else self
 
     def index_deg(self, i: int) -> float:
         """Wheel step of engagement i, in degrees."""

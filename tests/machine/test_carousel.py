@@ -23,10 +23,14 @@ from geneva_cli import (
     Spherical,
     Support,
 )
+from geneva_cli.loads.cycle import cycle_of
 from geneva_cli.loads.loads import kinetic_power_W
 from geneva_cli.loads.sizing import sizing
+from geneva_cli.loads.summaries import load_summaries
+from geneva_cli.machine.many import many
 from geneva_cli.machine.mechanism import build
 from geneva_cli.machine.spec import Spec
+from geneva_cli.verdict.quantities.groups import GROUPS
 
 WHEELS = [External(3), External(4), External(6), External(12), Internal(3), Internal(6)]
 every = pytest.mark.parametrize("wheel", WHEELS, ids=lambda w: f"{w.NAME}-{w.z}")
@@ -219,6 +223,144 @@ def test_inertia_ratio_counts_from_the_ground():
         assert values["inertia_ratio"] == pytest.approx(0.5 * fastest**2, rel=1e-13)
 
 
+SEVERAL = [(3, 2), (3, 5), (4, 3), (5, 3), (8, 2)]  # slots, wheels
+
+
+@pytest.mark.parametrize(("z", "wheels"), SEVERAL)
+def test_loads_of_several_wheels_are_the_sum_over_a_turn(z, wheels):
+    """The torques of all wheels, each behind the one before it, over a whole turn."""
+    load, motor = Load(inertia_kgm2=0.02, torque_Nm=0.1, efficiency=0.9), Motor(gear_efficiency=0.8)
+    one, several = (
+        Design(External(z), Carousel(wheels=n), load=load, motor=motor) for n in (1, wheels)
+    )
+    (engagement,) = one.mechanism.engagements
+    half = engagement.exit_deg
+    # a grid that holds every entry and exit of all wheels would not be even: midpoints err by h²
+    x = (np.arange(360_000) + 0.5) * 1e-3 - half
+    total = np.zeros(len(x))
+    for k in range(wheels):
+        own = (x - 360.0 * k / wheels + half) % 360.0 - half
+        order = np.argsort(own)
+        torque = np.empty(len(x))
+        torque[order] = one.cycle.states(own[order]).input_torque_Nm
+        total += torque
+    summary = several.loads["input_torque_Nm"]
+    peak = abs(total).max()
+    assert summary.max == pytest.approx(total.max(), rel=1e-6)
+    assert summary.mean == pytest.approx(total.mean(), abs=1e-6 * peak)
+    assert summary.rms == pytest.approx(math.sqrt((total**2).mean()), rel=1e-6)
+    work = np.cumsum(total - total.mean()) * math.radians(1e-3)
+    values = sizing(several.cycle)[0]
+    swing = max(0.0, work.max()) - min(0.0, work.min())
+    assert values["energy_fluctuation_J"] == pytest.approx(swing, rel=1e-5)
+    shaft = np.where(total > 0.0, total / 0.8, total * 0.8)
+    assert values["motor_torque_rms_Nm"] == pytest.approx(math.sqrt((shaft**2).mean()), rel=1e-6)
+
+
+def test_a_batch_of_loads_is_each_design_alone():
+    """Sweeps and single designs give the same numbers, with several wheels too."""
+    spec = Spec(External(4), Carousel(wheels=3), load=Load(inertia_kgm2=0.1, torque_Nm=1.0))
+    inertias = np.array([0.01, 0.3])
+    batch = load_summaries(many(spec, {"load.inertia_kgm2": inertias}).machine, ["input_torque_Nm"])
+    for i, inertia in enumerate(inertias):
+        alone = cycle_of(build(spec.with_("load.inertia_kgm2", float(inertia)))).known
+        for name in ("max", "min", "mean", "rms"):
+            together = getattr(batch["input_torque_Nm"], name)[i]
+            assert together == pytest.approx(getattr(alone["input_torque_Nm"], name)[0], rel=1e-12)
+
+
+def values_of(design):
+    return {
+        f"{group.table}.{name}": value
+        for group in GROUPS
+        if group.table == "carousel"
+        for name, value in zip(group.own, group.values(design.parts_model).values(), strict=True)
+    }
+
+
+def test_quantities_by_hand():
+    """An external wheel of four makes a quarter turn: its speed is 1/(sqrt(2) - 1) at most."""
+    values = values_of(Design(External(4), Carousel(wheels=3)))
+    assert values["carousel.turn_deg"] == pytest.approx(450.0, rel=1e-15)
+    assert values["carousel.velocity"] == pytest.approx(2.0 + math.sqrt(2.0), rel=1e-15)
+    assert values["carousel.moving_fraction"] == pytest.approx(0.75, rel=1e-15)
+    assert values["carousel.behind_deg"] == 120.0
+    inside = values_of(Design(Internal(6), Carousel()))
+    assert inside["carousel.turn_deg"] == pytest.approx(300.0, rel=1e-15)
+    assert inside["carousel.velocity"] == pytest.approx(2.0 / 3.0, rel=1e-15)
+    assert inside["carousel.behind_deg"] is None
+    two = values_of(Design(External(6), Carousel(rollers=2)))
+    assert two["carousel.turn_deg"] == pytest.approx(480.0, rel=1e-15)
+    assert two["carousel.moving_fraction"] == pytest.approx(2.0 / 3.0, rel=1e-15)
+    assert set(values_of(Design(External(6))).values()) == {None}
+
+
+def test_centrifugal_force_by_newton_s_law():
+    """The sum of mass times acceleration of balanced points, with the wheel at rest or moving."""
+    wheel, mass, n, L = External(5), 0.7, 120.0, 0.25
+    bodies = Mass("point", mass_kg=mass, count=POINTS, radius_mm=1000.0 * HELD)
+    size = Size(center_distance_mm=1000.0 * L)
+    values = values_of(Design(wheel, Carousel(n_rpm=n), mass=(bodies,), size=size))
+    witness = witness_of(wheel)
+    with mp.workdps(50):
+        w, c = mp.mpf(n) * mp.pi / 30, mp.radians(20)
+        total = sum(
+            mass
+            * w
+            * w
+            * mpmath.diff(
+                lambda x, k=k: (
+                    L * mp.expj(x)
+                    + HELD * mp.expj(witness.slot(x) + mp.mpf(2 * k) * mp.pi / POINTS)
+                ),
+                c,
+                2,
+            )
+            for k in range(POINTS)
+        )
+    assert values["carousel.centrifugal_N"] == pytest.approx(float(abs(total)), rel=1e-13)
+    assert values_of(Design(wheel, Carousel()))["carousel.centrifugal_N"] is None
+
+
+def test_neighbours_by_their_places():
+    """Gap and envelope from the places of pivots, and of a block's corners at all angles."""
+    L, wheels, z = 100.0, 3, 4
+    for mass, reach in (
+        ((), math.hypot(L * math.cos(math.pi / z), 5.0)),  # a rim that the roller just enters
+        ((Mass("block", mass_kg=1.0, length_mm=60.0, width_mm=80.0),), None),
+        ((Mass("disc", mass_kg=1.0, diameter_mm=40.0, radius_mm=70.0, count=2),), 90.0),
+    ):
+        design = Design(External(z), Carousel(wheels=wheels), mass=mass)
+        reach = reach or max(abs(complex(30.0, 40.0)), math.hypot(L * math.cos(math.pi / z), 5.0))
+        pivots = [L * np.exp(2j * math.pi * k / wheels) for k in range(wheels)]
+        gap = min(abs(a - b) for i, a in enumerate(pivots) for b in pivots[:i]) - 2.0 * reach
+        (check,) = (c for c in design.checks if c.name == "wheels_apart_mm")
+        assert check.value == pytest.approx(gap, rel=1e-13)
+        assert check.passes == (gap >= 0.0)
+        assert values_of(design)["carousel.envelope_mm"] == pytest.approx(L + reach, rel=1e-14)
+
+
+def test_a_report_lists_when_each_wheel_moves():
+    design = Design(External(4), Carousel(wheels=3, n_rpm=1.0))
+    table = design.report.table.to_dict()["wheels"]
+    assert table == [
+        {"wheel": 1, "behind_deg": 0.0, "entry_deg": -45.0, "exit_deg": 45.0, "entry_s": 0.0},
+        {"wheel": 2, "behind_deg": 120.0, "entry_deg": 75.0, "exit_deg": 165.0, "entry_s": 20.0},
+        {"wheel": 3, "behind_deg": 240.0, "entry_deg": 195.0, "exit_deg": 285.0, "entry_s": 40.0},
+    ]
+
+
+@pytest.mark.parametrize(("z", "most"), [(3, 5), (4, 3), (5, 3), (6, 2), (8, 2), (24, 2)])
+def test_only_one_wheel_moves_at_a_time(z, most):
+    """Wheels that would move together would also meet: 2 L sin(180°/n) against 2 L cos b."""
+    build(Spec(External(z), Carousel(wheels=most)))
+    with pytest.raises(GenevaError, match=f"at most {most}$"):
+        build(Spec(External(z), Carousel(wheels=most + 1)))
+    assert math.sin(math.pi / most) > math.cos(math.pi / z)
+    # equal for the wheel of four and that of six, whose rims would touch
+    assert math.sin(math.pi / (most + 1)) <= math.cos(math.pi / z) * (1.0 + 1e-15)
+
+
 @pytest.mark.parametrize(
     ("tables", "text"),
     [
@@ -226,9 +368,12 @@ def test_inertia_ratio_counts_from_the_ground():
         ({"mass": (Mass("point", mass_kg=1.0, radius_mm=50.0),)}, "balanced"),
         ({"product": Product(radius_mm=50.0)}, "on the ground"),
         ({"support": Support(gear_ratio=2.0)}, "on the ground"),
+        ({"drive": Carousel(wheels=2, rollers=2)}, "one finger"),
+        ({"wheel": External(6, steps_deg=(70, 50)), "drive": Carousel(wheels=2)}, "one finger"),
+        ({"wheel": Internal(6), "drive": Carousel(wheels=2)}, "surrounds"),
     ],
 )
 def test_what_is_refused(tables, text):
-    tables = {"wheel": External(6), **tables}
+    tables = {"wheel": External(6), "drive": Carousel(), **tables}
     with pytest.raises(GenevaError, match=text):
-        build(Spec(drive=Carousel(), **tables))
+        build(Spec(**tables))

@@ -232,6 +232,9 @@ CAROUSELS = [
     case("spherical", "[wheel]\nz = 6\ngearing = @\n" + ORBIT, '"spherical"', 3, "or internal"),
     case("unbalanced", WHEEL + ORBIT + BODY + "radius_mm = @", "50", 5, "balanced", "count to 2"),
     case("product", WHEEL + ORBIT + "[product]\nradius_mm = @", "50", 5, "remove radius_mm"),
+    case("many", WHEEL + ORBIT + "wheels = @", "3", 5, "wheels = 3", "120 deg", "at most 2"),
+    case("fingers", WHEEL + ORBIT + "rollers = 2\nwheels = @", "2", 6, "remove rollers"),
+    case("inside", INSIDE + ORBIT + "wheels = @", "2", 6, "surrounds", "wheels = 1"),
     case("gears", WHEEL + ORBIT + "[support]\ngear_ratio = @", "2", 6, "set it to 1"),
 ]
 
