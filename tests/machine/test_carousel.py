@@ -30,6 +30,8 @@ from geneva_cli.loads.summaries import load_summaries
 from geneva_cli.machine.many import many
 from geneva_cli.machine.mechanism import build
 from geneva_cli.machine.spec import Spec
+from geneva_cli.scene import place_at, value_at
+from geneva_cli.study.animation.scene import scene
 from geneva_cli.verdict.quantities.groups import GROUPS
 
 WHEELS = [External(3), External(4), External(6), External(12), Internal(3), Internal(6)]
@@ -338,6 +340,53 @@ def test_neighbours_by_their_places():
         assert check.value == pytest.approx(gap, rel=1e-13)
         assert check.passes == (gap >= 0.0)
         assert values_of(design)["carousel.envelope_mm"] == pytest.approx(L + reach, rel=1e-14)
+
+
+@pytest.mark.parametrize(
+    "design",
+    [
+        Design(External(4), Carousel(wheels=3), load=Load(inertia_kgm2=0.1)),
+        Design(External(6), Carousel(rollers=2)),
+        Design(Internal(5), Carousel()),
+    ],
+    ids=["several", "two fingers", "inside"],
+)
+def test_the_page_turns_the_carrier_about_fingers_that_stand(design):
+    """Seen from the ground: fingers at rest, pivots on their orbit, wheels as the witness turns."""
+    shown, witness = scene(design), witness_of(design.spec.wheel)
+    g, L = design.spec.wheel.SIGN, design.mechanism.center_distance_mm
+    wheels = [body for body in shown.bodies if body.name.startswith("wheel")]
+    (crank,) = (body for body in shown.bodies if body.name == "crank")
+    pivot = complex(*shown.frame.centre)
+    assert pivot == L
+    behind, stands = 360.0 / len(wheels), None
+    half = design.mechanism.engagements[0].exit_deg
+
+    def ground(place, t):
+        return pivot + (complex(*place) - pivot) * np.exp(1j * value_at(shown.frame.angle, t))
+
+    for t in np.linspace(1.0, 359.0, 73):
+        c = shown.start_deg + t
+        fingers = [ground(place_at(place, t), t) for place in shown.rollers]
+        here = [*fingers, value_at(crank.angle, t) + value_at(shown.frame.angle, t)]
+        stands = here if stands is None else stands
+        assert here == pytest.approx(stands, abs=1e-3)  # mm; a screen shows 2e-6 of L
+        for k, body in enumerate(wheels):
+            at = c - behind * k
+            expected = pivot - L * np.exp(1j * g * math.radians(at))
+            assert ground(body.centre, t) == pytest.approx(expected, abs=1e-9 * L)
+            turn = value_at(body.angle, t) + value_at(shown.frame.angle, t)
+            nearest = (at + 180.0 / len(fingers)) % (360.0 / len(fingers)) - 180.0 / len(fingers)
+            if abs(nearest) < half:  # in motion: from the nearest finger's mid-motion on
+                own = float(witness.slot(mp.radians(mp.mpf(nearest)))) - math.radians(nearest)
+                slots = turn - g * math.radians(at) - g * own
+                assert math.remainder(slots, math.tau / witness.z) == pytest.approx(0.0, abs=1e-6)
+    for push in shown.pushes:  # at the finger's roller, whose radius is L/20
+        for t, x, y in zip(push.at, push.x, push.y, strict=True):
+            off = min(abs(ground((x, y), t) - ground(place_at(p, t), t)) for p in shown.rollers)
+            assert off == pytest.approx(L / 20.0, rel=1e-3)
+    assert len(shown.pushes) == (len(wheels) if design.spec.is_loaded else 0)
+    assert sum(phase.moves for phase in shown.states) == len(wheels) * len(shown.rollers)
 
 
 def test_a_report_lists_when_each_wheel_moves():

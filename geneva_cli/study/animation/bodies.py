@@ -13,6 +13,7 @@ from geneva_cli.curves.shapes import Circle, Contour, Line, Shape, closed
 from geneva_cli.design import Design
 from geneva_cli.errors import GenevaError
 from geneva_cli.scene import Body, Track
+from geneva_cli.study.animation.carrier import wheel_places
 from geneva_cli.study.animation.tracks import still
 from geneva_cli.study.animation.turn import MachineTurn
 
@@ -24,11 +25,14 @@ WHEEL = "WHEEL"  # layer
 
 def bodies(design: Design, turn: MachineTurn) -> Iterator[Body]:
     """Wheel, crank with its arm, the cam's groove and gears, as far as the machine has them."""
-    L, wheel, crank = turn.L, turn.wheel(), turn.crank()
+    L, crank = turn.L, turn.crank()
     # parts of a sphere are drawn laid flat: these outlines do not turn about the shaft
     shapes = _hollow(_shapes(design, "wheel")) if design.spec.wheel.FLAT else ()
     flat = bool(shapes)
-    yield Body("wheel", (*(shapes or _slots(turn)), _mark(shapes, turn)), (0.0, 0.0), wheel)
+    wheel = (*(shapes or _slots(turn)), _mark(shapes, turn))
+    for place in wheel_places(turn.mechanism):
+        name = f"wheel {place.number}" if place.number > 1 else "wheel"
+        yield Body(name, wheel, place.centre, turn.wheel(place))
     if flat:
         carried = (*_shapes(design, "arm"), *_shapes(design, "crank"))
         carried = tuple(shape for shape in carried if shape.layer != "ROLLER")
