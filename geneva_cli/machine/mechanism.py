@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, NamedTuple
 from geneva_cli.kinematics.drive import Plan
 from geneva_cli.kinematics.engagement import Engagement
 from geneva_cli.kinematics.laws.law import Law
+from geneva_cli.kinematics.layout import WheelPlace, wheel_places
 from geneva_cli.machine import compatible
 from geneva_cli.machine.size_rules import refuse_sizes
 from geneva_cli.machine.spec import Spec
@@ -100,6 +101,12 @@ class Mechanism(NamedTuple):
     def absolute_deg(self, input_deg: N, wheel_deg: N) -> N:
         """Angle from the ground of a wheel on a carrier, positive as the carrier turns."""
         return input_deg + self.spec.wheel.SIGN * wheel_deg
+
+    @property
+    def wheel_places(self) -> tuple[WheelPlace, ...]:
+        """Places of all wheels; more than one only on a carrier."""
+        count = max(1, self.spec.drive.wheels_on_carrier)
+        return wheel_places(count, self.spec.wheel.SIGN, self.center_distance_mm)
 
     @property
     def under_load(self) -> Mechanism:

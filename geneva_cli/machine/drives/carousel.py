@@ -10,7 +10,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Annotated, ClassVar
 
 from geneva_cli.errors import GenevaError, refuse
-from geneva_cli.kinematics.layout import Dimension, Layout
+from geneva_cli.kinematics.layout import Dimension, Layout, Pivot, wheel_places
 from geneva_cli.kinematics.wheels.classic import rollers_max
 from geneva_cli.machine.drives.transmission import Direct
 from geneva_cli.spec.example import Example
@@ -65,8 +65,10 @@ class Carousel(Direct, kw_only=True):
         return plan
 
     def layout(self, plan: Plan, sign: float) -> Layout:
-        """Number of wheels, and the radius on which they orbit."""
+        """Axes and number of wheels, and the radius on which they orbit."""
+        _, *others = wheel_places(self.wheels, sign, plan.center_distance_mm)
         return (
+            *(Pivot(f"axis of wheel {place.number}", *place.at) for place in others),
             Dimension("wheels on the carrier", self.wheels),
             Dimension("orbit's radius", plan.center_distance_mm, "mm"),
         )

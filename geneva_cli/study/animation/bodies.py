@@ -13,7 +13,6 @@ from geneva_cli.curves.shapes import Circle, Contour, Line, Shape, closed
 from geneva_cli.design import Design
 from geneva_cli.errors import GenevaError
 from geneva_cli.scene import Body, Track
-from geneva_cli.study.animation.carrier import wheel_places
 from geneva_cli.study.animation.tracks import still
 from geneva_cli.study.animation.turn import MachineTurn
 
@@ -30,14 +29,16 @@ def bodies(design: Design, turn: MachineTurn) -> Iterator[Body]:
     shapes = _hollow(_shapes(design, "wheel")) if design.spec.wheel.FLAT else ()
     flat = bool(shapes)
     wheel = (*(shapes or _slots(turn)), _mark(shapes, turn))
-    for place in wheel_places(turn.mechanism):
+    for place in turn.mechanism.wheel_places:
         name = f"wheel {place.number}" if place.number > 1 else "wheel"
-        yield Body(name, wheel, place.centre, turn.wheel(place))
+        yield Body(name, wheel, place.at, turn.wheel(place))
     if flat:
         carried = (*_shapes(design, "arm"), *_shapes(design, "crank"))
         carried = tuple(shape for shape in carried if shape.layer != "ROLLER")
         yield Body("crank", carried, (L, 0.0), crank)
         yield Body("groove", _shapes(design, "groove"), (L, 0.0), still(0.0))
+        if turn.mechanism.frame > 0.0:
+            yield Body("carrier", _shapes(design, "frame"), (0.0, 0.0), still(0.0))
     if design.spec.drive.gears:
         yield from _gears(design, turn)
 

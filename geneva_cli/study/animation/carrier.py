@@ -1,33 +1,13 @@
-"""The wheels on a carrier: where each stands and moves, and the carrier's rotation."""
+"""The rotation of a carrier, and the forces on its wheels."""
 
 from __future__ import annotations
 
 import math
-from typing import NamedTuple
 
+from geneva_cli.kinematics.layout import WheelPlace
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.numerics.angles import radians
 from geneva_cli.scene import Push, Rotation, Track
-
-
-class WheelPlace(NamedTuple):
-    """A wheel on the carrier, whose axis is turned about the fixed one from the first wheel's."""
-
-    number: int  # from 1
-    behind_deg: float  # the carrier's angle after which it does what the first wheel did
-    turn: float  # radians, counterclockwise in the carrier's frame
-    centre: tuple[float, float]  # mm
-
-
-def wheel_places(mechanism: Mechanism) -> list[WheelPlace]:
-    """The places of all wheels; of the one wheel, if it does not orbit."""
-    count, L = max(1, mechanism.spec.drive.wheels_on_carrier), mechanism.center_distance_mm
-    out = []
-    for k in range(count):
-        turn = -mechanism.frame * math.tau * k / count if k else 0.0
-        centre = L - L * math.cos(turn), -L * math.sin(turn) if k else 0.0
-        out.append(WheelPlace(k + 1, 360.0 * k / count, turn, centre))
-    return out
 
 
 def frame_rotation(mechanism: Mechanism, start: float, whole: float) -> Rotation | None:

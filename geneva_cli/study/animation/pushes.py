@@ -9,7 +9,7 @@ import numpy as np
 
 from geneva_cli.loads.cycle import Cycle
 from geneva_cli.scene import Push
-from geneva_cli.study.animation.carrier import moved_push, wheel_places
+from geneva_cli.study.animation.carrier import moved_push
 from geneva_cli.study.animation.turn import MachineTurn, RollerPassage
 
 if TYPE_CHECKING:
@@ -39,7 +39,7 @@ def pushes(cycle: Cycle, turn: MachineTurn) -> Iterator[Push]:
         columns = (at, contact[:, 0], contact[:, 1], arrow[:, 0], arrow[:, 1])
         push = Push(*(tuple(column.tolist()) for column in columns))
         yield push
-        for place in wheel_places(turn.mechanism)[1:]:
+        for place in turn.mechanism.wheel_places[1:]:
             yield moved_push(push, place, turn.L)
 
 

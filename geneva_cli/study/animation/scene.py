@@ -16,7 +16,7 @@ from geneva_cli.outlines.stop import wheel_stop
 from geneva_cli.scene import Bar, Body, Box, Phase, Place, Rotation, Scene, pose
 from geneva_cli.specfile.writer import quoted, spec_lines
 from geneva_cli.study.animation.bodies import bodies
-from geneva_cli.study.animation.carrier import frame_rotation, wheel_places
+from geneva_cli.study.animation.carrier import frame_rotation
 from geneva_cli.study.animation.pushes import pushes
 from geneva_cli.study.animation.turn import MachineTurn
 from geneva_cli.study.summary.titles import title_of
@@ -112,7 +112,7 @@ def _states(design: Design, turn: MachineTurn) -> Iterator[Phase]:
 
 def _wheels_in_turn(design: Design, turn: MachineTurn) -> Iterator[Phase]:
     """The motions of several wheels at one finger."""
-    (one,), places = turn.passages, wheel_places(design.mechanism)
+    (one,), places = turn.passages, design.mechanism.wheel_places
     for place in places:
         start, end = place.behind_deg, place.behind_deg + one.engagement.motion_deg
         yield Phase(start, end, True, f"the finger turns wheel {place.number} on the carrier")

@@ -12,13 +12,12 @@ import numpy as np
 from geneva_cli.curves.plates import Plate
 from geneva_cli.errors import GenevaError
 from geneva_cli.kinematics.engagement import Engagement
-from geneva_cli.kinematics.layout import Joint, Link
+from geneva_cli.kinematics.layout import Joint, Link, WheelPlace
 from geneva_cli.layout.groove import roller_in_groove
 from geneva_cli.layout.link_positions import links_at
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.parts.links import drawn_links
 from geneva_cli.scene import Bar, CarriedShapes, Place, Track
-from geneva_cli.study.animation.carrier import WheelPlace
 from geneva_cli.study.animation.tracks import Moving, cut, resting, sampled, track
 
 if TYPE_CHECKING:
