@@ -6,7 +6,9 @@ from typing import NamedTuple
 import mpmath
 import numpy as np
 import pytest
+from drawing_witness import vertices
 from mpmath import mp
+from shapely import Point, Polygon, affinity
 
 from geneva_cli import (
     Carousel,
@@ -23,6 +25,7 @@ from geneva_cli import (
     Spherical,
     Support,
 )
+from geneva_cli.curves.plates import plates
 from geneva_cli.loads.cycle import cycle_of
 from geneva_cli.loads.loads import kinetic_power_W
 from geneva_cli.loads.sizing import sizing
@@ -426,3 +429,54 @@ def test_what_is_refused(tables, text):
     tables = {"wheel": External(6), "drive": Carousel(), **tables}
     with pytest.raises(GenevaError, match=text):
         build(Spec(**tables))
+
+
+def test_wheels_pass_each_other_and_the_disc():
+    """Their polygons over a turn of the carrier, each turned as the witness says."""
+    design = Design(External(4), Carousel(wheels=3))
+    (wheel,) = plates(design.drawing("wheel").solid)
+    (disc,) = (one for one in plates(design.drawing("crank").solid) if one.layer == "CRANK")
+    own, lock = Polygon(vertices(wheel.outline, 1e-3)), Polygon(vertices(disc.outline, 1e-3))
+    L, witness = design.mechanism.center_distance_mm, witness_of(design.spec.wheel)
+    half = witness.half_deg()
+    nearest = math.inf
+    for c in np.linspace(-60.0, 60.0, 61):  # then the next wheel is where the first one was
+        placed = []
+        for k in range(3):
+            at = (c - 120.0 * k + 180.0) % 360.0 - 180.0
+            moving = max(-half, min(half, at))
+            turn = math.degrees(float(witness.slot(mp.radians(moving)))) - moving
+            # the finger is at angle 0 from the fixed axis, which is the origin
+            there = affinity.rotate(own, turn + 180.0, (0.0, 0.0))
+            there = affinity.translate(there, L, 0.0)
+            placed.append(affinity.rotate(there, at, (0.0, 0.0)))
+        for i, one in enumerate(placed):
+            nearest = min([nearest, *(one.distance(other) for other in placed[:i])])
+            # a disc without clearance touches its recess
+            assert one.intersection(lock).area < 1e-3 * lock.area
+    (check,) = (c for c in design.checks if c.name == "wheels_apart_mm")
+    assert nearest >= check.value > 0.0
+
+
+def test_the_carrier_has_an_eye_for_each_wheel():
+    for wheels in (1, 2, 3):
+        design = Design(External(4), Carousel(wheels=wheels))
+        (carrier,) = plates(design.drawing("frame").solid)
+        assert carrier.name == "carrier"
+        axes = {complex(*hole.centre) for hole in carrier.holes}
+        expected = {
+            100.0,
+            *(100.0 - 100.0 * np.exp(2j * np.pi * k / wheels) for k in range(wheels)),
+        }
+        assert all(min(abs(a - b) for b in axes) < 1e-9 for a in expected)
+        assert len(axes) == wheels + 1
+        eyes = Polygon(vertices(carrier.outline, 1e-3))
+        walls = [eyes.exterior.distance(Point(*h.centre)) - h.radius for h in carrier.holes]
+        assert min(walls) >= 5.0 - 2e-3  # L/20, less a chord
+        rows = design.part_table("parts").to_rows()
+        rows = {row["name"]: row for row in rows if row["row"] == "part"}
+        assert rows["wheel"]["count"] == rows["wheel's shaft"]["count"] == wheels
+        assert rows["carrier"]["count"] == rows["locking disc"]["count"] == 1
+    # the carrier would hold no internal wheel: a plate below it holds the finger
+    (frame,) = plates(Design(Internal(4), Carousel()).drawing("frame").solid)
+    assert frame.name == "frame"
