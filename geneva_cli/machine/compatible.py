@@ -118,10 +118,9 @@ CONFLICTS = (
         "an internal wheel surrounds the finger, so that one alone fits: set wheels = 1",
     ),
     Conflict(
-        lambda s: s.drive.wheels_on_carrier and s.product.lies,
-        ("product",),
-        '[product] is for a wheel on the ground, not for kind = "{drive}": remove radius_mm, or '
-        "sprocket_teeth and pitch_mm",
+        lambda s: s.drive.wheels_on_carrier and s.product.runs_straight,
+        ("product", "pitch_mm"),
+        'a chain or belt needs a wheel on the ground, not kind = "{drive}": set radius_mm instead',
     ),
     Conflict(
         lambda s: s.drive.wheels_on_carrier and s.support.gear_ratio != 1.0,

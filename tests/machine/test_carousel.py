@@ -25,6 +25,7 @@ from geneva_cli import (
     Spherical,
     Support,
 )
+from geneva_cli.analysis.product import product_motion
 from geneva_cli.curves.plates import plates
 from geneva_cli.loads.cycle import cycle_of
 from geneva_cli.loads.loads import kinetic_power_W
@@ -392,6 +393,33 @@ def test_the_page_turns_the_carrier_about_fingers_that_stand(design):
     assert sum(phase.moves for phase in shown.states) == len(wheels) * len(shown.rollers)
 
 
+@every
+def test_what_a_product_feels_at_any_place_on_the_wheel(wheel):
+    """Against second differences of places all round the wheel, over a turn of the carrier."""
+    L, r, n = 0.1, 0.03, 40.0
+    w = n * math.pi / 30.0
+    orbit = Design(wheel, Carousel(n_rpm=n), product=Product(radius_mm=1000.0 * r))
+    felt = product_motion(orbit.mechanism)
+    half = witness_of(wheel).half_deg()
+    a = np.radians(np.linspace(-half, half, 20_001))
+    g, l = wheel.SIGN, math.sin(math.pi / wheel.z)
+    D = 1.0 - 2.0 * g * l * np.cos(a) + l * l
+    V, A = l * (np.cos(a) - g * l) / D, -l * (1.0 - l * l) * np.sin(a) / D**2
+    speed = acceleration = 0.0
+    for phase in np.linspace(0.0, math.tau, 721):
+        # the place is L + r e^(i angle) in axes that turn with the carrier
+        arm = r * np.exp(1j * phase)
+        rate = 1.0 + g * V
+        moves = w * abs(1j * L + 1j * rate * arm)
+        jerks = w * w * abs(-L + (1j * g * A - rate**2) * arm)
+        speed, acceleration = max(speed, moves.max()), max(acceleration, jerks.max())
+    rest = w * (L + r), w * w * (L + r)
+    # the grid of phases, half a degree apart, misses a cosine by 1e-5
+    assert felt.speed_m_s.max[0] == pytest.approx(max(speed, rest[0]), rel=3e-5)
+    assert felt.acceleration_m_s2.max[0] == pytest.approx(max(acceleration, rest[1]), rel=3e-5)
+    assert felt.friction_needed[0] == pytest.approx(felt.acceleration_m_s2.max[0] / 9.80665)
+
+
 def test_a_report_lists_when_each_wheel_moves():
     design = Design(External(4), Carousel(wheels=3, n_rpm=1.0))
     table = design.report.table.to_dict()["wheels"]
@@ -418,7 +446,7 @@ def test_only_one_wheel_moves_at_a_time(z, most):
     [
         ({"wheel": Spherical(6)}, "external or internal"),
         ({"mass": (Mass("point", mass_kg=1.0, radius_mm=50.0),)}, "balanced"),
-        ({"product": Product(radius_mm=50.0)}, "on the ground"),
+        ({"product": Product(sprocket_teeth=20, pitch_mm=5.0)}, "on the ground"),
         ({"support": Support(gear_ratio=2.0)}, "on the ground"),
         ({"drive": Carousel(wheels=2, rollers=2)}, "one finger"),
         ({"wheel": External(6, steps_deg=(70, 50)), "drive": Carousel(wheels=2)}, "one finger"),

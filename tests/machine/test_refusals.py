@@ -231,7 +231,13 @@ BODY = '[[mass]]\nshape = "point"\nmass_kg = 1\n'
 CAROUSELS = [
     case("spherical", "[wheel]\nz = 6\ngearing = @\n" + ORBIT, '"spherical"', 3, "or internal"),
     case("unbalanced", WHEEL + ORBIT + BODY + "radius_mm = @", "50", 5, "balanced", "count to 2"),
-    case("product", WHEEL + ORBIT + "[product]\nradius_mm = @", "50", 5, "remove radius_mm"),
+    case(
+        "chain",
+        WHEEL + ORBIT + "[product]\nsprocket_teeth = 20\npitch_mm = @",
+        "5",
+        7,
+        "set radius_mm instead",
+    ),
     case("many", WHEEL + ORBIT + "wheels = @", "3", 5, "wheels = 3", "120 deg", "at most 2"),
     case("fingers", WHEEL + ORBIT + "rollers = 2\nwheels = @", "2", 6, "remove rollers"),
     case("inside", INSIDE + ORBIT + "wheels = @", "2", 6, "surrounds", "wheels = 1"),
