@@ -81,6 +81,11 @@ def alternative(design: Design, name: str, rotor: bool = False) -> Mechanism:
     With ``rotor`` a servo's load has its rotor and the losses of its reducer, too.
     """
     times = design.timings
+    if design.spec.drive.wheels_on_carrier:
+        raise GenevaError(
+            f'--against: kind = "{design.spec.drive.NAME}" has wheels on a carrier, and an '
+            "alternative stands on the ground"
+        )
     if len({(round(t.motion_s, 12), round(t.index_deg, 9)) for t in times}) > 1:
         raise GenevaError(
             "--against: this machine's engagements differ, and an alternative has one index a turn"

@@ -24,6 +24,7 @@ from geneva_cli import (
     Size,
     Spherical,
     Support,
+    load,
 )
 from geneva_cli.analysis.product import product_motion
 from geneva_cli.curves.plates import plates
@@ -35,7 +36,9 @@ from geneva_cli.machine.many import many
 from geneva_cli.machine.mechanism import build
 from geneva_cli.machine.spec import Spec
 from geneva_cli.scene import place_at, value_at
+from geneva_cli.study.against import against
 from geneva_cli.study.animation.scene import scene
+from geneva_cli.synthesis.reading import read_target
 from geneva_cli.verdict.quantities.groups import GROUPS
 
 WHEELS = [External(3), External(4), External(6), External(12), Internal(3), Internal(6)]
@@ -196,8 +199,10 @@ def test_the_greatest_torque_and_the_mean_square(wheel):
 
 def test_resistance_acts_between_wheel_and_carrier():
     """A torque alone loads the input as on a plain crank."""
-    load = Load(torque_Nm=3.0, friction=0.1, efficiency=0.8)
-    orbit, plain = (Design(External(6), drive, load=load).loads for drive in (Carousel(), Crank()))
+    loaded = Load(torque_Nm=3.0, friction=0.1, efficiency=0.8)
+    orbit, plain = (
+        Design(External(6), drive, load=loaded).loads for drive in (Carousel(), Crank())
+    )
     for name in ("input_torque_Nm", "pin_force_N", "power_W"):
         assert orbit[name].max == plain[name].max, name
         assert orbit[name].rms == plain[name].rms, name
@@ -205,9 +210,9 @@ def test_resistance_acts_between_wheel_and_carrier():
 
 def test_losses_count_where_the_input_drives():
     """The sign of the whole torque decides, with the frame's share."""
-    load = Load(inertia_kgm2=0.05, torque_Nm=0.2, friction=0.05)
-    lossless = Design(External(6), Carousel(), load=load)
-    lossy = Design(External(6), Carousel(), load=load.replace(efficiency=0.7))
+    loaded = Load(inertia_kgm2=0.05, torque_Nm=0.2, friction=0.05)
+    lossless = Design(External(6), Carousel(), load=loaded)
+    lossy = Design(External(6), Carousel(), load=loaded.replace(efficiency=0.7))
     x = np.linspace(-59.9, 59.9, 400)
     Q = lossless.cycle.states(x).input_torque_Nm
     expected = np.where(Q > 0.0, Q / 0.7, Q)
@@ -224,8 +229,8 @@ def test_inertia_ratio_counts_from_the_ground():
     """At rest on the carrier the wheel has the carrier's speed."""
     motor = Motor(inertia_kgm2=0.02)
     for wheel, fastest in ((External(6), 2.0), (Internal(6), 1.0)):  # psi' is 1 and 1/3 at most
-        load = Load(inertia_kgm2=0.01)
-        values = sizing(Design(wheel, Carousel(), load=load, motor=motor).cycle)[0]
+        loaded = Load(inertia_kgm2=0.01)
+        values = sizing(Design(wheel, Carousel(), load=loaded, motor=motor).cycle)[0]
         assert values["inertia_ratio"] == pytest.approx(0.5 * fastest**2, rel=1e-13)
 
 
@@ -235,9 +240,12 @@ SEVERAL = [(3, 2), (3, 5), (4, 3), (5, 3), (8, 2)]  # slots, wheels
 @pytest.mark.parametrize(("z", "wheels"), SEVERAL)
 def test_loads_of_several_wheels_are_the_sum_over_a_turn(z, wheels):
     """The torques of all wheels, each behind the one before it, over a whole turn."""
-    load, motor = Load(inertia_kgm2=0.02, torque_Nm=0.1, efficiency=0.9), Motor(gear_efficiency=0.8)
+    loaded, motor = (
+        Load(inertia_kgm2=0.02, torque_Nm=0.1, efficiency=0.9),
+        Motor(gear_efficiency=0.8),
+    )
     one, several = (
-        Design(External(z), Carousel(wheels=n), load=load, motor=motor) for n in (1, wheels)
+        Design(External(z), Carousel(wheels=n), load=loaded, motor=motor) for n in (1, wheels)
     )
     (engagement,) = one.mechanism.engagements
     half = engagement.exit_deg
@@ -418,6 +426,15 @@ def test_what_a_product_feels_at_any_place_on_the_wheel(wheel):
     assert felt.speed_m_s.max[0] == pytest.approx(max(speed, rest[0]), rel=3e-5)
     assert felt.acceleration_m_s2.max[0] == pytest.approx(max(acceleration, rest[1]), rel=3e-5)
     assert felt.friction_needed[0] == pytest.approx(felt.acceleration_m_s2.max[0] / 9.80665)
+
+
+def test_studies_of_machines_on_the_ground_refuse_a_carrier(tmp_path):
+    spec = tmp_path / "spec.toml"
+    spec.write_text('[wheel]\nz = 4\n[drive]\nkind = "carousel"\n')
+    with pytest.raises(GenevaError, match="wheels on a carrier, and synth tries cranks"):
+        read_target(frame=load(str(spec)).spec)
+    with pytest.raises(GenevaError, match="wheels on a carrier, and an alternative"):
+        against(str(spec), (), ["cam"])
 
 
 def test_a_report_lists_when_each_wheel_moves():
