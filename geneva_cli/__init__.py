@@ -32,6 +32,7 @@ if TYPE_CHECKING:  # for a type checker: one line for each name
     from geneva_cli.kinematics.motion import Motion as Motion
     from geneva_cli.kinematics.wheels.external import External as External
     from geneva_cli.kinematics.wheels.internal import Internal as Internal
+    from geneva_cli.kinematics.wheels.linear import Linear as Linear
     from geneva_cli.kinematics.wheels.spherical import Spherical as Spherical
     from geneva_cli.machine.drives.cam import Cam as Cam
     from geneva_cli.machine.drives.carousel import Carousel as Carousel

@@ -64,10 +64,11 @@ P = ParamSpec("P")
 CURVES = {"arcs": "arcs", "spline": "cubics"}  # forms in which curved walls are written
 
 
-def load(path: str, given: Iterable[str] = ()) -> Design:
+def load(path: str, given: Iterable[str] = (), reverse: bool = False) -> Design:
     """Return the design in a spec file; ``-`` is standard input.
 
-    ``given`` are keys that complete or replace those of the file, as ``["drive.A=0.6"]``. Raises
+    ``given`` are keys that complete or replace those of the file, as ``["drive.A=0.6"]``. With
+    ``reverse`` it is the same machine turning the other way, as ``Design.backwards``. Raises
     GenevaError, ``FILE:LINE: what is wrong; what would be right``, for a file that cannot be read.
     Every result of the design raises it if the design cannot be built.
 
@@ -77,7 +78,8 @@ def load(path: str, given: Iterable[str] = ()) -> Design:
     from geneva_cli.specfile.reader import read
 
     text = read(path, given)
-    return Design.of(text.spec(), text)
+    design = Design.of(text.spec(), text)
+    return design.backwards if reverse else design
 
 
 def answer(make: Callable[[Any], T]) -> cached_property[T]:
@@ -221,6 +223,23 @@ class Design:
         0.5
         """
         return build(self.spec)
+
+    @answer
+    def backwards(self) -> Design:
+        """The same machine turning the other way, as one that turns forwards seen from behind.
+
+        Entry and exit change places, and angles are counted in the direction of rotation. Sizes
+        that the spec leaves out hold the loads of both directions.
+
+        >>> offset = Design(External(6, offset_mm=12.0))
+        >>> [round(d.peaks.ends.acceleration_entry, 4) for d in (offset, offset.backwards)]
+        [0.5342, 0.6281]
+        """
+        from geneva_cli.machine.both_ways import backwards
+
+        both = self.spec.with_("drive.both_ways", True)
+        title = ", ".join(text for text in (self.spec.title, "backwards") if text)
+        return Design.of(backwards(build(both)).spec.replace(title=title))
 
     @answer
     def size(self) -> Size:

@@ -32,6 +32,7 @@ UNITS = {
     "_rad_s2": "rad/s²",
     "_rad_s3": "rad/s³",
     "_rad2_s3": "rad²/s³",
+    "_m2_s3": "m²/s³",
     "_m_s": "m/s",
     "_m_s2": "m/s²",
     "_m_s3": "m/s³",

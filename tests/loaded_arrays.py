@@ -127,14 +127,15 @@ def dense_means(cycle, name, parts=2000):
     return mean, np.sqrt(square)
 
 
-def beyond(found, places, seed, names=NAMES):
-    """By what share of a quantity's size places of a scan pass its extremes: (designs, names).
+def beyond(found, places, seed, names=NAMES, ends=None):
+    """By what fraction of a quantity's size places of a scan pass its extremes: (designs, names).
 
-    One place anywhere in each of so many equal parts of the motion, others in each design.
+    ``ends`` are the extremes, by default those of all ``names`` searched for together. The scan has
+    one place anywhere in each of so many equal parts of the motion, others in each design.
     """
     random = np.random.default_rng(seed)
     machine, n = found.machine, len(found.which)
-    together = load_summaries(machine, names, requested=())
+    together = ends or load_summaries(machine, names, requested=())
     out = np.full((n, len(names)), -np.inf)
     for engagement in machine.engagements:
         for i in range(0, n, BLOCK):

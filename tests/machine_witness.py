@@ -68,6 +68,7 @@ class Motion:
 
     law = None
     offset = mp.mpf(0)  # of the straight slot's axis from the wheel's
+    parallel = False  # True for the slots of a rack, which all run along the line of centres
 
     def __init__(self, mid, entry, exit_, half_step, wheel, path, closed=None, polar=None):
         self.mid, self.entry, self.exit, self.b = mid, entry, exit_, half_step
@@ -85,6 +86,8 @@ class Motion:
         if self.polar:
             at, speed = taylor(self.polar, x, 1)
             return mp.sin(at), speed
+        if self.parallel:  # the rack's pinion has the radius 1
+            return mp.mpf(1), taylor(lambda t: self.path(t).real, x, 1)[1]
         place, speed = taylor(lambda t: self.path(t) * mp.expj(-self.wheel(t)), x, 1)
         along = mp.expj(mp.arg(speed)) * (1 if speed.real * place.real > 0 else -1)
         foot = (place * mp.conj(along)).real
@@ -174,6 +177,19 @@ def straight(spec, front, crank, b):
             return spherical_closed(S, th, a)
 
         polar = polar_of
+    elif gearing == "linear":
+        first, last = -mp.pi / 2, mp.pi / 2
+        b = mp.mpf(1)
+
+        def place(a):
+            return 1 - mp.expj(-a)
+
+        def wheel(a):
+            return mp.sin(a)
+
+        def hand(a):
+            return mp.cos(a), -mp.sin(a), -mp.cos(a)
+
     else:
         g = -1 if gearing == "internal" else 1
         d = mp.asin(e / mp.cos(b))
@@ -210,7 +226,7 @@ def straight(spec, front, crank, b):
         closed,
         behind(polar) if polar else None,
     )
-    out.offset = e
+    out.offset, out.parallel = e, gearing == "linear"
     return out
 
 

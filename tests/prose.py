@@ -80,9 +80,9 @@ def page_sentences(path: Path) -> list[Sentence]:
 
 
 @cache
-def parsed(path: Path) -> ast.Module:
-    """The syntax tree of a Python file."""
-    return ast.parse(path.read_text(encoding="utf-8"))
+def nodes(path: Path) -> list[ast.AST]:
+    """All nodes of a Python file's syntax tree, of which each measure takes its own."""
+    return list(ast.walk(ast.parse(path.read_text(encoding="utf-8"))))
 
 
 class Docstring(NamedTuple):
@@ -100,10 +100,9 @@ class Docstring(NamedTuple):
 @cache
 def docstrings(path: Path) -> list[Docstring]:
     """All docstrings of a Python file."""
-    tree = parsed(path)
     kinds = (ast.Module, ast.ClassDef, ast.FunctionDef, ast.AsyncFunctionDef)
     result = []
-    for node in ast.walk(tree):
+    for node in nodes(path):
         if isinstance(node, kinds) and (text := ast.get_docstring(node)):
             place = f"{path.relative_to(ROOT)}:{getattr(node, 'lineno', 1)}"
             result.append(Docstring(place, text))
@@ -131,17 +130,16 @@ def messages(path: Path) -> list[Sentence]:
     Errors, warnings, advice, help of options and texts of tables are all of them; a value that is
     filled in stands as X. Strings with markup or braces are code.
     """
-    tree = parsed(path)
     inner = {
         id(part)
-        for node in ast.walk(tree)
+        for node in nodes(path)
         if isinstance(node, ast.JoinedStr)
         for part in ast.walk(node)
         if part is not node
     }
-    inner |= {id(node.value) for node in ast.walk(tree) if isinstance(node, ast.Expr)}
+    inner |= {id(node.value) for node in nodes(path) if isinstance(node, ast.Expr)}
     result: list[Sentence] = []
-    for node in ast.walk(tree):
+    for node in nodes(path):
         if id(node) not in inner and isinstance(node, ast.expr):
             text = _literal(node)
             if len(text.split()) >= SHOWN_WORDS and not re.search("[{}<>]|--[a-z-]+:", text):

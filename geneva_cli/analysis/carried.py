@@ -45,10 +45,12 @@ def mass_inertia_kgm2(mass: Mass) -> float:
 def inertia_kgm2(spec: Spec) -> float:
     """Inertia of everything the wheel turns, at the wheel's shaft.
 
-    It is ``inertia_kgm2`` of [load], plus the masses behind the support's gears.
+    It is ``inertia_kgm2`` of [load], plus the masses behind the support's gears. A rack has m R²,
+    as it is driven through a pinion of the crank's radius R.
     """
-    ratio = spec.support.gear_ratio
-    return spec.load.inertia_kgm2 + ratio * ratio * sum(map(mass_inertia_kgm2, spec.mass))
+    ratio, lever = spec.support.gear_ratio, spec.given_distance_mm * MM
+    own = spec.load.inertia_kgm2 + spec.load.mass_kg * (lever * lever)
+    return own + ratio * ratio * sum(map(mass_inertia_kgm2, spec.mass))
 
 
 def carried_kg(spec: Spec) -> float:
@@ -74,6 +76,14 @@ def support_torque_Nm(spec: Spec) -> float:
     return support.gear_ratio * support.friction * pressed * support.radius_mm * MM
 
 
+def working_torque_Nm(spec: Spec) -> float:
+    """Torque of the work at the wheel's shaft, N m.
+
+    A rack's force F has the torque F R about the pinion.
+    """
+    return spec.load.torque_Nm + spec.load.force_N * (spec.given_distance_mm * MM)
+
+
 def resisting_torque_Nm(spec: Spec) -> float:
     """Torque that resists while the wheel turns: the load's plus the support's friction, N m."""
-    return spec.load.torque_Nm + support_torque_Nm(spec)
+    return working_torque_Nm(spec) + support_torque_Nm(spec)

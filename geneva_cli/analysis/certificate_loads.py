@@ -38,7 +38,7 @@ LOADS = (WHEEL_TORQUE, FORCE, TORQUE)
 def not_proved(mechanism: Mechanism, quantity: str) -> str:
     """The reason why a load has no certificate; empty if it has one."""
     if not mechanism.spec.is_loaded:
-        return "no load: set inertia_kgm2 or torque_Nm in [load]"
+        return f"no load: set {mechanism.spec.load_keys}"
     if quantity == WHEEL_TORQUE or mechanism.engagements[0].slot.walls_flat:
         return ""
     return "the slot is curved, or gears drive for part of the motion"

@@ -147,7 +147,7 @@ def _reversal(mechanism: Mechanism, engagement: Engagement) -> Array:
     lever = abs(touching(taken(engagement, at.which), at.x[:, None]).lever.arrays()[0][:, 0])
     least = 1e-6  # of the centre distance: where the slot lies across the path, play is unbounded
     sine = clearance[at.which, 0] / (np.maximum(lever, least) * L[at.which, 0])
-    play = np.where(lever > least, 2.0 * np.arcsin(np.minimum(sine, 1.0)), 0.0)
+    play = np.where(lever > least, engagement.slot.play(np.minimum(sine, 1.0)), 0.0)
     struck = impacts_of(engagement, at, play, drag)
     # hardest of each design; of equal ones the first
     order = np.lexsort((np.nan_to_num(-struck.speed, nan=np.inf), at.which))

@@ -22,7 +22,17 @@ if TYPE_CHECKING:
     from geneva_cli.numerics.jet import Array
 
 SAMPLES_MAX = 1_000_000  # some seconds of writing, some 80 MB
-MOTION_COLUMNS = ("time_s", "input_deg", "wheel_deg", "velocity", "acceleration", "jerk")
+
+
+def motion_columns(mechanism: Mechanism) -> tuple[str, ...]:
+    """Names of the columns of a table of motion.
+
+    On a carrier the wheel's motion from the ground follows, positive as the carrier turns.
+    """
+    output = mechanism.output.column
+    own = ("time_s", "input_deg", output, "velocity", "acceleration", "jerk")
+    absolute = ("absolute_deg", "absolute_velocity", "absolute_acceleration")
+    return (*own, *absolute) if mechanism.frame else own
 
 
 def check_samples(samples: int) -> None:
@@ -38,18 +48,8 @@ def motion_table(mechanism: Mechanism, samples: int) -> Table:
     end of the last dwell.
     """
     check_samples(samples)
-    names = columns_of(mechanism)
+    names = motion_columns(mechanism)
     return computed_table(names, samples, lambda i, j: _rows(mechanism, samples, i, j))
-
-
-def columns_of(mechanism: Mechanism) -> tuple[str, ...]:
-    """Names of a motion's columns; on a carrier also those of the wheel's motion from the ground.
-
-    Absolute angle, velocity and acceleration are positive as the carrier turns.
-    """
-    if not mechanism.frame:
-        return MOTION_COLUMNS
-    return (*MOTION_COLUMNS, "absolute_deg", "absolute_velocity", "absolute_acceleration")
 
 
 def turns_table(mechanism: Mechanism, samples: int, count: int) -> Table:
@@ -77,10 +77,10 @@ def turns_table(mechanism: Mechanism, samples: int, count: int) -> Table:
         wheel, *rates = derivatives(mechanism, start + (here - after), (0, 1, 2, 3))
         input_deg = start + here
         time_s = times_s(mechanism, input_deg)
-        wheel_deg = np.degrees(wheel + k * total)
-        own = [time_s, input_deg, wheel_deg, *rates]
-        columns.append([*own, *_from_ground(mechanism, input_deg, wheel_deg, rates)])
-    return Table(columns_of(mechanism), [np.concatenate(c) for c in zip(*columns, strict=True)])
+        shown = (wheel + k * total) * mechanism.output.per_radian
+        own = [time_s, input_deg, shown, *rates]
+        columns.append([*own, *_from_ground(mechanism, input_deg, shown, rates)])
+    return Table(motion_columns(mechanism), [np.concatenate(c) for c in zip(*columns, strict=True)])
 
 
 class Span(NamedTuple):
@@ -134,8 +134,9 @@ def _rows(mechanism: Mechanism, samples: int, begin: int, end: int) -> list[Arra
     """The columns' rows ``begin`` to ``end - 1`` of ``samples``."""
     input_deg = inputs(mechanism, samples, begin, end)
     wheel, *rates = derivatives(mechanism, input_deg, (0, 1, 2, 3))
-    own = [times_s(mechanism, input_deg), input_deg, np.degrees(wheel), *rates]
-    return [*own, *_from_ground(mechanism, input_deg, np.degrees(wheel), rates)]
+    shown = wheel * mechanism.output.per_radian
+    own = [times_s(mechanism, input_deg), input_deg, shown, *rates]
+    return [*own, *_from_ground(mechanism, input_deg, shown, rates)]
 
 
 def _from_ground(

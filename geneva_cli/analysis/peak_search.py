@@ -111,10 +111,6 @@ def motion_peaks(
 
     Closed forms are used where a motion has them, and one search where all motions have one shape.
     """
-    unit = motion.unit
-    if unit is not None:
-        every = search_peaks(unit, quantities)
-        return {name: _scaled(motion, name, peak) for name, peak in every.items()}
     peaks: dict[str, PeakArray] = {}
     for name in quantities:
         known = motion.closed_peak(name)
@@ -122,7 +118,9 @@ def motion_peaks(
             peaks[name] = PeakArray(*(np.ravel(v) for v in np.broadcast_arrays(*known)))
     sought = [name for name in quantities if name not in peaks]
     if sought:
-        peaks |= search_peaks(motion, sought)
+        unit = motion.unit
+        searched = search_peaks(motion if unit is None else unit, sought)
+        peaks |= {n: p if unit is None else _scaled(motion, n, p) for n, p in searched.items()}
     for name, peak in peaks.items():
         open_ = np.flatnonzero(np.isnan(peak.max))
         if len(open_):

@@ -26,7 +26,11 @@ SQUARED = (*PRESSED, "crank_bearing_N", "guide_force_N")
 # Quantities that are never negative.
 NEVER_NEGATIVE = (*SQUARED, "wheel_bearing_N")
 # Loads whose greatest size a report shows, and their names in the cycle.
-REPORTED_PEAKS = {"torque_Nm": "wheel_torque_Nm", FORCE: FORCE, TORQUE: TORQUE, STRESS: STRESS}
+REPORTED_PEAKS = {
+    "torque_Nm": "wheel_torque_Nm",
+    "rack_force_N": "rack_force_N",
+    **{name: name for name in (FORCE, TORQUE, STRESS)},
+}
 PARALLEL_SHAFTS = (
     "parallel shafts; on a sphere the force moves along them, and pushes along them too"
 )
@@ -76,6 +80,9 @@ def multiples(mechanism: Mechanism) -> dict[str, tuple[str, float | None, str]]:
     out: dict[str, tuple[str, float | None, str]] = {
         "power_W": (TORQUE, load_case(mechanism).speed_rad_s, ""),
     }
+    out |= {name: (*of, "") for name, of in mechanism.output.loads.items()}
+    if not mechanism.output.turns:  # the bearings of a rack and its crank are not computed
+        return out
     for name, a, s in (
         ("wheel", shaft.wheel_overhang_mm, shaft.wheel_span_mm),
         ("crank", shaft.crank_overhang_mm, shaft.crank_span_mm),
@@ -86,6 +93,16 @@ def multiples(mechanism: Mechanism) -> dict[str, tuple[str, float | None, str]]:
         out[f"{name}_near_bearing_N"] = (f"{name}_bearing_N", near, needs)
         out[f"{name}_far_bearing_N"] = (f"{name}_bearing_N", far, needs)
     return out
+
+
+def sources(mechanism: Mechanism) -> dict[str, tuple[str, float]]:
+    """Each known quantity by name: the one that is searched for it, and its ratio to that."""
+    known = known_quantities(mechanism)
+    out = {name: (name, 1.0) for name in known}
+    for name, (source, factor, _) in multiples(mechanism).items():
+        if factor is not None and source in known:
+            out[name] = source, factor
+    return {name: of for name, of in out.items() if name not in mechanism.output.lacks}
 
 
 def plain_of(i: Instant[Array], name: str) -> Array:

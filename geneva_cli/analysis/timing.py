@@ -14,21 +14,30 @@ if TYPE_CHECKING:
 class Timing(NamedTuple):
     """One cycle: a motion and the dwell after it. Angles are of the input, index_deg of the wheel.
 
+    ``index_mm`` is a rack's step, which has no angle; None for a wheel.
+
     k = motion / dwell (the work coefficient), tau = motion / cycle. For a batch each is a number or
     an array (n, 1).
     """
 
     motion_deg: float
     dwell_deg: float
-    index_deg: float
+    index_deg: float | None
     k: float
     tau: float
     motion_s: float
     dwell_s: float
     cycle_s: float
+    index_mm: float | None = None
 
 
-def timing(motion_deg: float, dwell_deg: float, index_deg: float, n_rpm: float) -> Timing:
+def timing(
+    motion_deg: float,
+    dwell_deg: float,
+    index_deg: float | None,
+    n_rpm: float,
+    index_mm: float | None = None,
+) -> Timing:
     """The timing of one cycle at a steady input speed."""
     second = 6.0 * n_rpm  # degrees of input a second
     cycle = motion_deg + dwell_deg
@@ -42,17 +51,20 @@ def timing(motion_deg: float, dwell_deg: float, index_deg: float, n_rpm: float) 
         motion_deg / second,
         dwell_deg / second,
         cycle / second,
+        index_mm,
     )
 
 
 def timings(mechanism: Mechanism) -> list[Timing]:
     """The timing of every engagement, in order."""
+    output = mechanism.output
     return [
         timing(
             engagement.motion_deg,
             mechanism.dwell_deg(i),
-            mechanism.index_deg(i),
+            mechanism.index_deg(i) if output.turns else None,
             mechanism.spec.drive.n_rpm,
+            None if output.turns else 2.0 * engagement.half_step * output.per_radian,
         )
         for i, engagement in enumerate(mechanism.engagements)
     ]

@@ -4,7 +4,7 @@ from typing import Annotated
 
 import typer
 
-from geneva_cli.commands.options import Settings, SpecPath, warn
+from geneva_cli.commands.options import Reverse, Settings, SpecPath, warn
 from geneva_cli.errors import GenevaError
 
 EXAMPLES = (
@@ -16,6 +16,7 @@ EXAMPLES = (
 
 def run(
     spec: SpecPath,
+    reverse: Reverse = False,
     settings: Settings = None,
     open_: Annotated[
         bool, typer.Option("--open", help="Open the page in the desktop's browser.")
@@ -43,7 +44,7 @@ def run(
 
     if open_ and output != "-" and not output.endswith(".html"):
         raise GenevaError(f'-o "{output}": --open opens a page: it must end in .html')
-    design = load(spec, settings or ())
+    design = load(spec, settings or (), reverse)
     machine = scene(design)
     place = os.path.join(_folder(), "machine.html") if open_ and output == "-" else output
     animate(machine, place, design.spec.files)

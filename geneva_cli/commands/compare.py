@@ -47,6 +47,9 @@ def run(
         bool, typer.Option("--ratio", help="Numbers over the first design's.")
     ] = False,
     differing: Annotated[bool, typer.Option("--differing", help="Only what differs.")] = False,
+    reverse: Annotated[
+        bool, typer.Option("--reverse", help="Also each design turning the other way.")
+    ] = False,
     settings: Settings = None,
     output: Output = "-",
     format: Format = "",
@@ -57,14 +60,18 @@ def run(
     """
     from geneva_cli.output import refuse_inches, show
     from geneva_cli.study.compare import compare
+    from geneva_cli.study.compare import differing as only_differing
 
     if ratio:
         refuse_inches("ratios have no unit")
     if against:
-        table = _against(specs, settings or [], against, bool(vary or pick or ratio or differing))
+        table = _against(
+            specs, settings or [], against, bool(vary or pick or ratio or differing or reverse)
+        )
     else:
         picks = [name.strip() for name in pick.split(",")] if pick else []
-        table = compare(specs, settings or (), vary or (), picks, ratio, not differing)
+        table = compare(specs, settings or (), vary or (), picks, ratio, reverse)
+        table = only_differing(table) if differing else table
     show(table, output, format, specs)
 
 
@@ -73,5 +80,7 @@ def _against(specs: list[str], settings: list[str], names: str, others: bool) ->
     from geneva_cli.study.against import against
 
     if len(specs) > 1 or others:
-        raise GenevaError("--against: it compares one spec, without --vary, --pick and --ratio")
+        raise GenevaError(
+            "--against: it compares one spec, without --vary, --pick, --ratio and --reverse"
+        )
     return against(specs[0], settings, [name.strip() for name in names.split(",")])

@@ -6,7 +6,7 @@ from typing import Annotated
 
 import typer
 
-from geneva_cli.commands.options import Format, Output, Settings, SpecPath, say
+from geneva_cli.commands.options import Format, Output, Reverse, Settings, SpecPath, say
 from geneva_cli.errors import clean, is_warning
 
 ROWS = 361
@@ -28,16 +28,17 @@ def run(
     certify: Annotated[
         bool, typer.Option("--certify", help="Prove the greatest loads instead.")
     ] = False,
+    reverse: Reverse = False,
     settings: Settings = None,
     output: Output = "-",
     format: Format = "",
 ) -> None:
     """Loads of the motion: torque, forces, stress and power over a cycle.
 
-    The recommended motor comes first, then a summary of each quantity. It has the greatest and
-    least value over the motions, with their input angles. Mean and root mean square are over the
-    whole period, dwells included. As csv, or with --samples, the cycle is printed row by row. Rows
-    are evenly spaced in the input angle from the first entry. json is always the summary.
+    The recommended motor comes first, then each quantity: its greatest and least value over the
+    motions, with their input angles. Mean and root mean square are over the whole period. As csv,
+    or with --samples, the cycle is printed in rows, evenly spaced in the input angle from entry.
+    json is always the summary.
 
     The pin force is positive on the wall that drives the wheel, and negative on the wall that holds
     it back. The input's torque and power are negative where the wheel drives the input. In a dwell
@@ -57,7 +58,7 @@ def run(
     from geneva_cli.output.formats import format_of, table_as
     from geneva_cli.study.summary.loads import of_loads
 
-    design = load(spec, settings or ())
+    design = load(spec, settings or (), reverse)
     if certify:
         people = table_as(output, format) not in ("json", "csv")
         show(design.certified_loads(people), output, format, design.spec.files)

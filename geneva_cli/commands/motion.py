@@ -6,7 +6,7 @@ from typing import Annotated
 import typer
 
 from geneva_cli.commands import completion
-from geneva_cli.commands.options import Output, Settings, SpecPath, one_of, warn
+from geneva_cli.commands.options import Output, Reverse, Settings, SpecPath, one_of, warn
 from geneva_cli.errors import GenevaError, clean
 from geneva_cli.output.formats import CAMS, CONTROLLERS, FORMATS
 
@@ -47,6 +47,7 @@ def run(
             rich_help_panel=CAM,
         ),
     ] = None,
+    reverse: Reverse = False,
     settings: Settings = None,
     output: Output = "-",
     format: Annotated[
@@ -68,7 +69,7 @@ def run(
     from geneva_cli.design import load
     from geneva_cli.output import show, show_text
 
-    design = load(spec, settings or ())
+    design = load(spec, settings or (), reverse)
     files = design.spec.files
     if format not in CAMS:
         if controller is not None or tolerance is not None:

@@ -34,6 +34,9 @@ Settings: TypeAlias = Annotated[
         autocompletion=completion.keys,
     ),
 ]
+Reverse: TypeAlias = Annotated[
+    bool, typer.Option("--reverse", help="Turn the input the other way.")
+]
 Output: TypeAlias = Annotated[
     str,
     typer.Option(

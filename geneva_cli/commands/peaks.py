@@ -4,7 +4,7 @@ from typing import Annotated
 
 import typer
 
-from geneva_cli.commands.options import Format, Output, Settings, SpecPath, warn
+from geneva_cli.commands.options import Format, Output, Reverse, Settings, SpecPath, warn
 
 EXAMPLES = (
     "geneva peaks spec.toml",
@@ -18,6 +18,7 @@ def run(
     certify: Annotated[
         bool, typer.Option("--certify", help="Prove each peak between two bounds.")
     ] = False,
+    reverse: Reverse = False,
     settings: Settings = None,
     output: Output = "-",
     format: Format = "",
@@ -34,7 +35,7 @@ def run(
     from geneva_cli.output import show
     from geneva_cli.output.formats import table_as
 
-    design = load(spec, settings or ())
+    design = load(spec, settings or (), reverse)
     table = design.peaks_table
     if certify:
         data = table_as(output, format) in ("json", "csv")

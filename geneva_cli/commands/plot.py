@@ -42,6 +42,9 @@ def run(
             autocompletion=completion.keys,
         ),
     ] = None,
+    reverse: Annotated[
+        bool, typer.Option("--reverse", help="Also each design turning the other way.")
+    ] = False,
     settings: Settings = None,
     output: Output = "-",
     format: Annotated[
@@ -68,7 +71,7 @@ def run(
         return
     if x or y:
         raise GenevaError(f"--x and --y are for a .csv; for {cut(specs[0], 300)} give --pick")
-    figure, designs, left_out = of_specs(specs, settings or (), _names(pick), vary or ())
+    figure, designs, left_out = of_specs(specs, settings or (), _names(pick), vary or (), reverse)
     plot(figure, output, format, [file for d in designs for file in d.spec.files])
     for design in designs:
         warn(design)

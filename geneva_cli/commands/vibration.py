@@ -4,7 +4,7 @@ from typing import Annotated
 
 import typer
 
-from geneva_cli.commands.options import Format, Output, Settings, SpecPath, say
+from geneva_cli.commands.options import Format, Output, Reverse, Settings, SpecPath, say
 
 EXAMPLES = ("geneva vibration spec.toml --period-ratio 5.5 --damping 0.02",)
 
@@ -19,6 +19,7 @@ def run(
         float | None, typer.Option(metavar="Z", help="Damping ratio, in place of [shaft]'s.")
     ] = None,
     samples: Annotated[int, typer.Option(metavar="N", help="Number of speeds in the csv.")] = 401,
+    reverse: Reverse = False,
     settings: Settings = None,
     output: Output = "-",
     format: Format = "",
@@ -34,7 +35,7 @@ def run(
     from geneva_cli.output.formats import format_of
     from geneva_cli.study.summary.vibration import of_vibration
 
-    design = load(spec, settings or ())
+    design = load(spec, settings or (), reverse)
     if (format or format_of(output)) == "csv":
         table = design.spectrum(samples, period_ratio, damping)
         show(table, output, format, design.spec.files)

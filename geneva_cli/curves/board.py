@@ -88,7 +88,7 @@ class Board:
             return any(_arcs_together(own, other) for other in self._swept)
         if not isinstance(own, Line):
             return False
-        beside_part = measure.kind == "linear" and _runs_along(own, self._drawn, ON)
+        beside_part = measure.kind == "length" and _runs_along(own, self._drawn, ON)
         return beside_part or _runs_along(own, self._ruled, BESIDE)
 
     def _crossings(self, measure: Measure) -> int:

@@ -37,7 +37,7 @@ def linear(
                 continue
             lines, arrows, label = mark
             points = (*(_at(u, n, *p) for p in (a, b)), _at(u, n, b[0], level))
-            yield Measure("linear", points, value, label, lines, arrows, turn)
+            yield Measure("length", points, value, label, lines, arrows, turn)
 
 
 def _linear(

@@ -78,7 +78,7 @@ class Arrow(NamedTuple):
 class Measure(NamedTuple):
     """A dimension as drawn: lines (its own before its extension lines), arrows and text.
 
-    ``kind`` names the meaning of ``points``. ``linear``: both ends and a place on the dimension
+    ``kind`` names the meaning of ``points``. ``length``: both ends and a place on the dimension
     line, all in the direction ``turn``. ``angular``: the apex, a point on each leg and one on the
     arc. ``radius``: the centre and the point on the arc. ``diameter``: both points on the circle.
     """
@@ -94,7 +94,7 @@ class Measure(NamedTuple):
     @property
     def main_lines(self) -> tuple[Segment, ...]:
         """The dimension line, or the leader and the line under its text."""
-        return self.lines[:1] if self.kind in ("linear", "angular") else self.lines
+        return self.lines[:1] if self.kind in ("length", "angular") else self.lines
 
     @property
     def extension_lines(self) -> tuple[Segment, ...]:

@@ -30,18 +30,27 @@ class Part(NamedTuple):
     alone: bool = False  # True if it is drawn without the outlines of wheel and crank
     in_front: bool = False  # True if it belongs to a first wheel, in front of the crank
     flat: str | None = None  # its drawing or sheet, laid flat, for a spherical wheel
+    rack: str | None = None  # its drawing for a rack
 
 
 PARTS = {
-    "slot": Part("layout.slot_sampling:profile_table", "drawings.part_drawings:slot"),
+    "slot": Part(
+        "layout.slot_sampling:profile_table",
+        "drawings.part_drawings:slot",
+        rack="drawings.rack:slot",
+    ),
     "wheel": Part(
         drawing="drawings.part_drawings:wheel",
         sphere="layout.meridians:meridians_table",
         cut=True,
         flat="drawings.sphere.drawings:wheel",
+        rack="drawings.rack:wheel",
     ),
     "crank": Part(
-        drawing="drawings.part_drawings:crank", cut=True, flat="drawings.sphere.drawings:crank"
+        drawing="drawings.part_drawings:crank",
+        cut=True,
+        flat="drawings.sphere.drawings:crank",
+        rack="drawings.rack:crank",
     ),
     "arm": Part(
         drawing="drawings.part_drawings:arm", cut=True, flat="drawings.sphere.arm_drawing:arm"
@@ -52,7 +61,9 @@ PARTS = {
     "frame": Part(drawing="drawings.part_drawings:frame", cut=True, alone=True),
     "parts": Part("drawings.parts_list:parts_table"),
     "assembly": Part(
-        drawing="drawings.machine_drawing:machine", flat="drawings.sphere.drawings:assembly"
+        drawing="drawings.machine_drawing:machine",
+        flat="drawings.sphere.drawings:assembly",
+        rack="drawings.rack:assembly",
     ),
     "gears": Part("layout.gear_curves:gears_table", "drawings.part_drawings:gears", alone=True),
     "groove": Part("layout.groove:groove_table", "drawings.part_drawings:groove"),
@@ -79,6 +90,7 @@ def is_table(mechanism: Mechanism, part: str, drawn: bool) -> bool:
     Raises GenevaError for a part that is unknown, or has no drawing.
     """
     _require_known(part)
+    require_drawn(mechanism, part)
     if drawn and part not in DRAWINGS:
         raise GenevaError(
             f"--part {part} is a table of points: write it as .csv or .json; these are drawings: "
@@ -101,6 +113,15 @@ def part_table(mechanism: Mechanism, part: str, tolerance_mm: float, samples: in
     return table
 
 
+def require_drawn(mechanism: Mechanism, part: str) -> None:
+    """Raise GenevaError for a part that a rack's machine does not have."""
+    if _is_rack(mechanism) and PARTS[part].rack is None:
+        known = ", ".join(name for name, one in PARTS.items() if one.rack)
+        raise GenevaError(
+            f"--part {part} is not available for a rack, which has {known}", ("wheel", "gearing")
+        )
+
+
 def require_tolerance(mechanism: Mechanism, tolerance_mm: float) -> None:
     """Raise GenevaError for a tolerance that is not above 0, or wider than half a slot.
 
@@ -115,7 +136,7 @@ def is_alone(mechanism: Mechanism, part: str) -> bool:
     own = PARTS.get(part)
     if own is None:
         return False
-    return own.alone or (own.flat is not None and not _in_plane(mechanism))
+    return own.alone or ((own.flat or own.rack) is not None and not _in_plane(mechanism))
 
 
 def machine_of(mechanism: Mechanism, part: str) -> Mechanism:
@@ -140,7 +161,9 @@ def part_drawing(model: PartsModel, part: str, tolerance_mm: float, curves: str)
     is_table(model.mechanism, part, drawn=True)
     own = PARTS[part]
     drawing: Drawing
-    if own.flat is None or _in_plane(model.mechanism):
+    if _is_rack(model.mechanism):
+        drawing = _loaded(own.rack)(model.mechanism)
+    elif own.flat is None or _in_plane(model.mechanism):
         drawing = _loaded(own.drawing)(model.flat.within(tolerance_mm, curves))
     else:
         drawing = _loaded(own.flat)(model.ball.within(tolerance_mm, curves))
@@ -152,6 +175,7 @@ def part_sheet(model: PartsModel, part: str, tolerance_mm: float, curves: str) -
 
     Raises GenevaError for a part without a sheet, or that does not fit on one.
     """
+    require_drawn(model.mechanism, part)
     if not is_sheet(part):
         raise GenevaError(f"--part {part} is no drawing sheet; use {', '.join(SHEETS)}")
     own = PARTS[part]
@@ -174,11 +198,16 @@ def require_cut(part: str, option: str = "--kerf") -> None:
 
 def _table(mechanism: Mechanism, part: str) -> str | None:
     own = PARTS[part]
-    return own.table if _in_plane(mechanism) else own.sphere or own.table
+    in_plane = _in_plane(mechanism) or _is_rack(mechanism)
+    return own.table if in_plane else own.sphere or own.table
 
 
 def _in_plane(mechanism: Mechanism) -> bool:
     return mechanism.spec.wheel.FLAT
+
+
+def _is_rack(mechanism: Mechanism) -> bool:
+    return not (mechanism.spec.wheel.FLAT or mechanism.spec.wheel.SHELLS)
 
 
 def _require_known(part: str) -> None:

@@ -64,9 +64,9 @@ class PartsModel:
     @cached_property
     def sizes(self) -> Sizes:
         """The sizes of flat parts; raises GenevaError where those of the spec leave no wheel."""
-        from geneva_cli.layout.sizes import sizes
+        from geneva_cli.layout.sizes import machine_sizes
 
-        return self.known.sizes if self.known else sizes(self.assembly, self.paths)
+        return self.known.sizes if self.known else machine_sizes(self.mechanism)[1]
 
     @cached_property
     def outlines(self) -> Outlines:

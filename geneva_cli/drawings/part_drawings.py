@@ -1,7 +1,7 @@
 """Drawings of the parts, each in its own frame; ``machine_drawing`` assembles them.
 
 Layers WHEEL, CRANK, ARM, LINK, GROOVE and BORE are cut. ROLLER is a circle. PITCH is the path of
-rollers, and the pitch curve of gears. HUB shows a hub, which is a separate part.
+rollers, and the pitch curve of gears without teeth. HUB shows a hub, which is a separate part.
 """
 
 from __future__ import annotations
@@ -113,20 +113,24 @@ def frame(parts: FlatParts) -> Drawing:
 
 
 def gears(parts: FlatParts) -> Drawing:
-    """Return all gears by their pitch curves, with bores and bolts, and the line of centres.
+    """Return all gears with bores and bolts, and the line of centres.
 
     The crank's axis is the origin. Raises GenevaError for a machine without gears.
     """
     mechanism = parts.mechanism
     if mechanism.spec.drive.TOOTHED:
-        members = tuple(gear.member for gear in parts.links.gears)
+        members = parts.round_gears
         about_crank = _moved(members, -mechanism.center_distance_mm)
         name, drawn = "gears", tuple(once(shapes(about_crank)))
     else:
-        fine = FINE[parts.curves] * required_gears(mechanism).distance_mm
-        members = parts.finer(fine).gear_pair
+        pair = required_gears(mechanism)
+        name = "gears"
+        if mechanism.spec.size.gear_module_mm is None:
+            name = "pitch curves of the gears"
+            parts = parts.finer(FINE[parts.curves] * pair.distance_mm)
+        members = parts.gear_pair
         about_crank = _moved(members, -mechanism.center_distance_mm)
-        name, drawn = "pitch curves of the gears", outlines_of(Group("", about_crank))
+        drawn = outlines_of(Group("", about_crank))
     title, ends = titled(mechanism, name), [one.at for one in about_crank]
     line = Contour(PITCH, (Line(min(ends), max(ends)),), closed=False)
     return Drawing(title, (*drawn, line), solid=Group(title, members))

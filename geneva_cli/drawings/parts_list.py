@@ -188,6 +188,8 @@ def _dimensions(model: PartsModel) -> Iterator[Row | Missing]:
     entries += _motions(mechanism)
     own = spec.drive.layout(mechanism.plan, spec.wheel.SIGN)
     entries += [d for d in own if isinstance(d, Dimension)]
+    if spec.size.gear_module_mm is not None:
+        entries += or_missing("teeth of the gears", lambda: model.flat.tooth_dimensions)
     for entry in entries:
         yield entry if isinstance(entry, Missing) else {"row": "dimension", **entry._asdict()}
 

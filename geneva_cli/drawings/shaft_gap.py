@@ -23,6 +23,7 @@ from geneva_cli.numerics.tolerances import SAME_LENGTH
 from geneva_cli.outlines.wheel_hub import HUB
 from geneva_cli.parts.flat_parts import FlatParts
 from geneva_cli.parts.gear_pair import PITCH, gear_span, pitch_radii
+from geneva_cli.parts.pair_teeth import pair_teeth
 
 Measure = TypeVar("Measure", float, Array)  # one gap, or an array of one for each sphere
 
@@ -99,12 +100,14 @@ def _least(parts: FlatParts, turning: list[Ring], rings: list[Ring]) -> ShaftGap
 
 
 def _noncircular(parts: FlatParts) -> Iterator[Ring]:
-    """Yield the rings of noncircular gears, out to the farthest points of their pitch curves."""
+    """Yield the rings of noncircular gears, out to their farthest points."""
     mechanism = parts.mechanism
     pair, L = mechanism.spec.drive.gears, mechanism.center_distance_mm
     if pair is None:
         return
     (_, driven), (_, driver) = pitch_radii(pair)
+    if teeth := pair_teeth(pair, mechanism.spec.size):
+        driven, driver = driven + teeth.tips[0], driver + teeth.tips[1]
     low, high = gear_span(mechanism, parts.drawn)
     yield Ring("driven gear", PITCH, (L, 0.0), 0.0, driven, low, high)
     yield Ring("driver gear", PITCH, (L + pair.distance_mm, 0.0), 0.0, driver, low, high)

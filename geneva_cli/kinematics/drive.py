@@ -6,7 +6,7 @@ import math
 from abc import abstractmethod
 from collections.abc import Callable
 from enum import Enum
-from typing import TYPE_CHECKING, Annotated, ClassVar, NamedTuple
+from typing import TYPE_CHECKING, Annotated, ClassVar, NamedTuple, Self
 
 from geneva_cli.kinematics.engagement import Displacement, Engagement
 from geneva_cli.kinematics.layout import Layout, Link
@@ -93,11 +93,26 @@ class Drive(SpecTable, kw_only=True):
         Range(0.0, 360.0, "[)"),
         "angles of the rollers on the crank, if not evenly spaced",
     ] = None
+    both_ways: Annotated[bool, None, "the input shaft turns either way"] = False
 
     @property
     def turns(self) -> int:
         """Number of input turns in one turn of the crank."""
         return 1
+
+    def backwards(self, plan: Plan) -> Self:
+        """The drive that turns the other way, as seen from its other side.
+
+        ``plan`` is the plan of the machine that turns forwards.
+
+        >>> crank = Crank(roller_angles_deg=(0.0, 130.0))
+        >>> crank.backwards(Design(External(6), crank).mechanism.plan).roller_angles_deg
+        (0.0, 230.0)
+        """
+        if not self.roller_angles_deg:
+            return self
+        others = self.roller_angles_deg[:0:-1]
+        return self.replace(roller_angles_deg=(0.0, *(360.0 - angle for angle in others)))
 
     @property
     def wheels_on_carrier(self) -> int:

@@ -158,6 +158,11 @@ class Slot(Batchable, ABC):
         """Cosine of the angle between the roller's axis and the wheel's."""
         return 1.0
 
+    def play(self, clearance: Number) -> Number:
+        """Free angle of the wheel, radians, for a clearance per side over the lever."""
+        angle: Number = 2.0 * library(clearance).asin(clearance)
+        return angle
+
     def touches(self, input_deg: Number) -> Number:
         """1 where the roller drives the wheel, 0 where something else does."""
         return 1.0
@@ -347,7 +352,15 @@ class Engagement(Batchable):
     @cached_property
     def entry_reach(self) -> Number:
         """Pin distance from the wheel's axis at entry, in units of L."""
-        x, y = self.slot(self.entry_deg, 0)
+        return self._reach(self.entry_deg)
+
+    @cached_property
+    def exit_reach(self) -> Number:
+        """Pin distance from the wheel's axis at exit, in units of L."""
+        return self._reach(self.exit_deg)
+
+    def _reach(self, input_deg: float) -> Number:
+        x, y = self.slot(input_deg, 0)
         return library(x.c[0], y.c[0]).hypot(x.c[0], y.c[0])
 
     def carrier(self, input_deg: Number, order: int = 0) -> Jet:

@@ -6,8 +6,10 @@ from functools import cached_property
 from typing import TYPE_CHECKING
 
 from geneva_cli.errors import GenevaError, refuse
-from geneva_cli.kinematics.engagement import WheelMotion
+from geneva_cli.kinematics.engagement import Peak, WheelMotion
+from geneva_cli.kinematics.laws.greatest import greatest
 from geneva_cli.kinematics.laws.law import Law, remaining
+from geneva_cli.numerics.angles import radians
 from geneva_cli.numerics.arrays import SINGLE, all_true, ascending, library
 from geneva_cli.numerics.jet import Jet, Number, piecewise
 from geneva_cli.numerics.latest import Latest
@@ -49,6 +51,18 @@ class LawMotion(WheelMotion):
         whole = self.exit_deg - self.entry_deg
         inner = sorted({0.5, *self.law.knots})
         return (self.entry_deg, *[self.entry_deg + u * whole for u in inner], self.exit_deg)
+
+    def closed_peak(self, quantity: str) -> Peak[float] | None:
+        """Peak of a quantity, scaled from the law's own; None for a spline or a batch of laws."""
+        if self.law.varies or not self.law.ANALYTIC:
+            return None
+        size, u = greatest(self.law)[quantity]
+        whole, step = self.exit_deg - self.entry_deg, 2.0 * self.half_step
+        at_deg = self.entry_deg + u * whole if u <= 0.5 else self.exit_deg - (1.0 - u) * whole
+        if quantity == "power":  # velocity times acceleration
+            size = size * step
+        times = {"velocity": 1, "acceleration": 2, "jerk": 3, "power": 3}[quantity]
+        return Peak(size * step / radians(whole) ** times, at_deg)
 
     @property
     def unit(self) -> LawMotion | None:

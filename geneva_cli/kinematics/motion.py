@@ -34,6 +34,16 @@ class Motion(SpecTable):
         super().__post_init__()
         refuse_kind(self.law, "law", Law, "Cycloidal()")
 
+    @property
+    def backwards(self) -> Self:
+        """The motion that the same law gives a machine that turns the other way.
+
+        >>> motion = Motion(SineGroup(0.1))
+        >>> round(motion.law(0.5).c[0], 6), round(motion.backwards.law(0.5).c[0], 6)
+        (0.364188, 0.635812)
+        """
+        return self.replace(law=self.law.backwards)
+
     def with_key(self, key: str, value: object) -> Self:
         """Return a copy with one key of the motion or of its law changed; None sets the default.
 

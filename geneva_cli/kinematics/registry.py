@@ -17,6 +17,7 @@ GEARINGS = {
     "external": "kinematics.wheels.external:External",
     "internal": "kinematics.wheels.internal:Internal",
     "spherical": "kinematics.wheels.spherical:Spherical",
+    "linear": "kinematics.wheels.linear:Linear",
 }
 DRIVES = {
     "crank": "machine.drives.crank:Crank",

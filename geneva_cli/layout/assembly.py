@@ -151,6 +151,8 @@ def assembly(mechanism: Mechanism) -> Assembly:
     Raises GenevaError for a machine whose parts are not flat outlines.
     """
     spec = mechanism.spec
+    if not (spec.wheel.FLAT or spec.wheel.SHELLS):
+        raise GenevaError(spec.no_parts, ("wheel", "gearing"))
     if not spec.wheel.FLAT:
         raise GenevaError(
             f'gearing = "{spec.wheel.NAME}": its parts are not flat; write `--part wheel`, `crank` '

@@ -9,6 +9,7 @@ curves can be hobbed. With derivatives by the driver's angle, the curves are con
 
 from __future__ import annotations
 
+import math
 from typing import NamedTuple
 
 import numpy as np
@@ -20,6 +21,8 @@ from geneva_cli.kinematics.drive import Gears
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.numerics.arrays import array
 from geneva_cli.numerics.jet import Jet
+from geneva_cli.numerics.quadrature import rule
+from geneva_cli.numerics.spline import PiecewisePolynomial, periodic
 from geneva_cli.table import Table
 
 NAMES = (
@@ -94,6 +97,34 @@ def required_gears(mechanism: Mechanism) -> Gears:
             f'--part gears: kind = "{drive.NAME}" has no gears; {", ".join(geared)} have some'
         )
     return drive.gears
+
+
+class CurveLength(NamedTuple):
+    """The length of both pitch curves, mm: they roll on each other, so that it is one."""
+
+    whole: float
+    ahead: PiecewisePolynomial  # of the input's angle, less its mean along the curve, radians
+
+    def angle(self, s: np.ndarray) -> np.ndarray:
+        """Return the input's angles, radians, at lengths of the curve from input angle 0 on."""
+        first = self.ahead.origins[0]
+        ahead: np.ndarray = self.ahead(first + np.mod(s - first, self.whole), 0)[0]
+        angle: np.ndarray = math.tau * s / self.whole + ahead
+        return angle
+
+
+def curve_length(gears: Gears) -> CurveLength:
+    """Return the length of the pitch curves, and the input's angle along them."""
+    nodes, weights = rule(8)
+    ends = np.linspace(-np.pi, np.pi, SAMPLES)
+    half = 0.5 * np.diff(ends)[:, None]
+    at = ends[:-1, None] + half * (1.0 + nodes)
+    ratio, _ = ratio_and_turn(gears, at.ravel())
+    i, slope = (array(c) for c in ratio.derivatives()[:2])
+    speed = gears.distance_mm * np.hypot(slope, i * (1.0 + i)) / (1.0 + i) ** 2
+    s = np.concatenate(([0.0], np.cumsum((speed.reshape(at.shape) * weights * half).sum(axis=1))))
+    whole, s = float(s[-1]), s - s[SAMPLES // 2]
+    return CurveLength(whole, periodic(s.tolist(), (ends - math.tau * s / whole).tolist()))
 
 
 def convexity(gears: Gears) -> Convexity:

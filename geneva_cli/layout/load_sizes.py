@@ -34,6 +34,7 @@ from geneva_cli.loads.strength.horn import horn_stresses
 from geneva_cli.loads.strength.keys import KeyDimensions, key_stress
 from geneva_cli.loads.strength.part_loads import PartLoads, single_loads
 from geneva_cli.loads.strength.shafts import shear_MPa
+from geneva_cli.machine.both_ways import every_way
 from geneva_cli.machine.spec import Spec
 from geneva_cli.numerics.keeps import keeps
 from geneva_cli.numerics.preferred import bores_from, rounded_from
@@ -91,9 +92,10 @@ def _wheel_thickness(assembly: Assembly, sizes: Sizes) -> float:
     if not sizes.lock:
         return usual
     machine = assembly.full
-    per_mm = [horn_stresses(machine, sizes.half_width, sizes.recess, 1.0).stress_MPa]
     held = lock.loaded_locks(machine, sizes.half_width, lock_of(assembly, sizes), 1.0)
-    per_mm += [held.horn_stress_MPa] if held else []
+    per_mm = [held.horn_stress_MPa] if held else []
+    for way in every_way(machine):
+        per_mm.append(horn_stresses(way, sizes.half_width, sizes.recess, 1.0).stress_MPa)
     most = float(np.nanmax(np.hstack([np.ravel(0.0), *map(np.ravel, per_mm)])))
     allowed = float(allowed_MPa(machine.spec.material_wheel))
     trials = rounded_from(usual, 2.0 * usual)  # a thicker wheel bends its pins more than its horns
@@ -110,8 +112,9 @@ def _pin(assembly: Assembly, sizes: Sizes, loads: PartLoads) -> float:
     rubs = spec.load.friction and not spec.load.rubs_in_slot
     if spec.size.pin_mm is not None or rubs or not sizes.pin:
         return sizes.pin
-    # the roller keeps three tenths of its radius as a wall; the eye passes the largest wheel's hub
-    most = 0.7 * sizes.roller
+    # the roller keeps three tenths of its radius as a wall about the hole for its pin; the eye
+    # passes the largest wheel's hub
+    most = 0.7 * sizes.roller - 0.5 * spec.size.allowances.shaft_fit_mm
     if assembly.sign > 0.0 and sizes.arm_bore:
         passing = (
             assembly.L - max(roller_reaches(assembly)) - max(sizes.wheel_hub, 0.75 * sizes.slot_end)

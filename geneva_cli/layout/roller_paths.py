@@ -40,10 +40,12 @@ def mouth(assembly: Assembly, engagement: Engagement, r: float) -> float:
     """Return the rim's radius, where a roller of radius r enters and leaves a slot.
 
     There the roller touches the wall that faces the crank's axis, at the foot of the perpendicular
-    from that axis.
+    from that axis. If it enters and leaves at two radii, no wall may stand in its way at either.
     """
     if not engagement.slot.offset:
-        return math.hypot(assembly.L * scalar(engagement.entry_reach), r)
+        nearest = min if assembly.sign > 0.0 else max
+        reaches = (scalar(reach) for reach in (engagement.entry_reach, engagement.exit_reach))
+        return math.hypot(assembly.L * nearest(reaches), r)
     return max(math.hypot(*corner(assembly, engagement, end, r)) for end in (-1.0, 1.0))
 
 

@@ -9,6 +9,7 @@ past the rim and leaves a horn next to the slot.
 from __future__ import annotations
 
 import math
+from functools import lru_cache
 from typing import TYPE_CHECKING
 
 from geneva_cli.errors import GenevaError
@@ -48,10 +49,22 @@ def sized(mechanism: Mechanism, loads: PartLoads | None = None) -> tuple[Assembl
     if not mechanism.spec.is_flat:
         return None
     try:
+        if loads is None:
+            return machine_sizes(mechanism)
         where = assembly(mechanism)
         return where, sizes(where, loads=loads)
     except GenevaError:
         return None  # the check of the parts reports the error
+
+
+@lru_cache(maxsize=16)
+def machine_sizes(mechanism: Mechanism) -> tuple[Assembly, Sizes]:
+    """Return a machine's assembly and sizes, cached for its strength, checks and parts.
+
+    Raises GenevaError, naming the key, where a size leaves no wheel or no lock.
+    """
+    where = assembly(mechanism)
+    return where, sizes(where)
 
 
 def sizes(

@@ -35,7 +35,7 @@ class SlotProfile(NamedTuple):
     """
 
     input_deg: Array
-    wheel_deg: Array
+    output: Array  # the wheel's angle, or a rack's travel, in its unit
     centre: Array  # (n, 2)
     left: Array
     right: Array
@@ -55,7 +55,7 @@ def slot(mechanism: Mechanism, input_deg: Array) -> SlotProfile:
     straight = engagement.slot.axis(engagement.entry_deg) is not None
     return SlotProfile(
         input_deg,
-        np.degrees(engagement.motion(input_deg, 0).c[0]),
+        array(engagement.motion(input_deg, 0).c[0]) * mechanism.output.per_radian,
         *_offsets(mechanism, at, side),
         np.degrees(at.pressure),
         np.where(straight | (at.turning == 0.0), np.inf, radius),

@@ -18,8 +18,6 @@ from geneva_cli.table import Table, computed_table
 if TYPE_CHECKING:
     from geneva_cli.numerics.jet import Array
 
-NAMES = ("input_deg", "wheel_deg", *WALLED)
-
 
 def nodes(mechanism: Mechanism, tolerance_mm: float, fewest: bool = True) -> Array:
     """Return input angles to sample the slot at, so that no chord misses a curve by more.
@@ -76,8 +74,9 @@ def chord_errors(mechanism: Mechanism, input_deg: Array) -> Array:
 def profile_table(mechanism: Mechanism, tolerance_mm: float, samples: int | None) -> Table:
     """Return the slot's table: for a chord tolerance, or at ``samples`` even input angles."""
     engagement = mechanism.engagements[0].through
+    names = ("input_deg", mechanism.output.column, *WALLED)
     if samples is None:
-        return Table(NAMES, _rows(mechanism, nodes(mechanism, tolerance_mm)))
+        return Table(names, _rows(mechanism, nodes(mechanism, tolerance_mm)))
     entry, exit_ = engagement.entry_deg, engagement.exit_deg
 
     def rows(begin: int, end: int) -> list[Array]:
@@ -87,11 +86,11 @@ def profile_table(mechanism: Mechanism, tolerance_mm: float, samples: int | None
         at[samples - 1 - begin :] = exit_  # the last of all, without rounding
         return _rows(mechanism, at)
 
-    return computed_table(NAMES, samples, rows)
+    return computed_table(names, samples, rows)
 
 
 def _rows(mechanism: Mechanism, input_deg: Array) -> list[Array]:
     """Return the columns of the slot's table at input angles."""
     at = slot(mechanism, input_deg)
     points = [axis for line in (at.centre, at.left, at.right) for axis in line.T]
-    return [at.input_deg, at.wheel_deg, *points, at.pressure_deg, at.radius]
+    return [at.input_deg, at.output, *points, at.pressure_deg, at.radius]

@@ -20,7 +20,7 @@ from geneva_cli.analysis.instant import INSTANT_QUANTITIES, Instant, bounded, va
 from geneva_cli.analysis.load_functions import NO_MORE, LoadFunctions, load_batch
 from geneva_cli.analysis.mid_motion import at_crossing
 from geneva_cli.analysis.motion import local_deg, spans
-from geneva_cli.analysis.quantities import KINETIC, known_quantities, multiples
+from geneva_cli.analysis.quantities import KINETIC, known_quantities, sources
 from geneva_cli.analysis.stretches import Stretch, refuse_rounding, to_mid_motion, whole
 from geneva_cli.kinematics.engagement import Engagement
 from geneva_cli.loads.summaries import (
@@ -140,12 +140,8 @@ class Cycle:
     @cached_property
     def known(self) -> Mapping[str, LoadSummary]:
         """The summaries of all quantities that have a value, (1,) each."""
-        names = [*known_quantities(self.mechanism), KINETIC]
-        names += [
-            name
-            for name, (source, factor, _) in multiples(self.mechanism).items()
-            if factor is not None and source in names
-        ]
+        searched, known = known_quantities(self.mechanism), sources(self.mechanism)
+        names = [*searched, KINETIC, *known]
         each = [
             EngagementExtremes(
                 result.most,
@@ -154,7 +150,8 @@ class Cycle:
             )
             for load, result in self._searches
         ]
-        return summaries_from(self.mechanism, names, each, plain=True)
+        every = summaries_from(self.mechanism, names, each, plain=True)
+        return {name: every[name] for name in (*known, KINETIC)}
 
     @cached_property
     def peaks(self) -> list[tuple[float, float, float]]:

@@ -15,14 +15,13 @@ import numpy as np
 
 from geneva_cli.analysis import peaks
 from geneva_cli.analysis.motion import first_entry_deg
-from geneva_cli.analysis.quantities import known_quantities, multiples
+from geneva_cli.analysis.quantities import sources
 from geneva_cli.errors import GenevaError, Notice, cut, few, nearest
 from geneva_cli.figure import Axis, Curve, Figure, Mark, Panel, Piece
 from geneva_cli.loads import summary
 from geneva_cli.loads.cycle import Cycle, Extremes
 from geneva_cli.loads.stages import (
     MOTION_QUANTITIES,
-    WHEEL_ANGLE,
     Stage,
     load_stages,
     motion_stages,
@@ -33,7 +32,8 @@ from geneva_cli.numerics.tolerances import ROUNDED, SAME_INPUT_DEG
 
 MACHINES_MAX = 6  # machines in one figure that the eye can tell apart
 AXES = (
-    Axis(WHEEL_ANGLE, "Wheel angle", "deg"),
+    Axis("wheel_deg", "Wheel angle", "deg"),
+    Axis("rack_mm", "Travel of the rack", "mm"),
     Axis("velocity", "Speed of the wheel, relative to the input"),
     Axis("acceleration", "Acceleration of the wheel, relative to the input"),
     Axis("jerk", "Jerk of the wheel, relative to the input"),
@@ -41,6 +41,9 @@ AXES = (
     Axis("omega_rad_s", "Wheel's velocity", "rad/s"),
     Axis("alpha_rad_s2", "Wheel's acceleration", "rad/s²"),
     Axis("wheel_torque_Nm", "Torque on the wheel", "N m"),
+    Axis("rack_speed_m_s", "Speed of the rack", "m/s"),
+    Axis("rack_acceleration_m_s2", "Acceleration of the rack", "m/s²"),
+    Axis("rack_force_N", "Force on the rack", "N"),
     Axis("pin_force_N", "Pin force", "N"),
     Axis("contact_stress_MPa", "Contact stress", "MPa"),
     Axis("sliding_m_s", "Sliding of the roller", "m/s"),
@@ -56,8 +59,7 @@ AXES = (
     Axis("crank_far_bearing_N", "Crank's farther bearing", "N"),
 )
 AXIS_BY_NAME = {axis.name: axis for axis in AXES}
-USUAL_QUANTITIES = (
-    WHEEL_ANGLE,
+USUAL_QUANTITIES = (  # besides the wheel's angle or the rack's travel
     "velocity",
     "acceleration",
     "jerk",
@@ -93,7 +95,8 @@ def figure(cycles: Mapping[str, Cycle], pick: Sequence[str] = ()) -> tuple[Figur
         raise GenevaError(
             f"{len(cycles)} designs in one figure; at most {MACHINES_MAX} can be told apart"
         )
-    requested = tuple(dict.fromkeys(pick)) or USUAL_QUANTITIES
+    outputs = tuple(dict.fromkeys(cycle.mechanism.output.column for cycle in cycles.values()))
+    requested = tuple(dict.fromkeys(pick)) or (*outputs, *USUAL_QUANTITIES)
     for name in requested:
         if name not in AXIS_BY_NAME:
             raise GenevaError(
@@ -123,7 +126,7 @@ def figure(cycles: Mapping[str, Cycle], pick: Sequence[str] = ()) -> tuple[Figur
     left = []
     for design, cycle in cycles.items():
         names = requested if cycle.is_loaded else shown  # forces are not expected without a load
-        lacking = [name for name in names if name not in has[design]]
+        lacking = [n for n in names if n not in has[design] and n not in outputs]
         left += [(design, line) for line in _left_out(cycle, lacking)]
     return picture, left
 
@@ -132,14 +135,11 @@ def _title(machines: Sequence[Mechanism]) -> str:
     if len(machines) > 1:
         return f"{len(machines)} designs over a cycle"
     spec = machines[0].spec
-    return spec.title or spec.path or f"Geneva wheel of {spec.wheel.z} slots"
+    return spec.title or spec.path or f"Geneva {machines[0].output.noun} of {spec.wheel.z} slots"
 
 
 def _known(cycle: Cycle) -> set[str]:
-    loads = set(known_quantities(cycle.mechanism))
-    shared = multiples(cycle.mechanism).items()
-    loads |= {name for name, (of, factor, _) in shared if factor is not None and of in loads}
-    return {*MOTION_QUANTITIES, *loads}
+    return {cycle.mechanism.output.column, *MOTION_QUANTITIES, *sources(cycle.mechanism)}
 
 
 def _left_out(cycle: Cycle, names: Sequence[str]) -> Iterator[str]:
@@ -160,7 +160,9 @@ def _why(cycle: Cycle, name: str) -> str:
         names, _, why = line.partition(": ")
         if name in names.split(", "):
             return why
-    return "the crank itself carries the roller, and there is no guide"
+    if name == "guide_force_N":
+        return "the crank itself carries the roller, and there is no guide"
+    return f'gearing = "{cycle.mechanism.spec.wheel.NAME}" has another quantity instead'
 
 
 def _panel(name: str, drawn: Mapping[str, MachineCurves]) -> Panel:
@@ -182,15 +184,16 @@ def _size(mark: Mark) -> float:
 
 def _drawn(cycle: Cycle, names: Sequence[str], window: tuple[float, float]) -> MachineCurves:
     machine = cycle.mechanism
+    column, per_radian = machine.output.column, machine.output.per_radian
     moves, loads = (
-        [n for n in names if n in MOTION_QUANTITIES],
-        [n for n in names if n not in MOTION_QUANTITIES],
+        [n for n in names if n in (column, *MOTION_QUANTITIES)],
+        [n for n in names if n not in (column, *MOTION_QUANTITIES)],
     )
-    step = math.degrees(sum(2.0 * e.half_step for e in machine.engagements))
+    step = sum(2.0 * e.half_step for e in machine.engagements) * per_radian
     out = MachineCurves({}, {}, {})
     if moves:
         stages = list(motion_stages(machine, moves))
-        rise = [step if n == WHEEL_ANGLE else 0.0 for n in moves]
+        rise = [step if n == column else 0.0 for n in moves]
         curves = pieces(stages, machine.period_deg, window, rise)
         out.pieces.update(zip(moves, curves, strict=True))
         out.marks.update((n, _peak(machine, n, i, stages, window)) for i, n in enumerate(moves))
@@ -214,7 +217,7 @@ def _peak(
     window: tuple[float, float],
 ) -> tuple[Mark, ...]:
     """The greatest size of a quantity of the motion, with its sign; none for the wheel's angle."""
-    if name == WHEEL_ANGLE:
+    if name == machine.output.column:
         return ()
     peak = peaks.worst_of(machine, name)
     first = first_entry_deg(machine)
@@ -283,7 +286,7 @@ def _rests(
     """The stretches in which all machines rest."""
     common = [window]
     for machine in machines:
-        dwells = [(s.start, s.end) for s in motion_stages(machine, [WHEEL_ANGLE]) if s.flat]
+        dwells = [(s.start, s.end) for s in motion_stages(machine, []) if s.flat]
         period = machine.period_deg
         turns = range(-1, 2 + int((window[1] - window[0]) // period))
         own = [(a + k * period, b + k * period) for k in turns for a, b in dwells]

@@ -20,7 +20,7 @@ from typing import TYPE_CHECKING, TypeAlias, cast
 import numpy as np
 
 from geneva_cli.analysis.cam_factors import CamFactors, cam_factors
-from geneva_cli.analysis.carried import inertia_kgm2, support_torque_Nm
+from geneva_cli.analysis.carried import inertia_kgm2, support_torque_Nm, working_torque_Nm
 from geneva_cli.analysis.forces import load_case
 from geneva_cli.analysis.peak_search import motion_peaks
 from geneva_cli.analysis.quantities import TORQUE
@@ -84,8 +84,11 @@ def sizing(cycle: Cycle) -> tuple[Mapping[str, float | None], tuple[str, ...]]:
     names, torque = (
         (SIZING_NAMES, cycle.known[TORQUE]) if cycle.is_loaded else (KNOWN_UNLOADED, None)
     )
-    rows = sizings(cycle.mechanism, names, torque, cycle.peaks)
-    values = {name: float(row[0]) for name, row in rows.items()}
+    rows, lacks = (
+        sizings(cycle.mechanism, names, torque, cycle.peaks),
+        cycle.mechanism.output.lacks,
+    )
+    values = {name: float(row[0]) for name, row in rows.items() if name not in lacks}
     out = {
         name: x if math.isfinite(x := values.get(name, math.nan)) else None for name in SHOWN_SIZING
     }
@@ -94,9 +97,9 @@ def sizing(cycle: Cycle) -> tuple[Mapping[str, float | None], tuple[str, ...]]:
     needs = []
     if not (np.isfinite(torque.max) & np.isfinite(torque.min)).all():
         needs.append("sizing: nothing bounds the input's torque, so no motor or flywheel suffices")
-    if out["inertia_kgm2"] is None:
+    if out["inertia_kgm2"] is None and "inertia_kgm2" not in lacks:
         needs.append("inertia_kgm2: needs inertia_kgm2 in [load], or a [[mass]]")
-    if out["friction_torque_Nm"] is None:
+    if out["friction_torque_Nm"] is None and "friction_torque_Nm" not in lacks:
         needs.append("friction_torque_Nm: needs friction and radius_mm in [support]")
     if spec.motor.speed_variation is None:
         needs.append("flywheel_kgm2, flywheel_to_add_kgm2: need speed_variation in [motor]")
@@ -217,7 +220,7 @@ def greatest_form(mechanism: Mechanism, peaks: Sequence[Peaks]) -> tuple[MakersF
     load = ShaftLoad(
         inertia_kgm2(spec),
         support_torque_Nm(spec),
-        spec.load.torque_Nm,
+        working_torque_Nm(spec),
         spec.motor.service_factor,
         mechanism.frame,
     )

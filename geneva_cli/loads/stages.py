@@ -26,10 +26,8 @@ if TYPE_CHECKING:
     from geneva_cli.loads.cycle import Cycle
     from geneva_cli.numerics.jet import Array
 
-WHEEL_ANGLE = "wheel_deg"
-# derivatives 0..3 of the wheel's angle -> the quantity
+# derivatives 0..3 of the wheel's angle -> the quantity, besides the output itself
 MOTION_QUANTITIES: dict[str, Callable[[Sequence[Array]], Array]] = {
-    WHEEL_ANGLE: lambda p: np.degrees(p[0]),
     "velocity": lambda p: p[1],
     "acceleration": lambda p: p[2],
     "jerk": lambda p: p[3],
@@ -47,16 +45,19 @@ class Stage(NamedTuple):
 
 
 def motion_stages(mechanism: Mechanism, names: Sequence[str]) -> Iterator[Stage]:
-    """Stages of quantities of ``MOTION_QUANTITIES`` over a period from the first entry."""
+    """Stages of the output and of ``MOTION_QUANTITIES`` over a period from the first entry."""
+    output = mechanism.output
+    functions = {**MOTION_QUANTITIES, output.column: lambda p: p[0] * output.per_radian}
+    quantities = [functions[name] for name in names]
     base = -mechanism.engagements[0].half_step  # the wheel's angle before the step
     for i, engagement in enumerate(mechanism.engagements):
         mid, motion = engagement.mid_deg, engagement.motion
         up = base + engagement.half_step
         for a, b in pairwise(motion.breaks_deg):
             inside = _inside(engagement, a), b
-            yield Stage(mid + a, mid + b, partial(_moved, motion, names, mid, inside, up))
+            yield Stage(mid + a, mid + b, partial(_moved, motion, quantities, mid, inside, up))
         base += 2.0 * engagement.half_step
-        rest = [math.degrees(base) if name == WHEEL_ANGLE else 0.0 for name in names]
+        rest = [base * output.per_radian if n == output.column else 0.0 for n in names]
         yield from _dwell(mechanism, i, rest)
 
 
@@ -91,14 +92,14 @@ def _clear_of_cusp(engagement: Engagement, stretch: Stretch) -> Stretch:
 
 def _moved(
     motion: WheelMotion,
-    names: Sequence[str],
+    quantities: Sequence[Callable[[Sequence[Array]], Array]],
     mid: float,
     inside: tuple[float, float],
     up: float,
     x: Array,
 ) -> Array:
     wheel, *rates = motion.derivatives(np.clip(x - mid, *inside))
-    return np.array([MOTION_QUANTITIES[name]([wheel + up, *rates]) for name in names])
+    return np.array([quantity([wheel + up, *rates]) for quantity in quantities])
 
 
 def _loaded(

@@ -18,6 +18,7 @@ from geneva_cli.analysis.quantities import (
     known_quantities,
     multiples,
     plain_of,
+    sources,
 )
 from geneva_cli.errors import Notice
 from geneva_cli.loads.cycle import Cycle
@@ -29,15 +30,13 @@ if TYPE_CHECKING:
     from geneva_cli.machine.spec import Spec
     from geneva_cli.numerics.jet import Array
 
-PLACE_COLUMNS = ("time_s", "input_deg", "wheel_deg")
-NO_LOAD = (
-    "nothing resists the wheel, so no force is known: set inertia_kgm2 or torque_Nm in [load], or "
-    "a [[mass]]"
-)
 SHOWN_QUANTITIES = (
     "omega_rad_s",
     "alpha_rad_s2",
     "wheel_torque_Nm",
+    "rack_speed_m_s",
+    "rack_acceleration_m_s2",
+    "rack_force_N",
     "pin_force_N",
     STRESS,
     "sliding_m_s",
@@ -143,10 +142,16 @@ def _unweighed(spec: Spec) -> str:
     return "needs a wheel that can be cut; `geneva profile` shows why it cannot"
 
 
+def no_load(cycle: Cycle) -> str:
+    """What a cycle without a load needs."""
+    keys = cycle.mechanism.spec.load_keys
+    return f"nothing resists the wheel, so no force is known: set {keys}"
+
+
 def missing(cycle: Cycle) -> list[Notice]:
     """Notes on the keys that the missing quantities need."""
     if not cycle.is_loaded:
-        return [Notice("not-known", NO_LOAD)]
+        return [Notice("not-known", no_load(cycle))]
     wide = cycle.case.hertz is not None
     out = [] if wide else [f"{name}: needs face_width_mm in [size]" for name in PRESSED]
     spec, guide = cycle.mechanism.spec, "guide_force_N"
@@ -167,22 +172,23 @@ def cycle_table(cycle: Cycle, samples: int) -> Table:
     A value that is unbounded or not known is None.
     """
     check_samples(samples)
-    names = (*PLACE_COLUMNS, *SHOWN_QUANTITIES)
+    names = ("time_s", "input_deg", cycle.mechanism.output.column, *SHOWN_QUANTITIES)
     return computed_table(names, samples, lambda i, j: _rows(cycle, samples, i, j), "object")
 
 
 def _rows(cycle: Cycle, samples: int, begin: int, end: int) -> list[Any]:
     input_deg = inputs(cycle.mechanism, samples, begin, end)
     states = cycle.states(input_deg)
-    columns = {name: plain_of(states, name) for name in known_quantities(cycle.mechanism)}
-    for name, (source, factor, _) in multiples(cycle.mechanism).items():
-        if factor is not None and source in columns:
-            columns[name] = columns[source] * factor
+    searched = {name: plain_of(states, name) for name in known_quantities(cycle.mechanism)}
+    columns = {
+        name: searched[source] * factor
+        for name, (source, factor) in sources(cycle.mechanism).items()
+    }
     none = [None] * len(input_deg)
     return [
         times_s(cycle.mechanism, input_deg),
         input_deg,
-        np.degrees(derivatives(cycle.mechanism, input_deg, (0,))[0]),
+        derivatives(cycle.mechanism, input_deg, (0,))[0] * cycle.mechanism.output.per_radian,
         *[_cells(columns[name]) if name in columns else none for name in SHOWN_QUANTITIES],
     ]
 

@@ -30,6 +30,12 @@ def _several(spec: Spec) -> int:
     return len(spec.wheel.steps or spec.drive.roller_angles_deg or ())
 
 
+def _table_of_wheels(table: str, spec: Spec) -> bool:
+    """True if a rack's spec sets a table that only wheels have."""
+    own = getattr(spec, table.strip("[]"))
+    return not spec.output.turns and bool(own != type(own)())
+
+
 CONFLICTS = (
     Conflict(
         lambda s: s.drive.RADIAL and (s.drive.roller_angles_deg or s.wheel.skewed),
@@ -128,6 +134,24 @@ CONFLICTS = (
         'gear_ratio is for a table on the ground, not for kind = "{drive}": set it to 1',
     ),
     Conflict(
+        lambda s: s.output.turns & ((s.load.mass_kg != 0.0) | (s.load.force_N != 0.0)),
+        ("load", "mass_kg"),
+        "mass_kg and force_N are a rack's load; a wheel that turns has inertia_kgm2 and torque_Nm",
+    ),
+    Conflict(
+        lambda s: (not s.output.turns) & ((s.load.inertia_kgm2 != 0.0) | (s.load.torque_Nm != 0.0)),
+        ("load", "inertia_kgm2"),
+        "inertia_kgm2 and torque_Nm are of a wheel that turns; a rack has mass_kg and force_N",
+    ),
+    *(
+        Conflict(
+            partial(_table_of_wheels, table),
+            (table.strip("[]"),),
+            f"{table} is for a wheel that turns; of a rack set mass_kg and force_N in [load]",
+        )
+        for table in ("[[mass]]", "[support]", "[shaft]", "[tolerance]", "[product]")
+    ),
+    Conflict(
         lambda s: s.wheel.stopped and (not s.drive.CRANKED or s.drive.IN_SERIES or s.motion),
         ("wheel", "stop"),
         "stop needs straight slots and a crank without a first wheel: remove stop, or law and kind",
@@ -156,6 +180,16 @@ CONFLICTS = (
         lambda s: not s.wheel.stopped and s.limits.stop_stress_max_MPa is not None,
         ("limits", "stop_stress_max_MPa"),
         "stop_stress_max_MPa limits a stop: set stop = true in [wheel] of an external wheel",
+    ),
+    Conflict(
+        lambda s: s.size.gear_module_mm is None and s.size.gear_shift is not None,
+        ("size", "gear_shift"),
+        "gear_shift moves the teeth of gears: set gear_module_mm, or remove gear_shift",
+    ),
+    Conflict(
+        lambda s: s.size.gear_module_mm is None and s.size.gear_teeth is not None,
+        ("size", "gear_teeth"),
+        "gear_teeth counts the teeth of gears: set gear_module_mm, or remove gear_teeth",
     ),
 )
 

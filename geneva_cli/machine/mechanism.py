@@ -17,6 +17,7 @@ from geneva_cli.numerics.arrays import N, choose, designs_of, larger, library
 from geneva_cli.numerics.tolerances import SAME_INPUT_DEG
 
 if TYPE_CHECKING:
+    from geneva_cli.kinematics.wheels.gearing import Output
     from geneva_cli.numerics.arrays import Whole
 
 
@@ -51,6 +52,11 @@ class Mechanism(NamedTuple):
     def law(self) -> Law | None:
         """Motion law, or None if the motion follows from path and slot."""
         return self.engagements[0].motion.law
+
+    @property
+    def output(self) -> Output:
+        """What the wheel gives out, with its unit."""
+        return self.spec.output
 
     @property
     def roller_radius_mm(self) -> float:

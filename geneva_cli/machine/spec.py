@@ -9,7 +9,7 @@ from typing import Any, Self
 from geneva_cli.errors import GenevaError, refuse
 from geneva_cli.kinematics.drive import Drive
 from geneva_cli.kinematics.motion import Motion
-from geneva_cli.kinematics.wheels.gearing import Gearing
+from geneva_cli.kinematics.wheels.gearing import Gearing, Output
 from geneva_cli.machine.drives.crank import Crank
 from geneva_cli.numerics.arrays import all_true
 from geneva_cli.spec.schema import (
@@ -81,10 +81,9 @@ _TABLE_TYPES: tuple[tuple[str, type, str], ...] = (
 )
 
 
-def _no_load(key: str) -> GenevaError:
+def _no_load(key: str, keys: str) -> GenevaError:
     return GenevaError(
-        f"{key} needs a load, and without one there is nothing to limit: set inertia_kgm2 or "
-        "torque_Nm in [load], or a [[mass]]",
+        f"{key} needs a load, and without one there is nothing to limit: set {keys}",
         ("limits", key),
     )
 
@@ -140,7 +139,7 @@ class Spec:
             )
         for key in LOADED:
             if limits[key] is not None:
-                refuse(self._unloaded, partial(_no_load, key))
+                refuse(self._unloaded, partial(_no_load, key, self.load_keys))
 
     def __hash__(self) -> int:
         return hash_once(self)
@@ -160,7 +159,7 @@ class Spec:
         """Values of a table by key; those of ``motion`` include the keys of its law.
 
         >>> Spec(External(6)).table("drive")
-        {'n_rpm': 60.0, 'rollers': 1, 'roller_angles_deg': None}
+        {'n_rpm': 60.0, 'rollers': 1, 'roller_angles_deg': None, 'both_ways': False}
         """
         if name == "motion":
             return {} if self.motion is None else self.motion.law.as_dict() | self.motion.as_dict()
@@ -210,8 +209,28 @@ class Spec:
         return not all_true(self._unloaded)
 
     @property
+    def load_keys(self) -> str:
+        """Keys that set a load of this kind of wheel, in words.
+
+        >>> Spec(Linear(6)).load_keys
+        'mass_kg or force_N in [load]'
+        """
+        return self.output.load_keys
+
+    @property
+    def output(self) -> Output:
+        """What the wheel gives out, with its units.
+
+        >>> Spec(External(6)).output.column, Spec(Linear(6)).output.column
+        ('wheel_deg', 'rack_mm')
+        """
+        return self.wheel.output(self.given_distance_mm)
+
+    @property
     def _unloaded(self) -> bool:
-        nothing = (self.load.inertia_kgm2 == 0.0) & (self.load.torque_Nm == 0.0)
+        load = self.load
+        nothing = (load.inertia_kgm2 == 0.0) & (load.torque_Nm == 0.0)
+        nothing = nothing & (load.mass_kg == 0.0) & (load.force_N == 0.0)
         return nothing & (self.support.own_torque_Nm == 0.0) & (not self.mass)
 
     @property
@@ -230,8 +249,20 @@ class Spec:
         >>> Spec(Spherical(6)).has_parts, Spec(External(400)).has_parts
         (True, False)
         """
-        drawn = self.wheel.FLAT or self.wheel.SHELLS
-        return drawn and self.wheel.z <= Z_DRAWN
+        return not self.no_parts
+
+    @property
+    def no_parts(self) -> str:
+        """The reason why wheel and crank have no outlines; empty if they have.
+
+        >>> Spec(External(400)).no_parts
+        'wheels of more than 360 slots are not drawn'
+        """
+        if not (self.wheel.FLAT or self.wheel.SHELLS):
+            return "arm, shafts and frame of a rack's machine are not built"
+        if self.wheel.z > Z_DRAWN:
+            return f"wheels of more than {Z_DRAWN} slots are not drawn"
+        return ""
 
     def roller_radius_mm(self, center_distance_mm: float) -> float:
         """Roller radius r in millimetres, by default L/20.

@@ -60,6 +60,19 @@ def bores_from(least: float, most: float) -> list[float]:
     return [least, *bores[first:end]]
 
 
+def modules_below(most: float) -> list[float]:
+    """Return the modules of gears below ``most`` mm, of the first series of ISO 54, from the top.
+
+    They go from 1 to 50; those below 1 are a tenth of them.
+
+    >>> modules_below(2.5)[:4]
+    [2.0, 1.5, 1.25, 1.0]
+    """
+    series = (1, 1.25, 1.5, 2, 2.5, 3, 4, 5, 6, 8, 10, 12, 16, 20, 25, 32, 40, 50)
+    small = [0.1 * m for m in series if m < 10]
+    return [m for m in reversed([*small, *map(float, series)]) if m < most * (1.0 - ROUNDED)]
+
+
 def rounded_radius(most: float) -> float:
     """Return the radius up to ``most`` whose diameter is a rounded number; or 0.
 

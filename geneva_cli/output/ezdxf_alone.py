@@ -4,8 +4,8 @@ On import it reads ``ezdxf.ini`` from the current folder and the user's, whateve
 searches the system's fonts to write a cache of them into the user's home. Drawings here need no
 settings and no widths of texts, so an empty cache lies in the folder of this file.
 
-It also imports pyparsing, for queries of a document. That takes as long as the rest of ezdxf, and
-no drawing here is queried. So the parser is imported when it is used.
+It also imports pyparsing, for queries of a document, and fontTools, for widths of texts. They take
+as long as the rest of ezdxf, and no drawing here needs them. So they are imported on first use.
 """
 
 from __future__ import annotations
@@ -47,26 +47,39 @@ class _LateParser:
         return EntityQueryParser.parse_string(*arguments, **settings)
 
 
+def _late_font(*arguments: Any, **settings: Any) -> Any:
+    """A font, whose reader is imported at its first use."""
+    from fontTools.ttLib import TTFont
+
+    return TTFont(*arguments, **settings)
+
+
 @contextmanager
-def _without_parser() -> Iterator[None]:
-    """Context in which ezdxf imports no parser, unless one is there already."""
-    parser, errors = ModuleType("ezdxf.queryparser"), ModuleType("pyparsing")
-    vars(parser)["EntityQueryParser"] = _LateParser()
-    vars(errors)["ParseException"] = Exception
-    late = [] if {"ezdxf", "pyparsing"} & sys.modules.keys() else [parser, errors]
-    sys.modules.update({module.__name__: module for module in late})
+def _without_late() -> Iterator[None]:
+    """Context in which ezdxf imports neither a parser nor fonts, unless they are there already."""
+    late: dict[str, dict[str, object]] = {
+        "pyparsing": {"ParseException": Exception},
+        "ezdxf.queryparser": {"EntityQueryParser": _LateParser()},
+        "fontTools": {},
+        "fontTools.ttLib": {"TTFont": _late_font, "TTLibError": Exception},
+    }
+    if {"ezdxf", "pyparsing", "fontTools"} & sys.modules.keys():
+        late = {}
+    for name, values in late.items():
+        sys.modules[name] = ModuleType(name)
+        vars(sys.modules[name]).update(values)
     try:
         yield
     finally:
-        for module in late:
-            del sys.modules[module.__name__]
+        for name in late:
+            del sys.modules[name]
 
 
 def _read_nothing(self: ConfigParser, *arguments: Any, **settings: Any) -> list[str]:
     return []
 
 
-with _alone(), _without_parser():
+with _alone(), _without_late():
     from ezdxf._options import options
     from ezdxf.document import Drawing as Document
     from ezdxf.layouts.base import BaseLayout

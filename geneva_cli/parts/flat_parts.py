@@ -8,13 +8,15 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from functools import cached_property
+from typing import TYPE_CHECKING
 
 import numpy as np
 
+from geneva_cli.curves import fit
 from geneva_cli.curves.plates import Group, Member, Plate
 from geneva_cli.curves.shapes import Contour, Point
 from geneva_cli.kinematics.engagement import Engagement
-from geneva_cli.kinematics.layout import Joint
+from geneva_cli.kinematics.layout import Dimension, Joint
 from geneva_cli.layout.link_positions import links_at
 from geneva_cli.layout.missing import NamedParts
 from geneva_cli.layout.plain_sizes import pin_radius, thicknesses
@@ -25,12 +27,17 @@ from geneva_cli.outlines.wheel import wheel_contour
 from geneva_cli.parts.arm import CrankArm, crank_arm, has_arm
 from geneva_cli.parts.first_pair import first_pair, in_front
 from geneva_cli.parts.frame import FrameAndShafts, framed
-from geneva_cli.parts.gear_pair import gear_pair
+from geneva_cli.parts.gear_blanks import Gear
+from geneva_cli.parts.gear_pair import FINE, gear_pair
 from geneva_cli.parts.groove_plate import groove_base, groove_lines, groove_stack
 from geneva_cli.parts.link_sizes import places
 from geneva_cli.parts.links import Links, drawn_links
+from geneva_cli.parts.pair_teeth import pair_teeth
 from geneva_cli.parts.plates import arm_plate, locking_plates, roller_plates, wheel_part
 from geneva_cli.parts.shafts import crank_hub
+
+if TYPE_CHECKING:
+    from geneva_cli.curves.gear_teeth import Writer
 
 
 class FlatParts:
@@ -185,14 +192,41 @@ class FlatParts:
         return tuple(in_front(self.front.outlines, self.links, self.mechanism.center_distance_mm))
 
     @cached_property
+    def toothed(self) -> tuple[Gear, ...]:
+        """Gears with round pitch circles, with teeth if they have a module; no first wheel."""
+        if self.first:
+            return ()
+        write = self._writer(FINE["cubics"] * self.mechanism.center_distance_mm)
+        return tuple(gear.with_teeth(write) for gear in self.links.gears)
+
+    @property
+    def tooth_dimensions(self) -> tuple[Dimension, ...]:
+        """Dimensions of the gears' teeth; none without teeth."""
+        teeth = pair_teeth(self.mechanism.spec.drive.gears, self.mechanism.spec.size)
+        mesh = teeth or self.links.mesh
+        return mesh.layout if mesh else ()
+
+    @property
     def round_gears(self) -> tuple[Member, ...]:
-        """Gears with round pitch circles, as blanks; a first wheel is no gear."""
-        return () if self.first else tuple(gear.member for gear in self.links.gears)
+        """Those gears in the machine."""
+        return tuple(gear.member for gear in self.toothed)
+
+    def _writer(self, fine: float) -> Writer:
+        """Return a function that fits curves: within ``fine`` mm where no tolerance is set."""
+        if self.tolerance is None:
+            return lambda curve, a, b: fit.cubics(curve, a, b, fine)
+        kind, tolerance = fit.KINDS[self.curves], self.tolerance
+        return lambda curve, a, b: kind(curve, a, b, tolerance)
 
     @cached_property
     def gear_pair(self) -> tuple[Member, ...]:
-        """The noncircular gears in front of a crank, as blanks up to their pitch curves."""
-        return gear_pair(self.mechanism, self.drawn, self.tolerance, self.curves)
+        """The noncircular gears in front of a crank, with teeth or up to their pitch curves."""
+        pair, size = self.mechanism.spec.drive.gears, self.mechanism.spec.size
+        if pair is None:
+            return ()
+        # teeth are spaced along the pitch curves, whose lengths must agree better than the teeth
+        fine = FINE["cubics"] if size.gear_module_mm is None else 1e-6
+        return gear_pair(self.mechanism, self.drawn, self._writer(fine * pair.distance_mm))
 
     @cached_property
     def _base(self) -> Plate | None:

@@ -1,16 +1,17 @@
-"""Gears as blanks: plates up to the pitch circle, whole or in sectors about a hub.
+"""Round gears as plates: whole, in sectors about a hub, or as a ring.
 
-Teeth are omitted: their module and cutter are in no key of a spec. They stand out of the pitch
-circle about as much as their gaps go into it. So a blank's mass is a gear's within a few percent. A
-gear that stands still is screwed to the frame.
+With ``gear_module_mm`` they have teeth. Without it they are blanks up to the pitch circle. Teeth
+stand out of it about as much as their gaps go into it. So a blank's mass is a gear's within a few
+percent. A gear that stands still is screwed to the frame.
 """
 
 from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
+from geneva_cli.curves.measure import turned
 from geneva_cli.curves.plates import Member, Plate
 from geneva_cli.curves.shapes import (
     ORIGIN,
@@ -25,21 +26,30 @@ from geneva_cli.curves.shapes import (
 )
 from geneva_cli.errors import GenevaError
 from geneva_cli.kinematics.layout import Link, Teeth
+from geneva_cli.layout.gear_mesh import ToothedGear
 from geneva_cli.layout.hole_walls import least_wall
+from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.parts.link_sizes import LinkSizes
 from geneva_cli.spec.tables import Size
+
+if TYPE_CHECKING:
+    from geneva_cli.curves.gear_teeth import Writer
 
 PITCH, HOLES, RIM = "PITCH", "BORE", "LINK"
 
 
 class Gear(NamedTuple):
-    """A gear about its axis: pitch circle, radius of its bore (0 for none or a ring), and blank."""
+    """A gear about its axis: pitch circle, radius of its bore (0 for none or a ring), and plate.
+
+    The plate of a gear with teeth ends where they begin, until ``with_teeth`` draws them.
+    """
 
     at: Point
     radius: float
     bore: float
     teeth: Teeth
     plate: Plate
+    cut: ToothedGear | None = None
 
     @property
     def name(self) -> str:
@@ -61,15 +71,40 @@ class Gear(NamedTuple):
     def outer(self) -> float:
         """The greatest distance of the outline from its axis."""
         outline = self.plate.outline
-        return outline.radius if isinstance(outline, Circle) else self.radius
+        if self.teeth.inside and isinstance(outline, Circle):
+            return outline.radius
+        return self.cut.teeth.tip if self.cut else self.radius
+
+    def with_teeth(self, write: Writer) -> Gear:
+        """Return the gear with its teeth drawn, if it has any; ``write`` fits curves."""
+        if self.cut is None:
+            return self
+        plate = self.plate._replace(layer=RIM)  # which is cut
+        if self.teeth.inside:
+            opening = _toothed(self.cut, 0.0, write)
+            return self._replace(plate=plate._replace(holes=(opening, *plate.holes[1:])))
+        hub = 0.0
+        if isinstance(plate.outline, Contour):
+            hub = min(math.hypot(*piece.start) for piece in plate.outline.segments)
+        return self._replace(plate=plate._replace(outline=_toothed(self.cut, hub, write)))
 
 
-def link_gear(link: Link, at: Point, bore: float, sizes: LinkSizes, size: Size, L: float) -> Gear:
-    """Return the gear of a link that is a pitch circle, with a bore.
+def link_gear(
+    link: Link,
+    at: Point,
+    bore: float,
+    sizes: LinkSizes,
+    mechanism: Mechanism,
+    cut: ToothedGear | None,
+) -> Gear:
+    """Return the gear of a link that is a pitch circle, with a bore; ``cut`` has its teeth.
 
     Raises GenevaError, naming the key, where its bore or its bolts leave nothing of it.
     """
-    radius, teeth = link.radius_mm, link.teeth
+    teeth, size, L = link.teeth, mechanism.spec.size, mechanism.center_distance_mm
+    radius = link.radius_mm
+    if cut:
+        radius = cut.teeth.tip if teeth.inside else cut.teeth.root
     shaft = _bored_by(at, L)
     low, high = sizes.span(link.plane)
     hole = 0.0 if teeth.inside else bore
@@ -90,7 +125,29 @@ def link_gear(link: Link, at: Point, bore: float, sizes: LinkSizes, size: Size, 
         holes += _bolts(size, inner, outer, L)
     plate = Plate(link.name, PITCH, outline, tuple(holes), low, high)
     _refuse(link.name, gear_wall(plate), "bolts" if teeth.fixed else "bore", shaft)
-    return Gear(at, radius, hole, teeth, plate)
+    return Gear(at, link.radius_mm, hole, teeth, plate, cut)
+
+
+def _toothed(gear: ToothedGear, hub: float, write: Writer) -> Contour:
+    """Return the outline of a gear with teeth, or of the opening of a ring.
+
+    ``hub`` is the radius of the outline between sectors.
+    """
+    one, step = Contour(RIM, tuple(gear.teeth.one(write)), closed=False), gear.teeth.step
+    between = Contour(RIM, (gear.teeth.between(),), closed=False)
+    pieces: list[Segment] = []
+    for sector, after in zip(gear.middles, (*gear.middles[1:], gear.middles[0]), strict=True):
+        for k, middle in enumerate(sector):
+            pieces += turned(one, middle).segments
+            if k + 1 < len(sector) or not hub:
+                pieces += turned(between, middle).segments
+        if hub:
+            end = math.atan2(*reversed(pieces[-1].end))
+            start = math.atan2(*reversed(turned(one, after[0]).segments[0].start))
+            back = about(ORIGIN, hub, end, (start - end) % math.tau)
+            rise = about(ORIGIN, gear.teeth.root, start, step).start
+            pieces += [Line(pieces[-1].end, back.start), back, Line(back.end, rise)]
+    return closed(RIM, pieces)
 
 
 def sectors(radius: float, hub: float, teeth: Teeth) -> Contour:

@@ -1,7 +1,7 @@
-"""The noncircular gears in front of a crank as blanks, in mesh at input angle 0, and their shafts.
+"""The noncircular gears in front of a crank, in mesh at input angle 0, and their shafts.
 
-The driven gear is on the crank's axis, the driver at the distance C from it. Teeth are omitted:
-their module and cutter are in no key of a spec.
+The driven gear is on the crank's axis, the driver at the distance C from it. With
+``gear_module_mm`` they have teeth. Without it they are blanks up to their pitch curves.
 """
 
 from __future__ import annotations
@@ -11,7 +11,6 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from geneva_cli.curves import fit
 from geneva_cli.curves.plates import Member, Plate
 from geneva_cli.curves.shapes import Circle, Point, closed
 from geneva_cli.errors import GenevaError
@@ -23,14 +22,16 @@ from geneva_cli.numerics.preferred import bore_radius
 from geneva_cli.outlines.outlines import Outlines
 from geneva_cli.parts.link_shafts import Ends
 from geneva_cli.parts.link_sizes import link_sizes
+from geneva_cli.parts.pair_teeth import pair_teeth, toothed_outline
 from geneva_cli.parts.shafts import round_section, shaft, shaft_ends
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
+    from geneva_cli.curves.gear_teeth import Writer
     from geneva_cli.numerics.jet import Array
 
-PITCH, BORE = "PITCH", "BORE"
+PITCH, BORE, CUT = "PITCH", "BORE", "LINK"
 NAMES = "driven gear", "driver gear"
 THIN = 1e-6  # of the axes' distance: a pitch curve nearer to its axis encloses no shaft
 # Of the axes' distance: coarsest tolerance of the fitted curves. Teeth are spaced along both
@@ -48,28 +49,30 @@ def gear_span(mechanism: Mechanism, parts: Outlines | None) -> tuple[float, floa
     return link_sizes(mechanism, [], parts).span(2)
 
 
-def gear_pair(
-    mechanism: Mechanism, parts: Outlines | None, tolerance: float | None, curves: str
-) -> tuple[Member, ...]:
-    """Return both gears as blanks up to their pitch curves; none without noncircular gears.
+def gear_pair(mechanism: Mechanism, parts: Outlines | None, write: Writer) -> tuple[Member, ...]:
+    """Return both gears, with teeth or up to their pitch curves; none without noncircular gears.
 
-    ``parts`` are the outlines of wheel and crank, if they are drawn. Without a ``tolerance`` in mm
-    the curves are the finest. Raises GenevaError for a bore larger than its gear.
+    ``parts`` are the outlines of wheel and crank, if they are drawn; ``write`` fits curves. Raises
+    GenevaError for a bore larger than its gear, and for teeth that do not fit.
     """
     pair = mechanism.spec.drive.gears
     if pair is None:
         return ()
     low, high = gear_span(mechanism, parts)
     sense = crank_sense(mechanism)
-    if tolerance is None:
-        tolerance, curves = FINE["cubics"] * pair.distance_mm, "cubics"
+    teeth = pair_teeth(pair, mechanism.spec.size)
     members = []
-    both = (driven_curve(pair, sense), driver_curve(pair, sense))
+    both = ((driven_curve(pair, sense), -sense), (driver_curve(pair, sense), sense))
     bores = gear_bores(mechanism, parts)
-    for name, curve, (at, bore) in zip(NAMES, both, bores, strict=True):
-        outline = closed(PITCH, fit.KINDS[curves](curve, -np.pi, np.pi, tolerance))
+    for name, (curve, along), (at, bore) in zip(NAMES, both, bores, strict=True):
+        if teeth:
+            layer = CUT
+            outline = closed(layer, toothed_outline(teeth, name == NAMES[1], curve, along, write))
+        else:
+            layer = PITCH
+            outline = closed(layer, write(curve, -np.pi, np.pi))
         holes = (Circle(BORE, (0.0, 0.0), bore),) if bore else ()
-        members.append(Member(Plate(name, PITCH, outline, holes, low, high), at))
+        members.append(Member(Plate(name, layer, outline, holes, low, high), at))
     return tuple(members)
 
 
@@ -136,7 +139,10 @@ def gear_bores(mechanism: Mechanism, parts: Outlines | None) -> list[tuple[Point
     Raises GenevaError, naming the key, for a bore larger than its gear, and where a pitch curve is
     no gear.
     """
-    (driven, _), (driver, _) = pitch_radii(required_gears(mechanism))
+    pair = required_gears(mechanism)
+    (driven, _), (driver, _) = pitch_radii(pair)
+    if teeth := pair_teeth(pair, mechanism.spec.size):
+        driven, driver = driven - teeth.roots[0], driver - teeth.roots[1]
     (axis, on_crank), (other, _) = _shafts(mechanism, parts)
     bores = on_crank, _driver_bore(mechanism, parts)
     for name, bore, least, key in zip(
@@ -145,7 +151,7 @@ def gear_bores(mechanism: Mechanism, parts: Outlines | None) -> list[tuple[Point
         if bore >= least:
             raise GenevaError(
                 f"no blank of the {name} is left: its bore, {2.0 * bore:.6g} as its shaft, must be "
-                f"below {2.0 * least:.6g}, twice its pitch curve's least radius; reduce {key}",
+                f"below {2.0 * least:.6g}, twice its least radius; reduce {key}",
                 ("size", key),
             )
     return [(axis, bores[0]), (other, bores[1])]

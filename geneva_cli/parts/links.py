@@ -19,6 +19,7 @@ from geneva_cli.curves.plates import Member, Plate
 from geneva_cli.curves.shapes import Circle, Contour, Point, Shape
 from geneva_cli.errors import GenevaError
 from geneva_cli.kinematics.layout import Joint, Link
+from geneva_cli.layout.gear_mesh import GearMesh, gear_mesh
 from geneva_cli.layout.hole_walls import apart, least_wall
 from geneva_cli.layout.link_positions import links_at, same
 from geneva_cli.layout.plain_sizes import pin_radius
@@ -49,6 +50,7 @@ class Links(NamedTuple):
     standing: frozenset[str] = frozenset()  # names of the links that are fixed to the frame
     blocks: frozenset[str] = frozenset()  # names of the blocks that slide in a link
     axes: tuple[LinkAxis, ...] = ()  # axes that links and gears turn about
+    mesh: GearMesh | None = None  # the teeth of round gears
 
     @property
     def plates(self) -> list[Plate]:
@@ -108,7 +110,7 @@ def drawn_links(mechanism: Mechanism, parts: Outlines | None = None) -> Links:
         *pins(bars, sizes, SAME_LENGTH * L),
         *rollers(bars, sizes, r, pin_radius(mechanism.spec.size, r, drawn)),
     ]
-    gears = [_gear(link, turning, sizes, mechanism) for link in links if link.radius_mm]
+    mesh, gears = _gears([link for link in links if link.radius_mm], turning, sizes, mechanism)
     kinds = {kind for link in bars if link.plane == 1 for kind in link.kinds}
     pin_low = None
     if kinds & {Joint.ROLLER, Joint.CARRIED}:
@@ -116,7 +118,15 @@ def drawn_links(mechanism: Mechanism, parts: Outlines | None = None) -> Links:
     standing = frozenset(link.name for link in bars if link.kinds[0] is Joint.NONE)
     blocks = frozenset(block.part.name for bar in unbored for block in bar.blocks)
     return Links(
-        sizes, tuple(cut), tuple(between), tuple(gears), pin_low, standing, blocks, tuple(turning)
+        sizes=sizes,
+        cut=tuple(cut),
+        joined=tuple(between),
+        gears=tuple(gears),
+        pin_low=pin_low,
+        standing=standing,
+        blocks=blocks,
+        axes=tuple(turning),
+        mesh=mesh,
     )
 
 
@@ -175,13 +185,29 @@ def _refuse_unused(
         )
 
 
-def _gear(link: Link, turning: list[LinkAxis], sizes: LinkSizes, mechanism: Mechanism) -> Gear:
-    """Return a gear, bored for the shaft of its axis."""
-    (path,), L = places(link), mechanism.center_distance_mm
+def _gears(
+    links: list[Link], turning: list[LinkAxis], sizes: LinkSizes, mechanism: Mechanism
+) -> tuple[GearMesh | None, list[Gear]]:
+    """Return the teeth of gears, if they have some, and the gears, bored for their shafts."""
+    L, size = mechanism.center_distance_mm, mechanism.spec.size
+    at = [_axis(link) for link in links]
+    mesh = None
+    if mechanism.spec.drive.TOOTHED and size.gear_module_mm is not None:
+        driver, driven = links
+        mesh = gear_mesh(driver, driven, (at[0], at[1]), size)
+    cut = mesh.gears if mesh else {}
+    bores = [next(axis.radius for axis in turning if same(axis.at, p, L)) for p in at]
+    return mesh, [
+        link_gear(link, p, bore, sizes, mechanism, cut.get(link.name))
+        for link, p, bore in zip(links, at, bores, strict=True)
+    ]
+
+
+def _axis(link: Link) -> Point:
+    """Return the axis of a gear at input angle 0."""
+    (path,) = places(link)
     z = complex(path[len(path) // 2])
-    at = z.real, z.imag
-    bore = next(axis.radius for axis in turning if same(axis.at, at, L))
-    return link_gear(link, at, bore, sizes, mechanism.spec.size, L)
+    return z.real, z.imag
 
 
 def _bar(link: Link, sizes: LinkSizes, L: float) -> _UnboredLink:

@@ -175,8 +175,8 @@ class SpecTable:
     def replace(self, **changes: Any) -> Self:
         """Return a copy with some fields changed and checked.
 
-        >>> SideCrank(A=0.6).replace(n_rpm=30.0)
-        SideCrank(n_rpm=30.0, rollers=1, roller_angles_deg=None, A=0.6, input_crank_mm=None)
+        >>> Spherical(6).replace(axes_deg=60.0)
+        Spherical(z=6, held_by=None, axes_deg=60.0)
         """
         return copied(self, changes)
 

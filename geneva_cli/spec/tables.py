@@ -33,7 +33,8 @@ class Size(SpecTable):
     center_distance_mm: Annotated[
         float | None,
         POSITIVE,
-        "centre distance L; spherical: sphere radius; default 100; linkages solve for it",
+        "centre distance L; spherical: sphere radius; linear: crank radius; default 100; linkages "
+        "solve for it",
     ] = None
     roller_radius_mm: Annotated[float | None, POSITIVE, "roller radius r; default L/20"] = None
     process: Annotated[
@@ -51,7 +52,10 @@ class Size(SpecTable):
         float | None, POSITIVE, "length of the contact line between roller and slot"
     ] = None
     wheel_radius_mm: Annotated[
-        float | None, POSITIVE, "rim radius (internal: of the opening); default: roller at entry"
+        float | None,
+        POSITIVE,
+        "rim radius (internal: of the opening; linear: distance of the edge); default: roller at "
+        "entry",
     ] = None
     wheel_outer_radius_mm: Annotated[
         float | None,
@@ -169,6 +173,20 @@ class Size(SpecTable):
     dial_bolt_circle_mm: Annotated[
         float | None, POSITIVE, "dial's bolt circle: diameter; default: amid bore and slots"
     ] = None
+    gear_module_mm: Annotated[
+        float | None, POSITIVE, "module of gear teeth; default: pitch curves without teeth"
+    ] = None
+    gear_teeth: Annotated[
+        int | None, Range(3, 1000), "teeth of the smaller gear; default: nearest by module"
+    ] = None
+    gear_shift: Annotated[
+        float | None,
+        Range(-1.0, 0.86),
+        "smaller gear's profile shift, in modules; default: half of the sum, without undercut",
+    ] = None
+    gear_backlash_mm: Annotated[
+        float, NOT_NEGATIVE, "backlash of gear teeth along their pitch circles"
+    ] = 0.0
     gear_bolts: Annotated[
         int, Range(0, 100), "number of screws between a fixed gear and the frame, evenly spaced"
     ] = 4
@@ -292,6 +310,8 @@ class Load(SpecTable):
 
     inertia_kgm2: Annotated[float, NOT_NEGATIVE, "inertia of everything the wheel turns"] = 0.0
     torque_Nm: Annotated[float, NOT_NEGATIVE, "torque that resists the wheel's motion"] = 0.0
+    mass_kg: Annotated[float, NOT_NEGATIVE, "linear: mass of the rack and all it moves"] = 0.0
+    force_N: Annotated[float, NOT_NEGATIVE, "linear: force that resists the rack's motion"] = 0.0
     dwell_torque_Nm: Annotated[
         float | None, NOT_NEGATIVE, "torque that the lock holds during the dwell; default torque_Nm"
     ] = None

@@ -98,21 +98,21 @@ def template(kind: str, schema: bool = True, whole: bool = True) -> str:
         values = own.get(name, {})
         # An empty table of a list would be one more body, without any of its keys.
         head = f"# [[{name}]]" if name in LISTS else f"[{name}]"
-        block = [_line(f, values) for f in table] if whole else _usual(name, table, values)
+        # keys that most people set
+        usual_tables: dict[str, dict[str, float]] = {
+            "drive": {"n_rpm": 60, "rollers": 1},
+            "size": {"center_distance_mm": 160, "roller_radius_mm": 9, "face_width_mm": 16},
+            "load": gearing.USUAL_LOAD,
+            "limits": {"acceleration_max": 1.5, "pin_force_max_N": 600},
+        }
+        usual = usual_tables.get(name, {})
+        block = [_line(f, values) for f in table] if whole else _usual(table, values, usual)
         lines += ["", head, *block] if block else []
     return "\n".join(lines) + "\n"
 
 
-def _usual(name: str, table: list[Field], values: dict[str, Any]) -> list[str]:
-    """The lines of the keys that an example sets, or that most people do."""
-    # keys that most people set
-    usual_tables: dict[str, dict[str, float]] = {
-        "drive": {"n_rpm": 60, "rollers": 1},
-        "size": {"center_distance_mm": 160, "roller_radius_mm": 9, "face_width_mm": 16},
-        "load": {"inertia_kgm2": 0.05, "torque_Nm": 2},
-        "limits": {"acceleration_max": 1.5, "pin_force_max_N": 600},
-    }
-    usual = usual_tables.get(name, {})
+def _usual(table: list[Field], values: dict[str, Any], usual: dict[str, float]) -> list[str]:
+    """The lines of the keys that an example sets, or that most people do, with usual values."""
     shown = [field for field in table if field.key in values or field.key in usual]
     settings = [
         f"{field.key} = {quoted(values[field.key])}"

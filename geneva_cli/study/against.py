@@ -86,12 +86,16 @@ def alternative(design: Design, name: str, rotor: bool = False) -> Mechanism:
             f'--against: kind = "{design.spec.drive.NAME}" has wheels on a carrier, and an '
             "alternative stands on the ground"
         )
-    if len({(round(t.motion_s, 12), round(t.index_deg, 9)) for t in times}) > 1:
+    steps = [t.index_deg for t in times if t.index_deg is not None]
+    if not steps:
+        raise GenevaError("--against: cam and servo turn a wheel, and this machine moves a rack")
+    motions = [round(t.motion_s, 12) for t in times]
+    if len({*zip(motions, [round(step, 9) for step in steps], strict=True)}) > 1:
         raise GenevaError(
             "--against: this machine's engagements differ, and an alternative has one index a turn"
         )
     first = times[0]
-    z = round(360.0 / first.index_deg)  # equal steps fill a turn
+    z = round(360.0 / steps[0])  # equal steps fill a turn
     spec, own = design.spec, design.spec.motor
     n_rpm = 60.0 / first.cycle_s
     inertia, torque = inertia_kgm2(spec), resisting_torque_Nm(spec)

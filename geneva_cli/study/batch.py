@@ -13,7 +13,10 @@ from geneva_cli.study.pool import cores, mapped
 from geneva_cli.table import Table, record_table, rows_table
 from geneva_cli.verdict.checks import Check, all_pass
 
-NAMES = ("spec", "check", "value", "at_deg", "must_be", "limit", "passes", "nearest", "why")
+NAMES = (
+    *("spec", "check", "value", "at_deg", "must_be", "limit", "passes", "nearest", "why"),
+    "direction",
+)
 
 
 class Verdict(NamedTuple):
@@ -25,6 +28,7 @@ class Verdict(NamedTuple):
     warnings: tuple[Notice, ...] = ()
     with_units: tuple[str, ...] = ()  # inputs that have a unit in the file
     error: str = ""
+    both_ways: bool = False  # True if the machine must turn both ways
 
     @property
     def passes(self) -> bool:
@@ -42,7 +46,8 @@ def verdict(path: str, settings: Sequence[str] = (), proof_mm: float | None = No
         checks = design.checks if proof_mm is None else design.proved_to(proof_mm)
         warnings = tuple(design.warnings)
         files, inputs = design.spec.files, tuple(design.with_units)
-        return Verdict(design.spec.path, files, tuple(checks), warnings, inputs)
+        both_ways = design.spec.drive.both_ways
+        return Verdict(design.spec.path, files, tuple(checks), warnings, inputs, "", both_ways)
     except GenevaError as error:
         return Verdict(path, error=str(error))
 
@@ -64,7 +69,7 @@ def verdicts(
 def checks_table(verdicts: Sequence[Verdict]) -> Table:
     """A table with one row for each check of each spec."""
     rows = [
-        (v.path, c.name, c.value, c.at_deg, c.must_be, c.limit, c.passes, c.nearest, c.why)
+        (v.path, *c[:2], c.at_deg, *c[2:5], c.nearest, c.why, c.direction)
         for v in verdicts
         for c in v.checks
     ]

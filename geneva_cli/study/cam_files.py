@@ -74,6 +74,11 @@ def cam(
     if not 0.0 < tolerance_deg < 360.0:
         raise GenevaError(f"--tolerance {tolerance_deg:.6g}: must be above 0, below 360 degrees")
     mechanism = design.mechanism
+    if not mechanism.output.turns:
+        raise GenevaError(
+            "--for: an electronic cam has angles, and this machine moves a rack: write its motion "
+            "as a table, with --turns"
+        )
     count = periods(mechanism, turns)
     if controller == "polynomial":
         table = cam_pieces(mechanism, count, tolerance_deg)

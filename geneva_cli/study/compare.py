@@ -6,10 +6,9 @@ import math
 from collections.abc import Sequence
 
 from geneva_cli.drawings.model import PartsModel
-from geneva_cli.machine.mechanism import Mechanism, build
 from geneva_cli.numerics.tolerances import ROUNDED
 from geneva_cli.study.fields import Cell, pick, values
-from geneva_cli.study.spec_texts import spec_texts
+from geneva_cli.study.spec_texts import designs_of, spec_texts
 from geneva_cli.study.sweep.constraints import is_number
 from geneva_cli.table import Reading, Table, rows_table
 from geneva_cli.verdict.quantities.groups import INPUTS
@@ -21,18 +20,20 @@ def compare(
     vary: Sequence[str] = (),
     picks: Sequence[str] = (),
     ratio: bool = False,
-    alike: bool = True,
+    reverse: bool = False,
 ) -> Table:
     """Return the comparison: ``quantity``, one column for each design, and ``differs``.
 
     Either one design is varied through values of keys (``vary``, texts ``KEY=VALUES``), or several
     specs are compared. ``picks`` are the quantities to show; without them all that need no parts
-    are shown. ``ratio`` divides numbers by those of the first design. ``alike`` also shows
-    quantities that do not differ. Numbers differ if they do so by more than rounding.
+    are shown. ``ratio`` divides numbers by those of the first design. Numbers differ if they
+    do so by more than rounding. ``reverse`` adds a column for each design turning the other way.
 
     Raises GenevaError for a design that cannot be read or built.
     """
-    names, machines = _columns(paths, settings, vary)
+    texts = spec_texts(paths, settings, vary, ("quantity", "differs"))  # the table's own columns
+    designs = designs_of(texts, reverse)
+    machines = [design.mechanism for design in designs.values()]
     if picks:
         picked = pick(picks)
         each = [dict(zip(picked.names, picked.of(m), strict=True)) for m in machines]
@@ -44,10 +45,16 @@ def compare(
             continue
         cells = [own.get(quantity) for own in each]
         differs = not all(_same(c, cells[0]) for c in cells[1:])
-        if any(c is not None for c in cells) and (differs or alike):
+        if any(c is not None for c in cells):
             rows.append((quantity, *(_ratios(cells) if ratio else cells), differs))
-    table = rows_table(("quantity", *names, "differs"), rows, mixed=True)
+    table = rows_table(("quantity", *designs, "differs"), rows, mixed=True)
     return table.replaced(reading=Reading(designs=True))
+
+
+def differing(table: Table) -> Table:
+    """The rows of a comparison whose cells differ."""
+    rows = [row for row in table.rows() if row[-1]]
+    return rows_table(table.names, rows, mixed=True).replaced(reading=table.reading)
 
 
 def _same(cell: Cell, first: Cell) -> bool:
@@ -71,16 +78,3 @@ def over(cell: Cell, first: Cell) -> Cell:
     if isinstance(cell, bool) or not is_number(cell):
         return cell
     return cell / first if is_number(first) and first else None
-
-
-def _columns(
-    paths: Sequence[str], settings: Sequence[str], vary: Sequence[str]
-) -> tuple[list[str], list[Mechanism]]:
-    """The names of the columns, and their machines."""
-    texts = spec_texts(paths, settings, vary, ("quantity", "differs"))  # the table's own columns
-    machines = []
-    for text in texts.values():
-        spec = text.spec()
-        with text.located():
-            machines.append(build(spec))
-    return list(texts), machines

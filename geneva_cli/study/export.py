@@ -9,6 +9,7 @@ from functools import partial
 from typing import NamedTuple, TypeVar
 
 from geneva_cli.design import CURVES, Design
+from geneva_cli.drawings.catalogue import require_drawn
 from geneva_cli.drawings.model import PartsModel
 from geneva_cli.drawings.single_parts import SinglePart, single_parts
 from geneva_cli.errors import GenevaError, cut
@@ -75,6 +76,7 @@ def export_files(
     >>> [file.name for file in files][:3]
     ['wheel-1x-10mm.dxf', 'locking-disc-1x-10mm.dxf', 'arm-1x-10mm.dxf']
     """
+    require_drawn(design.mechanism, "sheet")
     flat = design.spec.wheel.FLAT
     files: list[ExportFile] = []
     missing: list[Missing] = []

@@ -12,7 +12,7 @@ from geneva_cli.figure import JOINED, LINE, POINTS, Axis, Curve, Figure, Panel, 
 from geneva_cli.loads.figures import AXIS_BY_NAME, LeftOut, figure
 from geneva_cli.machine.spec import Spec
 from geneva_cli.specfile.columns import Columns, read_columns
-from geneva_cli.study.spec_texts import spec_texts
+from geneva_cli.study.spec_texts import designs_of, spec_texts
 from geneva_cli.verdict.quantities.names import whole_name
 
 QUANTITIES = tuple(AXIS_BY_NAME)  # quantities that can be plotted for a design
@@ -25,10 +25,12 @@ def of_specs(
     settings: Iterable[str] = (),
     pick: Sequence[str] = (),
     vary: Sequence[str] = (),
+    reverse: bool = False,
 ) -> tuple[Figure, list[Design], list[LeftOut]]:
     """The cycles of some specs in one figure, the designs, and the quantities that it lacks.
 
     With ``vary``, texts ``KEY=VALUES``, there is one spec, drawn for each combination of values.
+    With ``reverse`` each design also turns the other way.
 
     Raises GenevaError for a spec that cannot be read or built, and as ``figure`` does.
 
@@ -37,10 +39,14 @@ def of_specs(
     ['internal-z6', 'turret']
     """
     texts = spec_texts(paths, tuple(settings), vary)
-    designs = {name: Design.of(text.spec(), text) for name, text in texts.items()}
+    designs = designs_of(texts, reverse)
     cycles = {name: design.cycle for name, design in designs.items()}
     curves, left_out = figure(cycles, [_drawn_as(name) for name in pick])
-    return curves, list(designs.values()), [(texts[name].name, text) for name, text in left_out]
+    return (
+        curves,
+        list(designs.values()),
+        [(designs[name].spec.path, text) for name, text in left_out],
+    )
 
 
 def _drawn_as(name: str) -> str:

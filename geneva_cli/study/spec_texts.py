@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import itertools
 import os
-from collections.abc import Collection, Sequence
+from collections.abc import Collection, Mapping, Sequence
 
+from geneva_cli.design import Design
 from geneva_cli.errors import GenevaError, cut
 from geneva_cli.specfile.reader import Text, read, shown_name
 from geneva_cli.specfile.settings import setting
@@ -38,6 +39,19 @@ def spec_texts(
     if len(paths) > DESIGNS_MAX:
         raise GenevaError(f"{len(paths)} designs; at most {DESIGNS_MAX} can be compared")
     return {_short_name(p, paths, taken): read(p, settings) for p in paths}
+
+
+def designs_of(texts: Mapping[str, Text], reverse: bool) -> dict[str, Design]:
+    """The designs of texts by their names; with ``reverse`` each also turns the other way."""
+    out: dict[str, Design] = {}
+    for name, text in texts.items():
+        spec = text.spec()
+        if not reverse:
+            out[name] = Design.of(spec, text)
+            continue
+        out[name] = Design.of(spec.with_("drive.both_ways", True), text)
+        out[f"{name} backwards"] = out[name].backwards
+    return out
 
 
 def _short_name(path: str, paths: Sequence[str], taken: Collection[str]) -> str:

@@ -15,7 +15,7 @@ NAMES = (
     "z",
     "gearing",
     "rollers",
-    *Timing._fields,
+    *Timing._fields[:-1],  # no rack is among them
     "velocity_max",
     "acceleration_max",
     "acceleration_max_deg",
@@ -92,7 +92,7 @@ def _classic(z: int, gearing: str, sign: float, n_rpm: float, rollers: int) -> t
         z,
         gearing,
         rollers,
-        *timing(motion, 360.0 / rollers - motion, index, n_rpm),
+        *timing(motion, 360.0 / rollers - motion, index, n_rpm)[:-1],
         velocity,
         acceleration,
         -at_deg,  # the earlier of the two
@@ -117,19 +117,19 @@ def _general(z: int, gearing: str, n_rpm: float, rollers: int, A: float) -> tupl
     mechanism = build(Spec(registry.gearing(gearing)(z), drive))
     engagement = mechanism.engagements[0]
     velocity, acceleration, _, power, jumps = peaks(engagement)
-    times = timings(mechanism)[0]
+    times, index = timings(mechanism)[0], mechanism.index_deg(0)
     return (
         z,
         gearing,
         rollers,
-        *times,
+        *times[:-1],
         velocity.max,
         acceleration.max,
         acceleration.at_deg,
         jumps.acceleration_entry,
         jumps.jerk_entry,
         mechanism.rollers_max,
-        *cam_factors(velocity.max, acceleration.max, power.max, times.motion_deg, times.index_deg),
+        *cam_factors(velocity.max, acceleration.max, power.max, times.motion_deg, index),
     )
 
 

@@ -13,6 +13,7 @@ from collections.abc import Iterable, Iterator
 from typing import TYPE_CHECKING
 
 from geneva_cli.errors import GenevaError
+from geneva_cli.machine.both_ways import every_way
 from geneva_cli.machine.mechanism import Mechanism, build
 from geneva_cli.machine.spec import Spec
 from geneva_cli.numerics.roots import Falsi
@@ -218,13 +219,13 @@ class _Search:
         """The margin of each wanted check; parts are built for the first that needs them."""
         from geneva_cli.drawings.model import PartsModel
 
-        model = PartsModel(machine, advice=False)
+        models = [PartsModel(way, advice=False) for way in every_way(machine)]
         built = False
         for check in self.wanted:
             if _needs_parts(check) and not built:
-                self._spend(PARTS)
+                self._spend(PARTS * len(models))
                 built = True
-            yield _left(model, check)
+            yield min(_left(model, check) for model in models)
 
     def _holds(self, change: Change, value: Value) -> bool:
         """Return True if the wanted checks pass with a value, and no other check begins to fail."""
@@ -232,22 +233,26 @@ class _Search:
         if spec is None:
             return False
         from geneva_cli.collisions.gaps import WorkLimit
-        from geneva_cli.drawings.model import PartsModel
 
         turn = self.turned or (change.table, change.key) not in APART
         try:
-            machine = build(spec)
-            model = PartsModel(machine, advice=False) if self.parts and spec.has_parts else None
-            if not self._pass(checks_at_rest(machine, model)):
-                return False
-            if model is None or not turn:
-                return True
-            self._spend(TURN)
-            return self._pass(checks_turning(model))
+            return all(self._holds_one_way(way, turn) for way in every_way(build(spec)))
         except WorkLimit:
             raise OutOfTrials from None  # a trial of some seconds, which is not repeated
         except GenevaError:
             return False
+
+    def _holds_one_way(self, machine: Mechanism, turn: bool) -> bool:
+        from geneva_cli.drawings.model import PartsModel
+
+        has_parts = self.parts and machine.spec.has_parts
+        model = PartsModel(machine, advice=False) if has_parts else None
+        if not self._pass(checks_at_rest(machine, model)):
+            return False
+        if model is None or not turn:
+            return True
+        self._spend(TURN)
+        return self._pass(checks_turning(model))
 
     def _pass(self, rows: Iterable[Check]) -> bool:
         return all(c.passes is not False or c.name in self.may_fail for c in rows)
@@ -275,18 +280,9 @@ def _left(model: PartsModel, check: Check) -> float:
                 return gap_about(parts, check.at_deg) + parts.contact
             return finds_slot(parts) - play_about(parts, check.at_deg)
         row = None if check.name in TURNED else single_check(model.mechanism, check.name, model)
-        return _spare(row) if row else math.inf
+        return row.spare if row else math.inf
     except GenevaError:
         return -math.inf
-
-
-def _spare(check: Check) -> float:
-    """The margin of a check to its limit, negative if it fails."""
-    if check.value is None or check.limit is None:
-        return -math.inf if check.passes is False else math.inf
-    left = check.limit - check.value
-    left = left if check.must_be == "at most" else -left
-    return min(left, -5e-324) if check.passes is False else max(left, 0.0)
 
 
 def _as_written(value: Value) -> Value:

@@ -125,7 +125,7 @@ def _keys_without_effect(spec: Spec) -> list[Notice]:
             Notice(
                 "nothing-to-act-on",
                 "[motor] has no load to drive, so no motor or flywheel is computed: set "
-                "inertia_kgm2 or torque_Nm in [load], or a [[mass]]",
+                f"{spec.load_keys}",
             )
         )
     support = spec.support

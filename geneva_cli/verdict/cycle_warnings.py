@@ -6,6 +6,7 @@ import math
 from collections.abc import Mapping
 
 from geneva_cli.analysis.arrival import arrival
+from geneva_cli.analysis.change_of_sides import braking
 from geneva_cli.errors import Notice
 from geneva_cli.loads.cycle import Cycle
 from geneva_cli.loads.summary import QuantitySummary
@@ -36,19 +37,16 @@ def back_driven_deg(cycle: Cycle) -> list[tuple[float, float]]:
 
 
 def _back_driven(cycle: Cycle, loads: Mapping[str, QuantitySummary]) -> list[Notice]:
-    torque, alpha = loads["input_torque_Nm"], loads["alpha_rad_s2"]
+    torque, noun = loads["input_torque_Nm"], cycle.mechanism.output.noun
     least, most = torque.min, torque.max
-    if least is None or alpha.min is None or not least < -ROUNDED * abs(most or least):
+    if least is None or not least < -ROUNDED * abs(most or least):
         return []
     driven = back_driven_deg(cycle)
     if not driven:
         return []
     where = ", ".join(f"{round(a, 9):.4g} to {round(b, 9):.4g}" for a, b in driven)
-    # With this resistance the wheel is braked without the input even at its greatest deceleration.
-    inertia = cycle.case.inertia_Nm / cycle.case.speed_rad_s**2
-    drag = -inertia * alpha.min
-    helps = f"or add a drag to the wheel (with a resisting torque of {drag:.4g} N m in all, the "
-    helps += "input always drives)"
+    helps = f"or add a drag to the {noun} (with {resistance(cycle)} in all, the input always "
+    helps += "drives)"
     if arrival(cycle.mechanism):
         helps = "but no drag on the wheel, which would take it off the roller that stops it"
     if cycle.case.frame:
@@ -56,11 +54,20 @@ def _back_driven(cycle: Cycle, loads: Mapping[str, QuantitySummary]) -> list[Not
     return [
         Notice(
             "drives-the-motor",
-            f"the wheel drives the motor from {where} deg, with up to {-least:.4g} N m on the "
+            f"the {noun} drives the motor from {where} deg, with up to {-least:.4g} N m on the "
             "input. There the play of slot and reducer changes sides, and a self-locking worm "
             f"jams: use a brake or a motor that brakes, {helps}",
         )
     ]
+
+
+def resistance(cycle: Cycle) -> str:
+    """The resistance that brakes the wheel alone at its greatest deceleration, in words."""
+    case, output = cycle.case, cycle.mechanism.output
+    braked_Nm = max(cycle.case.inertia_Nm * braking(one) for one in cycle.mechanism.engagements)
+    if output.turns:
+        return f"a resisting torque of {braked_Nm:.4g} N m"
+    return f"a resisting force of {braked_Nm / case.L:.4g} N"
 
 
 def _lags(mechanism: Mechanism) -> list[Notice]:
@@ -87,7 +94,7 @@ def _heavy(cycle: Cycle) -> list[Notice]:
     # larger inertia is nearly always meant in kg cm2.
     diameter, thickness, density = 6.0 * L, 0.5 * L, 7850.0  # m, m, kg/m3
     most = math.pi * density * thickness * diameter**4 / 32.0
-    if not inertia > most:
+    if not inertia > most or not cycle.mechanism.output.turns:
         return []
     return [
         Notice(

@@ -51,19 +51,15 @@ def failures(rows: list[Check], model: PartsModel) -> tuple[str, list[str]]:
 def in_words(c: Check, parts: str = "parts") -> str:
     """A failing check in words; ``parts`` names those that overlap."""
     shown = in_digits(c.value or 0.0, 6)
-    general = f"{c.name} is {shown}{_where(c)}; it must be {c.must_be} {c.limit or 0.0:.6g}"
+    general = f"{c.name} is {shown}{c.where}; it must be {c.must_be} {c.limit or 0.0:.6g}"
     return meaning(c, parts) or general
-
-
-def _where(c: Check) -> str:
-    return "" if c.at_deg is None else f" at input angle {c.at_deg:.6g} deg"
 
 
 def meaning(c: Check, parts: str = "parts") -> str:
     """The meaning of a failing check; empty if its value is enough."""
     from geneva_cli.verdict.checks.walls import NO_WALL
 
-    where, value, limit = _where(c), c.value or 0.0, c.limit or 0.0
+    where, value, limit = c.where, c.value or 0.0, c.limit or 0.0
     if c.name == "gap_mm":
         return f"{parts} overlap by {-value:.4g} mm{where}"
     if c.name == "idle_roller_mm":

@@ -6,7 +6,6 @@ Parts are sized one design after the other, as their defaults depend on rollers'
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
@@ -37,7 +36,11 @@ class PartSizes(NamedTuple):
 
 def part_sizes(mechanism: Mechanism, loads: PartLoads) -> PartSizes | None:
     """The dimensions of the parts of m designs under these loads; None if no design has parts."""
-    rows = [_row(one, loads.of(i)) for i, one in enumerate(_designs(mechanism))]
+    if isinstance(mechanism.design, int):  # whose sizes are cached
+        rows = [_row(mechanism)]
+    else:
+        each = (build(alone(mechanism.spec, i)) for i in range(mechanism.designs))
+        rows = [_row(one, loads.of(i)) for i, one in enumerate(each)]
     every = [row for row in rows if row]
     if not every:
         return None
@@ -57,16 +60,7 @@ def part_sizes(mechanism: Mechanism, loads: PartLoads) -> PartSizes | None:
     )
 
 
-def _designs(mechanism: Mechanism) -> Iterator[Mechanism]:
-    """Yield the machines of a batch one by one."""
-    if isinstance(mechanism.design, int):
-        yield mechanism
-        return
-    for i in range(mechanism.designs):
-        yield build(alone(mechanism.spec, i))
-
-
-def _row(machine: Mechanism, loads: PartLoads) -> list[float]:
+def _row(machine: Mechanism, loads: PartLoads | None = None) -> list[float]:
     """The numbers of a machine's parts in one row; none for a machine without flat parts."""
     parts = sized(machine, loads)
     return _numbers(stressed(*parts)) if parts else []

@@ -20,7 +20,6 @@ from geneva_cli.verdict.quantities.under_load import under_load
 if TYPE_CHECKING:
     from geneva_cli.machine.mechanism import Mechanism
 
-LOAD = "inertia_kgm2 or torque_Nm in [load], or a [[mass]]"
 # The groups by the names of their tables, and by the whole names of their quantities.
 REPORT_GROUPS = {name: group for group in REPORT for name in (group.table, *group.names)}
 
@@ -82,7 +81,8 @@ class Strength:
         for keys in REASONS[name](self):
             missing = [words for there, words in keys if not there]
             if missing:  # without a load nothing else helps
-                return LOAD if LOAD in missing else " and ".join(missing)
+                needs_load = self.spec.load_keys
+                return needs_load if needs_load in missing else " and ".join(missing)
         return None
 
     def missing(self, among: Sequence[str]) -> list[str]:
@@ -92,8 +92,8 @@ class Strength:
             keys = self.reason(name)
             if keys:
                 by_key.setdefault(keys, []).append(name)
-        if LOAD in by_key:  # nearly all
-            by_key[LOAD] = ["forces", "stresses", "life"]
+        if self.spec.load_keys in by_key:  # nearly all
+            by_key[self.spec.load_keys] = ["forces", "stresses", "life"]
         return [
             f"{', '.join(names)}: need{'s' * (len(names) == 1)} {keys}"
             for keys, names in by_key.items()
@@ -110,7 +110,7 @@ class Strength:
 
     @property
     def _has_load(self) -> Key:
-        return self.spec.is_loaded, LOAD
+        return self.spec.is_loaded, self.spec.load_keys
 
     @property
     def _has_bound(self) -> Key:
@@ -160,7 +160,9 @@ class Strength:
         yield from self._shaft("crank", shafts.crank_shaft(self.spec.shaft))
 
     def _shaft(self, which: str, ends: shafts.ShaftDimensions) -> Keys:
-        yield [(self.spec.wheel.FLAT, PARALLEL_SHAFTS)]
+        sphere = self.spec.wheel.SHELLS
+        wheel = "a wheel on a shaft: the shafts of a rack's machine are not computed"
+        yield [(self.spec.wheel.FLAT, PARALLEL_SHAFTS if sphere else wheel)]
         if self.spec.is_loaded:
             yield [self._has_bound]
         drawn = self.load.parts and getattr(self.load.parts, f"{which}_shaft")

@@ -6,10 +6,12 @@ from geneva_cli.drawings.model import PartsModel
 from geneva_cli.errors import Notice
 from geneva_cli.loads.cycle import cycle_of
 from geneva_cli.loads.summary import summaries
+from geneva_cli.machine.both_ways import every_way
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.parts.wheel_inertia import known_wheel_body
 from geneva_cli.verdict.carried_warnings import carried_warnings
 from geneva_cli.verdict.cycle_warnings import cycle_warnings
+from geneva_cli.verdict.direction_warnings import direction_warnings
 from geneva_cli.verdict.load_warnings import load_warnings
 from geneva_cli.verdict.motion_warnings import motion_warnings
 from geneva_cli.verdict.process_warnings import process_warnings
@@ -18,7 +20,25 @@ from geneva_cli.verdict.turn_warnings import turn_warnings
 
 
 def warnings(model: PartsModel) -> list[Notice]:
-    """Warnings about the motion, the loads and the parts of a machine, in this order."""
+    """Warnings about the motion, the loads and the parts of a machine, in this order.
+
+    A machine that turns both ways also has those that appear backwards only.
+    """
+    mechanism = model.mechanism
+    out = _one_way(model)
+    for other in every_way(mechanism)[1:]:
+        own = set(map(str, out))
+        # the law's name alone makes no other warning
+        more = [
+            text
+            for text in _one_way(PartsModel(other))
+            if text.replace(", backwards", "") not in own
+        ]
+        out += [Notice(text.name, f"backwards, {text}") for text in more]
+    return [*direction_warnings(mechanism), *out]
+
+
+def _one_way(model: PartsModel) -> list[Notice]:
     mechanism = model.mechanism
     of_strength = strength(mechanism).warnings()
     return [

@@ -171,10 +171,10 @@ def test_what_cannot_be_shown():
     with pytest.raises(GenevaError, match=f"at most {MACHINES_MAX}"):
         figure({str(i): bare.cycle for i in range(MACHINES_MAX + 1)})
     made, left = figure({"six": bare.cycle})
-    assert [p.y.name for p in made.panels] == list(USUAL_QUANTITIES[:4])
+    assert [p.y.name for p in made.panels] == ["wheel_deg", *USUAL_QUANTITIES[:3]]
     assert not left  # no load, and no force is asked for
     made, left = figure({"six": bare.cycle, "loaded": Design(External(6), load=LOADED).cycle})
-    assert [p.y.name for p in made.panels] == list(USUAL_QUANTITIES)
+    assert [p.y.name for p in made.panels] == ["wheel_deg", *USUAL_QUANTITIES]
     assert len(left) == 1 and left[0][0] == "six"
     assert left[0][1].startswith("no curve of pin_force_N, input_torque_Nm, ")
 

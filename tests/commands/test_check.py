@@ -76,7 +76,7 @@ def test_a_warning_is_printed_once(format: str) -> None:
 
 def test_csv_is_the_rows_alone() -> None:
     found = run(TURRET, "--format", "csv").stdout.splitlines()
-    assert found[0] == "spec,check,value,at_deg,must_be,limit,passes,nearest,why"
+    assert found[0] == "spec,check,value,at_deg,must_be,limit,passes,nearest,why,direction"
     assert len(found) == 22
 
 

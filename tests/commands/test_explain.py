@@ -26,7 +26,8 @@ from geneva_cli.drawings import parts_list
 from geneva_cli.drawings.catalogue import PARTS
 from geneva_cli.errors import GenevaError, Notice
 from geneva_cli.kinematics import registry
-from geneva_cli.layout import gear_curves, groove, slot_sampling
+from geneva_cli.kinematics.pitch_curve import WALLED
+from geneva_cli.layout import gear_curves, groove
 from geneva_cli.loads import figures, summary
 from geneva_cli.loads.sizing import SHOWN_SIZING
 from geneva_cli.manual import TOPICS
@@ -118,13 +119,12 @@ def quantities() -> set[str]:
     out |= {
         *answers.SPECTRUM_COLUMNS,
         *survey.NAMES,
-        *motion.columns_of(load(str(repo.DESIGNS / "wandering-hours.toml")).mechanism),
-        *summary.PLACE_COLUMNS,
+        *motion.motion_columns(load(str(repo.DESIGNS / "wandering-hours.toml")).mechanism),
         *figures.AXIS_BY_NAME,
         *CamFactors._fields,
     }
     out |= {"acceleration.exit", "jerk.exit", *law_values.LAW_COLUMNS, *SYNTH, ERROR, *batch.NAMES}
-    out |= {*slot_sampling.NAMES, *groove.NAMES, *gear_curves.NAMES, *parts_list.NAMES}
+    out |= {*WALLED, *groove.NAMES, *gear_curves.NAMES, *parts_list.NAMES}
     out |= {"dwell_position_share", "motion_play_share"}  # of a histogram
     return out | {f"tolerance.{name}" for name in tolerance_names()}
 

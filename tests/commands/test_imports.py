@@ -16,6 +16,7 @@ from geneva_cli.app import COMMANDS
 DESIGNS = str(repo.DESIGNS)
 # What costs: a run may import only what its row allows of these.
 HEAVY = {"numpy", "scipy", "rich", "pydantic", "matplotlib", "ezdxf", "tomli", "tomllib", "json"}
+HEAVY |= {"pyparsing", "fontTools"}  # ezdxf's, which no drawing needs
 # The whole program, through its real entry point, which ends the process by os._exit.
 PROBE = """
 import os, sys
@@ -75,7 +76,7 @@ ROWS = [
     Row("peaks side-crank-z6.toml", "tomli numpy"),
     Row("peaks press-straight.toml --format json", "tomli json"),
     Row("peaks press-straight.toml --certify", "tomli"),
-    Row("peaks press-curved.toml", "tomli numpy"),
+    Row("peaks press-curved.toml", "tomli"),
     Row("peaks table-law.toml", "tomli numpy scipy json"),  # its spline; json: SciPy's
     Row("motion press-straight.toml --samples 9", "tomli numpy"),
     Row("motion press-curved.toml --samples 9", "tomli numpy"),
@@ -111,7 +112,7 @@ ROWS = [
     Row("keys"),
     Row("explain"),
     Row("explain horn_mm"),
-    Row("laws", "numpy"),
+    Row("laws"),
     # NumPy: each row of synth says whether its parts can be built, for which they are laid out
     Row("synth --tau 1/3 --z 6 --check 1", "numpy"),
     Row("synth --subject-to acceleration_max<=0.5 --z 6 --check 1", "numpy"),
@@ -124,10 +125,10 @@ ROWS = [
 
 # The quick ones may import this much of the program, and no more.
 OWN = {
-    "--help": "app errors progress streams manual",
-    "--version": "app errors progress streams",
+    "--help": "app errors progress record streams manual",
+    "--version": "app errors progress record streams",
     # no spec, no registry of kinds, no record of either: of the wheels their closed forms alone
-    "table --z 6": "app errors progress streams table commands commands.completion "
+    "table --z 6": "app errors progress record streams table commands commands.completion "
     "commands.options commands.table kinematics kinematics.wheels kinematics.wheels.classic output "
     "output.finite output.formats output.text spec.ranges study study.survey analysis "
     "analysis.cam_factors analysis.timing numerics numerics.angles numerics.arrays spec "

@@ -6,6 +6,7 @@ Rothbart, Cam Design Handbook. The witness integrates them at 50 digits.
 
 import copy
 import math
+import random
 
 import numpy as np
 import pytest
@@ -14,11 +15,15 @@ from witness import krasniqi, mp, near
 from words import LAWS, Spec, Wheel, named, points
 
 from geneva_cli.analysis.law_values import characteristic
+from geneva_cli.analysis.peak_search import QUANTITIES, search_peaks
 from geneva_cli.analysis.peaks import peaks
 from geneva_cli.errors import marking
 from geneva_cli.kinematics import registry
+from geneva_cli.kinematics.law_motion import LawMotion
+from geneva_cli.kinematics.laws.scca import SineConstantCosine
 from geneva_cli.kinematics.laws.standard import SineGroup
 from geneva_cli.kinematics.laws.table import TableLaw
+from geneva_cli.kinematics.laws.tuned import Tuned
 from geneva_cli.kinematics.motion import Motion
 from geneva_cli.machine.many import taken
 from geneva_cli.machine.mechanism import build
@@ -164,6 +169,32 @@ def test_constants(machine, name):
         # the same law in a machine of 6 slots and 120 degrees: (2 pi/z) C/phi_l^k
         got = getattr(of_machine, quantity).max * rate ** (k + 1) / (2.0 * s.half_step)
         assert got == near(constant, 1e-14)
+
+
+@pytest.mark.sampled(4)
+@pytest.mark.parametrize("seed", range(16))
+def test_greatest_values_against_the_search_over_arrays(seed):
+    """Sizes and first places of laws of random keys, against the search that batches go through."""
+    draw = random.Random(seed)
+    b, c = sorted((draw.uniform(0.01, 0.98), draw.uniform(0.01, 0.98)))
+    laws = [
+        SineGroup(draw.uniform(-0.3, 0.3)),
+        SineGroup(draw.uniform(-10.0, 10.0)),
+        SineConstantCosine(b=b, c=c - b, d=1.0 - c),
+        Tuned(
+            period_ratio=math.exp(draw.uniform(-2.9, 4.0)),
+            of=draw.choice(["4-5-6-7", "sine-group"]),
+        ),
+        Tuned(period_ratio=draw.uniform(0.5, 5.0), damping_ratio=draw.uniform(0.0, 0.99)),
+    ]
+    for law in laws:
+        motion = LawMotion(-60.0, 60.0, 0.5, law)
+        for name, peak in search_peaks(motion, QUANTITIES).items():
+            own = motion.closed_peak(name)
+            # 1e-14: the wheel's angle in the search is scaled before it is differentiated
+            assert own.max == near(peak.max.item(), 1e-14), (law, name)
+            # a summit is flat: its place is known to the root of a rounding
+            assert own.at_deg == pytest.approx(peak.at_deg.item(), abs=1e-5), (law, name)
 
 
 def test_constants_to_the_digits_of_the_books():

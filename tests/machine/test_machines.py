@@ -23,6 +23,7 @@ from geneva_cli.analysis.peaks import QUANTITIES, worst
 from geneva_cli.analysis.timing import timings
 from geneva_cli.kinematics import registry
 from geneva_cli.loads.loads import state
+from geneva_cli.machine.both_ways import backwards
 from geneva_cli.machine.drives.transmission import Transmission
 from geneva_cli.machine.mechanism import build
 
@@ -32,6 +33,7 @@ GEARS = 'kind = "elliptical-gears", eccentricity = '
 QUICK = ', phase = "quick"'
 SPHERE = 'gearing = "spherical"'
 INSIDE = 'gearing = "internal"'
+RACK = 'gearing = "linear"'
 NONCIRCULAR = 'kind = "noncircular-gears", A = '
 FOUR_BAR = 'kind = "four-bar", crank_mm = 40, ground_mm = 90, coupler_mm = 100, rocker_mm = 100, '
 SLIDER = 'kind = "slider-crank", crank_mm = 40, rod_mm = 120, '
@@ -55,6 +57,10 @@ CASES = {
     "spherical-130-deg": text(f"z = 4, {SPHERE}, axes_deg = 130"),
     "spherical-nearly-flat": text(f"z = 6, {SPHERE}, axes_deg = 0.7"),
     "spherical-two-rollers": text(f"z = 6, {SPHERE}, axes_deg = 50", "rollers = 2"),
+    "rack": text(f"z = 6, {RACK}"),
+    "rack-side-crank": text(f"z = 6, {RACK}", f"{SIDE}0.4"),
+    "rack-gears": text(f"z = 6, {RACK}", f"{GEARS}0.3"),
+    "rack-noncircular": text(f"z = 6, {RACK}", f"{NONCIRCULAR}-0.2"),
     "offset": text("z = 6, offset_mm = 20"),
     "offset-negative": text("z = 4, offset_mm = -13.7"),
     "offset-near-its-limit": text("z = 5, offset_mm = 40"),
@@ -307,6 +313,9 @@ def test_the_pin_lies_on_its_slot(machine, witness, exact, case):
                 continue  # 0/0 in the law of sines
             true = w.path(to_radians(x[j]))
             assert abs(complex(px[j], py[j]) - complex(true)) <= bar
+        if w.parallel:  # the rack has moved by its angle, and did not turn
+            assert np.max(np.hypot(u - px, v - (py - wheel))) <= 1e-14
+            continue
         if not machine(case).spec.wheel.FLAT:
             assert np.max(np.abs(across)) <= 1e-14
             polar = [float(w.polar(to_radians(t))) for t in x]
@@ -344,10 +353,12 @@ def test_lever_and_speed_in_the_slot(machine, witness, case):
 def test_loads_keep_the_energy(machine, case):
     """Without friction the input does what the wheel takes, and nothing is lost between."""
     m = machine(case)
+    L = m.center_distance_mm / 1000.0
     load_ = m.spec.load.replace(inertia_kgm2=0.02, torque_Nm=3.0)
+    if not m.output.turns:  # a mass and a force at the pinion's radius
+        load_ = m.spec.load.replace(mass_kg=0.02 / L**2, force_N=3.0 / L)
     loaded = m._replace(spec=m.spec.replace(load=load_))
     w = m.spec.drive.n_rpm * math.pi / 30.0
-    L = m.center_distance_mm / 1000.0
     for s in m.engagements:
         for t in (0.8, 0.3, -0.4):
             x = t * (s.entry_deg if t > 0.0 else -s.exit_deg)
@@ -409,7 +420,8 @@ def test_motions_and_dwells_fill_the_period(machine, case):
     columns = motion_table(m, 721).columns
     wheel, velocity = np.array(columns[2]), np.array(columns[3])
     assert np.all(np.diff(wheel) >= -1e-12)  # never back
-    assert wheel[-1] - wheel[0] == pytest.approx(math.fsum(t.index_deg for t in times), abs=1e-12)
+    moved = math.fsum(t.index_deg or t.index_mm for t in times)
+    assert wheel[-1] - wheel[0] == pytest.approx(moved, abs=1e-12)
     assert np.min(velocity) >= -1e-15
 
 
@@ -660,3 +672,35 @@ def test_cam_groove(machine, witness):
         assert last.c[0] == pytest.approx(math.sin(s.half_step) / math.sin(end + g * s.half_step))
         angle = 1.0 / math.tan(end + g * s.half_step)
         assert last.c[1] / last.c[0] == pytest.approx(-angle, abs=1e-12)
+
+
+@every
+def test_backwards_is_the_witness_in_a_mirror(machine, witness, case):
+    """psi'(x) = -psi(-x): the machine that the spec in the mirror makes, solved for anew.
+
+    Even derivatives change sign. What is rounded are the places of two machines: twice the bars.
+    """
+    m = machine(case)
+    turned = backwards(m)
+    n = len(m.engagements)
+    assert (len(turned.engagements), turned.period_deg) == (n, m.period_deg)
+    for i, (s, w) in enumerate(zip(m.engagements, witness(case), strict=True)):
+        back = turned.engagements[-i % n]
+        places = (back.mid_deg + s.mid_deg) / m.period_deg
+        assert places == pytest.approx(round(places), abs=1e-13)
+        # a linkage's exit is found anew, to some units of a whole turn
+        assert back.entry_deg == pytest.approx(-s.exit_deg, abs=2e-13)
+        x = np.array([0.9 * s.entry_deg, 0.3 * s.entry_deg, 0.5 * s.exit_deg, 0.8 * s.exit_deg])
+        reference = np.array([w.derivatives(v) for v in x]).T
+        got = back.motion(-x, 3).derivatives()
+        for k in range(4):
+            values = np.array([mp.mpf(float(v)) for v in got[k]]) * (1 if k % 2 else -1)
+            error = np.abs(values - reference[k]).astype(float)
+            slope = np.abs(reference[k + 1]).astype(float)
+            # the places of these four angles against those of the new linkage
+            moved = 2e-13 * math.pi / 180.0 * slope if case in ON_PATH else 0.0
+            assert (error <= 2.0 * bars(s, x, reference, k, 16.0, case) + moved).all(), k
+        for curve, other in ((s.path, back.path), (s.slot, back.slot)):
+            here, there = curve(x, 0), other(-x, 0)
+            assert here[0].c[0] + 0.0 * x == pytest.approx(there[0].c[0] + 0.0 * x, abs=1e-13)
+            assert here[1].c[0] + 0.0 * x == pytest.approx(-there[1].c[0] + 0.0 * x, abs=1e-13)

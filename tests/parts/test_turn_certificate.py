@@ -38,7 +38,7 @@ from geneva_cli.outlines.travel import UNKNOWN, Travel, curve_rates, path_travel
 from geneva_cli.spec.tables import Size
 from geneva_cli.verdict.checks.proved import least_gap as least_gap_check
 
-MACHINES = some(300, 12)
+MACHINES = some(300, 8)
 FLAT = [path.name for path in sorted(repo.DESIGNS.glob("*.toml")) if load(path).spec.wheel.FLAT]
 
 
@@ -274,7 +274,7 @@ def test_a_spike_that_collides_for_a_moment_is_never_proved_free():
     rng = random.Random(5)
     collides = free = 0
     for name in ("turret.toml", "three-slots.toml", "quick-index.toml"):
-        for _ in range(some(100, 12)):
+        for _ in range(some(100, 6)):
             parts = with_spike(parts_of(name), rng)
             if parts is None:
                 continue

@@ -73,6 +73,8 @@ def usual(rng, key, z, L, r, outside):
         return rng.choice(WORDED[key])
     if key in ("lock_bolts", "dial_bolts", "gear_bolts"):
         return rng.choice([0, 1, 2, 3])
+    if key == "gear_teeth":
+        return rng.choice([12, 17, 20, 30])
     of = {
         "wheel_radius_mm": math.sqrt(L * L - R * R if outside else L * L + R * R),
         "wheel_outer_radius_mm": L + R + 2.0 * r,
@@ -111,6 +113,9 @@ def usual(rng, key, z, L, r, outside):
         "dial_bolt_mm": L / 40.0,
         "gear_bolt_mm": L / 40.0,
         "gear_bolt_circle_mm": 0.8 * L,
+        "gear_module_mm": L / 60.0,
+        "gear_shift": 0.2,
+        "gear_backlash_mm": 0.001 * L,
         "dial_bolt_circle_mm": L / 2.0,
         "wheel_flat_mm": 0.02 * L,
         "crank_flat_mm": 0.02 * R,

@@ -42,7 +42,7 @@ def stressed(name, count, seed=12, places=PLACES, seconds=math.inf):
         over = beyond(found, places, seed, names=names)
         for one in [name for name in ALONE if name in names]:
             together = load_summaries(found.machine, (one,), requested=())
-            over = np.hstack((over, beyond(found, places, seed, together, (one,))))
+            over = np.hstack((over, beyond(found, places, seed, (one,), together)))
             over = np.hstack((over, off(found.machine, one, together[one])))
         done += len(over)
         missed += int((over > MORE).any(axis=1).sum())

@@ -8,7 +8,7 @@ import os
 import pytest
 
 from geneva_cli import GenevaError, load
-from geneva_cli.study.compare import compare
+from geneva_cli.study.compare import compare, differing
 
 pytestmark = pytest.mark.usefixtures("made_once")
 HERE = os.path.dirname(__file__)
@@ -86,7 +86,7 @@ def test_json_has_every_design_by_its_heading(capsys):
 def test_differing_rows_are_marked_and_alone_on_request():
     whole = compare([path("side-crank-z6.toml")], vary=["drive.A=0,0.6"])
     marked = [q for q, row in by_quantity(whole).items() if row["differs"]]
-    only = compare([path("side-crank-z6.toml")], vary=["drive.A=0,0.6"], alike=False)
+    only = differing(whole)
     assert list(by_quantity(only)) == marked
     assert "wheel.z" not in marked and "acceleration.max" in marked
 

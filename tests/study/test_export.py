@@ -88,6 +88,7 @@ def test_the_spec_makes_the_same_files(tmp_path):
     assert bytes_of(first) == bytes_of(second)
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize("name", ["ratio.csv", "parts.csv", "contents.csv", "a,b.csv"])
 def test_points_of_gears_are_in_the_folder(name, tmp_path):
     """Whatever their file is called: the folder is replaced, and its spec makes the same files.

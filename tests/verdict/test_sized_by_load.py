@@ -278,6 +278,15 @@ def test_a_pin_that_the_load_depends_on_stays_usual():
     assert sizes_of(Spec(External(6), load=turning)).pin == 2.5
 
 
+@pytest.mark.parametrize("fit", [0.0, 0.4, 2.0, 4.0])
+def test_a_loose_pin_leaves_its_roller_a_wall(fit):
+    """The hole is wider than the pin by the fit: three tenths of the radius stay about the hole."""
+    heavy = Load(inertia_kgm2=0.4, torque_Nm=200.0)
+    s = sizes_of(Spec(External(6), size=Size(shaft_fit_mm=fit), load=heavy))
+    hole = s.pin + 0.5 * fit
+    assert hole <= 0.7 * s.roller or s.pin == sizes_of(Spec(External(6))).pin
+
+
 def test_the_spec_s_sizes_stay():
     """A size of the spec is never changed; its check fails instead."""
     size = Size(

@@ -43,9 +43,9 @@ def values(mechanism: Mechanism, load: Oscillator | None) -> dict[str, Any]:
     oscillators = oscillators_of(mechanism, load)
     avoid = speeds_to_avoid(mechanism, load)
     numbers = {name: float(x[0]) for name, x in vibrations(oscillators)._asdict().items()}
-    each = _stations(oscillators)
+    each, lacks = _stations(oscillators), mechanism.output.lacks
     return {
-        **{name: _known(number) for name, number in numbers.items()},
+        **{name: None if name in lacks else _known(x) for name, x in numbers.items()},
         "speeds_to_avoid_rpm": tuple(a.rpm for a in avoid),
         "avoid": rows_table(SpeedToAvoid._fields, avoid),
         "stations": rows_table(STATION_COLUMNS, each) if len(each) > 1 else None,
@@ -128,6 +128,7 @@ def spectrum(mechanism: Mechanism, load: Oscillator, samples: int) -> Table:
     """Table of ``samples`` speeds from half to twice the design's, in geometric progression."""
     check_samples(samples)
     n_rpm = mechanism.spec.drive.n_rpm
+    turns = mechanism.output.turns
     every = n_rpm * np.geomspace(SLOWER, FASTER, samples)
 
     def rows(begin: int, end: int) -> list[object]:
@@ -136,6 +137,9 @@ def spectrum(mechanism: Mechanism, load: Oscillator, samples: int) -> Table:
         oscillators = Oscillators(mechanism, Swing(ratio, np.full(len(speed), load.damping)))
         share, turned = oscillators.share.max(axis=0), oscillators.residual_deg.max(axis=0)
         settled = oscillators.steady_share.max(axis=0) if load.damping else [None] * len(speed)
+        if not turns:
+            turned = [None] * len(speed)
         return [speed, ratio, share, turned, oscillators.worst_share, settled]
 
-    return computed_table(SPECTRUM_COLUMNS, samples, rows, "float64" if load.damping else "object")
+    whole = load.damping and turns
+    return computed_table(SPECTRUM_COLUMNS, samples, rows, "float64" if whole else "object")

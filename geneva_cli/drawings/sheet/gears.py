@@ -1,4 +1,4 @@
-"""The views of gears: pitch circles and curves, bores, and bolts of fixed gears."""
+"""The views of gears: teeth or pitch curves, bores, and bolts of fixed gears."""
 
 from __future__ import annotations
 
@@ -10,36 +10,63 @@ from geneva_cli.curves.sheet import CENTRE, OUTLINE
 from geneva_cli.drawings.sheet import sized
 from geneva_cli.drawings.sheet.bores import bolted, circle_of
 from geneva_cli.drawings.sheet.view import View, number, times
-from geneva_cli.layout.projection import placed
+from geneva_cli.layout.gear_mesh import ToothedGear
 from geneva_cli.numerics.tolerances import SAME_ON_SHEET
 from geneva_cli.parts.gear_blanks import Gear
-
-TOOTHLESS = "teeth not shown"
+from geneva_cli.parts.pair_teeth import PairTeeth
 
 
 def draw_gear(view: View, gear: Gear) -> None:
-    """Draw a gear's pitch circle, or its sectors, with its bore and the bolts that hold it."""
+    """Draw a gear with its teeth, or else its pitch circle, with its bore and its bolts."""
     outline, axis, screwed = gear.plate.outline, (0.0, 0.0), gear.bolts
     pitch = Circle("", axis, gear.radius)
-    draw_blank(view, gear, axis)
+    if gear.cut:
+        for shape in (outline, *gear.plate.holes):
+            view.draw(shape, OUTLINE)
+    else:
+        _draw_blank(view, gear)
     circle_of(view, screwed)
     view.cross(axis, gear.outer)
     text = f"pitch {sized.plain(2.0 * gear.radius, 'Ø ')}"
-    if isinstance(outline, Contour):
+    if gear.cut:
+        _teeth(view, gear.cut)
+    elif isinstance(outline, Contour):
         _sectors(view, gear, outline, text)
     else:
         view.diameter([pitch], text)
-        if gear.teeth.inside:
-            view.diameter([outline], sized.plain(2.0 * outline.radius, "Ø "))
+    if isinstance(outline, Circle) and gear.teeth.inside:
+        view.diameter([outline], sized.plain(2.0 * outline.radius, "Ø "))
     if gear.bore:
         view.diameter([Circle("", axis, gear.bore)], sized.bore(view.fits, gear.bore))
     bolted(view, screwed)
+    if gear.cut:
+        return
     whole = gear.teeth.sectors * gear.teeth.each_deg >= 360.0
-    view.remark(f"pitch circle; {TOOTHLESS}" + ("" if whole else "; teeth on these sectors only"))
+    view.remark(
+        "pitch circle; teeth not shown" + ("" if whole else "; teeth on these sectors only")
+    )
 
 
-def draw_blank(view: View, gear: Gear, at: Point) -> None:
-    """Draw a gear at a position; its arcs on the pitch circle are drawn as centre lines."""
+def _teeth(view: View, gear: ToothedGear) -> None:
+    """Draw the circles of a gear's teeth, and write what cuts and measures them."""
+    teeth, (over, span) = gear.teeth, gear.span
+    reference = Circle("", (0.0, 0.0), teeth.radius)
+    view.draw(reference, CENTRE)
+    view.diameter([reference], sized.plain(2.0 * teeth.radius, "reference Ø "))
+    view.diameter(
+        [Circle("", (0.0, 0.0), teeth.opening or teeth.tip)],
+        sized.plain(2.0 * (teeth.opening or teeth.tip), "tips Ø "),
+    )
+    each, rack = len(gear.middles[0]), teeth.rack
+    view.remark(
+        f"{times(len(gear.middles), f'{each} teeth')}, m = {number(rack.module)}, "
+        f"x = {number(gear.shift, 4)}, {number(math.degrees(rack.angle))}°"
+        + (f"; {number(span)} over {over} teeth" if over else "")
+    )
+
+
+def _draw_blank(view: View, gear: Gear) -> None:
+    """Draw a gear without teeth; its arcs on the pitch circle are drawn as centre lines."""
     outline = gear.plate.outline
     pieces: list[Shape] = [outline, *gear.plate.holes]
     if isinstance(outline, Contour):
@@ -47,7 +74,7 @@ def draw_blank(view: View, gear: Gear, at: Point) -> None:
     for shape in pieces:
         (arc,) = shape.segments if isinstance(shape, Contour) else (shape,)
         on_pitch = isinstance(arc, (Arc, Circle)) and abs(arc.radius - gear.radius) < SAME_ON_SHEET
-        view.draw(placed(shape, at, 0.0), CENTRE if on_pitch else OUTLINE)
+        view.draw(shape, CENTRE if on_pitch else OUTLINE)
 
 
 def _sectors(view: View, gear: Gear, outline: Contour, pitch: str) -> None:
@@ -67,14 +94,22 @@ def _sectors(view: View, gear: Gear, outline: Contour, pitch: str) -> None:
         view.angular([(a, a + turn) for a, _ in legs], gear.radius, gear.radius, step)
 
 
-def draw_gears(view: View, shapes: Sequence[Shape], ends: tuple[Point, Point]) -> None:
-    """Draw two gears' pitch curves in mesh at input angle 0, with bores, about their axes."""
+def draw_gears(
+    view: View, shapes: Sequence[Shape], ends: tuple[Point, Point], teeth: PairTeeth | None
+) -> None:
+    """Draw two noncircular gears in mesh at input angle 0, with bores, about their axes."""
     for shape in shapes:
-        view.draw(shape, OUTLINE if isinstance(shape, Circle) else CENTRE)
+        view.draw(shape, OUTLINE if teeth or isinstance(shape, Circle) else CENTRE)
     view.centre_line(*ends)
     for bore in shapes:
         if isinstance(bore, Circle):
             view.cross(bore.centre, bore.radius)
             view.diameter([bore], sized.bore(view.fits, bore.radius))
     view.linear(*ends, 0.0, sized.plain(math.dist(*ends)))
-    view.remark(f"pitch curves; {TOOTHLESS}")
+    if teeth:
+        each, rack = f"{teeth.z} teeth each", teeth.driver
+        view.remark(f"{each}, m = {number(rack.module, 6)}, {number(math.degrees(rack.angle))}°")
+        if teeth.shift:
+            view.remark(f"x = {number(teeth.shift, 4)} of the driver, and minus that")
+    else:
+        view.remark("pitch curves; teeth not shown")

@@ -15,6 +15,7 @@ from geneva_cli.layout.fits import Fits
 from geneva_cli.layout.projection import outlines_of
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.parts.flat_parts import FlatParts
+from geneva_cli.parts.pair_teeth import pair_teeth
 
 Begin: TypeAlias = Callable[..., View]
 
@@ -46,7 +47,7 @@ def linked(begin: Begin, parts: FlatParts) -> Iterator[View]:
         view = begin(one.part.name)
         draw_link(view, one, bars, parts.mechanism)
         yield view
-    for gear in () if parts.front else bars.gears:
+    for gear in parts.toothed:
         view = begin(gear.name)
         draw_gear(view, gear)
         yield view
@@ -56,8 +57,10 @@ def geared(begin: Begin, parts: FlatParts) -> Iterator[View]:
     """Yield the view of noncircular gears in mesh, if there are any."""
     if parts.gear_pair:
         view = begin(*(member.part.name for member in parts.gear_pair))
-        driven, driver = (member.at for member in parts.gear_pair)
-        draw_gears(view, outlines_of(Group("", parts.gear_pair)), (driven, driver))
+        driven, driver = parts.gear_pair
+        teeth = pair_teeth(parts.mechanism.spec.drive.gears, parts.mechanism.spec.size)
+        shapes = outlines_of(Group("", parts.gear_pair))
+        draw_gears(view, shapes, (driven.at, driver.at), teeth)
         yield view
 
 

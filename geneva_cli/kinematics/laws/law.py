@@ -103,6 +103,16 @@ class Law(SpecTable):
         return self.first(w, order)
 
     @property
+    def backwards(self) -> Law:
+        """The law run backwards, 1 - s by 1 - u; a symmetric law is its own.
+
+        >>> law = SineGroup(0.1)
+        >>> round(law.backwards(0.25, 0).c[0] + law(0.75, 0).c[0], 12)
+        1.0
+        """
+        return self if all_true(self.symmetric) else Backwards(self)
+
+    @property
     def halves_alike(self) -> bool:
         """True if one formula gives both halves.
 
@@ -173,6 +183,59 @@ class Law(SpecTable):
                 lambda x: remaining(self.near_end(1.0 - x, order)),
             ),
         )
+
+
+class Backwards(Law):
+    """A law run backwards: the halves of ``of`` change places. It is no kind of its own."""
+
+    of: Law
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        # a law's class declares these
+        own = {"NAME": f"{self.of.NAME}, backwards", "TURNS_BACK": self.of.TURNS_BACK}
+        vars(self).update(own, ANALYTIC=self.of.ANALYTIC)
+
+    @property
+    def backwards(self) -> Law:
+        """The law itself."""
+        return self.of
+
+    @property
+    def breaks(self) -> tuple[float, ...]:
+        """Breaks of the law, from its end."""
+        return tuple(1.0 - u for u in reversed(self.of.breaks))
+
+    @property
+    def knots(self) -> tuple[float, ...]:
+        """Knots of the law, from its end."""
+        return tuple(1.0 - u for u in reversed(self.of.knots))
+
+    @property
+    def symmetric(self) -> Truth:
+        """True if the law is symmetric; an array for a batch."""
+        return self.of.symmetric
+
+    @property
+    def varies(self) -> bool:
+        """True if its numbers are arrays of a batch."""
+        return self.of.varies
+
+    def may_vary(self, table: str, key: str) -> bool:
+        """True if a number of a table may be an array along a design axis with this law."""
+        return self.of.may_vary(table, key)
+
+    def doubt(self) -> Doubt | None:
+        """Decimals of a law of points, and the effect of their rounding on d³s/du³; else None."""
+        return self.of.doubt()
+
+    def first(self, u: Number, order: int) -> Jet:
+        """Remainder of the law from its end."""
+        return self.of.second(u, order)
+
+    def second(self, w: Number, order: int) -> Jet:
+        """Fraction of the law from its start."""
+        return self.of.first(w, order)
 
 
 def remaining(rest: Jet, end: float = 1.0) -> Jet:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from typing import TYPE_CHECKING, Annotated, ClassVar
+from typing import TYPE_CHECKING, Annotated, ClassVar, Self
 
 from geneva_cli.errors import GenevaError, refuse
 from geneva_cli.kinematics.layout import Dimension, Layout
@@ -94,6 +94,12 @@ class External(Gearing):
     def skewed(self) -> bool:
         """True if slots are not radial or not all alike."""
         return True if self.steps_deg else self.offset_mm != 0.0
+
+    @property
+    def backwards(self) -> Self:
+        """The wheel with the opposite offset, and its steps in reverse order after the first."""
+        steps = (self.steps[0], *self.steps[:0:-1]) if self.steps else None
+        return self.replace(offset_mm=0.0 - self.offset_mm, steps_deg=steps)
 
     def half_motion_deg(self, step: HalfStep) -> float:
         """Crank angle in degrees from entry to the line of centres: 90° - b."""

@@ -1,4 +1,4 @@
-"""The base of the gearings: external, internal and spherical wheels."""
+"""The base of the gearings: external, internal and spherical wheels, and racks."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ import math
 from abc import abstractmethod
 from collections.abc import Callable
 from dataclasses import field
-from typing import TYPE_CHECKING, Annotated, ClassVar, NamedTuple, TypeAlias
+from typing import TYPE_CHECKING, Annotated, ClassVar, NamedTuple, Self, TypeAlias
 
 from geneva_cli.kinematics.layout import Layout
 from geneva_cli.kinematics.path_and_slot import AnchoredPath, RadialSlot, StraightSlotMotion
@@ -24,6 +24,29 @@ if TYPE_CHECKING:
 
 # The wheel's rate from sin d and 1 - cos d of the crank's rotation d since mid-motion.
 FollowedRate: TypeAlias = Callable[[Jet, Jet], Jet]
+
+
+class Output(NamedTuple):
+    """What a wheel gives out: an angle, or the travel of a rack, with the units of its rates.
+
+    ``loads`` are quantities by name, each with one of a wheel's shaft and the ratio to it.
+    ``lacks`` are quantities that only a wheel with a shaft has.
+    """
+
+    noun: str  # of the part that moves
+    column: str  # name of its position in tables
+    unit: str
+    per_radian: float  # in that unit
+    rate_unit: str
+    rate_per_radian: float  # in that unit
+    load_keys: str  # what sets a load
+    loads: dict[str, tuple[str, float]]
+    lacks: tuple[str, ...] = ()
+
+    @property
+    def turns(self) -> bool:
+        """True if it is an angle."""
+        return self.unit == "deg"
 
 
 class RollerPlace(NamedTuple):
@@ -60,6 +83,8 @@ class Gearing(SpecTable):
     NAME: ClassVar[str]
     # example spec, without its gearing
     EXAMPLE: ClassVar[Example]
+    # usual keys of [load] in a new spec
+    USUAL_LOAD: ClassVar[dict[str, float]] = {"inertia_kgm2": 0.05, "torque_Nm": 2}
     # +1 if the crank's axis is outside the wheel, -1 if inside
     SIGN: ClassVar[float] = 1.0
     # True if wheel and crank are flat parts on parallel shafts
@@ -97,6 +122,15 @@ class Gearing(SpecTable):
         return False
 
     @property
+    def backwards(self) -> Self:
+        """The wheel that turns the other way, as seen from its other side.
+
+        >>> External(6, offset_mm=12.0).backwards.offset_mm
+        -12.0
+        """
+        return self
+
+    @property
     def layout(self) -> Layout:
         """Dimensions of this kind of wheel, in addition to its number of slots.
 
@@ -105,10 +139,23 @@ class Gearing(SpecTable):
         """
         return ()
 
+    def words(self, slots: str) -> str:
+        """The wheel in words; ``slots`` is the kind of its slots.
+
+        >>> External(6).words("straight radial")
+        'external wheel of 6 straight radial slots'
+        """
+        return f"{self.NAME} wheel of {self.z} {slots} slots"
+
     @property
     def own_sizes(self) -> dict[str, float]:
         """Values by name that a report shows for this kind of wheel only."""
         return {}
+
+    def output(self, center_distance_mm: float) -> Output:
+        """What the wheel gives out: its angle, in degrees."""
+        keys = "inertia_kgm2 or torque_Nm in [load], or a [[mass]]"
+        return Output("wheel", "wheel_deg", "deg", 180.0 / math.pi, "rad", 1.0, keys, {})
 
     def index_deg(self, i: int) -> float:
         """The wheel's step at its i-th engagement, degrees."""

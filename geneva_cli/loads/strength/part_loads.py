@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from functools import lru_cache
+from functools import lru_cache, reduce
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
@@ -10,7 +10,8 @@ import numpy as np
 from geneva_cli.analysis.quantities import FORCE
 from geneva_cli.loads.strength.shafts import Torque, on_crank, on_driven_crank, on_wheel
 from geneva_cli.loads.summaries import load_peaks
-from geneva_cli.numerics.arrays import parameter
+from geneva_cli.machine.both_ways import every_way
+from geneva_cli.numerics.arrays import larger, parameter
 
 if TYPE_CHECKING:
     from geneva_cli.machine.mechanism import Mechanism
@@ -32,8 +33,18 @@ class PartLoads(NamedTuple):
 
 @lru_cache(maxsize=16)
 def single_loads(mechanism: Mechanism) -> PartLoads:
-    """The greatest loads of a machine as numbers, cached for its sizes and their checks."""
-    return part_loads(mechanism).of(0)
+    """The loads for which a machine is sized as numbers, cached for its sizes and their checks."""
+    return sizing_loads(mechanism).of(0)
+
+
+def sizing_loads(mechanism: Mechanism, forwards: PartLoads | None = None) -> PartLoads:
+    """The greatest loads of m designs in every direction in which they turn.
+
+    ``forwards`` are those of this machine's own direction, if computed already.
+    """
+    _, *others = every_way(mechanism)
+    each = [forwards or part_loads(mechanism), *map(part_loads, others)]
+    return PartLoads(*(reduce(larger, rows) for rows in zip(*each, strict=True)))
 
 
 def part_loads(mechanism: Mechanism) -> PartLoads:

@@ -8,7 +8,7 @@ at an angle from the line AB. The wheel's centre is solved for.
 from __future__ import annotations
 
 from functools import reduce
-from typing import Annotated, ClassVar, NamedTuple
+from typing import Annotated, ClassVar, NamedTuple, Self
 
 from geneva_cli.errors import GenevaError, refuse
 from geneva_cli.kinematics.drive import Plan
@@ -87,6 +87,11 @@ class FourBar(Linkage, kw_only=True):
             )
 
         refuse(self.crank_mm >= limit, error)
+
+    def backwards(self, plan: Plan) -> Self:
+        """The mirrored linkage: the other branch, the roller across the coupler."""
+        other = "-" if self.branch == "+" else "+"
+        return super().backwards(plan).replace(branch=other, point_deg=0.0 - self.point_deg)
 
     def layout(self, plan: Plan, sign: float) -> Layout:
         """Joints at input 0, and lengths of the links."""

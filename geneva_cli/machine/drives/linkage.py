@@ -10,6 +10,7 @@ from typing import (
     TYPE_CHECKING,
     Annotated,
     ClassVar,
+    Self,
     TypeAlias,
     TypeVar,
     cast,
@@ -23,7 +24,7 @@ from geneva_cli.kinematics.link import LinkReactions
 from geneva_cli.kinematics.roller_path import RollerPath, rounded
 from geneva_cli.machine.drives.pin_path import PinPath
 from geneva_cli.numerics import digits
-from geneva_cli.numerics.angles import radians
+from geneva_cli.numerics.angles import DEGREE, radians
 from geneva_cli.numerics.arrays import array, larger, library, parameter, smaller
 from geneva_cli.numerics.jet import Jet, sin_cos
 from geneva_cli.spec.rules import Range, is_array
@@ -78,6 +79,14 @@ class Linkage(PinPath, kw_only=True):
             engagement, L = solved
         x, y = engagement.path(0.0, 0)
         return self.planned(engagement, parameter(library(L).hypot(1.0 - x.c[0], y.c[0])), L)
+
+    def backwards(self, plan: Plan) -> Self:
+        """The drive on the same path, which it enters where it left it; a kind adds its mirror."""
+        at = cast(LinkReactions, plan.engagements[0].reactions)
+        entry_deg = 0.0 - (at.middle / DEGREE + plan.engagements[0].exit_deg)
+        return self.replace(
+            entry_deg=entry_deg - 360.0 * library(entry_deg).floor(entry_deg / 360.0)
+        )
 
     def placed(self, plan: Plan, name: str, x: float, y: float) -> Pivot:
         """Pivot at a point (mm) of the linkage's own frame, whose origin is the crank's axis."""

@@ -11,7 +11,7 @@ from __future__ import annotations
 import math
 from bisect import bisect_right
 from functools import lru_cache
-from typing import TYPE_CHECKING, Annotated, ClassVar, NamedTuple
+from typing import TYPE_CHECKING, Annotated, ClassVar, NamedTuple, Self
 
 from geneva_cli.errors import GenevaError
 from geneva_cli.kinematics.drive import Gears, Plan
@@ -76,6 +76,14 @@ class NoncircularGears(Transmission, kw_only=True):
         at = table in ("wheel", "drive", "motion") and key != "n_rpm"
         return self.ratio is None or not (at or (table, key) == ("size", "center_distance_mm"))
 
+    def backwards(self, plan: Plan) -> Self:
+        """The drive with the points of its ratio in reverse order."""
+        turned = super().backwards(plan)
+        if self.ratio is None:
+            return turned
+        pairs = tuple((360.0 - x, i) for x, i in reversed(self.ratio.pairs))
+        return turned.replace(ratio=Points(pairs, self.ratio.file))
+
     @property
     def gears(self) -> Gears:
         """The pair of gears."""
@@ -103,7 +111,7 @@ class NoncircularGears(Transmission, kw_only=True):
         if self.A is not None:
             return whitworth.about(self.A, crank_deg)
         assert self.ratio is not None  # ``__post_init__`` requires one of the two
-        return _through(_turned(self.ratio.pairs), crank_deg)
+        return _through(_turned(self.ratio.pairs), self.ratio.pairs, crank_deg)
 
     def turning(self, crank_deg: float, sense: float) -> CarrierVelocity | None:
         """Crank's rate from the side-crank with this ratio; None for a ratio file."""
@@ -166,31 +174,37 @@ class CrankRotation(NamedTuple):
         return sine_versine_of(Jet(terms), m.sin(turn), m.cos(turn), order)
 
 
-def _through(crank: PiecewisePolynomial, crank_deg: float) -> LocalTransmission:
+def _through(
+    crank: PiecewisePolynomial, points: tuple[tuple[float, float], ...], crank_deg: float
+) -> LocalTransmission:
     turns, wanted = divmod(math.radians(crank_deg), math.tau)
     phi = boundary(lambda x: crank(x, 0)[0] < wanted, 0.0, math.tau)
-    since = _since(crank, phi)
+    since = _since(crank, [at for at, _ in points[:-1]], phi)
     return LocalTransmission(
         math.degrees(phi + turns * math.tau), CrankRotation(since), False, since.seams
     )
 
 
-def _since(crank: PiecewisePolynomial, phi: float) -> PiecewisePolynomial:
+def _since(crank: PiecewisePolynomial, starts_deg: list[float], phi: float) -> PiecewisePolynomial:
     """The crank's rotation since the input angle phi, by the input's rotation, over three turns.
 
     The piece about phi is in powers of the input's rotation, so that the smallest angle has all its
-    digits.
+    digits. The other pieces' rotations are summed from there outwards. ``starts_deg`` are the
+    pieces' first angles over a turn: turns add to them without rounding.
     """
     import numpy as np
 
-    from geneva_cli.numerics.spline import SPLINE_DEGREE, PiecewisePolynomial
+    from geneva_cli.numerics.spline import SPLINE_DEGREE, PiecewisePolynomial, taylor
 
     here = crank(phi, SPLINE_DEGREE + 1)
-    turns = math.tau * np.arange(-1.0, 2.0)
-    origins = np.add.outer(turns, crank.origins - phi).ravel()
-    rows = np.tile(crank.rows, (3, 1))
-    rows[:, 0] = np.add.outer(turns, crank.rows[:, 0] - here[0]).ravel()
-    middle = len(crank.origins) + int(crank.cuts.searchsorted(phi))
+    origins = np.radians(np.add.outer([-360.0, 0.0, 360.0], starts_deg).ravel()) - phi
     cuts = origins[1:].copy()
-    origins[middle], rows[middle] = 0.0, [0.0, *here[1:]]
+    middle = len(starts_deg) + int(crank.cuts.searchsorted(phi))
+    origins[middle] = 0.0
+    rows = np.tile(crank.rows, (3, 1))
+    rows[:, 0], rows[middle] = 0.0, [0.0, *here[1:]]
+    ends = taylor(cuts - origins[:-1], list(rows[:-1].T), 0)[0]
+    first = taylor(cuts[middle - 1], list(rows[middle]), 0)[0]
+    rows[middle + 1 :, 0] = np.cumsum(ends[middle:])
+    rows[:middle, 0] = first - np.cumsum(ends[:middle][::-1])[::-1]
     return PiecewisePolynomial(cuts, origins, rows)

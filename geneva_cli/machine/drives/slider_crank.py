@@ -7,7 +7,7 @@ from the line AB. The wheel's centre is solved for.
 
 from __future__ import annotations
 
-from typing import Annotated, ClassVar, NamedTuple
+from typing import Annotated, ClassVar, NamedTuple, Self
 
 from geneva_cli.errors import GenevaError, refuse
 from geneva_cli.kinematics.drive import Plan
@@ -60,6 +60,11 @@ class SliderCrank(Linkage, kw_only=True):
                 ("drive", "crank_mm"),
             ),
         )
+
+    def backwards(self, plan: Plan) -> Self:
+        """The mirrored linkage: the slider's line and the roller on their other sides."""
+        mirrored = {"height_mm": 0.0 - self.height_mm, "point_deg": 0.0 - self.point_deg}
+        return super().backwards(plan).replace(**mirrored)
 
     def layout(self, plan: Plan, sign: float) -> Layout:
         """Joints at input 0, two points of the slider's line, and lengths of the links."""

@@ -19,7 +19,7 @@ from geneva_cli.output.ezdxf_alone import BaseLayout, Document, Modelspace
 
 # group code 70 of a DIMENSION, and the attributes that hold its points
 KINDS = {
-    "linear": (0, ("defpoint2", "defpoint3", "defpoint")),
+    "length": (0, ("defpoint2", "defpoint3", "defpoint")),
     "angular": (5, ("defpoint4", "defpoint2", "defpoint3", "defpoint")),
     "diameter": (3, ("defpoint", "defpoint4")),
     "radius": (4, ("defpoint", "defpoint4")),
@@ -83,7 +83,7 @@ def _style(document: Document, measure: Measure) -> str:
         a, b = measure.points[:2]
         c, s = math.cos(measure.turn), math.sin(measure.turn)
         long = math.dist(a, b)
-        if measure.kind == "linear":
+        if measure.kind == "length":
             long = abs((b[0] - a[0]) * c + (b[1] - a[1]) * s)
         factor = measure.value / long
     name = f"TIMES_{factor:.4g}".replace(".", "_")

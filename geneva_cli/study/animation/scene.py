@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING
 from geneva_cli.curves.measure import at, bounds
 from geneva_cli.curves.shapes import Circle, Shape
 from geneva_cli.design import Design
+from geneva_cli.drawings.catalogue import require_drawn
 from geneva_cli.errors import GenevaError
 from geneva_cli.outlines.stop import wheel_stop
 from geneva_cli.scene import Bar, Body, Box, Phase, Place, Rotation, Scene, pose
@@ -38,6 +39,7 @@ def scene(design: Design) -> Scene:
     (['wheel', 'crank'], 360.0, 2)
     """
     mechanism = design.mechanism
+    require_drawn(design.mechanism, "sheet")
     turn = MachineTurn(mechanism)
     parts = tuple(body for body in bodies(design, turn) if body.shapes)
     outlines = None

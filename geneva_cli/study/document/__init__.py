@@ -42,6 +42,7 @@ def document(design: Design) -> Document:
         *answers.sizes(left),
         *answers.strength(left),
         *verdict.checks(design),
+        *answers.both_ways(left),
         *answers.swinging(left),
         *answers.parts(left),
         *verdict.remarks(design, left),

@@ -140,6 +140,19 @@ def strength(left: RemainingValues) -> Iterator[Block]:
         yield from blocks
 
 
+def both_ways(left: RemainingValues) -> Iterator[Block]:
+    """What differs between the directions of a machine that turns both ways."""
+    table: Table | None = left.one("both_ways")
+    if table is not None:
+        yield Heading("Both ways")
+        rows: list[Row] = []
+        for name, forwards, backwards in table.rows():
+            named = fact(name, None)
+            rows.append((named.name, named.unit, forwards, backwards))
+        heads = ("Quantity", "Unit", "Forwards", "Backwards")
+        yield Grid("What differs between the directions", heads, tuple(rows))
+
+
 def swinging(left: RemainingValues) -> Iterator[Block]:
     """Vibration and tolerances, if the report has them."""
     for text, group in (("Vibration", "vibration"), ("Tolerances", "tolerance")):

@@ -7,6 +7,7 @@ from collections.abc import Iterator, Sequence
 from geneva_cli.document import FAILS, PASSES, WARNS, Answer, Summary, SummaryLine
 from geneva_cli.study.batch import Verdict, checks_record, checks_table
 from geneva_cli.verdict.headline import (
+    both_ways_lines,
     failure_lines,
     headline,
     input_lines,
@@ -30,7 +31,8 @@ def of_checks(verdicts: Sequence[Verdict], page: bool, as_json: bool) -> Answer:
 def _summaries(verdicts: Sequence[Verdict]) -> list[Summary]:
     if len(verdicts) == 1:
         (verdict,) = verdicts
-        lines = (*_lines(verdict), *proof_lines(verdict.checks), *tightest(verdict.checks))
+        both = both_ways_lines(verdict.checks) if verdict.both_ways else ()
+        lines = (*_lines(verdict), *proof_lines(verdict.checks), *both, *tightest(verdict.checks))
         return [_head(verdict)._replace(lines=lines)]
     return [*map(_head, verdicts), _count(verdicts), *_details(verdicts)]
 

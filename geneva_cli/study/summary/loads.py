@@ -7,7 +7,8 @@ from typing import Any
 
 from geneva_cli.design import Design
 from geneva_cli.document import WARNS, Answer, Summary, SummaryLine
-from geneva_cli.loads.summary import NO_LOAD, QuantitySummary
+from geneva_cli.loads.summary import QuantitySummary, no_load
+from geneva_cli.machine.both_ways import every_way
 from geneva_cli.numerics.tolerances import TIE
 from geneva_cli.study.fields import pick
 from geneva_cli.study.summary.titles import counted, title_of
@@ -31,15 +32,26 @@ def of_loads(design: Design) -> Answer:
 def load_lines(design: Design) -> Iterator[SummaryLine]:
     """Motor, input, pin, wheel and flywheel of a machine; without a load, the needed keys."""
     if not design.cycle.is_loaded:
-        yield SummaryLine("loads", f"not known: {NO_LOAD}")
+        yield SummaryLine("loads", f"not known: {no_load(design.cycle)}")
         return
     yield motor_line(design)
     yield from cycle_lines(design)
+    yield from _backwards(design)
     sizing = _sizing(design)
     if sizing["flywheel_to_add_kgm2"] is not None:
         add = measured(sizing["flywheel_to_add_kgm2"], "kg m²")
         variation = measured(100.0 * (design.spec.motor.speed_variation or 0.0), "%")
         yield SummaryLine("flywheel", f"{add} on the input for a speed variation of {variation}")
+
+
+def _backwards(design: Design) -> Iterator[SummaryLine]:
+    """The lines on motor, input, pin and wheel that differ backwards, if it must turn both ways."""
+    for machine in every_way(design.mechanism)[1:]:
+        other = Design.of(machine.spec)
+        own = (motor_line(design), *cycle_lines(design))
+        for here, there in zip(own, (motor_line(other), *cycle_lines(other)), strict=True):
+            if here.text != there.text:
+                yield there._replace(label=f"{there.label}, backwards")
 
 
 def cycle_lines(design: Design) -> Iterator[SummaryLine]:
@@ -55,18 +67,21 @@ def cycle_lines(design: Design) -> Iterator[SummaryLine]:
         text += f", rms {bare(torque.rms, 'N m')}" if torque.rms is not None else ""
         drives = f"drives the motor with up to {measured(-torque.min, 'N m')}"
         driven = drives if torque.min < 0.0 else "never drives the motor"
-        yield SummaryLine("input", f"{text}; the wheel {driven}")
+        yield SummaryLine("input", f"{text}; the {design.spec.output.noun} {driven}")
     pin = _greatest(force, "N")
     if design.spec.size.face_width_mm is None:
         pin += "; contact stress needs face_width_mm in [size]"
     else:
         pin += f"; contact stress {_greatest(stress, 'MPa')}"
     yield SummaryLine("pin", pin)
-    yield SummaryLine(
-        "wheel",
-        f"{_greatest(loads['alpha_rad_s2'], 'rad/s²')}; "
-        f"torque {_greatest(loads['wheel_torque_Nm'], 'N m')}",
-    )
+    if design.spec.output.turns:
+        turned = _greatest(loads["alpha_rad_s2"], "rad/s²")
+        twisted = _greatest(loads["wheel_torque_Nm"], "N m")
+        yield SummaryLine("wheel", f"{turned}; torque {twisted}")
+    else:
+        moved = _greatest(loads["rack_acceleration_m_s2"], "m/s²")
+        pushed = _greatest(loads["rack_force_N"], "N")
+        yield SummaryLine("rack", f"{moved}; force {pushed}")
 
 
 def _greatest(ends: QuantitySummary, unit: str) -> str:

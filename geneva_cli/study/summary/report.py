@@ -11,6 +11,7 @@ from geneva_cli.study.summary.loads import cycle_lines, motor_line
 from geneva_cli.study.summary.titles import title_of
 from geneva_cli.verdict.headline import (
     below_summary,
+    both_ways_lines,
     failure_lines,
     headline,
     input_lines,
@@ -26,7 +27,8 @@ def of_report(design: Design) -> Answer:
     state, text = headline(design.checks, design.warnings)
     checks, warnings = design.checks, design.warnings
     first = (*failure_lines(checks), *input_lines(design.with_units))
-    lines = (*first, *key_figures(design), *warning_lines(checks, warnings))
+    both = both_ways_lines(checks) if design.spec.drive.both_ways else ()
+    lines = (*first, *key_figures(design), *both, *warning_lines(checks, warnings))
     summary = Summary(f"{title_of(design)}: {text}", lines, state)
     shown = ("title", "passes", "checks_failed", "not_proved")
     return Answer((summary,), below_summary(record, without=shown), record)
@@ -42,17 +44,17 @@ def key_figures(design: Design) -> Iterator[SummaryLine]:
         yield from tightest(design.checks)
         yield motor_line(design)
     else:
-        yield from _peaks(values)
+        yield from _peaks(values, design.mechanism.output.rate_unit)
         yield from tightest(design.checks)
-        yield SummaryLine(
-            "motor", "not known: set inertia_kgm2 or torque_Nm in [load], or a [[mass]]"
-        )
+        yield SummaryLine("motor", f"not known: set {design.spec.load_keys}")
 
 
 def _cycle(design: Design, values: dict[str, Any]) -> SummaryLine:
     """Steps, times and speed."""
     timings = design.timings
-    steps = " and ".join(dict.fromkeys(measured(t.index_deg, "deg") for t in timings))
+    unit = design.mechanism.output.unit
+    each = ((t.index_mm or 0.0) if t.index_deg is None else t.index_deg for t in timings)
+    steps = " and ".join(dict.fromkeys(measured(step, unit) for step in each))
     motions = " and ".join(dict.fromkeys(measured(t.motion_s, "s") for t in timings))
     dwells = " and ".join(dict.fromkeys(measured(t.dwell_s, "s") for t in timings))
     n_rpm = measured(design.spec.drive.n_rpm, "rpm")
@@ -65,16 +67,19 @@ def _size(values: dict[str, Any]) -> SummaryLine:
     if values["sizes.center_distance_mm"] is None:
         radius = measured(values["sizes.sphere_radius_mm"], "mm")
         return SummaryLine("size", f"sphere of radius {radius}, {roller}")
-    text = f"centre distance {measured(values['sizes.center_distance_mm'], 'mm')}"
+    across = "centre distance", values["sizes.center_distance_mm"]
+    if values["timing.index_mm"] is not None:  # a rack has no axis
+        across = "crank radius", values["sizes.crank_radius_mm"]
+    text = f"{across[0]} {measured(across[1], 'mm')}"
     rim = values["sizes.wheel_radius_mm"]
     text += "" if rim is None else f", wheel Ø {measured(2.0 * rim, 'mm')}"
     return SummaryLine("size", f"{text}, {roller}")
 
 
-def _peaks(values: dict[str, Any]) -> Iterator[SummaryLine]:
-    """Peaks of the wheel's motion, at the design's speed."""
-    for name, unit in (("velocity", "rad/s"), ("acceleration", "rad/s²"), ("jerk", "rad/s³")):
-        end = unit.replace("/", "_").replace("²", "2").replace("³", "3")
-        size = measured(values[f"{name}.max_{end}"], unit)
+def _peaks(values: dict[str, Any], unit: str) -> Iterator[SummaryLine]:
+    """Peaks of the output's motion, at the design's speed."""
+    for name, power in (("velocity", ""), ("acceleration", "²"), ("jerk", "³")):
+        end = f"{unit}_s{ {'²': '2', '³': '3'}.get(power, '') }"
+        size = measured(values[f"{name}.max_{end}"], f"{unit}/s{power}")
         at_deg = measured(values[f"{name}.at_deg"], "deg")
         yield SummaryLine(name, f"{size} at {at_deg}")

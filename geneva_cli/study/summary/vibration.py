@@ -30,7 +30,9 @@ def _lines(values: dict[str, Any]) -> Iterator[SummaryLine]:
     natural = "" if hertz is None else f" of {measured(hertz, 'Hz')}"
     yield SummaryLine("motion", f"lasts {ratio} natural periods{natural}, damping ratio {damping}")
     residual = measured(values["residual_share"])
-    swing = f"an index leaves the load swinging by {measured(values['residual_deg'], 'deg')}"
+    swing = "an index leaves the load swinging"
+    if values["residual_deg"] is not None:
+        swing += f" by {measured(values['residual_deg'], 'deg')}"
     if values["residual_share"] < 1e-6:  # of a step of 90°, a third of an arc second
         swing = "an index leaves the load practically at rest"
     yield SummaryLine("residual", f"{swing}, {residual} of the step")

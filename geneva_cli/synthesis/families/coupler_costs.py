@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from geneva_cli.numerics.arrays import Array
 
 # by a quantity in the unit of a time, the power of the speed that it has
-SPEED_POWERS = {f"{end}_{unit}": n for n, unit in RATES.values() for end in ("max", "entry")}
+SPEED_POWERS = {f"{at}_rad{end}": n for n, _, end in RATES.values() for at in ("max", "entry")}
 
 
 class Costs(NamedTuple):
@@ -61,7 +61,7 @@ def is_known(name: str) -> bool:
     """Return True if the search can compute a quantity."""
     group, _, quantity = name.partition(".")
     if group == "timing":
-        return quantity in Timing._fields
+        return quantity in Timing._fields[:-1]  # the last is a rack's step
     whole = quantity in ("max", "entry", "exit") or quantity in SPEED_POWERS
     at_rest = _end(quantity) is not None and group in ("velocity", "power")
     return group in ORDERS and whole and not at_rest

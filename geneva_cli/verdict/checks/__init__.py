@@ -9,11 +9,11 @@ from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
 from geneva_cli.errors import GenevaError
+from geneva_cli.machine.both_ways import every_way
 from geneva_cli.machine.mechanism import Mechanism
-from geneva_cli.spec.tables import Z_DRAWN
 from geneva_cli.verdict.checks.check import Check as Check
 from geneva_cli.verdict.checks.check import all_pass as all_pass
-from geneva_cli.verdict.checks.check import refused
+from geneva_cli.verdict.checks.check import refused, worst
 from geneva_cli.verdict.checks.registry import (
     LIMITS,
     MOTION,
@@ -37,8 +37,19 @@ def checks(
 ) -> list[Check]:
     """Every check of one design: its motion, its parts unless left out, its own ``[limits]``.
 
-    Without ``turned`` those of the whole turn are left out, which take the longest.
+    Without ``turned`` those of the whole turn are left out, which take the longest. A machine that
+    turns both ways has each check in its worse direction.
     """
+    _, *others = every_way(mechanism)
+    rows = _one_way(mechanism, model, parts, turned)
+    for other in others:
+        rows = worst(rows, _one_way(other, None, parts, turned))
+    return rows
+
+
+def _one_way(
+    mechanism: Mechanism, model: PartsModel | None, parts: bool, turned: bool
+) -> list[Check]:
     motion = list(motion_checks(MOTION, mechanism))
     shown = list(_parts(mechanism, model, turned)) if parts else []
     return [*motion, *shown, *motion_checks(LIMITS, mechanism)]
@@ -104,8 +115,7 @@ def _parts(mechanism: Mechanism, model: PartsModel | None, turned: bool) -> Iter
     If wheel or crank cannot be built, or turned, a single check says so instead.
     """
     if not mechanism.spec.has_parts:
-        why = f"wheels of more than {Z_DRAWN} slots are not drawn"
-        yield Check("parts", None, "proved", None, None, why)
+        yield Check("parts", None, "proved", None, None, mechanism.spec.no_parts)
         return
     from geneva_cli.collisions.gaps import WorkLimit
 

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+import math
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from typing import TYPE_CHECKING, NamedTuple
 
 from geneva_cli.errors import GenevaError
@@ -22,7 +23,8 @@ class Check(NamedTuple):
     ``passes`` is None if it is not known. ``why`` is the reason for an unknown value, or for
     missing advice on a failing check; of a check that passes it says what is proved. ``at_deg`` is
     the input angle of the value, None if it is not a value at one angle. ``nearest`` is one change
-    of the spec with which all checks pass.
+    of the spec with which all checks pass. ``direction`` is that of the worse value, "forwards" or
+    "backwards", of a machine that turns both ways; empty if both are equal.
     """
 
     name: str
@@ -33,6 +35,22 @@ class Check(NamedTuple):
     why: str = ""
     at_deg: float | None = None
     nearest: str = ""
+    direction: str = ""
+
+    @property
+    def where(self) -> str:
+        """Input angle and direction of the value in words, each with a space before it."""
+        at = "" if self.at_deg is None else f" at input angle {self.at_deg:.6g} deg"
+        return at + (f" {self.direction}" if self.direction else "")
+
+    @property
+    def spare(self) -> float:
+        """The margin to the limit, negative if the check fails; infinite without a value."""
+        if self.value is None or self.limit is None:
+            return -math.inf if self.passes is False else math.inf
+        left = self.limit - self.value
+        left = left if self.must_be == "at most" else -left
+        return min(left, -5e-324) if self.passes is False else max(left, 0.0)
 
     @property
     def is_proof(self) -> bool:
@@ -89,6 +107,40 @@ def gap(name: str, least: Callable[[], ShaftGap | None], L: float) -> Check | No
         return Check(name, None, "at least", 0.0, False, str(error))
     # A gap is rounded to 1e-12 of the centre distance, or of the sphere's radius.
     return compared(name, smallest.gap, "at least", 0.0, noise=1e-12 * L) if smallest else None
+
+
+def worst(forwards: Sequence[Check], backwards: Sequence[Check]) -> list[Check]:
+    """Each check in the direction in which its margin is less.
+
+    >>> both = [compared("horn_mm", value, "at least", 1.0) for value in (3.0, 2.0)]
+    >>> worst(both[:1], both[1:])[0].direction
+    'backwards'
+    """
+    others = dict(_numbered(backwards))
+    rows = [_worse(check, others.pop(key, check)) for key, check in _numbered(forwards)]
+    return rows + [check._replace(direction="backwards") for check in others.values()]
+
+
+def _numbered(rows: Sequence[Check]) -> Iterator[tuple[tuple[str, int], Check]]:
+    """Checks by their names, and numbers where two have one name."""
+    for i, check in enumerate(rows):
+        yield (check.name, sum(other.name == check.name for other in rows[:i])), check
+
+
+def _worse(one: Check, other: Check) -> Check:
+    """The check with the smaller margin, and its direction if they differ."""
+    if one.passes == other.passes:
+        # outlines are as accurate as their drawings, some 1e-5 of a length
+        if (
+            one.value is None
+            or other.value is None
+            or math.isclose(one.value, other.value, rel_tol=1e-4)
+        ):
+            return one
+        first = one.spare <= other.spare
+    else:
+        first = one.passes is False or (one.passes is None and other.passes is True)
+    return (one if first else other)._replace(direction="forwards" if first else "backwards")
 
 
 def all_pass(rows: Iterable[Check]) -> bool:

@@ -34,6 +34,8 @@ MOTION: Checks = {
     "entry_shock_N": "shocks:entry_shock",
     "reversal_shock_N": "shocks:reversal_shock",
     "stopping_torque_Nm": "arrival:stopping_torque",
+    "rack_horn_mm": "rack:rack_horn",
+    "rack_gap_mm": "rack:rack_gap",
 }
 # Checks of limits that the spec sets.
 LIMITS: Checks = {

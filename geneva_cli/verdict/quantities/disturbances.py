@@ -14,6 +14,7 @@ from geneva_cli.analysis.vibration.vibration import Vibrations, design_vibration
 
 if TYPE_CHECKING:
     from geneva_cli.numerics.arrays import Number
+    from geneva_cli.numerics.jet import Array
     from geneva_cli.verdict.quantities.designs import Columns, Designs
 
 
@@ -31,18 +32,21 @@ def vibration(of: Designs) -> Columns:
 
 def entry(of: Designs) -> Columns:
     """The impact at entry if R/L is wrong."""
-    return _impact(entry_impacts(of.machine))
+    return _impact(of, entry_impacts(of.machine))
 
 
 def reversal(of: Designs) -> Columns:
     """The impact at a change of sides, and the drag that would prevent it."""
     coasts = np.ravel(inertia_kgm2(of.spec)) > 0.0
     drag = np.where(coasts, np.ravel(lasting_drag_Nm(of.machine)), np.inf)
-    return {**_impact(reversal_impacts(of.machine)), "drag_Nm": drag}
+    return _impact(of, reversal_impacts(of.machine), drag_Nm=drag)
 
 
-def _impact(impacts: Impacts) -> Columns:
-    return {name: np.where(np.isnan(row), np.inf, row) for name, row in impacts._asdict().items()}
+def _impact(of: Designs, impacts: Impacts, **more: Array) -> Columns:
+    """The quantities of impacts, and ``more``; infinite where a design has none."""
+    columns = {n: np.where(np.isnan(row), np.inf, row) for n, row in impacts._asdict().items()}
+    lacks = of.machine.output.lacks
+    return {name: row for name, row in (columns | more).items() if name not in lacks}
 
 
 def tolerances(of: Designs) -> Columns:

@@ -41,12 +41,13 @@ ECHOED = {  # keys that the numbers of a report depend on, besides the machine's
     "material.roller": tuple(key.key for key in fields(RollerMaterial)),
     "limits": tuple(key.key for key in fields(Limits)),
 }
-# For each peak: the power of the input speed that turns its invariant into a rate, and the rate.
+# For each peak: the power of the input speed that turns its invariant into a rate; the power of the
+# output's unit in the rate, and the end of the rate's name behind that unit.
 RATES = {
-    "velocity": (1, "rad_s"),
-    "acceleration": (2, "rad_s2"),
-    "jerk": (3, "rad_s3"),
-    "power": (3, "rad2_s3"),
+    "velocity": (1, 1, "_s"),
+    "acceleration": (2, 1, "_s2"),
+    "jerk": (3, 1, "_s3"),
+    "power": (3, 2, "2_s3"),
 }
 
 
@@ -156,17 +157,20 @@ REPORT = (
     ),
     _group(
         "timing",
-        "motion_deg dwell_deg index_deg k tau motion_s dwell_s cycle_s shortest_motion_s k_r",
+        "motion_deg dwell_deg index_deg index_mm k tau motion_s dwell_s cycle_s "
+        "shortest_motion_s k_r",
         "report.stations:timing",
         "motion:timing",
     )._replace(one_by_one=("shortest_motion_s", "k_r")),
     QuantityGroup(
         "",
         (
-            *_product("velocity", "max at_deg max_rad_s"),
-            *_product("acceleration", "max at_deg max_rad_s2 entry exit entry_rad_s2"),
-            *_product("jerk", "max at_deg max_rad_s3 entry exit"),
-            *_product("power", "max at_deg max_rad2_s3"),
+            *_product("velocity", "max at_deg max_rad_s max_m_s"),
+            *_product(
+                "acceleration", "max at_deg max_rad_s2 max_m_s2 entry exit entry_rad_s2 entry_m_s2"
+            ),
+            *_product("jerk", "max at_deg max_rad_s3 max_m_s3 entry exit"),
+            *_product("power", "max at_deg max_rad2_s3 max_m2_s3"),
         ),
         "report.stations:peaks",
         "motion:peaks",
@@ -175,7 +179,8 @@ REPORT = (
     QuantityGroup(
         "loads",
         (
-            *_product("torque_Nm pin_force_N input_torque_Nm contact_stress_MPa", "max at_deg"),
+            *_product("torque_Nm rack_force_N pin_force_N", "max at_deg"),
+            *_product("input_torque_Nm contact_stress_MPa", "max at_deg"),
             "kinetic_power_W",
         ),
         "report.loads:greatest_loads",
@@ -313,13 +318,15 @@ REPORT = (
         batch="strength:wear",
     ),
     _group("strength", "", "report.needs:needs"),
+    _group("", "", "report.both_ways:both_ways"),
 )
 # Further quantities, for studies.
 STUDY = (
     QuantityGroup(
         "loads",
         _product(
-            "omega_rad_s alpha_rad_s2 wheel_torque_Nm pin_force_N contact_stress_MPa sliding_m_s "
+            "omega_rad_s alpha_rad_s2 wheel_torque_Nm rack_speed_m_s rack_acceleration_m_s2 "
+            "rack_force_N pin_force_N contact_stress_MPa sliding_m_s "
             "input_torque_Nm power_W wheel_bearing_N crank_bearing_N pv_W_m2 guide_force_N "
             "wheel_near_bearing_N wheel_far_bearing_N crank_near_bearing_N crank_far_bearing_N",
             "min min_at_deg mean rms",

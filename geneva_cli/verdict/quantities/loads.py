@@ -8,7 +8,7 @@ import numpy as np
 
 from geneva_cli.analysis.peak_search import worst_peaks
 from geneva_cli.analysis.positive_drive import positive_drives
-from geneva_cli.analysis.quantities import REPORTED_PEAKS, known_quantities, multiples
+from geneva_cli.analysis.quantities import REPORTED_PEAKS, sources
 from geneva_cli.loads.loads import kinetic_power_W
 from geneva_cli.loads.means import load_means
 from geneva_cli.loads.sizing import sizings
@@ -22,13 +22,16 @@ if TYPE_CHECKING:
 
 def greatest(of: Designs) -> Columns:
     """The greatest sizes of loads and their input angles; infinite if no design has the load."""
-    known, requested = known_quantities(of.machine), of.requested("loads")
+    known, requested = sources(of.machine), of.requested("loads")
     names = [name for name in REPORTED_PEAKS if {f"{name}.max", f"{name}.at_deg"} & requested]
-    sought = [REPORTED_PEAKS[name] for name in names if REPORTED_PEAKS[name] in known]
+    factors = {name: known[own] for name in names if (own := REPORTED_PEAKS[name]) in known}
+    sought = [*dict.fromkeys(source for source, _ in factors.values())]
     extremes = load_peaks(of.machine, sought) if sought else {}
     out: dict[str, Number | None] = {}
     for name in names:
-        most, at_deg = extremes.get(REPORTED_PEAKS[name], (np.inf, np.inf))
+        source, factor = factors.get(name, ("", 1.0))
+        most, at_deg = extremes.get(source, (np.inf, np.inf))
+        most = most * np.ravel(factor)
         out |= {f"{name}.max": most * of.loaded, f"{name}.at_deg": at_deg * of.loaded}
     if "kinetic_power_W" in requested:
         power = worst_peaks(of.machine, ["power"])["power"].max
@@ -39,14 +42,11 @@ def greatest(of: Designs) -> Columns:
 
 def summaries(of: Designs) -> Columns:
     """Least values, means and root mean squares of the loads that all these designs have."""
-    sources = {
-        n: source for n, (source, factor, _) in multiples(of.machine).items() if factor is not None
-    }
-    known = known_quantities(of.machine)
+    known = sources(of.machine)
     ends: dict[str, list[str]] = {}
     for name in of.requested("loads"):
         load, _, end = name.rpartition(".")
-        if end not in ("max", "at_deg") and sources.get(load, load) in known:
+        if end not in ("max", "at_deg") and load in known:
             ends.setdefault(load, []).append(end)
     if not ends:
         return {}
@@ -66,6 +66,8 @@ def sizing(of: Designs) -> Columns:
     requested = of.requested("sizing")
     out: dict[str, Number | None] = dict.fromkeys(requested)
     for name, row in sizings(of.machine, requested).items():
+        if name in of.machine.output.lacks:
+            continue
         out[name] = np.where(np.isnan(row), np.inf, row) * of.loaded
     return out
 

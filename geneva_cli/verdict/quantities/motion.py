@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, cast
 
 import numpy as np
 
@@ -15,6 +15,7 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from geneva_cli.kinematics.engagement import WheelMotion
+    from geneva_cli.kinematics.wheels.gearing import Output
     from geneva_cli.machine.mechanism import Mechanism
     from geneva_cli.numerics.arrays import Array, N, Number
     from geneva_cli.verdict.quantities.designs import Columns, Designs
@@ -29,32 +30,42 @@ def timing(of: Designs) -> Columns:
 def peaks(of: Designs) -> Columns:
     """The greatest velocity, acceleration, jerk and power, and their sizes at the ends."""
     requested = [name for name in QUANTITIES if of.requested(name)]
-    w = np.ravel(omega(of.spec.drive.n_rpm))
+    w, output = np.ravel(omega(of.spec.drive.n_rpm)), of.machine.output
+    flat = np.ravel(output.rate_per_radian)  # one for each design
+    output = output._replace(rate_per_radian=cast("float", flat))
     out: dict[str, Number | None] = {}
     derivatives = {"acceleration": 2, "jerk": 3}  # derivatives of the wheel's angle
     for name, peak in worst_peaks(of.machine, requested).items():
         ends = _ends(of.machine, derivatives[name]) if name in derivatives else ()
-        out |= peak_values(name, w, tuple(peak), ends)
+        out |= peak_values(name, output, w, tuple(peak), ends)
     return out
 
 
-def peak_values(name: str, w: N, peak: Sequence[N], ends: Sequence[N]) -> dict[str, N]:
-    """The quantities of a peak, by their whole names.
+def peak_values(
+    name: str, output: Output, w: N, peak: Sequence[N], ends: Sequence[N]
+) -> dict[str, N | None]:
+    """The quantities of a peak, by their whole names; None for rates in the other output's unit.
 
     ``w`` is the input's speed, ``peak`` the greatest size and its input angle, ``ends`` the sizes
     just after entry and just before exit, if requested.
 
-    >>> peak_values("velocity", 2.0, (1.0, 0.0), ())
-    {'velocity.max': 1.0, 'velocity.at_deg': 0.0, 'velocity.max_rad_s': 2.0}
+    >>> from geneva_cli import Design, External
+    >>> wheel = Design(External(6)).mechanism.output
+    >>> peak_values("velocity", wheel, 2.0, (1.0, 0.0), ())["velocity.max_rad_s"]
+    2.0
     """
-    power, unit = RATES[name]
-    scale = w**power
+    power, of_unit, end = RATES[name]
+    scale = w**power * output.rate_per_radian**of_unit
     most, at_deg = peak
-    out = {f"{name}.max": most, f"{name}.at_deg": at_deg, f"{name}.max_{unit}": most * scale}
+    out: dict[str, N | None] = {f"{name}.max": most, f"{name}.at_deg": at_deg}
+    own = {unit: scale if unit == output.rate_unit else None for unit in ("rad", "m")}
+    for unit, size in own.items():
+        out[f"{name}.max_{unit}{end}"] = None if size is None else most * size
     if ends:
         out[f"{name}.entry"], out[f"{name}.exit"] = ends
     if name == "acceleration":
-        out[f"{name}.entry_{unit}"] = ends[0] * scale
+        for unit, size in own.items():
+            out[f"{name}.entry_{unit}{end}"] = None if size is None else ends[0] * size
     return out
 
 

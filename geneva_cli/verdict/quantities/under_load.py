@@ -14,7 +14,7 @@ from geneva_cli.layout.sizes import sized
 from geneva_cli.layout.stressed import lock_of
 from geneva_cli.loads.cycle import cycle_of
 from geneva_cli.loads.strength import lock, roller, shafts
-from geneva_cli.loads.strength.part_loads import PartLoads, part_loads
+from geneva_cli.loads.strength.part_loads import PartLoads, part_loads, single_loads, sizing_loads
 from geneva_cli.loads.summaries import load_peaks
 from geneva_cli.numerics.arrays import parameter
 from geneva_cli.verdict.lock_sizes import LockSizes, design_lock_sizes
@@ -71,8 +71,9 @@ class UnderLoad:
     @cached_property
     def parts(self) -> PartSizes | None:
         """The dimensions of stressed parts; None if no design has parts, or a load."""
-        loaded = self.machine.spec.is_loaded
-        return part_sizes(self.machine, self.part_loads) if loaded else None
+        if not self.machine.spec.is_loaded:
+            return None
+        return part_sizes(self.machine, sizing_loads(self.machine, self.part_loads))
 
     @property
     def contact_mm(self) -> float | None:
@@ -127,6 +128,11 @@ class SingleUnderLoad(UnderLoad):
         if not math.isinf(self.force_N[0]):
             return every
         return [one._replace(work=math.inf, load=math.inf) for one in every]
+
+    @cached_property
+    def part_loads(self) -> PartLoads:
+        """The greatest loads on arm, keys and shafts, from which its parts are sized."""
+        return single_loads(self.machine)
 
     @cached_property
     def lock_sizes(self) -> LockSizes | None:

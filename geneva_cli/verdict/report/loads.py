@@ -6,7 +6,7 @@ import math
 
 from geneva_cli.analysis.carried import inertia_kgm2
 from geneva_cli.analysis.peaks import worst
-from geneva_cli.analysis.quantities import REPORTED_PEAKS, STRESS
+from geneva_cli.analysis.quantities import REPORTED_PEAKS, sources
 from geneva_cli.drawings.model import PartsModel
 from geneva_cli.loads import loads
 from geneva_cli.verdict.report.values import Values
@@ -15,11 +15,10 @@ from geneva_cli.verdict.report.values import Values
 def greatest_loads(model: PartsModel) -> Values:
     """The greatest loads and their input angles; None without a load, and for an unbounded one."""
     mechanism = model.mechanism
-    loaded = mechanism.spec.is_loaded
+    loaded, known = mechanism.spec.is_loaded, sources(mechanism)
     values: Values = {}
     for name, source in REPORTED_PEAKS.items():
-        wide = source != STRESS or mechanism.spec.size.face_width_mm is not None
-        peak = loads.greatest(mechanism, source) if loaded and wide else None
+        peak = loads.greatest(mechanism, source) if loaded and source in known else None
         bounded = peak is not None and math.isfinite(peak.max)
         values[f"loads.{name}.max"] = peak.max if peak and bounded else None
         values[f"loads.{name}.at_deg"] = peak.at_deg if peak else None

@@ -46,7 +46,7 @@ def sizes(model: PartsModel) -> Values:
     mechanism = model.mechanism
     spec = mechanism.spec
     L, r = mechanism.center_distance_mm, mechanism.roller_radius_mm
-    if not spec.wheel.FLAT:
+    if spec.wheel.SHELLS:
         return _sphere_sizes(mechanism, L, r)
     return {
         **dict.fromkeys(_SPHERE),

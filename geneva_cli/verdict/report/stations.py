@@ -65,10 +65,10 @@ def _timing(mechanism: Mechanism, i: int) -> Numbers:
 
 
 def _peaks(mechanism: Mechanism, peaks: Peaks) -> Numbers:
-    w, ends = omega(mechanism.spec.drive.n_rpm), peaks.ends
+    w, ends, output = omega(mechanism.spec.drive.n_rpm), peaks.ends, mechanism.output
     return {
-        **peak_values("velocity", w, peaks.velocity, ()),
-        **peak_values("acceleration", w, peaks.acceleration, ends[:2]),
-        **peak_values("jerk", w, peaks.jerk, ends[2:]),
-        **peak_values("power", w, peaks.power, ()),
+        **peak_values("velocity", output, w, peaks.velocity, ()),
+        **peak_values("acceleration", output, w, peaks.acceleration, ends[:2]),
+        **peak_values("jerk", output, w, peaks.jerk, ends[2:]),
+        **peak_values("power", output, w, peaks.power, ()),
     }

@@ -10,7 +10,6 @@ def words(mechanism: Mechanism) -> str:
     """The design in words."""
     spec = mechanism.spec
     wheel, drive = spec.wheel, spec.drive
-    article = "An" if wheel.NAME[0] in "aeiou" else "A"
     slot = mechanism.engagements[0].slot
     each_step = len(mechanism.engagements[0].ahead_deg)  # rollers, each with its slot
     slots = "curved" if slot.curved else "straight offset" if slot.offset else "straight radial"
@@ -18,10 +17,9 @@ def words(mechanism: Mechanism) -> str:
     count *= each_step
     slots = f"pairs of {slots}" if each_step > 1 else slots
     rollers = "one roller" if count == 1 else f"{count} rollers"
-    text = (
-        f"{article} {wheel.NAME} wheel of {wheel.z} {slots} slots, driven by {drive.WORDS} with "
-        f"{rollers} at {drive.n_rpm:g} rpm."
-    )
+    named = wheel.words(slots)
+    article = "An" if named[0] in "aeiou" else "A"
+    text = f"{article} {named}, driven by {drive.WORDS} with {rollers} at {drive.n_rpm:g} rpm."
     if spec.motion:
         text += f' The wheel follows the law "{spec.motion.law.NAME}"'
         if spec.motion.alpha0_deg:
@@ -30,8 +28,12 @@ def words(mechanism: Mechanism) -> str:
     if wheel.stopped:
         text += f" A convex face in place of a recess blocks the crank after {wheel.z - 1} turns."
     each = [timings(mechanism)[i] for i in range(len(mechanism.engagements))]
-    steps = sorted({mechanism.index_deg(i) for i in range(len(mechanism.engagements))})
-    turn = "turns by " + " or ".join(f"{step:.6g}" for step in steps) + " deg"
+    output = mechanism.output
+    if output.turns:
+        verb, steps = "turns", {mechanism.index_deg(i) for i in range(len(each))}
+    else:
+        verb, steps = "moves", {t.index_mm or 0.0 for t in each}
+    turn = f"{verb} by {' or '.join(f'{step:.6g}' for step in sorted(steps))} {output.unit}"
     if len(each) == 1:
         text += (
             f" It {turn} in {each[0].motion_s:.4g} s and then rests for {each[0].dwell_s:.4g} s."

@@ -126,4 +126,8 @@ def compare_peaks(table, machine, got, exact, half, where, more=None):
         u = unit(half)
         nearest = min(places, key=lambda c: abs(c.x - at))
         error = ulps([0.0], [(at - nearest.x)], u)
+        if at == 0 and abs(nearest.x) < 1e-12 * 2 * half:
+            # the program takes a maximum so near to mid-motion, where two pieces of its search
+            # meet, for that place: it says so in numerics/extrema.py
+            error = np.zeros(1)
         table.add((machine, f"{row}, angle"), error, float(nearest.shift / u), where)

@@ -1,0 +1,65 @@
+"""Drawings of the rack and the locking sector of a linear Geneva."""
+
+from __future__ import annotations
+
+import math
+
+from geneva_cli.curves.drawing import Annotations, Drawing, LevelDistance
+from geneva_cli.curves.plates import Group, Member, Plate
+from geneva_cli.curves.shapes import Contour, Line, closed
+from geneva_cli.layout.plain_sizes import pin_radius, thicknesses
+from geneva_cli.layout.projection import outlines_of, placed, titled
+from geneva_cli.machine.mechanism import Mechanism
+from geneva_cli.outlines.rack import locking_sector, rack_contour, rack_sizes, slot_walls
+from geneva_cli.parts.plates import roller_plates
+
+
+def wheel(mechanism: Mechanism) -> Drawing:
+    """Return the rack; a slot is along x, with its roller at the origin at mid-motion."""
+    solid = _rack(mechanism)
+    return Drawing(titled(mechanism, "rack"), outlines_of(solid), solid=solid)
+
+
+def crank(mechanism: Mechanism) -> Drawing:
+    """Return locking sector and roller in the rack's plane; x is from the axis to the roller."""
+    solid = _crank(mechanism)
+    return Drawing(titled(mechanism, "crank"), outlines_of(solid), solid=solid)
+
+
+def slot(mechanism: Mechanism) -> Drawing:
+    """Return a slot, closed along the rack's edge, and the roller's path in it."""
+    sizes = rack_sizes(mechanism)
+    walls = slot_walls(sizes, 0.0)
+    outline = closed("WHEEL", [*walls, Line(walls[-1].end, walls[0].start)])
+    path = Contour("PITCH", (Line((0.0, 0.0), (sizes.arm, 0.0)),), closed=False)
+    return Drawing(titled(mechanism, "slot"), (outline, path))
+
+
+def assembly(mechanism: Mechanism) -> Drawing:
+    """Return rack and crank at input angle 0: the roller is at the origin, the axis at (R, 0)."""
+    rack, crank = _rack(mechanism), _crank(mechanism)
+    axis = rack_sizes(mechanism).arm, 0.0
+    members = Member(rack), Member(crank, axis, math.pi)  # the roller is on the rack's side
+    shapes = [placed(s, one.at, one.turn) for one in members for s in outlines_of(one.part)]
+    title = titled(mechanism)
+    look = Annotations((LevelDistance((0.0, 0.0), axis, "R"),))
+    return Drawing(title, tuple(shapes), look, Group(title, members))
+
+
+def _rack(mechanism: Mechanism) -> Plate:
+    high = thicknesses(mechanism.spec.size, mechanism.center_distance_mm).wheel
+    outline = rack_contour(rack_sizes(mechanism), mechanism.spec.wheel.z)
+    return Plate("rack", "WHEEL", outline, (), 0.0, high)
+
+
+def _crank(mechanism: Mechanism) -> Group:
+    size, sizes = mechanism.spec.size, rack_sizes(mechanism)
+    thick = thicknesses(size, mechanism.center_distance_mm)
+    sector, at = locking_sector(sizes), (sizes.arm, 0.0)
+    pin = pin_radius(size, sizes.roller)
+    fit = size.allowances.shaft_fit_mm
+    members = [Member(one, at) for one in roller_plates(sizes.roller, pin, 0.0, thick.wheel, fit)]
+    if sector is not None:
+        low = thick.wheel - thick.lock
+        members.append(Member(Plate("locking sector", "CRANK", sector, (), low, thick.wheel)))
+    return Group("crank", tuple(members))

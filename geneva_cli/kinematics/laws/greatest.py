@@ -1,0 +1,78 @@
+"""The greatest derivatives of a law, searched on floats: a law is one design, and needs no NumPy.
+
+A greatest size is at a root of the next derivative, at an end, or where a derivative jumps.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterator
+from functools import lru_cache
+from itertools import pairwise
+from typing import TypeAlias
+
+from geneva_cli.kinematics.laws.law import Law
+from geneva_cli.numerics.jet import Jet, Number
+from geneva_cli.numerics.roots import greatest_at, root
+
+Curves: TypeAlias = dict[str, tuple[float, float, float]]  # values with two derivatives
+
+
+@lru_cache(maxsize=256)
+def greatest(law: Law) -> dict[str, tuple[float, float]]:
+    """Greatest size of each derivative of s(u) and of ds/du d²s/du² (power), and its first u.
+
+    For a law that is analytic between its breaks, and whose keys are numbers.
+
+    >>> from geneva_cli import Cycloidal
+    >>> greatest(Cycloidal())["velocity"]
+    (2.0, 0.5)
+    """
+    places = _half(law.first, [*(u for u in law.breaks if u < 0.5), 0.5])
+    if not law.symmetric:
+        after = [*(1.0 - u for u in reversed(law.breaks) if u > 0.5), 0.5]
+        for name, later in _half(law.second, after).items():
+            places[name] += [(size, 1.0 - w) for size, w in reversed(later)]
+    return {name: greatest_at(sizes) for name, sizes in places.items()}
+
+
+def _half(
+    half: Callable[[Number, int], Jet], ends: list[float]
+) -> dict[str, list[tuple[float, float]]]:
+    """Sizes and places, in order, where each quantity of one half may be greatest."""
+
+    def curves(x: float) -> Curves:
+        return _curves(half(x, 5).scalars())
+
+    sizes: dict[str, list[tuple[float, float]]] = {}
+    start = 0.0
+    for end in ends:
+        # half a motion has a few waves of each derivative, not a dozen
+        samples = [*(start + (end - start) * i / 16 for i in range(16)), end]
+        each = [curves(x) for x in samples]
+        for name in each[0]:
+            sizes.setdefault(name, []).extend(_turns(name, curves, samples, each))
+        start = math.nextafter(end, 1.0)  # a break belongs to the piece before it
+    return sizes
+
+
+def _curves(d: tuple[float, ...]) -> Curves:
+    """Each quantity with its first two derivatives, from the derivatives of s."""
+    return {
+        "velocity": (d[1], d[2], d[3]),
+        "acceleration": (d[2], d[3], d[4]),
+        "jerk": (d[3], d[4], d[5]),
+        "power": (d[1] * d[2], d[2] ** 2 + d[1] * d[3], 3.0 * d[2] * d[3] + d[1] * d[4]),
+    }
+
+
+def _turns(
+    name: str, curves: Callable[[float], Curves], samples: list[float], each: list[Curves]
+) -> Iterator[tuple[float, float]]:
+    """Sizes at the samples of a smooth piece, and at the stationary places between them."""
+    yield abs(each[0][name][0]), samples[0]
+    for (a, left), (b, right) in pairwise(zip(samples, each, strict=True)):
+        if left[name][1] * right[name][1] < 0.0:
+            x = root(lambda x: curves(x)[name][1:], a, b, left[name][1])
+            yield abs(curves(x)[name][0]), x
+        yield abs(right[name][0]), b

@@ -1,0 +1,195 @@
+"""The rack of a linear Geneva, and the locking sector of its crank.
+
+In the rack's frame its slots run along x, and the roller is at the origin at mid-motion. The rack's
+edge, by default x = R, passes through the crank's axis: there the roller enters. So the rack sweeps
+over the axis, and no disc can lock it. A ring does, half way round, opposite the roller.
+
+The recesses have the radius rho, and their axes are R from those of the slots. With the crank d
+radians after entry, one recess is y = R (1 - cos d) past the crank's axis, and the end of the ring
+that lies in it is d past the edge. A point of that end, q from the axis, is in the recess if
+
+    q² - 2 q y sin d + y² <= rho²
+
+At q = rho this holds until tan(d/2) = 2 rho/R, past mid-motion for rho > R/2. The least q rises
+with d, up to R - rho at mid-motion. There the ring's end lies along the edge, on which the rack
+covers all but R - rho to R + rho. After it the next recess mirrors the first.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+
+from geneva_cli.curves.distance import Polyarc
+from geneva_cli.curves.shapes import Contour, Line, Segment, about, closed
+from geneva_cli.errors import GenevaError
+from geneva_cli.layout.plain_sizes import value_or
+from geneva_cli.layout.sizes import lock_between, require_lock_between
+from geneva_cli.machine.mechanism import Mechanism
+from geneva_cli.numerics.angles import DEGREE
+
+if TYPE_CHECKING:
+    from geneva_cli.numerics.jet import Array
+
+
+class RackSizes(NamedTuple):
+    """Sizes of rack and locking sector, mm; radii are 0 without a lock."""
+
+    arm: float  # R, the crank's radius
+    roller: float
+    half_width: float  # of the slot
+    edge: float  # distance of the rack's edge from the deepest roller
+    slot_bottom: float  # clearance between the deepest roller and the slot's end
+    lock: float  # outer radius of the locking sector
+    floor: float  # its inner radius
+    recess: float
+    back: float  # wall between the slots' ends and the rack's back
+
+    @property
+    def horn(self) -> float:
+        """Thickness of the horn between slot and recess at its thinnest place."""
+        below = min(self.edge - self.arm, 0.0)  # an edge below the crank's axis has wider horns
+        return self.arm - self.half_width - math.sqrt(self.recess**2 - below**2)
+
+
+def rack_sizes(mechanism: Mechanism) -> RackSizes:
+    """Return the sizes of a machine's rack. Raises GenevaError, naming the key, if none fit."""
+    size, r = mechanism.spec.size, mechanism.roller_radius_mm
+    arm, allowed = mechanism.ratio * mechanism.center_distance_mm, size.allowances
+    w = r + allowed.slot_clearance_mm
+    if w >= arm:
+        raise GenevaError(
+            f"roller_radius_mm = {r:g}: the slots overlap; half a slot must be below {arm:.6g}, "
+            "half the distance of the slots",
+            ("size", "roller_radius_mm"),
+        )
+    bottom = value_or(size.slot_bottom_clearance_mm, max(allowed.slot_clearance_mm, r / 20.0))
+    relief = value_or(size.relief_clearance_mm, arm / 200.0)
+    lock = _lock(mechanism, arm, arm - w - allowed.lock_clearance_mm, relief)
+    recess = lock + allowed.lock_clearance_mm if lock else 0.0
+    floor = arm - recess + relief if lock else 0.0
+    edge = value_or(size.wheel_radius_mm, arm)
+    if lock and abs(edge - arm) >= recess:
+        raise GenevaError(
+            f"wheel_radius_mm = {edge:g}: the rack's edge must meet its recesses, between "
+            f"{arm - recess:.6g} and {arm + recess:.6g} mm",
+            ("size", "wheel_radius_mm"),
+        )
+    return RackSizes(arm, r, w, edge, bottom, lock, floor, recess, max(r, arm / 10.0))
+
+
+def _lock(mechanism: Mechanism, arm: float, limit: float, relief: float) -> float:
+    """Return the outer radius of the locking sector, which must be wider than its inner radius."""
+    own, r = mechanism.spec.size.lock_radius_mm, mechanism.roller_radius_mm
+    if own == 0.0:
+        return 0.0
+    least = 0.5 * (arm + relief)
+    if limit <= least:
+        raise GenevaError(
+            f"the locking sector does not fit: roller and clearances limit it to {limit:.4g} mm, "
+            f"and it must reach {least:.4g}; use a smaller roller, or lock_radius_mm = 0",
+            ("size", "lock_radius_mm"),
+        )
+    if own is None:
+        return lock_between(least, limit, r)
+    require_lock_between(own, least, limit)
+    return own
+
+
+def rack_contour(sizes: RackSizes, count: int) -> Contour:
+    """Return a rack of ``count`` slots, counterclockwise; the slot in the middle is at y = 0.
+
+    A recess lies between two slots, and one beyond the last slot on either side.
+    """
+    R, w, rho = sizes.arm, sizes.half_width, sizes.recess
+    first = -2.0 * R * ((count - 1) // 2)
+    last = first + 2.0 * R * (count - 1)
+    beyond = 2.0 * R - w if rho else w + sizes.back
+    low, high = first - beyond, last + beyond
+    bottom = -sizes.slot_bottom
+    back = bottom - w - sizes.back
+    cuts = [slot_walls(sizes, first + 2.0 * R * k) for k in range(count)]
+    if rho:
+        recesses = [_recess(sizes, first + R * (2 * k - 1)) for k in range(count + 1)]
+        pairs = zip(recesses, [*cuts, []], strict=True)
+        cuts = [cut for pair in pairs for cut in pair if cut]
+    edge: list[Segment] = []
+    at = (sizes.edge, low)
+    for cut in cuts:
+        edge += [Line(at, cut[0].start), *cut]
+        at = cut[-1].end
+    corners = (sizes.edge, high), (back, high), (back, low), (sizes.edge, low)
+    sides = [Line(at, corners[0])]
+    sides += [Line(a, b) for a, b in zip(corners, corners[1:], strict=False)]
+    return closed("WHEEL", [*edge, *sides])
+
+
+def slot_walls(sizes: RackSizes, y: float) -> list[Segment]:
+    """Return the walls of a slot at y, from the lower corner of its mouth to the upper one."""
+    edge, w, bottom = sizes.edge, sizes.half_width, -sizes.slot_bottom
+    end = about((bottom, y), w, -0.5 * math.pi, -math.pi)
+    return [Line((edge, y - w), end.start), end, Line(end.end, (edge, y + w))]
+
+
+def _recess(sizes: RackSizes, y: float) -> list[Segment]:
+    beyond = math.asin((sizes.edge - sizes.arm) / sizes.recess)
+    start, sweep = beyond - 0.5 * math.pi, -math.pi - 2.0 * beyond
+    return [about((sizes.arm, y), sizes.recess, start, sweep)]
+
+
+def locking_sector(sizes: RackSizes) -> Contour | None:
+    """Return the ring opposite the roller, whose direction is x from the axis; None without one."""
+    if not sizes.lock:
+        return None
+    outer = about((0.0, 0.0), sizes.lock, 0.5 * math.pi, math.pi)
+    inner = about((0.0, 0.0), sizes.floor, 1.5 * math.pi, -math.pi)
+    inwards, outwards = Line(outer.end, inner.start), Line(inner.end, outer.start)
+    return closed("CRANK", [outer, inwards, inner, outwards])
+
+
+class RackGap(NamedTuple):
+    """The smallest gap of a turn, mm, negative where parts overlap, and its crank angle."""
+
+    mm: float
+    crank_deg: float
+
+
+def smallest_gap(sizes: RackSizes) -> RackGap:
+    """Return the smallest gap between rack, locking sector and roller in a turn of the crank.
+
+    The second half of a turn mirrors the first. There the crank is placed at every half degree, and
+    closer at mid-motion, where the ring's end passes a horn: of a ring that is f away at mid-motion
+    within an angle of some f/R. At each place the gap is that of points on both outlines, which lie
+    a hundredth of R apart or nearer.
+    """
+    R, ring = sizes.arm, locking_sector(sizes)
+    rack = Polyarc([rack_contour(sizes, 3)])  # no part reaches more slots in one turn
+    sector = Polyarc([ring]) if ring else None
+    spacing = 1e-4 * R, 0.01 * R
+    on_rack, on_ring = rack.samples(*spacing), sector.samples(*spacing) if sector else None
+    on_rack = on_rack[(on_rack[:, 0] >= 0.0) & (abs(on_rack[:, 1]) <= 3.0 * R)]
+    passing = max(2.0 * (sizes.floor - (R - sizes.recess)) / R / DEGREE, 0.0)
+    places = {*np.linspace(-180.0, 0.0, 361), *np.linspace(-passing, 0.0, 101)}
+    best = RackGap(math.inf, 0.0)
+    for crank_deg in sorted(map(float, places)):
+        a = crank_deg * DEGREE
+        travel = R * math.sin(max(-0.5 * math.pi, min(0.5 * math.pi, a)))
+        axis = np.array([R, -travel])
+        gap = float(rack.signed(axis + R * _unit(math.pi - a)[None])[0]) - sizes.roller
+        if sector is not None and on_ring is not None:
+            c, s = _unit(math.pi - a)
+            turn = np.array([[c, s], [-s, c]])  # of rows, from the crank's frame
+            gap = min(
+                gap,
+                float(rack.signed(axis + on_ring @ turn).min()),
+                float(sector.signed((on_rack - axis) @ turn.T).min()),
+            )
+        if gap < best.mm - 1e-9 * R:  # of gaps that are equal but for rounding the first
+            best = RackGap(gap, crank_deg)
+    return best
+
+
+def _unit(angle: float) -> Array:
+    return np.array([math.cos(angle), math.sin(angle)])

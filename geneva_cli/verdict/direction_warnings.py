@@ -1,0 +1,60 @@
+"""Warnings about a machine that turns both ways and differs by direction."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+
+from geneva_cli.analysis.peaks import worst
+from geneva_cli.errors import Notice
+from geneva_cli.machine.both_ways import every_way
+from geneva_cli.machine.mechanism import Mechanism
+
+
+def direction_warnings(mechanism: Mechanism) -> Iterator[Notice]:
+    """The warnings about motions that differ, and about a law that is tuned for one direction."""
+    for other in every_way(mechanism)[1:]:
+        difference = _difference(mechanism, other)
+        if difference:
+            yield Notice(
+                "differs-backwards",
+                f"{difference}, because of {', '.join(_reasons(mechanism, other))}. Backwards the "
+                "wheel starts where it stops forwards: choose drive and load for the harder end",
+            )
+        if _is_tuned(mechanism) and not _is_tuned(other):
+            yield Notice(
+                "tuned-forwards-only",
+                "the tuned law leaves the load at rest forwards only. Backwards its damping acts "
+                "the other way: damping_ratio = 0 in [motion] serves both directions alike",
+            )
+
+
+def _difference(forwards: Mechanism, backwards: Mechanism) -> str:
+    """The first end of the motion, or else the law's half-way, that differs; empty if none does."""
+    ends, back = (worst(machine).ends._asdict() for machine in (forwards, backwards))
+    for key, one in ends.items():
+        if not math.isclose(one, back[key], rel_tol=1e-4):
+            what, _, end = key.partition("_")
+            return f"the {what} at {end} is {one:.4g} forwards and {back[key]:.4g} backwards"
+    half = 0.5 if forwards.law is None else forwards.law.half_way
+    if math.isclose(half, 0.5, rel_tol=1e-4):
+        return ""
+    return (
+        f"the wheel is half-way after {half:.4g} of the motion forwards and "
+        f"{1.0 - half:.4g} backwards"
+    )
+
+
+def _is_tuned(mechanism: Mechanism) -> bool:
+    return mechanism.law is not None and mechanism.law.tuned_to is not None
+
+
+def _reasons(forwards: Mechanism, backwards: Mechanism) -> Iterator[str]:
+    """Keys that have other values in the mirror, and the law if its halves differ."""
+    for table in ("wheel", "drive"):
+        mirrored = backwards.spec.table(table)
+        for key, value in forwards.spec.table(table).items():
+            if value != mirrored[key] and key != "entry_deg":  # it follows from the others
+                yield key
+    if forwards.law is not None and forwards.law != backwards.law:
+        yield f'the law "{forwards.law.NAME}"'

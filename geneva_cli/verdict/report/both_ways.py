@@ -1,0 +1,30 @@
+"""What differs between the directions of a machine that turns both ways."""
+
+from __future__ import annotations
+
+import math
+
+from geneva_cli.drawings.model import PartsModel
+from geneva_cli.machine.both_ways import every_way
+from geneva_cli.table import rows_table
+from geneva_cli.verdict.quantities.groups import REPORT, values
+from geneva_cli.verdict.report.values import Values
+
+
+def both_ways(model: PartsModel) -> Values:
+    """Each number of the report that differs by direction; None if there are no such numbers.
+
+    Places are left out, and what needs the parts: they are the same parts.
+    """
+    forwards, *others = every_way(model.mechanism)
+    groups = [group for group in REPORT if not group.makes_parts and group.own]
+    rows: list[tuple[str, float, float]] = []
+    for backwards in others:
+        back = values(groups, PartsModel(backwards))
+        for name, one in values(groups, PartsModel(forwards)).items():
+            other = back[name]
+            if name.endswith("_deg") or not (isinstance(one, float) and isinstance(other, float)):
+                continue
+            if not math.isclose(one, other, rel_tol=1e-6):  # searches end within 1e-9 of a peak
+                rows.append((name, one, other))
+    return {"both_ways": rows_table(("quantity", "forwards", "backwards"), rows) if rows else None}
