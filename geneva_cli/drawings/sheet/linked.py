@@ -73,11 +73,11 @@ def rolling(begin: Begin, mechanism: Mechanism) -> Iterator[View]:
 
 
 def shafted(begin: Begin, shafts: Iterable[Member]) -> Iterator[View]:
-    """Yield a view of each shaft."""
-    for member in shafts:
-        assert not isinstance(member.part, Group | Shell)
-        view = begin(member.part.name, thick=False)
-        draw_shaft(view, member.part)
+    """Yield a view of each kind of shaft."""
+    for part in dict.fromkeys(member.part for member in shafts):
+        assert not isinstance(part, Group | Shell)
+        view = begin(part.name, thick=False)
+        draw_shaft(view, part)
         yield view
 
 

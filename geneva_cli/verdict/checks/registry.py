@@ -85,6 +85,7 @@ STATIC: Checks = {
     "link_gap_mm": "links:gap",
     "branches_apart_mm": "branches:apart",
     "branches_crossed_mm": "branches:crossed",
+    "wheels_apart_mm": "carrier:wheels_apart",
     "stop_turns": "stop:turns",
     "stop_overlap_mm": "stop:overlap",
     "stop_stress_max_MPa": "stop:stress",
