@@ -8,10 +8,11 @@ from functools import reduce
 from typing import NamedTuple
 
 from geneva_cli.curves.cross_holes import CrossHole, drilled
-from geneva_cli.curves.measure import with_material_left
+from geneva_cli.curves.inset import inset, lines_and_arcs
+from geneva_cli.curves.measure import GAUSS, with_material_left
 from geneva_cli.curves.moments import Moments, moments, total
 from geneva_cli.curves.plates import Plate, Stack
-from geneva_cli.curves.shapes import Circle, Contour, Point, Shape
+from geneva_cli.curves.shapes import Circle, Contour, Point, Shape, closed, two_arcs
 
 MM = 1e-3  # metres
 
@@ -33,7 +34,11 @@ def mass_properties(plate: Plate, density_kgm3: float) -> MassProperties:
     >>> round(steel.inertia_kgm2 / steel.mass_kg / 0.05**2, 12)  # m r²/2
     0.5
     """
-    whole = face_properties(face(plate), plate.thickness, density_kgm3)
+    within = plate.thickness - 2.0 * plate.chamfer
+    whole = face_properties(face(plate), within, density_kgm3)
+    if plate.chamfer:
+        edges = _between(plate)
+        whole = added(whole, face_properties(edges, 2.0, density_kgm3))  # moments of 1 mm, twice
     if not plate.cross:
         return whole
     contours = drilled((plate.outline, *plate.holes), plate.cross)
@@ -79,6 +84,30 @@ def face(plate: Plate) -> Moments:
 
 def _counterclockwise(shape: Contour | Circle) -> Moments:
     return moments(shape if isinstance(shape, Circle) else with_material_left(shape, True))
+
+
+def _between(plate: Plate) -> Moments:
+    """Return the moments of the layer in one chamfer, added up along the axis, by Gauss's points.
+
+    The moments of an inset are polynomials of the depth, but for the corners, whose share is small.
+    """
+    oriented = [
+        (lines_and_arcs(with_material_left(_contour(shape), i == 0)), 1.0 if i == 0 else -1.0)
+        for i, shape in enumerate((plate.outline, *plate.holes))
+    ]
+    for pieces, _ in oriented:
+        inset(pieces, "", plate.chamfer)  # refuses a chamfer that is too wide, by its own size
+    half = 0.5 * plate.chamfer
+    return total(
+        _counterclockwise(inset(pieces, "", half * (1.0 + sign * node))).times(weight * half * side)
+        for node, weight in GAUSS
+        for sign in (-1.0, 1.0)
+        for pieces, side in oriented
+    )
+
+
+def _contour(shape: Contour | Circle) -> Contour:
+    return closed(shape.layer, two_arcs(shape)) if isinstance(shape, Circle) else shape
 
 
 def _removed(hole: CrossHole, shapes: Sequence[Shape]) -> Moments:

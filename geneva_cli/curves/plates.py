@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 class Plate(NamedTuple):
     """A flat part: the inside of an outline without its holes, from ``low`` to ``high``.
 
-    Cross holes go across its axis.
+    Cross holes go across its axis. A chamfer, at 45 degrees, is around both faces.
     """
 
     name: str
@@ -33,6 +33,7 @@ class Plate(NamedTuple):
     low: float
     high: float
     cross: tuple[CrossHole, ...] = ()
+    chamfer: float = 0.0
 
     @property
     def thickness(self) -> float:
@@ -139,6 +140,20 @@ class Member(NamedTuple):
 
 Solid: TypeAlias = Plate | Stack | Shell
 Part: TypeAlias = Solid | Group
+
+
+def chamfered(part: Part, chamfer: float) -> Part:
+    """A part with a chamfer on all its flat solids."""
+    if isinstance(part, Plate):
+        return part._replace(chamfer=chamfer)
+    if isinstance(part, Group):
+        return part._replace(members=tuple(on_edges(one, chamfer) for one in part.members))
+    return part
+
+
+def on_edges(member: Member, chamfer: float) -> Member:
+    """A member with a chamfer on all flat solids of its part."""
+    return member._replace(part=chamfered(member.part, chamfer))
 
 
 def solids(part: Part) -> list[Solid]:

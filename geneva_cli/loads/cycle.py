@@ -1,6 +1,7 @@
 """The whole cycle under load: states at any input angle, extremes and integrals.
 
 The cycle is a period of the machine from the first entry: every engagement, and the dwells between.
+With several wheels on a carrier it ends at the entry of the next wheel.
 All loads are 0 in a dwell: nothing moves, the lock holds the wheel, and resistance to motion does
 not act at rest.
 """
@@ -14,13 +15,19 @@ from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 import numpy as np
 
 from geneva_cli.analysis.contact import contact, contacts
-from geneva_cli.analysis.forces import LoadCase, gain, load_case, sliding
+from geneva_cli.analysis.forces import LoadCase, feeding, load_case, sliding
 from geneva_cli.analysis.instant import INSTANT_QUANTITIES, Instant, bounded, values
 from geneva_cli.analysis.load_functions import NO_MORE, LoadFunctions, load_batch
 from geneva_cli.analysis.mid_motion import at_crossing
 from geneva_cli.analysis.motion import local_deg, spans
 from geneva_cli.analysis.quantities import KINETIC, known_quantities, sources
-from geneva_cli.analysis.stretches import Stretch, refuse_rounding, to_mid_motion, whole
+from geneva_cli.analysis.stretches import (
+    Stretch,
+    refuse_noise,
+    refuse_rounding,
+    to_mid_motion,
+    whole,
+)
 from geneva_cli.kinematics.engagement import Engagement
 from geneva_cli.loads.summaries import (
     EngagementExtremes,
@@ -62,7 +69,7 @@ class Cycle:
     """
 
     def __init__(self, mechanism: Mechanism) -> None:
-        self.mechanism = mechanism
+        self.mechanism = mechanism.under_load
         self.case: LoadCase = load_case(mechanism)
 
     @property
@@ -102,7 +109,7 @@ class Cycle:
         torque = at.acceleration * case.inertia_Nm + case.resists_Nm
         drives = np.copysign(1.0, torque)
         slides = np.copysign(1.0, sliding(at, drives, case.radius))
-        feeds = np.copysign(1.0, drives * gain(case, at, drives, slides))
+        feeds = np.copysign(1.0, feeding(case, at, drives, slides))
         with np.errstate(all="ignore"):
             moving_values = bounded(Instant(case, at, drives, slides, feeds))
         middle = input_deg == 0.0
@@ -149,6 +156,7 @@ class Cycle:
             )
             for load, result in self._searches
         ]
+        refuse_noise([one.total for one in each])
         every = summaries_from(self.mechanism, names, each, plain=True)
         return {name: every[name] for name in (*known, KINETIC)}
 
@@ -195,6 +203,7 @@ class Cycle:
             needed = np.full(total.shape, True)
             with np.errstate(all="ignore"):
                 total += span_integrals(Integrands(rows, start, end, ends=True), one, needed)
+        refuse_noise([total])
         return [float(x) for x in total[:, 0] * DEGREE]
 
     @cached_property

@@ -6,19 +6,21 @@ Parts are sized one design after the other, as their defaults depend on rollers'
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from geneva_cli.layout.sizes import sized
+from geneva_cli.errors import GenevaError
+from geneva_cli.layout.sizes import Layout
+from geneva_cli.layout.sphere_sizes import ball
+from geneva_cli.layout.sphere_stressed import sphere_stressed
 from geneva_cli.layout.stressed import Stressed, stressed
 from geneva_cli.loads.strength.arm import ArmDimensions
 from geneva_cli.loads.strength.keys import KeyDimensions
-from geneva_cli.loads.strength.part_loads import PartLoads
-from geneva_cli.machine.many import alone
-from geneva_cli.machine.mechanism import Mechanism, build
 
 if TYPE_CHECKING:
+    from geneva_cli.machine.mechanism import Mechanism
     from geneva_cli.numerics.jet import Array
 
 
@@ -34,13 +36,9 @@ class PartSizes(NamedTuple):
     crank_key: KeyDimensions
 
 
-def part_sizes(mechanism: Mechanism, loads: PartLoads) -> PartSizes | None:
-    """The dimensions of the parts of m designs under these loads; None if no design has parts."""
-    if isinstance(mechanism.design, int):  # whose sizes are cached
-        rows = [_row(mechanism)]
-    else:
-        each = (build(alone(mechanism.spec, i)) for i in range(mechanism.designs))
-        rows = [_row(one, loads.of(i)) for i, one in enumerate(each)]
+def part_sizes(parts: Sequence[Stressed | None]) -> PartSizes | None:
+    """The dimensions of the parts of m designs; None if no design has parts."""
+    rows = [_numbers(one) if one else [] for one in parts]
     every = [row for row in rows if row]
     if not every:
         return None
@@ -60,10 +58,14 @@ def part_sizes(mechanism: Mechanism, loads: PartLoads) -> PartSizes | None:
     )
 
 
-def _row(machine: Mechanism, loads: PartLoads | None = None) -> list[float]:
-    """The numbers of a machine's parts in one row; none for a machine without flat parts."""
-    parts = sized(machine, loads)
-    return _numbers(stressed(*parts)) if parts else []
+def stressed_parts(machine: Mechanism, layout: Layout | None) -> Stressed | None:
+    """The stressed parts of a design: flat ones by their layout, or those of a sphere; or None."""
+    if layout or machine.spec.is_flat or not machine.spec.has_parts:
+        return stressed(*layout) if layout else None
+    try:
+        return sphere_stressed(machine.spec, ball(machine))
+    except GenevaError:  # the check of the parts reports the error
+        return None
 
 
 def _numbers(of: Stressed) -> list[float]:

@@ -2,16 +2,17 @@
 
 from __future__ import annotations
 
-from functools import lru_cache, reduce
+from functools import reduce
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
 from geneva_cli.analysis.quantities import FORCE
-from geneva_cli.loads.strength.shafts import Torque, on_crank, on_driven_crank, on_wheel
+from geneva_cli.loads.strength.shafts import Torque, crank_forces, wheel_forces
 from geneva_cli.loads.summaries import load_peaks
 from geneva_cli.machine.both_ways import every_way
 from geneva_cli.numerics.arrays import larger, parameter
+from geneva_cli.numerics.known import Known
 
 if TYPE_CHECKING:
     from geneva_cli.machine.mechanism import Mechanism
@@ -31,10 +32,16 @@ class PartLoads(NamedTuple):
         return PartLoads(*(float(np.ravel(row)[i]) for row in self))
 
 
-@lru_cache(maxsize=16)
+@Known
+def own_loads(mechanism: Mechanism) -> PartLoads:
+    """The greatest loads of a machine in its own direction as numbers, cached for its checks."""
+    return part_loads(mechanism).of(0)
+
+
+@Known
 def single_loads(mechanism: Mechanism) -> PartLoads:
     """The loads for which a machine is sized as numbers, cached for its sizes and their checks."""
-    return sizing_loads(mechanism).of(0)
+    return sizing_loads(mechanism, own_loads(mechanism)).of(0)
 
 
 def sizing_loads(mechanism: Mechanism, forwards: PartLoads | None = None) -> PartLoads:
@@ -49,8 +56,8 @@ def sizing_loads(mechanism: Mechanism, forwards: PartLoads | None = None) -> Par
 
 def part_loads(mechanism: Mechanism) -> PartLoads:
     """The greatest loads of m designs."""
-    on = on_driven_crank if mechanism.spec.drive.CRANKED else on_crank
-    own = {"wheel_Nm": Torque(on_wheel), "crank_Nm": Torque(on)}
+    spec = mechanism.spec
+    own = {"wheel_Nm": Torque(wheel_forces(spec)), "crank_Nm": Torque(crank_forces(spec))}
     names = FORCE, "wheel_bearing_N", "wheel_Nm", "crank_bearing_N", "crank_Nm"
     peaks = load_peaks(mechanism, names, own)
     return PartLoads(

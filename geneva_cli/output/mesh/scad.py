@@ -1,7 +1,8 @@
 """OpenSCAD: a module for each kind of solid, and a line for each position, in mm.
 
 A plate is an outline without its holes, extruded; circles stay circles, so that a person can change
-them. A turned part is one on another. A shell of a sphere is a polyhedron.
+them. A turned part is one on another. A shell of a sphere, or a plate with a chamfer, is a
+polyhedron.
 """
 
 from __future__ import annotations
@@ -17,9 +18,11 @@ from geneva_cli.curves.plates import Plate, Shell, Solid
 from geneva_cli.curves.shapes import Circle, Contour, Shape
 from geneva_cli.errors import GenevaError, clean
 from geneva_cli.output.inks import inks
+from geneva_cli.output.mesh.plates import plate_mesh
 from geneva_cli.output.mesh.polygons import DECIMALS, arc_chords, polygon
 from geneva_cli.output.mesh.shells import shell_mesh
 from geneva_cli.output.mesh.solids import Place, solid_kinds
+from geneva_cli.output.mesh.surface import Surface
 from geneva_cli.output.solid_part import plate_contours
 
 
@@ -70,12 +73,14 @@ def _moved(place: Place) -> str:
 
 def _solid(solid: Solid, tolerance: float) -> str:
     if isinstance(solid, Shell):
-        return _shell(solid, tolerance)
+        return _polyhedron(shell_mesh(solid, tolerance))
     plates = [solid] if isinstance(solid, Plate) else solid.plates
     return "".join(_plate(plate, tolerance) for plate in plates)
 
 
 def _plate(plate: Plate, tolerance: float) -> str:
+    if plate.chamfer:
+        return _polyhedron(plate_mesh(plate, tolerance))
     outline, *holes = plate_contours(plate)
     flat = _flat(outline, True, tolerance)
     if holes:
@@ -116,8 +121,7 @@ def _flat(shape: Contour | Circle, outside: bool, tolerance: float) -> str:
     return f"polygon([\n    {corners}]);"
 
 
-def _shell(shell: Shell, tolerance: float) -> str:
-    surface = shell_mesh(shell, tolerance)
+def _polyhedron(surface: Surface) -> str:
     corners = ",\n    ".join(_list(corner, DECIMALS) for corner in surface.corners.tolist())
     # OpenSCAD wants them clockwise from outside
     faces = ",\n    ".join(f"[{a}, {c}, {b}]" for a, b, c in surface.triangles.tolist())
