@@ -28,7 +28,7 @@ from geneva_cli.parts.arm import CrankArm, crank_arm, has_arm
 from geneva_cli.parts.first_pair import first_pair, in_front
 from geneva_cli.parts.frame import FrameAndShafts, framed
 from geneva_cli.parts.gear_blanks import Gear
-from geneva_cli.parts.gear_pair import FINE, gear_pair
+from geneva_cli.parts.gear_pair import FINE, gear_pair, pair_with_teeth
 from geneva_cli.parts.groove_plate import groove_base, groove_lines, groove_stack
 from geneva_cli.parts.link_sizes import places
 from geneva_cli.parts.links import Links, drawn_links
@@ -289,6 +289,7 @@ class FlatParts:
         if self.drawn:
             _ = self.wheel, self.crank
         _ = self._framed
+        pair_with_teeth(self.mechanism)
 
     @property
     def linked(self) -> tuple[Member, ...]:
