@@ -103,7 +103,7 @@ def assert_measured(found):
             a, b = m.points[:2]
             c, s = math.cos(m.turn), math.sin(m.turn)
             along = (b[0] - a[0]) * c + (b[1] - a[1]) * s
-            paper = abs(along) if m.kind == "linear" else math.dist(a, b)
+            paper = abs(along) if m.kind == "length" else math.dist(a, b)
             # to rounding of the sheet's coordinates, or of the size
             off = min(abs(paper - known * m.value) / max(known, paper) for known in SCALES)
             assert off < 1e-9

@@ -122,6 +122,16 @@ def on_breaks(x: Array, engagement: Engagement) -> Array:
     return x
 
 
+def refuse_noise(integrals: Sequence[Array | None]) -> None:
+    """Raise GenevaError for integrals of noise, which ``span_integrals`` returns as NaN."""
+    if any(total is not None and np.isnan(total).any() for total in integrals):
+        raise GenevaError(
+            "the loads change within the last digits of the input angle, so that their means would "
+            "be rounding: make the drive more even",
+            ("drive", "kind"),
+        )
+
+
 def refuse_rounding(engagement: Engagement, fastest: float) -> None:
     """Raise GenevaError for a motion that is too fast for the digits of its angles.
 

@@ -2,8 +2,9 @@
 
 The formulas of side-cranks are those of a handbook, over the crank's angle f from mid-motion, v = 1
 - cos f. An internal wheel has a negative l. With C and rho of the side-crank and D of the wheel,
-the acceleration is -l sin f (u - (c - l) w). The wheel's term is u, that of the crank's changing
-speed w. The slope is scanned for sign changes, and each is refined by secants inside its bracket.
+the velocity is l (c - l)/D C/rho, and the acceleration is -l sin f (u - (c - l) w). The wheel's
+term is u, that of the crank's changing speed w. The slope is scanned for sign changes, and each is
+refined by secants inside its bracket.
 """
 
 from __future__ import annotations
@@ -29,6 +30,31 @@ def looped(compiled: Callable[[Any], Any]) -> Callable[[Array, Array, Array, Arr
     def loop(sign: Array, l: Array, A: Array, out: Array) -> None:
         for i in range(len(out)):
             out[i] = peak(sign[i] * l[i], A[i])
+
+    fast: Callable[[Array, Array, Array, Array], None] = compiled(loop)
+    return fast
+
+
+def grid_loop(compiled: Callable[[Any], Any]) -> Callable[[Array, Array, Array, Array], None]:
+    """Return the loop from sign, l and A of designs to their peaks at 101 even crank angles.
+
+    The peaks are the greatest velocity and acceleration: (designs, 2).
+    """
+    terms = compiled(_terms)
+
+    def loop(sign: Array, l: Array, A: Array, out: Array) -> None:
+        for i in range(len(out)):
+            signed, a = sign[i] * l[i], A[i]
+            K = (1.0 - a) * (1.0 + a)
+            for k in range(101):
+                f = math.acos(signed) * k / 100
+                s, c, h = math.sin(f), math.cos(f), math.sin(0.5 * f)
+                C = math.sqrt(c * c + K * s * s)
+                v, rho = 2.0 * h * h, C + a * c
+                D = (1.0 - signed) * (1.0 - signed) + 2.0 * signed * v
+                speed = abs(signed * (1.0 - signed - v)) / D * C / rho
+                out[i, 0] = max(out[i, 0], speed)
+                out[i, 1] = max(out[i, 1], terms(signed, a, s, c, v)[0])
 
     fast: Callable[[Array, Array, Array, Array], None] = compiled(loop)
     return fast

@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
+from functools import lru_cache
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
@@ -145,8 +146,9 @@ class Assembly(NamedTuple):
         return self.motions[0][0].entry_deg
 
 
+@lru_cache(maxsize=16)
 def assembly(mechanism: Mechanism) -> Assembly:
-    """Return the assembly of a mechanism with flat parts.
+    """Return the assembly of a mechanism with flat parts, cached for its sizes and its parts.
 
     Raises GenevaError for a machine whose parts are not flat outlines.
     """

@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import math
 from functools import lru_cache
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, TypeAlias
 
 from geneva_cli.errors import GenevaError
 from geneva_cli.layout.arm_sizes import (
@@ -41,7 +41,10 @@ if TYPE_CHECKING:
     from geneva_cli.loads.strength.part_loads import PartLoads
 
 
-def sized(mechanism: Mechanism, loads: PartLoads | None = None) -> tuple[Assembly, Sizes] | None:
+Layout: TypeAlias = tuple[Assembly, Sizes]  # of one machine
+
+
+def sized(mechanism: Mechanism, loads: PartLoads | None = None) -> Layout | None:
     """Return a machine's assembly and sizes; None where no flat parts can be cut.
 
     ``loads`` are those on its parts, if computed already.
@@ -58,7 +61,7 @@ def sized(mechanism: Mechanism, loads: PartLoads | None = None) -> tuple[Assembl
 
 
 @lru_cache(maxsize=16)
-def machine_sizes(mechanism: Mechanism) -> tuple[Assembly, Sizes]:
+def machine_sizes(mechanism: Mechanism) -> Layout:
     """Return a machine's assembly and sizes, cached for its strength, checks and parts.
 
     Raises GenevaError, naming the key, where a size leaves no wheel or no lock.

@@ -20,7 +20,13 @@ from geneva_cli.analysis.load_functions import NO_MORE, LoadFunctions, load_batc
 from geneva_cli.analysis.mid_motion import at_crossing
 from geneva_cli.analysis.motion import local_deg, spans
 from geneva_cli.analysis.quantities import KINETIC, known_quantities, sources
-from geneva_cli.analysis.stretches import Stretch, refuse_rounding, to_mid_motion, whole
+from geneva_cli.analysis.stretches import (
+    Stretch,
+    refuse_noise,
+    refuse_rounding,
+    to_mid_motion,
+    whole,
+)
 from geneva_cli.kinematics.engagement import Engagement
 from geneva_cli.loads.summaries import (
     EngagementExtremes,
@@ -149,6 +155,7 @@ class Cycle:
             )
             for load, result in self._searches
         ]
+        refuse_noise([one.total for one in each])
         every = summaries_from(self.mechanism, names, each, plain=True)
         return {name: every[name] for name in (*known, KINETIC)}
 
@@ -195,6 +202,7 @@ class Cycle:
             needed = np.full(total.shape, True)
             with np.errstate(all="ignore"):
                 total += span_integrals(Integrands(rows, start, end, ends=True), one, needed)
+        refuse_noise([total])
         return [float(x) for x in total[:, 0] * DEGREE]
 
     @cached_property

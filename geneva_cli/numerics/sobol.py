@@ -1,6 +1,7 @@
 """Sobol's sequence, scrambled: points that fill a cube more evenly than random ones.
 
-SciPy has it in ``scipy.stats``, whose import takes three times as long as a short run.
+SciPy has it in ``scipy.stats``, whose import takes three times as long as a short run. The points
+of ``tolerance`` and of ``sweep --random`` are these.
 
 Digits are binary. Digit k of a coordinate is the sum, modulo 2, of those digits of the point's
 number that the direction numbers of its dimension choose. A random lower triangular matrix, then a
@@ -18,7 +19,7 @@ if TYPE_CHECKING:
 
 DIGITS = 53  # of a double
 # Inner coefficients of the primitive polynomial as a number, and the first direction numbers: Joe
-# and Kuo, SIAM J. Sci. Comput. 30, 2008, 2635-2654, dimensions 1 to 7. The first has no polynomial.
+# and Kuo, SIAM J. Sci. Comput. 30, 2008, 2635-2654, dimensions 1 to 32. The first has none.
 DIRECTIONS = (
     (0, ()),
     (0, (1,)),
@@ -27,6 +28,31 @@ DIRECTIONS = (
     (2, (1, 1, 1)),
     (1, (1, 1, 3, 3)),
     (4, (1, 3, 5, 13)),
+    (2, (1, 1, 5, 5, 17)),
+    (4, (1, 1, 5, 5, 5)),
+    (7, (1, 1, 7, 11, 19)),
+    (11, (1, 1, 5, 1, 1)),
+    (13, (1, 1, 1, 3, 11)),
+    (14, (1, 3, 5, 5, 31)),
+    (1, (1, 3, 3, 9, 7, 49)),
+    (13, (1, 1, 1, 15, 21, 21)),
+    (16, (1, 3, 1, 13, 27, 49)),
+    (19, (1, 1, 1, 15, 7, 5)),
+    (22, (1, 3, 1, 15, 13, 25)),
+    (25, (1, 1, 5, 5, 19, 61)),
+    (1, (1, 3, 7, 11, 23, 15, 103)),
+    (4, (1, 3, 7, 13, 13, 15, 69)),
+    (7, (1, 1, 3, 13, 7, 35, 63)),
+    (8, (1, 3, 5, 9, 1, 25, 53)),
+    (14, (1, 3, 1, 13, 9, 35, 107)),
+    (19, (1, 3, 1, 5, 27, 61, 31)),
+    (21, (1, 1, 5, 11, 19, 41, 61)),
+    (28, (1, 3, 5, 3, 3, 13, 69)),
+    (31, (1, 1, 7, 13, 1, 19, 1)),
+    (32, (1, 3, 7, 5, 13, 19, 59)),
+    (37, (1, 1, 3, 9, 25, 29, 41)),
+    (41, (1, 3, 5, 13, 23, 1, 55)),
+    (42, (1, 3, 7, 3, 13, 59, 17)),
 )
 
 
@@ -38,7 +64,7 @@ class Sobol(NamedTuple):
 
     @staticmethod
     def scrambled(dimensions: int, seed: int) -> Sobol:
-        """Points in a cube of at most 7 dimensions; the same ones for the same seed."""
+        """Points in a cube of at most 32 dimensions; the same ones for the same seed."""
         rng = np.random.default_rng(seed)
         weights = 1 << np.arange(DIGITS - 1, -1, -1)
         # a column of each matrix: the digit itself, and random digits below it

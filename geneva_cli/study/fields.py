@@ -14,7 +14,7 @@ from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.table import Table
 from geneva_cli.verdict.quantities.groups import MACHINE, REPORT, QuantityGroup
 from geneva_cli.verdict.quantities.groups import values as values_of
-from geneva_cli.verdict.quantities.names import group_of, whole_name
+from geneva_cli.verdict.quantities.names import group_of, in_batch, whole_name
 
 Cell: TypeAlias = float | int | str | bool | None
 
@@ -43,9 +43,24 @@ class Pick(NamedTuple):
     # the whole names in the order of the request, which may repeat one
     requested: tuple[str, ...] = ()
 
-    def of(self, mechanism: Mechanism) -> list[Cell]:
-        """The values of the quantities for a machine; None if one does not apply."""
-        cells = values(PartsModel(mechanism), self.groups)
+    @property
+    def batched(self) -> tuple[str, ...]:
+        """The names of the quantities that a batch of designs can compute."""
+        return tuple(name for name in self.names if in_batch([name]))
+
+    @property
+    def rest(self) -> Pick:
+        """The quantities that are computed for each design alone."""
+        return pick([name for name in self.names if not in_batch([name])])
+
+    def of(self, mechanism: Mechanism, known: Sequence[Cell] | None = None) -> list[Cell]:
+        """The values of the quantities for a machine; None if one does not apply.
+
+        ``known`` are those of ``batched``, if a batch has computed them.
+        """
+        groups = self.groups if known is None else self.rest.groups
+        cells = values(PartsModel(mechanism), groups)
+        cells |= zip(self.batched, known or (), strict=False)
         return [cells.get(name) for name in self.names]
 
 

@@ -5,12 +5,13 @@ Parts are sized one design after the other, as their defaults depend on rollers'
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import NamedTuple
 
 import numpy as np
 
 from geneva_cli.analysis.locking import Lock
-from geneva_cli.layout.sizes import sized
+from geneva_cli.layout.sizes import Layout, sized
 from geneva_cli.layout.stressed import lock_of
 from geneva_cli.machine.many import alone, designs_in
 from geneva_cli.machine.mechanism import Mechanism, build
@@ -30,11 +31,14 @@ def design_lock_sizes(mechanism: Mechanism) -> LockSizes | None:
     whole = mechanism.spec
     # the parts' sizes depend on these tables; designs that differ in loads only are sized once
     spec = Spec(whole.wheel, whole.drive, whole.motion, whole.size)
-    m = designs_in(spec)
+    return layouts_lock_sizes([sized(build(alone(spec, i))) for i in range(designs_in(spec))])
+
+
+def layouts_lock_sizes(layouts: Sequence[Layout | None]) -> LockSizes | None:
+    """The sizes of designs whose parts are laid out; None if none has a lock."""
+    m = len(layouts)
     rows = np.full((1 + len(Lock._fields), m, 1), np.nan)
-    for i in range(m):
-        one = build(alone(spec, i))
-        parts = sized(one)
+    for i, parts in enumerate(layouts):
         if parts is not None and parts[1].lock:
             rows[:, i, 0] = parts[1].half_width, *lock_of(*parts)
     if np.isnan(rows).all():

@@ -6,17 +6,15 @@ Parts are sized one design after the other, as their defaults depend on rollers'
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from geneva_cli.layout.sizes import sized
+from geneva_cli.layout.sizes import Layout
 from geneva_cli.layout.stressed import Stressed, stressed
 from geneva_cli.loads.strength.arm import ArmDimensions
 from geneva_cli.loads.strength.keys import KeyDimensions
-from geneva_cli.loads.strength.part_loads import PartLoads
-from geneva_cli.machine.many import alone
-from geneva_cli.machine.mechanism import Mechanism, build
 
 if TYPE_CHECKING:
     from geneva_cli.numerics.jet import Array
@@ -34,13 +32,9 @@ class PartSizes(NamedTuple):
     crank_key: KeyDimensions
 
 
-def part_sizes(mechanism: Mechanism, loads: PartLoads) -> PartSizes | None:
-    """The dimensions of the parts of m designs under these loads; None if no design has parts."""
-    if isinstance(mechanism.design, int):  # whose sizes are cached
-        rows = [_row(mechanism)]
-    else:
-        each = (build(alone(mechanism.spec, i)) for i in range(mechanism.designs))
-        rows = [_row(one, loads.of(i)) for i, one in enumerate(each)]
+def part_sizes(layouts: Sequence[Layout | None]) -> PartSizes | None:
+    """The dimensions of the parts of m designs; None if no design has parts."""
+    rows = [_numbers(stressed(*parts)) if parts else [] for parts in layouts]
     every = [row for row in rows if row]
     if not every:
         return None
@@ -58,12 +52,6 @@ def part_sizes(mechanism: Mechanism, loads: PartLoads) -> PartSizes | None:
         ArmDimensions(*flat_arm),
         *(KeyDimensions(*own) for own in keys),
     )
-
-
-def _row(machine: Mechanism, loads: PartLoads | None = None) -> list[float]:
-    """The numbers of a machine's parts in one row; none for a machine without flat parts."""
-    parts = sized(machine, loads)
-    return _numbers(stressed(*parts)) if parts else []
 
 
 def _numbers(of: Stressed) -> list[float]:

@@ -19,6 +19,7 @@ from geneva_cli.verdict.quantities.under_load import under_load
 
 if TYPE_CHECKING:
     from geneva_cli.machine.mechanism import Mechanism
+    from geneva_cli.numerics.arrays import Number
 
 # The groups by the names of their tables, and by the whole names of their quantities.
 REPORT_GROUPS = {name: group for group in REPORT for name in (group.table, *group.names)}
@@ -39,9 +40,13 @@ class Strength:
 
     def __getitem__(self, name: str) -> float | None:
         """A value by its whole name, such as ``strength.pin.stress_MPa``; None if unknown."""
+        return only(self._column(name))
+
+    def _column(self, name: str) -> Number | None:
+        """A value as its group has it: infinite if it is unbounded."""
         table, _, own = name.rpartition(".")
         columns = (REPORT_GROUPS.get(name) or REPORT_GROUPS[table]).columns(self.design)
-        return only(columns.get(own))
+        return columns.get(own)
 
     @cached_property
     def life(self) -> dict[str, float | None]:
@@ -201,7 +206,8 @@ class Strength:
 
     def _pressure_speed(self) -> Keys:
         yield self._has_face, self._has_load
-        bounded = math.isfinite(self.load.pv_W_m2[0])
+        pv = self._column("life.pv_max_W_m2")
+        bounded = pv is not None and bool(np.all(np.isfinite(pv)))
         yield [(bounded, "a stress with a bound: see the warnings")]
 
     def _wear(self) -> Keys:

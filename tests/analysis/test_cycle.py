@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 from typer.testing import CliRunner
 from words import Drive, Motion, Spec, Wheel, load
 
-from geneva_cli import Design, External, Load, Shaft, Size, Spherical
+from geneva_cli import Design, External, GenevaError, Load, Shaft, Size, Spherical
 from geneva_cli.app import app
 from geneva_cli.loads.cycle import Cycle
 from geneva_cli.loads.summary import reversals_deg, summaries
@@ -275,3 +275,16 @@ def test_no_design_of_ours_is_absurd(path):
     said = " ".join(cycle_warnings(cycle, summaries(cycle)))
     assert "kg cm²" not in said
     assert "sound" not in said
+
+
+def test_a_drive_that_moves_within_its_angles_digits_has_no_loads(tmp_path):
+    """The law's motion is even, but the pin passes a third of a turn within 1e-11 degrees."""
+    spec = tmp_path / "uneven.toml"
+    spec.write_text(
+        '[wheel]\nz = 3\ngearing = "internal"\n'
+        '[drive]\nkind = "side-crank"\nA = 0.9999999999910187\nn_rpm = 9.1\n'
+        '[motion]\nlaw = "s-curve"\n[load]\ninertia_kgm2 = 0.064\nfriction = 0.684\n'
+        "[size]\ncenter_distance_mm = 23.2\nroller_radius_mm = 0.8\nface_width_mm = 1.26\n"
+    )
+    with pytest.raises(GenevaError, match="within the last digits of the input angle"):
+        _ = Cycle(load(spec)).extremes

@@ -248,6 +248,17 @@ def test_what_needs_a_wheel_is_refused_with_the_reason(tmp_path):
         assert "Traceback" not in refused.output
 
 
+def test_the_page_of_a_report_has_the_units_of_a_rack(tmp_path):
+    path = tmp_path / "rack.toml"
+    load = "[load]\nmass_kg = 4\nforce_N = 30\n"
+    path.write_text('[wheel]\nz = 6\ngearing = "linear"\n[size]\ncenter_distance_mm = 50\n' + load)
+    CliRunner().invoke(app, ["report", str(path), "-o", str(tmp_path / "page.md")])
+    page = (tmp_path / "page.md").read_text()
+    assert "| Acceleration | 1 | -90 | 1.97392 | 1 | 1.97392 | 1 | m/s² |" in page  # R w² = 1.974
+    assert "derivatives of the rack's travel over R" in page
+    assert "| Force on the rack | N | 37.8957 | -90 | 22.1043 | 90 |" in page
+
+
 def test_a_long_rack_is_no_reason_for_a_warning():
     assert not Design(Linear(200)).motion_warnings
     assert [one.name for one in Design(External(200)).motion_warnings] == ["many-slots"]

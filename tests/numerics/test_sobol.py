@@ -23,7 +23,7 @@ def test_without_scrambling_the_points_are_those_of_scipy():
 @pytest.mark.parametrize("seed", range(3))
 def test_scrambled_points_are_a_net(seed):
     """Each of 2^10 intervals of a dimension holds one point, and each 32nd by 32nd of two."""
-    points = Sobol.scrambled(7, seed).points(3 * COUNT, COUNT)
+    points = Sobol.scrambled(len(DIRECTIONS), seed).points(3 * COUNT, COUNT)
     assert ((points >= 0.0) & (points < 1.0)).all()
     for row in points:
         assert sorted((row * COUNT).astype(int)) == list(range(COUNT))

@@ -266,7 +266,7 @@ def test_links_have_their_views(name, sheets):
     for i, row in enumerate((row for row in rows if row["row"] == "part"), 1):
         if row["name"] in {plate.name for plate in bars.plates}:
             assert f"{i} {row['name']}" in titles
-    linear = {round(m.value, 3) for m in found.measures if m.kind == "linear"}
+    linear = {round(m.value, 3) for m in found.measures if m.kind == "length"}
     values = {row["name"]: row["value"] for row in rows if row["row"] == "dimension"}
     assert {round(values[one], 3) for one in LENGTHS[name]} <= linear
     # the first crank's roller is on a pin that is pressed into it, as the arm's is
@@ -292,7 +292,7 @@ def test_a_gears_pitch_curves_are_on_the_sheet(sheets):
     assert one.distance(other) < 2.0 * close
     assert one.intersection(other).area < close * C
     assert round(one.bounds[2] - other.bounds[0], 3) == 0.0
-    assert any(m.value == pytest.approx(C) for m in found.measures if m.kind == "linear")
+    assert any(m.value == pytest.approx(C) for m in found.measures if m.kind == "length")
     titles = {label.text for label in found.labels}
     assert any("driven gear, t = 16" in text for text in titles)
 

@@ -23,13 +23,14 @@ from geneva_cli.bench.kinds import (
     QUICK,
     QUICK_CHECKED,
     VariedMachine,
+    cranks_by_numba,
     drawn,
     one_by_one,
     task_of_many,
     values_of,
 )
 from geneva_cli.bench.loads_of_many import EXACT, LOOP, QUICK_EXACT, QUICK_LOOP, first_errors
-from geneva_cli.bench.method import Method, Subject, Task
+from geneva_cli.bench.method import Method, Subject, Task, missing
 from geneva_cli.machine.many import many, taken
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.machine.spec import Spec
@@ -54,6 +55,7 @@ def subject(quick: bool) -> Subject:
         [*peaks, *loads_of_many.tasks(quick)],
         floor=1e-14,
         seconds=0.2,  # for each of two hundred methods
+        absent=missing("numba"),
     )
 
 
@@ -61,9 +63,13 @@ def _task(kind: VariedMachine, count: int) -> Task:
     machine, built, alone = drawn(kind, kind.spec, count)
     values = values_of(kind, count)
     varied, script = {kind.key: values}, kind.script and partial(kind.script, values)
+    compiled = None
+    if kind.cranks and not missing("numba"):
+        compiled = partial(cranks_by_numba, *kind.cranks(values))
     methods = [
         one_by_one(alone, built, _one, LOOP if built > QUICK else QUICK_LOOP),
         *([Method("a handbook's formulas in NumPy", None, script)] if script else []),
+        *([Method("a handbook's formulas by Numba", None, compiled)] if compiled else []),
         *_formulas_alone(machine, built),
         Method("together", None, partial(_together, machine), True),
         Method("built and together", None, partial(_built_together, kind.spec, varied), True),

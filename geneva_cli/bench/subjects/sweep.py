@@ -1,7 +1,7 @@
 """Batch results of a sweep: strength, motor, vibration, impacts, play.
 
-They are compared with single designs. The designs are side-cranks with six slots, A from -0.9 to
-0.9, with an inertia on an elastic shaft and with friction.
+They are compared with single designs, as no other program computes them. The designs are
+side-cranks with six slots, A from -0.9 to 0.9, with an inertia on an elastic shaft and friction.
 """
 
 from __future__ import annotations
@@ -146,7 +146,7 @@ def subject(quick: bool) -> Subject:
     assert machine is not None
     alone = [build(spec.with_("drive.A", a)) for a in A[:checked].tolist()]
     return Subject(
-        "Results of a sweep for a batch of designs",
+        "Results of a sweep for a batch of designs; no other program computes them",
         f"greatest relative error of {checked} designs, against the result of one design",
         [_task(quantity, machine, count, alone) for quantity in BATCH_QUANTITIES],
         floor=1e-12,

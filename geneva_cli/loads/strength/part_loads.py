@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from functools import lru_cache, reduce
+from functools import reduce
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
@@ -12,6 +12,7 @@ from geneva_cli.loads.strength.shafts import Torque, on_crank, on_driven_crank, 
 from geneva_cli.loads.summaries import load_peaks
 from geneva_cli.machine.both_ways import every_way
 from geneva_cli.numerics.arrays import larger, parameter
+from geneva_cli.numerics.known import Known
 
 if TYPE_CHECKING:
     from geneva_cli.machine.mechanism import Mechanism
@@ -31,10 +32,16 @@ class PartLoads(NamedTuple):
         return PartLoads(*(float(np.ravel(row)[i]) for row in self))
 
 
-@lru_cache(maxsize=16)
+@Known
+def own_loads(mechanism: Mechanism) -> PartLoads:
+    """The greatest loads of a machine in its own direction as numbers, cached for its checks."""
+    return part_loads(mechanism).of(0)
+
+
+@Known
 def single_loads(mechanism: Mechanism) -> PartLoads:
     """The loads for which a machine is sized as numbers, cached for its sizes and their checks."""
-    return sizing_loads(mechanism).of(0)
+    return sizing_loads(mechanism, own_loads(mechanism)).of(0)
 
 
 def sizing_loads(mechanism: Mechanism, forwards: PartLoads | None = None) -> PartLoads:

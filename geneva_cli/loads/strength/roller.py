@@ -28,7 +28,7 @@ from geneva_cli.analysis.load_functions import (
     load_batch,
 )
 from geneva_cli.analysis.quantities import FORCE
-from geneva_cli.analysis.stretches import spans_of, to_mid_motion
+from geneva_cli.analysis.stretches import refuse_noise, spans_of, to_mid_motion
 from geneva_cli.loads.groups import of_groups
 from geneva_cli.machine.many import taken
 from geneva_cli.numerics.adaptive_quadrature import Integrands, span_integrals
@@ -82,7 +82,9 @@ def passage(engagement: Engagement, case: LoadCase, half: float = 0.0) -> SlotPa
     >>> round(passage(m.engagements[0], load_case(m)).travel_m, 12)  # 2 L (cos b - (1 - l))
     0.146410161514
     """
-    return SlotPassage(*(array(x).item() for x in passage_integrals(engagement, case, half)))
+    every = [array(x) for x in passage_integrals(engagement, case, half)]
+    refuse_noise(every)
+    return SlotPassage(*(x.item() for x in every))
 
 
 def passage_integrals(engagement: Engagement, case: LoadCase, half: float = 0.0) -> SlotPassage:

@@ -33,7 +33,7 @@ def document(design: Design) -> Document:
         key_figures(design),
         *verdict.warnings(left),
         *inputs.inputs(design.spec, design.with_units),
-        *answers.timing(left, design.spec.drive.n_rpm),
+        *answers.timing(left, design.spec.drive.n_rpm, design.spec.output),
         *pictures.curves(design),
         *answers.loads(design, left),
         *answers.product(left),

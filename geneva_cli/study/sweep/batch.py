@@ -9,6 +9,7 @@ import numpy as np
 
 from geneva_cli.errors import GenevaError
 from geneva_cli.machine.many import Many, many, may_vary
+from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.machine.spec import Spec
 from geneva_cli.study.fields import Cell
 from geneva_cli.study.sweep.columns import columns
@@ -68,6 +69,20 @@ def table(
     ``read`` makes the spec of a row. A missing design must be computed alone, or cannot be built.
     """
     out: dict[int, list[Cell]] = {}
+    for members, machine in machines(rows, keys, read):
+        _fill(out, members, machine, names)
+    return out
+
+
+def machines(
+    rows: Sequence[Sequence[Value]],
+    keys: Sequence[str],
+    read: Callable[[Sequence[Value]], Spec],
+) -> Iterator[tuple[list[int], Mechanism]]:
+    """Yield batch machines of the rows' designs, each with the numbers of its designs.
+
+    ``read`` makes the spec of a row.
+    """
     words = [k for k in range(len(keys)) if any(isinstance(row[k], str) for row in rows)]
     for rough in groups(rows, [k for k in range(len(keys)) if k not in words]):
         spec = rough.spec(read)
@@ -81,21 +96,18 @@ def table(
             here = fine.spec(read)
             if here is None:
                 continue
-            _fill(
-                out, [rough.members[i] for i in fine.members], fine.built(here, keys, wide), names
-            )
-    return out
+            built = fine.built(here, keys, wide)
+            if built.machine is not None:
+                which = [fine.members[i] for i in built.which.tolist()]
+                yield [rough.members[i] for i in which], built.machine
 
 
 def _fill(
-    out: dict[int, list[Cell]], members: Sequence[int], machines: Many, names: Sequence[str]
+    out: dict[int, list[Cell]], members: Sequence[int], machine: Mechanism, names: Sequence[str]
 ) -> None:
-    if machines.machine is None:
-        return
-    built = machines.which.tolist()
-    values = columns(machines.machine, names, len(built))
+    values = columns(machine, names, len(members))
     if values is None:
         return
-    for i, row in zip(built, np.column_stack(values).tolist(), strict=True):
+    for i, row in zip(members, np.column_stack(values).tolist(), strict=True):
         if not any(map(math.isnan, row)):
-            out[members[i]] = [None if math.isinf(value) else value for value in row]
+            out[i] = [None if math.isinf(value) else value for value in row]

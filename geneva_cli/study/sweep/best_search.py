@@ -18,7 +18,6 @@ if TYPE_CHECKING:
 
 Row: TypeAlias = Sequence[Cell]
 
-FINEST = 1e-9  # fraction of a key's range to which it is refined
 FAR = 1e3  # violation, or scaled cost, of a design that cannot be built
 
 
@@ -58,7 +57,8 @@ class SweepSearch:
         if self.keeps(row):
             return 0.0, self.cost(row)
         short = sum(max(0.0, -margin) for margin in self.margins(row))
-        return short + FAR * (self.cost(row) == np.inf) or FINEST, self.cost(row)
+        # a design outside by rounding alone is still outside
+        return short + FAR * (self.cost(row) == np.inf) or 1e-9, self.cost(row)
 
     def fractions(self, row: Row) -> Array:
         """The free keys of a design as fractions of their spans: 0 is low, 1 is high."""
@@ -101,7 +101,8 @@ class SweepSearch:
             method="COBYQA",
             bounds=[(0.0, 1.0)] * len(self.free),
             constraints=[margins] if self.bounds else [],
-            options={"maxfev": 300, "initial_tr_radius": reach, "final_tr_radius": FINEST},
+            # a bound that binds is met to the last step
+            options={"maxfev": 300, "initial_tr_radius": reach, "final_tr_radius": 1e-12},
         )
         kept = [r for r in (start, *evaluated.values()) if self.keeps(r)]
         inside = [r for r in kept if min(self.margins(r), default=0.0) >= 0.0]

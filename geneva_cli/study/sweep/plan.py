@@ -71,17 +71,14 @@ def _at(axis: VariedKey, x: float) -> Value:
 def _sobol(dimensions: int, seed: int, start: int, stop: int) -> Array:
     """Points of a scrambled Sobol sequence, which fill the cube more evenly than random ones."""
     import numpy as np
-    from scipy.stats import qmc
 
-    # Whole blocks are drawn: the sequence warns about other counts, and a shard must get the same
-    # points as the whole run.
+    from geneva_cli.numerics.sobol import Sobol
+
+    # Whole blocks are drawn: a shard must get the same points as the whole run.
     first = start - start % BLOCK
-    count = -(-(stop - first) // BLOCK) * BLOCK
-    sequence = qmc.Sobol(dimensions, rng=seed)
-    if first:
-        sequence.fast_forward(first)
-    points: Array = np.concatenate([sequence.random(BLOCK) for _ in range(count // BLOCK)])
-    return points[start - first : stop - first]
+    sequence = Sobol.scrambled(dimensions, seed)
+    points = np.hstack([sequence.points(k, BLOCK) for k in range(first, stop, BLOCK)])
+    return points.T[start - first : stop - first]
 
 
 def plan(axes: Sequence[VariedKey], random: int | None, seed: int) -> SweepPlan:
@@ -90,7 +87,7 @@ def plan(axes: Sequence[VariedKey], random: int | None, seed: int) -> SweepPlan:
         raise GenevaError("--vary is missing; say what varies, as --vary drive.A=0..0.9:0.1")
     if random is not None and not 1 <= random <= POINTS_MAX:
         raise GenevaError(f"--random {cut(random)}: it must be at least 1, at most {POINTS_MAX:,}")
-    keys_max = 100  # each is a dimension of the Sobol sequence
+    keys_max = 32  # each is a dimension of the Sobol sequence
     if random and len(axes) > keys_max:
         raise GenevaError(f"--random: {len(axes)} keys vary; at most {keys_max} can")
     if not 0 <= seed < 2**32:

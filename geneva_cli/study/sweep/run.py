@@ -13,6 +13,7 @@ from geneva_cli import __version__
 from geneva_cli.errors import GenevaError, cut
 from geneva_cli.machine.mechanism import Mechanism, build
 from geneva_cli.machine.spec import Spec
+from geneva_cli.numerics.known import KEPT
 from geneva_cli.specfile.reader import Text
 from geneva_cli.specfile.settings import Setting, setting
 from geneva_cli.study.fields import Cell, Pick, pick
@@ -20,7 +21,7 @@ from geneva_cli.study.pool import cores, mapped
 from geneva_cli.study.sweep import batch
 from geneva_cli.study.sweep.plan import BLOCK, WHOLE, Shard, SweepPlan
 from geneva_cli.study.sweep.values import Value, VariedKey
-from geneva_cli.verdict.quantities.names import in_batch
+from geneva_cli.verdict.together import share
 
 DEFAULT = ("timing.motion_deg", "timing.dwell_s", "velocity.max", "acceleration.max", "jerk.max")
 ERROR = "error"  # the column that says why a design cannot be built
@@ -59,15 +60,43 @@ class Sweep(NamedTuple):
     def rows_of(self, every: Sequence[Sequence[Value]]) -> list[list[Cell]]:
         """The rows of designs by the values of their keys."""
         known = self.known(every)
-        return [
-            [*some, *known[i], None] if i in known else self.row(some)
-            for i, some in enumerate(every)
-        ]
+        if self.is_batched:
+            return [
+                [*some, *known[i], None] if i in known else self.row(some)
+                for i, some in enumerate(every)
+            ]
+        out: list[list[Cell]] = []
+        for start in range(0, len(every), KEPT):
+            part = every[start : start + KEPT]
+            machines = self._machines(part)
+            for i, some in enumerate(part):
+                out.append(self._row(some, machines[i], known.get(start + i)))
+        return out
+
+    def _machines(self, every: Sequence[Sequence[Value]]) -> list[Mechanism | GenevaError]:
+        """The machine of each row, or why it cannot be built.
+
+        Machines whose parts are made take the loads of their checks from batches of them.
+        """
+        machines = [self._machine_or_error(some) for some in every]
+        if any(group.makes_parts for group in self.pick.groups):
+            keys = [a.key for a in self.plan.axes]
+            for members, machine in batch.machines(every, keys, self._spec):
+                own = [one for i in members if isinstance(one := machines[i], Mechanism)]
+                if len(own) == len(members) > 1:
+                    share(machine, own)
+        return machines
+
+    def _machine_or_error(self, some: Sequence[Value]) -> Mechanism | GenevaError:
+        try:
+            return self.machine(some)
+        except GenevaError as error:
+            return error
 
     def known(self, every: Sequence[Sequence[Value]]) -> Mapping[int, list[Cell]]:
-        """The quantities of the designs that a batch can compute, by their numbers."""
-        keys = [a.key for a in self.plan.axes]
-        return batch.table(every, keys, self.pick.names, self._spec) if self.is_batched else {}
+        """The quantities that a batch can compute, of the designs of batches by their numbers."""
+        keys, names = [a.key for a in self.plan.axes], self.pick.batched
+        return batch.table(every, keys, names, self._spec) if names else {}
 
     @property
     def task_size(self) -> int:
@@ -75,12 +104,16 @@ class Sweep(NamedTuple):
         if self.is_batched:
             return BLOCK
         draws_parts = any(group.makes_parts for group in self.pick.groups)
-        return 4 if draws_parts else 64  # parts are slow, and an interrupted run loses its tasks
+        if not draws_parts:
+            return 64
+        # parts are slow: several tasks for each process, each as large as a batch can be
+        start, stop = self.span
+        return min(KEPT, max(1, (stop - start) // 8))
 
     @property
     def is_batched(self) -> bool:
         """Return True if all quantities can be computed for a batch of designs."""
-        return bool(self.pick.names) and in_batch(self.pick.names)
+        return bool(self.pick.names) and not self.pick.rest.names
 
     def _spec(self, some: Sequence[Value]) -> Spec:
         return with_values(self.text, self.plan.axes, some).spec()
@@ -98,9 +131,20 @@ class Sweep(NamedTuple):
         return None
 
     def row(self, some: Sequence[Value]) -> list[Cell]:
-        """The row of the design with these values of the keys."""
+        """The row of the design with these values of the keys, computed alone."""
+        return self._row(some, self._machine_or_error(some))
+
+    def _row(
+        self,
+        some: Sequence[Value],
+        machine: Mechanism | GenevaError,
+        known: Sequence[Cell] | None = None,
+    ) -> list[Cell]:
+        """The row of a machine; ``known`` are the quantities of ``pick.batched`` from a batch."""
         try:
-            return [*some, *self.pick.of(self.machine(some)), None]
+            if isinstance(machine, GenevaError):
+                raise machine
+            return [*some, *self.pick.of(machine, known), None]
         except GenevaError as error:
             return [*some, *[None] * len(self.pick.names), str(error)]
 
@@ -137,7 +181,7 @@ def sweep(
 def _refuse_hopeless(text: Text, plan: SweepPlan) -> None:
     """Raise GenevaError if neither the middle design nor any of a sample can be built.
 
-    The middle design comes first: it needs no random numbers, for which SciPy would be loaded.
+    The middle design comes first: most ranges have one that can be built.
     """
     most = 1000  # designs of the sample
     reasons = []

@@ -2,15 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Mapping
-from functools import cached_property, lru_cache
+from collections.abc import Callable, Collection, Mapping, Sequence
+from functools import cached_property
 from typing import TYPE_CHECKING, TypeAlias, TypeVar
 
 import numpy as np
 
+from geneva_cli.errors import GenevaError
+from geneva_cli.machine.many import alone
+from geneva_cli.machine.mechanism import Mechanism, build
+from geneva_cli.numerics.known import Known
+
 if TYPE_CHECKING:
     from geneva_cli.analysis.forces import LoadCase
-    from geneva_cli.machine.mechanism import Mechanism
     from geneva_cli.numerics.arrays import Number
     from geneva_cli.numerics.jet import Array
 
@@ -23,10 +27,13 @@ class Designs:
     """The m designs of a machine, and shared values of their quantities, (m,), computed once.
 
     A value is infinite if a design has none, and NaN if it must be computed for the design alone.
+    ``each`` are the machines of a batch's single designs, if they are built already.
     """
 
-    def __init__(self, machine: Mechanism, names: Collection[str] = ()) -> None:
-        self.machine = machine
+    def __init__(
+        self, machine: Mechanism, names: Collection[str] = (), each: Sequence[Mechanism] = ()
+    ) -> None:
+        self.machine, self._each = machine, each
         self.spec = machine.spec
         self.names = names  # the names of all requested quantities
         self.single = isinstance(machine.design, int)  # its numbers are floats: m = 1
@@ -44,6 +51,22 @@ class Designs:
         result: T = self._kept[compute]  # type: ignore[assignment]
         return result
 
+    def columns(self, compute: Callable[[Designs], Columns]) -> Columns:
+        """The values of the quantities that a function computes."""
+        return self.once(compute)
+
+    @property
+    def are_built(self) -> bool:
+        """Return True if the machines of the single designs are built already."""
+        return self.single or bool(self._each)
+
+    @cached_property
+    def each(self) -> Sequence[Mechanism]:
+        """The machines of the single designs."""
+        if self.single:
+            return [self.machine]
+        return self._each or [build(alone(self.spec, i)) for i in range(self.machine.designs)]
+
     @cached_property
     def load_case(self) -> LoadCase:
         """The loads' parameters besides the motion."""
@@ -58,7 +81,33 @@ class Designs:
         return np.ravel(np.where(loaded, 1.0, np.nan))
 
 
-@lru_cache(maxsize=16)
+class BatchMember(Designs):
+    """One design of a batch, which takes its values from the batch if they are known there."""
+
+    def __init__(self, batch: Designs, number: int) -> None:
+        super().__init__(batch.each[number])
+        self.batch, self.number = batch, number
+
+    def columns(self, compute: Callable[[Designs], Columns]) -> Columns:
+        """The values of this design, from the batch or computed alone."""
+        try:
+            every = self.batch.once(compute)
+        except GenevaError:  # of another design, or of this one, which then raises it again
+            return self.once(compute)
+        own = {name: _of_design(column, self.number) for name, column in every.items()}
+        is_unknown = any(value is not None and np.isnan(value) for value in own.values())
+        return self.once(compute) if is_unknown else own
+
+
+def _of_design(column: Number | None, i: int) -> float | None:
+    """The value of one design in a column, which may be one number for all."""
+    if column is None:
+        return None
+    values = np.ravel(column)
+    return float(values[i] if len(values) > 1 else values[0])
+
+
+@Known
 def single(mechanism: Mechanism) -> Designs:
     """A machine as a batch of one, cached for its checks, advice and report."""
     return Designs(mechanism)

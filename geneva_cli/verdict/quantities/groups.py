@@ -95,7 +95,7 @@ class QuantityGroup(NamedTuple):
         A name is left out if the batch cannot compute it, and each design must be built alone.
         """
         compute: Callable[[Designs], Columns] = load_named(f"verdict.quantities.{self.batch}")
-        columns = of.once(compute)
+        columns = of.columns(compute)
         return columns if self.alone else {**dict.fromkeys(self.own), **columns}
 
     def _whole(self, name: str) -> str:

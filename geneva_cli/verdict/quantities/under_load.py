@@ -10,14 +10,13 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from geneva_cli.analysis.quantities import FORCE, PV
-from geneva_cli.layout.sizes import sized
-from geneva_cli.layout.stressed import lock_of
+from geneva_cli.layout.sizes import Layout, sized
 from geneva_cli.loads.cycle import cycle_of
 from geneva_cli.loads.strength import lock, roller, shafts
-from geneva_cli.loads.strength.part_loads import PartLoads, part_loads, single_loads, sizing_loads
+from geneva_cli.loads.strength.part_loads import PartLoads, own_loads, part_loads, sizing_loads
 from geneva_cli.loads.summaries import load_peaks
 from geneva_cli.numerics.arrays import parameter
-from geneva_cli.verdict.lock_sizes import LockSizes, design_lock_sizes
+from geneva_cli.verdict.lock_sizes import LockSizes, design_lock_sizes, layouts_lock_sizes
 from geneva_cli.verdict.part_sizes import PartSizes, part_sizes
 
 if TYPE_CHECKING:
@@ -31,7 +30,7 @@ class UnderLoad:
     """The m designs of a machine under their loads: (m,) each, computed once."""
 
     def __init__(self, of: Designs) -> None:
-        self.machine = of.machine
+        self.machine, self.designs = of.machine, of
         self.loaded = of.loaded
 
     @cached_property
@@ -58,7 +57,22 @@ class UnderLoad:
     @cached_property
     def lock_sizes(self) -> LockSizes | None:
         """The sizes of horn and lock, (m, 1); None if no design has a lock."""
+        if self.designs.are_built:
+            return layouts_lock_sizes(self.layouts)
         return design_lock_sizes(self.machine)
+
+    @cached_property
+    def layouts(self) -> Sequence[Layout | None]:
+        """Assembly and sizes of each design; None for one without flat parts."""
+        each = self.designs.each
+        if self.designs.are_built or not self.machine.spec.is_loaded:
+            return [sized(one) for one in each]
+        return [sized(one, self.sizing_loads.of(i)) for i, one in enumerate(each)]
+
+    @cached_property
+    def sizing_loads(self) -> PartLoads:
+        """The loads for which the parts are sized: the greatest of all directions."""
+        return sizing_loads(self.machine, self.part_loads)
 
     @cached_property
     def lock(self) -> LockUnderTorque | None:
@@ -71,9 +85,7 @@ class UnderLoad:
     @cached_property
     def parts(self) -> PartSizes | None:
         """The dimensions of stressed parts; None if no design has parts, or a load."""
-        if not self.machine.spec.is_loaded:
-            return None
-        return part_sizes(self.machine, sizing_loads(self.machine, self.part_loads))
+        return part_sizes(self.layouts) if self.machine.spec.is_loaded else None
 
     @property
     def contact_mm(self) -> float | None:
@@ -101,10 +113,12 @@ class SingleUnderLoad(UnderLoad):
     @cached_property
     def force_N(self) -> Array:
         """The greatest force on a roller."""
-        if np.isnan(self.loaded[0]):
-            return self.loaded
-        force = cycle_of(self.machine).extremes[FORCE]
-        return np.array([max(force.max, -force.min)])
+        return np.array([self.part_loads.pin_N]) * self.loaded
+
+    @cached_property
+    def part_loads(self) -> PartLoads:
+        """The greatest loads on arm, keys and shafts."""
+        return own_loads(self.machine)
 
     @cached_property
     def pv_W_m2(self) -> Array:
@@ -128,19 +142,6 @@ class SingleUnderLoad(UnderLoad):
         if not math.isinf(self.force_N[0]):
             return every
         return [one._replace(work=math.inf, load=math.inf) for one in every]
-
-    @cached_property
-    def part_loads(self) -> PartLoads:
-        """The greatest loads on arm, keys and shafts, from which its parts are sized."""
-        return single_loads(self.machine)
-
-    @cached_property
-    def lock_sizes(self) -> LockSizes | None:
-        """The sizes of horn and lock; None without a lock."""
-        parts = sized(self.machine)
-        if parts is None or not parts[1].lock:
-            return None
-        return LockSizes(parts[1].half_width, lock_of(*parts))
 
     def shaft(
         self, ends: shafts.ShaftDimensions, loaded: shafts.ShaftForces
