@@ -148,7 +148,8 @@ def rollers(spec):
         return out
     if drive.roller_angles_deg:
         return [(to_radians(a), b) for a in drive.roller_angles_deg]
-    count = drive.rollers if drive.NAME != "crank" else 1  # on a plain crank all move alike
+    alike = drive.NAME in ("crank", "carousel")  # on a plain crank all move the wheel alike
+    count = 1 if alike else drive.rollers
     return [(2 * mp.pi * j / drive.rollers, b) for j in range(count)]
 
 

@@ -29,6 +29,7 @@ from geneva_cli.machine.spec import Spec
 from geneva_cli.outlines.sphere_wheel import POLE
 from geneva_cli.spec.schema import Points, fields
 from geneva_cli.spec.tables import Size
+from geneva_cli.spec.workshops import density_kgm3
 from geneva_cli.table import Reading, Table, rows_table
 
 # columns of a row of each kind
@@ -103,13 +104,14 @@ def part_rows(spec: Spec, parts: Iterable[Part], outside: float | None = None) -
             if solid.layer == "ROLLER"
             else ("wheel", spec.material_wheel)
         )
+        density = density_kgm3(material.density_kgm3, spec.size.process)
         yield {
             "row": "part",
             "name": solid.name,
             "count": len(kind),
             "material": f"material.{name}",
-            "density_kgm3": material.density_kgm3,
-            **_properties(solid, material.density_kgm3, outside),
+            "density_kgm3": density,
+            **_properties(solid, density, outside),
         }
 
 

@@ -115,6 +115,11 @@ class Drive(SpecTable, kw_only=True):
         return self.replace(roller_angles_deg=(0.0, *(360.0 - angle for angle in others)))
 
     @property
+    def wheels_on_carrier(self) -> int:
+        """Number of wheels that orbit on a carrier, which the input turns; 0 without a carrier."""
+        return 0
+
+    @property
     def gears(self) -> Gears | None:
         """Noncircular gears between input and crank; None for a drive without."""
         return None

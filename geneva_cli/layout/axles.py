@@ -23,11 +23,9 @@ def wheel_axle(size: Size, L: float, inside: float, slot_end: float) -> tuple[fl
     the ends of its slots. Raises GenevaError, naming the key, where one of them cuts the slots.
     """
     end = inside * math.sin(min(slot_end, 0.5 * math.pi))
-    wall = wall_min(size, L)
-    usual = min(L / 12.0, 0.4 * end, end - wall, within_hub(size, "wheel"))
+    usual = min(L / 12.0, 0.4 * end, end - wall_min(size, L), within_hub(size, "wheel"))
     bore = half_or(size.wheel_bore_mm, bore_radius(usual))
-    _, hub = wheel_reach_and_hub(size, bore, wall, end)
-    hub = max(hub, bore) if size.wheel_hub_mm is None else hub
+    hub = hub_about(size, L, bore, end)
     for key, radius in (("wheel_bore_mm", bore), ("wheel_hub_mm", hub)):
         if radius >= end:
             raise GenevaError(
@@ -36,6 +34,12 @@ def wheel_axle(size: Size, L: float, inside: float, slot_end: float) -> tuple[fl
                 ("size", key),
             )
     return bore, hub
+
+
+def hub_about(size: Size, L: float, bore: float, end: float) -> float:
+    """Return the radius of the wheel's hub about a bore; ``end`` is that of the slots' ends."""
+    _, hub = wheel_reach_and_hub(size, bore, wall_min(size, L), end)
+    return hub if size.wheel_hub_mm is not None else max(bore, hub)
 
 
 def about_crank(size: Size, L: float) -> float:

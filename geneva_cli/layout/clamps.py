@@ -15,6 +15,7 @@ from geneva_cli.curves.plates import Plate
 from geneva_cli.curves.shapes import ORIGIN, Circle, Contour, Line, about, closed
 from geneva_cli.errors import GenevaError
 from geneva_cli.layout.screws import SCREWS, Screw, screw
+from geneva_cli.layout.written import length
 from geneva_cli.spec.tables import Size
 
 
@@ -162,4 +163,5 @@ def clamp_note(size: Size, part: str) -> str:
     if thread is None:
         return ""
     slit = Clamp(screw(f"{part}_clamp_mm", thread), 0.0, 0.0).slit
-    return f"slit {slit:g}, clamp screw M{thread:g}-8.8 (ISO 4762); fixed opposite the slit only"
+    wide = length(slit)
+    return f"slit {wide}, clamp screw M{thread:g}-8.8 (ISO 4762); fixed opposite the slit only"

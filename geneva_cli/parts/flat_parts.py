@@ -110,6 +110,13 @@ class FlatParts:
         return tuple(on_edges(one, chamfer) for one in members)
 
     @cached_property
+    def orbiting(self) -> tuple[Member, ...]:
+        """The wheels behind the first on a carrier, which rest."""
+        half = self.mechanism.engagements[0].half_step
+        _, *others = self.mechanism.wheel_places
+        return tuple(Member(self.wheel.part, one.at, one.turn - half) for one in others)
+
+    @cached_property
     def links(self) -> Links:
         """The links of the drive, with the pins and rollers between them, and round gears."""
         links = drawn_links(self.mechanism, self.drawn)
@@ -292,7 +299,7 @@ class FlatParts:
     @property
     def members(self) -> tuple[Member, ...]:
         """All parts; before a spherical wheel only links and gears."""
-        turning = (self.wheel, self.crank) if self.drawn else ()
+        turning = (self.wheel, *self.orbiting, self.crank) if self.drawn else ()
         moved = *turning, *self.linked, *self.round_gears, *self.gear_pair, *self.first
         if not self.mechanism.spec.wheel.FLAT:
             return moved
@@ -301,7 +308,7 @@ class FlatParts:
     def by_name(self) -> Iterator[NamedParts]:
         """Yield all parts in the order of a list, as names and functions that build them."""
         if self.mechanism.spec.is_flat:
-            yield "wheel", lambda: [self.wheel.part]
+            yield "wheel", lambda: [one.part for one in (self.wheel, *self.orbiting)]
             yield "locking disc", lambda: self.locking
             yield "arm", lambda: [self.arm_plate] if self.arm_plate else []
             yield "rollers", lambda: [one.part for one in self.rollers]

@@ -476,11 +476,15 @@ class Shaft(SpecTable):
     wheel_diameter_mm: Annotated[float | None, POSITIVE, "diameter of the wheel's shaft"] = None
     crank_diameter_mm: Annotated[float | None, POSITIVE, "diameter of the crank's shaft"] = None
     wheel_overhang_mm: Annotated[
-        float | None, NOT_NEGATIVE, "wheel's shaft: slots' mid-plane to the nearer bearing"
+        float | None,
+        NOT_NEGATIVE,
+        "wheel's shaft: slots' mid-plane (a sphere's radius L) to the nearer bearing",
     ] = None
     wheel_span_mm: Annotated[float | None, POSITIVE, "wheel's shaft: bearing to bearing"] = None
     crank_overhang_mm: Annotated[
-        float | None, NOT_NEGATIVE, "crank's shaft: roller's mid-plane to the nearer bearing"
+        float | None,
+        NOT_NEGATIVE,
+        "crank's shaft: roller's mid-plane (a sphere's radius L) to the nearer bearing",
     ] = None
     crank_span_mm: Annotated[float | None, POSITIVE, "crank's shaft: bearing to bearing"] = None
     shear_stress_max_MPa: Annotated[
@@ -498,7 +502,9 @@ class Material(SpecTable):
 
     youngs_modulus_GPa: Annotated[float, POSITIVE, "Young's modulus E"] = 210.0
     poisson_ratio: Annotated[float, Range(0.0, 0.5), "Poisson's ratio nu"] = 0.3
-    density_kgm3: Annotated[float, POSITIVE, "density"] = 7850.0
+    density_kgm3: Annotated[
+        float | None, POSITIVE, "density; default of steel 7850, of prints 1240 (PLA)"
+    ] = None
     stress_max_MPa: Annotated[
         float | None, POSITIVE, "allowable stress; default of steel 165 (C45+N, 0.6 yield)"
     ] = None
@@ -522,8 +528,8 @@ class WheelMaterial(Material):
 class RollerMaterial(Material):
     """``[material.roller]``: material of the roller and its pin.
 
-    >>> RollerMaterial(stress_max_MPa=1500.0).density_kgm3
-    7850.0
+    >>> RollerMaterial(stress_max_MPa=1500.0).poisson_ratio
+    0.3
     """
 
     TABLE: ClassVar[str] = "material.roller"

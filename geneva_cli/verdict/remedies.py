@@ -243,6 +243,7 @@ REMEDIES: dict[str, tuple[Change, ...]] = {
         scaled("size", "lock_clearance_mm", 0.0),
         scaled("size", "slot_clearance_mm", 0.0),
     ),
+    "wheels_apart_mm": (_SMALLER, _LARGER, fewer("drive", "wheels", 1)),
     "rollers_apart_mm": (_SMALLER, increased("drive", "sector_deg", 30.0)),
     "crank_shaft_mm": _CRANK,
     "crank_hub_mm": _CRANK,

@@ -77,7 +77,7 @@ ROWS = [
     Row("peaks press-straight.toml --format json", "tomli json"),
     Row("peaks press-straight.toml --certify", "tomli numpy"),
     Row("peaks press-curved.toml", "tomli numpy"),  # whether its slot drives positively
-    Row("peaks table-law.toml", "tomli numpy scipy json"),  # its spline; json: SciPy's
+    Row("peaks table-law.toml", "tomli numpy"),
     Row("motion press-straight.toml --samples 9", "tomli numpy"),
     Row("motion press-curved.toml --samples 9", "tomli numpy"),
     Row("loads press-straight.toml", "tomli numpy"),

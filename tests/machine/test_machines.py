@@ -39,6 +39,7 @@ NONCIRCULAR = 'kind = "noncircular-gears", A = '
 FOUR_BAR = 'kind = "four-bar", crank_mm = 40, ground_mm = 90, coupler_mm = 100, rocker_mm = 100, '
 SLIDER = 'kind = "slider-crank", crank_mm = 40, rod_mm = 120, '
 PAIR = 'kind = "geneva-pair", first_z = '
+ORBIT = 'kind = "carousel"'
 PLANET = 'kind = "epicyclic", planet_ratio = '
 
 
@@ -90,6 +91,9 @@ CASES = {
     "noncircular-offset": text("z = 6, offset_mm = 10", f"{NONCIRCULAR}0.3"),
     "noncircular-two-rollers": text("z = 8", f"{NONCIRCULAR}0.3, rollers = 2"),
     "crank-offset-two-rollers": text("z = 8, offset_mm = 7", "rollers = 2"),
+    "carousel": text("z = 6", ORBIT),
+    "carousel-internal": text(f"z = 6, {INSIDE}", ORBIT),
+    "carousel-offset-two-rollers": text("z = 8, offset_mm = 7", f"{ORBIT}, rollers = 2"),
     "pair": text("z = 4", f"{PAIR}3"),
     "pair-alike": text("z = 4", f"{PAIR}4"),
     "pair-offset": text("z = 4, offset_mm = 5", f"{PAIR}3"),
@@ -196,7 +200,8 @@ def test_every_kind_and_every_gearing_has_an_entry(machine):
         # a pair's first wheel turns its crank through less than half a turn, and back at once
         if issubclass(registry.drive(kind), Transmission) and kind != "geneva-pair":
             mine = [s for s in specs if kind == s.drive.NAME]
-            assert {s.wheel.NAME for s in mine} == set(registry.GEARINGS), kind
+            driven = set(registry.drive(kind).GEARINGS or registry.GEARINGS)
+            assert {s.wheel.NAME for s in mine} == driven, kind
             assert any(s.wheel.as_dict().get("offset_mm") for s in mine), kind
             assert any(s.drive.rollers > 1 for s in mine), kind
 
@@ -363,7 +368,11 @@ def test_loads_keep_the_energy(machine, case):
             found = state(loaded, s, x)
             torque = 0.02 * w * w * a + 3.0
             assert found.torque_Nm == pytest.approx(torque, rel=1e-12)
-            assert found.input_torque_Nm == pytest.approx(torque * v, rel=1e-12)
+            # on a carrier the wheel's speed from the ground takes power too: 1 + v, or 1 - v inside
+            side = -1.0 if m.spec.wheel.NAME == "internal" else 1.0
+            turning = side if m.spec.drive.NAME == "carousel" else 0.0
+            taken = torque * v + turning * 0.02 * w * w * a
+            assert found.input_torque_Nm == pytest.approx(taken, rel=1e-12)
             if s.slot.axis(x):
                 lever = s.slot.axis(x)[0].c[0]
                 assert math.tan(math.radians(found.pressure_deg)) == pytest.approx(

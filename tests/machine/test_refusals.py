@@ -39,6 +39,7 @@ SLIDER = drive(
     "slider-crank",
     "crank_mm = 40\nrod_mm = 120\npoint_mm = 200\npoint_deg = 20\nheight_mm = 10\n",
 )
+ORBIT = drive("carousel")
 PAIR = drive("geneva-pair", "first_z = 3\n")
 OWN_PATH = {"cam": CAM + LAW, "epicyclic": PLANET, "four-bar": FOUR_BAR}
 
@@ -226,6 +227,23 @@ PAIRS = [
     case("internal", "[wheel]\nz = 4\ngearing = @\n" + PAIR, '"internal"', 2, "135", "60"),
 ]
 
+BODY = '[[mass]]\nshape = "point"\nmass_kg = 1\n'
+CAROUSELS = [
+    case("spherical", "[wheel]\nz = 6\ngearing = @\n" + ORBIT, '"spherical"', 3, "or internal"),
+    case("unbalanced", WHEEL + ORBIT + BODY + "radius_mm = @", "50", 5, "balanced", "count to 2"),
+    case(
+        "chain",
+        WHEEL + ORBIT + "[product]\nsprocket_teeth = 20\npitch_mm = @",
+        "5",
+        7,
+        "set radius_mm instead",
+    ),
+    case("many", WHEEL + ORBIT + "wheels = @", "3", 5, "wheels = 3", "120 deg", "at most 2"),
+    case("fingers", WHEEL + ORBIT + "rollers = 2\nwheels = @", "2", 6, "remove rollers"),
+    case("inside", INSIDE + ORBIT + "wheels = @", "2", 6, "surrounds", "wheels = 1"),
+    case("gears", WHEEL + ORBIT + "[support]\ngear_ratio = @", "2", 6, "set it to 1"),
+]
+
 GROUPS = {
     "offset": OFFSET,
     "steps": STEP,
@@ -239,6 +257,7 @@ GROUPS = {
     "slides": SLIDES,
     "noncircular": NONCIRCULAR,
     "pairs": PAIRS,
+    "carousels": CAROUSELS,
     "sectors": SECTORS,
 }
 

@@ -751,7 +751,8 @@ def test_templates_draw_all_parts(kind):
     for part in PARTS:
         dxf = dxf_shapes(written("new.toml", part, f"{part}.dxf"))
         assert away(svg_shapes(written("new.toml", part, f"{part}.svg")), dxf) < SAME
-        wheels = 1 + (kind in IN_SERIES and part == "assembly")
+        several = {"carousel": 3} | dict.fromkeys(IN_SERIES, 2)
+        wheels = several.get(kind, 1) if part == "assembly" else 1
         require_sound(dxf, "internal" in kind and part != "slot", wheels)
 
 

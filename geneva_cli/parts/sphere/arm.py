@@ -15,13 +15,7 @@ from geneva_cli.curves.round_holes import RoundHole, least_wall
 from geneva_cli.curves.sphere import Region, dot, place
 from geneva_cli.curves.sphere_hull import Cap, convex_hull
 from geneva_cli.errors import GenevaError
-from geneva_cli.layout.arm_sizes import (
-    arm_bore,
-    eye_about,
-    hub_and_eye,
-    lock_bolt_directions,
-    pin_hole,
-)
+from geneva_cli.layout.arm_sizes import eye_about, hub_and_eye, lock_bolt_directions, pin_hole
 from geneva_cli.layout.axles import refuse_wide
 from geneva_cli.layout.bolt_holes import bolt_radius
 from geneva_cli.layout.bores import Bore, bore_of
@@ -59,7 +53,7 @@ class CapArm(NamedTuple):
 
 def has_arm(parts: Shells) -> bool:
     """Return True if the machine has an arm: a crank with rollers on pins."""
-    return parts.assembly.full.spec.drive.CRANKED and parts.ball.pin_mm > 0.0
+    return parts.ball.arm_bore_mm > 0.0
 
 
 def crank_arm(parts: Shells) -> CapArm:
@@ -90,16 +84,15 @@ def _arm(parts: Shells, bolts_each: int) -> CapArm:
         raise GenevaError("pin_mm = 0: there is no pin for an arm to carry", ("size", "pin_mm"))
     wall, under = parts.sizes.wall_min, ball.arm_span_mm[0]
     hole = pin_hole(spec.size, ball.pin_mm)
-    disc, limit = 0.5 * (spec.size.crank_bore_mm or 0.0), ball.radius_mm * ball.arm - hole
-    radius = arm_bore(spec, disc, ball.radius_mm, limit)
-    hub, eye = hub_and_eye(spec.size, wall, hole, radius, _passing(parts))
+    hub, eye = hub_and_eye(
+        spec.size, wall, hole, ball.arm_bore_mm, ball.passing_mm(ball.opening_mm)
+    )
     _refuse(parts, hub, hole, eye)
-    form = bore_of(spec.size, "crank", radius)
+    form = bore_of(spec.size, "crank", ball.arm_bore_mm)
     around = hub - form.reach  # the hub's wall
     pins = tuple(RoundHole(place(ball.arm, azimuth), hole) for azimuth in ball.rollers)
     screwed = _bolts(parts, bolts_each)
-    round_hub = RoundHole(POLE, hub + max(around, wall)).angle(under)
-    cap, eye = max(ball.lock, round_hub), eye / ball.radius_mm
+    cap, eye = ball.cap(hub, max(around, wall)), eye / ball.radius_mm
     caps = [Cap(POLE, cap)]
     caps += [Cap(pin.axis, eye) for pin in pins]
     caps += [Cap(b.axis, eye_about(b.radius, wall) / under) for b in screwed]
@@ -117,13 +110,6 @@ def _arm(parts: Shells, bolts_each: int) -> CapArm:
         wall=0.0,
     )
     return arm._replace(wall=min(around, _walls(arm, parts)))
-
-
-def _passing(parts: Shells) -> float:
-    """Return the largest radius of an eye that passes the wheel's hub, mm along the sphere."""
-    ball = parts.ball
-    opening = RoundHole(POLE, ball.opening_mm).angle(ball.arm_span_mm[0])
-    return ball.radius_mm * (ball.axes - ball.arm - opening)
 
 
 def _bolts(parts: Shells, count: int) -> tuple[RoundHole, ...]:

@@ -9,8 +9,8 @@ from geneva_cli.curves.round_holes import RoundHole, least_wall
 from geneva_cli.curves.sphere import place
 from geneva_cli.curves.sphere_hull import Cap
 from geneva_cli.errors import GenevaError
+from geneva_cli.layout.ball import Ball
 from geneva_cli.layout.bolt_holes import bolt_circle
-from geneva_cli.layout.sphere_sizes import Ball
 from geneva_cli.outlines.sphere_wheel import POLE, web_angle
 
 if TYPE_CHECKING:

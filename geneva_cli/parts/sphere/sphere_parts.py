@@ -18,10 +18,10 @@ from geneva_cli.curves.sphere import axis_frame, place
 from geneva_cli.curves.sphere_hull import Cap
 from geneva_cli.errors import GenevaError
 from geneva_cli.layout.axles import crank_hub, refuse_wide
+from geneva_cli.layout.ball import Ball
 from geneva_cli.layout.bores import bore_of, fitted, has_shape
 from geneva_cli.layout.held_hubs import held_hub
 from geneva_cli.layout.missing import NamedParts
-from geneva_cli.layout.sphere_sizes import Ball
 from geneva_cli.outlines.sphere_wheel import POLE, web_angle, web_region, wheel_regions
 from geneva_cli.outlines.wheel_hub import HUB
 from geneva_cli.parts.shafts import SHAFT
@@ -142,8 +142,7 @@ def _wheel_hub(size: Size, ball: Ball) -> Plate | None:
             "diameter over the hub's bore and keyway",
             ("size", "wheel_hub_mm"),
         )
-    length = size.wheel_hub_length_mm
-    long = ball.arm_span_mm[1] if length is None else outside + length
+    long = inside + ball.hub_length_mm(size)
     bored = (form.shape("BORE", ball.half_step),) if ball.bore_mm else ()
     return Plate("wheel's hub", HUB, Circle(HUB, ORIGIN, ball.hub_mm), bored, inside, long)
 
@@ -204,9 +203,7 @@ def _shafts(parts: Shells, arm: CapArm | None) -> Iterator[Member]:
             'shafts = "turned": a machine on a sphere has no frame for bearings; remove it',
             ("size", "shafts"),
         )
-    length = size.wheel_hub_length_mm
-    hubs = max(over, ball.span_mm[1] + (length or 0.0) if ball.hub_mm else 0.0)
-    lowest = ball.out(hubs + size.washer_mm + over - under)
+    lowest = ball.out(ball.shafts_end_mm(size) + over - under)
     if ball.bore_mm:
         low, high = size.wheel_shaft_low_mm, size.wheel_shaft_high_mm
         low = (lowest if ball.hub_mm > ball.bore_mm else 0.0) if low is None else low

@@ -37,6 +37,7 @@ def document(design: Design) -> Document:
         *pictures.curves(design),
         *answers.loads(design, left),
         *answers.product(left),
+        *answers.carousel(left),
         *answers.stop(left),
         *answers.sizes(left),
         *answers.strength(left),

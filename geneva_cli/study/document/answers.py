@@ -107,6 +107,16 @@ def product(left: RemainingValues) -> Iterator[Block]:
         yield from facts("What the product on the dial feels", values)
 
 
+def carousel(left: RemainingValues) -> Iterator[Block]:
+    """Wheels on a carrier from the ground, and when each moves, if there are any."""
+    values, wheels = left.take("carousel"), left.one("wheels")
+    if any(value is not None for value in values.values()):
+        yield Heading("Carousel")
+        yield from facts("The wheels on the carrier, from the ground", values)
+    if wheels is not None:
+        yield grid("When each wheel moves, by the carrier's angle", wheels)
+
+
 def stop(left: RemainingValues) -> Iterator[Block]:
     """Where a Geneva stop blocks the crank, if there is one."""
     values = left.take("stop")

@@ -85,6 +85,7 @@ STATIC: Checks = {
     "link_gap_mm": "links:gap",
     "branches_apart_mm": "branches:apart",
     "branches_crossed_mm": "branches:crossed",
+    "wheels_apart_mm": "carrier:wheels_apart",
     "stop_turns": "stop:turns",
     "stop_overlap_mm": "stop:overlap",
     "stop_stress_max_MPa": "stop:stress",
@@ -103,6 +104,8 @@ SPHERE: Checks = {
     "dial_wall_mm": "sphere:dial",
     "beside_shafts_mm": "sphere:passing_parts",
     "arm_wall_mm": "sphere:arm_wall",
+    "cut_plate_mm": "sphere:thickest_shell",
+    "cut_slot_mm": "sphere:slot_width",
     "parts": "buildable:solids",
 }
 # Checks of plates or shells in a whole turn.
