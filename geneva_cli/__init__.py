@@ -35,6 +35,7 @@ if TYPE_CHECKING:  # for a type checker: one line for each name
     from geneva_cli.kinematics.wheels.linear import Linear as Linear
     from geneva_cli.kinematics.wheels.spherical import Spherical as Spherical
     from geneva_cli.machine.drives.cam import Cam as Cam
+    from geneva_cli.machine.drives.carousel import Carousel as Carousel
     from geneva_cli.machine.drives.crank import Crank as Crank
     from geneva_cli.machine.drives.elliptical_gears import EllipticalGears as EllipticalGears
     from geneva_cli.machine.drives.epicyclic import Epicyclic as Epicyclic

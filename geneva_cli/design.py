@@ -711,21 +711,25 @@ class Design:
         curves: str = "arcs",
         of: PartsModel | None = None,
         part: str = "sheet",
+        units: str = "mm",
     ) -> Sheet:
         """A drawing sheet of the parts with dimensions, to a standard scale on A4 to A1.
 
         ``geneva_cli.output.draw_sheet`` writes it as DXF, SVG or PDF. Millimetres on paper.
+        ``units`` of the dimensions are mm or inch.
 
         >>> small = Design(External(4), size=Size(center_distance_mm=30)).sheet(0.01)
         >>> small.scale, small.width, small.height
         (2.0, 594.0, 420.0)
         """
         from geneva_cli.drawings.catalogue import part_sheet
+        from geneva_cli.layout.written import writing_in
 
         if curves not in CURVES:
             raise GenevaError(f"--curves {cut(curves)}: it must be arcs or spline")
         model = of or self.drawn(tolerance_mm, part)
-        return self._located(lambda: part_sheet(model, part, tolerance_mm, CURVES[curves]))
+        with writing_in(units):
+            return self._located(lambda: part_sheet(model, part, tolerance_mm, CURVES[curves]))
 
     @question
     def save(

@@ -62,6 +62,13 @@ class Body(NamedTuple):
     angle: Track  # counterclockwise
 
 
+class Rotation(NamedTuple):
+    """A rotation of everything in the picture about a fixed point, counterclockwise."""
+
+    centre: tuple[float, float]
+    angle: Track
+
+
 class CarriedShapes(NamedTuple):
     """Shapes that a link carries: their origin is at a joint, their x away from the first joint."""
 
@@ -136,3 +143,5 @@ class Scene(NamedTuple):
     figure: Figure
     box: Box  # of all shapes during the turn
     stops: tuple[float, float] | None = None  # from the start: the machine goes back and forth
+    # rotation of the frame in which all positions are written: of a carrier
+    frame: Rotation | None = None

@@ -136,9 +136,9 @@ def few_four_bars():
 READ = functools.cache(load)
 
 
-def read(path, given=()):
+def read(path, given=(), reverse=False):
     """A design; what is given beside the file is kept as a tuple."""
-    return READ(path, tuple(given))
+    return READ(path, tuple(given), reverse)
 
 
 @pytest.fixture(scope="module")

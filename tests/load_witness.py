@@ -372,10 +372,13 @@ def loads(spec, chain, wheel, pin, distance_mm, deg):
     outwards = rubs * mp.sign((tangent * mp.conj(place)).real)
     wheel_bearing = abs(force) * mp.hypot(p, q)
     lost = f * force * abs(rubs) * L
+    sped = mp.mpf(0)  # torque that turns the wheel with its carrier: test_carousel.py has its proof
+    if spec.drive.NAME == "carousel":
+        sped = mp.mpf(spec.load.inertia_kgm2) * w * w * bend * -chain.sense
     found = Loads(
         torque,
         force,
-        shaft * L * chain.sense,
+        shaft * L * chain.sense + sped,
         lost,
         outwards * L,
         wheel_bearing,

@@ -136,6 +136,8 @@ def rollers(spec):
     b = mp.pi / wheel.z
     if wheel.steps:
         halves = [to_radians(s) / 2 for s in wheel.steps]
+        if drive.roller_angles_deg:
+            return list(zip(map(to_radians, drive.roller_angles_deg), halves, strict=True))
         # equal dwells between motions of pi - 2 b
         dwell = (2 * mp.pi - sum(mp.pi - 2 * h for h in halves)) / len(halves)
         out, at = [], mp.mpf(0)
@@ -146,7 +148,8 @@ def rollers(spec):
         return out
     if drive.roller_angles_deg:
         return [(to_radians(a), b) for a in drive.roller_angles_deg]
-    count = drive.rollers if drive.NAME != "crank" else 1  # on a plain crank all move alike
+    alike = drive.NAME in ("crank", "carousel")  # on a plain crank all move the wheel alike
+    count = 1 if alike else drive.rollers
     return [(2 * mp.pi * j / drive.rollers, b) for j in range(count)]
 
 

@@ -89,8 +89,9 @@ def framed(found):
 
 
 def assert_measured(found):
-    """Each dimension says what its points are apart, at the scale of its view."""
+    """Each dimension says what its points are apart, at the scale of its view, in its units."""
     for m in found.measures:
+        unit = 25.4 if found.units == "inch" and m.kind != "angular" else 1.0
         if m.kind == "angular":
             apex, a, b, _ = m.points
             turn = math.atan2(b[1] - apex[1], b[0] - apex[0])
@@ -103,13 +104,13 @@ def assert_measured(found):
             a, b = m.points[:2]
             c, s = math.cos(m.turn), math.sin(m.turn)
             along = (b[0] - a[0]) * c + (b[1] - a[1]) * s
-            paper = abs(along) if m.kind == "linear" else math.dist(a, b)
+            paper = abs(along) if m.kind == "length" else math.dist(a, b)
             # to rounding of the sheet's coordinates, or of the size
             off = min(abs(paper - known * m.value) / max(known, paper) for known in SCALES)
             assert off < 1e-9
             text = re.sub(r"^\d+× ", "", m.label.text)
             shown = float(re.search(r"[\d.]+", text)[0])
-        assert shown == pytest.approx(m.value, abs=5.1e-4)  # three decimals
+        assert shown == pytest.approx(m.value / unit, abs=5.1e-4)  # three decimals
 
 
 def number(value):

@@ -32,7 +32,7 @@ PYODIDE = (
     "pyodide-lock.json",
 )
 # What the library needs from PyPI; all are Python alone. SciPy, which there is not for browsers, is
-# loaded for laws from a table only.
+# needed by tolerance, sweep and bench only.
 PURE = ("tomli", "ezdxf", "pyparsing", "typing_extensions", "fonttools")
 PYTHON = "3.11"  # of this Pyodide
 LEFT_OUT = re.compile(

@@ -58,6 +58,17 @@ def carried_kg(spec: Spec) -> float:
     return sum(mass.count * weight_kg(mass) for mass in spec.mass)
 
 
+def farthest_mm(spec: Spec) -> float:
+    """Radius about the wheel's axis that contains all bodies on the table; 0 without bodies."""
+    return max((one.radius_mm + _reach_mm(one) for one in spec.mass), default=0.0)
+
+
+def _reach_mm(mass: Mass) -> float:
+    """Radius about a body's own axis that contains it."""
+    sides = mass.length_mm or 0.0, mass.width_mm or 0.0
+    return 0.5 * max(mass.diameter_mm or 0.0, math.hypot(*sides))
+
+
 def support_torque_Nm(spec: Spec) -> float:
     """Friction of the table's support at the wheel's shaft: mu (m g + F) r, through the gears."""
     support = spec.support

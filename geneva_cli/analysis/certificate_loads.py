@@ -14,7 +14,7 @@ from geneva_cli.analysis.contact import Contact, contact
 from geneva_cli.analysis.forces import (
     LoadCase,
     QuantityValue,
-    gain,
+    feeding,
     load_case,
     sliding,
     wheel_torque,
@@ -66,7 +66,7 @@ def _signs(case: LoadCase, at: Contact[Jet]) -> Iterator[Signs]:
         rubs = _signs_of(sliding(at, drives, case.radius)) if case.rubs else (1.0,)
         for slides in rubs:
             lossless = case.efficiency == 1.0
-            feeds = (1.0,) if lossless else _signs_of(gain(case, at, drives, slides) * drives)
+            feeds = (1.0,) if lossless else _signs_of(feeding(case, at, drives, slides))
             yield from ((drives, slides, fed) for fed in feeds)
 
 

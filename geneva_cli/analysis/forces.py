@@ -45,6 +45,8 @@ class LoadCase(NamedTuple):
     efficiency: float
     # square of the stress on a flat wall, MPa² per newton; None without a face width
     hertz: float | None
+    # turns of the wheel's frame in one turn of the input, positive as the wheel turns in it
+    frame: float = 0.0
     design: int | Whole = 0  # the design's number in its batch: (m, 1) in a batch
 
     @property
@@ -77,6 +79,7 @@ def load_case(mechanism: Mechanism) -> LoadCase:
         rubbing(mechanism),
         load.efficiency,
         hertz,
+        mechanism.frame,
         mechanism.design,
     )
 
@@ -165,6 +168,18 @@ def _grip(case: LoadCase, at: Contact[V], drives: Number, slides: Number) -> V:
     return at.lever + rub * (at.offset * drives - at.arm * case.radius)
 
 
+def feeding(case: LoadCase, at: Contact[V], drives: Number, slides: Number) -> V:
+    """A value with the sign of the input torque: 1 where the input drives, -1 where it is driven.
+
+    The value is always finite, and smooth between changes of the other two signs.
+    """
+    ratio = gain(case, at, drives, slides)
+    if all_true(case.frame == 0.0):
+        return ratio * drives
+    own = at.acceleration * (case.inertia_Nm * case.frame)
+    return wheel_torque(case, at) * ratio + own * _grip(case, at, drives, slides)
+
+
 class KnownValues(NamedTuple, Generic[V]):
     """Torque and sliding, if they are known from the signs already."""
 
@@ -217,8 +232,13 @@ class Forces(Generic[V]):
 
     @cached_property
     def shaft(self) -> V:
-        """Torque on the input shaft before the efficiency, N m."""
+        """Torque on the input shaft before the efficiency, N m.
+
+        A carrier also takes the torque that speeds up the wheel against the ground.
+        """
         shaft = self.torque * self.at.velocity
+        if not all_true(self.case.frame == 0.0):
+            shaft = shaft + self.at.acceleration * (self.case.inertia_Nm * self.case.frame)
         if not self.case.rubs:
             return shaft
         rub = self.at.touches * (self.case.friction * self.slides)

@@ -19,7 +19,7 @@ from geneva_cli.analysis.forces import (
     KnownValues,
     LoadCase,
     QuantityValue,
-    gain,
+    feeding,
     sliding,
     wheel_torque,
 )
@@ -321,7 +321,7 @@ def signed_instant(
         slides = sign("slides", rubs)
     feeds: Number = 1.0
     if "feeds" in kinds:
-        feeds = sign("feeds", gain(case, at, drives, slides) * drives)
+        feeds = sign("feeds", feeding(case, at, drives, slides))
     instant = Instant(case, at, drives, slides, feeds, known=KnownValues(torque, rubs))
     if "grip" in kinds:
         sign("grip", instant.grip)

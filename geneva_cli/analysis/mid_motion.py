@@ -16,7 +16,7 @@ from geneva_cli.analysis.forces import (
     NEGLIGIBLE,
     LoadCase,
     QuantityValue,
-    gain,
+    feeding,
     sliding,
     value,
     wheel_torque,
@@ -129,7 +129,7 @@ def _signs(case: LoadCase, at: Contact[Jet]) -> tuple[Array, Array, Array]:
     """Signs of the wheel's torque, of the sliding and of the input's torque."""
     drives = np.copysign(1.0, value(wheel_torque(case, at)))
     slides = np.copysign(1.0, value(sliding(at, drives, case.radius)))
-    return drives, slides, np.copysign(1.0, value(gain(case, at, drives, slides)) * drives)
+    return drives, slides, np.copysign(1.0, value(feeding(case, at, drives, slides)))
 
 
 def _limits(engagement: Engagement, case: LoadCase, rows: Rows, x: Array) -> list[Array]:

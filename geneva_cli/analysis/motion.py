@@ -25,9 +25,14 @@ SAMPLES_MAX = 1_000_000  # some seconds of writing, some 80 MB
 
 
 def motion_columns(mechanism: Mechanism) -> tuple[str, ...]:
-    """Names of the columns of a table of motion."""
+    """Names of the columns of a table of motion.
+
+    On a carrier the wheel's motion from the ground follows, positive as the carrier turns.
+    """
     output = mechanism.output.column
-    return ("time_s", "input_deg", output, "velocity", "acceleration", "jerk")
+    own = ("time_s", "input_deg", output, "velocity", "acceleration", "jerk")
+    absolute = ("absolute_deg", "absolute_velocity", "absolute_acceleration")
+    return (*own, *absolute) if mechanism.frame else own
 
 
 def check_samples(samples: int) -> None:
@@ -73,7 +78,8 @@ def turns_table(mechanism: Mechanism, samples: int, count: int) -> Table:
         input_deg = start + here
         time_s = times_s(mechanism, input_deg)
         shown = (wheel + k * total) * mechanism.output.per_radian
-        columns.append([time_s, input_deg, shown, *rates])
+        own = [time_s, input_deg, shown, *rates]
+        columns.append([*own, *_from_ground(mechanism, input_deg, shown, rates)])
     return Table(motion_columns(mechanism), [np.concatenate(c) for c in zip(*columns, strict=True)])
 
 
@@ -129,7 +135,19 @@ def _rows(mechanism: Mechanism, samples: int, begin: int, end: int) -> list[Arra
     input_deg = inputs(mechanism, samples, begin, end)
     wheel, *rates = derivatives(mechanism, input_deg, (0, 1, 2, 3))
     shown = wheel * mechanism.output.per_radian
-    return [times_s(mechanism, input_deg), input_deg, shown, *rates]
+    own = [times_s(mechanism, input_deg), input_deg, shown, *rates]
+    return [*own, *_from_ground(mechanism, input_deg, shown, rates)]
+
+
+def _from_ground(
+    mechanism: Mechanism, input_deg: Array, wheel_deg: Array, rates: Sequence[Array]
+) -> list[Array]:
+    """Absolute angle, velocity and acceleration of a wheel on a carrier; nothing without one."""
+    if not mechanism.frame:
+        return []
+    sense = mechanism.spec.wheel.SIGN
+    angle = mechanism.absolute_deg(input_deg, wheel_deg)
+    return [angle, 1.0 + sense * rates[0], sense * rates[1]]
 
 
 def derivatives(mechanism: Mechanism, input_deg: Array, orders: Sequence[int]) -> list[Array]:

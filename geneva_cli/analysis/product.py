@@ -10,6 +10,9 @@ A = psi'' and J = psi''' by the input's angle and the input's speed w,
 A chain, belt or film on a sprocket of N teeth of pitch p has r = N p / (2 pi), so that a step moves
 it by whole pitches, and has no acceleration towards an axis.
 
+A wheel on a carrier of the radius L turns at 1 + V from the ground, or at 1 - V inside. The product
+is taken where it feels most: there the speed is greater by w L, the acceleration by w² L.
+
 Source: circular motion. Between peaks of speed and of acceleration along the path, the resultant
 has peaks of its own, so that its square is searched.
 """
@@ -73,10 +76,14 @@ def product_motion(mechanism: Mechanism) -> ProductMotion | None:
     straight = product.runs_straight
     peaks = worst_peaks(mechanism, ["velocity", "acceleration", "jerk"])
     velocity, along, jerk = (peaks[name] for name in ("velocity", "acceleration", "jerk"))
+    orbit = np.zeros(m)
+    if mechanism.frame:
+        velocity = _from_ground(mechanism, velocity)
+        orbit = _each(1e-3 * mechanism.center_distance_mm, m) * w
     squared = np.zeros(m) if straight else ratio * velocity.max**2
     inwards = PeakArray(squared, velocity.at_deg)
     both = along if straight else _resultant(mechanism, ratio)
-    acceleration = _scaled(both, scale * w)
+    acceleration = _raised(_scaled(both, scale * w), orbit * w)
     step = np.max(
         [np.broadcast_to(np.ravel(2.0 * one.half_step), m) for one in mechanism.engagements], axis=0
     )
@@ -84,7 +91,7 @@ def product_motion(mechanism: Mechanism) -> ProductMotion | None:
     return ProductMotion(
         radius_mm * ratio * step,
         np.full(m, np.nan) if straight else 2.0 * radius_mm * abs(np.sin(0.5 * ratio * step)),
-        _scaled(velocity, scale),
+        _raised(_scaled(velocity, scale), orbit),
         _scaled(along, scale * w),
         _scaled(inwards, scale * w),
         acceleration,
@@ -111,11 +118,26 @@ def _scaled(peak: PeakArray, scale: Array) -> PeakArray:
     return PeakArray(np.broadcast_to(peak.max * scale, len(scale)), peak.at_deg)
 
 
+def _raised(peak: PeakArray, by: Array) -> PeakArray:
+    return peak._replace(max=peak.max + by)
+
+
+def _from_ground(mechanism: Mechanism, velocity: PeakArray) -> PeakArray:
+    """The peak of a velocity from the ground, over the carrier's; at rest it is 1."""
+    most = abs(mechanism.frame + velocity.max)
+    first = mechanism.engagements[0]
+    entry = _each(mechanism.shown_deg(first.mid_deg + first.entry_deg), len(most))
+    return PeakArray(np.maximum(most, 1.0), np.where(most > 1.0, velocity.at_deg, entry))
+
+
 def _resultant(mechanism: Mechanism, ratio: Array) -> PeakArray:
-    """The peak of sqrt(A² + i² V^4) over all engagements, which is a fraction 1/i of the above."""
+    """The peak of sqrt(A² + i² V^4) over all engagements, which is a fraction 1/i of the above.
+
+    On a carrier V is the velocity from the ground.
+    """
     best: PeakArray | None = None
     for engagement in mechanism.engagements:
-        size, at_deg = _greatest_square(engagement, ratio)
+        size, at_deg = _greatest_square(engagement, ratio, mechanism.frame)
         place = engagement.mid_deg + parameter(at_deg[:, None])
         here = PeakArray(np.sqrt(size), np.ravel(mechanism.shown_deg(place)))
         best = here if best is None else greater(best, here)
@@ -123,12 +145,13 @@ def _resultant(mechanism: Mechanism, ratio: Array) -> PeakArray:
     return best
 
 
-def _greatest_square(engagement: Engagement, ratio: Array) -> tuple[Array, Array]:
+def _greatest_square(engagement: Engagement, ratio: Array, frame: float) -> tuple[Array, Array]:
     motion, m = engagement.motion, len(ratio)
 
     def square(x: Array, which: Which, order: int) -> list[Array]:
         some = motion if designs_in(motion) == 1 else taken(motion, which)
-        p = some(np.asfortranarray(x), 2 + order).arrays()[1:]
+        _, rate, *more = some(np.asfortranarray(x), 2 + order).arrays()
+        p = (rate + frame, *more)
         i2 = (ratio * ratio)[which][:, None]
         out = [p[1] ** 2 + i2 * p[0] ** 4]
         if order > 0:

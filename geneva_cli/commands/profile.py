@@ -165,13 +165,13 @@ def run(
         require_written(design, design.judge(model), force)
     if sheet:
         _refuse(kerf, cutter, center_marks)
-        if units != "mm":
-            raise GenevaError("--units: a sheet is in millimetres, as its fits and tolerances are")
         if fill is not None:
             raise GenevaError(
                 "--fill is for single parts and the assembly; a sheet has lines alone"
             )
-        draw_sheet(design.sheet(tolerance, curves, model, part), output, format, files, **own)
+        draw_sheet(
+            design.sheet(tolerance, curves, model, part, units), output, format, files, **own
+        )
     else:
         if cutter is not None:
             require_written(design, design.cutter(part, cutter, dog_bones, model), force)

@@ -2,13 +2,17 @@
 
 from __future__ import annotations
 
+import math
+from collections.abc import Sequence
 from functools import reduce
 from typing import NamedTuple
 
-from geneva_cli.curves.measure import with_material_left
+from geneva_cli.curves.cross_holes import CrossHole, drilled
+from geneva_cli.curves.inset import inset, lines_and_arcs
+from geneva_cli.curves.measure import GAUSS, with_material_left
 from geneva_cli.curves.moments import Moments, moments, total
 from geneva_cli.curves.plates import Plate, Stack
-from geneva_cli.curves.shapes import Circle, Contour, Point
+from geneva_cli.curves.shapes import Circle, Contour, Point, Shape, closed, two_arcs
 
 MM = 1e-3  # metres
 
@@ -30,7 +34,16 @@ def mass_properties(plate: Plate, density_kgm3: float) -> MassProperties:
     >>> round(steel.inertia_kgm2 / steel.mass_kg / 0.05**2, 12)  # m r²/2
     0.5
     """
-    return face_properties(face(plate), plate.thickness, density_kgm3)
+    within = plate.thickness - 2.0 * plate.chamfer
+    whole = face_properties(face(plate), within, density_kgm3)
+    if plate.chamfer:
+        edges = _between(plate)
+        whole = added(whole, face_properties(edges, 2.0, density_kgm3))  # moments of 1 mm, twice
+    if not plate.cross:
+        return whole
+    contours = drilled((plate.outline, *plate.holes), plate.cross)
+    taken = total(_removed(hole, contours) for hole in plate.cross)
+    return added(whole, face_properties(taken, -1.0, density_kgm3))  # moments of 1 mm
 
 
 def solid_properties(solid: Plate | Stack, density_kgm3: float) -> MassProperties:
@@ -71,3 +84,50 @@ def face(plate: Plate) -> Moments:
 
 def _counterclockwise(shape: Contour | Circle) -> Moments:
     return moments(shape if isinstance(shape, Circle) else with_material_left(shape, True))
+
+
+def _between(plate: Plate) -> Moments:
+    """Return the moments of the layer in one chamfer, added up along the axis, by Gauss's points.
+
+    The moments of an inset are polynomials of the depth, but for the corners, whose share is small.
+    """
+    oriented = [
+        (lines_and_arcs(with_material_left(_contour(shape), i == 0)), 1.0 if i == 0 else -1.0)
+        for i, shape in enumerate((plate.outline, *plate.holes))
+    ]
+    for pieces, _ in oriented:
+        inset(pieces, "", plate.chamfer)  # refuses a chamfer that is too wide, by its own size
+    half = 0.5 * plate.chamfer
+    return total(
+        _counterclockwise(inset(pieces, "", half * (1.0 + sign * node))).times(weight * half * side)
+        for node, weight in GAUSS
+        for sign in (-1.0, 1.0)
+        for pieces, side in oriented
+    )
+
+
+def _contour(shape: Contour | Circle) -> Contour:
+    return closed(shape.layer, two_arcs(shape)) if isinstance(shape, Circle) else shape
+
+
+def _removed(hole: CrossHole, shapes: Sequence[Shape]) -> Moments:
+    """Return the moments of the material that the hole takes, added up along the plate's axis.
+
+    With y = r sin t the integrals over the width are those of smooth periodic functions, whose
+    means over evenly spaced t converge faster than any power of their number.
+    """
+    entry, exit_ = hole.openings(shapes)
+    ax, ay = hole.seen((0.0, 0.0))  # the axis in the hole's frame
+    count, r = 128, hole.radius  # to rounding, up to a hole of 0.97 of its wall's width
+    volume = first_x = first_y = polar = 0.0
+    for k in range(count):
+        t = math.tau * (k + 0.5) / count
+        y, weight = r * math.sin(t), r * r * math.cos(t) ** 2 * math.tau / count
+        low, high = entry.x(y), exit_.x(y)
+        volume += weight * (high - low)
+        first_x += weight * 0.5 * (high * high - low * low)
+        first_y += weight * y * (high - low)
+        cubes = ((high - ax) ** 3 - (low - ax) ** 3) / 3.0
+        polar += weight * (cubes + (y - ay) ** 2 * (high - low))
+    x, y = hole.placed(first_x / volume, first_y / volume)
+    return Moments(volume, volume * x, volume * y, polar)

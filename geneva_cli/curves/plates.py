@@ -14,13 +14,17 @@ import numpy as np
 from geneva_cli.curves.sphere_arcs import SphereArcs
 
 if TYPE_CHECKING:
+    from geneva_cli.curves.cross_holes import CrossHole
     from geneva_cli.curves.round_holes import RoundHole
     from geneva_cli.curves.shapes import Circle, Contour, Point
     from geneva_cli.curves.sphere import Region, Rotation, Vector
 
 
 class Plate(NamedTuple):
-    """A flat part: the inside of an outline without its holes, from ``low`` to ``high``."""
+    """A flat part: the inside of an outline without its holes, from ``low`` to ``high``.
+
+    Cross holes go across its axis. A chamfer, at 45 degrees, is around both faces.
+    """
 
     name: str
     layer: str
@@ -28,6 +32,8 @@ class Plate(NamedTuple):
     holes: tuple[Contour | Circle, ...]
     low: float
     high: float
+    cross: tuple[CrossHole, ...] = ()
+    chamfer: float = 0.0
 
     @property
     def thickness(self) -> float:
@@ -136,6 +142,20 @@ Solid: TypeAlias = Plate | Stack | Shell
 Part: TypeAlias = Solid | Group
 
 
+def chamfered(part: Part, chamfer: float) -> Part:
+    """A part with a chamfer on all its flat solids."""
+    if isinstance(part, Plate):
+        return part._replace(chamfer=chamfer)
+    if isinstance(part, Group):
+        return part._replace(members=tuple(on_edges(one, chamfer) for one in part.members))
+    return part
+
+
+def on_edges(member: Member, chamfer: float) -> Member:
+    """A member with a chamfer on all flat solids of its part."""
+    return member._replace(part=chamfered(member.part, chamfer))
+
+
 def solids(part: Part) -> list[Solid]:
     """All solids of a part, each as often as it is used."""
     if isinstance(part, Group):
@@ -151,7 +171,8 @@ def plates(part: Part) -> list[Plate]:
 def lowered(part: Plate | Stack) -> Plate | Stack:
     """A flat or turned part with its lower face at z = 0."""
     if isinstance(part, Plate):
-        return part._replace(low=0.0, high=part.thickness)
+        cross = tuple(h._replace(height=h.height - part.low) for h in part.cross)
+        return part._replace(low=0.0, high=part.thickness, cross=cross)
     down = part.low
     return part._replace(
         plates=tuple(p._replace(low=p.low - down, high=p.high - down) for p in part.plates)

@@ -33,7 +33,8 @@ BEYOND = 0.04  # of the centre distance: from a part to the arrow that shows how
 def machine(parts: FlatParts) -> Drawing:
     """Return the machine at input angle 0, from the frame up to the wheel."""
     outlines, title = parts.outlines, titled(parts.mechanism)
-    drawn = [*_seen(parts.wheel), *_seen(parts.crank_without_arm), *_arm(parts)]
+    drawn = [shape for one in (parts.wheel, *parts.orbiting) for shape in _seen(one)]
+    drawn += [*_seen(parts.crank_without_arm), *_arm(parts)]
     drawn += _links(parts)
     drawn += outlines_of(Group("", parts.gear_pair))
     drawn += shapes(parts.first)
@@ -72,6 +73,10 @@ def _turns(parts: Outlines) -> Iterator[Arc]:
     reach = max(math.hypot(*s.start) for s in parts.wheel.segments)
     beyond = (sizes.outer or reach) + BEYOND * assembly.L
     yield about((0.0, 0.0), beyond, math.radians(115.0), math.radians(50.0))
+    frame = assembly.full.frame
+    if frame:  # the finger stands, and the carrier turns
+        yield about((assembly.L, 0.0), assembly.L + beyond, -frame * 0.5, frame)
+        return
     if not assembly.full.spec.drive.ONE_ARM:
         yield from _link_turns(parts)
         return

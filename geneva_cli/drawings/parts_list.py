@@ -28,6 +28,8 @@ from geneva_cli.machine.rollers import places
 from geneva_cli.machine.spec import Spec
 from geneva_cli.outlines.sphere_wheel import POLE
 from geneva_cli.spec.schema import Points, fields
+from geneva_cli.spec.tables import Size
+from geneva_cli.spec.workshops import density_kgm3
 from geneva_cli.table import Reading, Table, rows_table
 
 # columns of a row of each kind
@@ -102,13 +104,14 @@ def part_rows(spec: Spec, parts: Iterable[Part], outside: float | None = None) -
             if solid.layer == "ROLLER"
             else ("wheel", spec.material_wheel)
         )
+        density = density_kgm3(material.density_kgm3, spec.size.process)
         yield {
             "row": "part",
             "name": solid.name,
             "count": len(kind),
             "material": f"material.{name}",
-            "density_kgm3": material.density_kgm3,
-            **_properties(solid, material.density_kgm3, outside),
+            "density_kgm3": density,
+            **_properties(solid, density, outside),
         }
 
 
@@ -168,13 +171,7 @@ def _dimensions(model: PartsModel) -> Iterator[Row | Missing]:
         Dimension("roller radius", r, "mm"),
         Dimension("slot width", 2.0 * (r + clear), "mm"),
     ]
-    for part in ("wheel", "crank"):
-        screw = vars(spec.size)[f"{part}_screw_mm"]
-        if screw is not None:
-            entries.append(Dimension(f"{part}'s set screw", screw, "mm"))
-    if spec.size.edge_mm:
-        kind = "rounding" if spec.size.edge_chamfer_mm is None else "chamfer"
-        entries.append(Dimension(f"{kind} of all edges", spec.size.edge_mm, "mm"))
+    entries += _screws_and_edges(spec.size)
     entries += [d for d in spec.wheel.layout if isinstance(d, Dimension)]
     if not spec.wheel.FLAT:
         entries += or_missing("dimensions of the shells", lambda: dimensions(model.ball))
@@ -192,6 +189,18 @@ def _dimensions(model: PartsModel) -> Iterator[Row | Missing]:
         entries += or_missing("teeth of the gears", lambda: model.flat.tooth_dimensions)
     for entry in entries:
         yield entry if isinstance(entry, Missing) else {"row": "dimension", **entry._asdict()}
+
+
+def _screws_and_edges(size: Size) -> Iterator[Dimension]:
+    """Yield the screws that hold hubs on their shafts, and the chamfer or rounding of edges."""
+    for part in ("wheel", "crank"):
+        for key, name in (("screw", "set screw"), ("clamp", "clamp screw")):
+            screw = vars(size)[f"{part}_{key}_mm"]
+            if screw is not None:
+                yield Dimension(f"{part}'s {name}", screw, "mm")
+    if size.edge_mm:
+        kind = "rounding" if size.edge_chamfer_mm is None else "chamfer"
+        yield Dimension(f"{kind} of all edges", size.edge_mm, "mm")
 
 
 def _straight(mechanism: Mechanism) -> Iterator[Dimension]:

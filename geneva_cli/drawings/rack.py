@@ -7,7 +7,7 @@ import math
 from geneva_cli.curves.drawing import Annotations, Drawing, LevelDistance
 from geneva_cli.curves.plates import Group, Member, Plate
 from geneva_cli.curves.shapes import Contour, Line, closed
-from geneva_cli.layout.plain_sizes import pin_radius, thicknesses
+from geneva_cli.layout.plain_sizes import drawn_thicknesses, pin_radius
 from geneva_cli.layout.projection import outlines_of, placed, titled
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.outlines.rack import locking_sector, rack_contour, rack_sizes, slot_walls
@@ -47,14 +47,14 @@ def assembly(mechanism: Mechanism) -> Drawing:
 
 
 def _rack(mechanism: Mechanism) -> Plate:
-    high = thicknesses(mechanism.spec.size, mechanism.center_distance_mm).wheel
+    high = drawn_thicknesses(mechanism.spec.size, mechanism.center_distance_mm).wheel
     outline = rack_contour(rack_sizes(mechanism), mechanism.spec.wheel.z)
     return Plate("rack", "WHEEL", outline, (), 0.0, high)
 
 
 def _crank(mechanism: Mechanism) -> Group:
     size, sizes = mechanism.spec.size, rack_sizes(mechanism)
-    thick = thicknesses(size, mechanism.center_distance_mm)
+    thick = drawn_thicknesses(size, mechanism.center_distance_mm)
     sector, at = locking_sector(sizes), (sizes.arm, 0.0)
     pin = pin_radius(size, sizes.roller)
     fit = size.allowances.shaft_fit_mm

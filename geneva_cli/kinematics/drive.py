@@ -91,7 +91,7 @@ class Drive(SpecTable, kw_only=True):
     roller_angles_deg: Annotated[
         tuple[float, ...] | None,
         Range(0.0, 360.0, "[)"),
-        "angles of the rollers on the crank, if not evenly spaced",
+        "angles of the rollers on the crank, if not evenly spaced or with equal dwells",
     ] = None
     both_ways: Annotated[bool, None, "the input shaft turns either way"] = False
 
@@ -113,6 +113,11 @@ class Drive(SpecTable, kw_only=True):
             return self
         others = self.roller_angles_deg[:0:-1]
         return self.replace(roller_angles_deg=(0.0, *(360.0 - angle for angle in others)))
+
+    @property
+    def wheels_on_carrier(self) -> int:
+        """Number of wheels that orbit on a carrier, which the input turns; 0 without a carrier."""
+        return 0
 
     @property
     def gears(self) -> Gears | None:

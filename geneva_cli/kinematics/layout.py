@@ -5,6 +5,7 @@ The wheel's axis is the origin, and the crank's axis is on the x axis, as in the
 
 from __future__ import annotations
 
+import math
 from enum import Enum
 from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 
@@ -63,6 +64,32 @@ class Link(NamedTuple):
     plane: int
     radius_mm: float = 0.0
     teeth: Teeth = Teeth()
+
+
+class WheelPlace(NamedTuple):
+    """A wheel on a carrier: where it stands from the first wheel, in the carrier's frame.
+
+    ``behind_deg`` is the carrier's angle after which it does what the first wheel did.
+    """
+
+    number: int  # from 1
+    behind_deg: float
+    turn: float  # radians about the fixed axis, counterclockwise
+    at: tuple[float, float]  # of its axis, mm from the first wheel's
+
+
+def wheel_places(count: int, sign: float, L: float) -> tuple[WheelPlace, ...]:
+    """Places of evenly spaced wheels about the axis at (L, 0); ``sign`` is -1 for internal ones.
+
+    >>> [round(value, 9) for value in wheel_places(2, 1.0, 100.0)[1].at]
+    [200.0, 0.0]
+    """
+    first, *others = (math.tau * k / count for k in range(max(1, count)))
+    out = [WheelPlace(1, 0.0, first, (0.0, 0.0))]
+    for k, angle in enumerate(others, 1):
+        at = 2.0 * L * math.sin(0.5 * angle) ** 2, sign * L * math.sin(angle)
+        out.append(WheelPlace(k + 1, 360.0 * k / count, -sign * angle, at))
+    return tuple(out)
 
 
 Layout: TypeAlias = tuple[Pivot | Dimension, ...]

@@ -30,6 +30,7 @@ DRIVES = {
     "epicyclic": "machine.drives.epicyclic:Epicyclic",
     "gear-sector": "machine.drives.gear_sector:GearSector",
     "cam": "machine.drives.cam:Cam",
+    "carousel": "machine.drives.carousel:Carousel",
 }
 LAWS = {
     "harmonic": "kinematics.laws.standard:Harmonic",

@@ -113,10 +113,8 @@ def eye_about(hole: float, wall: float, most: float = math.inf) -> float:
     return max(min(2.0 * hole, most), hole + wall)
 
 
-def bolts_between(
-    size: Size, L: float, sectors: Iterable[tuple[float, float]], count: int
-) -> tuple[float, list[list[float]]]:
-    """Return the radius of the bolts that fix locking sectors to the arm, and their directions.
+def lock_bolt_directions(sectors: Iterable[tuple[float, float]], count: int) -> list[list[float]]:
+    """Return the directions of the bolts that fix locking sectors to the arm.
 
     Each sector is its start and width, radians; its ``count`` bolts are evenly spaced. Raises
     GenevaError where there are bolts and no sectors.
@@ -128,4 +126,5 @@ def bolts_between(
         raise GenevaError(
             "lock_bolts: there is no locking disc to fix; remove it", ("size", "lock_bolts")
         )
-    return half_or(size.lock_bolt_mm, L / 80.0), directions if count else []
+
+    return directions if count else []

@@ -10,8 +10,9 @@ from __future__ import annotations
 import math
 
 from geneva_cli.errors import GenevaError
-from geneva_cli.layout.plain_sizes import wall_min
-from geneva_cli.numerics.preferred import bore_radius, rounded_radius
+from geneva_cli.layout.arm_sizes import crank_reach_and_hub, wheel_reach_and_hub, within_hub
+from geneva_cli.layout.plain_sizes import half_or, wall_min
+from geneva_cli.numerics.preferred import bore_radius
 from geneva_cli.spec.tables import Size
 
 
@@ -22,15 +23,9 @@ def wheel_axle(size: Size, L: float, inside: float, slot_end: float) -> tuple[fl
     the ends of its slots. Raises GenevaError, naming the key, where one of them cuts the slots.
     """
     end = inside * math.sin(min(slot_end, 0.5 * math.pi))
-    if size.wheel_bore_mm is not None:
-        bore = 0.5 * size.wheel_bore_mm
-    else:
-        within = 0.4 * size.wheel_hub_mm if size.wheel_hub_mm else math.inf
-        bore = bore_radius(min(L / 12.0, 0.4 * end, end - wall_min(size, L), within))
-    if size.wheel_hub_mm is not None:
-        hub = 0.5 * size.wheel_hub_mm
-    else:
-        hub = max(bore, rounded_radius(min(1.6 * bore, 0.75 * end))) if bore else 0.0
+    usual = min(L / 12.0, 0.4 * end, end - wall_min(size, L), within_hub(size, "wheel"))
+    bore = half_or(size.wheel_bore_mm, bore_radius(usual))
+    hub = hub_about(size, L, bore, end)
     for key, radius in (("wheel_bore_mm", bore), ("wheel_hub_mm", hub)):
         if radius >= end:
             raise GenevaError(
@@ -41,17 +36,23 @@ def wheel_axle(size: Size, L: float, inside: float, slot_end: float) -> tuple[fl
     return bore, hub
 
 
-def about_crank(size: Size) -> float:
+def hub_about(size: Size, L: float, bore: float, end: float) -> float:
+    """Return the radius of the wheel's hub about a bore; ``end`` is that of the slots' ends."""
+    _, hub = wheel_reach_and_hub(size, bore, wall_min(size, L), end)
+    return hub if size.wheel_hub_mm is not None else max(bore, hub)
+
+
+def about_crank(size: Size, L: float) -> float:
     """Return the greater radius of the crank's bore and hub inside the arm, mm, 0 for none."""
-    return max(0.5 * (size.crank_bore_mm or 0.0), crank_hub(size))
+    return max(0.5 * (size.crank_bore_mm or 0.0), crank_hub(size, L))
 
 
-def crank_hub(size: Size) -> float:
+def crank_hub(size: Size, L: float) -> float:
     """Return the radius of the crank's hub inside the arm, mm; 0 unless the spec has one."""
     bore = 0.5 * (size.crank_bore_mm or 0.0)
     if size.crank_hub_mm is None and size.crank_hub_length_mm is None:
         return 0.0
-    hub = rounded_radius(1.5 * bore) if size.crank_hub_mm is None else 0.5 * size.crank_hub_mm
+    _, hub = crank_reach_and_hub(size, bore, wall_min(size, L))
     return hub if hub > bore else 0.0
 
 

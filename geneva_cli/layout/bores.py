@@ -13,6 +13,7 @@ from dataclasses import dataclass, replace
 from geneva_cli.curves.shapes import ORIGIN, Arc, Circle, Line, Point, Shape, about, closed
 from geneva_cli.errors import GenevaError
 from geneva_cli.layout.keyways import ParallelKey, key
+from geneva_cli.layout.written import length
 from geneva_cli.spec.tables import Size
 
 
@@ -101,12 +102,14 @@ class KeyedBore(Bore):
     def note(self) -> str:
         """Width of the keyway, and the bore's height over it."""
         over = 2.0 * self.radius + self.key.in_hub
-        return f"keyway {self.key.width:g} JS9, {over:.6g} over bore ({self.standard})"
+        wide = length(self.key.width, fine=True)
+        return f"keyway {wide} JS9, {length(over)} over bore ({self.standard})"
 
     @property
     def shaft_note(self) -> str:
         """Width and depth of the shaft's keyway."""
-        return f"keyway {self.key.width:g} P9, {self.key.in_shaft:g} deep ({self.standard})"
+        wide, deep = length(self.key.width, fine=True), length(self.key.in_shaft)
+        return f"keyway {wide} P9, {deep} deep ({self.standard})"
 
     @property
     def keyed(self) -> bool:
@@ -145,7 +148,7 @@ class FlatBore(Bore):
     @property
     def note(self) -> str:
         """Height of the bore over its flat."""
-        return f"flat, {2.0 * self.radius - self.depth:.6g} to the far side"
+        return f"flat, {length(2.0 * self.radius - self.depth)} to the far side"
 
     @property
     def end_diameter(self) -> float | None:
@@ -176,7 +179,7 @@ class HexBore(Bore):
     @property
     def note(self) -> str:
         """Width across flats."""
-        return f"hexagon {2.0 * self.radius:.6g} across flats"
+        return f"hexagon {length(2.0 * self.radius)} across flats"
 
     @property
     def is_round(self) -> bool:

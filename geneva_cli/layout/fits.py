@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
+from geneva_cli.layout.written import deviation, signed
 from geneva_cli.spec.workshops import workshop
 
 
@@ -99,7 +100,7 @@ def toleranced(nominal_mm: float, shown: str, fit: str) -> str:
     deviations = limits(nominal_mm, fit)
     if deviations is None:
         return shown
-    upper, lower = (f"{1e-3 * deviation:+g}" if deviation else "0" for deviation in deviations)
+    upper, lower = (signed(1e-3 * one) for one in deviations)
     return f"{shown} {fit} ({upper}/{lower})"
 
 
@@ -119,7 +120,7 @@ class Fits(NamedTuple):
         """Return a size with its fit, with the deviation of a cut, or alone if none is kept."""
         shop = workshop(self.process)
         if self.thickness_mm is not None and shop.cut_mm:
-            return f"{shown} ±{shop.cut_mm(self.thickness_mm, nominal_mm):g}"
+            return f"{shown} ±{deviation(shop.cut_mm(self.thickness_mm, nominal_mm))}"
         return toleranced(nominal_mm, shown, fit) if shop.fits else shown
 
     @property

@@ -32,6 +32,7 @@ class ToothedGear(NamedTuple):
     z: float  # teeth of the whole circle; of a sector not a whole number
     shift: float  # profile shift in modules, before the backlash is taken off
     middles: tuple[tuple[float, ...], ...]  # of each sector, radians; of a ring, of its spaces
+    last_tip: float = 0.0  # of a driving sector: the radius at which its last tooth ends, mm
 
     @property
     def span(self) -> tuple[int, float]:
@@ -72,6 +73,8 @@ class GearMesh(NamedTuple):
             yield Dimension(f"{name}: reference diameter", 2.0 * teeth.radius, "mm")
             yield Dimension(f"{name}: base diameter", 2.0 * teeth.base, "mm")
             yield Dimension(f"{name}: tip diameter", 2.0 * (teeth.opening or teeth.tip), "mm")
+            if gear.last_tip:
+                yield Dimension(f"{name}: last tooth's tip diameter", 2.0 * gear.last_tip, "mm")
             root = teeth.tip if teeth.opening else teeth.root
             yield Dimension(f"{name}: root diameter", 2.0 * root, "mm")
             if over:
@@ -153,9 +156,15 @@ class _Pair:
         contact = path / (self.rack.pitch * math.cos(self.rack.angle))
         if contact < 1.0:
             raise self._error(f"teeth lose contact: their contact ratio would be {contact:.3g}")
-        middles = self._sectors(small, large) if not self.whole else self._all_round(small, large)
+        lower = 0.0
+        if self.whole:
+            middles = self._all_round(small, large)
+        else:
+            middles, lower = self._sectors(small, large)
         gears = {
-            link.name: ToothedGear(teeth, count, x, middles[link.name])
+            link.name: ToothedGear(
+                teeth, count, x, middles[link.name], lower if link is self.driver else 0.0
+            )
             for link, teeth, count, x in zip(
                 (self.small, self.large), (small, large), self.counts, shifts, strict=True
             )
@@ -261,11 +270,12 @@ class _Pair:
 
     def _sectors(
         self, small: RoundTeeth, large: RoundTeeth
-    ) -> dict[str, tuple[tuple[float, ...], ...]]:
-        """Return the directions of the teeth on sectors, at mid-motion.
+    ) -> tuple[dict[str, tuple[tuple[float, ...], ...]], float]:
+        """Return the directions of the teeth on sectors, and the driver's last tip, mm.
 
-        The last pair leaves contact at the end of the driving arc. Later the driven gear is slower
-        than the teeth, so that they would jam. The first pair is in contact at its start.
+        Before and after the driving arc the driven gear is slower than the teeth. So the first pair
+        comes into contact where the arc starts. The driver's last tooth is lower, so that it leaves
+        where the arc ends; else it would jam.
         """
         teeth = dict(zip((self.small.name, self.large.name), (small, large), strict=True))
         towards = dict(zip(teeth, self.towards, strict=True))
@@ -275,16 +285,21 @@ class _Pair:
             one.rack.pitch,
         )
         recess, approach = (-t.roll(t.tangent(t.tip)) + t.rack.half for t in (one, two))
-        last = 0.5 * arc - recess
-        count = 1 + max(0, math.ceil((arc - recess - approach) / pitch))
+        first = approach - 0.5 * arc
+        # a billionth of a pitch is rounding, and is no reason for one more tooth
+        count = 1 + max(0, math.ceil((arc - recess - approach) / pitch - 1e-9))
         # each tooth's flanks pass the line of centres at these lengths of the driving arc
-        passes = [last - k * pitch for k in reversed(range(count))]
+        passes = [first + k * pitch for k in range(count)]
+        after = min(0.5 * arc - passes[-1], recess)
+        tangent = one.radius * math.sin(one.rack.angle) + after * math.cos(one.rack.angle)
         for link in (self.driver, self.driven):
             if count * pitch * link.teeth.sectors > math.tau * link.radius_mm:
                 raise self._error(f"teeth of the {link.name} overlap: {count} are on each sector")
-        first = tuple(towards[self.driver.name] + (s + one.rack.half) / one.radius for s in passes)
-        return {
-            self.driver.name: (first,),
+        driving = tuple(
+            towards[self.driver.name] + (s + one.rack.half) / one.radius for s in passes
+        )
+        middles = {
+            self.driver.name: (driving,),
             self.driven.name: tuple(
                 tuple(
                     towards[self.driven.name]
@@ -295,3 +310,4 @@ class _Pair:
                 for j in range(self.driven.teeth.sectors)
             ),
         }
+        return middles, math.hypot(one.base, tangent)

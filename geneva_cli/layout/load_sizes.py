@@ -15,7 +15,6 @@ import math
 
 import numpy as np
 
-from geneva_cli.analysis.pin import pin
 from geneva_cli.layout.arm_sizes import (
     crank_reach_and_hub,
     hole_radius,
@@ -23,19 +22,16 @@ from geneva_cli.layout.arm_sizes import (
     within_hub,
 )
 from geneva_cli.layout.assembly import Assembly
+from geneva_cli.layout.holds import arm_holds, key_holds, pin_that_holds, shaft_holds
 from geneva_cli.layout.link_positions import links_at
-from geneva_cli.layout.plain_sizes import Sizes, thicknesses
+from geneva_cli.layout.plain_sizes import Sizes, drawn_thicknesses
 from geneva_cli.layout.roller_paths import roller_reaches
 from geneva_cli.layout.stressed import ShaftSize, lock_of, stressed
 from geneva_cli.loads.strength import lock
-from geneva_cli.loads.strength.allowed import allowed_MPa, shear_allowed_MPa
-from geneva_cli.loads.strength.arm import arm_stress_MPa
+from geneva_cli.loads.strength.allowed import allowed_MPa
 from geneva_cli.loads.strength.horn import horn_stresses
-from geneva_cli.loads.strength.keys import KeyDimensions, key_stress
 from geneva_cli.loads.strength.part_loads import PartLoads, single_loads
-from geneva_cli.loads.strength.shafts import shear_MPa
 from geneva_cli.machine.both_ways import every_way
-from geneva_cli.machine.spec import Spec
 from geneva_cli.numerics.keeps import keeps
 from geneva_cli.numerics.preferred import bores_from, rounded_from
 
@@ -64,7 +60,7 @@ def load_sizes(
     for keyed in (False, True) if size.crank_keyway else (True,):
         for arm in plates:
             trial = _bored(assembly, _thick(assembly, sizes, arm=arm), loads, space, keyed)
-            if _arm_holds(assembly, trial, loads):
+            if arm_holds(assembly.full.spec, stressed(assembly, trial), loads):
                 return trial
     return trial
 
@@ -77,7 +73,7 @@ def _thick(
         wheel_thickness_mm=wheel or sizes.wheel_thickness,
         **({"arm_thickness_mm": arm} if arm else {}),
     )
-    thick = thicknesses(size, assembly.L)
+    thick = drawn_thicknesses(size, assembly.L)
     return sizes._replace(
         wheel_thickness=thick.wheel,
         lock_thickness=thick.lock,
@@ -121,12 +117,7 @@ def _pin(assembly: Assembly, sizes: Sizes, loads: PartLoads) -> float:
         )
         most = min(most, passing - sizes.wall_min)
     contact = stressed(assembly, sizes).contact
-    allowed = float(allowed_MPa(spec.material_roller))
-    for d in rounded_from(2.0 * sizes.pin, 2.0 * most):
-        stress = float(pin(spec.size, contact, d).under(loads.pin_N).equivalent)
-        if keeps(stress, "at most", allowed):
-            break
-    return 0.5 * d
+    return pin_that_holds(spec, contact, sizes.pin, most, loads.pin_N)
 
 
 def _bored(
@@ -154,8 +145,8 @@ def _wheel_bored(assembly: Assembly, sizes: Sizes, loads: PartLoads) -> Sizes:
     for d in bores_from(2.0 * sizes.wheel_bore, 2.0 * most):
         trial = _with_wheel_bore(assembly, sizes, 0.5 * d)
         parts = stressed(assembly, trial)
-        shaft = _shaft_holds(assembly, parts.wheel_shaft, size.wheel_keyway, loads[1:3])
-        if shaft and _key_holds(spec, parts.wheel_key, loads.wheel_Nm):
+        shaft = _shaft_holds(assembly, "wheel", parts.wheel_shaft, loads[1:3])
+        if shaft and key_holds(spec, parts.wheel_key, loads.wheel_Nm):
             break
     return trial
 
@@ -206,32 +197,13 @@ def _with_crank_bore(assembly: Assembly, sizes: Sizes, bore: float) -> Sizes:
 
 def _crank_holds(assembly: Assembly, sizes: Sizes, loads: PartLoads, keyed: bool) -> bool:
     parts, spec = stressed(assembly, sizes), assembly.full.spec
-    shaft = _shaft_holds(assembly, parts.crank_shaft, spec.size.crank_keyway, loads[3:])
-    return shaft and (not keyed or _key_holds(spec, parts.crank_key, loads.crank_Nm))
+    shaft = _shaft_holds(assembly, "crank", parts.crank_shaft, loads[3:])
+    return shaft and (not keyed or key_holds(spec, parts.crank_key, loads.crank_Nm))
 
 
-def _shaft_holds(
-    assembly: Assembly, shaft: ShaftSize, keyway: str | None, loads: tuple[float, ...]
-) -> bool:
+def _shaft_holds(assembly: Assembly, part: str, shaft: ShaftSize, loads: tuple[float, ...]) -> bool:
     """Return True if a shaft holds force and torque, as if both were greatest at once."""
     table, (force, torque) = assembly.full.spec.shaft, loads
     bending = table.bending_factor * force * shaft.overhang / 1000.0
-    stress = shear_MPa(math.hypot(bending, table.torsion_factor * torque), shaft.diameter)
-    return keeps(stress, "at most", float(shear_allowed_MPa(table, keyway is not None)))
-
-
-def _key_holds(spec: Spec, key: KeyDimensions, torque: float) -> bool:
-    """Return True if a key holds a torque, or where there is none."""
-    sides, shear = allowed_MPa(spec.material_wheel), shear_allowed_MPa(spec.shaft)
-    turned = np.asarray(spec.shaft.torsion_factor * torque)
-    stress = key_stress(key, turned, np.asarray(sides), np.asarray(shear))
-    least = float(stress.least_length_mm)
-    return math.isnan(least) or keeps(float(key.length), "at least", least)
-
-
-def _arm_holds(assembly: Assembly, sizes: Sizes, loads: PartLoads) -> bool:
-    """Return True if the arm and its key hold; a shaft that does not needs no thicker arm."""
-    parts, spec = stressed(assembly, sizes), assembly.full.spec
-    stress = float(arm_stress_MPa(parts.arm, np.asarray(loads.crank_N)))
-    key = _key_holds(spec, parts.crank_key, loads.crank_Nm)
-    return key and keeps(stress, "at most", float(allowed_MPa(spec.material_wheel)))
+    moment = math.hypot(bending, table.torsion_factor * torque)
+    return shaft_holds(assembly.full.spec, part, shaft.diameter, moment)

@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, NamedTuple
 
 from geneva_cli.numerics.preferred import rounded_below
+from geneva_cli.spec.default_sizes import Thicknesses, value_or
 from geneva_cli.spec.workshops import workshop
 
 if TYPE_CHECKING:
@@ -44,41 +45,22 @@ class Sizes(NamedTuple):
         return self.arm - self.half_width - self.recess
 
 
-class Thicknesses(NamedTuple):
-    """The parts' thicknesses along the axis, mm."""
-
-    wheel: float
-    lock: float
-    arm: float
-    link: float
-
-
-def thicknesses(size: Size, L: float, parts: Sizes | None = None) -> Thicknesses:
-    """Return the thicknesses of ``parts``, or else of a spec; by default all are the wheel's."""
+def drawn_thicknesses(size: Size, L: float, parts: Sizes | None = None) -> Thicknesses:
+    """Return the thicknesses of ``parts``, or else of a spec."""
     if parts:
         own = parts.wheel_thickness, parts.lock_thickness, parts.arm_thickness
         return Thicknesses(*own, parts.link_thickness)
-    between = None if size.face_width_mm is None else size.face_width_mm + 2.0 * size.edge_mm
-    wheel = value_or(size.wheel_thickness_mm, value_or(between, rounded_below(L / 10.0)))
-    arm = value_or(size.arm_thickness_mm, wheel)
-    # a gap of the process does not ask for a plate of another thickness
-    lock = value_or(size.lock_thickness_mm, wheel + value_or(size.pin_gap_mm, 0.0))
-    return Thicknesses(wheel, lock, arm, value_or(size.link_thickness_mm, arm))
+    return size.thicknesses(L, rounded_below)
 
 
 def pin_radius(size: Size, r: float, parts: Sizes | None = None) -> float:
     """Return the radius of a roller's pin, that of ``parts`` or else of a spec; 0 for none."""
-    return parts.pin if parts else half_or(size.pin_mm, 0.5 * rounded_below(r))
+    return parts.pin if parts else 0.5 * size.pin_diameter(r, rounded_below)
 
 
 def wall_min(size: Size, L: float) -> float:
     """Return the least wall that ``check`` lets pass, mm."""
     return value_or(size.wall_min_mm, max(L / 200.0, workshop(size.process).wall_mm))
-
-
-def value_or(value: float | None, default: float) -> float:
-    """Return a value of the spec, or else the default."""
-    return default if value is None else value
 
 
 def half_or(diameter: float | None, default: float) -> float:

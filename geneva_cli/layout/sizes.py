@@ -23,10 +23,9 @@ from geneva_cli.layout.arm_sizes import (
 from geneva_cli.layout.assembly import Assembly, assembly
 from geneva_cli.layout.plain_sizes import (
     Sizes,
+    drawn_thicknesses,
     half_or,
     pin_radius,
-    thicknesses,
-    value_or,
     wall_min,
 )
 from geneva_cli.layout.reliefs import arc_floor, has_arcs
@@ -35,6 +34,7 @@ from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.machine.spec import Spec
 from geneva_cli.numerics.preferred import bore_radius
 from geneva_cli.numerics.tolerances import SAME_LENGTH
+from geneva_cli.spec.default_sizes import value_or
 from geneva_cli.spec.tables import Size
 
 if TYPE_CHECKING:
@@ -106,7 +106,7 @@ def sizes(
     wheel_bore = wheel_bore if outside or size.wheel_bore_mm else 0.0
     wheel_reach, wheel_hub = wheel_reach_and_hub(size, wheel_bore, wall, end)
     crank_reach, crank_hub = crank_reach_and_hub(size, bore, wall)
-    thick, pin = thicknesses(size, L), pin_radius(size, r)
+    thick, pin = drawn_thicknesses(size, L), pin_radius(size, r)
     out = Sizes(
         roller=r,
         half_width=w,

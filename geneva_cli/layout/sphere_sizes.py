@@ -9,15 +9,17 @@ above the wheel's lower face is a distance inwards from its outer sphere.
 from __future__ import annotations
 
 import math
-from typing import NamedTuple
 
-from geneva_cli.curves.sphere import Vector, place
 from geneva_cli.errors import GenevaError
+from geneva_cli.layout.arm_sizes import arm_bore, hole_radius
 from geneva_cli.layout.axles import about_crank, wheel_axle
-from geneva_cli.layout.plain_sizes import Thicknesses, pin_radius, thicknesses
+from geneva_cli.layout.ball import Ball, inner_edge
+from geneva_cli.layout.plain_sizes import drawn_thicknesses, pin_radius
 from geneva_cli.layout.sizes import lock_between, require_lock_between
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.machine.rollers import places
+from geneva_cli.machine.spec import Spec
+from geneva_cli.spec.default_sizes import Thicknesses
 from geneva_cli.spec.tables import Z_DRAWN, Size
 
 
@@ -25,73 +27,11 @@ class PartDoesNotFit(GenevaError):
     """Error for a part that does not fit, but would with a smaller roller."""
 
 
-class Ball(NamedTuple):
-    """The sizes of a spherical machine, whose slots are meridians.
-
-    Polar angles are from the wheel's axis; for parts of the crank they are from the crank's axis.
-    """
-
-    radius_mm: float  # of the sphere
-    z: int
-    axes: float  # between the shafts
-    arm: float  # of the rollers, from the crank's axis
-    half_motion: float  # crank angle from entry to mid-motion
-    rollers: tuple[float, ...]  # azimuths about the crank's axis
-    roller: float  # half angle of its cone
-    half_width: float  # of the slots
-    bottom: float  # polar angle of the centre of the slot's round end
-    mouth: float  # polar angle where a roller enters
-    rim: float  # polar angle of the wheel's edge
-    inner: float  # polar angle where the slotted ring ends towards its axis
-    lock: float  # polar angle of the locking sectors' edge, 0 for none
-    recess: float  # polar angle of the recess in the wheel, 0 for none
-    span_mm: tuple[float, float]  # radii of the inner and outer face of wheel and rollers
-    lock_span_mm: tuple[float, float]  # of the locking sectors
-    arm_span_mm: tuple[float, float]  # of the crank arm
-    bore_mm: float  # radius of the wheel's bore, 0 for none
-    hub_mm: float  # radius of its hub, 0 for none
-    pin_mm: float  # radius of the rollers' pins, 0 for none
-    about_crank_mm: float  # radius of the crank's shaft or hub inside the arm, 0 for none
-
-    @property
-    def half_step(self) -> float:
-        """Half a step of the wheel."""
-        return math.pi / self.z
-
-    @property
-    def opening_mm(self) -> float:
-        """The radius of the round hole about the wheel's axis; 0 where its ring stays open."""
-        return max(self.bore_mm, self.hub_mm)
-
-    def out(self, height_mm: float) -> float:
-        """Return the distance from the centre to a height above the wheel's lower face."""
-        return self.span_mm[1] - height_mm
-
-    @property
-    def slot_width_deg(self) -> float:
-        """The angle between the walls of a slot at the sphere's centre."""
-        return math.degrees(2.0 * self.half_width)
-
-    def corner(self) -> float:
-        """Return the azimuth of the slot's corner at the rim, from the slot's middle."""
-        return math.asin(math.sin(self.half_width) / math.sin(self.rim))
-
-    def opened(self) -> float:
-        """Return half the azimuth over which a recess opens the rim, 0 without a recess."""
-        if not self.recess:
-            return 0.0
-        c = math.cos(self.recess) - math.cos(self.rim) * math.cos(self.axes)
-        return math.acos(c / (math.sin(self.rim) * math.sin(self.axes)))
-
-    def crank_axis(self, azimuth: float) -> Vector:
-        """Return the crank's axis when it is at an azimuth about the wheel's axis."""
-        return place(self.axes, azimuth)
-
-
 def ball(mechanism: Mechanism, roller_mm: float | None = None) -> Ball:
     """Return the sizes of a spherical machine; ``roller_mm`` replaces its own roller radius.
 
-    Raises GenevaError, naming the key, where they leave no wheel or no lock.
+    Those that the spec leaves out are as large as its load needs. Raises GenevaError, naming the
+    key, where they leave no wheel or no lock.
     """
     spec, L = mechanism.spec, mechanism.center_distance_mm
     size, z = spec.size, spec.wheel.z
@@ -111,14 +51,12 @@ def ball(mechanism: Mechanism, roller_mm: float | None = None) -> Ball:
     # the roller touches the wall that faces the crank's axis at the foot of the perpendicular
     rim = math.acos(math.cos(mouth) * math.cos(w))
     _refuse_slots(bottom, w, z)
-    thick, pin = thicknesses(size, L), pin_radius(size, radius_mm)
+    thick, pin = drawn_thicknesses(size, L), pin_radius(size, radius_mm)
     _refuse_thick(thick, size, L, roller, pin)
     inside, outside = L - 0.5 * thick.wheel, L + 0.5 * thick.wheel
     under = outside + size.allowances.pin_gap_mm  # the arm's inner face, on which the sectors stand
     slot_end = bottom - w
     bore, hub = wheel_axle(size, L, inside, slot_end)
-    hole = math.asin(max(bore, hub) / inside)
-    inner = slot_end - roller if slot_end - roller > hole else 0.5 * (slot_end + hole)
     lock = _lock(mechanism, arm - w, abs(axes - rim), roller)
     many = spec.drive.rollers
     turns = [p.crank_deg for p in (first, *others)]
@@ -136,7 +74,7 @@ def ball(mechanism: Mechanism, roller_mm: float | None = None) -> Ball:
         bottom=bottom,
         mouth=mouth,
         rim=rim,
-        inner=inner,
+        inner=inner_edge(slot_end, roller, math.asin(max(bore, hub) / inside)),
         lock=lock,
         recess=lock + size.allowances.lock_clearance_mm / L if lock else 0.0,
         span_mm=(inside, outside),
@@ -145,10 +83,23 @@ def ball(mechanism: Mechanism, roller_mm: float | None = None) -> Ball:
         bore_mm=bore,
         hub_mm=hub,
         pin_mm=pin,
-        about_crank_mm=about_crank(size),
+        arm_bore_mm=_arm_bore(spec, pin, L, arm),
+        about_crank_mm=about_crank(size, L),
     )
+    if spec.is_loaded:
+        from geneva_cli.layout.sphere_load_sizes import sphere_load_sizes  # else none is needed
+
+        result = sphere_load_sizes(mechanism, result)
     _refuse(result)
     return result
+
+
+def _arm_bore(spec: Spec, pin: float, L: float, arm: float) -> float:
+    """Return the radius of the bore in the arm's hub; 0 without a crank, or without pins."""
+    if not (spec.drive.CRANKED and pin):
+        return 0.0
+    disc, space = 0.5 * (spec.size.crank_bore_mm or 0.0), L * arm - hole_radius(spec.size, pin)
+    return arm_bore(spec, disc, L, space)
 
 
 def _lock(mechanism: Mechanism, limit: float, least: float, roller: float) -> float:

@@ -18,11 +18,12 @@ from geneva_cli.layout.assembly import Assembly
 from geneva_cli.layout.bores import reach_or_bore
 from geneva_cli.layout.keyways import key
 from geneva_cli.layout.link_positions import links_at
-from geneva_cli.layout.plain_sizes import Sizes, half_or, value_or
+from geneva_cli.layout.plain_sizes import Sizes, half_or
 from geneva_cli.layout.reliefs import is_whole, sectors
 from geneva_cli.layout.roller_paths import roller_reaches
 from geneva_cli.loads.strength.arm import ArmDimensions
 from geneva_cli.loads.strength.keys import KeyDimensions
+from geneva_cli.spec.default_sizes import value_or
 
 
 class ShaftSize(NamedTuple):
@@ -60,15 +61,18 @@ def stressed(assembly: Assembly, sizes: Sizes) -> Stressed:
     return Stressed(
         contact,
         2.0 * sizes.pin,
-        _shaft(table.wheel_diameter_mm, sizes.wheel_bore, table.wheel_overhang_mm, overhang),
-        _shaft(table.crank_diameter_mm, crank, table.crank_overhang_mm, overhang),
+        shaft_of(table.wheel_diameter_mm, sizes.wheel_bore, table.wheel_overhang_mm, overhang),
+        shaft_of(table.crank_diameter_mm, crank, table.crank_overhang_mm, overhang),
         _arm(assembly, sizes, contact),
-        _key(size.wheel_keyway, sizes.wheel_bore, sizes.wheel_thickness + length),
-        _key(size.crank_keyway, sizes.arm_bore, sizes.arm_thickness),
+        key_of(size.wheel_keyway, sizes.wheel_bore, sizes.wheel_thickness + length),
+        key_of(size.crank_keyway, sizes.arm_bore, sizes.arm_thickness),
     )
 
 
-def _shaft(diameter: float | None, bore: float, overhang: float | None, usual: float) -> ShaftSize:
+def shaft_of(
+    diameter: float | None, bore: float, overhang: float | None, usual: float
+) -> ShaftSize:
+    """Return a shaft of the spec's dimensions, or else as wide as its bore; NaN for none."""
     return ShaftSize(value_or(diameter, 2.0 * bore or math.nan), value_or(overhang, usual))
 
 
@@ -107,7 +111,7 @@ def lock_of(where: Assembly, size: Sizes) -> Lock:
     return Lock(where.L, where.sign, size.lock, size.recess, size.rim, half, edge)
 
 
-def _key(standard: str | None, bore: float, length: float) -> KeyDimensions:
+def key_of(standard: str | None, bore: float, length: float) -> KeyDimensions:
     """Return the dimensions of a key in a bore; NaN without one."""
     try:
         fitted = key(standard, bore) if bore else None

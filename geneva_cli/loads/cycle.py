@@ -1,6 +1,7 @@
 """The whole cycle under load: states at any input angle, extremes and integrals.
 
 The cycle is a period of the machine from the first entry: every engagement, and the dwells between.
+With several wheels on a carrier it ends at the entry of the next wheel.
 All loads are 0 in a dwell: nothing moves, the lock holds the wheel, and resistance to motion does
 not act at rest.
 """
@@ -14,7 +15,7 @@ from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 import numpy as np
 
 from geneva_cli.analysis.contact import contact, contacts
-from geneva_cli.analysis.forces import LoadCase, gain, load_case, sliding
+from geneva_cli.analysis.forces import LoadCase, feeding, load_case, sliding
 from geneva_cli.analysis.instant import INSTANT_QUANTITIES, Instant, bounded, values
 from geneva_cli.analysis.load_functions import NO_MORE, LoadFunctions, load_batch
 from geneva_cli.analysis.mid_motion import at_crossing
@@ -68,7 +69,7 @@ class Cycle:
     """
 
     def __init__(self, mechanism: Mechanism) -> None:
-        self.mechanism = mechanism
+        self.mechanism = mechanism.under_load
         self.case: LoadCase = load_case(mechanism)
 
     @property
@@ -108,7 +109,7 @@ class Cycle:
         torque = at.acceleration * case.inertia_Nm + case.resists_Nm
         drives = np.copysign(1.0, torque)
         slides = np.copysign(1.0, sliding(at, drives, case.radius))
-        feeds = np.copysign(1.0, drives * gain(case, at, drives, slides))
+        feeds = np.copysign(1.0, feeding(case, at, drives, slides))
         with np.errstate(all="ignore"):
             moving_values = bounded(Instant(case, at, drives, slides, feeds))
         middle = input_deg == 0.0

@@ -26,7 +26,7 @@ from geneva_cli.loads.cycle import cycle_of
 from geneva_cli.loads.summaries import load_peaks, search_loads
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.numerics.angles import omega
-from geneva_cli.numerics.arrays import array
+from geneva_cli.numerics.arrays import array, parameter
 from geneva_cli.numerics.jet import Jet, Number
 from geneva_cli.numerics.known import Known
 from geneva_cli.numerics.ties import first_greatest
@@ -187,8 +187,8 @@ def fastest_rpm(mechanism: Mechanism) -> float | None:
 class Slowness(NamedTuple):
     """1 / (highest speed that a place allows)², for a load with a factor per unit of wheel torque.
 
-    The load is q1 T, with T = w² I a + M, and its factor q1 does not depend on speed. So the limit
-    holds up to w² = (limit - q1 M) / (q1 I a).
+    The load of a torque M is q1 M, with a factor q1 that does not depend on speed. The load of an
+    inertia is w² times that at 1 rad/s, q. So the limit holds up to w² = (limit - q1 M) / q.
     """
 
     of: Callable[[Forces[Jet]], Jet]
@@ -199,7 +199,7 @@ class Slowness(NamedTuple):
         """The quantity, which is unbounded where the place allows no speed."""
         unit = self.case._replace(inertia_Nm=0.0, resists_Nm=1.0)
         factor = self.of(Forces(unit, at, i.drives, i.slides))
-        load = at.acceleration * self.case.inertia_Nm * factor
+        load = self.of(Forces(self.case._replace(resists_Nm=0.0), at, i.drives, i.slides))
         left = self.limit - factor * self.case.resists_Nm
         # Where the wheel is not driven, any speed keeps the limit. The margin is then that next to
         # it, as at rest the load's sign is rounding.
@@ -231,7 +231,16 @@ def _slowness(engagement: Engagement, case: LoadCase, limits: Mapping[str, float
 
 
 def kinetic_power_W(mechanism: Mechanism, power_invariant: float) -> float:
-    """Peak power that the inertia takes from the input: I epsilon omega / eta, W."""
+    """Peak power that the inertia takes from the input, W.
+
+    It is I epsilon omega / eta, with the peak of epsilon omega as an invariant; on a carrier omega
+    is that from the ground, and its peak is searched.
+    """
     spec = mechanism.spec
     w = omega(spec.drive.n_rpm)
+    if mechanism.frame:
+        case = load_case(mechanism)._replace(resists_Nm=0.0, friction=0.0, efficiency=1.0)
+        torque = load_peaks(mechanism, (TORQUE,), case=case)[TORQUE].max
+        one = isinstance(power_invariant, float)
+        return (float(torque[0]) if one else parameter(torque[:, None])) * w / spec.load.efficiency
     return inertia_kgm2(spec) * power_invariant * w**3 / spec.load.efficiency

@@ -19,12 +19,14 @@ class ShaftLoad(NamedTuple):
     friction: float
     work: float
     service_factor: float
+    frame: float = 0.0  # turns of the wheel's frame in one turn of the input
 
 
 class MakersForm(NamedTuple):
     """The lines of the form: rad/s², N m at the wheel, and Tc at the input.
 
-    Ti = J alpha, Tt = Ti + Tf + Tw, Te = fc Tt, Tc = step/motion Qm Te.
+    Ti = J alpha, Tt = Ti + Tf + Tw, Te = fc Tt, Tc = step/motion Qm Te. A carrier that turns the
+    wheel's frame also takes fc Ti, which need not be greatest where the rest is.
     """
 
     alpha: float
@@ -51,4 +53,5 @@ def makers_form(
     Ti = load.inertia * alpha
     Tt = Ti + load.friction + load.work
     Te = load.service_factor * Tt
-    return MakersForm(alpha, Ti, Tt, Te, step_deg / motion_deg * factors.Qm * Te)
+    carried = abs(load.frame) * load.service_factor * Ti
+    return MakersForm(alpha, Ti, Tt, Te, step_deg / motion_deg * factors.Qm * Te + carried)

@@ -88,7 +88,7 @@ def means_from(
     mechanism: Mechanism, names: Sequence[str], sums: Array, plain: bool
 ) -> dict[str, LoadMeans]:
     """The means of quantities over a period, from their integrals ``sums``: (m,) each."""
-    every, out = sums / (np.ravel(mechanism.period_deg) * DEGREE), {}
+    every, out = sums / (np.ravel(mechanism.under_load.period_deg) * DEGREE), {}
     for i, name in enumerate(names):
         square, mean = every[i], None
         if plain:

@@ -36,7 +36,6 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from geneva_cli.loads.cycle import Cycle
-    from geneva_cli.machine.spec import Spec
     from geneva_cli.numerics.arrays import N, Number
     from geneva_cli.numerics.jet import Array
     from geneva_cli.spec.tables import Motor
@@ -192,7 +191,7 @@ def _exact(
     mean = np.where(torque.mean**2 > 1e-26 * square, torque.mean, 0.0 * square)
     swings = fluctuations(mechanism, mean)
     energy = np.where(bounded, swings.energy_J, np.nan)[:, None]
-    returned = swings.returned / np.ravel(mechanism.period_deg * DEGREE)
+    returned = swings.returned / np.ravel(mechanism.under_load.period_deg * DEGREE)
     out["energy_fluctuation_J"] = energy
     out["motor_torque_rms_Nm"] = rms_motor_torque_Nm(motor, square[:, None], returned[:, None])
     if motor.speed_variation is not None:
@@ -207,7 +206,7 @@ def _rotor(mechanism: Mechanism, velocities: Sequence[float]) -> dict[str, Numbe
     own = mechanism.spec.motor.inertia_kgm2
     fastest = np.max(np.broadcast_arrays(*velocities), axis=0)
     with np.errstate(all="ignore"):
-        ratio = inertia_ratio(mechanism.spec, cast("Array", fastest))
+        ratio = inertia_ratio(mechanism, cast("Array", fastest))
     known = np.asarray(own) > 0.0
     return {name: np.where(known, x, np.nan) for name, x in zip(ROTOR, ratio, strict=True)}
 
@@ -223,6 +222,7 @@ def greatest_form(mechanism: Mechanism, peaks: Sequence[Peaks]) -> tuple[MakersF
         support_torque_Nm(spec),
         working_torque_Nm(spec),
         spec.motor.service_factor,
+        mechanism.frame,
     )
     every = []
     for number, (engagement, peak) in enumerate(zip(mechanism.engagements, peaks, strict=True)):
@@ -266,12 +266,18 @@ def flywheel_to_add_kgm2(motor: Motor, whole: N) -> N:
     return larger(left, 0.0 * left)
 
 
-def inertia_ratio(spec: Spec, fastest: N) -> tuple[N, N]:
+def inertia_ratio(mechanism: Mechanism, fastest: N) -> tuple[N, N]:
     """The ratio of the wheel's inertia at its fastest to the motor's, and the coasting speed.
 
     ``fastest`` is the greatest velocity psi1. While coasting without losses, I_input w²/2 + I psi1²
-    w²/2 is constant: w = w0/sqrt(1 + mu psi1²), and the second number is w/w0.
+    w²/2 is constant: w = w0/sqrt(1 + mu psi1²), and the second number is w/w0. On a carrier all
+    wheels have the frame's speed, and psi1 is added to that of one.
     """
-    turn = fastest / spec.motor.gear_ratio
-    mu = inertia_kgm2(spec) * (turn * turn) / spec.motor.inertia_kgm2
-    return mu, 1.0 / library(mu).sqrt(1.0 + mu)
+    spec, frame = mechanism.spec, mechanism.frame
+    others = max(0, spec.drive.wheels_on_carrier - 1) * frame * frame
+    still, mu = (
+        inertia_kgm2(spec) * (turn * turn + others) / spec.motor.gear_ratio**2
+        for turn in (0.0 * fastest + frame, fastest + frame)
+    )
+    still, mu = (x / spec.motor.inertia_kgm2 for x in (still, mu))
+    return larger(mu, still), library(mu).sqrt((1.0 + still) / (1.0 + mu))

@@ -84,9 +84,9 @@ CONFLICTS = (
         'kind = "{drive}" carries one roller only',
     ),
     Conflict(
-        lambda s: s.wheel.steps and s.drive.roller_angles_deg,
-        ("wheel", "steps_deg"),
-        "steps_deg already places the rollers: remove roller_angles_deg",
+        lambda s: s.wheel.steps and len(s.drive.roller_angles_deg or s.wheel.steps) != _several(s),
+        ("drive", "roller_angles_deg"),
+        "each of the {several} steps has a roller: roller_angles_deg needs as many angles",
     ),
     Conflict(
         lambda s: _several(s) and s.drive.rollers not in (1, _several(s)),
@@ -105,6 +105,35 @@ CONFLICTS = (
         "serve them all; use rollers = 1, or straight slots (no law)",
     ),
     Conflict(
+        lambda s: (
+            s.drive.wheels_on_carrier and any(one.count == 1 and one.radius_mm for one in s.mass)
+        ),
+        ("mass", "radius_mm"),
+        'kind = "{drive}" needs balanced wheels, as its centrifugal force would turn them: set '
+        "count to 2 or more evenly spaced bodies, or radius_mm = 0",
+    ),
+    Conflict(
+        lambda s: s.drive.wheels_on_carrier > 1 and (s.drive.rollers > 1 or _several(s)),
+        ("drive", "wheels"),
+        "several wheels meet one finger, each in turn: remove rollers, roller_angles_deg and "
+        "steps_deg, or set wheels = 1",
+    ),
+    Conflict(
+        lambda s: s.drive.wheels_on_carrier > 1 and s.wheel.SIGN < 0.0,
+        ("drive", "wheels"),
+        "an internal wheel surrounds the finger, so that one alone fits: set wheels = 1",
+    ),
+    Conflict(
+        lambda s: s.drive.wheels_on_carrier and s.product.runs_straight,
+        ("product", "pitch_mm"),
+        'a chain or belt needs a wheel on the ground, not kind = "{drive}": set radius_mm instead',
+    ),
+    Conflict(
+        lambda s: s.drive.wheels_on_carrier and s.support.gear_ratio != 1.0,
+        ("support", "gear_ratio"),
+        'gear_ratio is for a table on the ground, not for kind = "{drive}": set it to 1',
+    ),
+    Conflict(
         lambda s: s.output.turns & ((s.load.mass_kg != 0.0) | (s.load.force_N != 0.0)),
         ("load", "mass_kg"),
         "mass_kg and force_N are a rack's load; a wheel that turns has inertia_kgm2 and torque_Nm",
@@ -114,13 +143,26 @@ CONFLICTS = (
         ("load", "inertia_kgm2"),
         "inertia_kgm2 and torque_Nm are of a wheel that turns; a rack has mass_kg and force_N",
     ),
+    Conflict(
+        lambda s: not s.output.turns and s.load.dwell_torque_Nm is not None,
+        ("load", "dwell_torque_Nm"),
+        "dwell_torque_Nm acts on a wheel's shaft, and is not available for a rack: remove it",
+    ),
     *(
         Conflict(
             partial(_table_of_wheels, table),
             (table.strip("[]"),),
-            f"{table} is for a wheel that turns; of a rack set mass_kg and force_N in [load]",
+            f"{table} is for a wheel on a shaft; a rack's load is mass_kg and force_N in [load]",
         )
-        for table in ("[[mass]]", "[support]", "[shaft]", "[tolerance]", "[product]")
+        for table in ("[[mass]]", "[support]")
+    ),
+    *(
+        Conflict(
+            partial(_table_of_wheels, table),
+            (table.strip("[]"),),
+            f"{table} is for a wheel on a shaft, and not available for a rack: remove it",
+        )
+        for table in ("[shaft]", "[tolerance]", "[product]")
     ),
     Conflict(
         lambda s: s.wheel.stopped and (not s.drive.CRANKED or s.drive.IN_SERIES or s.motion),

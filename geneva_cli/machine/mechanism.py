@@ -8,11 +8,12 @@ from typing import TYPE_CHECKING, NamedTuple
 from geneva_cli.kinematics.drive import Plan
 from geneva_cli.kinematics.engagement import Engagement
 from geneva_cli.kinematics.laws.law import Law
+from geneva_cli.kinematics.layout import WheelPlace, wheel_places
 from geneva_cli.machine import compatible
 from geneva_cli.machine.size_rules import refuse_sizes
 from geneva_cli.machine.spec import Spec
 from geneva_cli.machine.tolerance_rules import refuse_tolerances
-from geneva_cli.numerics.arrays import choose, designs_of, larger, library
+from geneva_cli.numerics.arrays import N, choose, designs_of, larger, library
 from geneva_cli.numerics.tolerances import SAME_INPUT_DEG
 
 if TYPE_CHECKING:
@@ -94,6 +95,30 @@ class Mechanism(NamedTuple):
             whole == 360.0, input_deg - 360.0 * m.rint(input_deg / 360.0), counted
         )
         return shown
+
+    @property
+    def frame(self) -> float:
+        """Turns of the wheel's frame in one turn of the input, positive as the wheel turns in it.
+
+        It is 0 but for wheels on a carrier.
+        """
+        return self.spec.wheel.SIGN if self.spec.drive.wheels_on_carrier else 0.0
+
+    def absolute_deg(self, input_deg: N, wheel_deg: N) -> N:
+        """Angle from the ground of a wheel on a carrier, positive as the carrier turns."""
+        return input_deg + self.spec.wheel.SIGN * wheel_deg
+
+    @property
+    def wheel_places(self) -> tuple[WheelPlace, ...]:
+        """Places of all wheels; more than one only on a carrier."""
+        count = max(1, self.spec.drive.wheels_on_carrier)
+        return wheel_places(count, self.spec.wheel.SIGN, self.center_distance_mm)
+
+    @property
+    def under_load(self) -> Mechanism:
+        """The machine with the period of its loads: up to the entry of the next wheel."""
+        wheels = self.spec.drive.wheels_on_carrier
+        return self._replace(period_deg=360.0 / wheels) if wheels > 1 else self
 
     def index_deg(self, i: int) -> float:
         """Wheel step of engagement i, in degrees."""

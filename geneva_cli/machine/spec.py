@@ -270,8 +270,7 @@ class Spec:
         >>> Spec(External(6)).roller_radius_mm(160.0)
         8.0
         """
-        radius = self.size.roller_radius_mm
-        return center_distance_mm / 20.0 if radius is None else radius
+        return self.size.roller_radius(center_distance_mm)
 
     @property
     def given_distance_mm(self) -> float:

@@ -1,7 +1,7 @@
 """Quintic splines through points: four times continuously differentiable, at rest or periodic.
 
-SciPy provides the B-splines. Their coefficients are solved for here, so that every processor gives
-the same bytes. A periodic spline is the middle of a long one. Rounding leaves an error in the jerk
+Everything is in plain arithmetic, so that every processor gives the same bytes, and no SciPy is
+needed. A periodic spline is the middle of a long one. Rounding leaves an error in the jerk
 that grows with the third power of the number of points: 1e-9 of the jerk at 100 points. Points of
 six decimals leave a far larger uncertainty.
 """
@@ -76,26 +76,59 @@ def taylor(t: N, c: Sequence[N], order: int) -> list[N]:
 
 def at_rest(x: Sequence[float], y: Sequence[float]) -> PiecewisePolynomial:
     """Return the spline through points whose first two derivatives are zero at both ends."""
-    from scipy.interpolate import BSpline, PPoly
-
     starts, n = np.array(x[:-1]), len(x) - 1
     knots = np.concatenate(
         (np.repeat(x[0], SPLINE_DEGREE + 1), x[1:-1], np.repeat(x[-1], SPLINE_DEGREE + 1))
     )
+    bases = _bases(knots, n)
     # At a knot five B-splines are not zero. At rest, three coefficients are the end's value.
-    bands = BSpline.design_matrix(x[1:-1], knots, SPLINE_DEGREE).data.reshape(
-        -1, SPLINE_DEGREE + 1
-    )[:, :SPLINE_DEGREE]
+    bands = bases[SPLINE_DEGREE][:SPLINE_DEGREE, 1:].T
     values = np.array(y[1:-1])
     for k in range(min(2, n - 1)):
         values[k] -= y[0] * bands[k, : 2 - k].sum()
         values[-1 - k] -= y[-1] * bands[-1 - k, 3 + k :].sum()
     inner = _pentadiagonal(bands.tolist(), values.tolist())
-    spline = BSpline(knots, [*[y[0]] * 3, *inner, *[y[-1]] * 3], SPLINE_DEGREE)
-    rows = PPoly.from_spline(spline).c[::-1, SPLINE_DEGREE : SPLINE_DEGREE + n].T.copy()
+    rows = _pieces(knots, np.array([*[y[0]] * 3, *inner, *[y[-1]] * 3]), bases)
     rows[:, 0] = y[:-1]
     rows[0, 1:3] = 0.0
     return PiecewisePolynomial(starts[1:], starts, rows)
+
+
+def _bases(knots: Array, n: int) -> list[Array]:
+    """Values of the B-splines of degrees 0 to 5 at the starts of n pieces: (degree + 1, n) each.
+
+    Row r of a degree p has the r-th of the p + 1 B-splines that are not zero in the piece (de
+    Boor's recurrence).
+    """
+    first = np.arange(SPLINE_DEGREE, SPLINE_DEGREE + n)
+    x, values = knots[first], [np.ones((1, n))]
+    for p in range(1, SPLINE_DEGREE + 1):
+        rows = np.zeros((p + 1, n))
+        for r in range(p):
+            low, high = knots[first + 1 + r - p], knots[first + 1 + r]
+            share = values[-1][r] / (high - low)
+            rows[r] += (high - x) * share
+            rows[r + 1] += (x - low) * share
+        values.append(rows)
+    return values
+
+
+def _pieces(knots: Array, coefficients: Array, bases: list[Array]) -> Array:
+    """Taylor coefficients of a spline at the starts of its pieces, (n, 6).
+
+    A derivative of a spline is one of a lower degree, whose coefficients are divided differences.
+    """
+    n = bases[0].shape[1]
+    rows, d = np.zeros((n, SPLINE_DEGREE + 1)), coefficients
+    for k in range(SPLINE_DEGREE + 1):
+        p = SPLINE_DEGREE - k
+        for r in range(p + 1):
+            rows[:, k] += bases[p][r] * d[r : r + n]
+        rows[:, k] /= math.factorial(k)
+        if p:
+            low = np.arange(k + 1, k + len(d))
+            d = p * np.diff(d) / (knots[low + p] - knots[low])
+    return rows
 
 
 def _pentadiagonal(bands: list[list[float]], values: list[float]) -> list[float]:

@@ -25,10 +25,10 @@ import numpy as np
 from geneva_cli.curves.distance import Polyarc
 from geneva_cli.curves.shapes import Contour, Line, Segment, about, closed
 from geneva_cli.errors import GenevaError
-from geneva_cli.layout.plain_sizes import value_or
 from geneva_cli.layout.sizes import lock_between, require_lock_between
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.numerics.angles import DEGREE
+from geneva_cli.spec.default_sizes import value_or
 
 if TYPE_CHECKING:
     from geneva_cli.numerics.jet import Array

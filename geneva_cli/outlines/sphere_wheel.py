@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from geneva_cli.curves.sphere import Region, SphereArc, Vector, opposite, place
-from geneva_cli.layout.sphere_sizes import Ball
+from geneva_cli.layout.ball import Ball
 
 if TYPE_CHECKING:
     from geneva_cli.numerics.jet import Array

@@ -10,6 +10,7 @@ from geneva_cli.curves.shapes import Arc, Circle, Contour, Point, Segment, Shape
 from geneva_cli.errors import GenevaError
 from geneva_cli.kinematics.engagement import Engagement
 from geneva_cli.layout.assembly import Assembly
+from geneva_cli.layout.bolt_holes import bolt_circle
 from geneva_cli.layout.bores import bore_of, has_shape
 from geneva_cli.layout.plain_sizes import Sizes
 from geneva_cli.numerics.tolerances import SAME_LENGTH
@@ -66,17 +67,11 @@ def dial_bolts(assembly: Assembly, sizes: Sizes) -> list[Circle]:
 
     By default their circle is in the middle between the bore and the slots and recesses.
     """
-    size, count = assembly.mechanism.spec.size, assembly.mechanism.spec.size.dial_bolts
+    size = assembly.mechanism.spec.size
+    ring = sizes.wheel_reach, sizes.slot_end
     if sizes.outer:
-        low, high = max(sizes.slot_end, assembly.L + sizes.recess), sizes.outer
-    else:
-        low, high = sizes.wheel_reach, sizes.slot_end
-    far, half = 0.5 * (low + high), 0.5 * (high - low)
-    if size.dial_bolt_circle_mm is not None:
-        far = 0.5 * size.dial_bolt_circle_mm
-    r = min(assembly.L / 80.0, 0.5 * half) if size.dial_bolt_mm is None else 0.5 * size.dial_bolt_mm
-    turns = [assembly.rests[0] + math.tau * k / count for k in range(count)]
-    return [Circle("BORE", _on(far, turn), r) for turn in turns]
+        ring = max(sizes.slot_end, assembly.L + sizes.recess), sizes.outer
+    return bolt_circle(size, "dial", assembly.L, ring, assembly.rests[0]).holes
 
 
 def _between(assembly: Assembly, start: float, end: float) -> float:

@@ -11,8 +11,8 @@ from collections.abc import Iterable
 from geneva_cli.curves.plates import Plate
 from geneva_cli.curves.shapes import ORIGIN, Circle, Shape
 from geneva_cli.layout.assembly import Assembly
+from geneva_cli.layout.held_hubs import held_hub
 from geneva_cli.layout.plain_sizes import Sizes
-from geneva_cli.layout.set_screws import require_thread
 from geneva_cli.outlines.wheel import wheel_circles
 from geneva_cli.spec.tables import Size
 
@@ -25,8 +25,7 @@ def wheel_hub(assembly: Assembly, sizes: Sizes) -> Plate | None:
     Raises GenevaError for a set screw that it does not hold.
     """
     hub = _plate(assembly, sizes)
-    require_thread(assembly.mechanism.spec.size, "wheel", hub)
-    return hub
+    return held_hub(assembly.mechanism.spec.size, "wheel", hub, assembly.rests[0])
 
 
 def _plate(assembly: Assembly, sizes: Sizes) -> Plate | None:

@@ -42,7 +42,12 @@ def gif_bytes(scene: Scene) -> bytes:
     scale = FINER * WIDE / (x1 - x0 + 2.0 * margin)
     high = round((y1 - y0 + 2.0 * margin) * scale / FINER)
 
+    turned_by = 0.0  # of the frame, in the current picture
+
     def on_paper(p: Point) -> Point:
+        if scene.frame:
+            x, y = scene.frame.centre
+            (p,) = _placed([(p[0] - x, p[1] - y)], x, y, turned_by)
         return (p[0] - x0 + margin) * scale, (y1 + margin - p[1]) * scale
 
     outlines = {
@@ -52,6 +57,7 @@ def gif_bytes(scene: Scene) -> bytes:
     frames: list[Image.Image] = []
     for i in tracked(range(FRAMES), "pictures", FRAMES):
         t = scene.turn_deg * i / FRAMES
+        turned_by = value_at(scene.frame.angle, t) if scene.frame else 0.0
         image = Image.new("RGB", (FINER * WIDE, FINER * high), "#ffffff")
         pen = ImageDraw.Draw(image, "RGBA")
         for body in scene.bodies:

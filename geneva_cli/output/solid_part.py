@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+from geneva_cli.curves.cross_holes import drilled
 from geneva_cli.curves.drawing import Drawing
+from geneva_cli.curves.inset import lines_and_arcs
 from geneva_cli.curves.pieces import prepared
 from geneva_cli.curves.plates import Part, Plate, Shell
-from geneva_cli.curves.shapes import Circle, Contour
+from geneva_cli.curves.shapes import Circle, Contour, closed
 from geneva_cli.errors import GenevaError
 
 
@@ -34,7 +36,17 @@ def plate_contours(plate: Plate) -> tuple[Contour | Circle, ...]:
         raise GenevaError(
             f"{plate.name}: a solid of {plate.thickness:g} mm; it must be thicker than 0"
         )
-    return prepared(Drawing(plate.name, (plate.outline, *plate.holes))).shapes
+    if 2.0 * plate.chamfer >= plate.thickness:
+        raise GenevaError(
+            f"edge_chamfer_mm = {plate.chamfer:g}: the {plate.name} is {plate.thickness:g} mm "
+            f"thick; it must be below {0.5 * plate.thickness:g}",
+            ("size", "edge_chamfer_mm"),
+        )
+    shapes = prepared(Drawing(plate.name, (plate.outline, *plate.holes))).shapes
+    shapes = drilled(shapes, plate.cross) if plate.cross else shapes
+    if not plate.chamfer:
+        return shapes
+    return tuple(closed(shape.layer, lines_and_arcs(shape)) for shape in shapes)
 
 
 def require_thick(shell: Shell) -> None:

@@ -34,6 +34,9 @@ def chunks(scene: Scene) -> Iterator[str]:
         f'stroke-width="{0.004 * size:.6g}" stroke-linejoin="round" stroke-linecap="round">\n'
         f"<title>{escape(clean(scene.title))}</title>\n"
     )
+    if scene.frame:
+        (x, y), turned = scene.frame.centre, -math.degrees(value_at(scene.frame.angle, t))
+        yield f'<g transform="rotate({turned:.6g} {x:.6g} {-y:.6g})">\n'
     for body in scene.bodies:
         yield from _body(body, t)
     for bar in scene.bars:
@@ -41,7 +44,7 @@ def chunks(scene: Scene) -> Iterator[str]:
     ink = INKS["ROLLER"].rgb
     for place in scene.rollers:
         yield _circle(_at(place, t), scene.roller_radius, f'stroke="{ink}" fill="{ink}66"')
-    yield "</svg>\n"
+    yield "</g>\n</svg>\n" if scene.frame else "</svg>\n"
 
 
 def _body(body: Body, t: float) -> Iterator[str]:

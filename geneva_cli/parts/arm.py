@@ -18,10 +18,16 @@ from geneva_cli.curves.distance import Polyarc
 from geneva_cli.curves.hull import convex_hull
 from geneva_cli.curves.shapes import Circle, Contour, Shape
 from geneva_cli.errors import GenevaError
-from geneva_cli.layout.arm_sizes import arm_passing, bolts_between, eye_about, hub_and_eye, pin_hole
+from geneva_cli.layout.arm_sizes import (
+    arm_passing,
+    eye_about,
+    hub_and_eye,
+    lock_bolt_directions,
+    pin_hole,
+)
+from geneva_cli.layout.bolt_holes import bolt_radius
 from geneva_cli.layout.bores import bore_of, has_shape
 from geneva_cli.layout.hole_walls import least_wall
-from geneva_cli.layout.plain_sizes import half_or
 from geneva_cli.layout.reliefs import keyway_direction, sectors
 from geneva_cli.outlines.crank import crank_circles, is_whole, roller_centres
 from geneva_cli.outlines.outlines import Outlines
@@ -103,16 +109,17 @@ def bolts(parts: Outlines) -> list[Circle]:
 
 
 def _bolts(parts: Outlines, count: int) -> list[Circle]:
-    """Return the holes of so many bolts in each sector."""
-    size = parts.assembly.mechanism.spec.size
+    """Return the holes of so many bolts in each sector, all of one size."""
+    size, L = parts.assembly.mechanism.spec.size, parts.assembly.L
     spans = sectors(parts.assembly) if parts.crank and count else []
-    widths = [(start, end - start) for start, end in spans]
-    r, directions = bolts_between(size, parts.assembly.L, widths, count)
-    holes = []
-    for at in directions:
-        far = half_or(size.lock_bolt_circle_mm, 0.0) or _widest(parts, at)
-        holes += [Circle(HOLES, (far * math.cos(a), far * math.sin(a)), r) for a in at]
-    return holes
+    directions = lock_bolt_directions([(start, end - start) for start, end in spans], count)
+    rings = [_widest(parts, at) for at in directions]
+    r = bolt_radius(size.lock_bolt_mm, L, min((half for _, half in rings), default=0.0))
+    return [
+        Circle(HOLES, (far * math.cos(turn), far * math.sin(turn)), r)
+        for (far, _), at in zip(rings, directions, strict=True)
+        for turn in at
+    ]
 
 
 def _leave_walls(parts: Outlines, screwed: list[Circle]) -> bool:
@@ -127,16 +134,21 @@ def _leave_walls(parts: Outlines, screwed: list[Circle]) -> bool:
     return passing and apart and least_wall(screwed, parts.crank) >= wall
 
 
-def _widest(parts: Outlines, at: list[float]) -> float:
-    """Return the radius at which bolts in some directions leave the widest walls in the disc."""
+def _widest(parts: Outlines, at: list[float]) -> tuple[float, float]:
+    """Return the radius at which bolts in some directions leave the widest walls in the disc.
+
+    The second number is the least distance of their axes from the walls, 0 or more.
+    """
     count = 400  # radii; their spacing is far below a wall
-    radii = np.linspace(0.0, parts.sizes.lock, count)
+    own = parts.assembly.mechanism.spec.size.lock_bolt_circle_mm
+    radii = np.linspace(0.0, parts.sizes.lock, count) if own is None else np.array([0.5 * own])
     a = np.asarray(at)
     points = [np.outer(radii, f(a)).ravel() for f in (np.cos, np.sin)]
-    walls = -Polyarc(parts.crank).signed(np.column_stack(points)).reshape(count, len(at))
+    walls = -Polyarc(parts.crank).signed(np.column_stack(points)).reshape(len(radii), len(at))
     inner = shaft_bore(parts) if has_arm(parts) else parts.sizes.crank_bore
-    walls = np.minimum(walls, radii[:, None] - inner)
-    return float(radii[int(walls.min(axis=1).argmax())])
+    nearest = np.minimum(walls, radii[:, None] - inner).min(axis=1)
+    best = int(nearest.argmax())
+    return float(radii[best]), max(0.0, float(nearest[best]))
 
 
 def walls(arm: CrankArm, parts: Outlines) -> float:

@@ -14,7 +14,7 @@ from geneva_cli.curves.plates import Member, Plate
 from geneva_cli.errors import GenevaError
 from geneva_cli.kinematics import registry
 from geneva_cli.kinematics.wheels.external import External
-from geneva_cli.layout.plain_sizes import thicknesses, wall_min
+from geneva_cli.layout.plain_sizes import drawn_thicknesses, wall_min
 from geneva_cli.layout.projection import titled
 from geneva_cli.machine.drives.crank import Crank
 from geneva_cli.machine.mechanism import Mechanism, build
@@ -53,7 +53,7 @@ def first_pair(mechanism: Mechanism, bars: Links | None = None) -> Mechanism:
         shaft_fit_mm=sizes.shaft_fit_mm,
         pin_mm=sizes.pin_mm,
         wall_min_mm=wall_min(sizes, L),
-        wheel_thickness_mm=bars.sizes.thickness if bars.sizes else thicknesses(sizes, L).link,
+        wheel_thickness_mm=bars.sizes.thickness if bars.sizes else drawn_thicknesses(sizes, L).link,
         crank_bore_mm=2.0 * bore,
         wheel_bore_mm=2.0 * bars.shaft(second, L),
         lock_bolts=0,  # the link below its disc has no holes for them

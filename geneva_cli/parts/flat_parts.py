@@ -6,20 +6,20 @@ use. Drawing, solid, list of parts, sheet and the checks of shafts are projectio
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from functools import cached_property
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from geneva_cli.curves import fit
-from geneva_cli.curves.plates import Group, Member, Plate
+from geneva_cli.curves.plates import Group, Member, Plate, on_edges
 from geneva_cli.curves.shapes import Contour, Point
 from geneva_cli.kinematics.engagement import Engagement
 from geneva_cli.kinematics.layout import Dimension, Joint
 from geneva_cli.layout.link_positions import links_at
 from geneva_cli.layout.missing import NamedParts
-from geneva_cli.layout.plain_sizes import pin_radius, thicknesses
+from geneva_cli.layout.plain_sizes import drawn_thicknesses, pin_radius
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.outlines.crank import roller_centres
 from geneva_cli.outlines.outlines import Outlines, outlines, slot_walls
@@ -98,12 +98,29 @@ class FlatParts:
             stopped = self.mechanism.spec.wheel.stopped
             contour = wheel_contour(parts.assembly, parts.sizes, walls, stopped)
         turn = float(parts.assembly.wheel(np.zeros(1))[0])
-        return Member(wheel_part(parts, contour), turn=turn)
+        return self._edged([Member(wheel_part(parts, contour), turn=turn)])[0]
+
+    def _plate(self, plate: Plate) -> Plate:
+        """Return a plate with the spec's chamfer."""
+        return plate._replace(chamfer=self.mechanism.spec.size.edge_chamfer_mm or 0.0)
+
+    def _edged(self, members: Iterable[Member]) -> tuple[Member, ...]:
+        """Return members with the spec's chamfer; gears have none, as their edges are teeth."""
+        chamfer = self.mechanism.spec.size.edge_chamfer_mm or 0.0
+        return tuple(on_edges(one, chamfer) for one in members)
+
+    @cached_property
+    def orbiting(self) -> tuple[Member, ...]:
+        """The wheels behind the first on a carrier, which rest."""
+        half = self.mechanism.engagements[0].half_step
+        _, *others = self.mechanism.wheel_places
+        return tuple(Member(self.wheel.part, one.at, one.turn - half) for one in others)
 
     @cached_property
     def links(self) -> Links:
         """The links of the drive, with the pins and rollers between them, and round gears."""
-        return drawn_links(self.mechanism, self.drawn)
+        links = drawn_links(self.mechanism, self.drawn)
+        return links._replace(cut=self._edged(links.cut), joined=self._edged(links.joined))
 
     @cached_property
     def arm(self) -> CrankArm | None:
@@ -113,12 +130,12 @@ class FlatParts:
     @cached_property
     def arm_plate(self) -> Plate | None:
         """The crank arm as a plate."""
-        return arm_plate(self.outlines, self.arm) if self.arm else None
+        return self._plate(arm_plate(self.outlines, self.arm)) if self.arm else None
 
     @cached_property
     def locking(self) -> tuple[Plate, ...]:
         """The locking disc, or its sectors."""
-        return tuple(locking_plates(self.outlines))
+        return tuple(map(self._plate, locking_plates(self.outlines)))
 
     @cached_property
     def rollers(self) -> tuple[Member, ...]:
@@ -129,7 +146,7 @@ class FlatParts:
         mechanism, low = self.mechanism, self.links.pin_low
         size, r = mechanism.spec.size, mechanism.roller_radius_mm
         sizes = self.drawn.sizes if self.drawn else None
-        thick = thicknesses(size, mechanism.center_distance_mm, sizes)
+        thick = drawn_thicknesses(size, mechanism.center_distance_mm, sizes)
         if low is None:
             low = -size.allowances.pin_gap_mm - (
                 thick.arm if self.drawn and has_arm(self.drawn) else 0.0
@@ -138,7 +155,7 @@ class FlatParts:
             r, pin_radius(size, r, sizes), low, thick.wheel, size.allowances.shaft_fit_mm
         )
         centres = roller_centres(self.drawn.assembly) if self.drawn else self._on_links()
-        return tuple(Member(plate, centre) for centre in centres for plate in plates)
+        return self._edged(Member(plate, centre) for centre in centres for plate in plates)
 
     def _on_links(self) -> list[Point]:
         """Return the centres of rollers on links in the plane below the wheel."""
@@ -152,7 +169,14 @@ class FlatParts:
     @cached_property
     def crank_hub(self) -> Plate | None:
         """The crank's hub above the disc or the arm, if the spec has one."""
-        return crank_hub(self.outlines)
+        hub = crank_hub(self.outlines)
+        return self._plate(hub) if hub else None
+
+    def hub_radii(self, part: str) -> tuple[float, float]:
+        """Return the radii of the bore and the hub of a part, "wheel" or "crank", mm."""
+        sizes = self.outlines.sizes
+        hubs = {"wheel": sizes.wheel_hub, "crank": sizes.crank_hub}
+        return {"wheel": sizes.wheel_bore, "crank": sizes.crank_bore}[part], hubs[part]
 
     @cached_property
     def crank(self) -> Member:
@@ -182,7 +206,8 @@ class FlatParts:
         """Of two wheels in series, the first and its locking disc."""
         if self.front is None:
             return ()
-        return tuple(in_front(self.front.outlines, self.links, self.mechanism.center_distance_mm))
+        L = self.mechanism.center_distance_mm
+        return self._edged(in_front(self.front.outlines, self.links, L))
 
     @cached_property
     def toothed(self) -> tuple[Gear, ...]:
@@ -238,7 +263,7 @@ class FlatParts:
         if self._base is None:
             return ()
         stack = groove_stack(self.outlines, self._base, self.links, self.groove[:2])
-        return tuple(Member(plate, (self.outlines.assembly.L, 0.0)) for plate in stack)
+        return self._edged(Member(plate, (self.outlines.assembly.L, 0.0)) for plate in stack)
 
     @cached_property
     def _framed(self) -> FrameAndShafts:
@@ -247,12 +272,12 @@ class FlatParts:
     @property
     def shafts(self) -> tuple[Member, ...]:
         """All shafts, whether they reach the frame or not."""
-        return self._framed.shafts
+        return self._edged(self._framed.shafts)
 
     @cached_property
     def frame(self) -> Member:
         """The frame, which holds the shafts."""
-        return Member(self._framed.plate)
+        return self._edged([Member(self._framed.plate)])[0]
 
     @property
     def standing(self) -> tuple[Member, ...]:
@@ -274,7 +299,7 @@ class FlatParts:
     @property
     def members(self) -> tuple[Member, ...]:
         """All parts; before a spherical wheel only links and gears."""
-        turning = (self.wheel, self.crank) if self.drawn else ()
+        turning = (self.wheel, *self.orbiting, self.crank) if self.drawn else ()
         moved = *turning, *self.linked, *self.round_gears, *self.gear_pair, *self.first
         if not self.mechanism.spec.wheel.FLAT:
             return moved
@@ -283,7 +308,7 @@ class FlatParts:
     def by_name(self) -> Iterator[NamedParts]:
         """Yield all parts in the order of a list, as names and functions that build them."""
         if self.mechanism.spec.is_flat:
-            yield "wheel", lambda: [self.wheel.part]
+            yield "wheel", lambda: [one.part for one in (self.wheel, *self.orbiting)]
             yield "locking disc", lambda: self.locking
             yield "arm", lambda: [self.arm_plate] if self.arm_plate else []
             yield "rollers", lambda: [one.part for one in self.rollers]

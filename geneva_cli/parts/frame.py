@@ -1,5 +1,8 @@
 """The frame: one plate with a hole for every shaft that reaches it, and four mounting holes.
 
+External wheels that orbit have a carrier instead, without mounting holes: it turns on the finger's
+shaft, and has eyes for all wheels.
+
 It lies below all moving parts. A shaft that ends above it, such as an internal wheel's, has its
 bearing elsewhere. The wheel's axis is the origin, and the crank's is on the x axis. Holes are as
 wide as the bores on their shafts. Turned shafts have a ball bearing in the frame, which is at least
@@ -18,7 +21,7 @@ from geneva_cli.errors import GenevaError
 from geneva_cli.layout.bearings import Bearing, bearing_up_to
 from geneva_cli.layout.bores import around
 from geneva_cli.layout.link_positions import same
-from geneva_cli.layout.plain_sizes import thicknesses, wall_min
+from geneva_cli.layout.plain_sizes import drawn_thicknesses, wall_min
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.numerics.preferred import bore_radius, rounded_radius
 from geneva_cli.outlines.outlines import Outlines
@@ -64,7 +67,7 @@ def framed(
         lows.append(gear_span(mechanism, outlines)[0])
     top = min([_lowest(mechanism, outlines, bars), *lows]) - size.washer_mm
     drawn = outlines.sizes if outlines else None
-    thick = thicknesses(size, L, drawn).arm
+    thick = drawn_thicknesses(size, L, drawn).arm
     if size.shafts == "turned":
         _refuse_turned(mechanism, bars)
         top -= L / 50.0  # the least length of a shoulder
@@ -78,6 +81,11 @@ def framed(
     eye = max(L / 20.0, 3.0 * wall)
     # The frame contains every axis, drilled or not.
     within = [*holes, *(Circle(HOLES, at, 0.0) for at in ((0.0, 0.0), *places))]
+    if mechanism.frame > 0.0:
+        reach = max(c.radius for c in holes) + eye
+        eyes = [Circle(LAYER, at, reach) for at in places]
+        plate = Plate("carrier", LAYER, convex_hull(LAYER, eyes), tuple(holes), bottom, top)
+        return FrameAndShafts(plate, tuple(outside_links(axles, bars, L)))
     low, high = (
         [pick(c.centre[k] + sense * c.radius for c in within) + 3.0 * sense * eye for k in (0, 1)]
         for sense, pick in ((-1.0, min), (1.0, max))
@@ -102,9 +110,14 @@ def _shafts(
     if outlines:
         stop = crank_stop(outlines, bars)
         own = crank_shaft_radius(outlines) > 0.0, wheel_shaft_radius(outlines) > 0.0
-        yield from shafts(outlines, frame, stop)
+        _, *others = mechanism.wheel_places
+        half = mechanism.engagements[0].half_step
+        for one in shafts(outlines, frame, stop):
+            yield one
+            if same(one.at, (0.0, 0.0), mechanism.center_distance_mm):
+                yield from (one._replace(at=it.at, turn=one.turn + it.turn - half) for it in others)
     size, drawn = mechanism.spec.size, outlines.sizes if outlines else None
-    top = thicknesses(size, mechanism.center_distance_mm, drawn).wheel
+    top = drawn_thicknesses(size, mechanism.center_distance_mm, drawn).wheel
     ends = Ends(frame[0], top, stop, *own)
     yield from link_shafts(mechanism, bars, ends, first)
     yield from gear_shafts(mechanism, outlines, ends)
@@ -152,17 +165,18 @@ def _drilled(
                 wider = 0.5 * mechanism.spec.size.allowances.shaft_fit_mm
                 yield Circle(HOLES, at, around(one.outline) + wider)
         if not here:
-            diameter = diameters[at[0]]
+            diameter = diameters.get(at[0], shaft.wheel_diameter_mm)
             yield Circle(HOLES, at, bore_radius(L / 20.0) if diameter is None else 0.5 * diameter)
 
 
 def _standing(mechanism: Mechanism, bars: Links) -> Iterator[Point]:
-    """Yield the positions of shafts, each once: the wheel's, the crank's, and those of its drive.
+    """Yield the positions of shafts, each once: of the wheels, the crank, and its drive.
 
     An internal wheel is open in the middle, where its crank turns below it. It is held from above.
     """
     L = mechanism.center_distance_mm
-    seen = [*([(0.0, 0.0)] if mechanism.spec.wheel.SIGN > 0.0 else []), (L, 0.0)]
+    wheels = [one.at for one in mechanism.wheel_places]
+    seen = [*(wheels if mechanism.spec.wheel.SIGN > 0.0 else []), (L, 0.0)]
     if mechanism.spec.drive.gears:
         seen.append((L + mechanism.spec.drive.gears.distance_mm, 0.0))
     yield from seen

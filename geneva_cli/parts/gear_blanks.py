@@ -8,7 +8,6 @@ percent. A gear that stands still is screwed to the frame.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
 from typing import TYPE_CHECKING, NamedTuple
 
 from geneva_cli.curves.measure import turned
@@ -26,11 +25,11 @@ from geneva_cli.curves.shapes import (
 )
 from geneva_cli.errors import GenevaError
 from geneva_cli.kinematics.layout import Link, Teeth
+from geneva_cli.layout.bolt_holes import bolt_circle
 from geneva_cli.layout.gear_mesh import ToothedGear
 from geneva_cli.layout.hole_walls import least_wall
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.parts.link_sizes import LinkSizes
-from geneva_cli.spec.tables import Size
 
 if TYPE_CHECKING:
     from geneva_cli.curves.gear_teeth import Writer
@@ -122,7 +121,8 @@ def link_gear(
             outline = sectors(radius, hub, teeth)
     _refuse(link.name, outer - inner, "bore", shaft)
     if teeth.fixed:
-        holes += _bolts(size, inner, outer, L)
+        # the first at 45 degrees, off the line on which the shafts lie
+        holes += bolt_circle(size, "gear", L, (inner, outer), 0.25 * math.pi).holes
     plate = Plate(link.name, PITCH, outline, tuple(holes), low, high)
     _refuse(link.name, gear_wall(plate), "bolts" if teeth.fixed else "bore", shaft)
     return Gear(at, link.radius_mm, hole, teeth, plate, cut)
@@ -134,12 +134,17 @@ def _toothed(gear: ToothedGear, hub: float, write: Writer) -> Contour:
     ``hub`` is the radius of the outline between sectors.
     """
     one, step = Contour(RIM, tuple(gear.teeth.one(write)), closed=False), gear.teeth.step
+    last = one
+    if gear.last_tip:
+        lower = gear.teeth._replace(tip=gear.last_tip)
+        last = Contour(RIM, tuple(lower.one(write)), closed=False)
     between = Contour(RIM, (gear.teeth.between(),), closed=False)
     pieces: list[Segment] = []
     for sector, after in zip(gear.middles, (*gear.middles[1:], gear.middles[0]), strict=True):
         for k, middle in enumerate(sector):
-            pieces += turned(one, middle).segments
-            if k + 1 < len(sector) or not hub:
+            at_end = k + 1 == len(sector)
+            pieces += turned(last if at_end else one, middle).segments
+            if not (at_end and hub):
                 pieces += turned(between, middle).segments
         if hub:
             end = math.atan2(*reversed(pieces[-1].end))
@@ -170,18 +175,6 @@ def gear_wall(plate: Plate) -> float:
     if isinstance(outline, Circle):
         outline = closed(outline.layer, two_arcs(outline))
     return least_wall(plate.holes, [outline])
-
-
-def _bolts(size: Size, inner: float, outer: float, L: float) -> Iterator[Circle]:
-    """Yield the holes of screws that hold a gear to the frame, between its bore and its teeth."""
-    far, width = 0.5 * (inner + outer), 0.5 * (outer - inner)
-    if size.gear_bolt_circle_mm is not None:
-        far = 0.5 * size.gear_bolt_circle_mm
-    r = min(L / 80.0, 0.5 * width) if size.gear_bolt_mm is None else 0.5 * size.gear_bolt_mm
-    for k in range(size.gear_bolts):
-        # the first at 45 degrees, off the line on which the shafts lie
-        turn = 0.25 * math.pi + math.tau * k / size.gear_bolts
-        yield Circle(HOLES, (far * math.cos(turn), far * math.sin(turn)), r)
 
 
 def _bored_by(at: Point, L: float) -> str:

@@ -15,7 +15,7 @@ import numpy as np
 from geneva_cli.errors import GenevaError
 from geneva_cli.kinematics.layout import Joint, Link
 from geneva_cli.layout.arm_sizes import HUB, eye_about, pin_hole
-from geneva_cli.layout.plain_sizes import half_or, pin_radius, thicknesses, wall_min
+from geneva_cli.layout.plain_sizes import drawn_thicknesses, half_or, pin_radius, wall_min
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.numerics.preferred import bore_radius, rounded_radius
 from geneva_cli.outlines.outlines import Outlines
@@ -89,7 +89,7 @@ def link_sizes(
     spec, L = mechanism.spec, mechanism.center_distance_mm
     size, links = spec.size, [link for link in links if not link.radius_mm]
     drawn = parts.sizes if parts else None
-    wall, thick = wall_min(size, L), thicknesses(size, L, drawn)
+    wall, thick = wall_min(size, L), drawn_thicknesses(size, L, drawn)
     stands = pin_radius(size, mechanism.roller_radius_mm, drawn)
     roller = pin_hole(size, stands) if stands else 0.0
     nearest = min((distance for link in links for distance in _pin_distances(link)), default=L)

@@ -18,9 +18,9 @@ from geneva_cli.curves.plates import Member, Plate, Stack
 from geneva_cli.curves.shapes import ORIGIN, Circle, Shape
 from geneva_cli.errors import GenevaError
 from geneva_cli.layout.bores import RoundBore, bore_of, fitted
+from geneva_cli.layout.held_hubs import held_hub
 from geneva_cli.layout.link_positions import links_at
 from geneva_cli.layout.reliefs import keyway_direction
-from geneva_cli.layout.set_screws import require_thread
 from geneva_cli.numerics.tolerances import SAME_LENGTH
 from geneva_cli.outlines.crank import crank_circles, is_whole
 from geneva_cli.outlines.outlines import Outlines
@@ -38,9 +38,9 @@ def crank_hub(parts: Outlines) -> Plate | None:
     Raises GenevaError, naming the key, if there is neither disc nor arm to carry it, and for a set
     screw that it does not hold.
     """
-    hub = _crank_hub(parts)
-    require_thread(parts.assembly.mechanism.spec.size, "crank", hub)
-    return hub
+    assembly = parts.assembly
+    direction = keyway_direction(assembly)
+    return held_hub(assembly.mechanism.spec.size, "crank", _crank_hub(parts), direction)
 
 
 def _crank_hub(parts: Outlines) -> Plate | None:

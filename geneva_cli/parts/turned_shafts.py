@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
+from itertools import pairwise
 from typing import NamedTuple
 
 from geneva_cli.curves.plates import Plate, Stack
@@ -60,8 +61,8 @@ def turned_shaft(size: Size, seat: Seat, layer: str) -> Stack:
     heights = [low, *(seat.frame - _long(below[k:]) for k in range(1, len(below))), seat.frame]
     heights += [seat.low, *(seat.low + _long(above[:k]) for k in range(1, len(above))), high]
     steps = [*below, Step("shoulder", _circle(layer, shoulder), 0.0), *above]
-    spans = zip(steps, heights[:-1], heights[1:], strict=True)
-    plates = (Plate(step.name, layer, step.section, (), *ends) for step, *ends in spans)
+    spans = zip(steps, pairwise(heights), strict=True)
+    plates = (Plate(step.name, layer, step.section, (), *ends) for step, ends in spans)
     return Stack(f"{seat.part}'s shaft", layer, tuple(plates))
 
 

@@ -16,6 +16,7 @@ from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.outlines.walls.straight import straight_walls
 from geneva_cli.outlines.wheel import LAYER, wheel_circles, wheel_contour
 from geneva_cli.outlines.wheel_hub import wheel_hub
+from geneva_cli.spec.workshops import density_kgm3
 
 
 def wheel_body(mechanism: Mechanism) -> MassProperties | None:
@@ -41,7 +42,7 @@ def wheel_body(mechanism: Mechanism) -> MassProperties | None:
     contour = _contour(where, size)
     # an internal wheel's contour is its opening, inside its outline
     face = outer.less(contour) if outer.area else contour
-    density = spec.material_wheel.density_kgm3
+    density = density_kgm3(spec.material_wheel.density_kgm3, spec.size.process)
     wheel = face_properties(face.less(bores), size.wheel_thickness, density)
     hub = wheel_hub(where, size)
     return added(wheel, mass_properties(hub, density)) if hub else wheel

@@ -7,6 +7,9 @@ from collections.abc import Sequence
 # Limit deviations in micrometres, plus and minus, of nominal sizes from 0, 3, 10, 35, 125, 315,
 # 1000 and 2000 mm on, by the greatest thickness of the plate, mm (table for class 1). Where the
 # standard has none, for a small size in a thick plate, that of the next larger size stands.
+# Two shops print it: modulusmetal.com/iso-9013-thermal-cutting-dimensional-tolerances and
+# lip-technik.de/Blech-und-Laserschneiden/Toleranzen. Up to 10 mm of plate, the only rows that were
+# compared, they differ for sizes of 3 to 10 mm in 3.15 mm: 0.15 and 0.1. The larger stands here.
 ISO_9013 = {
     1.0: (75, 100, 100, 200, 200, 300, 400, 650),
     3.15: (100, 150, 200, 250, 250, 350, 400, 650),

@@ -9,10 +9,13 @@ from functools import cached_property
 from typing import Annotated, ClassVar
 
 from geneva_cli.errors import GenevaError
+from geneva_cli.spec.default_sizes import Thicknesses, unrounded, value_or
 from geneva_cli.spec.processes import PROCESSES, Allowances
 from geneva_cli.spec.rules import LENGTH, NOT_NEGATIVE, POSITIVE, OneOf, Range
 from geneva_cli.spec.schema import SpecTable
 from geneva_cli.spec.workshops import workshop
+
+Rounding = Callable[[float], float]
 
 DISTANCE_MM = 100.0  # the centre distance of a spec that gives none
 Z_DRAWN = 360  # slots of a wheel that is drawn: one a degree
@@ -168,6 +171,12 @@ class Size(SpecTable):
     crank_screw_mm: Annotated[
         float | None, POSITIVE, "set screw through the crank's hub: its thread's diameter"
     ] = None
+    wheel_clamp_mm: Annotated[
+        float | None, POSITIVE, "clamp screw of the wheel's slit hub: its thread's diameter"
+    ] = None
+    crank_clamp_mm: Annotated[
+        float | None, POSITIVE, "clamp screw of the crank's slit hub: its thread's diameter"
+    ] = None
     dial_bolts: Annotated[int, Range(0, 100), "number of bolts between dial and wheel"] = 0
     dial_bolt_mm: Annotated[float | None, POSITIVE, "dial's bolt holes: diameter, max. L/40"] = None
     dial_bolt_circle_mm: Annotated[
@@ -199,7 +208,7 @@ class Size(SpecTable):
         Range(0, 100),
         "bolts through each sector of the locking disc and the arm; default 2 where they fit",
     ] = None
-    lock_bolt_mm: Annotated[float | None, POSITIVE, "lock's bolt holes; default L/40"] = None
+    lock_bolt_mm: Annotated[float | None, POSITIVE, "lock's bolt holes: diameter, max. L/40"] = None
     lock_bolt_circle_mm: Annotated[
         float | None, POSITIVE, "locking disc's bolt circle; default: where the disc is widest"
     ] = None
@@ -242,9 +251,7 @@ class Size(SpecTable):
         float | None, POSITIVE, "thickness of the links; default: the crank arm's"
     ] = None
     washer_mm: Annotated[float, NOT_NEGATIVE, "thickness of washers between stacked links"] = 0.0
-    edge_chamfer_mm: Annotated[
-        float | None, POSITIVE, "chamfer of all edges, at 45 degrees: a note on the sheet"
-    ] = None
+    edge_chamfer_mm: Annotated[float | None, POSITIVE, "chamfer of all edges, at 45 degrees"] = None
     edge_fillet_mm: Annotated[
         float | None, POSITIVE, "rounding radius of all edges: a note on the sheet"
     ] = None
@@ -258,6 +265,23 @@ class Size(SpecTable):
         """
         own = self.edge_fillet_mm if self.edge_chamfer_mm is None else self.edge_chamfer_mm
         return 0.0 if own is None else own
+
+    def roller_radius(self, L: float) -> float:
+        """Radius of a roller for a centre distance, mm; by default a twentieth of it."""
+        return value_or(self.roller_radius_mm, L / 20.0)
+
+    def pin_diameter(self, roller: float, rounded: Rounding = unrounded) -> float:
+        """Diameter of a roller's pin, mm: by default half of the roller's; 0 for no pin."""
+        return value_or(self.pin_mm, rounded(roller))
+
+    def thicknesses(self, L: float, rounded: Rounding = unrounded) -> Thicknesses:
+        """Thicknesses of the plates for a centre distance, mm; by default all are the wheel's."""
+        between = None if self.face_width_mm is None else self.face_width_mm + 2.0 * self.edge_mm
+        wheel = value_or(self.wheel_thickness_mm, value_or(between, rounded(L / 10.0)))
+        arm = value_or(self.arm_thickness_mm, wheel)
+        # a gap of the process does not ask for a plate of another thickness
+        lock = value_or(self.lock_thickness_mm, wheel + value_or(self.pin_gap_mm, 0.0))
+        return Thicknesses(wheel, lock, arm, value_or(self.link_thickness_mm, arm))
 
     @cached_property
     def allowances(self) -> Allowances:
@@ -282,20 +306,15 @@ class Size(SpecTable):
         narrow bore lets in its turned shaft. Sizes that are not set have their defaults without a
         load, before they are rounded down.
         """
-        L = DISTANCE_MM if self.center_distance_mm is None else self.center_distance_mm
-        roller = L / 20.0 if self.roller_radius_mm is None else self.roller_radius_mm
-        wide = L / 10.0 if self.face_width_mm is None else self.face_width_mm
-        wheel = wide if self.wheel_thickness_mm is None else self.wheel_thickness_mm
-        arm = wheel if self.arm_thickness_mm is None else self.arm_thickness_mm
-        gap = 0.0 if self.pin_gap_mm is None else self.pin_gap_mm
-        disc = wheel + gap if self.lock_thickness_mm is None else self.lock_thickness_mm
-        bore = L / 6.0 if self.wheel_bore_mm is None else self.wheel_bore_mm
+        L = value_or(self.center_distance_mm, DISTANCE_MM)
+        roller, thick = self.roller_radius(L), self.thicknesses(L)
+        bore = value_or(self.wheel_bore_mm, L / 6.0)
         across = L if self.lock_radius_mm is None else 2.0 * self.lock_radius_mm
         return usual._replace(
-            slot_clearance_mm=cut_mm(wheel, 2.0 * roller),
-            lock_clearance_mm=0.5 * (cut_mm(wheel, across) + cut_mm(disc, across)),
-            press_fit_mm=cut_mm(arm, roller if self.pin_mm is None else self.pin_mm),
-            shaft_fit_mm=cut_mm(wheel, bore),
+            slot_clearance_mm=cut_mm(thick.wheel, 2.0 * roller),
+            lock_clearance_mm=0.5 * (cut_mm(thick.wheel, across) + cut_mm(thick.lock, across)),
+            press_fit_mm=cut_mm(thick.arm, self.pin_diameter(roller)),
+            shaft_fit_mm=cut_mm(thick.wheel, bore),
         )
 
 
@@ -457,11 +476,15 @@ class Shaft(SpecTable):
     wheel_diameter_mm: Annotated[float | None, POSITIVE, "diameter of the wheel's shaft"] = None
     crank_diameter_mm: Annotated[float | None, POSITIVE, "diameter of the crank's shaft"] = None
     wheel_overhang_mm: Annotated[
-        float | None, NOT_NEGATIVE, "wheel's shaft: slots' mid-plane to the nearer bearing"
+        float | None,
+        NOT_NEGATIVE,
+        "wheel's shaft: slots' mid-plane (a sphere's radius L) to the nearer bearing",
     ] = None
     wheel_span_mm: Annotated[float | None, POSITIVE, "wheel's shaft: bearing to bearing"] = None
     crank_overhang_mm: Annotated[
-        float | None, NOT_NEGATIVE, "crank's shaft: roller's mid-plane to the nearer bearing"
+        float | None,
+        NOT_NEGATIVE,
+        "crank's shaft: roller's mid-plane (a sphere's radius L) to the nearer bearing",
     ] = None
     crank_span_mm: Annotated[float | None, POSITIVE, "crank's shaft: bearing to bearing"] = None
     shear_stress_max_MPa: Annotated[
@@ -479,7 +502,9 @@ class Material(SpecTable):
 
     youngs_modulus_GPa: Annotated[float, POSITIVE, "Young's modulus E"] = 210.0
     poisson_ratio: Annotated[float, Range(0.0, 0.5), "Poisson's ratio nu"] = 0.3
-    density_kgm3: Annotated[float, POSITIVE, "density"] = 7850.0
+    density_kgm3: Annotated[
+        float | None, POSITIVE, "density; default of steel 7850, of prints 1240 (PLA)"
+    ] = None
     stress_max_MPa: Annotated[
         float | None, POSITIVE, "allowable stress; default of steel 165 (C45+N, 0.6 yield)"
     ] = None
@@ -503,8 +528,8 @@ class WheelMaterial(Material):
 class RollerMaterial(Material):
     """``[material.roller]``: material of the roller and its pin.
 
-    >>> RollerMaterial(stress_max_MPa=1500.0).density_kgm3
-    7850.0
+    >>> RollerMaterial(stress_max_MPa=1500.0).poisson_ratio
+    0.3
     """
 
     TABLE: ClassVar[str] = "material.roller"
@@ -602,9 +627,6 @@ class TitleBlock(SpecTable):
     ] = None
     flank_hardness_HRC: Annotated[
         float | None, Range(20.0, 70.0), "hardness of the faces that roll, slide or lock"
-    ] = None
-    edge_mm: Annotated[
-        float | None, POSITIVE, "greatest chamfer or rounding of outer edges (ISO 13715)"
     ] = None
 
 

@@ -17,6 +17,7 @@ class Workshop(NamedTuple):
     cut_mm: Callable[[float, float], float] | None = None
     roughness: str = ""
     material: str = "steel"  # of the default density and stiffness
+    density_kgm3: float = 7850.0  # of steel
     wall_mm: float = 0.0  # thinnest wall
     hole: float = 0.0  # smallest hole, over the plate's thickness
     plate_mm: float = float("inf")  # thickest plate
@@ -24,7 +25,8 @@ class Workshop(NamedTuple):
 
 WORKSHOPS = {
     # ISO 9013 is for lasers up to 32 mm. A hole of 0.7 thicknesses is the least that cutters take
-    # (acutelaser.com.au/resources/laser-cutting). Fibre lasers keep its second range of roughness
+    # (acutelaser.com.au/resources/laser-cutting, lasermaster-en.blogspot.com/2022/06); others ask
+    # for a whole thickness. Fibre lasers keep its second range of roughness
     # (laserspechub.com/guides/iso-9013-practical-guide).
     "laser": Workshop(
         "ISO 9013 class 1",
@@ -36,8 +38,9 @@ WORKSHOPS = {
     # Milling leaves Ra 0.8 to 6.3 (tables after ASME B46.1): 3.2 is the grade between them.
     "mill": Workshop("ISO 2768-m", roughness="Ra 3.2"),
     # A wall needs two lines of a 0.4 mm nozzle (rigidprints.co.uk/design-guide/wall-thickness);
-    # sizes are within 0.2 mm (printparams.com/docs/real-world-fit).
-    "print": Workshop("±0.2 mm", fits=False, material="", wall_mm=0.8),
+    # sizes are within 0.2 mm (printparams.com/docs/real-world-fit). PLA has 1.24 g/cm³ (ASTM D792,
+    # data sheet of Ingeo 2003D, NatureWorks); parts that are not printed solid are lighter.
+    "print": Workshop("±0.2 mm", fits=False, material="", density_kgm3=1240.0, wall_mm=0.8),
 }
 
 
@@ -48,3 +51,12 @@ def workshop(process: str | None) -> Workshop:
     ('ISO 2768-m', False)
     """
     return WORKSHOPS[process] if process else Workshop("ISO 2768-m")
+
+
+def density_kgm3(own: float | None, process: str | None) -> float:
+    """Return the density of a part: its ``own`` of the spec, or that of the process.
+
+    >>> density_kgm3(None, None), density_kgm3(None, "print"), density_kgm3(2700.0, "print")
+    (7850.0, 1240.0, 2700.0)
+    """
+    return workshop(process).density_kgm3 if own is None else own

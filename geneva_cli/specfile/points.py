@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import hashlib
 import re
 from collections.abc import Iterable
 
@@ -37,6 +36,8 @@ def read_pairs(path: str, rule: Csv, key: tuple[str, ...]) -> list[tuple[float, 
 
 def digest(paths: Iterable[str]) -> str:
     """Hash of the bytes of some files, which need not exist."""
+    import hashlib  # loads OpenSSL, which most runs do not need
+
     total = hashlib.sha256()
     for path in paths:
         try:

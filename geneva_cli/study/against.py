@@ -81,6 +81,11 @@ def alternative(design: Design, name: str, rotor: bool = False) -> Mechanism:
     With ``rotor`` a servo's load has its rotor and the losses of its reducer, too.
     """
     times = design.timings
+    if design.spec.drive.wheels_on_carrier:
+        raise GenevaError(
+            f'--against: kind = "{design.spec.drive.NAME}" has wheels on a carrier, and an '
+            "alternative stands on the ground"
+        )
     steps = [t.index_deg for t in times if t.index_deg is not None]
     if not steps:
         raise GenevaError("--against: cam and servo turn a wheel, and this machine moves a rack")

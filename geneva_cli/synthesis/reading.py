@@ -72,6 +72,11 @@ def read_target(
             "no requirement; give one or more of --tau, --motion-deg, --dwell-deg, --motion-s, "
             "--dwell-s, --cycle and --subject-to"
         )
+    if frame and frame.drive.wheels_on_carrier:
+        raise GenevaError(
+            f'--from: kind = "{frame.drive.NAME}" has wheels on a carrier, and synth tries cranks '
+            "on the ground: leave the kind out, and set it in the result"
+        )
     phrases = [spans[name].words(*SPANS[name][1:]) for name in spans]
     phrases = [w if w[:2] == "a " else " = ".join(w.split(" ", 1)) for w in phrases]
     bounds = tuple(constraint(text) for text in subject_to)
@@ -99,6 +104,11 @@ def read_target(
 
 def _gearings(chosen: tuple[str, ...], frame: Spec | None) -> tuple[str, ...]:
     """The gearings to try; with a frame that has a stop those that may have one."""
+    if frame is not None and not frame.output.turns:
+        raise GenevaError(
+            "--from: the spec has a rack, and only wheels are searched: its step is twice "
+            "center_distance_mm, and a side-crank or gears change its motion of 180 deg"
+        )
     if frame is None or not frame.wheel.stopped:
         return chosen or GEARINGS
     stopped = tuple(

@@ -42,11 +42,15 @@ def _back_driven(cycle: Cycle, loads: Mapping[str, QuantitySummary]) -> list[Not
     if least is None or not least < -ROUNDED * abs(most or least):
         return []
     driven = back_driven_deg(cycle)
+    if not driven:
+        return []
     where = ", ".join(f"{round(a, 9):.4g} to {round(b, 9):.4g}" for a, b in driven)
     helps = f"or add a drag to the {noun} (with {resistance(cycle)} in all, the input always "
     helps += "drives)"
     if arrival(cycle.mechanism):
         helps = "but no drag on the wheel, which would take it off the roller that stops it"
+    if cycle.case.frame:
+        helps = "as no drag on the wheel stops it from pushing the carrier"
     return [
         Notice(
             "drives-the-motor",

@@ -31,10 +31,12 @@ def direction_warnings(mechanism: Mechanism) -> Iterator[Notice]:
 
 def _difference(forwards: Mechanism, backwards: Mechanism) -> str:
     """The first end of the motion, or else the law's half-way, that differs; empty if none does."""
-    ends, back = (worst(machine).ends._asdict() for machine in (forwards, backwards))
-    for key, one in ends.items():
-        if not math.isclose(one, back[key], rel_tol=1e-4):
-            what, _, end = key.partition("_")
+    peaks = worst(forwards)
+    back = worst(backwards).ends._asdict()
+    for key, one in peaks.ends._asdict().items():
+        what, _, end = key.partition("_")
+        noise = 1e-9 * getattr(peaks, what).max  # an end without a jump is rounding
+        if not math.isclose(one, back[key], rel_tol=1e-4, abs_tol=noise):
             return f"the {what} at {end} is {one:.4g} forwards and {back[key]:.4g} backwards"
     half = 0.5 if forwards.law is None else forwards.law.half_way
     if math.isclose(half, 0.5, rel_tol=1e-4):

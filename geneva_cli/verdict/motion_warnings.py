@@ -24,7 +24,7 @@ def motion_warnings(mechanism: Mechanism) -> list[Notice]:
     """The warnings about a machine that need neither its loads nor its parts."""
     out: list[Notice] = []
     z = mechanism.spec.wheel.z
-    if z > Z_USUAL:
+    if z > Z_USUAL and mechanism.output.turns:  # a rack only becomes longer
         out.append(
             Notice(
                 "many-slots",

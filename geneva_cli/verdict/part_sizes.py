@@ -11,12 +11,16 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
+from geneva_cli.errors import GenevaError
 from geneva_cli.layout.sizes import Layout
+from geneva_cli.layout.sphere_sizes import ball
+from geneva_cli.layout.sphere_stressed import sphere_stressed
 from geneva_cli.layout.stressed import Stressed, stressed
 from geneva_cli.loads.strength.arm import ArmDimensions
 from geneva_cli.loads.strength.keys import KeyDimensions
 
 if TYPE_CHECKING:
+    from geneva_cli.machine.mechanism import Mechanism
     from geneva_cli.numerics.jet import Array
 
 
@@ -32,9 +36,9 @@ class PartSizes(NamedTuple):
     crank_key: KeyDimensions
 
 
-def part_sizes(layouts: Sequence[Layout | None]) -> PartSizes | None:
+def part_sizes(parts: Sequence[Stressed | None]) -> PartSizes | None:
     """The dimensions of the parts of m designs; None if no design has parts."""
-    rows = [_numbers(stressed(*parts)) if parts else [] for parts in layouts]
+    rows = [_numbers(one) if one else [] for one in parts]
     every = [row for row in rows if row]
     if not every:
         return None
@@ -52,6 +56,16 @@ def part_sizes(layouts: Sequence[Layout | None]) -> PartSizes | None:
         ArmDimensions(*flat_arm),
         *(KeyDimensions(*own) for own in keys),
     )
+
+
+def stressed_parts(machine: Mechanism, layout: Layout | None) -> Stressed | None:
+    """The stressed parts of a design: flat ones by their layout, or those of a sphere; or None."""
+    if layout or machine.spec.is_flat or not machine.spec.has_parts:
+        return stressed(*layout) if layout else None
+    try:
+        return sphere_stressed(machine.spec, ball(machine))
+    except GenevaError:  # the check of the parts reports the error
+        return None
 
 
 def _numbers(of: Stressed) -> list[float]:

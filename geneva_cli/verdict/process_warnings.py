@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
 
 from geneva_cli.curves.measure import bounds
-from geneva_cli.curves.plates import Plate, plates
+from geneva_cli.curves.plates import Plate, Shell, Solid, solids
 from geneva_cli.drawings.model import PartsModel
 from geneva_cli.drawings.single_parts import is_cut
 from geneva_cli.errors import GenevaError, Notice
-from geneva_cli.layout.missing import Missing, built_of
+from geneva_cli.layout.missing import Missing, NamedParts, built_of
 from geneva_cli.layout.plain_sizes import Sizes
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.numerics.keeps import keeps
@@ -17,44 +18,58 @@ from geneva_cli.spec.workshops import workshop
 
 
 def process_warnings(model: PartsModel) -> Iterator[Notice]:
-    """Warnings about small holes and narrow clearances in plates that are cut."""
+    """Warnings about small holes and narrow clearances, and about shells to be cut from a plate."""
     spec = model.mechanism.spec
-    if not (spec.is_flat and spec.size.process):
+    if not (spec.has_parts and spec.size.process):
         return
+    shop = workshop(spec.size.process)
     try:
-        sizes = model.outlines.sizes
+        named = list(model.built.by_name())
     except GenevaError:  # the check of the parts has the reason
         return
-    yield from _small_holes(model, workshop(spec.size.process).hole)
-    yield from _narrow(model.mechanism, sizes)
+    if spec.wheel.SHELLS and math.isfinite(shop.plate_mm):
+        yield Notice(
+            "bent-parts",
+            f"a {spec.size.process} cuts flat plates, but these parts are shells of a sphere: cut "
+            "them laid flat (geneva help spherical-sheet) and roll them to their cones, or set "
+            'process = "mill" or "print"',
+        )
+    yield from _small_holes(named, shop.hole)
+    if spec.is_flat:
+        yield from _narrow(model.mechanism, model.outlines.sizes)
 
 
-def _small_holes(model: PartsModel, least: float) -> Iterator[Notice]:
+def _small_holes(named: list[NamedParts], least: float) -> Iterator[Notice]:
     """A warning that names each part with a hole below ``least`` thicknesses."""
     if not least:
         return
     missing: list[Missing] = []  # the check of the parts reports them
-    parts = built_of(model.flat.by_name(), missing)
-    cut = dict.fromkeys(one for part in parts for one in plates(part))
-    small: dict[str, tuple[float, Plate]] = {}
-    for plate in cut:
-        if not is_cut(plate) and plate.layer != "ROLLER":
-            continue
-        for hole in plate.holes:
-            box = bounds(hole)
-            wide = min(box.x1 - box.x0, box.y1 - box.y0)
-            if not keeps(wide, "at least", least * plate.thickness):
-                known = small.get(plate.name, (wide, plate))
-                small[plate.name] = min(known, (wide, plate), key=lambda one: one[0])
+    cut = dict.fromkeys(one for part in built_of(named, missing) for one in solids(part))
+    small: dict[str, tuple[float, float]] = {}
+    for solid in cut:
+        for wide, thick in _holes(solid):
+            if not keeps(wide, "at least", least * thick):
+                small[solid.name] = min(small.get(solid.name, (wide, thick)), (wide, thick))
     if not small:
         return
     names = ", ".join(f"{name} Ø {wide:.4g}" for name, (wide, _) in sorted(small.items()))
-    wide, plate = min(small.values(), key=lambda one: one[0] / one[1].thickness)
+    name, (wide, _) = min(small.items(), key=lambda one: one[1][0] / one[1][1])
     yield Notice(
         "small-hole",
         f"holes below {least:g} of their plate's thickness, which a laser does not cut well: "
-        f"{names} mm. Drill them, or make the {plate.name} at most {wide / least:.4g} mm thick",
+        f"{names} mm. Drill them, or make the {name} at most {wide / least:.4g} mm thick",
     )
+
+
+def _holes(solid: Solid) -> Iterator[tuple[float, float]]:
+    """Yield the widths of a part's holes and its thickness, if it is cut out of a plate."""
+    if isinstance(solid, Shell):
+        for bored in solid.holes:
+            yield 2.0 * bored.radius, solid.outer - solid.inner
+    elif isinstance(solid, Plate) and (is_cut(solid) or solid.layer == "ROLLER"):
+        for hole in solid.holes:
+            box = bounds(hole)
+            yield min(box.x1 - box.x0, box.y1 - box.y0), solid.thickness
 
 
 def _narrow(mechanism: Mechanism, sizes: Sizes) -> Iterator[Notice]:

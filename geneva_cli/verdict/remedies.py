@@ -8,6 +8,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 
+from geneva_cli.layout.screws import SCREWS
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.spec.tables import Z_USUAL, Size
 from geneva_cli.verdict.changes import (
@@ -93,6 +94,11 @@ def _defaults(mechanism: Mechanism) -> Iterator[Change]:
         if isinstance(default, float):
             yield towards("size", key, default, SIZE_STEPS)
         yield set_to("size", key, usual)
+
+
+def _wider_screws(now: float | None) -> list[Value]:
+    """Return the threads above a screw's, of the next sizes."""
+    return [screw.thread for screw in SCREWS if now and screw.thread > now]
 
 
 def _sine(now: float) -> list[Value]:
@@ -198,6 +204,16 @@ REMEDIES: dict[str, tuple[Change, ...]] = {
         scaled("size", "arm_hub_mm", 3.0),
         *_LESS_LOAD,
     ),
+    "wheel_clamp_Nm": (
+        scaled("size", "wheel_hub_mm", 5.0),
+        Change("size", "wheel_clamp_mm", _wider_screws),
+        *_LESS_LOAD,
+    ),
+    "crank_clamp_Nm": (
+        scaled("size", "crank_hub_mm", 5.0),
+        Change("size", "crank_clamp_mm", _wider_screws),
+        *_LESS_LOAD,
+    ),
     "wheel_key_pressure_MPa": (
         scaled("size", "wheel_thickness_mm", 10.0),
         scaled("size", "wheel_bore_mm", 5.0),
@@ -227,6 +243,7 @@ REMEDIES: dict[str, tuple[Change, ...]] = {
         scaled("size", "lock_clearance_mm", 0.0),
         scaled("size", "slot_clearance_mm", 0.0),
     ),
+    "wheels_apart_mm": (_SMALLER, _LARGER, fewer("drive", "wheels", 1)),
     "rollers_apart_mm": (_SMALLER, increased("drive", "sector_deg", 30.0)),
     "crank_shaft_mm": _CRANK,
     "crank_hub_mm": _CRANK,

@@ -9,7 +9,6 @@ from typing import TYPE_CHECKING, TypeAlias
 
 import numpy as np
 
-from geneva_cli.analysis.quantities import PARALLEL_SHAFTS
 from geneva_cli.errors import Notice
 from geneva_cli.layout.sizes import sized
 from geneva_cli.loads.strength import horn, lock, shafts
@@ -165,9 +164,9 @@ class Strength:
         yield from self._shaft("crank", shafts.crank_shaft(self.spec.shaft))
 
     def _shaft(self, which: str, ends: shafts.ShaftDimensions) -> Keys:
-        sphere = self.spec.wheel.SHELLS
-        wheel = "a wheel on a shaft: the shafts of a rack's machine are not computed"
-        yield [(self.spec.wheel.FLAT, PARALLEL_SHAFTS if sphere else wheel)]
+        wheel = self.spec.wheel
+        words = "a wheel on a shaft: the shafts of a rack's machine are not computed"
+        yield [(wheel.FLAT or wheel.SHELLS, words)]
         if self.spec.is_loaded:
             yield [self._has_bound]
         drawn = self.load.parts and getattr(self.load.parts, f"{which}_shaft")

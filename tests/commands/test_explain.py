@@ -105,7 +105,7 @@ def quantities() -> set[str]:
     model = load(str(repo.DESIGNS / "turret.toml")).parts_model
     quick = [group for group in groups.GROUPS if not group.makes_parts]
     out = {*groups.values(quick, model)}
-    parts = (groups.own_names(table) for table in ("parts", "stop", "tolerance"))
+    parts = (groups.own_names(table) for table in ("parts", "carousel", "stop", "tolerance"))
     out |= {*chain.from_iterable(parts), "tolerance.warnings"}
     out |= {f"parts_list.{kind}" for kind in parts_list.KINDS} | {"checks.passes", "checks.failed"}
     out |= {"passes", "checks_failed", "not_proved", "warnings", "spec", "title"}  # the report's
@@ -119,7 +119,7 @@ def quantities() -> set[str]:
     out |= {
         *answers.SPECTRUM_COLUMNS,
         *survey.NAMES,
-        *motion.motion_columns(model.mechanism),
+        *motion.motion_columns(load(str(repo.DESIGNS / "wandering-hours.toml")).mechanism),
         *figures.AXIS_BY_NAME,
         *CamFactors._fields,
     }

@@ -75,9 +75,9 @@ ROWS = [
     Row("peaks internal-z6.toml", "tomli"),
     Row("peaks side-crank-z6.toml", "tomli numpy"),
     Row("peaks press-straight.toml --format json", "tomli json"),
-    Row("peaks press-straight.toml --certify", "tomli"),
-    Row("peaks press-curved.toml", "tomli"),
-    Row("peaks table-law.toml", "tomli numpy scipy json"),  # its spline; json: SciPy's
+    Row("peaks press-straight.toml --certify", "tomli numpy"),
+    Row("peaks press-curved.toml", "tomli numpy"),  # whether its slot drives positively
+    Row("peaks table-law.toml", "tomli numpy"),
     Row("motion press-straight.toml --samples 9", "tomli numpy"),
     Row("motion press-curved.toml --samples 9", "tomli numpy"),
     Row("loads press-straight.toml", "tomli numpy"),
@@ -126,10 +126,10 @@ ROWS = [
 
 # The quick ones may import this much of the program, and no more.
 OWN = {
-    "--help": "app errors progress record streams manual",
-    "--version": "app errors progress record streams",
+    "--help": "app errors progress streams manual",
+    "--version": "app errors progress streams",
     # no spec, no registry of kinds, no record of either: of the wheels their closed forms alone
-    "table --z 6": "app errors progress record streams table commands commands.completion "
+    "table --z 6": "app errors progress streams table commands commands.completion "
     "commands.options commands.table kinematics kinematics.wheels kinematics.wheels.classic output "
     "output.finite output.formats output.text spec.ranges study study.survey analysis "
     "analysis.cam_factors analysis.timing numerics numerics.angles numerics.arrays spec "

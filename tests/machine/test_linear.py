@@ -9,8 +9,10 @@ import math
 import mpmath
 import numpy as np
 import pytest
+from typer.testing import CliRunner
 
 from geneva_cli import Crank, Design, External, Internal, Limits, Linear, Load, SideCrank, Size
+from geneva_cli.app import app
 from geneva_cli.errors import GenevaError
 from geneva_cli.machine.many import many
 from geneva_cli.machine.mechanism import build
@@ -188,10 +190,7 @@ def test_a_batch_gives_the_numbers_of_single_designs():
 
 
 def test_a_side_crank_moves_a_rack_too():
-    """Its crank angle f follows from the input: tan f = sin t / (cos t - A) is not needed here.
-
-    At mid-motion the crank turns 1/(1 - A) times... of any ratio i, the rack's speed is i R.
-    """
+    """At mid-motion the rack is as much slower as any wheel behind the same side-crank."""
     slow = Design(Linear(6), SideCrank(A=0.5))
     crank = Design(External(6), SideCrank(A=0.5))
     ratio = crank.peaks.velocity.max / Design(External(6)).peaks.velocity.max
@@ -219,6 +218,50 @@ def test_tables_have_the_travel():
 def test_what_a_rack_cannot_have_is_refused(spec, text):
     with pytest.raises(GenevaError, match=text):
         build(spec)
+
+
+def test_what_needs_a_wheel_is_refused_with_the_reason(tmp_path):
+    """Angles of a cam, a cam indexer's step, and a search for a wheel."""
+    path = tmp_path / "rack.toml"
+    path.write_text('[wheel]\nz = 6\ngearing = "linear"\n')
+    for words, text in (
+        (["motion", str(path), "--format", "cam"], "this machine moves a rack"),
+        (["compare", str(path), "--against", "cam"], "this machine moves a rack"),
+        (["synth", "--tau", "0.4", "--from", str(path)], "its step is twice center_distance_mm"),
+        (["animate", str(path), "-o", str(tmp_path / "a.html")], "not available for a rack"),
+        (["export", str(path), "-o", str(tmp_path / "all")], "not available for a rack"),
+        (["profile", str(path), "--part", "arm", "-o", str(tmp_path / "a.dxf")], "not available"),
+        (
+            ["check", str(path), "--set", "support.friction=0.1"],
+            "a rack's load is mass_kg",
+        ),
+        (
+            ["check", str(path), "--set", "tolerance.crank_radius_mm=0.1"],
+            "not available for a rack",
+        ),
+        (["check", str(path), "--set", "load.dwell_torque_Nm=1"], "not available for a rack"),
+        (["check", str(path), "--set", "motion.law=cycloidal"], "has straight slots only"),
+    ):
+        refused = CliRunner().invoke(app, words)
+        assert refused.exit_code == 2
+        assert text in " ".join(refused.stderr.split())
+        assert "Traceback" not in refused.output
+
+
+def test_the_page_of_a_report_has_the_units_of_a_rack(tmp_path):
+    path = tmp_path / "rack.toml"
+    load = "[load]\nmass_kg = 4\nforce_N = 30\n"
+    path.write_text('[wheel]\nz = 6\ngearing = "linear"\n[size]\ncenter_distance_mm = 50\n' + load)
+    CliRunner().invoke(app, ["report", str(path), "-o", str(tmp_path / "page.md")])
+    page = (tmp_path / "page.md").read_text()
+    assert "| Acceleration | 1 | -90 | 1.97392 | 1 | 1.97392 | 1 | m/s² |" in page  # R w² = 1.974
+    assert "derivatives of the rack's travel over R" in page
+    assert "| Force on the rack | N | 37.8957 | -90 | 22.1043 | 90 |" in page
+
+
+def test_a_long_rack_is_no_reason_for_a_warning():
+    assert not Design(Linear(200)).motion_warnings
+    assert [one.name for one in Design(External(200)).motion_warnings] == ["many-slots"]
 
 
 def test_a_limit_on_force_names_the_load_of_a_rack():

@@ -21,6 +21,7 @@ from words import Spec, load
 from geneva_cli.analysis.motion import motion_table
 from geneva_cli.analysis.peaks import QUANTITIES, worst
 from geneva_cli.analysis.timing import timings
+from geneva_cli.errors import GenevaError
 from geneva_cli.kinematics import registry
 from geneva_cli.loads.loads import state
 from geneva_cli.machine.both_ways import backwards
@@ -38,6 +39,7 @@ NONCIRCULAR = 'kind = "noncircular-gears", A = '
 FOUR_BAR = 'kind = "four-bar", crank_mm = 40, ground_mm = 90, coupler_mm = 100, rocker_mm = 100, '
 SLIDER = 'kind = "slider-crank", crank_mm = 40, rod_mm = 120, '
 PAIR = 'kind = "geneva-pair", first_z = '
+ORBIT = 'kind = "carousel"'
 PLANET = 'kind = "epicyclic", planet_ratio = '
 
 
@@ -65,6 +67,7 @@ CASES = {
     "offset-near-its-limit": text("z = 5, offset_mm = 40"),
     "steps": text("z = 6, steps_deg = [70, 50]"),
     "steps-three": text("z = 3, steps_deg = [100, 122.5, 137.5]"),
+    "steps-angles": text("z = 4, steps_deg = [50, 130]", "roller_angles_deg = [0, 120]"),
     "angles": text("z = 4", "roller_angles_deg = [0, 90]"),
     "angles-spherical": text(f"z = 6, {SPHERE}, axes_deg = 50", "roller_angles_deg = [0, 161.3]"),
     "side-crank": text("z = 6", f"{SIDE}0.6"),
@@ -88,6 +91,9 @@ CASES = {
     "noncircular-offset": text("z = 6, offset_mm = 10", f"{NONCIRCULAR}0.3"),
     "noncircular-two-rollers": text("z = 8", f"{NONCIRCULAR}0.3, rollers = 2"),
     "crank-offset-two-rollers": text("z = 8, offset_mm = 7", "rollers = 2"),
+    "carousel": text("z = 6", ORBIT),
+    "carousel-internal": text(f"z = 6, {INSIDE}", ORBIT),
+    "carousel-offset-two-rollers": text("z = 8, offset_mm = 7", f"{ORBIT}, rollers = 2"),
     "pair": text("z = 4", f"{PAIR}3"),
     "pair-alike": text("z = 4", f"{PAIR}4"),
     "pair-offset": text("z = 4, offset_mm = 5", f"{PAIR}3"),
@@ -194,7 +200,8 @@ def test_every_kind_and_every_gearing_has_an_entry(machine):
         # a pair's first wheel turns its crank through less than half a turn, and back at once
         if issubclass(registry.drive(kind), Transmission) and kind != "geneva-pair":
             mine = [s for s in specs if kind == s.drive.NAME]
-            assert {s.wheel.NAME for s in mine} == set(registry.GEARINGS), kind
+            driven = set(registry.drive(kind).GEARINGS or registry.GEARINGS)
+            assert {s.wheel.NAME for s in mine} == driven, kind
             assert any(s.wheel.as_dict().get("offset_mm") for s in mine), kind
             assert any(s.drive.rollers > 1 for s in mine), kind
 
@@ -361,7 +368,11 @@ def test_loads_keep_the_energy(machine, case):
             found = state(loaded, s, x)
             torque = 0.02 * w * w * a + 3.0
             assert found.torque_Nm == pytest.approx(torque, rel=1e-12)
-            assert found.input_torque_Nm == pytest.approx(torque * v, rel=1e-12)
+            # on a carrier the wheel's speed from the ground takes power too: 1 + v, or 1 - v inside
+            side = -1.0 if m.spec.wheel.NAME == "internal" else 1.0
+            turning = side if m.spec.drive.NAME == "carousel" else 0.0
+            taken = torque * v + turning * 0.02 * w * w * a
+            assert found.input_torque_Nm == pytest.approx(taken, rel=1e-12)
             if s.slot.axis(x):
                 lever = s.slot.axis(x)[0].c[0]
                 assert math.tan(math.radians(found.pressure_deg)) == pytest.approx(
@@ -538,6 +549,28 @@ def test_unequal_steps_are_wheels_of_their_own(machine):
         assert m.engagements[0].motion(x).derivatives() == wanted
     x, y = (c.c[0] for c in m.engagements[1].path(30.0, 0))
     assert math.hypot(1.0 - x, y) == pytest.approx(math.sin(math.radians(24.0)), rel=1e-15)
+
+
+def test_alternating_steps_with_chosen_dwells(machine):
+    """Steps of 50 and 130 degrees: motions of 130 and 50 degrees, and dwells by the angles."""
+    m = machine("steps-angles")
+    assert [t.index_deg for t in timings(m)] == [50.0, 130.0]
+    assert [t.motion_deg for t in timings(m)] == pytest.approx([130.0, 50.0], rel=1e-15)
+    # 120 - 65 - 25 degrees to the second roller, and the rest of the turn
+    assert [t.dwell_deg for t in timings(m)] == pytest.approx([30.0, 150.0], rel=1e-14)
+
+
+@pytest.mark.parametrize(
+    "angles, message",
+    [
+        ("[0, 89]", "the rollers at 0 and 89 deg jam: half of both motions takes 90 deg"),
+        ("[0, 271]", "the rollers at 271 and 0 deg jam"),
+        ("[0, 100, 200]", "each of the 2 steps has a roller"),
+    ],
+)
+def test_angles_that_do_not_fit_the_steps(machine, angles, message):
+    with pytest.raises(GenevaError, match=message):
+        machine(text("z = 4, steps_deg = [50, 130]", f"roller_angles_deg = {angles}"))
 
 
 def test_four_slots_and_two_pins_90_degrees_apart(machine):

@@ -39,6 +39,7 @@ SLIDER = drive(
     "slider-crank",
     "crank_mm = 40\nrod_mm = 120\npoint_mm = 200\npoint_deg = 20\nheight_mm = 10\n",
 )
+ORBIT = drive("carousel")
 PAIR = drive("geneva-pair", "first_z = 3\n")
 OWN_PATH = {"cam": CAM + LAW, "epicyclic": PLANET, "four-bar": FOUR_BAR}
 
@@ -98,20 +99,20 @@ STEP = [
     case("spherical", BALL + "steps_deg = @", "[70, 50]", 4, "external"),
     case("law", WHEEL + "steps_deg = @\n" + LAW, "[70, 50]", 3, "law", "remove"),
     case("rollers", WHEEL + STEPS + "[drive]\nrollers = @", "3", 5, "2 steps", "remove rollers"),
-    case("angles", WHEEL + "steps_deg = @\n" + ANGLES + "[0, 180]", "[50, 70]", 3, "remove roller"),
+    case("angles", WHEEL + STEPS + ANGLES + "@", "[0, 100, 200]", 5, "2 steps", "as many angles"),
 ]
 
 ROLLERS = [
     case("close", WHEEL + ANGLES + "@", "[0, 90]", 4, "0 and 90", "120", "90 deg apart"),
     case("close-behind", WHEEL + ANGLES + "@", "[0, 241]", 4, "241 and 0", "120", "119 deg apart"),
-    case("no-dwell", WHEEL + ANGLES + "@", "[0, 120, 240]", 4, "3 motions of 120", "dwell"),
+    case("no-dwell", WHEEL + ANGLES + "@", "[0, 120, 240]", 4, "3 motions", "360", "dwell"),
     case("unsorted", WHEEL + ANGLES + "@", "[0, 150, 140]", 4, "rise from 0"),
     case("twice", WHEEL + ANGLES + "@", "[0, 0]", 4, "rise from 0"),
     case("not-from-0", WHEEL + ANGLES + "@", "[10, 150]", 4, "rise from 0"),
     case("whole-turn", WHEEL + ANGLES + "@", "[0, 360]", 4, "below 360"),
     case("empty", WHEEL + ANGLES + "@", "[]", 4, "list of 1"),
     case("internal", INSIDE + ANGLES + "@", "[0, 180]", 5, "240", "180 deg apart"),
-    case("spherical", BALL + ANGLES + "@", "[0, 180]", 5, "180", "dwell"),
+    case("spherical", BALL + ANGLES + "@", "[0, 180]", 5, "2 motions", "dwell"),
     case("law", WHEEL + ANGLES + "@\n" + LAW, "[0, 150]", 4, "straight", "remove"),
     case("count", WHEEL + ANGLES + "[0, 150]\nrollers = @", "3", 5, "2 angles", "remove rollers"),
 ]
@@ -226,6 +227,23 @@ PAIRS = [
     case("internal", "[wheel]\nz = 4\ngearing = @\n" + PAIR, '"internal"', 2, "135", "60"),
 ]
 
+BODY = '[[mass]]\nshape = "point"\nmass_kg = 1\n'
+CAROUSELS = [
+    case("spherical", "[wheel]\nz = 6\ngearing = @\n" + ORBIT, '"spherical"', 3, "or internal"),
+    case("unbalanced", WHEEL + ORBIT + BODY + "radius_mm = @", "50", 5, "balanced", "count to 2"),
+    case(
+        "chain",
+        WHEEL + ORBIT + "[product]\nsprocket_teeth = 20\npitch_mm = @",
+        "5",
+        7,
+        "set radius_mm instead",
+    ),
+    case("many", WHEEL + ORBIT + "wheels = @", "3", 5, "wheels = 3", "120 deg", "at most 2"),
+    case("fingers", WHEEL + ORBIT + "rollers = 2\nwheels = @", "2", 6, "remove rollers"),
+    case("inside", INSIDE + ORBIT + "wheels = @", "2", 6, "surrounds", "wheels = 1"),
+    case("gears", WHEEL + ORBIT + "[support]\ngear_ratio = @", "2", 6, "set it to 1"),
+]
+
 GROUPS = {
     "offset": OFFSET,
     "steps": STEP,
@@ -239,6 +257,7 @@ GROUPS = {
     "slides": SLIDES,
     "noncircular": NONCIRCULAR,
     "pairs": PAIRS,
+    "carousels": CAROUSELS,
     "sectors": SECTORS,
 }
 
@@ -257,7 +276,7 @@ BOUNDS = [
     bound("ring-high", RING, "0.39", r"at most (\S+)", -1),
     bound("slider", WHEEL + SLIDER.replace("40", "@"), "115", r"it must be below (\S+)", -1),
 ]
-TAKE = r"motion takes (\S+) deg"
+TAKE = r"motions takes (\S+) deg"
 # Values that messages name, and how they are put into the gap.
 NAMED = [
     (WHEEL + GEARS + "rollers = @", "3", r"at most (\d+)", str),

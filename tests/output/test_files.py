@@ -457,7 +457,7 @@ del PRINTED["animate"]
 
 def once(read):
     """Of what is given beside a file, a list, none can be looked up."""
-    return lambda path, given=(): read(path, tuple(given))
+    return lambda path, given=(), reverse=False: read(path, tuple(given), reverse)
 
 
 @pytest.mark.sampled(6)

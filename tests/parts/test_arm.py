@@ -143,11 +143,11 @@ def test_the_disc_is_fixed_to_the_arm():
 def test_bolts_join_disc_and_arm_by_default(z, gearing, rollers):
     """Two in each sector, with walls all round by shapely; the arm still passes the wheel's hub.
 
-    From 22 slots on, the disc is too small for two bolts of L/40.
+    From 28 slots on, the disc is too small for bolts with their walls.
     """
     found = of(Wheel(z, gearing), drive=Drive(rollers=rollers)).parts
     made, wall = crank_arm(found), found.sizes.wall_min
-    if z < 22:
+    if z < 28:
         assert len(made.bolts) in (rollers, 2 * rollers)
     holes = [polygon(h) for h in (made.bore, *made.pins, *made.bolts)]
     discs = [polygon(sector) for sector in found.crank]

@@ -143,6 +143,7 @@ def solids(parts):
     moved |= {id(member): "gear" for member in (*parts.round_gears, *parts.gear_pair)}
     moved |= {id(member): "fixed" for member in (*parts.shafts, *parts.standing)}
     moved |= {id(parts.wheel): "wheel", id(parts.crank): "crank"}
+    moved |= {id(member): "orbiting" for member in parts.orbiting}
     for member in parts.members:
         body = moved.get(id(member), "first")
         yield from flat(member.part, complex(*member.at), member.turn, body)
@@ -163,8 +164,8 @@ def loose(every, axes):
     for name, at in axes:
         shafts = [s for s in every if s.layer == "SHAFT" and abs(s.at - at) < NEAR]
         for one in every:
-            if one.name != name:
-                continue
+            if one.name != name or (name == "wheel" and abs(one.at - at) > NEAR):
+                continue  # of several wheels each has its own axis
             bored = any(abs(z - at) < NEAR for z, _ in one.bores)
             ends = any(
                 min(abs(one.low - s.high), abs(one.high - s.low)) < NEAR
@@ -190,7 +191,7 @@ def turning(design, parts):
         yield name, complex(L if name == "first wheel" else L + first.distance_mm)
     sizes = design.parts.sizes
     if sizes.wheel_bore:
-        yield "wheel", 0j
+        yield from (("wheel", complex(*place.at)) for place in design.mechanism.wheel_places)
     if sizes.crank_bore:
         yield "locking disc", complex(L)
     if parts.arm:

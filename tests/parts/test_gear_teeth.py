@@ -233,17 +233,27 @@ def test_planet_and_fixed_gear_mesh_with_their_backlash(drive, z, keys):
         assert play * at_planet.radius == pytest.approx(backlash, abs=4e-3)
 
 
+@pytest.mark.parametrize("backlash", [0.0, 0.1])
 @pytest.mark.parametrize(
-    ("z", "sector", "module"), [(3, 60.0, 2.0), (4, 150.0, 2.0), (8, 4.0, 1.0)]
+    ("z", "sector", "module"),
+    [
+        (3, 60.0, 2.0),
+        (4, 150.0, 2.0),
+        (8, 4.0, 1.0),
+        (3, 60.0, 5.0),
+        (3, 67.0, 4.0),
+        (6, 20.0, 3.0),
+    ],
 )
-def test_sectors_drive_the_whole_arc_and_are_free_beyond(z, sector, module):
+def test_sectors_drive_the_whole_arc_and_are_free_beyond(z, sector, module, backlash):
     """Turned as crank and wheel turn: in contact while gears drive, and no overlap at any time."""
     drive = GearSector(sector_deg=sector)
     design, ((crank, on_crank), (wheel, _)) = gears(
-        drive, z, gear_module_mm=module, gear_backlash_mm=0.02
+        drive, z, gear_module_mm=module, gear_backlash_mm=backlash
     )
     where, half = assembly(design.mechanism), 0.5 * sector
     near = shapely.box(on_crank.at[0] - on_crank.cut.teeth.tip, -60.0, 70.0 + on_crank.at[0], 60.0)
+    assert on_crank.cut.last_tip <= on_crank.cut.teeth.tip
     gaps = {}
     inner = np.linspace(-half + 0.01, half - 0.01, 41)
     for x in (*inner, *np.linspace(half, half + 40.0, 60), *np.linspace(-half - 40.0, -half, 60)):

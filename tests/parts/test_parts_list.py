@@ -418,11 +418,12 @@ def test_a_sphere_is_weighed_from_what_is_printed(name):
     sector, inner = d["locking sector 1: width"] / 360.0, d["locking sectors' inner radius"]
     edges = [d["lock, from the crank's axis"], d["locking sector 1: inner edge"]]
     lock = [sector * around(math.radians(edge), inner, under) for edge in edges]
+    bolts = [core(d["lock's bolt 1: hole"], *span)[0] for span in ((inner, under), (under, over))]
     cone = around(math.radians(d["roller's cone, half angle"]), low, high)
     wanted = {
-        "arm": (arm - rollers * pins[0], None),
+        "arm": (arm - rollers * (pins[0] + 2.0 * bolts[1]), None),
         "arm's hub": tube(d["arm's hub"], d["arm's bore"], over - under),
-        "locking sector": lock[0] - lock[1],
+        "locking sector": (lock[0][0] - lock[1][0] - 2.0 * bolts[0], None),
         "roller": cone - core(d["pins"], low, high),
         "pin": tube(d["pins"], 0.0, over - low),
         "wheel's hub": tube(d["wheel's hub"], d["wheel's bore"], over - low),

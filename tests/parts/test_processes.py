@@ -167,6 +167,68 @@ def test_printed_walls_are_two_lines_of_a_nozzle() -> None:
     assert {c.limit for c in Design(External(6), size=own).checks if c.name == "horn_mm"} == {0.5}
 
 
+def test_printed_parts_are_as_light_as_plastic() -> None:
+    """PLA of 1240 kg/m³ in place of steel; a density of the spec wins; so on a sphere, too."""
+    for design in ("turret", "spherical-z6"):
+        wheels = {}
+        for process, own in (("mill", ""), ("print", ""), ("print", "2700")):
+            clear = ["size.slot_clearance_mm=0.1", "size.lock_clearance_mm=0.1"]
+            rest = ["size.press_fit_mm=0.01", "size.shaft_fit_mm=0.02", "size.pin_gap_mm=0.2"]
+            keys = [f"material.wheel.density_kgm3={own}"] if own else []
+            path = str(DESIGNS / f"{design}.toml")
+            settings = [f"size.process={process}", *clear, *rest, *keys]
+            rows = load(path, settings).part_table("parts").to_rows()
+            wheels[process + own] = next(row for row in rows if row["name"] == "wheel")
+        assert wheels["print"]["density_kgm3"] == 1240.0
+        assert wheels["print"]["mass_kg"] == pytest.approx(
+            wheels["mill"]["mass_kg"] * 1240.0 / 7850.0, rel=1e-12
+        )
+        assert wheels["print2700"]["density_kgm3"] == 2700.0
+    printed = turret("size.process=print")
+    assert "1240 kg/m³" in {label.text for label in printed.sheet(0.05).texts}
+    inch = {label.text for label in printed.sheet(0.05, units="inch").texts}
+    assert "0.0448 lb/in³" in inch  # 1240/27679.9
+
+
+def sphere(*settings: str) -> Design:
+    return load(str(DESIGNS / "spherical-z6.toml"), settings)
+
+
+def test_a_laser_cuts_no_shell_from_a_plate() -> None:
+    """Its shells are 8 mm thick, within 32 mm; the slots inside 2 · 76 sin(5.3/80) mm wide."""
+    ball = sphere("size.process=laser")
+    checks, texts = named(ball), {text.name: str(text) for text in ball.warnings}
+    assert "roll them to their cones" in texts["bent-parts"]
+    assert (checks["cut_plate_mm"].value, checks["cut_plate_mm"].limit) == (8.0, 32.0)
+    # ISO 9013 gives 10 mm of slot in 8 mm ±0.25, so half of it twice is the clearance of a side
+    half = (5.0 + ball.spec.size.allowances.slot_clearance_mm) / 80.0
+    slot = checks["cut_slot_mm"]
+    assert slot.value == pytest.approx(2.0 * 76.0 * math.sin(half), rel=1e-12)
+    assert slot.limit == pytest.approx(0.7 * 8.0)
+    thick = named(sphere("size.process=laser", "size.wheel_thickness_mm=40"))
+    assert [thick[name].passes for name in ("cut_plate_mm", "cut_slot_mm")] == [False, False]
+    for other in ("mill", "print"):
+        made = sphere(f"size.process={other}")
+        assert not {"cut_plate_mm", "cut_slot_mm"} & {*named(made)}
+        assert "bent-parts" not in {text.name for text in made.warnings}
+
+
+def test_small_holes_of_shells_are_named() -> None:
+    """Shells of 8 mm need 5.6 mm: pins of 5 mm less their press fit are below, hubs above."""
+    ball = sphere("size.process=laser", "size.lock_bolts=0")
+    (text,) = (str(text) for text in ball.warnings if text.name == "small-hole")
+    hole = 5.0 - ball.spec.size.allowances.press_fit_mm
+    assert f"arm Ø {hole:.4g}, " in text
+    assert text.endswith(f"make the arm at most {hole / 0.7:.4g} mm thick")
+    assert "wheel" not in text
+
+
+def test_printed_shells_have_walls_of_two_lines() -> None:
+    rows = named(sphere("size.process=print"))
+    walls = ("horn_mm", "wall_between_slots_mm", "wheel_bore_wall_mm", "arm_wall_mm")
+    assert {rows[name].limit for name in walls} == {0.8}
+
+
 TEXTS = {
     None: ("8× 24 H7 (+0.021/0)", "Ø 24 g6 (-0.007/-0.02)", "Ø 40 h6 (0/-0.016)", "ISO 2768-m"),
     "mill": ("8× 24.04 H7 (+0.021/0)", "Ø 24 h6 (0/-0.013)", "Ø 39.98 h6 (0/-0.016)", "Ra 3.2"),

@@ -111,6 +111,9 @@ def test_checks():
     assert rows["rack_gap_mm"].value == 0.0
     assert rows["rack_gap_mm"].passes
     assert rows["parts"].passes is None
+    free = {one.name for one in design(lock_radius_mm=0.0).checks}
+    assert "rack_horn_mm" not in free
+    assert "rack_gap_mm" in free
     thin = {one.name: one for one in design(lock_radius_mm=43.9).checks}
     assert thin["rack_horn_mm"].passes is False
 

@@ -1,9 +1,11 @@
 """Drawing sheets: nothing stands on anything else, and the sizes on them are the machine's."""
 
+import io
 import math
 import re
 from functools import cache
 
+import ezdxf
 import numpy as np
 import pytest
 import repo
@@ -27,6 +29,7 @@ from geneva_cli.drawings.sheet.points import gear_tables, polyline, tables
 from geneva_cli.drawings.sphere.drawings import wheel_cone
 from geneva_cli.drawings.sphere.sheet import flat_slot
 from geneva_cli.errors import GenevaError
+from geneva_cli.output.sheets import dxf
 from geneva_cli.parts.links import drawn_links
 from geneva_cli.spec.tables import RollerMaterial, Size, TitleBlock, Tolerance, WheelMaterial
 
@@ -167,12 +170,15 @@ def test_fields_without_a_key_are_empty(sheets):
 
 
 def test_the_title_block_has_the_keys_of_drawing():
-    block = TitleBlock("G-106", "B", "M. Muster", "2026-11-27", 3.2, 1.6, 58.0, 0.3)
+    block = TitleBlock("G-106", "B", "M. Muster", "2026-11-27", 3.2, 1.6, 58.0)
     steel = WheelMaterial(grade="42CrMo4"), RollerMaterial(grade="100Cr6")
-    found = of(Spec(Wheel(6), drawing=block, material_wheel=steel[0], material_roller=steel[1]))
+    size = Size(edge_chamfer_mm=0.3)
+    found = of(
+        Spec(Wheel(6), size=size, drawing=block, material_wheel=steel[0], material_roller=steel[1])
+    )
     shown = [under(found, heading) for heading in FIELDS]
     assert shown == ["G-106", "B", "2026-11-27", "M. Muster", "Ra 3.2"]
-    assert under(found, "edges") == "ISO 13715: -0.3"
+    assert under(found, "edges") == "chamfered 0.3 × 45°"
     assert under(found, "faces that roll, slide, lock") == "Ra 1.6, 58 HRC"
     texts = [label.text for label in found.labels]
     assert (texts.count("42CrMo4"), texts.count("100Cr6")) == (6, 2)
@@ -263,7 +269,7 @@ def test_links_have_their_views(name, sheets):
     for i, row in enumerate((row for row in rows if row["row"] == "part"), 1):
         if row["name"] in {plate.name for plate in bars.plates}:
             assert f"{i} {row['name']}" in titles
-    linear = {round(m.value, 3) for m in found.measures if m.kind == "linear"}
+    linear = {round(m.value, 3) for m in found.measures if m.kind == "length"}
     values = {row["name"]: row["value"] for row in rows if row["row"] == "dimension"}
     assert {round(values[one], 3) for one in LENGTHS[name]} <= linear
     # the first crank's roller is on a pin that is pressed into it, as the arm's is
@@ -289,7 +295,7 @@ def test_a_gears_pitch_curves_are_on_the_sheet(sheets):
     assert one.distance(other) < 2.0 * close
     assert one.intersection(other).area < close * C
     assert round(one.bounds[2] - other.bounds[0], 3) == 0.0
-    assert any(m.value == pytest.approx(C) for m in found.measures if m.kind == "linear")
+    assert any(m.value == pytest.approx(C) for m in found.measures if m.kind == "length")
     titles = {label.text for label in found.labels}
     assert any("driven gear, t = 16" in text for text in titles)
 
@@ -428,6 +434,55 @@ def test_the_comparison_can_fail():
         assert_measured(found._replace(measures=(m._replace(value=2.0 * m.value),)))
     twice = (*found.measures, m._replace(label=m.label._replace(text="again")))
     assert ("again", m.label.text) in crossings(found._replace(measures=twice))
+
+
+@pytest.mark.sampled(8)
+@pytest.mark.parametrize("path", DESIGNS, ids=lambda p: p.stem)
+def test_sheets_in_inches(path, sheets):
+    """At a scale of the same series; texts stand free, and each is its millimetres over 25.4."""
+    design, metric = sheets(path.stem)
+    found = design.sheet(TOLERANCE, units="inch")
+    assert overlaps(found) == []
+    assert beyond(found) == []
+    assert_measured(found)
+    texts = {label.text for label in found.texts}
+    assert "inch, degrees" in texts
+    assert "inch, degrees" not in {label.text for label in metric.texts}
+    # shorter texts may find a place for a larger scale
+    assert found.scale >= metric.scale
+    # a gear's module is in millimetres everywhere
+    assert not [text for text in texts if re.search(r"\d mm", text) and "m = " not in text]
+
+
+def test_fits_and_masses_in_inches():
+    """H7 of 24 mm is +21 µm, 0.00083 in; ±0.02 mm is 0.0008 in; a pound is 0.45359237 kg."""
+    spec = load(str(repo.DESIGNS / "turret.toml")).spec
+    design = Design.of(spec.replace(tolerance=Tolerance(center_distance_mm=0.02)))
+    found = design.sheet(TOLERANCE, units="inch")
+    texts = {label.text for label in found.texts}
+    assert "8× 0.9449 H7 (+0.0008/0)" in texts
+    assert "9.8425 ±0.0008" in texts
+    rows = design.part_table("parts").to_rows()
+    kg = sum(row["mass_kg"] * row["count"] for row in rows if row["mass_kg"])
+    assert f"{kg / 0.45359237:.2f} lb" in texts
+    milled = Design.of(spec.with_("size.process", "mill")).sheet(TOLERANCE, units="inch")
+    assert "Ra 3.2 µm" in {label.text for label in milled.texts}
+    # another thread writes its own unit
+    assert "mm, degrees" in {label.text for label in design.sheet(TOLERANCE).texts}
+
+
+def test_a_dxf_in_inches_measures_inches():
+    """The factor of each style makes inches of the paper's millimetres."""
+    found = load(str(repo.DESIGNS / "turret.toml")).sheet(TOLERANCE, units="inch")
+    document = ezdxf.read(io.StringIO("".join(dxf.chunks(found))))
+    measures = [m for m in found.measures if m.kind in dxf.KINDS]
+    dimensions = list(document.modelspace().query("DIMENSION"))
+    for dimension, m in zip(dimensions, measures, strict=True):
+        if m.kind != "angular":
+            factor = document.dimstyles.get(dimension.dxf.dimstyle).dxf.dimlfac
+            inches = dimension.get_measurement() * factor
+            assert inches == pytest.approx(m.value / 25.4, rel=1e-8)
+            assert dimension.dxf.actual_measurement == pytest.approx(m.value / 25.4, rel=1e-12)
 
 
 def test_refusals():

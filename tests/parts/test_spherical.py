@@ -264,30 +264,35 @@ def test_the_crank_laid_flat():
 
 @pytest.mark.parametrize("name", ["120", "3 slots", "no lock"])
 def test_the_arm_laid_flat(name):
-    """Rolled up again its edge is the arm's, but for the cut and the hub; each pin's hole is a
-    round about its place on the rollers' circle."""
+    """Rolled up again its edge is the arm's, but for the cut and the hub; each hole of pins
+    and bolts is a round about its place."""
     design = MACHINES[name].with_("size.press_fit_mm", 0.01)
     drawn = PartsModel(design.mechanism)
     made, found = crank_arm(drawn.shells), drawn.shells.ball
     outline, *holes = design.drawing("arm", 0.005).shapes
     cone = arm_cone(found)
     R, m, share = cone.radius_mm, cone.polar, math.cos(cone.polar)
+    around = sorted(math.atan2(h.axis[1], h.axis[0]) % math.tau for h in made.holes[1:])
+    after = [*around[1:], around[0] + math.tau]
+    _, cut = max((b - a, 0.5 * (a + b)) for a, b in zip(around, after, strict=True))
+    first = share * (cut % math.tau - math.tau) - 1e-9
 
     def rolled(shape):
         x, y = np.array(vertices(shape, 1e-3)).T
         x = x + cone.apex_mm
-        angle, turn = m + np.arctan(np.hypot(x, y) / R - math.tan(m)), np.arctan2(y, x) / share
+        angle, turn = m + np.arctan(np.hypot(x, y) / R - math.tan(m)), np.arctan2(y, x)
+        turn = ((turn - first) % math.tau + first) / share
         ways = np.cos(turn), np.sin(turn)
         return np.column_stack((*(np.sin(angle) * w for w in ways), np.cos(angle)))
 
     edge = SphereArcs(made.boundary.boundary)
     away = rolled(outline)
-    assert len(holes) == len(found.rollers)
+    assert len(made.bolts) == 2 * len(drawn.shells.crank)
     hub = np.arccos(away[:, 2]) - made.holes[0].angle(R)
     off = np.minimum(np.abs(edge.signed(away)[0]), np.abs(hub))
     # two straight lines of the cut; elsewhere 0.005 mm and the chords' 0.001
     assert (off > 0.0065 / R).sum() <= 4
-    for hole, pin in zip(holes, made.pins, strict=True):
+    for hole, pin in zip(holes, made.holes[1:], strict=True):
         seen = np.arccos(np.clip(rolled(hole) @ np.array(pin.axis), -1.0, 1.0))
         assert np.abs(seen - pin.angle(R)).max() < 0.0065 / R
     assert made.pins[0].radius == found.pin_mm - 0.005
@@ -442,3 +447,25 @@ def test_solids_are_closed(machine):
 def test_refused(size, z, said):
     with pytest.raises(GenevaError, match=said):
         Design(Spherical(z), size=size).drawing("wheel")
+
+
+def test_bolts_hold_the_sectors_by_default():
+    """Two in each, in the middle of the sector, with the least wall round them."""
+    drawn = PartsModel(Design(Spherical(6)).mechanism)
+    arm, (sector,) = crank_arm(drawn.shells), drawn.shells.crank
+    low, high = math.pi - sector.boundary[2].angle, sector.boundary[0].angle
+    polar_angles = [math.acos(bolt.axis[2]) for bolt in arm.bolts]
+    assert polar_angles == pytest.approx([0.5 * (low + high)] * 2, abs=1e-12)
+    assert arm.wall >= drawn.shells.sizes.wall_min
+    without = PartsModel(Design(Spherical(6), size=Size(lock_bolts=0)).mechanism)
+    assert not crank_arm(without.shells).bolts
+
+
+def test_a_keyway_widens_the_default_hub():
+    """DIN 6885-1: 2.8 mm above a bore of 20 mm; the hub keeps the least wall around it."""
+    size = Size(200.0, 5.0, wheel_bore_mm=20.0, wheel_keyway="DIN 6885-1", wall_min_mm=6.0)
+    found = PartsModel(Design(Spherical(6), size=size).mechanism).shells.ball
+    assert found.hub_mm == 10.0 + 2.8 + 6.0
+    bored = Size(200.0, 5.0, wheel_hub_mm=24.0, wheel_keyway="DIN 6885-1")
+    found = PartsModel(Design(Spherical(6), size=bored).mechanism).shells.ball
+    assert found.hub_mm == 12.0 and found.bore_mm == 7.5  # up to 24/1.6, of a bearing

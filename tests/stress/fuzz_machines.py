@@ -190,6 +190,8 @@ def own_keys(rng, kind):
     if kind == "gear-sector":
         ratio = rng.choice(['"shockless"', repr(near(rng, 0.7))])
         return [f"sector_deg = {rng.uniform(1, 200)!r}", f"gear_ratio = {ratio}"]
+    if kind == "carousel":
+        return [f"wheels = {rng.choice([1, 1, 2, 3, 5])}"]
     if kind == "geneva-pair":
         return [f"first_z = {rng.choice([3, 3, 4, 5])}", *length(rng, "first_distance_mm")]
     return []

@@ -34,7 +34,8 @@ def one(text):
             return "refused"
         design = Design.of(found.spec)
         try:
-            made = design.sheet(TOLERANCE * found.center_distance_mm / 100.0)
+            coarse = TOLERANCE * found.center_distance_mm / 100.0
+            made = design.sheet(coarse, units=("mm", "inch")[len(text) % 2])
         except GenevaError as error:
             # of a machine that jams, walls may leap: `profile` refuses it before it draws
             known = error.key or "--" in str(error) or "roller and slot overlap" in str(error)
@@ -45,7 +46,7 @@ def one(text):
         # a tiny wheel with many dimensions may have no place free of crossings
         assert len(crossings(made)) <= 4
         assert_measured(made)
-        if found.spec.wheel.FLAT:
+        if found.spec.wheel.FLAT and made.units == "mm":
             assert_as_listed(made, list(design.part_table("parts").to_rows()), CLOSE)
         written(made)
         return "sheet"

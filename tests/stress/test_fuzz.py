@@ -117,7 +117,7 @@ def test_machines_with_parts(case):
 
 
 # of the first that have a sheet: gears by points, an internal wheel, two in series, a sphere
-@pytest.mark.parametrize("case", some([74, 14, 114, 33], [74, 114]))
+@pytest.mark.parametrize("case", some([118, 14, 114, 33], [118, 114]))
 def test_sheets(case):
     """Cases of `fuzz_sheets.py`: texts stand free, sizes and list are the machine's."""
     assert fuzz_sheets.one(machine_text(numbers("sheets", case))) == "sheet"

@@ -23,7 +23,7 @@ from page_in_browser import Browser
 
 GENEVA = Path(sys.executable).with_name("geneva")
 FIRST = 10.0  # seconds to the first answer
-DESIGNS = ("turret", "internal-z6", "four-bar-z4", "modified-sine-matched", "spherical-z6")
+DESIGNS = ("turret", "internal-z6", "four-bar-z4", "table-law", "spherical-z6")
 BAD = {
     "[wheel]\nz = 6\nnn = 3\n": "spec.toml:3:",
     "[wheel]\nz = 60 rpm\n": "spec.toml:2:",

@@ -203,6 +203,7 @@ def test_the_same_torque_fits_a_larger_machine():
         assert 0.0 < found[name].value <= found[name].limit
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize("seed", range(8))
 def test_no_default_passes_beyond_its_steel(seed):
     """Machines over decades of size and load: what passes has stresses below the steel's.
@@ -287,6 +288,7 @@ def test_a_loose_pin_leaves_its_roller_a_wall(fit):
     assert hole <= 0.7 * s.roller or s.pin == sizes_of(Spec(External(6))).pin
 
 
+@pytest.mark.usefixtures("no_advice")
 def test_the_spec_s_sizes_stay():
     """A size of the spec is never changed; its check fails instead."""
     size = Size(

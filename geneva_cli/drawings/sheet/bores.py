@@ -11,8 +11,9 @@ from geneva_cli.curves.plates import Plate
 from geneva_cli.curves.shapes import Circle, Contour, Shape
 from geneva_cli.curves.sheet import CENTRE
 from geneva_cli.drawings.sheet import sized
-from geneva_cli.drawings.sheet.view import View, number, times
+from geneva_cli.drawings.sheet.view import View, times
 from geneva_cli.layout.bores import bore_of, radius_of
+from geneva_cli.layout.written import length, number
 from geneva_cli.outlines.wheel_hub import about_axis
 from geneva_cli.spec.tables import Size
 
@@ -59,6 +60,6 @@ def bolted(view: View, screwed: Sequence[Circle]) -> None:
         return
     far = math.hypot(*screwed[0].centre)
     hole = sized.bore(view.fits, screwed[0].radius)
-    view.diameter(screwed, times(len(screwed), f"{hole} on Ø {number(2.0 * far)}"))
+    view.diameter(screwed, times(len(screwed), f"{hole} on Ø {length(2.0 * far)}"))
     angles = [math.degrees(math.atan2(c.centre[1], c.centre[0])) for c in screwed]
     view.notes.append("holes at " + ", ".join(f"{number(angle, 2)}°" for angle in angles))

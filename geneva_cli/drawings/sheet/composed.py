@@ -23,9 +23,12 @@ from geneva_cli.drawings.sheet.paper import (
     table,
     title_block,
 )
-from geneva_cli.drawings.sheet.view import Block, number
+from geneva_cli.drawings.sheet.sized import edge_note
+from geneva_cli.drawings.sheet.view import Block
 from geneva_cli.errors import GenevaError
+from geneva_cli.layout.written import is_metric, length, number
 from geneva_cli.machine.spec import Spec
+from geneva_cli.output.inches import value_in_inches
 from geneva_cli.spec.tables import Material, TitleBlock
 from geneva_cli.spec.workshops import Workshop, workshop
 
@@ -76,13 +79,13 @@ def _composed(
             "mass": _mass(sum(r["mass_kg"] * r["count"] for r in rows)),
             "material": materials[0] if len(set(materials)) == 1 else "see list",
             "tolerances": shop.tolerances,
-            "units": "mm, degrees",
+            "units": f"{'mm' if is_metric() else 'inch'}, degrees",
             "size": paper.name,
             "sheet": "1/1",
         },
         {
-            "roughness": _rough(own.roughness_um) or shop.roughness,
-            "edges": f"ISO 13715: -{own.edge_mm:g}" if own.edge_mm else "free of burrs",
+            "roughness": _rough(own.roughness_um) or _micro(shop.roughness),
+            "edges": edge_note(spec.size) or "free of burrs",
             "faces that roll, slide, lock": _working(own),
         },
         {
@@ -110,11 +113,17 @@ def _composed(
         (*frame(paper), *(s for b in all_blocks for s in b.shapes)),
         tuple(label for b in all_blocks for label in b.labels),
         tuple(m for b in all_blocks for m in b.measures),
+        "mm" if is_metric() else "inch",
     )
 
 
 def _rough(roughness_um: float | None) -> str:
-    return f"Ra {roughness_um:g}" if roughness_um else ""
+    return _micro(f"Ra {roughness_um:g}") if roughness_um else ""
+
+
+def _micro(roughness: str) -> str:
+    """Return a roughness; with its unit on a sheet in inches, where it might be in microinches."""
+    return roughness if is_metric() or not roughness.startswith("Ra") else f"{roughness} µm"
 
 
 def _working(own: TitleBlock) -> str:
@@ -131,13 +140,13 @@ def _items(rows: list[dict[str, Any]], materials: list[str]) -> Block:
             str(i),
             str(row["name"]),
             str(row["count"]),
-            number(row["thickness_mm"]),
-            _rounded(row["mass_kg"]),
+            length(row["thickness_mm"]),
+            _rounded(row["mass_kg"] / _mass_unit()[1]),
             own[row["material"]],
         )
         for i, row in enumerate(rows, 1)
     ]
-    heading = ("item", "part", "count", "t", "kg each", "material")
+    heading = ("item", "part", "count", "t", f"{_mass_unit()[0]} each", "material")
     columns = (12.0, 66.0, 14.0, 20.0, 24.0, 44.0)  # mm
     return table((), [heading, *lines], columns)
 
@@ -152,12 +161,24 @@ def _material(of: Material, shop: Workshop) -> str:
         usual.poisson_ratio,
         usual.density_kgm3,
     )
-    return shop.material if same and shop.material else f"{of.density_kgm3:g} kg/m³"
+    if same and shop.material:
+        return shop.material
+    density = shop.density_kgm3 if of.density_kgm3 is None else of.density_kgm3
+    if is_metric():
+        return f"{density:g} kg/m³"
+    return f"{value_in_inches(density, 'kg/m³')[0]:.4g} lb/in³"
 
 
 def _mass(kg: float) -> str:
     """Return a mass with its unit, mg where kg would have too many zeros for the field."""
+    if not is_metric():
+        return f"{_rounded(kg / _mass_unit()[1])} lb"
     return f"{_rounded(kg)} kg" if kg >= 1e-3 else f"{_rounded(1e6 * kg)} mg"
+
+
+def _mass_unit() -> tuple[str, float]:
+    """Return the sheet's unit of mass, and its kilograms."""
+    return ("kg", 1.0) if is_metric() else ("lb", 0.45359237)
 
 
 def _rounded(mass: float) -> str:

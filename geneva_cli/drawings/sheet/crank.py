@@ -11,9 +11,10 @@ from geneva_cli.curves.sheet import CENTRE, HIDDEN, OUTLINE
 from geneva_cli.drawings.sheet import sized
 from geneva_cli.drawings.sheet.bores import bolted, bored, circle_of, holes_of
 from geneva_cli.drawings.sheet.standing import draw_hub
-from geneva_cli.drawings.sheet.view import View, number, times
-from geneva_cli.layout.set_screws import screw_note
+from geneva_cli.drawings.sheet.view import View, times
+from geneva_cli.layout.held_hubs import hub_note
 from geneva_cli.layout.sizes import drawn_pin_radius
+from geneva_cli.layout.written import length, number
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.numerics.tolerances import SAME_ON_SHEET
 from geneva_cli.outlines.crank import is_whole
@@ -36,7 +37,7 @@ def draw_disc(view: View, parts: FlatParts) -> None:
     circle_of(view, screwed)
     view.cross((0.0, 0.0), sizes.lock if is_whole(assembly, sizes) else 0.2 * sizes.lock)
     for hub in hubs:
-        draw_hub(view, hub, screw_note(mechanism.spec.size, "crank"))
+        draw_hub(view, hub, hub_note(mechanism.spec.size, "crank"))
     bored(view, bores, mechanism.spec.size, "crank")
     arcs = [s for contour in contours for s in contour.segments if isinstance(s, Arc)]
     locking = [
@@ -49,7 +50,7 @@ def draw_disc(view: View, parts: FlatParts) -> None:
             continue
         middle = at(arc, 0.5)
         far = math.hypot(*middle)
-        shown = sized.plain(arc.radius, "R "), number(far)
+        shown = sized.plain(arc.radius, "R "), length(far)
         if shown in seen:
             continue
         seen.add(shown)
@@ -97,7 +98,7 @@ def draw_arm(view: View, mechanism: Mechanism, arm: CrankArm) -> None:
     deviation = mechanism.spec.tolerance.crank_radius_mm
     shown: dict[str, list[Circle]] = {}
     for pin in arm.pins:
-        text = sized.plain(math.hypot(*pin.centre), deviation=deviation)
+        text = sized.plain(math.hypot(*pin.centre), off=deviation)
         shown.setdefault(text, []).append(pin)
     for text, some in shown.items():
         centre = some[0].centre

@@ -15,8 +15,9 @@ from geneva_cli.curves.measure import at, mapped
 from geneva_cli.curves.plates import Group, Member, Plate, Stack
 from geneva_cli.curves.shapes import Circle, Point, Shape, two_arcs
 from geneva_cli.curves.sheet import HATCH, OUTLINE, line, rectangle
-from geneva_cli.drawings.sheet.view import View, number
+from geneva_cli.drawings.sheet.view import View
 from geneva_cli.layout.projection import placed
+from geneva_cli.layout.written import length
 
 
 class Face(NamedTuple):
@@ -93,7 +94,7 @@ def draw_section(view: View, cut: list[Face], axes: Iterable[float]) -> None:
     for x in axes:
         view.centre_line((x, low), (x, high))
     left = min(face.left for face in cut)
-    view.linear((left, low), (left, high), 0.5 * math.pi, number(high - low))
+    view.linear((left, low), (left, high), 0.5 * math.pi, length(high - low))
 
 
 def _hatch(view: View, face: Face, k: int) -> None:

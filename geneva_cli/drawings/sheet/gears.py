@@ -9,8 +9,9 @@ from geneva_cli.curves.shapes import Arc, Circle, Contour, Point, Shape
 from geneva_cli.curves.sheet import CENTRE, OUTLINE
 from geneva_cli.drawings.sheet import sized
 from geneva_cli.drawings.sheet.bores import bolted, circle_of
-from geneva_cli.drawings.sheet.view import View, number, times
+from geneva_cli.drawings.sheet.view import View, times
 from geneva_cli.layout.gear_mesh import ToothedGear
+from geneva_cli.layout.written import is_metric, length, number
 from geneva_cli.numerics.tolerances import SAME_ON_SHEET
 from geneva_cli.parts.gear_blanks import Gear
 from geneva_cli.parts.pair_teeth import PairTeeth
@@ -59,10 +60,12 @@ def _teeth(view: View, gear: ToothedGear) -> None:
     )
     each, rack = len(gear.middles[0]), teeth.rack
     view.remark(
-        f"{times(len(gear.middles), f'{each} teeth')}, m = {number(rack.module)}, "
+        f"{times(len(gear.middles), f'{each} teeth')}, m = {_module(rack.module)}, "
         f"x = {number(gear.shift, 4)}, {number(math.degrees(rack.angle))}°"
-        + (f"; {number(span)} over {over} teeth" if over else "")
+        + (f"; {length(span, fine=True)} over {over} teeth" if over else "")
     )
+    if gear.last_tip:
+        view.remark(f"tip of the last tooth {sized.plain(2.0 * gear.last_tip, 'Ø ')}")
 
 
 def _draw_blank(view: View, gear: Gear) -> None:
@@ -108,8 +111,13 @@ def draw_gears(
     view.linear(*ends, 0.0, sized.plain(math.dist(*ends)))
     if teeth:
         each, rack = f"{teeth.z} teeth each", teeth.driver
-        view.remark(f"{each}, m = {number(rack.module, 6)}, {number(math.degrees(rack.angle))}°")
+        view.remark(f"{each}, m = {_module(rack.module, 6)}, {number(math.degrees(rack.angle))}°")
         if teeth.shift:
             view.remark(f"x = {number(teeth.shift, 4)} of the driver, and minus that")
     else:
         view.remark("pitch curves; teeth not shown")
+
+
+def _module(mm: float, decimals: int = 3) -> str:
+    """Return a module, which is in millimetres on every sheet."""
+    return number(mm, decimals) + ("" if is_metric() else " mm")

@@ -10,9 +10,10 @@ from geneva_cli.drawings.sheet.crank import draw_roller
 from geneva_cli.drawings.sheet.gears import draw_gear, draw_gears
 from geneva_cli.drawings.sheet.links import draw_link
 from geneva_cli.drawings.sheet.standing import draw_shaft
-from geneva_cli.drawings.sheet.view import View, number
+from geneva_cli.drawings.sheet.view import View
 from geneva_cli.layout.fits import Fits
 from geneva_cli.layout.projection import outlines_of
+from geneva_cli.layout.written import length
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.parts.flat_parts import FlatParts
 from geneva_cli.parts.pair_teeth import pair_teeth
@@ -34,7 +35,7 @@ def titled(rows: Sequence[Mapping[str, object]], scale: float, process: str | No
                 long = row["thickness_mm"]
                 assert isinstance(long, float)
                 fits = fits if titles else Fits(process, long)
-                titles.append(f"{i} {row['name']}" + f", t = {number(long)}" * thick)
+                titles.append(f"{i} {row['name']}" + f", t = {length(long)}" * thick)
         return View("; ".join(titles) or names[0], scale, fits)
 
     return begin
@@ -72,11 +73,11 @@ def rolling(begin: Begin, mechanism: Mechanism) -> Iterator[View]:
 
 
 def shafted(begin: Begin, shafts: Iterable[Member]) -> Iterator[View]:
-    """Yield a view of each shaft."""
-    for member in shafts:
-        assert not isinstance(member.part, Group | Shell)
-        view = begin(member.part.name, thick=False)
-        draw_shaft(view, member.part)
+    """Yield a view of each kind of shaft."""
+    for part in dict.fromkeys(member.part for member in shafts):
+        assert not isinstance(part, Group | Shell)
+        view = begin(part.name, thick=False)
+        draw_shaft(view, part)
         yield view
 
 

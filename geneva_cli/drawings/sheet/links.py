@@ -13,10 +13,11 @@ from geneva_cli.curves.shapes import Arc, Circle, Contour, Point
 from geneva_cli.curves.sheet import OUTLINE
 from geneva_cli.drawings.sheet import sized
 from geneva_cli.drawings.sheet.paper import table
-from geneva_cli.drawings.sheet.view import Block, View, number, times
+from geneva_cli.drawings.sheet.view import Block, View, times
 from geneva_cli.kinematics.layout import Joint
 from geneva_cli.layout.fits import Fits
 from geneva_cli.layout.link_positions import links_at, same
+from geneva_cli.layout.written import length, number
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.numerics.tolerances import SAME_ON_SHEET
 from geneva_cli.parts.link_sizes import places
@@ -78,9 +79,9 @@ def _pressed(mechanism: Mechanism) -> list[Point]:
 def _places(view: View, holes: list[Circle], base: Point) -> None:
     """Draw the distances of the other holes from the first, along the link and across it."""
     for axis, turn in ((0, 0.0), (1, UP)):
-        texts = {number(0.0)}
+        texts = {length(0.0)}
         for hole in sorted(holes, key=lambda h: abs(h.centre[axis] - base[axis])):
-            text = number(abs(hole.centre[axis] - base[axis]))
+            text = length(abs(hole.centre[axis] - base[axis]))
             if text not in texts:
                 texts.add(text)
                 view.linear(base, hole.centre, turn, text)
@@ -147,4 +148,4 @@ def _rows(members: Sequence[Member], mechanism: Mechanism) -> Iterator[tuple[str
         elif rolls:
             outside = sized.roller(fits, mechanism, outer)
         inside = "".join(sized.roller_bore(fits, bore.radius) for bore in bores)
-        yield plate.name, outside, inside, number(plate.thickness)
+        yield plate.name, outside, inside, length(plate.thickness)

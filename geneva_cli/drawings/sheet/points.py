@@ -10,9 +10,10 @@ import numpy as np
 
 from geneva_cli.drawings.sheet import sized
 from geneva_cli.drawings.sheet.paper import table
-from geneva_cli.drawings.sheet.view import Block, number, times
+from geneva_cli.drawings.sheet.view import Block, times
 from geneva_cli.layout.fits import Fits
 from geneva_cli.layout.groove import groove_curve
+from geneva_cli.layout.written import coordinate, is_metric, length, number
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.numerics.tolerances import SAME_LENGTH
 from geneva_cli.outlines.outlines import Outlines
@@ -113,11 +114,8 @@ def point_table(title: str, points: Array, close: float) -> Block:
         for k in range(groups):
             j = k * high + i
             known = j < len(points)
-            row += (
-                [str(j + 1), *(f"{v + 0.0:.3f}" for v in np.round(points[j], 3))]
-                if known
-                else ["", "", ""]
-            )
+            row += [str(j + 1), *(coordinate(v) for v in points[j])] if known else ["", "", ""]
         rows.append(row)
-    note = f"chords between them are within {number(close, 4)} of it"
+    within = number(close, 4) if is_metric() else length(close, fine=True)
+    note = f"chords between them are within {within} of it"
     return table([title, note], rows, (9.0, 17.0, 17.0) * groups)  # mm

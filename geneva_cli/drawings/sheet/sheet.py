@@ -11,9 +11,10 @@ from geneva_cli.curves.sheet import Sheet
 from geneva_cli.drawings.sheet import links, points
 from geneva_cli.drawings.sheet.composed import on_paper
 from geneva_cli.drawings.sheet.paper import smaller, table
-from geneva_cli.drawings.sheet.view import Block, number
+from geneva_cli.drawings.sheet.view import Block
 from geneva_cli.drawings.sheet.views import section, shown_on_sheet, together, views
 from geneva_cli.kinematics.layout import Dimension, Pivot
+from geneva_cli.layout.written import length, quantity
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.parts.flat_parts import FlatParts
 
@@ -46,9 +47,9 @@ def layout(mechanism: Mechanism) -> list[Block]:
     """Return a table of pivots and lengths of the drive in front of the crank, if any."""
     own = mechanism.spec.drive.layout(mechanism.plan, mechanism.spec.wheel.SIGN)
     rows = [("drive", "x or value", "y or unit")]
-    rows += [(p.name, number(p.x_mm), number(p.y_mm)) for p in own if isinstance(p, Pivot)]
+    rows += [(p.name, length(p.x_mm), length(p.y_mm)) for p in own if isinstance(p, Pivot)]
     rows += [
-        (d.name, number(d.value) if isinstance(d.value, (int, float)) else d.value, d.unit)
+        (d.name, *((d.value, d.unit) if isinstance(d.value, str) else quantity(d.value, d.unit)))
         for d in own
         if isinstance(d, Dimension)
     ]

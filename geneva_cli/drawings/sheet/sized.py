@@ -2,25 +2,26 @@
 
 from __future__ import annotations
 
-from geneva_cli.drawings.sheet.view import number
 from geneva_cli.layout.fits import Fits
+from geneva_cli.layout.written import deviation, length
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.spec.tables import Size
 
 
-def plain(value: float, sign: str = "", deviation: float = 0.0) -> str:
-    """Return a size, with a plus-minus deviation if it is not 0.
+def plain(value: float, sign: str = "", off: float = 0.0, fine: bool = False) -> str:
+    """Return a size, with a plus-minus deviation ``off`` if it is not 0; ``fine`` in any case.
 
-    >>> plain(5.0, "R "), plain(100.0, deviation=0.02)
+    >>> plain(5.0, "R "), plain(100.0, off=0.02)
     ('R 5', '100 ±0.02')
     """
-    return f"{sign}{number(value)}" + (f" ±{deviation:g}" if deviation else "")
+    shown = f"{sign}{length(value, fine or off > 0.0)}"
+    return f"{shown} ±{deviation(off)}" if off else shown
 
 
-def fitted(fits: Fits, value: float, sign: str, fit: str, deviation: float = 0.0) -> str:
+def fitted(fits: Fits, value: float, sign: str, fit: str, off: float = 0.0) -> str:
     """Return a size with its deviation if the spec has one, otherwise with a fit."""
-    shown = plain(value, sign, deviation)
-    return shown if deviation else fits.text(value, shown, fit)
+    shown = plain(value, sign, off, fine=True)
+    return shown if off else fits.text(value, shown, fit)
 
 
 def slot_width(fits: Fits, mechanism: Mechanism, half: float) -> str:
@@ -77,9 +78,9 @@ def edge_note(size: Size) -> str:
     """Return the note on edges; "" where the spec has none.
 
     >>> edge_note(Size(edge_chamfer_mm=0.5)), edge_note(Size(edge_fillet_mm=1.0))
-    ('all edges chamfered 0.5 × 45°', 'all edges rounded R 1')
+    ('chamfered 0.5 × 45°', 'rounded R 1')
     """
     if size.edge_chamfer_mm is not None:
-        return f"all edges chamfered {number(size.edge_chamfer_mm)} × 45°"
+        return f"chamfered {length(size.edge_chamfer_mm)} × 45°"
     rounded = size.edge_fillet_mm
-    return "" if rounded is None else f"all edges rounded {plain(rounded, 'R ')}"
+    return "" if rounded is None else f"rounded {plain(rounded, 'R ')}"

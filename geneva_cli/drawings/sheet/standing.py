@@ -6,12 +6,13 @@ import math
 
 from geneva_cli.curves.measure import bounds
 from geneva_cli.curves.plates import Plate, Stack
-from geneva_cli.curves.shapes import Arc, Circle, Contour, Line, Shape, closed
+from geneva_cli.curves.shapes import ORIGIN, Arc, Circle, Contour, Line, Shape, closed
 from geneva_cli.curves.sheet import CENTRE, OUTLINE
 from geneva_cli.drawings.sheet import sized
 from geneva_cli.drawings.sheet.bores import bolted, circle_of
-from geneva_cli.drawings.sheet.view import View, number, times
+from geneva_cli.drawings.sheet.view import View, times
 from geneva_cli.layout.bores import around
+from geneva_cli.layout.written import length
 
 
 def draw_frame(view: View, plate: Plate) -> None:
@@ -26,22 +27,22 @@ def draw_frame(view: View, plate: Plate) -> None:
     up = 0.5 * math.pi
     # from the shortest to the longest, so that their lines do not cross; leaders find places later
     for axis, turn in ((0, 0.0), (1, up)):
-        texts = {number(0.0)}
+        texts = {length(0.0)}
         for hole in sorted(holes, key=lambda hole: abs(hole.centre[axis])):
-            text = number(abs(hole.centre[axis]))
+            text = length(abs(hole.centre[axis]))
             if text not in texts:
                 texts.add(text)
                 view.linear(wheel, hole.centre, turn, text)
     corner = (box.x0, box.y0)
-    view.linear(corner, wheel, 0.0, number(-box.x0))
-    view.linear(corner, wheel, up, number(-box.y0))
-    view.linear(corner, (box.x1, box.y0), 0.0, number(box.x1 - box.x0))
-    view.linear(corner, (box.x0, box.y1), up, number(box.y1 - box.y0))
+    view.linear(corner, wheel, 0.0, length(-box.x0))
+    view.linear(corner, wheel, up, length(-box.y0))
+    view.linear(corner, (box.x1, box.y0), 0.0, length(box.x1 - box.x0))
+    view.linear(corner, (box.x0, box.y1), up, length(box.y1 - box.y0))
     alike: dict[str, list[Circle]] = {}
     for hole in holes:
         alike.setdefault(sized.bore(view.fits, hole.radius), []).append(hole)
     for text, some in alike.items():
-        places = ", ".join(f"({number(x)}, {number(y)})" for _, (x, y), _ in some)
+        places = ", ".join(f"({length(x)}, {length(y)})" for _, (x, y), _ in some)
         view.diameter(some, times(len(some), text), f"at {places} from the wheel's axis")
     assert isinstance(plate.outline, Contour)
     arcs = [piece for piece in plate.outline.segments if isinstance(piece, Arc)]
@@ -71,9 +72,10 @@ def draw_groove(
 
 
 def draw_hub(view: View, hub: Plate, screw: str) -> None:
-    """Draw the diameter of a hub that is already drawn, and note its set screw, if it has one."""
-    assert isinstance(hub.outline, Circle)
-    view.diameter([hub.outline], f"{hub.name} {sized.plain(2.0 * hub.outline.radius, 'Ø ')}")
+    """Draw the diameter of a hub that is already drawn, and note its screw, if it has one."""
+    radius = around(hub.outline)
+    whole = Circle(hub.layer, ORIGIN, radius)
+    view.diameter([whole], f"{hub.name} {sized.plain(2.0 * radius, 'Ø ')}")
     if screw:
         view.remark(screw)
 
@@ -88,10 +90,10 @@ def draw_shaft(view: View, shaft: Plate | Stack) -> None:
         sides = [Line(p, q) for p, q in zip(corners, [*corners[1:], corners[0]], strict=True)]
         view.draw(closed("", sides), OUTLINE)
     view.centre_line((0.0, 0.0), (long, 0.0))
-    view.linear((0.0, -first), (long, -first), 0.0, number(long))
+    view.linear((0.0, -first), (long, -first), 0.0, length(long))
     if isinstance(shaft, Plate):
         view.linear((0.0, -first), (0.0, first), 0.5 * math.pi, sized.shaft(view.fits, first))
         return
     for step in steps:
-        radius, size = around(step.outline), f"{number(step.thickness)} long"
+        radius, size = around(step.outline), f"{length(step.thickness)} long"
         view.remark(f"{sized.plain(2.0 * radius, 'Ø ')}, {size}: {step.name}")

@@ -235,16 +235,6 @@ def _short_first(rows: Iterable[Iterator[Measure]]) -> Iterator[Measure]:
     return merge(*rows, key=lambda m: round(math.dist(*m.lines[0]), 6))
 
 
-def number(value: float, decimals: int = 3) -> str:
-    """Return a size as text, without trailing zeros.
-
-    >>> number(173.20508), number(20.0)
-    ('173.205', '20')
-    """
-    text = f"{round(value, decimals) + 0.0:.{decimals}f}"  # no -0
-    return text.rstrip("0").rstrip(".") if "." in text else text
-
-
 def times(count: int, text: str) -> str:
     """Return a text with the number of times that the size occurs (ISO 129-1)."""
     return f"{count}× {text}" if count > 1 else text

@@ -29,7 +29,6 @@ from geneva_cli.drawings.sheet.linked import (
     titled,
 )
 from geneva_cli.drawings.sheet.paper import scale_name
-from geneva_cli.drawings.sheet.sized import edge_note
 from geneva_cli.drawings.sheet.standing import draw_frame, draw_groove
 from geneva_cli.drawings.sheet.view import View
 from geneva_cli.drawings.sheet.wheel import draw_wheel
@@ -128,7 +127,4 @@ def together(shown: SheetContent, scale: float) -> View:
     view.section(*ends, "A")
     marked = {shown.items[face.plate] for face in shown.cut}
     balloons(view, shown.parts.members, shown.items, marked)
-    edges = edge_note(shown.parts.mechanism.spec.size)
-    if edges:
-        view.remark(edges)
     return view

@@ -13,10 +13,11 @@ from geneva_cli.drawings.part_drawings import pitch_lines
 from geneva_cli.drawings.sheet import sized
 from geneva_cli.drawings.sheet.bores import bolted, bored, circle_of, holes_of
 from geneva_cli.drawings.sheet.standing import draw_hub
-from geneva_cli.drawings.sheet.view import View, number, times
+from geneva_cli.drawings.sheet.view import View, times
 from geneva_cli.kinematics.engagement import Engagement
+from geneva_cli.layout.held_hubs import hub_note
 from geneva_cli.layout.projection import outlines_of
-from geneva_cli.layout.set_screws import screw_note
+from geneva_cli.layout.written import length, number
 from geneva_cli.numerics.tolerances import SAME_ON_SHEET
 from geneva_cli.outlines.outlines import Outlines
 from geneva_cli.outlines.wheel_hub import HUB
@@ -51,11 +52,11 @@ def draw_wheel(view: View, parts: FlatParts) -> None:
     _rims(view, arcs, reach)
     clear = assembly.mechanism.spec.size.allowances
     if clear.source:  # of a process, whose fits do not say it
-        text = f"clearance a side: {number(clear.slot_clearance_mm)} from roller to slot"
-        lock = f", {number(clear.lock_clearance_mm)} from locking disc to recess"
+        text = f"clearance a side: {length(clear.slot_clearance_mm)} from roller to slot"
+        lock = f", {length(clear.lock_clearance_mm)} from locking disc to recess"
         view.remark(text + (lock if sizes.lock else ""))
     for hub in hubs:
-        draw_hub(view, hub, screw_note(assembly.mechanism.spec.size, "wheel"))
+        draw_hub(view, hub, hub_note(assembly.mechanism.spec.size, "wheel"))
     bored(view, bores, assembly.mechanism.spec.size, "wheel")
     bolted(view, screwed)
 
@@ -139,7 +140,7 @@ def _recesses(view: View, parts: Outlines, arcs: list[Arc]) -> None:
     deviation = assembly.mechanism.spec.tolerance.center_distance_mm
     centre = _recess_centre(parts)
     turn = math.atan2(centre[1], centre[0])
-    view.linear((0.0, 0.0), centre, turn, sized.plain(L, deviation=deviation), near=True)
+    view.linear((0.0, 0.0), centre, turn, sized.plain(L, off=deviation), near=True)
     recess = sized.recess(view.fits, assembly.mechanism, sizes.recess)
     view.of_arcs(own, times(len(own), recess), whole=True)
     for radius, some in _by_radius([arc for arc in about if arc not in own]).items():

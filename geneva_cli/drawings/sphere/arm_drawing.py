@@ -11,8 +11,8 @@ from geneva_cli.curves.sphere import Region, SphereArc, place
 from geneva_cli.curves.sphere_hull import Cap
 from geneva_cli.drawings.sphere.drawings import flat_region
 from geneva_cli.drawings.sphere.laid_flat import Cone
+from geneva_cli.layout.ball import Ball
 from geneva_cli.layout.projection import titled
-from geneva_cli.layout.sphere_sizes import Ball
 from geneva_cli.parts.sphere.arm import CapArm, crank_arm
 from geneva_cli.parts.sphere.sphere_parts import ARM, SphereParts, arm_solids
 

@@ -9,8 +9,8 @@ from geneva_cli.curves.round_holes import RoundHole
 from geneva_cli.curves.sphere import Region
 from geneva_cli.drawings.sphere.drawings import crank_cone, wheel_cone
 from geneva_cli.kinematics.layout import Dimension
+from geneva_cli.layout.ball import Ball
 from geneva_cli.layout.missing import Missing, or_missing
-from geneva_cli.layout.sphere_sizes import Ball
 from geneva_cli.parts.sphere.arm import CapArm
 from geneva_cli.parts.sphere.dial import dial_holes
 from geneva_cli.parts.sphere.sphere_parts import SphereParts

@@ -14,8 +14,8 @@ from geneva_cli.curves.shapes import Contour, Line, Point, Segment, Shape, close
 from geneva_cli.curves.sphere import Region
 from geneva_cli.drawings.part_drawings import PITCH
 from geneva_cli.drawings.sphere.laid_flat import Cone
+from geneva_cli.layout.ball import Ball
 from geneva_cli.layout.projection import titled
-from geneva_cli.layout.sphere_sizes import Ball
 from geneva_cli.outlines.sphere_wheel import edge
 from geneva_cli.parts.sphere.crank import locked, rollers
 from geneva_cli.parts.sphere.sphere_parts import SphereParts

@@ -15,10 +15,12 @@ import numpy as np
 from geneva_cli.curves import fit
 from geneva_cli.curves.shapes import Arc, Line, Point, Segment
 from geneva_cli.curves.sphere import SphereArc, Vector
+from geneva_cli.layout.written import length, unit
 from geneva_cli.numerics.tolerances import SAME_ANGLE
 
 if TYPE_CHECKING:
-    from geneva_cli.numerics.jet import Array
+    from geneva_cli.layout.written import length, unit
+from geneva_cli.numerics.jet import Array
 
 
 class Cone(NamedTuple):
@@ -95,11 +97,12 @@ class Cone(NamedTuple):
     def described(self, whose: str) -> str:
         """Return a description of the cone's shape and position for the workshop."""
         polar = math.degrees(self.polar)
-        at = f"touches the {self.radius_mm:g} mm sphere {polar:.6g} deg from the {whose}'s axis"
+        sphere = f"the {length(self.radius_mm)} {unit()} sphere"
+        at = f"touches {sphere} {polar:.6g} deg from the {whose}'s axis"
         if abs(math.cos(self.polar)) < SAME_ANGLE:
             return f"cylinder that {at}"
         return (
-            f"cone that {at}, {abs(self.apex_mm):.6g} mm from its apex; sector "
+            f"cone that {at}, {length(abs(self.apex_mm))} {unit()} from its apex; sector "
             f"{self.sector_deg:.6g} deg"
         )
 

@@ -14,9 +14,10 @@ from geneva_cli.curves.plates import Plate, plates
 from geneva_cli.curves.shapes import Arc, Contour, Line, Point, about, closed
 from geneva_cli.curves.sheet import CENTRE, HIDDEN, OUTLINE, polar
 from geneva_cli.drawings.sheet import sized
-from geneva_cli.drawings.sheet.view import View, number
+from geneva_cli.drawings.sheet.view import View
+from geneva_cli.layout.ball import Ball
 from geneva_cli.layout.bores import around, radius_of
-from geneva_cli.layout.sphere_sizes import Ball
+from geneva_cli.layout.written import number
 from geneva_cli.numerics.tolerances import SAME_ON_SHEET
 from geneva_cli.outlines.sphere_wheel import QUARTER
 from geneva_cli.parts.sphere.arm import CapArm

@@ -15,8 +15,8 @@ import numpy as np
 
 from geneva_cli.curves.plates import Plate, plates
 from geneva_cli.drawings.shaft_gap import ShaftGap, ring_gap
+from geneva_cli.layout.ball import Ball
 from geneva_cli.layout.bores import around
-from geneva_cli.layout.sphere_sizes import Ball
 from geneva_cli.numerics.tolerances import SAME_LENGTH
 from geneva_cli.parts.sphere.sphere_parts import ROLLER, SphereParts
 

@@ -26,7 +26,7 @@ from geneva_cli.drawings.sheet.linked import flat_plates
 from geneva_cli.drawings.sheet.paper import table
 from geneva_cli.drawings.sheet.points import COARSE, MIRRORED, point_table, polyline
 from geneva_cli.drawings.sheet.standing import draw_hub, draw_shaft
-from geneva_cli.drawings.sheet.view import Block, View, number, times
+from geneva_cli.drawings.sheet.view import Block, View, times
 from geneva_cli.drawings.sphere.arm_drawing import arm_cone, arm_flat
 from geneva_cli.drawings.sphere.dimensions import dimensions
 from geneva_cli.drawings.sphere.drawings import (
@@ -39,9 +39,10 @@ from geneva_cli.drawings.sphere.drawings import (
 from geneva_cli.drawings.sphere.laid_flat import Cone
 from geneva_cli.drawings.sphere.section import degrees, section
 from geneva_cli.kinematics.layout import Dimension
+from geneva_cli.layout.ball import Ball
 from geneva_cli.layout.fits import Fits
-from geneva_cli.layout.set_screws import screw_note
-from geneva_cli.layout.sphere_sizes import Ball
+from geneva_cli.layout.held_hubs import hub_note
+from geneva_cli.layout.written import length, quantity
 from geneva_cli.numerics.tolerances import SAME_ANGLE, SAME_ON_SHEET
 from geneva_cli.outlines.wheel_hub import HUB
 from geneva_cli.parts.sphere.arm import CapArm
@@ -59,7 +60,7 @@ def sheet(parts: SphereParts) -> Sheet:
     arm = arm_flat(parts, parts.arm) if parts.arm else []
     # 4 decimals of a degree are 0.2 um on 100 mm
     rows = [
-        (d.name, number(d.value, 4), d.unit)
+        (d.name, *quantity(d.value, d.unit, 4))
         for d in dimensions(parts)
         if isinstance(d, Dimension) and isinstance(d.value, (int, float))
     ]
@@ -79,9 +80,6 @@ def sheet(parts: SphereParts) -> Sheet:
         if parts.arm:
             views.append(_arm(parts, parts.arm, arm, scale))
         views += _axles(parts, scale)
-        edges = sized.edge_note(parts.mechanism.spec.size)
-        if edges:
-            views[0].remark(edges)
         yield [*(view.block() for view in views), *fixed]
 
     spec = parts.mechanism.spec
@@ -116,8 +114,8 @@ def _axles(parts: SphereParts, scale: float) -> Iterator[View]:
             for shape in (hub.outline, *hub.holes):
                 view.draw(shape, OUTLINE)
             bored(view, hub.holes, size, whose)
-            draw_hub(view, hub, screw_note(size, whose) if hub.layer == HUB else "")
-            view.remark(f"{number(hub.thickness)} long")
+            draw_hub(view, hub, hub_note(size, whose) if hub.layer == HUB else "")
+            view.remark(f"{length(hub.thickness)} long")
             yield view
     for shaft in flat_plates(parts.shafts):
         view = View(shaft.name, scale, Fits(size.process))

@@ -25,7 +25,7 @@ if TYPE_CHECKING:
 
 
 class Linear(Gearing):
-    """A rack of parallel slots: it moves by two crank radii, and rests as long as it moves.
+    """A rack of parallel slots: it moves by two crank radii a turn, and rests as long.
 
     ``z`` is the number of slots, 3 or more. The centre distance is the crank's radius.
 

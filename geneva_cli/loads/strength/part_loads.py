@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from geneva_cli.analysis.quantities import FORCE
-from geneva_cli.loads.strength.shafts import Torque, on_crank, on_driven_crank, on_wheel
+from geneva_cli.loads.strength.shafts import Torque, crank_forces, wheel_forces
 from geneva_cli.loads.summaries import load_peaks
 from geneva_cli.machine.both_ways import every_way
 from geneva_cli.numerics.arrays import larger, parameter
@@ -56,8 +56,8 @@ def sizing_loads(mechanism: Mechanism, forwards: PartLoads | None = None) -> Par
 
 def part_loads(mechanism: Mechanism) -> PartLoads:
     """The greatest loads of m designs."""
-    on = on_driven_crank if mechanism.spec.drive.CRANKED else on_crank
-    own = {"wheel_Nm": Torque(on_wheel), "crank_Nm": Torque(on)}
+    spec = mechanism.spec
+    own = {"wheel_Nm": Torque(wheel_forces(spec)), "crank_Nm": Torque(crank_forces(spec))}
     names = FORCE, "wheel_bearing_N", "wheel_Nm", "crank_bearing_N", "crank_Nm"
     peaks = load_peaks(mechanism, names, own)
     return PartLoads(

@@ -214,7 +214,7 @@ def lives(mechanism: Mechanism, each: Sequence[SlotPassage]) -> Life:
 
 
 def _periods_per_h(mechanism: Mechanism) -> float:
-    return 60.0 * mechanism.spec.drive.n_rpm * 360.0 / mechanism.period_deg
+    return 60.0 * mechanism.spec.drive.n_rpm * 360.0 / mechanism.under_load.period_deg
 
 
 def wears_mm(mechanism: Mechanism, each: Sequence[SlotPassage]) -> Array | None:

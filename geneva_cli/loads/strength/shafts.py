@@ -9,8 +9,8 @@ For rotating shafts with load applied gradually, Kb = 1.5 and Kt = 1. With sudde
 shocks they are 1.5 to 2 and 1 to 1.5, with heavy shocks 2 to 3 and 1.5 to 3. Allowable is the lower
 of 0.3 of the yield strength and 0.18 of the tensile strength, and three quarters of that at a
 keyway; without a limit in the spec that of the default steel (``allowed``). M is the force on the
-shaft times its overhang, T the torque at the same moment. Their greatest combination over the cycle
-is exact.
+shaft times its overhang, on a sphere that of ``sphere_shafts``, and T the torque at the same
+moment. Their greatest combination over the cycle is exact.
 """
 
 from __future__ import annotations
@@ -22,6 +22,7 @@ import numpy as np
 
 from geneva_cli.analysis.forces import QuantityValue
 from geneva_cli.analysis.instant import Instant
+from geneva_cli.loads.strength.sphere_shafts import on_sphere_crank, on_sphere_wheel
 from geneva_cli.loads.summaries import load_peaks
 from geneva_cli.numerics.arrays import only_of, parameter
 
@@ -31,11 +32,13 @@ if TYPE_CHECKING:
     from geneva_cli.analysis.contact import Contact
     from geneva_cli.analysis.load_functions import LoadQuantity
     from geneva_cli.machine.mechanism import Mechanism
+    from geneva_cli.machine.spec import Spec
     from geneva_cli.numerics.arrays import N
     from geneva_cli.numerics.jet import Array, Jet, Number
     from geneva_cli.spec.tables import Shaft
 
-    ShaftForces = Callable[[Instant[Jet], Contact[Jet]], tuple[Jet, Jet]]
+    # The squared bending moment of a shaft, (N m)², with an overhang in metres, and its torque.
+    ShaftForces = Callable[[Instant[Jet], Contact[Jet], Number], tuple[Jet, Jet]]
 
 
 class ShaftStress(NamedTuple):
@@ -84,37 +87,51 @@ def least_diameter_mm(moment_Nm: N, allowed_MPa: N) -> N:
     return diameter
 
 
-def on_wheel(i: Instant[Jet], at: Contact[Jet]) -> tuple[Jet, Jet]:
-    """Squared force on the wheel's shaft, and torque: the loads from slot and wheel."""
-    return i.wheel_bearing_N * i.wheel_bearing_N, i.wheel_torque_Nm
+def on_wheel(i: Instant[Jet], at: Contact[Jet], overhang: Number) -> tuple[Jet, Jet]:
+    """Squared bending moment of the wheel's shaft, and torque: the loads from slot and wheel."""
+    return i.wheel_bearing_N * i.wheel_bearing_N * (overhang * overhang), i.wheel_torque_Nm
 
 
-def on_crank(i: Instant[Jet], at: Contact[Jet]) -> tuple[Jet, Jet]:
-    """Squared force on the crank's shaft, and torque, if it is or turns with the input shaft."""
-    return i.crank_bearing_squared, i.input_torque_Nm
+def on_crank(i: Instant[Jet], at: Contact[Jet], overhang: Number) -> tuple[Jet, Jet]:
+    """Squared bending moment and torque of a crank that is or turns with the input shaft."""
+    return i.crank_bearing_squared * (overhang * overhang), i.input_torque_Nm
 
 
-def on_driven_crank(i: Instant[Jet], at: Contact[Jet]) -> tuple[Jet, Jet]:
-    """Squared force on the shaft of a crank behind a transmission, and torque.
+def on_driven_crank(i: Instant[Jet], at: Contact[Jet], overhang: Number) -> tuple[Jet, Jet]:
+    """Squared bending moment and torque of the shaft of a crank behind a transmission.
 
     It turns at another rate than the input, that of the roller's body. The torque differs
     accordingly, since the power is equal.
     """
-    return i.crank_bearing_squared, i.input_torque_Nm / (at.spin + at.velocity * at.arm)
+    bent, torque = on_crank(i, at, overhang)
+    return bent, torque / (at.spin + at.velocity * at.arm)
+
+
+def wheel_forces(spec: Spec) -> ShaftForces:
+    """The loads of the wheel's shaft."""
+    return on_sphere_wheel if spec.wheel.SHELLS else on_wheel
+
+
+def crank_forces(spec: Spec) -> ShaftForces:
+    """The loads of the crank's shaft."""
+    if spec.wheel.SHELLS:
+        return on_sphere_crank
+    return on_driven_crank if spec.drive.CRANKED else on_crank
 
 
 class Moment(NamedTuple):
-    """The square (Kb M)² + (Kt T)², as a row for ``load_peaks``; lever in metres."""
+    """The square (Kb M)² + (Kt T)², as a row for ``load_peaks``; overhang in metres."""
 
     loaded: ShaftForces
-    lever: float
+    overhang: float
+    bending: float
     torsion: float
 
     def __call__(self, i: Instant[Jet], at: Contact[Jet]) -> QuantityValue[Jet]:
         """The square, and the grip that bounds it."""
-        square, torque = self.loaded(i, at)
+        square, torque = self.loaded(i, at, self.overhang)
         turned = torque * self.torsion
-        return QuantityValue(square * (self.lever * self.lever) + turned * turned, i.grip)
+        return QuantityValue(square * (self.bending * self.bending) + turned * turned, i.grip)
 
 
 class Torque(NamedTuple):
@@ -124,7 +141,7 @@ class Torque(NamedTuple):
 
     def __call__(self, i: Instant[Jet], at: Contact[Jet]) -> QuantityValue[Jet]:
         """The squared torque, and the grip that bounds it."""
-        _, torque = self.loaded(i, at)
+        _, torque = self.loaded(i, at, 0.0)
         return QuantityValue(torque * torque, i.grip)
 
 
@@ -158,8 +175,9 @@ def _wanted(
     """The squares of the equivalent moment and of the torque."""
     table = mechanism.spec.shaft
     assert ends.overhang_mm is not None
-    lever = table.bending_factor * ends.overhang_mm / 1000.0
-    return {"moment": Moment(loaded, lever, table.torsion_factor), "torque": Torque(loaded)}
+    factors = table.bending_factor, table.torsion_factor
+    moment = Moment(loaded, ends.overhang_mm / 1000.0, *factors)
+    return {"moment": moment, "torque": Torque(loaded)}
 
 
 def _turned(

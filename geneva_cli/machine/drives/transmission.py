@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from abc import abstractmethod
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING, ClassVar, NamedTuple
 
 from geneva_cli.errors import GenevaError, refuse
@@ -212,3 +212,24 @@ class Transmission(Drive, kw_only=True):
                 ("wheel", "z"),
             ),
         )
+
+
+class Direct(Transmission, kw_only=True):
+    """A drive without a transmission: crank angle and input angle are equal."""
+
+    ALIKE: ClassVar[bool] = True
+
+    @property
+    def direct(self) -> bool:
+        """Always True: the classic closed forms hold."""
+        return True
+
+    def exact_advance(
+        self, half: tuple[float, float], exact: Callable[[float], float]
+    ) -> Displacement:
+        """Rotation of the crank, which is the input's."""
+        return same
+
+    def about(self, crank_deg: float) -> LocalTransmission:
+        """Transmission about a crank angle in degrees, which is the input angle."""
+        return LocalTransmission(crank_deg, same)

@@ -37,20 +37,31 @@ def polygon(shape: Contour | Circle, outside: bool, tolerance: float) -> list[Po
     corners: list[Point] = []
     for segment in with_material_left(contour, outside).segments:
         count = _chords(segment, tolerance)
-        if len(corners) + count > CORNERS_MAX:
-            raise GenevaError(
-                f"--tolerance: the mesh of layer {shape.layer} takes more than {CORNERS_MAX} "
-                "chords; use a larger tolerance"
-            )
+        require_few(len(corners) + count, shape.layer)
         corners += [at(segment, k / count) for k in range(count)]
     return _separate(corners, 0.1 * tolerance)
 
 
+def require_few(count: int, layer: str) -> None:
+    """Raise GenevaError for a polygon with more than CORNERS_MAX corners."""
+    if count > CORNERS_MAX:
+        raise GenevaError(
+            f"--tolerance: the mesh of layer {layer} takes more than {CORNERS_MAX} chords; use a "
+            "larger tolerance"
+        )
+
+
 def chord_points(segment: Segment, tolerance: float) -> list[Point]:
     """Return the ends of a segment's chords, both of its own included, with DECIMALS."""
+    points = segment.start, *between(segment, tolerance), segment.end
+    return [rounded_point(point) for point in points]
+
+
+def between(segment: Segment, tolerance: float) -> list[Point]:
+    """Return the ends of a segment's chords without its own."""
     count = _chords(segment, tolerance)
-    between = (at(segment, k / count) for k in range(1, count))
-    return [_rounded(point) for point in (segment.start, *between, segment.end)]
+    require_few(count, "a part")
+    return [at(segment, k / count) for k in range(1, count)]
 
 
 def arc_chords(radius: float, sweep: float, tolerance: float) -> int:
@@ -83,7 +94,7 @@ def _bend(a: Point, b: Point, c: Point) -> float:
 def _separate(corners: Iterable[Point], apart: float) -> list[Point]:
     """Return rounded corners without those that are too near to the one before."""
     kept: list[Point] = []
-    for corner in map(_rounded, corners):
+    for corner in map(rounded_point, corners):
         if not kept or math.dist(kept[-1], corner) > apart:
             kept.append(corner)
     while len(kept) > 3 and math.dist(kept[-1], kept[0]) <= apart:
@@ -91,7 +102,8 @@ def _separate(corners: Iterable[Point], apart: float) -> list[Point]:
     return kept
 
 
-def _rounded(corner: Point) -> Point:
+def rounded_point(corner: Point) -> Point:
+    """Return a corner with DECIMALS, and without negative zeros."""
     return round(corner[0], DECIMALS) + 0.0, round(corner[1], DECIMALS) + 0.0
 
 

@@ -1,23 +1,28 @@
 """OpenSCAD: a module for each kind of solid, and a line for each position, in mm.
 
 A plate is an outline without its holes, extruded; circles stay circles, so that a person can change
-them. A turned part is one on another. A shell of a sphere is a polyhedron.
+them. A turned part is one on another. A shell of a sphere, or a plate with a chamfer, is a
+polyhedron.
 """
 
 from __future__ import annotations
 
 import math
 import re
+import textwrap
 from collections.abc import Iterator, Sequence
 
+from geneva_cli.curves.cross_holes import CrossHole
 from geneva_cli.curves.drawing import Drawing
 from geneva_cli.curves.plates import Plate, Shell, Solid
-from geneva_cli.curves.shapes import Circle, Contour
+from geneva_cli.curves.shapes import Circle, Contour, Shape
 from geneva_cli.errors import GenevaError, clean
 from geneva_cli.output.inks import inks
+from geneva_cli.output.mesh.plates import plate_mesh
 from geneva_cli.output.mesh.polygons import DECIMALS, arc_chords, polygon
 from geneva_cli.output.mesh.shells import shell_mesh
 from geneva_cli.output.mesh.solids import Place, solid_kinds
+from geneva_cli.output.mesh.surface import Surface
 from geneva_cli.output.solid_part import plate_contours
 
 
@@ -68,21 +73,43 @@ def _moved(place: Place) -> str:
 
 def _solid(solid: Solid, tolerance: float) -> str:
     if isinstance(solid, Shell):
-        return _shell(solid, tolerance)
+        return _polyhedron(shell_mesh(solid, tolerance))
     plates = [solid] if isinstance(solid, Plate) else solid.plates
     return "".join(_plate(plate, tolerance) for plate in plates)
 
 
 def _plate(plate: Plate, tolerance: float) -> str:
+    if plate.chamfer:
+        return _polyhedron(plate_mesh(plate, tolerance))
     outline, *holes = plate_contours(plate)
     flat = _flat(outline, True, tolerance)
     if holes:
-        cut = [_flat(hole, False, tolerance) for hole in holes]
-        flat = "\n".join(("difference() {", *(f"  {one}" for one in (flat, *cut)), "}"))
+        inside = [_flat(hole, False, tolerance) for hole in holes]
+        flat = "\n".join(("difference() {", *(f"  {one}" for one in (flat, *inside)), "}"))
     low, high = _shown(plate.low, DECIMALS), _shown(plate.thickness, DECIMALS)
     above = "" if low == "0" else f"translate([0, 0, {low}]) "
     flat = flat.replace("\n", "\n    ")
-    return f"  {above}linear_extrude(height = {high})\n    {flat}\n"
+    solid = f"  {above}linear_extrude(height = {high})\n    {flat}\n"
+    if not plate.cross:
+        return solid
+    cut = "".join(_cross(hole, (outline, *holes), tolerance) for hole in plate.cross)
+    return f"  difference() {{\n{textwrap.indent(solid + cut, '  ')}  }}\n"
+
+
+def _cross(hole: CrossHole, shapes: Sequence[Shape], tolerance: float) -> str:
+    """A cylinder that goes through both walls of a hole, and ends in the open."""
+    low, high = hole.openings(shapes)
+    ys = [hole.radius * math.sin(math.pi * (k / 16.0 - 0.5)) for k in range(17)]
+    start, end = min(map(low.x, ys)), max(map(high.x, ys))
+    more = 0.05 * (end - start)
+    at = *hole.placed(start - more, 0.0), hole.height
+    count = 2 * arc_chords(hole.radius, math.pi, tolerance)
+    return (
+        f"  translate({_list(at, DECIMALS)}) "
+        f"rotate([0, 90, {_shown(math.degrees(hole.turn), 9)}])\n"
+        f"    cylinder(h = {_shown(end - start + 2.0 * more, DECIMALS)}, "
+        f"r = {_shown(hole.radius, DECIMALS)}, $fn = {count});\n"
+    )
 
 
 def _flat(shape: Contour | Circle, outside: bool, tolerance: float) -> str:
@@ -94,8 +121,7 @@ def _flat(shape: Contour | Circle, outside: bool, tolerance: float) -> str:
     return f"polygon([\n    {corners}]);"
 
 
-def _shell(shell: Shell, tolerance: float) -> str:
-    surface = shell_mesh(shell, tolerance)
+def _polyhedron(surface: Surface) -> str:
     corners = ",\n    ".join(_list(corner, DECIMALS) for corner in surface.corners.tolist())
     # OpenSCAD wants them clockwise from outside
     faces = ",\n    ".join(f"[{a}, {c}, {b}]" for a, b, c in surface.triangles.tolist())

@@ -9,13 +9,13 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from geneva_cli.curves.drawing import Drawing
-from geneva_cli.curves.plates import Group, Member, Part, Plate, Shell, Solid
+from geneva_cli.curves.plates import Group, Member, Part, Shell, Solid, Stack
 from geneva_cli.errors import GenevaError
-from geneva_cli.output.mesh.polygons import edges, polygon, triangles
+from geneva_cli.output.mesh.plates import plate_mesh
 from geneva_cli.output.mesh.shells import shell_mesh
 from geneva_cli.output.mesh.stacks import stack_mesh
-from geneva_cli.output.mesh.surface import Surface, rounded, surface
-from geneva_cli.output.solid_part import plate_contours, solid_part
+from geneva_cli.output.mesh.surface import Surface, rounded
+from geneva_cli.output.solid_part import solid_part
 
 if TYPE_CHECKING:
     from geneva_cli.numerics.jet import Array
@@ -89,34 +89,6 @@ def _surface(solid: Solid, tolerance: float) -> Surface:
         raise GenevaError(f"--tolerance {tolerance:g}: it must be above 0 mm")
     if isinstance(solid, Shell):
         return shell_mesh(solid, tolerance)
-    return (
-        plate_mesh(solid, tolerance) if isinstance(solid, Plate) else stack_mesh(solid, tolerance)
-    )
-
-
-def plate_mesh(plate: Plate, tolerance: float) -> Surface:
-    """Return a plate's surface: both faces cut alike, and two triangles over each chord.
-
-    Raises GenevaError for a plate without thickness, and for contours that cross.
-
-    >>> from geneva_cli.curves.shapes import Circle
-    >>> disc = Plate("disc", "CRANK", Circle("", (0.0, 0.0), 50.0), (), 0.0, 10.0)
-    >>> len(plate_mesh(disc, 0.1).triangles)  # 50 chords: 2 x 48 in the faces, 2 x 50 in the wall
-    196
-    """
-    shapes = plate_contours(plate)
-    loops = [polygon(shape, i == 0, tolerance) for i, shape in enumerate(shapes)]
-    flat = [point for loop in loops for point in loop]
-    up = len(flat)  # from a lower corner's number to the upper one's
-    top = triangles(loops, plate.name)
-    walls = [
-        triangle for a, b in edges(loops) for triangle in ((a, b, b + up), (a, b + up, a + up))
-    ]
-    return surface(
-        [(x, y, z) for z in (plate.low, plate.high) for x, y in flat],
-        [
-            *((c, b, a) for a, b, c in top),
-            *((a + up, b + up, c + up) for a, b, c in top),
-            *walls,
-        ],
-    )
+    if isinstance(solid, Stack):
+        return stack_mesh(solid, tolerance)
+    return plate_mesh(solid, tolerance)

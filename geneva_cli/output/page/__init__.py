@@ -84,6 +84,7 @@ def _data(scene: Scene) -> dict[str, Any]:
             {"id": b.name.replace(" ", "-"), "centre": b.centre, "angle": _track(b.angle)}
             for b in scene.bodies
         ],
+        "frame": scene.frame and {"centre": scene.frame.centre, "angle": _track(scene.frame.angle)},
         "bars": [_bar(bar) for bar in scene.bars],
         "rollers": [[_track(t) for t in place] for place in scene.rollers],
         "radius": scene.roller_radius,

@@ -13,7 +13,7 @@
   const by = (id) => document.getElementById(id);
   const size = scene.size, degrees = 180 / Math.PI;
 
-  const centre = scene.bodies.find((b) => b.id !== "wheel")?.centre ?? [0, 0];
+  const centre = scene.bodies.find((b) => !b.id.startsWith("wheel"))?.centre ?? [0, 0];
   set(by("centres"), { x1: 0, y1: 0, x2: centre[0], y2: -centre[1] });
   const bars = scene.bars.map((bar, number) => {
     const group = by("bars");
@@ -101,6 +101,10 @@
 
   let t = 0, turns = 0, sense = 1, said = "";
   function show() {
+    if (scene.frame) {
+      const { centre: [x, y], angle } = scene.frame, turned = -afterTurns(angle, t, turns) * degrees;
+      set(by("frame"), { transform: `rotate(${turned} ${x} ${-y})` });
+    }
     for (const { id, centre: [x, y], angle } of scene.bodies) {
       const turned = -afterTurns(angle, t, turns) * degrees;
       set(by(id), { transform: `translate(${x} ${-y}) rotate(${turned})` });

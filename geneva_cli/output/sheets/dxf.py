@@ -36,7 +36,7 @@ def chunks(sheet: Sheet, version: str = USUAL) -> Iterator[str]:
         for label in sheet.labels:
             _text(space, label, TEXT)
         for measure in sheet.measures:
-            _measure(document, space, measure)
+            _measure(document, space, measure, 1.0 if sheet.units == "mm" else 25.4)
         extents(document, space, (0.0, 0.0, sheet.width, sheet.height))
 
     yield from dxf_text(sheet.title, "mm", version, fill)
@@ -52,7 +52,10 @@ def _layers(document: Document) -> None:
     document.styles.add("SHEET", font="arial.ttf")
 
 
-def _measure(document: Document, space: Modelspace, measure: Measure) -> None:
+def _measure(document: Document, space: Modelspace, measure: Measure, unit_mm: float) -> None:
+    """A dimension, whose value is in the unit of its text."""
+    if measure.kind != "angular":
+        measure = measure._replace(value=measure.value / unit_mm)
     if measure.kind not in KINDS:
         _drawn(space, measure)
         return

@@ -10,6 +10,14 @@ LENGTH = 12  # decimals of lengths in mm: with large coordinates more than a dou
 DIRECTION = 16  # decimals of directions, which act through a length
 
 
+class SolidCorner(NamedTuple):
+    """A corner of a contour: its lower and upper vertex, and the edge between them."""
+
+    low: str
+    high: str
+    edge: str
+
+
 class WallFace(NamedTuple):
     """The face over one piece of a contour, and its edges in the solid's lower and upper face."""
 

@@ -6,16 +6,16 @@ counterclockwise: the lower edge, up at its end, the upper edge back, and down a
 
 from __future__ import annotations
 
-import math
-from typing import NamedTuple
-
 from geneva_cli.curves.measure import with_material_left
 from geneva_cli.curves.plates import Plate
 from geneva_cli.curves.shapes import Arc, Circle, Contour, Line, Point
 from geneva_cli.output.solid_part import plate_contours
+from geneva_cli.output.step.chamfers import chamfers
+from geneva_cli.output.step.cross_holes import bored_walls
+from geneva_cli.output.step.curves import circle_at, curve, knots_of, level, unit_of
 from geneva_cli.output.step.entities import (
-    DIRECTION,
     Entities,
+    SolidCorner,
     WallFace,
     closed_solid,
     edge,
@@ -24,15 +24,7 @@ from geneva_cli.output.step.entities import (
     loop,
     real,
 )
-from geneva_cli.output.step.splines import Piece, Spline, pieces
-
-
-class SolidCorner(NamedTuple):
-    """A corner of a contour: its lower and upper vertex, and the edge between them."""
-
-    low: str
-    high: str
-    edge: str
+from geneva_cli.output.step.splines import Piece, pieces
 
 
 def solid(file: Entities, plate: Plate) -> str:
@@ -42,31 +34,45 @@ def solid(file: Entities, plate: Plate) -> str:
     """
     faces, lower, upper = [], [], []
     outside = True
-    for shape in plate_contours(plate):
-        walls = (
-            [_round(file, plate, shape, outside)]
-            if isinstance(shape, Circle)
-            else _walls(file, plate, with_material_left(shape, outside))
-        )
+    shapes = plate_contours(plate)
+    bored = bored_walls(file, plate, shapes)
+    walled = plate._replace(low=plate.low + plate.chamfer, high=plate.high - plate.chamfer)
+    for shape in shapes:
+        if isinstance(shape, Circle):
+            walls = [_round(file, walled, shape, outside)]
+        else:
+            contour = with_material_left(shape, outside)
+            ends = [_place(file, walled, piece.start) for piece in pieces(contour.segments)]
+            walls = _walls(file, walled, contour, ends, bored.loops)
+            if plate.chamfer:
+                sloped = chamfers(file, plate, contour, ends, walls)
+                faces += sloped.faces
+                walls = [
+                    WallFace(wall.face, low, high, True)
+                    for wall, low, high in zip(walls, sloped.low, sloped.high, strict=True)
+                ]
         faces += [wall.face for wall in walls]
         lower.append(loop(file, [(wall.low, not wall.along) for wall in reversed(walls)]))
         upper.append(loop(file, [(wall.high, wall.along) for wall in walls]))
         outside = False
+    faces += bored.faces
     faces.append(face(file, lower, level(file, plate.low), False))
     faces.append(face(file, upper, level(file, plate.high), True))
     return closed_solid(file, faces)
 
 
-def level(file: Entities, z: float) -> str:
-    """The plane across the axis at a height."""
-    return file.add(f"PLANE('',{file.placement((0.0, 0.0), z)})")
-
-
-def _walls(file: Entities, plate: Plate, contour: Contour) -> list[WallFace]:
-    chain = pieces(contour.segments)
-    corners = [_place(file, plate, piece.start) for piece in chain]
+def _walls(
+    file: Entities,
+    plate: Plate,
+    contour: Contour,
+    corners: list[SolidCorner],
+    bored: dict[Piece, list[str]],
+) -> list[WallFace]:
     pairs = zip(corners, [*corners[1:], corners[0]], strict=True)
-    return [_wall(file, plate, piece, *ends) for piece, ends in zip(chain, pairs, strict=True)]
+    return [
+        _wall(file, plate, piece, ends, bored.get(piece, []))
+        for piece, ends in zip(pieces(contour.segments), pairs, strict=True)
+    ]
 
 
 def _place(file: Entities, plate: Plate, at: Point) -> SolidCorner:
@@ -76,15 +82,20 @@ def _place(file: Entities, plate: Plate, at: Point) -> SolidCorner:
 
 
 def _wall(
-    file: Entities, plate: Plate, piece: Piece, start: SolidCorner, end: SolidCorner
+    file: Entities,
+    plate: Plate,
+    piece: Piece,
+    ends: tuple[SolidCorner, SolidCorner],
+    holes: list[str],
 ) -> WallFace:
+    start, end = ends
     curves = [curve(file, piece, z) for z in (plate.low, plate.high)]
     along = not isinstance(piece, Arc) or piece.bulge > 0.0
     low = edge(file, start.low, end.low, curves[0], along)
     high = edge(file, start.high, end.high, curves[1], along)
     sides = loop(file, [(low, True), (end.edge, True), (high, False), (start.edge, False)])
     # a cylinder's own normal points away from its axis, that of the others to the right
-    wall = face(file, [sides], surface(file, piece, plate), along)
+    wall = face(file, [sides, *holes], surface(file, piece, plate), along)
     return WallFace(wall, low, high, True)
 
 
@@ -93,7 +104,7 @@ def _round(file: Entities, plate: Plate, circle: Circle, outside: bool) -> WallF
     (x, y), r = circle.centre, circle.radius
     seam = _place(file, plate, (x + r, y))
     low, high = (
-        edge(file, vertex, vertex, _circle(file, circle.centre, r, z), True)
+        edge(file, vertex, vertex, circle_at(file, circle.centre, r, z), True)
         for vertex, z in ((seam.low, plate.low), (seam.high, plate.high))
     )
     sides = [(low, outside), (seam.edge, True), (high, not outside), (seam.edge, False)]
@@ -101,35 +112,10 @@ def _round(file: Entities, plate: Plate, circle: Circle, outside: bool) -> WallF
     return WallFace(face(file, [loop(file, sides)], surface, outside), low, high, outside)
 
 
-def curve(file: Entities, piece: Piece, z: float) -> str:
-    """The text of a piece's curve."""
-    if isinstance(piece, Line):
-        vector = file.shared(f"VECTOR('',{file.direction(*_direction(piece))},1.)")
-        return f"LINE('',{file.point(piece.start, z)},{vector})"
-    if isinstance(piece, Arc):
-        return _circle(file, piece.centre, piece.radius, z)
-    return _spline(file, piece, z)
-
-
-def _spline(file: Entities, spline: Spline, z: float) -> str:
-    poles = listed([file.point(p, z) for p in spline.poles])
-    count, knots = _knots(spline)
-    return (
-        f"B_SPLINE_CURVE_WITH_KNOTS('',3,{poles},.UNSPECIFIED.,.F.,.F.,{count},{knots},"
-        ".UNSPECIFIED.)"
-    )
-
-
-def _knots(spline: Spline) -> tuple[str, str]:
-    """The multiplicity of each knot, two where a cubic is once differentiable, and the knots."""
-    count = listed(["4", *["2"] * (len(spline.knots) - 2), "4"])
-    return count, listed([real(knot / spline.knots[-1], DIRECTION) for knot in spline.knots])
-
-
 def surface(file: Entities, piece: Piece, plate: Plate) -> str:
     """The surface over a piece."""
     if isinstance(piece, Line):
-        x, y = _direction(piece)
+        x, y = unit_of(piece)
         axis, ahead = file.direction(y, -x), file.direction(x, y)
         return file.add(f"PLANE('',{file.placement(piece.start, plate.low, axis, ahead)})")
     if isinstance(piece, Arc):
@@ -138,21 +124,11 @@ def surface(file: Entities, piece: Piece, plate: Plate) -> str:
     # extruded curve.
     levels = plate.low, plate.high
     poles = listed([listed([file.point(p, z) for z in levels]) for p in piece.poles])
-    count, knots = _knots(piece)
+    count, knots = knots_of(piece)
     return file.add(
         f"B_SPLINE_SURFACE_WITH_KNOTS('',3,1,{poles},.UNSPECIFIED.,.F.,.F.,.F.,{count},(2,2),"
         f"{knots},(0.,1.),.UNSPECIFIED.)"
     )
-
-
-def _direction(line: Line) -> Point:
-    (x0, y0), (x1, y1) = line
-    length = math.dist(line.start, line.end)
-    return (x1 - x0) / length, (y1 - y0) / length
-
-
-def _circle(file: Entities, centre: Point, radius: float, z: float) -> str:
-    return f"CIRCLE('',{file.placement(centre, z)},{real(radius)})"
 
 
 def _cylinder(file: Entities, centre: Point, radius: float, z: float) -> str:

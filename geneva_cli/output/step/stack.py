@@ -6,8 +6,9 @@ from geneva_cli.curves.plates import Plate, Stack
 from geneva_cli.curves.shapes import Arc, Point
 from geneva_cli.curves.stacks import Level, Side, levels, outline_of, sides
 from geneva_cli.output.solid_part import plate_contours
+from geneva_cli.output.step.curves import curve, level
 from geneva_cli.output.step.entities import Entities, closed_solid, edge, face, loop
-from geneva_cli.output.step.solid import curve, level, surface
+from geneva_cli.output.step.solid import surface
 
 
 def stack_solid(file: Entities, stack: Stack) -> str:

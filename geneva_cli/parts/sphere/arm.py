@@ -15,8 +15,9 @@ from geneva_cli.curves.round_holes import RoundHole, least_wall
 from geneva_cli.curves.sphere import Region, dot, place
 from geneva_cli.curves.sphere_hull import Cap, convex_hull
 from geneva_cli.errors import GenevaError
-from geneva_cli.layout.arm_sizes import arm_bore, bolts_between, eye_about, hub_and_eye, pin_hole
+from geneva_cli.layout.arm_sizes import eye_about, hub_and_eye, lock_bolt_directions, pin_hole
 from geneva_cli.layout.axles import refuse_wide
+from geneva_cli.layout.bolt_holes import bolt_radius
 from geneva_cli.layout.bores import Bore, bore_of
 from geneva_cli.outlines.sphere_wheel import POLE
 from geneva_cli.parts.sphere.crank import locked
@@ -52,29 +53,46 @@ class CapArm(NamedTuple):
 
 def has_arm(parts: Shells) -> bool:
     """Return True if the machine has an arm: a crank with rollers on pins."""
-    return parts.assembly.full.spec.drive.CRANKED and parts.ball.pin_mm > 0.0
+    return parts.ball.arm_bore_mm > 0.0
 
 
 def crank_arm(parts: Shells) -> CapArm:
     """Return the arm of a machine.
 
-    Raises GenevaError, naming the key, where the sizes leave no arm around the holes.
+    By default each locking sector has as many bolts as leave walls, up to two. Raises GenevaError,
+    naming the key, where the sizes leave no arm around the holes.
     """
+    own = parts.assembly.full.spec.size.lock_bolts
+    arm = _arm(parts, own or 0)
+    if own is None and parts.crank:
+        least = min(arm.wall, parts.sizes.wall_min)
+        bolted = (_arm(parts, count) for count in (2, 1))
+        arm = next((one for one in bolted if one.wall >= least), arm)
+    if arm.wall <= 0.0:
+        raise GenevaError(
+            "the round holes of the crank arm overlap, or cut an edge: reduce lock_bolt_mm, "
+            "arm_hub_mm, pin_mm or lock_bolts, or change lock_bolt_circle_mm",
+            ("size", "lock_bolts" if arm.bolts else "arm_hub_mm"),
+        )
+    return arm
+
+
+def _arm(parts: Shells, bolts_each: int) -> CapArm:
+    """Return the arm with so many bolts in each locking sector."""
     spec, ball = parts.assembly.full.spec, parts.ball
     if not has_arm(parts):
         raise GenevaError("pin_mm = 0: there is no pin for an arm to carry", ("size", "pin_mm"))
     wall, under = parts.sizes.wall_min, ball.arm_span_mm[0]
     hole = pin_hole(spec.size, ball.pin_mm)
-    disc, limit = 0.5 * (spec.size.crank_bore_mm or 0.0), ball.radius_mm * ball.arm - hole
-    radius = arm_bore(spec, disc, ball.radius_mm, limit)
-    hub, eye = hub_and_eye(spec.size, wall, hole, radius, _passing(parts))
+    hub, eye = hub_and_eye(
+        spec.size, wall, hole, ball.arm_bore_mm, ball.passing_mm(ball.opening_mm)
+    )
     _refuse(parts, hub, hole, eye)
-    form = bore_of(spec.size, "crank", radius)
+    form = bore_of(spec.size, "crank", ball.arm_bore_mm)
     around = hub - form.reach  # the hub's wall
     pins = tuple(RoundHole(place(ball.arm, azimuth), hole) for azimuth in ball.rollers)
-    screwed = bolts(parts)
-    round_hub = RoundHole(POLE, hub + max(around, wall)).angle(under)
-    cap, eye = max(ball.lock, round_hub), eye / ball.radius_mm
+    screwed = _bolts(parts, bolts_each)
+    cap, eye = ball.cap(hub, max(around, wall)), eye / ball.radius_mm
     caps = [Cap(POLE, cap)]
     caps += [Cap(pin.axis, eye) for pin in pins]
     caps += [Cap(b.axis, eye_about(b.radius, wall) / under) for b in screwed]
@@ -94,28 +112,20 @@ def crank_arm(parts: Shells) -> CapArm:
     return arm._replace(wall=min(around, _walls(arm, parts)))
 
 
-def _passing(parts: Shells) -> float:
-    """Return the largest radius of an eye that passes the wheel's hub, mm along the sphere."""
-    ball = parts.ball
-    opening = RoundHole(POLE, ball.opening_mm).angle(ball.arm_span_mm[0])
-    return ball.radius_mm * (ball.axes - ball.arm - opening)
-
-
-def bolts(parts: Shells) -> tuple[RoundHole, ...]:
-    """Return the holes of the bolts that fix the locking sectors to the arm, evenly in each.
+def _bolts(parts: Shells, count: int) -> tuple[RoundHole, ...]:
+    """Return the holes of so many bolts in each locking sector, evenly spaced and of one size.
 
     Raises GenevaError where there are no sectors to fix.
     """
     size, ball = parts.assembly.full.spec.size, parts.ball
+    L, own = ball.radius_mm, size.lock_bolt_circle_mm
+    rings = [(math.pi - s.boundary[2].angle, s.boundary[0].angle) for s in parts.crank]
     rims = [sector.boundary[0] for sector in parts.crank]
     widths = [(math.atan2(rim.start[1], rim.start[0]), rim.sweep) for rim in rims]
-    r, directions = bolts_between(size, ball.radius_mm, widths, size.lock_bolts or 0)
-    holes = []
-    for sector, at in zip(parts.crank, directions, strict=False):
-        rim, _, inner, _ = sector.boundary
-        far = 0.5 * (math.pi - inner.angle + rim.angle)
-        if size.lock_bolt_circle_mm is not None:
-            far = math.asin(min(1.0, 0.5 * size.lock_bolt_circle_mm / ball.radius_mm))
+    narrow = min((0.5 * L * (high - low) for low, high in rings), default=0.0)
+    r, holes = bolt_radius(size.lock_bolt_mm, L, narrow), []
+    for ring, at in zip(rings, lock_bolt_directions(widths, count), strict=False):
+        far = 0.5 * sum(ring) if own is None else math.asin(min(1.0, 0.5 * own / L))
         holes += [RoundHole(place(far, azimuth), r) for azimuth in at]
     return tuple(holes)
 
@@ -144,17 +154,11 @@ def _refuse(parts: Shells, hub: float, hole: float, eye: float) -> None:
 def _walls(arm: CapArm, parts: Shells) -> float:
     """Return the least wall on the inner faces of the arm and of the bolted sectors.
 
-    Raises GenevaError where holes overlap, or cut the boundary of their part.
+    It is negative where holes overlap, or cut the boundary of their part.
     """
     ball = parts.ball
     least = least_wall(arm.boundary, arm.holes, ball.arm_span_mm[0])
     for k, sector in enumerate(parts.crank if arm.bolts else []):
         own = arm.bolts_of(k, len(parts.crank))
         least = min(least, least_wall(sector, own, ball.lock_span_mm[0]))
-    if least <= 0.0:
-        raise GenevaError(
-            "the round holes of the crank arm overlap, or cut an edge: reduce lock_bolt_mm, "
-            "arm_hub_mm, pin_mm or lock_bolts, or change lock_bolt_circle_mm",
-            ("size", "lock_bolts" if arm.bolts else "arm_hub_mm"),
-        )
     return least

@@ -14,7 +14,8 @@ import numpy as np
 
 from geneva_cli.curves.sphere import Region, Rotation, SphereArc, cross, opposite, place
 from geneva_cli.curves.sphere_hull import Cap
-from geneva_cli.layout.sphere_sizes import Ball, PartDoesNotFit
+from geneva_cli.layout.ball import Ball
+from geneva_cli.layout.sphere_sizes import PartDoesNotFit
 from geneva_cli.numerics.tolerances import SAME_ANGLE
 from geneva_cli.outlines.locking_rings import widest
 from geneva_cli.outlines.sphere_wheel import POLE, QUARTER, edge_points

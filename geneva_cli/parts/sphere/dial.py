@@ -9,7 +9,8 @@ from geneva_cli.curves.round_holes import RoundHole, least_wall
 from geneva_cli.curves.sphere import place
 from geneva_cli.curves.sphere_hull import Cap
 from geneva_cli.errors import GenevaError
-from geneva_cli.layout.sphere_sizes import Ball
+from geneva_cli.layout.ball import Ball
+from geneva_cli.layout.bolt_holes import bolt_circle
 from geneva_cli.outlines.sphere_wheel import POLE, web_angle
 
 if TYPE_CHECKING:
@@ -32,13 +33,11 @@ def dial_holes(size: Size, ball: Ball) -> tuple[RoundHole, ...]:
         )
     L, inside, high = ball.radius_mm, ball.span_mm[0], web_angle(ball)
     low = RoundHole(POLE, ball.opening_mm).angle(inside)
-    half_width = 0.5 * inside * (high - low)
-    r = min(L / 80.0, 0.5 * half_width) if size.dial_bolt_mm is None else 0.5 * size.dial_bolt_mm
-    far = 0.5 * (low + high)
-    if size.dial_bolt_circle_mm is not None:
-        far = math.asin(min(1.0, 0.5 * size.dial_bolt_circle_mm / L))
-    azimuths = [ball.half_step + math.tau * k / size.dial_bolts for k in range(size.dial_bolts)]
-    holes = tuple(RoundHole(place(far, azimuth), r) for azimuth in azimuths)
+    bolts = bolt_circle(size, "dial", L, (L * low, L * high), ball.half_step)
+    far, r = bolts.radius / L, bolts.hole
+    if size.dial_bolt_circle_mm is not None:  # a diameter, not an arc as the ring's
+        far = math.asin(min(1.0, far))
+    holes = tuple(RoundHole(place(far, azimuth), r) for azimuth in bolts.turns)
     all_holes = RoundHole(POLE, ball.opening_mm), *holes
     if least_wall(Cap(POLE, high).region, all_holes, inside) <= 0.0:
         circles = [f"{2.0 * L * math.sin(angle):.6g}" for angle in (far, low, high)]

@@ -6,7 +6,8 @@ import math
 
 from geneva_cli.curves.sphere import Region
 from geneva_cli.errors import GenevaError
-from geneva_cli.layout.sphere_sizes import Ball, PartDoesNotFit, ball
+from geneva_cli.layout.ball import Ball
+from geneva_cli.layout.sphere_sizes import PartDoesNotFit, ball
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.numerics.roots import boundary
 from geneva_cli.numerics.rounding import to_digits

@@ -15,7 +15,7 @@ from geneva_cli.collisions.touch import first_stops
 from geneva_cli.curves.sphere import Region, opposite, place
 from geneva_cli.curves.sphere_arcs import SphereArcs
 from geneva_cli.layout.assembly import Assembly
-from geneva_cli.layout.sphere_sizes import Ball
+from geneva_cli.layout.ball import Ball
 from geneva_cli.numerics.tolerances import SAME_ANGLE
 from geneva_cli.outlines.sphere_wheel import edge
 from geneva_cli.parts.sphere.crank import at_mid_motion

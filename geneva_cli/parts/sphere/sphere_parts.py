@@ -18,10 +18,10 @@ from geneva_cli.curves.sphere import axis_frame, place
 from geneva_cli.curves.sphere_hull import Cap
 from geneva_cli.errors import GenevaError
 from geneva_cli.layout.axles import crank_hub, refuse_wide
+from geneva_cli.layout.ball import Ball
 from geneva_cli.layout.bores import bore_of, fitted, has_shape
+from geneva_cli.layout.held_hubs import held_hub
 from geneva_cli.layout.missing import NamedParts
-from geneva_cli.layout.set_screws import require_thread
-from geneva_cli.layout.sphere_sizes import Ball
 from geneva_cli.outlines.sphere_wheel import POLE, web_angle, web_region, wheel_regions
 from geneva_cli.outlines.wheel_hub import HUB
 from geneva_cli.parts.shafts import SHAFT
@@ -72,6 +72,13 @@ class SphereParts:
         """The shafts of wheel and crank."""
         return tuple(_shafts(self.shells, self.arm))
 
+    def hub_radii(self, part: str) -> tuple[float, float]:
+        """Return the radii of the bore and the hub of a part, "wheel" or "crank", mm."""
+        size, ball = self.mechanism.spec.size, self.ball
+        if part == "wheel":
+            return ball.bore_mm, ball.hub_mm
+        return 0.5 * (size.crank_bore_mm or 0.0), crank_hub(size, ball.radius_mm)
+
     @property
     def members(self) -> tuple[Member, ...]:
         """All parts."""
@@ -90,7 +97,6 @@ def wheel_group(size: Size, ball: Ball) -> Group:
     Raises GenevaError for a keyway or hub that cannot be made.
     """
     hub = wheel_hub(size, ball)
-    require_thread(size, "wheel", hub)
     return Group("wheel", (Member(wheel_shell(size, ball)), *([Member(hub)] if hub else [])))
 
 
@@ -109,7 +115,14 @@ def wheel_shell(size: Size, ball: Ball) -> Shell:
 
 
 def wheel_hub(size: Size, ball: Ball) -> Plate | None:
-    """Return the wheel's hub: in its shell and outside it, by default out to the arm's face."""
+    """Return the wheel's hub: in its shell and outside it, by default out to the arm's face.
+
+    Raises GenevaError, naming the key, where it cannot be made.
+    """
+    return held_hub(size, "wheel", _wheel_hub(size, ball), ball.half_step)
+
+
+def _wheel_hub(size: Size, ball: Ball) -> Plate | None:
     wide = ball.hub_mm > ball.bore_mm
     if has_shape(size, "wheel") and not (wide and ball.bore_mm):
         name = "wheel_bore" if size.wheel_keyway is None else "wheel_keyway"
@@ -129,8 +142,7 @@ def wheel_hub(size: Size, ball: Ball) -> Plate | None:
             "diameter over the hub's bore and keyway",
             ("size", "wheel_hub_mm"),
         )
-    length = size.wheel_hub_length_mm
-    long = ball.arm_span_mm[1] if length is None else outside + length
+    long = inside + ball.hub_length_mm(size)
     bored = (form.shape("BORE", ball.half_step),) if ball.bore_mm else ()
     return Plate("wheel's hub", HUB, Circle(HUB, ORIGIN, ball.hub_mm), bored, inside, long)
 
@@ -153,8 +165,7 @@ def crank_group(parts: Shells, arm: CapArm | None) -> Group:
     for azimuth in ball.rollers:
         frame = axis_frame(place(ball.arm, azimuth))
         members += [Member(one, frame=frame) for one in ((roller, pin) if arm else (roller,))]
-    hub = _inner_hub(size, ball, arm)
-    require_thread(size, "crank", hub)
+    hub = held_hub(size, "crank", _inner_hub(size, ball, arm), arm.keyway if arm else 0.0)
     return Group("crank", (*members, *([Member(hub)] if hub else [])))
 
 
@@ -167,7 +178,7 @@ def arm_solids(ball: Ball, arm: CapArm) -> tuple[Shell, Plate]:
 
 def _inner_hub(size: Size, ball: Ball, arm: CapArm | None) -> Plate | None:
     """Return the crank's hub on the arm's inner face; None unless the spec has one."""
-    radius = crank_hub(size)
+    radius = crank_hub(size, ball.radius_mm)
     if not (radius and arm):
         return None
     long = size.crank_hub_length_mm
@@ -192,9 +203,7 @@ def _shafts(parts: Shells, arm: CapArm | None) -> Iterator[Member]:
             'shafts = "turned": a machine on a sphere has no frame for bearings; remove it',
             ("size", "shafts"),
         )
-    length = size.wheel_hub_length_mm
-    hubs = max(over, ball.span_mm[1] + (length or 0.0) if ball.hub_mm else 0.0)
-    lowest = ball.out(hubs + size.washer_mm + over - under)
+    lowest = ball.out(ball.shafts_end_mm(size) + over - under)
     if ball.bore_mm:
         low, high = size.wheel_shaft_low_mm, size.wheel_shaft_high_mm
         low = (lowest if ball.hub_mm > ball.bore_mm else 0.0) if low is None else low

@@ -24,16 +24,21 @@ WHEEL = "WHEEL"  # layer
 
 def bodies(design: Design, turn: MachineTurn) -> Iterator[Body]:
     """Wheel, crank with its arm, the cam's groove and gears, as far as the machine has them."""
-    L, wheel, crank = turn.L, turn.wheel(), turn.crank()
+    L, crank = turn.L, turn.crank()
     # parts of a sphere are drawn laid flat: these outlines do not turn about the shaft
     shapes = _hollow(_shapes(design, "wheel")) if design.spec.wheel.FLAT else ()
     flat = bool(shapes)
-    yield Body("wheel", (*(shapes or _slots(turn)), _mark(shapes, turn)), (0.0, 0.0), wheel)
+    wheel = (*(shapes or _slots(turn)), _mark(shapes, turn))
+    for place in turn.mechanism.wheel_places:
+        name = f"wheel {place.number}" if place.number > 1 else "wheel"
+        yield Body(name, wheel, place.at, turn.wheel(place))
     if flat:
         carried = (*_shapes(design, "arm"), *_shapes(design, "crank"))
         carried = tuple(shape for shape in carried if shape.layer != "ROLLER")
         yield Body("crank", carried, (L, 0.0), crank)
         yield Body("groove", _shapes(design, "groove"), (L, 0.0), still(0.0))
+        if turn.mechanism.frame > 0.0:
+            yield Body("carrier", _shapes(design, "frame"), (0.0, 0.0), still(0.0))
     if design.spec.drive.gears:
         yield from _gears(design, turn)
 

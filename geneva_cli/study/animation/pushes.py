@@ -9,6 +9,7 @@ import numpy as np
 
 from geneva_cli.loads.cycle import Cycle
 from geneva_cli.scene import Push
+from geneva_cli.study.animation.carrier import moved_push
 from geneva_cli.study.animation.turn import MachineTurn, RollerPassage
 
 if TYPE_CHECKING:
@@ -36,7 +37,10 @@ def pushes(cycle: Cycle, turn: MachineTurn) -> Iterator[Push]:
         arrow = (force[:, None] * normal)[sound]
         at = (one.mid + local - turn.start)[sound]
         columns = (at, contact[:, 0], contact[:, 1], arrow[:, 0], arrow[:, 1])
-        yield Push(*(tuple(column.tolist()) for column in columns))
+        push = Push(*(tuple(column.tolist()) for column in columns))
+        yield push
+        for place in turn.mechanism.wheel_places[1:]:
+            yield moved_push(push, place, turn.L)
 
 
 def _normals(one: RollerPassage, local: Array, turn: MachineTurn) -> Array:

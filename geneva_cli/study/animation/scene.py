@@ -14,9 +14,10 @@ from geneva_cli.design import Design
 from geneva_cli.drawings.catalogue import require_drawn
 from geneva_cli.errors import GenevaError
 from geneva_cli.outlines.stop import wheel_stop
-from geneva_cli.scene import Bar, Body, Box, Phase, Place, Scene, pose
+from geneva_cli.scene import Bar, Body, Box, Phase, Place, Rotation, Scene, pose
 from geneva_cli.specfile.writer import quoted, spec_lines
 from geneva_cli.study.animation.bodies import bodies
+from geneva_cli.study.animation.carrier import frame_rotation
 from geneva_cli.study.animation.pushes import pushes
 from geneva_cli.study.animation.turn import MachineTurn
 from geneva_cli.study.summary.titles import title_of
@@ -46,6 +47,8 @@ def scene(design: Design) -> Scene:
         outlines = design.parts
     bars, rollers = turn.bars(outlines), turn.rollers()
     spec, title = design.spec, title_of(design)
+    frame = frame_rotation(mechanism, turn.start, turn.whole)
+    box = _box(parts, bars, rollers, mechanism.roller_radius_mm, turn.whole)
     return Scene(
         title,
         words(mechanism) + _remark(design, bars),
@@ -60,8 +63,9 @@ def scene(design: Design) -> Scene:
         tuple(pushes(design.cycle, turn)),
         tuple(_states(design, turn)),
         _figure(design),
-        _box(parts, bars, rollers, mechanism.roller_radius_mm, turn.whole),
+        _swept(parts, frame) if frame else box,
         _stops(outlines, turn),
+        frame,
     )
 
 
@@ -88,6 +92,9 @@ def _figure(design: Design) -> Figure:
 
 def _states(design: Design, turn: MachineTurn) -> Iterator[Phase]:
     rest = _rest(design)
+    if design.spec.drive.wheels_on_carrier > 1:
+        yield from _wheels_in_turn(design, turn)
+        return
     last = turn.passages[-1]
     for one, after in zip(turn.passages, (*turn.passages[1:], None), strict=True):
         which = f"roller {one.roller}" if len(turn.passages) > 1 else "the roller"
@@ -105,6 +112,15 @@ def _states(design: Design, turn: MachineTurn) -> Iterator[Phase]:
     assert last.exit <= turn.end + 1e-9
 
 
+def _wheels_in_turn(design: Design, turn: MachineTurn) -> Iterator[Phase]:
+    """The motions of several wheels at one finger."""
+    (one,), places = turn.passages, design.mechanism.wheel_places
+    for place in places:
+        start, end = place.behind_deg, place.behind_deg + one.engagement.motion_deg
+        yield Phase(start, end, True, f"the finger turns wheel {place.number} on the carrier")
+        yield Phase(end, start + turn.whole / len(places), False, "all wheels rest on the carrier")
+
+
 def _rest(design: Design) -> str:
     """A phrase that names what holds the wheel at rest."""
     by = design.spec.wheel.held_by
@@ -115,6 +131,13 @@ def _rest(design: Design) -> str:
     except GenevaError:
         return "the wheel rests"
     return "the wheel rests, locked by the disc" if locks else "the wheel rests; nothing holds it"
+
+
+def _swept(parts: tuple[Body, ...], frame: Rotation) -> Box:
+    """The bounding box of bodies in a frame that makes whole turns."""
+    x, y = frame.centre
+    reach = max(math.dist(b.centre, frame.centre) + max(map(_reach, b.shapes)) for b in parts)
+    return x - reach, y - reach, x + reach, y + reach
 
 
 def _box(

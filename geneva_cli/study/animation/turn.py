@@ -12,7 +12,7 @@ import numpy as np
 from geneva_cli.curves.plates import Plate
 from geneva_cli.errors import GenevaError
 from geneva_cli.kinematics.engagement import Engagement
-from geneva_cli.kinematics.layout import Joint, Link
+from geneva_cli.kinematics.layout import Joint, Link, WheelPlace
 from geneva_cli.layout.groove import roller_in_groove
 from geneva_cli.layout.link_positions import links_at
 from geneva_cli.machine.mechanism import Mechanism
@@ -68,19 +68,24 @@ class MachineTurn:
         self.end = self.start + self.whole
         self._links: dict[bytes, tuple[Link, ...]] = {}
 
-    def wheel(self) -> Track:
-        """The wheel's angle, 0 half-way through the first step."""
-        pieces: list[tuple[float, float, Moving]] = []
-        turned = 0.0
+    def wheel(self, place: WheelPlace) -> Track:
+        """A wheel's angle, with a slot ahead of the crank's axis half-way through its first step.
+
+        A wheel behind the first one rests before.
+        """
+        turned, behind = place.turn, place.behind_deg
+        first = self.passages[0].engagement.half_step
+        pieces = [(self.start, self.start + behind, resting(turned - first))]
         for one, after in zip(self.passages, (*self.passages[1:], None), strict=True):
             motion = one.engagement.motion
             for a, b in cut(motion.entry_deg, motion.exit_deg, motion.breaks_deg):
-                pieces.append((one.mid + a, one.mid + b, _by_motion(one, turned)))
+                mid = one.mid + behind
+                pieces.append((mid + a, mid + b, _by_motion(one, mid, turned)))
             turned += one.engagement.half_step
-            pieces.append((one.exit, after.entry if after else self.end, resting(turned)))
+            end = after.entry if after else self.end - behind
+            pieces.append((one.exit + behind, end + behind, resting(turned)))
             turned += after.engagement.half_step if after else 0.0
-        first = self.passages[0].engagement.half_step
-        return track(pieces, ANGLE_ERROR, self.start, turned + first)
+        return track(pieces, ANGLE_ERROR, self.start, turned + first - place.turn)
 
     def crank(self) -> Track:
         """The direction of the crank arm of the first roller about the crank's axis, radians."""
@@ -183,9 +188,9 @@ def _plates(
     return out
 
 
-def _by_motion(one: RollerPassage, turned: float) -> Moving:
+def _by_motion(one: RollerPassage, mid: float, turned: float) -> Moving:
     def moving(x: Array) -> tuple[Array, Array]:
-        psi = one.engagement.motion(x - one.mid, 1)
+        psi = one.engagement.motion(x - mid, 1)
         return turned + np.asarray(psi.c[0]), np.asarray(psi.c[1]) * (math.pi / 180.0)
 
     return moving

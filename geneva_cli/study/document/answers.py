@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from geneva_cli.design import Design
 from geneva_cli.document import Block, Facts, Grid, Heading, Row, TextList
@@ -13,14 +13,17 @@ from geneva_cli.study.document.facts import capital, fact, facts
 from geneva_cli.study.document.rest import RemainingValues, grid
 from geneva_cli.table import Table
 
+if TYPE_CHECKING:
+    from geneva_cli.kinematics.wheels.gearing import Output
 
-def timing(left: RemainingValues, n_rpm: float) -> Iterator[Block]:
+
+def timing(left: RemainingValues, n_rpm: float, output: Output) -> Iterator[Block]:
     """Timing and peaks; if engagements differ, shared values, the worst, and each."""
     yield Heading("Timing")
     yield from facts("Timing of a cycle", left.take("timing"))
     yield Heading("Peaks")
     heads = (
-        "Of the wheel",
+        f"Of the {output.noun}",
         "Greatest, by input angle",
         "At input angle, °",
         f"Greatest at {n_rpm:.6g} rpm",
@@ -29,21 +32,26 @@ def timing(left: RemainingValues, n_rpm: float) -> Iterator[Block]:
         "At exit, by input angle",
         "Unit at speed",
     )
-    rows = []
+    rows, own = [], output.rate_unit
     for name, unit in (
-        ("velocity", "rad/s"),
-        ("acceleration", "rad/s²"),
-        ("jerk", "rad/s³"),
-        ("power", "rad²/s³"),
+        ("velocity", f"{own}/s"),
+        ("acceleration", f"{own}/s²"),
+        ("jerk", f"{own}/s³"),
+        ("power", f"{own}²/s³"),
     ):
         peak = left.take(name)
-        # the other names have the unit of a time at their end
         by_angle = {key: peak.pop(key, None) for key in ("max", "at_deg", "entry", "exit")}
-        by_time = {key.partition("_")[0]: value for key, value in peak.items()}
+        # the other names have the unit of a time at their end, that of a wheel or that of a rack
+        by_time = {
+            key.partition("_")[0]: value
+            for key, value in peak.items()
+            if key.split("_")[1].rstrip("2") == own
+        }
         values = (by_angle["max"], by_angle["at_deg"], by_time["max"])
         entry = (by_angle["entry"], by_time.get("entry"))
         rows.append((capital(name), *values, *entry, by_angle["exit"], unit))
-    yield Grid("Peaks: derivatives of the wheel's angle, in radians", heads, tuple(rows))
+    of = "the wheel's angle, in radians" if output.turns else "the rack's travel over R"
+    yield Grid(f"Peaks: derivatives of {of}", heads, tuple(rows))
     yield from _each(left.one("stations"))
 
 
@@ -97,6 +105,16 @@ def product(left: RemainingValues) -> Iterator[Block]:
     if any(value is not None for value in values.values()):
         yield Heading("Product")
         yield from facts("What the product on the dial feels", values)
+
+
+def carousel(left: RemainingValues) -> Iterator[Block]:
+    """Wheels on a carrier from the ground, and when each moves, if there are any."""
+    values, wheels = left.take("carousel"), left.one("wheels")
+    if any(value is not None for value in values.values()):
+        yield Heading("Carousel")
+        yield from facts("The wheels on the carrier, from the ground", values)
+    if wheels is not None:
+        yield grid("When each wheel moves, by the carrier's angle", wheels)
 
 
 def stop(left: RemainingValues) -> Iterator[Block]:

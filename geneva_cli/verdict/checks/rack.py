@@ -9,7 +9,7 @@ from geneva_cli.verdict.checks.check import Check, compared, refused
 
 
 def rack_horn(name: str, mechanism: Mechanism) -> Check | None:
-    """The wall between slot and recess at the rack's edge; None for a wheel."""
+    """The wall between slot and recess of a rack; None for a wheel, and without a lock."""
     if mechanism.output.turns:
         return None
     from geneva_cli.outlines.rack import rack_sizes
@@ -18,6 +18,8 @@ def rack_horn(name: str, mechanism: Mechanism) -> Check | None:
         sizes = rack_sizes(mechanism)
     except GenevaError as error:
         return refused(name, error)
+    if not sizes.lock:
+        return None
     least = wall_min(mechanism.spec.size, mechanism.center_distance_mm)
     return compared(name, sizes.horn, "at least", least)
 

@@ -216,6 +216,12 @@ REPORT = (
         batch="product:product",
     ),
     _group(
+        "carousel",
+        "turn_deg velocity moving_fraction behind_deg centrifugal_N",
+        batch="carousel:carousel",
+    ),
+    _group("", "", "report.carousel:wheels"),
+    _group(
         "sizes",
         "axes_deg sphere_radius_mm crank_arm_mm slot_mouth_polar_deg slot_bottom_polar_deg "
         "center_distance_mm crank_radius_mm ratio roller_radius_mm slot_width_mm clearances_from "
@@ -236,6 +242,7 @@ REPORT = (
         "report.parts:turned",
         makes_parts=True,
     ),
+    _group("carousel", "envelope_mm", "report.carousel:envelope", makes_parts=True),
     _group(
         "stop",
         "turns first_deg last_deg overlap_mm lever_mm force_N contact_stress_MPa",

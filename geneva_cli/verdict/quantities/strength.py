@@ -124,15 +124,15 @@ def _known(row: Number | None) -> Array:
 
 
 def wheel_shaft(of: Designs) -> Columns:
-    """The wheel's shaft, if it is parallel to the crank's."""
+    """The wheel's shaft."""
     ends = _drawn(of, shafts.wheel_shaft(of.spec.shaft), "wheel")
-    return _shaft(of, ends, shafts.on_wheel)
+    return _shaft(of, ends, shafts.wheel_forces(of.spec))
 
 
 def crank_shaft(of: Designs) -> Columns:
-    """The crank's shaft, if it is parallel to the wheel's."""
-    on = shafts.on_driven_crank if of.spec.drive.CRANKED else shafts.on_crank
-    return _shaft(of, _drawn(of, shafts.crank_shaft(of.spec.shaft), "crank"), on)
+    """The crank's shaft."""
+    ends = _drawn(of, shafts.crank_shaft(of.spec.shaft), "crank")
+    return _shaft(of, ends, shafts.crank_forces(of.spec))
 
 
 def _drawn(of: Designs, ends: shafts.ShaftDimensions, part: str) -> shafts.ShaftDimensions:
@@ -160,9 +160,10 @@ def _number(of: Designs, values: Array) -> float:
 
 
 def _shaft(of: Designs, ends: shafts.ShaftDimensions, on: shafts.ShaftForces) -> Columns:
-    """A shaft; without results on a sphere, where an overhang does not determine the moment."""
+    """A shaft under its load; without results in a rack's machine."""
     out: dict[str, Number | None] = {"diameter_mm": ends.diameter_mm}
-    turned = under_load(of).shaft(ends, on) if of.spec.wheel.FLAT else None
+    wheel = of.spec.wheel
+    turned = under_load(of).shaft(ends, on) if wheel.FLAT or wheel.SHELLS else None
     if turned is None:
         return out
     moment = np.asarray(turned.moment_Nm) * of.loaded

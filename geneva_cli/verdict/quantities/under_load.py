@@ -17,7 +17,7 @@ from geneva_cli.loads.strength.part_loads import PartLoads, own_loads, part_load
 from geneva_cli.loads.summaries import load_peaks
 from geneva_cli.numerics.arrays import parameter
 from geneva_cli.verdict.lock_sizes import LockSizes, design_lock_sizes, layouts_lock_sizes
-from geneva_cli.verdict.part_sizes import PartSizes, part_sizes
+from geneva_cli.verdict.part_sizes import PartSizes, part_sizes, stressed_parts
 
 if TYPE_CHECKING:
     from geneva_cli.loads.strength.lock import LockUnderTorque
@@ -85,7 +85,10 @@ class UnderLoad:
     @cached_property
     def parts(self) -> PartSizes | None:
         """The dimensions of stressed parts; None if no design has parts, or a load."""
-        return part_sizes(self.layouts) if self.machine.spec.is_loaded else None
+        if not self.machine.spec.is_loaded:
+            return None
+        each = zip(self.designs.each, self.layouts, strict=True)
+        return part_sizes([stressed_parts(*one) for one in each])
 
     @property
     def contact_mm(self) -> float | None:

@@ -25,6 +25,7 @@ def both_ways(model: PartsModel) -> Values:
             other = back[name]
             if name.endswith("_deg") or not (isinstance(one, float) and isinstance(other, float)):
                 continue
-            if not math.isclose(one, other, rel_tol=1e-6):  # searches end within 1e-9 of a peak
+            # searches end within 1e-9 of a peak, and in any unit here 1e-12 is rounding
+            if not math.isclose(one, other, rel_tol=1e-6, abs_tol=1e-12):
                 rows.append((name, one, other))
     return {"both_ways": rows_table(("quantity", "forwards", "backwards"), rows) if rows else None}

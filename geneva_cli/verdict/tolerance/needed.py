@@ -18,7 +18,7 @@ from geneva_cli.analysis.impacts import arm_mm
 from geneva_cli.drawings.model import PartsModel
 from geneva_cli.errors import GenevaError
 from geneva_cli.kinematics.engagement import Engagement
-from geneva_cli.layout.sphere_sizes import Ball
+from geneva_cli.layout.ball import Ball
 from geneva_cli.machine.mechanism import Mechanism, build
 from geneva_cli.machine.spec import Spec
 from geneva_cli.outlines.outlines import Outlines

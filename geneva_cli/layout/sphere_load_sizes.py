@@ -1,0 +1,148 @@
+"""Default sizes of a spherical machine under a load: pin, bores, hubs and arm.
+
+They follow one another as on a plane (``load_sizes``). What a shaft bears is exact here, because
+the greatest force and its greatest distance from the bearing are at different angles.
+"""
+
+from __future__ import annotations
+
+import math
+from functools import lru_cache
+from typing import TYPE_CHECKING
+
+from geneva_cli.layout.arm_sizes import hole_radius, usual_hub, within_hub
+from geneva_cli.layout.axles import hub_about
+from geneva_cli.layout.ball import Ball, inner_edge
+from geneva_cli.layout.bores import reach_or_bore
+from geneva_cli.layout.holds import arm_holds, key_holds, pin_that_holds, shaft_holds
+from geneva_cli.layout.plain_sizes import half_or, wall_min
+from geneva_cli.layout.sphere_stressed import sphere_stressed
+from geneva_cli.loads.strength.part_loads import PartLoads, single_loads
+from geneva_cli.loads.strength.shafts import ShaftDimensions, crank_forces, shaft, wheel_forces
+from geneva_cli.machine.both_ways import every_way
+from geneva_cli.machine.mechanism import Mechanism
+from geneva_cli.machine.spec import Spec
+from geneva_cli.numerics.preferred import bores_from, rounded_from
+
+if TYPE_CHECKING:
+    from geneva_cli.loads.strength.shafts import ShaftForces
+
+
+def sphere_load_sizes(mechanism: Mechanism, usual: Ball) -> Ball:
+    """Return the sizes of a machine under its load, from the usual ones.
+
+    A load without a bound leaves all sizes.
+    """
+    loads, size = single_loads(mechanism), mechanism.spec.size
+    if not all(map(math.isfinite, loads)):
+        return usual
+    ball = usual._replace(pin_mm=_pin(mechanism, usual, loads))
+    if not ball.arm_bore_mm or size.arm_thickness_mm is not None:
+        return _bored(mechanism, ball, loads)
+    wheel = ball.span_mm[1] - ball.span_mm[0]
+    # a thicker arm, up to twice the wheel, is better for a key than a thicker shaft
+    for keyed in (False, True) if size.crank_keyway else (True,):
+        for thick in rounded_from(wheel, 2.0 * wheel):
+            under, _ = ball.arm_span_mm
+            thicker = ball._replace(arm_span_mm=(under, under + thick))
+            trial = _bored(mechanism, thicker, loads, keyed)
+            if arm_holds(mechanism.spec, sphere_stressed(mechanism.spec, trial), loads):
+                return trial
+    return trial
+
+
+def _pin(mechanism: Mechanism, ball: Ball, loads: PartLoads) -> float:
+    """Return the radius of a pin that holds; the largest leaves a wall of the roller and the arm.
+
+    With friction on the pin it stays the usual one, on which the loads depend.
+    """
+    spec, L = mechanism.spec, ball.radius_mm
+    rubs = spec.load.friction and not spec.load.rubs_in_slot
+    if spec.size.pin_mm is not None or rubs or not ball.pin_mm:
+        return ball.pin_mm
+    inside = ball.span_mm[0]
+    # the eye passes the largest wheel's hub, and the arm covers less than half of the sphere
+    hub = max(ball.opening_mm, 0.75 * inside * math.sin(min(ball.slot_end, 0.5 * math.pi)))
+    eye = min(ball.passing_mm(hub), 0.99 * L * (0.5 * math.pi - ball.arm))
+    # the roller keeps three tenths of its radius as a wall, where its cone is thinnest
+    most = min(0.7 * inside * math.sin(ball.roller), eye - wall_min(spec.size, L))
+    contact = sphere_stressed(spec, ball).contact
+    return pin_that_holds(spec, contact, ball.pin_mm, most, loads.pin_N)
+
+
+def _bored(mechanism: Mechanism, ball: Ball, loads: PartLoads, keyed: bool = True) -> Ball:
+    """Return the sizes with bores of wheel and crank whose shafts and keys hold.
+
+    Unless ``keyed``, the crank's bore is not sized by its key.
+    """
+    return _crank_bored(mechanism, _wheel_bored(mechanism, ball, loads), loads, keyed)
+
+
+def _wheel_bored(mechanism: Mechanism, ball: Ball, loads: PartLoads) -> Ball:
+    spec, L = mechanism.spec, ball.radius_mm
+    size = spec.size
+    fixed = size.wheel_bore_mm is not None or spec.shaft.wheel_diameter_mm is not None
+    if fixed or not ball.bore_mm:
+        return ball
+    inside, outside = ball.span_mm
+    end = inside * math.sin(min(ball.slot_end, 0.5 * math.pi))
+    wall = wall_min(size, L)
+    # a hub with flat faces is in its shell
+    widest = min(end - wall, 0.99 * math.sqrt((outside - inside) * (outside + inside)))
+    most = min(end * 2.0 / 3.0, within_hub(size, "wheel"))
+    trial = ball
+    for d in bores_from(2.0 * ball.bore_mm, 2.0 * most):
+        hub = hub_about(size, L, 0.5 * d, end)
+        if hub > widest:
+            break
+        hole = math.asin(max(0.5 * d, hub) / inside)
+        inner = inner_edge(ball.slot_end, ball.roller, hole)
+        trial = ball._replace(bore_mm=0.5 * d, hub_mm=hub, inner=inner)
+        parts = sphere_stressed(spec, trial)
+        moment = _moment_Nm(mechanism, wheel_forces(spec), parts.wheel_shaft.overhang)
+        holds = shaft_holds(spec, "wheel", parts.wheel_shaft.diameter, moment)
+        if holds and key_holds(spec, parts.wheel_key, loads.wheel_Nm):
+            break
+    return trial
+
+
+def _crank_bored(mechanism: Mechanism, ball: Ball, loads: PartLoads, keyed: bool) -> Ball:
+    spec, size = mechanism.spec, mechanism.spec.size
+    own = (size.crank_bore_mm, size.arm_bore_mm, spec.shaft.crank_diameter_mm)
+    if not ball.arm_bore_mm or any(key is not None for key in own):
+        return ball
+    trial = ball
+    for d in bores_from(2.0 * ball.arm_bore_mm, ball.arm_span_mm[1]):
+        other = ball._replace(arm_bore_mm=0.5 * d)
+        parts = sphere_stressed(spec, other)
+        # the standard has no keys for the largest shafts
+        keyless = size.crank_keyway is not None and math.isnan(float(parts.crank_key.shaft))
+        if d > ball.arm_bore_mm * 2.0 and (keyless or not _hub_fits(spec, other)):
+            break
+        trial = other
+        moment = _moment_Nm(mechanism, crank_forces(spec), parts.crank_shaft.overhang)
+        holds = shaft_holds(spec, "crank", parts.crank_shaft.diameter, moment)
+        if holds and (not keyed or key_holds(spec, parts.crank_key, loads.crank_Nm)):
+            break
+    return trial
+
+
+def _hub_fits(spec: Spec, ball: Ball) -> bool:
+    """Return True if the arm's hub fits: about its bore, in the arm, and past pins and wheel."""
+    size, (under, over) = spec.size, ball.arm_span_mm
+    wall, bored = wall_min(size, ball.radius_mm), reach_or_bore(size, "crank", ball.arm_bore_mm)
+    hub = half_or(size.arm_hub_mm, usual_hub(bored, ball.arm_bore_mm, wall, 0.0))
+    hole = math.asin(min(1.0, hole_radius(size, ball.pin_mm) / under))
+    to_pins = under * math.sin(max(0.0, ball.arm - hole - wall / under))
+    flat = 0.99 * math.sqrt((over - under) * (over + under))
+    passing = ball.arm + ball.passing_mm(ball.opening_mm) / ball.radius_mm
+    cap = ball.cap(hub, max(hub - bored, wall))
+    return bored + wall <= hub <= min(to_pins, flat) and cap <= passing
+
+
+@lru_cache(maxsize=64)
+def _moment_Nm(mechanism: Mechanism, forces: ShaftForces, overhang_mm: float) -> float:
+    """Return the greatest equivalent torque of a shaft; it needs a search of the whole cycle."""
+    ends = ShaftDimensions(None, overhang_mm, None, None)
+    each = [shaft(way, ends, forces) for way in every_way(mechanism)]
+    return max(one.moment_Nm if one else 0.0 for one in each)

@@ -1,0 +1,226 @@
+"""A plate as a mesh: both faces cut alike, and strips of two triangles over each chord between.
+
+A hole's corners are at some y of its frame, on both of its halves. The walls that it opens, and
+both faces, have corners at these y too. So a wall is two strips beside the hole, below and above.
+A chamfer is a strip from the wall to a face that is smaller all round.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from typing import NamedTuple
+
+from geneva_cli.curves.cross_holes import CrossHole, Opening
+from geneva_cli.curves.inset import away, inset, lines_and_arcs
+from geneva_cli.curves.measure import fraction_at, with_material_left
+from geneva_cli.curves.plates import Plate
+from geneva_cli.curves.shapes import Arc, Circle, Contour, Line, Point, Segment, closed, two_arcs
+from geneva_cli.output.mesh.polygons import (
+    Triangle,
+    arc_chords,
+    between,
+    require_few,
+    rounded_point,
+    triangles,
+)
+from geneva_cli.output.mesh.surface import Surface, surface
+from geneva_cli.output.solid_part import plate_contours
+
+
+class Corner(NamedTuple):
+    """A corner of a contour, that of the face, and the heights of a hole's edge over it, if any."""
+
+    at: Point
+    inner: Point
+    heights: tuple[float, ...] = ()
+
+
+class Bore(NamedTuple):
+    """A hole, where it opens, and the y of its corners."""
+
+    hole: CrossHole
+    ends: tuple[Opening, Opening]
+    ys: list[float]
+
+    def heights(self, y: float) -> tuple[float, ...]:
+        """Return the heights of the hole's edge at a y: one at its ends, otherwise two."""
+        half = math.sqrt(max(self.hole.radius**2 - y * y, 0.0))
+        both = self.hole.height - half, self.hole.height + half
+        return both if abs(y) < self.ys[-1] else (self.hole.height,)
+
+    def places(self, opening: Opening) -> list[Point]:
+        """Return the corners on a wall, in the order of their y."""
+        return [self.hole.placed(opening.x(y), y) for y in self.ys]
+
+
+def plate_mesh(plate: Plate, tolerance: float) -> Surface:
+    """Return a plate's surface; its chords keep the tolerance, mm.
+
+    Raises GenevaError for a plate without thickness, and for contours that cross.
+
+    >>> disc = Plate("disc", "CRANK", Circle("", (0.0, 0.0), 50.0), (), 0.0, 10.0)
+    >>> len(plate_mesh(disc, 0.1).triangles)  # 50 chords: 2 x 48 in the faces, 2 x 50 in the wall
+    196
+    """
+    contours = [
+        with_material_left(_contour(shape), i == 0) for i, shape in enumerate(plate_contours(plate))
+    ]
+    return _PlateMesh(plate, contours, tolerance).surface()
+
+
+def _contour(shape: Contour | Circle) -> Contour:
+    return closed(shape.layer, two_arcs(shape)) if isinstance(shape, Circle) else shape
+
+
+class _PlateMesh:
+    """The corners, each once, and the triangles of one plate."""
+
+    def __init__(self, plate: Plate, contours: list[Contour], tolerance: float) -> None:
+        self.plate, self.contours, self.tolerance = plate, contours, tolerance
+        self.bores = [self._bore(hole) for hole in plate.cross]
+        self.corners: dict[tuple[float, float, float], int] = {}
+        self.triangles: list[Triangle] = []
+        self.low, self.high = plate.low + plate.chamfer, plate.high - plate.chamfer  # of walls
+
+    def _bore(self, hole: CrossHole) -> Bore:
+        ends = hole.openings(self.contours)
+        count = arc_chords(hole.radius, math.pi, self.tolerance)
+        for end in ends:
+            if isinstance(end.seen, Arc):
+                count = max(count, arc_chords(end.seen.radius, math.pi, self.tolerance))
+        ys = [-hole.radius * math.cos(math.pi * k / count) for k in range(count + 1)]
+        return Bore(hole, ends, ys)
+
+    def surface(self) -> Surface:
+        loops = [self._loop(contour) for contour in self.contours]
+        for loop in loops:
+            for start, end in zip(loop, [*loop[1:], loop[0]], strict=True):
+                self._wall(start, end)
+        faces = [self._inset(loop) for loop in loops]
+        flat = [point for face in faces for point in face]
+        for a, b, c in triangles(faces, self.plate.name):
+            for z, face in ((self.plate.low, (c, b, a)), (self.plate.high, (a, b, c))):
+                self._face([(*flat[number], z) for number in face])
+        for bore in self.bores:
+            self._hole(bore)
+        return surface(list(self.corners), self.triangles)
+
+    def _inset(self, loop: list[Corner]) -> list[Point]:
+        """Return the corners of a face; around it are the strips of its chamfer, if it has one."""
+        low, high = self.plate.low, self.plate.high
+        if not self.plate.chamfer:
+            return [one.at for one in loop]
+        for a, b in zip(loop, [*loop[1:], loop[0]], strict=True):
+            outer, inner = (a.at, b.at), (a.inner, b.inner)
+            self._face([*((*p, low) for p in inner), *((*p, self.low) for p in outer[::-1])])
+            self._face([*((*p, self.high) for p in outer), *((*p, high) for p in inner[::-1])])
+        return [one.inner for k, one in enumerate(loop) if one.inner != loop[k - 1].inner]
+
+    def _loop(self, contour: Contour) -> list[Corner]:
+        """Return the corners of a contour without those that are too near to the one before.
+
+        Raises GenevaError where there are more than CORNERS_MAX.
+        """
+        apart, kept = 0.1 * self.tolerance, list[Corner]()
+        for one in self._around(contour):
+            near = bool(kept) and math.dist(kept[-1].at, one.at) <= apart
+            if near and not kept[-1].heights:
+                kept[-1] = one if one.heights else kept[-1]
+            elif not near or one.heights:
+                kept.append(one)
+            require_few(len(kept), contour.layer)
+        while len(kept) > 3 and math.dist(kept[-1].at, kept[0].at) <= apart:
+            kept.pop()
+        return kept
+
+    def _around(self, contour: Contour) -> Iterator[Corner]:
+        """Yield all corners along a contour."""
+        pieces = contour.segments
+        if not self.plate.chamfer:
+            for piece in pieces:
+                yield self._corner(piece, piece.start)
+                yield from self._along(piece, piece)
+            return
+        own = lines_and_arcs(contour)
+        inner = lines_and_arcs(inset(own, "", self.plate.chamfer))
+        for piece, within in zip(own, inner, strict=True):
+            yield Corner(rounded_point(piece.start), rounded_point(within.start))
+            yield from self._along(piece, within)
+
+    def _along(self, piece: Segment, within: Segment) -> Iterator[Corner]:
+        """Yield the corners along a piece without its ends, with those of the holes in it."""
+        own = [
+            (bore, opening)
+            for bore in self.bores
+            for opening in bore.ends
+            if opening.piece == piece
+        ]
+        others = [self._corner(within, point) for point in between(piece, self.tolerance)]
+        if not own:
+            yield from others
+            return
+        ((bore, opening),) = own
+        span = bore.hole.radius + 0.1 * self.tolerance
+        beyond = [one for one in others if abs(bore.hole.seen(one.at)[1]) > span]
+        rises = bore.hole.seen(piece.end)[1] > bore.hole.seen(piece.start)[1]
+        drilled = [
+            self._corner(within, at)._replace(heights=bore.heights(y))
+            for at, y in zip(bore.places(opening), bore.ys, strict=True)
+        ]
+        before = [one for one in beyond if (bore.hole.seen(one.at)[1] < 0.0) is rises]
+        yield from before
+        yield from drilled[:: 1 if rises else -1]
+        yield from beyond[len(before) :]
+
+    def _corner(self, within: Segment, at: Point) -> Corner:
+        """Return the corner at a place; ``within`` is the piece of the face there.
+
+        Beside a corner of the contour the face's piece is shorter: there its end counts.
+        """
+        inner, chamfer = at, self.plate.chamfer
+        if chamfer and isinstance(within, Line | Arc):
+            _, (x, y) = away(within, at)
+            inner = at[0] + chamfer * x, at[1] + chamfer * y
+            fraction = fraction_at(within, inner)
+            for end, beyond in ((within.start, fraction <= 0.0), (within.end, fraction >= 1.0)):
+                if beyond or math.dist(inner, end) <= 0.1 * self.tolerance:
+                    inner = end
+        return Corner(rounded_point(at), rounded_point(inner))
+
+    def _wall(self, start: Corner, end: Corner) -> None:
+        """Add the wall over a chord: one strip, or two beside a hole."""
+        low, high = self.low, self.high
+        if start.heights and end.heights:
+            for z0, z1, z2, z3 in (
+                (low, low, end.heights[0], start.heights[0]),
+                (start.heights[-1], end.heights[-1], high, high),
+            ):
+                self._face([(*start.at, z0), (*end.at, z1), (*end.at, z2), (*start.at, z3)])
+            return
+        right = [(*end.at, z) for z in (low, *end.heights, high)]
+        left = [(*start.at, z) for z in (high, *start.heights, low)]
+        around = [*right, *left]
+        # a fan from a corner between two others on one line leaves no flat triangle
+        apex = 1 if end.heights else len(right) + 1 if start.heights else 0
+        self._face([*around[apex:], *around[:apex]])
+
+    def _hole(self, bore: Bore) -> None:
+        """Add the hole's own wall, whose outer side is towards its axis."""
+        rings = []
+        for opening in bore.ends:
+            places = [rounded_point(at) for at in bore.places(opening)]
+            edges = [bore.heights(y) for y in bore.ys]
+            both = list(zip(places, edges, strict=True))
+            below = [(*at, heights[0]) for at, heights in both]
+            above = [(*at, heights[-1]) for at, heights in both[-2:0:-1]]
+            rings.append([*below, *above])
+        entry, exit_ = rings
+        for k in range(len(entry)):
+            self._face([entry[k - 1], exit_[k - 1], exit_[k], entry[k]])
+
+    def _face(self, points: list[tuple[float, float, float]]) -> None:
+        """Add a fan of triangles from the first of some points."""
+        first, *rest = (self.corners.setdefault(point, len(self.corners)) for point in points)
+        fan = [(first, a, b) for a, b in zip(rest, rest[1:], strict=False)]
+        self.triangles += [one for one in fan if len(set(one)) == 3]

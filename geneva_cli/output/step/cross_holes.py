@@ -1,0 +1,89 @@
+"""Holes across a plate's axis: cylinders between two walls, and loops in those walls.
+
+Where a cylinder meets a cylinder the edge is no circle. It is written as a spline of cubics in the
+hole's angle, which have the exact ends and tangents.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from typing import NamedTuple
+
+from geneva_cli.curves.cross_holes import CrossHole, Opening
+from geneva_cli.curves.measure import with_material_left
+from geneva_cli.curves.plates import Plate
+from geneva_cli.curves.shapes import Circle, Shape
+from geneva_cli.output.step.entities import DIRECTION, Entities, edge, face, listed, loop, real
+from geneva_cli.output.step.splines import Piece
+
+CUBICS = 128  # of an edge: their error is 5e-9 of the hole's radius, a hundredth of the file's
+
+
+class BoredWalls(NamedTuple):
+    """The faces of cross holes, and the loops that they cut into walls, by the wall's piece."""
+
+    faces: list[str]
+    loops: dict[Piece, list[str]]
+
+
+class Rim(NamedTuple):
+    """The edge of a hole in a wall, and the vertex at its top."""
+
+    at: str
+    point: str
+    edge: str
+
+
+def bored_walls(file: Entities, plate: Plate, shapes: Sequence[Shape]) -> BoredWalls:
+    """Write the cross holes of a plate with these contours."""
+    oriented = [
+        shape if isinstance(shape, Circle) else with_material_left(shape, i == 0)
+        for i, shape in enumerate(shapes)
+    ]
+    bored = BoredWalls([], {})
+    for hole in plate.cross:
+        ends = hole.openings(oriented)
+        low, high = (_rim(file, hole, opening) for opening in ends)
+        vector = file.shared(f"VECTOR('',{_ahead(file, hole)},1.)")
+        rise = edge(file, low.at, high.at, f"LINE('',{low.point},{vector})", True)
+        sides = [(low.edge, False), (rise, True), (high.edge, True), (rise, False)]
+        place = file.placement(hole.at, hole.height, _ahead(file, hole), file.up)
+        cylinder = file.add(f"CYLINDRICAL_SURFACE('',{place},{real(hole.radius)})")
+        bored.faces.append(face(file, [loop(file, sides)], cylinder, False))
+        for opening, rim, along in zip(ends, (low, high), (True, False), strict=True):
+            bored.loops.setdefault(opening.piece, []).append(loop(file, [(rim.edge, along)]))
+    return bored
+
+
+def _ahead(file: Entities, hole: CrossHole) -> str:
+    return file.direction(math.cos(hole.turn), math.sin(hole.turn))
+
+
+def _rim(file: Entities, hole: CrossHole, opening: Opening) -> Rim:
+    """Write the edge of a hole in a wall, counterclockwise about the hole's direction."""
+    r, step = hole.radius, math.tau / CUBICS
+    c, s = math.cos(hole.turn), math.sin(hole.turn)
+    poles = []
+    for k in range(CUBICS):
+        # quarter turns at once, so that the last pole is the first one
+        y, up = -r * math.sin(step * k), r * math.cos(step * k)
+        x, y1, up1 = opening.x(y), -up, y
+        at = *hole.placed(x, y), hole.height + up
+        x1 = opening.slope(y) * y1
+        along = c * x1 - s * y1, s * x1 + c * y1, up1
+        before, after = (
+            tuple(p + sign * step / 3.0 * q for p, q in zip(at, along, strict=True))
+            for sign in (-1.0, 1.0)
+        )
+        poles += [before, at, after] if k == 0 else [before, after]
+    first, start, *between = poles
+    points = [file.point((x, y), z) for x, y, z in (start, *between, first, start)]
+    count = listed(["4", *["2"] * (CUBICS - 1), "4"])
+    knots = listed([real(k / CUBICS, DIRECTION) for k in range(CUBICS + 1)])
+    curve = (
+        f"B_SPLINE_CURVE_WITH_KNOTS('',3,{listed(points)},.UNSPECIFIED.,.T.,.F.,{count},{knots},"
+        ".UNSPECIFIED.)"
+    )
+    vertex = file.add(f"VERTEX_POINT('',{points[0]})")
+    return Rim(vertex, points[0], edge(file, vertex, vertex, curve, True))

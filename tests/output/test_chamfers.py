@@ -1,0 +1,128 @@
+"""Chamfers in solids: volumes in closed form and by trimesh, insets by shapely, STEP faces.
+
+OpenCASCADE reads such files in `tests/stress/solids_in_cad.py`.
+"""
+
+import math
+
+import numpy as np
+import pytest
+import trimesh
+from drawing_witness import vertices
+from shapely import Polygon
+from step_witness import File
+
+from geneva_cli import Design, External, Internal, Size
+from geneva_cli.curves.drawing import Drawing
+from geneva_cli.curves.inset import inset, lines_and_arcs
+from geneva_cli.curves.mass import mass_properties
+from geneva_cli.curves.measure import with_material_left
+from geneva_cli.curves.plates import Plate, plates
+from geneva_cli.curves.shapes import Arc, Circle, Cubic, Line, closed
+from geneva_cli.errors import GenevaError
+from geneva_cli.output.mesh import scad
+from geneva_cli.output.mesh.solids import bodies
+from geneva_cli.output.step import chunks
+
+CUT = 0.5  # mm
+
+
+def design_of(gearing, **size):
+    return Design(gearing, size=Size(edge_chamfer_mm=CUT, **size))
+
+
+def volume(plate):
+    return 1e9 * mass_properties(plate, 1.0).mass_kg
+
+
+def drawing(plate, tolerance=0.001):
+    return Drawing("", (plate.outline, *plate.holes), solid=plate, tolerance=tolerance)
+
+
+def test_rounds_and_blocks_in_closed_form():
+    """A disc loses a ring with a triangle's section, by Pappus; a block two frusta's rest."""
+    disc = Plate("", "ARM", Circle("", (3.0, 1.0), 20.0), (Circle("", (3.0, 1.0), 8.0),), 0.0, 9.0)
+    ring = math.tau * 0.5 * CUT**2 * ((20.0 - CUT / 3.0) + (8.0 + CUT / 3.0))
+    cut = disc._replace(chamfer=CUT)
+    assert volume(cut) == pytest.approx(volume(disc) - 2.0 * ring, rel=1e-13)
+    corners = [(0.0, 0.0), (30.0, 0.0), (30.0, 10.0), (0.0, 10.0)]
+    sides = [Line(p, q) for p, q in zip(corners, [*corners[1:], corners[0]], strict=True)]
+    block = Plate("", "ARM", closed("", sides), (), 0.0, 6.0, chamfer=CUT)
+    bottom, middle, top = ((30.0 - 2.0 * s) * (10.0 - 2.0 * s) for s in (0.0, 0.5 * CUT, CUT))
+    frustum = CUT / 6.0 * (top + 4.0 * middle + bottom)  # Simpson's rule is exact here
+    assert volume(block) == pytest.approx(5.0 * 300.0 + 2.0 * frustum, rel=1e-13)
+
+
+@pytest.mark.parametrize("gearing", [External(6), Internal(6), External(4)])
+def test_insets_are_those_of_shapely(gearing):
+    design = Design(gearing)
+    for part in ("wheel", "crank", "arm"):
+        for plate in plates(design.drawing(part).solid):
+            for k, shape in enumerate((plate.outline, *plate.holes)):
+                if isinstance(shape, Circle):
+                    continue
+                own = with_material_left(shape, k == 0)
+                inner = inset(lines_and_arcs(own), "", CUT)
+                whole = Polygon(vertices(own, 1e-5))
+                found = Polygon(vertices(inner, 1e-5))
+                wanted = whole.buffer(-CUT if k == 0 else CUT, quad_segs=2000, join_style="mitre")
+                assert found.is_valid
+                assert found.symmetric_difference(wanted).area < 3e-5 * whole.length
+
+
+@pytest.mark.parametrize("gearing", [External(6), Internal(6)])
+@pytest.mark.parametrize("tolerance", [0.05, 0.0005])
+def test_meshes_are_closed(gearing, tolerance):
+    """Volume and inertia about the axis agree within the chords."""
+    for part in ("wheel", "arm", "crank"):
+        for plate in plates(design_of(gearing).drawing(part).solid):
+            assert plate.chamfer == CUT
+            (body,) = bodies(drawing(plate, tolerance), "mm", "STL")
+            mesh = trimesh.Trimesh(*body.surface, process=False)
+            assert mesh.is_watertight and mesh.is_winding_consistent
+            around = mesh.area * tolerance
+            assert mesh.volume == pytest.approx(volume(plate), abs=around)
+            centre, far = mesh.center_mass, np.hypot(*mesh.vertices[:, :2].T).max()
+            polar = mesh.moment_inertia[2, 2] + mesh.volume * (centre[0] ** 2 + centre[1] ** 2)
+            inertia = 1e15 * mass_properties(plate, 1.0).inertia_kgm2
+            assert polar == pytest.approx(inertia, abs=around * far * far)
+
+
+def test_faces_of_a_step_file():
+    """Each piece of a contour has a wall and two chamfers: a plane or a cone, of 45 degrees."""
+    (wheel,) = plates(design_of(External(6)).drawing("wheel").solid)
+    file = File("".join(chunks(drawing(wheel), "mm")))
+    pieces = [piece for shape in (wheel.outline, *wheel.holes) for piece in lines_and_arcs(shape)]
+    arcs = [piece for piece in pieces if isinstance(piece, Arc)]
+    assert len(file.all("ADVANCED_FACE")) == 3 * len(pieces) + 2
+    cones = [file.values(n) for n in file.all("CONICAL_SURFACE")]
+    assert len(cones) == 2 * len(arcs)
+    assert [angle for *_, angle in cones] == pytest.approx([0.25 * math.pi] * len(cones), abs=1e-15)
+    radii = sorted(radius for _, _, radius, _ in cones)
+    assert radii == pytest.approx(sorted(arc.radius for arc in arcs for _ in "12"), rel=1e-9)
+
+
+def test_openscad_has_a_polyhedron():
+    (wheel,) = plates(design_of(External(6)).drawing("wheel").solid)
+    text = b"".join(scad.data(drawing(wheel, 0.05), "mm")).decode()
+    assert "polyhedron(" in text and "linear_extrude" not in text
+
+
+def test_chamfers_that_do_not_fit():
+    """A rounding of 0.3 mm is narrower than 0.5, and a spline has no parallel spline."""
+    half = [Arc((1.0, 0.3), (0.0, 0.0), 0.3), Line((0.0, 0.0), (1.0, -9.0))]
+    sharp = closed("ARM", [*half, Line((1.0, -9.0), (1.0, 0.3))])
+    with pytest.raises(GenevaError, match=r"edge_chamfer_mm = 0\.5: it is wider than a rounding"):
+        volume(Plate("", "ARM", sharp, (), 0.0, 5.0, chamfer=CUT))
+    bent = Cubic((9.0, 9.0), (6.0, 12.0), (3.0, 6.0), (0.0, 9.0))
+    sides = [
+        Line((0.0, 9.0), (0.0, 0.0)),
+        Line((0.0, 0.0), (9.0, 0.0)),
+        Line((9.0, 0.0), (9.0, 9.0)),
+    ]
+    wavy = Plate("", "ARM", closed("ARM", [*sides, bent]), (), 0.0, 5.0, chamfer=CUT)
+    with pytest.raises(GenevaError, match="a spline has no parallel spline"):
+        "".join(chunks(drawing(wavy), "mm"))
+    thin = Plate("spacer", "ARM", Circle("", (0.0, 0.0), 9.0), (), 0.0, 1.0, chamfer=CUT)
+    with pytest.raises(GenevaError, match="the spacer is 1 mm thick"):
+        "".join(chunks(drawing(thin), "mm"))

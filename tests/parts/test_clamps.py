@@ -1,0 +1,131 @@
+"""Slit hubs: their form by shapely and trimesh, and the torque by a balance of forces."""
+
+import math
+
+import numpy as np
+import pytest
+import shapely
+import trimesh
+from drawing_witness import vertices
+
+from geneva_cli import Design, External, Load, Size, Spherical
+from geneva_cli.curves.drawing import Drawing
+from geneva_cli.curves.mass import mass_properties
+from geneva_cli.curves.plates import plates
+from geneva_cli.errors import GenevaError
+from geneva_cli.layout.clamps import Clamp
+from geneva_cli.layout.screws import SCREWS, screw
+from geneva_cli.output.mesh.solids import bodies
+
+SIZE = {"wheel_hub_mm": 44.0, "wheel_bore_mm": 16.0, "wheel_clamp_mm": 5.0}
+
+
+def hub_of(design):
+    (hub,) = [one for one in plates(design.drawing("wheel").solid) if one.name == "wheel's hub"]
+    return hub
+
+
+def design_of(**size):
+    return Design(External(6), size=Size(wheel_hub_length_mm=12.0, **(SIZE | size)))
+
+
+def test_the_hub_stays_within_its_circle():
+    """A slit of 1.25 mm, and a notch 5 mm above it; head and hole leave half a thread around."""
+    clamp = Clamp(screw("", 5.0), 8.0, 22.0)
+    assert clamp.fits and (clamp.slit, clamp.face) == (1.25, 5.625)
+    ring = shapely.Point(0.0, 0.0).buffer(22.0, 4000) - shapely.Point(0.0, 0.0).buffer(8.0, 4000)
+    slit = shapely.box(0.0, -0.625, 30.0, 0.625)
+    notch = shapely.box(clamp.shoulder, 5.625, 30.0, 30.0)
+    form = shapely.Polygon(vertices(clamp.outline, 1e-5))
+    assert form.is_valid
+    assert form.symmetric_difference(ring - slit - notch).area < 2e-3
+    head = shapely.box(clamp.axis - 4.25, 5.625, clamp.axis + 4.25, 10.625)
+    assert ring.buffer(1e-6).contains(head) and head.distance(form) == pytest.approx(0.0, abs=1e-9)
+    hole = shapely.box(clamp.axis - 2.75, -30.0, clamp.axis + 2.75, 30.0)
+    assert hole.distance(shapely.Point(0.0, 0.0).buffer(8.0)) >= 2.5
+
+
+@pytest.mark.parametrize("tolerance", [0.2, 0.001])
+def test_its_solid_is_closed(tolerance):
+    """Two holes through four walls: with the slit open, a body with two handles."""
+    hub = hub_of(design_of())
+    assert [hole.radius for hole in hub.cross] == [2.75, pytest.approx(2.1)]
+    drawing = Drawing("", (hub.outline,), solid=hub, tolerance=tolerance)
+    (body,) = bodies(drawing, "mm", "STL")
+    mesh = trimesh.Trimesh(*body.surface, process=False)
+    assert mesh.is_watertight and mesh.is_volume and mesh.euler_number == -2
+    volume = 1e9 * mass_properties(hub, 1.0).mass_kg
+    assert mesh.volume == pytest.approx(volume, abs=tolerance * 12.0 * math.pi * (44.0 + 16.0))
+
+
+def test_its_holes_by_hand():
+    """Both holes are cylinders between planes, but for the threaded one's end on the hub."""
+    hub, clamp = hub_of(design_of()), Clamp(screw("", 5.0), 8.0, 22.0)
+    whole = mass_properties(hub._replace(cross=()), 1e9).mass_kg
+    taken = whole - mass_properties(hub, 1e9).mass_kg
+    r, count = 2.1, 400
+    t = math.tau * (np.arange(count) + 0.5) / count
+    long = np.sqrt(22.0**2 - (clamp.axis + r * np.sin(t)) ** 2) - 0.625
+    threaded = r * r * math.tau * float(np.mean(np.cos(t) ** 2 * long))
+    assert taken == pytest.approx(math.pi * 2.75**2 * 5.0 + threaded, rel=1e-12)
+
+
+@pytest.mark.parametrize("thread", [3.0, 5.0, 8.0])
+def test_torque_by_a_balance(thread):
+    """Forces and moments on one half: the screw pulls it, hinge and shaft hold it."""
+    clamp = Clamp(screw("", thread), 15.0, 50.0)
+    p = 32.5  # the middle of the wall opposite the slit
+    # unknown: the hinge's force and the shaft's; their sum, and the moments about the shaft
+    hinge, shaft = np.linalg.solve(
+        [[1.0, 1.0], [-p, 0.0]], [clamp.force_N, clamp.force_N * clamp.axis]
+    )
+    assert hinge < 0.0 < shaft
+    assert clamp.torque_Nm == pytest.approx(0.12 * shaft * 2.0 * 15.0 * 1e-3, rel=1e-12)
+    # ISO 898-1 lists As of 5.03, 14.2 and 36.6 mm²
+    assert clamp.force_N == pytest.approx(
+        448.0 * {3.0: 5.03, 5.0: 14.2, 8.0: 36.6}[thread], rel=2e-3
+    )
+
+
+@pytest.mark.parametrize(
+    ("gearing", "size"),
+    [
+        (External(6), {}),
+        (Spherical(6), {"wheel_hub_mm": 30.0, "wheel_bore_mm": 8.0, "wheel_clamp_mm": 3.0}),
+    ],
+)
+def test_check_compares_it_with_the_load(gearing, size):
+    keys = Size(120.0, wheel_hub_length_mm=15.0, **(SIZE | size))
+    design = Design(gearing, size=keys, load=Load(torque_Nm=1.0))
+    check = {c.name: c for c in design.checks}["wheel_clamp_Nm"]
+    assert check.passes and check.limit == pytest.approx(1.0)
+    thread, bore, hub = (keys.wheel_clamp_mm, keys.wheel_bore_mm, keys.wheel_hub_mm)
+    assert check.value == Clamp(screw("", thread), 0.5 * bore, 0.5 * hub).torque_Nm
+    assert "wheel_clamp_Nm" not in {c.name for c in Design(gearing, size=keys).checks}
+
+
+def test_sheet_and_list_name_the_screw():
+    design = design_of()
+    texts = [label.text for label in design.sheet().texts]
+    assert "slit 1.25, clamp screw M5-8.8 (ISO 4762); fixed opposite the slit only" in texts
+    rows = {row["name"]: row for row in design.part_table("parts").to_rows()}
+    assert rows["wheel's clamp screw"]["value"] == 5.0
+
+
+@pytest.mark.parametrize(
+    ("size", "said"),
+    [
+        ({"wheel_hub_mm": 30.0}, "wheel_clamp_mm = 5: the hub, 30 mm in diameter and 12 mm long"),
+        ({"wheel_keyway": "DIN 6885-1"}, "a clamp needs a hub with a round bore"),
+        ({"wheel_hub_mm": 0.0}, "a clamp needs a hub with a round bore"),
+        ({"wheel_screw_mm": 3.0}, "remove one of wheel_clamp_mm and wheel_screw_mm"),
+        ({"wheel_clamp_mm": 4.5}, "there is no such metric screw"),
+    ],
+)
+def test_refused(size, said):
+    with pytest.raises(GenevaError, match=said):
+        design_of(**size).drawing("wheel")
+
+
+def test_every_screw_fits_a_hub():
+    assert all(Clamp(one, 2.0 * one.thread, 8.0 * one.thread).fits for one in SCREWS)
