@@ -73,6 +73,11 @@ class Rack(NamedTuple):
         """Least radius of a pitch curve without undercut, mm: z = 2 (1 - x)/sin² for a circle."""
         return self.straight / math.sin(self.angle) ** 2
 
+    @property
+    def least_tip(self) -> float:
+        """Least thickness of a tooth at its tip, mm: DIN 3960 keeps a fifth of a module."""
+        return 0.2 * self.module
+
 
 def circle(radius: float) -> Curve:
     """Return a circle about the origin by its length, from the x axis on."""

@@ -69,7 +69,7 @@ def _tips(
     return s.tolist(), foot.tolist()
 
 
-def least_tip(pitch: Curve, rack: Rack, middles: Array, tip: float) -> float:
+def thinnest_tip(pitch: Curve, rack: Rack, middles: Array, tip: float) -> float:
     """Return the least thickness of teeth at their tips, along the pitch curve, mm."""
     (_, begins), (_, ends) = (_tips(pitch, rack, middles, side, tip) for side in (-1, 1))
     return min(end - begin for begin, end in zip(begins, ends, strict=True))

@@ -49,6 +49,11 @@ class Teeth(NamedTuple):
     inside: bool = False  # True for a ring gear
     fixed: bool = False  # True if the gear is fixed to the frame
 
+    @property
+    def all_round(self) -> bool:
+        """True if the sectors leave no gap."""
+        return self.sectors * self.each_deg >= 360.0
+
 
 class Link(NamedTuple):
     """A body between joints, in mm at input angles: a bar, or a plate with three joints.

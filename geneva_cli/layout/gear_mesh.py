@@ -21,7 +21,7 @@ from geneva_cli.curves.gear_teeth import Rack, RoundTeeth, involute
 from geneva_cli.curves.shapes import Point
 from geneva_cli.errors import GenevaError
 from geneva_cli.kinematics.layout import Dimension, Link
-from geneva_cli.numerics.preferred import modules_below
+from geneva_cli.numerics.preferred import gear_modules
 from geneva_cli.spec.tables import Size
 
 
@@ -93,18 +93,31 @@ def gear_mesh(driver: Link, driven: Link, at: tuple[Point, Point], size: Size) -
 
     Raises GenevaError, naming the key, for teeth that would be undercut, pointed or out of contact.
     """
+    pair = _Pair(driver, driven, at, size)
     try:
-        return _Pair(driver, driven, at, size).mesh()
+        return pair.mesh()
     except GenevaError as error:
-        for module in modules_below(size.gear_module_mm or 0.0):
-            smaller = _Pair(driver, driven, at, size.replace(gear_module_mm=module))
+        for remedy, other in _remedies(size):
             try:
-                smaller.mesh()
+                _Pair(driver, driven, at, other).mesh()
             except GenevaError:
                 continue
-            text = f"{error}; gear_module_mm = {module:g} is small enough"
-            raise GenevaError(text, error.key) from None
+            raise GenevaError(f"{error}; {remedy}", error.key) from None
         raise
+
+
+def _remedies(size: Size) -> Iterator[tuple[str, Size]]:
+    """Yield sizes that may let gears mesh, each with its words: one key differs."""
+    now, modules = size.gear_module_mm or 0.0, gear_modules()
+    for module in (m for m in modules if m < now):
+        yield f"gear_module_mm = {module:g} is small enough", size.replace(gear_module_mm=module)
+    if size.gear_shift is not None:
+        yield "remove gear_shift", size.replace(gear_shift=None)
+    if size.gear_teeth is not None:
+        yield "remove gear_teeth", size.replace(gear_teeth=None)
+    yield "reduce gear_backlash_mm", size.replace(gear_backlash_mm=0.0)
+    for module in (m for m in reversed(modules) if m > now):
+        yield f"gear_module_mm = {module:g} is large enough", size.replace(gear_module_mm=module)
 
 
 class _Pair:
@@ -119,7 +132,7 @@ class _Pair:
         self.rack = Rack(self.module)
         self.ring = self.large.teeth.inside
         self.sign = -1.0 if self.ring else 1.0
-        self.whole = all(one.teeth.sectors * one.teeth.each_deg >= 360.0 for one, _ in links)
+        self.whole = all(one.teeth.all_round for one, _ in links)
         self.distance = self.large.radius_mm + self.sign * self.small.radius_mm
         # a ring's teeth meet its gear on the far side of the gear's axis
         ahead = self.sign * (complex(*far) - complex(*near))
@@ -231,11 +244,13 @@ class _Pair:
         else:
             # the rack's corners must pass below the pitch circle, a hundredth of a module or more
             if teeth.rack.corner[1] > -0.01 * self.module:
-                raise self._error(f"teeth of the {link.name} would be shifted by more than 0.86")
+                raise self._error(
+                    f"teeth of the {link.name} would be shifted by more than 0.86 modules"
+                )
             if teeth.rack.least_radius > teeth.radius * (1.0 + 1e-9):
                 raise self._error(f"teeth of the {link.name} would be undercut")
-            # DIN 3960 keeps a fifth of a module at the tip
-            pointed = teeth.tip <= teeth.base or teeth.thickness(teeth.tip) < 0.2 * self.module
+            least = teeth.rack.least_tip
+            pointed = teeth.tip <= teeth.base or teeth.thickness(teeth.tip) < least
         if pointed:
             raise self._error(f"teeth of the {link.name} would be pointed")
 

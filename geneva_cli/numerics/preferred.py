@@ -60,17 +60,17 @@ def bores_from(least: float, most: float) -> list[float]:
     return [least, *bores[first:end]]
 
 
-def modules_below(most: float) -> list[float]:
-    """Return the modules of gears below ``most`` mm, of the first series of ISO 54, from the top.
+def gear_modules() -> list[float]:
+    """Return the modules of gears in mm, of the first series of ISO 54, from the top.
 
     They go from 1 to 50; those below 1 are a tenth of them.
 
-    >>> modules_below(2.5)[:4]
-    [2.0, 1.5, 1.25, 1.0]
+    >>> gear_modules()[-3:]
+    [0.15..., 0.125, 0.1]
     """
     series = (1, 1.25, 1.5, 2, 2.5, 3, 4, 5, 6, 8, 10, 12, 16, 20, 25, 32, 40, 50)
     small = [0.1 * m for m in series if m < 10]
-    return [m for m in reversed([*small, *map(float, series)]) if m < most * (1.0 - ROUNDED)]
+    return [*map(float, reversed(series)), *reversed(small)]
 
 
 def rounded_radius(most: float) -> float:

@@ -116,7 +116,7 @@ def link_gear(
         inner, outer = bore, radius
         holes += [Circle(HOLES, ORIGIN, bore)] if bore else []
         hub = sizes.hub(bore)
-        if teeth.sectors * teeth.each_deg < 360.0:
+        if not teeth.all_round:
             _refuse(link.name, radius - hub, "hub", shaft)
             outline = sectors(radius, hub, teeth)
     _refuse(link.name, outer - inner, "bore", shaft)

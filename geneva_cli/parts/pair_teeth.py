@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from geneva_cli.curves.gear_teeth import Rack
-from geneva_cli.curves.rolling_teeth import curvatures, least_tip, teeth_along
+from geneva_cli.curves.rolling_teeth import curvatures, teeth_along, thinnest_tip
 from geneva_cli.curves.shapes import Segment
 from geneva_cli.errors import GenevaError
 from geneva_cli.kinematics.drive import Gears
@@ -122,8 +122,7 @@ def toothed_curve(teeth: PairTeeth, driver: bool, curve: Curve, sense: float) ->
     rack, tip = (teeth.driver, teeth.tips[1]) if driver else (teeth.driven, teeth.tips[0])
     _refuse(curvatures(pitch, teeth.length.whole, 4096), rack, tip)
     middles = rack.pitch * (np.arange(float(teeth.z)) + (0.0 if driver else 0.5))
-    # DIN 3960 keeps a fifth of a module at the tip
-    if least_tip(pitch, rack, middles, tip) < 0.2 * rack.module:
+    if thinnest_tip(pitch, rack, middles, tip) < rack.least_tip:
         raise GenevaError(
             f"gear_module_mm = {rack.module:g}: teeth would be pointed; use a smaller module, or "
             "gear_shift nearer to 0",

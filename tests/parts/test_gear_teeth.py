@@ -316,6 +316,26 @@ def test_noncircular_gears_mesh(kind):
         (SOFT, 4, {"gear_module_mm": 2.0, "gear_shift": -0.5}, "gear_shift = -0.5.*undercut"),
         (GearSector(sector_deg=60.0), 3, {"gear_module_mm": 2.0, "gear_teeth": 9}, "on sectors"),
         (GearSector(sector_deg=60.0), 3, {"gear_module_mm": 30.0}, "small enough"),
+        # a gear of 100 mm has 1000 teeth at 0.1 mm, to rounding
+        (
+            GearSector(sector_deg=60.0),
+            3,
+            {"gear_module_mm": 0.01},
+            "gear_module_mm = 0.1.* is large",
+        ),
+        (
+            GearSector(sector_deg=60.0),
+            3,
+            {"gear_module_mm": 1.0, "gear_shift": -0.9},
+            "by more than 0.86 modules; remove gear_shift",
+        ),
+        (
+            GearSector(sector_deg=60.0),
+            3,
+            {"gear_module_mm": 1.0, "gear_backlash_mm": 9.0},
+            "pointed; reduce gear_backlash_mm",
+        ),
+        (SOFT, 4, {"gear_module_mm": 0.5, "gear_teeth": 3}, "; remove gear_teeth"),
         (EllipticalGears(eccentricity=0.3), 6, {"gear_module_mm": 2.0}, "for 49 teeth"),
         (
             EllipticalGears(eccentricity=0.3),

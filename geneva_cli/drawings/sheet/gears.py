@@ -42,10 +42,8 @@ def draw_gear(view: View, gear: Gear) -> None:
     bolted(view, screwed)
     if gear.cut:
         return
-    whole = gear.teeth.sectors * gear.teeth.each_deg >= 360.0
-    view.remark(
-        "pitch circle; teeth not shown" + ("" if whole else "; teeth on these sectors only")
-    )
+    only = "" if gear.teeth.all_round else "; teeth on these sectors only"
+    view.remark(f"pitch circle; teeth not shown{only}")
 
 
 def _teeth(view: View, gear: ToothedGear) -> None:
