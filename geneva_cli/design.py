@@ -116,6 +116,8 @@ class Design:
     0.5072580347148502
     """
 
+    is_backwards = False  # True of a design made by ``backwards``
+
     def __new__(cls, *_: object, **named: object) -> Self:
         """Refuse an unknown keyword, with the nearest known one."""
         refuse_keywords(cls.__name__, named, [*cls.__init__.__annotations__][:-1])
@@ -229,7 +231,8 @@ class Design:
         """The same machine turning the other way, as one that turns forwards seen from behind.
 
         Entry and exit change places, and angles are counted in the direction of rotation. Sizes
-        that the spec leaves out hold the loads of both directions.
+        that the spec leaves out hold the loads of both directions. Warnings are those of this
+        direction.
 
         >>> offset = Design(External(6, offset_mm=12.0))
         >>> [round(d.peaks.ends.acceleration_entry, 4) for d in (offset, offset.backwards)]
@@ -239,7 +242,9 @@ class Design:
 
         both = self.spec.with_("drive.both_ways", True)
         title = ", ".join(text for text in (self.spec.title, "backwards") if text)
-        return Design.of(backwards(build(both)).spec.replace(title=title))
+        turned = Design.of(backwards(build(both)).spec.replace(title=title))
+        turned.is_backwards = True
+        return turned
 
     @answer
     def size(self) -> Size:
@@ -902,9 +907,10 @@ class Design:
         >>> [text.name for text in Design(External(30)).warnings]
         ['many-slots']
         """
-        from geneva_cli.verdict.warnings import warnings
+        from geneva_cli.verdict.warnings import one_way_warnings, warnings
 
-        return warnings(self.parts_model)
+        # the other direction's would be called backwards, which this one is
+        return (one_way_warnings if self.is_backwards else warnings)(self.parts_model)
 
     @answer
     def report(self) -> Report:

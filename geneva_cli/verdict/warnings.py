@@ -25,20 +25,21 @@ def warnings(model: PartsModel) -> list[Notice]:
     A machine that turns both ways also has those that appear backwards only.
     """
     mechanism = model.mechanism
-    out = _one_way(model)
+    out = one_way_warnings(model)
     for other in every_way(mechanism)[1:]:
         own = set(map(str, out))
         # the law's name alone makes no other warning
         more = [
             text
-            for text in _one_way(PartsModel(other))
+            for text in one_way_warnings(PartsModel(other))
             if text.replace(", backwards", "") not in own
         ]
         out += [Notice(text.name, f"backwards, {text}") for text in more]
     return [*direction_warnings(mechanism), *out]
 
 
-def _one_way(model: PartsModel) -> list[Notice]:
+def one_way_warnings(model: PartsModel) -> list[Notice]:
+    """Warnings about a machine in its own direction, in the order of ``warnings``."""
     mechanism = model.mechanism
     of_strength = strength(mechanism).warnings()
     return [

@@ -33,6 +33,7 @@ from geneva_cli.analysis.impacts import entry_impact
 from geneva_cli.layout.sizes import built
 from geneva_cli.machine.both_ways import backwards, every_way
 from geneva_cli.machine.many import many
+from geneva_cli.study.summary.loads import of_loads
 from geneva_cli.verdict.advice import judged
 from geneva_cli.verdict.checks import checks
 from geneva_cli.verdict.checks.check import Check, worst
@@ -240,6 +241,18 @@ def test_warnings_name_what_differs():
     half = SineGroup(0.1).half_way
     assert f"half-way after {half:.4g} of the motion forwards and {1.0 - half:.4g} backw" in text
     assert 'because of the law "sine-group"' in text
+
+
+def test_a_design_shown_backwards_has_the_warnings_of_that_direction():
+    """Its other direction is the first design's, and is not called backwards."""
+    of = both("offset-slots.toml", "load.inertia_kgm2=0.1", "load.torque_Nm=2")
+    turned = of.backwards
+    assert not any("backwards" in text for text in turned.warnings)
+    summary, *_ = of_loads(turned).summaries
+    assert not any("backwards" in line.label for line in summary.lines)
+    # of both directions, it has those that the first design calls backwards
+    own = {f"backwards, {text}" for text in turned.warnings}
+    assert own & set(of.warnings)
 
 
 def test_a_tuned_law_with_damping_is_tuned_forwards_only():

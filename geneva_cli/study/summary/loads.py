@@ -46,6 +46,8 @@ def load_lines(design: Design) -> Iterator[SummaryLine]:
 
 def _backwards(design: Design) -> Iterator[SummaryLine]:
     """The lines on motor, input, pin and wheel that differ backwards, if it must turn both ways."""
+    if design.is_backwards:
+        return
     for machine in every_way(design.mechanism)[1:]:
         other = Design.of(machine.spec)
         own = (motor_line(design), *cycle_lines(design))
