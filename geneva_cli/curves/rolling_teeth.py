@@ -33,11 +33,11 @@ def teeth_along(
     top = parallel(pitch, tip)
     ends = [_tips(pitch, rack, middles, side, tip) for side in (-1, 1)]
     for k, middle in enumerate(middles.tolist()):
-        (left, begin), (right_, end) = ((rolls[k], feet[k]) for rolls, feet in ends)
+        (first_tip, begin), (last_tip, end) = ((rolls[k], feet[k]) for rolls, feet in ends)
         yield from write(fillet(pitch, rack, middle, -1), first - middle, last - middle)
-        yield from write(flank(pitch, rack, middle, -1), middle - last, left)
+        yield from write(flank(pitch, rack, middle, -1), middle - last, first_tip)
         yield from write(top, begin, end)
-        yield from write(flank(pitch, rack, middle, 1), right_, middle + last)
+        yield from write(flank(pitch, rack, middle, 1), last_tip, middle + last)
         yield from write(fillet(pitch, rack, middle, 1), -middle - last, -middle - first)
         yield from write(root, middle + first, middle + rack.pitch - first)
 

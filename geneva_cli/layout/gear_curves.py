@@ -63,7 +63,7 @@ def gears_table(mechanism: Mechanism, tolerance_mm: float, samples: int | None) 
     else:
         phi = np.linspace(-np.pi, np.pi, samples)
     turn, ratio = _ratio(gears, phi)
-    r1, r2 = _radii(gears, ratio)
+    r1, r2 = radii(gears, ratio)
     (x1, y1), (x2, y2) = (p.T for p in _pitch_points(gears, turn, ratio, phi))
     driver, driven = _convexities(ratio)
     columns = [
@@ -134,7 +134,7 @@ def convexity(gears: Gears) -> Convexity:
     return Convexity(float(driver.min()), float(driven.min()))
 
 
-def _radii(gears: Gears, ratio: Jet) -> tuple[np.ndarray, np.ndarray]:
+def radii(gears: Gears, ratio: Jet) -> tuple[np.ndarray, np.ndarray]:
     """Return the radii of driver and driven gear where they touch, mm."""
     C, i = gears.distance_mm, array(ratio.c[0])
     return C * i / (1.0 + i), C / (1.0 + i)
@@ -144,7 +144,7 @@ def _pitch_points(
     gears: Gears, turn: np.ndarray, ratio: Jet, phi: np.ndarray
 ) -> tuple[np.ndarray, np.ndarray]:
     """Return the points (n, 2) at which driver and driven gear touch, each in its gear's frame."""
-    driver, driven = _radii(gears, ratio)
+    driver, driven = radii(gears, ratio)
     return (
         np.column_stack((driver * np.cos(phi), -driver * np.sin(phi))),
         np.column_stack((-driven * np.cos(turn), -driven * np.sin(turn))),

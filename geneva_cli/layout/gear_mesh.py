@@ -295,10 +295,8 @@ class _Pair:
         teeth = dict(zip((self.small.name, self.large.name), (small, large), strict=True))
         towards = dict(zip(teeth, self.towards, strict=True))
         one, two = teeth[self.driver.name], teeth[self.driven.name]
-        arc, pitch = (
-            self.driver.radius_mm * math.radians(self.driver.teeth.each_deg),
-            one.rack.pitch,
-        )
+        arc = self.driver.radius_mm * math.radians(self.driver.teeth.each_deg)
+        pitch = one.rack.pitch
         recess, approach = (-t.roll(t.tangent(t.tip)) + t.rack.half for t in (one, two))
         first = approach - 0.5 * arc
         # a billionth of a pitch is rounding, and is no reason for one more tooth

@@ -15,7 +15,7 @@ from geneva_cli.curves.plates import Member, Plate
 from geneva_cli.curves.shapes import Circle, Point, closed
 from geneva_cli.errors import GenevaError
 from geneva_cli.kinematics.drive import Gears
-from geneva_cli.layout.gear_curves import SAMPLES, ratio_and_turn, required_gears
+from geneva_cli.layout.gear_curves import SAMPLES, radii, ratio_and_turn, required_gears
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.numerics.arrays import array
 from geneva_cli.numerics.preferred import bore_radius
@@ -93,9 +93,8 @@ def pitch_radii(pair: Gears) -> tuple[tuple[float, float], tuple[float, float]]:
 
     Raises GenevaError where one is so near to its axis that it is no gear.
     """
-    ratio = array(ratio_and_turn(pair, np.linspace(-np.pi, np.pi, SAMPLES))[0].c[0])
     C = pair.distance_mm
-    driven, driver = C / (1.0 + ratio), C * ratio / (1.0 + ratio)
+    driver, driven = radii(pair, ratio_and_turn(pair, np.linspace(-np.pi, np.pi, SAMPLES))[0])
     for name, r in zip(NAMES, (driven, driver), strict=True):
         if r.min() < THIN * C:
             raise GenevaError(
