@@ -224,7 +224,7 @@ class FlatParts:
         mesh = teeth or self.links.mesh
         return mesh.layout if mesh else ()
 
-    @property
+    @cached_property
     def round_gears(self) -> tuple[Member, ...]:
         """Those gears in the machine."""
         return tuple(gear.member for gear in self.toothed)
@@ -269,7 +269,7 @@ class FlatParts:
     def _framed(self) -> FrameAndShafts:
         return framed(self.mechanism, self.drawn, self.links, self._base, self.first)
 
-    @property
+    @cached_property
     def shafts(self) -> tuple[Member, ...]:
         """All shafts, whether they reach the frame or not."""
         return self._edged(self._framed.shafts)
