@@ -188,13 +188,23 @@ def _refuse_unused(
 def _gears(
     links: list[Link], turning: list[LinkAxis], sizes: LinkSizes, mechanism: Mechanism
 ) -> tuple[GearMesh | None, list[Gear]]:
-    """Return the teeth of gears, if they have some, and the gears, bored for their shafts."""
+    """Return the teeth of gears, if they have some, and the gears, bored for their shafts.
+
+    Raises GenevaError, naming the key, for teeth that do not mesh, or not in both directions.
+    """
     L, size = mechanism.center_distance_mm, mechanism.spec.size
     at = [_axis(link) for link in links]
     mesh = None
     if mechanism.spec.drive.TOOTHED and size.gear_module_mm is not None:
         driver, driven = links
         mesh = gear_mesh(driver, driven, (at[0], at[1]), size)
+        if mechanism.spec.drive.both_ways and mesh.gears[driver.name].last_tip:
+            raise GenevaError(
+                f"gear_module_mm = {size.gear_module_mm:g}: the last tooth of the {driver.name} is "
+                "lower, so that it drives one way only; remove gear_module_mm, or both_ways and "
+                "--reverse",
+                ("size", "gear_module_mm"),
+            )
     cut = mesh.gears if mesh else {}
     bores = [next(axis.radius for axis in turning if same(axis.at, p, L)) for p in at]
     return mesh, [

@@ -20,6 +20,7 @@ from geneva_cli.kinematics.layout import Joint, Link
 from geneva_cli.layout.assembly import assembly
 from geneva_cli.layout.gear_mesh import gear_mesh
 from geneva_cli.spec.tables import Size
+from geneva_cli.verdict.headline import both_ways_lines
 
 WRITE = {
     "arcs": lambda c, a, b: fit.arcs(c, a, b, 1e-5),
@@ -355,6 +356,21 @@ def test_refusals(drive, z, keys, said):
 def test_teeth_without_a_module_are_refused(key, value):
     with pytest.raises(GenevaError, match="set gear_module_mm, or remove"):
         _ = Design(External(4), SOFT, size=Size(**{key: value})).mechanism
+
+
+def test_sectors_whose_last_tooth_is_lower_do_not_serve_both_ways():
+    """Backwards the lower tooth would be the first, and the last one would jam."""
+    sector = GearSector(sector_deg=60.0, both_ways=True)
+    design = Design(External(3), sector, size=Size(gear_module_mm=2.0))
+    (row,) = [check for check in design.checks if check.name == "link_gap_mm"]
+    assert row.passes is False
+    assert "crank gear is lower, so that it drives one way only" in row.why
+    (line,) = both_ways_lines(design.checks)
+    assert line.text == "no: every check is the same in both directions"
+    assert Design(External(3), sector).passes
+    # planets turn either way
+    planet = Epicyclic(planet_ratio="shockless", both_ways=True)
+    assert Design(External(4), planet, size=Size(gear_module_mm=2.0)).passes
 
 
 def test_solids_lists_and_drawings_have_the_teeth():
