@@ -275,8 +275,9 @@ def load_certificates(mechanism: Mechanism, for_people: bool) -> Table | tuple[s
 
     For a load without a certificate, ``why`` is the reason.
     """
-    reasons = {name: not_proved(mechanism, name) for name in LOADS}
-    found = {name: certificate(mechanism, name) for name in LOADS if not reasons[name]}
+    lacks = mechanism.output.lacks
+    reasons = {name: not_proved(mechanism, name) for name in LOADS if name not in lacks}
+    found = {name: certificate(mechanism, name) for name, why in reasons.items() if not why}
     if for_people:
         refused = [f"{name}.max not proved: {why}" for name, why in reasons.items() if why]
         about = [f"about {DOUBLES}"] if found else []

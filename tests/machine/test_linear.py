@@ -267,3 +267,16 @@ def test_a_long_rack_is_no_reason_for_a_warning():
 def test_a_limit_on_force_names_the_load_of_a_rack():
     with pytest.raises(GenevaError, match=r"set mass_kg or force_N in \[load\]"):
         Spec(Linear(6), limits=Limits(pin_force_max_N=10.0))
+
+
+def test_certificates_are_of_what_a_rack_has():
+    """The greatest pin force, at entry, is m R w² + F; a rack has no torque of a wheel."""
+    pytest.importorskip("flint")
+    design = Design(Linear(6), size=SIZE, load=Load(mass_kg=4.0, force_N=30.0))
+    rows = design.certified_loads().to_dict()["certificate"]
+    assert [row["quantity"] for row in rows] == ["pin_force_N", "input_torque_Nm"]
+    force = 4.0 * 0.05 * (2.0 * math.pi) ** 2 + 30.0  # at 60 rpm
+    low, high = rows[0]["low"], rows[0]["high"]
+    # the bounds are some places apart, and the sum above is rounded
+    assert low * (1.0 - 4.0 * ULP) <= force <= high * (1.0 + 4.0 * ULP)
+    assert high - low < 1e-9 * force
