@@ -28,7 +28,7 @@ from geneva_cli.parts.arm import CrankArm, crank_arm, has_arm
 from geneva_cli.parts.first_pair import first_pair, in_front
 from geneva_cli.parts.frame import FrameAndShafts, framed
 from geneva_cli.parts.gear_blanks import Gear
-from geneva_cli.parts.gear_pair import FINE, gear_pair
+from geneva_cli.parts.gear_pair import FINE, gear_pair, pair_with_teeth
 from geneva_cli.parts.groove_plate import groove_base, groove_lines, groove_stack
 from geneva_cli.parts.link_sizes import places
 from geneva_cli.parts.links import Links, drawn_links
@@ -224,7 +224,7 @@ class FlatParts:
         mesh = teeth or self.links.mesh
         return mesh.layout if mesh else ()
 
-    @property
+    @cached_property
     def round_gears(self) -> tuple[Member, ...]:
         """Those gears in the machine."""
         return tuple(gear.member for gear in self.toothed)
@@ -269,7 +269,7 @@ class FlatParts:
     def _framed(self) -> FrameAndShafts:
         return framed(self.mechanism, self.drawn, self.links, self._base, self.first)
 
-    @property
+    @cached_property
     def shafts(self) -> tuple[Member, ...]:
         """All shafts, whether they reach the frame or not."""
         return self._edged(self._framed.shafts)
@@ -289,6 +289,7 @@ class FlatParts:
         if self.drawn:
             _ = self.wheel, self.crank
         _ = self._framed
+        pair_with_teeth(self.mechanism)
 
     @property
     def linked(self) -> tuple[Member, ...]:

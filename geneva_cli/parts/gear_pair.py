@@ -22,7 +22,7 @@ from geneva_cli.numerics.preferred import bore_radius
 from geneva_cli.outlines.outlines import Outlines
 from geneva_cli.parts.link_shafts import Ends
 from geneva_cli.parts.link_sizes import link_sizes
-from geneva_cli.parts.pair_teeth import pair_teeth, toothed_outline
+from geneva_cli.parts.pair_teeth import ToothedCurve, pair_teeth, toothed_curve
 from geneva_cli.parts.shafts import round_section, shaft, shaft_ends
 
 if TYPE_CHECKING:
@@ -60,20 +60,32 @@ def gear_pair(mechanism: Mechanism, parts: Outlines | None, write: Writer) -> tu
         return ()
     low, high = gear_span(mechanism, parts)
     sense = crank_sense(mechanism)
-    teeth = pair_teeth(pair, mechanism.spec.size)
+    layer, outlines = CUT, [gear.outline(write) for gear in pair_with_teeth(mechanism)]
+    if not outlines:
+        both = driven_curve(pair, sense), driver_curve(pair, sense)
+        layer, outlines = PITCH, [list(write(curve, -np.pi, np.pi)) for curve in both]
     members = []
-    both = ((driven_curve(pair, sense), -sense), (driver_curve(pair, sense), sense))
     bores = gear_bores(mechanism, parts)
-    for name, (curve, along), (at, bore) in zip(NAMES, both, bores, strict=True):
-        if teeth:
-            layer = CUT
-            outline = closed(layer, toothed_outline(teeth, name == NAMES[1], curve, along, write))
-        else:
-            layer = PITCH
-            outline = closed(layer, write(curve, -np.pi, np.pi))
+    for name, pieces, (at, bore) in zip(NAMES, outlines, bores, strict=True):
+        outline = closed(layer, pieces)
         holes = (Circle(BORE, (0.0, 0.0), bore),) if bore else ()
         members.append(Member(Plate(name, layer, outline, holes, low, high), at))
     return tuple(members)
+
+
+def pair_with_teeth(mechanism: Mechanism) -> list[ToothedCurve]:
+    """Return the teeth of driven gear and driver; none without a module.
+
+    Raises GenevaError, naming the key, for teeth that do not fit.
+    """
+    pair, sense = mechanism.spec.drive.gears, crank_sense(mechanism)
+    teeth = pair_teeth(pair, mechanism.spec.size)
+    if pair is None or teeth is None:
+        return []
+    return [
+        toothed_curve(teeth, False, driven_curve(pair, sense), -sense),
+        toothed_curve(teeth, True, driver_curve(pair, sense), sense),
+    ]
 
 
 def pitch_radii(pair: Gears) -> tuple[tuple[float, float], tuple[float, float]]:

@@ -93,10 +93,21 @@ def pair_teeth(gears: Gears | None, size: Size) -> PairTeeth | None:
     return PairTeeth(length, count, driver, driven, shift)
 
 
-def toothed_outline(
-    teeth: PairTeeth, driver: bool, curve: Curve, sense: float, write: Writer
-) -> list[Segment]:
-    """Return the outline of the driver or the driven gear.
+class ToothedCurve(NamedTuple):
+    """A pitch curve by its length, with the rack that cuts its teeth, their middles and height."""
+
+    pitch: Curve
+    rack: Rack
+    middles: Array
+    tip: float
+
+    def outline(self, write: Writer) -> list[Segment]:
+        """Return the gear's outline; ``write`` fits curves."""
+        return list(teeth_along(self.pitch, self.rack, self.middles, self.tip, write))
+
+
+def toothed_curve(teeth: PairTeeth, driver: bool, curve: Curve, sense: float) -> ToothedCurve:
+    """Return the teeth of the driver or the driven gear.
 
     ``curve`` is its pitch curve by the input's angle, and ``sense`` is 1 if it runs
     counterclockwise. At input angle 0 a tooth of the driver is on the line of centres.
@@ -114,10 +125,11 @@ def toothed_outline(
     # DIN 3960 keeps a fifth of a module at the tip
     if least_tip(pitch, rack, middles, tip) < 0.2 * rack.module:
         raise GenevaError(
-            f"gear_shift = {teeth.shift:g}: teeth would be pointed; nearer to 0 they are thicker",
-            ("size", "gear_shift"),
+            f"gear_module_mm = {rack.module:g}: teeth would be pointed; use a smaller module, or "
+            "gear_shift nearer to 0",
+            ("size", "gear_module_mm"),
         )
-    return list(teeth_along(pitch, rack, middles, tip, write))
+    return ToothedCurve(pitch, rack, middles, tip)
 
 
 def _refuse(bends: tuple[float, float], rack: Rack, tip: float) -> None:

@@ -154,6 +154,8 @@ def test_the_same_numbers(case):
         close(np.broadcast_to(getattr(m, name), expected.shape), expected)
     for i, times in enumerate(timings(m)):
         for name, values in times._asdict().items():
+            if values is None:  # the travel of a rack
+                continue
             expected = np.array([timings(one)[i]._asdict()[name] for one in singles])[:, None]
             # a dwell is what motions leave of a turn
             rest = 360.0 / abs(times.dwell_deg) * expected if name == "k" else 360.0

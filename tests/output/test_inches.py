@@ -187,7 +187,6 @@ def test_digits_of_a_table_are_those_of_si():
         (["loads", TURRET, "--format", "csv"], "csv is for programs"),
         (["sweep", TURRET, "--vary", "wheel.z=6,8"], "csv and parquet are for programs"),
         (["compare", TURRET, "--ratio"], "ratios have no unit"),
-        (["profile", TURRET, "--part", "sheet", "--format", "svg"], "a sheet is in millimetres"),
     ],
 )
 def test_what_stays_in_si_units_is_refused(words, wants):

@@ -213,6 +213,20 @@ def test_a_laser_cuts_no_shell_from_a_plate() -> None:
         assert "bent-parts" not in {text.name for text in made.warnings}
 
 
+def test_printed_parts_are_not_of_steel() -> None:
+    """0.36 of 22.8 MPa are 8.2: what the warning names for PLA."""
+
+    def warned(*settings: str) -> str:
+        every = load(str(DESIGNS / "turret.toml"), ["size.process=print", *settings]).warnings
+        return "".join(str(text) for text in every if text.name == "printed-as-steel")
+
+    assert "such as 8 and 2.4 for PLA" in warned()
+    assert 8.0 <= 0.36 * 22.8 < 8.5
+    assert not warned("material.wheel.stress_max_MPa=8")
+    assert not warned("load.inertia_kgm2=0", "load.torque_Nm=0")
+    assert not warned("size.process=mill")
+
+
 def test_small_holes_of_shells_are_named() -> None:
     """Shells of 8 mm need 5.6 mm: pins of 5 mm less their press fit are below, hubs above."""
     ball = sphere("size.process=laser", "size.lock_bolts=0")

@@ -121,6 +121,8 @@ def usual(rng, key, z, L, r, outside):
         "crank_flat_mm": 0.02 * R,
         "wheel_screw_mm": 0.02 * L,
         "crank_screw_mm": 0.02 * R,
+        "wheel_clamp_mm": 0.02 * L,
+        "crank_clamp_mm": 0.02 * R,
         "edge_chamfer_mm": 0.05 * r,
         "edge_fillet_mm": 0.05 * r,
     }
