@@ -136,9 +136,9 @@ def test_a_chamfer_wider_than_half_a_wall_fails():
     assert volume(washer._replace(chamfer=1.99)) < volume(washer)
     with pytest.raises(GenevaError, match=r"the washer has a wall of 4 mm; it must be below 2"):
         volume(washer._replace(chamfer=2.0))
-    wide = Design(External(6), size=Size(edge_chamfer_mm=2.9))
+    wide = Design(External(6), size=Size(edge_chamfer_mm=1.5))
     (failed,) = [check for check in wide.checks if check.passes is False]
-    assert failed.name == "parts" and "edge_chamfer_mm = 2.9: the arm has a wall" in failed.why
+    assert failed.name == "parts" and "edge_chamfer_mm = 1.5: the arm has a wall" in failed.why
     for chunked in (chunks, scad.data):
         with pytest.raises(GenevaError, match="the arm has a wall of"):
             list(chunked(wide.drawing("arm"), "mm"))
