@@ -54,12 +54,13 @@ Box: TypeAlias = tuple[float, float, float, float]  # least x and y, greatest x 
 
 
 class Body(NamedTuple):
-    """Shapes in its own frame, which turns about a fixed point."""
+    """Shapes in its own frame, which turns about a point. A rack's frame moves along y instead."""
 
     name: str
     shapes: tuple[Shape, ...]
     centre: tuple[float, float]
     angle: Track  # counterclockwise
+    travel: Track | None = None  # along y, mm
 
 
 class Rotation(NamedTuple):
@@ -67,6 +68,18 @@ class Rotation(NamedTuple):
 
     centre: tuple[float, float]
     angle: Track
+
+
+def body_pose(body: Body, t: float) -> tuple[float, float, float]:
+    """The position of a body's frame at an input angle, and its rotation in radians.
+
+    >>> from geneva_cli.scene import Body, Track, body_pose
+    >>> one, two = (Track((0.0,), (x,), (0.0,)) for x in (1.0, 2.0))
+    >>> body_pose(Body("rack", (), (5.0, 0.0), one, two), 0.0)
+    (5.0, 2.0, 1.0)
+    """
+    x, y = body.centre
+    return x, y + (value_at(body.travel, t) if body.travel else 0.0), value_at(body.angle, t)
 
 
 class CarriedShapes(NamedTuple):

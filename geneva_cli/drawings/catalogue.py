@@ -53,7 +53,10 @@ PARTS = {
         rack="drawings.rack:crank",
     ),
     "arm": Part(
-        drawing="drawings.part_drawings:arm", cut=True, flat="drawings.sphere.arm_drawing:arm"
+        drawing="drawings.part_drawings:arm",
+        cut=True,
+        flat="drawings.sphere.arm_drawing:arm",
+        rack="drawings.rack:arm",
     ),
     "links": Part(drawing="drawings.part_drawings:links", cut=True, alone=True),
     "first-wheel": Part(drawing="drawings.part_drawings:wheel", cut=True, in_front=True),

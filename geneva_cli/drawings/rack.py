@@ -1,4 +1,4 @@
-"""Drawings of the rack and the locking sector of a linear Geneva."""
+"""Drawings of the rack and the crank of a linear Geneva."""
 
 from __future__ import annotations
 
@@ -10,8 +10,8 @@ from geneva_cli.curves.shapes import Contour, Line, closed
 from geneva_cli.layout.plain_sizes import drawn_thicknesses, pin_radius
 from geneva_cli.layout.projection import outlines_of, placed, titled
 from geneva_cli.machine.mechanism import Mechanism
-from geneva_cli.outlines.rack import locking_sector, rack_contour, rack_sizes, slot_walls
-from geneva_cli.parts.plates import roller_plates
+from geneva_cli.outlines.rack import rack_contour, rack_sizes, slot_walls
+from geneva_cli.parts.rack_arm import rack_arm, rack_crank
 
 
 def wheel(mechanism: Mechanism) -> Drawing:
@@ -21,9 +21,15 @@ def wheel(mechanism: Mechanism) -> Drawing:
 
 
 def crank(mechanism: Mechanism) -> Drawing:
-    """Return locking sector and roller in the rack's plane; x is from the axis to the roller."""
-    solid = _crank(mechanism)
+    """Return locking sector and roller, without the arm; x is from the axis to the roller."""
+    solid = Group("crank", rack_crank(mechanism))
     return Drawing(titled(mechanism, "crank"), outlines_of(solid), solid=solid)
+
+
+def arm(mechanism: Mechanism) -> Drawing:
+    """Return the arm, whose x is from the crank's axis to the roller."""
+    solid = rack_arm(mechanism)
+    return Drawing(titled(mechanism, "arm"), outlines_of(solid), solid=solid)
 
 
 def slot(mechanism: Mechanism) -> Drawing:
@@ -37,9 +43,12 @@ def slot(mechanism: Mechanism) -> Drawing:
 
 def assembly(mechanism: Mechanism) -> Drawing:
     """Return rack and crank at input angle 0: the roller is at the origin, the axis at (R, 0)."""
-    rack, crank = _rack(mechanism), _crank(mechanism)
     axis = rack_sizes(mechanism).arm, 0.0
-    members = Member(rack), Member(crank, axis, math.pi)  # the roller is on the rack's side
+    has_pin = pin_radius(mechanism.spec.size, mechanism.roller_radius_mm) > 0.0
+    arms = (Member(rack_arm(mechanism)),) if has_pin else ()
+    crank = Group("crank", (*arms, *rack_crank(mechanism)))
+    # the roller is on the rack's side
+    members = Member(crank, axis, math.pi), Member(_rack(mechanism))
     shapes = [placed(s, one.at, one.turn) for one in members for s in outlines_of(one.part)]
     title = titled(mechanism)
     look = Annotations((LevelDistance((0.0, 0.0), axis, "R"),))
@@ -50,16 +59,3 @@ def _rack(mechanism: Mechanism) -> Plate:
     high = drawn_thicknesses(mechanism.spec.size, mechanism.center_distance_mm).wheel
     outline = rack_contour(rack_sizes(mechanism), mechanism.spec.wheel.z)
     return Plate("rack", "WHEEL", outline, (), 0.0, high)
-
-
-def _crank(mechanism: Mechanism) -> Group:
-    size, sizes = mechanism.spec.size, rack_sizes(mechanism)
-    thick = drawn_thicknesses(size, mechanism.center_distance_mm)
-    sector, at = locking_sector(sizes), (sizes.arm, 0.0)
-    pin = pin_radius(size, sizes.roller)
-    fit = size.allowances.shaft_fit_mm
-    members = [Member(one, at) for one in roller_plates(sizes.roller, pin, 0.0, thick.wheel, fit)]
-    if sector is not None:
-        low = thick.wheel - thick.lock
-        members.append(Member(Plate("locking sector", "CRANK", sector, (), low, thick.wheel)))
-    return Group("crank", tuple(members))

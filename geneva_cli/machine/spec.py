@@ -259,7 +259,7 @@ class Spec:
         'wheels of more than 360 slots are not drawn'
         """
         if not (self.wheel.FLAT or self.wheel.SHELLS):
-            return "arm, shafts and frame of a rack's machine are not built"
+            return "shafts, frame and guide of a rack's machine are not built"
         if self.wheel.z > Z_DRAWN:
             return f"wheels of more than {Z_DRAWN} slots are not drawn"
         return ""

@@ -27,6 +27,7 @@ from geneva_cli.numerics.pieces import (
     SampledRows,
     SpreadPlaces,
 )
+from geneva_cli.numerics.tolerances import TIE
 
 if TYPE_CHECKING:
     from geneva_cli.numerics.arrays import Array, Mask, Whole
@@ -181,8 +182,10 @@ class _ExtremeSearch:
     def _unsettled(self, curves: CandidateCurves, margin: Array, x: Array) -> Whole:
         """The numbers of curves with unfinished series that may exceed the known values."""
         size = np.where(curves.within, np.abs(curves.value), 0.0).max(axis=1, initial=0.0)
-        # the allowed error of a series near an extreme: 1e-5 of a size
-        ended = (curves.left < np.inf) & (curves.left <= 1e-5 * size)
+        # The allowed error of a series near an extreme: 1e-5 of a size. Where a force is nearly 0,
+        # its square is only the rounding of the greatest force, and no halving ends its series.
+        noise = TIE * TIE * self.greatest.size[curves.number, curves.rows.design]
+        ended = (curves.left < np.inf) & (curves.left <= np.maximum(1e-5 * size, noise))
         some = np.flatnonzero(~ended)
         curves, more = curves.take(some), UNFINISHED * curves.left[some]
         low, high = curves.value.min(axis=1) - more, curves.value.max(axis=1) + more

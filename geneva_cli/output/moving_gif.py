@@ -15,7 +15,7 @@ from geneva_cli.curves.shapes import Circle, Line, Point, Shape
 from geneva_cli.errors import GenevaError
 from geneva_cli.output.inks import INKS
 from geneva_cli.progress import tracked
-from geneva_cli.scene import place_at, pose, value_at
+from geneva_cli.scene import body_pose, place_at, pose, value_at
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -61,11 +61,9 @@ def gif_bytes(scene: Scene) -> bytes:
         image = Image.new("RGB", (FINER * WIDE, FINER * high), "#ffffff")
         pen = ImageDraw.Draw(image, "RGBA")
         for body in scene.bodies:
-            turned = value_at(body.angle, t)
+            at_t = body_pose(body, t)
             for layer, points, closed in outlines[body.name]:
-                _outline(
-                    pen, layer, [on_paper(p) for p in _placed(points, *body.centre, turned)], closed
-                )
+                _outline(pen, layer, [on_paper(p) for p in _placed(points, *at_t)], closed)
         for bar in scene.bars:
             _link(pen, bar, t, on_paper, scale)
         for place in scene.rollers:

@@ -10,7 +10,7 @@ from xml.sax.saxutils import escape
 from geneva_cli.errors import clean
 from geneva_cli.output.inks import INKS
 from geneva_cli.output.svg_paths import element
-from geneva_cli.scene import place_at, pose, value_at
+from geneva_cli.scene import body_pose, place_at, pose, value_at
 
 if TYPE_CHECKING:
     from geneva_cli.scene import Bar, Body, Place, Scene
@@ -48,8 +48,8 @@ def chunks(scene: Scene) -> Iterator[str]:
 
 
 def _body(body: Body, t: float) -> Iterator[str]:
-    (x, y), turned = body.centre, -math.degrees(value_at(body.angle, t))
-    yield f'<g transform="translate({x:.6g} {-y:.6g}) rotate({turned:.6g})">\n'
+    x, y, angle = body_pose(body, t)
+    yield f'<g transform="translate({x:.6g} {-y:.6g}) rotate({-math.degrees(angle):.6g})">\n'
     for shape in body.shapes:
         ink = INKS[shape.layer].rgb if shape.layer in INKS else GREY
         if shape.layer == "HOLLOW":

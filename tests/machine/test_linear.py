@@ -228,9 +228,8 @@ def test_what_needs_a_wheel_is_refused_with_the_reason(tmp_path):
         (["motion", str(path), "--format", "cam"], "this machine moves a rack"),
         (["compare", str(path), "--against", "cam"], "this machine moves a rack"),
         (["synth", "--tau", "0.4", "--from", str(path)], "its step is twice center_distance_mm"),
-        (["animate", str(path), "-o", str(tmp_path / "a.html")], "not available for a rack"),
         (["export", str(path), "-o", str(tmp_path / "all")], "not available for a rack"),
-        (["profile", str(path), "--part", "arm", "-o", str(tmp_path / "a.dxf")], "not available"),
+        (["profile", str(path), "--part", "frame", "-o", str(tmp_path / "a.dxf")], "not available"),
         (
             ["check", str(path), "--set", "support.friction=0.1"],
             "a rack's load is mass_kg",

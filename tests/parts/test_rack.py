@@ -134,7 +134,7 @@ def test_sizes_that_leave_no_lock_are_refused(size, text):
 
 
 @pytest.mark.parametrize(
-    "name", ["slot.dxf", "wheel.dxf", "crank.svg", "assembly.step", "wheel.stl"]
+    "name", ["slot.dxf", "wheel.dxf", "crank.svg", "assembly.step", "wheel.stl", "arm.step"]
 )
 def test_parts_are_written(name, tmp_path):
     path = tmp_path / name
@@ -143,8 +143,8 @@ def test_parts_are_written(name, tmp_path):
 
 
 def test_other_parts_are_refused_with_those_that_there_are():
-    with pytest.raises(GenevaError, match="has slot, wheel, crank, assembly"):
-        design().drawing("arm")
+    with pytest.raises(GenevaError, match="has slot, wheel, crank, arm, assembly"):
+        design().drawing("frame")
     with pytest.raises(GenevaError, match="not available for a rack"):
         design().sheet()
 
@@ -156,3 +156,45 @@ def test_the_assembly_has_the_crank_at_mid_motion():
     assert roller.centre == pytest.approx((0.0, 0.0), abs=1e-13)
     sector = next(one for one in shapes if one.layer == "CRANK")
     assert min(p.start[0] for p in sector.segments) == pytest.approx(R, abs=1e-12)
+
+
+def test_area_of_the_arm():
+    """Two discs, of hub and eye, and the quadrilaterals between their common tangents.
+
+    With c = (hub - eye)/R the tangents touch at acos(c) on both, so the hull has the area
+    hub² (pi - acos c) + eye² acos c + R (hub + eye) sqrt(1 - c²).
+    """
+    s = sizes_of(slot_clearance_mm=0.1)
+    shapes = design(slot_clearance_mm=0.1, arm_eye_mm=20.0, lock_bolts=2).drawing("arm").shapes
+    hub, eye = s.lock, 10.0
+    touch = math.acos((hub - eye) / R)
+    area = hub**2 * (math.pi - touch) + eye**2 * touch + R * (hub + eye) * math.sin(touch)
+    assert moments(shapes[0]).area == pytest.approx(area, rel=1e-12)
+    shaft, pin, *bolts = shapes[1:]
+    assert shaft.centre == (0.0, 0.0)
+    assert pin.centre == (R, 0.0)
+    assert [(one.centre[0] < 0.0, one.radius) for one in bolts] == [(True, 1.25)] * 2
+
+
+def test_ring_and_roller_stand_on_the_arm():
+    """The arm is pin_gap_mm below the rack; its bolts go through arm and ring."""
+    machine = design(slot_clearance_mm=0.1, pin_gap_mm=1.0)
+    crank, rack = (one.part for one in machine.drawing("assembly").solid.members)
+    arm, _, pin, ring = (one.part for one in crank.members)
+    assert (rack.low, arm.high, ring.low) == (0.0, -1.0, -1.0)
+    assert pin.low == arm.low
+    assert set(ring.holes) == set(arm.holes[2:])
+
+
+@pytest.mark.parametrize(
+    ("size", "text"),
+    [
+        ({"arm_bore_mm": 88.0}, "the least wall around the arm's holes is"),
+        ({"arm_eye_mm": 2.0}, "arm_eye_mm = 2: the eye must be above"),
+        ({"lock_bolt_mm": 40.0}, "the least wall around the arm's holes is"),
+        ({"lock_radius_mm": 0.0, "lock_bolts": 2}, "there is no locking disc to fix"),
+    ],
+)
+def test_sizes_that_leave_no_arm_are_refused(size, text):
+    with pytest.raises(GenevaError, match=text):
+        design(**size).drawing("arm")

@@ -81,7 +81,12 @@ def _data(scene: Scene) -> dict[str, Any]:
         "seconds": scene.seconds,
         "size": max(x1 - x0, y1 - y0),
         "bodies": [
-            {"id": b.name.replace(" ", "-"), "centre": b.centre, "angle": _track(b.angle)}
+            {
+                "id": b.name.replace(" ", "-"),
+                "centre": b.centre,
+                "angle": _track(b.angle),
+                "travel": b.travel and _track(b.travel),
+            }
             for b in scene.bodies
         ],
         "frame": scene.frame and {"centre": scene.frame.centre, "angle": _track(scene.frame.angle)},

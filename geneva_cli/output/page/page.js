@@ -105,9 +105,10 @@
       const { centre: [x, y], angle } = scene.frame, turned = -afterTurns(angle, t, turns) * degrees;
       set(by("frame"), { transform: `rotate(${turned} ${x} ${-y})` });
     }
-    for (const { id, centre: [x, y], angle } of scene.bodies) {
+    for (const { id, centre: [x, y], angle, travel } of scene.bodies) {
       const turned = -afterTurns(angle, t, turns) * degrees;
-      set(by(id), { transform: `translate(${x} ${-y}) rotate(${turned})` });
+      const up = y + (travel ? afterTurns(travel, t, turns) : 0);
+      set(by(id), { transform: `translate(${x} ${-up}) rotate(${turned})` });
     }
     for (const { bar, rim, shape, joints, plates } of bars) {
       const at = bar.joints.map(([x, y]) => [valueAt(x, t), -valueAt(y, t)]);
@@ -143,14 +144,17 @@
       value.textContent = Number(curveAt(panel, x).toPrecision(4));
     }
     const [, , moves, words] = stateAt(scene.states, t);
-    const wheel = (afterTurns(scene.bodies[0].angle, t, 0) * degrees).toFixed(2);
+    const { angle, travel } = scene.bodies[0];
+    const output = travel
+      ? `rack ${afterTurns(travel, t, 0).toFixed(2)} mm`
+      : `wheel ${(afterTurns(angle, t, 0) * degrees).toFixed(2)} degrees`;
     const shown = shownDeg(scene, t).toFixed(2);
     const more = moves && force ? `, with ${Number(force.toPrecision(3))} N` : "";
     const text = words[0].toUpperCase() + words.slice(1) + more + ".";
     if (text !== said) by("state").textContent = said = text;
     by("angle").textContent = `${shown}\u00b0`;
     by("input").value = t;
-    set(by("input"), { "aria-valuetext": `input ${shown} degrees, wheel ${wheel} degrees, ${words}` });
+    set(by("input"), { "aria-valuetext": `input ${shown} degrees, ${output}, ${words}` });
   }
 
   function go(to) {

@@ -12,7 +12,9 @@ import numpy as np
 from geneva_cli.curves.shapes import Circle, Contour, Line, Shape, closed
 from geneva_cli.design import Design
 from geneva_cli.errors import GenevaError
+from geneva_cli.layout.gear_curves import gears_table
 from geneva_cli.scene import Body, Track
+from geneva_cli.study.animation.rack import rack
 from geneva_cli.study.animation.tracks import still
 from geneva_cli.study.animation.turn import MachineTurn
 
@@ -26,12 +28,12 @@ def bodies(design: Design, turn: MachineTurn) -> Iterator[Body]:
     """Wheel, crank with its arm, the cam's groove and gears, as far as the machine has them."""
     L, crank = turn.L, turn.crank()
     # parts of a sphere are drawn laid flat: these outlines do not turn about the shaft
-    shapes = _hollow(_shapes(design, "wheel")) if design.spec.wheel.FLAT else ()
+    shapes = () if design.spec.wheel.SHELLS else _hollow(_shapes(design, "wheel"))
     flat = bool(shapes)
-    wheel = (*(shapes or _slots(turn)), _mark(shapes, turn))
-    for place in turn.mechanism.wheel_places:
-        name = f"wheel {place.number}" if place.number > 1 else "wheel"
-        yield Body(name, wheel, place.at, turn.wheel(place))
+    if design.mechanism.output.turns:
+        yield from _wheels(shapes, turn)
+    else:
+        yield rack(shapes, turn)
     if flat:
         carried = (*_shapes(design, "arm"), *_shapes(design, "crank"))
         carried = tuple(shape for shape in carried if shape.layer != "ROLLER")
@@ -41,6 +43,14 @@ def bodies(design: Design, turn: MachineTurn) -> Iterator[Body]:
             yield Body("carrier", _shapes(design, "frame"), (0.0, 0.0), still(0.0))
     if design.spec.drive.gears:
         yield from _gears(design, turn)
+
+
+def _wheels(shapes: tuple[Shape, ...], turn: MachineTurn) -> Iterator[Body]:
+    """All wheels; without shapes, as symbols."""
+    wheel = (*(shapes or _slots(turn)), _mark(shapes, turn))
+    for place in turn.mechanism.wheel_places:
+        name = f"wheel {place.number}" if place.number > 1 else "wheel"
+        yield Body(name, wheel, place.at, turn.wheel(place))
 
 
 def _shapes(design: Design, part: str) -> tuple[Shape, ...]:
@@ -85,7 +95,7 @@ def _mark(shapes: tuple[Shape, ...], turn: MachineTurn) -> Shape:
 
 def _gears(design: Design, turn: MachineTurn) -> Iterator[Body]:
     """The pitch curves of both gears: the driven one is fixed to the crank."""
-    table = design.part_table("gears", samples=241).to_dict()
+    table = gears_table(turn.mechanism, 0.001, 241).to_dict()
     sign = turn.mechanism.spec.wheel.SIGN
     gears = turn.mechanism.spec.drive.gears
     assert gears

@@ -32,6 +32,8 @@ def pushes(cycle: Cycle, turn: MachineTurn) -> Iterator[Push]:
         normal = _normals(one, local, turn)
         pin = turn.pin(one, one.mid + local)
         arm = pin[:, 0] * normal[:, 1] - pin[:, 1] * normal[:, 0]
+        if not turn.mechanism.output.turns:
+            arm = normal[:, 1]  # a rack is pushed along y
         normal *= np.where(arm * torque < 0.0, -1.0, 1.0)[:, None]
         contact = (pin + turn.mechanism.roller_radius_mm * normal)[sound]
         arrow = (force[:, None] * normal)[sound]
@@ -45,6 +47,8 @@ def pushes(cycle: Cycle, turn: MachineTurn) -> Iterator[Push]:
 
 def _normals(one: RollerPassage, local: Array, turn: MachineTurn) -> Array:
     """Unit normals of the slot in the fixed frame, of either sign; projected from a sphere."""
+    if not turn.mechanism.output.turns:
+        return np.column_stack((0.0 * local, 1.0 + 0.0 * local))
     if turn.mechanism.spec.wheel.FLAT:
         x, y = one.engagement.slot(local, 2)
         direction = np.column_stack((x.c[1] + 0.0 * local, y.c[1] + 0.0 * local))

@@ -11,14 +11,15 @@ from typing import TYPE_CHECKING
 from geneva_cli.curves.measure import at, bounds
 from geneva_cli.curves.shapes import Circle, Shape
 from geneva_cli.design import Design
-from geneva_cli.drawings.catalogue import require_drawn
 from geneva_cli.errors import GenevaError
+from geneva_cli.outlines.rack import rack_sizes
 from geneva_cli.outlines.stop import wheel_stop
 from geneva_cli.scene import Bar, Body, Box, Phase, Place, Rotation, Scene, pose
 from geneva_cli.specfile.writer import quoted, spec_lines
 from geneva_cli.study.animation.bodies import bodies
 from geneva_cli.study.animation.carrier import frame_rotation
 from geneva_cli.study.animation.pushes import pushes
+from geneva_cli.study.animation.rack import rack_ends, view_of_rack
 from geneva_cli.study.animation.turn import MachineTurn
 from geneva_cli.study.summary.titles import title_of
 from geneva_cli.verdict.report.words import words
@@ -39,7 +40,6 @@ def scene(design: Design) -> Scene:
     (['wheel', 'crank'], 360.0, 2)
     """
     mechanism = design.mechanism
-    require_drawn(design.mechanism, "sheet")
     turn = MachineTurn(mechanism)
     parts = tuple(body for body in bodies(design, turn) if body.shapes)
     outlines = None
@@ -48,7 +48,10 @@ def scene(design: Design) -> Scene:
     bars, rollers = turn.bars(outlines), turn.rollers()
     spec, title = design.spec, title_of(design)
     frame = frame_rotation(mechanism, turn.start, turn.whole)
-    box = _box(parts, bars, rollers, mechanism.roller_radius_mm, turn.whole)
+    moving = parts if mechanism.output.turns else parts[1:]
+    box = _box(moving, bars, rollers, mechanism.roller_radius_mm, turn.whole)
+    if not mechanism.output.turns:
+        box = view_of_rack(parts[0], box, turn)
     return Scene(
         title,
         words(mechanism) + _remark(design, bars),
@@ -70,7 +73,9 @@ def scene(design: Design) -> Scene:
 
 
 def _stops(outlines: Outlines | None, turn: MachineTurn) -> tuple[float, float] | None:
-    """Both stops of the crank, degrees from the turn's start; None without them."""
+    """Both stops of the crank or ends of a rack, degrees from the turn's start; None without."""
+    if not turn.mechanism.output.turns:
+        return rack_ends(turn)
     stop = outlines and wheel_stop(outlines)
     if not stop:
         return None
@@ -79,7 +84,7 @@ def _stops(outlines: Outlines | None, turn: MachineTurn) -> tuple[float, float] 
 
 def _remark(design: Design, bars: tuple[Bar, ...]) -> str:
     """A remark on simplifications in the picture."""
-    if not design.spec.wheel.FLAT:
+    if design.spec.wheel.SHELLS:
         return " Seen along the wheel's shaft."
     gears = any(bar.radius for bar in bars)
     return " Gears are shown by their pitch circles." if gears else ""
@@ -98,9 +103,10 @@ def _states(design: Design, turn: MachineTurn) -> Iterator[Phase]:
     last = turn.passages[-1]
     for one, after in zip(turn.passages, (*turn.passages[1:], None), strict=True):
         which = f"roller {one.roller}" if len(turn.passages) > 1 else "the roller"
+        noun = design.mechanism.output.noun
         a, b = one.entry - turn.start, one.exit - turn.start
         if not one.engagement.paired:
-            yield Phase(a, b, True, f"{which} moves the wheel")
+            yield Phase(a, b, True, f"{which} moves the {noun}")
         else:
             c, d = (one.mid + x - turn.start for x in one.engagement.motion.breaks_deg[1:-1:2])
             yield Phase(a, c, True, "the first roller starts the wheel")
@@ -123,14 +129,15 @@ def _wheels_in_turn(design: Design, turn: MachineTurn) -> Iterator[Phase]:
 
 def _rest(design: Design) -> str:
     """A phrase that names what holds the wheel at rest."""
-    by = design.spec.wheel.held_by
+    by, output = design.spec.wheel.held_by, design.mechanism.output
+    rests, lock = f"the {output.noun} rests", "disc" if output.turns else "ring"
     if by:
-        return f"the wheel rests, held by a {by}"
+        return f"{rests}, held by a {by}"
     try:
-        locks = design.parts.sizes.lock > 0.0
+        sizes = design.parts.sizes if output.turns else rack_sizes(design.mechanism)
     except GenevaError:
-        return "the wheel rests"
-    return "the wheel rests, locked by the disc" if locks else "the wheel rests; nothing holds it"
+        return rests
+    return f"{rests}, locked by the {lock}" if sizes.lock > 0.0 else f"{rests}; nothing holds it"
 
 
 def _swept(parts: tuple[Body, ...], frame: Rotation) -> Box:
