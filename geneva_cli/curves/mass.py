@@ -8,11 +8,12 @@ from functools import reduce
 from typing import NamedTuple
 
 from geneva_cli.curves.cross_holes import CrossHole, drilled
+from geneva_cli.curves.hole_walls import require_faces
 from geneva_cli.curves.inset import inset, lines_and_arcs
 from geneva_cli.curves.measure import GAUSS, with_material_left
 from geneva_cli.curves.moments import Moments, moments, total
 from geneva_cli.curves.plates import Plate, Stack
-from geneva_cli.curves.shapes import Circle, Contour, Point, Shape, closed, two_arcs
+from geneva_cli.curves.shapes import Circle, Contour, Point, Shape, as_contour
 
 MM = 1e-3  # metres
 
@@ -91,12 +92,11 @@ def _between(plate: Plate) -> Moments:
 
     The moments of an inset are polynomials of the depth, but for the corners, whose share is small.
     """
+    require_faces(plate)
     oriented = [
-        (lines_and_arcs(with_material_left(_contour(shape), i == 0)), 1.0 if i == 0 else -1.0)
+        (lines_and_arcs(with_material_left(as_contour(shape), i == 0)), 1.0 if i == 0 else -1.0)
         for i, shape in enumerate((plate.outline, *plate.holes))
     ]
-    for pieces, _ in oriented:
-        inset(pieces, "", plate.chamfer)  # refuses a chamfer that is too wide, by its own size
     half = 0.5 * plate.chamfer
     return total(
         _counterclockwise(inset(pieces, "", half * (1.0 + sign * node))).times(weight * half * side)
@@ -104,10 +104,6 @@ def _between(plate: Plate) -> Moments:
         for sign in (-1.0, 1.0)
         for pieces, side in oriented
     )
-
-
-def _contour(shape: Contour | Circle) -> Contour:
-    return closed(shape.layer, two_arcs(shape)) if isinstance(shape, Circle) else shape
 
 
 def _removed(hole: CrossHole, shapes: Sequence[Shape]) -> Moments:

@@ -92,6 +92,11 @@ def two_arcs(circle: Circle, start: float = 0.0) -> tuple[Arc, Arc]:
     return about(centre, radius, start, math.pi), about(centre, radius, start + math.pi, math.pi)
 
 
+def as_contour(shape: Shape) -> Contour:
+    """A closed shape as a contour: a circle as two arcs."""
+    return closed(shape.layer, two_arcs(shape)) if isinstance(shape, Circle) else shape
+
+
 def joined(segments: Iterable[Segment]) -> tuple[Segment, ...]:
     """Segments end to end, each changed to start exactly at the end of the one before."""
     out: list[Segment] = []

@@ -6,7 +6,7 @@ from typing import NamedTuple, TypeAlias
 
 from geneva_cli.curves.measure import area, with_material_left
 from geneva_cli.curves.plates import Plate, Stack
-from geneva_cli.curves.shapes import Arc, Circle, Contour, Line, closed, two_arcs
+from geneva_cli.curves.shapes import Arc, Contour, Line, as_contour
 
 Side: TypeAlias = Line | Arc
 
@@ -39,10 +39,7 @@ class Level(NamedTuple):
 
 def outline_of(plate: Plate) -> Contour:
     """Return a plate's outline as lines and arcs, counterclockwise."""
-    shape = plate.outline
-    if isinstance(shape, Circle):
-        return closed(shape.layer, two_arcs(shape))
-    return with_material_left(shape, True)
+    return with_material_left(as_contour(plate.outline), True)
 
 
 def sides(contour: Contour) -> tuple[Side, ...]:

@@ -16,7 +16,7 @@ import numpy as np
 from geneva_cli.curves.distance import Polyarc
 from geneva_cli.curves.measure import at, with_material_left
 from geneva_cli.curves.plates import Group, Member, Part, Plate, Stack
-from geneva_cli.curves.shapes import Arc, Circle, Contour, Point, Segment, closed, two_arcs
+from geneva_cli.curves.shapes import Arc, Point, Segment, as_contour
 from geneva_cli.layout.projection import placed
 from geneva_cli.numerics.jet import Array
 from geneva_cli.numerics.tolerances import SAME_LENGTH
@@ -120,7 +120,7 @@ def _rings_of(members: Iterable[Member]) -> list[Ring]:
 def _rings(member: Member) -> Iterator[Ring]:
     """Yield the rings of a part's plates about the axis that it turns on."""
     for plate, origin in _plates(member.part):
-        shapes = [placed(_contour(s), origin, 0.0) for s in (plate.outline, *plate.holes)]
+        shapes = [placed(as_contour(s), origin, 0.0) for s in (plate.outline, *plate.holes)]
         sides = [with_material_left(shape, i == 0) for i, shape in enumerate(shapes)]
         inner = max(0.0, float(Polyarc(sides).signed(np.zeros((1, 2)))[0]))
         outer = max(math.hypot(*p) for piece in shapes[0].segments for p in _far(piece))
@@ -136,10 +136,6 @@ def _plates(part: Part, origin: Point = (0.0, 0.0)) -> Iterator[tuple[Plate, Poi
         yield from ((plate._replace(name=part.name), origin) for plate in part.plates)
     elif isinstance(part, Plate):
         yield part, origin
-
-
-def _contour(shape: Contour | Circle) -> Contour:
-    return shape if isinstance(shape, Contour) else closed(shape.layer, two_arcs(shape))
 
 
 def _far(piece: Segment) -> Iterator[Point]:

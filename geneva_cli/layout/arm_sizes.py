@@ -25,7 +25,7 @@ def hub_and_eye(
     hub. Raises GenevaError, naming the key, where hub or eye leave nothing around a hole.
     """
     deep = bore_of(size, "crank", bore).reach
-    hub = half_or(size.arm_hub_mm, usual_hub(deep, bore, wall, standing))
+    hub = arm_hub(size, deep, bore, wall, standing)
     eye = half_or(size.arm_eye_mm, eye_about(hole, wall, passing))
     if hub <= deep:
         raise GenevaError(
@@ -41,9 +41,9 @@ def hub_and_eye(
     return hub, eye
 
 
-def usual_hub(bored: float, bore: float, wall: float, standing: float) -> float:
-    """Return the arm's default radius about a bore that reaches to ``bored`` with its keyway."""
-    return max(rounded_radius(HUB * bore), bored + wall, standing)
+def arm_hub(size: Size, bored: float, bore: float, wall: float, standing: float = 0.0) -> float:
+    """Return the arm's radius about a bore that reaches to ``bored`` with its keyway."""
+    return half_or(size.arm_hub_mm, max(rounded_radius(HUB * bore), bored + wall, standing))
 
 
 def arm_passing(assembly: Assembly, sizes: Sizes, length: float) -> float:

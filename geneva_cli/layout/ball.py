@@ -53,9 +53,13 @@ class Ball(NamedTuple):
         opening = math.asin(min(1.0, opening_mm / self.arm_span_mm[0]))
         return self.radius_mm * (self.axes - self.arm - opening)
 
-    def cap(self, hub_mm: float, around_mm: float) -> float:
-        """Return the angle of the arm's cap about its hub and a wall, or about its sectors."""
-        return max(self.lock, math.asin(min(1.0, (hub_mm + around_mm) / self.arm_span_mm[0])))
+    def cap(self, hub_mm: float, bored_mm: float, wall_mm: float) -> float:
+        """Return the angle of the arm's cap about its sectors, or about its hub and a wall.
+
+        The wall is as thick as that of the hub, whose bore reaches to ``bored_mm``.
+        """
+        edge = hub_mm + max(hub_mm - bored_mm, wall_mm)
+        return max(self.lock, math.asin(min(1.0, edge / self.arm_span_mm[0])))
 
     def shafts_end_mm(self, size: Size) -> float:
         """Return where shafts leave the parts that they carry: a distance from the centre."""

@@ -84,7 +84,7 @@ class Clamp(NamedTuple):
         h, f, at = 0.5 * self.slit, self.face, self.shoulder
         inner, outer = (math.sqrt(r * r - h * h) for r in (self.bore, self.hub))
         edge, top = (math.sqrt(self.hub**2 - v * v) for v in (f, at))
-        first, notch, start = (math.asin(v / self.hub) for v in (h, f, top))
+        first, notch = (math.asin(v / self.hub) for v in (h, f))
         start = math.atan2(top, at)
         narrow = math.asin(h / self.bore)
         around = about(ORIGIN, self.hub, start, math.pi - start)

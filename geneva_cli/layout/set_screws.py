@@ -62,8 +62,8 @@ def screw_note(size: Size, part: str) -> str:
     'set screw M4 (ISO 4026), radial, onto the flat'
     """
     values = vars(size)
-    screw, shape = values[f"{part}_screw_mm"], values[f"{part}_bore"]
-    if screw is None:
+    thread, shape = values[f"{part}_screw_mm"], values[f"{part}_bore"]
+    if thread is None:
         return ""
     onto = "the flat" if shape == "D" else "the shaft"
-    return f"set screw M{screw:g} (ISO 4026), radial, onto {onto}"
+    return f"set screw M{thread:g} (ISO 4026), radial, onto {onto}"

@@ -312,7 +312,10 @@ def _refuse(assembly: Assembly, sizes: Sizes) -> None:
             f"{2.0 * sizes.lock:.6g}",
             ("size", "crank_bore_mm"),
         )
-    _refuse_edges(assembly.mechanism.spec.size, sizes)
+    refuse_edges(
+        assembly.mechanism.spec.size,
+        min(sizes.wheel_thickness, sizes.lock_thickness, sizes.arm_thickness),
+    )
     loose = assembly.mechanism.spec.size.allowances.shaft_fit_mm
     if sizes.pin and 2.0 * sizes.pin + loose >= 2.0 * sizes.roller:
         raise GenevaError(
@@ -333,8 +336,8 @@ def _refuse(assembly: Assembly, sizes: Sizes) -> None:
         )
 
 
-def _refuse_edges(size: Size, sizes: Sizes) -> None:
-    """Raise GenevaError, naming the key, for edges that leave nothing of the thinnest plate."""
+def refuse_edges(size: Size, thin: float) -> None:
+    """Raise GenevaError, naming the key, for edges that leave nothing of a plate so thin, mm."""
     chamfer = size.edge_chamfer_mm is not None
     if chamfer and size.edge_fillet_mm is not None:
         raise GenevaError(
@@ -342,7 +345,6 @@ def _refuse_edges(size: Size, sizes: Sizes) -> None:
             "and edge_fillet_mm",
             ("size", "edge_fillet_mm"),
         )
-    thin = min(sizes.wheel_thickness, sizes.lock_thickness, sizes.arm_thickness)
     if 2.0 * size.edge_mm >= thin:
         key = "edge_chamfer_mm" if chamfer else "edge_fillet_mm"
         raise GenevaError(

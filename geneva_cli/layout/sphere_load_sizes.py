@@ -10,12 +10,12 @@ import math
 from functools import lru_cache
 from typing import TYPE_CHECKING
 
-from geneva_cli.layout.arm_sizes import hole_radius, usual_hub, within_hub
+from geneva_cli.layout.arm_sizes import arm_hub, hole_radius, within_hub
 from geneva_cli.layout.axles import hub_about
 from geneva_cli.layout.ball import Ball, inner_edge
 from geneva_cli.layout.bores import reach_or_bore
 from geneva_cli.layout.holds import arm_holds, key_holds, pin_that_holds, shaft_holds
-from geneva_cli.layout.plain_sizes import half_or, wall_min
+from geneva_cli.layout.plain_sizes import wall_min
 from geneva_cli.layout.sphere_stressed import sphere_stressed
 from geneva_cli.loads.strength.part_loads import PartLoads, single_loads
 from geneva_cli.loads.strength.shafts import ShaftDimensions, crank_forces, shaft, wheel_forces
@@ -131,12 +131,12 @@ def _hub_fits(spec: Spec, ball: Ball) -> bool:
     """Return True if the arm's hub fits: about its bore, in the arm, and past pins and wheel."""
     size, (under, over) = spec.size, ball.arm_span_mm
     wall, bored = wall_min(size, ball.radius_mm), reach_or_bore(size, "crank", ball.arm_bore_mm)
-    hub = half_or(size.arm_hub_mm, usual_hub(bored, ball.arm_bore_mm, wall, 0.0))
+    hub = arm_hub(size, bored, ball.arm_bore_mm, wall)
     hole = math.asin(min(1.0, hole_radius(size, ball.pin_mm) / under))
     to_pins = under * math.sin(max(0.0, ball.arm - hole - wall / under))
     flat = 0.99 * math.sqrt((over - under) * (over + under))
     passing = ball.arm + ball.passing_mm(ball.opening_mm) / ball.radius_mm
-    cap = ball.cap(hub, max(hub - bored, wall))
+    cap = ball.cap(hub, bored, wall)
     return bored + wall <= hub <= min(to_pins, flat) and cap <= passing
 
 

@@ -15,7 +15,7 @@ from geneva_cli.layout.arm_sizes import arm_bore, hole_radius
 from geneva_cli.layout.axles import about_crank, wheel_axle
 from geneva_cli.layout.ball import Ball, inner_edge
 from geneva_cli.layout.plain_sizes import drawn_thicknesses, pin_radius
-from geneva_cli.layout.sizes import lock_between, require_lock_between
+from geneva_cli.layout.sizes import lock_between, refuse_edges, require_lock_between
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.machine.rollers import places
 from geneva_cli.machine.spec import Spec
@@ -53,6 +53,7 @@ def ball(mechanism: Mechanism, roller_mm: float | None = None) -> Ball:
     _refuse_slots(bottom, w, z)
     thick, pin = drawn_thicknesses(size, L), pin_radius(size, radius_mm)
     _refuse_thick(thick, size, L, roller, pin)
+    refuse_edges(size, min(thick.wheel, thick.lock, thick.arm))
     inside, outside = L - 0.5 * thick.wheel, L + 0.5 * thick.wheel
     under = outside + size.allowances.pin_gap_mm  # the arm's inner face, on which the sectors stand
     slot_end = bottom - w

@@ -15,7 +15,7 @@ import math
 
 import numpy as np
 
-from geneva_cli.layout.arm_sizes import eye_about, hole_radius, usual_hub
+from geneva_cli.layout.arm_sizes import arm_hub, eye_about, hole_radius
 from geneva_cli.layout.ball import Ball
 from geneva_cli.layout.bores import reach_or_bore
 from geneva_cli.layout.plain_sizes import half_or, wall_min
@@ -50,8 +50,8 @@ def _arm(spec: Spec, ball: Ball) -> ArmDimensions:
     middle, thick = 0.5 * sum(ball.arm_span_mm), ball.arm_span_mm[1] - ball.arm_span_mm[0]
     wall, hole = wall_min(size, L), hole_radius(size, ball.pin_mm)
     bored = reach_or_bore(size, "crank", ball.arm_bore_mm)
-    hub = half_or(size.arm_hub_mm, usual_hub(bored, ball.arm_bore_mm, wall, 0.0))
-    cap = ball.cap(hub, max(hub - bored, wall))
+    hub = arm_hub(size, bored, ball.arm_bore_mm, wall)
+    cap = ball.cap(hub, bored, wall)
     eye = half_or(size.arm_eye_mm, eye_about(hole, wall, ball.passing_mm(ball.opening_mm)))
     offset = middle - L * math.cos(ball.arm)
     rows = L * ball.arm, middle * cap, middle * eye / L, bored, hole, thick, offset

@@ -13,7 +13,7 @@ import numpy as np
 
 from geneva_cli.analysis.locking import Lock
 from geneva_cli.errors import GenevaError
-from geneva_cli.layout.arm_sizes import arm_passing, eye_about, hole_radius, usual_hub
+from geneva_cli.layout.arm_sizes import arm_hub, arm_passing, eye_about, hole_radius
 from geneva_cli.layout.assembly import Assembly
 from geneva_cli.layout.bores import reach_or_bore
 from geneva_cli.layout.keyways import key
@@ -97,7 +97,7 @@ def _arm(assembly: Assembly, sizes: Sizes, contact: float) -> ArmDimensions:
     standing = 0.0 if is_whole(assembly, sizes) else sizes.lock
     hole = hole_radius(size, sizes.pin)
     bored = reach_or_bore(size, "crank", sizes.arm_bore)
-    hub = half_or(size.arm_hub_mm, usual_hub(bored, sizes.arm_bore, sizes.wall_min, standing))
+    hub = arm_hub(size, bored, sizes.arm_bore, sizes.wall_min, standing)
     eye = half_or(size.arm_eye_mm, eye_about(hole, sizes.wall_min, passing))
     offset = 0.5 * (contact + sizes.arm_thickness) + size.allowances.pin_gap_mm
     rows = length, hub, eye, bored, hole, sizes.arm_thickness, offset

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from geneva_cli.curves.cross_holes import drilled
 from geneva_cli.curves.drawing import Drawing
+from geneva_cli.curves.hole_walls import require_faces
 from geneva_cli.curves.inset import lines_and_arcs
 from geneva_cli.curves.pieces import prepared
 from geneva_cli.curves.plates import Part, Plate, Shell
@@ -46,6 +47,8 @@ def plate_contours(plate: Plate) -> tuple[Contour | Circle, ...]:
     shapes = drilled(shapes, plate.cross) if plate.cross else shapes
     if not plate.chamfer:
         return shapes
+    outline, *holes = shapes
+    require_faces(plate._replace(outline=outline, holes=tuple(holes)))
     return tuple(closed(shape.layer, lines_and_arcs(shape)) for shape in shapes)
 
 

@@ -15,6 +15,7 @@ from typing import NamedTuple
 import numpy as np
 
 from geneva_cli.curves.distance import Polyarc
+from geneva_cli.curves.hole_walls import least_wall
 from geneva_cli.curves.hull import convex_hull
 from geneva_cli.curves.shapes import Circle, Contour, Shape
 from geneva_cli.errors import GenevaError
@@ -27,7 +28,6 @@ from geneva_cli.layout.arm_sizes import (
 )
 from geneva_cli.layout.bolt_holes import bolt_radius
 from geneva_cli.layout.bores import bore_of, has_shape
-from geneva_cli.layout.hole_walls import least_wall
 from geneva_cli.layout.reliefs import keyway_direction, sectors
 from geneva_cli.outlines.crank import crank_circles, is_whole, roller_centres
 from geneva_cli.outlines.outlines import Outlines

@@ -13,7 +13,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from geneva_cli.curves import fit
-from geneva_cli.curves.plates import Group, Member, Plate, on_edges
+from geneva_cli.curves.hole_walls import require_faces
+from geneva_cli.curves.plates import Group, Member, Plate, on_edges, plates
 from geneva_cli.curves.shapes import Contour, Point
 from geneva_cli.kinematics.engagement import Engagement
 from geneva_cli.kinematics.layout import Dimension, Joint
@@ -286,9 +287,11 @@ class FlatParts:
 
     def require(self) -> None:
         """Raise GenevaError for a part that cannot be built, without fitting curves for it."""
-        if self.drawn:
-            _ = self.wheel, self.crank
-        _ = self._framed
+        turning = (self.wheel, self.crank) if self.drawn else ()
+        for member in (*turning, *self.links.cut, self.frame):
+            for plate in plates(member.part):
+                if plate.chamfer:
+                    require_faces(plate)
         pair_with_teeth(self.mechanism)
 
     @property

@@ -10,6 +10,7 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING, NamedTuple
 
+from geneva_cli.curves.hole_walls import least_wall
 from geneva_cli.curves.measure import turned
 from geneva_cli.curves.plates import Member, Plate
 from geneva_cli.curves.shapes import (
@@ -21,13 +22,11 @@ from geneva_cli.curves.shapes import (
     Segment,
     about,
     closed,
-    two_arcs,
 )
 from geneva_cli.errors import GenevaError
 from geneva_cli.kinematics.layout import Link, Teeth
 from geneva_cli.layout.bolt_holes import bolt_circle
 from geneva_cli.layout.gear_mesh import ToothedGear
-from geneva_cli.layout.hole_walls import least_wall
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.parts.link_sizes import LinkSizes
 
@@ -171,10 +170,7 @@ def sectors(radius: float, hub: float, teeth: Teeth) -> Contour:
 
 def gear_wall(plate: Plate) -> float:
     """Return the least wall between a gear's holes, and from them to its pitch circle or rim."""
-    outline = plate.outline
-    if isinstance(outline, Circle):
-        outline = closed(outline.layer, two_arcs(outline))
-    return least_wall(plate.holes, [outline])
+    return least_wall(plate.holes, [plate.outline])
 
 
 def _bored_by(at: Point, L: float) -> str:

@@ -14,13 +14,13 @@ from typing import NamedTuple
 
 import numpy as np
 
+from geneva_cli.curves.hole_walls import apart, least_wall
 from geneva_cli.curves.hull import convex_hull
 from geneva_cli.curves.plates import Member, Plate
 from geneva_cli.curves.shapes import Circle, Contour, Point, Shape
 from geneva_cli.errors import GenevaError
 from geneva_cli.kinematics.layout import Joint, Link
 from geneva_cli.layout.gear_mesh import GearMesh, gear_mesh
-from geneva_cli.layout.hole_walls import apart, least_wall
 from geneva_cli.layout.link_positions import links_at, same
 from geneva_cli.layout.plain_sizes import pin_radius
 from geneva_cli.machine.mechanism import Mechanism

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import math
 
+from geneva_cli.curves.hole_walls import least_wall
 from geneva_cli.curves.hull import convex_hull
 from geneva_cli.curves.plates import Member, Plate
 from geneva_cli.curves.shapes import Circle, Contour, Shape
@@ -15,7 +16,6 @@ from geneva_cli.errors import GenevaError
 from geneva_cli.layout.arm_sizes import arm_bore, hub_and_eye, lock_bolt_directions, pin_hole
 from geneva_cli.layout.bolt_holes import bolt_radius
 from geneva_cli.layout.bores import bore_of
-from geneva_cli.layout.hole_walls import least_wall
 from geneva_cli.layout.plain_sizes import drawn_thicknesses, half_or, pin_radius, wall_min
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.outlines.rack import RackSizes, locking_sector, rack_sizes

@@ -80,9 +80,9 @@ def _failure(check: Check) -> SummaryLine:
     if check.value is None or check.limit is None:
         return SummaryLine(label, check.why, explained, FAILS)
     advice = f"passes with {check.nearest}" if check.nearest else ""
-    change = "; ".join(words for words in (check.why, advice) if words)
+    refused = check.nearest and check.name in ("parts", "full_turn")  # the reason is the text
+    change = "; ".join(words for words in ("" if refused else check.why, advice) if words)
     note = f"{change} ({explained})" if change else explained
-    refused = check.nearest and check.name in ("parts", "full_turn")
     text = check.why if refused else meaning(check) or compared_text(check, unit)
     return SummaryLine(label, text, note, FAILS)
 

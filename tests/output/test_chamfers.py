@@ -126,3 +126,19 @@ def test_chamfers_that_do_not_fit():
     thin = Plate("spacer", "ARM", Circle("", (0.0, 0.0), 9.0), (), 0.0, 1.0, chamfer=CUT)
     with pytest.raises(GenevaError, match="the spacer is 1 mm thick"):
         "".join(chunks(drawing(thin), "mm"))
+
+
+def test_a_chamfer_wider_than_half_a_wall_fails():
+    """Of a washer with a wall of 4 mm, and of an arm that is half an eye narrower than it."""
+    washer = Plate(
+        "washer", "ARM", Circle("", (0.0, 0.0), 9.0), (Circle("", (0.0, 0.0), 5.0),), 0, 9
+    )
+    assert volume(washer._replace(chamfer=1.99)) < volume(washer)
+    with pytest.raises(GenevaError, match=r"the washer has a wall of 4 mm; it must be below 2"):
+        volume(washer._replace(chamfer=2.0))
+    wide = Design(External(6), size=Size(edge_chamfer_mm=1.5))
+    (failed,) = [check for check in wide.checks if check.passes is False]
+    assert failed.name == "parts" and "edge_chamfer_mm = 1.5: the arm has a wall" in failed.why
+    for chunked in (chunks, scad.data):
+        with pytest.raises(GenevaError, match="the arm has a wall of"):
+            list(chunked(wide.drawing("arm"), "mm"))

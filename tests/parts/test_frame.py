@@ -8,10 +8,10 @@ import pytest
 import repo
 
 from geneva_cli import Design, External, Internal, SideCrank, Size, Spherical, load
+from geneva_cli.curves.hole_walls import least_wall
 from geneva_cli.curves.plates import plates
 from geneva_cli.curves.shapes import Circle
 from geneva_cli.errors import GenevaError
-from geneva_cli.layout.hole_walls import least_wall
 from geneva_cli.layout.plain_sizes import wall_min
 
 # The pivots of the parts list whose shafts reach the frame, of each kind of drive. The crank of a

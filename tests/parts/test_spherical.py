@@ -442,6 +442,7 @@ def test_solids_are_closed(machine):
         ),
         (Size(80.0, 5.0, lock_thickness_mm=84.0), 6, "lock_thickness_mm = 84: the locking sectors"),
         (Size(80.0, 5.0, pin_mm=9.6), 6, "pin_mm = 9.6: it must be below 9.49"),
+        (Size(80.0, 5.0, edge_chamfer_mm=50.0), 6, "edge_chamfer_mm = 50: it must be below 4"),
     ],
 )
 def test_refused(size, z, said):

@@ -15,7 +15,7 @@ from geneva_cli.curves.cross_holes import CrossHole, Opening
 from geneva_cli.curves.inset import away, inset, lines_and_arcs
 from geneva_cli.curves.measure import fraction_at, with_material_left
 from geneva_cli.curves.plates import Plate
-from geneva_cli.curves.shapes import Arc, Circle, Contour, Line, Point, Segment, closed, two_arcs
+from geneva_cli.curves.shapes import Arc, Contour, Line, Point, Segment, as_contour
 from geneva_cli.output.mesh.polygons import (
     Triangle,
     arc_chords,
@@ -64,13 +64,10 @@ def plate_mesh(plate: Plate, tolerance: float) -> Surface:
     196
     """
     contours = [
-        with_material_left(_contour(shape), i == 0) for i, shape in enumerate(plate_contours(plate))
+        with_material_left(as_contour(shape), i == 0)
+        for i, shape in enumerate(plate_contours(plate))
     ]
     return _PlateMesh(plate, contours, tolerance).surface()
-
-
-def _contour(shape: Contour | Circle) -> Contour:
-    return closed(shape.layer, two_arcs(shape)) if isinstance(shape, Circle) else shape
 
 
 class _PlateMesh:

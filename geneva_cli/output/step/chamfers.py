@@ -12,7 +12,7 @@ from typing import NamedTuple
 from geneva_cli.curves.inset import corner, corner_slope, inset, lines_and_arcs
 from geneva_cli.curves.plates import Plate
 from geneva_cli.curves.shapes import Arc, Contour, Line
-from geneva_cli.output.step.curves import curve
+from geneva_cli.output.step.curves import curve, smooth_curve
 from geneva_cli.output.step.entities import (
     DIRECTION,
     Entities,
@@ -20,7 +20,6 @@ from geneva_cli.output.step.entities import (
     WallFace,
     edge,
     face,
-    listed,
     loop,
     real,
 )
@@ -110,24 +109,13 @@ def _rise(
     long = math.hypot(*along, 1.0)
     straight = isinstance(before, Line) and isinstance(after, Line)
     if straight or abs(math.hypot(*along) - 1.0) < 1e-9:  # of tangent pieces, along the normal
-        way = file.direction(along[0] / long, along[1] / long, side.up / long)
-        vector = file.shared(f"VECTOR('',{way},1.)")
+        heading = file.direction(along[0] / long, along[1] / long, side.up / long)
+        vector = file.shared(f"VECTOR('',{heading},1.)")
         return edge(file, *ends, f"LINE('',{file.point(start, side.wall)},{vector})", True)
-    step, poles = depth / CUBICS, []
+    step, places, slopes = depth / CUBICS, [], []
     for k in range(CUBICS + 1):
-        at = corner(before, after, k * step) if k else start
-        slope = *corner_slope(before, after, at), side.up
-        here = *at, side.wall + side.up * k * step
-        less, more = (
-            tuple(p + sign * step / 3.0 * q for p, q in zip(here, slope, strict=True))
-            for sign in (-1.0, 1.0)
-        )
-        poles += [*([less] if k else [here]), *([more] if k < CUBICS else [here])]
-    points = listed([file.point((x, y), z) for x, y, z in poles])
-    counts = listed(["4", *["2"] * (CUBICS - 1), "4"])
-    knots = listed([real(k / CUBICS, DIRECTION) for k in range(CUBICS + 1)])
-    spline = (
-        f"B_SPLINE_CURVE_WITH_KNOTS('',3,{points},.UNSPECIFIED.,.F.,.F.,{counts},{knots},"
-        ".UNSPECIFIED.)"
-    )
-    return edge(file, *ends, spline, True)
+        x, y = corner(before, after, k * step) if k else start
+        u, v = corner_slope(before, after, (x, y))
+        places.append((x, y, side.wall + side.up * k * step))
+        slopes.append((step * u, step * v, step * side.up))
+    return edge(file, *ends, smooth_curve(file, places, slopes), True)

@@ -14,7 +14,8 @@ from geneva_cli.curves.cross_holes import CrossHole, Opening
 from geneva_cli.curves.measure import with_material_left
 from geneva_cli.curves.plates import Plate
 from geneva_cli.curves.shapes import Circle, Shape
-from geneva_cli.output.step.entities import DIRECTION, Entities, edge, face, listed, loop, real
+from geneva_cli.output.step.curves import smooth_curve
+from geneva_cli.output.step.entities import Entities, edge, face, loop, real
 from geneva_cli.output.step.splines import Piece
 
 CUBICS = 128  # of an edge: their error is 5e-9 of the hole's radius, a hundredth of the file's
@@ -64,26 +65,16 @@ def _rim(file: Entities, hole: CrossHole, opening: Opening) -> Rim:
     """Write the edge of a hole in a wall, counterclockwise about the hole's direction."""
     r, step = hole.radius, math.tau / CUBICS
     c, s = math.cos(hole.turn), math.sin(hole.turn)
-    poles = []
+    places, slopes = [], []
     for k in range(CUBICS):
         # quarter turns at once, so that the last pole is the first one
         y, up = -r * math.sin(step * k), r * math.cos(step * k)
         x, y1, up1 = opening.x(y), -up, y
-        at = *hole.placed(x, y), hole.height + up
+        places.append((*hole.placed(x, y), hole.height + up))
         x1 = opening.slope(y) * y1
-        along = c * x1 - s * y1, s * x1 + c * y1, up1
-        before, after = (
-            tuple(p + sign * step / 3.0 * q for p, q in zip(at, along, strict=True))
-            for sign in (-1.0, 1.0)
-        )
-        poles += [before, at, after] if k == 0 else [before, after]
-    first, start, *between = poles
-    points = [file.point((x, y), z) for x, y, z in (start, *between, first, start)]
-    count = listed(["4", *["2"] * (CUBICS - 1), "4"])
-    knots = listed([real(k / CUBICS, DIRECTION) for k in range(CUBICS + 1)])
-    curve = (
-        f"B_SPLINE_CURVE_WITH_KNOTS('',3,{listed(points)},.UNSPECIFIED.,.T.,.F.,{count},{knots},"
-        ".UNSPECIFIED.)"
-    )
-    vertex = file.add(f"VERTEX_POINT('',{points[0]})")
-    return Rim(vertex, points[0], edge(file, vertex, vertex, curve, True))
+        slopes.append((step * (c * x1 - s * y1), step * (s * x1 + c * y1), step * up1))
+    curve = smooth_curve(file, [*places, places[0]], [*slopes, slopes[0]])
+    x, y, z = places[0]
+    point = file.point((x, y), z)
+    vertex = file.add(f"VERTEX_POINT('',{point})")
+    return Rim(vertex, point, edge(file, vertex, vertex, curve, True))

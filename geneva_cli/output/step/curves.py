@@ -3,10 +3,14 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterable, Sequence
+from typing import TypeAlias
 
 from geneva_cli.curves.shapes import Arc, Line, Point
 from geneva_cli.output.step.entities import DIRECTION, Entities, listed, real
 from geneva_cli.output.step.splines import Piece, Spline
+
+Place: TypeAlias = tuple[float, float, float]
 
 
 def level(file: Entities, z: float) -> str:
@@ -24,19 +28,37 @@ def curve(file: Entities, piece: Piece, z: float) -> str:
     return _spline(file, piece, z)
 
 
+def smooth_curve(file: Entities, places: Sequence[Place], slopes: Sequence[Place]) -> str:
+    """The text of a curve of cubics with these ends, and slopes per cubic; closed at one place."""
+    poles: list[Place] = []
+    for (x, y, z), (u, v, w) in zip(places, slopes, strict=True):
+        before = x - u / 3.0, y - v / 3.0, z - w / 3.0
+        after = x + u / 3.0, y + v / 3.0, z + w / 3.0
+        poles += [before, after]
+    poles = [places[0], *poles[1:-1], places[-1]]
+    return _cubics(file, poles, range(len(places)), closed=places[0] == places[-1])
+
+
 def _spline(file: Entities, spline: Spline, z: float) -> str:
-    poles = listed([file.point(p, z) for p in spline.poles])
-    count, knots = knots_of(spline)
+    return _cubics(file, [(*p, z) for p in spline.poles], spline.knots)
+
+
+def _cubics(
+    file: Entities, poles: Iterable[Place], ends: Sequence[float], closed: bool = False
+) -> str:
+    points = listed([file.point((x, y), z) for x, y, z in poles])
+    count, knots = knots_of(ends)
+    flag = ".T." if closed else ".F."
     return (
-        f"B_SPLINE_CURVE_WITH_KNOTS('',3,{poles},.UNSPECIFIED.,.F.,.F.,{count},{knots},"
+        f"B_SPLINE_CURVE_WITH_KNOTS('',3,{points},.UNSPECIFIED.,{flag},.F.,{count},{knots},"
         ".UNSPECIFIED.)"
     )
 
 
-def knots_of(spline: Spline) -> tuple[str, str]:
+def knots_of(ends: Sequence[float]) -> tuple[str, str]:
     """The multiplicity of each knot, two where a cubic is once differentiable, and the knots."""
-    count = listed(["4", *["2"] * (len(spline.knots) - 2), "4"])
-    return count, listed([real(knot / spline.knots[-1], DIRECTION) for knot in spline.knots])
+    count = listed(["4", *["2"] * (len(ends) - 2), "4"])
+    return count, listed([real(end / ends[-1], DIRECTION) for end in ends])
 
 
 def unit_of(line: Line) -> Point:

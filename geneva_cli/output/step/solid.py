@@ -124,7 +124,7 @@ def surface(file: Entities, piece: Piece, plate: Plate) -> str:
     # extruded curve.
     levels = plate.low, plate.high
     poles = listed([listed([file.point(p, z) for z in levels]) for p in piece.poles])
-    count, knots = knots_of(piece)
+    count, knots = knots_of(piece.knots)
     return file.add(
         f"B_SPLINE_SURFACE_WITH_KNOTS('',3,1,{poles},.UNSPECIFIED.,.F.,.F.,.F.,{count},(2,2),"
         f"{knots},(0.,1.),.UNSPECIFIED.)"

@@ -92,7 +92,7 @@ def _arm(parts: Shells, bolts_each: int) -> CapArm:
     around = hub - form.reach  # the hub's wall
     pins = tuple(RoundHole(place(ball.arm, azimuth), hole) for azimuth in ball.rollers)
     screwed = _bolts(parts, bolts_each)
-    cap, eye = ball.cap(hub, max(around, wall)), eye / ball.radius_mm
+    cap, eye = ball.cap(hub, form.reach, wall), eye / ball.radius_mm
     caps = [Cap(POLE, cap)]
     caps += [Cap(pin.axis, eye) for pin in pins]
     caps += [Cap(b.axis, eye_about(b.radius, wall) / under) for b in screwed]

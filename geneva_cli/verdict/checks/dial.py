@@ -5,9 +5,9 @@ from __future__ import annotations
 from itertools import combinations
 
 from geneva_cli.curves.distance import Polyarc
+from geneva_cli.curves.hole_walls import apart, beyond
 from geneva_cli.curves.shapes import Circle, backwards
 from geneva_cli.layout.bores import has_shape
-from geneva_cli.layout.hole_walls import apart, beyond
 from geneva_cli.outlines.wheel import wheel_circles
 from geneva_cli.parts.flat_parts import FlatParts
 from geneva_cli.verdict.checks.check import Check, compared

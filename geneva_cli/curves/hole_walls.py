@@ -5,12 +5,18 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Sequence
 from itertools import combinations
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from geneva_cli.curves.distance import Polyarc
+from geneva_cli.curves.inset import inset, lines_and_arcs
 from geneva_cli.curves.measure import with_material_left
-from geneva_cli.curves.shapes import Circle, Shape
+from geneva_cli.curves.shapes import Circle, Shape, as_contour
+from geneva_cli.errors import GenevaError
+
+if TYPE_CHECKING:
+    from geneva_cli.curves.plates import Plate
 
 FINE, LONGEST = 1e-4, 0.5  # mm: sagitta and length of samples of a hole that is not a circle
 
@@ -52,8 +58,18 @@ def _points(hole: Shape) -> np.ndarray:
 
 
 def _boundary(shapes: Iterable[Shape]) -> Polyarc:
-    contours = []
-    for shape in shapes:
-        assert not isinstance(shape, Circle)  # distances from a circle need no pieces
-        contours.append(with_material_left(shape, True))
-    return Polyarc(contours)
+    return Polyarc([with_material_left(as_contour(shape), True) for shape in shapes])
+
+
+def require_faces(plate: Plate) -> None:
+    """Raise GenevaError, naming the key, where the plate's chamfer cuts off a piece of a face."""
+    depth = plate.chamfer
+    for i, shape in enumerate((plate.outline, *plate.holes)):
+        inset(lines_and_arcs(with_material_left(as_contour(shape), i == 0)), "", depth)
+    wall = least_wall(plate.holes, [plate.outline])
+    if wall <= 2.0 * depth:
+        raise GenevaError(
+            f"edge_chamfer_mm = {depth:g}: the {plate.name} has a wall of {wall:.4g} mm; it must "
+            f"be below {0.5 * wall:.4g}",
+            ("size", "edge_chamfer_mm"),
+        )
