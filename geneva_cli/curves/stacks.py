@@ -50,6 +50,7 @@ def sides(contour: Contour) -> tuple[Side, ...]:
 def levels(stack: Stack) -> list[Level]:
     """Return the faces across the axis of a turned part, from the lowest up.
 
+    >>> from geneva_cli.curves.shapes import Circle
     >>> wide, thin = Circle("", (0.0, 0.0), 5.0), Circle("", (0.0, 0.0), 4.0)
     >>> plates = Plate("", "", wide, (), 0.0, 3.0), Plate("", "", thin, (), 3.0, 9.0)
     >>> [(level.z, len(level.loops), level.up) for level in levels(Stack("", "", plates))]

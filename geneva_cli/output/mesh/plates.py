@@ -59,6 +59,7 @@ def plate_mesh(plate: Plate, tolerance: float) -> Surface:
 
     Raises GenevaError for a plate without thickness, and for contours that cross.
 
+    >>> from geneva_cli.curves.shapes import Circle
     >>> disc = Plate("disc", "CRANK", Circle("", (0.0, 0.0), 50.0), (), 0.0, 10.0)
     >>> len(plate_mesh(disc, 0.1).triangles)  # 50 chords: 2 x 48 in the faces, 2 x 50 in the wall
     196
