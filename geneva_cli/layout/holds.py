@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -19,6 +20,7 @@ if TYPE_CHECKING:
     from geneva_cli.layout.stressed import Stressed
     from geneva_cli.loads.strength.part_loads import PartLoads
     from geneva_cli.machine.spec import Spec
+    from geneva_cli.spec.tables import Size
 
 
 def pin_that_holds(spec: Spec, contact: float, least: float, most: float, force_N: float) -> float:
@@ -45,6 +47,16 @@ def key_holds(spec: Spec, key: KeyDimensions, torque_Nm: float) -> bool:
     stress = key_stress(key, turned, np.asarray(sides), np.asarray(shear))
     least = float(stress.least_length_mm)
     return math.isnan(least) or keeps(float(key.length), "at least", least)
+
+
+def arm_trials(size: Size, wheel: float) -> Iterator[tuple[bool, float]]:
+    """Yield in their order whether the crank's bore is sized by its key, and the arm's thickness.
+
+    A thicker arm, up to twice the thickness of the wheel, is better for a key than a thicker shaft.
+    """
+    for keyed in (False, True) if size.crank_keyway else (True,):
+        for thick in rounded_from(wheel, 2.0 * wheel):
+            yield keyed, thick
 
 
 def arm_holds(spec: Spec, parts: Stressed, loads: PartLoads) -> bool:

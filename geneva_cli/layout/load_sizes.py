@@ -22,7 +22,7 @@ from geneva_cli.layout.arm_sizes import (
     within_hub,
 )
 from geneva_cli.layout.assembly import Assembly
-from geneva_cli.layout.holds import arm_holds, key_holds, pin_that_holds, shaft_holds
+from geneva_cli.layout.holds import arm_holds, arm_trials, key_holds, pin_that_holds, shaft_holds
 from geneva_cli.layout.link_positions import links_at
 from geneva_cli.layout.plain_sizes import Sizes, drawn_thicknesses
 from geneva_cli.layout.roller_paths import roller_reaches
@@ -55,13 +55,10 @@ def load_sizes(
     has_arm = sizes.arm_bore > 0.0 and sizes.pin > 0.0
     if not has_arm or size.arm_thickness_mm is not None:
         return _bored(assembly, sizes, loads, space)
-    # a thicker arm, up to twice the wheel, is better for a key than a thicker shaft
-    plates = rounded_from(sizes.wheel_thickness, 2.0 * sizes.wheel_thickness)
-    for keyed in (False, True) if size.crank_keyway else (True,):
-        for arm in plates:
-            trial = _bored(assembly, _thick(assembly, sizes, arm=arm), loads, space, keyed)
-            if arm_holds(assembly.full.spec, stressed(assembly, trial), loads):
-                return trial
+    for keyed, arm in arm_trials(size, sizes.wheel_thickness):
+        trial = _bored(assembly, _thick(assembly, sizes, arm=arm), loads, space, keyed)
+        if arm_holds(assembly.full.spec, stressed(assembly, trial), loads):
+            break
     return trial
 
 

@@ -14,7 +14,7 @@ from geneva_cli.layout.arm_sizes import arm_hub, hole_radius, within_hub
 from geneva_cli.layout.axles import hub_about
 from geneva_cli.layout.ball import Ball, inner_edge
 from geneva_cli.layout.bores import reach_or_bore
-from geneva_cli.layout.holds import arm_holds, key_holds, pin_that_holds, shaft_holds
+from geneva_cli.layout.holds import arm_holds, arm_trials, key_holds, pin_that_holds, shaft_holds
 from geneva_cli.layout.plain_sizes import wall_min
 from geneva_cli.layout.sphere_stressed import sphere_stressed
 from geneva_cli.loads.strength.part_loads import PartLoads, single_loads
@@ -22,7 +22,7 @@ from geneva_cli.loads.strength.shafts import ShaftDimensions, crank_forces, shaf
 from geneva_cli.machine.both_ways import every_way
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.machine.spec import Spec
-from geneva_cli.numerics.preferred import bores_from, rounded_from
+from geneva_cli.numerics.preferred import bores_from
 
 if TYPE_CHECKING:
     from geneva_cli.loads.strength.shafts import ShaftForces
@@ -39,15 +39,12 @@ def sphere_load_sizes(mechanism: Mechanism, usual: Ball) -> Ball:
     ball = usual._replace(pin_mm=_pin(mechanism, usual, loads))
     if not ball.arm_bore_mm or size.arm_thickness_mm is not None:
         return _bored(mechanism, ball, loads)
-    wheel = ball.span_mm[1] - ball.span_mm[0]
-    # a thicker arm, up to twice the wheel, is better for a key than a thicker shaft
-    for keyed in (False, True) if size.crank_keyway else (True,):
-        for thick in rounded_from(wheel, 2.0 * wheel):
-            under, _ = ball.arm_span_mm
-            thicker = ball._replace(arm_span_mm=(under, under + thick))
-            trial = _bored(mechanism, thicker, loads, keyed)
-            if arm_holds(mechanism.spec, sphere_stressed(mechanism.spec, trial), loads):
-                return trial
+    under, _ = ball.arm_span_mm
+    for keyed, thick in arm_trials(size, ball.span_mm[1] - ball.span_mm[0]):
+        thicker = ball._replace(arm_span_mm=(under, under + thick))
+        trial = _bored(mechanism, thicker, loads, keyed)
+        if arm_holds(mechanism.spec, sphere_stressed(mechanism.spec, trial), loads):
+            break
     return trial
 
 
