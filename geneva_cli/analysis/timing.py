@@ -30,6 +30,13 @@ class Timing(NamedTuple):
     cycle_s: float
     index_mm: float | None = None
 
+    @property
+    def step(self) -> float:
+        """The step in the output's unit: a wheel's in degrees, or a rack's in millimetres."""
+        own = self.index_mm if self.index_deg is None else self.index_deg
+        assert own is not None  # a machine has one of them
+        return own
+
 
 def timing(
     motion_deg: float,

@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from geneva_cli.commands import completion
-from geneva_cli.commands.options import Format, Output, Settings
+from geneva_cli.commands.options import AlsoReverse, Format, Output, Settings
 from geneva_cli.errors import GenevaError
 
 if TYPE_CHECKING:
@@ -47,9 +47,7 @@ def run(
         bool, typer.Option("--ratio", help="Numbers over the first design's.")
     ] = False,
     differing: Annotated[bool, typer.Option("--differing", help="Only what differs.")] = False,
-    reverse: Annotated[
-        bool, typer.Option("--reverse", help="Also each design turning the other way.")
-    ] = False,
+    reverse: AlsoReverse = False,
     settings: Settings = None,
     output: Output = "-",
     format: Format = "",

@@ -37,6 +37,9 @@ Settings: TypeAlias = Annotated[
 Reverse: TypeAlias = Annotated[
     bool, typer.Option("--reverse", help="Turn the input the other way.")
 ]
+AlsoReverse: TypeAlias = Annotated[
+    bool, typer.Option("--reverse", help="Also each design turning the other way.")
+]
 Output: TypeAlias = Annotated[
     str,
     typer.Option(

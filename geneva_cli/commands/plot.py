@@ -5,7 +5,7 @@ from typing import Annotated
 import typer
 
 from geneva_cli.commands import completion
-from geneva_cli.commands.options import Output, Settings, say, warn
+from geneva_cli.commands.options import AlsoReverse, Output, Settings, say, warn
 from geneva_cli.errors import GenevaError, cut
 
 EXAMPLES = (
@@ -42,9 +42,7 @@ def run(
             autocompletion=completion.keys,
         ),
     ] = None,
-    reverse: Annotated[
-        bool, typer.Option("--reverse", help="Also each design turning the other way.")
-    ] = False,
+    reverse: AlsoReverse = False,
     settings: Settings = None,
     output: Output = "-",
     format: Annotated[

@@ -84,10 +84,8 @@ def sizing(cycle: Cycle) -> tuple[Mapping[str, float | None], tuple[str, ...]]:
     names, torque = (
         (SIZING_NAMES, cycle.known[TORQUE]) if cycle.is_loaded else (KNOWN_UNLOADED, None)
     )
-    rows, lacks = (
-        sizings(cycle.mechanism, names, torque, cycle.peaks),
-        cycle.mechanism.output.lacks,
-    )
+    rows = sizings(cycle.mechanism, names, torque, cycle.peaks)
+    lacks = cycle.mechanism.output.lacks
     values = {name: float(row[0]) for name, row in rows.items() if name not in lacks}
     out = {
         name: x if math.isfinite(x := values.get(name, math.nan)) else None for name in SHOWN_SIZING
@@ -275,9 +273,10 @@ def inertia_ratio(mechanism: Mechanism, fastest: N) -> tuple[N, N]:
     """
     spec, frame = mechanism.spec, mechanism.frame
     others = max(0, spec.drive.wheels_on_carrier - 1) * frame * frame
-    still, mu = (
-        inertia_kgm2(spec) * (turn * turn + others) / spec.motor.gear_ratio**2
-        for turn in (0.0 * fastest + frame, fastest + frame)
-    )
-    still, mu = (x / spec.motor.inertia_kgm2 for x in (still, mu))
+
+    def over_motor(turn: N) -> N:
+        own = inertia_kgm2(spec) * (turn * turn + others) / spec.motor.gear_ratio**2
+        return own / spec.motor.inertia_kgm2
+
+    still, mu = over_motor(0.0 * fastest + frame), over_motor(fastest + frame)
     return larger(mu, still), library(mu).sqrt((1.0 + still) / (1.0 + mu))

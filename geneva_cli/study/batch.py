@@ -69,7 +69,10 @@ def verdicts(
 def checks_table(verdicts: Sequence[Verdict]) -> Table:
     """A table with one row for each check of each spec."""
     rows = [
-        (v.path, *c[:2], c.at_deg, *c[2:5], c.nearest, c.why, c.direction)
+        (
+            *(v.path, c.name, c.value, c.at_deg, c.must_be, c.limit, c.passes, c.nearest, c.why),
+            c.direction,
+        )
         for v in verdicts
         for c in v.checks
     ]

@@ -11,6 +11,7 @@ import mpmath
 import numpy as np
 import pytest
 from sampling import some
+from strength_checks import HORNS, PARTS, rows
 
 from geneva_cli import Crank, Design, External, Internal, SideCrank
 from geneva_cli.errors import GenevaError
@@ -30,24 +31,10 @@ from geneva_cli.machine.many import many
 from geneva_cli.machine.mechanism import build
 from geneva_cli.machine.spec import Spec
 from geneva_cli.spec.tables import Load, Shaft, Size, WheelMaterial
-from geneva_cli.verdict.checks import checks
 from geneva_cli.verdict.quantities.designs import Designs
 from geneva_cli.verdict.quantities.strength import arm, crank_key, crank_shaft, pin, wheel_shaft
 
-STRENGTH = (
-    "pin_stress_MPa",
-    "horn_stress_MPa",
-    "lock_horn_stress_MPa",
-    "wheel_shaft_stress_MPa",
-    "crank_shaft_stress_MPa",
-    "arm_stress_MPa",
-    "wheel_key_pressure_MPa",
-    "crank_key_pressure_MPa",
-)
-
-
-def rows(spec):
-    return {check.name: check for check in checks(build(spec), turned=False)}
+STRENGTH = PARTS + HORNS
 
 
 def sizes_of(spec):

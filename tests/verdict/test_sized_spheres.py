@@ -11,6 +11,7 @@ import random
 import numpy as np
 import pytest
 from sampling import some
+from strength_checks import PARTS, rows
 
 from geneva_cli import Crank, Spherical
 from geneva_cli.errors import GenevaError
@@ -22,22 +23,8 @@ from geneva_cli.machine.many import many
 from geneva_cli.machine.mechanism import build
 from geneva_cli.machine.spec import Spec
 from geneva_cli.spec.tables import Load, Shaft, Size
-from geneva_cli.verdict.checks import checks
 from geneva_cli.verdict.quantities.designs import Designs
 from geneva_cli.verdict.quantities.strength import arm, crank_key, crank_shaft, pin, wheel_shaft
-
-STRENGTH = (
-    "pin_stress_MPa",
-    "wheel_shaft_stress_MPa",
-    "crank_shaft_stress_MPa",
-    "arm_stress_MPa",
-    "wheel_key_pressure_MPa",
-    "crank_key_pressure_MPa",
-)
-
-
-def rows(spec):
-    return {check.name: check for check in checks(build(spec), turned=False)}
 
 
 def rotated(v, axis, angle):
@@ -209,7 +196,7 @@ def test_no_default_on_a_sphere_passes_beyond_its_steel(seed):
             continue
         sizes, loads = ball(machine), single_loads(machine)
         parts = sphere_stressed(machine.spec, sizes)
-        checked = {name: after[name] for name in STRENGTH if name in after}
+        checked = {name: after[name] for name in PARTS if name in after}
         assert {"pin_stress_MPa", "wheel_shaft_stress_MPa", "arm_stress_MPa"} <= set(checked)
         pin_MPa = 16.0 * loads.pin_N * parts.contact / (math.pi * parts.pin**3)
         assert (pin_MPa <= 165.0 * (1.0 + 1e-9)) >= bool(checked["pin_stress_MPa"].passes)
@@ -221,7 +208,7 @@ def test_no_default_on_a_sphere_passes_beyond_its_steel(seed):
                 assert twisted <= limit * (1.0 + 1e-9)
         strong = all(check.passes for check in checked.values())
         fails = {name for name, check in after.items() if check.passes is False}
-        others = fails - set(STRENGTH) - {n for n, c in before.items() if c.passes is False}
+        others = fails - set(PARTS) - {n for n, c in before.items() if c.passes is False}
         assert not others, (others, strong, spec, load)
 
 
@@ -255,7 +242,7 @@ def test_the_spec_s_sizes_on_a_sphere_stay():
         pytest.approx(5.0, rel=1e-12)
     )
     after = rows(spec)
-    failing = [name for name in STRENGTH if name in after and not after[name].passes]
+    failing = [name for name in PARTS if name in after and not after[name].passes]
     assert failing == [
         "pin_stress_MPa",
         "wheel_shaft_stress_MPa",

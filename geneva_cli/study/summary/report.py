@@ -53,8 +53,7 @@ def _cycle(design: Design, values: dict[str, Any]) -> SummaryLine:
     """Steps, times and speed."""
     timings = design.timings
     unit = design.mechanism.output.unit
-    each = ((t.index_mm or 0.0) if t.index_deg is None else t.index_deg for t in timings)
-    steps = " and ".join(dict.fromkeys(measured(step, unit) for step in each))
+    steps = " and ".join(dict.fromkeys(measured(t.step, unit) for t in timings))
     motions = " and ".join(dict.fromkeys(measured(t.motion_s, "s") for t in timings))
     dwells = " and ".join(dict.fromkeys(measured(t.dwell_s, "s") for t in timings))
     n_rpm = measured(design.spec.drive.n_rpm, "rpm")
@@ -78,8 +77,11 @@ def _size(values: dict[str, Any]) -> SummaryLine:
 
 def _peaks(values: dict[str, Any], unit: str) -> Iterator[SummaryLine]:
     """Peaks of the output's motion, at the design's speed."""
-    for name, power in (("velocity", ""), ("acceleration", "²"), ("jerk", "³")):
-        end = f"{unit}_s{ {'²': '2', '³': '3'}.get(power, '') }"
-        size = measured(values[f"{name}.max_{end}"], f"{unit}/s{power}")
+    for name, digit, power in (
+        ("velocity", "", ""),
+        ("acceleration", "2", "²"),
+        ("jerk", "3", "³"),
+    ):
+        size = measured(values[f"{name}.max_{unit}_s{digit}"], f"{unit}/s{power}")
         at_deg = measured(values[f"{name}.at_deg"], "deg")
         yield SummaryLine(name, f"{size} at {at_deg}")

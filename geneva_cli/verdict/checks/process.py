@@ -1,24 +1,48 @@
-"""Limits of the process that ``[size] process`` names, for plates that it cuts."""
+"""Limits of the process that ``[size] process`` names, for plates and shells that it cuts."""
 
 from __future__ import annotations
 
+import math
+
+from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.parts.flat_parts import FlatParts
+from geneva_cli.parts.sphere.sphere_parts import SphereParts
 from geneva_cli.spec.workshops import workshop
 from geneva_cli.verdict.checks.check import Check, compared
 
 
 def thickest_plate(name: str, parts: FlatParts) -> Check | None:
     """The thickest plate of wheel, disc and arm, where the process has a limit."""
-    most, sizes = workshop(parts.mechanism.spec.size.process).plate_mm, parts.outlines.sizes
-    if most == float("inf"):
-        return None
+    sizes = parts.outlines.sizes
     thick = max(sizes.wheel_thickness, sizes.lock_thickness, sizes.arm_thickness)
-    return compared(name, thick, "at most", most)
+    return _thickness(name, parts.mechanism, thick)
+
+
+def thickest_shell(name: str, parts: SphereParts) -> Check | None:
+    """The thickest shell of a sphere, where the process has a limit for plates."""
+    ball = parts.ball
+    spans = ball.span_mm, ball.lock_span_mm, ball.arm_span_mm
+    return _thickness(name, parts.mechanism, max(outer - inner for inner, outer in spans))
 
 
 def slot_width(name: str, parts: FlatParts) -> Check | None:
     """The slots' width, where the process cuts none that is narrow for its plate."""
-    least, sizes = workshop(parts.mechanism.spec.size.process).hole, parts.outlines.sizes
-    if not least:
-        return None
-    return compared(name, 2.0 * sizes.half_width, "at least", least * sizes.wheel_thickness)
+    sizes = parts.outlines.sizes
+    return _width(name, parts.mechanism, 2.0 * sizes.half_width, sizes.wheel_thickness)
+
+
+def width_in_shell(name: str, parts: SphereParts) -> Check | None:
+    """The width of a sphere's slots inside, where the process cuts none that is narrow."""
+    inner, outer = parts.ball.span_mm
+    wide = 2.0 * inner * math.sin(parts.ball.half_width)
+    return _width(name, parts.mechanism, wide, outer - inner)
+
+
+def _thickness(name: str, mechanism: Mechanism, thick: float) -> Check | None:
+    most = workshop(mechanism.spec.size.process).plate_mm
+    return None if most == math.inf else compared(name, thick, "at most", most)
+
+
+def _width(name: str, mechanism: Mechanism, wide: float, thick: float) -> Check | None:
+    least = workshop(mechanism.spec.size.process).hole
+    return compared(name, wide, "at least", least * thick) if least else None

@@ -104,8 +104,8 @@ SPHERE: Checks = {
     "dial_wall_mm": "sphere:dial",
     "beside_shafts_mm": "sphere:passing_parts",
     "arm_wall_mm": "sphere:arm_wall",
-    "cut_plate_mm": "sphere:thickest_shell",
-    "cut_slot_mm": "sphere:slot_width",
+    "cut_plate_mm": "process:thickest_shell",
+    "cut_slot_mm": "process:width_in_shell",
     "parts": "buildable:solids",
 }
 # Checks of plates or shells in a whole turn.

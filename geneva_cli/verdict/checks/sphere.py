@@ -9,7 +9,6 @@ from geneva_cli.drawings.sphere.shaft_gap import shaft_gap
 from geneva_cli.outlines.sphere_wheel import POLE
 from geneva_cli.parts.sphere.dial import dial_wall
 from geneva_cli.parts.sphere.sphere_parts import SphereParts
-from geneva_cli.spec.workshops import workshop
 from geneva_cli.verdict.checks.check import Check, at_least, compared, gap
 
 
@@ -71,26 +70,6 @@ def passing_parts(name: str, parts: SphereParts) -> Check | None:
     if any(row and row.value is None for row in walls):
         return None
     return gap(name, lambda: shaft_gap(parts), parts.ball.radius_mm)
-
-
-def thickest_shell(name: str, parts: SphereParts) -> Check | None:
-    """The thickest shell, where the process has a limit for plates."""
-    most, ball = workshop(parts.mechanism.spec.size.process).plate_mm, parts.ball
-    if most == math.inf:
-        return None
-    spans = ball.span_mm, ball.lock_span_mm, ball.arm_span_mm
-    thick = max(outer - inner for inner, outer in spans)
-    return compared(name, thick, "at most", most)
-
-
-def slot_width(name: str, parts: SphereParts) -> Check | None:
-    """The slots' width inside, where the process cuts none that is narrow for its plate."""
-    least, ball = workshop(parts.mechanism.spec.size.process).hole, parts.ball
-    if not least:
-        return None
-    inner, outer = ball.span_mm
-    wide = 2.0 * inner * math.sin(ball.half_width)
-    return compared(name, wide, "at least", least * (outer - inner))
 
 
 def _wall(name: str, angle: float, parts: SphereParts) -> Check:

@@ -16,12 +16,11 @@ def both_ways(model: PartsModel) -> Values:
 
     Places are left out, and what needs the parts: they are the same parts.
     """
-    forwards, *others = every_way(model.mechanism)
     groups = [group for group in REPORT if not group.makes_parts and group.own]
     rows: list[tuple[str, float, float]] = []
-    for backwards in others:
+    for backwards in every_way(model.mechanism)[1:]:
         back = values(groups, PartsModel(backwards))
-        for name, one in values(groups, PartsModel(forwards)).items():
+        for name, one in values(groups, model).items():
             other = back[name]
             if name.endswith("_deg") or not (isinstance(one, float) and isinstance(other, float)):
                 continue

@@ -28,14 +28,14 @@ def wheels(model: PartsModel) -> Values:
     Angles are those of the carrier from the middle of the first wheel's motion.
     """
     mechanism = model.mechanism
-    count = mechanism.spec.drive.wheels_on_carrier
-    if count < 2:
+    places = mechanism.wheel_places
+    if len(places) < 2:
         return {"wheels": None}
     (one,) = mechanism.engagements  # one finger, which all wheels meet alike
     names = ("wheel", "behind_deg", "entry_deg", "exit_deg", "entry_s")
     rows = []
-    for k in range(count):
-        behind = 360.0 * k / count
+    for place in places:
+        behind = place.behind_deg
         after_s = behind / (6.0 * mechanism.spec.drive.n_rpm)  # n rpm is 6 n degrees a second
-        rows.append((k + 1, behind, behind + one.entry_deg, behind + one.exit_deg, after_s))
+        rows.append((place.number, behind, behind + one.entry_deg, behind + one.exit_deg, after_s))
     return {"wheels": rows_table(names, rows)}

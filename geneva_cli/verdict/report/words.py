@@ -29,11 +29,8 @@ def words(mechanism: Mechanism) -> str:
         text += f" A convex face in place of a recess blocks the crank after {wheel.z - 1} turns."
     each = [timings(mechanism)[i] for i in range(len(mechanism.engagements))]
     output = mechanism.output
-    if output.turns:
-        verb, steps = "turns", {mechanism.index_deg(i) for i in range(len(each))}
-    else:
-        verb, steps = "moves", {t.index_mm or 0.0 for t in each}
-    turn = f"{verb} by {' or '.join(f'{step:.6g}' for step in sorted(steps))} {output.unit}"
+    verb, steps = "turns" if output.turns else "moves", sorted({t.step for t in each})
+    turn = f"{verb} by {' or '.join(f'{step:.6g}' for step in steps)} {output.unit}"
     if len(each) == 1:
         text += (
             f" It {turn} in {each[0].motion_s:.4g} s and then rests for {each[0].dwell_s:.4g} s."

@@ -1,0 +1,18 @@
+"""The checks of strength that default sizes must pass, and the checks of a spec by their names."""
+
+from geneva_cli.machine.mechanism import build
+from geneva_cli.verdict.checks import checks
+
+PARTS = (
+    "pin_stress_MPa",
+    "wheel_shaft_stress_MPa",
+    "crank_shaft_stress_MPa",
+    "arm_stress_MPa",
+    "wheel_key_pressure_MPa",
+    "crank_key_pressure_MPa",
+)
+HORNS = ("horn_stress_MPa", "lock_horn_stress_MPa")
+
+
+def rows(spec):
+    return {check.name: check for check in checks(build(spec), turned=False)}
