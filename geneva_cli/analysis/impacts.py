@@ -68,6 +68,17 @@ def entry_impacts(mechanism: Mechanism, fraction: float = 1.0) -> Impacts:
     return _with_force(mechanism, best)
 
 
+def start_impact(mechanism: Mechanism) -> Impact | None:
+    """Impact at entry of a wheel whose speed jumps by design; None for other wheels."""
+    jumps = np.array([[one.motion.jump] for one in mechanism.engagements])
+    if not jumps.any():
+        return None
+    engagement = mechanism.engagements[int(jumps.argmax())]
+    at_deg = np.array([engagement.entry_deg])
+    best = _shown(mechanism, engagement, at_deg, jumps.max(axis=0))
+    return _with_force(mechanism, best).only
+
+
 def _errors(
     mechanism: Mechanism, engagement: Engagement, fraction: float
 ) -> Iterator[tuple[float, float]]:

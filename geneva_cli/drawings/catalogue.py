@@ -5,6 +5,7 @@ A new part is one function, and one line here.
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from geneva_cli.errors import GenevaError, cut, few, nearest
@@ -30,33 +31,33 @@ class Part(NamedTuple):
     alone: bool = False  # True if it is drawn without the outlines of wheel and crank
     in_front: bool = False  # True if it belongs to a first wheel, in front of the crank
     flat: str | None = None  # its drawing or sheet, laid flat, for a spherical wheel
-    rack: str | None = None  # its drawing for a rack
+    own: Mapping[str, str] = {}  # its drawing by the gearing, for those without flat wheel or shell
 
 
 PARTS = {
     "slot": Part(
         "layout.slot_sampling:profile_table",
         "drawings.part_drawings:slot",
-        rack="drawings.rack:slot",
+        own={"linear": "drawings.rack:slot"},
     ),
     "wheel": Part(
         drawing="drawings.part_drawings:wheel",
         sphere="layout.meridians:meridians_table",
         cut=True,
         flat="drawings.sphere.drawings:wheel",
-        rack="drawings.rack:wheel",
+        own={"linear": "drawings.rack:wheel"},
     ),
     "crank": Part(
         drawing="drawings.part_drawings:crank",
         cut=True,
         flat="drawings.sphere.drawings:crank",
-        rack="drawings.rack:crank",
+        own={"linear": "drawings.rack:crank"},
     ),
     "arm": Part(
         drawing="drawings.part_drawings:arm",
         cut=True,
         flat="drawings.sphere.arm_drawing:arm",
-        rack="drawings.rack:arm",
+        own={"linear": "drawings.rack:arm"},
     ),
     "links": Part(drawing="drawings.part_drawings:links", cut=True, alone=True),
     "first-wheel": Part(drawing="drawings.part_drawings:wheel", cut=True, in_front=True),
@@ -66,7 +67,7 @@ PARTS = {
     "assembly": Part(
         drawing="drawings.machine_drawing:machine",
         flat="drawings.sphere.drawings:assembly",
-        rack="drawings.rack:assembly",
+        own={"linear": "drawings.rack:assembly"},
     ),
     "gears": Part("layout.gear_curves:gears_table", "drawings.part_drawings:gears", alone=True),
     "groove": Part("layout.groove:groove_table", "drawings.part_drawings:groove"),
@@ -117,11 +118,13 @@ def part_table(mechanism: Mechanism, part: str, tolerance_mm: float, samples: in
 
 
 def require_drawn(mechanism: Mechanism, part: str) -> None:
-    """Raise GenevaError for a part that a rack's machine does not have."""
-    if _is_rack(mechanism) and PARTS[part].rack is None:
-        known = ", ".join(name for name, one in PARTS.items() if one.rack)
+    """Raise GenevaError for a part that a machine with drawings of its own does not have."""
+    gearing = mechanism.spec.wheel.NAME
+    if _has_own(mechanism) and gearing not in PARTS[part].own:
+        known = ", ".join(name for name, one in PARTS.items() if gearing in one.own) or "none"
         raise GenevaError(
-            f"--part {part} is not available for a rack, which has {known}", ("wheel", "gearing")
+            f"--part {part} is not available for a {gearing} wheel, which has {known}",
+            ("wheel", "gearing"),
         )
 
 
@@ -139,7 +142,7 @@ def is_alone(mechanism: Mechanism, part: str) -> bool:
     own = PARTS.get(part)
     if own is None:
         return False
-    return own.alone or ((own.flat or own.rack) is not None and not _in_plane(mechanism))
+    return own.alone or (bool(own.flat or own.own) and not _in_plane(mechanism))
 
 
 def machine_of(mechanism: Mechanism, part: str) -> Mechanism:
@@ -164,8 +167,8 @@ def part_drawing(model: PartsModel, part: str, tolerance_mm: float, curves: str)
     is_table(model.mechanism, part, drawn=True)
     own = PARTS[part]
     drawing: Drawing
-    if _is_rack(model.mechanism):
-        drawing = _loaded(own.rack)(model.mechanism)
+    if _has_own(model.mechanism):
+        drawing = _loaded(own.own[model.mechanism.spec.wheel.NAME])(model.mechanism)
     elif own.flat is None or _in_plane(model.mechanism):
         drawing = _loaded(own.drawing)(model.flat.within(tolerance_mm, curves))
     else:
@@ -201,7 +204,7 @@ def require_cut(part: str, option: str = "--kerf") -> None:
 
 def _table(mechanism: Mechanism, part: str) -> str | None:
     own = PARTS[part]
-    in_plane = _in_plane(mechanism) or _is_rack(mechanism)
+    in_plane = _in_plane(mechanism) or _has_own(mechanism)
     return own.table if in_plane else own.sphere or own.table
 
 
@@ -209,7 +212,7 @@ def _in_plane(mechanism: Mechanism) -> bool:
     return mechanism.spec.wheel.FLAT
 
 
-def _is_rack(mechanism: Mechanism) -> bool:
+def _has_own(mechanism: Mechanism) -> bool:
     return not (mechanism.spec.wheel.FLAT or mechanism.spec.wheel.SHELLS)
 
 

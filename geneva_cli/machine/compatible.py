@@ -49,6 +49,11 @@ CONFLICTS = (
         'kind = "{drive}" drives an {gearings} wheel, not gearing = "{gearing}"',
     ),
     Conflict(
+        lambda s: s.wheel.DRIVES and s.drive.NAME not in s.wheel.DRIVES,
+        ("drive", "kind"),
+        'gearing = "{gearing}" needs kind = "{drives}", not kind = "{drive}"',
+    ),
+    Conflict(
         lambda s: s.drive.LAW is Needs.LAW and s.motion is None,
         ("drive", "kind"),
         'kind = "{drive}" needs a law in [motion]: the groove is cut for it',
@@ -220,6 +225,7 @@ def _error(conflict: Conflict, spec: Spec) -> GenevaError:
         drive=spec.drive.NAME,
         gearing=spec.wheel.NAME,
         gearings=" or ".join(spec.drive.GEARINGS),
+        drives=" or ".join(spec.wheel.DRIVES),
         rollers=spec.drive.rollers,
         several=_several(spec),
         places="steps" if spec.wheel.steps else "angles",

@@ -19,7 +19,12 @@ from geneva_cli.spec.rules import Z_MAX, OneOf, Range
 from geneva_cli.spec.schema import SpecTable
 
 if TYPE_CHECKING:
-    from geneva_cli.kinematics.engagement import CarrierVelocity, Displacement, Slot
+    from geneva_cli.kinematics.engagement import (
+        CarrierVelocity,
+        Displacement,
+        Slot,
+        WheelMotion,
+    )
 
 
 # The wheel's rate from sin d and 1 - cos d of the crank's rotation d since mid-motion.
@@ -91,6 +96,14 @@ class Gearing(SpecTable):
     FLAT: ClassVar[bool] = True
     # True if they are shells of a sphere, on shafts that meet at its centre
     SHELLS: ClassVar[bool] = False
+    # what is not built of a machine that has neither
+    NOT_BUILT: ClassVar[str] = ""
+    # True if its speed jumps at entry and exit, so that forces have no bound
+    JUMPS: ClassVar[bool] = False
+    # stiffness of a pair of steel teeth that drive it, over their width; 0 for a roller
+    TOOTH_N_mm2: ClassVar[float] = 0.0
+    # the only drives that it has; empty for any
+    DRIVES: ClassVar[tuple[str, ...]] = ()
     z: Annotated[int, Range(3, Z_MAX), "number of slots"]
     held_by: Annotated[
         str | None,
@@ -175,7 +188,7 @@ class Gearing(SpecTable):
 
     def follow(
         self, path: AnchoredPath, place: RollerPlace, turn: Displacement
-    ) -> tuple[Slot, StraightSlotMotion]:
+    ) -> tuple[Slot, WheelMotion]:
         """Straight slot for a roller's path, and the motion that follows.
 
         ``turn`` is the crank's rotation from mid-motion, as its sine and versine.

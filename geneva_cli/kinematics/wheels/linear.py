@@ -41,6 +41,7 @@ class Linear(Gearing):
     )
     USUAL_LOAD: ClassVar[dict[str, float]] = {"mass_kg": 4, "force_N": 30}
     FLAT: ClassVar[bool] = False
+    NOT_BUILT: ClassVar[str] = "shafts, frame and guide of a rack's machine are not built"
 
     def output(self, center_distance_mm: float) -> Output:
         """The travel, in millimetres."""
