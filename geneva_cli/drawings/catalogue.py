@@ -45,13 +45,13 @@ PARTS = {
         sphere="layout.meridians:meridians_table",
         cut=True,
         flat="drawings.sphere.drawings:wheel",
-        own={"linear": "drawings.rack:wheel"},
+        own={"linear": "drawings.rack:wheel", "counter": "drawings.counter:wheel"},
     ),
     "crank": Part(
         drawing="drawings.part_drawings:crank",
         cut=True,
         flat="drawings.sphere.drawings:crank",
-        own={"linear": "drawings.rack:crank"},
+        own={"linear": "drawings.rack:crank", "counter": "drawings.counter:crank"},
     ),
     "arm": Part(
         drawing="drawings.part_drawings:arm",
@@ -59,6 +59,7 @@ PARTS = {
         flat="drawings.sphere.arm_drawing:arm",
         own={"linear": "drawings.rack:arm"},
     ),
+    "number-wheel": Part(own={"counter": "drawings.counter:number_wheel"}, cut=True),
     "links": Part(drawing="drawings.part_drawings:links", cut=True, alone=True),
     "first-wheel": Part(drawing="drawings.part_drawings:wheel", cut=True, in_front=True),
     "first-crank": Part(drawing="drawings.part_drawings:crank", cut=True, in_front=True),
@@ -67,7 +68,7 @@ PARTS = {
     "assembly": Part(
         drawing="drawings.machine_drawing:machine",
         flat="drawings.sphere.drawings:assembly",
-        own={"linear": "drawings.rack:assembly"},
+        own={"linear": "drawings.rack:assembly", "counter": "drawings.counter:assembly"},
     ),
     "gears": Part("layout.gear_curves:gears_table", "drawings.part_drawings:gears", alone=True),
     "groove": Part("layout.groove:groove_table", "drawings.part_drawings:groove"),
@@ -76,7 +77,7 @@ PARTS = {
     "plate": Part(drawing="drawings.print_plate:plate"),
     "sheet": Part(sheet="drawings.sheet.sheet:sheet", flat="drawings.sphere.sheet:sheet"),
 }
-DRAWINGS = tuple(name for name, part in PARTS.items() if part.drawing)
+DRAWINGS = tuple(name for name, part in PARTS.items() if part.drawing or part.own)
 CUT = tuple(name for name, part in PARTS.items() if part.cut)
 SHEETS = tuple(name for name, part in PARTS.items() if part.sheet)
 SAMPLES_MAX = 1_000_000
@@ -123,7 +124,7 @@ def require_drawn(mechanism: Mechanism, part: str) -> None:
     if _has_own(mechanism) and gearing not in PARTS[part].own:
         known = ", ".join(name for name, one in PARTS.items() if gearing in one.own) or "none"
         raise GenevaError(
-            f"--part {part} is not available for a {gearing} wheel, which has {known}",
+            f'--part {part} is not available for gearing = "{gearing}", which has {known}',
             ("wheel", "gearing"),
         )
 
@@ -168,7 +169,8 @@ def part_drawing(model: PartsModel, part: str, tolerance_mm: float, curves: str)
     own = PARTS[part]
     drawing: Drawing
     if _has_own(model.mechanism):
-        drawing = _loaded(own.own[model.mechanism.spec.wheel.NAME])(model.mechanism)
+        by = own.own[model.mechanism.spec.wheel.NAME]
+        drawing = _loaded(by)(model.flat.within(tolerance_mm, curves))
     elif own.flat is None or _in_plane(model.mechanism):
         drawing = _loaded(own.drawing)(model.flat.within(tolerance_mm, curves))
     else:

@@ -11,29 +11,34 @@ from geneva_cli.layout.plain_sizes import drawn_thicknesses, pin_radius
 from geneva_cli.layout.projection import outlines_of, placed, titled
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.outlines.rack import rack_contour, rack_sizes, slot_walls
+from geneva_cli.parts.flat_parts import FlatParts
 from geneva_cli.parts.rack_arm import rack_arm, rack_crank
 
 
-def wheel(mechanism: Mechanism) -> Drawing:
+def wheel(parts: FlatParts) -> Drawing:
     """Return the rack; a slot is along x, with its roller at the origin at mid-motion."""
+    mechanism = parts.mechanism
     solid = _rack(mechanism)
     return Drawing(titled(mechanism, "rack"), outlines_of(solid), solid=solid)
 
 
-def crank(mechanism: Mechanism) -> Drawing:
+def crank(parts: FlatParts) -> Drawing:
     """Return locking sector and roller, without the arm; x is from the axis to the roller."""
+    mechanism = parts.mechanism
     solid = Group("crank", rack_crank(mechanism))
     return Drawing(titled(mechanism, "crank"), outlines_of(solid), solid=solid)
 
 
-def arm(mechanism: Mechanism) -> Drawing:
+def arm(parts: FlatParts) -> Drawing:
     """Return the arm, whose x is from the crank's axis to the roller."""
+    mechanism = parts.mechanism
     solid = rack_arm(mechanism)
     return Drawing(titled(mechanism, "arm"), outlines_of(solid), solid=solid)
 
 
-def slot(mechanism: Mechanism) -> Drawing:
+def slot(parts: FlatParts) -> Drawing:
     """Return a slot, closed along the rack's edge, and the roller's path in it."""
+    mechanism = parts.mechanism
     sizes = rack_sizes(mechanism)
     walls = slot_walls(sizes, 0.0)
     outline = closed("WHEEL", [*walls, Line(walls[-1].end, walls[0].start)])
@@ -41,8 +46,9 @@ def slot(mechanism: Mechanism) -> Drawing:
     return Drawing(titled(mechanism, "slot"), (outline, path))
 
 
-def assembly(mechanism: Mechanism) -> Drawing:
+def assembly(parts: FlatParts) -> Drawing:
     """Return rack and crank at input angle 0: the roller is at the origin, the axis at (R, 0)."""
+    mechanism = parts.mechanism
     axis = rack_sizes(mechanism).arm, 0.0
     has_pin = pin_radius(mechanism.spec.size, mechanism.roller_radius_mm) > 0.0
     arms = (Member(rack_arm(mechanism)),) if has_pin else ()

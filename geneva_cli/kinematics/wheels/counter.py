@@ -62,6 +62,11 @@ class Counter(Gearing):
         lacks = "alpha_rad_s2", "sliding_m_s"
         return super().output(center_distance_mm)._replace(load_keys=keys, lacks=lacks)
 
+    @property
+    def title(self) -> str:
+        """The title of a design without one of its own."""
+        return f"Counter with a pinion of {2 * self.z} teeth"
+
     def words(self, slots: str) -> str:
         """The pinion in words."""
         return f"counter pinion of {self.z} wide and {self.z} narrow teeth"

@@ -152,6 +152,15 @@ class Gearing(SpecTable):
         """
         return ()
 
+    @property
+    def title(self) -> str:
+        """The title of a design without one of its own.
+
+        >>> External(6).title
+        'Geneva wheel of 6 slots'
+        """
+        return f"Geneva wheel of {self.z} slots"
+
     def words(self, slots: str) -> str:
         """The wheel in words; ``slots`` is the kind of its slots.
 

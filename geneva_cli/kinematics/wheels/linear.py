@@ -69,6 +69,11 @@ class Linear(Gearing):
             lacks=lacks,
         )
 
+    @property
+    def title(self) -> str:
+        """The title of a design without one of its own."""
+        return f"Geneva rack of {self.z} slots"
+
     def words(self, slots: str) -> str:
         """The rack in words, whose slots are parallel."""
         return f"rack of {self.z} parallel slots"

@@ -36,6 +36,9 @@ MOTION: Checks = {
     "stopping_torque_Nm": "arrival:stopping_torque",
     "rack_horn_mm": "rack:rack_horn",
     "rack_gap_mm": "rack:rack_gap",
+    "counter_free_deg": "counter:free",
+    "counter_play_deg": "counter:greatest_play",
+    "counter_lock_deg": "counter:lock",
 }
 # Checks of limits that the spec sets.
 LIMITS: Checks = {
