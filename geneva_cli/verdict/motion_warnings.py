@@ -132,7 +132,9 @@ def _starts_at_speed(mechanism: Mechanism) -> list[Notice]:
     if impact.moment_Nms is None:
         hit = "set inertia_kgm2 in [load] for the impact"
     else:
-        hit = f"an impact of {impact.moment_Nms:.4g} N m s and {0.5 * impact.moment_Nms * w:.4g} J"
+        pinions = spec.wheel.pinions
+        hit = f"with all {pinions} pinions at once, " if pinions > 1 else ""
+        hit += f"an impact of {impact.moment_Nms:.4g} N m s and {0.5 * impact.moment_Nms * w:.4g} J"
         force = impact.force_N
         hit += "; set face_width_mm for its force" if force is None else f", up to {force:.4g} N"
     return [

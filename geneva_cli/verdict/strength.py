@@ -165,7 +165,7 @@ class Strength:
 
     def _shaft(self, which: str, ends: shafts.ShaftDimensions) -> Keys:
         wheel = self.spec.wheel
-        words = "a wheel on a shaft: the shafts of a rack's machine are not computed"
+        words = f"a wheel on a shaft: {wheel.NOT_BUILT}"
         yield [(wheel.FLAT or wheel.SHELLS, words)]
         if self.spec.is_loaded:
             yield [self._has_bound]

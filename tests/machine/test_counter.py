@@ -14,6 +14,7 @@ from geneva_cli.errors import GenevaError
 from geneva_cli.machine.many import many
 from geneva_cli.machine.mechanism import build
 from geneva_cli.machine.spec import Spec
+from geneva_cli.verdict.quantities.counter import counter
 from geneva_cli.verdict.quantities.designs import Designs
 from geneva_cli.verdict.quantities.motion import peaks, timing
 
@@ -96,12 +97,51 @@ def test_the_impact():
     assert start_impact(Design(Counter(4)).mechanism).moment_Nms is None
 
 
+def test_a_row_of_number_wheels():
+    """Counted by hand: 10 000 tenths of a turn of a counter of four wheels, wheel by wheel."""
+    design = Design(Counter(4, driver_teeth=20, number_wheels=4), Crank(n_rpm=120.0))
+    shown, steps = [0, 0, 0, 0], [0, 0, 0, 0]
+    for _ in range(10_000):
+        carries = True
+        for k in range(4):
+            if not carries:
+                break
+            shown[k], steps[k] = (shown[k] + 1) % 10, steps[k] + 1
+            carries = shown[k] == 0
+    assert shown == [0, 0, 0, 0]
+    values = design.report.table.to_dict()
+    turns = 1000.0
+    assert (values["counter.digits"], values["counter.number_step_deg"]) == (10.0, 36.0)
+    assert values["counter.turns_to_zero"] == turns
+    for k, row in enumerate(values["number_wheels"]):
+        assert row["number_wheel"] == k + 1
+        assert row["turns_per_step"] == pytest.approx(turns / steps[k], rel=1e-15)
+        assert row["turns_per_turn"] == pytest.approx(10.0 * turns / steps[k], rel=1e-15)
+        assert row["step_s"] == pytest.approx(0.5 * turns / steps[k], rel=1e-15)
+        assert row["moving_s"] == 0.05
+    with pytest.raises(GenevaError, match="use 32"):
+        Counter(7, driver_teeth=31, number_wheels=3)
+
+
+def test_all_pinions_at_once():
+    """Five equal inertias that jump together are one of five times the size."""
+    five = Design(Counter(4, number_wheels=6), size=SIZE, load=Load(inertia_kgm2=1e-6))
+    one = Design(Counter(4), size=SIZE, load=Load(inertia_kgm2=5e-6))
+    values, other = (d.report.table.to_dict() for d in (five, one))
+    dw = 2.5 * math.tau
+    assert values["counter.impulse_Nms"] == pytest.approx(5e-6 * dw, rel=1e-14)
+    assert values["counter.energy_J"] == pytest.approx(0.5 * 5e-6 * dw * dw, rel=1e-14)
+    for name in ("counter.impulse_Nms", "counter.energy_J", "counter.force_N"):
+        assert values[name] == pytest.approx(other[name], rel=1e-12)
+
+
 def test_a_batch_is_one_by_one():
     teeth = np.array([12, 20, 31])
-    batch = many(Spec(Counter(4)), {"wheel.driver_teeth": teeth})
+    spec = Spec(Counter(4), size=SIZE, load=Load(inertia_kgm2=1e-6))
+    batch = many(spec, {"wheel.driver_teeth": teeth})
     for i, count in enumerate(teeth.tolist()):
-        one = Designs(build(Spec(Counter(4, driver_teeth=count))))
-        for group in (timing, peaks):
+        one = Designs(build(spec.with_("wheel.driver_teeth", count)))
+        for group in (timing, peaks, counter):
             own = group(one)
             for name, values in group(Designs(batch.machine)).items():
                 if values is not None:

@@ -6,6 +6,10 @@ While the two teeth pass, the gears roll on their pitch circles. So the pinion t
 ratio u = N/(2 z), by two of its teeth, while the driver turns by two of its own, 720°/N. Before
 and after it is at rest, so that its speed jumps by u of the driver's.
 
+A number wheel of N teeth on the driver's axis meshes with the pinion and turns at the driver's
+speed. It drives the next pinion by two teeth of its own, and so on. All two teeth pass their
+pinions at the digit 0, so that the k-th number wheel moves by one digit in (N/2)^(k-2) turns.
+
 The point of the driver's pitch circle between the two teeth stands for the roller. It is on the
 line of centres at mid-motion, l = N/(N + 2 z) from the driver's axis.
 """
@@ -15,6 +19,7 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING, Annotated, ClassVar
 
+from geneva_cli.errors import GenevaError, refuse
 from geneva_cli.kinematics.engagement import Peak, Slot, SlotAxis, WheelMotion, in_wheel
 from geneva_cli.kinematics.path_and_slot import AnchoredPath
 from geneva_cli.kinematics.wheels.gearing import Gearing, Output, RollerPlace
@@ -50,6 +55,26 @@ class Counter(Gearing):
     TOOTH_N_mm2: ClassVar[float] = 14e3  # ISO 6336-1, method C: 14 N/(mm µm)
     DRIVES: ClassVar[tuple[str, ...]] = ("crank",)
     driver_teeth: Annotated[int, Range(6, 2 * Z_MAX), "counter: teeth of the whole driver, N"] = 20
+    number_wheels: Annotated[
+        int, Range(2, 24), "counter: number wheels in a row, the driver's among them"
+    ] = 2
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        refuse(
+            (self.number_wheels > 2) & (self.driver_teeth % 2 > 0),
+            lambda: GenevaError(
+                f"driver_teeth = {self.driver_teeth}: a number wheel makes driver_teeth/2 steps in "
+                "a turn, and with more than 2 number wheels that must be whole: use "
+                f"{self.driver_teeth + 1}",
+                ("wheel", "driver_teeth"),
+            ),
+        )
+
+    @property
+    def pinions(self) -> int:
+        """Number of pinions, one behind each number wheel but the last."""
+        return self.number_wheels - 1
 
     @property
     def ratio(self) -> float:

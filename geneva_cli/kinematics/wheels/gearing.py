@@ -144,6 +144,11 @@ class Gearing(SpecTable):
         return self
 
     @property
+    def pinions(self) -> int:
+        """Number of a counter's pinions, which may start at once; 0 for a wheel."""
+        return 0
+
+    @property
     def layout(self) -> Layout:
         """Dimensions of this kind of wheel, in addition to its number of slots.
 
