@@ -830,7 +830,8 @@ class Design:
         # a machine without parts is judged without NumPy
         if not self.spec.has_parts:
             return judged(self.mechanism)
-        return [*judged(self.mechanism, self.parts_model), *proofs(self.parts_model, proof_mm)]
+        rows = judged(self.mechanism, self.parts_model)
+        return [*rows, *(proofs(self.parts_model, proof_mm) if self.spec.is_turned else ())]
 
     @property
     def passes(self) -> bool:

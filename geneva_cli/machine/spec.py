@@ -252,14 +252,25 @@ class Spec:
         return not self.no_parts
 
     @property
+    def is_turned(self) -> bool:
+        """True if the parts are checked in a whole turn of wheel and crank.
+
+        A rack has no whole turn: its own checks look for the smallest gap in a turn of the crank.
+
+        >>> Spec(External(6)).is_turned, Spec(Linear(6)).is_turned
+        (True, False)
+        """
+        return self.has_parts and self.output.turns
+
+    @property
     def no_parts(self) -> str:
         """The reason why wheel and crank have no outlines; empty if they have.
 
         >>> Spec(External(400)).no_parts
         'wheels of more than 360 slots are not drawn'
         """
-        if not (self.wheel.FLAT or self.wheel.SHELLS):
-            return "shafts, frame and guide of a rack's machine are not built"
+        if not (self.output.turns or self.drive.direct):
+            return f"frame and guide of a rack behind {self.drive.WORDS} are not built"
         if self.wheel.z > Z_DRAWN:
             return f"wheels of more than {Z_DRAWN} slots are not drawn"
         return ""

@@ -45,13 +45,20 @@ def rack_arm(mechanism: Mechanism) -> Plate:
 def _hull_and_holes(mechanism: Mechanism, sizes: RackSizes) -> tuple[Contour, list[Shape]]:
     """Return the outline about hub and eye, and the holes of shaft, pin and bolts."""
     size, R = mechanism.spec.size, sizes.arm
-    hole = pin_hole(size, pin_radius(size, sizes.roller))
-    bore = arm_bore(mechanism.spec, 0.0, 2.0 * R, R - hole)  # as if R were L/2, as for 6 slots
+    hole, bore = pin_hole(size, pin_radius(size, sizes.roller)), rack_bore(mechanism)
     form = bore_of(size, "crank", bore)
     hub, eye = hub_and_eye(size, wall_min(size, R), hole, bore, math.inf, sizes.lock)
     outline = convex_hull("ARM", [Circle("ARM", (0.0, 0.0), hub), Circle("ARM", (R, 0.0), eye)])
     holes: list[Shape] = [form.shape("BORE", math.pi), Circle("BORE", (R, 0.0), hole)]
     return outline, [*holes, *lock_bolts(mechanism)]
+
+
+def rack_bore(mechanism: Mechanism) -> float:
+    """Return the radius of the arm's bore, in which the crank's shaft ends."""
+    size, sizes = mechanism.spec.size, rack_sizes(mechanism)
+    hole = pin_hole(size, pin_radius(size, sizes.roller))
+    # as if R were L/2, as for 6 slots
+    return arm_bore(mechanism.spec, 0.0, 2.0 * sizes.arm, sizes.arm - hole)
 
 
 def lock_bolts(mechanism: Mechanism) -> list[Circle]:

@@ -83,7 +83,7 @@ def shafts(
         ends = wheel_shaft_ends(parts, lowest)
         one = Seat("wheel", bore, assembly.rests[0], *_on_wheel(parts), False, frame[1])
         turn = float(assembly.wheel(still)[0])
-        yield Member(_shaft(size, one, ends, lowest), turn=0.0 if bore.is_plain else turn)
+        yield Member(shaft_in(size, one, ends, lowest), turn=0.0 if bore.is_plain else turn)
     radius = crank_shaft_radius(parts)
     if radius:
         bore = bore_of(size, "crank", radius)
@@ -92,11 +92,11 @@ def shafts(
         through = parts.sizes.crank_bore > 0.0
         one = Seat("crank", bore, keyway_direction(assembly), *at, not through, frame[1])
         turn = float(assembly.crank(still)[0])
-        plate = _shaft(size, one, ends, lowest)
+        plate = shaft_in(size, one, ends, lowest)
         yield Member(plate, (assembly.L, 0.0), 0.0 if bore.is_plain else turn)
 
 
-def _shaft(size: Size, seat: Seat, ends: tuple[float, float], lowest: float) -> Plate | Stack:
+def shaft_in(size: Size, seat: Seat, ends: tuple[float, float], lowest: float) -> Plate | Stack:
     """Return a shaft of wheel or crank; one that ends above the frame is always plain."""
     if size.shafts == "turned" and ends[0] <= lowest:
         return turned_shaft(size, seat, SHAFT)

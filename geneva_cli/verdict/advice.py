@@ -249,7 +249,7 @@ class _Search:
         model = PartsModel(machine, advice=False) if has_parts else None
         if not self._pass(checks_at_rest(machine, model)):
             return False
-        if model is None or not turn:
+        if model is None or not (turn and machine.spec.is_turned):
             return True
         self._spend(TURN)
         return self._pass(checks_turning(model))

@@ -126,7 +126,7 @@ def _parts(mechanism: Mechanism, model: PartsModel | None, turned: bool) -> Iter
         yield refused("parts", error)
         return
     yield from rows
-    if not turned:
+    if not (turned and mechanism.spec.is_turned):
         return
     try:
         turn = model.turn

@@ -16,18 +16,16 @@ def parts(model: PartsModel) -> Values:
     A sphere has the horn; its other sizes are angles, in the list of parts.
     """
     values: Values = dict.fromkeys(own_names("parts", "report.parts:parts"))
-    return values | _or_reason(model, _sizes)
+    return values | (_or_reason(model, _sizes) if model.mechanism.spec.has_parts else {})
 
 
 def turned(model: PartsModel) -> Values:
     """Results of the parts' whole turn; None without it, with the reason in ``parts.none``."""
     values: Values = dict.fromkeys(own_names("parts", "report.parts:turned"))
-    return values | _or_reason(model, _turned)
+    return values | (_or_reason(model, _turned) if model.mechanism.spec.is_turned else {})
 
 
 def _or_reason(model: PartsModel, compute: Callable[[PartsModel], Values]) -> Values:
-    if not model.mechanism.spec.has_parts:
-        return {}
     try:
         return compute(model)
     except GenevaError as error:
@@ -35,8 +33,7 @@ def _or_reason(model: PartsModel, compute: Callable[[PartsModel], Values]) -> Va
 
 
 def _sizes(model: PartsModel) -> Values:
-    parts = model.parts
-    horn: Values = {"parts.horn_mm": parts.sizes.horn if parts.crank else None}
+    horn: Values = {"parts.horn_mm": model.built.horn_mm}
     return horn | (cut_sizes(model) if model.mechanism.spec.is_flat else {})
 
 
