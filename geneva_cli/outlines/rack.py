@@ -59,8 +59,13 @@ class RackSizes(NamedTuple):
 
     @property
     def behind(self) -> float:
-        """The x of the rack's back, which is that of its bar too."""
+        """The x of the rack's back."""
         return -(self.slot_bottom + self.half_width + self.back)
+
+    @property
+    def bar_back(self) -> float:
+        """The x of the bar's back, a tenth of its width behind the rack, which keeps clear so."""
+        return self.behind - 0.1 * self.bar
 
     @property
     def beyond(self) -> float:
@@ -92,9 +97,9 @@ def rack_sizes(mechanism: Mechanism) -> RackSizes:
             ("size", "wheel_radius_mm"),
         )
     bar, slide = arm / 10.0, allowed.slot_clearance_mm
-    # the guide's rail stands in front of the bar, and the arm's eye sweeps past it
+    # the guide's rail, as wide as the bar, stands in front of it, and the arm's eye passes the rail
     rail = max(bottom + w, _eye(mechanism, arm) + 0.25 * bar)
-    back = rail + 2.0 * bar + slide - (bottom + w)
+    back = rail + 1.9 * bar + slide - (bottom + w)
     return RackSizes(arm, r, w, edge, bottom, lock, floor, recess, back, bar, slide)
 
 

@@ -1,10 +1,10 @@
 """The frame of a rack's machine: the crank's shaft in it, and the guide along the rack on it.
 
-A bar is bolted under the rack's back. It slides between a rail, on which the rack lies, and a
-wall. A cover on the wall keeps the rack from lifting. All of them lie beyond the sweep of the
-crank's arm, and are screwed to the frame. The guide is as long as the rack covers in each of its
-steps: at the start of the first one the rack ends R - w past the crank's axis, half a slot being
-w, and so it does on the other side at the end of the last one.
+A bar is bolted under the rack's back, and reaches a little beyond it. It slides between a rail, on
+which the rack lies, and a wall. A cover on the wall keeps the rack from lifting. All of them lie
+beyond the sweep of the crank's arm, and are screwed to the frame. The guide is as long as the rack
+covers in each of its steps: at the start of the first one the rack ends R - w past the crank's
+axis, half a slot being w, and so it does on the other side at the end of the last one.
 """
 
 from __future__ import annotations
@@ -85,14 +85,14 @@ def guide_bar(mechanism: Mechanism, count: int) -> Plate:
     """Return the bar under a rack of ``count`` slots; half the height under it is free."""
     sizes, heights = rack_sizes(mechanism), rack_frame(mechanism)
     low, high = rack_ends(sizes, count)
-    x = sizes.behind
-    outline = rectangle("WHEEL", x, low, x + sizes.bar, high)
-    return Plate("guide bar", "WHEEL", outline, bar_bolts(sizes, count), 0.5 * heights.top, 0.0)
+    x = sizes.bar_back
+    outline = rectangle("LINK", x, low, x + sizes.bar, high)
+    return Plate("guide bar", "LINK", outline, bar_bolts(sizes, count), 0.5 * heights.top, 0.0)
 
 
 def bar_bolts(sizes: RackSizes, count: int) -> tuple[Circle, ...]:
     """Return the holes that fix the bar to a rack, behind each of its slots."""
-    x = sizes.behind + 0.5 * sizes.bar
+    x = sizes.bar_back + 0.5 * sizes.bar
     return tuple(Circle(HOLES, (x, y), _bolt(sizes)) for y in slot_places(sizes, count))
 
 
@@ -102,7 +102,7 @@ def guide(mechanism: Mechanism) -> tuple[Plate, ...]:
     Raises GenevaError where the slots are so wide that hardly any guide is left between them.
     """
     sizes, heights = rack_sizes(mechanism), rack_frame(mechanism)
-    x, bar, slide, half = sizes.behind, sizes.bar, sizes.slide, guide_half_mm(sizes)
+    x, bar, slide, half = sizes.bar_back, sizes.bar, sizes.slide, guide_half_mm(sizes)
     if half < bar:
         raise GenevaError(
             f"roller_radius_mm = {sizes.roller:g}: a guide that the rack always covers would be "
@@ -113,7 +113,7 @@ def guide(mechanism: Mechanism) -> tuple[Plate, ...]:
     on_rail, on_wall = (tuple(_row(sizes, at)) for at in _rows(sizes))
     rail = rectangle(LAYER, x + bar + slide, -half, x + 2.0 * bar + slide, half)
     wall = rectangle(LAYER, x - slide - 2.0 * bar, -half, x - slide, half)
-    cover = rectangle(LAYER, x - slide - 2.0 * bar, -half, x + bar, half)
+    cover = rectangle(LAYER, x - slide - 1.9 * bar, -half, x + 0.9 * bar, half)
     return (
         Plate("guide rail", LAYER, rail, on_rail, heights.top, 0.0),
         Plate("guide wall", LAYER, wall, on_wall, heights.top, over),
@@ -161,7 +161,7 @@ def frame_plate(mechanism: Mechanism) -> Plate:
 
 def _rows(sizes: RackSizes) -> tuple[float, float]:
     """Return the x of the screws of rail and wall."""
-    return sizes.behind + 1.5 * sizes.bar + sizes.slide, sizes.behind - sizes.slide - sizes.bar
+    return sizes.bar_back + 1.5 * sizes.bar + sizes.slide, sizes.bar_back - sizes.slide - sizes.bar
 
 
 def _row(sizes: RackSizes, x: float) -> Iterator[Circle]:

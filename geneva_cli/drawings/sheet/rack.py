@@ -87,31 +87,39 @@ def _draw_rack(view: View, parts: RackParts) -> None:
     end = -(sizes.slot_bottom + sizes.half_width)
     for y in places:
         view.centre_line((end, y), (sizes.edge, y))
+    _draw_arcs(view, parts, rack)
     first, second, *_ = places
     up, corner, count = 0.5 * math.pi, (box.x0, box.y0), len(places)
-    edge = sizes.edge, first
-    view.linear(edge, (sizes.edge, second), up, times(count - 1, sized.plain(2.0 * sizes.arm)))
-    view.linear((box.x1, box.y0), edge, up, sized.plain(first - box.y0))
-    width = sized.slot_width(view.fits, mechanism, sizes.half_width)
-    walls = [(sizes.edge, first + side * sizes.half_width) for side in (-1.0, 1.0)]
-    view.linear(walls[0], walls[1], up, times(count, width))
+    edge, recess = (sizes.edge, first), (sizes.arm, first - sizes.arm)
     view.linear((end, first), edge, 0.0, times(count, length(sizes.edge - end)), near=True)
+    width = sized.slot_width(view.fits, mechanism, sizes.half_width)
+    walls = [(sizes.edge, places[-1] + side * sizes.half_width) for side in (-1.0, 1.0)]
+    view.linear(walls[0], walls[1], up, times(count, width))
+    view.linear(edge, (sizes.edge, second), up, times(count - 1, sized.plain(2.0 * sizes.arm)))
+    if sizes.lock:
+        view.linear(recess, edge, up, sized.plain(sizes.arm))
+        if sizes.edge != sizes.arm:
+            off = sized.plain(abs(sizes.edge - sizes.arm))
+            view.linear(recess, (sizes.edge, recess[1]), 0.0, off, near=True)
+    view.linear((box.x1, box.y0), edge, up, sized.plain(first - box.y0))
     view.linear(corner, (box.x1, box.y0), 0.0, length(box.x1 - box.x0))
     view.linear(corner, (box.x0, box.y1), up, length(box.y1 - box.y0))
+    bolt = holes_of([rack]).bolts[-1].centre
+    view.linear((box.x0, box.y1), bolt, 0.0, sized.plain(bolt[0] - box.x0))
+
+
+def _draw_arcs(view: View, parts: RackParts, rack: Plate) -> None:
+    """Draw the radii of slots and recesses, and the diameter of the bolts' holes."""
+    sizes, mechanism = parts.sizes, parts.mechanism
     assert isinstance(rack.outline, Contour)
     arcs = [piece for piece in rack.outline.segments if isinstance(piece, Arc)]
     rounds = [arc for arc in arcs if arc.centre[0] < 0.0]
     view.of_arcs(rounds, times(len(rounds), sized.plain(sizes.half_width, "R ")))
-    if sizes.lock:
-        recesses = [arc for arc in arcs if arc not in rounds]
+    recesses = [arc for arc in arcs if arc not in rounds]
+    if recesses:
         text = times(len(recesses), sized.recess(view.fits, mechanism, sizes.recess))
         view.of_arcs(recesses, text, whole=True)
-        view.linear(recesses[0].centre, edge, up, sized.plain(sizes.arm), near=True)
-        if sizes.edge != sizes.arm:
-            off = recesses[0].centre, (sizes.edge, recesses[0].centre[1])
-            view.linear(*off, 0.0, sized.plain(abs(sizes.edge - sizes.arm)), near=True)
     screwed = holes_of([rack]).bolts
-    view.linear(corner, screwed[0].centre, 0.0, sized.plain(screwed[0].centre[0] - box.x0))
     text = times(len(screwed), sized.bore(view.fits, screwed[0].radius))
     view.diameter(screwed, f"{text} on the slots' axes")
 
