@@ -36,13 +36,13 @@ class Part(NamedTuple):
     def drawn_by(self, kind: str) -> str | None:
         """Return the function that draws it among parts of a kind, ``Gearing.PARTS``; or None."""
         own = {"flat": self.drawing or self.sheet, "ball": self.flat, "rack": self.rack}
-        return own[kind]
+        return own.get(kind)
 
     def is_of(self, kind: str) -> bool:
         """Return True if machines with parts of a kind have it: a sphere may have flat links."""
         plane = self.drawing or self.sheet or self.table
         own = {"flat": plane, "ball": self.flat or plane, "rack": self.rack}
-        return self.every or own[kind] is not None
+        return self.every or own.get(kind) is not None
 
 
 PARTS = {

@@ -117,7 +117,9 @@ class PartsModel:
     @property
     def all_built(self) -> list[tuple[str, Callable[[], PartsOfMachine]]]:
         """Names and functions of all parts: before a sphere or a rack links and gears are flat."""
-        own = [] if self.mechanism.spec.wheel.FLAT else [("wheel and crank", lambda: self.built)]
+        wheel = self.mechanism.spec.wheel
+        apart = wheel.PARTS and not wheel.FLAT
+        own = [("wheel and crank", lambda: self.built)] if apart else []
         return [*own, ("all parts", lambda: self.flat)]
 
     @property

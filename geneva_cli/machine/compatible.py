@@ -71,7 +71,7 @@ CONFLICTS = (
     Conflict(
         lambda s: s.motion is not None and not s.wheel.FLAT,
         ("motion", "law"),
-        "a {gearing} wheel has straight slots only: remove law",
+        'gearing = "{gearing}" has straight slots only: remove law',
     ),
     Conflict(
         lambda s: s.drive.ONE_ROLLER and s.drive.rollers > 1,

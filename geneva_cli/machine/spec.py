@@ -269,6 +269,8 @@ class Spec:
         >>> Spec(External(400)).no_parts
         'wheels of more than 360 slots are not drawn'
         """
+        if not self.wheel.PARTS:
+            return f'the parts of gearing = "{self.wheel.NAME}" are not built'
         if not (self.output.turns or self.drive.direct):
             return f"frame and guide of a rack behind {self.drive.WORDS} are not built"
         if self.wheel.z > Z_DRAWN:

@@ -16,6 +16,7 @@ from geneva_cli.outlines.rack import (
     rack_sizes,
     smallest_gap,
 )
+from geneva_cli.parts.rack_stressed import rack_stressed
 
 R, r = 50.0, 6.0
 
@@ -324,3 +325,33 @@ def test_a_rack_behind_links_has_no_frame():
 def test_wide_slots_leave_no_guide():
     with pytest.raises(GenevaError, match="a guide that the rack always covers would be"):
         design(lock_radius_mm=0.0, roller_radius_mm=46.0).drawing("guide")
+
+
+def test_the_crank_shaft_bears_pin_force_and_torque():
+    """The ASME code's moment, by hand: at a the crank's pin force F turns it by F R cos a.
+
+    F = m R w² (-sin a) + F0 at 60 rpm, without friction. The bearing in the frame's middle is half
+    a rack, the arm and half a frame from the middle of the rack, all 5 mm thick.
+    """
+    loaded = design().with_("load.mass_kg", 4.0).with_("load.force_N", 30.0)
+    values = loaded.report.table.to_dict()
+    a = np.radians(np.linspace(-90.0, 90.0, 200_001))
+    force = 4.0 * 0.05 * (2.0 * math.pi) ** 2 * -np.sin(a) + 30.0
+    moment = np.hypot(1.5 * force * 0.010, force * 0.05 * np.cos(a)).max()
+    # the scan's peak is within 1e-10 of the true one, which is flat
+    assert values["strength.crank_shaft.moment_Nm"] == pytest.approx(moment, rel=1e-9)
+    stress = 16e3 * moment / (math.pi * 10.0**3)
+    assert values["strength.crank_shaft.stress_MPa"] == pytest.approx(stress, rel=1e-9)
+    rows = {one.name: one for one in loaded.checks}
+    assert {"crank_shaft_stress_MPa", "arm_stress_MPa", "pin_stress_MPa"} <= set(rows)
+    assert "wheel_shaft_stress_MPa" not in rows
+
+
+def test_the_arm_is_stressed_in_its_own_sizes():
+    machine = design(pin_gap_mm=0.5, arm_thickness_mm=6.0, crank_keyway="DIN 6885-1")
+    of = rack_stressed(machine.with_("size.arm_bore_mm", 16.0).mechanism)
+    arm = of.arm
+    assert (arm.length, arm.thickness) == (R, 6.0)
+    assert arm.offset == 0.5 * (5.0 + 6.0) + 0.5  # from the rack's middle to the arm's
+    assert of.crank_shaft == (16.0, 2.5 + 0.5 + 6.0 + 3.0)  # to the frame's middle
+    assert of.crank_key.length == 6.0
