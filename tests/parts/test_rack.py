@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 
-from geneva_cli import Design, External, Linear, SideCrank, Size
+from geneva_cli import Design, External, Linear, Load, SideCrank, Size
 from geneva_cli.curves.measure import bounds
 from geneva_cli.curves.moments import moments
 from geneva_cli.curves.plates import solids
@@ -355,3 +355,55 @@ def test_the_arm_is_stressed_in_its_own_sizes():
     assert arm.offset == 0.5 * (5.0 + 6.0) + 0.5  # from the rack's middle to the arm's
     assert of.crank_shaft == (16.0, 2.5 + 0.5 + 6.0 + 3.0)  # to the frame's middle
     assert of.crank_key.length == 6.0
+
+
+def ends_by_equilibrium(a: float, loaded: Design, x0: float, half: float) -> tuple[float, float]:
+    """Forces on the bar at both ends of its guide, from the force that the roller exerts.
+
+    Unknown are two forces along x, at y = half and -half: their sum and their moment about the
+    guide's middle balance those of the roller. Friction acts on the rack as the roller slides.
+    """
+    mu, w = loaded.spec.load.friction, 2.0 * math.pi
+    push = loaded.spec.load.mass_kg * 0.05 * w * w * -math.sin(a) + loaded.spec.load.force_N
+    side = math.copysign(1.0, push)
+    touch = np.array([R * (1.0 - math.cos(a)), R * math.sin(a) + side * r])
+    slides = math.copysign(1.0, R * math.sin(a) + side * r)  # of a body that turns by -w
+    force = np.array([mu * abs(push) * slides, push])
+    moment = (touch[0] - x0) * force[1] - touch[1] * force[0]
+    matrix = np.array([[1.0, 1.0], [-half, half]])
+    upper, lower = np.linalg.solve(matrix, [-force[0], -moment])
+    return upper, lower
+
+
+@pytest.mark.parametrize(
+    ("mass", "force", "mu"), [(4.0, 30.0, 0.1), (4.0, 0.0, 0.3), (0.0, 9.0, 0)]
+)
+def test_the_guide_bears_what_balances_the_roller(mass, force, mu):
+    load = Load(mass_kg=mass, force_N=force, friction=mu)
+    loaded = Design(Linear(6), size=design(**PARTS).spec.size, load=load)
+    values = loaded.report.table.to_dict()
+    bar, half = span(solids_of()["guide bar"]), 0.5 * values["guide.length_mm"]
+    x0 = 0.5 * sum(bar)
+    assert half == pytest.approx(R - r - 0.1)
+    angles = np.radians(np.linspace(-90.0, 90.0, 20_001))
+    ends = [max(map(abs, ends_by_equilibrium(a, loaded, x0, half))) for a in angles]
+    # the scan's spacing of 0.009 degrees is within 1e-7 of a smooth peak, and has both ends
+    assert values["guide.force_N"] == pytest.approx(max(ends), rel=1e-7)
+    assert values["guide.locks_at_friction"] == pytest.approx(half / (R - x0), rel=1e-14)
+
+
+def test_a_guide_locks_where_its_friction_takes_all_of_the_push():
+    """At entry, without friction in the slot: both ends' friction is nu (|N1| + |N2|)."""
+    loaded = design(**PARTS).with_("load.force_N", 10.0)
+    values = loaded.report.table.to_dict()
+    x0, half = 0.5 * sum(span(solids_of()["guide bar"])), 0.5 * values["guide.length_mm"]
+    ends = ends_by_equilibrium(-0.5 * math.pi, loaded, x0, half)
+    friction = values["guide.locks_at_friction"] * sum(map(abs, ends))
+    assert friction == pytest.approx(10.0, rel=1e-12)
+    rows = {one.name: one for one in loaded.with_("load.friction", 0.2).checks}
+    assert rows["guide_locks"].limit == 0.2
+    assert rows["guide_locks"].passes
+    assert "guide_locks" not in {one.name for one in loaded.checks}
+    assert not {one.name: one for one in loaded.with_("load.friction", 0.7).checks}[
+        "guide_locks"
+    ].passes

@@ -34,6 +34,7 @@ MOTION: Checks = {
     "stopping_torque_Nm": "arrival:stopping_torque",
     "rack_horn_mm": "rack:rack_horn",
     "rack_gap_mm": "rack:rack_gap",
+    "guide_locks": "rack:guide_locks",
 }
 # Checks of limits that the spec sets.
 LIMITS: Checks = {
