@@ -2,9 +2,11 @@
 
 A bar is bolted under the rack's back, and reaches a little beyond it. It slides between a rail, on
 which the rack lies, and a wall. A cover on the wall keeps the rack from lifting. All of them lie
-beyond the sweep of the crank's arm, and are screwed to the frame. The guide is as long as the rack
-covers in each of its steps: at the start of the first one the rack ends R - w past the crank's
-axis, half a slot being w, and so it does on the other side at the end of the last one.
+beyond the sweep of the crank's arm, and are screwed to the frame.
+
+The rack covers its guide in each of its steps. At the start of the first one it ends R - w past the
+crank's axis, w being half a slot. On the other side it does so at the end of the last one. So the
+guide is 2 (R - w) long.
 """
 
 from __future__ import annotations
