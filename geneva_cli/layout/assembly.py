@@ -178,7 +178,8 @@ def assembled(mechanism: Mechanism) -> Assembly:
         crank = Crank(
             n_rpm=keep.n_rpm, rollers=keep.rollers, roller_angles_deg=keep.roller_angles_deg
         )
-        mechanism = build(spec.replace(drive=crank))
+        no_gears = spec.size.replace(gear_module_mm=None, gear_teeth=None, gear_shift=None)
+        mechanism = build(spec.replace(drive=crank, size=no_gears))
     turn = 360.0 * mechanism.spec.drive.turns
     periods = round(turn / mechanism.period_deg)
     motions = tuple(
