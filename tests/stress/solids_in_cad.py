@@ -251,7 +251,7 @@ def one(design, proof, name, part, curves, pictures):
     splined = curves == "spline" or any(has_cubics(plate) for plate, *_ in wanted)
     beside = SPLINED if splined else SAME  # of centroid and inertia
     flat = [p for p, *_ in wanted if isinstance(p, Plate)]
-    exact = BORED if any(p.cross or p.edge.rounded and p.edge.size for p in flat) else SAME
+    exact = BORED if any(p.cross or (p.edge.rounded and p.edge.size) for p in flat) else SAME
     edges = any(p.edge.size for p in flat)
     beside = max(beside, exact, EDGED if edges else 0.0)
     limits = 3 * (NEARLY,) if drawing.shells else (exact, beside, beside)
