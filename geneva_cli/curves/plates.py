@@ -165,6 +165,32 @@ def plates(part: Part) -> list[Plate]:
     return [one for one in solids(part) if isinstance(one, Plate)]
 
 
+def between(part: Plate | Stack, low: float, high: float) -> Plate | Stack:
+    """The length of a flat or turned part that lies between two heights."""
+    if isinstance(part, Plate):
+        return part._replace(low=max(low, part.low), high=min(high, part.high))
+    steps = [one for one in part.plates if one.low < high and one.high > low]
+    return part._replace(
+        plates=tuple(p._replace(low=max(low, p.low), high=min(high, p.high)) for p in steps)
+    )
+
+
+def inwards(part: Part, outside: float) -> Plate | Stack:
+    """A flat or turned part whose heights count inwards from ``outside``, by distances instead."""
+    assert isinstance(part, Plate | Stack)
+    if isinstance(part, Plate):
+        return part._replace(low=outside - part.high, high=outside - part.low)
+    plates = (p._replace(low=outside - p.high, high=outside - p.low) for p in part.plates[::-1])
+    return part._replace(plates=tuple(plates))
+
+
+def steps_of(part: Part) -> list[Plate]:
+    """A flat part, or the steps of a turned one, under the part's name."""
+    assert isinstance(part, Plate | Stack)
+    steps = (part,) if isinstance(part, Plate) else part.plates
+    return [step._replace(name=part.name) for step in steps]
+
+
 def lowered(part: Plate | Stack) -> Plate | Stack:
     """A flat or turned part with its lower face at z = 0."""
     if isinstance(part, Plate):
