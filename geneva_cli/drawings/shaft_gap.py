@@ -75,7 +75,7 @@ def gear_gap(parts: FlatParts) -> ShaftGap | None:
 
     Raises GenevaError for sizes that leave no parts.
     """
-    if parts.mechanism.spec.drive.gears is None:
+    if parts.mechanism.spec.gears is None:
         return None
     turning = _rings_of((parts.wheel, parts.crank))
     return _least(parts, turning, list(_noncircular(parts)))
@@ -102,7 +102,7 @@ def _least(parts: FlatParts, turning: list[Ring], rings: list[Ring]) -> ShaftGap
 def _noncircular(parts: FlatParts) -> Iterator[Ring]:
     """Yield the rings of noncircular gears, out to their farthest points."""
     mechanism = parts.mechanism
-    pair, L = mechanism.spec.drive.gears, mechanism.center_distance_mm
+    pair, L = mechanism.spec.gears, mechanism.center_distance_mm
     if pair is None:
         return
     (_, driven), (_, driver) = pitch_radii(pair)

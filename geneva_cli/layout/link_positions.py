@@ -20,7 +20,8 @@ def links_at(mechanism: Mechanism, input_deg: Array) -> tuple[Link, ...]:
     They are the drive's own links and, for a cam-Geneva, the crank along which its rollers slide.
     The drive cannot describe that crank: in the dwell the rollers follow the groove as it is cut.
     """
-    own = mechanism.spec.drive.links(mechanism.plan, mechanism.spec.wheel.SIGN, input_deg)
+    sign, own_deg = mechanism.spec.wheel.SIGN, mechanism.own_deg(input_deg)
+    own = mechanism.spec.drive.links(mechanism.plan, sign, own_deg)
     groove = mechanism.engagements[0].groove
     if groove is None:
         return own

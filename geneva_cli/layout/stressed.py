@@ -80,7 +80,7 @@ def _overhang(assembly: Assembly, sizes: Sizes) -> float:
     """Return the distance of the frame's middle from that of the wheel's thickness."""
     size, machine = assembly.full.spec.size, assembly.full
     planes = [link.plane for link in links_at(machine, np.zeros(1))]
-    planes += [2] if machine.spec.drive.gears else []  # below the arm
+    planes += [2] if machine.spec.gears else []  # below the arm
     below = (max(planes, default=1) - 1) * (sizes.link_thickness + size.washer_mm)
     down = size.allowances.pin_gap_mm + sizes.arm_thickness + below
     down = max(down, size.wheel_hub_length_mm or 0.0)

@@ -55,7 +55,7 @@ def gear_pair(mechanism: Mechanism, parts: Outlines | None, write: Writer) -> tu
     ``parts`` are the outlines of wheel and crank, if they are drawn; ``write`` fits curves. Raises
     GenevaError for a bore larger than its gear, and for teeth that do not fit.
     """
-    pair = mechanism.spec.drive.gears
+    pair = mechanism.spec.gears
     if pair is None:
         return ()
     low, high = gear_span(mechanism, parts)
@@ -78,7 +78,7 @@ def pair_with_teeth(mechanism: Mechanism) -> list[ToothedCurve]:
 
     Raises GenevaError, naming the key, for teeth that do not fit.
     """
-    pair, sense = mechanism.spec.drive.gears, crank_sense(mechanism)
+    pair, sense = mechanism.spec.gears, crank_sense(mechanism)
     teeth = pair_teeth(pair, mechanism.spec.size)
     if pair is None or teeth is None:
         return []
@@ -114,7 +114,7 @@ def gear_shafts(mechanism: Mechanism, parts: Outlines | None, ends: Ends) -> Ite
     The driver's shaft goes through it, or ends below one that is too small for a bore. The crank's
     is included if neither arm nor locking disc has one.
     """
-    if mechanism.spec.drive.gears is None:
+    if mechanism.spec.gears is None:
         return
     size, ((on_crank, wide), (at, radius)) = mechanism.spec.size, _shafts(mechanism, parts)
     low, high = gear_span(mechanism, parts)

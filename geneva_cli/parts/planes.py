@@ -65,7 +65,7 @@ def planes(parts: Outlines, bars: Links) -> Planes:
     ``bars`` are the links of the machine with the outlines ``parts``.
     """
     mechanism = parts.assembly.full
-    turns = mechanism.spec.drive.turns
+    turns = mechanism.spec.turns
     turn = np.linspace(-180.0 * turns, 180.0 * turns, LOOKS * turns + 1)
     links_and_gears = links_at(mechanism, turn)
     links = [link for link in links_and_gears if not link.radius_mm]
@@ -117,7 +117,7 @@ def _gears(parts: Outlines, bars: Links, links: tuple[Link, ...], turn: Array) -
 def crank_stop(parts: Outlines, bars: Links) -> float | None:
     """Return the height at which a link stops the crank's shaft downwards; None if none does."""
     mechanism = parts.assembly.full
-    turn = np.linspace(-180.0, 180.0, LOOKS + 1) * mechanism.spec.drive.turns
+    turn = np.linspace(-180.0, 180.0, LOOKS + 1) * mechanism.spec.turns
     links = [link for link in links_at(mechanism, turn) if not link.radius_mm]
     if not links or bars.sizes is None:
         return None

@@ -37,6 +37,7 @@ class EllipticalGears(Transmission, kw_only=True):
 
     NAME: ClassVar[str] = "elliptical-gears"
     WORDS: ClassVar[str] = "a crank behind elliptical gears"
+    IN_FRONT: ClassVar[str] = "elliptical gears"
     EXAMPLE: ClassVar[Example] = Example(
         "equal elliptical gears in front: a slower, softer index",
         {

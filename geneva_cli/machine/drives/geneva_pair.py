@@ -38,6 +38,7 @@ class GenevaPair(Transmission, kw_only=True):
 
     NAME: ClassVar[str] = "geneva-pair"
     WORDS: ClassVar[str] = "a crank behind a first Geneva wheel"
+    IN_FRONT: ClassVar[str] = "a first Geneva wheel"
     EXAMPLE: ClassVar[Example] = Example(
         "two wheels in series: one index in many turns",
         {

@@ -44,6 +44,7 @@ class NoncircularGears(Transmission, kw_only=True):
 
     NAME: ClassVar[str] = "noncircular-gears"
     WORDS: ClassVar[str] = "a crank behind noncircular gears"
+    IN_FRONT: ClassVar[str] = "noncircular gears"
     EXAMPLE: ClassVar[Example] = Example(
         "noncircular gears in front, with the ratio of a side-crank",
         {

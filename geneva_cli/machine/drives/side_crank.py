@@ -42,6 +42,7 @@ class SideCrank(Transmission, kw_only=True):
 
     NAME: ClassVar[str] = "side-crank"
     WORDS: ClassVar[str] = "a side-crank"
+    IN_FRONT: ClassVar[str] = "a side-crank"
     EXAMPLE: ClassVar[Example] = Example(
         "a side-crank drive: a slower, softer index",
         {

@@ -41,7 +41,7 @@ def bodies(design: Design, turn: MachineTurn) -> Iterator[Body]:
         yield Body("groove", _shapes(design, "groove"), (L, 0.0), still(0.0))
         if turn.mechanism.frame > 0.0:
             yield Body("carrier", _shapes(design, "frame"), (0.0, 0.0), still(0.0))
-    if design.spec.drive.gears:
+    if design.spec.gears:
         yield from _gears(design, turn)
 
 
@@ -97,7 +97,7 @@ def _gears(design: Design, turn: MachineTurn) -> Iterator[Body]:
     """The pitch curves of both gears: the driven one is fixed to the crank."""
     table = gears_table(turn.mechanism, 0.001, 241).to_dict()
     sign = turn.mechanism.spec.wheel.SIGN
-    gears = turn.mechanism.spec.drive.gears
+    gears = turn.mechanism.spec.gears
     assert gears
     # the table puts the driver first, and turns as an external wheel does
     driver = _closed(-table["driver_x_mm"], -sign * table["driver_y_mm"])

@@ -51,7 +51,7 @@ class MachineTurn:
     def __init__(self, mechanism: Mechanism) -> None:
         self.mechanism = mechanism
         self.L = mechanism.center_distance_mm
-        self.whole = 360.0 * mechanism.spec.drive.turns
+        self.whole = 360.0 * mechanism.spec.turns
         periods = round(self.whole / mechanism.period_deg)
         each = mechanism.engagements
         self.passages = tuple(
