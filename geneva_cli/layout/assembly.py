@@ -172,13 +172,16 @@ def assembled(mechanism: Mechanism) -> Assembly:
     """Return the assembly of any machine; on a sphere ``pin`` is seen along the wheel's axis."""
     full, spec = mechanism, mechanism.spec
     to_input: Callable[[float], float] = _same
-    if mechanism.law is None and spec.drive.CRANKED:
+    if spec.drive_before and not spec.drive.CRANKED:
+        to_input = spec.input_deg
+        mechanism = build(spec.replace(drive_before=None))
+    elif mechanism.law is None and spec.drive.CRANKED:
         to_input = spec.input_deg
         keep = spec.drive
         crank = Crank(
             n_rpm=keep.n_rpm, rollers=keep.rollers, roller_angles_deg=keep.roller_angles_deg
         )
-        mechanism = build(spec.replace(drive=crank))
+        mechanism = build(spec.replace(drive=crank, drive_before=None))
     turn = 360.0 * mechanism.spec.turns
     periods = round(turn / mechanism.period_deg)
     motions = tuple(

@@ -85,6 +85,8 @@ def gears_table(mechanism: Mechanism, tolerance_mm: float, samples: int | None) 
 def required_gears(mechanism: Mechanism) -> Gears:
     """Return the noncircular gears of a machine; raises GenevaError if it has none."""
     drive, gears = mechanism.spec.drive, mechanism.spec.gears
+    if gears is None and mechanism.spec.drive_before:
+        raise GenevaError(f"--part gears: {mechanism.spec.no_parts}")
     if gears is None:
         geared = [kind for kind in registry.DRIVES if registry.drive(kind).GEARED]
         if drive.TOOTHED:

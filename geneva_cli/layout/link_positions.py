@@ -33,6 +33,13 @@ def links_at(mechanism: Mechanism, input_deg: Array) -> tuple[Link, ...]:
     return (*own, Link("crank", tuple(joints), (Joint.SHAFT, *[Joint.CARRIED] * m), 1))
 
 
+def gear_plane(mechanism: Mechanism) -> int:
+    """Return the number of the plane of noncircular gears: below the arm and all links."""
+    import numpy as np
+
+    return 1 + max((link.plane for link in links_at(mechanism, np.zeros(1))), default=1)
+
+
 def same(p: Point, q: Point, L: float) -> bool:
     """Return True if two points coincide, with the centre distance L."""
     return abs(complex(*p) - complex(*q)) < SAME_LENGTH * L

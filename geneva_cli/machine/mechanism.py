@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, NamedTuple
 from geneva_cli.kinematics.drive import Plan
 from geneva_cli.kinematics.engagement import Engagement
 from geneva_cli.kinematics.laws.law import Law
-from geneva_cli.kinematics.layout import WheelPlace, wheel_places
+from geneva_cli.kinematics.layout import Layout, WheelPlace, wheel_places
 from geneva_cli.machine import compatible
 from geneva_cli.machine.retimed import retimed
 from geneva_cli.machine.size_rules import refuse_sizes
@@ -52,6 +52,15 @@ class Mechanism(NamedTuple):
         """
         plan = Plan(*self[1:-1])
         return plan._replace(engagements=tuple(one.own for one in self.engagements))
+
+    @property
+    def layout(self) -> Layout:
+        """Pivots and dimensions of the drive, and of the one before it about the crank's axis."""
+        spec, plan = self.spec, self.plan
+        own = spec.drive.layout(plan, spec.wheel.SIGN)
+        if spec.drive_before is None or spec.drive.CRANKED:
+            return own
+        return (*own, *spec.drive_before.layout(plan, spec.wheel.SIGN))
 
     def own_deg(self, input_deg: N) -> N:
         """Angle of the drive's own input shaft at input angles within half a period of mid-motion.

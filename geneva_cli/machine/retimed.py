@@ -1,4 +1,4 @@
-"""A machine whose input shaft another drive turns: gears, a side-crank or a first wheel in front.
+"""A machine whose input shaft another drive turns: gears or a side-crank in front.
 
 The drive of the spec has engagements by the angle theta of its own input shaft. The drive before it
 turns that shaft by theta = g(phi), where phi is the machine's input. So path, slot and motion are
@@ -14,7 +14,6 @@ from collections.abc import Sequence
 from functools import partial
 from typing import TYPE_CHECKING, NamedTuple, cast
 
-from geneva_cli.errors import GenevaError, refuse
 from geneva_cli.kinematics.anchors import cuts
 from geneva_cli.kinematics.drive import Plan
 from geneva_cli.kinematics.engagement import (
@@ -31,7 +30,7 @@ from geneva_cli.kinematics.engagement import (
 )
 from geneva_cli.machine.driven_shaft import DrivenShaft, ShaftPath
 from geneva_cli.numerics.angles import DEGREE, radians
-from geneva_cli.numerics.arrays import N, larger, library, size
+from geneva_cli.numerics.arrays import N, library
 from geneva_cli.numerics.batchable import Batchable
 from geneva_cli.numerics.jet import Jet, Number, atan2, composed, piecewise
 from geneva_cli.numerics.latest import Latest
@@ -42,10 +41,7 @@ if TYPE_CHECKING:
 
 
 def retimed(plan: Plan, spec: Spec) -> Plan:
-    """Return the plan of a spec's drive behind the drive before it; unchanged without one.
-
-    Raises GenevaError if the drive before it does not turn the shaft through a whole motion.
-    """
+    """Return the plan of a spec's drive behind the drive before it; unchanged without one."""
     if spec.drive_before is None:
         return plan
     before = cast("Transmission", spec.drive_before)  # ``compatible`` requires one
@@ -93,16 +89,14 @@ class Timing(Batchable):
     """
 
     def __init__(self, before: Transmission, own: Engagement, late_deg: float) -> None:
-        whole = 2.0 * before.reach_deg
         mid = own.mid_deg + late_deg
-        turns = library(mid).floor(mid / whole + 0.5)
+        turns = library(mid).floor(mid / 360.0 + 0.5)
         self.before = before
-        self.rest_deg = mid - whole * turns  # ``about`` covers one turn of the shaft, or one step
+        self.rest_deg = mid - 360.0 * turns  # ``about`` covers one turn of the shaft
         ends = (own.entry_deg, 0.0, own.exit_deg)
-        _refuse_reach(before, *(self.rest_deg + end for end in ends))
         local = [before.about(self.rest_deg + end) for end in ends]
         self.within_deg = local[1].input_deg  # input angle of mid-motion in that turn
-        self.mid_deg = 360.0 * turns + self.within_deg
+        self.mid_deg = 360.0 * before.turns * turns + self.within_deg
         self.even = local[1].even
         self.each = tuple(
             Rotation(one.input_deg - self.within_deg, end, one.advance)
@@ -132,9 +126,8 @@ class Timing(Batchable):
         return own.c[0], turned
 
     def _turned(self, input_deg: Number, order: int) -> tuple[Jet, Jet]:
-        turned = piecewise(
-            input_deg, self.cuts, [partial(one.at, order=order) for one in self.each]
-        )
+        pieces = [partial(one.at, order=order) for one in self.each]
+        turned = piecewise(input_deg, self.cuts, pieces)
         return Jet((turned.c[0] / DEGREE, *turned.c[1:])), turned
 
 
@@ -297,7 +290,7 @@ class RetimedEngagement(Engagement):
 
     def own_deg(self, input_deg: N) -> N:
         """Angle of the drive's own input shaft at input angles from mid-motion, degrees."""
-        return self.timing.at(input_deg, 0)[0]
+        return cast("N", self.timing.at(input_deg, 0)[0])
 
     @property
     def own(self) -> Engagement:
@@ -313,17 +306,3 @@ def _of_rate(rate: Jet, turned: Jet) -> Jet:
 def _lower(jet: Jet) -> Jet:
     """The jet without its highest derivative."""
     return Jet(jet.c[:-1])
-
-
-def _refuse_reach(before: Transmission, *places_deg: float) -> None:
-    """Raise GenevaError if the drive before stops turning the shaft during a motion."""
-    first, _, last = map(size, places_deg)
-    reach = before.reach_deg
-    refuse(
-        (larger(first, last) > reach * (1.0 + 1e-12)) & (reach < 180.0),
-        lambda: GenevaError(
-            f"a motion takes up to {larger(first, last):.6g} deg of the shaft to one side of its "
-            f'middle, but kind = "{before.NAME}" turns it only {reach:.6g}: reduce first_z',
-            ("drive", "before", "first_z"),
-        ),
-    )

@@ -81,6 +81,12 @@ _TABLE_TYPES: tuple[tuple[str, type, str], ...] = (
     ),
 )
 
+# Fields that may be None.
+_OPTIONAL_TYPES: tuple[tuple[str, type, str], ...] = (
+    ("drive_before", Drive, "SideCrank(A=0.6)"),
+    ("motion", Motion, "Motion(Cycloidal())"),
+)
+
 
 def _no_load(key: str, keys: str) -> GenevaError:
     return GenevaError(
@@ -124,12 +130,9 @@ class Spec:
         own = vars(self)
         for name, kind, example in _TABLE_TYPES:
             refuse_kind(own[name], name, kind, example)
-        if self.drive_before is not None:
-            refuse_kind(
-                self.drive_before, "drive_before", Drive, "EllipticalGears(eccentricity=0.3)"
-            )
-        if self.motion is not None:
-            refuse_kind(self.motion, "motion", Motion, "Motion(Cycloidal())")
+        for name, kind, example in _OPTIONAL_TYPES:
+            if own[name] is not None:
+                refuse_kind(own[name], name, kind, example)
         if not isinstance(self.mass, tuple):
             object.__setattr__(self, "mass", tuple(self.mass))
         if not all(isinstance(one, Mass) for one in self.mass):
@@ -219,8 +222,11 @@ class Spec:
 
     @property
     def gears(self) -> Gears | None:
-        """Noncircular gears in front of the crank; None without."""
-        return (self.drive_before or self.drive).gears
+        """Noncircular gears on the crank's shaft; None without, and in front of a second crank."""
+        before = self.drive_before
+        if before is None:
+            return self.drive.gears
+        return None if self.drive.CRANKED else before.gears
 
     def input_deg(self, crank_deg: float) -> float:
         """Input angle from mid-motion at a crank angle from mid-motion, degrees."""
@@ -293,7 +299,7 @@ class Spec:
         if before is not None and (self.drive.CRANKED or not before.GEARED):
             return (
                 f'the parts of kind = "{before.NAME}" before kind = "{self.drive.NAME}" are not '
-                "built: only noncircular gears before a drive whose shaft stands at the crank's axis"
+                "built: only gears before a drive whose shaft stands at the crank's axis"
             )
         if self.wheel.z > Z_DRAWN:
             return f"wheels of more than {Z_DRAWN} slots are not drawn"

@@ -222,8 +222,8 @@ class FlatParts:
     def tooth_dimensions(self) -> tuple[Dimension, ...]:
         """Dimensions of the gears' teeth; none without teeth."""
         teeth = pair_teeth(self.mechanism.spec.gears, self.mechanism.spec.size)
-        mesh = teeth or self.links.mesh
-        return mesh.layout if mesh else ()
+        meshes = (teeth, self.links.mesh)
+        return tuple(one for mesh in meshes if mesh for one in mesh.layout)
 
     @cached_property
     def round_gears(self) -> tuple[Member, ...]:

@@ -18,7 +18,7 @@ import numpy as np
 from geneva_cli.curves.distance import Polyarc
 from geneva_cli.curves.shapes import Contour
 from geneva_cli.kinematics.layout import Joint, Link
-from geneva_cli.layout.link_positions import links_at
+from geneva_cli.layout.link_positions import gear_plane, links_at
 from geneva_cli.numerics.tolerances import SAME_LENGTH
 from geneva_cli.outlines.outlines import Outlines
 from geneva_cli.outlines.wheel_hub import wheel_hub_length
@@ -179,6 +179,8 @@ class _Shaft:
                 self.carries.add(link.plane)
         if has_arm(parts):
             self.carries.add(1)
+        if parts.assembly.full.spec.gears:
+            self.carries.add(gear_plane(parts.assembly.full))
         self.through = parts.sizes.crank_bore > 0.0  # through the locking disc
         if self.through:
             self.carries.add(0)

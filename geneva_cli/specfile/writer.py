@@ -49,19 +49,14 @@ def own_fields(drive: type[Drive]) -> list[Field]:
 def keys_in(spec: Spec) -> dict[str, list[Field]]:
     """Every key of a spec's kinds, by table, in the order of a file."""
     law_keys = fields(type(spec.motion.law)) if spec.motion else ()
-    before = spec.drive_before and type(spec.drive_before)
+    before = type(spec.drive_before) if spec.drive_before else None
     return keys_of(type(spec.wheel), type(spec.drive), law_keys, before)
 
 
 def spec_lines(spec: Spec) -> list[str]:
     """Lines of a spec's tables: keys that differ from their defaults, or are changed first."""
-    first = {
-        ("wheel", "gearing"),
-        ("drive", "kind"),
-        (BEFORE, "kind"),
-        ("drive", "n_rpm"),
-        ("drive", "rollers"),
-    }
+    first = {("wheel", "gearing"), (BEFORE, "kind")}
+    first |= {("drive", key) for key in ("kind", "n_rpm", "rollers")}
     lines: list[str] = []
     for name, keys in keys_in(spec).items():
         head = f"[[{name}]]" if name in LISTS else f"[{name}]"

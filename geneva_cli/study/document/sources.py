@@ -9,12 +9,8 @@ from geneva_cli.manual.explained import entries
 def sources(spec: Spec) -> tuple[str, ...]:
     """The sources of the machine's kinds and its law, and those that all share."""
     before = [spec.drive_before.NAME] if spec.drive_before else []
-    names = [
-        spec.wheel.NAME,
-        spec.drive.NAME,
-        *before,
-        *([spec.motion.law.NAME] if spec.motion else []),
-    ]
+    laws = [spec.motion.law.NAME] if spec.motion else []
+    names = [spec.wheel.NAME, spec.drive.NAME, *before, *laws]
     known = {n: e.source for e in entries() if e.group in ("kind", "law") for n in e.names}
     own = [f"{name[0].upper()}{name[1:]}: {known[name]}." for name in names if known.get(name)]
     return (

@@ -20,9 +20,8 @@ def words(mechanism: Mechanism) -> str:
     named = wheel.words(slots)
     behind = f", behind {spec.drive_before.IN_FRONT}," if spec.drive_before else ""
     article = "An" if named[0] in "aeiou" else "A"
-    text = (
-        f"{article} {named}, driven by {drive.WORDS}{behind} with {rollers} at {drive.n_rpm:g} rpm."
-    )
+    driven = f"{drive.WORDS}{behind} with {rollers} at {drive.n_rpm:g} rpm"
+    text = f"{article} {named}, driven by {driven}."
     if spec.motion:
         text += f' The wheel follows the law "{spec.motion.law.NAME}"'
         if spec.motion.alpha0_deg:
