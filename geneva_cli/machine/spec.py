@@ -74,17 +74,13 @@ def attribute(table: str) -> str:
 _TABLE_TYPES: tuple[tuple[str, type, str], ...] = (
     ("wheel", Gearing, "External(6)"),
     ("drive", Drive, "Crank(n_rpm=60)"),
+    ("drive_before", Drive, "SideCrank(A=0.6)"),
+    ("motion", Motion, "Motion(Cycloidal())"),
     *(
         (attribute(n), table, f"{table.__name__}(...)")
         for n, table in PLAIN.items()
         if n not in LISTS
     ),
-)
-
-# Fields that may be None.
-_OPTIONAL_TYPES: tuple[tuple[str, type, str], ...] = (
-    ("drive_before", Drive, "SideCrank(A=0.6)"),
-    ("motion", Motion, "Motion(Cycloidal())"),
 )
 
 
@@ -127,12 +123,10 @@ class Spec:
     drive_before: Drive | None = None
 
     def __post_init__(self) -> None:
-        own = vars(self)
         for name, kind, example in _TABLE_TYPES:
-            refuse_kind(own[name], name, kind, example)
-        for name, kind, example in _OPTIONAL_TYPES:
-            if own[name] is not None:
-                refuse_kind(own[name], name, kind, example)
+            value = vars(self)[name]
+            if value is not None or name not in ("drive_before", "motion"):
+                refuse_kind(value, name, kind, example)
         if not isinstance(self.mass, tuple):
             object.__setattr__(self, "mass", tuple(self.mass))
         if not all(isinstance(one, Mass) for one in self.mass):
