@@ -70,16 +70,20 @@ def _engagement(own: Engagement, timing: Timing, spec: Spec, L: float) -> Retime
 
 
 class Rotation(NamedTuple):
-    """Rotation of the driven shaft about one of its angles, in radians."""
+    """Rotation of the driven shaft about one of its angles."""
 
     input_deg: float  # machine's input, from mid-motion
     own_deg: float  # driven shaft, from mid-motion
     advance: Displacement
 
     def at(self, input_deg: Number, order: int) -> Jet:
-        """Angle of the driven shaft from mid-motion, at input angles in degrees."""
+        """Angle of the driven shaft at input angles in degrees: its value in degrees, too.
+
+        Derivatives are by the input angle, both in radians.
+        """
         sine, versine = self.advance(radians(input_deg - self.input_deg), order)
-        return atan2(sine, 1.0 - versine) + radians(self.own_deg)
+        turned = atan2(sine, 1.0 - versine)
+        return Jet((self.own_deg + turned.c[0] / DEGREE, *turned.c[1:]))
 
 
 class Timing(Batchable):
@@ -127,8 +131,8 @@ class Timing(Batchable):
 
     def _turned(self, input_deg: Number, order: int) -> tuple[Jet, Jet]:
         pieces = [partial(one.at, order=order) for one in self.each]
-        turned = piecewise(input_deg, self.cuts, pieces)
-        return Jet((turned.c[0] / DEGREE, *turned.c[1:])), turned
+        own = piecewise(input_deg, self.cuts, pieces)
+        return own, Jet((radians(own.c[0]), *own.c[1:]))
 
 
 class Composed(NamedTuple):
