@@ -170,7 +170,7 @@ def _crank_bored(
             if _crank_holds(assembly, trial, loads, keyed):
                 return trial
     # past links and gears the shaft may have no other way out
-    if not sizes.arm_bore or links_at(assembly.full, np.zeros(1)) or spec.drive.gears:
+    if not sizes.arm_bore or links_at(assembly.full, np.zeros(1)) or spec.gears:
         return trial
     space = min(roller_reaches(assembly)) - hole_radius(size, sizes.pin)
     for d in bores_from(2.0 * sizes.arm_bore, space):  # half of it is left as a wall

@@ -66,7 +66,7 @@ def framed(
         )
     size, L = mechanism.spec.size, mechanism.center_distance_mm
     lows = [base.low] if base else []
-    if mechanism.spec.drive.gears:
+    if mechanism.spec.gears:
         lows.append(gear_span(mechanism, outlines)[0])
     top = min([_lowest(mechanism, outlines, bars), *lows]) - size.washer_mm
     drawn = outlines.sizes if outlines else None
@@ -125,7 +125,7 @@ def _shafts(
             """Return what a shaft carries below wheel or crank."""
             here = (axis for axis in bars.axes if same(axis.at, at, L))
             seats = [seat for axis in here for seat in carried(bars, axis, first, L)]
-            if mechanism.spec.drive.gears and same(at, (L, 0.0), L):
+            if mechanism.spec.gears and same(at, (L, 0.0), L):
                 seats.append(Seat("driven gear", *gear_span(mechanism, outlines)))
             return seats
 
@@ -152,7 +152,7 @@ def _in_bearing(shaft: Shaft, size: Size, lowest: float) -> bool:
 def _moving(mechanism: Mechanism, outlines: Outlines | None, bars: Links) -> Iterator[Seat]:
     """Yield links and gears: their names, lower and upper faces."""
     yield from map(_span, (*bars.cut, *bars.joined, *(gear.member for gear in bars.gears)))
-    if mechanism.spec.drive.gears:
+    if mechanism.spec.gears:
         yield from (Seat(name, *gear_span(mechanism, outlines)) for name in NAMES)
 
 
@@ -201,8 +201,8 @@ def _standing(mechanism: Mechanism, bars: Links) -> Iterator[Point]:
     L = mechanism.center_distance_mm
     wheels = [one.at for one in mechanism.wheel_places]
     seen = [*(wheels if mechanism.spec.wheel.SIGN > 0.0 else []), (L, 0.0)]
-    if mechanism.spec.drive.gears:
-        seen.append((L + mechanism.spec.drive.gears.distance_mm, 0.0))
+    if mechanism.spec.gears:
+        seen.append((L + mechanism.spec.gears.distance_mm, 0.0))
     yield from seen
     for axis in bars.axes:
         if axis.stands and not any(same(axis.at, one, L) for one in seen):

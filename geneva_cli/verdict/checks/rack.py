@@ -36,5 +36,5 @@ def rack_gap(name: str, mechanism: Mechanism) -> Check | None:
         return None  # the check of the horn reports the error
     touch = 2e-6 * mechanism.center_distance_mm  # parts that overlap by less count as touching
     value = 0.0 if abs(gap.mm) <= touch else gap.mm
-    at_deg = mechanism.shown_deg(mechanism.spec.drive.input_deg(gap.crank_deg))
+    at_deg = mechanism.shown_deg(mechanism.spec.input_deg(gap.crank_deg))
     return compared(name, value, "at least", 0.0, at_deg, touch)
