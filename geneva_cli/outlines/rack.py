@@ -48,6 +48,16 @@ class RackSizes(NamedTuple):
     back: float  # wall between the slots' ends and the rack's back
 
     @property
+    def rim(self) -> float:
+        """The edge, for the full turn."""
+        return self.edge
+
+    @property
+    def outer(self) -> float:
+        """0: no part of the rack lies beyond its edge."""
+        return 0.0
+
+    @property
     def horn(self) -> float:
         """Thickness of the horn between slot and recess at its thinnest place."""
         below = min(self.edge - self.arm, 0.0)  # an edge below the crank's axis has wider horns

@@ -50,4 +50,5 @@ def _at_most(name: str, play: Most, limit: float) -> Check:
 
 def finds_slot(parts: MachineParts) -> float:
     """The play, degrees, with which the roller would just meet the mouth of its slot."""
-    return math.degrees(math.asin(min(1.0, parts.sizes.half_width / parts.sizes.rim)))
+    sizes, moves = parts.sizes, parts.assembly.plane_motion
+    return math.degrees(moves.half_span(sizes.half_width, sizes.rim))
