@@ -5,7 +5,7 @@ from __future__ import annotations
 import copy
 import math
 from functools import cached_property
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Protocol
 
 import numpy as np
 
@@ -18,7 +18,6 @@ from geneva_cli.curves.shapes import Contour, backwards
 from geneva_cli.errors import GenevaError
 from geneva_cli.kinematics.plane_motion import turned_points
 from geneva_cli.layout.assembly import Assembly
-from geneva_cli.layout.plain_sizes import Sizes
 from geneva_cli.numerics.tolerances import SAME_LENGTH
 
 if TYPE_CHECKING:
@@ -34,10 +33,35 @@ class WorkLimit(GenevaError):
     """Error for a full turn that would take too long."""
 
 
+class Radii(Protocol):
+    """Lengths of wheel and crank from which gaps are sought, mm."""
+
+    @property
+    def roller(self) -> float:
+        """Radius of the roller."""
+
+    @property
+    def rim(self) -> float:
+        """Distance of the rim from the wheel's axis; of a rack's edge from the origin."""
+
+    @property
+    def lock(self) -> float:
+        """Radius of the locking disc."""
+
+
+class FirstStops(Protocol):
+    """Stops of a wheel or rack against rollers and crank."""
+
+    pairs: int  # of pieces that one roller and the crank can form with the wheel
+
+    def first(self, pose: Pose, most: float, close: float) -> tuple[Stop, Stop]:
+        """Return the stops back and on from n poses; see ``Clearances.stops``."""
+
+
 class Gaps:
     """The gaps between one machine's wheel, crank and rollers at any positions."""
 
-    def __init__(self, assembly: Assembly, sizes: Sizes, wheel: Contour, crank: list[Contour]):
+    def __init__(self, assembly: Assembly, sizes: Radii, wheel: Contour, crank: list[Contour]):
         self.assembly, self.sizes, self.moves = assembly, sizes, assembly.plane_motion
         self.wheel = Polyarc([wheel if assembly.sign > 0.0 else backwards(wheel)])
         self.near = NEAR * assembly.L
@@ -132,7 +156,7 @@ class Gaps:
         return self._stops.first(pose, most, close)
 
     @cached_property
-    def _stops(self) -> Stops:
+    def _stops(self) -> FirstStops:
         each = len(self.wheel) // len(self.assembly.slots)
         one = self.wheel.subset(np.arange(each)) if self.pitch else self.wheel
         return Stops(one, self.pitch or math.tau, self.crank, self.assembly.L, self.sizes.roller)

@@ -28,7 +28,8 @@ class SlidingStops:
     """Stops of one machine's rack against its roller and its crank.
 
     ``rack`` is the part of the rack's outline that repeats after ``pitch`` radians. The rack slides
-    by ``radius`` a radian, and the crank's axis is at (``radius``, 0). ``pairs`` is as in ``Stops``.
+    by ``radius`` a radian, and the crank's axis is at (``radius``, 0). ``pairs`` is the number of
+    pairs of pieces that one roller and the crank can form with the rack.
     """
 
     def __init__(
@@ -41,7 +42,7 @@ class SlidingStops:
         self.pairs = (len(self.rounds.x) + len(self.lines.off)) * (1 + len(crank or ()))
 
     def first(self, pose: Pose, most: float, close: float) -> tuple[Stop, Stop]:
-        """Return the stops of the rack, moved back and moved on from n poses; see ``Stops.first``."""
+        """Return the stops of the rack, moved back and on from n poses; see ``Stops.first``."""
         rollers = [
             touch
             for pin in np.moveaxis(pose.pins, 1, 0)

@@ -82,7 +82,7 @@ class Assembly(NamedTuple):
         return self._path(*self.motions[number], input_deg)
 
     def in_wheel(self, motion: int, input_deg: Array) -> Array:
-        """Return the centre of the roller that drives a motion, in the wheel's frame, mm, (n, 2)."""
+        """Return the centre of a motion's roller in the wheel's frame, mm, (n, 2)."""
         return self.plane_motion.into(self.driving(motion, input_deg), self.wheel(input_deg))
 
     def geared(self, input_deg: Array) -> Mask:

@@ -107,7 +107,7 @@ def drawn(assembly: Assembly, sizes: Sizes, tolerance: float = 0.0) -> Outlines:
     walls = {engagement: slot_walls(assembly, sizes, engagement, fine) for engagement in kinds}
     close = (CURVED if any(engagement.slot.curved for engagement in kinds) else SAME_LENGTH) * L
     wheel = wheel_contour(assembly, sizes, walls)
-    crank, relief, gaps = _relieved(Gaps(assembly, sizes, wheel, []), close)
+    crank, relief, gaps = _relieved(Gaps(assembly, sizes, wheel, []), sizes, close)
     if assembly.full.spec.wheel.stopped:
         wheel = wheel_contour(assembly, sizes, walls, convex=True)
     return Outlines(assembly, sizes, walls, wheel, crank, relief, gaps, close, fine)
@@ -122,13 +122,13 @@ def slot_walls(
     return straight_walls(assembly, sizes, engagement)
 
 
-def _relieved(bare: Gaps, close: float) -> tuple[list[Contour], str, Gaps]:
+def _relieved(bare: Gaps, sizes: Sizes, close: float) -> tuple[list[Contour], str, Gaps]:
     """Return the crank with the relief of the spec, or else the first kind that clears the wheel.
 
     An arc leaves the most of the disc and is one cut. If it collides, as with many slots, the whole
     sector is cut down to where the wheel never comes.
     """
-    assembly, sizes = bare.assembly, bare.sizes
+    assembly = bare.assembly
     if not sizes.lock:
         return [], "none", bare
     requested = assembly.mechanism.spec.size.relief

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from geneva_cli.collisions.gaps import Gaps
+from geneva_cli.collisions.gaps import FirstStops, Gaps
 from geneva_cli.collisions.sliding_stops import SlidingStops
 from geneva_cli.curves.shapes import Contour
 from geneva_cli.layout.assembly import Assembly, assembled
@@ -34,7 +34,7 @@ class RackGaps(Gaps):
         self.around = self.wheel.subset(np.flatnonzero(np.abs(self.wheel.oy) <= 3.5 * radius))
 
     @cached_property
-    def _stops(self) -> SlidingStops:
+    def _stops(self) -> FirstStops:
         """Stops of a slot and the recess after it, whose pieces begin between two recesses."""
         radius, start = self.assembly.L, self.wheel.y0
         one = self.wheel.subset(np.flatnonzero((start >= -radius) & (start < radius)))
@@ -79,7 +79,11 @@ class RackParts(NamedTuple):
 
 def rack_parts(mechanism: Mechanism) -> RackParts:
     """Return rack and crank of a machine. Raises GenevaError, naming the key, if no sizes fit."""
-    sizes, assembly = rack_sizes(mechanism), assembled(mechanism)
+    return placed_rack(assembled(mechanism), rack_sizes(mechanism))
+
+
+def placed_rack(assembly: Assembly, sizes: RackSizes) -> RackParts:
+    """Return rack and crank of known sizes."""
     sector = locking_sector(sizes)
-    crank = [sector] if sector else []
-    return RackParts(assembly, sizes, crank, RackGaps(assembly, sizes, rack_contour(sizes, 5), crank))
+    crank, rack = [sector] if sector else [], rack_contour(sizes, 5)
+    return RackParts(assembly, sizes, crank, RackGaps(assembly, sizes, rack, crank))

@@ -49,6 +49,10 @@ class Output(NamedTuple):
         """True if it is an angle."""
         return self.unit == "deg"
 
+    def from_deg(self, wheel_deg: float) -> float:
+        """Return an angle of the wheel, or of a rack's pinion, in the unit of the output."""
+        return wheel_deg if self.turns else math.radians(wheel_deg) * self.per_radian
+
 
 class RollerPlace(NamedTuple):
     """A roller on the crank, and its passage through a straight slot.
