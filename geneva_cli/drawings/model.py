@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from geneva_cli.layout.plain_sizes import Sizes
     from geneva_cli.layout.roller_paths import RollerPaths
     from geneva_cli.outlines.outlines import Outlines
-    from geneva_cli.outlines.rack_parts import RackParts
+    from geneva_cli.outlines.rack_outlines import RackOutlines
     from geneva_cli.parts.flat_parts import FlatParts
     from geneva_cli.parts.sphere.shells import Shells
     from geneva_cli.parts.sphere.sphere_parts import SphereParts
@@ -103,11 +103,11 @@ class PartsModel:
         return self.flat if self.mechanism.spec.wheel.FLAT else self.ball
 
     @cached_property
-    def rack(self) -> RackParts:
+    def rack_outlines(self) -> RackOutlines:
         """The rack and its crank; raises GenevaError where the sizes leave none."""
-        from geneva_cli.outlines.rack_parts import rack_parts
+        from geneva_cli.outlines.rack_outlines import rack_outlines
 
-        return rack_parts(self.mechanism)
+        return rack_outlines(self.mechanism)
 
     @property
     def parts(self) -> MachineParts:
@@ -115,7 +115,7 @@ class PartsModel:
         wheel = self.mechanism.spec.wheel
         if wheel.FLAT:
             return self.outlines
-        return self.shells if wheel.SHELLS else self.rack
+        return self.shells if wheel.SHELLS else self.rack_outlines
 
     @property
     def turn(self) -> FullTurn:

@@ -252,10 +252,10 @@ class Spec:
         return not self.no_parts
 
     @property
-    def has_turn(self) -> bool:
+    def is_turned(self) -> bool:
         """True if wheel and crank can be checked for collisions in a full turn of the crank.
 
-        >>> Spec(Linear(6)).has_turn, Spec(External(400)).has_turn
+        >>> Spec(Linear(6)).is_turned, Spec(External(400)).is_turned
         (True, False)
         """
         # A rack of any length is checked by the slots that the crank reaches in a turn.

@@ -248,8 +248,8 @@ class _Search:
     def _holds_one_way(self, machine: Mechanism, turn: bool) -> bool:
         from geneva_cli.drawings.model import PartsModel
 
-        has_turn = self.parts and machine.spec.has_turn
-        model = PartsModel(machine, advice=False) if has_turn else None
+        is_turned = self.parts and machine.spec.is_turned
+        model = PartsModel(machine, advice=False) if is_turned else None
         if not self._pass(checks_at_rest(machine, model)):
             return False
         if model is None or not turn:

@@ -14,7 +14,7 @@ from geneva_cli.curves.moments import moments
 from geneva_cli.errors import GenevaError
 from geneva_cli.layout.assembly import assembled
 from geneva_cli.outlines.rack import locking_sector, rack_contour, rack_sizes
-from geneva_cli.outlines.rack_parts import placed_rack
+from geneva_cli.outlines.rack_outlines import turned_rack
 
 R, r = 50.0, 6.0
 
@@ -28,7 +28,7 @@ def sizes_of(**sizes: float):
 
 
 def smallest_gap(sizes) -> float:
-    return full_turn(placed_rack(assembled(design().mechanism), sizes)).smallest.mm
+    return full_turn(turned_rack(assembled(design().mechanism), sizes)).smallest.mm
 
 
 @pytest.mark.parametrize("count", [3, 4, 7])

@@ -19,7 +19,7 @@ from geneva_cli.collisions.full_turn import full_turn
 from geneva_cli.curves.distance import Polyarc
 from geneva_cli.errors import GenevaError
 from geneva_cli.outlines.rack import locking_sector, rack_contour
-from geneva_cli.outlines.rack_parts import placed_rack, rack_parts
+from geneva_cli.outlines.rack_outlines import rack_outlines, turned_rack
 
 R, r = 50.0, 6.0
 MACHINES = some(60, 6)
@@ -27,7 +27,7 @@ MACHINES = some(60, 6)
 
 def parts_of(z: int = 6, **sizes: float):
     size = Size(**{"center_distance_mm": R, "roller_radius_mm": r, **sizes})
-    return rack_parts(Design(Linear(z), size=size).mechanism)
+    return rack_outlines(Design(Linear(z), size=size).mechanism)
 
 
 def random_parts(seed: int):
@@ -123,7 +123,7 @@ def test_an_overlap_of_a_known_depth_is_not_proved(by):
     """The ring is larger than its recess by so much, and so is the overlap, in every dwell."""
     parts = parts_of()
     s = parts.sizes
-    large = placed_rack(parts.assembly, s._replace(lock=s.recess + by))
+    large = turned_rack(parts.assembly, s._replace(lock=s.recess + by))
     smallest = full_turn(large).smallest.mm
     assert smallest == pytest.approx(-by, rel=1e-9)
     proof = certificate(large, smallest, TO_MM)

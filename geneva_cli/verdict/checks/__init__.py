@@ -118,7 +118,7 @@ def _parts(mechanism: Mechanism, model: PartsModel | None, turned: bool) -> Iter
     spec, none = mechanism.spec, list[Check]()
     if not spec.has_parts:
         none = [Check("parts", None, "proved", None, None, spec.no_parts)]
-    if not spec.has_turn:
+    if not spec.is_turned:
         yield from none
         return
     from geneva_cli.collisions.gaps import WorkLimit

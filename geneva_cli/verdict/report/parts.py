@@ -22,7 +22,7 @@ def parts(model: PartsModel) -> Values:
 def turned(model: PartsModel) -> Values:
     """Results of the parts' whole turn; None without it, with the reason in ``parts.none``."""
     values: Values = dict.fromkeys(own_names("parts", "report.parts:turned"))
-    return values | (_or_reason(model, _turned) if model.mechanism.spec.has_turn else {})
+    return values | (_or_reason(model, _turned) if model.mechanism.spec.is_turned else {})
 
 
 def _or_reason(model: PartsModel, compute: Callable[[PartsModel], Values]) -> Values:

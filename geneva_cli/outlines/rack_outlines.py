@@ -41,7 +41,7 @@ class RackGaps(Gaps):
         return SlidingStops(one, self.pitch, self.crank, radius, self.sizes.roller)
 
 
-class RackParts(NamedTuple):
+class RackOutlines(NamedTuple):
     """Rack and crank, and the gaps between them."""
 
     assembly: Assembly
@@ -59,7 +59,7 @@ class RackParts(NamedTuple):
         """The overlap, mm, up to which parts count as touching."""
         return CONTACT * self.assembly.L
 
-    def over(self, assembly: Assembly) -> RackParts:
+    def over(self, assembly: Assembly) -> RackOutlines:
         """Return these parts with another assembly."""
         return self._replace(assembly=assembly)
 
@@ -77,13 +77,13 @@ class RackParts(NamedTuple):
         return FlatPairs(self.gaps, self.crank, target, self.sizes.edge)
 
 
-def rack_parts(mechanism: Mechanism) -> RackParts:
+def rack_outlines(mechanism: Mechanism) -> RackOutlines:
     """Return rack and crank of a machine. Raises GenevaError, naming the key, if no sizes fit."""
-    return placed_rack(assembled(mechanism), rack_sizes(mechanism))
+    return turned_rack(assembled(mechanism), rack_sizes(mechanism))
 
 
-def placed_rack(assembly: Assembly, sizes: RackSizes) -> RackParts:
+def turned_rack(assembly: Assembly, sizes: RackSizes) -> RackOutlines:
     """Return rack and crank of known sizes."""
     sector = locking_sector(sizes)
     crank, rack = [sector] if sector else [], rack_contour(sizes, 5)
-    return RackParts(assembly, sizes, crank, RackGaps(assembly, sizes, rack, crank))
+    return RackOutlines(assembly, sizes, crank, RackGaps(assembly, sizes, rack, crank))
