@@ -7,7 +7,7 @@ from collections.abc import Iterable, Sequence
 from geneva_cli.curves.hull import convex_hull
 from geneva_cli.curves.plates import Plate, Stack
 from geneva_cli.curves.shapes import Circle, Point
-from geneva_cli.layout.bearings import bearing_up_to
+from geneva_cli.layout.bearings import SERIES_60
 from geneva_cli.layout.bores import around
 from geneva_cli.layout.plain_sizes import half_or, wall_min
 from geneva_cli.numerics.preferred import bore_radius, rounded_radius
@@ -47,7 +47,8 @@ def shaft_hole(shaft: Plate | Stack, at: Point, top: float, fit_mm: float) -> Ci
     """
     if isinstance(shaft, Stack):
         seat = next(step for step in shaft.plates if step.high == top)
-        return Circle(HOLES, at, 0.5 * bearing_up_to(2.0 * around(seat.outline), "").outside)
+        bearing = next(one for one in SERIES_60 if one.bore == 2.0 * around(seat.outline))
+        return Circle(HOLES, at, 0.5 * bearing.outside)
     return Circle(HOLES, at, around(shaft.outline) + 0.5 * fit_mm)
 
 

@@ -15,7 +15,7 @@ import math
 from collections.abc import Iterator
 from typing import NamedTuple
 
-from geneva_cli.curves.plates import Plate, Stack
+from geneva_cli.curves.plates import Member, Plate, Stack
 from geneva_cli.curves.shapes import Circle
 from geneva_cli.curves.sheet import rectangle
 from geneva_cli.errors import GenevaError
@@ -35,8 +35,8 @@ from geneva_cli.parts.mounted_plate import (
     shaft_hole,
 )
 from geneva_cli.parts.rack_arm import rack_bore
-from geneva_cli.parts.shafts import shaft_ends, shaft_in
-from geneva_cli.parts.turned_shafts import Seat
+from geneva_cli.parts.shaft import Seat, Shaft, shaft_ends
+from geneva_cli.parts.turned_shafts import turned_shaft
 
 
 class RackFrame(NamedTuple):
@@ -58,7 +58,8 @@ def rack_frame(mechanism: Mechanism) -> RackFrame:
     top = arm - size.washer_mm
     if size.shafts == "turned" and has_arm(mechanism):
         top -= R / 25.0  # the least length of a shoulder, as a wheel's of 6 slots has
-        thickness = max(thickness, bearing_up_to(2.0 * rack_bore(mechanism), "crank").width)
+        bearing = bearing_up_to(2.0 * rack_bore(mechanism), "crank's shaft", "arm_bore_mm")
+        thickness = max(thickness, bearing.width)
     return RackFrame(top - thickness, top, arm, 0.0 - gap, thick.wheel, thick.arm)
 
 
@@ -67,7 +68,7 @@ def has_arm(mechanism: Mechanism) -> bool:
     return pin_radius(mechanism.spec.size, mechanism.roller_radius_mm) > 0.0
 
 
-def rack_shaft(mechanism: Mechanism) -> Plate | Stack | None:
+def rack_shaft(mechanism: Mechanism) -> Member | None:
     """Return the crank's shaft, from the frame's lower face to the arm's upper one.
 
     None without an arm, as the crank is one piece with its shaft then. Raises GenevaError, naming
@@ -76,11 +77,14 @@ def rack_shaft(mechanism: Mechanism) -> Plate | Stack | None:
     if not has_arm(mechanism):
         return None
     size, heights = mechanism.spec.size, rack_frame(mechanism)
-    bore = bore_of(size, "crank", rack_bore(mechanism))
+    bore, axis = bore_of(size, "crank", rack_bore(mechanism)), (mechanism.center_distance_mm, 0.0)
+    seats = (Seat("crank", heights.arm, heights.stands),)
+    low, high = shaft_ends(size, "crank", heights.bottom, heights.stands)
     # the keyway is on the side of the locking sector, as in the arm
-    seat = Seat("crank", bore, math.pi, heights.arm, heights.stands, True, heights.top)
-    ends = shaft_ends(size, "crank", heights.bottom, heights.stands)
-    return shaft_in(size, seat, ends, heights.bottom)
+    one = Shaft("crank's shaft", "crank", bore, seats, low, high, axis, math.pi, math.pi)
+    if size.shafts == "turned" and low <= heights.bottom:
+        return turned_shaft(size, one, heights.top, None)
+    return one.plain(size)
 
 
 def guide_bar(mechanism: Mechanism, count: int) -> Plate:
@@ -156,7 +160,8 @@ def frame_plate(mechanism: Mechanism) -> Plate:
     if shaft is None:
         bored = hole_without_shaft(mechanism.spec.shaft.crank_diameter_mm, axis, L)
     else:
-        bored = shaft_hole(shaft, axis, heights.top, size.allowances.shaft_fit_mm)
+        assert isinstance(shaft.part, Plate | Stack)
+        bored = shaft_hole(shaft.part, axis, heights.top, size.allowances.shaft_fit_mm)
     holes = [bored, *(hole for at in _rows(sizes) for hole in _row(sizes, at))]
     return mounted_plate(holes, holes, corner_radius(size, L), span)
 

@@ -12,8 +12,9 @@ from collections.abc import Iterable, Iterator
 from functools import cached_property
 from typing import Self
 
+from geneva_cli.curves.edges import Edge
 from geneva_cli.curves.hole_walls import require_faces
-from geneva_cli.curves.plates import Group, Member, Plate, on_edges, plates
+from geneva_cli.curves.plates import Group, Member, Plate, edged, plates
 from geneva_cli.curves.shapes import Point
 from geneva_cli.errors import GenevaError
 from geneva_cli.layout.missing import NamedParts
@@ -72,8 +73,7 @@ class RackParts:
         """The crank's arm; None without a pin for the roller."""
         if not has_arm(self.mechanism):
             return None
-        chamfer = self.mechanism.spec.size.edge_chamfer_mm or 0.0
-        return rack_arm(self.mechanism)._replace(chamfer=chamfer)
+        return rack_arm(self.mechanism)._replace(edge=self._edge)
 
     @cached_property
     def crank_without_arm(self) -> Member:
@@ -96,7 +96,7 @@ class RackParts:
         """The crank's shaft; none without an arm."""
         self._require_direct()
         shaft = rack_shaft(self.mechanism)
-        return self._edged([Member(shaft, self.axis, math.pi)]) if shaft else ()
+        return self._edged([shaft]) if shaft else ()
 
     @cached_property
     def guide(self) -> tuple[Member, ...]:
@@ -119,9 +119,14 @@ class RackParts:
             raise GenevaError(reason, ("drive", "kind"))
 
     def _edged(self, members: Iterable[Member]) -> tuple[Member, ...]:
-        """Return members with the spec's chamfer."""
-        chamfer = self.mechanism.spec.size.edge_chamfer_mm or 0.0
-        return tuple(on_edges(one, chamfer) for one in members)
+        """Return members with the spec's edges."""
+        return tuple(edged(one, self._edge) for one in members)
+
+    @property
+    def _edge(self) -> Edge:
+        """The edges of all plates."""
+        size = self.mechanism.spec.size
+        return Edge(size.edge_mm, rounded=size.edge_chamfer_mm is None)
 
     @property
     def outside_mm(self) -> float | None:
@@ -149,8 +154,7 @@ class RackParts:
         """Raise GenevaError for a part that cannot be built."""
         for member in self.members:
             for plate in plates(member.part):
-                if plate.chamfer:
-                    require_faces(plate)
+                require_faces(plate)
 
     def by_name(self) -> Iterator[NamedParts]:
         """Yield all parts in the order of a list, as names and functions that build them."""

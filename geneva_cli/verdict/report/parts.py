@@ -38,12 +38,14 @@ def _sizes(model: PartsModel) -> Values:
 
 
 def _turned(model: PartsModel) -> Values:
-    parts, turn = model.parts, model.turn
-    gap, locked = turn.smallest, bool(parts.crank)
+    parts, turn, output = model.parts, model.turn, model.mechanism.output
+    gap = turn.smallest
+    # the lock's play, in the unit of what the machine gives out
+    play = {f"parts.dwell_play_{output.unit}": output.from_deg(turn.dwell.deg)}
     return {
         "parts.smallest_gap_mm": gap.mm if abs(gap.mm) > parts.contact else 0.0,
         "parts.smallest_gap_at_deg": gap.at_deg,
-        "parts.dwell_play_deg": turn.dwell.deg if locked else None,
+        **(play if parts.crank else {}),
     }
 
 
