@@ -56,9 +56,13 @@ class RackSizes(NamedTuple):
 
     @property
     def horn(self) -> float:
-        """Thickness of the horn between slot and recess at its thinnest place."""
+        """Thickness of the horn between slot and recess at its thinnest place.
+
+        Without a recess it is half of the wall between two slots.
+        """
         below = min(self.edge - self.arm, 0.0)  # an edge below the crank's axis has wider horns
-        return self.arm - self.half_width - math.sqrt(self.recess**2 - below**2)
+        half_recess = math.sqrt(max(self.recess**2 - below**2, 0.0))
+        return self.arm - self.half_width - half_recess
 
     @property
     def behind(self) -> float:
