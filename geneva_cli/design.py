@@ -781,7 +781,7 @@ class Design:
             show(self.part_table(part, tolerance_mm), path, inputs=files)
             return
         model, curves = self.drawn(tolerance_mm, part), usual_curves(path, "")
-        refused = self.judge(model)[0] if self.spec.has_parts and not force else ""
+        refused = self.judge(model)[0] if self.spec.is_turned and not force else ""
         if refused:
             raise GenevaError(f"{cut(path, 300)}: not written: {refused}")
         if sheet:
@@ -831,8 +831,8 @@ class Design:
         from geneva_cli.verdict.advice import judged
         from geneva_cli.verdict.checks import proofs
 
-        # a machine without parts is judged without NumPy
-        if not self.spec.has_parts:
+        # a machine whose parts are not turned is judged without NumPy
+        if not self.spec.is_turned:
             return judged(self.mechanism)
         return [*judged(self.mechanism, self.parts_model), *proofs(self.parts_model, proof_mm)]
 

@@ -242,11 +242,6 @@ class WheelMotion(Batchable, ABC):
         """
         return None
 
-    @property
-    def unit(self) -> WheelMotion | None:
-        """One design's motion that each of a batch is in another scale of angles; else None."""
-        return None
-
     def derivatives(self, input_deg: Array, orders: Sequence[int] = (0, 1, 2, 3)) -> list[Array]:
         """Wheel angle and its derivatives at many ascending input angles (k,).
 

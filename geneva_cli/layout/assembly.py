@@ -23,6 +23,7 @@ from geneva_cli.machine.mechanism import Mechanism, build
 from geneva_cli.spec.tables import Z_DRAWN
 
 if TYPE_CHECKING:
+    from geneva_cli.kinematics.plane_motion import PlaneMotion
     from geneva_cli.numerics.arrays import Mask
     from geneva_cli.numerics.jet import Array
 
@@ -50,6 +51,7 @@ class Assembly(NamedTuple):
     rests: tuple[float, ...]
     full: Mechanism  # the machine of the spec, with the drive of its crank
     to_input: Callable[[float], float]  # input angle of the plain crank -> of ``full``, degrees
+    plane_motion: PlaneMotion  # of the wheel
 
     def shown_deg(self, input_deg: float) -> float:
         """Return the input angle as commands show it, for an input angle of the assembly."""
@@ -78,6 +80,10 @@ class Assembly(NamedTuple):
         While gears drive the wheel, it is the roller that drove it before or will drive it after.
         """
         return self._path(*self.motions[number], input_deg)
+
+    def in_wheel(self, motion: int, input_deg: Array) -> Array:
+        """Return the centre of a motion's roller in the wheel's frame, mm, (n, 2)."""
+        return self.plane_motion.into(self.driving(motion, input_deg), self.wheel(input_deg))
 
     def geared(self, input_deg: Array) -> Mask:
         """Return a mask (n,) of the input angles at which gears drive the wheel, not a roller."""
@@ -181,7 +187,8 @@ def assembled(mechanism: Mechanism) -> Assembly:
         crank = Crank(
             n_rpm=keep.n_rpm, rollers=keep.rollers, roller_angles_deg=keep.roller_angles_deg
         )
-        mechanism = build(spec.replace(drive=crank, drive_before=None))
+        no_gears = spec.size.replace(gear_module_mm=None, gear_teeth=None, gear_shift=None)
+        mechanism = build(spec.replace(drive=crank, drive_before=None, size=no_gears))
     turn = 360.0 * mechanism.spec.turns
     periods = round(turn / mechanism.period_deg)
     motions = tuple(
@@ -197,7 +204,10 @@ def assembled(mechanism: Mechanism) -> Assembly:
     L = mechanism.center_distance_mm
     sign = spec.wheel.SIGN
     around = _around(mechanism)
-    return Assembly(mechanism, L, sign, turn, turn, motions, rollers, *around, full, to_input)
+    moves = spec.wheel.plane_motion(L)
+    return Assembly(
+        mechanism, L, sign, turn, turn, motions, rollers, *around, full, to_input, moves
+    )
 
 
 def _same(input_deg: float) -> float:

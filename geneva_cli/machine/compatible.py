@@ -224,6 +224,11 @@ CONFLICTS = (
         "stop_stress_max_MPa limits a stop: set stop = true in [wheel] of an external wheel",
     ),
     Conflict(
+        lambda s: s.size.gear_module_mm is not None and not (s.drive.TOOTHED or s.drive.GEARED),
+        ("size", "gear_module_mm"),
+        'gear_module_mm cuts the teeth of gears, and kind = "{drive}" has none: remove it',
+    ),
+    Conflict(
         lambda s: s.size.gear_module_mm is None and s.size.gear_shift is not None,
         ("size", "gear_shift"),
         "gear_shift moves the teeth of gears: set gear_module_mm, or remove gear_shift",

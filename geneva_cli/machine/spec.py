@@ -281,6 +281,16 @@ class Spec:
         return not self.no_parts
 
     @property
+    def is_turned(self) -> bool:
+        """True if wheel and crank can be checked for collisions in a full turn of the crank.
+
+        >>> Spec(Linear(6)).is_turned, Spec(External(400)).is_turned
+        (True, False)
+        """
+        # A rack of any length is checked by the slots that the crank reaches in a turn.
+        return not self.output.turns or self.wheel.z <= Z_DRAWN
+
+    @property
     def no_parts(self) -> str:
         """The reason why wheel and crank have no outlines; empty if they have.
 

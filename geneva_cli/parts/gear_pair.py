@@ -15,6 +15,7 @@ from geneva_cli.curves.plates import Member, Plate
 from geneva_cli.curves.shapes import Circle, Point, closed
 from geneva_cli.errors import GenevaError
 from geneva_cli.kinematics.drive import Gears
+from geneva_cli.layout.bores import RoundBore
 from geneva_cli.layout.gear_curves import SAMPLES, radii, ratio_and_turn, required_gears
 from geneva_cli.layout.link_positions import gear_plane
 from geneva_cli.machine.mechanism import Mechanism
@@ -25,7 +26,7 @@ from geneva_cli.parts.link_shafts import Ends
 from geneva_cli.parts.link_sizes import link_sizes
 from geneva_cli.parts.links import drawn_links
 from geneva_cli.parts.pair_teeth import ToothedCurve, pair_teeth, toothed_curve
-from geneva_cli.parts.shafts import round_section, shaft, shaft_ends
+from geneva_cli.parts.shaft import Seat, Shaft, shaft_ends
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -110,7 +111,7 @@ def pitch_radii(pair: Gears) -> tuple[tuple[float, float], tuple[float, float]]:
     )
 
 
-def gear_shafts(mechanism: Mechanism, parts: Outlines | None, ends: Ends) -> Iterator[Member]:
+def gear_shafts(mechanism: Mechanism, parts: Outlines | None, ends: Ends) -> Iterator[Shaft]:
     """Yield the shafts that carry only gears, from the frame's lower face up; none without gears.
 
     The driver's shaft goes through it, or ends below one that is too small for a bore. The crank's
@@ -122,9 +123,12 @@ def gear_shafts(mechanism: Mechanism, parts: Outlines | None, ends: Ends) -> Ite
     low, high = gear_span(mechanism, parts)
     if not (ends.crank_has_one or _on_links(mechanism, parts)):
         reach = shaft_ends(size, "crank", ends.lowest, high)
-        yield Member(shaft("crank", round_section(size, wide), reach), on_crank)
-    top = high if _driver_bore(mechanism, parts) else low
-    yield Member(shaft("driver gear", round_section(size, radius), (ends.lowest, top)), at)
+        driven = (Seat(NAMES[0], low, high),)
+        yield Shaft("crank's shaft", "crank", RoundBore(wide), driven, *reach, on_crank)
+    bored = _driver_bore(mechanism, parts) > 0.0
+    top = high if bored else low  # one piece with the gear above it
+    seats = (Seat(NAMES[1], low, high),) if bored else ()
+    yield Shaft(f"{NAMES[1]}'s shaft", NAMES[1], RoundBore(radius), seats, ends.lowest, top, at)
 
 
 def _shafts(mechanism: Mechanism, parts: Outlines | None) -> list[tuple[Point, float]]:

@@ -302,6 +302,7 @@ def test_numbers_and_arrays_agree(machine, exact, case):
             assert np.all(np.abs(many[k] - one[k]) <= bar), name
 
 
+@pytest.mark.sampled(4)
 @every
 def test_a_symmetric_motion_is_mirrored(machine, exact, case):
     for i, s in enumerate(machine(case).engagements):
