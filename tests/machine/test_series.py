@@ -29,6 +29,7 @@ from geneva_cli.drawings.model import PartsModel
 from geneva_cli.errors import GenevaError
 from geneva_cli.kinematics.layout import Joint
 from geneva_cli.layout.link_positions import links_at
+from geneva_cli.machine.both_ways import backwards
 from geneva_cli.machine.many import many
 from geneva_cli.machine.mechanism import build
 from geneva_cli.machine.retimed import retimed
@@ -165,6 +166,24 @@ def test_a_written_spec_is_read_as_the_same(tmp_path):
     assert (again.drive, again.drive_before) == (design.spec.drive, GEARS)
     assert "drive_before=EllipticalGears(eccentricity=0.2" in repr(design)
     assert design.with_("drive.before.phase", "quick").spec.drive_before.phase == "quick"
+
+
+def test_a_ratio_from_points_turns_both_ways():
+    """Backwards psi(x) is -psi(-x), with the points in reverse order; a warning names their key."""
+    at = np.arange(0.0, 361.0, 10.0)
+    ratio = 1.0 - 0.25 * np.cos(np.radians(at)) + 0.1 * np.sin(np.radians(2.0 * at))
+    ratio[-1] = ratio[0]
+    front = NoncircularGears(ratio=tuple(zip(at.tolist(), ratio.tolist(), strict=True)))
+    drive = Epicyclic(planet_ratio=0.02, both_ways=True)
+    design = Design(External(4), drive, drive_before=front)
+    (here,), (back,) = (m.engagements for m in (design.mechanism, backwards(design.mechanism)))
+    x = np.linspace(here.entry_deg, here.exit_deg, 31)
+    turned = back.motion.derivatives(-x[::-1])
+    for k, (a, b) in enumerate(zip(here.motion.derivatives(x), turned, strict=True)):
+        # 1e-13: the spline's rounding, whose third derivative has the fewest digits
+        assert abs(a + (-1) ** k * b[::-1]).max() <= 1e-13 * abs(a).max()
+    (warning,) = (w for w in design.warnings if "because of" in w)
+    assert "because of ratio_file." in warning
 
 
 @pytest.mark.parametrize("drive", [PLANET, COUPLER], ids=repr)
