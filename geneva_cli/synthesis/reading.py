@@ -77,6 +77,10 @@ def read_target(
             f'--from: kind = "{frame.drive.NAME}" has wheels on a carrier, and synth tries cranks '
             "on the ground: leave the kind out, and set it in the result"
         )
+    if frame and frame.drive_before:
+        raise GenevaError(
+            "--from: [drive.before] has no meaning here, since synth chooses the drive: remove it"
+        )
     phrases = [spans[name].words(*SPANS[name][1:]) for name in spans]
     phrases = [w if w[:2] == "a " else " = ".join(w.split(" ", 1)) for w in phrases]
     bounds = tuple(constraint(text) for text in subject_to)
