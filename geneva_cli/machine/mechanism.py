@@ -83,6 +83,8 @@ class Mechanism(NamedTuple):
         Over a period of several turns it is counted from the first engagement's entry.
         """
         whole = 360.0 * self.spec.drive.turns
+        if self.engagements[0].turned is not None:
+            whole = self.period_deg  # the turns of the input differ in their loads
         m = library(input_deg, whole)
         entry = self.engagements[0].mid_deg + self.engagements[0].entry_deg
         # Rounding may put an angle just before the entry: count it as the entry.

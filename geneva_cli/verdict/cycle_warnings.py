@@ -57,8 +57,8 @@ def _back_driven(cycle: Cycle, loads: Mapping[str, QuantitySummary]) -> list[Not
     return [
         Notice(
             "drives-the-motor",
-            f"the {noun} drives the motor from {where} deg{rest}, with up to {-least:.4g} N m on the "
-            "input. There the play of slot and reducer changes sides, and a self-locking worm "
+            f"the {noun} drives the motor from {where} deg{rest}, with up to {-least:.4g} N m on "
+            "the input. There the play of slot and reducer changes sides, and a self-locking worm "
             f"jams: use a brake or a motor that brakes, {helps}",
         )
     ]

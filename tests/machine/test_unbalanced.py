@@ -150,6 +150,10 @@ def test_extremes_and_means_over_a_turn_of_the_wheel(wheel):
     for name, values in (("wheel_torque_Nm", own), ("input_torque_Nm", shaft)):
         assert loads[name].max == pytest.approx(values.max(), rel=1e-8)  # of the scan's spacing
         assert loads[name].min == pytest.approx(values.min(), rel=1e-8)
+        # the place names the turn too
+        k, i = divmod(int(np.argmax(values)), len(a))
+        at = loads[name].max_at_deg
+        assert at == pytest.approx(360.0 * k + math.degrees(a[i]), abs=0.01)
     assert loads["input_torque_Nm"].rms == pytest.approx(math.sqrt(square / period), rel=1e-8)
     # all that is put in comes back in a turn
     assert mean == pytest.approx(0.0, abs=1e-8 * abs(shaft).max())
