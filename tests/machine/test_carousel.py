@@ -458,7 +458,6 @@ def test_only_one_wheel_moves_at_a_time(z, most):
     ("tables", "text"),
     [
         ({"wheel": Spherical(6)}, "external or internal"),
-        ({"mass": (Mass("point", mass_kg=1.0, radius_mm=50.0),)}, "balanced"),
         ({"product": Product(sprocket_teeth=20, pitch_mm=5.0)}, "on the ground"),
         ({"support": Support(gear_ratio=2.0)}, "on the ground"),
         ({"drive": Carousel(wheels=2, rollers=2)}, "one finger"),
