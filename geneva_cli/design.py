@@ -142,6 +142,7 @@ class Design:
         limits: Limits | None = None,
         drawing: TitleBlock | None = None,
         title: str = "",
+        drive_before: Drive | None = None,
     ) -> None:
         self.spec = Spec(
             wheel,
@@ -160,6 +161,7 @@ class Design:
             limits or Limits(),
             drawing or TitleBlock(),
             title,
+            drive_before=drive_before,
         )
         self._text: Text | None = None
 
@@ -186,8 +188,10 @@ class Design:
         ]
         for name in [*type(self).__init__.__annotations__][3:-1]:
             value = vars(spec)[name]
+            if not value:
+                continue
             text = f"{value!r}" if isinstance(value, (str, tuple)) else shortly(value)
-            if value and not text.endswith("()"):
+            if not text.endswith("()"):
                 arguments.append(f"{name}={cut(text, SHOWN_MAX)}")
         return f"Design({', '.join(arguments)})"
 

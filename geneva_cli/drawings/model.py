@@ -42,8 +42,8 @@ class PartsModel:
 
     def over(self, mechanism: Mechanism) -> PartsModel:
         """Return the model of a machine whose parts have the same outlines and positions."""
-        drive = mechanism.spec.drive
-        assembly = self.parts.assembly._replace(full=mechanism, to_input=drive.input_deg)
+        to_input = mechanism.spec.input_deg
+        assembly = self.parts.assembly._replace(full=mechanism, to_input=to_input)
         if mechanism.spec.wheel.FLAT:
             return PartsModel(mechanism, self.outlines.over(assembly), self.advice)
         shells = self.shells.over(assembly) if mechanism.spec.wheel.SHELLS else None

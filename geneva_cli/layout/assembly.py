@@ -60,7 +60,7 @@ class Assembly(NamedTuple):
     def place_deg(self, shown_deg: float) -> float:
         """Return the inverse of ``shown_deg``, to a hundredth of a degree."""
         low, high = self.start_deg, self.start_deg + self.turn_deg
-        period = 360.0 * self.full.spec.drive.turns
+        period = 360.0 * self.full.spec.turns
         best = low
         for _ in range(3):
             grid = np.linspace(low, high, 361)
@@ -178,14 +178,18 @@ def assembled(mechanism: Mechanism) -> Assembly:
     """Return the assembly of any machine; on a sphere ``pin`` is seen along the wheel's axis."""
     full, spec = mechanism, mechanism.spec
     to_input: Callable[[float], float] = _same
-    if mechanism.law is None and spec.drive.CRANKED:
-        to_input = spec.drive.input_deg
+    if spec.drive_before and not spec.drive.CRANKED:
+        to_input = spec.input_deg
+        mechanism = build(spec.replace(drive_before=None))
+    elif mechanism.law is None and spec.drive.CRANKED:
+        to_input = spec.input_deg
         keep = spec.drive
         crank = Crank(
             n_rpm=keep.n_rpm, rollers=keep.rollers, roller_angles_deg=keep.roller_angles_deg
         )
-        mechanism = build(spec.replace(drive=crank))
-    turn = 360.0 * mechanism.spec.drive.turns
+        no_gears = spec.size.replace(gear_module_mm=None, gear_teeth=None, gear_shift=None)
+        mechanism = build(spec.replace(drive=crank, drive_before=None, size=no_gears))
+    turn = 360.0 * mechanism.spec.turns
     periods = round(turn / mechanism.period_deg)
     motions = tuple(
         (engagement, engagement.mid_deg + k * mechanism.period_deg)

@@ -96,7 +96,10 @@ class Adviser:
         The reason may name a change with which this check passes.
         """
         if found:
-            return check._replace(nearest=found)
+            # where the same key passes, the other sizes may have changed with it
+            is_, but, _ = check.why.partition(", but ")
+            own = but and is_.startswith(f"{found.partition(' ')[0]} is ")
+            return check._replace(nearest=found, why=is_ if own else check.why)
         partly, _ = self.advice([check]) if self.failing[1:] else ("", "")
         says = (check.why, why, partly and f"{partly} passes this one")
         return check._replace(why="; ".join(text for text in says if text))
