@@ -14,16 +14,18 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Sequence
 from typing import NamedTuple
 
+from geneva_cli.curves.hole_walls import least_wall
 from geneva_cli.curves.hull import convex_hull
 from geneva_cli.curves.plates import Member, Plate, Stack
-from geneva_cli.curves.shapes import Circle, Point
+from geneva_cli.curves.shapes import ORIGIN, Circle, Point
 from geneva_cli.errors import GenevaError
-from geneva_cli.layout.bearings import SERIES_60
+from geneva_cli.layout.bearings import SERIES_60, shoulder_length
 from geneva_cli.layout.bores import around
 from geneva_cli.layout.link_positions import same
 from geneva_cli.layout.plain_sizes import drawn_thicknesses, wall_min
 from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.numerics.preferred import bore_radius, rounded_radius
+from geneva_cli.numerics.tolerances import SAME_LENGTH
 from geneva_cli.outlines.outlines import Outlines
 from geneva_cli.outlines.wheel_hub import wheel_hub
 from geneva_cli.parts.arm import has_arm
@@ -40,10 +42,11 @@ NAME, LAYER, HOLES = "frame", "FRAME", "BORE"
 
 
 class FrameAndShafts(NamedTuple):
-    """The frame, and the shafts at their positions, whether they reach it or not."""
+    """The frame, what is on it, and the shafts, whether they reach it or not."""
 
     plate: Plate
     shafts: tuple[Member, ...]
+    spacers: tuple[Member, ...] = ()  # below the parts that are screwed to it
 
 
 def framed(
@@ -68,27 +71,21 @@ def framed(
     lows = [base.low] if base else []
     if mechanism.spec.drive.gears:
         lows.append(gear_span(mechanism, outlines)[0])
-    top = min([_lowest(mechanism, outlines, bars), *lows]) - size.washer_mm
     drawn = outlines.sizes if outlines else None
     thick = drawn_thicknesses(size, L, drawn).arm
-    collar = L / 50.0  # the least length of a shoulder
-    top -= collar if size.shafts == "turned" else 0.0
-    bottom = top - thick
-    own = list(_shafts(mechanism, outlines, bars, bottom, first))
-    turned = [one for one in own if _in_bearing(one, size, bottom)]
-    bottom = min([bottom, *(top - bearing_of(one).width for one in turned)])
-    moving = [*_moving(mechanism, outlines, bars), *map(_span, first)]
-    axles = []
-    for one in own:
-        if one in turned:
-            passed = _is_passed(one, moving)
-            axles.append(turned_shaft(size, one, top, collar if passed else None))
-        else:
-            axles.append(one.plain(size))
+    free = min([_lowest(mechanism, outlines, bars), *lows]) - size.washer_mm
+    top = free - shoulder_length(size, L)
+    own = list(_shafts(mechanism, outlines, bars, top - thick, first))
+    beside = [*_beside(mechanism, outlines, bars), *map(_span, first)]
+    beside += [_span(Member(base))] if base else []
+    axles, bottom = _built(size, own, beside, (top - thick, top, free))
     places = list(_standing(mechanism, bars))
-    mounts = _mounted(base, L) if base else ()
-    holes = [*_drilled(mechanism, axles, places, top), *_fixed(bars), *mounts]
+    drilled = list(_drilled(mechanism, axles, places, top))
     wall = wall_min(size, L)
+    _require_walls(drilled, wall, axles)
+    fixed = [*_fixed(bars), *(_mounted(base, L) if base else ())]
+    holes = [*drilled, *(hole for hole, _ in fixed)]
+    spacers = [_spacer(hole, top, low) for hole, low in fixed if low - top > SAME_LENGTH * L]
     eye = max(L / 20.0, 3.0 * wall)
     # The frame contains every axis, drilled or not.
     within = [*holes, *(Circle(HOLES, at, 0.0) for at in ((0.0, 0.0), *places))]
@@ -105,7 +102,9 @@ def framed(
     outline = convex_hull(LAYER, [Circle(LAYER, corner, eye) for corner in corners])
     holes += [Circle(HOLES, corner, rounded_radius(0.4 * eye)) for corner in corners]
     return FrameAndShafts(
-        Plate(NAME, LAYER, outline, tuple(holes), bottom, top), tuple(outside_links(axles, bars, L))
+        Plate(NAME, LAYER, outline, tuple(holes), bottom, top),
+        tuple(outside_links(axles, bars, L)),
+        tuple(spacers),
     )
 
 
@@ -144,12 +143,28 @@ def _shafts(
     yield from gear_shafts(mechanism, outlines, ends)
 
 
-def _in_bearing(shaft: Shaft, size: Size, lowest: float) -> bool:
-    """Return True for a turned shaft: it turns in the frame, whose lower face it reaches."""
-    return size.shafts == "turned" and shaft.turns and shaft.low <= lowest
+def _built(
+    size: Size, own: list[Shaft], beside: list[Seat], heights: tuple[float, float, float]
+) -> tuple[list[Member], float]:
+    """Return the shafts, plain or turned, and the frame's lower face.
+
+    Turned are those that turn in the frame and reach its lower face. ``heights`` are that of the
+    frame of plain shafts, its upper face, and the lowest height at which parts pass.
+    """
+    usual, top, free = heights
+    turned = [size.shafts == "turned" and one.turns and one.low <= usual for one in own]
+    widths = (bearing_of(one).width for one, steps in zip(own, turned, strict=True) if steps)
+    bottom = min([usual, *(top - width for width in widths)])
+    axles = []
+    for one, steps in zip(own, turned, strict=True):
+        if steps:
+            axles.append(turned_shaft(size, one, top, free if _is_passed(one, beside) else None))
+        else:
+            axles.append(one._replace(low=bottom if one.low == usual else one.low).plain(size))
+    return axles, bottom
 
 
-def _moving(mechanism: Mechanism, outlines: Outlines | None, bars: Links) -> Iterator[Seat]:
+def _beside(mechanism: Mechanism, outlines: Outlines | None, bars: Links) -> Iterator[Seat]:
     """Yield links and gears: their names, lower and upper faces."""
     yield from map(_span, (*bars.cut, *bars.joined, *(gear.member for gear in bars.gears)))
     if mechanism.spec.drive.gears:
@@ -161,11 +176,11 @@ def _span(member: Member) -> Seat:
     return Seat(member.part.name, member.part.low, member.part.high)
 
 
-def _is_passed(shaft: Shaft, moving: Iterable[Seat]) -> bool:
+def _is_passed(shaft: Shaft, beside: Iterable[Seat]) -> bool:
     """Return True if parts on other axes are lower than what a shaft carries."""
     low = shaft.seats[0].low if shaft.seats else shaft.high
     own = {seat.part for seat in shaft.seats}
-    return any(one.low < low and one.part not in own for one in moving)
+    return any(one.low < low and one.part not in own for one in beside)
 
 
 def _drilled(
@@ -210,21 +225,41 @@ def _standing(mechanism: Mechanism, bars: Links) -> Iterator[Point]:
             yield axis.at
 
 
-def _fixed(bars: Links) -> Iterator[Circle]:
-    """Yield the holes by which fixed parts, such as a guide or a gear, are screwed to the frame."""
+def _fixed(bars: Links) -> Iterator[tuple[Circle, float]]:
+    """Yield the holes by which parts are screwed to the frame, such as a guide or a gear.
+
+    Each has the lower face of its part.
+    """
     for member in bars.cut:
         if isinstance(member.part, Plate) and member.part.name in bars.standing:
-            yield from placed_holes(member)
+            yield from ((hole, member.part.low) for hole in placed_holes(member))
     for gear in bars.gears:
         for hole in gear.bolts:
             (x, y), (u, v) = gear.at, hole.centre
-            yield Circle(HOLES, (x + u, y + v), hole.radius)
+            yield Circle(HOLES, (x + u, y + v), hole.radius), gear.plate.low
 
 
-def _mounted(base: Plate, L: float) -> Iterator[Circle]:
-    """Yield the holes that mount a plate about the crank's axis."""
+def _mounted(base: Plate, L: float) -> Iterator[tuple[Circle, float]]:
+    """Yield the holes that mount a plate about the crank's axis, and its lower face."""
     holes = placed_holes(Member(base, (L, 0.0)))
-    yield from (hole for hole in holes if not same(hole.centre, (L, 0.0), L))
+    yield from ((hole, base.low) for hole in holes if not same(hole.centre, (L, 0.0), L))
+
+
+def _spacer(hole: Circle, low: float, high: float) -> Member:
+    """Return the ring about a screw between the frame and the part that it fixes."""
+    outline, bore = Circle(LAYER, ORIGIN, 2.0 * hole.radius), Circle(HOLES, ORIGIN, hole.radius)
+    return Member(Plate("frame's spacer", LAYER, outline, (bore,), low, high), hole.centre)
+
+
+def _require_walls(holes: list[Circle], least: float, axles: list[Member]) -> None:
+    """Raise GenevaError where the bearings of turned shafts leave less than the least wall."""
+    wall = least_wall(holes)
+    if wall < least and any(isinstance(one.part, Stack) for one in axles):
+        raise GenevaError(
+            f'shafts = "turned": two bearings leave a wall of {wall:.4g} mm in the frame, and '
+            f"wall_min_mm is {least:.4g}; smaller bores have smaller bearings",
+            ("size", "shafts"),
+        )
 
 
 def _lowest(mechanism: Mechanism, parts: Outlines | None, bars: Links) -> float:
