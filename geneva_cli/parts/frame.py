@@ -11,7 +11,7 @@ as thick.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from typing import NamedTuple
 
 from geneva_cli.curves.hole_walls import least_wall
@@ -28,15 +28,11 @@ from geneva_cli.numerics.preferred import bore_radius, rounded_radius
 from geneva_cli.numerics.tolerances import SAME_LENGTH
 from geneva_cli.outlines.outlines import Outlines
 from geneva_cli.outlines.wheel_hub import wheel_hub
+from geneva_cli.parts.all_shafts import all_shafts, arm_beside, built_shafts, passing
 from geneva_cli.parts.arm import has_arm
-from geneva_cli.parts.gear_pair import NAMES, gear_shafts, gear_span
-from geneva_cli.parts.link_shafts import Ends, carried, link_shafts, outside_links
+from geneva_cli.parts.gear_pair import gear_span
+from geneva_cli.parts.link_shafts import outside_links
 from geneva_cli.parts.links import Links, placed_holes
-from geneva_cli.parts.planes import crank_stop
-from geneva_cli.parts.shaft import Seat, Shaft
-from geneva_cli.parts.shafts import crank_shaft_radius, shafts, wheel_shaft_radius
-from geneva_cli.parts.turned_shafts import bearing_of, turned_shaft
-from geneva_cli.spec.tables import Size
 
 NAME, LAYER, HOLES = "frame", "FRAME", "BORE"
 
@@ -75,10 +71,12 @@ def framed(
     thick = drawn_thicknesses(size, L, drawn).arm
     free = min([_lowest(mechanism, outlines, bars), *lows]) - size.washer_mm
     top = free - shoulder_length(size, L)
-    own = list(_shafts(mechanism, outlines, bars, top - thick, first))
-    beside = [*_beside(mechanism, outlines, bars), *map(_span, first)]
-    beside += [_span(Member(base))] if base else []
-    axles, bottom = _built(size, own, beside, (top - thick, top, free))
+    own = list(all_shafts(mechanism, outlines, bars, top - thick, first))
+    others = (*first, *([Member(base)] if base else []))
+    beside = list(passing(mechanism, outlines, bars, others))
+    if size.shafts == "turned" and outlines:
+        beside += arm_beside(outlines, own)
+    axles, bottom = built_shafts(size, own, beside, (top - thick, top, free))
     places = list(_standing(mechanism, bars))
     drilled = list(_drilled(mechanism, axles, places, top))
     wall = wall_min(size, L)
@@ -106,81 +104,6 @@ def framed(
         tuple(outside_links(axles, bars, L)),
         tuple(spacers),
     )
-
-
-def _shafts(
-    mechanism: Mechanism,
-    outlines: Outlines | None,
-    bars: Links,
-    lowest: float,
-    first: Sequence[Member],
-) -> Iterator[Shaft]:
-    """Yield all shafts and pivots; ``lowest`` is the frame's lower face."""
-    stop, has_one = None, (False, False)
-    L = mechanism.center_distance_mm
-    if outlines:
-
-        def below(at: Point) -> list[Seat]:
-            """Return what a shaft carries below wheel or crank."""
-            here = (axis for axis in bars.axes if same(axis.at, at, L))
-            seats = [seat for axis in here for seat in carried(bars, axis, first, L)]
-            if mechanism.spec.drive.gears and same(at, (L, 0.0), L):
-                seats.append(Seat("driven gear", *gear_span(mechanism, outlines)))
-            return seats
-
-        stop = crank_stop(outlines, bars)
-        has_one = crank_shaft_radius(outlines) > 0.0, wheel_shaft_radius(outlines) > 0.0
-        _, *others = mechanism.wheel_places
-        half = mechanism.engagements[0].half_step
-        for one in shafts(outlines, lowest, stop, below):
-            yield one
-            if same(one.at, (0.0, 0.0), L):
-                yield from (one._replace(at=it.at, turn=one.turn + it.turn - half) for it in others)
-    size, drawn = mechanism.spec.size, outlines.sizes if outlines else None
-    top = drawn_thicknesses(size, L, drawn).wheel
-    ends = Ends(lowest, top, stop, *has_one)
-    yield from link_shafts(mechanism, bars, ends, first)
-    yield from gear_shafts(mechanism, outlines, ends)
-
-
-def _built(
-    size: Size, own: list[Shaft], beside: list[Seat], heights: tuple[float, float, float]
-) -> tuple[list[Member], float]:
-    """Return the shafts, plain or turned, and the frame's lower face.
-
-    Turned are those that turn in the frame and reach its lower face. ``heights`` are that of the
-    frame of plain shafts, its upper face, and the lowest height at which parts pass.
-    """
-    usual, top, free = heights
-    turned = [size.shafts == "turned" and one.turns and one.low <= usual for one in own]
-    widths = (bearing_of(one).width for one, steps in zip(own, turned, strict=True) if steps)
-    bottom = min([usual, *(top - width for width in widths)])
-    axles = []
-    for one, steps in zip(own, turned, strict=True):
-        if steps:
-            axles.append(turned_shaft(size, one, top, free if _is_passed(one, beside) else None))
-        else:
-            axles.append(one._replace(low=bottom if one.low == usual else one.low).plain(size))
-    return axles, bottom
-
-
-def _beside(mechanism: Mechanism, outlines: Outlines | None, bars: Links) -> Iterator[Seat]:
-    """Yield links and gears: their names, lower and upper faces."""
-    yield from map(_span, (*bars.cut, *bars.joined, *(gear.member for gear in bars.gears)))
-    if mechanism.spec.drive.gears:
-        yield from (Seat(name, *gear_span(mechanism, outlines)) for name in NAMES)
-
-
-def _span(member: Member) -> Seat:
-    assert isinstance(member.part, Plate)
-    return Seat(member.part.name, member.part.low, member.part.high)
-
-
-def _is_passed(shaft: Shaft, beside: Iterable[Seat]) -> bool:
-    """Return True if parts on other axes are lower than what a shaft carries."""
-    low = shaft.seats[0].low if shaft.seats else shaft.high
-    own = {seat.part for seat in shaft.seats}
-    return any(one.low < low and one.part not in own for one in beside)
 
 
 def _drilled(

@@ -9,7 +9,6 @@ without a bore is one piece with its shaft, which ends at the link's faces.
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
-from typing import NamedTuple
 
 from geneva_cli.curves.plates import Member, Plate, Stack, between
 from geneva_cli.kinematics.layout import Joint
@@ -19,17 +18,7 @@ from geneva_cli.machine.mechanism import Mechanism
 from geneva_cli.numerics.tolerances import SAME_LENGTH
 from geneva_cli.parts.link_axes import LinkAxis
 from geneva_cli.parts.links import Links, placed_holes
-from geneva_cli.parts.shaft import Seat, Shaft, shaft_ends
-
-
-class Ends(NamedTuple):
-    """Ends of the shafts of wheel and crank, as far as links share them."""
-
-    lowest: float  # the frame's lower face
-    top: float  # the wheel's upper face
-    stop: float | None = None  # height at which the crank's shaft ends above that face
-    crank_has_one: bool = False  # the crank's shaft carries more than links: another function's
-    wheel_has_one: bool = False
+from geneva_cli.parts.shaft import Ends, Seat, Shaft, shaft_ends
 
 
 def link_shafts(
