@@ -138,7 +138,7 @@ def main(folder):
                 [GENEVA, "new", "--from-design", name, "-o", "spec.toml", "--force"], cwd=here
             )
             text = (here / "spec.toml").read_text()
-            shown, seconds = answer(browser, name, CHOOSE)
+            shown, seconds = answer(browser, f"Designs/{name}", CHOOSE)
             expected = spoken(here, text)
             print(f"{name}: {seconds:.1f} s: {shown}")
             if new.returncode or shown != expected:
