@@ -35,10 +35,10 @@ from geneva_cli.layout.plain_sizes import Sizes, drawn_thicknesses
 from geneva_cli.layout.roller_paths import roller_reaches
 from geneva_cli.layout.stressed import ShaftSize, lock_of, stressed
 from geneva_cli.loads.strength import lock
-from geneva_cli.loads.strength.allowed import allowed_MPa
 from geneva_cli.loads.strength.horn import horn_stresses
 from geneva_cli.loads.strength.part_loads import PartLoads, single_loads
 from geneva_cli.machine.both_ways import every_way
+from geneva_cli.machine.materials import wheel_material
 from geneva_cli.numerics.keeps import keeps
 from geneva_cli.numerics.preferred import bores_from, rounded_from
 
@@ -97,7 +97,7 @@ def _wheel_thickness(assembly: Assembly, sizes: Sizes) -> float:
     for way in every_way(machine):
         per_mm.append(horn_stresses(way, sizes.half_width, sizes.recess, 1.0).stress_MPa)
     most = float(np.nanmax(np.hstack([np.ravel(0.0), *map(np.ravel, per_mm)])))
-    allowed = float(allowed_MPa(machine.spec.material_wheel))
+    allowed = wheel_material(machine.spec).allowed_MPa
     trials = rounded_from(usual, 2.0 * usual)  # a thicker wheel bends its pins more than its horns
     return next((b for b in trials if keeps(most / b, "at most", allowed)), trials[-1])
 
@@ -170,7 +170,7 @@ def _crank_bored(
             if _crank_holds(assembly, trial, loads, keyed):
                 return trial
     # past links and gears the shaft may have no other way out
-    if not sizes.arm_bore or links_at(assembly.full, np.zeros(1)) or spec.drive.gears:
+    if not sizes.arm_bore or links_at(assembly.full, np.zeros(1)) or spec.gears:
         return trial
     space = min(roller_reaches(assembly)) - hole_radius(size, sizes.pin)
     for d in bores_from(2.0 * sizes.arm_bore, space):  # half of it is left as a wall

@@ -18,7 +18,7 @@ from geneva_cli.layout.assembly import Assembly
 from geneva_cli.layout.bearings import bearing_within, shoulder_length
 from geneva_cli.layout.bores import reach_or_bore
 from geneva_cli.layout.keyways import key
-from geneva_cli.layout.link_positions import links_at
+from geneva_cli.layout.link_positions import gear_plane, links_at
 from geneva_cli.layout.plain_sizes import Sizes, half_or
 from geneva_cli.layout.reliefs import is_whole, sectors
 from geneva_cli.layout.roller_paths import roller_reaches
@@ -102,7 +102,7 @@ def _to_frame(assembly: Assembly, sizes: Sizes) -> float:
     """Return the distance of the frame's upper face from the middle of the wheel's thickness."""
     size, machine = assembly.full.spec.size, assembly.full
     planes = [link.plane for link in links_at(machine, np.zeros(1))]
-    planes += [2] if machine.spec.drive.gears else []  # below the arm
+    planes += [gear_plane(machine)] if machine.spec.gears else []
     below = (max(planes, default=1) - 1) * (sizes.link_thickness + size.washer_mm)
     down = size.allowances.pin_gap_mm + sizes.arm_thickness + below
     down = max(down, size.wheel_hub_length_mm or 0.0)

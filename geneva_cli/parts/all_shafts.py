@@ -32,28 +32,28 @@ def all_shafts(
     """Yield all shafts and pivots; ``lowest`` is the frame's lower face."""
     stop, has_one = None, (False, False)
     L = mechanism.center_distance_mm
+
+    def on(at: Point) -> tuple[Seat, ...]:
+        """Return what a shaft carries, from the lowest up, but for wheel and crank."""
+        here = (axis for axis in bars.axes if same(axis.at, at, L))
+        seats = [seat for axis in here for seat in carried(bars, axis, first, L)]
+        if mechanism.spec.gears and same(at, (L, 0.0), L):
+            seats.append(Seat(NAMES[0], *gear_span(mechanism, outlines)))
+        return tuple(sorted(seats, key=lambda seat: seat.low))
+
     if outlines:
-
-        def below(at: Point) -> list[Seat]:
-            """Return what a shaft carries below wheel or crank."""
-            here = (axis for axis in bars.axes if same(axis.at, at, L))
-            seats = [seat for axis in here for seat in carried(bars, axis, first, L)]
-            if mechanism.spec.drive.gears and same(at, (L, 0.0), L):
-                seats.append(Seat("driven gear", *gear_span(mechanism, outlines)))
-            return seats
-
         stop = crank_stop(outlines, bars)
         has_one = crank_shaft_radius(outlines) > 0.0, wheel_shaft_radius(outlines) > 0.0
         _, *others = mechanism.wheel_places
         half = mechanism.engagements[0].half_step
-        for one in shafts(outlines, lowest, stop, below):
+        for one in shafts(outlines, lowest, stop, on):
             yield one
             if same(one.at, (0.0, 0.0), L):
                 yield from (one._replace(at=it.at, turn=one.turn + it.turn - half) for it in others)
     size, drawn = mechanism.spec.size, outlines.sizes if outlines else None
     top = drawn_thicknesses(size, L, drawn).wheel
     ends = Ends(lowest, top, stop, *has_one)
-    yield from link_shafts(mechanism, bars, ends, first)
+    yield from link_shafts(mechanism, bars, ends, on)
     yield from gear_shafts(mechanism, outlines, ends)
 
 
@@ -84,7 +84,7 @@ def passing(
     """Yield links, gears and other parts: their names, lower and upper faces."""
     gears = (gear.member for gear in bars.gears)
     yield from map(_span, (*bars.cut, *bars.joined, *gears, *others))
-    if mechanism.spec.drive.gears:
+    if mechanism.spec.gears:
         yield from (Seat(name, *gear_span(mechanism, outlines)) for name in NAMES)
 
 

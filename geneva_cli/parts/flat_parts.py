@@ -227,9 +227,9 @@ class FlatParts:
     @property
     def tooth_dimensions(self) -> tuple[Dimension, ...]:
         """Dimensions of the gears' teeth; none without teeth."""
-        teeth = pair_teeth(self.mechanism.spec.drive.gears, self.mechanism.spec.size)
-        mesh = teeth or self.links.mesh
-        return mesh.layout if mesh else ()
+        teeth = pair_teeth(self.mechanism.spec.gears, self.mechanism.spec.size)
+        meshes = (teeth, self.links.mesh)
+        return tuple(one for mesh in meshes if mesh for one in mesh.layout)
 
     @cached_property
     def round_gears(self) -> tuple[Member, ...]:
@@ -246,7 +246,7 @@ class FlatParts:
     @cached_property
     def gear_pair(self) -> tuple[Member, ...]:
         """The noncircular gears in front of a crank, with teeth or up to their pitch curves."""
-        pair, size = self.mechanism.spec.drive.gears, self.mechanism.spec.size
+        pair, size = self.mechanism.spec.gears, self.mechanism.spec.size
         if pair is None:
             return ()
         # teeth are spaced along the pitch curves, whose lengths must agree better than the teeth

@@ -65,7 +65,7 @@ def framed(
         )
     size, L = mechanism.spec.size, mechanism.center_distance_mm
     lows = [base.low] if base else []
-    if mechanism.spec.drive.gears:
+    if mechanism.spec.gears:
         lows.append(gear_span(mechanism, outlines)[0])
     drawn = outlines.sizes if outlines else None
     thick = drawn_thicknesses(size, L, drawn).arm
@@ -139,8 +139,8 @@ def _standing(mechanism: Mechanism, bars: Links) -> Iterator[Point]:
     L = mechanism.center_distance_mm
     wheels = [one.at for one in mechanism.wheel_places]
     seen = [*(wheels if mechanism.spec.wheel.SIGN > 0.0 else []), (L, 0.0)]
-    if mechanism.spec.drive.gears:
-        seen.append((L + mechanism.spec.drive.gears.distance_mm, 0.0))
+    if mechanism.spec.gears:
+        seen.append((L + mechanism.spec.gears.distance_mm, 0.0))
     yield from seen
     for axis in bars.axes:
         if axis.stands and not any(same(axis.at, one, L) for one in seen):
