@@ -82,6 +82,10 @@ class Drive(SpecTable, kw_only=True):
     GEARED: ClassVar[bool] = False
     # True if it has other gears, with pitch circles
     TOOTHED: ClassVar[bool] = False
+    # what turns the input shaft of another drive, in [drive.before]; empty if it cannot
+    IN_FRONT: ClassVar[str] = ""
+    # reason why no drive may stand before it; empty if one may
+    FIRST: ClassVar[str] = ""
     # True if a first Geneva wheel turns its crank
     IN_SERIES: ClassVar[bool] = False
     # key of [drive] that its link reactions need; empty if none
@@ -113,6 +117,11 @@ class Drive(SpecTable, kw_only=True):
             return self
         others = self.roller_angles_deg[:0:-1]
         return self.replace(roller_angles_deg=(0.0, *(360.0 - angle for angle in others)))
+
+    @property
+    def direct(self) -> bool:
+        """True if the input shaft carries the crank, so that the classic closed forms hold."""
+        return False
 
     @property
     def wheels_on_carrier(self) -> int:

@@ -7,6 +7,7 @@ centre distance L. The wheel's axis is the origin, the crank's axis is at (1, 0)
 
 from __future__ import annotations
 
+import copy
 import math
 from abc import ABC, abstractmethod
 from collections.abc import Sequence
@@ -90,9 +91,8 @@ class Reactions(Protocol):
 
         A load is a force at the pin's centre and a couple, both on the roller's body. ``path`` is
         the pin's path, one order higher than the loads. The guide is a rocker, slider, groove or
-        fixed gear. Forces are in any unit, couples in that unit times L. The axes are arbitrary,
-        since callers use only the sizes of the reactions. Meshing gears push along the common
-        tangent of their pitch circles.
+        fixed gear. Forces are in any unit, couples in that unit times L. Meshing gears push along
+        the common tangent of their pitch circles.
         """
 
 
@@ -252,11 +252,6 @@ class WheelMotion(Batchable, ABC):
         """
         return None
 
-    @property
-    def unit(self) -> WheelMotion | None:
-        """One design's motion that each of a batch is in another scale of angles; else None."""
-        return None
-
     def derivatives(self, input_deg: Array, orders: Sequence[int] = (0, 1, 2, 3)) -> list[Array]:
         """Wheel angle and its derivatives at many ascending input angles (k,).
 
@@ -323,8 +318,11 @@ ARM = Carrier()
 class Engagement(Batchable):
     """Pin path, slot and motion of one roller in one slot.
 
-    ``mid_deg`` is the machine's input angle at its mid-motion.
+    ``mid_deg`` is the machine's input angle at its mid-motion. ``turned`` is the wheel's angle
+    there, radians, if the loads depend on it: where a wheel on a carrier has a body off its axis.
     """
+
+    turned: float | None = None
 
     def __init__(
         self, mid_deg: float, path: Path, slot: Slot, motion: WheelMotion, carrier: Carrier = ARM
@@ -355,8 +353,14 @@ class Engagement(Batchable):
 
     @property
     def mirrored(self) -> bool:
-        """True if motion and slot are symmetric about mid-motion."""
-        return self.motion.symmetric and self.slot.mirrored
+        """True if motion, slot and loads are symmetric about mid-motion."""
+        return self.motion.symmetric and self.slot.mirrored and self.turned is None
+
+    def later(self, mid_deg: float, turned: float) -> Engagement:
+        """The same engagement at another mid-motion, with the wheel turned to an angle."""
+        other = copy.copy(self)
+        other.mid_deg, other.turned = mid_deg, turned
+        return other
 
     @cached_property
     def entry_reach(self) -> Number:
@@ -381,6 +385,15 @@ class Engagement(Batchable):
             return self.body(radians(input_deg), order)
         x, y = self.path(input_deg, order + 1)
         return turning(x - 1.0, y)
+
+    def own_deg(self, input_deg: Array) -> Array:
+        """Angle of the drive's own input shaft at input angles from mid-motion, degrees."""
+        return input_deg
+
+    @property
+    def own(self) -> Engagement:
+        """The engagement by the angle of the drive's own input shaft; itself without another."""
+        return self
 
     @property
     def through(self) -> Engagement:

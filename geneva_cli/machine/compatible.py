@@ -7,8 +7,9 @@ from functools import partial
 from typing import TYPE_CHECKING, NamedTuple
 
 from geneva_cli.errors import GenevaError, refuse
-from geneva_cli.kinematics.drive import Needs
+from geneva_cli.kinematics.drive import Drive, Needs
 from geneva_cli.spec.rules import is_array
+from geneva_cli.spec.schema import fields
 
 if TYPE_CHECKING:
     from geneva_cli.machine.spec import Spec
@@ -36,7 +37,41 @@ def _table_of_wheels(table: str, spec: Spec) -> bool:
     return not spec.output.turns and bool(own != type(own)())
 
 
+def _set_on(before: Drive) -> list[str]:
+    """Keys of the machine's input that are set on the drive before it."""
+    own = before.as_dict()
+    return [key.key for key in fields(Drive) if own[key.key] != key.default]
+
+
+def _toothed(spec: Spec) -> bool:
+    """True if the spec's drive, or the one before it, has gears."""
+    drives = (spec.drive, spec.drive_before) if spec.drive_before else (spec.drive,)
+    return any(drive.TOOTHED or drive.GEARED for drive in drives)
+
+
 CONFLICTS = (
+    Conflict(
+        lambda s: s.drive_before and not s.drive_before.IN_FRONT,
+        ("drive", "before", "kind"),
+        'kind = "{before}" cannot turn the shaft of another drive: remove [drive.before]',
+    ),
+    Conflict(
+        lambda s: s.drive_before and s.drive.FIRST,
+        ("drive", "before"),
+        'kind = "{before}" cannot stand before kind = "{drive}": {first}',
+    ),
+    Conflict(
+        lambda s: s.drive_before and _set_on(s.drive_before),
+        ("drive", "before"),
+        "n_rpm, rollers, roller_angles_deg and both_ways belong to the machine: set them in "
+        "[drive], not in [drive.before]",
+    ),
+    Conflict(
+        lambda s: s.drive_before and s.motion is not None,
+        ("motion", "law"),
+        "a law gives the motion by the input's angle, so that [drive.before] would only change "
+        "the slots: remove law or [drive.before]",
+    ),
     Conflict(
         lambda s: s.drive.RADIAL and (s.drive.roller_angles_deg or s.wheel.skewed),
         ("drive", "kind"),
@@ -49,9 +84,9 @@ CONFLICTS = (
         'kind = "{drive}" drives an {gearings} wheel, not gearing = "{gearing}"',
     ),
     Conflict(
-        lambda s: s.wheel.DRIVES and s.drive.NAME not in s.wheel.DRIVES,
+        lambda s: s.wheel.DRIVES and (s.drive.NAME not in s.wheel.DRIVES or s.drive_before),
         ("drive", "kind"),
-        'gearing = "{gearing}" needs kind = "{drives}", not kind = "{drive}"',
+        'gearing = "{gearing}" needs kind = "{drives}" without [drive.before]',
     ),
     Conflict(
         lambda s: s.drive.LAW is Needs.LAW and s.motion is None,
@@ -76,7 +111,7 @@ CONFLICTS = (
     Conflict(
         lambda s: s.motion is not None and not s.wheel.FLAT,
         ("motion", "law"),
-        "a {gearing} wheel has straight slots only: remove law",
+        'gearing = "{gearing}" has straight slots only: remove law',
     ),
     Conflict(
         lambda s: s.drive.ONE_ROLLER and s.drive.rollers > 1,
@@ -110,12 +145,10 @@ CONFLICTS = (
         "serve them all; use rollers = 1, or straight slots (no law)",
     ),
     Conflict(
-        lambda s: (
-            s.drive.wheels_on_carrier and any(one.count == 1 and one.radius_mm for one in s.mass)
-        ),
+        lambda s: s.drive.wheels_on_carrier and s.motion is not None and s.unbalanced,
         ("mass", "radius_mm"),
-        'kind = "{drive}" needs balanced wheels, as its centrifugal force would turn them: set '
-        "count to 2 or more evenly spaced bodies, or radius_mm = 0",
+        'kind = "{drive}" with a law needs balanced wheels: set count to 2 or more evenly spaced '
+        "bodies, or radius_mm = 0, or remove law",
     ),
     Conflict(
         lambda s: s.drive.wheels_on_carrier > 1 and (s.drive.rollers > 1 or _several(s)),
@@ -200,6 +233,11 @@ CONFLICTS = (
         "stop_stress_max_MPa limits a stop: set stop = true in [wheel] of an external wheel",
     ),
     Conflict(
+        lambda s: s.size.gear_module_mm is not None and not _toothed(s),
+        ("size", "gear_module_mm"),
+        'gear_module_mm cuts the teeth of gears, and kind = "{drive}" has none: remove it',
+    ),
+    Conflict(
         lambda s: s.size.gear_module_mm is None and s.size.gear_shift is not None,
         ("size", "gear_shift"),
         "gear_shift moves the teeth of gears: set gear_module_mm, or remove gear_shift",
@@ -223,6 +261,8 @@ def refuse_conflicts(spec: Spec) -> None:
 def _error(conflict: Conflict, spec: Spec) -> GenevaError:
     text = conflict.text.format(
         drive=spec.drive.NAME,
+        before=spec.drive_before.NAME if spec.drive_before else "",
+        first=spec.drive.FIRST,
         gearing=spec.wheel.NAME,
         gearings=" or ".join(spec.drive.GEARINGS),
         drives=" or ".join(spec.wheel.DRIVES),

@@ -18,20 +18,15 @@ covers all but R - rho to R + rho. After it the next recess mirrors the first.
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
-import numpy as np
-
-from geneva_cli.curves.distance import Polyarc
 from geneva_cli.curves.shapes import Contour, Line, Segment, about, closed
 from geneva_cli.errors import GenevaError
+from geneva_cli.layout.arm_sizes import eye_about, pin_hole
+from geneva_cli.layout.plain_sizes import half_or, pin_radius, wall_min
 from geneva_cli.layout.sizes import lock_between, require_lock_between
 from geneva_cli.machine.mechanism import Mechanism
-from geneva_cli.numerics.angles import DEGREE
 from geneva_cli.spec.default_sizes import value_or
-
-if TYPE_CHECKING:
-    from geneva_cli.numerics.jet import Array
 
 
 class RackSizes(NamedTuple):
@@ -46,12 +41,43 @@ class RackSizes(NamedTuple):
     floor: float  # its inner radius
     recess: float
     back: float  # wall between the slots' ends and the rack's back
+    bar: float  # width of the bar on the rack's back that slides in the guide
+    slide: float  # its clearance on either side
+
+    @property
+    def rim(self) -> float:
+        """The edge, for the full turn."""
+        return self.edge
+
+    @property
+    def outer(self) -> float:
+        """0: no part of the rack lies beyond its edge."""
+        return 0.0
 
     @property
     def horn(self) -> float:
-        """Thickness of the horn between slot and recess at its thinnest place."""
+        """Thickness of the horn between slot and recess at its thinnest place.
+
+        Without a recess it is half of the wall between two slots.
+        """
         below = min(self.edge - self.arm, 0.0)  # an edge below the crank's axis has wider horns
-        return self.arm - self.half_width - math.sqrt(self.recess**2 - below**2)
+        half_recess = math.sqrt(max(self.recess**2 - below**2, 0.0))
+        return self.arm - self.half_width - half_recess
+
+    @property
+    def behind(self) -> float:
+        """The x of the rack's back."""
+        return -(self.slot_bottom + self.half_width + self.back)
+
+    @property
+    def bar_back(self) -> float:
+        """The x of the bar's back, a tenth of its width behind the rack, which keeps clear so."""
+        return self.behind - 0.1 * self.bar
+
+    @property
+    def beyond(self) -> float:
+        """Length of the rack from the last slot's axis to its end."""
+        return 2.0 * self.arm - self.half_width
 
 
 def rack_sizes(mechanism: Mechanism) -> RackSizes:
@@ -77,7 +103,20 @@ def rack_sizes(mechanism: Mechanism) -> RackSizes:
             f"{arm - recess:.6g} and {arm + recess:.6g} mm",
             ("size", "wheel_radius_mm"),
         )
-    return RackSizes(arm, r, w, edge, bottom, lock, floor, recess, max(r, arm / 10.0))
+    bar, slide = arm / 10.0, allowed.slot_clearance_mm
+    # the guide's rail, as wide as the bar, stands in front of it, and the arm's eye passes the rail
+    rail = max(bottom + w, _eye(mechanism, arm) + 0.25 * bar)
+    back = rail + 1.9 * bar + slide - (bottom + w)
+    return RackSizes(arm, r, w, edge, bottom, lock, floor, recess, back, bar, slide)
+
+
+def _eye(mechanism: Mechanism, arm: float) -> float:
+    """Return the radius of the arm's eye about the pin; 0 without a pin, and so without an arm."""
+    size = mechanism.spec.size
+    pin = pin_radius(size, mechanism.roller_radius_mm)
+    if not pin:
+        return 0.0
+    return half_or(size.arm_eye_mm, eye_about(pin_hole(size, pin), wall_min(size, arm)))
 
 
 def _lock(mechanism: Mechanism, arm: float, limit: float, relief: float) -> float:
@@ -103,16 +142,12 @@ def rack_contour(sizes: RackSizes, count: int) -> Contour:
 
     A recess lies between two slots, and one beyond the last slot on either side.
     """
-    R, w, rho = sizes.arm, sizes.half_width, sizes.recess
-    first = -2.0 * R * ((count - 1) // 2)
-    last = first + 2.0 * R * (count - 1)
-    beyond = 2.0 * R - w if rho else w + sizes.back
-    low, high = first - beyond, last + beyond
-    bottom = -sizes.slot_bottom
-    back = bottom - w - sizes.back
-    cuts = [slot_walls(sizes, first + 2.0 * R * k) for k in range(count)]
-    if rho:
-        recesses = [_recess(sizes, first + R * (2 * k - 1)) for k in range(count + 1)]
+    low, high = rack_ends(sizes, count)
+    back, places = sizes.behind, slot_places(sizes, count)
+    cuts = [slot_walls(sizes, y) for y in places]
+    if sizes.recess:
+        between = places[0] - sizes.arm, *(y + sizes.arm for y in places)
+        recesses = [_recess(sizes, y) for y in between]
         pairs = zip(recesses, [*cuts, []], strict=True)
         cuts = [cut for pair in pairs for cut in pair if cut]
     edge: list[Segment] = []
@@ -124,6 +159,18 @@ def rack_contour(sizes: RackSizes, count: int) -> Contour:
     sides = [Line(at, corners[0])]
     sides += [Line(a, b) for a, b in zip(corners, corners[1:], strict=False)]
     return closed("WHEEL", [*edge, *sides])
+
+
+def slot_places(sizes: RackSizes, count: int) -> list[float]:
+    """Return the y of the slots of a rack, from below; that in the middle is at 0."""
+    first = -2.0 * sizes.arm * ((count - 1) // 2)
+    return [first + 2.0 * sizes.arm * k for k in range(count)]
+
+
+def rack_ends(sizes: RackSizes, count: int) -> tuple[float, float]:
+    """Return the y of both ends of a rack of ``count`` slots."""
+    first, *_, last = slot_places(sizes, count)
+    return first - sizes.beyond, last + sizes.beyond
 
 
 def slot_walls(sizes: RackSizes, y: float) -> list[Segment]:
@@ -147,49 +194,3 @@ def locking_sector(sizes: RackSizes) -> Contour | None:
     inner = about((0.0, 0.0), sizes.floor, 1.5 * math.pi, -math.pi)
     inwards, outwards = Line(outer.end, inner.start), Line(inner.end, outer.start)
     return closed("CRANK", [outer, inwards, inner, outwards])
-
-
-class RackGap(NamedTuple):
-    """The smallest gap of a turn, mm, negative where parts overlap, and its crank angle."""
-
-    mm: float
-    crank_deg: float
-
-
-def smallest_gap(sizes: RackSizes) -> RackGap:
-    """Return the smallest gap between rack, locking sector and roller in a turn of the crank.
-
-    The second half of a turn mirrors the first. There the crank is placed at every half degree, and
-    closer at mid-motion, where the ring's end passes a horn: of a ring that is f away at mid-motion
-    within an angle of some f/R. At each place the gap is that of points on both outlines, which lie
-    a hundredth of R apart or nearer.
-    """
-    R, ring = sizes.arm, locking_sector(sizes)
-    rack = Polyarc([rack_contour(sizes, 3)])  # no part reaches more slots in one turn
-    sector = Polyarc([ring]) if ring else None
-    spacing = 1e-4 * R, 0.01 * R
-    on_rack, on_ring = rack.samples(*spacing), sector.samples(*spacing) if sector else None
-    on_rack = on_rack[(on_rack[:, 0] >= 0.0) & (abs(on_rack[:, 1]) <= 3.0 * R)]
-    passing = max(2.0 * (sizes.floor - (R - sizes.recess)) / R / DEGREE, 0.0)
-    places = {*np.linspace(-180.0, 0.0, 361), *np.linspace(-passing, 0.0, 101)}
-    best = RackGap(math.inf, 0.0)
-    for crank_deg in sorted(map(float, places)):
-        a = crank_deg * DEGREE
-        travel = R * math.sin(max(-0.5 * math.pi, min(0.5 * math.pi, a)))
-        axis = np.array([R, -travel])
-        gap = float(rack.signed(axis + R * _unit(math.pi - a)[None])[0]) - sizes.roller
-        if sector is not None and on_ring is not None:
-            c, s = _unit(math.pi - a)
-            turn = np.array([[c, s], [-s, c]])  # of rows, from the crank's frame
-            gap = min(
-                gap,
-                float(rack.signed(axis + on_ring @ turn).min()),
-                float(sector.signed((on_rack - axis) @ turn.T).min()),
-            )
-        if gap < best.mm - 1e-9 * R:  # of gaps that are equal but for rounding the first
-            best = RackGap(gap, crank_deg)
-    return best
-
-
-def _unit(angle: float) -> Array:
-    return np.array([math.cos(angle), math.sin(angle)])

@@ -13,8 +13,9 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from geneva_cli.curves import fit
+from geneva_cli.curves.edges import Edge
 from geneva_cli.curves.hole_walls import require_faces
-from geneva_cli.curves.plates import Group, Member, Plate, on_edges, plates
+from geneva_cli.curves.plates import Group, Member, Plate, edged, plates
 from geneva_cli.curves.shapes import Contour, Point
 from geneva_cli.kinematics.engagement import Engagement
 from geneva_cli.kinematics.layout import Dimension, Joint
@@ -101,14 +102,19 @@ class FlatParts:
         turn = float(parts.assembly.wheel(np.zeros(1))[0])
         return self._edged([Member(wheel_part(parts, contour), turn=turn)])[0]
 
+    @property
+    def _edge(self) -> Edge:
+        """The edges of all plates but gears, whose edges are teeth."""
+        size = self.mechanism.spec.size
+        return Edge(size.edge_mm, rounded=size.edge_chamfer_mm is None)
+
     def _plate(self, plate: Plate) -> Plate:
-        """Return a plate with the spec's chamfer."""
-        return plate._replace(chamfer=self.mechanism.spec.size.edge_chamfer_mm or 0.0)
+        """Return a plate with the spec's edges."""
+        return plate._replace(edge=self._edge)
 
     def _edged(self, members: Iterable[Member]) -> tuple[Member, ...]:
-        """Return members with the spec's chamfer; gears have none, as their edges are teeth."""
-        chamfer = self.mechanism.spec.size.edge_chamfer_mm or 0.0
-        return tuple(on_edges(one, chamfer) for one in members)
+        """Return members with the spec's edges."""
+        return tuple(edged(one, self._edge) for one in members)
 
     @cached_property
     def orbiting(self) -> tuple[Member, ...]:
@@ -173,6 +179,16 @@ class FlatParts:
         hub = crank_hub(self.outlines)
         return self._plate(hub) if hub else None
 
+    @property
+    def outside_mm(self) -> float | None:
+        """None: heights count from the wheel's lower face."""
+        return None
+
+    @property
+    def horn_mm(self) -> float | None:
+        """Thickness of the horns between slots and recesses; None without a lock."""
+        return self.outlines.sizes.horn if self.outlines.crank else None
+
     def hub_radii(self, part: str) -> tuple[float, float]:
         """Return the radii of the bore and the hub of a part, "wheel" or "crank", mm."""
         sizes = self.outlines.sizes
@@ -221,9 +237,9 @@ class FlatParts:
     @property
     def tooth_dimensions(self) -> tuple[Dimension, ...]:
         """Dimensions of the gears' teeth; none without teeth."""
-        teeth = pair_teeth(self.mechanism.spec.drive.gears, self.mechanism.spec.size)
-        mesh = teeth or self.links.mesh
-        return mesh.layout if mesh else ()
+        teeth = pair_teeth(self.mechanism.spec.gears, self.mechanism.spec.size)
+        meshes = (teeth, self.links.mesh)
+        return tuple(one for mesh in meshes if mesh for one in mesh.layout)
 
     @cached_property
     def round_gears(self) -> tuple[Member, ...]:
@@ -240,7 +256,7 @@ class FlatParts:
     @cached_property
     def gear_pair(self) -> tuple[Member, ...]:
         """The noncircular gears in front of a crank, with teeth or up to their pitch curves."""
-        pair, size = self.mechanism.spec.drive.gears, self.mechanism.spec.size
+        pair, size = self.mechanism.spec.gears, self.mechanism.spec.size
         if pair is None:
             return ()
         # teeth are spaced along the pitch curves, whose lengths must agree better than the teeth
@@ -280,18 +296,22 @@ class FlatParts:
         """The frame, which holds the shafts."""
         return self._edged([Member(self._framed.plate)])[0]
 
+    @cached_property
+    def spacers(self) -> tuple[Member, ...]:
+        """The rings between the frame and parts that are screwed to it."""
+        return self._edged(self._framed.spacers)
+
     @property
     def standing(self) -> tuple[Member, ...]:
-        """The parts that stand still: a cam's groove plate, if there is one, and the frame."""
-        return (*self.groove_plate, self.frame)
+        """The parts that stand still: a cam's groove plate, the frame, and what is between."""
+        return (*self.groove_plate, *self.spacers, self.frame)
 
     def require(self) -> None:
         """Raise GenevaError for a part that cannot be built, without fitting curves for it."""
         turning = (self.wheel, self.crank) if self.drawn else ()
         for member in (*turning, *self.links.cut, self.frame):
             for plate in plates(member.part):
-                if plate.chamfer:
-                    require_faces(plate)
+                require_faces(plate)
         pair_with_teeth(self.mechanism)
 
     @property
@@ -324,4 +344,4 @@ class FlatParts:
         yield "first wheel", lambda: [one.part for one in self.first]
         yield "shafts", lambda: [one.part for one in self.shafts]
         yield "groove plate", lambda: [one.part for one in self.groove_plate]
-        yield "frame", lambda: [self.frame.part]
+        yield "frame", lambda: [one.part for one in (*self.spacers, self.frame)]

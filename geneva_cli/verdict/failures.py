@@ -11,7 +11,7 @@ if TYPE_CHECKING:
     from geneva_cli.drawings.model import PartsModel
 
 # A roller that does not find its slot, or meets the rim next to it, jams.
-JAMS = ("hand_over_play_deg", "hand_over_pressure_deg")
+JAMS = ("hand_over_play_deg", "hand_over_play_mm", "hand_over_pressure_deg")
 
 
 def failures(rows: list[Check], model: PartsModel) -> tuple[str, list[str]]:
@@ -19,7 +19,6 @@ def failures(rows: list[Check], model: PartsModel) -> tuple[str, list[str]]:
 
     The first text is empty if the parts can be written.
     """
-    turn = None
     refused, warned, advice = [], [], ""
     for c in rows:
         if c.passes is not False:
@@ -37,8 +36,7 @@ def failures(rows: list[Check], model: PartsModel) -> tuple[str, list[str]]:
             and c.name.endswith("_mm")
             and (c.value or 0.0) < 0.0
         ):
-            turn = turn or model.turn
-            refused.append(in_words(c, turn.smallest.parts))
+            refused.append(in_words(c, model.turn.smallest.parts if c.name == "gap_mm" else ""))
             advice = advice or c.nearest
         else:
             more = f"{c.nearest} would pass" if c.nearest else c.why
@@ -48,39 +46,41 @@ def failures(rows: list[Check], model: PartsModel) -> tuple[str, list[str]]:
     ]
 
 
-def in_words(c: Check, parts: str = "parts") -> str:
-    """A failing check in words; ``parts`` names those that overlap."""
+def in_words(c: Check, parts: str = "") -> str:
+    """A failing check in words; ``parts`` names those that overlap, where they are known."""
     shown = in_digits(c.value or 0.0, 6)
     general = f"{c.name} is {shown}{c.where}; it must be {c.must_be} {c.limit or 0.0:.6g}"
     return meaning(c, parts) or general
 
 
-def meaning(c: Check, parts: str = "parts") -> str:
+def meaning(c: Check, parts: str = "") -> str:
     """The meaning of a failing check; empty if its value is enough."""
     from geneva_cli.verdict.checks.walls import NO_WALL
 
     where, value, limit = c.where, c.value or 0.0, c.limit or 0.0
     if c.name == "gap_mm":
-        return f"{parts} overlap by {-value:.4g} mm{where}"
+        return f"{parts or 'parts'} overlap by {-value:.4g} mm{where}"
     if c.name == "idle_roller_mm":
         return f"an idle roller overlaps the wheel by {-value:.4g} mm{where}"
     if c.name in NO_WALL and value < 0.0:
         return f"{NO_WALL[c.name]} by {-value:.4g} mm"
     if c.name == "dwell_hold":
         return "nothing holds the wheel in its dwell"
-    if c.name == "hand_over_play_deg":
+    moves = "rack can move" if c.name.endswith("_mm") else "wheel can turn"
+    unit = c.name.rpartition("_")[2]
+    if c.name in ("hand_over_play_deg", "hand_over_play_mm"):
         return (
-            f"between lock and slot the wheel can turn by {value:.4g} deg{where}, more than the "
-            f"{limit:.4g} deg at which the roller still finds its slot"
+            f"between lock and slot the {moves} by {value:.4g} {unit}{where}, more than the "
+            f"{limit:.4g} {unit} at which the roller still finds its slot"
         )
     if c.name == "hand_over_pressure_deg":
         return (
             f"the roller meets the wheel{where} at a pressure angle of {value:.4g} deg, above "
             f"{limit:g} deg"
         )
-    if c.name == "motion_play_deg":
+    if c.name in ("motion_play_deg", "motion_play_mm"):
         return (
-            f"in its slot the wheel can turn by {value:.4g} deg either way{where}, more than "
-            f"{limit:.4g} deg"
+            f"in its slot the {moves} by {value:.4g} {unit} either way{where}, more than "
+            f"{limit:.4g} {unit}"
         )
     return ""

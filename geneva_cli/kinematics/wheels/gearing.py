@@ -8,7 +8,7 @@ from collections.abc import Callable
 from dataclasses import field
 from typing import TYPE_CHECKING, Annotated, ClassVar, NamedTuple, Self, TypeAlias
 
-from geneva_cli.kinematics.layout import Layout
+from geneva_cli.kinematics.layout import Layout, Pivot
 from geneva_cli.kinematics.path_and_slot import AnchoredPath, RadialSlot, StraightSlotMotion
 from geneva_cli.kinematics.wheels.poses import HalfStep, PinPose
 from geneva_cli.kinematics.wheels.skew import Skew
@@ -25,6 +25,7 @@ if TYPE_CHECKING:
         Slot,
         WheelMotion,
     )
+    from geneva_cli.kinematics.plane_motion import PlaneMotion
 
 
 # The wheel's rate from sin d and 1 - cos d of the crank's rotation d since mid-motion.
@@ -52,6 +53,10 @@ class Output(NamedTuple):
     def turns(self) -> bool:
         """True if it is an angle."""
         return self.unit == "deg"
+
+    def from_deg(self, wheel_deg: float) -> float:
+        """Return an angle of the wheel, or of a rack's pinion, in the unit of the output."""
+        return wheel_deg if self.turns else math.radians(wheel_deg) * self.per_radian
 
 
 class RollerPlace(NamedTuple):
@@ -96,8 +101,11 @@ class Gearing(SpecTable):
     FLAT: ClassVar[bool] = True
     # True if they are shells of a sphere, on shafts that meet at its centre
     SHELLS: ClassVar[bool] = False
-    # what is not built of a machine that has neither
-    NOT_BUILT: ClassVar[str] = ""
+    # how all parts are built: "flat" about two axes, "ball" about a point, "rack" along a line, or
+    # "" if they are not built
+    PARTS: ClassVar[str] = "flat"
+    # meaning of center_distance_mm
+    DISTANCE: ClassVar[str] = "centre distance"
     # True if its speed jumps at entry and exit, so that forces have no bound
     JUMPS: ClassVar[bool] = False
     # stiffness of a pair of steel teeth that drive it, over their width; 0 for a roller
@@ -166,6 +174,14 @@ class Gearing(SpecTable):
         """
         return f"Geneva wheel of {self.z} slots"
 
+    def axes(self, L: float) -> tuple[Pivot, ...]:
+        """Axes of wheel and crank in the plane of the parts, for a centre distance in mm.
+
+        >>> [axis.name for axis in External(6).axes(100.0)], Linear(6).axes(50.0)
+        (['wheel axis', 'crank axis'], (Pivot(name='crank axis', x_mm=50.0, y_mm=0.0),))
+        """
+        return Pivot("wheel axis", 0.0, 0.0), Pivot("crank axis", L, 0.0)
+
     def words(self, slots: str) -> str:
         """The wheel in words; ``slots`` is the kind of its slots.
 
@@ -208,6 +224,13 @@ class Gearing(SpecTable):
         ``turn`` is the crank's rotation from mid-motion, as its sine and versine.
         """
         return RadialSlot(path), StraightSlotMotion(path, place.step.b)
+
+    def plane_motion(self, center_distance_mm: float) -> PlaneMotion:
+        """How the wheel moves in its plane, for lengths in millimetres."""
+        # imported here, as `table` starts without NumPy
+        from geneva_cli.kinematics.plane_motion import Turning
+
+        return Turning()
 
     def body(self, place: RollerPlace, turn: Displacement) -> CarrierVelocity | None:
         """Angular velocity of the roller's carrier; None for a crank arm in the plane."""

@@ -13,6 +13,7 @@ from collections.abc import Callable
 from typing import TYPE_CHECKING, ClassVar
 
 from geneva_cli.kinematics.engagement import Slot, SlotAxis
+from geneva_cli.kinematics.layout import Pivot
 from geneva_cli.kinematics.path_and_slot import AnchoredPath, StraightSlotMotion
 from geneva_cli.kinematics.wheels.gearing import FollowedRate, Gearing, Output, RollerPlace
 from geneva_cli.kinematics.wheels.poses import HalfStep, PinPose, middle
@@ -21,6 +22,7 @@ from geneva_cli.spec.example import Example
 
 if TYPE_CHECKING:
     from geneva_cli.kinematics.engagement import Anchor, Displacement
+    from geneva_cli.kinematics.plane_motion import PlaneMotion
     from geneva_cli.numerics.jet import Array
 
 
@@ -41,7 +43,8 @@ class Linear(Gearing):
     )
     USUAL_LOAD: ClassVar[dict[str, float]] = {"mass_kg": 4, "force_N": 30}
     FLAT: ClassVar[bool] = False
-    NOT_BUILT: ClassVar[str] = "shafts, frame and guide of a rack's machine are not built"
+    PARTS: ClassVar[str] = "rack"
+    DISTANCE: ClassVar[str] = "crank radius"
 
     def output(self, center_distance_mm: float) -> Output:
         """The travel, in millimetres."""
@@ -73,6 +76,16 @@ class Linear(Gearing):
     def title(self) -> str:
         """The title of a design without one of its own."""
         return f"Geneva rack of {self.z} slots"
+
+    def axes(self, L: float) -> tuple[Pivot, ...]:
+        """Axis of the crank."""
+        return (Pivot("crank axis", L, 0.0),)
+
+    def plane_motion(self, center_distance_mm: float) -> PlaneMotion:
+        """How the rack slides: by the crank's radius a radian."""
+        from geneva_cli.kinematics.plane_motion import Sliding
+
+        return Sliding(center_distance_mm)
 
     def words(self, slots: str) -> str:
         """The rack in words, whose slots are parallel."""

@@ -217,7 +217,7 @@ REPORT = (
     ),
     _group(
         "carousel",
-        "turn_deg velocity moving_fraction behind_deg centrifugal_N",
+        "turn_deg velocity moving_fraction behind_deg centrifugal_N held_Nm",
         batch="carousel:carousel",
     ),
     _group("", "", "report.carousel:wheels"),
@@ -244,7 +244,7 @@ REPORT = (
     ),
     _group(
         "parts",
-        "smallest_gap_mm smallest_gap_at_deg dwell_play_deg",
+        "smallest_gap_mm smallest_gap_at_deg dwell_play_deg dwell_play_mm",
         "report.parts:turned",
         makes_parts=True,
     ),
@@ -255,6 +255,7 @@ REPORT = (
         "report.stop:stop",
         makes_parts=True,
     ),
+    _group("guide", "length_mm locks_at_friction force_N at_deg", batch="guide:guide"),
     _group("parts_list", "", "report.parts_list:parts_list_tables", makes_parts=True),
     QuantityGroup(
         "tolerance",
