@@ -11,9 +11,8 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from geneva_cli.errors import GenevaError
 from geneva_cli.layout.sizes import Layout
-from geneva_cli.layout.sphere_sizes import ball
+from geneva_cli.layout.sphere_sizes import sized_ball
 from geneva_cli.layout.sphere_stressed import sphere_stressed
 from geneva_cli.layout.stressed import Stressed, stressed
 from geneva_cli.loads.strength.arm import ArmDimensions
@@ -60,12 +59,10 @@ def part_sizes(parts: Sequence[Stressed | None]) -> PartSizes | None:
 
 def stressed_parts(machine: Mechanism, layout: Layout | None) -> Stressed | None:
     """The stressed parts of a design: flat ones by their layout, or those of a sphere; or None."""
-    if layout or machine.spec.is_flat or not machine.spec.has_parts:
-        return stressed(*layout) if layout else None
-    try:
-        return sphere_stressed(machine.spec, ball(machine))
-    except GenevaError:  # the check of the parts reports the error
-        return None
+    if layout:
+        return stressed(*layout)
+    ball = sized_ball(machine)
+    return sphere_stressed(machine.spec, ball) if ball else None
 
 
 def _numbers(of: Stressed) -> list[float]:
