@@ -148,7 +148,7 @@ def _properties(solid: Solid, density: float, outside: float | None) -> Row:
 
 def _pivots(mechanism: Mechanism) -> Iterator[Row]:
     L = mechanism.center_distance_mm
-    own = mechanism.spec.drive.layout(mechanism.plan, mechanism.spec.wheel.SIGN)
+    own = mechanism.layout
     pivots = [p for p in own if isinstance(p, Pivot)]
     if mechanism.spec.wheel.FLAT:
         pivots = [Pivot("wheel axis", 0.0, 0.0), Pivot("crank axis", L, 0.0), *pivots]
@@ -163,6 +163,7 @@ def _dimensions(model: PartsModel) -> Iterator[Row | Missing]:
     entries: list[Dimension | Missing] = [
         Dimension("wheel", spec.wheel.NAME),
         Dimension("drive", spec.drive.NAME),
+        *([Dimension("drive before it", spec.drive_before.NAME)] if spec.drive_before else []),
         Dimension("slots", spec.wheel.z),
         Dimension("centre distance" if spec.wheel.FLAT else "sphere's radius", L, "mm"),
         Dimension("roller radius", r, "mm"),
@@ -180,7 +181,7 @@ def _dimensions(model: PartsModel) -> Iterator[Row | Missing]:
     elif spec.drive.rollers > 1:
         entries.append(Dimension("rollers, evenly", spec.drive.rollers))
     entries += _motions(mechanism)
-    own = spec.drive.layout(mechanism.plan, spec.wheel.SIGN)
+    own = mechanism.layout
     entries += [d for d in own if isinstance(d, Dimension)]
     if spec.size.gear_module_mm is not None:
         entries += or_missing("teeth of the gears", lambda: model.flat.tooth_dimensions)

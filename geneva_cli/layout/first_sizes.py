@@ -77,7 +77,7 @@ def first_sizes(mechanism: Mechanism, sized: Sized) -> FirstSizes | None:
         return None
     size, parts = spec.size.replace(crank_bore_mm=0.0), None
     usual = _stressed(spec.replace(size=size), sized)
-    if usual is None:
+    if usual is None or math.isnan(usual.arm.length):  # a crank without a pin has no arm
         return None
     reach = float(usual.arm.length - usual.arm.hole)
     for d in bores_from(usual.crank_shaft.diameter, reach):  # half of it is left as a wall

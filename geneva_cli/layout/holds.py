@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
@@ -16,6 +16,7 @@ from geneva_cli.loads.strength.shafts import shear_MPa
 from geneva_cli.machine.materials import roller_material, wheel_material
 from geneva_cli.numerics.keeps import keeps
 from geneva_cli.numerics.preferred import rounded_from
+from geneva_cli.spec.default_sizes import value_or
 
 if TYPE_CHECKING:
     from geneva_cli.layout.stressed import Stressed
@@ -24,10 +25,29 @@ if TYPE_CHECKING:
     from geneva_cli.spec.tables import Shaft, Size
 
 
-def pin_that_holds(spec: Spec, contact: float, least: float, most: float, force_N: float) -> float:
-    """Return the radius of the first pin from ``least`` to ``most`` that holds, or the largest."""
+class PinSpace(NamedTuple):
+    """The dimensions that limit a roller's pin, mm."""
+
+    thickness: float  # of the wheel
+    roller: float  # radius of the roller, of a cone where it is thinnest
+    eye: float  # the largest radius of the arm about the pin
+
+
+def pin_that_holds(spec: Spec, usual: float, space: PinSpace, force_N: float) -> float:
+    """Return the radius of the first pin from the usual one on that holds, or the largest.
+
+    The largest leaves a wall of the roller about its hole, and one of the arm. With friction on the
+    pin it stays the usual one, on which the loads depend.
+    """
+    size = spec.size
+    rubs = spec.load.friction and not spec.load.rubs_in_slot
+    if size.pin_mm is not None or rubs or not usual:
+        return usual
+    contact = value_or(size.face_width_mm, space.thickness)
+    # the roller keeps three tenths of its radius as a wall about the hole for its pin
+    most = min(0.7 * space.roller - 0.5 * size.allowances.shaft_fit_mm, space.eye)
     allowed = roller_material(spec).allowed_MPa
-    for d in rounded_from(2.0 * least, 2.0 * most):
+    for d in rounded_from(2.0 * usual, 2.0 * most):
         stress = float(pin(spec.size, contact, d).under(force_N).equivalent)
         if keeps(stress, "at most", allowed):
             break

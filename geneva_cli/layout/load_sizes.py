@@ -23,6 +23,7 @@ from geneva_cli.layout.arm_sizes import (
 )
 from geneva_cli.layout.assembly import Assembly
 from geneva_cli.layout.holds import (
+    PinSpace,
     arm_holds,
     arm_trials,
     greatest_moment_Nm,
@@ -110,25 +111,13 @@ def _wheel_thickness(assembly: Assembly, sizes: Sizes) -> float:
 
 
 def _pin(assembly: Assembly, sizes: Sizes, loads: PartLoads) -> float:
-    """Return the radius of a pin that holds; the largest leaves a wall of the roller and the arm.
-
-    With friction on the pin it stays the usual one, on which the loads depend.
-    """
-    machine = assembly.full
-    spec = machine.spec
-    rubs = spec.load.friction and not spec.load.rubs_in_slot
-    if spec.size.pin_mm is not None or rubs or not sizes.pin:
-        return sizes.pin
-    # the roller keeps three tenths of its radius as a wall about the hole for its pin; the eye
-    # passes the largest wheel's hub
-    most = 0.7 * sizes.roller - 0.5 * spec.size.allowances.shaft_fit_mm
+    """Return the radius of a pin that holds; the arm's eye about it passes the largest hub."""
+    eye = math.inf
     if assembly.sign > 0.0 and sizes.arm_bore:
-        passing = (
-            assembly.L - max(roller_reaches(assembly)) - max(sizes.wheel_hub, 0.75 * sizes.slot_end)
-        )
-        most = min(most, passing - sizes.wall_min)
-    contact = stressed(assembly, sizes).contact
-    return pin_that_holds(spec, contact, sizes.pin, most, loads.pin_N)
+        hub = max(sizes.wheel_hub, 0.75 * sizes.slot_end)
+        eye = assembly.L - max(roller_reaches(assembly)) - hub - sizes.wall_min
+    space = PinSpace(sizes.wheel_thickness, sizes.roller, eye)
+    return pin_that_holds(assembly.full.spec, sizes.pin, space, loads.pin_N)
 
 
 def _bored(
@@ -189,7 +178,7 @@ def _crank_bored(
             if _crank_holds(assembly, trial, loads, keyed):
                 return trial
     # past links and gears the shaft may have no other way out
-    if not sizes.arm_bore or links_at(assembly.full, np.zeros(1)) or spec.drive.gears:
+    if not sizes.arm_bore or links_at(assembly.full, np.zeros(1)) or spec.gears:
         return trial
     space = min(roller_reaches(assembly)) - hole_radius(size, sizes.pin)
     for d in bores_from(2.0 * sizes.arm_bore, space):  # half of it is left as a wall

@@ -254,9 +254,7 @@ class Size(SpecTable):
     ] = None
     washer_mm: Annotated[float, NOT_NEGATIVE, "thickness of washers between stacked links"] = 0.0
     edge_chamfer_mm: Annotated[float | None, POSITIVE, "chamfer of all edges, at 45 degrees"] = None
-    edge_fillet_mm: Annotated[
-        float | None, POSITIVE, "rounding radius of all edges: a note on the sheet"
-    ] = None
+    edge_fillet_mm: Annotated[float | None, POSITIVE, "rounding radius of all edges"] = None
 
     @property
     def edge_mm(self) -> float:

@@ -129,9 +129,9 @@ def test_a_shaft_fits_its_bores(keys, process, shafts):
         for plate in [p for p in found if p.name in among]:
             sections = [p for p in _parts(whole) if min(p.high, plate.high) > max(p.low, plate.low)]
             sections = [p for p in sections if "groove" not in p.name and p.name != "end"]
-            bore = min((polygon(h, 2000) for h in plate.holes), key=lambda p: p.centroid.x**2)
+            bore = min((polygon(h, 500) for h in plate.holes), key=lambda p: p.centroid.x**2)
             for section in sections:
-                body = polygon(section.outline, 2000)
+                body = polygon(section.outline, 500)
                 assert bore.buffer(1e-4).contains(body)
                 gap = body.exterior.distance(bore.exterior)
                 assert gap == pytest.approx(0.5 * fit, abs=2e-4)
