@@ -242,13 +242,15 @@ class Size(SpecTable):
         float | None, POSITIVE, "diameter of the pins between links; default up to L/20"
     ] = None
     link_bore_mm: Annotated[
-        float | None, POSITIVE, "diameter of shafts that carry links only; default up to L/10"
+        float | None,
+        POSITIVE,
+        "diameter of shafts that carry links only; default up to L/10, or by load",
     ] = None
     link_width_mm: Annotated[
         float | None, POSITIVE, "width of the links round their pins; default 2 pin diameters"
     ] = None
     link_thickness_mm: Annotated[
-        float | None, POSITIVE, "thickness of the links; default: the crank arm's"
+        float | None, POSITIVE, "thickness of the links; default: the crank arm's, or by load"
     ] = None
     washer_mm: Annotated[float, NOT_NEGATIVE, "thickness of washers between stacked links"] = 0.0
     edge_chamfer_mm: Annotated[float | None, POSITIVE, "chamfer of all edges, at 45 degrees"] = None
