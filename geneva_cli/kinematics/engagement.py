@@ -7,6 +7,7 @@ centre distance L. The wheel's axis is the origin, the crank's axis is at (1, 0)
 
 from __future__ import annotations
 
+import copy
 import math
 from abc import ABC, abstractmethod
 from collections.abc import Sequence
@@ -308,8 +309,11 @@ ARM = Carrier()
 class Engagement(Batchable):
     """Pin path, slot and motion of one roller in one slot.
 
-    ``mid_deg`` is the machine's input angle at its mid-motion.
+    ``mid_deg`` is the machine's input angle at its mid-motion. ``turned`` is the wheel's angle
+    there, radians, if the loads depend on it: where a wheel on a carrier has a body off its axis.
     """
+
+    turned: float | None = None
 
     def __init__(
         self, mid_deg: float, path: Path, slot: Slot, motion: WheelMotion, carrier: Carrier = ARM
@@ -340,8 +344,14 @@ class Engagement(Batchable):
 
     @property
     def mirrored(self) -> bool:
-        """True if motion and slot are symmetric about mid-motion."""
-        return self.motion.symmetric and self.slot.mirrored
+        """True if motion, slot and loads are symmetric about mid-motion."""
+        return self.motion.symmetric and self.slot.mirrored and self.turned is None
+
+    def later(self, mid_deg: float, turned: float) -> Engagement:
+        """The same engagement at another mid-motion, with the wheel turned to an angle."""
+        other = copy.copy(self)
+        other.mid_deg, other.turned = mid_deg, turned
+        return other
 
     @cached_property
     def entry_reach(self) -> Number:
